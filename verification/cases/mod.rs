@@ -1,0 +1,36 @@
+//! The one list of cases.
+//!
+//! To add a case, make a folder `verification/cases/<name>/` with
+//! * `README.md`, the page of the case in the report, with exactly the headings of [`crate::readme::HEADINGS`];
+//! * `mod.rs` with `pub const CASE: Case`, for instance
+//!
+//! ```ignore
+//! use crate::{Capability, Case, CaseError, Evidence, Ledger};
+//!
+//! /// The sandwich pressed: mean normal stress.
+//! pub const CASE: Case = Case {
+//!     name: "sandwich_pressed", // = the folder
+//!     readme: include_str!("README.md"),
+//!     covers: &[Capability::PlaneStrain, Capability::PenaltyContact2d],
+//!     quick: true, // false: only with --full
+//!     run,
+//! };
+//!
+//! fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+//!     let (stress, cost) = Cost::of(|| solve());
+//!     ledger.claim("mean normal stress, h = 1.25 mm").unit("MPa")
+//!         .value(stress?).equals(12.0).relative(1e-4)
+//!         .evidence(Evidence::Exact, "uniform field of a bar under prescribed ends")
+//!         .because("the field lies in the finite-element space; only the solver's rounding remains")
+//!         .cost(&cost).record();
+//!     Ok(())
+//! }
+//! ```
+//!
+//! and then write `mod <name>;` and `<name>::CASE` below, in alphabetical order. Where a user could write the problem as a
+//! scene, put `scene.toml` beside them and read it through the public reader.
+
+use crate::Case;
+
+/// Every case, in the order of the report.
+pub const ALL: &[Case] = &[];

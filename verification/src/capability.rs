@@ -1,0 +1,68 @@
+//! What the product can do, as the rows of the coverage matrix.
+
+use serde::Serialize;
+
+macro_rules! capabilities {
+    ($($(#[$doc:meta])* $variant:ident => $text:literal,)*) => {
+        /// A capability that evidence may cover: a row of the coverage matrix.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+        pub enum Capability { $($(#[$doc])* #[serde(rename = $text)] $variant,)* }
+
+        impl Capability {
+            /// All of them, in the order of the matrix.
+            pub const ALL: &[Capability] = &[$(Capability::$variant,)*];
+
+            /// The row's title.
+            pub fn title(self) -> &'static str {
+                match self { $(Capability::$variant => $text,)* }
+            }
+        }
+    };
+}
+
+capabilities! {
+    /// Linear elasticity in plane strain.
+    PlaneStrain => "plane-strain elasticity",
+    /// Linear elasticity in three dimensions.
+    Solid3d => "three-dimensional elasticity",
+    /// Linear and quadratic triangles.
+    Triangles => "elements tri3, tri6",
+    /// Linear and quadratic quadrilaterals.
+    Quadrilaterals => "elements quad4, quad9",
+    /// Linear hexahedra and tetrahedra.
+    Solids => "elements hex8, tet4",
+    /// Dirichlet conditions, ramps, holds, symmetry planes and stages.
+    Stages => "prescribed displacements and stages",
+    /// Traction, pressure, body force, initial stress.
+    Loads => "traction, pressure, body force, initial stress",
+    /// Node-to-point penalty contact in the plane.
+    PenaltyContact2d => "penalty contact, 2D",
+    /// Node-to-point penalty contact in space.
+    PenaltyContact3d => "penalty contact, 3D",
+    /// Pairing that follows large sliding.
+    FiniteSliding => "finite sliding on flat segments",
+    /// Coulomb friction.
+    Coulomb => "Coulomb friction",
+    /// Velocity-dependent friction.
+    VelocityFriction => "velocity-dependent friction",
+    /// Rate-and-state friction, slip law.
+    SlipLaw => "rate and state, slip law",
+    /// Rate-and-state friction, ageing law.
+    AgeingLaw => "rate and state, ageing law",
+    /// The implicit stepper.
+    Implicit => "implicit stepper",
+    /// The static-explicit stepper.
+    StaticExplicit => "static-explicit stepper",
+    /// Condensation onto the interface.
+    Condensation => "condensed interface",
+    /// Consistent tangents.
+    Tangents => "consistent tangents",
+    /// Force and moment balance.
+    Balance => "force and moment balance",
+    /// Bit-identical results for any number of threads.
+    Determinism => "results independent of the number of threads",
+    /// Scenes, their refusal, and the plan.
+    Scenes => "scene reader and plan",
+    /// Files written by a run.
+    Outputs => "output files",
+}

@@ -1,0 +1,404 @@
+//! Claims and their judgement.
+//!
+//! A claim states a quantity, the evidence its reference value rests on, a bound, and why the bound is what it is. The
+//! harness computes the error, compares it with the bound, and then turns on itself: the same claim with its value moved by
+//! three bounds must fail, or the bound does not judge anything and the claim disagrees.
+
+use crate::capability::Capability;
+use crate::cost::Cost;
+use crate::order::OrderTest;
+use serde::Serialize;
+
+/// Below this ratio of error to bound a claim is slack: it must say why its bound is not tighter.
+pub const SLACK_BELOW: f64 = 0.1;
+
+/// Above this ratio of error to bound a claim is thin.
+pub const THIN_ABOVE: f64 = 0.8;
+
+/// How many bounds the negative control moves a value by.
+pub const CONTROL_BOUNDS: f64 = 3.0;
+
+/// The kind of evidence a reference rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Evidence {
+    /// A closed-form solution or an identity.
+    Exact,
+    /// A manufactured solution.
+    Manufactured,
+    /// A series, quadrature or ordinary differential equation evaluated to known accuracy.
+    SemiAnalytic,
+    /// Extrapolation or a finer run of this code.
+    ConvergedSelf,
+    /// An independent implementation.
+    OtherCode,
+    /// A measurement.
+    Experiment,
+}
+
+impl Evidence {
+    /// All kinds, in the order of the coverage matrix.
+    pub const ALL: [Evidence; 6] = [
+        Evidence::Exact,
+        Evidence::Manufactured,
+        Evidence::SemiAnalytic,
+        Evidence::ConvergedSelf,
+        Evidence::OtherCode,
+        Evidence::Experiment,
+    ];
+
+    /// Its name in the report.
+    pub fn name(self) -> &'static str {
+        match self {
+            Evidence::Exact => "exact",
+            Evidence::Manufactured => "manufactured",
+            Evidence::SemiAnalytic => "semi-analytic",
+            Evidence::ConvergedSelf => "converged-self",
+            Evidence::OtherCode => "other-code",
+            Evidence::Experiment => "experiment",
+        }
+    }
+}
+
+/// How the differences of several values become one error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Norm {
+    /// Largest absolute difference; for one value, its absolute difference.
+    #[default]
+    Largest,
+    /// Root mean square of the differences.
+    RootMeanSquare,
+}
+
+impl Norm {
+    fn of(self, values: impl Iterator<Item = f64>) -> f64 {
+        match self {
+            // A NaN must survive: `f64::max` would drop it.
+            Norm::Largest => values.fold(0.0, |m, v| if v.is_nan() || v.abs() > m { v.abs() } else { m }),
+            Norm::RootMeanSquare => {
+                let (sum, n) = values.fold((0.0, 0.0), |(s, n), v| (s + v * v, n + 1.0));
+                (sum / n).sqrt()
+            }
+        }
+    }
+}
+
+/// What is tested.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Test {
+    /// ‖values − references‖ ≤ bound, in the unit of the values.
+    Absolute {
+        /// What the code gave.
+        values: Vec<f64>,
+        /// What it should give.
+        references: Vec<f64>,
+        /// How differences become an error.
+        norm: Norm,
+        /// Largest allowed error.
+        bound: f64,
+    },
+    /// ‖values − references‖ ≤ bound ‖references‖.
+    Relative {
+        /// What the code gave.
+        values: Vec<f64>,
+        /// What it should give.
+        references: Vec<f64>,
+        /// How differences become an error.
+        norm: Norm,
+        /// Largest allowed relative error \[-\].
+        bound: f64,
+    },
+    /// value ≤ bound, with a positive bound.
+    AtMost {
+        /// What the code gave.
+        value: f64,
+        /// The limit from above.
+        bound: f64,
+    },
+    /// value ≥ bound, with a positive bound.
+    AtLeast {
+        /// What the code gave.
+        value: f64,
+        /// The limit from below.
+        bound: f64,
+    },
+    /// A convergence order.
+    Order(OrderTest),
+    /// An exact count.
+    Count {
+        /// What the code gave.
+        value: u64,
+        /// What it should give.
+        expected: u64,
+    },
+    /// A case that could not be run, with what went wrong.
+    NotRun {
+        /// The error or the message of the panic.
+        error: String,
+    },
+    /// A quantity that no issue names, with the reason why it is not covered.
+    NotCovered {
+        /// The reason.
+        reason: String,
+    },
+}
+
+/// The size of an error against its bound.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Measured {
+    /// The error.
+    pub error: f64,
+    /// The bound it is held against.
+    pub bound: f64,
+    /// error/bound; the claim holds when this is at most 1.
+    pub ratio: f64,
+}
+
+impl Measured {
+    fn new(error: f64, bound: f64) -> Measured {
+        Measured { error, bound, ratio: error / bound }
+    }
+}
+
+impl Test {
+    /// Error and bound, or why the test cannot be judged.
+    ///
+    /// # Errors
+    /// A sentence saying what is not finite, not positive, or does not fit.
+    pub fn measure(&self) -> Result<Measured, String> {
+        match self {
+            Test::Absolute { values, references, norm, bound } => {
+                let error = difference(values, references, *norm)?;
+                judged(error, *bound)
+            }
+            Test::Relative { values, references, norm, bound } => {
+                let error = difference(values, references, *norm)?;
+                let scale = norm.of(references.iter().copied());
+                if scale == 0.0 {
+                    return Err("a relative error needs a reference that is not zero".into());
+                }
+                judged(error / scale, *bound)
+            }
+            Test::AtMost { value, bound } => {
+                judged(*value, *bound).map(|m| Measured { ratio: m.ratio.max(0.0), ..m })
+            }
+            Test::AtLeast { value, bound } => {
+                let m = judged(*value, *bound)?;
+                // The nearer the value is to the limit, the thinner; at or below zero no ratio is large enough.
+                let ratio = if *value > 0.0 { bound / value } else { f64::INFINITY };
+                Ok(Measured { ratio, ..m })
+            }
+            Test::Order(order) => {
+                let observed = order.observed()?;
+                judged(order.deviation(observed), order.tolerance)
+            }
+            Test::Count { value, expected } => {
+                let error = value.abs_diff(*expected) as f64;
+                Ok(Measured { error, bound: 0.0, ratio: if error == 0.0 { 0.0 } else { f64::INFINITY } })
+            }
+            Test::NotRun { error } => Err(error.clone()),
+            Test::NotCovered { reason } => Err(reason.clone()),
+        }
+    }
+
+    /// The same test with its value moved by `bounds` bounds in the direction in which it already errs.
+    ///
+    /// One-sided tests move from the limit when the value stands on its safe side. `None` where nothing can be moved.
+    pub fn perturbed(&self, bounds: f64) -> Option<Test> {
+        let mut moved = self.clone();
+        match &mut moved {
+            Test::Absolute { values, references, bound, .. } => push(values, references, bounds * *bound),
+            Test::Relative { values, references, norm, bound } => {
+                let scale = norm.of(references.iter().copied());
+                push(values, references, bounds * *bound * scale);
+            }
+            Test::AtMost { value, bound } => *value = value.max(0.0) + bounds * *bound,
+            Test::AtLeast { value, bound } => *value = value.min(*bound) - bounds * *bound,
+            Test::Order(order) => *order = order.perturbed(bounds),
+            Test::Count { value, .. } => *value += bounds as u64,
+            Test::NotRun { .. } | Test::NotCovered { .. } => return None,
+        }
+        Some(moved)
+    }
+
+    /// The size of the reference in the unit of its uncertainty, times the bound: what the uncertainty is held against.
+    fn absolute_bound(&self) -> Option<f64> {
+        match self {
+            Test::Absolute { bound, .. } | Test::AtMost { bound, .. } | Test::AtLeast { bound, .. } => {
+                Some(*bound)
+            }
+            Test::Relative { references, norm, bound, .. } => {
+                Some(bound * norm.of(references.iter().copied()))
+            }
+            Test::Order(_) | Test::Count { .. } | Test::NotRun { .. } | Test::NotCovered { .. } => None,
+        }
+    }
+}
+
+/// Moves every value away from its reference.
+fn push(values: &mut [f64], references: &[f64], by: f64) {
+    for (value, reference) in values.iter_mut().zip(references) {
+        *value += if *value < *reference { -by } else { by };
+    }
+}
+
+fn difference(values: &[f64], references: &[f64], norm: Norm) -> Result<f64, String> {
+    if values.is_empty() {
+        return Err("no value was given".into());
+    }
+    if values.len() != references.len() {
+        return Err(format!("{} values stand against {} references", values.len(), references.len()));
+    }
+    if references.iter().any(|r| !r.is_finite()) {
+        return Err("a reference is not finite".into());
+    }
+    Ok(norm.of(values.iter().zip(references).map(|(v, r)| v - r)))
+}
+
+fn judged(error: f64, bound: f64) -> Result<Measured, String> {
+    if !(bound.is_finite() && bound > 0.0) {
+        return Err(format!("the bound {bound} is not a positive number"));
+    }
+    if !error.is_finite() {
+        return Err(format!("the error is {error}"));
+    }
+    Ok(Measured::new(error, bound))
+}
+
+/// The outcome of a claim.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// The error is within the bound, and the negative control fails as it must.
+    Holds,
+    /// It is not, or it could not be judged.
+    Disagrees,
+    /// Nothing is claimed, for this reason.
+    NotCovered(String),
+}
+
+/// A remark on the distance between error and bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mark {
+    /// The bound is more than ten times the error, and the claim says why.
+    Slack,
+    /// The bound is more than ten times the error, and nobody says why.
+    SlackUnexplained,
+    /// The error is within a fifth of the bound.
+    Thin,
+}
+
+/// What a case states.
+#[derive(Clone, Debug, Serialize)]
+pub struct Claim {
+    /// The quantity, with its conditions.
+    pub quantity: String,
+    /// Unit of values, references, errors and bounds.
+    pub unit: String,
+    /// The norm in words, where it is not the plain one.
+    pub norm: String,
+    /// What is tested.
+    pub test: Test,
+    /// Kind of evidence; a claim without one disagrees.
+    pub evidence: Option<Evidence>,
+    /// Where the reference comes from.
+    pub source: String,
+    /// Uncertainty of the reference, in its unit.
+    pub uncertainty: f64,
+    /// Why the bound is what it is; a claim without a reason disagrees.
+    pub because: String,
+    /// Why the bound may not be tighter, when the error is far below it.
+    pub why_not_tighter: String,
+    /// Capabilities this claim is evidence for.
+    pub covers: Vec<Capability>,
+    /// What the run behind it cost.
+    pub cost: Cost,
+}
+
+/// A judged claim.
+#[derive(Clone, Debug, Serialize)]
+pub struct Judged {
+    /// The claim.
+    #[serde(flatten)]
+    pub claim: Claim,
+    /// Error and bound, where they could be measured.
+    pub measured: Option<Measured>,
+    /// The outcome.
+    pub verdict: Verdict,
+    /// The remark on the bound.
+    pub mark: Option<Mark>,
+    /// Why it disagrees, in a sentence.
+    pub problem: Option<String>,
+}
+
+impl Claim {
+    /// Judges the claim and, when it holds, its negative control.
+    pub fn judge(self) -> Judged {
+        if let Test::NotCovered { reason } = &self.test {
+            let verdict = Verdict::NotCovered(reason.clone());
+            return Judged { claim: self, measured: None, verdict, mark: None, problem: None };
+        }
+        let measured = self.test.measure();
+        let problem = self.problem(&measured);
+        let verdict = if problem.is_none() { Verdict::Holds } else { Verdict::Disagrees };
+        let measured = measured.ok();
+        let mark = measured.and_then(|m| self.mark(&m));
+        Judged { claim: self, measured, verdict, mark, problem }
+    }
+
+    fn problem(&self, measured: &Result<Measured, String>) -> Option<String> {
+        let measured = match measured {
+            Ok(measured) => measured,
+            Err(why) => return Some(why.clone()),
+        };
+        if measured.ratio.is_nan() || measured.ratio > 1.0 {
+            return Some("the error exceeds the bound".into());
+        }
+        self.incomplete().or_else(|| self.control())
+    }
+
+    /// What the claim fails to state.
+    fn incomplete(&self) -> Option<String> {
+        if self.evidence.is_none() || self.source.trim().is_empty() {
+            return Some("the kind of evidence or its source is missing".into());
+        }
+        if self.because.trim().is_empty() {
+            return Some("no reason is given for the bound".into());
+        }
+        if !self.uncertainty.is_finite() || self.uncertainty < 0.0 {
+            return Some(format!("the uncertainty {} of the reference is not a number", self.uncertainty));
+        }
+        match self.test.absolute_bound() {
+            Some(bound) if self.uncertainty > bound => Some(format!(
+                "the reference is known to {} only, which is coarser than the bound {bound}",
+                self.uncertainty
+            )),
+            _ => None,
+        }
+    }
+
+    /// The negative control: a claim that still holds when its value is three bounds off judges nothing.
+    fn control(&self) -> Option<String> {
+        let moved = self.test.perturbed(CONTROL_BOUNDS)?;
+        match moved.measure() {
+            Ok(measured) if measured.ratio <= 1.0 => {
+                Some(format!("negative control: moved by {CONTROL_BOUNDS} bounds, the claim still holds"))
+            }
+            _ => None,
+        }
+    }
+
+    fn mark(&self, measured: &Measured) -> Option<Mark> {
+        if matches!(self.test, Test::Count { .. }) {
+            return None;
+        }
+        if measured.ratio < SLACK_BELOW {
+            let explained = !self.why_not_tighter.trim().is_empty();
+            return Some(if explained { Mark::Slack } else { Mark::SlackUnexplained });
+        }
+        (measured.ratio > THIN_ABOVE).then_some(Mark::Thin)
+    }
+}

@@ -1,0 +1,403 @@
+//! What a case writes into: claims, order studies, plots, tables, notes.
+//!
+//! ```
+//! # use asperity_verification::{Cost, Evidence, Ledger};
+//! # let mut ledger = Ledger::new(&[]);
+//! let (stress, cost) = Cost::of(|| 12.0004);
+//! ledger
+//!     .claim("mean normal stress, h = 1.25 mm")
+//!     .unit("MPa")
+//!     .value(stress)
+//!     .equals(12.0)
+//!     .relative(1e-4)
+//!     .evidence(Evidence::Exact, "bar under prescribed ends")
+//!     .because("the mesh error of a uniform field is zero; the penalty leaves 3e-5")
+//!     .cost(&cost)
+//!     .record();
+//! ```
+
+use crate::capability::Capability;
+use crate::claim::{Claim, Evidence, Judged, Norm, Test};
+use crate::cost::Cost;
+use crate::order::{Floor, Level, OrderTest, Plateau};
+use crate::plot::Plot;
+use serde::Serialize;
+
+/// A table of the case's page.
+#[derive(Clone, Debug, Serialize)]
+pub struct Table {
+    /// Caption.
+    pub title: String,
+    /// Column heads.
+    pub head: Vec<String>,
+    /// Rows of cells.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// Everything a case recorded.
+#[derive(Debug, Default)]
+pub struct Record {
+    /// Judged claims, in order.
+    pub claims: Vec<Judged>,
+    /// Plots.
+    pub plots: Vec<Plot>,
+    /// Tables.
+    pub tables: Vec<Table>,
+    /// Notes.
+    pub notes: Vec<String>,
+}
+
+/// Collects what a case states. Claims are judged as they are recorded.
+#[derive(Debug)]
+pub struct Ledger {
+    covers: &'static [Capability],
+    record: Record,
+}
+
+impl Ledger {
+    /// An empty ledger whose claims are evidence for these capabilities unless they name their own.
+    pub fn new(covers: &'static [Capability]) -> Ledger {
+        Ledger { covers, record: Record::default() }
+    }
+
+    /// Begins a claim on a quantity. It counts only once `record` is called.
+    pub fn claim(&mut self, quantity: impl Into<String>) -> Draft<'_> {
+        let common = Common::new(quantity.into(), self.covers);
+        Draft {
+            ledger: self,
+            common,
+            values: Vec::new(),
+            references: Vec::new(),
+            norm: Norm::Largest,
+            test: None,
+        }
+    }
+
+    /// Begins a claim on an order of convergence.
+    pub fn order(&mut self, quantity: impl Into<String>) -> OrderDraft<'_> {
+        let common = Common::new(quantity.into(), self.covers);
+        OrderDraft { ledger: self, common, test: OrderTest::default(), finest: None }
+    }
+
+    /// States that a quantity is not covered, and why. Only for quantities that no issue names.
+    pub fn not_covered(&mut self, quantity: impl Into<String>, reason: impl Into<String>) {
+        let claim = Common::new(quantity.into(), &[]).with(Test::NotCovered { reason: reason.into() });
+        self.record.claims.push(claim.judge());
+    }
+
+    /// Adds a plot to the case's page.
+    pub fn plot(&mut self, plot: Plot) {
+        self.record.plots.push(plot);
+    }
+
+    /// Adds a paragraph to the case's page.
+    pub fn note(&mut self, text: impl Into<String>) {
+        self.record.notes.push(text.into());
+    }
+
+    /// Adds a table to the case's page.
+    pub fn table<R, C>(&mut self, title: impl Into<String>, head: &[&str], rows: R)
+    where
+        R: IntoIterator<Item = C>,
+        C: IntoIterator<Item = String>,
+    {
+        self.record.tables.push(Table {
+            title: title.into(),
+            head: head.iter().map(|&cell| cell.to_owned()).collect(),
+            rows: rows.into_iter().map(|row| row.into_iter().collect()).collect(),
+        });
+    }
+
+    /// The claims recorded so far.
+    pub fn claims(&self) -> &[Judged] {
+        &self.record.claims
+    }
+
+    /// Whether no claim was recorded.
+    pub fn is_empty(&self) -> bool {
+        self.record.claims.is_empty()
+    }
+
+    pub(crate) fn did_not_run(&mut self, error: &str) {
+        let claim =
+            Common::new("the case runs to its end".into(), &[]).with(Test::NotRun { error: error.into() });
+        self.record.claims.push(claim.judge());
+    }
+
+    /// What was recorded.
+    pub fn finish(self) -> Record {
+        self.record
+    }
+}
+
+/// What every kind of claim states.
+#[derive(Debug)]
+struct Common {
+    quantity: String,
+    unit: String,
+    norm: String,
+    evidence: Option<Evidence>,
+    source: String,
+    uncertainty: f64,
+    because: String,
+    why_not_tighter: String,
+    covers: Vec<Capability>,
+    cost: Cost,
+}
+
+impl Common {
+    fn new(quantity: String, covers: &[Capability]) -> Common {
+        Common {
+            quantity,
+            unit: String::new(),
+            norm: String::new(),
+            evidence: None,
+            source: String::new(),
+            uncertainty: 0.0,
+            because: String::new(),
+            why_not_tighter: String::new(),
+            covers: covers.to_vec(),
+            cost: Cost::default(),
+        }
+    }
+
+    fn with(self, test: Test) -> Claim {
+        Claim {
+            quantity: self.quantity,
+            unit: self.unit,
+            norm: self.norm,
+            test,
+            evidence: self.evidence,
+            source: self.source,
+            uncertainty: self.uncertainty,
+            because: self.because,
+            why_not_tighter: self.why_not_tighter,
+            covers: self.covers,
+            cost: self.cost,
+        }
+    }
+}
+
+macro_rules! common_setters {
+    () => {
+        /// Unit of the values and of the absolute bounds.
+        pub fn unit(mut self, unit: impl Into<String>) -> Self {
+            self.common.unit = unit.into();
+            self
+        }
+
+        /// The norm or the selection in words, such as "largest over the eight probes".
+        pub fn norm(mut self, text: impl Into<String>) -> Self {
+            self.common.norm = text.into();
+            self
+        }
+
+        /// The kind of evidence, and where the reference comes from.
+        pub fn evidence(mut self, kind: Evidence, source: impl Into<String>) -> Self {
+            self.common.evidence = Some(kind);
+            self.common.source = source.into();
+            self
+        }
+
+        /// Why the bound is what it is.
+        pub fn because(mut self, reason: impl Into<String>) -> Self {
+            self.common.because = reason.into();
+            self
+        }
+
+        /// Why the bound may not be tighter although the error is below a tenth of it.
+        pub fn why_not_tighter(mut self, reason: impl Into<String>) -> Self {
+            self.common.why_not_tighter = reason.into();
+            self
+        }
+
+        /// Capabilities this claim is evidence for, instead of those of the case.
+        pub fn covers(mut self, capabilities: &[Capability]) -> Self {
+            self.common.covers = capabilities.to_vec();
+            self
+        }
+
+        /// What the run behind the claim cost.
+        pub fn cost(mut self, cost: &Cost) -> Self {
+            self.common.cost = cost.clone();
+            self
+        }
+    };
+}
+
+/// How far a drafted claim has come: what the last call chose to test.
+#[derive(Clone, Copy, Debug)]
+enum Choice {
+    Absolute(f64),
+    Relative(f64),
+    AtMost(f64),
+    AtLeast(f64),
+    Count(u64, u64),
+}
+
+/// A claim being written.
+#[derive(Debug)]
+#[must_use = "a claim counts only once it is recorded"]
+pub struct Draft<'a> {
+    ledger: &'a mut Ledger,
+    common: Common,
+    values: Vec<f64>,
+    references: Vec<f64>,
+    norm: Norm,
+    test: Option<Choice>,
+}
+
+impl Draft<'_> {
+    common_setters!();
+
+    /// What the code gave.
+    pub fn value(self, value: f64) -> Self {
+        self.values(&[value])
+    }
+
+    /// What the code gave, several values under one norm.
+    pub fn values(mut self, values: &[f64]) -> Self {
+        self.values = values.to_vec();
+        self
+    }
+
+    /// What it should give.
+    pub fn equals(self, reference: f64) -> Self {
+        self.equals_each(&[reference])
+    }
+
+    /// What they should be, value by value.
+    pub fn equals_each(mut self, references: &[f64]) -> Self {
+        self.references = references.to_vec();
+        self
+    }
+
+    /// Uncertainty of the reference, in its unit. Coarser than the bound, it makes the claim disagree.
+    pub fn uncertainty(mut self, uncertainty: f64) -> Self {
+        self.common.uncertainty = uncertainty;
+        self
+    }
+
+    /// Takes the root mean square of the differences instead of the largest.
+    pub fn root_mean_square(mut self) -> Self {
+        self.norm = Norm::RootMeanSquare;
+        self
+    }
+
+    /// Bounds the error, in the unit of the values.
+    pub fn absolute(mut self, bound: f64) -> Self {
+        self.test = Some(Choice::Absolute(bound));
+        self
+    }
+
+    /// Bounds the error as a fraction of the reference.
+    pub fn relative(mut self, bound: f64) -> Self {
+        self.test = Some(Choice::Relative(bound));
+        self
+    }
+
+    /// Bounds the one value from above by a positive number: for errors, residuals and remainders.
+    pub fn at_most(mut self, bound: f64) -> Self {
+        self.test = Some(Choice::AtMost(bound));
+        self
+    }
+
+    /// Bounds the one value from below by a positive number: for factors and ratios.
+    pub fn at_least(mut self, bound: f64) -> Self {
+        self.test = Some(Choice::AtLeast(bound));
+        self
+    }
+
+    /// Claims an exact count. Only where control flow cannot depend on the last bits.
+    pub fn count(mut self, value: u64, expected: u64) -> Self {
+        self.test = Some(Choice::Count(value, expected));
+        self
+    }
+
+    /// Judges the claim and enters it.
+    pub fn record(self) {
+        let Draft { ledger, common, values, references, norm, test } = self;
+        let one = if let [value] = values[..] { value } else { f64::NAN };
+        let test = match test {
+            Some(Choice::Absolute(bound)) => Test::Absolute { values, references, norm, bound },
+            Some(Choice::Relative(bound)) => Test::Relative { values, references, norm, bound },
+            Some(Choice::AtMost(bound)) => Test::AtMost { value: one, bound },
+            Some(Choice::AtLeast(bound)) => Test::AtLeast { value: one, bound },
+            Some(Choice::Count(value, expected)) => Test::Count { value, expected },
+            None => Test::NotRun { error: "the claim has no bound".into() },
+        };
+        ledger.record.claims.push(common.with(test).judge());
+    }
+}
+
+/// A claim on an order being written. It becomes two: the order, and the error on the finest level.
+#[derive(Debug)]
+#[must_use = "a claim counts only once it is recorded"]
+pub struct OrderDraft<'a> {
+    ledger: &'a mut Ledger,
+    common: Common,
+    test: OrderTest,
+    finest: Option<(f64, String)>,
+}
+
+impl OrderDraft<'_> {
+    common_setters!();
+
+    /// The levels (size, error), from coarse to fine; at least three.
+    pub fn levels(mut self, levels: &[(f64, f64)]) -> Self {
+        self.test.levels = levels.iter().map(|&level| Level::from(level)).collect();
+        self
+    }
+
+    /// The order theory gives.
+    pub fn expected(mut self, order: f64) -> Self {
+        self.test.expected = order;
+        self
+    }
+
+    /// Largest deviation from it.
+    pub fn within(mut self, tolerance: f64) -> Self {
+        self.test.tolerance = tolerance;
+        self
+    }
+
+    /// A higher order than expected is fine, too.
+    pub fn or_better(mut self) -> Self {
+        self.test.or_better = true;
+        self
+    }
+
+    /// The floor the errors may reach: levels at or below it say nothing about the order.
+    pub fn floor(mut self, floor: Floor, level: f64) -> Self {
+        self.test.plateau = Some(Plateau { floor, level });
+        self
+    }
+
+    /// Bounds the error on the finest level; an order without one disagrees.
+    pub fn finest(mut self, bound: f64, because: impl Into<String>) -> Self {
+        self.finest = Some((bound, because.into()));
+        self
+    }
+
+    /// Judges both claims and enters them.
+    pub fn record(self) {
+        let OrderDraft { ledger, mut common, test, finest } = self;
+        let error = test.levels.last().map_or(f64::NAN, |level| level.error);
+        let (bound, because) = finest.unwrap_or((f64::NAN, String::new()));
+        let absolute = Common {
+            quantity: format!("{}: error on the finest level", common.quantity),
+            unit: common.unit.clone(),
+            norm: common.norm.clone(),
+            evidence: common.evidence,
+            source: common.source.clone(),
+            uncertainty: 0.0,
+            because,
+            why_not_tighter: common.why_not_tighter.clone(),
+            covers: common.covers.clone(),
+            cost: common.cost.clone(),
+        };
+        common.quantity = format!("{}: order", common.quantity);
+        ledger.record.claims.push(common.with(Test::Order(test)).judge());
+        ledger.record.claims.push(absolute.with(Test::AtMost { value: error, bound }).judge());
+    }
+}

@@ -1,0 +1,159 @@
+//! Orders of convergence: from errors on several levels to an observed order.
+
+use serde::Serialize;
+
+/// One level of a convergence study.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Level {
+    /// Mesh size, time step, 1/penalty ...: what is refined.
+    pub size: f64,
+    /// The error there.
+    pub error: f64,
+}
+
+impl From<(f64, f64)> for Level {
+    fn from((size, error): (f64, f64)) -> Level {
+        Level { size, error }
+    }
+}
+
+/// What an error may bottom out on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Floor {
+    /// The mesh, while time is refined.
+    Space,
+    /// The time step, while the mesh is refined.
+    Time,
+    /// The tolerance of an iteration.
+    Iteration,
+    /// The penalty stiffness.
+    Penalty,
+    /// Floating-point rounding.
+    Rounding,
+}
+
+impl Floor {
+    /// Its name in the report.
+    pub fn name(self) -> &'static str {
+        match self {
+            Floor::Space => "space",
+            Floor::Time => "time",
+            Floor::Iteration => "iteration",
+            Floor::Penalty => "penalty",
+            Floor::Rounding => "rounding",
+        }
+    }
+}
+
+/// The plateau a study may reach.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Plateau {
+    /// Which floor it is.
+    pub floor: Floor,
+    /// Levels with an error at or below this one are on the floor and say nothing about the order.
+    pub level: f64,
+}
+
+/// How many of the finest levels above the plateau the order is fitted to: enough that one lucky level does not decide, few
+/// enough that levels far from the asymptotic range do not either.
+pub const FITTED_LEVELS: usize = 3;
+
+/// A claim on an order.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct OrderTest {
+    /// The levels, from coarse to fine.
+    pub levels: Vec<Level>,
+    /// The order theory gives.
+    pub expected: f64,
+    /// Largest deviation of the observed order.
+    pub tolerance: f64,
+    /// Whether a higher order than expected is fine.
+    pub or_better: bool,
+    /// The plateau allowed.
+    pub plateau: Option<Plateau>,
+}
+
+impl OrderTest {
+    /// Whether the level stands on the plateau.
+    pub fn on_plateau(&self, level: &Level) -> bool {
+        self.plateau.as_ref().is_some_and(|p| level.error <= p.level)
+    }
+
+    /// The observed order: slope of ln(error) over ln(size), least squares over the finest [`FITTED_LEVELS`] levels above
+    /// the plateau.
+    ///
+    /// # Errors
+    /// When the levels do not form a study: too few, not refined, not positive.
+    pub fn observed(&self) -> Result<f64, String> {
+        if self.levels.len() < FITTED_LEVELS {
+            return Err(format!("an order needs {FITTED_LEVELS} levels, here are {}", self.levels.len()));
+        }
+        if self
+            .levels
+            .windows(2)
+            .any(|pair| pair[1].size.partial_cmp(&pair[0].size).is_none_or(|o| o.is_ge()))
+        {
+            return Err("the levels do not run from coarse to fine".into());
+        }
+        if let Some(bad) =
+            self.levels.iter().find(|l| !(l.size > 0.0 && l.size.is_finite() && l.error.is_finite()))
+        {
+            return Err(format!("the level {} has the error {}", bad.size, bad.error));
+        }
+        let above: Vec<&Level> = self.levels.iter().filter(|l| !self.on_plateau(l)).collect();
+        if let Some(bad) = above.iter().find(|l| l.error <= 0.0) {
+            return Err(format!(
+                "the error {} on level {} has no logarithm and no floor",
+                bad.error, bad.size
+            ));
+        }
+        if above.len() < 2 {
+            return Err("fewer than two levels stand above the plateau".into());
+        }
+        Ok(slope(&above[above.len().saturating_sub(FITTED_LEVELS)..]))
+    }
+
+    /// How far an observed order is from what is claimed \[-\].
+    pub fn deviation(&self, observed: f64) -> f64 {
+        let short = self.expected - observed;
+        if self.or_better { short.max(0.0) } else { short.abs() }
+    }
+
+    /// The same study with every error decaying slower, by `bounds` tolerances in the order below the lower of the observed
+    /// and the expected one. Errors grow only, away from the coarsest fitted level, so that no level newly falls on the
+    /// plateau; those on it stay.
+    pub(crate) fn perturbed(&self, bounds: f64) -> OrderTest {
+        let mut moved = self.clone();
+        let Ok(observed) = self.observed() else { return moved };
+        let lower = observed.min(self.expected);
+        let by = observed - (lower - bounds * self.tolerance);
+        let Some(coarsest) = self.levels.first().map(|l| l.size) else { return moved };
+        for level in &mut moved.levels {
+            if !self.on_plateau(level) {
+                level.error *= (level.size / coarsest).powf(-by);
+            }
+        }
+        moved
+    }
+
+    /// Order between each level and the one before it.
+    pub fn pairwise(&self) -> Vec<Option<f64>> {
+        let mut orders = vec![None; self.levels.len().min(1)];
+        for pair in self.levels.windows(2) {
+            let order = (pair[0].error / pair[1].error).ln() / (pair[0].size / pair[1].size).ln();
+            orders.push(order.is_finite().then_some(order));
+        }
+        orders
+    }
+}
+
+fn slope(levels: &[&Level]) -> f64 {
+    let n = levels.len() as f64;
+    let x: Vec<f64> = levels.iter().map(|l| l.size.ln()).collect();
+    let y: Vec<f64> = levels.iter().map(|l| l.error.ln()).collect();
+    let (mx, my) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
+    let sxy: f64 = x.iter().zip(&y).map(|(x, y)| (x - mx) * (y - my)).sum();
+    let sxx: f64 = x.iter().map(|x| (x - mx) * (x - mx)).sum();
+    sxy / sxx
+}

@@ -1,0 +1,78 @@
+//! The fixed shape of a case's README, which is its page in the report.
+
+/// The second-level headings every case README has, in this order and no others.
+pub const HEADINGS: [&str; 6] = [
+    "Problem",
+    "Why it is here",
+    "Reference and its uncertainty",
+    "What is claimed",
+    "What this case does not show",
+    "Literature",
+];
+
+/// What is wrong with a README, one sentence each; empty when nothing is.
+pub fn problems(text: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    if !text.starts_with("# ") {
+        found.push("the first line is not a title (`# ...`)".to_owned());
+    }
+    let sections = sections(text);
+    let headings: Vec<&str> = sections.iter().map(|(heading, _)| *heading).collect();
+    if headings != HEADINGS {
+        found.push(format!("its `##` headings are {headings:?}, not {HEADINGS:?}"));
+    }
+    for (heading, body) in sections {
+        if body.iter().all(|line| line.trim().is_empty()) {
+            found.push(format!("nothing stands under `## {heading}`"));
+        }
+    }
+    found
+}
+
+/// The title: the text of the first-level heading, or nothing.
+pub fn title(text: &str) -> &str {
+    text.lines().find_map(|line| line.strip_prefix("# ")).unwrap_or("").trim()
+}
+
+/// Second-level headings with the lines below each, fenced blocks not searched for headings.
+fn sections(text: &str) -> Vec<(&str, Vec<&str>)> {
+    let mut sections: Vec<(&str, Vec<&str>)> = Vec::new();
+    let mut fenced = false;
+    for line in text.lines() {
+        if line.starts_with("```") {
+            fenced = !fenced;
+        }
+        match line.strip_prefix("## ") {
+            Some(heading) if !fenced => sections.push((heading.trim(), Vec::new())),
+            _ => {
+                if let Some((_, body)) = sections.last_mut() {
+                    body.push(line);
+                }
+            }
+        }
+    }
+    sections
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{HEADINGS, problems, title};
+
+    fn good() -> String {
+        let body: Vec<String> = HEADINGS.iter().map(|h| format!("## {h}\nText.\n")).collect();
+        format!("# A title\n\n{}", body.join("\n"))
+    }
+
+    #[test]
+    fn the_fixed_headings_pass() {
+        assert_eq!(problems(&good()), Vec::<String>::new());
+        assert_eq!(title(&good()), "A title");
+    }
+
+    #[test]
+    fn a_missing_reordered_or_empty_section_is_named() {
+        assert!(problems(&good().replace("## Literature\n", "## Papers\n"))[0].contains("Papers"));
+        assert_eq!(problems(&good().replace("## Problem\nText.", "## Problem\n")).len(), 1);
+        assert_eq!(problems(&good().replace("# A title", "A title")).len(), 1);
+    }
+}

@@ -1,0 +1,117 @@
+//! Choosing and running cases, and the outcome of the whole.
+
+use crate::case::{Case, Outcome};
+use crate::claim::{Judged, Mark, Verdict};
+use crate::glob;
+use serde::Serialize;
+use std::fmt;
+
+/// Which cases to run.
+#[derive(Clone, Debug, Default)]
+pub struct Selection {
+    /// Whether the long cases run, too.
+    pub full: bool,
+    /// Only cases whose name matches.
+    pub glob: Option<String>,
+}
+
+/// Nothing to run.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SelectionError {
+    /// The list is empty.
+    #[error("there is no case to run: a suite without cases is no evidence")]
+    NoCases,
+    /// The pattern matches nothing.
+    #[error("no case matches `{pattern}`; there are: {}", .names.join(", "))]
+    NoMatch {
+        /// The pattern.
+        pattern: String,
+        /// The names there are.
+        names: Vec<String>,
+    },
+    /// Everything chosen is long.
+    #[error("only long cases are chosen ({}); add --full to run them", .names.join(", "))]
+    OnlyLong {
+        /// Their names.
+        names: Vec<String>,
+    },
+}
+
+impl Selection {
+    /// The chosen cases, in the order of the list.
+    ///
+    /// # Errors
+    /// When none is left.
+    pub fn of<'a>(&self, cases: &'a [Case]) -> Result<Vec<&'a Case>, SelectionError> {
+        if cases.is_empty() {
+            return Err(SelectionError::NoCases);
+        }
+        let fits =
+            |case: &&Case| self.glob.as_deref().is_none_or(|pattern| glob::matches(pattern, case.name));
+        let named: Vec<&Case> = cases.iter().filter(fits).collect();
+        if named.is_empty() {
+            let pattern = self.glob.clone().unwrap_or_default();
+            return Err(SelectionError::NoMatch { pattern, names: names(&cases.iter().collect::<Vec<_>>()) });
+        }
+        let chosen: Vec<&Case> = named.iter().copied().filter(|case| self.full || case.quick).collect();
+        if chosen.is_empty() {
+            return Err(SelectionError::OnlyLong { names: names(&named) });
+        }
+        Ok(chosen)
+    }
+}
+
+fn names(cases: &[&Case]) -> Vec<String> {
+    cases.iter().map(|case| case.name.to_owned()).collect()
+}
+
+/// The counts of the last line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Summary {
+    /// Claims that hold.
+    pub hold: usize,
+    /// Claims that disagree.
+    pub disagree: usize,
+    /// Quantities not covered.
+    pub not_covered: usize,
+    /// Claims whose bound is slack without a reason.
+    pub slack_unexplained: usize,
+    /// Claims whose error is near the bound.
+    pub thin: usize,
+}
+
+impl Summary {
+    /// Counts claims.
+    pub fn of<'a>(claims: impl IntoIterator<Item = &'a Judged>) -> Summary {
+        let mut summary = Summary::default();
+        for claim in claims {
+            match claim.verdict {
+                Verdict::Holds => summary.hold += 1,
+                Verdict::Disagrees => summary.disagree += 1,
+                Verdict::NotCovered(_) => summary.not_covered += 1,
+            }
+            match claim.mark {
+                Some(Mark::SlackUnexplained) => summary.slack_unexplained += 1,
+                Some(Mark::Thin) => summary.thin += 1,
+                Some(Mark::Slack) | None => {}
+            }
+        }
+        summary
+    }
+
+    /// Counts the claims of all outcomes.
+    pub fn of_all(outcomes: &[Outcome]) -> Summary {
+        Summary::of(outcomes.iter().flat_map(|outcome| &outcome.record.claims))
+    }
+
+    /// Whether the suite passes: something was claimed, and nothing disagrees.
+    pub fn passes(&self) -> bool {
+        self.disagree == 0 && self.hold > 0
+    }
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "claims: {} hold, {} disagree, {} not covered", self.hold, self.disagree, self.not_covered)
+    }
+}

@@ -1,0 +1,341 @@
+//! The harness judges as it says: every kind of claim has a control that must fail.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+use asperity_verification::case::Outcome;
+use asperity_verification::claim::{CONTROL_BOUNDS, Judged, Mark};
+use asperity_verification::ledger::{Draft, OrderDraft};
+use asperity_verification::report::{self, html, json, provenance::Provenance, svg};
+use asperity_verification::suite::{Selection, SelectionError, Summary};
+use asperity_verification::{
+    Axis, Capability, Case, CaseError, Cost, Evidence, Floor, Ledger, Plot, Series, Verdict,
+};
+
+fn judge(write: impl FnOnce(Draft<'_>) -> Draft<'_>) -> Judged {
+    let mut ledger = Ledger::new(&[Capability::PlaneStrain]);
+    let draft = ledger.claim("q").evidence(Evidence::Exact, "formula").because("rounding");
+    write(draft).record();
+    ledger.claims()[0].clone()
+}
+
+fn judge_order(write: impl FnOnce(OrderDraft<'_>) -> OrderDraft<'_>) -> (Judged, Judged) {
+    let mut ledger = Ledger::new(&[]);
+    let draft = ledger.order("q").evidence(Evidence::Exact, "formula").because("theory");
+    write(draft).record();
+    (ledger.claims()[0].clone(), ledger.claims()[1].clone())
+}
+
+fn second_order(draft: OrderDraft<'_>) -> OrderDraft<'_> {
+    draft
+        .levels(&[(0.4, 0.16), (0.2, 0.04), (0.1, 0.01)])
+        .expected(2.0)
+        .within(0.1)
+        .finest(0.02, "twice the estimate")
+}
+
+/// One holding claim of each kind.
+fn holding() -> Vec<(&'static str, Judged)> {
+    vec![
+        ("absolute", judge(|d| d.value(1.05).equals(1.0).absolute(0.1))),
+        ("absolute, below", judge(|d| d.value(0.95).equals(1.0).absolute(0.1))),
+        ("absolute, many", judge(|d| d.values(&[1.05, -2.0]).equals_each(&[1.0, -2.0]).absolute(0.1))),
+        (
+            "rms",
+            judge(|d| d.values(&[1.05, -2.0]).equals_each(&[1.0, -2.0]).absolute(0.1).root_mean_square()),
+        ),
+        ("relative", judge(|d| d.value(-10.5).equals(-10.0).relative(0.1))),
+        ("relative, many", judge(|d| d.values(&[10.5, 0.0]).equals_each(&[10.0, 0.0]).relative(0.1))),
+        ("at most", judge(|d| d.value(0.5).at_most(1.0))),
+        ("at least", judge(|d| d.value(2.0).at_least(1.0))),
+        ("count", judge(|d| d.count(7, 7))),
+        ("order", judge_order(|d| second_order(d).within(0.1)).0),
+        ("order or better", judge_order(|d| second_order(d).expected(1.5).or_better()).0),
+    ]
+}
+
+#[test]
+fn a_claim_within_its_bound_holds_and_three_bounds_off_disagrees() {
+    for (kind, judged) in holding() {
+        assert_eq!(judged.verdict, Verdict::Holds, "{kind}: {:?}", judged.problem);
+        let mut moved = judged.claim.clone();
+        moved.test = judged.claim.test.perturbed(CONTROL_BOUNDS).unwrap();
+        assert_eq!(moved.judge().verdict, Verdict::Disagrees, "{kind}");
+    }
+}
+
+#[test]
+fn errors_are_measured_in_the_unit_of_their_bound() {
+    let measured =
+        judge(|d| d.values(&[10.5, 3.0]).equals_each(&[10.0, 3.0]).relative(0.1)).measured.unwrap();
+    assert!((measured.error - 0.05).abs() < 1e-15 && (measured.ratio - 0.5).abs() < 1e-14);
+    let rms = judge(|d| d.values(&[3.0, 4.0]).equals_each(&[0.0, 0.0]).absolute(9.0).root_mean_square());
+    assert!((rms.measured.unwrap().error - 12.5_f64.sqrt()).abs() < 1e-15);
+    assert_eq!(judge(|d| d.value(-3.0).at_most(1.0)).measured.unwrap().ratio, 0.0);
+}
+
+#[test]
+fn what_is_not_a_number_disagrees() {
+    for judged in [
+        judge(|d| d.value(f64::NAN).equals(1.0).absolute(0.1)),
+        judge(|d| d.values(&[f64::NAN, 1.0]).equals_each(&[1.0, 1.0]).absolute(0.1)),
+        judge(|d| d.value(1.0).equals(f64::NAN).absolute(0.1)),
+        judge(|d| d.value(1.0).equals(f64::INFINITY).relative(0.1)),
+        judge(|d| d.value(f64::NAN).at_most(1.0)),
+        judge(|d| d.value(f64::NAN).at_least(1.0)),
+        judge(|d| d.value(f64::INFINITY).at_least(1.0)),
+        judge(|d| d.value(1.0).equals(1.0).absolute(f64::NAN)),
+        judge(|d| d.value(1.0).equals(1.0).absolute(f64::INFINITY)),
+        judge(|d| d.value(1.0).equals(1.0).absolute(0.0)),
+        judge_order(|d| second_order(d).levels(&[(0.4, 0.16), (0.2, f64::NAN), (0.1, 0.01)])).0,
+        judge_order(|d| second_order(d).levels(&[(0.4, 0.16), (0.2, 0.04), (0.1, f64::NAN)])).1,
+    ] {
+        assert_eq!(judged.verdict, Verdict::Disagrees, "{:?}", judged.claim.test);
+        assert!(judged.problem.is_some());
+    }
+}
+
+#[test]
+fn a_claim_that_says_too_little_disagrees() {
+    let mut ledger = Ledger::new(&[]);
+    ledger.claim("no evidence").value(1.0).equals(1.0).absolute(0.1).because("x").record();
+    ledger
+        .claim("no source")
+        .value(1.0)
+        .equals(1.0)
+        .absolute(0.1)
+        .because("x")
+        .evidence(Evidence::Exact, " ")
+        .record();
+    ledger.claim("no reason").value(1.0).equals(1.0).absolute(0.1).evidence(Evidence::Exact, "x").record();
+    let full = |ledger: &mut Ledger, write: fn(Draft<'_>) -> Draft<'_>| {
+        write(ledger.claim("q").evidence(Evidence::Exact, "x").because("x")).record();
+    };
+    full(&mut ledger, |d| d.value(1.0).equals(1.0));
+    full(&mut ledger, |d| d.equals(1.0).absolute(0.1));
+    full(&mut ledger, |d| d.values(&[1.0, 2.0]).equals(1.0).absolute(0.1));
+    full(&mut ledger, |d| d.values(&[0.5, 0.5]).at_most(1.0));
+    full(&mut ledger, |d| d.value(0.0).equals(0.0).relative(0.1));
+    full(&mut ledger, |d| d.value(1.0).equals(1.0).absolute(0.1).uncertainty(0.2));
+    full(&mut ledger, |d| d.value(1.0).equals(1.0).absolute(0.1).uncertainty(f64::NAN));
+    for judged in ledger.claims() {
+        assert_eq!(judged.verdict, Verdict::Disagrees, "{}", judged.claim.quantity);
+    }
+}
+
+#[test]
+fn a_bound_below_the_rounding_of_its_value_is_caught_by_the_control() {
+    let judged = judge(|d| d.value(1.0e20).equals(1.0e20).absolute(1.0));
+    assert_eq!(judged.verdict, Verdict::Disagrees);
+    assert!(judged.problem.unwrap().starts_with("negative control"));
+}
+
+#[test]
+fn slack_asks_for_a_reason_and_thin_is_marked() {
+    assert_eq!(judge(|d| d.value(1.005).equals(1.0).absolute(0.1)).mark, Some(Mark::SlackUnexplained));
+    let explained =
+        judge(|d| d.value(1.005).equals(1.0).absolute(0.1).why_not_tighter("the reference's digits"));
+    assert_eq!(explained.mark, Some(Mark::Slack));
+    assert_eq!(judge(|d| d.value(1.05).equals(1.0).absolute(0.1)).mark, None);
+    assert_eq!(judge(|d| d.value(1.09).equals(1.0).absolute(0.1)).mark, Some(Mark::Thin));
+    assert_eq!(judge(|d| d.count(7, 7)).mark, None);
+}
+
+#[test]
+fn a_wrong_order_disagrees_and_a_better_one_only_when_it_may() {
+    let first = [(0.4, 0.4), (0.2, 0.2), (0.1, 0.1)];
+    assert_eq!(judge_order(|d| second_order(d).levels(&first)).0.verdict, Verdict::Disagrees);
+    assert_eq!(judge_order(|d| second_order(d).expected(1.0)).0.verdict, Verdict::Disagrees);
+    assert_eq!(judge_order(|d| second_order(d).expected(1.0).or_better()).0.verdict, Verdict::Holds);
+}
+
+#[test]
+fn levels_on_the_plateau_say_nothing_about_the_order() {
+    let levels = [(0.8, 0.64), (0.4, 0.16), (0.2, 0.04), (0.1, 0.012), (0.05, 0.011)];
+    assert_eq!(judge_order(|d| second_order(d).levels(&levels)).0.verdict, Verdict::Disagrees);
+    let floored = |level| judge_order(move |d| second_order(d).levels(&levels).floor(Floor::Space, level)).0;
+    assert_eq!(floored(0.013).verdict, Verdict::Holds);
+    assert_eq!(floored(0.5).verdict, Verdict::Disagrees, "one level above the plateau is no order");
+}
+
+#[test]
+fn an_order_needs_three_refining_levels_and_an_absolute_error() {
+    for levels in [
+        &[(0.2, 0.04), (0.1, 0.01)][..],
+        &[(0.1, 0.01), (0.2, 0.04), (0.4, 0.16)],
+        &[(0.4, 0.1), (0.2, 0.0), (0.1, 0.0)],
+    ] {
+        assert_eq!(
+            judge_order(|d| second_order(d).levels(levels)).0.verdict,
+            Verdict::Disagrees,
+            "{levels:?}"
+        );
+    }
+    let (order, finest) = judge_order(second_order);
+    assert_eq!((order.verdict, finest.verdict), (Verdict::Holds, Verdict::Holds));
+    assert_eq!(judge_order(|d| second_order(d).finest(0.005, "x")).1.verdict, Verdict::Disagrees);
+    let mut ledger = Ledger::new(&[]);
+    let draft = ledger.order("q").evidence(Evidence::Exact, "x").because("x");
+    draft.levels(&[(0.4, 0.16), (0.2, 0.04), (0.1, 0.01)]).expected(2.0).within(0.1).record();
+    assert_eq!(ledger.claims()[1].verdict, Verdict::Disagrees, "no bound on the finest level");
+}
+
+const README: &str = "# A <case>\n\n## Problem\nText & more.\n";
+
+fn case(run: fn(&mut Ledger) -> Result<(), CaseError>) -> Case {
+    Case { name: "synthetic", readme: README, covers: &[Capability::Scenes], quick: true, run }
+}
+
+fn good(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let (value, cost) = Cost::of(|| 1.05);
+    let cost = cost.count("solves", 3).counts(&serde_json::json!({ "steps": 4, "rejected": 0, "name": "x" }));
+    let draft =
+        ledger.claim("first <quantity>").unit("MPa").value(value).equals(1.0).absolute(0.1).cost(&cost);
+    draft.evidence(Evidence::Exact, "formula").because("rounding").norm("largest").record();
+    let values = [1.05; 6];
+    let draft = ledger.claim("many").values(&values).equals_each(&[1.0; 6]).relative(0.1);
+    draft.evidence(Evidence::OtherCode, "code").because("its digits").covers(&[Capability::Outputs]).record();
+    second_order(ledger.order("q").evidence(Evidence::ConvergedSelf, "finer").because("theory"))
+        .floor(Floor::Rounding, 1e-14)
+        .record();
+    ledger.not_covered("thermal stress", "nobody asks for it");
+    let series = Series::marked("implicit", &[(0.1, 1.0), (0.01, 10.0), (0.0, 20.0)])
+        .failed(0.001, "diverged & stopped");
+    ledger.plot(Plot::work_precision("Work", "error [µm]", "solves").series(series).caption("A caption."));
+    ledger.plot(Plot::xy("Flat", "x", "y").series(Series::line("", &[(0.0, 2.0), (1.0, 2.0)])));
+    ledger.table("A table", &["h", "value"], [[String::from("1"), String::from("<2>")]]);
+    ledger.note("A note.");
+    Ok(())
+}
+
+fn only_claim(outcome: &Outcome) -> &Judged {
+    assert_eq!(outcome.record.claims.len(), 1);
+    &outcome.record.claims[0]
+}
+
+#[test]
+fn a_case_that_fails_panics_or_says_nothing_disagrees() {
+    let failing = case(|_| Err("no such scene".into())).execute();
+    assert_eq!(only_claim(&failing).problem.as_deref(), Some("no such scene"));
+    let silent = case(|_| Ok(())).execute();
+    assert_eq!(only_claim(&silent).verdict, Verdict::Disagrees);
+    let panicking = case(|_| panic!("index {}", 3)).execute();
+    assert_eq!(only_claim(&panicking).problem.as_deref(), Some("panicked: index 3"));
+    assert!(!Summary::of_all(&[failing, silent, panicking]).passes());
+}
+
+#[test]
+fn a_case_that_fails_late_keeps_what_it_claimed() {
+    let outcome = case(|ledger| {
+        good(ledger)?;
+        Err("later".into())
+    })
+    .execute();
+    let summary = Summary::of(&outcome.record.claims);
+    assert_eq!((summary.hold, summary.disagree, summary.not_covered), (4, 1, 1));
+}
+
+#[test]
+fn the_last_line_counts_claims() {
+    let summary = Summary::of_all(&[case(good).execute()]);
+    assert_eq!(summary.to_string(), "claims: 4 hold, 0 disagree, 1 not covered");
+    assert!(summary.passes());
+    assert!(!Summary::default().passes(), "no claim is no success");
+}
+
+#[test]
+fn an_empty_selection_is_an_error() {
+    let long = Case { quick: false, ..case(good) };
+    let choose = |glob: &str, full, cases: &[Case]| {
+        Selection { full, glob: Some(glob.to_owned()) }.of(cases).map(|chosen| chosen.len())
+    };
+    assert_eq!(choose("*", false, &[]), Err(SelectionError::NoCases));
+    assert!(matches!(choose("x*", true, &[long]), Err(SelectionError::NoMatch { .. })));
+    assert!(matches!(choose("syn*", false, &[long]), Err(SelectionError::OnlyLong { .. })));
+    assert_eq!(choose("syn*", true, &[long]), Ok(1));
+    assert_eq!(choose("syn*", false, &[case(good), long]), Ok(1));
+}
+
+#[test]
+fn the_report_keeps_machine_dependent_values_under_run() {
+    let report = |machine: &str, wall| {
+        let outcome = Outcome { wall, ..case(good).execute() };
+        json::report(&[outcome], &Provenance { machine: machine.to_owned(), ..Provenance::default() })
+    };
+    let (mut a, mut b) = (report("one", 1.0), report("other", 2.0));
+    assert_ne!(a["run"], b["run"]);
+    assert_eq!(a["run"]["walls"]["synthetic"]["case"], 1.0);
+    assert!(a["run"]["walls"]["synthetic"]["claims"][0].is_f64());
+    assert_eq!(
+        a["cases"][0]["claims"][0]["cost"]["work"],
+        serde_json::json!({ "solves": 3.0, "steps": 4.0 })
+    );
+    assert_eq!(a["cases"][0]["claims"][0]["test"]["kind"], "absolute");
+    for value in [&mut a, &mut b] {
+        value.as_object_mut().unwrap().remove("run");
+    }
+    assert_eq!(a, b);
+}
+
+#[test]
+fn pages_show_claims_escape_text_and_print_empty_cells() {
+    let outcomes = [case(good).execute()];
+    let index = html::index(&outcomes, &Provenance::default());
+    assert!(index.contains("claims: 4 hold, 0 disagree, 1 not covered"));
+    assert_eq!(index.matches("no evidence").count(), Capability::ALL.len() * Evidence::ALL.len() - 3);
+    assert!(index.contains("A &lt;case&gt;"));
+    let drawings: Vec<String> =
+        outcomes[0].record.plots.iter().map(|plot| svg::draw(plot).unwrap()).collect();
+    let page = html::case_page(&outcomes[0], &drawings);
+    for text in [
+        "first &lt;quantity&gt;",
+        "<h2>Problem</h2>",
+        "diverged &amp; stopped",
+        "&lt;2&gt;",
+        "1 points cannot",
+        "</svg>",
+    ] {
+        assert!(page.contains(text), "{text}");
+    }
+    for outside in ["http://", "https://", "<script", "src="] {
+        let page = page.replace("http://www.w3.org/2000/svg", "");
+        assert!(!page.contains(outside) && !index.contains(outside), "{outside}");
+    }
+}
+
+#[test]
+fn numbers_are_printed_with_four_digits() {
+    for (value, text) in [
+        (0.0, "0"),
+        (1.0, "1"),
+        (0.012346, "0.01235"),
+        (12345.6, "12346"),
+        (100.0, "100"),
+        (1.5e-7, "1.500e-7"),
+    ] {
+        assert_eq!(html::number(value), text);
+    }
+}
+
+#[test]
+fn plots_of_nothing_and_of_every_pair_of_axes_can_be_drawn() {
+    for x in [Axis::Linear, Axis::Log] {
+        for y in [Axis::Linear, Axis::Log] {
+            let plot = Plot::xy("t", "x", "y").axes(x, y);
+            assert!(svg::draw(&plot).is_ok());
+            let points = [(0.0, 0.0), (f64::NAN, 1.0), (1.0, 2.0), (1e6, 3e-7)];
+            assert!(svg::draw(&plot.series(Series::marked("a", &points))).unwrap().contains("</svg>"));
+        }
+    }
+}
+
+#[test]
+fn a_report_is_written_and_replaces_the_pages_of_an_earlier_one() {
+    let folder = std::env::temp_dir().join(format!("asperity-harness-{}", std::process::id()));
+    std::fs::create_dir_all(folder.join("cases")).unwrap();
+    std::fs::write(folder.join("cases/old.html"), "old").unwrap();
+    report::write(&folder, &[case(good).execute()], &Provenance::gather(false, 1.0)).unwrap();
+    assert!(!folder.join("cases/old.html").exists());
+    for file in ["report.json", "index.html", "cases/synthetic.html"] {
+        assert!(std::fs::metadata(folder.join(file)).unwrap().len() > 100, "{file}");
+    }
+    std::fs::remove_dir_all(folder).unwrap();
+}
