@@ -1,0 +1,42 @@
+//! Files that exist whole or not at all: written under a temporary name in the same directory, then renamed.
+
+use super::ObserveError;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Creates a directory and its parents.
+///
+/// # Errors
+/// Names the directory that could not be made.
+pub fn create_dir(path: &Path) -> Result<(), ObserveError> {
+    fs::create_dir_all(path).map_err(|source| ObserveError::Directory { path: path.to_path_buf(), source })
+}
+
+/// Writes `bytes` to `path`, replacing what was there in one step. A reader sees the old file or the new one.
+///
+/// # Errors
+/// Names the file that could not be written; the temporary file is removed.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ObserveError> {
+    let temporary = temporary_name(path);
+    fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path)).map_err(|source| {
+        // The first error is the one to report; a leftover that cannot be removed either adds nothing to it.
+        let _ = fs::remove_file(&temporary);
+        ObserveError::write(path, source)
+    })
+}
+
+/// Creates an output directory and makes sure that files can be written into it, before anything is computed.
+///
+/// # Errors
+/// Names the directory, or the file that could not be written into it.
+pub fn writable_dir(path: &Path) -> Result<(), ObserveError> {
+    create_dir(path)?;
+    let trial = path.join(".writable");
+    write(&trial, b"")?;
+    fs::remove_file(&trial).map_err(|source| ObserveError::write(&trial, source))
+}
+
+fn temporary_name(path: &Path) -> PathBuf {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    path.with_file_name(format!(".{name}.tmp"))
+}

@@ -1,0 +1,285 @@
+//! Files written during the run, so that nothing computed is lost if it stops: fields for ParaView, profiles and probes.
+//!
+//! ```text
+//! fields.pvd  fields/bodies_00001.vtu  fields/fault_00001.vtu  profiles/fault_001.csv  probes/fault.csv
+//! ```
+
+use super::record::check_interfaces;
+use super::schedule::{Due, FieldSchedule};
+use super::view::{BodyFields, InterfaceFields, InterfaceMesh, MeshView, Observer, Setup, StepView};
+use super::vtu::{Array, Grid, PvdEntry, Values, pvd};
+use super::{ObserveError, atomic, expect_length, table};
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Streams fields, profiles and probes into a directory. Each file appears whole; a table of probes grows by whole rows.
+#[derive(Debug)]
+pub struct Files {
+    out: PathBuf,
+    schedule: FieldSchedule,
+    fields_due: Due,
+    profiles_due: Due,
+    bodies: Option<Bodies>,
+    interfaces: Vec<Part>,
+    collection: Vec<PvdEntry>,
+    field_number: usize,
+    profile_number: usize,
+    setup: Setup,
+}
+
+/// The bodies' fixed part.
+#[derive(Debug)]
+struct Bodies {
+    grid: Grid,
+    /// Body of each cell.
+    body: Vec<i64>,
+}
+
+/// An interface's fixed part.
+#[derive(Debug)]
+struct Part {
+    /// Name of its files.
+    stem: String,
+    grid: Grid,
+    probes: Option<fs::File>,
+}
+
+impl Files {
+    /// Makes the directory and makes sure that it can be written to; writes nothing else yet.
+    ///
+    /// # Errors
+    /// When the directory cannot be made or written to.
+    pub fn create(out: &Path, schedule: FieldSchedule) -> Result<Self, ObserveError> {
+        atomic::writable_dir(out)?;
+        Ok(Self {
+            out: out.to_path_buf(),
+            schedule,
+            fields_due: Due::default(),
+            profiles_due: Due::default(),
+            bodies: None,
+            interfaces: Vec::new(),
+            collection: Vec::new(),
+            field_number: 0,
+            profile_number: 0,
+            setup: Setup::default(),
+        })
+    }
+
+    /// The directory.
+    #[must_use]
+    pub fn directory(&self) -> &Path {
+        &self.out
+    }
+
+    /// The data sets written so far.
+    #[must_use]
+    pub fn collection(&self) -> &[PvdEntry] {
+        &self.collection
+    }
+
+    fn write_fields(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        let Some(bodies) = &self.bodies else { return Ok(()) };
+        self.field_number += 1;
+        let (number, time) = (self.field_number, view.record.time);
+        let mut entries = Vec::with_capacity(1 + self.interfaces.len());
+        let file = format!("fields/bodies_{number:05}.vtu");
+        let fields = (view.fields)();
+        check_bodies(&self.setup.mesh, &fields)?;
+        atomic::write(&self.out.join(&file), &bodies.file(time, &fields))?;
+        entries.push(PvdEntry { time, part: 0, name: "bodies".to_string(), file });
+        for (i, (part, fields)) in self.interfaces.iter().zip(view.interfaces).enumerate() {
+            let mesh = &self.setup.interfaces[i];
+            let file = format!("fields/{}_{number:05}.vtu", part.stem);
+            atomic::write(&self.out.join(&file), &part.file(time, mesh, fields))?;
+            entries.push(PvdEntry { time, part: i + 1, name: mesh.name.clone(), file });
+        }
+        self.collection.extend(entries);
+        atomic::write(&self.out.join("fields.pvd"), &pvd(&self.collection))
+    }
+
+    fn write_profiles(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        self.profile_number += 1;
+        for ((part, mesh), fields) in self.interfaces.iter().zip(&self.setup.interfaces).zip(view.interfaces) {
+            let path = self.out.join(format!("profiles/{}_{:03}.csv", part.stem, self.profile_number));
+            atomic::write(&path, &table::profile(view.record.time, mesh, fields))?;
+        }
+        Ok(())
+    }
+
+    fn write_probes(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        for ((part, mesh), fields) in self.interfaces.iter_mut().zip(&self.setup.interfaces).zip(view.interfaces) {
+            let Some(file) = &mut part.probes else { continue };
+            let row = table::probe_row(view.record.time, view.record.stage, view.record.step, mesh, fields);
+            // One write per row: a run that is killed leaves whole rows.
+            file.write_all(&row)
+                .map_err(|source| ObserveError::write(&self.out.join(format!("probes/{}.csv", part.stem)), source))?;
+        }
+        Ok(())
+    }
+
+    /// Removes what an earlier run of these interfaces left, so that its files are not taken for this run's.
+    fn remove_earlier(&self) -> Result<(), ObserveError> {
+        let stems: Vec<&str> = self.interfaces.iter().map(|part| part.stem.as_str()).collect();
+        remove_numbered(&self.out.join("profiles"), &stems, "csv")?;
+        let with_bodies: Vec<&str> = stems.iter().copied().chain(["bodies"]).collect();
+        remove_numbered(&self.out.join("fields"), &with_bodies, "vtu")?;
+        let mut once: Vec<PathBuf> =
+            stems.iter().map(|stem| self.out.join(format!("probes/{stem}.csv"))).collect();
+        once.push(self.out.join("fields.pvd"));
+        once.iter().filter(|path| path.exists()).try_for_each(|path| remove(path))
+    }
+}
+
+impl Observer for Files {
+    fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
+        self.setup = setup.clone();
+        self.fields_due = Due::new(self.schedule.fields, &setup.stages);
+        self.profiles_due = Due::new(self.schedule.profiles, &setup.stages);
+        self.bodies = (!setup.mesh.cells.is_empty()).then(|| Bodies::new(&setup.mesh));
+        self.collection.clear();
+        (self.field_number, self.profile_number) = (0, 0);
+        let stems = stems(setup.interfaces.iter().map(|mesh| mesh.name.as_str()));
+        let dimension = setup.mesh.dimension;
+        self.interfaces = stems
+            .into_iter()
+            .zip(&setup.interfaces)
+            .map(|(stem, mesh)| Part { stem, grid: interface_grid(mesh, dimension), probes: None })
+            .collect();
+        self.remove_earlier()?;
+        let wanted = [
+            ("fields", self.schedule.fields > 0 && self.bodies.is_some()),
+            ("profiles", self.schedule.profiles > 0 && !setup.interfaces.is_empty()),
+            ("probes", setup.interfaces.iter().any(|mesh| !mesh.probes.is_empty())),
+        ];
+        for (folder, _) in wanted.iter().filter(|(_, wanted)| *wanted) {
+            atomic::create_dir(&self.out.join(folder))?;
+        }
+        for (part, mesh) in self.interfaces.iter_mut().zip(&setup.interfaces) {
+            if !mesh.probes.is_empty() {
+                let path = self.out.join(format!("probes/{}.csv", part.stem));
+                atomic::write(&path, &table::probe_header(mesh))?;
+                let file = fs::OpenOptions::new().append(true).open(&path);
+                part.probes = Some(file.map_err(|source| ObserveError::write(&path, source))?);
+            }
+        }
+        Ok(())
+    }
+
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        check_interfaces(&self.setup, view.interfaces)?;
+        self.write_probes(view)?;
+        let (stage, time) = (view.record.stage, view.record.time);
+        if self.profiles_due.take(stage, time, view.ends_stage) {
+            self.write_profiles(view)?;
+        }
+        if self.fields_due.take(stage, time, view.ends_stage) {
+            self.write_fields(view)?;
+        }
+        Ok(())
+    }
+}
+
+impl Bodies {
+    fn new(mesh: &MeshView) -> Self {
+        Self {
+            grid: Grid::new(&mesh.nodes, &mesh.cells),
+            body: mesh.cell_body.iter().map(|&body| body as i64).collect(),
+        }
+    }
+
+    fn file(&self, time: f64, fields: &BodyFields) -> Vec<u8> {
+        let points = [
+            Array::vector("displacement", &fields.displacement),
+            Array::scalar("mises", Values::F64(&fields.node_mises)),
+        ];
+        let cells = [
+            Array::tensor("stress", &fields.cell_stress),
+            Array::scalar("mises", Values::F64(&fields.cell_mises)),
+            Array::scalar("body", Values::I64(&self.body)),
+        ];
+        self.grid.file(time, &points, &cells)
+    }
+}
+
+impl Part {
+    fn file(&self, time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields) -> Vec<u8> {
+        fn f64s(name: &'static str, values: &[f64]) -> Array<'static> {
+            Array::scalar(name, Values::F64(values))
+        }
+        let points = [
+            f64s("gap", &fields.gap),
+            f64s("slip", &fields.slip),
+            f64s("relative_displacement", &fields.relative_displacement),
+            f64s("slip_rate", &fields.slip_rate),
+            f64s("normal_traction", &fields.normal_traction),
+            f64s("shear_traction", &fields.shear_traction),
+            f64s("friction", &fields.friction),
+            Array::scalar("status", Values::U8(&fields.status)),
+            f64s("area", &mesh.areas),
+        ];
+        self.grid.file(time, &points, &[])
+    }
+}
+
+/// The slave side as VTK cells; bare points where it has no faces.
+fn interface_grid(mesh: &InterfaceMesh, dimension: usize) -> Grid {
+    // VTK cell types: 1 vertex, 3 line, 4 polyline, 5 triangle, 7 polygon, 9 quadrilateral.
+    let kind = |nodes: usize| match (dimension, nodes) {
+        (_, 1) => 1,
+        (_, 2) => 3,
+        (2, _) => 4,
+        (_, 3) => 5,
+        (_, 4) => 9,
+        _ => 7,
+    };
+    let cells: Vec<(u8, Vec<usize>)> = if mesh.faces.is_empty() {
+        (0..mesh.positions.len()).map(|node| (1, vec![node])).collect()
+    } else {
+        mesh.faces.iter().map(|face| (kind(face.len()), face.clone())).collect()
+    };
+    Grid::new(&mesh.positions, &cells)
+}
+
+fn check_bodies(mesh: &MeshView, fields: &BodyFields) -> Result<(), ObserveError> {
+    let (nodes, cells) = (mesh.nodes.len(), mesh.cells.len());
+    expect_length("body of each cell", cells, mesh.cell_body.len())?;
+    expect_length("displacement of the nodes", nodes, fields.displacement.len())?;
+    expect_length("Mises stress of the nodes", nodes, fields.node_mises.len())?;
+    expect_length("stress of the cells", cells, fields.cell_stress.len())?;
+    expect_length("Mises stress of the cells", cells, fields.cell_mises.len())
+}
+
+/// File names for names of interfaces: letters, digits, `-` and `_` stay; what would collide gets its number.
+pub(super) fn stems<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut taken: Vec<String> = vec!["bodies".to_string()];
+    for (i, name) in names.enumerate() {
+        let safe = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '_' };
+        let mut stem: String = name.chars().map(safe).collect();
+        while stem.is_empty() || taken.contains(&stem) {
+            stem = format!("{stem}-{i}");
+        }
+        taken.push(stem);
+    }
+    taken.split_off(1)
+}
+
+/// Removes `<stem>_<digits>.<extension>` for the given stems, and nothing else.
+fn remove_numbered(dir: &Path, stems: &[&str], extension: &str) -> Result<(), ObserveError> {
+    let Ok(entries) = fs::read_dir(dir) else { return Ok(()) };
+    for entry in entries {
+        let path = entry.map_err(|source| ObserveError::write(dir, source))?.path();
+        let ours = path.extension().is_some_and(|found| found == extension)
+            && path.file_stem().and_then(|stem| stem.to_str()).and_then(|stem| stem.rsplit_once('_')).is_some_and(
+                |(stem, digits)| stems.contains(&stem) && digits.bytes().all(|byte| byte.is_ascii_digit()),
+            );
+        if ours {
+            remove(&path)?;
+        }
+    }
+    Ok(())
+}
+
+fn remove(path: &Path) -> Result<(), ObserveError> {
+    fs::remove_file(path).map_err(|source| ObserveError::write(path, source))
+}

@@ -1,0 +1,45 @@
+//! One observer that forwards to several.
+
+use super::ObserveError;
+use super::view::{BodyFields, Observer, Setup, StepView};
+use std::cell::OnceCell;
+
+/// Forwards to its observers in the order given. The fields of the bodies are recovered at most once a step, however
+/// many of them ask.
+#[derive(Default)]
+pub struct Multi<'a> {
+    observers: Vec<&'a mut dyn Observer>,
+}
+
+impl<'a> Multi<'a> {
+    /// From observers that the caller keeps.
+    #[must_use]
+    pub fn new(observers: Vec<&'a mut dyn Observer>) -> Self {
+        Self { observers }
+    }
+
+    /// Adds an observer.
+    pub fn push(&mut self, observer: &'a mut dyn Observer) {
+        self.observers.push(observer);
+    }
+}
+
+impl Observer for Multi<'_> {
+    fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
+        self.observers.iter_mut().try_for_each(|observer| observer.begin(setup))
+    }
+
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        let recovered: OnceCell<BodyFields> = OnceCell::new();
+        let once = || recovered.get_or_init(|| (view.fields)()).clone();
+        let shared = StepView {
+            record: view.record,
+            stage: view.stage,
+            ends_stage: view.ends_stage,
+            end_time: view.end_time,
+            interfaces: view.interfaces,
+            fields: &once,
+        };
+        self.observers.iter_mut().try_for_each(|observer| observer.step(&shared))
+    }
+}

@@ -1,0 +1,171 @@
+//! Axes: ranges, ticks, and the frame they stand on.
+
+use super::colour::{GRID, INK};
+use super::figure::{Anchor, Figure, Point};
+
+/// Em size of tick labels.
+const TICK_TEXT: f64 = 13.0;
+/// Em size of axis labels.
+pub(super) const LABEL_TEXT: f64 = 14.5;
+
+/// An axis in its own unit.
+#[derive(Clone, Debug)]
+pub(super) struct Axis {
+    /// Ends: values, or their decadic logarithms.
+    pub range: (f64, f64),
+    /// Whether the axis is logarithmic.
+    pub log: bool,
+    /// Label with unit.
+    pub label: String,
+}
+
+impl Axis {
+    /// A linear axis around `values`, which need not be finite or different; it starts at zero when the values come near
+    /// it from above. `margin` is the room left at the ends, as a fraction.
+    pub(super) fn linear(values: impl Iterator<Item = f64>, margin: f64, label: String) -> Self {
+        let (lo, hi) = bounds(values).unwrap_or((0.0, 1.0));
+        let range = if hi - lo <= FLAT * lo.abs().max(hi.abs()) {
+            let room = if lo == 0.0 { 1.0 } else { 0.1 * lo.abs() };
+            (lo - room, hi + room)
+        } else {
+            let room = margin * (hi - lo);
+            // Three tenths: below that the empty part costs less than the missing zero misleads.
+            (if lo >= 0.0 && lo < 0.3 * hi { 0.0 } else { lo - room }, hi + room)
+        };
+        Self { range, log: false, label }
+    }
+
+    /// A linear axis that ends exactly where the values end.
+    pub(super) fn exact(range: (f64, f64), label: String) -> Self {
+        Self { range, log: false, label }
+    }
+
+    /// A logarithmic axis over whole decades around the positive values, at most `decades` of them from the top.
+    pub(super) fn logarithmic(values: impl Iterator<Item = f64>, decades: f64, label: String) -> Self {
+        let (lo, hi) = bounds(values.filter(|v| *v > 0.0)).unwrap_or((1.0, 10.0));
+        let hi = hi.log10().ceil();
+        let lo = lo.log10().floor().max(hi - decades).min(hi - 1.0);
+        Self { range: (lo, hi), log: true, label }
+    }
+
+    /// Where a value stands along the axis, 0..=1 inside; values below a logarithmic axis stand on its start.
+    pub(super) fn place(&self, value: f64) -> f64 {
+        let (lo, hi) = self.range;
+        let value = if self.log { if value > 0.0 { value.log10().max(lo) } else { lo } } else { value };
+        (value - lo) / (hi - lo)
+    }
+
+    /// Ticks: place along the axis and text.
+    pub(super) fn ticks(&self, about: usize) -> Vec<(f64, String)> {
+        let (lo, hi) = self.range;
+        let span = hi - lo;
+        if self.log {
+            let stride = ((span / about as f64).ceil() as usize).max(1);
+            let last = span.round() as usize;
+            return (0..=last)
+                .step_by(stride)
+                .map(|k| (k as f64 / span, power_of_ten((lo + k as f64).round() as i32)))
+                .collect();
+        }
+        let step = nice_step(span / about as f64);
+        let decimals = (-step.log10().floor()).max(0.0) as usize + usize::from(is_quarter(step));
+        let first = (lo / step - FLAT).ceil() as i64;
+        let last = (hi / step + FLAT).floor() as i64;
+        (first..=last)
+            .map(|k| {
+                // Adding zero turns -0 into 0.
+                let value = k as f64 * step + 0.0;
+                ((value - lo) / span, format!("{value:.decimals$}").replace('-', "−"))
+            })
+            .collect()
+    }
+}
+
+/// Values closer than this fraction of their size are one value on a plot.
+const FLAT: f64 = 1e-9;
+
+/// Smallest and largest finite value.
+fn bounds(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    values.filter(|v| v.is_finite()).fold(None, |found, v| match found {
+        None => Some((v, v)),
+        Some((lo, hi)) => Some((lo.min(v), hi.max(v))),
+    })
+}
+
+/// The step of 1, 2, 2.5 or 5 times a power of ten next above `rough`.
+fn nice_step(rough: f64) -> f64 {
+    let power = 10.0_f64.powf(rough.log10().floor());
+    let steps = [1.0, 2.0, 2.5, 5.0, 10.0];
+    steps.iter().map(|s| s * power).find(|step| *step >= rough * (1.0 - FLAT)).unwrap_or(10.0 * power)
+}
+
+/// Whether a step is 2.5 times a power of ten, which takes one more decimal.
+fn is_quarter(step: f64) -> bool {
+    let mantissa = step / 10.0_f64.powf(step.log10().floor());
+    (mantissa - 2.5).abs() < 0.1 && step < 10.0
+}
+
+fn power_of_ten(exponent: i32) -> String {
+    let digits = exponent.unsigned_abs().to_string();
+    let raised = digits.bytes().map(|d| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][usize::from(d - b'0')]);
+    format!("10{}{}", if exponent < 0 { "⁻" } else { "" }, raised.collect::<String>())
+}
+
+/// A framed plot area.
+#[derive(Clone, Debug)]
+pub(super) struct Frame {
+    /// Upper left corner.
+    pub at: Point,
+    /// Width and height.
+    pub size: Point,
+    pub x: Axis,
+    pub y: Axis,
+}
+
+impl Frame {
+    /// Where a pair of values stands.
+    pub(super) fn point(&self, x: f64, y: f64) -> Point {
+        (self.at.0 + self.x.place(x) * self.size.0, self.at.1 + (1.0 - self.y.place(y)) * self.size.1)
+    }
+
+    /// Light lines at the ticks, to be drawn before the data.
+    pub(super) fn grid(&self, figure: &mut Figure) {
+        let ((left, top), (width, height)) = (self.at, self.size);
+        for (place, _) in self.x.ticks(X_TICKS) {
+            let x = left + place * width;
+            figure.line(vec![(x, top), (x, top + height)], 0.8, GRID);
+        }
+        for (place, _) in self.y.ticks(Y_TICKS) {
+            let y = top + (1.0 - place) * height;
+            figure.line(vec![(left, y), (left + width, y)], 0.8, GRID);
+        }
+    }
+
+    /// Frame, ticks and labels, to be drawn after the data.
+    pub(super) fn draw(&self, figure: &mut Figure) {
+        let ((left, top), (width, height)) = (self.at, self.size);
+        let (right, bottom) = (left + width, top + height);
+        figure.line(vec![(left, top), (right, top), (right, bottom), (left, bottom), (left, top)], 1.0, INK);
+        for (place, text) in self.x.ticks(X_TICKS) {
+            let x = left + place * width;
+            figure.line(vec![(x, bottom), (x, bottom + 5.0)], 1.0, INK);
+            figure.text((x, bottom + 16.0), text, TICK_TEXT, Anchor::Middle, INK);
+        }
+        let mut widest = 0;
+        for (place, text) in self.y.ticks(Y_TICKS) {
+            let y = top + (1.0 - place) * height;
+            widest = widest.max(text.chars().count());
+            figure.line(vec![(left - 5.0, y), (left, y)], 1.0, INK);
+            figure.text((left - 9.0, y), text, TICK_TEXT, Anchor::End, INK);
+        }
+        figure.text((left + width / 2.0, bottom + 40.0), &self.x.label, LABEL_TEXT, Anchor::Middle, INK);
+        // Digits are .64 em wide.
+        let room = 9.0 + 0.64 * TICK_TEXT * widest as f64;
+        figure.vertical_text((left - room - 16.0, top + height / 2.0), &self.y.label, LABEL_TEXT, INK);
+    }
+}
+
+/// Intervals aimed at along x.
+const X_TICKS: usize = 7;
+/// Intervals aimed at along y.
+pub(super) const Y_TICKS: usize = 6;

@@ -1,0 +1,54 @@
+//! Colours: a perceptually uniform map and the greys of frames.
+
+/// Red, green, blue.
+pub(super) type Rgb = [u8; 3];
+
+/// Text and frames.
+pub(super) const INK: Rgb = [34, 34, 34];
+/// Lines that only guide the eye.
+pub(super) const GRID: Rgb = [228, 228, 228];
+/// Marks of stages.
+pub(super) const MARK: Rgb = [130, 130, 130];
+/// The paper.
+pub(super) const PAPER: Rgb = [255, 255, 255];
+
+/// Viridis (Smith and van der Walt 2015, CC0) at 17 equidistant values.
+const VIRIDIS: [Rgb; 17] = [
+    [68, 1, 84],
+    [72, 24, 106],
+    [71, 45, 123],
+    [66, 64, 134],
+    [59, 82, 139],
+    [51, 99, 141],
+    [44, 114, 142],
+    [38, 130, 142],
+    [33, 145, 140],
+    [31, 160, 136],
+    [40, 174, 128],
+    [63, 188, 115],
+    [94, 201, 98],
+    [132, 212, 75],
+    [173, 220, 48],
+    [216, 226, 25],
+    [253, 231, 37],
+];
+
+/// The colour of `value` in 0..=1; what lies outside takes the end's, what is no number light grey.
+pub(super) fn viridis(value: f64) -> Rgb {
+    if value.is_nan() {
+        return [200, 200, 200];
+    }
+    let place = value.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f64;
+    let below = (place as usize).min(VIRIDIS.len() - 2);
+    let part = place - below as f64;
+    std::array::from_fn(|c| {
+        let (a, b) = (f64::from(VIRIDIS[below][c]), f64::from(VIRIDIS[below + 1][c]));
+        (a + part * (b - a)).round() as u8
+    })
+}
+
+/// The colour of curve `i` of `n`: along the map, without its palest end, which is hard to see on white.
+pub(super) fn of_curve(i: usize, n: usize) -> Rgb {
+    let last = n.saturating_sub(1).max(1) as f64;
+    viridis(0.9 * i as f64 / last)
+}

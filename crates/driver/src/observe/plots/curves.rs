@@ -1,0 +1,201 @@
+//! Histories at the probes of an interface: relative displacement, friction coefficient, relative velocity against time.
+
+use super::super::Recorder;
+use super::super::record::PointHistory;
+use super::axes::{Axis, Frame};
+use super::colour::{INK, MARK, Rgb, of_curve};
+use super::figure::{Anchor, Figure, Point};
+use super::units::{self, Unit, Units};
+use super::{position_labels, units::TIME};
+
+/// A quantity drawn against time.
+#[derive(Clone, Copy)]
+pub(super) struct Quantity {
+    /// End of its file name.
+    pub file: &'static str,
+    /// Name on the axis.
+    name: &'static str,
+    units: Units,
+    /// Whether a logarithmic axis is considered.
+    rate: bool,
+    read: fn(&PointHistory) -> &[f64],
+}
+
+/// What is drawn of each interface.
+pub(super) const QUANTITIES: [Quantity; 3] = [
+    Quantity {
+        file: "relative_displacement",
+        name: "Relative displacement",
+        units: units::LENGTH,
+        rate: false,
+        read: |p| &p.relative_displacement,
+    },
+    Quantity {
+        file: "friction",
+        name: "Friction coefficient",
+        units: units::NUMBER,
+        rate: false,
+        read: |p| &p.friction,
+    },
+    Quantity {
+        file: "relative_velocity",
+        name: "Relative velocity",
+        units: units::VELOCITY,
+        rate: true,
+        read: |p| &p.slip_rate,
+    },
+];
+
+/// Largest over time-weighted median velocity beyond which a linear axis would show spikes on a line and nothing else.
+const SPIKES: f64 = 1e3;
+
+/// Decades a logarithmic axis shows at most: from plate rates to seismic slip is about twelve.
+const DECADES: f64 = 14.0;
+
+/// Columns into which a curve is thinned, keeping the extremes of each: twice what a screen resolves.
+const COLUMNS: usize = 2000;
+
+/// Room right of the frame for the legend.
+pub(super) const LEGEND: f64 = 170.0;
+
+/// Draws one quantity of one interface; `None` when it has no probes or no steps.
+pub(super) fn history(recorder: &Recorder, interface: usize, quantity: &Quantity) -> Option<Figure> {
+    let points = &recorder.histories().get(interface)?.points;
+    let times = recorder.times();
+    let (Some(&end), false) = (times.last(), points.is_empty()) else { return None };
+    let series: Vec<&[f64]> = points.iter().map(quantity.read).collect();
+    let (time, unit) = (TIME.of(end), quantity.units.of(largest(&series)));
+    let log = quantity.rate && is_spiky(times, &series);
+    let values = series.iter().flat_map(|s| s.iter()).map(|v| if log { v.abs() } else { *v } / unit.factor);
+    let label = format!("{} [{}]", quantity.name, unit.name);
+    let y = if log { Axis::logarithmic(values, DECADES, label) } else { Axis::linear(values, 0.05, label) };
+    let frame = Frame {
+        at: (96.0, 40.0),
+        size: (560.0, 380.0),
+        x: Axis::exact((0.0, end / time.factor), format!("Time [{}]", time.name)),
+        y,
+    };
+    let mut figure = Figure::new(96.0 + 560.0 + LEGEND, 480.0);
+    let mesh = &recorder.setup().interfaces[interface];
+    title(&mut figure, &frame, &recorder.setup().title, &mesh.name);
+    frame.grid(&mut figure);
+    stage_marks(&mut figure, &frame, recorder, time);
+    for (i, values) in series.iter().enumerate() {
+        let colour = of_curve(i, series.len());
+        for piece in pieces(times, values) {
+            let line = piece.iter().map(|&(t, v)| {
+                let v = if log { v.abs() } else { v };
+                frame.point(t / time.factor, v / unit.factor)
+            });
+            figure.line(thin(line.collect()), 1.8, colour);
+        }
+    }
+    frame.draw(&mut figure);
+    let labels = position_labels(points.iter().map(|p| p.position));
+    let entries: Vec<(String, Rgb, bool)> =
+        labels.into_iter().enumerate().map(|(i, l)| (l, of_curve(i, series.len()), false)).collect();
+    legend(&mut figure, &frame, &entries);
+    Some(figure)
+}
+
+/// Scene and interface, above the frame.
+pub(super) fn title(figure: &mut Figure, frame: &Frame, scene: &str, part: &str) {
+    let y = frame.at.1 - 18.0;
+    figure.text((frame.at.0, y), format!("{scene}: {part}"), super::axes::LABEL_TEXT, Anchor::Start, INK);
+}
+
+/// Names of the curves with their colours, right of the frame; the flag says dashed.
+pub(super) fn legend(figure: &mut Figure, frame: &Frame, entries: &[(String, Rgb, bool)]) {
+    let left = frame.at.0 + frame.size.0 + 16.0;
+    for (i, (name, colour, dashed)) in entries.iter().enumerate() {
+        let y = frame.at.1 + 12.0 + 22.0 * i as f64;
+        let line = [(left, y), (left + 26.0, y)];
+        if *dashed {
+            figure.dashed(&line, (6.0, 4.0), 2.2, *colour);
+        } else {
+            figure.line(line.to_vec(), 2.2, *colour);
+        }
+        figure.text((left + 34.0, y), name, 12.5, Anchor::Start, INK);
+    }
+}
+
+/// A dashed line where each stage but the last ends, and the names of the stages along the top.
+fn stage_marks(figure: &mut Figure, frame: &Frame, recorder: &Recorder, time: Unit) {
+    let (left, top) = frame.at;
+    let (mut from, shown) = (0.0, frame.x.range.1);
+    for (name, end) in &recorder.setup().stages {
+        let to = (end / time.factor).min(shown);
+        let middle = frame.x.place((from + to) / 2.0);
+        // Seven units a character: a name that does not fit its stage is left out.
+        if (to - from) / shown * frame.size.0 > 7.5 * name.chars().count() as f64 {
+            figure.text((left + middle * frame.size.0, top + 11.0), name, 11.5, Anchor::Middle, MARK);
+        }
+        if to >= shown {
+            break;
+        }
+        let x = left + frame.x.place(to) * frame.size.0;
+        figure.dashed(&[(x, top), (x, top + frame.size.1)], (5.0, 4.0), 1.0, MARK);
+        from = to;
+    }
+}
+
+fn largest(series: &[&[f64]]) -> f64 {
+    let finite = series.iter().flat_map(|s| s.iter()).filter(|v| v.is_finite());
+    finite.fold(0.0, |most, v| most.max(v.abs()))
+}
+
+/// Whether the fastest point is, at its fastest, far above what it is most of the time.
+fn is_spiky(times: &[f64], series: &[&[f64]]) -> bool {
+    let mut before = 0.0;
+    let mut weighted: Vec<(f64, f64)> = Vec::with_capacity(times.len());
+    for (i, &time) in times.iter().enumerate() {
+        let fastest = series.iter().map(|s| s[i].abs()).filter(|v| v.is_finite()).fold(0.0, f64::max);
+        if fastest > 0.0 {
+            weighted.push((fastest, time - before));
+        }
+        before = time;
+    }
+    weighted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let half = weighted.iter().map(|(_, weight)| weight).sum::<f64>() / 2.0;
+    let mut sum = 0.0;
+    let median = weighted.iter().find(|(_, weight)| {
+        sum += weight;
+        sum >= half
+    });
+    match (median, weighted.last()) {
+        (Some((median, _)), Some((most, _))) => *most > SPIKES * median,
+        _ => false,
+    }
+}
+
+/// The finite stretches of a curve.
+fn pieces(times: &[f64], values: &[f64]) -> Vec<Vec<Point>> {
+    let mut pieces = vec![Vec::new()];
+    for (&time, &value) in times.iter().zip(values) {
+        match pieces.last_mut() {
+            Some(piece) if time.is_finite() && value.is_finite() => piece.push((time, value)),
+            _ => pieces.push(Vec::new()),
+        }
+    }
+    pieces.retain(|piece| !piece.is_empty());
+    pieces
+}
+
+/// Thins a curve to the first, lowest, highest and last point of each column of its width.
+fn thin(points: Vec<Point>) -> Vec<Point> {
+    if points.len() <= 2 * COLUMNS {
+        return points;
+    }
+    let (left, right) = (points[0].0, points[points.len() - 1].0);
+    let column = |x: f64| ((x - left) / (right - left) * COLUMNS as f64) as usize;
+    let mut kept = Vec::with_capacity(4 * COLUMNS);
+    for group in points.chunk_by(|a, b| column(a.0) == column(b.0)) {
+        let index = |pick: fn(f64, f64) -> bool| {
+            (0..group.len()).fold(0, |best, i| if pick(group[i].1, group[best].1) { i } else { best })
+        };
+        let mut keep = [0, index(|a, b| a < b), index(|a, b| a > b), group.len() - 1];
+        keep.sort_unstable();
+        kept.extend(keep.iter().enumerate().filter(|(k, i)| *k == 0 || keep[k - 1] != **i).map(|(_, &i)| group[i]));
+    }
+    kept
+}

@@ -1,0 +1,122 @@
+//! What of a mesh is seen: its cells in two dimensions, its outer faces seen from z = +∞ in three; as triangles to fill
+//! and outlines to draw.
+
+use super::super::view::MeshView;
+use std::collections::BTreeMap;
+
+/// A corner of a triangle: the mean of some nodes (one node, or the centre of a face).
+pub(super) type Corner = Vec<usize>;
+
+/// What to draw, in the order of drawing.
+#[derive(Debug, Default)]
+pub(super) struct Visible {
+    pub triangles: Vec<[Corner; 3]>,
+    /// Edges where a body ends.
+    pub outline: Vec<[usize; 2]>,
+}
+
+/// A face: its nodes around the boundary, midside nodes in their places, and its centre node if it has one.
+struct Face {
+    ring: Vec<usize>,
+    centre: Option<usize>,
+    body: usize,
+}
+
+/// Corner faces of the solid cells, VTK numbering, outward by the right-hand rule.
+const TET: [&[usize]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
+/// See [`TET`].
+const HEX: [&[usize]; 6] =
+    [&[0, 3, 2, 1], &[4, 5, 6, 7], &[0, 1, 5, 4], &[1, 2, 6, 5], &[2, 3, 7, 6], &[3, 0, 4, 7]];
+
+/// The visible part of a mesh.
+pub(super) fn visible(mesh: &MeshView) -> Visible {
+    let faces = if mesh.dimension == 3 { upper_faces(mesh) } else { flat_cells(mesh) };
+    let triangles = faces.iter().flat_map(Face::triangles).collect();
+    Visible { triangles, outline: outline(&faces) }
+}
+
+impl Face {
+    /// A fan around the centre, so that a bilinear field keeps its value there. A face without a centre node uses the
+    /// mean of its ring (of the midside nodes where there are some: the serendipity value's dominant part).
+    fn triangles(&self) -> Vec<[Corner; 3]> {
+        let n = self.ring.len();
+        if n == 3 {
+            return vec![[vec![self.ring[0]], vec![self.ring[1]], vec![self.ring[2]]]];
+        }
+        let centre = match self.centre {
+            Some(node) => vec![node],
+            None if n >= 6 => self.ring.iter().skip(1).step_by(2).copied().collect(),
+            None => self.ring.clone(),
+        };
+        (0..n).map(|i| [vec![self.ring[i]], vec![self.ring[(i + 1) % n]], centre.clone()]).collect()
+    }
+}
+
+/// Nodes around a flat cell, with the centre node of quad9.
+fn flat_cells(mesh: &MeshView) -> Vec<Face> {
+    let ring = |nodes: &[usize], corners: usize| -> Vec<usize> {
+        (0..corners).flat_map(|i| [nodes[i], nodes[corners + i]]).collect()
+    };
+    let cells = mesh.cells.iter().zip(&mesh.cell_body);
+    let face = |((kind, nodes), &body): (&(u8, Vec<usize>), &usize)| {
+        let (ring, centre) = match (kind, nodes.len()) {
+            (5, 3) | (9, 4) => (nodes.clone(), None),
+            (22, 6) => (ring(nodes, 3), None),
+            (23, 8) => (ring(nodes, 4), None),
+            (28, 9) => (ring(nodes, 4), Some(nodes[8])),
+            _ => return None,
+        };
+        Some(Face { ring, centre, body })
+    };
+    cells.filter_map(face).collect()
+}
+
+/// Outer faces whose normal has a positive z component, farthest first.
+fn upper_faces(mesh: &MeshView) -> Vec<Face> {
+    let mut outer: BTreeMap<Vec<usize>, Option<Face>> = BTreeMap::new();
+    for ((kind, nodes), &body) in mesh.cells.iter().zip(&mesh.cell_body) {
+        let corners: &[&[usize]] = match kind {
+            10 | 24 => &TET,
+            12 | 25 | 29 => &HEX,
+            _ => continue,
+        };
+        for face in corners {
+            let ring: Vec<usize> = face.iter().map(|&i| nodes[i]).collect();
+            let mut key = ring.clone();
+            key.sort_unstable();
+            // A face met twice lies inside.
+            outer.entry(key).and_modify(|face| *face = None).or_insert(Some(Face { ring, centre: None, body }));
+        }
+    }
+    let mut faces: Vec<Face> = outer.into_values().flatten().filter(|face| looks_up(mesh, &face.ring)).collect();
+    let height = |face: &Face| face.ring.iter().map(|&n| mesh.nodes[n][2]).sum::<f64>() / face.ring.len() as f64;
+    faces.sort_by(|a, b| height(a).total_cmp(&height(b)));
+    faces
+}
+
+/// Whether the area of the ring, projected along z, is positive (beyond rounding).
+fn looks_up(mesh: &MeshView, ring: &[usize]) -> bool {
+    let (mut area, mut size) = (0.0, 0.0);
+    for i in 0..ring.len() {
+        let (a, b) = (mesh.nodes[ring[i]], mesh.nodes[ring[(i + 1) % ring.len()]]);
+        area += (a[0] * b[1] - a[1] * b[0]) / 2.0;
+        let edge: f64 = (0..3).map(|c| (a[c] - b[c]).powi(2)).sum();
+        size += edge;
+    }
+    area > EDGE_ON * size
+}
+
+/// Projected area over squared edges below which a face is seen edge-on.
+const EDGE_ON: f64 = 1e-6;
+
+/// Edges of the faces that belong to one face of their body only.
+fn outline(faces: &[Face]) -> Vec<[usize; 2]> {
+    let mut count: BTreeMap<(usize, usize, usize), ([usize; 2], usize)> = BTreeMap::new();
+    for face in faces {
+        for i in 0..face.ring.len() {
+            let (a, b) = (face.ring[i], face.ring[(i + 1) % face.ring.len()]);
+            count.entry((face.body, a.min(b), a.max(b))).or_insert(([a, b], 0)).1 += 1;
+        }
+    }
+    count.into_values().filter(|(_, n)| *n == 1).map(|(edge, _)| edge).collect()
+}

@@ -1,0 +1,185 @@
+//! The Mises field at the end of a stage, over the undeformed bodies, interpolated from the nodes.
+
+use super::super::record::StageEnd;
+use super::super::view::{BodyFields, MeshView};
+use super::axes::{Axis, Frame};
+use super::colour::{INK, PAPER, Rgb, viridis};
+use super::faces::{Corner, Visible, visible};
+use super::figure::{Anchor, Figure, Image, Point};
+use super::units::{LENGTH, STRESS, Unit};
+
+/// Largest width and height of the map.
+const ROOM: Point = (560.0, 460.0);
+
+/// Pixels of the map per unit of the figure.
+const FINE: f64 = 2.0;
+
+/// Share of the nodes whose values the colours cover when a few singular corners lie far above them.
+const COVERED: f64 = 0.995;
+
+/// How far above the covered values the largest must lie for the colours to stop below it.
+const FAR_ABOVE: f64 = 1.15;
+
+/// Draws the field; `None` when there is no face to draw or no finite position.
+pub(super) fn mises(scene: &str, mesh: &MeshView, end: &StageEnd, fields: &BodyFields) -> Option<Figure> {
+    let seen = visible(mesh);
+    let (lo, hi) = extent(mesh, &seen)?;
+    let (width, height) = (hi.0 - lo.0, hi.1 - lo.1);
+    let scale = (ROOM.0 / width).min(ROOM.1 / height);
+    let length = LENGTH.of([lo.0, lo.1, hi.0, hi.1].iter().fold(0.0, |most, v| most.max(v.abs())));
+    let frame = Frame {
+        at: (96.0, 40.0),
+        size: (width * scale, height * scale),
+        x: Axis::exact((lo.0 / length.factor, hi.0 / length.factor), format!("x [{}]", length.name)),
+        y: Axis::exact((lo.1 / length.factor, hi.1 / length.factor), format!("y [{}]", length.name)),
+    };
+    let colours = Colours::of(&seen, &fields.node_mises);
+    let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + frame.size.1 + 62.0);
+    let heading = format!("{scene}: end of stage “{}”", end.name);
+    figure.text((frame.at.0, 22.0), heading, super::axes::LABEL_TEXT, Anchor::Start, INK);
+    figure.image(map(mesh, &seen, &fields.node_mises, &colours, &frame, (lo, hi)));
+    for edge in &seen.outline {
+        let at = |node: usize| {
+            let [x, y, _] = mesh.nodes[node];
+            frame.point(x / length.factor, y / length.factor)
+        };
+        figure.line(vec![at(edge[0]), at(edge[1])], 0.9, INK);
+    }
+    frame.draw(&mut figure);
+    colour_bar(&mut figure, &frame, &colours);
+    Some(figure)
+}
+
+/// Which stresses the colours cover.
+struct Colours {
+    unit: Unit,
+    lo: f64,
+    hi: f64,
+    /// The largest value, when it lies above the colours.
+    above: Option<f64>,
+}
+
+impl Colours {
+    fn of(seen: &Visible, values: &[f64]) -> Self {
+        let mut nodes: Vec<usize> = seen.triangles.iter().flatten().flatten().copied().collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let mut sorted: Vec<f64> = nodes.iter().map(|&n| values[n]).filter(|v| v.is_finite()).collect();
+        sorted.sort_by(f64::total_cmp);
+        let (Some(&lo), Some(&most)) = (sorted.first(), sorted.last()) else {
+            return Self { unit: STRESS.of(1.0), lo: 0.0, hi: 1.0, above: None };
+        };
+        let covered = sorted[((sorted.len() - 1) as f64 * COVERED) as usize];
+        let (hi, above) = if most > FAR_ABOVE * covered { (covered, Some(most)) } else { (most, None) };
+        // A uniform field gets a bar around its value.
+        let room = if hi - lo <= FLAT * hi.abs() { if hi == 0.0 { 1.0 } else { 0.1 * hi.abs() } } else { 0.0 };
+        Self { unit: STRESS.of(most.abs()), lo: lo - room, hi: hi + room, above }
+    }
+
+    fn colour(&self, value: f64) -> Rgb {
+        viridis((value - self.lo) / (self.hi - self.lo))
+    }
+}
+
+/// Relative spread below which a field counts as uniform: what solvers leave of a constant.
+const FLAT: f64 = 1e-6;
+
+/// Lower left and upper right corner of what is seen.
+fn extent(mesh: &MeshView, seen: &Visible) -> Option<(Point, Point)> {
+    let start = ((f64::INFINITY, f64::INFINITY), (f64::NEG_INFINITY, f64::NEG_INFINITY));
+    let nodes = seen.triangles.iter().flatten().flatten();
+    let (lo, hi) = nodes.fold(start, |(lo, hi), &n| {
+        let [x, y, _] = mesh.nodes[n];
+        ((lo.0.min(x), lo.1.min(y)), (hi.0.max(x), hi.1.max(y)))
+    });
+    let fine = |a: f64, b: f64| a.is_finite() && b.is_finite() && b > a;
+    (fine(lo.0, hi.0) && fine(lo.1, hi.1)).then_some((lo, hi))
+}
+
+/// Fills the triangles into an image that covers the frame.
+fn map(
+    mesh: &MeshView,
+    seen: &Visible,
+    values: &[f64],
+    colours: &Colours,
+    frame: &Frame,
+    (lo, hi): (Point, Point),
+) -> Image {
+    let columns = (frame.size.0 * FINE).round().max(1.0) as usize;
+    let rows = (frame.size.1 * FINE).round().max(1.0) as usize;
+    let mut rgb = vec![PAPER; columns * rows];
+    let corner = |nodes: &Corner| {
+        let mean = |read: &dyn Fn(usize) -> f64| nodes.iter().map(|&n| read(n)).sum::<f64>() / nodes.len() as f64;
+        let x = (mean(&|n| mesh.nodes[n][0]) - lo.0) / (hi.0 - lo.0) * columns as f64;
+        let y = (hi.1 - mean(&|n| mesh.nodes[n][1])) / (hi.1 - lo.1) * rows as f64;
+        (x, y, mean(&|n| values[n]))
+    };
+    for triangle in &seen.triangles {
+        fill(&mut rgb, columns, triangle.each_ref().map(corner), colours);
+    }
+    Image { at: frame.at, size: frame.size, columns, rgb }
+}
+
+/// Fills one triangle of (column, row, value), linear in between.
+fn fill(rgb: &mut [Rgb], columns: usize, [a, b, c]: [(f64, f64, f64); 3], colours: &Colours) {
+    let twice = (b.0 - a.0) * (c.1 - a.1) - (c.0 - a.0) * (b.1 - a.1);
+    if twice == 0.0 || !twice.is_finite() {
+        return;
+    }
+    let rows = rgb.len() / columns;
+    let span = |u: f64, v: f64, w: f64, most: usize| {
+        (u.min(v).min(w).floor().max(0.0) as usize, (u.max(v).max(w).ceil().max(0.0) as usize).min(most))
+    };
+    let (left, right) = span(a.0, b.0, c.0, columns);
+    let (top, bottom) = span(a.1, b.1, c.1, rows);
+    for row in top..bottom {
+        for column in left..right {
+            let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
+            let u = ((x - a.0) * (c.1 - a.1) - (c.0 - a.0) * (y - a.1)) / twice;
+            let v = ((b.0 - a.0) * (y - a.1) - (x - a.0) * (b.1 - a.1)) / twice;
+            if u >= -ON_EDGE && v >= -ON_EDGE && u + v <= 1.0 + ON_EDGE {
+                rgb[row * columns + column] = colours.colour(a.2 + u * (b.2 - a.2) + v * (c.2 - a.2));
+            }
+        }
+    }
+}
+
+/// Slack of the inside test, so that a pixel on a shared edge is filled by one of its triangles in spite of rounding.
+const ON_EDGE: f64 = 1e-9;
+
+/// The bar right of the map, with an arrow where values lie above it.
+fn colour_bar(figure: &mut Figure, frame: &Frame, colours: &Colours) {
+    let (left, top) = (frame.at.0 + frame.size.0 + 28.0, frame.at.1);
+    let (width, height) = (18.0, frame.size.1);
+    let unit = colours.unit;
+    let (lo, hi) = (colours.lo / unit.factor, colours.hi / unit.factor);
+    let axis = Axis::exact((lo, hi), String::new());
+    let head = if colours.above.is_some() { 16.0 } else { 0.0 };
+    let body = height - head;
+    let rgb = (0..256).rev().map(|i| viridis(f64::from(i) / 255.0)).collect();
+    figure.image(Image { at: (left, top + head), size: (width, body), columns: 1, rgb });
+    let (bottom, right) = (top + height, left + width);
+    let mut ring = vec![(left, top + head), (left, bottom), (right, bottom), (right, top + head)];
+    if let Some(above) = colours.above {
+        let tip = (left + width / 2.0, top);
+        figure.area(vec![(left, top + head), tip, (right, top + head)], viridis(1.0));
+        ring.push(tip);
+        let text = format!("max {:.1}", above / unit.factor);
+        figure.text((right + 9.0, top + 3.0), text, 12.0, Anchor::Start, INK);
+    }
+    ring.push(ring[0]);
+    figure.line(ring, 1.0, INK);
+    let mut widest = 0;
+    for (place, text) in axis.ticks(super::axes::Y_TICKS) {
+        let y = bottom - place * body;
+        widest = widest.max(text.chars().count());
+        figure.line(vec![(right, y), (right + 5.0, y)], 1.0, INK);
+        // The note on the maximum needs the room above.
+        if colours.above.is_none() || y > top + 20.0 {
+            figure.text((right + 9.0, y), text, 13.0, Anchor::Start, INK);
+        }
+    }
+    let label = format!("Mises stress [{}]", unit.name);
+    let x = right + 9.0 + 8.3 * widest as f64 + 16.0;
+    figure.vertical_text((x, top + height / 2.0), label, super::axes::LABEL_TEXT, INK);
+}

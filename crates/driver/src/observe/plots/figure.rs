@@ -1,0 +1,120 @@
+//! A figure as a list of shapes, in units of which 96 make an inch; x to the right, y down.
+
+use super::colour::Rgb;
+
+/// A point of the figure.
+pub(super) type Point = (f64, f64);
+
+/// Where a text stands relative to its point; vertically it is always centred.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// A text.
+#[derive(Clone, Debug)]
+pub(super) struct Text {
+    pub at: Point,
+    pub text: String,
+    /// Em size.
+    pub size: f64,
+    pub anchor: Anchor,
+    /// Reads upwards.
+    pub vertical: bool,
+    pub colour: Rgb,
+}
+
+/// A raster image, rows from the top.
+#[derive(Clone, Debug)]
+pub(super) struct Image {
+    pub at: Point,
+    pub size: Point,
+    pub columns: usize,
+    pub rgb: Vec<Rgb>,
+}
+
+/// What a figure is made of.
+#[derive(Clone, Debug)]
+pub(super) enum Shape {
+    Line { points: Vec<Point>, width: f64, colour: Rgb },
+    Area { points: Vec<Point>, colour: Rgb },
+    Text(Text),
+    Image(Image),
+}
+
+/// A figure.
+#[derive(Clone, Debug)]
+pub(super) struct Figure {
+    pub width: f64,
+    pub height: f64,
+    pub shapes: Vec<Shape>,
+}
+
+impl Figure {
+    pub(super) fn new(width: f64, height: f64) -> Self {
+        Self { width, height, shapes: Vec::new() }
+    }
+
+    pub(super) fn line(&mut self, points: Vec<Point>, width: f64, colour: Rgb) {
+        self.shapes.push(Shape::Line { points, width, colour });
+    }
+
+    /// A dashed polyline: dashes of `on`, gaps of `off`.
+    pub(super) fn dashed(&mut self, points: &[Point], (on, off): Point, width: f64, colour: Rgb) {
+        for dash in dashes(points, on, off) {
+            self.line(dash, width, colour);
+        }
+    }
+
+    pub(super) fn area(&mut self, points: Vec<Point>, colour: Rgb) {
+        self.shapes.push(Shape::Area { points, colour });
+    }
+
+    pub(super) fn text(&mut self, at: Point, text: impl Into<String>, size: f64, anchor: Anchor, colour: Rgb) {
+        self.shapes.push(Shape::Text(Text { at, text: text.into(), size, anchor, vertical: false, colour }));
+    }
+
+    pub(super) fn vertical_text(&mut self, at: Point, text: impl Into<String>, size: f64, colour: Rgb) {
+        let anchor = Anchor::Middle;
+        self.shapes.push(Shape::Text(Text { at, text: text.into(), size, anchor, vertical: true, colour }));
+    }
+
+    pub(super) fn image(&mut self, image: Image) {
+        self.shapes.push(Shape::Image(image));
+    }
+}
+
+/// The drawn parts of a dashed polyline.
+fn dashes(points: &[Point], on: f64, off: f64) -> Vec<Vec<Point>> {
+    let (mut drawn, mut current, mut left, mut pen) = (Vec::new(), Vec::new(), on, true);
+    for pair in points.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
+        let length = (b.0 - a.0).hypot(b.1 - a.1);
+        let at = |s: f64| (a.0 + (b.0 - a.0) * s / length, a.1 + (b.1 - a.1) * s / length);
+        let mut done = 0.0;
+        if pen && current.is_empty() {
+            current.push(a);
+        }
+        while length - done > left {
+            done += left;
+            if pen {
+                current.push(at(done));
+                drawn.push(std::mem::take(&mut current));
+            } else {
+                current = vec![at(done)];
+            }
+            pen = !pen;
+            left = if pen { on } else { off };
+        }
+        left -= length - done;
+        if pen {
+            current.push(b);
+        }
+    }
+    if current.len() > 1 {
+        drawn.push(current);
+    }
+    drawn
+}

@@ -1,0 +1,103 @@
+//! What a person waiting sees: a bar on a terminal, one line per interval otherwise. The only place here that prints or
+//! reads a clock.
+
+use super::ObserveError;
+use super::view::{Observer, Setup, StepView};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
+use std::time::Instant;
+
+/// Lines per run where there is no terminal: one every 5 % of the simulated time.
+const LINES: f64 = 20.0;
+
+/// Resolution of the bar: thousandths of the simulated time.
+const TICKS: f64 = 1000.0;
+
+/// Shows simulated time, step length, iterations and step number on standard error.
+pub struct Progress {
+    sink: Sink,
+}
+
+enum Sink {
+    Bar(ProgressBar),
+    Lines { started: Instant, shown: usize },
+}
+
+impl Progress {
+    /// A bar when standard error is a terminal, lines otherwise.
+    #[must_use]
+    pub fn new() -> Self {
+        let sink = if std::io::stderr().is_terminal() {
+            Sink::Bar(bar())
+        } else {
+            Sink::Lines { started: Instant::now(), shown: 0 }
+        };
+        Self { sink }
+    }
+
+    /// Takes the bar off the screen, so that what follows stands below clean output.
+    pub fn finish(&self) {
+        if let Sink::Bar(bar) = &self.sink {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+impl Default for Progress {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+fn bar() -> ProgressBar {
+    let bar = ProgressBar::new(TICKS as u64);
+    // A template that does not parse would be a slip in the literal below; the default style shows progress as well.
+    if let Ok(style) = ProgressStyle::with_template("{elapsed_precise} {bar:32} {percent:>3} %  {msg}") {
+        bar.set_style(style.progress_chars("━╸ "));
+    }
+    bar
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.finish();
+    }
+}
+
+impl Observer for Progress {
+    fn begin(&mut self, _: &Setup) -> Result<(), ObserveError> {
+        match &mut self.sink {
+            Sink::Bar(bar) => bar.reset(),
+            Sink::Lines { started, shown } => (*started, *shown) = (Instant::now(), 0),
+        }
+        Ok(())
+    }
+
+    #[allow(clippy::print_stderr)] // This observer is the run's voice on standard error.
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        let part = (view.record.time / view.end_time).clamp(0.0, 1.0);
+        match &mut self.sink {
+            Sink::Bar(bar) => {
+                bar.set_position((part * TICKS) as u64);
+                bar.set_message(status(view));
+            }
+            Sink::Lines { started, shown } => {
+                let now = (part * LINES) as usize;
+                if now > *shown {
+                    *shown = now;
+                    let wall = started.elapsed().as_secs_f64();
+                    eprintln!("{:3.0} %  {}  [{wall:.1} s]", 100.0 * part, status(view));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn status(view: &StepView<'_>) -> String {
+    let record = view.record;
+    format!(
+        "{}: t = {:.6} s, dt = {:.3e} s, {} iterations, step {}",
+        view.stage, record.time, record.dt, record.iterations, record.step
+    )
+}

@@ -1,0 +1,205 @@
+//! A run kept in memory: the records of all steps, histories at points of the interfaces, and states at stage ends.
+
+use super::view::{BodyFields, InterfaceFields, Observer, Setup, StepRecord, StepView};
+use super::{ObserveError, expect_length};
+
+/// Histories at one slave node, one value a step (see [`InterfaceFields`] for signs).
+#[derive(Clone, Debug, Default)]
+pub struct PointHistory {
+    /// Index of the slave node in the interface.
+    pub node: usize,
+    /// Its reference position \[m\].
+    pub position: [f64; 3],
+    /// Relative tangential displacement \[m\].
+    pub relative_displacement: Vec<f64>,
+    /// Slip \[m\].
+    pub slip: Vec<f64>,
+    /// Slip rate \[m/s\].
+    pub slip_rate: Vec<f64>,
+    /// Friction coefficient \[-\].
+    pub friction: Vec<f64>,
+    /// Normal traction \[Pa\].
+    pub normal_traction: Vec<f64>,
+    /// Shear traction \[Pa\].
+    pub shear_traction: Vec<f64>,
+}
+
+/// Histories at the recorded points of one interface.
+#[derive(Clone, Debug, Default)]
+pub struct InterfaceHistory {
+    /// Name of the interface.
+    pub name: String,
+    /// Its points, in the order of the probes (or of the slave nodes, when all are kept).
+    pub points: Vec<PointHistory>,
+}
+
+/// The state at the end of a stage.
+#[derive(Clone, Debug, Default)]
+pub struct StageEnd {
+    /// Stage number, from 0.
+    pub stage: usize,
+    /// Its name.
+    pub name: String,
+    /// Time \[s\].
+    pub time: f64,
+    /// Fields of the interfaces, in the order of [`Setup::interfaces`].
+    pub interfaces: Vec<InterfaceFields>,
+    /// Fields of the bodies, when asked for.
+    pub bodies: Option<BodyFields>,
+}
+
+/// Keeps a run in memory.
+#[derive(Clone, Debug, Default)]
+pub struct Recorder {
+    all_nodes: bool,
+    with_bodies: bool,
+    setup: Setup,
+    records: Vec<StepRecord>,
+    times: Vec<f64>,
+    histories: Vec<InterfaceHistory>,
+    stage_ends: Vec<StageEnd>,
+}
+
+impl Recorder {
+    /// Keeps step records, histories at the probes, and interface fields at stage ends.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Keeps the bodies' fields at stage ends as well (one recovery each).
+    #[must_use]
+    pub fn with_bodies(mut self) -> Self {
+        self.with_bodies = true;
+        self
+    }
+
+    /// Keeps histories at every slave node instead of at the probes.
+    #[must_use]
+    pub fn at_all_nodes(mut self) -> Self {
+        self.all_nodes = true;
+        self
+    }
+
+    /// What the run announced before its first step.
+    #[must_use]
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// Records of all accepted steps.
+    #[must_use]
+    pub fn records(&self) -> &[StepRecord] {
+        &self.records
+    }
+
+    /// Times of all accepted steps \[s\], the abscissa of the histories.
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Histories, one entry an interface in the order of [`Setup::interfaces`].
+    #[must_use]
+    pub fn histories(&self) -> &[InterfaceHistory] {
+        &self.histories
+    }
+
+    /// History of the interface of this name.
+    #[must_use]
+    pub fn history(&self, interface: &str) -> Option<&InterfaceHistory> {
+        self.histories.iter().find(|history| history.name == interface)
+    }
+
+    /// States at the ends of the stages reached.
+    #[must_use]
+    pub fn stage_ends(&self) -> &[StageEnd] {
+        &self.stage_ends
+    }
+
+    /// State at the end of the stage of this name.
+    #[must_use]
+    pub fn stage_end(&self, name: &str) -> Option<&StageEnd> {
+        self.stage_ends.iter().find(|end| end.name == name)
+    }
+
+    /// Tributary areas of the slave nodes of an interface, for weighted means.
+    #[must_use]
+    pub fn areas(&self, interface: usize) -> &[f64] {
+        self.setup.interfaces.get(interface).map_or(&[], |mesh| &mesh.areas)
+    }
+}
+
+impl Observer for Recorder {
+    fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
+        let (all_nodes, with_bodies) = (self.all_nodes, self.with_bodies);
+        let histories = setup.interfaces.iter().map(|mesh| {
+            let nodes = if all_nodes { (0..mesh.positions.len()).collect() } else { mesh.probes.clone() };
+            let points = nodes.into_iter().map(|node| PointHistory {
+                node,
+                position: mesh.positions[node],
+                ..PointHistory::default()
+            });
+            InterfaceHistory { name: mesh.name.clone(), points: points.collect() }
+        });
+        *self = Self {
+            all_nodes,
+            with_bodies,
+            histories: histories.collect(),
+            setup: setup.clone(),
+            ..Self::default()
+        };
+        Ok(())
+    }
+
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        check_interfaces(&self.setup, view.interfaces)?;
+        self.times.push(view.record.time);
+        self.records.push(view.record.clone());
+        for (history, fields) in self.histories.iter_mut().zip(view.interfaces) {
+            for point in &mut history.points {
+                point.push(fields);
+            }
+        }
+        if view.ends_stage {
+            self.stage_ends.push(StageEnd {
+                stage: view.record.stage,
+                name: view.stage.to_string(),
+                time: view.record.time,
+                interfaces: view.interfaces.to_vec(),
+                bodies: self.with_bodies.then(|| (view.fields)()),
+            });
+        }
+        Ok(())
+    }
+}
+
+impl PointHistory {
+    fn push(&mut self, fields: &InterfaceFields) {
+        let node = self.node;
+        self.relative_displacement.push(fields.relative_displacement[node]);
+        self.slip.push(fields.slip[node]);
+        self.slip_rate.push(fields.slip_rate[node]);
+        self.friction.push(fields.friction[node]);
+        self.normal_traction.push(fields.normal_traction[node]);
+        self.shear_traction.push(fields.shear_traction[node]);
+    }
+}
+
+/// Refuses interface fields that do not fit the announced slave nodes, so that no observer indexes out of range.
+pub(super) fn check_interfaces(setup: &Setup, interfaces: &[InterfaceFields]) -> Result<(), ObserveError> {
+    expect_length("interfaces of the step", setup.interfaces.len(), interfaces.len())?;
+    for (mesh, fields) in setup.interfaces.iter().zip(interfaces) {
+        let n = mesh.positions.len();
+        let check = |field: &str, found| expect_length(&format!("{field} of interface {}", mesh.name), n, found);
+        check("gap", fields.gap.len())?;
+        check("normal traction", fields.normal_traction.len())?;
+        check("shear traction", fields.shear_traction.len())?;
+        check("relative displacement", fields.relative_displacement.len())?;
+        check("slip", fields.slip.len())?;
+        check("slip rate", fields.slip_rate.len())?;
+        check("friction", fields.friction.len())?;
+        check("status", fields.status.len())?;
+    }
+    Ok(())
+}

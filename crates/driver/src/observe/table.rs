@@ -1,0 +1,89 @@
+//! Tables as CSV: profiles along an interface at one time, and histories at its probes.
+
+use super::view::{InterfaceFields, InterfaceMesh};
+
+/// One column of an interface's table: its name with unit, and how to read it.
+type Column = (&'static str, fn(&InterfaceFields, usize) -> f64);
+
+/// Columns of a profile.
+const PROFILE: [Column; 8] = [
+    ("gap [m]", |f, i| f.gap[i]),
+    ("normal_traction [Pa]", |f, i| f.normal_traction[i]),
+    ("shear_traction [Pa]", |f, i| f.shear_traction[i]),
+    ("relative_displacement [m]", |f, i| f.relative_displacement[i]),
+    ("slip [m]", |f, i| f.slip[i]),
+    ("slip_rate [m/s]", |f, i| f.slip_rate[i]),
+    ("friction [-]", |f, i| f.friction[i]),
+    ("status [0 open 1 stick 2 slip]", |f, i| f64::from(f.status[i])),
+];
+
+/// Columns of each probe.
+const PROBE: [Column; 6] = [
+    ("relative_displacement [m]", |f, i| f.relative_displacement[i]),
+    ("slip [m]", |f, i| f.slip[i]),
+    ("slip_rate [m/s]", |f, i| f.slip_rate[i]),
+    ("friction [-]", |f, i| f.friction[i]),
+    ("normal_traction [Pa]", |f, i| f.normal_traction[i]),
+    ("shear_traction [Pa]", |f, i| f.shear_traction[i]),
+];
+
+/// The shortest decimal that reads back as the same number, with an exponent where that is easier to read.
+fn number(value: f64) -> String {
+    // Outside these decades positional notation is mostly zeros.
+    if value == 0.0 || (1e-2..1e6).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
+}
+
+/// One row per slave node: time, position, tributary area and all fields.
+pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields) -> Vec<u8> {
+    let mut rows = Rows::default();
+    let head = ["time [s]", "node", "x [m]", "y [m]", "z [m]", "area [m2]"];
+    rows.push(head.iter().map(ToString::to_string).chain(PROFILE.iter().map(|(name, _)| (*name).to_string())));
+    for (i, position) in mesh.positions.iter().enumerate() {
+        let place = [number(time), i.to_string()].into_iter().chain(position.iter().map(|&x| number(x)));
+        let area = number(mesh.areas.get(i).copied().unwrap_or(f64::NAN));
+        rows.push(place.chain([area]).chain(PROFILE.iter().map(|(_, read)| number(read(fields, i)))));
+    }
+    rows.bytes()
+}
+
+/// The header of a table of probes.
+pub(super) fn probe_header(mesh: &InterfaceMesh) -> Vec<u8> {
+    let mut rows = Rows::default();
+    let labels = super::plots::position_labels(mesh.probes.iter().map(|&node| mesh.positions[node]));
+    let columns = labels.iter().flat_map(|label| PROBE.iter().map(move |(name, _)| format!("{name} at {label}")));
+    rows.push(["time [s]", "stage", "step"].iter().map(ToString::to_string).chain(columns));
+    rows.bytes()
+}
+
+/// One row of a table of probes.
+pub(super) fn probe_row(
+    time: f64,
+    stage: usize,
+    step: usize,
+    mesh: &InterfaceMesh,
+    fields: &InterfaceFields,
+) -> Vec<u8> {
+    let mut rows = Rows::default();
+    let values = mesh.probes.iter().flat_map(|&i| PROBE.iter().map(move |(_, read)| number(read(fields, i))));
+    rows.push([number(time), stage.to_string(), step.to_string()].into_iter().chain(values));
+    rows.bytes()
+}
+
+/// Rows in memory.
+struct Rows(csv::Writer<Vec<u8>>);
+
+impl Default for Rows {
+    fn default() -> Self {
+        Self(csv::Writer::from_writer(Vec::new()))
+    }
+}
+
+impl Rows {
+    fn push(&mut self, row: impl Iterator<Item = String>) {
+        self.0.write_record(row.map(String::into_bytes)).expect("writing to a Vec cannot fail");
+    }
+
+    fn bytes(self) -> Vec<u8> {
+        self.0.into_inner().expect("writing to a Vec cannot fail")
+    }
+}

@@ -1,0 +1,4 @@
+//! Observers on a small made-up run: two blocks of quad4 (or hex8) pressed and sheared.
+
+mod fake;
+mod outputs;

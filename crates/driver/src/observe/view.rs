@@ -1,0 +1,163 @@
+//! What a run shows its observers: plain slices, free of the dimension of the scene (vectors are padded to three
+//! components), so that writers and plots exist once.
+
+use serde::Serialize;
+
+/// The mesh of a run, for writers of fields. Written once.
+#[derive(Clone, Debug, Default)]
+pub struct MeshView {
+    /// Node positions \[m\].
+    pub nodes: Vec<[f64; 3]>,
+    /// Cells: VTK cell type, and node numbers in VTK order.
+    pub cells: Vec<(u8, Vec<usize>)>,
+    /// Body each cell belongs to, as an index into `bodies`.
+    pub cell_body: Vec<usize>,
+    /// Names of the bodies.
+    pub bodies: Vec<String>,
+    /// 2 or 3.
+    pub dimension: usize,
+}
+
+/// An interface's fixed part. Written once.
+#[derive(Clone, Debug, Default)]
+pub struct InterfaceMesh {
+    /// Name in the scene.
+    pub name: String,
+    /// Reference positions of the slave nodes \[m\].
+    pub positions: Vec<[f64; 3]>,
+    /// Tributary areas \[m², or m of thickness-unit in two dimensions\].
+    pub areas: Vec<f64>,
+    /// Faces of the slave side as polylines (2 nodes) or polygons (3, 4 nodes), numbering `positions`.
+    pub faces: Vec<Vec<usize>>,
+    /// Probe points: indices into `positions`.
+    pub probes: Vec<usize>,
+}
+
+/// State of an interface after a step, one value a slave node.
+#[derive(Clone, Debug, Default)]
+pub struct InterfaceFields {
+    /// Normal gap g_n \[m\], negative when penetrating.
+    pub gap: Vec<f64>,
+    /// Normal traction f_n \[Pa\].
+    pub normal_traction: Vec<f64>,
+    /// Shear traction \[Pa\]: signed along the first tangent in two dimensions, magnitude in three.
+    pub shear_traction: Vec<f64>,
+    /// Relative tangential displacement (slave relative to master) \[m\]: elastic part and slip together, with the sign of
+    /// the shear traction's measure, since the law began to act.
+    pub relative_displacement: Vec<f64>,
+    /// Slip (plastic part) \[m\], signed in two dimensions, since the law began to act.
+    pub slip: Vec<f64>,
+    /// Slip rate V \[m/s\].
+    pub slip_rate: Vec<f64>,
+    /// Friction coefficient |t|/f_n \[-\]; 0 where open or frictionless.
+    pub friction: Vec<f64>,
+    /// 0 open, 1 stick, 2 slip.
+    pub status: Vec<u8>,
+}
+
+/// Nodal fields of the bodies, recovered only when asked for.
+#[derive(Clone, Debug, Default)]
+pub struct BodyFields {
+    /// Displacement per node \[m\].
+    pub displacement: Vec<[f64; 3]>,
+    /// Cauchy stress per cell, averaged over its quadrature points: xx, yy, zz, xy, yz, zx \[Pa\].
+    pub cell_stress: Vec<[f64; 6]>,
+    /// Mises stress per cell \[Pa\].
+    pub cell_mises: Vec<f64>,
+    /// Mises stress per node, averaged within each body \[Pa\].
+    pub node_mises: Vec<f64>,
+}
+
+/// What the report keeps of one step.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct StepRecord {
+    /// Stage number, from 0.
+    pub stage: usize,
+    /// Step number in the run, from 1.
+    pub step: usize,
+    /// Time at its end \[s\].
+    pub time: f64,
+    /// Its length \[s\].
+    pub dt: f64,
+    /// Newton iterations, or re-solves of the R-minimum rule.
+    pub iterations: usize,
+    /// Trials thrown away before this step was accepted.
+    pub rejected: usize,
+    /// Residual over the largest force in the system \[-\].
+    pub residual_ratio: f64,
+    /// Drift of static-explicit steps: max |t - μ f_n|/max |t| \[-\]; 0 for implicit steps by construction.
+    pub drift: f64,
+    /// Largest penetration \[m\].
+    pub penetration: f64,
+    /// What set the length of the step.
+    pub limited_by: String,
+}
+
+/// Operation counts of a run.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Counts {
+    /// Accepted steps.
+    pub steps: usize,
+    /// Rejected trials.
+    pub rejected: usize,
+    /// Newton iterations, or forward solves.
+    pub iterations: usize,
+    /// Residual evaluations.
+    pub residuals: usize,
+    /// Tangent evaluations.
+    pub tangents: usize,
+    /// Factorisations of the step's system.
+    pub factorisations: usize,
+    /// Solves with such a factorisation.
+    pub solves: usize,
+    /// Factorisations of bodies (condensation).
+    pub body_factorisations: usize,
+    /// Right-hand sides solved with those.
+    pub body_solves: usize,
+    /// Searches of contact pairs.
+    pub searches: usize,
+}
+
+/// A step as its observers see it.
+pub struct StepView<'a> {
+    /// Figures of the step.
+    pub record: &'a StepRecord,
+    /// Stage name.
+    pub stage: &'a str,
+    /// Whether it ends its stage.
+    pub ends_stage: bool,
+    /// Prescribed end time of the run \[s\].
+    pub end_time: f64,
+    /// Interfaces, in the order of [`Setup::interfaces`].
+    pub interfaces: &'a [InterfaceFields],
+    /// Recovers the fields of the bodies (costs a solve on the condensed path).
+    pub fields: &'a dyn Fn() -> BodyFields,
+}
+
+/// What observers learn before the first step.
+#[derive(Clone, Debug, Default)]
+pub struct Setup {
+    /// Title of the scene.
+    pub title: String,
+    /// Mesh.
+    pub mesh: MeshView,
+    /// Interfaces.
+    pub interfaces: Vec<InterfaceMesh>,
+    /// Stage names and end times \[s\].
+    pub stages: Vec<(String, f64)>,
+}
+
+/// Watches a run.
+pub trait Observer {
+    /// Before the first step, with the state at time 0.
+    ///
+    /// # Errors
+    /// When something cannot be written.
+    fn begin(&mut self, setup: &Setup) -> Result<(), super::ObserveError>;
+
+    /// After each accepted step.
+    ///
+    /// # Errors
+    /// When something cannot be written.
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), super::ObserveError>;
+}

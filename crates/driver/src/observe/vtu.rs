@@ -1,0 +1,258 @@
+//! VTK XML unstructured grids: appended data, base64, zlib blocks, 64-bit headers (file format version 1.0).
+//!
+//! Layout of one array in the appended section, after VTK's `vtkXMLDataParser`: the header `[blocks, block size, size of
+//! the last block if partial else 0, compressed size of each block]` as little-endian u64, base64-encoded on its own;
+//! then the zlib streams of all blocks, concatenated and base64-encoded together. Offsets count characters after `_`.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use std::fmt::Write as _;
+use std::io::Write as _;
+
+/// Uncompressed bytes per zlib block: VTK's own default.
+const BLOCK: usize = 1 << 15;
+
+/// Values of a data array.
+#[derive(Clone, Copy, Debug)]
+pub enum Values<'a> {
+    /// `Float64`.
+    F64(&'a [f64]),
+    /// `Int64`.
+    I64(&'a [i64]),
+    /// `UInt8`.
+    U8(&'a [u8]),
+}
+
+/// A named array with `names.len().max(1)` components per point or cell.
+#[derive(Clone, Debug)]
+pub struct Array<'a> {
+    name: &'a str,
+    components: usize,
+    component_names: &'a [&'a str],
+    encoded: Encoded,
+}
+
+/// An array as it stands in the file.
+#[derive(Clone, Debug)]
+struct Encoded {
+    kind: &'static str,
+    length: usize,
+    text: String,
+}
+
+impl<'a> Array<'a> {
+    /// A scalar per point or cell.
+    #[must_use]
+    pub fn scalar(name: &'a str, values: Values<'_>) -> Self {
+        Self { name, components: 1, component_names: &[], encoded: Encoded::new(values) }
+    }
+
+    /// A vector of three components.
+    #[must_use]
+    pub fn vector(name: &'a str, values: &[[f64; 3]]) -> Self {
+        Self { name, components: 3, component_names: &[], encoded: Encoded::new(Values::F64(values.as_flattened())) }
+    }
+
+    /// A symmetric tensor in VTK's order xx, yy, zz, xy, yz, xz.
+    #[must_use]
+    pub fn tensor(name: &'a str, values: &[[f64; 6]]) -> Self {
+        let component_names = &["XX", "YY", "ZZ", "XY", "YZ", "XZ"];
+        Self { name, components: 6, component_names, encoded: Encoded::new(Values::F64(values.as_flattened())) }
+    }
+
+    /// Number of tuples.
+    #[must_use]
+    pub fn tuples(&self) -> usize {
+        self.encoded.length / self.components
+    }
+}
+
+/// The part of a file that does not change from time to time: points and cells, encoded once.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    points: Encoded,
+    connectivity: Encoded,
+    offsets: Encoded,
+    types: Encoded,
+}
+
+impl Grid {
+    /// From node positions \[m\] and cells (VTK type, node numbers in VTK order).
+    #[must_use]
+    pub fn new(points: &[[f64; 3]], cells: &[(u8, Vec<usize>)]) -> Self {
+        let connectivity: Vec<i64> = cells.iter().flat_map(|(_, nodes)| nodes).map(|&n| n as i64).collect();
+        let mut end = 0;
+        let offsets: Vec<i64> = cells
+            .iter()
+            .map(|(_, nodes)| {
+                end += nodes.len() as i64;
+                end
+            })
+            .collect();
+        let types: Vec<u8> = cells.iter().map(|(kind, _)| *kind).collect();
+        Self {
+            points: Encoded::new(Values::F64(points.as_flattened())),
+            connectivity: Encoded::new(Values::I64(&connectivity)),
+            offsets: Encoded::new(Values::I64(&offsets)),
+            types: Encoded::new(Values::U8(&types)),
+        }
+    }
+
+    /// Number of points.
+    #[must_use]
+    pub fn points(&self) -> usize {
+        self.points.length / 3
+    }
+
+    /// Number of cells.
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        self.types.length
+    }
+
+    /// The bytes of a file with these arrays at `time` \[s\]. Lengths must fit the grid (checked by the caller's types of
+    /// fields; asserted in debug builds).
+    #[must_use]
+    pub fn file(&self, time: f64, point_data: &[Array<'_>], cell_data: &[Array<'_>]) -> Vec<u8> {
+        debug_assert!(point_data.iter().all(|array| array.tuples() == self.points()));
+        debug_assert!(cell_data.iter().all(|array| array.tuples() == self.cells()));
+        let mut out = Writer::default();
+        out.line("<?xml version=\"1.0\"?>");
+        out.line(
+            "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
+             compressor=\"vtkZLibDataCompressor\">",
+        );
+        out.line("<UnstructuredGrid>");
+        out.line("<FieldData>");
+        out.array("Name=\"TimeValue\" NumberOfTuples=\"1\"", &Encoded::new(Values::F64(&[time])));
+        out.line("</FieldData>");
+        out.line(&format!("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", self.points(), self.cells()));
+        out.line("<Points>");
+        out.array("Name=\"Points\" NumberOfComponents=\"3\"", &self.points);
+        out.line("</Points>");
+        out.line("<Cells>");
+        out.array("Name=\"connectivity\"", &self.connectivity);
+        out.array("Name=\"offsets\"", &self.offsets);
+        out.array("Name=\"types\"", &self.types);
+        out.line("</Cells>");
+        out.section("PointData", point_data);
+        out.section("CellData", cell_data);
+        out.line("</Piece>");
+        out.line("</UnstructuredGrid>");
+        out.finish()
+    }
+}
+
+impl Encoded {
+    fn new(values: Values<'_>) -> Self {
+        let (kind, length, bytes) = match values {
+            Values::F64(v) => ("Float64", v.len(), v.iter().flat_map(|x| x.to_le_bytes()).collect()),
+            Values::I64(v) => ("Int64", v.len(), v.iter().flat_map(|x| x.to_le_bytes()).collect()),
+            Values::U8(v) => ("UInt8", v.len(), v.to_vec()),
+        };
+        Self { kind, length, text: encode(&bytes) }
+    }
+}
+
+/// Header and blocks of one array (see the module's head).
+fn encode(bytes: &[u8]) -> String {
+    let mut header = vec![bytes.len().div_ceil(BLOCK) as u64, BLOCK as u64, (bytes.len() % BLOCK) as u64];
+    let mut data = Vec::with_capacity(bytes.len() / 2);
+    for block in bytes.chunks(BLOCK) {
+        let compressed = deflate(block);
+        header.push(compressed.len() as u64);
+        data.extend(compressed);
+    }
+    let header: Vec<u8> = header.iter().flat_map(|word| word.to_le_bytes()).collect();
+    let mut text = STANDARD.encode(header);
+    STANDARD.encode_string(data, &mut text);
+    text
+}
+
+/// A zlib stream.
+pub(super) fn deflate(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
+    encoder.write_all(bytes).and_then(|()| encoder.finish()).expect("writing to a Vec cannot fail")
+}
+
+/// Head and appended section of a file as they grow.
+#[derive(Default)]
+struct Writer {
+    head: String,
+    appended: String,
+}
+
+impl Writer {
+    fn line(&mut self, text: &str) {
+        self.head.push_str(text);
+        self.head.push('\n');
+    }
+
+    fn array(&mut self, attributes: &str, encoded: &Encoded) {
+        let (kind, offset) = (encoded.kind, self.appended.len());
+        self.line(&format!("<DataArray type=\"{kind}\" {attributes} format=\"appended\" offset=\"{offset}\"/>"));
+        self.appended.push_str(&encoded.text);
+    }
+
+    fn section(&mut self, tag: &str, arrays: &[Array<'_>]) {
+        self.line(&format!("<{tag}>"));
+        for array in arrays {
+            let mut attributes = format!("Name=\"{}\"", escape(array.name));
+            if array.components > 1 {
+                // Writing to a String cannot fail.
+                let _ = write!(attributes, " NumberOfComponents=\"{}\"", array.components);
+            }
+            for (i, name) in array.component_names.iter().enumerate() {
+                let _ = write!(attributes, " ComponentName{i}=\"{name}\"");
+            }
+            self.array(&attributes, &array.encoded);
+        }
+        self.line(&format!("</{tag}>"));
+    }
+
+    fn finish(mut self) -> Vec<u8> {
+        self.line("<AppendedData encoding=\"base64\">");
+        self.head.push('_');
+        self.head.push_str(&self.appended);
+        self.head.push_str("\n</AppendedData>\n</VTKFile>\n");
+        self.head.into_bytes()
+    }
+}
+
+/// Text as the value of an XML attribute, or as its content.
+pub(super) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// One data set of a collection.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PvdEntry {
+    /// Time \[s\].
+    pub time: f64,
+    /// Part number: 0 the bodies, 1.. the interfaces.
+    pub part: usize,
+    /// Name of the part.
+    pub name: String,
+    /// Path relative to the collection.
+    pub file: String,
+}
+
+/// The bytes of a ParaView collection.
+#[must_use]
+pub fn pvd(entries: &[PvdEntry]) -> Vec<u8> {
+    let mut out = String::from(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n\
+         <Collection>\n",
+    );
+    for PvdEntry { time, part, name, file } in entries {
+        let (name, file) = (escape(name), escape(file));
+        let _ = writeln!(
+            out,
+            "<DataSet timestep=\"{time}\" group=\"\" part=\"{part}\" name=\"{name}\" file=\"{file}\"/>"
+        );
+    }
+    out.push_str("</Collection>\n</VTKFile>\n");
+    out.into_bytes()
+}
