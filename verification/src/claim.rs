@@ -392,7 +392,7 @@ impl Claim {
     }
 
     fn mark(&self, measured: &Measured) -> Option<Mark> {
-        if matches!(self.test, Test::Count { .. }) {
+        if matches!(self.test, Test::Count { .. }) || measured.ratio > 1.0 {
             return None;
         }
         if measured.ratio < SLACK_BELOW {

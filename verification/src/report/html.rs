@@ -100,7 +100,7 @@ fn case_list(outcomes: &[Outcome]) -> String {
         let _ = writeln!(
             rows,
             "<tr><td><a href=\"cases/{name}.html\">{name}</a></td><td>{}</td>\
-             <td class=\"number {class}\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>\
+             <td class=\"number\">{}</td><td class=\"number {class}\">{}</td><td class=\"number\">{}</td>\
              <td class=\"number\">{}</td><td class=\"number\">{} s</td></tr>",
             escape(page_title(outcome)),
             summary.hold,
@@ -197,7 +197,7 @@ fn claims(claims: &[Judged]) -> String {
 fn claim_row(judged: &Judged) -> String {
     let claim = &judged.claim;
     let (error, bound, ratio) = match &judged.measured {
-        Some(m) => (number(m.error), number(m.bound), bar(m.ratio, judged.mark)),
+        Some(m) => (number(m.error), number(m.bound) + scale(&claim.test), bar(m.ratio, judged.mark)),
         None => ("–".to_owned(), "–".to_owned(), "–".to_owned()),
     };
     let class = if judged.verdict == Verdict::Disagrees { " class=\"disagrees\"" } else { "" };
@@ -213,6 +213,15 @@ fn claim_row(judged: &Judged) -> String {
         reason(judged),
         cost(judged),
     )
+}
+
+/// What the bound is measured in, where it is not the unit of the value.
+fn scale(test: &Test) -> &'static str {
+    match test {
+        Test::Relative { .. } => "<div class=\"small\">relative</div>",
+        Test::Order(_) => "<div class=\"small\">in the order</div>",
+        _ => "",
+    }
 }
 
 fn verdict(judged: &Judged) -> String {
@@ -234,7 +243,7 @@ fn bar(ratio: f64, mark: Option<Mark>) -> String {
     let word = match mark {
         Some(Mark::Slack) => "<div class=\"small\">slack</div>",
         Some(Mark::SlackUnexplained) => "<div class=\"small warn\">slack, no reason given</div>",
-        Some(Mark::Thin) if ratio <= 1.0 => "<div class=\"small warn\">thin</div>",
+        Some(Mark::Thin) => "<div class=\"small warn\">thin</div>",
         _ => "",
     };
     let width = if ratio.is_finite() { (100.0 * ratio).clamp(0.0, 100.0) } else { 100.0 };

@@ -1,0 +1,104 @@
+//! Starts commands and reads result files; knows no physics.
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program speaks through its standard streams"
+)]
+
+mod interop;
+mod report;
+mod stage;
+mod tidy;
+
+use clap::{Parser, Subcommand};
+use stage::{Failure, Stage};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Chores of the workspace.
+#[derive(Parser)]
+#[command(name = "cargo xtask")]
+struct Options {
+    #[command(subcommand)]
+    chore: Chore,
+}
+
+#[derive(Subcommand)]
+enum Chore {
+    /// tidy, the workspace's tests, then the verification suite.
+    Verify {
+        /// Run the long cases, too.
+        #[arg(long)]
+        full: bool,
+        /// Run only cases whose name matches.
+        #[arg(long, value_name = "GLOB")]
+        case: Option<String>,
+    },
+    /// Checks what the compiler and clippy do not.
+    Tidy,
+    /// Runs the benches.
+    Bench,
+    /// Says where the last verification report is, and what it says.
+    Report,
+    /// Builds the book.
+    Docs,
+    /// Checks the outputs of a run with their real readers, in a Python environment of its own.
+    Interop,
+}
+
+fn main() -> ExitCode {
+    let root = root();
+    let result = match Options::parse().chore {
+        Chore::Verify { full, case } => verify(&root, full, case.as_deref()),
+        Chore::Tidy => tidy(&root),
+        Chore::Bench => Stage::new("bench", "cargo").args(["bench", "-p", "asperity-benches"]).run(&root),
+        Chore::Report => report::print(&root),
+        Chore::Docs => docs(&root),
+        Chore::Interop => interop::run(&root),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("error: {failure}");
+            ExitCode::from(failure.code())
+        }
+    }
+}
+
+/// The workspace: the parent of this package.
+fn root() -> PathBuf {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.parent().unwrap_or(package).to_owned()
+}
+
+fn verify(root: &Path, full: bool, case: Option<&str>) -> Result<(), Failure> {
+    tidy(root)?;
+    Stage::new("tests", "cargo").args(["test", "--workspace", "--release"]).run(root)?;
+    let mut suite =
+        Stage::new("verification", "cargo").args(["run", "--release", "-p", "asperity-verification", "--"]);
+    if full {
+        suite = suite.args(["--full"]);
+    }
+    if let Some(case) = case {
+        suite = suite.args(["--case", case]);
+    }
+    suite.run(root)
+}
+
+fn tidy(root: &Path) -> Result<(), Failure> {
+    stage::announce("tidy");
+    let found = tidy::check(root)?;
+    for problem in &found {
+        println!("{problem}");
+    }
+    let errors = found.iter().filter(|problem| !problem.warning).count();
+    println!("tidy: {errors} errors, {} warnings", found.len() - errors);
+    if errors == 0 { Ok(()) } else { Err(Failure::Tidy { errors }) }
+}
+
+fn docs(root: &Path) -> Result<(), Failure> {
+    if !stage::exists("mdbook") {
+        return Err(Failure::Missing { program: "mdbook", how: "cargo install mdbook --locked" });
+    }
+    Stage::new("docs", "mdbook").args(["build", "docs"]).run(root)
+}

@@ -1,0 +1,144 @@
+//! Running commands, one announced stage after another.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// Why a chore failed.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// A command ended with an error; its own words stand above.
+    #[error("stage `{stage}` failed{}", .code.map_or(String::new(), |code| format!(" with exit code {code}")))]
+    Stage {
+        /// Which stage.
+        stage: String,
+        /// The exit code, when it was not a signal.
+        code: Option<i32>,
+    },
+    /// A command could not be started.
+    #[error("cannot start `{program}`: {source}")]
+    Start {
+        /// Which program.
+        program: String,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// tidy found something.
+    #[error("tidy found {errors} errors")]
+    Tidy {
+        /// How many.
+        errors: usize,
+    },
+    /// A program this chore needs is not there.
+    #[error("`{program}` is needed and was not found; get it with: {how}")]
+    Missing {
+        /// Which.
+        program: &'static str,
+        /// How to get it.
+        how: &'static str,
+    },
+    /// A file this chore needs is not there or cannot be read.
+    #[error("cannot read {}: {source}", .path.display())]
+    Read {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A result that must exist first.
+    #[error("{} does not exist; make it with: {how}", .path.display())]
+    Absent {
+        /// Which.
+        path: PathBuf,
+        /// How to make it.
+        how: &'static str,
+    },
+    /// A result file that is not what it should be.
+    #[error("{} is not a report: {source}", .path.display())]
+    Report {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        source: serde_json::Error,
+    },
+    /// Cargo's description of the workspace.
+    #[error("cargo metadata: {0}")]
+    Metadata(#[from] cargo_metadata::Error),
+    /// Walking the tree.
+    #[error("cannot walk the workspace: {0}")]
+    Walk(#[from] walkdir::Error),
+}
+
+impl Failure {
+    /// The exit code to pass on: the command's own where there is one.
+    pub fn code(&self) -> u8 {
+        match self {
+            Failure::Stage { code: Some(code), .. } => {
+                u8::try_from(*code).ok().filter(|&c| c != 0).unwrap_or(1)
+            }
+            _ => 1,
+        }
+    }
+}
+
+/// One command with a name.
+pub struct Stage {
+    name: String,
+    program: PathBuf,
+    arguments: Vec<String>,
+}
+
+impl Stage {
+    /// A stage that starts `program`. `cargo` means the one that started us.
+    pub fn new(name: &str, program: impl Into<PathBuf>) -> Stage {
+        let program = program.into();
+        let own = std::env::var_os("CARGO").filter(|_| program == Path::new("cargo"));
+        Stage { name: name.to_owned(), program: own.map_or(program, PathBuf::from), arguments: Vec::new() }
+    }
+
+    /// Adds arguments.
+    pub fn args<'a>(mut self, arguments: impl IntoIterator<Item = &'a str>) -> Stage {
+        self.arguments.extend(arguments.into_iter().map(str::to_owned));
+        self
+    }
+
+    /// Runs it in `folder`, its output going where ours goes.
+    pub fn run(self, folder: &Path) -> Result<(), Failure> {
+        announce(&self.name);
+        let program = self.program.display().to_string();
+        let status = Command::new(&self.program)
+            .args(&self.arguments)
+            .current_dir(folder)
+            .status()
+            .map_err(|source| Failure::Start { program, source })?;
+        if status.success() { Ok(()) } else { Err(Failure::Stage { stage: self.name, code: status.code() }) }
+    }
+}
+
+/// Prints the head of a stage.
+pub fn announce(name: &str) {
+    println!("\n== {name} ==");
+}
+
+/// Whether a program can be started.
+pub fn exists(program: &str) -> bool {
+    let quiet = Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+    quiet.is_ok_and(|status| status.success())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Failure, Stage};
+    use std::path::Path;
+
+    #[test]
+    fn the_exit_code_of_a_command_passes_through() {
+        let result = Stage::new("shell", "sh").args(["-c", "exit 7"]).run(Path::new("."));
+        assert_eq!(result.map_err(|failure| failure.code()), Err(7));
+    }
+
+    #[test]
+    fn a_program_that_does_not_exist_is_named() {
+        let result = Stage::new("none", "no-such-program-here").run(Path::new("."));
+        assert!(matches!(result, Err(Failure::Start { program, .. }) if program == "no-such-program-here"));
+    }
+}

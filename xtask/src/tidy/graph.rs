@@ -1,0 +1,165 @@
+//! Who may depend on whom, and which libraries exist once.
+
+use super::Problem;
+use crate::stage::Failure;
+use cargo_metadata::{Metadata, MetadataCommand};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// What each package of the workspace may depend on inside it, tests and build scripts included.
+const ALLOWED: [(&str, &[&str]); 7] = [
+    ("asperity-friction", &[]),
+    ("asperity-fem", &[]),
+    ("asperity-contact", &["asperity-fem", "asperity-friction"]),
+    ("asperity-driver", &["asperity-fem", "asperity-friction", "asperity-contact"]),
+    ("asperity-verification", &["asperity-fem", "asperity-friction", "asperity-contact", "asperity-driver"]),
+    ("asperity-benches", &["asperity-fem", "asperity-friction", "asperity-contact", "asperity-driver"]),
+    ("xtask", &[]),
+];
+
+/// Libraries that work on values only.
+pub const LIBRARIES: [&str; 3] = ["asperity-friction", "asperity-fem", "asperity-contact"];
+
+/// What a library of values has no use for: terminals, pictures, time integration.
+const NOT_IN_LIBRARIES: [&str; 6] = ["clap", "miette", "plotters", "indicatif", "diffsol", "toml"];
+
+/// Libraries of which two versions would mean two kinds of matrices.
+const SINGLE: [&str; 2] = ["faer", "nalgebra"];
+
+/// A dependency: who, on whom, and whether it is for tests only.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Edge {
+    from: String,
+    to: String,
+    manifest: String,
+}
+
+/// Checks the dependency graph and the lock file.
+pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
+    let metadata = MetadataCommand::new().manifest_path(root.join("Cargo.toml")).no_deps().exec()?;
+    let edges = edges(root, &metadata);
+    let members: Vec<String> = metadata.workspace_packages().iter().map(|p| p.name.to_string()).collect();
+    let path = root.join("Cargo.lock");
+    let lock = std::fs::read_to_string(&path).map_err(|source| Failure::Read { path, source })?;
+    let mut found = direction(&members, &edges);
+    found.extend(libraries(&edges));
+    found.extend(single_versions(&lock));
+    Ok(found)
+}
+
+fn edges(root: &Path, metadata: &Metadata) -> Vec<Edge> {
+    let mut edges = Vec::new();
+    for package in metadata.workspace_packages() {
+        let manifest = package.manifest_path.as_std_path();
+        let manifest = manifest.strip_prefix(root).unwrap_or(manifest).display().to_string();
+        for dependency in &package.dependencies {
+            let to = dependency.name.clone();
+            edges.push(Edge { from: package.name.to_string(), to, manifest: manifest.clone() });
+        }
+    }
+    edges
+}
+
+fn direction(members: &[String], edges: &[Edge]) -> Vec<Problem> {
+    let mut found = Vec::new();
+    for member in members.iter().filter(|member| !ALLOWED.iter().any(|(name, _)| name == member)) {
+        let message =
+            format!("package {member} has no place in the dependency direction (xtask, tidy/graph.rs)");
+        found.push(Problem::new("Cargo.toml", 0, message));
+    }
+    for edge in edges.iter().filter(|edge| members.contains(&edge.to)) {
+        let allowed =
+            ALLOWED.iter().find(|(name, _)| *name == edge.from).map_or(&[][..], |(_, allowed)| allowed);
+        if !allowed.contains(&edge.to.as_str()) {
+            let message = format!("{} must not depend on {}", edge.from, edge.to);
+            found.push(Problem::new(&edge.manifest, 0, message));
+        }
+    }
+    found
+}
+
+fn libraries(edges: &[Edge]) -> Vec<Problem> {
+    let of_library = edges.iter().filter(|edge| LIBRARIES.contains(&edge.from.as_str()));
+    of_library
+        .filter(|edge| NOT_IN_LIBRARIES.contains(&edge.to.as_str()))
+        .map(|edge| {
+            let message = format!("{} works on values and must not depend on {}", edge.from, edge.to);
+            Problem::new(&edge.manifest, 0, message)
+        })
+        .collect()
+}
+
+fn single_versions(lock: &str) -> Vec<Problem> {
+    let mut found = Vec::new();
+    for name in SINGLE {
+        let versions = versions(lock, name);
+        if versions.len() > 1 {
+            let list: Vec<&str> = versions.into_iter().collect();
+            found.push(Problem::new(
+                "Cargo.lock",
+                0,
+                format!("{name} exists in versions {}", list.join(", ")),
+            ));
+        }
+    }
+    found
+}
+
+/// Versions of one package in a lock file, whose entries have `name` followed by `version`.
+fn versions<'a>(lock: &'a str, name: &str) -> BTreeSet<&'a str> {
+    let wanted = format!("name = \"{name}\"");
+    let lines: Vec<&str> = lock.lines().collect();
+    let entries = lines.windows(2).filter(|pair| pair[0] == wanted);
+    entries.filter_map(|pair| pair[1].strip_prefix("version = \"")?.strip_suffix('"')).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ALLOWED, Edge, direction, libraries, single_versions};
+
+    fn edge(from: &str, to: &str) -> Edge {
+        Edge { from: from.to_owned(), to: to.to_owned(), manifest: "Cargo.toml".to_owned() }
+    }
+
+    fn members() -> Vec<String> {
+        ALLOWED.iter().map(|(name, _)| (*name).to_owned()).collect()
+    }
+
+    #[test]
+    fn dependencies_against_the_direction_are_caught() {
+        for (from, to) in [
+            ("asperity-fem", "asperity-friction"),
+            ("asperity-friction", "asperity-fem"),
+            ("asperity-fem", "asperity-contact"),
+            ("asperity-contact", "asperity-driver"),
+            ("asperity-driver", "asperity-verification"),
+            ("xtask", "asperity-fem"),
+        ] {
+            assert_eq!(direction(&members(), &[edge(from, to)]).len(), 1, "{from} -> {to}");
+        }
+        let fine = [edge("asperity-contact", "asperity-fem"), edge("asperity-fem", "faer")];
+        assert_eq!(direction(&members(), &fine), []);
+    }
+
+    #[test]
+    fn a_package_without_a_place_is_caught() {
+        assert_eq!(direction(&["asperity-new".to_owned()], &[]).len(), 1);
+    }
+
+    #[test]
+    fn terminals_and_pictures_in_a_library_are_caught() {
+        assert_eq!(
+            libraries(&[edge("asperity-fem", "plotters"), edge("asperity-driver", "plotters")]).len(),
+            1
+        );
+        assert_eq!(libraries(&[edge("asperity-friction", "clap")]).len(), 1);
+    }
+
+    #[test]
+    fn a_second_version_of_a_matrix_library_is_caught() {
+        let one = "[[package]]\nname = \"faer\"\nversion = \"0.24.4\"\n";
+        assert_eq!(single_versions(one), []);
+        let two = format!("{one}\n[[package]]\nname = \"faer\"\nversion = \"0.23.0\"\n");
+        assert!(single_versions(&two)[0].message.contains("0.23.0, 0.24.4"));
+    }
+}
