@@ -41,7 +41,7 @@ const NOT_IN_LIBRARIES: [&str; 12] = [
 /// Checks one source.
 pub fn check(path: &str, source: &str) -> Vec<Problem> {
     let code = mask::code(source);
-    let tests = if is_test_file(path) { whole(&code) } else { regions::tests(&code) };
+    let tests = if is_test_file(path) { regions::whole(&code) } else { regions::tests(&code) };
     let mut found: Vec<Problem> = length(path, source).into_iter().collect();
     for (word, why) in NOWHERE {
         found.extend(words(path, &code, word, &[], why));
@@ -63,10 +63,6 @@ pub fn check(path: &str, source: &str) -> Vec<Problem> {
         }
     }
     found
-}
-
-fn whole(code: &[char]) -> Vec<Range<usize>> {
-    std::iter::once(0..code.len()).collect()
 }
 
 /// Integration tests, benches, and modules that are only ever declared under `cfg(test)`.

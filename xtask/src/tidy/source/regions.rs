@@ -3,11 +3,15 @@
 use super::mask::is_name;
 use std::ops::Range;
 
+/// The whole of a source.
+pub fn whole(code: &[char]) -> Vec<Range<usize>> {
+    std::iter::once(0..code.len()).collect()
+}
+
 /// Positions of a masked source covered by `#[cfg(test)]` or `#[test]` items; everything under `#![cfg(test)]`.
 pub fn tests(code: &[char]) -> Vec<Range<usize>> {
-    let whole = occurrences(code, "#![cfg(test)]");
-    if !whole.is_empty() {
-        return Vec::from([0..code.len()]);
+    if !occurrences(code, "#![cfg(test)]").is_empty() {
+        return whole(code);
     }
     let mut regions = Vec::new();
     for attribute in ["#[cfg(test)]", "#[test]"] {
