@@ -4,7 +4,7 @@
 //! * `README.md`, the page of the case in the report, with exactly the headings of [`crate::readme::HEADINGS`];
 //! * `mod.rs` with `pub const CASE: Case`, for instance
 //!
-//! ```ignore
+//! ```text
 //! use crate::{Capability, Case, CaseError, Evidence, Ledger};
 //!
 //! /// The sandwich pressed: mean normal stress.
