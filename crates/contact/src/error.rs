@@ -1,0 +1,87 @@
+//! What can be wrong with an interface before it is ever evaluated.
+
+use crate::spec::SegmentKind;
+
+/// Why an interface could not be built.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ContactError {
+    /// No slave node has a projection on the master side.
+    #[error("interface {name}: none of its {slaves} slave nodes has a closest point on the master side")]
+    NothingPairs {
+        /// Interface.
+        name: String,
+        /// Number of slave nodes.
+        slaves: usize,
+    },
+    /// A side is empty.
+    #[error("interface {name}: its {side} side is empty")]
+    EmptySide {
+        /// Interface.
+        name: String,
+        /// "slave" or "master".
+        side: &'static str,
+    },
+    /// Finite sliding on a segment it does not exist for.
+    #[error(
+        "interface {name}: finite sliding does not exist on {kind} segments (it exists on seg2 in two dimensions, \
+         tri3 and quad4 in three; sliding = \"small\" exists on all segments)"
+    )]
+    FiniteOnSecondOrder {
+        /// Interface.
+        name: String,
+        /// The segment kind found.
+        kind: SegmentKind,
+    },
+    /// A segment of the wrong dimension or with the wrong number of nodes.
+    #[error("interface {name}: master segment {segment} ({kind}) with {nodes} nodes does not fit {dimension} dimensions")]
+    BadSegment {
+        /// Interface.
+        name: String,
+        /// Index of the segment.
+        segment: usize,
+        /// Its kind.
+        kind: SegmentKind,
+        /// Number of nodes given.
+        nodes: usize,
+        /// Dimension of the interface.
+        dimension: usize,
+    },
+    /// An index into the nodes of the interface that does not exist.
+    #[error("interface {name}: node index {index} of its {side} side exceeds the {nodes} nodes given")]
+    BadNode {
+        /// Interface.
+        name: String,
+        /// "slave" or "master".
+        side: &'static str,
+        /// The index.
+        index: usize,
+        /// Number of nodes.
+        nodes: usize,
+    },
+    /// A tributary area that is not positive.
+    #[error("interface {name}: tributary area {area} of slave node {label} is not positive")]
+    BadArea {
+        /// Interface.
+        name: String,
+        /// Mesh node.
+        label: usize,
+        /// Area.
+        area: f64,
+    },
+    /// A quantity that must be finite and positive.
+    #[error("interface {name}: {what} = {value} must be finite and positive")]
+    NotPositive {
+        /// Interface.
+        name: String,
+        /// The quantity.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A fixed pairing normal exists in small sliding only, and has a length.
+    #[error("interface {name}: a fixed normal needs small sliding and a nonzero vector")]
+    BadNormal {
+        /// Interface.
+        name: String,
+    },
+}

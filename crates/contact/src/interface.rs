@@ -1,0 +1,522 @@
+//! The interface: measure x enforcement x law, as a term of the system.
+
+use crate::enforce::Penalty;
+use crate::error::ContactError;
+use crate::measure::node_to_point::finite::Finite;
+use crate::measure::node_to_point::small::Small;
+use crate::measure::{Attachment, Geometry, Measure, NormalPoint, Slides, Tractions};
+use crate::observe::{Balance, PointFields, Work};
+use crate::search::surface::Surface;
+use crate::shear::{Shear, TwoStep};
+use crate::spec::{InterfaceSpec, SlavePoint, Sliding, SurfaceNode, TimeRule};
+use crate::status::{Status, label};
+use crate::vector::{add, axpy, dot, moment, norm, scaled, sub};
+use asperity_fem::term::{Instant, Linearized, Pattern, Refusal, Term};
+use asperity_friction::law::{Law, RateBounds};
+use std::sync::Arc;
+
+/// Gaps up to this share of the scene's size count as closed with f_n = 0 (PHYSICS of the R-minimum rule): far above the
+/// rounding of positions (1e-16 of the size) and far below any elastic displacement that matters.
+const CLOSURE: f64 = 1e-12;
+
+/// Tangential motion of all points, components in the carried frame.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Motion {
+    /// Relative tangential displacement since the law began to act \[m\].
+    pub relative: Vec<[f64; 2]>,
+    /// Slip since the law began to act \[m\].
+    pub slip: Vec<[f64; 2]>,
+    /// Slip increment of the last step \[m\].
+    pub step: Vec<[f64; 2]>,
+}
+
+impl Motion {
+    fn new(n: usize) -> Self {
+        Self { relative: vec![[0.0; 2]; n], slip: vec![[0.0; 2]; n], step: vec![[0.0; 2]; n] }
+    }
+
+    fn copy_from(&mut self, other: &Self) {
+        self.relative.copy_from_slice(&other.relative);
+        self.slip.copy_from_slice(&other.slip);
+        self.step.copy_from_slice(&other.step);
+    }
+}
+
+/// A committed and a trial copy.
+#[derive(Clone, Debug)]
+pub(crate) struct Kept<T> {
+    pub committed: T,
+    pub trial: T,
+}
+
+impl<T: Clone> Kept<T> {
+    fn new(value: T) -> Self {
+        Self { trial: value.clone(), committed: value }
+    }
+}
+
+/// A contact interface in `D` dimensions.
+#[derive(Debug)]
+pub struct Interface<const D: usize> {
+    pub(crate) name: String,
+    pub(crate) nodes: Vec<SurfaceNode<D>>,
+    pub(crate) slave: Vec<SlavePoint>,
+    pub(crate) penalty: Penalty,
+    pub(crate) tangential_penalty: f64,
+    pub(crate) rate_floor: f64,
+    pub(crate) rate_bounds: RateBounds,
+    pub(crate) carry: bool,
+    label_rate: Option<f64>,
+    rule: TimeRule,
+    /// Length of the step committed last under the present law, for two-step differences.
+    pub(crate) previous_dt: Option<f64>,
+    pub(crate) trial_dt: f64,
+    pub(crate) measure: Box<dyn Measure<D>>,
+    /// Displacements of the interface's nodes \[m\].
+    pub(crate) u: Kept<Vec<[f64; D]>>,
+    pub(crate) geometry: Geometry<D>,
+    pub(crate) contact: Kept<Vec<NormalPoint>>,
+    pub(crate) motion: Kept<Motion>,
+    pub(crate) shear: Option<Shear>,
+    pub(crate) force: Vec<[f64; D]>,
+    pub(crate) du: Vec<[f64; D]>,
+    pub(crate) slides: Slides,
+    pub(crate) fields: PointFields<D>,
+    pub(crate) work: Work,
+    unpaired: usize,
+}
+
+impl<const D: usize> Interface<D> {
+    /// Builds the interface and pairs it in the reference configuration.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the declaration does not fit together or nothing pairs.
+    pub fn new(spec: InterfaceSpec<D>) -> Result<Self, ContactError> {
+        check(&spec)?;
+        let n = spec.slave.len();
+        let (measure, projections) = build_measure(&spec);
+        let mut interface = Self {
+            penalty: Penalty { stiffness: spec.normal_penalty, closure: CLOSURE * spec.scale },
+            tangential_penalty: spec.tangential_penalty,
+            rate_floor: spec.rate_floor,
+            rate_bounds: spec.rate_bounds,
+            carry: spec.carry,
+            label_rate: spec.label_rate,
+            rule: TimeRule::default(),
+            previous_dt: None,
+            trial_dt: 0.0,
+            measure,
+            u: Kept::new(vec![[0.0; D]; spec.nodes.len()]),
+            geometry: Geometry::new(n),
+            contact: Kept::new(vec![NormalPoint::default(); n]),
+            motion: Kept::new(Motion::new(n)),
+            shear: spec.law.map(|law| Shear::new(law, spec.tangential_penalty, n)),
+            force: vec![[0.0; D]; n],
+            du: vec![[0.0; D]; spec.nodes.len()],
+            slides: Slides { gap: vec![0.0; n], increment: vec![[0.0; 2]; n] },
+            fields: PointFields::new(n),
+            work: Work { searches: 1, projections, ..Work::default() },
+            unpaired: 0,
+            name: spec.name,
+            nodes: spec.nodes,
+            slave: spec.slave,
+        };
+        interface.begin()?;
+        Ok(interface)
+    }
+
+    /// Evaluates the reference configuration.
+    fn begin(&mut self) -> Result<(), ContactError> {
+        self.measure.measure(&self.u.committed, &mut self.geometry);
+        let paired = self.geometry.paired.iter().filter(|p| **p).count();
+        if paired == 0 {
+            return Err(ContactError::NothingPairs { name: self.name.clone(), slaves: self.slave.len() });
+        }
+        self.unpaired = self.slave.len() - paired;
+        self.penalty.enforce(&self.geometry.gap, &mut self.contact.committed);
+        self.contact.trial.copy_from_slice(&self.contact.committed);
+        self.refresh();
+        Ok(())
+    }
+
+    /// Slave nodes without a partner in the reference configuration; they stay open (in finite sliding they may pair later).
+    #[must_use]
+    pub fn unpaired(&self) -> usize {
+        self.unpaired
+    }
+
+    /// Mesh node of slave point `p`.
+    #[must_use]
+    pub fn label(&self, p: usize) -> usize {
+        self.nodes[self.slave[p].node].label
+    }
+
+    /// Chooses the rule for the slip rate of implicit steps.
+    pub fn set_time_rule(&mut self, rule: TimeRule) {
+        self.rule = rule;
+    }
+
+    /// Changes or removes the law. Tangential traction, slip and states start anew: slip is counted from here. Call it
+    /// between steps.
+    pub fn set_law(&mut self, law: Option<Arc<dyn Law>>) {
+        let n = self.slave.len();
+        self.shear = law.map(|law| Shear::new(law, self.tangential_penalty, n));
+        self.motion = Kept::new(Motion::new(n));
+        self.previous_dt = None;
+        self.refresh();
+    }
+
+    /// Whether a law acts.
+    #[must_use]
+    pub fn has_law(&self) -> bool {
+        self.shear.is_some()
+    }
+
+    /// Overwrites the committed state variables (point-major) and shear tractions (components along the frame of
+    /// [`PointFields::tangent`], the second used in three dimensions only), for declared initial stresses. Returns false,
+    /// changing nothing, when there is no law or a length does not fit.
+    pub fn set_initial(&mut self, traction: &[[f64; 2]], states: &[f64]) -> bool {
+        let Some(shear) = &mut self.shear else { return false };
+        if traction.len() != shear.committed.traction.len() || states.len() != shear.committed.states.len() {
+            return false;
+        }
+        shear.committed.traction.copy_from_slice(traction);
+        shear.committed.states.copy_from_slice(states);
+        self.refresh();
+        true
+    }
+
+    /// For laws without an elastic domain: the largest prescribed rate \[m/s\] (see [`InterfaceSpec::label_rate`]).
+    pub fn set_label_rate(&mut self, rate: Option<f64>) {
+        self.label_rate = rate;
+    }
+
+    /// Forward steps: floor of slip rates \[m/s\], bounds of r8, and whether point residuals are carried.
+    pub fn set_forward(&mut self, rate_floor: f64, bounds: RateBounds, carry: bool) {
+        self.rate_floor = rate_floor;
+        self.rate_bounds = bounds;
+        self.carry = carry;
+    }
+
+    /// Committed fields.
+    #[must_use]
+    pub fn points(&self) -> &PointFields<D> {
+        &self.fields
+    }
+
+    /// Counts of work since construction.
+    #[must_use]
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// Displacements of the interface's nodes from the system vector.
+    pub(crate) fn gather(nodes: &[SurfaceNode<D>], u: &[f64], out: &mut [[f64; D]]) {
+        for (node, o) in nodes.iter().zip(out) {
+            o.copy_from_slice(&u[node.dof..node.dof + D]);
+        }
+    }
+
+    pub(crate) fn refuse(&self, reason: String) -> Refusal {
+        Refusal { term: self.name.clone(), reason }
+    }
+
+    /// Tractions with derivatives at the state of the last residual.
+    pub(crate) fn tractions(&self) -> Tractions<'_> {
+        Tractions {
+            normal: &self.contact.trial,
+            shear: self.shear.as_ref().map(|s| s.points.as_slice()),
+            stiffness: self.tangential_penalty,
+        }
+    }
+
+    /// Trial response at the geometry last measured.
+    fn respond(&mut self, dt: f64) -> Result<(), Refusal> {
+        self.penalty.enforce(&self.geometry.gap, &mut self.contact.trial);
+        let two_step = match (self.rule, self.previous_dt) {
+            (TimeRule::Bdf2, Some(previous)) => Some(TwoStep::new(dt, previous)),
+            _ => None,
+        };
+        if let Some(shear) = &mut self.shear {
+            let (previous, step) = (&self.motion.committed.step, &mut self.motion.trial.step);
+            self.work.law_calls += 1;
+            shear
+                .respond(&self.contact.trial, &self.geometry.increment, dt, two_step, previous, step)
+                .map_err(|failure| Refusal { term: self.name.clone(), reason: failure.to_string() })?;
+        } else {
+            // Without friction all tangential motion of a closed point is slip.
+            for ((step, c), du) in self.motion.trial.step.iter_mut().zip(&self.contact.trial).zip(&self.geometry.increment) {
+                *step = if c.closed { *du } else { [0.0; 2] };
+            }
+        }
+        self.accumulate();
+        Ok(())
+    }
+
+    /// Trial totals of relative displacement and slip from the increments.
+    pub(crate) fn accumulate(&mut self) {
+        let (old, new) = (&self.motion.committed, &mut self.motion.trial);
+        for p in 0..self.slave.len() {
+            new.slip[p] = add(&old.slip[p], &new.step[p]);
+            new.relative[p] = add(&old.relative[p], &self.geometry.increment[p]);
+        }
+    }
+
+    /// Force per area on the slave at each point from the trial tractions.
+    pub(crate) fn forces(&mut self) {
+        let shear = self.shear.as_ref();
+        for (p, c) in self.contact.trial.iter().enumerate() {
+            let mut f = scaled(&self.geometry.normal[p], c.traction);
+            if let Some(shear) = shear {
+                axpy(&mut f, -1.0, &self.geometry.tangential(p, &shear.trial.traction[p]));
+            }
+            self.force[p] = f;
+        }
+    }
+
+    /// Commits the trial history; frames that change take the tangential components with them.
+    fn commit(&mut self) {
+        self.u.committed.copy_from_slice(&self.u.trial);
+        self.contact.committed.copy_from_slice(&self.contact.trial);
+        self.motion.committed.copy_from(&self.motion.trial);
+        if let Some(shear) = &mut self.shear {
+            shear.committed.copy_from(&shear.trial);
+        }
+        let (motion, shear) = (&mut self.motion.committed, &mut self.shear);
+        let geometry = &self.geometry;
+        self.measure.commit(geometry, &mut |p, frame| {
+            let turn = |c: &mut [f64; 2]| {
+                let v = geometry.tangential(p, c);
+                *c = [dot(&v, &frame[0]), dot(&v, &frame[1])];
+            };
+            turn(&mut motion.relative[p]);
+            turn(&mut motion.slip[p]);
+            turn(&mut motion.step[p]);
+            if let Some(shear) = shear {
+                turn(&mut shear.committed.traction[p]);
+            }
+        });
+        self.measure.measure(&self.u.committed, &mut self.geometry);
+        self.previous_dt = (self.trial_dt > 0.0).then_some(self.trial_dt);
+    }
+
+    /// Recomputes the committed fields; the geometry is that of the committed displacements.
+    pub(crate) fn refresh(&mut self) {
+        let (g, f) = (&self.geometry, &mut self.fields);
+        f.gap.copy_from_slice(&g.gap);
+        f.normal.copy_from_slice(&g.normal);
+        let motion = &self.motion.committed;
+        for p in 0..self.slave.len() {
+            let node = &self.nodes[self.slave[p].node];
+            let u = &self.u.committed[self.slave[p].node];
+            f.area[p] = self.slave[p].area;
+            f.position[p] = if self.measure.follows() { add(&node.position, u) } else { node.position };
+            f.tangent[p] = g.frame[p][0];
+            let contact = &self.contact.committed[p];
+            f.normal_traction[p] = contact.traction;
+            f.slip[p] = g.tangential(p, &motion.slip[p]);
+            f.slip_measure[p] = motion.slip[p][0];
+            f.relative[p] = g.tangential(p, &motion.relative[p]);
+            f.relative_measure[p] = motion.relative[p][0];
+            f.slip_increment[p] = g.tangential(p, &motion.step[p]);
+            f.status[p] = if contact.closed { Status::Slip } else { Status::Open };
+        }
+        self.refresh_shear();
+    }
+
+    /// The part of the fields that friction decides.
+    fn refresh_shear(&mut self) {
+        let (g, f) = (&self.geometry, &mut self.fields);
+        let step = &self.motion.committed.step;
+        let Some(shear) = &self.shear else {
+            f.states.clear();
+            f.states_per_point = 0;
+            for (p, s) in step.iter().enumerate() {
+                f.shear[p] = [0.0; D];
+                f.shear_measure[p] = 0.0;
+                f.friction[p] = 0.0;
+                let along = if D == 2 { s[0] } else { norm(s) };
+                f.slip_rate[p] = self.previous_dt.map_or(0.0, |dt| along / dt);
+            }
+            return;
+        };
+        f.states_per_point = shear.states();
+        f.states.clear();
+        f.states.extend_from_slice(&shear.committed.states);
+        for (p, t) in shear.committed.traction.iter().enumerate() {
+            let contact = &self.contact.committed[p];
+            let size = norm(t);
+            f.shear[p] = g.tangential(p, t);
+            f.shear_measure[p] = if D == 2 { t[0] } else { size };
+            f.friction[p] = if contact.traction > 0.0 { size / contact.traction } else { 0.0 };
+            let rate = shear.committed.rate[p];
+            // Slip runs along the traction; only its magnitude is history.
+            f.slip_rate[p] = if D == 2 { rate * t[0].signum() } else { rate };
+            if contact.closed {
+                f.status[p] = label(shear.committed.regime[p], rate, self.label_rate);
+            }
+        }
+    }
+
+    /// Forces and moments of the committed state.
+    #[must_use]
+    pub fn balance(&self) -> Balance<D> {
+        let mut slave_force = [0.0; D];
+        let mut master_force = [0.0; D];
+        let mut total = [0.0; 3];
+        let mut couple = [0.0; 3];
+        let mut attachments: Vec<Attachment> = Vec::new();
+        let place = |n: usize| {
+            let x = &self.nodes[n].position;
+            if self.measure.follows() { add(x, &self.u.committed[n]) } else { *x }
+        };
+        for (p, s) in self.slave.iter().enumerate() {
+            let n = &self.fields.normal[p];
+            let f: [f64; D] =
+                std::array::from_fn(|i| s.area * (self.fields.normal_traction[p] * n[i] - self.fields.shear[p][i]));
+            slave_force = add(&slave_force, &f);
+            total = add(&total, &moment(&place(s.node), &f));
+            self.measure.attachments(p, &mut attachments);
+            let mut contact_point = [0.0; D];
+            for a in &attachments {
+                let reaction = scaled(&f, -a.weight);
+                master_force = add(&master_force, &reaction);
+                total = add(&total, &moment(&place(a.node), &reaction));
+                axpy(&mut contact_point, a.weight, &place(a.node));
+            }
+            if !attachments.is_empty() {
+                let gap = dot(n, &sub(&place(s.node), &contact_point));
+                couple = add(&couple, &moment(&scaled(n, gap), &f));
+            }
+        }
+        Balance {
+            slave_force,
+            master_force,
+            residual: add(&slave_force, &master_force),
+            moment: total,
+            couple,
+            moment_residual: sub(&total, &couple),
+        }
+    }
+}
+
+fn check<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactError> {
+    let name = || spec.name.clone();
+    for (side, empty) in [("slave", spec.slave.is_empty()), ("master", spec.master.is_empty())] {
+        if empty {
+            return Err(ContactError::EmptySide { name: name(), side });
+        }
+    }
+    let nodes = spec.nodes.len();
+    for s in &spec.slave {
+        if s.node >= nodes {
+            return Err(ContactError::BadNode { name: name(), side: "slave", index: s.node, nodes });
+        }
+        if s.area.is_nan() || s.area <= 0.0 {
+            return Err(ContactError::BadArea { name: name(), label: spec.nodes[s.node].label, area: s.area });
+        }
+    }
+    for (segment, s) in spec.master.iter().enumerate() {
+        if s.kind.space() != D || s.kind.nodes() != s.nodes.len() {
+            let (kind, nodes) = (s.kind, s.nodes.len());
+            return Err(ContactError::BadSegment { name: name(), segment, kind, nodes, dimension: D });
+        }
+        if let Some(&index) = s.nodes.iter().find(|n| **n >= nodes) {
+            return Err(ContactError::BadNode { name: name(), side: "master", index, nodes });
+        }
+        if spec.sliding == Sliding::Finite && !s.kind.first_order() {
+            return Err(ContactError::FiniteOnSecondOrder { name: name(), kind: s.kind });
+        }
+    }
+    check_numbers(spec)
+}
+
+fn check_numbers<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactError> {
+    let mut quantities = vec![("the normal penalty", spec.normal_penalty), ("the scene size", spec.scale)];
+    if spec.law.is_some() {
+        quantities.push(("the tangential penalty", spec.tangential_penalty));
+    }
+    for (what, value) in quantities {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(ContactError::NotPositive { name: spec.name.clone(), what, value });
+        }
+    }
+    match spec.fixed_normal {
+        Some(n) if spec.sliding == Sliding::Finite || !norm(&n).is_normal() => {
+            Err(ContactError::BadNormal { name: spec.name.clone() })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn build_measure<const D: usize>(spec: &InterfaceSpec<D>) -> (Box<dyn Measure<D>>, u64) {
+    let positions: Vec<[f64; D]> = spec.nodes.iter().map(|n| n.position).collect();
+    let surface = Surface::new(spec.master.clone(), &positions);
+    match spec.sliding {
+        Sliding::Small => {
+            let (measure, projections) = Small::new(&spec.nodes, &spec.slave, &surface, spec.fixed_normal);
+            (Box::new(measure), projections)
+        }
+        Sliding::Finite => {
+            let (measure, projections) = Finite::new(&spec.nodes, &spec.slave, surface);
+            (Box::new(measure), projections)
+        }
+    }
+}
+
+impl<const D: usize> Term for Interface<D> {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn residual(&mut self, u: &[f64], at: Instant, r: &mut [f64]) -> Result<(), Refusal> {
+        self.work.residuals += 1;
+        self.trial_dt = at.dt;
+        Self::gather(&self.nodes, u, &mut self.u.trial);
+        self.measure.measure(&self.u.trial, &mut self.geometry);
+        self.respond(at.dt)?;
+        self.forces();
+        if let Some(p) = self.geometry.gap.iter().position(|g| g.is_nan()) {
+            return Err(self.refuse(format!("gap at node {} is not a number", self.label(p))));
+        }
+        if let Some(p) = self.force.iter().position(|f| !dot(f, f).is_finite()) {
+            return Err(self.refuse(format!("force at node {} is not finite: {:?} Pa", self.label(p), self.force[p])));
+        }
+        self.measure.spread(&self.force, r);
+        Ok(())
+    }
+
+    fn prepare(&mut self, u: &[f64]) -> Result<(), Refusal> {
+        Self::gather(&self.nodes, u, &mut self.u.trial);
+        if self.measure.search(&self.u.trial, &mut self.work.projections) {
+            self.work.searches += 1;
+        }
+        Ok(())
+    }
+
+    fn accept(&mut self) {
+        self.commit();
+        self.refresh();
+    }
+
+    fn reject(&mut self) {
+        self.u.trial.copy_from_slice(&self.u.committed);
+        self.contact.trial.copy_from_slice(&self.contact.committed);
+        self.motion.trial.copy_from(&self.motion.committed);
+        if let Some(shear) = &mut self.shear {
+            shear.trial.copy_from(&shear.committed);
+        }
+        self.measure.measure(&self.u.committed, &mut self.geometry);
+    }
+}
+
+impl<const D: usize> Linearized for Interface<D> {
+    fn pattern(&self) -> &Pattern {
+        self.measure.pattern()
+    }
+
+    fn tangent(&mut self, values: &mut [f64]) {
+        self.work.tangents += 1;
+        self.measure.tangent(&self.geometry, self.tractions(), values);
+    }
+}

@@ -1,0 +1,158 @@
+//! How an interface measures gaps and slip, and how tractions act on its nodes.
+//!
+//! A measure is reached by one `dyn` call for the whole interface. Tangential history is kept by the interface as two
+//! components in an orthonormal frame that is carried along with the master surface, so that the frame, and nothing else,
+//! knows about rotation.
+
+pub mod node_to_point;
+
+use asperity_fem::term::Pattern;
+use std::fmt;
+
+/// Present geometry of all slave points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Geometry<const D: usize> {
+    /// Whether the point has a partner on the master side.
+    pub paired: Vec<bool>,
+    /// Gap g_n = n·(x_s - x_c) \[m\]; infinite where unpaired.
+    pub gap: Vec<f64>,
+    /// Outward unit normal n of the master.
+    pub normal: Vec<[f64; D]>,
+    /// Orthonormal tangents: the frame of the last commit, carried to the present configuration. In two dimensions only
+    /// the first, `e_1 = (-n_y, n_x)`, exists and the second is zero.
+    pub frame: Vec<[[f64; D]; 2]>,
+    /// Tangential displacement of the slave relative to the master since the last commit \[m\], components in `frame`.
+    pub increment: Vec<[f64; 2]>,
+}
+
+impl<const D: usize> Geometry<D> {
+    /// Geometry of `n` points, all unpaired.
+    #[must_use]
+    pub fn new(n: usize) -> Self {
+        Self {
+            paired: vec![false; n],
+            gap: vec![f64::INFINITY; n],
+            normal: vec![[0.0; D]; n],
+            frame: vec![[[0.0; D]; 2]; n],
+            increment: vec![[0.0; 2]; n],
+        }
+    }
+
+    /// The vector with components `c` in the frame of point `p`.
+    #[inline]
+    #[must_use]
+    pub fn tangential(&self, p: usize, c: &[f64; 2]) -> [f64; D] {
+        let f = &self.frame[p];
+        std::array::from_fn(|i| c[0] * f[0][i] + c[1] * f[1][i])
+    }
+}
+
+/// What the tangent needs of a point's normal traction.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NormalPoint {
+    /// Whether the point is closed; an open one has no traction and no stiffness.
+    pub closed: bool,
+    /// f_n \[Pa\].
+    pub traction: f64,
+    /// -∂f_n/∂g_n \[Pa/m\].
+    pub stiffness: f64,
+}
+
+/// What the tangent needs of a point's shear traction, components in the carried frame:
+/// `dt = ratio (I - η⊗η) dt^e + η (d_trial η·dt^e + d_normal df_n)`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ShearPoint {
+    /// t \[Pa\].
+    pub traction: [f64; 2],
+    /// η = t^e/|t^e|, zero at t^e = 0.
+    pub direction: [f64; 2],
+    /// τ/|t^e| \[-\].
+    pub ratio: f64,
+    /// ∂τ/∂|t^e| \[-\].
+    pub d_trial: f64,
+    /// ∂τ/∂f_n \[-\].
+    pub d_normal: f64,
+}
+
+/// Tractions of all points with their derivatives.
+#[derive(Clone, Copy, Debug)]
+pub struct Tractions<'a> {
+    /// Normal part.
+    pub normal: &'a [NormalPoint],
+    /// Tangential part, where there is friction.
+    pub shear: Option<&'a [ShearPoint]>,
+    /// Tangential penalty E_t \[Pa/m\], where there is friction.
+    pub stiffness: f64,
+}
+
+/// Increments of a forward step by the linearised geometry.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Slides {
+    /// dg_n \[m\].
+    pub gap: Vec<f64>,
+    /// Convected tangential increment `e_m dξ_m` \[m\], components in the frame.
+    pub increment: Vec<[f64; 2]>,
+}
+
+/// A point leaving its segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exit {
+    /// Fraction of the increment.
+    pub fraction: f64,
+    /// The point.
+    pub point: usize,
+}
+
+/// Master nodes a point acts on: interface node and weight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attachment {
+    /// Index into the nodes of the interface.
+    pub node: usize,
+    /// N_γ.
+    pub weight: f64,
+}
+
+/// A measure of contact. `u` holds the displacements of the interface's nodes \[m\], not the system vector.
+pub trait Measure<const D: usize>: Send + Sync + fmt::Debug {
+    /// Blocks of degrees of freedom, one block for each point that has one.
+    fn pattern(&self) -> &Pattern;
+
+    /// Updates the pairing at `u`; the only place where pairing and pattern change. Counts projections in `projections`
+    /// and returns whether a search was made.
+    fn search(&mut self, u: &[[f64; D]], projections: &mut u64) -> bool;
+
+    /// Evaluates gaps, normals, frames and tangential increments at `u`.
+    fn measure(&mut self, u: &[[f64; D]], out: &mut Geometry<D>);
+
+    /// Adds the nodal residual of the tractions (force per area on the slave) at the configuration last measured.
+    fn spread(&self, force: &[[f64; D]], residual: &mut [f64]);
+
+    /// Writes the consistent tangent of `spread(measure(u))` at the configuration last measured.
+    fn tangent(&self, geometry: &Geometry<D>, tractions: Tractions<'_>, values: &mut [f64]);
+
+    /// Linearised increments for displacement increments `du` of the interface's nodes at the configuration last measured.
+    fn slides(&self, geometry: &Geometry<D>, du: &[[f64; D]], out: &mut Slides);
+
+    /// r7: the first point to leave its segment for the increment `du`; `None` where pairing is fixed.
+    fn exit(&self, du: &[[f64; D]]) -> Option<Exit>;
+
+    /// Makes the configuration last measured the committed one. Tangential components in the frame of `geometry` must be
+    /// turned into the new frame by the caller: `reframe` receives, for each point whose frame is replaced, the point and
+    /// the new frame (given in the present configuration).
+    fn commit(&mut self, geometry: &Geometry<D>, reframe: &mut dyn FnMut(usize, &[[f64; D]; 2]));
+
+    /// Attachments of point `p` at the configuration last measured, written to `out` (cleared first).
+    fn attachments(&self, p: usize, out: &mut Vec<Attachment>);
+
+    /// Whether forces act on the current configuration (moments are then taken there).
+    fn follows(&self) -> bool;
+
+    /// Committed history as numbers.
+    fn save(&self, out: &mut Vec<f64>);
+
+    /// Length of what `save` writes.
+    fn saved(&self) -> usize;
+
+    /// Restores; `from` has the length of `saved`.
+    fn restore(&mut self, from: &[f64]);
+}

@@ -1,0 +1,123 @@
+//! What an interface shows: committed fields per slave point, balances and counts of work.
+
+use crate::status::Status;
+
+/// Committed fields, one value a slave point.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PointFields<const D: usize> {
+    /// Gap g_n \[m\], negative when penetrating; infinite where the point has no partner.
+    pub gap: Vec<f64>,
+    /// Outward unit normal n of the master.
+    pub normal: Vec<[f64; D]>,
+    /// First tangent e_1: `(-n_y, n_x)` in two dimensions.
+    pub tangent: Vec<[f64; D]>,
+    /// Normal traction f_n ≥ 0 \[Pa\].
+    pub normal_traction: Vec<f64>,
+    /// Tangential traction t \[Pa\]; the force on the slave is `A (f_n n - t)`.
+    pub shear: Vec<[f64; D]>,
+    /// t·e_1 in two dimensions, |t| in three \[Pa\].
+    pub shear_measure: Vec<f64>,
+    /// Slip of the slave relative to the master along the surface since the law began to act \[m\].
+    pub slip: Vec<[f64; D]>,
+    /// Slip along e_1 \[m\].
+    pub slip_measure: Vec<f64>,
+    /// Relative tangential displacement, elastic part and slip together, since the law began to act \[m\].
+    pub relative: Vec<[f64; D]>,
+    /// Relative tangential displacement along e_1 \[m\].
+    pub relative_measure: Vec<f64>,
+    /// Slip increment of the last step \[m\].
+    pub slip_increment: Vec<[f64; D]>,
+    /// Slip rate V \[m/s\]: signed along e_1 in two dimensions, its magnitude in three.
+    pub slip_rate: Vec<f64>,
+    /// |t|/f_n, 0 where f_n = 0 or without friction \[-\].
+    pub friction: Vec<f64>,
+    /// Status.
+    pub status: Vec<Status>,
+    /// State variables, point-major; `states_per_point` a point.
+    pub states: Vec<f64>,
+    /// State variables per point.
+    pub states_per_point: usize,
+    /// Position of the slave node: reference in small sliding, current in finite \[m\].
+    pub position: Vec<[f64; D]>,
+    /// Tributary area \[m², m in two dimensions\].
+    pub area: Vec<f64>,
+}
+
+impl<const D: usize> PointFields<D> {
+    pub(crate) fn new(n: usize) -> Self {
+        let scalars = || vec![0.0; n];
+        let vectors = || vec![[0.0; D]; n];
+        Self {
+            gap: vec![f64::INFINITY; n],
+            normal: vectors(),
+            tangent: vectors(),
+            normal_traction: scalars(),
+            shear: vectors(),
+            shear_measure: scalars(),
+            slip: vectors(),
+            slip_measure: scalars(),
+            relative: vectors(),
+            relative_measure: scalars(),
+            slip_increment: vectors(),
+            slip_rate: scalars(),
+            friction: scalars(),
+            status: vec![Status::Open; n],
+            states: Vec::new(),
+            states_per_point: 0,
+            position: vectors(),
+            area: scalars(),
+        }
+    }
+
+    /// Mean normal traction weighted by the areas \[Pa\].
+    #[must_use]
+    pub fn mean_normal_traction(&self) -> f64 {
+        let force: f64 = self.normal_traction.iter().zip(&self.area).map(|(f, a)| f * a).sum();
+        force / self.area.iter().sum::<f64>()
+    }
+
+    /// Largest penetration \[m\], 0 when nothing penetrates.
+    #[must_use]
+    pub fn largest_penetration(&self) -> f64 {
+        self.gap.iter().fold(0.0, |m: f64, g| m.max(-g))
+    }
+
+    /// Number of points with this status.
+    #[must_use]
+    pub fn count(&self, status: Status) -> usize {
+        self.status.iter().filter(|s| **s == status).count()
+    }
+}
+
+/// Balance of the contact forces. Moments are about the origin, on reference positions in small sliding and on current
+/// positions in finite sliding; in two dimensions only their last component differs from zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Balance<const D: usize> {
+    /// Total force on the slave side \[N, N/m in two dimensions\].
+    pub slave_force: [f64; D],
+    /// Total force on the master side.
+    pub master_force: [f64; D],
+    /// Their sum: rounding only.
+    pub residual: [f64; D],
+    /// Moment of all contact forces \[N m\].
+    pub moment: [f64; 3],
+    /// The couple Σ A g_n n × f which the pair of forces leaves because they act at x_s and x_c \[N m\].
+    pub couple: [f64; 3],
+    /// `moment - couple`: rounding only.
+    pub moment_residual: [f64; 3],
+}
+
+/// Counts of work since construction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Searches (evaluations of the pairing).
+    pub searches: u64,
+    /// Closest-point projections on single segments during searches.
+    pub projections: u64,
+    /// Calls of the friction law (each on a slice of points).
+    pub law_calls: u64,
+    /// Residuals.
+    pub residuals: u64,
+    /// Tangents.
+    pub tangents: u64,
+}

@@ -1,0 +1,92 @@
+//! Shape functions of master segments with their first and second derivatives.
+//!
+//! Natural coordinates: ξ in [-1, 1] on lines and quadrilaterals, ξ_1, ξ_2 ≥ 0 with ξ_1 + ξ_2 ≤ 1 on triangles.
+
+use crate::spec::SegmentKind;
+
+/// Most nodes a segment has.
+pub const MOST_NODES: usize = 9;
+
+/// Values and derivatives at one point; entries beyond the segment's nodes are zero.
+#[derive(Clone, Copy, Debug)]
+pub struct Shape {
+    /// N_γ.
+    pub value: [f64; MOST_NODES],
+    /// N_γ,m for m = 1, 2 (the second is zero on lines).
+    pub first: [[f64; MOST_NODES]; 2],
+    /// N_γ,11, N_γ,12, N_γ,22.
+    pub second: [[f64; MOST_NODES]; 3],
+}
+
+/// Quadratic Lagrange polynomials on -1, 1, 0 (ends, middle) with derivatives.
+fn quadratic(x: f64) -> [[f64; 3]; 3] {
+    [
+        [0.5 * x * (x - 1.0), 0.5 * x * (x + 1.0), (1.0 - x) * (1.0 + x)],
+        [x - 0.5, x + 0.5, -2.0 * x],
+        [1.0, 1.0, -2.0],
+    ]
+}
+
+/// Linear Lagrange polynomials on -1, 1 with derivatives.
+fn linear(x: f64) -> [[f64; 3]; 3] {
+    [[0.5 * (1.0 - x), 0.5 * (1.0 + x), 0.0], [-0.5, 0.5, 0.0], [0.0; 3]]
+}
+
+/// Positions of quadrilateral nodes as indices into the one-dimensional polynomials (end, end, middle).
+const QUAD: [[usize; 2]; 9] = [[0, 0], [1, 0], [1, 1], [0, 1], [2, 0], [1, 2], [2, 1], [0, 2], [2, 2]];
+
+/// Shape functions of `kind` at `xi`.
+#[must_use]
+pub fn shape(kind: SegmentKind, xi: [f64; 2]) -> Shape {
+    let mut s = Shape { value: [0.0; 9], first: [[0.0; 9]; 2], second: [[0.0; 9]; 3] };
+    match kind {
+        SegmentKind::Seg2 => line(&mut s, &linear(xi[0]), 2),
+        SegmentKind::Seg3 => line(&mut s, &quadratic(xi[0]), 3),
+        SegmentKind::Quad4 => product(&mut s, &linear(xi[0]), &linear(xi[1]), 4),
+        SegmentKind::Quad9 => product(&mut s, &quadratic(xi[0]), &quadratic(xi[1]), 9),
+        SegmentKind::Tri3 => {
+            s.value[..3].copy_from_slice(&[1.0 - xi[0] - xi[1], xi[0], xi[1]]);
+            s.first[0][..3].copy_from_slice(&[-1.0, 1.0, 0.0]);
+            s.first[1][..3].copy_from_slice(&[-1.0, 0.0, 1.0]);
+        }
+        SegmentKind::Tri6 => triangle(&mut s, xi),
+    }
+    s
+}
+
+fn line(s: &mut Shape, p: &[[f64; 3]; 3], n: usize) {
+    s.value[..n].copy_from_slice(&p[0][..n]);
+    s.first[0][..n].copy_from_slice(&p[1][..n]);
+    s.second[0][..n].copy_from_slice(&p[2][..n]);
+}
+
+fn product(s: &mut Shape, p: &[[f64; 3]; 3], q: &[[f64; 3]; 3], n: usize) {
+    for (k, [i, j]) in QUAD.iter().copied().enumerate().take(n) {
+        s.value[k] = p[0][i] * q[0][j];
+        s.first[0][k] = p[1][i] * q[0][j];
+        s.first[1][k] = p[0][i] * q[1][j];
+        s.second[0][k] = p[2][i] * q[0][j];
+        s.second[1][k] = p[1][i] * q[1][j];
+        s.second[2][k] = p[0][i] * q[2][j];
+    }
+}
+
+/// Six-node triangle from its barycentric coordinates L: corners L(2L - 1), middles 4 L_a L_b.
+fn triangle(s: &mut Shape, xi: [f64; 2]) {
+    let l = [1.0 - xi[0] - xi[1], xi[0], xi[1]];
+    let d = [[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]];
+    let pairs = [(0, 0), (0, 1), (1, 1)];
+    for a in 0..3 {
+        let b = (a + 1) % 3;
+        s.value[a] = l[a] * (2.0 * l[a] - 1.0);
+        s.value[3 + a] = 4.0 * l[a] * l[b];
+        for (first, dm) in s.first.iter_mut().zip(&d) {
+            first[a] = (4.0 * l[a] - 1.0) * dm[a];
+            first[3 + a] = 4.0 * (dm[a] * l[b] + l[a] * dm[b]);
+        }
+        for (k, &(m, n)) in pairs.iter().enumerate() {
+            s.second[k][a] = 4.0 * d[m][a] * d[n][a];
+            s.second[k][3 + a] = 4.0 * (d[m][a] * d[n][b] + d[n][a] * d[m][b]);
+        }
+    }
+}

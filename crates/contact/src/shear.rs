@@ -1,0 +1,245 @@
+//! Friction of an interface: history, the gather-call-scatter around a law, and the vector form of its answer.
+//!
+//! All vectors are components in the frame carried with the master surface. With the trial traction
+//! `t^e = t_old + E_t Δu` and η = t^e/|t^e| the law turns |t^e| into τ, and `t = τ η`.
+
+use crate::measure::{NormalPoint, ShearPoint};
+use crate::vector::{axpy, dot, norm, scaled};
+use asperity_friction::Failure;
+use asperity_friction::law::{Lag, Law, Regime, Responses, Trials};
+use std::sync::Arc;
+
+/// Frictional history of all points.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct History {
+    /// Shear traction t \[Pa\].
+    pub traction: Vec<[f64; 2]>,
+    /// Slip rate V ≥ 0 \[m/s\].
+    pub rate: Vec<f64>,
+    /// Regime.
+    pub regime: Vec<Regime>,
+    /// State variables, point-major.
+    pub states: Vec<f64>,
+}
+
+impl History {
+    fn new(points: usize, law: &dyn Law) -> Self {
+        let mut states = vec![0.0; points * law.states()];
+        law.initial(&mut states);
+        Self {
+            traction: vec![[0.0; 2]; points],
+            rate: vec![0.0; points],
+            regime: vec![Regime::Stick; points],
+            states,
+        }
+    }
+
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.traction.copy_from_slice(&other.traction);
+        self.rate.copy_from_slice(&other.rate);
+        self.regime.copy_from_slice(&other.regime);
+        self.states.copy_from_slice(&other.states);
+    }
+}
+
+/// Values of the closed points, one after another, for one call of the law. Vectors keep their capacity.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Slices {
+    /// Point of each entry.
+    pub index: Vec<usize>,
+    pub normal: Vec<f64>,
+    pub trial: Vec<f64>,
+    pub direction: Vec<[f64; 2]>,
+    pub offset: Vec<f64>,
+    pub old: Vec<f64>,
+    pub traction: Vec<f64>,
+    pub slip: Vec<f64>,
+    pub rate: Vec<f64>,
+    pub regime: Vec<Regime>,
+    pub d_trial: Vec<f64>,
+    pub d_normal: Vec<f64>,
+    pub states: Vec<f64>,
+}
+
+impl Slices {
+    fn with_capacity(n: usize, states: usize) -> Self {
+        let f = || Vec::with_capacity(n);
+        Self {
+            index: Vec::with_capacity(n),
+            normal: f(),
+            trial: f(),
+            direction: Vec::with_capacity(n),
+            offset: f(),
+            old: Vec::with_capacity(n * states),
+            traction: f(),
+            slip: f(),
+            rate: f(),
+            regime: Vec::with_capacity(n),
+            d_trial: f(),
+            d_normal: f(),
+            states: Vec::with_capacity(n * states),
+        }
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.index.clear();
+        self.normal.clear();
+        self.trial.clear();
+        self.direction.clear();
+        self.offset.clear();
+        self.old.clear();
+    }
+
+    /// Sizes the answers for the entries gathered.
+    fn size_answers(&mut self, states: usize) {
+        let n = self.index.len();
+        for v in [&mut self.traction, &mut self.slip, &mut self.rate, &mut self.d_trial, &mut self.d_normal] {
+            v.resize(n, 0.0);
+        }
+        self.regime.resize(n, Regime::Stick);
+        self.states.resize(n * states, 0.0);
+    }
+}
+
+/// Coefficients of the two-step difference for this step: `V = weight Δλ/Δt - past (±|Δλ_previous|)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct TwoStep {
+    /// (1 + 2w)/(1 + w) with w = Δt/Δt_previous \[-\].
+    pub weight: f64,
+    /// w²/((1 + w) Δt) \[1/s\].
+    pub past: f64,
+}
+
+impl TwoStep {
+    /// For a step `dt` after a step `previous`. With s the slip, s' of the parabola through three times is
+    /// `[(1+2w)/(1+w) (s_2 - s_1) - w²/(1+w) (s_1 - s_0)]/Δt`.
+    pub(crate) fn new(dt: f64, previous: f64) -> Self {
+        let w = dt / previous;
+        Self { weight: (1.0 + 2.0 * w) / (1.0 + w), past: w * w / ((1.0 + w) * dt) }
+    }
+}
+
+/// Friction on an interface.
+#[derive(Clone, Debug)]
+pub(crate) struct Shear {
+    pub law: Arc<dyn Law>,
+    /// Tangential penalty E_t \[Pa/m\].
+    pub stiffness: f64,
+    pub committed: History,
+    pub trial: History,
+    /// What the tangent needs, per point.
+    pub points: Vec<ShearPoint>,
+    pub slices: Slices,
+}
+
+impl Shear {
+    pub(crate) fn new(law: Arc<dyn Law>, stiffness: f64, points: usize) -> Self {
+        let committed = History::new(points, law.as_ref());
+        Self {
+            stiffness,
+            trial: committed.clone(),
+            committed,
+            points: vec![ShearPoint::default(); points],
+            slices: Slices::with_capacity(points, law.states()),
+            law,
+        }
+    }
+
+    /// Numbers of state of one point.
+    pub(crate) fn states(&self) -> usize {
+        self.law.states()
+    }
+
+    /// Implicit response of the law to the tangential increments; writes the trial history, the points of the tangent and
+    /// the slip increments `step`. `previous` holds the slip increments of the last step.
+    pub(crate) fn respond(
+        &mut self,
+        normal: &[NormalPoint],
+        increment: &[[f64; 2]],
+        dt: f64,
+        two_step: Option<TwoStep>,
+        previous: &[[f64; 2]],
+        step: &mut [[f64; 2]],
+    ) -> Result<(), Failure> {
+        self.gather(normal, increment, two_step, previous);
+        let s = &mut self.slices;
+        s.size_answers(self.law.states());
+        if !s.index.is_empty() {
+            let lag = two_step.map(|t| Lag { weight: t.weight, offset: &s.offset });
+            let trials = Trials { normal: &s.normal, trial: &s.trial, stiffness: self.stiffness, dt, lag };
+            let out = Responses {
+                traction: &mut s.traction,
+                slip: &mut s.slip,
+                rate: &mut s.rate,
+                regime: &mut s.regime,
+                d_trial: &mut s.d_trial,
+                d_normal: &mut s.d_normal,
+                states: &mut s.states,
+            };
+            self.law.respond(trials, &s.old, out)?;
+        }
+        self.scatter(step);
+        Ok(())
+    }
+
+    fn gather(
+        &mut self,
+        normal: &[NormalPoint],
+        increment: &[[f64; 2]],
+        two_step: Option<TwoStep>,
+        previous: &[[f64; 2]],
+    ) {
+        let k = self.law.states();
+        let s = &mut self.slices;
+        s.clear();
+        for (p, contact) in normal.iter().enumerate() {
+            if !contact.closed {
+                continue;
+            }
+            let mut trial = self.committed.traction[p];
+            axpy(&mut trial, self.stiffness, &increment[p]);
+            let size = norm(&trial);
+            let direction = if size > 0.0 { scaled(&trial, size.recip()) } else { [0.0; 2] };
+            s.index.push(p);
+            s.normal.push(contact.traction);
+            s.trial.push(size);
+            s.direction.push(direction);
+            s.old.extend_from_slice(&self.committed.states[p * k..(p + 1) * k]);
+            if let Some(t) = two_step {
+                // The previous slip counts as path length: its sign tells whether slip goes on or reverses.
+                let along = dot(&previous[p], &direction);
+                let length = norm(&previous[p]);
+                s.offset.push(if along == 0.0 { 0.0 } else { t.past * length.copysign(along) });
+            }
+        }
+    }
+
+    fn scatter(&mut self, step: &mut [[f64; 2]]) {
+        let k = self.law.states();
+        let s = &self.slices;
+        let trial = &mut self.trial;
+        trial.traction.fill([0.0; 2]);
+        trial.rate.fill(0.0);
+        trial.regime.fill(Regime::Stick);
+        trial.states.copy_from_slice(&self.committed.states);
+        self.points.fill(ShearPoint::default());
+        step.fill([0.0; 2]);
+        for (i, &p) in s.index.iter().enumerate() {
+            let direction = s.direction[i];
+            let traction = scaled(&direction, s.traction[i]);
+            trial.traction[p] = traction;
+            trial.rate[p] = s.rate[i];
+            trial.regime[p] = s.regime[i];
+            trial.states[p * k..(p + 1) * k].copy_from_slice(&s.states[i * k..(i + 1) * k]);
+            step[p] = scaled(&direction, s.slip[i]);
+            self.points[p] = ShearPoint {
+                traction,
+                direction,
+                // The limit of τ/|t^e| at |t^e| = 0 is the derivative.
+                ratio: if s.trial[i] > 0.0 { s.traction[i] / s.trial[i] } else { s.d_trial[i] },
+                d_trial: s.d_trial[i],
+                d_normal: s.d_normal[i],
+            };
+        }
+    }
+}

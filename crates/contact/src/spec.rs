@@ -1,0 +1,147 @@
+//! The declaration of an interface, as values.
+
+use asperity_friction::law::{Law, RateBounds};
+use std::fmt;
+use std::sync::Arc;
+
+/// A node of either side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceNode<const D: usize> {
+    /// Reference position \[m\].
+    pub position: [f64; D],
+    /// First of its `D` consecutive degrees of freedom in the system vector.
+    pub dof: usize,
+    /// Mesh node number, for messages.
+    pub label: usize,
+}
+
+/// A slave node with the area it stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlavePoint {
+    /// Index into the nodes of the interface.
+    pub node: usize,
+    /// Tributary area \[m²; m per unit of thickness in two dimensions\], positive.
+    pub area: f64,
+}
+
+/// Kinds of master segment. Node orders: corners first, then mid-nodes of the edges 12, 23, ..., then the centre.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SegmentKind {
+    /// Straight line of 2 nodes.
+    Seg2,
+    /// Line of 3 nodes (ends, middle).
+    Seg3,
+    /// Flat triangle.
+    Tri3,
+    /// Triangle of 6 nodes.
+    Tri6,
+    /// Bilinear quadrilateral.
+    Quad4,
+    /// Biquadratic quadrilateral of 9 nodes.
+    Quad9,
+}
+
+impl SegmentKind {
+    /// Number of nodes.
+    #[must_use]
+    pub fn nodes(self) -> usize {
+        match self {
+            Self::Seg2 => 2,
+            Self::Seg3 | Self::Tri3 => 3,
+            Self::Quad4 => 4,
+            Self::Tri6 => 6,
+            Self::Quad9 => 9,
+        }
+    }
+
+    /// Dimension of the space whose boundary it is part of.
+    #[must_use]
+    pub fn space(self) -> usize {
+        match self {
+            Self::Seg2 | Self::Seg3 => 2,
+            Self::Tri3 | Self::Tri6 | Self::Quad4 | Self::Quad9 => 3,
+        }
+    }
+
+    /// Whether its edges are straight.
+    #[must_use]
+    pub fn first_order(self) -> bool {
+        matches!(self, Self::Seg2 | Self::Tri3 | Self::Quad4)
+    }
+}
+
+impl fmt::Display for SegmentKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Seg2 => "seg2",
+            Self::Seg3 => "seg3",
+            Self::Tri3 => "tri3",
+            Self::Tri6 => "tri6",
+            Self::Quad4 => "quad4",
+            Self::Quad9 => "quad9",
+        })
+    }
+}
+
+/// A master segment. Its nodes run so that the outward normal is `(e_y, -e_x)/|e|` with `e = x_2 - x_1` in two dimensions
+/// (the body lies to the left of the edge), and along `e_1 × e_2` in three (counter-clockwise seen from outside).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Segment {
+    /// Kind.
+    pub kind: SegmentKind,
+    /// Indices into the nodes of the interface, in the order of the kind.
+    pub nodes: Vec<usize>,
+}
+
+/// Whether pairing and normal follow the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sliding {
+    /// Pairing, normals, tangents and weights fixed in the reference configuration.
+    Small,
+    /// Pairing and normal follow the motion.
+    Finite,
+}
+
+/// Time rule for the slip rate of implicit steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TimeRule {
+    /// V = Δλ/Δt.
+    #[default]
+    BackwardEuler,
+    /// Two-step backward difference with variable step; the first step of a law is backward Euler.
+    Bdf2,
+}
+
+/// Everything an interface is made of.
+#[derive(Clone, Debug)]
+pub struct InterfaceSpec<const D: usize> {
+    /// Name for reports.
+    pub name: String,
+    /// Nodes of both sides.
+    pub nodes: Vec<SurfaceNode<D>>,
+    /// Slave side.
+    pub slave: Vec<SlavePoint>,
+    /// Master side.
+    pub master: Vec<Segment>,
+    /// Small or finite sliding.
+    pub sliding: Sliding,
+    /// Normal of every pair instead of the segments' own (small sliding only): outward of the master; any length.
+    pub fixed_normal: Option<[f64; D]>,
+    /// Normal penalty E_n \[Pa/m\].
+    pub normal_penalty: f64,
+    /// Tangential penalty E_t \[Pa/m\]; unused without a law.
+    pub tangential_penalty: f64,
+    /// Friction; `None` = frictionless.
+    pub law: Option<Arc<dyn Law>>,
+    /// Size of the scene \[m\], for the closure tolerance.
+    pub scale: f64,
+    /// Forward steps: slip rates below this one count as rest \[m/s\].
+    pub rate_floor: f64,
+    /// Forward steps: bounds of limit r8.
+    pub rate_bounds: RateBounds,
+    /// Forward steps: whether the point residual `mu f_n - τ` is carried into the next step.
+    pub carry: bool,
+    /// For laws without an elastic domain: the largest prescribed rate \[m/s\]; a point slower than 1e-6 of it is
+    /// labelled stick. `None` for yield-surface laws, whose regime is the label.
+    pub label_rate: Option<f64>,
+}

@@ -1,0 +1,29 @@
+//! Status of a contact point.
+
+use asperity_friction::law::Regime;
+
+/// A point slower than this share of the largest prescribed rate is labelled stick, under laws without an elastic domain.
+const LABEL: f64 = 1e-6;
+
+/// What a point does; the numbers are those of output files.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Status {
+    /// No contact.
+    #[default]
+    Open = 0,
+    /// Contact without slip.
+    Stick = 1,
+    /// Contact with slip (always, without friction).
+    Slip = 2,
+}
+
+/// Label of a closed point under friction.
+#[must_use]
+pub fn label(regime: Regime, rate: f64, label_rate: Option<f64>) -> Status {
+    match (regime, label_rate) {
+        (Regime::Stick, _) => Status::Stick,
+        (Regime::Slip, Some(largest)) if rate < LABEL * largest => Status::Stick,
+        (Regime::Slip, _) => Status::Slip,
+    }
+}
