@@ -4,7 +4,7 @@
 //! fields.pvd  fields/bodies_00001.vtu  fields/fault_00001.vtu  profiles/fault_001.csv  probes/fault.csv
 //! ```
 
-use super::record::check_interfaces;
+use super::record::{check_interfaces, check_probes};
 use super::schedule::{Due, FieldSchedule};
 use super::view::{BodyFields, InterfaceFields, InterfaceMesh, MeshView, Observer, Setup, StepView};
 use super::vtu::{Array, Grid, PvdEntry, Values, pvd};
@@ -100,7 +100,8 @@ impl Files {
 
     fn write_profiles(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
         self.profile_number += 1;
-        for ((part, mesh), fields) in self.interfaces.iter().zip(&self.setup.interfaces).zip(view.interfaces) {
+        for ((part, mesh), fields) in self.interfaces.iter().zip(&self.setup.interfaces).zip(view.interfaces)
+        {
             let path = self.out.join(format!("profiles/{}_{:03}.csv", part.stem, self.profile_number));
             atomic::write(&path, &table::profile(view.record.time, mesh, fields))?;
         }
@@ -108,12 +109,15 @@ impl Files {
     }
 
     fn write_probes(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
-        for ((part, mesh), fields) in self.interfaces.iter_mut().zip(&self.setup.interfaces).zip(view.interfaces) {
+        for ((part, mesh), fields) in
+            self.interfaces.iter_mut().zip(&self.setup.interfaces).zip(view.interfaces)
+        {
             let Some(file) = &mut part.probes else { continue };
             let row = table::probe_row(view.record.time, view.record.stage, view.record.step, mesh, fields);
             // One write per row: a run that is killed leaves whole rows.
-            file.write_all(&row)
-                .map_err(|source| ObserveError::write(&self.out.join(format!("probes/{}.csv", part.stem)), source))?;
+            file.write_all(&row).map_err(|source| {
+                ObserveError::write(&self.out.join(format!("probes/{}.csv", part.stem)), source)
+            })?;
         }
         Ok(())
     }
@@ -133,6 +137,7 @@ impl Files {
 
 impl Observer for Files {
     fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
+        check_probes(setup)?;
         self.setup = setup.clone();
         self.fields_due = Due::new(self.schedule.fields, &setup.stages);
         self.profiles_due = Due::new(self.schedule.profiles, &setup.stages);
@@ -270,9 +275,13 @@ fn remove_numbered(dir: &Path, stems: &[&str], extension: &str) -> Result<(), Ob
     for entry in entries {
         let path = entry.map_err(|source| ObserveError::write(dir, source))?.path();
         let ours = path.extension().is_some_and(|found| found == extension)
-            && path.file_stem().and_then(|stem| stem.to_str()).and_then(|stem| stem.rsplit_once('_')).is_some_and(
-                |(stem, digits)| stems.contains(&stem) && digits.bytes().all(|byte| byte.is_ascii_digit()),
-            );
+            && path
+                .file_stem()
+                .and_then(|stem| stem.to_str())
+                .and_then(|stem| stem.rsplit_once('_'))
+                .is_some_and(|(stem, digits)| {
+                    stems.contains(&stem) && digits.bytes().all(|byte| byte.is_ascii_digit())
+                });
         if ours {
             remove(&path)?;
         }

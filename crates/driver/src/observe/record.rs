@@ -132,6 +132,7 @@ impl Recorder {
 
 impl Observer for Recorder {
     fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
+        check_probes(setup)?;
         let (all_nodes, with_bodies) = (self.all_nodes, self.with_bodies);
         let histories = setup.interfaces.iter().map(|mesh| {
             let nodes = if all_nodes { (0..mesh.positions.len()).collect() } else { mesh.probes.clone() };
@@ -186,12 +187,26 @@ impl PointHistory {
     }
 }
 
+/// Refuses probes that are no slave nodes.
+pub(super) fn check_probes(setup: &Setup) -> Result<(), ObserveError> {
+    for mesh in &setup.interfaces {
+        let n = mesh.positions.len();
+        expect_length(&format!("areas of interface {}", mesh.name), n, mesh.areas.len())?;
+        if let Some(&found) = mesh.probes.iter().find(|&&node| node >= n) {
+            let what = format!("a probe of interface {} is node number {found}", mesh.name);
+            return Err(ObserveError::Shape { what, expected: n, found });
+        }
+    }
+    Ok(())
+}
+
 /// Refuses interface fields that do not fit the announced slave nodes, so that no observer indexes out of range.
 pub(super) fn check_interfaces(setup: &Setup, interfaces: &[InterfaceFields]) -> Result<(), ObserveError> {
     expect_length("interfaces of the step", setup.interfaces.len(), interfaces.len())?;
     for (mesh, fields) in setup.interfaces.iter().zip(interfaces) {
         let n = mesh.positions.len();
-        let check = |field: &str, found| expect_length(&format!("{field} of interface {}", mesh.name), n, found);
+        let check =
+            |field: &str, found| expect_length(&format!("{field} of interface {}", mesh.name), n, found);
         check("gap", fields.gap.len())?;
         check("normal traction", fields.normal_traction.len())?;
         check("shear traction", fields.shear_traction.len())?;

@@ -24,7 +24,9 @@ impl FieldSchedule {
         let mut start = 0.0;
         for (_, end) in stages {
             for n in [self.fields, self.profiles] {
-                times.extend((1..=n).map(|k| if k == n { *end } else { start + (end - start) * k as f64 / n as f64 }));
+                times.extend(
+                    (1..=n).map(|k| if k == n { *end } else { start + (end - start) * k as f64 / n as f64 }),
+                );
             }
             start = *end;
         }

@@ -37,7 +37,9 @@ fn number(value: f64) -> String {
 pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields) -> Vec<u8> {
     let mut rows = Rows::default();
     let head = ["time [s]", "node", "x [m]", "y [m]", "z [m]", "area [m2]"];
-    rows.push(head.iter().map(ToString::to_string).chain(PROFILE.iter().map(|(name, _)| (*name).to_string())));
+    rows.push(
+        head.iter().map(ToString::to_string).chain(PROFILE.iter().map(|(name, _)| (*name).to_string())),
+    );
     for (i, position) in mesh.positions.iter().enumerate() {
         let place = [number(time), i.to_string()].into_iter().chain(position.iter().map(|&x| number(x)));
         let area = number(mesh.areas.get(i).copied().unwrap_or(f64::NAN));
@@ -50,7 +52,8 @@ pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields)
 pub(super) fn probe_header(mesh: &InterfaceMesh) -> Vec<u8> {
     let mut rows = Rows::default();
     let labels = super::plots::position_labels(mesh.probes.iter().map(|&node| mesh.positions[node]));
-    let columns = labels.iter().flat_map(|label| PROBE.iter().map(move |(name, _)| format!("{name} at {label}")));
+    let columns =
+        labels.iter().flat_map(|label| PROBE.iter().map(move |(name, _)| format!("{name} at {label}")));
     rows.push(["time [s]", "stage", "step"].iter().map(ToString::to_string).chain(columns));
     rows.bytes()
 }

@@ -52,14 +52,24 @@ impl<'a> Array<'a> {
     /// A vector of three components.
     #[must_use]
     pub fn vector(name: &'a str, values: &[[f64; 3]]) -> Self {
-        Self { name, components: 3, component_names: &[], encoded: Encoded::new(Values::F64(values.as_flattened())) }
+        Self {
+            name,
+            components: 3,
+            component_names: &[],
+            encoded: Encoded::new(Values::F64(values.as_flattened())),
+        }
     }
 
     /// A symmetric tensor in VTK's order xx, yy, zz, xy, yz, xz.
     #[must_use]
     pub fn tensor(name: &'a str, values: &[[f64; 6]]) -> Self {
         let component_names = &["XX", "YY", "ZZ", "XY", "YZ", "XZ"];
-        Self { name, components: 6, component_names, encoded: Encoded::new(Values::F64(values.as_flattened())) }
+        Self {
+            name,
+            components: 6,
+            component_names,
+            encoded: Encoded::new(Values::F64(values.as_flattened())),
+        }
     }
 
     /// Number of tuples.
@@ -192,7 +202,9 @@ impl Writer {
 
     fn array(&mut self, attributes: &str, encoded: &Encoded) {
         let (kind, offset) = (encoded.kind, self.appended.len());
-        self.line(&format!("<DataArray type=\"{kind}\" {attributes} format=\"appended\" offset=\"{offset}\"/>"));
+        self.line(&format!(
+            "<DataArray type=\"{kind}\" {attributes} format=\"appended\" offset=\"{offset}\"/>"
+        ));
         self.appended.push_str(&encoded.text);
     }
 
@@ -255,4 +267,104 @@ pub fn pvd(entries: &[PvdEntry]) -> Vec<u8> {
     }
     out.push_str("</Collection>\n</VTKFile>\n");
     out.into_bytes()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Read as _;
+
+    /// Reads one array of the appended section, independently of how it was written.
+    fn decode(appended: &str, offset: usize) -> Vec<u8> {
+        let words = |text: &str| -> Vec<u64> {
+            STANDARD
+                .decode(text)
+                .unwrap()
+                .chunks(8)
+                .map(|w| u64::from_le_bytes(w.try_into().unwrap()))
+                .collect()
+        };
+        let text = &appended[offset..];
+        // Three words fill 32 characters exactly.
+        let blocks = words(&text[..32])[0] as usize;
+        let header_length = ((3 + blocks) * 8).div_ceil(3) * 4;
+        let header = words(&text[..header_length]);
+        let compressed: usize = header[3..].iter().sum::<u64>() as usize;
+        let data = STANDARD.decode(&text[header_length..header_length + compressed.div_ceil(3) * 4]).unwrap();
+        let (mut out, mut at) = (Vec::new(), 0);
+        for (i, &size) in header[3..].iter().enumerate() {
+            let mut block = Vec::new();
+            flate2::read::ZlibDecoder::new(&data[at..at + size as usize]).read_to_end(&mut block).unwrap();
+            let partial = i + 1 == blocks && header[2] > 0;
+            assert_eq!(block.len() as u64, if partial { header[2] } else { header[1] });
+            out.extend(block);
+            at += size as usize;
+        }
+        out
+    }
+
+    fn arrays(file: &[u8]) -> Vec<(String, Vec<u8>)> {
+        let text = std::str::from_utf8(file).unwrap();
+        let (head, rest) = text.split_once("<AppendedData encoding=\"base64\">\n_").unwrap();
+        let (appended, _) = rest.split_once("\n</AppendedData>").unwrap();
+        let value = |line: &str, key: &str| {
+            let (_, rest) = line.split_once(&format!(" {key}=\"")).unwrap();
+            rest.split_once('"').unwrap().0.to_string()
+        };
+        let lines = head.lines().filter(|line| line.starts_with("<DataArray"));
+        lines
+            .map(|line| (value(line, "Name"), decode(appended, value(line, "offset").parse().unwrap())))
+            .collect()
+    }
+
+    fn f64s(bytes: &[u8]) -> Vec<f64> {
+        bytes.chunks(8).map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect()
+    }
+
+    #[test]
+    fn a_file_decodes_to_what_went_in() {
+        // 4096 points are exactly three blocks of positions, 5000 leave a partial one.
+        for n in [4096, 5000] {
+            let points: Vec<[f64; 3]> = (0..n).map(|i| [i as f64, 0.5 * i as f64, -1.0]).collect();
+            let cells: Vec<(u8, Vec<usize>)> = (0..n - 1).map(|i| (3, vec![i, i + 1])).collect();
+            let status: Vec<u8> = (0..n).map(|i| (i % 3) as u8).collect();
+            let stress = vec![[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]; n - 1];
+            let grid = Grid::new(&points, &cells);
+            let file = grid.file(
+                9.66,
+                &[Array::vector("displacement", &points), Array::scalar("status", Values::U8(&status))],
+                &[Array::tensor("stress", &stress)],
+            );
+            let found = arrays(&file);
+            let names: Vec<&str> = found.iter().map(|(name, _)| name.as_str()).collect();
+            assert_eq!(
+                names,
+                [
+                    "TimeValue",
+                    "Points",
+                    "connectivity",
+                    "offsets",
+                    "types",
+                    "displacement",
+                    "status",
+                    "stress"
+                ]
+            );
+            assert_eq!(f64s(&found[0].1), [9.66]);
+            assert_eq!(f64s(&found[1].1), points.as_flattened());
+            assert_eq!(found[2].1.len(), 8 * 2 * (n - 1));
+            assert_eq!(found[3].1[found[3].1.len() - 8..], (2 * (n as i64 - 1)).to_le_bytes());
+            assert_eq!(found[4].1, vec![3; n - 1]);
+            assert_eq!(f64s(&found[5].1), points.as_flattened());
+            assert_eq!(found[6].1, status);
+            assert_eq!(f64s(&found[7].1), stress.as_flattened());
+        }
+    }
+
+    #[test]
+    fn names_are_escaped() {
+        let entry = PvdEntry { time: 0.5, part: 1, name: "a<\"b\"&c".into(), file: "fields/a.vtu".into() };
+        let text = String::from_utf8(pvd(&[entry])).unwrap();
+        assert!(text.contains("timestep=\"0.5\" group=\"\" part=\"1\" name=\"a&lt;&quot;b&quot;&amp;c\""));
+    }
 }

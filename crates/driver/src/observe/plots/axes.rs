@@ -107,7 +107,8 @@ fn is_quarter(step: f64) -> bool {
 
 fn power_of_ten(exponent: i32) -> String {
     let digits = exponent.unsigned_abs().to_string();
-    let raised = digits.bytes().map(|d| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][usize::from(d - b'0')]);
+    let raised =
+        digits.bytes().map(|d| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][usize::from(d - b'0')]);
     format!("10{}{}", if exponent < 0 { "⁻" } else { "" }, raised.collect::<String>())
 }
 
@@ -168,4 +169,48 @@ impl Frame {
 /// Intervals aimed at along x.
 const X_TICKS: usize = 7;
 /// Intervals aimed at along y.
-pub(super) const Y_TICKS: usize = 6;
+pub(super) const Y_TICKS: usize = 7;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(axis: &Axis) -> Vec<String> {
+        axis.ticks(6).into_iter().map(|(_, text)| text).collect()
+    }
+
+    #[test]
+    fn ticks_are_round_numbers_inside_the_range() {
+        assert_eq!(texts(&Axis::exact((0.0, 59.66), String::new())), ["0", "10", "20", "30", "40", "50"]);
+        assert_eq!(
+            texts(&Axis::exact((-0.25, 1.0), String::new())),
+            ["−0.25", "0.00", "0.25", "0.50", "0.75", "1.00"]
+        );
+        let axis = Axis::logarithmic([1e-3, 2.0, 0.0].into_iter(), 14.0, String::new());
+        assert_eq!(texts(&axis), ["10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹"]);
+    }
+
+    #[test]
+    fn ranges_survive_constant_empty_and_non_finite_values() {
+        let cases: [&[f64]; 6] =
+            [&[], &[0.0], &[0.6, 0.6], &[f64::NAN], &[f64::INFINITY, -3.0], &[-1e-300, 1e-300]];
+        for values in cases {
+            for axis in [
+                Axis::linear(values.iter().copied(), 0.05, String::new()),
+                Axis::logarithmic(values.iter().copied(), 14.0, String::new()),
+            ] {
+                assert!(axis.range.0 < axis.range.1, "{values:?}");
+                assert!(!axis.ticks(6).is_empty(), "{values:?}");
+                assert!(axis.ticks(6).iter().all(|(place, _)| place.is_finite()), "{values:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn values_stand_in_proportion_to_the_range() {
+        let axis = Axis::exact((-10.0, 60.0), String::new());
+        assert_eq!((axis.place(-10.0), axis.place(25.0), axis.place(60.0)), (0.0, 0.5, 1.0));
+        let axis = Axis::logarithmic([1.0, 100.0].into_iter(), 14.0, String::new());
+        assert_eq!((axis.place(0.0), axis.place(10.0)), (0.0, 0.5));
+    }
+}

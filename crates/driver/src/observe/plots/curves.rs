@@ -68,7 +68,7 @@ pub(super) fn history(recorder: &Recorder, interface: usize, quantity: &Quantity
     let log = quantity.rate && is_spiky(times, &series);
     let values = series.iter().flat_map(|s| s.iter()).map(|v| if log { v.abs() } else { *v } / unit.factor);
     let label = format!("{} [{}]", quantity.name, unit.name);
-    let y = if log { Axis::logarithmic(values, DECADES, label) } else { Axis::linear(values, 0.05, label) };
+    let y = if log { Axis::logarithmic(values, DECADES, label) } else { Axis::linear(values, 0.08, label) };
     let frame = Frame {
         at: (96.0, 40.0),
         size: (560.0, 380.0),
@@ -92,9 +92,9 @@ pub(super) fn history(recorder: &Recorder, interface: usize, quantity: &Quantity
     }
     frame.draw(&mut figure);
     let labels = position_labels(points.iter().map(|p| p.position));
-    let entries: Vec<(String, Rgb, bool)> =
-        labels.into_iter().enumerate().map(|(i, l)| (l, of_curve(i, series.len()), false)).collect();
-    legend(&mut figure, &frame, &entries);
+    let entries = labels.into_iter().enumerate();
+    let entries = entries.map(|(i, name)| Entry { name, colour: of_curve(i, series.len()), dashed: false });
+    legend(&mut figure, &frame, entries);
     Some(figure)
 }
 
@@ -104,16 +104,24 @@ pub(super) fn title(figure: &mut Figure, frame: &Frame, scene: &str, part: &str)
     figure.text((frame.at.0, y), format!("{scene}: {part}"), super::axes::LABEL_TEXT, Anchor::Start, INK);
 }
 
-/// Names of the curves with their colours, right of the frame; the flag says dashed.
-pub(super) fn legend(figure: &mut Figure, frame: &Frame, entries: &[(String, Rgb, bool)]) {
+/// A curve in a legend.
+#[derive(Clone, Debug)]
+pub(super) struct Entry {
+    pub name: String,
+    pub colour: Rgb,
+    pub dashed: bool,
+}
+
+/// Names of the curves with their colours, right of the frame.
+pub(super) fn legend(figure: &mut Figure, frame: &Frame, entries: impl Iterator<Item = Entry>) {
     let left = frame.at.0 + frame.size.0 + 16.0;
-    for (i, (name, colour, dashed)) in entries.iter().enumerate() {
+    for (i, Entry { name, colour, dashed }) in entries.enumerate() {
         let y = frame.at.1 + 12.0 + 22.0 * i as f64;
         let line = [(left, y), (left + 26.0, y)];
-        if *dashed {
-            figure.dashed(&line, (6.0, 4.0), 2.2, *colour);
+        if dashed {
+            figure.dashed(&line, (6.0, 4.0), 2.2, colour);
         } else {
-            figure.line(line.to_vec(), 2.2, *colour);
+            figure.line(line.to_vec(), 2.2, colour);
         }
         figure.text((left + 34.0, y), name, 12.5, Anchor::Start, INK);
     }
@@ -195,7 +203,43 @@ fn thin(points: Vec<Point>) -> Vec<Point> {
         };
         let mut keep = [0, index(|a, b| a < b), index(|a, b| a > b), group.len() - 1];
         keep.sort_unstable();
-        kept.extend(keep.iter().enumerate().filter(|(k, i)| *k == 0 || keep[k - 1] != **i).map(|(_, &i)| group[i]));
+        kept.extend(
+            keep.iter().enumerate().filter(|(k, i)| *k == 0 || keep[k - 1] != **i).map(|(_, &i)| group[i]),
+        );
     }
     kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thinning_keeps_ends_and_extremes() {
+        let mut points: Vec<Point> =
+            (0..100_000).map(|i| (f64::from(i), (f64::from(i) * 0.01).sin())).collect();
+        points[54_321].1 = 9.0;
+        points[12_345].1 = -9.0;
+        let thinned = thin(points.clone());
+        assert!(thinned.len() <= 4 * COLUMNS + 4);
+        assert!(thinned.windows(2).all(|pair| pair[0].0 < pair[1].0));
+        for i in [0, 12_345, 54_321, 99_999] {
+            assert!(thinned.contains(&points[i]));
+        }
+    }
+
+    #[test]
+    fn a_curve_is_cut_where_it_is_not_finite() {
+        let cut = pieces(&[0.0, 1.0, 2.0, 3.0], &[1.0, f64::NAN, 2.0, 3.0]);
+        assert_eq!(cut, [vec![(0.0, 1.0)], vec![(2.0, 2.0), (3.0, 3.0)]]);
+    }
+
+    #[test]
+    fn rare_events_ask_for_a_logarithmic_axis_and_steady_sliding_does_not() {
+        let times: Vec<f64> = (1..=100).map(f64::from).collect();
+        let steady: Vec<f64> = times.iter().map(|t| 1.0 - (-t / 20.0).exp()).collect();
+        let events: Vec<f64> = (1..=100).map(|i| if i % 40 == 0 { 1.0 } else { 1e-9 }).collect();
+        assert!(!is_spiky(&times, &[&steady]));
+        assert!(is_spiky(&times, &[&events]));
+    }
 }

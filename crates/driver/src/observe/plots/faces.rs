@@ -11,8 +11,8 @@ pub(super) type Corner = Vec<usize>;
 #[derive(Debug, Default)]
 pub(super) struct Visible {
     pub triangles: Vec<[Corner; 3]>,
-    /// Edges where a body ends.
-    pub outline: Vec<[usize; 2]>,
+    /// Lines of nodes along which a body ends.
+    pub outline: Vec<Vec<usize>>,
 }
 
 /// A face: its nodes around the boundary, midside nodes in their places, and its centre node if it has one.
@@ -85,11 +85,17 @@ fn upper_faces(mesh: &MeshView) -> Vec<Face> {
             let mut key = ring.clone();
             key.sort_unstable();
             // A face met twice lies inside.
-            outer.entry(key).and_modify(|face| *face = None).or_insert(Some(Face { ring, centre: None, body }));
+            outer.entry(key).and_modify(|face| *face = None).or_insert(Some(Face {
+                ring,
+                centre: None,
+                body,
+            }));
         }
     }
-    let mut faces: Vec<Face> = outer.into_values().flatten().filter(|face| looks_up(mesh, &face.ring)).collect();
-    let height = |face: &Face| face.ring.iter().map(|&n| mesh.nodes[n][2]).sum::<f64>() / face.ring.len() as f64;
+    let mut faces: Vec<Face> =
+        outer.into_values().flatten().filter(|face| looks_up(mesh, &face.ring)).collect();
+    let height =
+        |face: &Face| face.ring.iter().map(|&n| mesh.nodes[n][2]).sum::<f64>() / face.ring.len() as f64;
     faces.sort_by(|a, b| height(a).total_cmp(&height(b)));
     faces
 }
@@ -109,14 +115,104 @@ fn looks_up(mesh: &MeshView, ring: &[usize]) -> bool {
 /// Projected area over squared edges below which a face is seen edge-on.
 const EDGE_ON: f64 = 1e-6;
 
-/// Edges of the faces that belong to one face of their body only.
-fn outline(faces: &[Face]) -> Vec<[usize; 2]> {
-    let mut count: BTreeMap<(usize, usize, usize), ([usize; 2], usize)> = BTreeMap::new();
+/// Edges of the faces that belong to one face of their body only, joined to lines.
+fn outline(faces: &[Face]) -> Vec<Vec<usize>> {
+    let mut count: BTreeMap<(usize, usize, usize), usize> = BTreeMap::new();
     for face in faces {
         for i in 0..face.ring.len() {
             let (a, b) = (face.ring[i], face.ring[(i + 1) % face.ring.len()]);
-            count.entry((face.body, a.min(b), a.max(b))).or_insert(([a, b], 0)).1 += 1;
+            *count.entry((face.body, a.min(b), a.max(b))).or_insert(0) += 1;
         }
     }
-    count.into_values().filter(|(_, n)| *n == 1).map(|(edge, _)| edge).collect()
+    let mut next: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for ((_, a, b), _) in count.into_iter().filter(|(_, n)| *n == 1) {
+        next.entry(a).or_default().push(b);
+        next.entry(b).or_default().push(a);
+    }
+    let mut lines = Vec::new();
+    while let Some(start) = next.iter().find(|(_, ends)| !ends.is_empty()).map(|(&node, _)| node) {
+        let mut line = vec![start];
+        let mut at = start;
+        while let Some(to) = next.get_mut(&at).and_then(Vec::pop) {
+            if let Some(back) = next.get_mut(&to) {
+                back.retain(|&node| node != at);
+            }
+            line.push(to);
+            at = to;
+        }
+        next.retain(|_, ends| !ends.is_empty());
+        lines.push(line);
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cube() -> Vec<[f64; 3]> {
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        [0.0, 1.0, 2.0].iter().flat_map(|&z| corners.map(|[x, y]| [x, y, z])).collect()
+    }
+
+    #[test]
+    fn of_two_stacked_cubes_the_top_face_is_seen() {
+        let mesh = MeshView {
+            nodes: cube(),
+            cells: vec![(12, (0..8).collect()), (12, (4..12).collect())],
+            cell_body: vec![0, 0],
+            bodies: vec!["A".into()],
+            dimension: 3,
+        };
+        let seen = visible(&mesh);
+        assert_eq!(seen.triangles.len(), 4);
+        assert!(seen.triangles.iter().flatten().flatten().all(|&node| node >= 8));
+        assert_eq!(seen.outline.len(), 1);
+        assert_eq!(seen.outline[0].len(), 5);
+    }
+
+    #[test]
+    fn flat_cells_of_every_kind_are_covered_by_triangles() {
+        let square = [
+            [0.0, 0.0],
+            [1.0, 0.0],
+            [1.0, 1.0],
+            [0.0, 1.0],
+            [0.5, 0.0],
+            [1.0, 0.5],
+            [0.5, 1.0],
+            [0.0, 0.5],
+            [0.5, 0.5],
+        ];
+        let triangle = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
+        let cases: [(u8, &[[f64; 2]], f64); 5] = [
+            (9, &square[..4], 1.0),
+            (23, &square[..8], 1.0),
+            (28, &square, 1.0),
+            (5, &triangle[..3], 0.5),
+            (22, &triangle, 0.5),
+        ];
+        for (kind, nodes, expected) in cases {
+            let mesh = MeshView {
+                nodes: nodes.iter().map(|[x, y]| [*x, *y, 0.0]).collect(),
+                cells: vec![(kind, (0..nodes.len()).collect())],
+                cell_body: vec![0],
+                bodies: vec!["A".into()],
+                dimension: 2,
+            };
+            let mean = |c: &Corner, k: usize| c.iter().map(|&n| nodes[n][k]).sum::<f64>() / c.len() as f64;
+            let area = |[a, b, c]: &[Corner; 3]| {
+                ((mean(b, 0) - mean(a, 0)) * (mean(c, 1) - mean(a, 1))
+                    - (mean(c, 0) - mean(a, 0)) * (mean(b, 1) - mean(a, 1)))
+                    / 2.0
+            };
+            let seen = visible(&mesh);
+            assert!(seen.triangles.iter().all(|t| area(t) > 0.0), "type {kind}");
+            approx_eq(seen.triangles.iter().map(area).sum(), expected);
+        }
+    }
+
+    fn approx_eq(found: f64, expected: f64) {
+        assert!((found - expected).abs() < 1e-14, "{found} {expected}");
+    }
 }

@@ -15,7 +15,7 @@ const ROOM: Point = (560.0, 460.0);
 const FINE: f64 = 2.0;
 
 /// Share of the nodes whose values the colours cover when a few singular corners lie far above them.
-const COVERED: f64 = 0.995;
+const COVERED: f64 = 0.99;
 
 /// How far above the covered values the largest must lie for the colours to stop below it.
 const FAR_ABOVE: f64 = 1.15;
@@ -34,16 +34,17 @@ pub(super) fn mises(scene: &str, mesh: &MeshView, end: &StageEnd, fields: &BodyF
         y: Axis::exact((lo.1 / length.factor, hi.1 / length.factor), format!("y [{}]", length.name)),
     };
     let colours = Colours::of(&seen, &fields.node_mises);
-    let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + frame.size.1 + 62.0);
+    let mut figure =
+        Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + frame.size.1 + 62.0);
     let heading = format!("{scene}: end of stage “{}”", end.name);
     figure.text((frame.at.0, 22.0), heading, super::axes::LABEL_TEXT, Anchor::Start, INK);
     figure.image(map(mesh, &seen, &fields.node_mises, &colours, &frame, (lo, hi)));
-    for edge in &seen.outline {
-        let at = |node: usize| {
+    for line in &seen.outline {
+        let at = |&node: &usize| {
             let [x, y, _] = mesh.nodes[node];
             frame.point(x / length.factor, y / length.factor)
         };
-        figure.line(vec![at(edge[0]), at(edge[1])], 0.9, INK);
+        figure.line(line.iter().map(at).collect(), 1.0, INK);
     }
     frame.draw(&mut figure);
     colour_bar(&mut figure, &frame, &colours);
@@ -72,7 +73,8 @@ impl Colours {
         let covered = sorted[((sorted.len() - 1) as f64 * COVERED) as usize];
         let (hi, above) = if most > FAR_ABOVE * covered { (covered, Some(most)) } else { (most, None) };
         // A uniform field gets a bar around its value.
-        let room = if hi - lo <= FLAT * hi.abs() { if hi == 0.0 { 1.0 } else { 0.1 * hi.abs() } } else { 0.0 };
+        let room =
+            if hi - lo <= FLAT * hi.abs() { if hi == 0.0 { 1.0 } else { 0.1 * hi.abs() } } else { 0.0 };
         Self { unit: STRESS.of(most.abs()), lo: lo - room, hi: hi + room, above }
     }
 
@@ -109,7 +111,8 @@ fn map(
     let rows = (frame.size.1 * FINE).round().max(1.0) as usize;
     let mut rgb = vec![PAPER; columns * rows];
     let corner = |nodes: &Corner| {
-        let mean = |read: &dyn Fn(usize) -> f64| nodes.iter().map(|&n| read(n)).sum::<f64>() / nodes.len() as f64;
+        let mean =
+            |read: &dyn Fn(usize) -> f64| nodes.iter().map(|&n| read(n)).sum::<f64>() / nodes.len() as f64;
         let x = (mean(&|n| mesh.nodes[n][0]) - lo.0) / (hi.0 - lo.0) * columns as f64;
         let y = (hi.1 - mean(&|n| mesh.nodes[n][1])) / (hi.1 - lo.1) * rows as f64;
         (x, y, mean(&|n| values[n]))

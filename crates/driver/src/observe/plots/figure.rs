@@ -72,7 +72,14 @@ impl Figure {
         self.shapes.push(Shape::Area { points, colour });
     }
 
-    pub(super) fn text(&mut self, at: Point, text: impl Into<String>, size: f64, anchor: Anchor, colour: Rgb) {
+    pub(super) fn text(
+        &mut self,
+        at: Point,
+        text: impl Into<String>,
+        size: f64,
+        anchor: Anchor,
+        colour: Rgb,
+    ) {
         self.shapes.push(Shape::Text(Text { at, text: text.into(), size, anchor, vertical: false, colour }));
     }
 
@@ -117,4 +124,15 @@ fn dashes(points: &[Point], on: f64, off: f64) -> Vec<Vec<Point>> {
         drawn.push(current);
     }
     drawn
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dashes_run_on_around_corners() {
+        let found = dashes(&[(0.0, 0.0), (5.0, 0.0), (5.0, 5.0)], 4.0, 2.0);
+        assert_eq!(found, [vec![(0.0, 0.0), (4.0, 0.0)], vec![(5.0, 1.0), (5.0, 5.0)]]);
+    }
 }

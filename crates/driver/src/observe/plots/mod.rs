@@ -43,7 +43,8 @@ fn figures(recorder: &Recorder) -> Vec<(String, Figure)> {
     let mut figures = Vec::new();
     let stage_names = stems(setup.stages.iter().map(|(name, _)| name.as_str()));
     for end in recorder.stage_ends() {
-        let figure = end.bodies.as_ref().and_then(|fields| field::mises(&setup.title, &setup.mesh, end, fields));
+        let figure =
+            end.bodies.as_ref().and_then(|fields| field::mises(&setup.title, &setup.mesh, end, fields));
         if let (Some(figure), Some(stage)) = (figure, stage_names.get(end.stage)) {
             figures.push((format!("mises_{}_{stage}", end.stage + 1), figure));
         }

@@ -3,13 +3,20 @@
 use super::super::record::StageEnd;
 use super::super::view::InterfaceMesh;
 use super::axes::{Axis, Frame};
-use super::colour::{Rgb, viridis};
-use super::curves::{LEGEND, legend, title};
-use super::figure::Figure;
+use super::colour::viridis;
+use super::curves::{Entry, LEGEND, legend, title};
+use super::figure::{Figure, Point};
 use super::units::{LENGTH, STRESS};
 
 /// Two positions closer than this fraction of the interface's extent are one: nodes of one line across it.
 const SAME_LINE: f64 = 1e-6;
+
+/// A traction along the interface.
+struct Curve {
+    entry: Entry,
+    /// Position and traction, in SI.
+    points: Vec<Point>,
+}
 
 /// Normal (full) and shear traction (dashed) along the longest extent of the interface, averaged across it by area;
 /// `None` when there is nothing to draw.
@@ -21,61 +28,68 @@ pub(super) fn tractions(
 ) -> Option<Figure> {
     let axis = longest(mesh)?;
     let places: Vec<f64> = mesh.positions.iter().map(|p| p[axis]).collect();
-    let mut curves: Vec<(String, Rgb, bool, Vec<(f64, f64)>)> = Vec::new();
-    for (i, end) in ends.iter().enumerate() {
-        let fields = end.interfaces.get(interface)?;
-        let colour = viridis(0.25 + 0.5 * i as f64 / (ends.len().max(2) - 1) as f64);
-        let along = |values: &[f64]| averaged(&places, &mesh.areas, values);
-        curves.push((format!("{}: normal", end.name), colour, false, along(&fields.normal_traction)));
-        curves.push((format!("{}: shear", end.name), colour, true, along(&fields.shear_traction)));
-    }
-    let finite = curves.iter().flat_map(|c| c.3.iter()).map(|p| p.1.abs()).filter(|v| v.is_finite());
-    let (stress, length) = (STRESS.of(finite.fold(0.0, f64::max)), LENGTH.of(most(&places)));
-    let (lo, hi) = places.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &x| (lo.min(x), hi.max(x)));
-    let values = curves.iter().flat_map(|c| c.3.iter()).map(|p| p.1 / stress.factor);
-    let frame = Frame {
-        at: (96.0, 40.0),
-        size: (560.0, 380.0),
-        x: Axis::exact((lo / length.factor, hi / length.factor), format!("{} [{}]", ["x", "y", "z"][axis], length.name)),
-        y: Axis::linear(values, 0.05, format!("Traction [{}]", stress.name)),
-    };
+    let curves = curves(mesh, &places, interface, ends);
     if curves.is_empty() {
         return None;
     }
+    let values = || curves.iter().flat_map(|curve| curve.points.iter()).map(|p| p.1);
+    let largest = values().map(f64::abs).filter(|v| v.is_finite()).fold(0.0, f64::max);
+    let (stress, length) =
+        (STRESS.of(largest), LENGTH.of(places.iter().fold(0.0, |most, v| most.max(v.abs()))));
+    let (lo, hi) = bounds(&places);
+    let label = format!("{} [{}]", ["x", "y", "z"][axis], length.name);
+    let frame = Frame {
+        at: (96.0, 40.0),
+        size: (560.0, 380.0),
+        x: Axis::exact((lo / length.factor, hi / length.factor), label),
+        y: Axis::linear(values().map(|v| v / stress.factor), 0.05, format!("Traction [{}]", stress.name)),
+    };
     let mut figure = Figure::new(96.0 + 560.0 + LEGEND, 480.0);
     title(&mut figure, &frame, scene, &mesh.name);
     frame.grid(&mut figure);
-    for (_, colour, dashed, points) in &curves {
-        let line: Vec<_> = points
-            .iter()
-            .filter(|(_, v)| v.is_finite())
-            .map(|(x, v)| frame.point(x / length.factor, v / stress.factor))
-            .collect();
-        if *dashed {
-            figure.dashed(&line, (6.0, 4.0), 1.8, *colour);
+    for Curve { entry, points } in &curves {
+        let finite = points.iter().filter(|(_, v)| v.is_finite());
+        let line: Vec<Point> =
+            finite.map(|(x, v)| frame.point(x / length.factor, v / stress.factor)).collect();
+        if entry.dashed {
+            figure.dashed(&line, (6.0, 4.0), 1.8, entry.colour);
         } else {
-            figure.line(line, 1.8, *colour);
+            figure.line(line, 1.8, entry.colour);
         }
     }
     frame.draw(&mut figure);
-    let entries: Vec<_> = curves.into_iter().map(|(name, colour, dashed, _)| (name, colour, dashed)).collect();
-    legend(&mut figure, &frame, &entries);
+    legend(&mut figure, &frame, curves.into_iter().map(|curve| curve.entry));
     Some(figure)
+}
+
+/// Two curves for each stage end.
+fn curves(mesh: &InterfaceMesh, places: &[f64], interface: usize, ends: &[StageEnd]) -> Vec<Curve> {
+    let mut curves = Vec::with_capacity(2 * ends.len());
+    for (i, end) in ends.iter().enumerate() {
+        let Some(fields) = end.interfaces.get(interface) else { continue };
+        let colour = viridis(0.25 + 0.5 * i as f64 / (ends.len().max(2) - 1) as f64);
+        for (name, values, dashed) in
+            [("normal", &fields.normal_traction, false), ("shear", &fields.shear_traction, true)]
+        {
+            let entry = Entry { name: format!("{name}, {}", end.name), colour, dashed };
+            curves.push(Curve { entry, points: averaged(places, &mesh.areas, values) });
+        }
+    }
+    curves
 }
 
 /// The axis along which the interface is longest; `None` when it is a point.
 fn longest(mesh: &InterfaceMesh) -> Option<usize> {
     let extent = |axis: usize| {
-        let values = mesh.positions.iter().map(|p| p[axis]);
-        let (lo, hi) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (lo.min(x), hi.max(x)));
+        let (lo, hi) = bounds(&mesh.positions.iter().map(|p| p[axis]).collect::<Vec<_>>());
         hi - lo
     };
     let axis = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b)))?;
     (extent(axis) > 0.0 && extent(axis).is_finite()).then_some(axis)
 }
 
-fn most(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, v| most.max(v.abs()))
+fn bounds(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &x| (lo.min(x), hi.max(x)))
 }
 
 /// Values sorted by place; those at one place become their mean, weighted by area.
@@ -90,4 +104,15 @@ fn averaged(places: &[f64], areas: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
         (places[group[0]], group.iter().map(|&i| weight(i) * values[i]).sum::<f64>() / total)
     };
     order.chunk_by(|&a, &b| places[b] - places[a] <= near).map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nodes_at_one_place_count_by_their_area() {
+        let found = averaged(&[1.0, 0.0, 0.0], &[1.0, 1.0, 3.0], &[7.0, 4.0, 8.0]);
+        assert_eq!(found, [(0.0, 7.0), (1.0, 7.0)]);
+    }
 }

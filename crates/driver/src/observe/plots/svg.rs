@@ -54,7 +54,8 @@ fn label(text: &Text) -> String {
         Anchor::Middle => "middle",
         Anchor::End => "end",
     };
-    let turn = if text.vertical { format!(" transform=\"rotate(-90 {x:.2} {y:.2})\"") } else { String::new() };
+    let turn =
+        if text.vertical { format!(" transform=\"rotate(-90 {x:.2} {y:.2})\"") } else { String::new() };
     // The middle of capitals lies .36 em above the base line.
     format!(
         "<text x=\"{x:.2}\" y=\"{y:.2}\" dy=\".36em\" font-size=\"{}\" text-anchor=\"{anchor}\" fill=\"{}\"{turn}>{}</text>",

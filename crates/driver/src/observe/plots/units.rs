@@ -20,8 +20,9 @@ impl Units {
     }
 }
 
+/// A unit used from half of itself on, so that what approaches 1 from below does not read as 999 of the next smaller.
 const fn unit(name: &'static str, factor: f64) -> (Unit, f64) {
-    (Unit { name, factor }, factor)
+    (Unit { name, factor }, 0.5 * factor)
 }
 
 /// A unit used only from `from` on.
@@ -45,7 +46,8 @@ pub(super) const VELOCITY: Units =
     Units(&[unit("nm/s", NANO), unit("µm/s", MICRO), unit("mm/s", MILLI), unit("m/s", 1.0)]);
 
 /// Stresses and tractions.
-pub(super) const STRESS: Units = Units(&[unit("Pa", 1.0), unit("kPa", 1e3), unit("MPa", 1e6), later("GPa", 1e9, 1e10)]);
+pub(super) const STRESS: Units =
+    Units(&[unit("Pa", 1.0), unit("kPa", 1e3), unit("MPa", 1e6), later("GPa", 1e9, 1e10)]);
 
 /// Times: seconds up to some hours, then days, then years of 365.25 days.
 pub(super) const TIME: Units = Units(&[
@@ -59,3 +61,27 @@ pub(super) const TIME: Units = Units(&[
 
 /// Numbers without a unit.
 pub(super) const NUMBER: Units = Units(&[(Unit { name: "–", factor: 1.0 }, 0.0)]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_keep_numbers_readable() {
+        assert_eq!(LENGTH.of(5e-5).name, "µm");
+        assert_eq!(LENGTH.of(0.07).name, "mm");
+        assert_eq!(VELOCITY.of(0.999e-6).name, "µm/s");
+        assert_eq!(STRESS.of(2.3e7).name, "MPa");
+        assert_eq!(TIME.of(59.66).name, "s");
+        assert_eq!(TIME.of(6.4e7).name, "a");
+    }
+
+    #[test]
+    fn what_has_no_size_still_has_a_unit() {
+        for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(LENGTH.of(value).name, "m");
+            assert_eq!(NUMBER.of(value).factor, 1.0);
+        }
+        assert_eq!(LENGTH.of(1e-30).name, "nm");
+    }
+}

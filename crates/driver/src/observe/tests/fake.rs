@@ -43,13 +43,14 @@ pub(crate) fn setup(layers: usize) -> Setup {
     block(&mut mesh, 0, [0.0, 0.0], [0.025, 0.05], layers);
     block(&mut mesh, 1, [0.025, -0.01], [0.05, 0.06], layers);
     let rows = 21;
-    let positions: Vec<[f64; 3]> = (0..=layers)
-        .flat_map(|k| (0..rows).map(move |j| [0.025, j as f64 * H, k as f64 * H]))
-        .collect();
+    let positions: Vec<[f64; 3]> =
+        (0..=layers).flat_map(|k| (0..rows).map(move |j| [0.025, j as f64 * H, k as f64 * H])).collect();
     let faces = if layers == 0 {
         (0..rows - 1).map(|j| vec![j, j + 1]).collect()
     } else {
-        let quad = |j: usize, k: usize| vec![k * rows + j, k * rows + j + 1, (k + 1) * rows + j + 1, (k + 1) * rows + j];
+        let quad = |j: usize, k: usize| {
+            vec![k * rows + j, k * rows + j + 1, (k + 1) * rows + j + 1, (k + 1) * rows + j]
+        };
         (0..layers).flat_map(|k| (0..rows - 1).map(move |j| quad(j, k))).collect()
     };
     let fault = InterfaceMesh {
@@ -100,7 +101,7 @@ pub(crate) fn body_fields(mesh: &MeshView, time: f64, spoil: Option<f64>) -> Bod
     let cell_mises: Vec<f64> = mesh.cells.iter().map(|(_, nodes)| mises(&centre(nodes))).collect();
     BodyFields {
         displacement: mesh.nodes.iter().map(|p| [1e-3 * p[0], -1e-4 * p[1], 0.0]).collect(),
-        cell_stress: cell_mises.iter().map(|&m| [-m, 0.1 * m, -0.1 * m, 0.3 * m, 0.0, 0.0]).collect(),
+        cell_stress: cell_mises.iter().map(|&m| [-m, 0.0, 0.0, 0.0, 0.0, 0.0]).collect(),
         cell_mises,
         node_mises: mesh.nodes.iter().map(mises).collect(),
     }

@@ -1,0 +1,174 @@
+"""Reads an output directory of asperity with the readers its users have, and exits non-zero when something is off.
+
+    python interop/check_vtu.py out/sandwich
+
+Fields are read with VTK (through pyvista) and with meshio; both accept damaged files silently, so names, sizes and
+values are asserted. Tables are read with the standard library, plots with Pillow and an XML parser. Nothing is rendered.
+"""
+
+import csv
+import math
+import sys
+import xml.etree.ElementTree as xml
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pyvista
+from PIL import Image
+
+BODY_POINTS = {"displacement": 3, "mises": 1}
+BODY_CELLS = {"stress": 6, "mises": 1, "body": 1}
+INTERFACE_POINTS = dict.fromkeys(
+    ["gap", "slip", "relative_displacement", "slip_rate", "normal_traction", "shear_traction", "friction", "status"], 1
+) | {"area": 1}
+PROFILE = {
+    "gap [m]": "gap",
+    "slip [m]": "slip",
+    "relative_displacement [m]": "relative_displacement",
+    "slip_rate [m/s]": "slip_rate",
+    "normal_traction [Pa]": "normal_traction",
+    "shear_traction [Pa]": "shear_traction",
+    "friction [-]": "friction",
+}
+
+problems: list[str] = []
+
+
+def expect(condition, message):
+    """Notes a problem, and goes on: one run shows all of them."""
+    if not condition:
+        problems.append(message)
+    return bool(condition)
+
+
+def check_arrays(where, found, expected, count):
+    expect(set(found) == set(expected), f"{where}: arrays {sorted(found)}, expected {sorted(expected)}")
+    for name in set(found) & set(expected):
+        values = np.asarray(found[name]).reshape(count, -1) if len(found[name]) == count else None
+        if expect(values is not None, f"{where}: {name} has {len(found[name])} tuples, expected {count}"):
+            expect(values.shape[1] == expected[name], f"{where}: {name} has {values.shape[1]} components")
+            expect(np.isfinite(values).all(), f"{where}: {name} is not finite everywhere")
+
+
+def check_field(path, time, is_body):
+    """One `.vtu`, by both readers; returns the VTK one."""
+    points, cells = (BODY_POINTS, BODY_CELLS) if is_body else (INTERFACE_POINTS, {})
+    grid = pyvista.read(path)
+    expect(grid.n_points > 0 and grid.n_cells > 0, f"{path}: empty in VTK")
+    check_arrays(f"{path} (VTK, points)", dict(grid.point_data), points, grid.n_points)
+    check_arrays(f"{path} (VTK, cells)", dict(grid.cell_data), cells, grid.n_cells)
+    stored = grid.field_data.get("TimeValue", [math.nan])[0]
+    expect(stored == time, f"{path}: TimeValue {stored}, the collection says {time}")
+    mesh = meshio.read(path)
+    expect(len(mesh.points) == grid.n_points, f"{path}: meshio sees {len(mesh.points)} points")
+    expect(sum(len(block.data) for block in mesh.cells) == grid.n_cells, f"{path}: meshio sees other cells")
+    expect(np.array_equal(mesh.points, grid.points), f"{path}: points differ between the readers")
+    for name in points:
+        same = name in mesh.point_data and np.array_equal(mesh.point_data[name], grid.point_data[name])
+        expect(same, f"{path}: {name} differs between the readers")
+    expect(grid.cell_connectivity.max() < grid.n_points, f"{path}: a cell names a point that does not exist")
+    if is_body:
+        sizes = grid.compute_cell_sizes(length=False)
+        size = sizes["Volume"] if grid.bounds[5] > grid.bounds[4] else sizes["Area"]
+        expect((size > 0).all(), f"{path}: cells without size or turned inside out")
+        check_mises(path, grid)
+    return grid
+
+
+def check_mises(path, grid):
+    """Mises stress is convex: that of a cell's mean stress is at most the mean of its points' Mises stresses."""
+    xx, yy, zz, xy, yz, zx = np.asarray(grid.cell_data["stress"]).T
+    mises = np.sqrt(((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) / 2 + 3 * (xy**2 + yz**2 + zx**2))
+    given = np.asarray(grid.cell_data["mises"])
+    scale = max(given.max(), mises.max())
+    expect((mises <= given + 1e-9 * scale).all(), f"{path}: Mises stress below that of the mean stress")
+
+
+def check_collection(out):
+    """The `.pvd`: returns {(interface, time): grid}."""
+    root = xml.parse(out / "fields.pvd").getroot()
+    sets = root.findall("./Collection/DataSet")
+    expect(sets, "fields.pvd is empty")
+    parts = {int(entry.get("part")): entry.get("name") for entry in sets}
+    times = sorted({float(entry.get("timestep")) for entry in sets})
+    expect(len(sets) == len(parts) * len(times), "fields.pvd: some time lacks a part")
+    reader = pyvista.get_reader(out / "fields.pvd")
+    expect(sorted(set(reader.time_values)) == times, "fields.pvd: VTK sees other times")
+    reader.set_active_time_value(times[-1])
+    expect(len(reader.read()) == len(parts), "fields.pvd: VTK sees another number of parts")
+    grids = {}
+    for entry in sets:
+        path, time = out / entry.get("file"), float(entry.get("timestep"))
+        if expect(path.is_file(), f"{path} is missing"):
+            try:
+                grids[entry.get("name"), time] = check_field(path, time, is_body=entry.get("part") == "0")
+            except Exception as error:  # Whatever a reader throws at a damaged file is one more problem to list.
+                expect(False, f"{path}: {type(error).__name__}: {error}")
+    on_disk = {path.relative_to(out).as_posix() for path in (out / "fields").glob("*")}
+    expect(on_disk == {entry.get("file") for entry in sets}, "fields/ holds other files than the collection names")
+    return grids
+
+
+def table(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        head, *rows = csv.reader(file)
+    expect(all(len(row) == len(head) for row in rows), f"{path}: rows of different length")
+    expect(len(set(head)) == len(head), f"{path}: two columns of one name")
+    return head, np.array([[float(value) for value in row] for row in rows])
+
+
+def check_tables(out, grids):
+    compared = 0
+    for path in sorted((out / "profiles").glob("*.csv")):
+        head, rows = table(path)
+        time, interface = rows[0][0], path.stem.rsplit("_", 1)[0]
+        expect((rows[:, 0] == time).all(), f"{path}: several times")
+        grid = grids.get((interface, time))
+        if grid is None:
+            continue
+        compared += 1
+        expect(np.array_equal(rows[:, 2:5], grid.points), f"{path}: positions differ from the field's")
+        for column, name in PROFILE.items():
+            same = np.array_equal(rows[:, head.index(column)], grid.point_data[name])
+            expect(same, f"{path}: {column} differs from the field's")
+    for path in sorted((out / "probes").glob("*.csv")):
+        head, rows = table(path)
+        expect(head[:3] == ["time [s]", "stage", "step"], f"{path}: unexpected first columns")
+        expect((np.diff(rows[:, 0]) > 0).all(), f"{path}: time does not increase")
+        expect(np.array_equal(rows[:, 2], np.arange(1, len(rows) + 1)), f"{path}: a step is missing")
+    return compared
+
+
+def check_plots(out):
+    names = sorted(path.stem for path in (out / "plots").glob("*.svg"))
+    expect(names, "no plots")
+    expect(names == sorted(path.stem for path in (out / "plots").glob("*.png")), "SVG and PNG differ in number")
+    for path in sorted((out / "plots").glob("*")):
+        if path.suffix == ".svg":
+            expect(xml.parse(path).getroot().tag.endswith("svg"), f"{path} is no SVG")
+        else:
+            with Image.open(path) as image:
+                image.load()
+                colours = np.unique(np.asarray(image.convert("RGB")).reshape(-1, 3), axis=0)
+                expect(len(colours) > 8, f"{path} looks blank")
+    return len(names)
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    out = Path(sys.argv[1])
+    grids = check_collection(out)
+    compared = check_tables(out, grids)
+    plots = check_plots(out)
+    leftovers = [path for path in out.rglob(".*") if path.is_file()]
+    expect(not leftovers, f"temporary files left behind: {leftovers}")
+    for problem in problems:
+        print(problem, file=sys.stderr)
+    print(f"{len(grids)} field files, {compared} profiles compared with fields, {plots} plots, {len(problems)} problems")
+    sys.exit(1 if problems else 0)
+
+
+if __name__ == "__main__":
+    main()
