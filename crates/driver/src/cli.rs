@@ -1,0 +1,142 @@
+//! The commands of the binary: `run` and `check`.
+// The command line is where printing belongs.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+use crate::observe::{FieldSchedule, Files, Multi, Observer, Progress, plots, Recorder};
+use crate::plan::{self, AnyPlan};
+use crate::report::{Outcome, RunReport};
+use crate::run;
+use crate::scene;
+use clap::{Parser, Subcommand};
+use miette::{IntoDiagnostic, WrapErr, miette};
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Faults and rock friction by finite elements.
+#[derive(Debug, Parser)]
+#[command(name = "asperity", version)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// Commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scene.
+    Run {
+        /// Scene file (TOML).
+        scene: PathBuf,
+        /// Output directory; `out/<scene name>` when not given.
+        #[arg(long)]
+        out: Option<PathBuf>,
+    },
+    /// Print what would be run, without running.
+    Check {
+        /// Scene file (TOML).
+        scene: PathBuf,
+    },
+}
+
+/// How a command ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum End {
+    /// As asked.
+    Done,
+    /// The stepper stopped early; everything until then was written.
+    Stopped(String),
+}
+
+/// Executes a command.
+///
+/// # Errors
+/// Diagnostics that point into the scene, or name the file that could not be read or written.
+pub fn execute(arguments: &Arguments) -> miette::Result<End> {
+    match &arguments.command {
+        Command::Check { scene } => {
+            let (plan, _, _) = planned(scene)?;
+            print!("{}", plan.summary());
+            Ok(End::Done)
+        }
+        Command::Run { scene, out } => {
+            let out = out.clone().unwrap_or_else(|| default_output(scene));
+            run_scene(scene, &out)
+        }
+    }
+}
+
+fn default_output(scene: &Path) -> PathBuf {
+    Path::new("out").join(scene.file_stem().unwrap_or_else(|| scene.as_os_str()))
+}
+
+/// Reads and plans a scene: the plan, the hash of its text, and the seconds planning took.
+fn planned(path: &Path) -> miette::Result<(AnyPlan, String, f64)> {
+    let text = std::fs::read_to_string(path)
+        .into_diagnostic()
+        .wrap_err_with(|| format!("cannot read the scene {}", path.display()))?;
+    let clock = Instant::now();
+    let name = path.display().to_string();
+    let parsed = scene::read(&text).map_err(|errors| scene::diagnostic::report(&name, &text, &errors))?;
+    let plan = plan::plan(&parsed)
+        .map_err(|error| scene::diagnostic::report(&name, &text, &scene::SceneErrors::from(error)))?;
+    let hash = Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect();
+    Ok((plan, hash, clock.elapsed().as_secs_f64()))
+}
+
+fn run_scene(path: &Path, out: &Path) -> miette::Result<End> {
+    let (plan, hash, seconds) = planned(path)?;
+    print!("{}", plan.summary());
+    let (fields, profiles) = plan.outputs();
+    let mut files = Files::create(out, FieldSchedule { fields, profiles }).into_diagnostic()?;
+    let mut recorder = Recorder::new().with_bodies();
+    let mut progress = Progress::new();
+    let mut observers = Multi::new(vec![&mut files as &mut dyn Observer, &mut recorder, &mut progress]);
+    let mut report = run::run(&plan, &mut observers).into_diagnostic()?;
+    report.scene_sha256 = hash;
+    report.run.seconds.plan = seconds;
+    write_report(out, &report)?;
+    plots::draw_all(&out.join("plots"), &recorder).into_diagnostic()?;
+    print_results(out, &report);
+    Ok(match report.outcome {
+        Outcome::Completed => End::Done,
+        Outcome::Stopped { stage, time, reason } => {
+            End::Stopped(format!("stage `{stage}` at {time:.6e} s: {reason}"))
+        }
+    })
+}
+
+fn write_report(out: &Path, report: &RunReport) -> miette::Result<()> {
+    let text = serde_json::to_string_pretty(report).into_diagnostic()?;
+    crate::observe::atomic::write(&out.join("report.json"), text.as_bytes())
+        .map_err(|e| miette!("cannot write the report: {e}"))
+}
+
+fn print_results(out: &Path, report: &RunReport) {
+    println!("results");
+    for r in &report.results {
+        println!(
+            "  {} after `{}`: mean normal traction {:.6} MPa, mean shear traction {:.6} MPa, slip {:.4} to {:.4} um, friction {:.4} to {:.4}",
+            r.interface,
+            r.stage,
+            r.mean_normal_traction * 1e-6,
+            r.mean_shear_traction * 1e-6,
+            r.slip[0] * 1e6,
+            r.slip[1] * 1e6,
+            r.friction[0],
+            r.friction[1],
+        );
+    }
+    let c = &report.counts;
+    println!(
+        "  {} steps ({} rejected), {} iterations, {} factorisations, {} body solves",
+        c.steps, c.rejected, c.iterations, c.factorisations, c.body_solves
+    );
+    let s = &report.run.seconds;
+    println!(
+        "  seconds: plan {:.2}, set-up {:.2}, steps {:.2}, output {:.2}",
+        s.plan, s.set_up, s.steps, s.output
+    );
+    println!("  written to {}", out.display());
+}

@@ -1,0 +1,19 @@
+//! The driver of asperity: from a scene file to results a person can look at.
+//!
+//! `scene` reads, `plan` decides, `run` steps, `observe` writes.
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+pub mod cli;
+pub mod laws;
+pub mod loading;
+pub mod model;
+pub mod observe;
+pub mod plan;
+pub mod report;
+pub mod rigid;
+pub mod run;
+pub mod scene;
+pub mod step;
+pub mod system;
+pub mod timing;
+mod views;

@@ -1,0 +1,292 @@
+//! Conditions of the stages, turned into fixed degrees of freedom and loading channels.
+
+use crate::model::{Model, bounds};
+use crate::plan::PlanError;
+use crate::scene::model::{Condition, Loading, Motion, Scene, Spanned};
+use asperity_fem::dof::{Channel, Constraints};
+use asperity_fem::mesh::nodes_of_sides;
+use asperity_fem::table::Table;
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// The conditions in force during a stage, on degrees of freedom of the common mesh.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// Name.
+    pub name: String,
+    /// Start \[s\].
+    pub start: f64,
+    /// End \[s\].
+    pub end: f64,
+    /// Number of equal steps, where the scene says so.
+    pub steps: Option<usize>,
+    /// Names of interfaces without friction.
+    pub frictionless: Vec<String>,
+    motions: Vec<(Vec<usize>, Motion)>,
+    loads: Vec<Channel>,
+    /// Fixed degrees of freedom, sorted.
+    pub fixed: Vec<usize>,
+}
+
+impl Stage {
+    /// Constraints of the stage, given the displacement `u0` at its start \[m\].
+    #[must_use]
+    pub fn constraints(&self, u0: &[f64]) -> Constraints {
+        let mut channels = self.loads.clone();
+        for (dofs, motion) in &self.motions {
+            self.motion_channels(dofs, motion, u0, &mut channels);
+        }
+        channels.retain(|c| !c.prescribed.is_empty() || !c.forces.is_empty());
+        Constraints { fixed: self.fixed.clone(), channels }
+    }
+
+    /// Largest prescribed rate of displacement in the stage \[m/s\].
+    #[must_use]
+    pub fn largest_rate(&self) -> f64 {
+        let duration = self.end - self.start;
+        self.motions.iter().fold(0.0, |largest, (_, motion)| {
+            largest.max(match motion {
+                Motion::Rate(rate) => rate.abs(),
+                Motion::To(value) => value.abs() / duration,
+                Motion::Table(points) => points
+                    .windows(2)
+                    .map(|w| ((w[1].1 - w[0].1) / (w[1].0 - w[0].0)).abs())
+                    .fold(0.0, f64::max),
+                Motion::Fixed(_) | Motion::Hold | Motion::Free => 0.0,
+            })
+        })
+    }
+
+    fn motion_channels(&self, dofs: &[usize], motion: &Motion, u0: &[f64], channels: &mut Vec<Channel>) {
+        let present = |table: Table| Channel {
+            prescribed: dofs.iter().filter(|&&d| u0[d] != 0.0).map(|&d| (d, u0[d])).collect(),
+            forces: Vec::new(),
+            amplitude: table,
+        };
+        let unit = |table: Table| Channel {
+            prescribed: dofs.iter().map(|&d| (d, 1.0)).collect(),
+            forces: Vec::new(),
+            amplitude: table,
+        };
+        let ramp = |from: f64, to: f64| Table::new(vec![self.start, self.end], vec![from, to]);
+        let constant = |value: f64| Table::constant(value);
+        match motion {
+            Motion::Fixed(value) if *value != 0.0 => channels.push(unit(constant(*value))),
+            Motion::To(value) => channels.extend([present(ramp(1.0, 0.0)), unit(ramp(0.0, *value))]),
+            Motion::Rate(rate) => channels
+                .extend([present(constant(1.0)), unit(ramp(0.0, rate * (self.end - self.start)))]),
+            Motion::Table(points) => channels.push(unit(Table::new(
+                points.iter().map(|p| self.start + p.0).collect(),
+                points.iter().map(|p| p.1).collect(),
+            ))),
+            Motion::Hold => channels.push(present(constant(1.0))),
+            Motion::Fixed(_) | Motion::Free => {}
+        }
+    }
+}
+
+/// Resolves the stages of a scene.
+///
+/// # Errors
+/// [`PlanError`] pointing at the condition that cannot be applied.
+pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Stage>, PlanError> {
+    let body_loads = body_loads(scene, model)?;
+    let mut held: BTreeMap<(String, usize), Motion> = BTreeMap::new();
+    let mut loads: BTreeMap<(String, usize), Loading> = BTreeMap::new();
+    let mut start = 0.0;
+    let mut stages = Vec::new();
+    for spec in &scene.stages {
+        let end = start + spec.duration.get_ref().0;
+        settle(&mut held, &mut loads);
+        let mut present: BTreeMap<(String, usize), f64> = BTreeMap::new();
+        for (key, loading) in &loads {
+            present.insert(key.clone(), end_value(loading));
+        }
+        for condition in &spec.conditions {
+            take_up(model, condition, &mut held, &mut loads)?;
+        }
+        let motions = motions::<D>(model, &held)?;
+        let mut fixed: Vec<usize> = motions.iter().flat_map(|(dofs, _)| dofs.iter().copied()).collect();
+        fixed.sort_unstable();
+        let mut channels = body_loads.clone();
+        for (key, loading) in &loads {
+            let from = present.get(key).copied().unwrap_or(0.0);
+            channels.push(load_channel(model, key, loading, (from, start, end))?);
+        }
+        stages.push(Stage {
+            name: spec.name.clone(),
+            start,
+            end,
+            steps: spec.steps.as_ref().map(|s| *s.get_ref()),
+            frictionless: spec.frictionless.iter().map(|s| s.get_ref().clone()).collect(),
+            motions,
+            loads: channels,
+            fixed,
+        });
+        start = end;
+    }
+    Ok(stages)
+}
+
+/// What an earlier stage's conditions become in the next one: targets reached are held.
+fn settle(held: &mut BTreeMap<(String, usize), Motion>, loads: &mut BTreeMap<(String, usize), Loading>) {
+    for motion in held.values_mut() {
+        if matches!(motion, Motion::To(_) | Motion::Table(_)) {
+            *motion = Motion::Hold;
+        }
+    }
+    for loading in loads.values_mut() {
+        *loading = Loading::Fixed(end_value(loading));
+    }
+}
+
+fn end_value(loading: &Loading) -> f64 {
+    match loading {
+        Loading::Fixed(value) | Loading::To(value) => *value,
+        Loading::Table(points) => points.last().map_or(0.0, |p| p.1),
+    }
+}
+
+/// Axis number used for pressures in the table of loads.
+const PRESSURE: usize = 3;
+
+fn take_up<const D: usize>(
+    model: &Model<D>,
+    condition: &Spanned<Condition>,
+    held: &mut BTreeMap<(String, usize), Motion>,
+    loads: &mut BTreeMap<(String, usize), Loading>,
+) -> Result<(), PlanError> {
+    let c = condition.get_ref();
+    let set = c.set.as_ref().ok_or_else(|| {
+        PlanError::at(condition.span(), "the condition names no set".into(), "add `set = \"body.side\"`".into())
+    })?;
+    model.sides(set)?;
+    for (axis, motion) in [&c.x, &c.y, &c.z].into_iter().enumerate() {
+        if let Some(motion) = motion {
+            held.insert((set.get_ref().clone(), axis), motion.get_ref().clone());
+        }
+    }
+    if c.symmetry.as_ref().is_some_and(|s| *s.get_ref()) {
+        let axis = normal_axis(model, set)?;
+        held.insert((set.get_ref().clone(), axis), Motion::Fixed(0.0));
+    }
+    if let Some(traction) = &c.traction {
+        for (axis, loading) in traction.get_ref().iter().enumerate() {
+            loads.insert((set.get_ref().clone(), axis), loading.clone());
+        }
+    }
+    if let Some(pressure) = &c.pressure {
+        loads.insert((set.get_ref().clone(), PRESSURE), pressure.get_ref().clone());
+    }
+    Ok(())
+}
+
+/// Axis of a set whose nodes all share one coordinate.
+fn normal_axis<const D: usize>(model: &Model<D>, set: &Spanned<String>) -> Result<usize, PlanError> {
+    let nodes = nodes_of_sides(&model.mesh, model.sides(set)?);
+    let points: Vec<[f64; D]> = nodes.iter().map(|&n| model.mesh.nodes[n]).collect();
+    let (min, max) = bounds(&points);
+    /// Coordinates of a generated plane face agree to rounding; relative to the size of the scene.
+    const FLAT: f64 = 1e-12;
+    (0..D).find(|&c| max[c] - min[c] <= FLAT * model.scale).ok_or_else(|| {
+        PlanError::at(
+            set.span(),
+            format!("`{}` is not a plane parallel to an axis", set.get_ref()),
+            "prescribe displacement components instead of symmetry".into(),
+        )
+    })
+}
+
+/// Degrees of freedom of each held component; one that belongs to two sets is taken by the first, which
+/// the check of the scene has found to say the same.
+fn motions<const D: usize>(
+    model: &Model<D>,
+    held: &BTreeMap<(String, usize), Motion>,
+) -> Result<Vec<(Vec<usize>, Motion)>, PlanError> {
+    let mut taken = vec![false; model.dofs()];
+    let mut result = Vec::new();
+    for ((set, axis), motion) in held.iter().filter(|(_, m)| **m != Motion::Free) {
+        let sides = &model.mesh.side_sets[set];
+        let mut dofs = Vec::new();
+        for node in nodes_of_sides(&model.mesh, sides) {
+            let dof = node * D + axis;
+            if !taken[dof] {
+                taken[dof] = true;
+                dofs.push(dof);
+            }
+        }
+        result.push((dofs, motion.clone()));
+    }
+    Ok(result)
+}
+
+fn load_channel<const D: usize>(
+    model: &Model<D>,
+    (set, axis): &(String, usize),
+    loading: &Loading,
+    (from, start, end): (f64, f64, f64),
+) -> Result<Channel, PlanError> {
+    let sides = &model.mesh.side_sets[set];
+    let body = model.body_of(set).map(|b| &model.bodies[b]);
+    let body = body.ok_or_else(|| PlanError::plain(format!("set `{set}` belongs to no body")))?;
+    let forces = if *axis == PRESSURE {
+        body.block.pressure(&model.mesh, sides, 1.0)
+    } else {
+        let mut unit = [0.0; D];
+        unit[*axis] = 1.0;
+        body.block.traction(&model.mesh, sides, unit)
+    }
+    .map_err(|e| PlanError::plain(format!("load on `{set}`: {e}")))?;
+    let amplitude = match loading {
+        Loading::Fixed(value) => Table::constant(*value),
+        Loading::To(value) => Table::new(vec![start, end], vec![from, *value]),
+        Loading::Table(points) => Table::new(
+            points.iter().map(|p| start + p.0).collect(),
+            points.iter().map(|p| p.1).collect(),
+        ),
+    };
+    Ok(Channel { prescribed: Vec::new(), forces, amplitude })
+}
+
+/// Channels of body forces and initial stresses, which act from the start.
+fn body_loads<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Channel>, PlanError> {
+    let mut channels = Vec::new();
+    for body in &model.bodies {
+        let spec = &scene.bodies[&body.name];
+        if let Some(gravity) = &spec.gravity {
+            let density = density_of(scene, &spec.material, gravity.span())?;
+            let force: [f64; D] = std::array::from_fn(|c| density * gravity.get_ref().get(c).copied().unwrap_or(0.0));
+            channels.push(steady(body.block.body_force(force), 1.0));
+        }
+        if let Some(stress) = initial_stress(spec) {
+            channels.push(steady(body.block.initial_stress(stress), -1.0));
+        }
+    }
+    Ok(channels)
+}
+
+/// The initial stress of a body as xx, yy, zz, xy, yz, zx \[Pa\].
+#[must_use]
+pub fn initial_stress(spec: &crate::scene::model::Body) -> Option<[f64; 6]> {
+    let values: Vec<f64> = spec.initial_stress.as_ref()?.get_ref().iter().map(|p| p.0).collect();
+    match values[..] {
+        [xx, yy, xy] => Some([xx, yy, 0.0, xy, 0.0, 0.0]),
+        [xx, yy, zz, xy, yz, zx] => Some([xx, yy, zz, xy, yz, zx]),
+        _ => None,
+    }
+}
+
+fn density_of(scene: &Scene, material: &Spanned<String>, place: Range<usize>) -> Result<f64, PlanError> {
+    scene.materials.get(material.get_ref()).and_then(|m| m.density.as_ref()).map(|d| d.get_ref().0).ok_or_else(|| {
+        PlanError::at(
+            place,
+            format!("material `{}` has no density", material.get_ref()),
+            "gravity acts on a mass: add `density = \"2700 kg/m^3\"`".into(),
+        )
+    })
+}
+
+fn steady(forces: Vec<(usize, f64)>, factor: f64) -> Channel {
+    let forces = forces.into_iter().map(|(dof, f)| (dof, factor * f)).collect();
+    Channel { prescribed: Vec::new(), forces, amplitude: Table::constant(1.0) }
+}

@@ -1,0 +1,419 @@
+//! Scene -> Plan: the one place where it is decided what is modelled and how. Below it nothing asks what was declared.
+
+use crate::loading::{self, Stage};
+use crate::model::Model;
+use crate::rigid;
+use crate::scene::law::{self, LawChoice};
+use crate::scene::model::{
+    Interface as InterfaceSpec, Kinematics, Path as PathChoice, Rule, Scene, Sliding, Spanned, Stepper,
+};
+use crate::scene::units::Penalty;
+use asperity_fem::mesh::{face_nodes, nodes_of_sides};
+use asperity_friction::law::Law;
+use serde::Serialize;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Why a scene has no plan.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct PlanError {
+    /// What is wrong.
+    pub message: String,
+    /// What would be right.
+    pub help: Option<String>,
+    /// Where in the scene file; empty when built in Rust.
+    pub span: Range<usize>,
+}
+
+impl PlanError {
+    /// An error with a place and a remedy.
+    #[must_use]
+    pub fn at(span: Range<usize>, message: String, help: String) -> Self {
+        Self { message, help: Some(help), span }
+    }
+
+    /// An error about a body.
+    #[must_use]
+    pub fn body(name: &str, span: Range<usize>, message: String) -> Self {
+        Self { message: format!("body `{name}`: {message}"), help: None, span }
+    }
+
+    /// An error without a place.
+    #[must_use]
+    pub fn plain(message: String) -> Self {
+        Self { message, help: None, span: 0..0 }
+    }
+}
+
+/// A planned interface, in node numbers of the common mesh.
+#[derive(Debug)]
+pub struct PlannedInterface {
+    /// Name in the scene.
+    pub name: String,
+    /// Slave nodes, ascending, with their tributary areas \[m², or m per metre of thickness\].
+    pub slave: Vec<(usize, f64)>,
+    /// Slave faces, as lists of mesh nodes.
+    pub slave_faces: Vec<Vec<usize>>,
+    /// Master faces, as lists of mesh nodes.
+    pub master_faces: Vec<Vec<usize>>,
+    /// Whether the pairing follows the motion.
+    pub sliding: Sliding,
+    /// E_n \[Pa/m\].
+    pub normal_penalty: f64,
+    /// E_t \[Pa/m\]; 0 without friction.
+    pub tangential_penalty: f64,
+    /// Friction, absent where the scene declares none.
+    pub law: Option<Arc<dyn Law>>,
+    /// Probe positions.
+    pub probes: usize,
+}
+
+/// Which system the steppers see.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Path {
+    /// The interface degrees of freedom, the bodies condensed onto them.
+    Condensed,
+    /// All degrees of freedom.
+    Full,
+}
+
+/// How the length of implicit steps is chosen.
+#[derive(Clone, Debug)]
+pub struct Control {
+    /// Bound on the estimated local error of slip per step \[m\].
+    pub tolerance: f64,
+    /// First step \[s\], where given.
+    pub first_step: Option<f64>,
+    /// Largest step \[s\], where given.
+    pub max_step: Option<f64>,
+    /// Smallest step \[s\], where given.
+    pub min_step: Option<f64>,
+    /// Imposed step ends \[s\].
+    pub imposed: Option<Vec<f64>>,
+}
+
+/// The stepper with exactly what it needs.
+#[derive(Clone, Debug)]
+pub enum Stepping {
+    /// Newton.
+    Implicit {
+        /// Rule for the slip rate.
+        rule: Rule,
+    },
+    /// R-minimum.
+    StaticExplicit {
+        /// Whether residuals are carried.
+        carry: bool,
+        /// Bound on |Δ ln V| per step.
+        rate_change: f64,
+        /// ζ.
+        zeta: f64,
+    },
+}
+
+/// What will be run.
+#[derive(Debug)]
+pub struct Plan<const D: usize> {
+    /// Title of the scene.
+    pub title: String,
+    /// Bodies.
+    pub model: Model<D>,
+    /// Initial stress per body.
+    pub initial_stress: Vec<Option<[f64; 6]>>,
+    /// Interfaces.
+    pub interfaces: Vec<PlannedInterface>,
+    /// Stages.
+    pub stages: Vec<Stage>,
+    /// Path.
+    pub path: Path,
+    /// Stepper.
+    pub stepping: Stepping,
+    /// Step control.
+    pub control: Control,
+    /// Field outputs per stage.
+    pub field_outputs: usize,
+    /// Profile outputs per stage.
+    pub profile_outputs: usize,
+    /// What is printed.
+    pub summary: Summary,
+}
+
+/// A plan in either dimension.
+#[derive(Debug)]
+pub enum AnyPlan {
+    /// Plane.
+    Two(Box<Plan<2>>),
+    /// Three-dimensional.
+    Three(Box<Plan<3>>),
+}
+
+impl AnyPlan {
+    /// What is printed.
+    #[must_use]
+    pub fn summary(&self) -> &Summary {
+        match self {
+            Self::Two(p) => &p.summary,
+            Self::Three(p) => &p.summary,
+        }
+    }
+
+    /// Field and profile outputs per stage.
+    #[must_use]
+    pub fn outputs(&self) -> (usize, usize) {
+        match self {
+            Self::Two(p) => (p.field_outputs, p.profile_outputs),
+            Self::Three(p) => (p.field_outputs, p.profile_outputs),
+        }
+    }
+}
+
+/// The plan in words and numbers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Summary {
+    /// Physics that is present, and why.
+    pub physics: Vec<String>,
+    /// Path taken, and why.
+    pub path: String,
+    /// Stepper.
+    pub stepper: String,
+    /// Remarks: bodies held by contact alone, unpaired nodes.
+    pub remarks: Vec<String>,
+    /// Degrees of freedom of the bodies.
+    pub dofs: usize,
+    /// Degrees of freedom of the system a step solves.
+    pub system_dofs: usize,
+    /// State variables of friction, in bytes.
+    pub state_bytes: usize,
+    /// Estimated memory \[bytes\].
+    pub memory_bytes: usize,
+}
+
+impl std::fmt::Display for Summary {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        writeln!(f, "plan")?;
+        for line in &self.physics {
+            writeln!(f, "  physics   {line}")?;
+        }
+        writeln!(f, "  path      {}", self.path)?;
+        writeln!(f, "  stepper   {}", self.stepper)?;
+        for line in &self.remarks {
+            writeln!(f, "  note      {line}")?;
+        }
+        writeln!(
+            f,
+            "  size      {} degrees of freedom, {} in each step's system, {} bytes of friction state, about {:.0} MB",
+            self.dofs,
+            self.system_dofs,
+            self.state_bytes,
+            (self.memory_bytes as f64 / 1e6).max(1.0)
+        )
+    }
+}
+
+/// Default bound on the local error of slip per step, relative to the largest prescribed displacement.
+const SLIP_TOLERANCE: f64 = 2e-5;
+/// Default bound r8 on |Δ ln V|.
+const RATE_CHANGE: f64 = 0.5;
+/// Default ζ of r8.
+const ZETA: f64 = 0.1;
+
+/// Plans a scene.
+///
+/// # Errors
+/// [`PlanError`] with the place in the scene.
+pub fn plan(scene: &Scene) -> Result<AnyPlan, PlanError> {
+    Ok(match scene.kinematics.get_ref() {
+        Kinematics::PlaneStrain => AnyPlan::Two(Box::new(plan_in::<2>(scene)?)),
+        Kinematics::ThreeD => AnyPlan::Three(Box::new(plan_in::<3>(scene)?)),
+    })
+}
+
+fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
+    let model = Model::<D>::new(scene)?;
+    let stages = loading::stages(scene, &model)?;
+    let interfaces =
+        scene.interfaces.iter().map(|(name, spec)| interface(scene, &model, name, spec)).collect::<Result<Vec<_>, _>>()?;
+    let path = choose_path(scene, &interfaces)?;
+    let stepping = stepping(scene);
+    let control = control(scene, &stages);
+    let remarks = rigid::check(&model, &stages, &interfaces)?;
+    let summary = summary(scene, &model, &interfaces, path, &stepping, remarks);
+    let initial_stress =
+        model.bodies.iter().map(|b| loading::initial_stress(&scene.bodies[&b.name])).collect();
+    Ok(Plan {
+        title: scene.title.clone(),
+        model,
+        initial_stress,
+        interfaces,
+        stages,
+        path,
+        stepping,
+        control,
+        field_outputs: scene.output.fields.as_ref().map_or(1, |f| *f.get_ref()),
+        profile_outputs: scene.output.profiles.as_ref().map_or(10, |f| *f.get_ref()),
+        summary,
+    })
+}
+
+fn interface<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    name: &str,
+    spec: &InterfaceSpec,
+) -> Result<PlannedInterface, PlanError> {
+    let slave_sides = model.sides(&spec.slave)?;
+    let master_sides = model.sides(&spec.master)?;
+    let body = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]);
+    let body = body.ok_or_else(|| PlanError::plain(format!("interface `{name}`: the slave side has no body")))?;
+    let areas = body
+        .block
+        .tributary_areas(&model.mesh, slave_sides)
+        .map_err(|e| PlanError::at(spec.slave.span(), e.to_string(), "use an element with positive nodal areas".into()))?;
+    let slave = nodes_of_sides(&model.mesh, slave_sides).into_iter().map(|n| (n, areas[&n])).collect();
+    let in_pascal_per_metre = |penalty: &Spanned<Penalty>| match *penalty.get_ref() {
+        Penalty::Value(value) => value,
+        Penalty::YoungPerSize(factor) => factor * body.material.young() / body.size,
+    };
+    let law = match &spec.law {
+        Some(law) => Some(build_law(law)?),
+        None => None,
+    };
+    Ok(PlannedInterface {
+        name: name.to_string(),
+        slave,
+        slave_faces: slave_sides.iter().map(|s| face_nodes(&model.mesh, s)).collect(),
+        master_faces: master_sides.iter().map(|s| face_nodes(&model.mesh, s)).collect(),
+        sliding: *spec.sliding.get_ref(),
+        normal_penalty: in_pascal_per_metre(&spec.enforcement.normal),
+        tangential_penalty: spec.enforcement.tangential.as_ref().map_or(0.0, in_pascal_per_metre),
+        law,
+        probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),
+    })
+}
+
+fn build_law(spec: &Spanned<crate::scene::model::LawSpec>) -> Result<Arc<dyn Law>, PlanError> {
+    let choice = law::choose(spec).map_err(|errors| {
+        let first = errors.into_iter().next();
+        first.map_or_else(|| PlanError::plain("the law is not complete".into()), PlanError::from)
+    })?;
+    crate::laws::build(&choice)
+        .map_err(|e| PlanError::at(spec.span(), e.to_string(), "see the admissible range in the message".into()))
+}
+
+fn choose_path(scene: &Scene, interfaces: &[PlannedInterface]) -> Result<Path, PlanError> {
+    let small = !interfaces.is_empty() && interfaces.iter().all(|i| i.sliding == Sliding::Small);
+    match (scene.time.path, small) {
+        (PathChoice::Auto, true) | (PathChoice::Condensed, true) => Ok(Path::Condensed),
+        (PathChoice::Auto, false) | (PathChoice::Full, _) => Ok(Path::Full),
+        (PathChoice::Condensed, false) => Err(PlanError::at(
+            scene.time.stepper.span(),
+            "the condensed path needs an interface, and `sliding = \"small\"` on every one".into(),
+            "use `path = \"auto\"` or `path = \"full\"`".into(),
+        )),
+    }
+}
+
+fn stepping(scene: &Scene) -> Stepping {
+    let time = &scene.time;
+    match time.stepper.get_ref() {
+        Stepper::Implicit => Stepping::Implicit { rule: time.rule.as_ref().map(|r| *r.get_ref()).unwrap_or_default() },
+        Stepper::StaticExplicit => Stepping::StaticExplicit {
+            carry: time.carry.as_ref().is_none_or(|c| *c.get_ref()),
+            rate_change: time.rate_change.as_ref().map_or(RATE_CHANGE, |r| *r.get_ref()),
+            zeta: time.zeta.as_ref().map_or(ZETA, |z| *z.get_ref()),
+        },
+    }
+}
+
+fn control(scene: &Scene, stages: &[Stage]) -> Control {
+    let time = &scene.time;
+    let travel = stages.iter().map(|s| s.largest_rate() * (s.end - s.start)).fold(0.0, f64::max);
+    Control {
+        tolerance: time.tolerance.as_ref().map_or(SLIP_TOLERANCE * travel, |t| t.get_ref().0),
+        first_step: time.first_step.as_ref().map(|t| t.get_ref().0),
+        max_step: time.max_step.as_ref().map(|t| t.get_ref().0),
+        min_step: time.min_step.as_ref().map(|t| t.get_ref().0),
+        imposed: time.imposed.clone(),
+    }
+}
+
+fn summary<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    interfaces: &[PlannedInterface],
+    path: Path,
+    stepping: &Stepping,
+    remarks: Vec<String>,
+) -> Summary {
+    let mut physics = vec![format!(
+        "linear elasticity, small strain, {} ({} bodies, {} cells)",
+        if D == 2 { "plane strain" } else { "three-dimensional" },
+        model.bodies.len(),
+        model.mesh.blocks.iter().map(asperity_fem::mesh::Cells::len).sum::<usize>()
+    )];
+    let mut state_bytes = 0;
+    let mut retained = 0;
+    for i in interfaces {
+        let friction = i.law.as_ref().map_or("no friction".to_string(), |l| {
+            state_bytes += 2 * l.states() * i.slave.len() * size_of::<f64>();
+            format!("{} friction with {} state variables a point", l.name(), l.states())
+        });
+        physics.push(format!(
+            "interface `{}`: node-to-point penalty contact, {} slave nodes against {} master faces, {friction}",
+            i.name,
+            i.slave.len(),
+            i.master_faces.len()
+        ));
+        retained += interface_nodes(i).len() * D;
+    }
+    let (path_text, system_dofs) = match (path, scene.time.path) {
+        (Path::Condensed, _) => {
+            ("condensed: bodies are linear and sliding is small, so each is factored once and only the interface is solved".to_string(), retained)
+        }
+        (Path::Full, PathChoice::Full) => ("full: the scene asks for it".to_string(), model.dofs()),
+        (Path::Full, _) if interfaces.is_empty() => ("full: there is no interface to condense onto".to_string(), model.dofs()),
+        (Path::Full, _) => ("full: finite sliding changes the pairing during the run".to_string(), model.dofs()),
+    };
+    let cells: usize = model.bodies.iter().map(|b| b.block.stiffness().len()).sum();
+    let dense = if path == Path::Condensed { 3 * retained * retained } else { 0 };
+    // Fill of a planar nested factorisation, 31 n log2 n / 4, is the usual estimate; three dimensions fill as n^(4/3).
+    let n = model.dofs() as f64;
+    let fill = if D == 2 { 8.0 * n * n.log2() } else { 4.0 * n.powf(4.0 / 3.0) };
+    Summary {
+        physics,
+        path: path_text,
+        stepper: describe(stepping),
+        remarks,
+        dofs: model.dofs(),
+        system_dofs,
+        state_bytes,
+        memory_bytes: (cells + dense + fill as usize) * size_of::<f64>(),
+    }
+}
+
+fn describe(stepping: &Stepping) -> String {
+    match stepping {
+        Stepping::Implicit { rule: Rule::BackwardEuler } => {
+            "implicit: Newton with line search, backward Euler in slip, steps adapted to the error of slip".into()
+        }
+        Stepping::Implicit { rule: Rule::Bdf2 } => {
+            "implicit: Newton with line search, second-order backward differences in slip".into()
+        }
+        Stepping::StaticExplicit { carry, .. } => format!(
+            "static-explicit: R-minimum rule, residual {} into the next step",
+            if *carry { "carried" } else { "not carried" }
+        ),
+    }
+}
+
+/// Mesh nodes of an interface, ascending.
+#[must_use]
+pub fn interface_nodes(interface: &PlannedInterface) -> Vec<usize> {
+    let mut nodes: Vec<usize> =
+        interface.slave_faces.iter().chain(&interface.master_faces).flatten().copied().collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}

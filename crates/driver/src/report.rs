@@ -1,0 +1,163 @@
+//! `report.json`: what a run found, what it cost and where it came from.
+
+use crate::loading::Stage;
+use crate::observe::view::{Counts, InterfaceFields, StepRecord};
+use crate::plan::{Plan, Summary};
+use serde::Serialize;
+
+/// How a run ended.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// All stages were completed.
+    #[default]
+    Completed,
+    /// The stepper could not go on; everything before `time` stands.
+    Stopped {
+        /// Stage.
+        stage: String,
+        /// Time of the last good state \[s\].
+        time: f64,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// Wall time per phase \[s\].
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Phases {
+    /// Meshes and stiffness.
+    pub plan: f64,
+    /// Condensation, pairing, factorisations of bodies.
+    pub set_up: f64,
+    /// Steps.
+    pub steps: f64,
+    /// Observers and recovery of fields.
+    pub output: f64,
+}
+
+/// Force balance of an interface at the end of the run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct InterfaceBalance {
+    /// Interface.
+    pub interface: String,
+    /// Total contact force on the slave side \[N, or N/m of thickness\].
+    pub slave_force: Vec<f64>,
+    /// Sum of the forces on both sides over the largest \[-\].
+    pub force_residual: f64,
+    /// Sum of the moments on both sides, after the couple of friction at a finite gap, over force times size \[-\].
+    pub moment_residual: f64,
+    /// Couple g_n n x f left by penetration and friction together \[N m\].
+    pub couple: Vec<f64>,
+}
+
+/// Figures of an interface at the end of a stage.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct InterfaceResult {
+    /// Interface.
+    pub interface: String,
+    /// Stage.
+    pub stage: String,
+    /// Normal traction averaged over the area \[Pa\].
+    pub mean_normal_traction: f64,
+    /// Shear traction averaged over the area \[Pa\].
+    pub mean_shear_traction: f64,
+    /// Normal traction at the slave node next to the middle \[Pa\].
+    pub mid_normal_traction: f64,
+    /// Smallest and largest slip \[m\].
+    pub slip: [f64; 2],
+    /// Smallest and largest slip rate \[m/s\].
+    pub slip_rate: [f64; 2],
+    /// Smallest and largest friction coefficient \[-\].
+    pub friction: [f64; 2],
+    /// Points open, sticking, slipping.
+    pub status: [usize; 3],
+}
+
+/// What may differ from machine to machine and from run to run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Provenance {
+    /// Wall time per phase \[s\].
+    pub seconds: Phases,
+    /// Threads.
+    pub threads: usize,
+    /// Commit of the program, "unknown" outside a checkout.
+    pub commit: String,
+}
+
+/// The report of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct RunReport {
+    /// Title of the scene.
+    pub title: String,
+    /// Version of the program.
+    pub version: String,
+    /// SHA-256 of the scene file.
+    pub scene_sha256: String,
+    /// Plan.
+    pub plan: Summary,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Results per interface and stage.
+    pub results: Vec<InterfaceResult>,
+    /// Balance of contact forces at the end.
+    pub balance: Vec<InterfaceBalance>,
+    /// Work.
+    pub counts: Counts,
+    /// Every step.
+    pub steps: Vec<StepRecord>,
+    /// Machine-dependent.
+    pub run: Provenance,
+}
+
+impl RunReport {
+    /// An empty report of a plan.
+    #[must_use]
+    pub fn new<const D: usize>(plan: &Plan<D>) -> Self {
+        Self {
+            title: plan.title.clone(),
+            version: env!("CARGO_PKG_VERSION").to_string(),
+            plan: plan.summary.clone(),
+            ..Self::default()
+        }
+    }
+
+    /// Adds the results at the end of a stage. `interfaces` gives name and areas of each.
+    pub fn end_of_stage(&mut self, stage: &Stage, fields: &[InterfaceFields], interfaces: Vec<(&str, &[f64])>) {
+        for (f, (name, areas)) in fields.iter().zip(interfaces) {
+            self.results.push(InterfaceResult {
+                interface: name.to_string(),
+                stage: stage.name.clone(),
+                mean_normal_traction: mean(&f.normal_traction, areas),
+                mean_shear_traction: mean(&f.shear_traction, areas),
+                mid_normal_traction: f.normal_traction.get(areas.len() / 2).copied().unwrap_or(0.0),
+                slip: range(&f.slip),
+                slip_rate: range(&f.slip_rate),
+                friction: range(&f.friction),
+                status: [0, 1, 2].map(|s| f.status.iter().filter(|&&x| x == s).count()),
+            });
+        }
+    }
+
+    /// Fills in what is known at the end.
+    pub fn complete(&mut self, counts: Counts, phases: Phases, steps: Vec<StepRecord>) {
+        self.counts = counts;
+        self.run.seconds = phases;
+        self.run.threads = rayon::current_num_threads();
+        self.run.commit = option_env!("ASPERITY_COMMIT").unwrap_or("unknown").to_string();
+        self.steps = steps;
+    }
+}
+
+/// Area-weighted mean.
+#[must_use]
+pub fn mean(values: &[f64], areas: &[f64]) -> f64 {
+    let total: f64 = areas.iter().sum();
+    values.iter().zip(areas).map(|(v, a)| v * a).sum::<f64>() / total
+}
+
+fn range(values: &[f64]) -> [f64; 2] {
+    let min = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let max = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if values.is_empty() { [0.0, 0.0] } else { [min, max] }
+}

@@ -1,0 +1,192 @@
+//! Whether every body is held: by its conditions, by symmetry, or by contact alone.
+//!
+//! A rigid motion is free when no fixed degree of freedom sees it. It is refused when no interface of the body could
+//! hold it either, in any stage.
+
+use crate::loading::Stage;
+use crate::model::{Body, Model};
+use crate::plan::{PlanError, PlannedInterface};
+use nalgebra::DMatrix;
+
+/// Eigenvalue of the Gram matrix of constraints, relative to the largest, below which a motion is free: rounding of a
+/// sum over at most 1e6 rows of order one.
+const FREE: f64 = 1e-9;
+
+/// Checks all bodies in all stages. Returns remarks on bodies that contact alone holds.
+///
+/// # Errors
+/// [`PlanError`] naming the body, the motion and the stage.
+pub fn check<const D: usize>(
+    model: &Model<D>,
+    stages: &[Stage],
+    interfaces: &[PlannedInterface],
+) -> Result<Vec<String>, PlanError> {
+    let mut remarks = Vec::new();
+    for body in &model.bodies {
+        for stage in stages {
+            let mut rows = condition_rows(model, body, stage);
+            let Some(motion) = free_motion::<D>(&rows) else { continue };
+            rows.extend(contact_rows(model, body, stage, interfaces));
+            if let Some(loose) = free_motion::<D>(&rows) {
+                return Err(PlanError {
+                    message: format!(
+                        "body `{}` is free to move in stage `{}`: nothing holds its {loose}",
+                        body.name, stage.name
+                    ),
+                    help: Some(format!(
+                        "add a condition on one of its sets that prevents the {loose}, or an interface that can"
+                    )),
+                    span: 0..0,
+                });
+            }
+            remarks.push(format!(
+                "stage `{}`: contact alone holds the {motion} of body `{}`",
+                stage.name, body.name
+            ));
+        }
+    }
+    Ok(remarks)
+}
+
+/// Rigid modes of a point, one entry a mode: translations, then rotations about the body's centre.
+type Row = Vec<f64>;
+
+fn modes<const D: usize>() -> usize {
+    D * (D + 1) / 2
+}
+
+/// Displacement component `axis` at `x` of every rigid mode; lengths in units of the body.
+fn row<const D: usize>(x: [f64; D], axis: usize) -> Row {
+    let mut row = vec![0.0; modes::<D>()];
+    row[axis] = 1.0;
+    if D == 2 {
+        row[2] = if axis == 0 { -x[1] } else { x[0] };
+    } else {
+        // Rotation about axis k moves component i by ε_ikj ω_k x_j.
+        let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+        row[3 + j] = x[k];
+        row[3 + k] = -x[j];
+    }
+    row
+}
+
+fn centred<const D: usize>(model: &Model<D>, body: &Body<D>) -> impl Fn(usize) -> [f64; D] {
+    let points = &model.mesh.nodes[body.nodes.clone()];
+    let (min, max) = crate::model::bounds(points);
+    let size = (0..D).map(|c| max[c] - min[c]).fold(0.0, f64::max);
+    move |node| std::array::from_fn(|c| (model.mesh.nodes[node][c] - 0.5 * (min[c] + max[c])) / size)
+}
+
+fn condition_rows<const D: usize>(model: &Model<D>, body: &Body<D>, stage: &Stage) -> Vec<Row> {
+    let position = centred(model, body);
+    let dofs = body.dofs();
+    stage.fixed.iter().filter(|d| dofs.contains(d)).map(|&d| row(position(d / D), d % D)).collect()
+}
+
+/// Contact holds the normal of each face; friction its tangents as well.
+fn contact_rows<const D: usize>(
+    model: &Model<D>,
+    body: &Body<D>,
+    stage: &Stage,
+    interfaces: &[PlannedInterface],
+) -> Vec<Row> {
+    let position = centred(model, body);
+    let mut rows = Vec::new();
+    for interface in interfaces {
+        let friction = interface.law.is_some() && !stage.frictionless.contains(&interface.name);
+        for face in interface.slave_faces.iter().chain(&interface.master_faces) {
+            if !body.nodes.contains(&face[0]) {
+                continue;
+            }
+            let normal = face_normal(model, face);
+            for &node in face {
+                let components: Vec<Row> = (0..D).map(|axis| row(position(node), axis)).collect();
+                if friction {
+                    rows.extend(components);
+                } else {
+                    rows.push(project(&components, &normal));
+                }
+            }
+        }
+    }
+    rows
+}
+
+fn project(components: &[Row], normal: &[f64]) -> Row {
+    let mut sum = vec![0.0; components[0].len()];
+    for (component, n) in components.iter().zip(normal) {
+        for (s, c) in sum.iter_mut().zip(component) {
+            *s += n * c;
+        }
+    }
+    sum
+}
+
+fn face_normal<const D: usize>(model: &Model<D>, face: &[usize]) -> Vec<f64> {
+    let edge = |a: usize, b: usize| -> Vec<f64> {
+        (0..D).map(|c| model.mesh.nodes[face[b]][c] - model.mesh.nodes[face[a]][c]).collect()
+    };
+    let e = edge(0, 1);
+    let n = if D == 2 {
+        vec![e[1], -e[0]]
+    } else {
+        let f = edge(0, 2);
+        vec![e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]]
+    };
+    let length = n.iter().map(|c| c * c).sum::<f64>().sqrt();
+    n.iter().map(|c| c / length).collect()
+}
+
+/// A rigid motion no row sees, in words.
+fn free_motion<const D: usize>(rows: &[Row]) -> Option<String> {
+    let m = modes::<D>();
+    let mut gram = DMatrix::<f64>::zeros(m, m);
+    for row in rows {
+        for i in 0..m {
+            for j in 0..m {
+                gram[(i, j)] += row[i] * row[j];
+            }
+        }
+    }
+    let eigen = gram.symmetric_eigen();
+    let largest = eigen.eigenvalues.max();
+    let (k, &smallest) = eigen.eigenvalues.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1))?;
+    if largest > 0.0 && smallest > FREE * largest {
+        return None;
+    }
+    let mode = eigen.eigenvectors.column(k);
+    let dominant = (0..m).max_by(|&i, &j| mode[i].abs().total_cmp(&mode[j].abs()))?;
+    Some(name_of_mode::<D>(dominant))
+}
+
+fn name_of_mode<const D: usize>(mode: usize) -> String {
+    const AXES: [&str; 3] = ["x", "y", "z"];
+    if mode < D {
+        format!("translation in {}", AXES[mode])
+    } else if D == 2 {
+        "rotation in the plane".into()
+    } else {
+        format!("rotation about {}", AXES[mode - 3])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_three_dimensions_are_those_of_a_rotation() {
+        // ω × x for ω = e_z is (-y, x, 0).
+        let x = [0.3, 0.7, -0.2];
+        assert_eq!((0..3).map(|i| row(x, i)[5]).collect::<Vec<_>>(), vec![-0.7, 0.3, 0.0]);
+        assert_eq!((0..3).map(|i| row(x, i)[3]).collect::<Vec<_>>(), vec![0.0, 0.2, 0.7]);
+    }
+
+    #[test]
+    fn a_line_of_rollers_leaves_the_translation_along_it() {
+        let rows: Vec<Row> = [-0.5, 0.0, 0.5].iter().map(|&y| row([0.0, y], 0)).collect();
+        assert_eq!(free_motion::<2>(&rows).as_deref(), Some("translation in y"));
+        let held: Vec<Row> = rows.into_iter().chain([row([0.0, 0.5], 1)]).collect();
+        assert_eq!(free_motion::<2>(&held), None);
+    }
+}

@@ -1,0 +1,165 @@
+//! Running a plan: stages in sequence, steps within them, observers after each.
+
+use crate::loading::Stage;
+use crate::observe::view::{Counts, Observer, StepRecord, StepView};
+use crate::observe::ObserveError;
+use crate::plan::{AnyPlan, Plan, Stepping};
+use crate::report::{Outcome, Phases, RunReport};
+use crate::step::{Accepted, Trial};
+use crate::system::Assembled;
+use crate::timing::StepLength;
+use std::time::Instant as Clock;
+
+/// Why a run could not be completed.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// Nothing was computed: the system could not be set up.
+    #[error("setting up stage `{stage}`: {reason}")]
+    SetUp {
+        /// Stage.
+        stage: String,
+        /// Reason.
+        reason: String,
+    },
+    /// An observer could not write.
+    #[error(transparent)]
+    Observe(#[from] ObserveError),
+}
+
+/// Runs a plan. A stepper that does not converge is no error: the report's outcome says so and everything computed
+/// until then has been observed.
+///
+/// # Errors
+/// [`RunError`] when the system cannot be set up or an output cannot be written.
+pub fn run(plan: &AnyPlan, observer: &mut dyn Observer) -> Result<RunReport, RunError> {
+    match plan {
+        AnyPlan::Two(plan) => run_in(plan, observer),
+        AnyPlan::Three(plan) => run_in(plan, observer),
+    }
+}
+
+fn run_in<const D: usize>(plan: &Plan<D>, observer: &mut dyn Observer) -> Result<RunReport, RunError> {
+    let mut run = Running { plan, counts: Counts::default(), phases: Phases::default(), steps: Vec::new() };
+    let clock = Clock::now();
+    let mut system = Assembled::new(plan).map_err(|reason| RunError::SetUp { stage: plan.stages[0].name.clone(), reason })?;
+    run.phases.set_up += clock.elapsed().as_secs_f64();
+    observer.begin(&system.setup())?;
+    let mut report = RunReport::new(plan);
+    for index in 0..plan.stages.len() {
+        let outcome = run.stage(index, &mut system, observer)?;
+        report.end_of_stage(&plan.stages[index], &system.interface_fields(), system.areas());
+        if let Some(failure) = outcome {
+            report.outcome = failure;
+            break;
+        }
+    }
+    system.add_counts(&mut run.counts);
+    report.balance = system.balances();
+    report.complete(run.counts, run.phases, run.steps);
+    Ok(report)
+}
+
+/// A run in progress.
+struct Running<'a, const D: usize> {
+    plan: &'a Plan<D>,
+    counts: Counts,
+    phases: Phases,
+    steps: Vec<StepRecord>,
+}
+
+impl<const D: usize> Running<'_, D> {
+    /// Runs one stage; a failure of the stepper is returned as an outcome.
+    fn stage(
+        &mut self,
+        index: usize,
+        system: &mut Assembled<'_, D>,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<Outcome>, RunError> {
+        let stage = &self.plan.stages[index];
+        let clock = Clock::now();
+        system.begin_stage(stage).map_err(|reason| RunError::SetUp { stage: stage.name.clone(), reason })?;
+        self.phases.set_up += clock.elapsed().as_secs_f64();
+        let mut length = StepLength::new(&self.plan.control, stage, adaptive(&self.plan.stepping));
+        let mut rejected = 0;
+        loop {
+            let Some(dt) = length.next(system.time()) else { return Ok(None) };
+            let clock = Clock::now();
+            let before = system.slip_rates();
+            let trial = system.step(dt, &mut self.counts);
+            self.phases.steps += clock.elapsed().as_secs_f64();
+            match trial {
+                Trial::Accepted(accepted) => {
+                    system.set_time(length.snap(system.time()));
+                    let error = system.slip_error(&before, accepted.dt);
+                    length.accepted(accepted.dt, dt, error);
+                    self.record(index, stage, system, &accepted, (rejected, length.reason()));
+                    self.show(index, stage, system, observer)?;
+                    rejected = 0;
+                }
+                Trial::Failed(why) => {
+                    self.counts.rejected += 1;
+                    rejected += 1;
+                    if !length.halve(dt) {
+                        return Ok(Some(Outcome::Stopped {
+                            stage: stage.name.clone(),
+                            time: system.time(),
+                            reason: format!("{why}; the step was halved to {dt:.3e} s without success"),
+                        }));
+                    }
+                }
+            }
+        }
+    }
+
+    fn record(
+        &mut self,
+        index: usize,
+        stage: &Stage,
+        system: &Assembled<'_, D>,
+        accepted: &Accepted,
+        (rejected, reason): (usize, &str),
+    ) {
+        debug_assert!(system.time() <= stage.end * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE);
+        self.counts.steps += 1;
+        self.steps.push(StepRecord {
+            stage: index,
+            step: self.counts.steps,
+            time: system.time(),
+            dt: accepted.dt,
+            iterations: accepted.iterations,
+            rejected,
+            residual_ratio: accepted.residual_ratio,
+            drift: system.drift(),
+            penetration: system.largest_penetration(),
+            limited_by: accepted.limited_by.clone().unwrap_or_else(|| reason.to_string()),
+        });
+    }
+
+    fn show(
+        &mut self,
+        index: usize,
+        stage: &Stage,
+        system: &Assembled<'_, D>,
+        observer: &mut dyn Observer,
+    ) -> Result<(), RunError> {
+        let clock = Clock::now();
+        let Some(record) = self.steps.last() else { return Ok(()) };
+        let end_time = self.plan.stages.last().map_or(stage.end, |s| s.end);
+        debug_assert_eq!(record.stage, index);
+        observer.step(&StepView {
+            record,
+            stage: &stage.name,
+            ends_stage: record.time >= stage.end,
+            end_time,
+            interfaces: &system.interface_fields(),
+            fields: &|| system.body_fields(),
+        })?;
+        self.phases.output += clock.elapsed().as_secs_f64();
+        Ok(())
+    }
+}
+
+/// Implicit steps are adapted to the error of slip; forward steps have the R-minimum rule.
+fn adaptive(stepping: &Stepping) -> bool {
+    matches!(stepping, Stepping::Implicit { .. })
+}

@@ -1,0 +1,200 @@
+//! The implicit stepper: Newton's method with a line search on the balance of forces at the end of the step.
+
+use super::{Accepted, Balance, State, Trial};
+use crate::observe::view::Counts;
+use asperity_fem::assembly::System;
+use asperity_fem::dof::Constraints;
+use asperity_fem::term::{Instant, Linearized, Term};
+
+/// Residual over the largest force at which an iteration has converged. Rounding leaves 1e-14 to 1e-12 (the condensed
+/// stiffness acts on displacements some hundred times the elastic ones); a Newton step below this bound squares it.
+const CONVERGED: f64 = 1e-11;
+/// A residual that no longer falls is accepted below this ratio: it is the rounding floor of badly scaled systems.
+const FLOOR: f64 = 1e-9;
+/// A step whose iteration needs more is better halved.
+const MOST_ITERATIONS: usize = 30;
+/// Halvings of the line search: beyond 2^-10 the direction itself is wrong.
+const MOST_HALVINGS: usize = 10;
+/// A step of length s is taken when it lowers the residual by this share of s (Armijo's rule with its usual constant).
+const DECREASE: f64 = 1e-4;
+/// Iterations during which a small rise of the residual is tolerated: contact opening and closing may raise it once.
+const NONMONOTONE: f64 = 2.0;
+
+/// Working memory of the stepper.
+#[derive(Debug)]
+pub struct Implicit {
+    system: System,
+    balance: Balance,
+    trial: Balance,
+    /// Displacement increment of the last accepted step and its length, for the prediction of the next.
+    last: Option<(Vec<f64>, f64)>,
+}
+
+impl Implicit {
+    /// A stepper for `system`.
+    #[must_use]
+    pub fn new(system: System) -> Self {
+        Self { system, balance: Balance::default(), trial: Balance::default(), last: None }
+    }
+
+    /// The linear system, for its counts.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// Tries a step of length `dt`. On success the terms have accepted and `state` has advanced.
+    pub fn step(
+        &mut self,
+        terms: &mut [&mut dyn Linearized],
+        constraints: &Constraints,
+        state: &mut State,
+        dt: f64,
+        counts: &mut Counts,
+    ) -> Trial {
+        let at = Instant { time: state.time + dt, dt };
+        let mut u = self.predict(state, dt);
+        constraints.impose(at.time, &mut u);
+        match self.iterate(terms, &mut u, at, counts) {
+            Ok((iterations, residual_ratio)) => {
+                for term in terms.iter_mut() {
+                    term.accept();
+                }
+                let increment = u.iter().zip(&state.u).map(|(new, old)| new - old).collect();
+                self.last = Some((increment, dt));
+                state.u = u;
+                state.time = at.time;
+                Trial::Accepted(Accepted { dt, iterations, residual_ratio, limited_by: None })
+            }
+            Err(why) => {
+                for term in terms.iter_mut() {
+                    term.reject();
+                }
+                self.last = None;
+                Trial::Failed(why)
+            }
+        }
+    }
+
+    /// Displacement extrapolated with the last rate.
+    fn predict(&self, state: &State, dt: f64) -> Vec<f64> {
+        match &self.last {
+            None => state.u.clone(),
+            Some((increment, last)) => state.u.iter().zip(increment).map(|(u, du)| u + du * (dt / last)).collect(),
+        }
+    }
+
+    fn iterate(
+        &mut self,
+        terms: &mut [&mut dyn Linearized],
+        u: &mut Vec<f64>,
+        at: Instant,
+        counts: &mut Counts,
+    ) -> Result<(usize, f64), String> {
+        self.evaluate(terms, u, at, counts)?;
+        let mut best = f64::INFINITY;
+        for iteration in 0..MOST_ITERATIONS {
+            let norm = self.norm()?;
+            let ratio = norm / self.scale();
+            if ratio <= CONVERGED && iteration > 0 || norm == 0.0 {
+                return Ok((iteration, ratio));
+            }
+            if ratio <= FLOOR && norm >= 0.5 * best {
+                return Ok((iteration, ratio));
+            }
+            best = best.min(norm);
+            let direction = self.direction(terms, counts)?;
+            self.search(terms, u, &direction, at, counts)?;
+            counts.iterations += 1;
+        }
+        Err(format!(
+            "Newton's method did not converge in {MOST_ITERATIONS} iterations: residual over the largest force is {:.2e}",
+            self.norm()? / self.scale()
+        ))
+    }
+
+    fn evaluate(
+        &mut self,
+        terms: &mut [&mut dyn Linearized],
+        u: &[f64],
+        at: Instant,
+        counts: &mut Counts,
+    ) -> Result<(), String> {
+        for term in terms.iter_mut() {
+            term.prepare(u).map_err(|e| e.to_string())?;
+        }
+        self.balance.evaluate(terms, u, at, counts).map_err(|e| e.to_string())
+    }
+
+    fn norm(&self) -> Result<f64, String> {
+        let norm = self.balance.largest_residual(&self.system.equations().free);
+        if norm.is_finite() { Ok(norm) } else { Err("the residual is not finite".into()) }
+    }
+
+    fn scale(&self) -> f64 {
+        if self.balance.largest_force > 0.0 { self.balance.largest_force } else { 1.0 }
+    }
+
+    /// Newton's direction over all degrees of freedom (zero where fixed).
+    fn direction(&mut self, terms: &mut [&mut dyn Linearized], counts: &mut Counts) -> Result<Vec<f64>, String> {
+        counts.tangents += 1;
+        counts.factorisations += 1;
+        counts.solves += 1;
+        self.system.factor_tangent(terms).map_err(|e| e.to_string())?;
+        let free = &self.system.equations().free;
+        let mut rhs: Vec<f64> = free.iter().map(|&d| -self.balance.r[d]).collect();
+        self.system.solve(&mut rhs).map_err(|e| e.to_string())?;
+        let mut direction = vec![0.0; self.balance.r.len()];
+        for (&dof, &value) in self.system.equations().free.iter().zip(&rhs) {
+            direction[dof] = value;
+        }
+        Ok(direction)
+    }
+
+    /// Backtracking line search on the largest residual. The full step is taken even where it raises the residual by up
+    /// to [`NONMONOTONE`]: a pair that opens or closes does that once without harm.
+    fn search(
+        &mut self,
+        terms: &mut [&mut dyn Linearized],
+        u: &mut Vec<f64>,
+        direction: &[f64],
+        at: Instant,
+        counts: &mut Counts,
+    ) -> Result<(), String> {
+        let start = self.norm()?;
+        let mut best: Option<(f64, f64)> = None;
+        let mut length = 1.0;
+        for halving in 0..=MOST_HALVINGS {
+            let candidate = moved(u, direction, length);
+            let norm = self.trial_norm(terms, &candidate, at, counts);
+            if norm.is_finite() && best.is_none_or(|(b, _)| norm < b) {
+                best = Some((norm, length));
+            }
+            let enough = norm <= start * (1.0 - DECREASE * length) || (halving == 0 && norm <= NONMONOTONE * start);
+            if enough {
+                break;
+            }
+            length *= 0.5;
+        }
+        let (_, length) = best.ok_or("the residual is not finite along the search direction")?;
+        *u = moved(u, direction, length);
+        self.evaluate(terms, u, at, counts)
+    }
+
+    fn trial_norm(
+        &mut self,
+        terms: &mut [&mut dyn Linearized],
+        u: &[f64],
+        at: Instant,
+        counts: &mut Counts,
+    ) -> f64 {
+        match self.trial.evaluate(terms, u, at, counts) {
+            Ok(()) => self.trial.largest_residual(&self.system.equations().free),
+            Err(_) => f64::NAN,
+        }
+    }
+}
+
+fn moved(u: &[f64], direction: &[f64], length: f64) -> Vec<f64> {
+    u.iter().zip(direction).map(|(u, d)| u + length * d).collect()
+}

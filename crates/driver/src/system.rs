@@ -1,0 +1,447 @@
+//! A plan brought to life: terms, constraints, stepper and state, on either path.
+
+use crate::loading::Stage;
+use crate::observe::view::{BodyFields, Counts, InterfaceFields, Setup};
+use crate::plan::{Path, Plan, PlannedInterface, Stepping, interface_nodes};
+use crate::report::InterfaceBalance;
+use crate::scene::model::{Rule, Sliding};
+use crate::step::implicit::Implicit;
+use crate::step::static_explicit::StaticExplicit;
+use crate::step::{State, Trial};
+use crate::views;
+use asperity_contact::{Interface, InterfaceSpec, Segment, SegmentKind, SlavePoint, SurfaceNode, TimeRule};
+use asperity_fem::assembly::{Storage, System};
+use asperity_fem::block::LinearBlock;
+use asperity_fem::condense::{Condensed, Reduction};
+use asperity_fem::dof::{Channel, Constraints};
+use asperity_fem::loads::ExternalForces;
+use asperity_fem::term::{Limited, Linearized};
+use asperity_friction::law::RateBounds;
+
+/// Rate below which a forward step counts a point as at rest, over the largest prescribed rate (the floor of limit r8).
+const RATE_FLOOR: f64 = 1e-12;
+
+/// Terms of the bodies on either path.
+enum Bodies<const D: usize> {
+    /// One term a body, on its retained degrees of freedom.
+    Condensed(Vec<Condensed>),
+    /// Cell blocks and loads on all degrees of freedom.
+    Full { blocks: Vec<LinearBlock<D>>, loads: Box<ExternalForces> },
+}
+
+/// The stepper at work.
+enum ActiveStepper {
+    Implicit(Box<Implicit>),
+    StaticExplicit(Box<StaticExplicit>),
+}
+
+/// See the module.
+pub struct Assembled<'a, const D: usize> {
+    plan: &'a Plan<D>,
+    bodies: Bodies<D>,
+    interfaces: Vec<Interface<D>>,
+    /// System number of each retained degree of freedom of the common mesh; empty on the full path.
+    retained: Vec<Vec<usize>>,
+    /// Constraints of the present stage, in system numbering.
+    constraints: Constraints,
+    /// Fixed degrees of freedom of the present stage, in mesh numbering.
+    fixed: Option<Vec<usize>>,
+    stepper: Option<ActiveStepper>,
+    state: State,
+    areas: Vec<(String, Vec<f64>)>,
+    body_factorisations: usize,
+    body_solves: usize,
+    largest_rate: f64,
+}
+
+impl<'a, const D: usize> Assembled<'a, D> {
+    /// Builds interfaces and the numbering of the system.
+    ///
+    /// # Errors
+    /// The reason in words when an interface cannot be paired.
+    pub fn new(plan: &'a Plan<D>) -> Result<Self, String> {
+        let retained = match plan.path {
+            Path::Condensed => retained_per_body(plan),
+            Path::Full => Vec::new(),
+        };
+        let number = system_numbers(plan, &retained);
+        let dofs = number.iter().filter(|&&n| n != usize::MAX).count();
+        let largest_rate = plan.stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
+        let interfaces = plan
+            .interfaces
+            .iter()
+            .map(|i| Interface::new(spec(plan, i, &number, largest_rate)).map_err(|e| e.to_string()))
+            .collect::<Result<Vec<_>, _>>()?;
+        let areas =
+            plan.interfaces.iter().map(|i| (i.name.clone(), i.slave.iter().map(|s| s.1).collect())).collect();
+        let bodies = match plan.path {
+            Path::Condensed => Bodies::Condensed(Vec::new()),
+            Path::Full => Bodies::Full {
+                blocks: plan.model.bodies.iter().map(|b| b.block.clone()).collect(),
+                loads: Box::new(ExternalForces::new(Vec::new())),
+            },
+        };
+        Ok(Self {
+            plan,
+            bodies,
+            interfaces,
+            retained,
+            constraints: Constraints::default(),
+            fixed: None,
+            stepper: None,
+            state: State { u: vec![0.0; dofs], time: 0.0 },
+            areas,
+            body_factorisations: 0,
+            body_solves: 0,
+            largest_rate,
+        })
+    }
+
+    /// Puts the conditions of a stage in force. Bodies are factored again only where the set of fixed degrees of freedom
+    /// changed.
+    ///
+    /// # Errors
+    /// The reason in words when a body cannot be factored.
+    pub fn begin_stage(&mut self, stage: &Stage) -> Result<(), String> {
+        let u0 = if self.fixed.is_none() { vec![0.0; self.plan.model.dofs()] } else { self.displacement() };
+        let constraints = stage.constraints(&u0);
+        let renewed = self.fixed.as_ref() != Some(&stage.fixed);
+        self.load_bodies(&constraints, renewed)?;
+        self.constraints = self.in_system(&constraints);
+        if renewed {
+            self.stepper = Some(self.new_stepper());
+            self.fixed = Some(stage.fixed.clone());
+        }
+        for (interface, planned) in self.interfaces.iter_mut().zip(&self.plan.interfaces) {
+            let law = if stage.frictionless.contains(&planned.name) { None } else { planned.law.clone() };
+            if interface.has_law() != law.is_some() {
+                interface.set_law(law);
+            }
+        }
+        Ok(())
+    }
+
+    fn new_stepper(&self) -> ActiveStepper {
+        let storage = match self.plan.path {
+            Path::Condensed => Storage::Dense,
+            Path::Full => Storage::Sparse,
+        };
+        let system = System::new(self.constraints.equations(self.state.u.len()), storage);
+        match self.plan.stepping {
+            Stepping::Implicit { .. } => ActiveStepper::Implicit(Box::new(Implicit::new(system))),
+            Stepping::StaticExplicit { .. } => ActiveStepper::StaticExplicit(Box::new(StaticExplicit::new(system))),
+        }
+    }
+
+    /// Hands the channels to the bodies, condensing them anew where asked.
+    fn load_bodies(&mut self, constraints: &Constraints, renew: bool) -> Result<(), String> {
+        match &mut self.bodies {
+            Bodies::Full { loads, .. } => {
+                let forces = constraints.channels.iter().map(|c| (c.forces.clone(), c.amplitude.clone()));
+                **loads = ExternalForces::new(forces.collect());
+            }
+            Bodies::Condensed(bodies) => {
+                if renew {
+                    self.body_solves += bodies.iter().map(|b| b.reduction().solves()).sum::<usize>();
+                    *bodies = condense(self.plan, &self.retained, constraints)?;
+                    self.body_factorisations += bodies.len();
+                }
+                for (body, term) in self.plan.model.bodies.iter().zip(bodies) {
+                    term.set_channels(local_channels(constraints, body.dofs()));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Constraints in system numbering: on the condensed path only what concerns retained degrees of freedom.
+    fn in_system(&self, constraints: &Constraints) -> Constraints {
+        if self.plan.path == Path::Full {
+            return constraints.clone();
+        }
+        let number = system_numbers(self.plan, &self.retained);
+        let map = |dof: usize| Some(number[dof]).filter(|&n| n != usize::MAX);
+        let mut fixed: Vec<usize> = constraints.fixed.iter().filter_map(|&d| map(d)).collect();
+        fixed.sort_unstable();
+        let channels = constraints
+            .channels
+            .iter()
+            .map(|c| Channel {
+                prescribed: c.prescribed.iter().filter_map(|&(d, v)| map(d).map(|n| (n, v))).collect(),
+                forces: Vec::new(),
+                amplitude: c.amplitude.clone(),
+            })
+            .collect();
+        Constraints { fixed, channels }
+    }
+
+    /// Tries a step.
+    pub fn step(&mut self, dt: f64, counts: &mut Counts) -> Trial {
+        let (state, constraints) = (&mut self.state, &self.constraints);
+        match &mut self.stepper {
+            None => Trial::Failed("no stage has begun".into()),
+            Some(ActiveStepper::Implicit(stepper)) => {
+                let mut terms = linearized(&mut self.bodies, &mut self.interfaces);
+                stepper.step(&mut terms, constraints, state, dt, counts)
+            }
+            Some(ActiveStepper::StaticExplicit(stepper)) => {
+                let mut terms = limited(&mut self.bodies, &mut self.interfaces);
+                stepper.step(&mut terms, constraints, state, dt, counts)
+            }
+        }
+    }
+
+    /// Time \[s\].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// Corrects the time by rounding.
+    pub fn set_time(&mut self, time: f64) {
+        self.state.time = time;
+    }
+
+    /// Slip rates of all points of all interfaces \[m/s\].
+    #[must_use]
+    pub fn slip_rates(&self) -> Vec<f64> {
+        self.interfaces.iter().flat_map(|i| i.points().rate.iter().copied()).collect()
+    }
+
+    /// Estimated error of slip of the last step: backward Euler leaves half the change of V times the step \[m\].
+    #[must_use]
+    pub fn slip_error(&self, before: &[f64], dt: f64) -> f64 {
+        self.slip_rates().iter().zip(before).map(|(now, then)| 0.5 * dt * (now - then).abs()).fold(0.0, f64::max)
+    }
+
+    /// Largest drift of the friction law over the interfaces.
+    #[must_use]
+    pub fn drift(&self) -> f64 {
+        match self.plan.stepping {
+            Stepping::Implicit { .. } => 0.0,
+            Stepping::StaticExplicit { .. } => self.interfaces.iter().map(Interface::drift).fold(0.0, f64::max),
+        }
+    }
+
+    /// Largest penetration \[m\].
+    #[must_use]
+    pub fn largest_penetration(&self) -> f64 {
+        self.interfaces.iter().map(Interface::largest_penetration).fold(0.0, f64::max)
+    }
+
+    /// Name and tributary areas of each interface.
+    #[must_use]
+    pub fn areas(&self) -> Vec<(&str, &[f64])> {
+        self.areas.iter().map(|(name, areas)| (name.as_str(), areas.as_slice())).collect()
+    }
+
+    /// Displacement of all degrees of freedom of the common mesh \[m\].
+    #[must_use]
+    pub fn displacement(&self) -> Vec<f64> {
+        match &self.bodies {
+            Bodies::Full { .. } => self.state.u.clone(),
+            Bodies::Condensed(bodies) => {
+                bodies.iter().flat_map(|b| b.recover(&self.state.u, self.state.time)).collect()
+            }
+        }
+    }
+
+    /// Fixed part of what observers see.
+    #[must_use]
+    pub fn setup(&self) -> Setup {
+        views::setup(self.plan)
+    }
+
+    /// Present state of the interfaces.
+    #[must_use]
+    pub fn interface_fields(&self) -> Vec<InterfaceFields> {
+        self.interfaces.iter().map(|i| views::interface_fields(i)).collect()
+    }
+
+    /// Present fields of the bodies.
+    #[must_use]
+    pub fn body_fields(&self) -> BodyFields {
+        views::body_fields(self.plan, &self.displacement())
+    }
+
+    /// Balance of contact forces.
+    #[must_use]
+    pub fn balances(&self) -> Vec<InterfaceBalance> {
+        self.plan.interfaces.iter().zip(&self.interfaces).map(|(p, i)| views::balance(&p.name, i)).collect()
+    }
+
+    /// Adds the work done outside the steps.
+    pub fn add_counts(&self, counts: &mut Counts) {
+        counts.body_factorisations += self.body_factorisations;
+        counts.body_solves += self.body_solves;
+        if let Bodies::Condensed(bodies) = &self.bodies {
+            counts.body_solves += bodies.iter().map(|b| b.reduction().solves()).sum::<usize>();
+        }
+        counts.searches += self.interfaces.iter().map(|i| i.work().searches).sum::<usize>();
+    }
+
+    /// Largest prescribed rate of the run \[m/s\].
+    #[must_use]
+    pub fn largest_rate(&self) -> f64 {
+        self.largest_rate
+    }
+}
+
+fn linearized<'t, const D: usize>(
+    bodies: &'t mut Bodies<D>,
+    interfaces: &'t mut [Interface<D>],
+) -> Vec<&'t mut dyn Linearized> {
+    let mut terms: Vec<&mut dyn Linearized> = match bodies {
+        Bodies::Condensed(bodies) => bodies.iter_mut().map(|b| b as &mut dyn Linearized).collect(),
+        Bodies::Full { blocks, loads } => blocks
+            .iter_mut()
+            .map(|b| b as &mut dyn Linearized)
+            .chain(std::iter::once(loads.as_mut() as &mut dyn Linearized))
+            .collect(),
+    };
+    terms.extend(interfaces.iter_mut().map(|i| i as &mut dyn Linearized));
+    terms
+}
+
+fn limited<'t, const D: usize>(
+    bodies: &'t mut Bodies<D>,
+    interfaces: &'t mut [Interface<D>],
+) -> Vec<&'t mut dyn Limited> {
+    let mut terms: Vec<&mut dyn Limited> = match bodies {
+        Bodies::Condensed(bodies) => bodies.iter_mut().map(|b| b as &mut dyn Limited).collect(),
+        Bodies::Full { blocks, loads } => blocks
+            .iter_mut()
+            .map(|b| b as &mut dyn Limited)
+            .chain(std::iter::once(loads.as_mut() as &mut dyn Limited))
+            .collect(),
+    };
+    terms.extend(interfaces.iter_mut().map(|i| i as &mut dyn Limited));
+    terms
+}
+
+/// Retained degrees of freedom of each body, in mesh numbering.
+fn retained_per_body<const D: usize>(plan: &Plan<D>) -> Vec<Vec<usize>> {
+    let mut nodes: Vec<usize> = plan.interfaces.iter().flat_map(interface_nodes).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    plan.model
+        .bodies
+        .iter()
+        .map(|b| {
+            nodes.iter().filter(|n| b.nodes.contains(n)).flat_map(|&n| (0..D).map(move |c| n * D + c)).collect()
+        })
+        .collect()
+}
+
+/// System number of each degree of freedom of the mesh, `usize::MAX` for those condensed away.
+fn system_numbers<const D: usize>(plan: &Plan<D>, retained: &[Vec<usize>]) -> Vec<usize> {
+    let n = plan.model.dofs();
+    match plan.path {
+        Path::Full => (0..n).collect(),
+        Path::Condensed => {
+            let mut number = vec![usize::MAX; n];
+            for (k, &dof) in retained.iter().flatten().enumerate() {
+                number[dof] = k;
+            }
+            number
+        }
+    }
+}
+
+/// Condenses every body onto its retained degrees of freedom.
+fn condense<const D: usize>(
+    plan: &Plan<D>,
+    retained: &[Vec<usize>],
+    constraints: &Constraints,
+) -> Result<Vec<Condensed>, String> {
+    let mut first = 0;
+    let mut terms = Vec::new();
+    for (body, retained) in plan.model.bodies.iter().zip(retained) {
+        let dofs = body.dofs();
+        let own = |list: &[usize]| -> Vec<usize> {
+            list.iter().filter(|d| dofs.contains(d)).map(|d| d - dofs.start).collect()
+        };
+        let reduction = Reduction::new(&body.stiffness(), &own(retained), &own(&constraints.fixed))
+            .map_err(|e| format!("body `{}`: {e}", body.name))?;
+        let system: Vec<usize> = (first..first + retained.len()).collect();
+        first += retained.len();
+        terms.push(Condensed::new(format!("body `{}`", body.name), reduction, &system));
+    }
+    Ok(terms)
+}
+
+/// Channels of one body in its own numbering.
+fn local_channels(constraints: &Constraints, dofs: std::ops::Range<usize>) -> Vec<Channel> {
+    let own = |list: &[(usize, f64)]| -> Vec<(usize, f64)> {
+        list.iter().filter(|(d, _)| dofs.contains(d)).map(|&(d, v)| (d - dofs.start, v)).collect()
+    };
+    constraints
+        .channels
+        .iter()
+        .map(|c| Channel { prescribed: own(&c.prescribed), forces: own(&c.forces), amplitude: c.amplitude.clone() })
+        .filter(|c| !c.prescribed.is_empty() || !c.forces.is_empty())
+        .collect()
+}
+
+/// Declares an interface to the contact crate.
+fn spec<const D: usize>(
+    plan: &Plan<D>,
+    planned: &PlannedInterface,
+    number: &[usize],
+    largest_rate: f64,
+) -> InterfaceSpec<D> {
+    let labels = interface_nodes(planned);
+    let local = |node: usize| labels.partition_point(|&n| n < node);
+    let nodes = labels
+        .iter()
+        .map(|&n| SurfaceNode { position: plan.model.mesh.nodes[n], dof: number[n * D], label: n })
+        .collect();
+    let master = planned
+        .master_faces
+        .iter()
+        .map(|face| Segment { kind: segment_kind::<D>(face.len()), nodes: face.iter().map(|&n| local(n)).collect() })
+        .collect();
+    let (carry, rate_bounds) = match plan.stepping {
+        Stepping::StaticExplicit { carry, rate_change, zeta } => (carry, RateBounds { zeta, log_rate: rate_change }),
+        Stepping::Implicit { .. } => (false, RateBounds { zeta: f64::INFINITY, log_rate: f64::INFINITY }),
+    };
+    InterfaceSpec {
+        name: planned.name.clone(),
+        nodes,
+        slave: planned.slave.iter().map(|&(n, area)| SlavePoint { node: local(n), area }).collect(),
+        master,
+        sliding: match planned.sliding {
+            Sliding::Small => asperity_contact::Sliding::Small,
+            Sliding::Finite => asperity_contact::Sliding::Finite,
+        },
+        fixed_normal: None,
+        normal_penalty: planned.normal_penalty,
+        tangential_penalty: planned.tangential_penalty,
+        law: planned.law.clone(),
+        scale: plan.model.scale,
+        rate_floor: RATE_FLOOR * largest_rate,
+        rate_bounds,
+        carry,
+        label_rate: planned.law.as_ref().filter(|l| l.name() != "coulomb").map(|_| largest_rate),
+    }
+}
+
+fn segment_kind<const D: usize>(nodes: usize) -> SegmentKind {
+    match (D, nodes) {
+        (2, 2) => SegmentKind::Seg2,
+        (2, _) => SegmentKind::Seg3,
+        (_, 3) => SegmentKind::Tri3,
+        (_, 4) => SegmentKind::Quad4,
+        (_, 6) => SegmentKind::Tri6,
+        (_, _) => SegmentKind::Quad9,
+    }
+}
+
+/// Time rule of the contact crate.
+#[must_use]
+pub fn time_rule(rule: Rule) -> TimeRule {
+    match rule {
+        Rule::BackwardEuler => TimeRule::BackwardEuler,
+        Rule::Bdf2 => TimeRule::Bdf2,
+    }
+}

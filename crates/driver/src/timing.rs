@@ -1,0 +1,132 @@
+//! The length of the next step.
+
+use crate::loading::Stage;
+use crate::plan::Control;
+
+/// Share of the optimal length that is tried: the usual safety of step controllers.
+const SAFETY: f64 = 0.9;
+/// Largest growth from one step to the next.
+const GROWTH: f64 = 2.0;
+/// Largest shrinkage after an accepted step.
+const SHRINK: f64 = 0.3;
+/// First step as a share of the stage, where the scene gives none.
+const FIRST: f64 = 1e-3;
+/// Smallest step as a share of the stage, where the scene gives none: ten orders below the first.
+const SMALLEST: f64 = 1e-13;
+/// Largest step as a share of the stage, where the scene gives none.
+const LARGEST: f64 = 0.05;
+/// A remainder below this share of the step is not worth a step of its own.
+const REMAINDER: f64 = 1e-9;
+
+/// Chooses step lengths within one stage.
+#[derive(Debug)]
+pub struct StepLength {
+    start: f64,
+    end: f64,
+    /// Length wanted next; with imposed ends, only while recovering from a halved step.
+    dt: f64,
+    smallest: f64,
+    largest: f64,
+    tolerance: Option<f64>,
+    /// Ends of imposed steps still to come, last first.
+    imposed: Option<Vec<f64>>,
+    reason: &'static str,
+}
+
+impl StepLength {
+    /// Lengths for `stage`. Without `adaptive` the length only grows back towards the largest.
+    #[must_use]
+    pub fn new(control: &Control, stage: &Stage, adaptive: bool) -> Self {
+        let duration = stage.end - stage.start;
+        let imposed = match (&control.imposed, stage.steps) {
+            (Some(times), _) => Some(within(times, stage)),
+            (None, Some(n)) => Some(equal(stage, n)),
+            (None, None) => None,
+        };
+        let largest = control.max_step.unwrap_or(LARGEST * duration);
+        let first = control.first_step.unwrap_or(FIRST * duration).min(largest);
+        Self {
+            start: stage.start,
+            end: stage.end,
+            dt: if imposed.is_some() { f64::INFINITY } else { first },
+            smallest: control.min_step.unwrap_or(SMALLEST * duration),
+            largest: if imposed.is_some() { f64::INFINITY } else { largest },
+            tolerance: (adaptive && imposed.is_none()).then_some(control.tolerance),
+            imposed,
+            reason: "first step",
+        }
+    }
+
+    /// The end the next step may not pass: an imposed one, or the stage's.
+    fn target(&self) -> f64 {
+        self.imposed.as_ref().and_then(|ends| ends.last().copied()).unwrap_or(self.end)
+    }
+
+    /// Length of the next step from `time`, or `None` at the end of the stage.
+    pub fn next(&mut self, time: f64) -> Option<f64> {
+        if time >= self.end {
+            return None;
+        }
+        if let Some(ends) = &mut self.imposed {
+            while ends.last().is_some_and(|&t| t <= time) {
+                ends.pop();
+            }
+        }
+        let left = self.target() - time;
+        Some(if self.dt >= left * (1.0 - REMAINDER) { left } else { self.dt })
+    }
+
+    /// The target where `time` misses it by rounding of the sum only, else `time`.
+    #[must_use]
+    pub fn snap(&self, time: f64) -> f64 {
+        let target = self.target();
+        if (time - target).abs() <= 4.0 * f64::EPSILON * target.abs() { target } else { time }
+    }
+
+    /// Takes note of an accepted step of length `taken`, where `wanted` was asked for, with its estimated error of slip.
+    pub fn accepted(&mut self, taken: f64, wanted: f64, error: f64) {
+        let factor = match self.tolerance {
+            // The error of a backward-Euler step falls with the square of its length.
+            Some(tolerance) if error > 0.0 => (SAFETY * (tolerance / error).sqrt()).clamp(SHRINK, GROWTH),
+            _ => GROWTH,
+        };
+        // A step cut short by the end of an interval says nothing against the length that was wanted.
+        let basis = if taken < wanted { taken } else { self.dt.min(self.largest).max(taken) };
+        self.reason = if self.imposed.is_some() {
+            "imposed"
+        } else if basis * factor >= self.largest {
+            "largest step"
+        } else if factor < GROWTH {
+            "error of slip"
+        } else {
+            "growth"
+        };
+        self.dt = (basis * factor).min(self.largest);
+    }
+
+    /// What set the length of the last step.
+    #[must_use]
+    pub fn reason(&self) -> &'static str {
+        self.reason
+    }
+
+    /// Halves the step after a failure; false when it would fall below the smallest.
+    pub fn halve(&mut self, dt: f64) -> bool {
+        self.dt = 0.5 * dt;
+        self.reason = "halved";
+        self.dt >= self.smallest && self.dt > f64::EPSILON * self.start.abs()
+    }
+}
+
+/// Imposed ends within a stage, last first, the stage's end included.
+fn within(times: &[f64], stage: &Stage) -> Vec<f64> {
+    let mut ends: Vec<f64> = times.iter().copied().filter(|&t| t > stage.start && t < stage.end).collect();
+    ends.push(stage.end);
+    ends.sort_by(|a, b| b.total_cmp(a));
+    ends
+}
+
+fn equal(stage: &Stage, n: usize) -> Vec<f64> {
+    let duration = stage.end - stage.start;
+    (1..=n).rev().map(|k| if k == n { stage.end } else { stage.start + duration * k as f64 / n as f64 }).collect()
+}

@@ -1,0 +1,147 @@
+//! The model and its state as observers see them.
+
+use crate::observe::view::{BodyFields, InterfaceFields, InterfaceMesh, MeshView, Setup};
+use crate::plan::{Plan, PlannedInterface};
+use crate::report::InterfaceBalance;
+use asperity_contact::{Interface, Status};
+use asperity_fem::block::von_mises;
+
+/// Pads a vector to three components.
+fn padded<const D: usize>(v: &[f64; D]) -> [f64; 3] {
+    std::array::from_fn(|c| if c < D { v[c] } else { 0.0 })
+}
+
+/// Fixed part.
+#[must_use]
+pub fn setup<const D: usize>(plan: &Plan<D>) -> Setup {
+    let mesh = &plan.model.mesh;
+    let mut cells = Vec::new();
+    let mut cell_body = Vec::new();
+    for (body, block) in mesh.blocks.iter().enumerate() {
+        for cell in block.connectivity.chunks_exact(block.kind.nodes()) {
+            cells.push((block.kind.vtk_type(), cell.to_vec()));
+            cell_body.push(body);
+        }
+    }
+    Setup {
+        title: plan.title.clone(),
+        mesh: MeshView {
+            nodes: mesh.nodes.iter().map(padded).collect(),
+            cells,
+            cell_body,
+            bodies: plan.model.bodies.iter().map(|b| b.name.clone()).collect(),
+            dimension: D,
+        },
+        interfaces: plan.interfaces.iter().map(|i| interface_mesh(plan, i)).collect(),
+        stages: plan.stages.iter().map(|s| (s.name.clone(), s.end)).collect(),
+    }
+}
+
+fn interface_mesh<const D: usize>(plan: &Plan<D>, planned: &PlannedInterface) -> InterfaceMesh {
+    let nodes: Vec<usize> = planned.slave.iter().map(|s| s.0).collect();
+    let local = |n: &usize| nodes.partition_point(|m| m < n);
+    let positions: Vec<[f64; 3]> = nodes.iter().map(|&n| padded(&plan.model.mesh.nodes[n])).collect();
+    InterfaceMesh {
+        name: planned.name.clone(),
+        areas: planned.slave.iter().map(|s| s.1).collect(),
+        faces: planned.slave_faces.iter().map(|f| f.iter().map(local).collect()).collect(),
+        probes: probes(&positions, planned.probes),
+        positions,
+    }
+}
+
+/// Slave nodes nearest to `count` equally spaced positions along the diagonal of the slave side's bounding box.
+fn probes(positions: &[[f64; 3]], count: usize) -> Vec<usize> {
+    let (min, max) = crate::model::bounds(positions);
+    let mut probes: Vec<usize> = (0..count)
+        .map(|k| {
+            let s = if count == 1 { 0.5 } else { k as f64 / (count - 1) as f64 };
+            let target: [f64; 3] = std::array::from_fn(|c| min[c] + s * (max[c] - min[c]));
+            nearest(positions, target)
+        })
+        .collect();
+    probes.dedup();
+    probes
+}
+
+fn nearest(positions: &[[f64; 3]], target: [f64; 3]) -> usize {
+    let distance = |p: &[f64; 3]| (0..3).map(|c| (p[c] - target[c]).powi(2)).sum::<f64>();
+    (0..positions.len())
+        .min_by(|&a, &b| distance(&positions[a]).total_cmp(&distance(&positions[b])))
+        .unwrap_or_default()
+}
+
+/// State of an interface. In two dimensions tangential quantities carry the sign of the first tangent.
+#[must_use]
+pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFields {
+    let p = interface.points();
+    let n = p.gap.len();
+    let magnitude = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
+    let measure = |v: &[f64; D], e: &[f64; D]| {
+        if D == 2 { v.iter().zip(e).map(|(a, b)| a * b).sum() } else { magnitude(v) }
+    };
+    let along = |field: &[[f64; D]]| (0..n).map(|k| measure(&field[k], &p.tangent[k])).collect::<Vec<f64>>();
+    let slip = along(&p.slip);
+    let shear_traction = along(&p.shear);
+    let relative_displacement = along(&p.relative);
+    let friction = (0..n)
+        .map(|k| if p.normal_traction[k] > 0.0 { magnitude(&p.shear[k]) / p.normal_traction[k] } else { 0.0 })
+        .collect();
+    InterfaceFields {
+        gap: p.gap.clone(),
+        normal_traction: p.normal_traction.clone(),
+        shear_traction,
+        relative_displacement,
+        slip,
+        slip_rate: p.rate.clone(),
+        friction,
+        status: p
+            .status
+            .iter()
+            .map(|s| match s {
+                Status::Open => 0,
+                Status::Stick => 1,
+                Status::Slip => 2,
+            })
+            .collect(),
+    }
+}
+
+/// Fields of the bodies for the displacement `u` of the common mesh.
+#[must_use]
+pub fn body_fields<const D: usize>(plan: &Plan<D>, u: &[f64]) -> BodyFields {
+    let nodes = plan.model.mesh.nodes.len();
+    let displacement =
+        (0..nodes).map(|n| std::array::from_fn(|c| if c < D { u[n * D + c] } else { 0.0 })).collect();
+    let mut fields = BodyFields { displacement, node_mises: vec![0.0; nodes], ..BodyFields::default() };
+    for (body, initial) in plan.model.bodies.iter().zip(&plan.initial_stress) {
+        let add = |mut s: [f64; 6]| {
+            for (s, s0) in s.iter_mut().zip(initial.iter().flatten()) {
+                *s += s0;
+            }
+            s
+        };
+        for stress in body.block.cell_stress(u) {
+            let stress = add(stress);
+            fields.cell_stress.push(stress);
+            fields.cell_mises.push(von_mises(&stress));
+        }
+        for (node, stress) in body.block.nodal_stress(&plan.model.mesh, u) {
+            fields.node_mises[node] = von_mises(&add(stress));
+        }
+    }
+    fields
+}
+
+/// Balance of contact forces.
+#[must_use]
+pub fn balance<const D: usize>(name: &str, interface: &Interface<D>) -> InterfaceBalance {
+    let b = interface.balance();
+    InterfaceBalance {
+        interface: name.to_string(),
+        slave_force: b.slave_force.to_vec(),
+        force_residual: b.force_residual,
+        moment_residual: b.moment_residual,
+        couple: b.couple.to_vec(),
+    }
+}

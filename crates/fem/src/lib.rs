@@ -1,0 +1,21 @@
+//! Finite-element bodies: meshes, elements, materials, assembly, condensation, and the seam terms stand on.
+//!
+//! The crate works on values: it opens no file, reads no clock, prints nothing, and knows neither contact nor friction.
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+pub mod assembly;
+pub mod block;
+pub mod condense;
+pub mod dof;
+pub mod element;
+pub mod error;
+pub mod loads;
+pub mod material;
+pub mod mesh;
+pub mod quadrature;
+pub mod sparse;
+pub mod surface;
+pub mod table;
+pub mod term;
+
+pub use error::FemError;

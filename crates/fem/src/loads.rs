@@ -1,0 +1,66 @@
+//! External forces as a term: patterns times amplitudes.
+
+use crate::table::Table;
+use crate::term::{Fraction, Instant, Limited, Linearized, Pattern, Refusal, Term};
+
+/// Nodal forces that vary in time.
+#[derive(Clone, Debug, Default)]
+pub struct ExternalForces {
+    channels: Vec<(Vec<(usize, f64)>, Table)>,
+    pattern: Pattern,
+}
+
+impl ExternalForces {
+    /// Forces at unit amplitude with their amplitudes.
+    #[must_use]
+    pub fn new(channels: Vec<(Vec<(usize, f64)>, Table)>) -> Self {
+        Self { channels, pattern: Pattern::of_blocks(0, []) }
+    }
+
+    fn subtract(&self, amplitude: impl Fn(&Table) -> f64, r: &mut [f64]) {
+        for (forces, table) in &self.channels {
+            let alpha = amplitude(table);
+            for &(dof, force) in forces {
+                r[dof] -= alpha * force;
+            }
+        }
+    }
+}
+
+impl Term for ExternalForces {
+    fn name(&self) -> &str {
+        "external forces"
+    }
+
+    fn residual(&mut self, _u: &[f64], at: Instant, r: &mut [f64]) -> Result<(), Refusal> {
+        self.subtract(|table| table.value(at.time), r);
+        Ok(())
+    }
+
+    fn accept(&mut self) {}
+
+    fn reject(&mut self) {}
+}
+
+impl Linearized for ExternalForces {
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    fn tangent(&mut self, _values: &mut [f64]) {}
+}
+
+impl Limited for ExternalForces {
+    fn rate(&mut self, at: Instant, _values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal> {
+        self.subtract(|table| table.value(at.time) - table.value(at.time - at.dt), constant);
+        Ok(())
+    }
+
+    fn limit(&mut self, _du: &[f64], _at: Instant) -> Option<Fraction> {
+        None
+    }
+
+    fn advance(&mut self, _du: &[f64], _at: Instant) -> Result<(), Refusal> {
+        Ok(())
+    }
+}

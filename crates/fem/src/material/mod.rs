@@ -1,0 +1,3 @@
+//! Materials.
+
+pub mod elastic;

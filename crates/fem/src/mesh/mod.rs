@@ -1,0 +1,91 @@
+//! Meshes: nodes, blocks of cells of one kind, and named sets of cell faces.
+
+pub mod generate;
+
+use crate::element::ElementKind;
+use std::collections::BTreeMap;
+
+/// Cells of one kind.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cells {
+    /// Kind.
+    pub kind: ElementKind,
+    /// Nodes of all cells, one cell after another.
+    pub connectivity: Vec<usize>,
+}
+
+impl Cells {
+    /// Number of cells.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.connectivity.len() / self.kind.nodes()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.connectivity.is_empty()
+    }
+
+    /// Nodes of one cell.
+    #[must_use]
+    pub fn cell(&self, cell: usize) -> &[usize] {
+        let n = self.kind.nodes();
+        &self.connectivity[cell * n..(cell + 1) * n]
+    }
+}
+
+/// A face of a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Side {
+    /// Block of cells.
+    pub block: usize,
+    /// Cell in the block.
+    pub cell: usize,
+    /// Face of the cell.
+    pub face: usize,
+}
+
+/// A mesh in `D` dimensions.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh<const D: usize> {
+    /// Positions \[m\].
+    pub nodes: Vec<[f64; D]>,
+    /// Blocks of cells.
+    pub blocks: Vec<Cells>,
+    /// Named faces.
+    pub side_sets: BTreeMap<String, Vec<Side>>,
+}
+
+impl<const D: usize> Mesh<D> {
+    /// Adds another mesh as it is: its nodes and blocks follow those here, its sets are named `prefix.set`.
+    pub fn append(&mut self, other: Self, prefix: &str) {
+        let (nodes, blocks) = (self.nodes.len(), self.blocks.len());
+        self.nodes.extend(other.nodes);
+        self.blocks.extend(other.blocks.into_iter().map(|mut b| {
+            b.connectivity.iter_mut().for_each(|n| *n += nodes);
+            b
+        }));
+        for (name, sides) in other.side_sets {
+            let sides = sides.into_iter().map(|s| Side { block: s.block + blocks, ..s }).collect();
+            self.side_sets.insert(format!("{prefix}.{name}"), sides);
+        }
+    }
+}
+
+/// Nodes of a face, in the order of [`ElementKind::faces`].
+#[must_use]
+pub fn face_nodes<const D: usize>(mesh: &Mesh<D>, side: &Side) -> Vec<usize> {
+    let block = &mesh.blocks[side.block];
+    let cell = block.cell(side.cell);
+    block.kind.faces()[side.face].iter().map(|&a| cell[a]).collect()
+}
+
+/// Nodes of a set of faces, ascending, without repetition.
+#[must_use]
+pub fn nodes_of_sides<const D: usize>(mesh: &Mesh<D>, sides: &[Side]) -> Vec<usize> {
+    let mut nodes: Vec<usize> = sides.iter().flat_map(|s| face_nodes(mesh, s)).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}

@@ -1,0 +1,193 @@
+//! Sparse matrices on faer: a fixed pattern with a precomputed scatter map, and factorisations split into the symbolic
+//! part, done once per pattern, and the numeric part.
+
+use crate::dof::Equations;
+use crate::error::FemError;
+use crate::term::Pattern;
+use faer::linalg::solvers::SolveCore;
+use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
+use faer::{Conj, MatMut, Side};
+
+/// Which entries of a matrix are stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// All of them.
+    Whole,
+    /// The lower triangle, for symmetric matrices.
+    Lower,
+}
+
+/// Compressed-column pattern of a sum of dense blocks, with the place of every block entry.
+#[derive(Clone, Debug)]
+pub struct ScatterMap {
+    symbolic: SymbolicSparseColMat<usize>,
+    /// For each value of the blocks, in order, its place among the stored entries, or `SKIPPED`.
+    place: Vec<usize>,
+    values: Vec<f64>,
+}
+
+/// Block entries without a place: fixed degrees of freedom, or the triangle that is not stored.
+const SKIPPED: usize = usize::MAX;
+
+impl ScatterMap {
+    /// Builds the pattern of the free equations from the blocks of `patterns`.
+    #[must_use]
+    pub fn new(patterns: &[&Pattern], equations: &Equations, part: Part) -> Self {
+        let n = equations.free.len();
+        let wanted = |row: usize, col: usize| {
+            row != Equations::FIXED && col != Equations::FIXED && (part == Part::Whole || row >= col)
+        };
+        let visit = |f: &mut dyn FnMut(usize, usize)| {
+            for block in patterns.iter().flat_map(|p| p.blocks()) {
+                for &r in block {
+                    for &c in block {
+                        f(equations.number[r], equations.number[c]);
+                    }
+                }
+            }
+        };
+        let (starts, rows) = compress_columns(n, &wanted, &visit);
+        let mut place = Vec::new();
+        visit(&mut |row, col| {
+            place.push(if wanted(row, col) {
+                let column = &rows[starts[col]..starts[col + 1]];
+                // The row is in its column by construction of `rows`.
+                column.binary_search(&row).map_or(SKIPPED, |k| starts[col] + k)
+            } else {
+                SKIPPED
+            });
+        });
+        let values = vec![0.0; rows.len()];
+        Self { symbolic: SymbolicSparseColMat::new_checked(n, n, starts, None, rows), place, values }
+    }
+
+    /// Sets the stored entries to zero.
+    pub fn clear(&mut self) {
+        self.values.fill(0.0);
+    }
+
+    /// Adds block values whose first is the `offset`-th of all blocks. Returns the offset after them.
+    pub fn add(&mut self, offset: usize, block_values: &[f64]) -> usize {
+        let end = offset + block_values.len();
+        for (&place, &value) in self.place[offset..end].iter().zip(block_values) {
+            if place != SKIPPED {
+                self.values[place] += value;
+            }
+        }
+        end
+    }
+
+    /// The matrix as it stands.
+    #[must_use]
+    pub fn matrix(&self) -> SparseColMatRef<'_, usize, f64> {
+        SparseColMatRef::new(self.symbolic.as_ref(), &self.values)
+    }
+
+    /// Number of equations.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.symbolic.nrows()
+    }
+
+    /// Stored entries.
+    #[must_use]
+    pub fn stored(&self) -> usize {
+        self.values.len()
+    }
+
+    /// Symbolic Cholesky analysis (approximate minimum degree ordering) of a pattern built with [`Part::Lower`].
+    ///
+    /// # Errors
+    /// When memory does not suffice.
+    pub fn analyse_cholesky(&self) -> Result<SymbolicLlt<usize>, FemError> {
+        SymbolicLlt::try_new(self.symbolic.as_ref(), Side::Lower)
+            .map_err(|e| FemError::Factorisation(format!("symbolic Cholesky: {e:?}")))
+    }
+
+    /// Numeric Cholesky factorisation.
+    ///
+    /// # Errors
+    /// When the matrix is not positive definite.
+    pub fn cholesky(&self, symbolic: &SymbolicLlt<usize>) -> Result<Factor, FemError> {
+        Llt::try_new_with_symbolic(symbolic.clone(), self.matrix(), Side::Lower)
+            .map(Factor::Cholesky)
+            .map_err(|e| FemError::Factorisation(format!("the stiffness is not positive definite ({e:?})")))
+    }
+
+    /// Symbolic LU analysis (column ordering) of a pattern built with [`Part::Whole`].
+    ///
+    /// # Errors
+    /// When memory does not suffice.
+    pub fn analyse_lu(&self) -> Result<SymbolicLu<usize>, FemError> {
+        SymbolicLu::try_new(self.symbolic.as_ref())
+            .map_err(|e| FemError::Factorisation(format!("symbolic LU: {e:?}")))
+    }
+
+    /// Numeric LU factorisation.
+    ///
+    /// # Errors
+    /// When the matrix is structurally singular.
+    pub fn lu(&self, symbolic: &SymbolicLu<usize>) -> Result<Factor, FemError> {
+        Lu::try_new_with_symbolic(symbolic.clone(), self.matrix())
+            .map(Factor::Lu)
+            .map_err(|e| FemError::Factorisation(format!("the tangent is singular ({e:?})")))
+    }
+}
+
+/// Row indices of each column, sorted and without repetition: (column starts, rows).
+fn compress_columns(
+    n: usize,
+    wanted: &dyn Fn(usize, usize) -> bool,
+    visit: &dyn Fn(&mut dyn FnMut(usize, usize)),
+) -> (Vec<usize>, Vec<usize>) {
+    let mut count = vec![0_usize; n + 1];
+    visit(&mut |row, col| {
+        if wanted(row, col) {
+            count[col + 1] += 1;
+        }
+    });
+    for col in 0..n {
+        count[col + 1] += count[col];
+    }
+    let mut raw = vec![0_usize; count[n]];
+    let mut next = count.clone();
+    visit(&mut |row, col| {
+        if wanted(row, col) {
+            raw[next[col]] = row;
+            next[col] += 1;
+        }
+    });
+    let mut starts = vec![0_usize; n + 1];
+    let mut rows = Vec::with_capacity(raw.len() / 2);
+    for col in 0..n {
+        let column = &mut raw[count[col]..count[col + 1]];
+        column.sort_unstable();
+        for (k, &row) in column.iter().enumerate() {
+            if k == 0 || column[k - 1] != row {
+                rows.push(row);
+            }
+        }
+        starts[col + 1] = rows.len();
+    }
+    (starts, rows)
+}
+
+/// A numeric factorisation, tied to the values it was made from.
+#[derive(Clone, Debug)]
+pub enum Factor {
+    /// Symmetric positive definite.
+    Cholesky(Llt<usize, f64>),
+    /// General.
+    Lu(Lu<usize, f64>),
+}
+
+impl Factor {
+    /// Solves in place for the columns of `rhs`.
+    pub fn solve(&self, rhs: MatMut<'_, f64>) {
+        match self {
+            Self::Cholesky(f) => f.solve_in_place_with_conj(Conj::No, rhs),
+            Self::Lu(f) => f.solve_in_place_with_conj(Conj::No, rhs),
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! The seam: what a stepper knows of a body, a condensed body or an interface.
+//!
+//! A [`Term`] couples some of the system's degrees of freedom, adds its residual, and keeps its own history in two
+//! copies: committed and trial. A residual writes the trial copy only; [`Term::accept`] commits it and [`Term::reject`]
+//! drops it. Capabilities beyond the residual are separate traits, so that a stepper asks for exactly what it uses.
+
+use std::fmt;
+
+/// The step a trial state belongs to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instant {
+    /// Time at the end of the step \[s\].
+    pub time: f64,
+    /// Length of the step \[s\].
+    pub dt: f64,
+}
+
+/// Why a term could not answer at a trial state. An outcome for the step controller, not an error of the program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal {
+    /// The term that refused.
+    pub term: String,
+    /// What happened, with the place (node, element) and the offending numbers.
+    pub reason: String,
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.term, self.reason)
+    }
+}
+
+/// A contribution to the balance of forces `r(u) = f_int - f_ext = 0` on the system's degrees of freedom.
+pub trait Term {
+    /// Name for reports.
+    fn name(&self) -> &str;
+
+    /// Adds this term's residual \[N, or N/m of thickness in two dimensions\] at displacement `u` \[m\] to `r`. Both have
+    /// one entry per degree of freedom of the system. Writes only trial history.
+    ///
+    /// # Errors
+    /// [`Refusal`] when the trial state cannot be evaluated (the step is then halved).
+    fn residual(&mut self, u: &[f64], at: Instant, r: &mut [f64]) -> Result<(), Refusal>;
+
+    /// Search and pairing may change here, at the start of a step or of a Newton iteration, and nowhere else.
+    fn prepare(&mut self, _u: &[f64]) -> Result<(), Refusal> {
+        Ok(())
+    }
+
+    /// Commits the trial history of the last residual.
+    fn accept(&mut self);
+
+    /// Drops the trial history.
+    fn reject(&mut self);
+}
+
+/// Block structure of a term's tangent: dense square blocks, each with its list of degrees of freedom.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Pattern {
+    /// Degrees of freedom of all blocks, one block after another.
+    pub dofs: Vec<usize>,
+    /// Start of each block in `dofs`; one more entry than there are blocks.
+    pub starts: Vec<usize>,
+    /// Changes whenever `dofs` or `starts` change: a factorisation is tied to it.
+    pub version: u64,
+}
+
+impl Pattern {
+    /// A pattern of blocks given one after another.
+    pub fn of_blocks<'a>(version: u64, blocks: impl IntoIterator<Item = &'a [usize]>) -> Self {
+        let mut pattern = Self { dofs: Vec::new(), starts: vec![0], version };
+        for block in blocks {
+            pattern.dofs.extend_from_slice(block);
+            pattern.starts.push(pattern.dofs.len());
+        }
+        pattern
+    }
+
+    /// Degrees of freedom of each block, in order.
+    pub fn blocks(&self) -> impl Iterator<Item = &[usize]> {
+        self.starts.windows(2).map(|w| &self.dofs[w[0]..w[1]])
+    }
+
+    /// Number of values of a tangent with this pattern: the sum of the squares of the block sizes.
+    #[must_use]
+    pub fn values(&self) -> usize {
+        self.blocks().map(|b| b.len() * b.len()).sum()
+    }
+}
+
+/// Gives the consistent tangent `K = ∂r/∂u`.
+pub trait Linearized: Term {
+    /// The present block structure.
+    fn pattern(&self) -> &Pattern;
+
+    /// Writes the tangent at the state of the last residual: for each block of the pattern its entries row by row.
+    fn tangent(&mut self, values: &mut [f64]);
+}
+
+/// The largest admissible fraction of a forward step (the R-minimum rule).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fraction {
+    /// r in (0, 1\].
+    pub value: f64,
+    /// Which limit binds and where ("r4 open -> closed, node 17").
+    pub cause: String,
+    /// Identifier of the limit ("r4").
+    pub limit: &'static str,
+}
+
+/// Serves forward (rate-form) steps: `K Δu = ΔF`, from the committed state.
+pub trait Limited: Linearized {
+    /// Writes the rate tangent in the order of the pattern, and adds the constant part of the force increment over `dt`
+    /// that does not depend on Δu (with the sign of a residual) to `constant`.
+    ///
+    /// # Errors
+    /// [`Refusal`] when the linearisation does not exist (for a rate law: E_t + H ≤ 0).
+    fn rate(&mut self, at: Instant, values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal>;
+
+    /// The largest fraction of the increment `du` over `dt` this term admits, or `None` when it sets no limit.
+    fn limit(&mut self, du: &[f64], at: Instant) -> Option<Fraction>;
+
+    /// Writes the trial history after the increment `du`, by the rate tangent; `accept` commits it.
+    ///
+    /// # Errors
+    /// [`Refusal`] when the state after the increment is not finite or cannot be evaluated.
+    fn advance(&mut self, du: &[f64], at: Instant) -> Result<(), Refusal>;
+}
+
+/// Writes and reads committed history.
+pub trait Saved {
+    /// Committed history as plain numbers.
+    fn save(&self) -> Vec<f64>;
+
+    /// Restores what [`Saved::save`] wrote. Returns false, changing nothing, when the length does not fit.
+    fn restore(&mut self, saved: &[f64]) -> bool;
+}

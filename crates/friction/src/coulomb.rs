@@ -1,0 +1,166 @@
+//! Coulomb friction with an optional cap: F̄ = min(μ f_n, F_limit), an elastic domain, no rate and no state.
+
+use crate::Failure;
+use crate::law::{Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials};
+
+/// Points within this relative distance of the cone switch with the event.
+const BAND: f64 = 1e-9;
+
+/// See the module.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coulomb {
+    mu: f64,
+    limit: f64,
+}
+
+impl Coulomb {
+    /// μ ≥ 0 and an optional largest shear traction \[Pa\].
+    ///
+    /// # Errors
+    /// [`Failure::Parameter`].
+    pub fn new(mu: f64, limit: Option<f64>) -> Result<Self, Failure> {
+        if !(mu >= 0.0 && mu.is_finite()) {
+            return Err(Failure::Parameter { name: "mu", value: mu, admissible: "0 <= mu, finite" });
+        }
+        let limit = match limit {
+            Some(value) => crate::positive("f_limit", value)?,
+            None => f64::INFINITY,
+        };
+        Ok(Self { mu, limit })
+    }
+
+    /// Strength F̄ and ∂F̄/∂f_n.
+    fn strength(&self, normal: f64) -> (f64, f64) {
+        let cone = self.mu * normal;
+        if cone <= self.limit { (cone, self.mu) } else { (self.limit, 0.0) }
+    }
+}
+
+/// Smallest r in (0, 1] at which `|t + r Δt| = μ (f + r Δf)` with the point leaving the cone, from the squared equation
+/// `A r² + 2 B r + C = 0`, `A = Δt² - μ²Δf²`, `B = t·Δt - μ² f Δf`, `C = t² - μ² f²`, for a point inside the cone (C ≤ 0).
+/// The root is taken in the form that does not cancel.
+#[must_use]
+pub fn cone_exit(t: [f64; 2], dt: [f64; 2], f: f64, df: f64, mu: f64) -> Option<f64> {
+    let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+    // Products of sums: neither A nor C loses digits near the cone.
+    let norm = |a: [f64; 2]| a[0].hypot(a[1]);
+    let a = (norm(dt) - mu * df) * (norm(dt) + mu * df);
+    let b = dot(t, dt) - mu * mu * f * df;
+    let c = (norm(t) - mu * f) * (norm(t) + mu * f);
+    let discriminant = b * b - a * c;
+    if discriminant < 0.0 {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    let candidates = if b >= 0.0 { [-c / (b + root), -(b + root) / a] } else { [(root - b) / a, c / (root - b)] };
+    candidates
+        .into_iter()
+        .filter(|&r| r > 0.0 && r <= 1.0 && f + r * df > 0.0)
+        // d/dr of the squared equation is positive where the point leaves the cone.
+        .filter(|&r| a * r + b > 0.0)
+        .reduce(f64::min)
+}
+
+impl Law for Coulomb {
+    fn name(&self) -> &'static str {
+        "coulomb"
+    }
+
+    fn states(&self) -> usize {
+        0
+    }
+
+    fn initial(&self, _states: &mut [f64]) {}
+
+    fn coefficient(&self, _rate: &[f64], _states: &[f64], mu: &mut [f64]) -> Result<(), Failure> {
+        mu.fill(self.mu);
+        Ok(())
+    }
+
+    fn respond(&self, t: Trials<'_>, _old: &[f64], out: Responses<'_>) -> Result<(), Failure> {
+        for k in 0..t.trial.len() {
+            let (normal, trial) = (t.normal[k], t.trial[k]);
+            if !(normal.is_finite() && trial.is_finite()) {
+                return Err(Failure::NonFinite { point: k, normal, trial });
+            }
+            let (strength, slope) = self.strength(normal);
+            let stick = trial <= strength;
+            out.regime[k] = if stick { Regime::Stick } else { Regime::Slip };
+            out.traction[k] = if stick { trial } else { strength };
+            out.slip[k] = if stick { 0.0 } else { (trial - strength) / t.stiffness };
+            out.d_trial[k] = if stick { 1.0 } else { 0.0 };
+            out.d_normal[k] = if stick { 0.0 } else { slope };
+            let (weight, offset) = t.lag.map_or((1.0, 0.0), |lag| (lag.weight, lag.offset[k]));
+            out.rate[k] = if stick { 0.0 } else { weight * out.slip[k] / t.dt - offset };
+        }
+        Ok(())
+    }
+
+    fn rates(&self, present: Present<'_>, out: Rates<'_>) -> Result<(), Failure> {
+        for k in 0..present.normal.len() {
+            let (strength, slope) = self.strength(present.normal[k]);
+            (out.along[k], out.coupling[k], out.constant[k]) = match present.regime[k] {
+                Regime::Stick => (1.0, 0.0, 0.0),
+                Regime::Slip => (0.0, slope, if present.carry { strength - present.traction[k] } else { 0.0 }),
+            };
+        }
+        Ok(())
+    }
+
+    fn limit(&self, present: Present<'_>, step: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
+        let mut smallest: Option<Limit> = None;
+        for k in (0..present.normal.len()).filter(|&k| present.regime[k] == Regime::Stick) {
+            let (strength, slope) = self.strength(present.normal[k]);
+            let distance = strength - present.traction[k];
+            let approach = step.traction[k] - slope * step.normal[k];
+            if approach <= 0.0 || distance <= BAND * strength {
+                continue;
+            }
+            let fraction = distance / approach;
+            if fraction < 1.0 && smallest.is_none_or(|s| fraction < s.fraction) {
+                smallest = Some(Limit { fraction, point: k, kind: LimitKind::StickToSlip });
+            }
+        }
+        smallest
+    }
+
+    fn advance(
+        &self,
+        present: Present<'_>,
+        step: Increments<'_>,
+        regime: &mut [Regime],
+        rate: &mut [f64],
+        _states: &mut [f64],
+    ) -> Result<(), Failure> {
+        for k in 0..present.normal.len() {
+            let (strength, _) = self.strength(present.normal[k] + step.normal[k]);
+            let traction = present.traction[k] + step.traction[k];
+            let slipping = match present.regime[k] {
+                Regime::Stick => traction >= strength * (1.0 - BAND),
+                Regime::Slip => step.slip[k] > 0.0,
+            };
+            regime[k] = if slipping { Regime::Slip } else { Regime::Stick };
+            rate[k] = if present.regime[k] == Regime::Slip { (step.slip[k] / present.dt).max(0.0) } else { 0.0 };
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_exit_lies_on_the_cone_and_leads_outwards() {
+        let (t, dt, f, df, mu) = ([0.3, -0.1], [1.5, 0.7], 1.0, -0.4, 0.6);
+        let r = cone_exit(t, dt, f, df, mu).unwrap();
+        let at = |r: f64| (t[0] + r * dt[0]).hypot(t[1] + r * dt[1]) - mu * (f + r * df);
+        approx::assert_abs_diff_eq!(at(r), 0.0, epsilon = 1e-15);
+        assert!(at(r + 1e-6) > 0.0 && at(r - 1e-6) < 0.0);
+    }
+
+    #[test]
+    fn no_exit_when_unloading_within_the_cone() {
+        assert_eq!(cone_exit([0.3, 0.0], [-0.2, 0.0], 1.0, 0.1, 0.6), None);
+    }
+}

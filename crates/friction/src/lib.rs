@@ -1,0 +1,97 @@
+//! Rock friction laws on slices of points: strengths, evolutions with their exact steps, and the point return contact asks
+//! for.
+//!
+//! The crate knows no mesh, no files and no time loop. Everything is scalar: see [`law`].
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+pub mod coulomb;
+pub mod evolution;
+pub mod law;
+pub mod point;
+pub mod rate;
+pub mod strength;
+
+/// What can go wrong in a law.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Failure {
+    /// A parameter out of its range.
+    #[error("{name} = {value:e} is not admissible: {admissible}")]
+    Parameter {
+        /// Parameter.
+        name: &'static str,
+        /// Given value.
+        value: f64,
+        /// What would be right.
+        admissible: &'static str,
+    },
+    /// The bare logarithm has no value at rest or in reversal.
+    #[error("point {point}: the bare logarithm of the slip rate {rate:e} m/s does not exist; use the regularised form")]
+    BareLogAtRest {
+        /// Point in the slice.
+        point: usize,
+        /// Slip rate \[m/s\].
+        rate: f64,
+    },
+    /// The law weakens faster than the spring behind the point unloads.
+    #[error("point {point}: the law weakens by {weakening:e} Pa/m against a stiffness of {stiffness:e} Pa/m")]
+    Unstable {
+        /// Point in the slice.
+        point: usize,
+        /// E_t \[Pa/m\].
+        stiffness: f64,
+        /// -H \[Pa/m\].
+        weakening: f64,
+    },
+    /// An input or a result is not finite.
+    #[error("point {point}: not finite (normal traction {normal:e} Pa, trial {trial:e} Pa)")]
+    NonFinite {
+        /// Point in the slice.
+        point: usize,
+        /// f_n \[Pa\].
+        normal: f64,
+        /// |t^e| \[Pa\].
+        trial: f64,
+    },
+    /// The root was not found.
+    #[error("point {point}: no slip rate found (normal traction {normal:e} Pa, trial {trial:e} Pa, residual {residual:e} Pa)")]
+    NotConverged {
+        /// Point in the slice.
+        point: usize,
+        /// f_n \[Pa\].
+        normal: f64,
+        /// |t^e| \[Pa\].
+        trial: f64,
+        /// What is left \[Pa\].
+        residual: f64,
+    },
+}
+
+impl Failure {
+    /// The same failure at another point, for callers that treat parts of a slice.
+    #[must_use]
+    pub fn at(self, index: usize) -> Self {
+        match self {
+            Self::BareLogAtRest { rate, .. } => Self::BareLogAtRest { point: index, rate },
+            Self::Unstable { stiffness, weakening, .. } => Self::Unstable { point: index, stiffness, weakening },
+            Self::NonFinite { normal, trial, .. } => Self::NonFinite { point: index, normal, trial },
+            Self::NotConverged { normal, trial, residual, .. } => {
+                Self::NotConverged { point: index, normal, trial, residual }
+            }
+            other @ Self::Parameter { .. } => other,
+        }
+    }
+}
+
+/// Checks a parameter that must be positive and finite.
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, Failure> {
+    if value > 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Failure::Parameter { name, value, admissible: "a positive, finite number" })
+    }
+}
+
+/// Checks a parameter that must be finite.
+pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, Failure> {
+    if value.is_finite() { Ok(value) } else { Err(Failure::Parameter { name, value, admissible: "a finite number" }) }
+}
