@@ -82,8 +82,7 @@ impl Observer for Progress {
                 bar.set_message(status(view));
             }
             Sink::Lines { started, shown } => {
-                let now = (part * LINES) as usize;
-                if now > *shown {
+                if let Some(now) = passed(part, *shown) {
                     *shown = now;
                     let wall = started.elapsed().as_secs_f64();
                     eprintln!("{:3.0} %  {}  [{wall:.1} s]", 100.0 * part, status(view));
@@ -94,10 +93,34 @@ impl Observer for Progress {
     }
 }
 
+/// The interval that `part` of the run has reached, when it lies beyond the one shown last.
+fn passed(part: f64, shown: usize) -> Option<usize> {
+    let now = (part * LINES) as usize;
+    (now > shown).then_some(now)
+}
+
 fn status(view: &StepView<'_>) -> String {
     let record = view.record;
     format!(
         "{}: t = {:.6} s, dt = {:.3e} s, {} iterations, step {}",
         view.stage, record.time, record.dt, record.iterations, record.step
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_of_many_steps_gives_one_line_per_interval() {
+        let (mut shown, mut lines) = (0, 0);
+        for step in 1..=1000 {
+            if let Some(now) = passed(f64::from(step) / 1000.0, shown) {
+                (shown, lines) = (now, lines + 1);
+            }
+        }
+        assert_eq!(lines, 20);
+        assert_eq!(passed(1.0, shown), None);
+        assert_eq!(passed(f64::NAN, 0), None);
+    }
 }

@@ -56,7 +56,7 @@ const DECADES: f64 = 14.0;
 const COLUMNS: usize = 2000;
 
 /// Room right of the frame for the legend.
-pub(super) const LEGEND: f64 = 170.0;
+const LEGEND: f64 = 170.0;
 
 /// Draws one quantity of one interface; `None` when it has no probes or no steps.
 pub(super) fn history(recorder: &Recorder, interface: usize, quantity: &Quantity) -> Option<Figure> {

@@ -4,12 +4,15 @@ use super::super::record::StageEnd;
 use super::super::view::InterfaceMesh;
 use super::axes::{Axis, Frame};
 use super::colour::viridis;
-use super::curves::{Entry, LEGEND, legend, title};
+use super::curves::{Entry, legend, title};
 use super::figure::{Figure, Point};
 use super::units::{LENGTH, STRESS};
 
 /// Two positions closer than this fraction of the interface's extent are one: nodes of one line across it.
 const SAME_LINE: f64 = 1e-6;
+
+/// Room right of the frame for the legend, whose entries name stages.
+const LEGEND: f64 = 240.0;
 
 /// A traction along the interface.
 struct Curve {
@@ -71,7 +74,7 @@ fn curves(mesh: &InterfaceMesh, places: &[f64], interface: usize, ends: &[StageE
         for (name, values, dashed) in
             [("normal", &fields.normal_traction, false), ("shear", &fields.shear_traction, true)]
         {
-            let entry = Entry { name: format!("{name}, {}", end.name), colour, dashed };
+            let entry = Entry { name: format!("{name}, end of “{}”", end.name), colour, dashed };
             curves.push(Curve { entry, points: averaged(places, &mesh.areas, values) });
         }
     }
