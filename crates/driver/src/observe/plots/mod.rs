@@ -17,6 +17,7 @@ mod units;
 use super::files::stems;
 use super::{ObserveError, Recorder, atomic};
 use figure::Figure;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Draws all plots of a run into `folder` and returns the files, in the order written. The recorder must have kept
@@ -81,15 +82,19 @@ pub(super) fn position_labels(positions: impl Iterator<Item = [f64; 3]>) -> Vec<
         axes = vec![0, 1];
     }
     let unit = units::LENGTH.of(largest);
-    let label = |p: &[f64; 3]| {
+    let label = |p: &[f64; 3], digits: i32| {
+        // Rounds to this many digits of the largest coordinate.
+        let fine = 10.0_f64.powi(digits - 1 - (largest / unit.factor).max(1.0).log10() as i32);
         let parts = axes.iter().map(|&axis| {
-            // Four significant decimals of the unit, without trailing zeros.
-            let value = (p[axis] / unit.factor * 1e4).round() / 1e4 + 0.0;
+            let value = (p[axis] / unit.factor * fine).round() / fine + 0.0;
             format!("{} = {value}", ["x", "y", "z"][axis])
         });
         format!("{} {}", parts.collect::<Vec<_>>().join("; "), unit.name)
     };
-    positions.iter().map(label).collect()
+    let labels = |digits: i32| positions.iter().map(|p| label(p, digits)).collect::<Vec<_>>();
+    let different = |labels: &[String]| labels.iter().collect::<BTreeSet<_>>().len() == labels.len();
+    // Four digits read well; positions that need more get them.
+    (4..9).map(labels).find(|labels| different(labels)).unwrap_or_else(|| labels(9))
 }
 
 /// Coordinates closer than this fraction of the largest one count as equal: generated meshes place nodes to rounding.

@@ -303,6 +303,10 @@ fn labels_name_the_coordinates_that_differ() {
     assert_eq!(plots::position_labels(plane.into_iter()), ["y = 0 mm", "y = 12.5 mm"]);
     let layers = [[0.025, 0.0, 0.001], [0.025, 0.05, 0.002]];
     assert_eq!(plots::position_labels(layers.into_iter()), ["y = 0; z = 1 mm", "y = 50; z = 2 mm"]);
+    let sevenths = [[0.0, 0.05 / 7.0, 0.0], [0.0, 0.05, 0.0]];
+    assert_eq!(plots::position_labels(sevenths.into_iter()), ["y = 7.14 mm", "y = 50 mm"]);
+    let close = [[0.0, 0.05, 0.0], [0.0, 0.050001, 0.0]];
+    assert_eq!(plots::position_labels(close.into_iter()), ["y = 50 mm", "y = 50.001 mm"]);
     assert_eq!(plots::position_labels([[0.0; 3]].into_iter()), ["x = 0; y = 0 m"]);
 }
 
