@@ -1,7 +1,7 @@
 //! Plots of a finished (or stopped) run, each as SVG and PNG under `plots/`: the Mises field at stage ends, histories at
 //! the probes, tractions along the interfaces.
 //!
-//! A plot is first a list of shapes ([`figure::Figure`]); one painter writes it as SVG, another as PNG.
+//! A plot is first a list of shapes (`figure::Figure`); one painter writes it as SVG, another as PNG.
 
 mod axes;
 mod colour;
