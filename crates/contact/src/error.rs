@@ -33,7 +33,9 @@ pub enum ContactError {
         kind: SegmentKind,
     },
     /// A segment of the wrong dimension or with the wrong number of nodes.
-    #[error("interface {name}: master segment {segment} ({kind}) with {nodes} nodes does not fit {dimension} dimensions")]
+    #[error(
+        "interface {name}: master segment {segment} ({kind}) with {nodes} nodes does not fit {dimension} dimensions"
+    )]
     BadSegment {
         /// Interface.
         name: String,

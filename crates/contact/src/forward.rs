@@ -5,17 +5,19 @@
 
 use crate::interface::Interface;
 use crate::measure::{NormalPoint, ShearPoint};
-use crate::shear::Shear;
+use crate::shear::{Shear, Slices};
 use crate::vector::{add, axpy, dot, norm, scaled, sub};
 use asperity_fem::term::{Fraction, Instant, Limited, Refusal};
+use asperity_friction::Failure;
 use asperity_friction::law::{Increments, Limit, LimitKind, Present, RateBounds, Rates, Regime};
 
 /// Points this near to an event, relative to the increment that leads to it, do not limit a step but switch with it:
 /// otherwise simultaneous events of a symmetric scene would cost one step each, at fractions that are rounding.
 const BAND: f64 = 1e-9;
 
-/// Refinements of r6 along a turning traction; each one at least halves the number of wrong digits.
-const REFINEMENTS: usize = 40;
+/// Refinements of r6 along a turning traction. Each restart removes a fixed share of the distance to the root (the ratio
+/// of the slopes of magnitude and chord, seldom below 1/3), so 1e-9 takes about 50 at worst.
+const REFINEMENTS: usize = 60;
 
 /// Increments of tractions over a forward step, in the frame.
 struct Step<'a> {
@@ -57,7 +59,7 @@ impl Shear {
     }
 
     /// Linearises the law at the committed state: `d_trial`, `d_normal` and, in `traction` of the slices, the constant.
-    fn linearise(&mut self, normal: &[NormalPoint], options: PresentOptions) -> Result<(), String> {
+    fn linearise(&mut self, normal: &[NormalPoint], options: PresentOptions) -> Result<(), Failure> {
         self.gather_present(normal);
         let s = &mut self.slices;
         let n = s.index.len();
@@ -77,7 +79,7 @@ impl Shear {
                 carry: options.carry,
             };
             let rates = Rates { along: &mut s.d_trial, coupling: &mut s.d_normal, constant: &mut s.traction };
-            self.law.rates(present, rates).map_err(|failure| failure.to_string())?;
+            self.law.rates(present, rates)?;
         }
         self.points.fill(ShearPoint::default());
         for (i, &p) in s.index.iter().enumerate() {
@@ -101,84 +103,105 @@ impl Shear {
         let along = dot(&point.direction, du);
         let df = -step.normal[p].stiffness * step.gap[p];
         let mut dt = scaled(du, self.stiffness * point.ratio);
-        let extra = self.stiffness * (point.d_trial - point.ratio) * along + point.d_normal * df + self.slices.traction[i];
+        let extra = self.stiffness * (point.d_trial - point.ratio) * along
+            + point.d_normal * df
+            + self.slices.traction[i];
         axpy(&mut dt, extra, &point.direction);
         dt
     }
 
-    /// Increments over the part `from..1` of the step, with the state at `from`; fills the slices and asks the law.
-    fn limit_from(&mut self, step: &Step<'_>, from: f64, bounds: RateBounds) -> Option<Limit> {
-        let n = self.slices.index.len();
-        let (mut normal, mut traction, mut slip) = (Vec::with_capacity(n), Vec::with_capacity(n), Vec::with_capacity(n));
-        let (mut start_normal, mut start) = (Vec::with_capacity(n), Vec::with_capacity(n));
-        for i in 0..n {
-            let p = self.slices.index[i];
+    /// Asks the law for the smallest limit of `entries` over the part `from..1` of the step, with tractions at `from`.
+    /// The point of the answer indexes the slices.
+    fn limit_from(&self, step: &Step<'_>, entries: &[usize], from: f64, bounds: RateBounds) -> Option<Limit> {
+        let k = self.states();
+        let s = &self.slices;
+        let mut part = Slices::default();
+        let (mut normal, mut traction, mut slip) = (Vec::new(), Vec::new(), Vec::new());
+        for &i in entries {
+            let p = s.index[i];
             let dt = self.traction_increment(i, step);
             let df = -step.normal[p].stiffness * step.gap[p];
-            let t0: [f64; 2] = std::array::from_fn(|c| self.committed.traction[p][c] + from * dt[c]);
-            start_normal.push(step.normal[p].traction + from * df);
-            start.push(norm(&t0));
+            let t = along_path(&self.committed.traction[p], &dt, from);
+            part.normal.push(step.normal[p].traction + from * df);
+            part.trial.push(norm(&t));
+            part.rate.push(s.rate[i]);
+            part.regime.push(s.regime[i]);
+            part.old.extend_from_slice(&s.old[i * k..(i + 1) * k]);
             normal.push((1.0 - from) * df);
-            traction.push(signed_increment(&t0, &scaled(&dt, 1.0 - from)));
-            slip.push((1.0 - from) * slip_increment(self.slices.regime[i], &self.points[p], &step.increment[p], &dt, self.stiffness));
+            traction.push(magnitude_increment(&t, &scaled(&dt, 1.0 - from)));
+            let slid = slip_increment(s.regime[i], &self.points[p], &step.increment[p], &dt, self.stiffness);
+            slip.push((1.0 - from) * slid);
         }
-        let s = &self.slices;
-        let present = Present {
-            normal: &start_normal,
-            traction: &start,
-            rate: &s.rate,
-            regime: &s.regime,
-            states: &s.old,
-            stiffness: self.stiffness,
-            dt: step.present.dt,
-            rate_floor: step.present.rate_floor,
-            carry: step.present.carry,
-        };
-        self.law.limit(present, Increments { normal: &normal, traction: &traction, slip: &slip }, bounds)
+        if entries.is_empty() {
+            return None;
+        }
+        let increments = Increments { normal: &normal, traction: &traction, slip: &slip };
+        let limit = self.law.limit(part.present(self.stiffness, step.present), increments, bounds)?;
+        Some(Limit { point: entries[limit.point], ..limit })
     }
 
-    /// The smallest limit of the law. Where the traction turns, the law sees the chord `|t + Δt| - |t|`, which lies above
-    /// `|t + r Δt|`; its root is therefore never late, and starting again from it converges to the root of the vector form.
-    fn limit(&mut self, step: &Step<'_>, bounds: RateBounds) -> Option<Limit> {
-        let mut found = self.limit_from(step, 0.0, bounds)?;
-        let turns = (0..self.slices.index.len()).any(|i| {
-            let dt = self.traction_increment(i, step);
-            across(&self.committed.traction[self.slices.index[i]], &dt) > BAND * norm(&dt)
-        });
-        if !turns || found.kind != LimitKind::StickToSlip {
-            return Some(found);
+    /// The smallest limit of the law: r8 of the moving points, r6 of the resting ones.
+    fn limit(&self, step: &Step<'_>, bounds: RateBounds) -> Option<Limit> {
+        let floor = step.present.rate_floor;
+        let (resting, moving): (Vec<usize>, Vec<usize>) =
+            (0..self.slices.index.len()).partition(|&i| self.slices.rate[i] < floor);
+        let moving = self.limit_from(step, &moving, 0.0, bounds);
+        let resting = self.leave_cone(step, &resting, bounds);
+        match (moving, resting) {
+            (Some(a), Some(b)) => Some(if b.fraction < a.fraction { b } else { a }),
+            (a, b) => a.or(b),
         }
+    }
+
+    /// r6 in vector form. A law sees magnitudes, that is the chord from |t| to |t + Δt|, and |t + r Δt| is convex in r, so
+    /// the chord's root is never late. Starting again from there, as long as the true magnitude lies below the chord,
+    /// converges from below to the first root, where the traction leaves the cone outwards; for a traction that does not
+    /// turn the first answer is the root.
+    fn leave_cone(&self, step: &Step<'_>, resting: &[usize], bounds: RateBounds) -> Option<Limit> {
+        let mut from = 0.0;
         for _ in 0..REFINEMENTS {
-            let next = self.limit_from(step, found.fraction, bounds)?;
-            let moved = next.fraction * (1.0 - found.fraction);
-            found = Limit { fraction: found.fraction + moved, ..next };
-            if moved <= BAND * found.fraction || found.kind != LimitKind::StickToSlip {
-                break;
+            let found = self.limit_from(step, resting, from, bounds)?;
+            let root = from + found.fraction * (1.0 - from);
+            let dt = self.traction_increment(found.point, step);
+            let size =
+                |r: f64| norm(&along_path(&self.committed.traction[self.slices.index[found.point]], &dt, r));
+            let chord = size(from) + found.fraction * (size(1.0) - size(from));
+            if chord - size(root) <= 0.5 * BAND * chord {
+                return Some(Limit { fraction: root, ..found });
             }
+            from = root;
         }
-        Some(found)
+        // Not converged from below: where the search stands is admissible.
+        Some(Limit { fraction: from, point: *resting.first()?, kind: LimitKind::StickToSlip })
     }
 }
 
-/// Part of `dt` perpendicular to `t`; 0 where `t` is.
-fn across(t: &[f64; 2], dt: &[f64; 2]) -> f64 {
-    let size = norm(t);
-    if size > 0.0 { ((t[0] * dt[1] - t[1] * dt[0]) / size).abs() } else { 0.0 }
+impl Slices {
+    /// The gathered points as a law sees them.
+    fn present(&self, stiffness: f64, options: PresentOptions) -> Present<'_> {
+        Present {
+            normal: &self.normal,
+            traction: &self.trial,
+            rate: &self.rate,
+            regime: &self.regime,
+            states: &self.old,
+            stiffness,
+            dt: options.dt,
+            rate_floor: options.rate_floor,
+            carry: options.carry,
+        }
+    }
 }
 
-/// Increment of the traction as a law sees it: signed along `t` where `dt` is parallel to it, otherwise `|t + dt| - |t|`
-/// (written without cancellation).
-fn signed_increment(t: &[f64; 2], dt: &[f64; 2]) -> f64 {
-    let size = norm(t);
-    if size == 0.0 {
-        return norm(dt);
-    }
-    let along = dot(t, dt) / size;
-    if across(t, dt) <= BAND * norm(dt) {
-        return along;
-    }
-    let end = add(t, dt);
-    (2.0 * size * along + dot(dt, dt)) / (norm(&end) + size)
+/// t + r dt.
+fn along_path(t: &[f64; 2], dt: &[f64; 2], r: f64) -> [f64; 2] {
+    [t[0] + r * dt[0], t[1] + r * dt[1]]
+}
+
+/// |t + dt| - |t| without cancellation.
+fn magnitude_increment(t: &[f64; 2], dt: &[f64; 2]) -> f64 {
+    let sum = norm(&add(t, dt)) + norm(t);
+    if sum == 0.0 { 0.0 } else { (2.0 * dot(t, dt) + dot(dt, dt)) / sum }
 }
 
 /// Slip increment: what of the tangential motion is not elastic, signed along η.
@@ -246,7 +269,7 @@ impl<const D: usize> Interface<D> {
         let s = &mut shear.slices;
         s.traction.resize(s.index.len(), 0.0);
         if let Err(failure) = shear.law.coefficient(&s.rate, &s.old, &mut s.traction) {
-            return Err(Refusal { term: self.name.clone(), reason: failure.to_string() });
+            return Err(self.law_refusal(failure));
         }
         let (mut worst, mut largest) = (0.0f64, 0.0f64);
         for i in (0..s.index.len()).filter(|&i| s.regime[i] == Regime::Slip) {
@@ -281,7 +304,7 @@ impl<const D: usize> Interface<D> {
     }
 
     /// Shear tractions, slip, rates and states after the increment.
-    fn advance_shear(&mut self, options: PresentOptions) -> Result<(), String> {
+    fn advance_shear(&mut self, options: PresentOptions) -> Result<(), Failure> {
         let Some(shear) = &mut self.shear else {
             for (p, step) in self.motion.trial.step.iter_mut().enumerate() {
                 *step = if self.contact.committed[p].closed { self.slides.increment[p] } else { [0.0; 2] };
@@ -290,9 +313,11 @@ impl<const D: usize> Interface<D> {
         };
         let normal = &self.contact.committed;
         shear.linearise(normal, options)?;
-        let step = Step { normal, gap: &self.slides.gap, increment: &self.slides.increment, present: options };
+        let step =
+            Step { normal, gap: &self.slides.gap, increment: &self.slides.increment, present: options };
         let n = shear.slices.index.len();
-        let (mut df, mut dtau, mut slip) = (Vec::with_capacity(n), Vec::with_capacity(n), Vec::with_capacity(n));
+        let (mut df, mut dtau, mut slip) =
+            (Vec::with_capacity(n), Vec::with_capacity(n), Vec::with_capacity(n));
         shear.trial.copy_from(&shear.committed);
         self.motion.trial.step.fill([0.0; 2]);
         for i in 0..n {
@@ -301,7 +326,7 @@ impl<const D: usize> Interface<D> {
             let t = &shear.committed.traction[p];
             let regime = shear.slices.regime[i];
             df.push(-normal[p].stiffness * step.gap[p]);
-            dtau.push(signed_increment(t, &dt));
+            dtau.push(magnitude_increment(t, &dt));
             slip.push(slip_increment(regime, &shear.points[p], &step.increment[p], &dt, shear.stiffness));
             if regime == Regime::Slip {
                 self.motion.trial.step[p] = sub(&step.increment[p], &scaled(&dt, shear.stiffness.recip()));
@@ -321,23 +346,13 @@ impl<const D: usize> Interface<D> {
 }
 
 /// Lets the law advance regime, rate and states of the gathered points and scatters them.
-fn advance_law(shear: &mut Shear, step: Increments<'_>, options: PresentOptions) -> Result<(), String> {
+fn advance_law(shear: &mut Shear, step: Increments<'_>, options: PresentOptions) -> Result<(), Failure> {
     let k = shear.states();
     let s = &shear.slices;
-    let present = Present {
-        normal: &s.normal,
-        traction: &s.trial,
-        rate: &s.rate,
-        regime: &s.regime,
-        states: &s.old,
-        stiffness: shear.stiffness,
-        dt: options.dt,
-        rate_floor: options.rate_floor,
-        carry: options.carry,
-    };
+    let present = s.present(shear.stiffness, options);
     let (mut regime, mut rate, mut states) = (s.regime.clone(), s.rate.clone(), s.old.clone());
     if !regime.is_empty() {
-        shear.law.advance(present, step, &mut regime, &mut rate, &mut states).map_err(|failure| failure.to_string())?;
+        shear.law.advance(present, step, &mut regime, &mut rate, &mut states)?;
     }
     for (i, &p) in s.index.iter().enumerate() {
         shear.trial.regime[p] = regime[i];
@@ -356,9 +371,9 @@ impl<const D: usize> Limited for Interface<D> {
         self.force.fill([0.0; D]);
         if let Some(shear) = &mut self.shear {
             self.work.law_calls += 1;
-            shear
-                .linearise(&self.contact.committed, options)
-                .map_err(|reason| Refusal { term: self.name.clone(), reason })?;
+            if let Err(failure) = shear.linearise(&self.contact.committed, options) {
+                return Err(self.law_refusal(failure));
+            }
             for (i, &p) in shear.slices.index.iter().enumerate() {
                 // A traction growing by c η pulls the slave along -η.
                 let c = scaled(&shear.slices.direction[i], -shear.slices.traction[i]);
@@ -392,7 +407,11 @@ impl<const D: usize> Limited for Interface<D> {
                 "r7" => "segment exit",
                 _ => "friction law",
             };
-            Fraction { value, cause: format!("{limit} {event}, {}, node {}", self.name, self.label(point)), limit }
+            Fraction {
+                value,
+                cause: format!("{limit} {event}, {}, node {}", self.name, self.label(point)),
+                limit,
+            }
         })
     }
 
@@ -409,8 +428,8 @@ impl<const D: usize> Limited for Interface<D> {
         }
         self.measure.measure(&self.u.trial, &mut self.geometry);
         self.advance_normal();
-        if let Err(reason) = self.advance_shear(options) {
-            return Err(self.refuse(reason));
+        if let Err(failure) = self.advance_shear(options) {
+            return Err(self.law_refusal(failure));
         }
         self.accumulate();
         Ok(())

@@ -12,6 +12,7 @@ use crate::spec::{InterfaceSpec, SlavePoint, Sliding, SurfaceNode, TimeRule};
 use crate::status::{Status, label};
 use crate::vector::{add, axpy, dot, moment, norm, scaled, sub};
 use asperity_fem::term::{Instant, Linearized, Pattern, Refusal, Term};
+use asperity_friction::Failure;
 use asperity_friction::law::{Law, RateBounds};
 use std::sync::Arc;
 
@@ -221,6 +222,22 @@ impl<const D: usize> Interface<D> {
         Refusal { term: self.name.clone(), reason }
     }
 
+    /// What a law could not answer, with the mesh node instead of the place in the slice.
+    pub(crate) fn law_refusal(&self, failure: Failure) -> Refusal {
+        let entry = match failure {
+            Failure::BareLogAtRest { point, .. }
+            | Failure::Unstable { point, .. }
+            | Failure::NonFinite { point, .. }
+            | Failure::NotConverged { point, .. } => Some(point),
+            _ => None,
+        };
+        let point = entry.zip(self.shear.as_ref()).and_then(|(k, shear)| shear.slices.index.get(k).copied());
+        match point {
+            Some(p) => self.refuse(format!("node {}: slave {}", self.label(p), failure.at(p))),
+            None => self.refuse(failure.to_string()),
+        }
+    }
+
     /// Tractions with derivatives at the state of the last residual.
     pub(crate) fn tractions(&self) -> Tractions<'_> {
         Tractions {
@@ -240,12 +257,16 @@ impl<const D: usize> Interface<D> {
         if let Some(shear) = &mut self.shear {
             let (previous, step) = (&self.motion.committed.step, &mut self.motion.trial.step);
             self.work.law_calls += 1;
-            shear
-                .respond(&self.contact.trial, &self.geometry.increment, dt, two_step, previous, step)
-                .map_err(|failure| Refusal { term: self.name.clone(), reason: failure.to_string() })?;
+            let increment = &self.geometry.increment;
+            if let Err(failure) = shear.respond(&self.contact.trial, increment, dt, two_step, previous, step)
+            {
+                return Err(self.law_refusal(failure));
+            }
         } else {
             // Without friction all tangential motion of a closed point is slip.
-            for ((step, c), du) in self.motion.trial.step.iter_mut().zip(&self.contact.trial).zip(&self.geometry.increment) {
+            for ((step, c), du) in
+                self.motion.trial.step.iter_mut().zip(&self.contact.trial).zip(&self.geometry.increment)
+            {
                 *step = if c.closed { *du } else { [0.0; 2] };
             }
         }
@@ -350,8 +371,9 @@ impl<const D: usize> Interface<D> {
             f.shear_measure[p] = if D == 2 { t[0] } else { size };
             f.friction[p] = if contact.traction > 0.0 { size / contact.traction } else { 0.0 };
             let rate = shear.committed.rate[p];
-            // Slip runs along the traction; only its magnitude is history.
-            f.slip_rate[p] = if D == 2 { rate * t[0].signum() } else { rate };
+            // Slip runs along the traction (without normal traction there is none, and the slip itself tells).
+            let along = if t[0] == 0.0 { step[p][0] } else { t[0] };
+            f.slip_rate[p] = if D == 2 { rate.copysign(rate * along) } else { rate };
             if contact.closed {
                 f.status[p] = label(shear.committed.regime[p], rate, self.label_rate);
             }
@@ -372,8 +394,9 @@ impl<const D: usize> Interface<D> {
         };
         for (p, s) in self.slave.iter().enumerate() {
             let n = &self.fields.normal[p];
-            let f: [f64; D] =
-                std::array::from_fn(|i| s.area * (self.fields.normal_traction[p] * n[i] - self.fields.shear[p][i]));
+            let f: [f64; D] = std::array::from_fn(|i| {
+                s.area * (self.fields.normal_traction[p] * n[i] - self.fields.shear[p][i])
+            });
             slave_force = add(&slave_force, &f);
             total = add(&total, &moment(&place(s.node), &f));
             self.measure.attachments(p, &mut attachments);
@@ -413,7 +436,11 @@ fn check<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactError> {
             return Err(ContactError::BadNode { name: name(), side: "slave", index: s.node, nodes });
         }
         if s.area.is_nan() || s.area <= 0.0 {
-            return Err(ContactError::BadArea { name: name(), label: spec.nodes[s.node].label, area: s.area });
+            return Err(ContactError::BadArea {
+                name: name(),
+                label: spec.nodes[s.node].label,
+                area: s.area,
+            });
         }
     }
     for (segment, s) in spec.master.iter().enumerate() {
@@ -480,7 +507,11 @@ impl<const D: usize> Term for Interface<D> {
             return Err(self.refuse(format!("gap at node {} is not a number", self.label(p))));
         }
         if let Some(p) = self.force.iter().position(|f| !dot(f, f).is_finite()) {
-            return Err(self.refuse(format!("force at node {} is not finite: {:?} Pa", self.label(p), self.force[p])));
+            return Err(self.refuse(format!(
+                "force at node {} is not finite: {:?} Pa",
+                self.label(p),
+                self.force[p]
+            )));
         }
         self.measure.spread(&self.force, r);
         Ok(())

@@ -14,7 +14,7 @@ use std::sync::Arc;
 pub(crate) struct History {
     /// Shear traction t \[Pa\].
     pub traction: Vec<[f64; 2]>,
-    /// Slip rate V ≥ 0 \[m/s\].
+    /// Slip rate V along the traction \[m/s\].
     pub rate: Vec<f64>,
     /// Regime.
     pub regime: Vec<Regime>,
@@ -228,7 +228,8 @@ impl Shear {
             let direction = s.direction[i];
             let traction = scaled(&direction, s.traction[i]);
             trial.traction[p] = traction;
-            trial.rate[p] = s.rate[i];
+            // Two-step differences may turn traction and rate against η; the history holds V along t.
+            trial.rate[p] = if s.traction[i] < 0.0 { -s.rate[i] } else { s.rate[i] };
             trial.regime[p] = s.regime[i];
             trial.states[p * k..(p + 1) * k].copy_from_slice(&s.states[i * k..(i + 1) * k]);
             step[p] = scaled(&direction, s.slip[i]);

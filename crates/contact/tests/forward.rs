@@ -118,7 +118,11 @@ fn leaving_a_segment_limits_in_finite_sliding_and_the_next_one_takes_over() {
     let version = interface.pattern().version;
     advance(&mut interface, &step(0.4, 0.0));
     interface.prepare(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, -0.1]).unwrap();
-    assert_ne!(interface.pattern().version, version, "a point on a vertex belongs to the segment it is entering");
+    assert_ne!(
+        interface.pattern().version,
+        version,
+        "a point on a vertex belongs to the segment it is entering"
+    );
     // 1 to 2 along the segment being entered: its far end limits.
     let r7 = interface.limit(&step(2.0, 0.0), AT).unwrap();
     assert_relative_eq!(r7.value, 0.5, max_relative = 1e-12);
@@ -166,7 +170,8 @@ fn the_rate_tangent_predicts_the_force_of_the_advanced_state_under_stick() {
         let u = moved(&spec, 0.4, &moves, 1e-3, 1);
         assert_rate(&mut Interface::new(spec).unwrap(), &u, 4);
     }
-    let moves = [[0.01, 0.02, -0.1], [0.02, 0.0, -0.1], [-0.03, 0.01, -0.09], [0.0, 0.01, -0.1], [0.01, 0.01, -0.1]];
+    let moves =
+        [[0.01, 0.02, -0.1], [0.02, 0.0, -0.1], [-0.03, 0.01, -0.09], [0.0, 0.01, -0.1], [0.01, 0.01, -0.1]];
     for sliding in [Sliding::Small, Sliding::Finite] {
         let spec = plate_spec(0.4, SegmentKind::Quad4, sliding, law.clone());
         let u = moved(&spec, 0.4, &moves, 1e-3, 1);
@@ -191,4 +196,14 @@ fn rate_and_implicit_tangent_agree_to_first_order_in_the_step_for_a_rate_law() {
     interface.advance(&push, AT).unwrap();
     interface.accept();
     assert_relative_eq!(interface.points().shear_measure[0] - before, predicted, max_relative = 1e-9);
+}
+
+#[test]
+fn a_reversing_traction_is_limited_on_the_far_side_of_the_cone() {
+    let mut interface = Interface::new(flat(Sliding::Small, coulomb())).unwrap();
+    advance(&mut interface, &du([0.1, -0.2], [0.0, 0.0]));
+    // t = -70 along e_1, strength 100: back through zero to the other side, 700 * 0.5 r = 170.
+    let r6 = interface.limit(&du([-0.5, 0.0], [0.0, 0.0]), AT).unwrap();
+    assert_eq!(r6.limit, "r6");
+    assert_relative_eq!(r6.value, 170.0 / 350.0, max_relative = 1e-9);
 }

@@ -111,7 +111,13 @@ fn line_scene(sliding: Sliding) -> (Interface<2>, Vec<f64>, Vec<f64>, Vec<[f64; 
 
 fn plate_scene(kind: SegmentKind, sliding: Sliding) -> (Interface<3>, Vec<f64>, Vec<f64>, Vec<[f64; 3]>) {
     let moves = |k: f64| {
-        [[0.02, 0.01, -0.11], [0.2 * k, 0.1, -0.1], [-0.15, 0.2 * k, -0.1], [0.0, 0.1, 0.1], [0.4 * k, 0.45 * k, -0.1]]
+        [
+            [0.02, 0.01, -0.11],
+            [0.2 * k, 0.1, -0.1],
+            [-0.15, 0.2 * k, -0.1],
+            [0.0, 0.1, 0.1],
+            [0.4 * k, 0.45 * k, -0.1],
+        ]
     };
     let spec = plate_spec(0.4, kind, sliding, coulomb());
     let (a, b) = (moved(&spec, 0.4, &moves(0.5), 1e-3, 1), moved(&spec, 0.4, &moves(1.0), 1e-2, 2));
@@ -173,7 +179,11 @@ fn assert_turns<const D: usize>(make: impl Fn() -> (Interface<D>, Vec<f64>, Vec<
         let f: [f64; D] = std::array::from_fn(|i| r[D * k + i]);
         let f = rotate(&f, angle);
         for i in 0..D {
-            assert!((s[D * k + i] - f[i]).abs() < 1e-10 * scale, "node {k}: {f:?} against {:?}", &s[D * k..D * k + D]);
+            assert!(
+                (s[D * k + i] - f[i]).abs() < 1e-10 * scale,
+                "node {k}: {f:?} against {:?}",
+                &s[D * k..D * k + D]
+            );
         }
     }
     for p in 0..plain.points().gap.len() {

@@ -2,10 +2,10 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+use asperity_contact::SegmentKind;
 use asperity_contact::search::project::{Outcome, depth, interpolate, project};
 use asperity_contact::search::tree::{Aabb, Tree};
 use asperity_contact::shape::shape;
-use asperity_contact::SegmentKind;
 use common::*;
 use proptest::prelude::*;
 
@@ -39,7 +39,15 @@ fn segment<const D: usize>(kind: SegmentKind, noise: &mut Noise, angle: f64) -> 
         SegmentKind::Tri3 => vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
         SegmentKind::Tri6 => vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]],
         _ => vec![
-            [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, 0.0],
+            [-1.0, -1.0],
+            [1.0, -1.0],
+            [1.0, 1.0],
+            [-1.0, 1.0],
+            [0.0, -1.0],
+            [1.0, 0.0],
+            [0.0, 1.0],
+            [-1.0, 0.0],
+            [0.0, 0.0],
         ],
     };
     natural[..kind.nodes()]

@@ -38,7 +38,13 @@ fn line_case(sliding: Sliding, law: LawOption, rule: TimeRule, angle: f64) -> (I
     (interface, second)
 }
 
-fn plate_case(kind: SegmentKind, sliding: Sliding, law: LawOption, rule: TimeRule, angle: f64) -> (Interface<3>, Vec<f64>) {
+fn plate_case(
+    kind: SegmentKind,
+    sliding: Sliding,
+    law: LawOption,
+    rule: TimeRule,
+    angle: f64,
+) -> (Interface<3>, Vec<f64>) {
     let spec = plate_spec(angle, kind, sliding, law);
     let first = moved(&spec, angle, &PLATE.0, 1e-3, 1);
     let second = moved(&spec, angle, &PLATE.1, 1e-3, 2);
@@ -89,7 +95,8 @@ fn the_cases_contain_open_stick_slip_and_a_crossing_of_segments() {
     for status in [Status::Open, Status::Stick, Status::Slip] {
         assert!(interface.points().count(status) > 0, "no point has status {status:?}");
     }
-    let (mut interface, u) = plate_case(SegmentKind::Quad4, Sliding::Finite, coulomb(), TimeRule::BackwardEuler, 0.9);
+    let (mut interface, u) =
+        plate_case(SegmentKind::Quad4, Sliding::Finite, coulomb(), TimeRule::BackwardEuler, 0.9);
     residual(&mut interface, &u);
     interface.accept();
     for status in [Status::Open, Status::Stick, Status::Slip] {

@@ -112,7 +112,12 @@ pub fn curvature<const D: usize>(s: &Shape, x: &[[f64; D]]) -> [[f64; D]; 3] {
 
 /// Foot of the perpendicular from `p` on the unbounded continuation of the segment, from the guess `xi`; `None` when
 /// Newton's method does not converge.
-pub fn foot<const D: usize>(kind: SegmentKind, x: &[[f64; D]], p: &[f64; D], mut xi: [f64; 2]) -> Option<[f64; 2]> {
+pub fn foot<const D: usize>(
+    kind: SegmentKind,
+    x: &[[f64; D]],
+    p: &[f64; D],
+    mut xi: [f64; 2],
+) -> Option<[f64; 2]> {
     let m = D - 1;
     if kind == SegmentKind::Seg2 {
         // Relative to the middle of the segment: both ends are treated alike, and ξ is exact for a point far along.
@@ -163,7 +168,9 @@ fn newton_matrix<const D: usize>(m: usize, metric: &[f64; 3], d: &[f64; D], c: &
 /// Closest point of the segment with nodes `x` to `p`.
 pub fn project<const D: usize>(kind: SegmentKind, x: &[[f64; D]], p: &[f64; D]) -> Projection<D> {
     let start = if corners(kind) == 3 { [1.0 / 3.0; 2] } else { [0.0; 2] };
-    let inside = foot(kind, x, p, start).filter(|&xi| depth(kind, xi) > BORDER).map(|xi| at(kind, x, p, xi, Outcome::Inside));
+    let inside = foot(kind, x, p, start)
+        .filter(|&xi| depth(kind, xi) > BORDER)
+        .map(|xi| at(kind, x, p, xi, Outcome::Inside));
     if let Some(found) = inside
         && kind.first_order()
     {
@@ -177,7 +184,13 @@ pub fn project<const D: usize>(kind: SegmentKind, x: &[[f64; D]], p: &[f64; D]) 
     }
 }
 
-fn at<const D: usize>(kind: SegmentKind, x: &[[f64; D]], p: &[f64; D], xi: [f64; 2], outcome: Outcome) -> Projection<D> {
+fn at<const D: usize>(
+    kind: SegmentKind,
+    x: &[[f64; D]],
+    p: &[f64; D],
+    xi: [f64; 2],
+    outcome: Outcome,
+) -> Projection<D> {
     let (point, _) = interpolate(&shape(kind, xi), x);
     let d = sub(p, &point);
     let distance_squared = dot(&d, &d);
@@ -234,7 +247,9 @@ fn line_parameter<const D: usize>(x: &[[f64; D]; 3], p: &[f64; D]) -> f64 {
         let (q, _) = interpolate(&shape(SegmentKind::Seg3, [s, 0.0]), x);
         dot(&sub(p, &q), &sub(p, &q))
     };
-    let mut s = [-1.0, -0.5, 0.0, 0.5, 1.0].into_iter().fold(0.0, |a, b| if distance(b) < distance(a) { b } else { a });
+    let mut s = [-1.0, -0.5, 0.0, 0.5, 1.0]
+        .into_iter()
+        .fold(0.0, |a, b| if distance(b) < distance(a) { b } else { a });
     for _ in 0..ITERATIONS {
         let shapes = shape(SegmentKind::Seg3, [s, 0.0]);
         let (q, e) = interpolate(&shapes, x);

@@ -29,7 +29,11 @@ impl<const D: usize> Surface<D> {
     pub fn new(segments: Vec<Segment>, positions: &[[f64; D]]) -> Self {
         let boxes: Vec<_> = segments.iter().map(|s| segment_box(s, positions)).collect();
         let tree = Tree::build(&boxes);
-        let (rim, free) = if D == 2 { rim_of_lines(&segments, positions.len()) } else { rim_of_faces(&segments, positions.len()) };
+        let (rim, free) = if D == 2 {
+            rim_of_lines(&segments, positions.len())
+        } else {
+            rim_of_faces(&segments, positions.len())
+        };
         Self { segments, rim, free, boxes, tree }
     }
 
@@ -56,7 +60,12 @@ impl<const D: usize> Surface<D> {
     }
 
     /// The segment closest to `p` with its projection; `count` grows by the number of projections made.
-    pub fn closest(&self, positions: &[[f64; D]], p: &[f64; D], count: &mut u64) -> Option<(usize, Projection<D>)> {
+    pub fn closest(
+        &self,
+        positions: &[[f64; D]],
+        p: &[f64; D],
+        count: &mut u64,
+    ) -> Option<(usize, Projection<D>)> {
         self.closest_but(usize::MAX, positions, p, count)
     }
 

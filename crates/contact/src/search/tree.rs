@@ -106,8 +106,9 @@ impl<const D: usize> Tree<D> {
         self.nodes.push(Node { aabb, range: (from, to), children: None });
         if to - from > LEAF {
             let axis = aabb.longest_axis();
-            self.order[from..to]
-                .sort_unstable_by(|&a, &b| boxes[a].centre(axis).total_cmp(&boxes[b].centre(axis)).then(a.cmp(&b)));
+            self.order[from..to].sort_unstable_by(|&a, &b| {
+                boxes[a].centre(axis).total_cmp(&boxes[b].centre(axis)).then(a.cmp(&b))
+            });
             let middle = from + (to - from) / 2;
             let left = self.split(boxes, from, middle);
             let right = self.split(boxes, middle, to);
@@ -138,7 +139,11 @@ impl<const D: usize> Tree<D> {
 
     /// The item of smallest squared distance to `p`, and that distance, by branch and bound. `measure` gives the squared
     /// distance of an item, or `None` for one that does not take part; equal distances go to the lower number.
-    pub fn nearest(&self, p: &[f64; D], mut measure: impl FnMut(usize) -> Option<f64>) -> Option<(usize, f64)> {
+    pub fn nearest(
+        &self,
+        p: &[f64; D],
+        mut measure: impl FnMut(usize) -> Option<f64>,
+    ) -> Option<(usize, f64)> {
         let mut best: Option<(usize, f64)> = None;
         let mut stack = [(0usize, 0.0f64); DEPTH];
         let mut top = 0;

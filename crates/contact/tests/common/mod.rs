@@ -4,7 +4,9 @@
 use asperity_contact::{Interface, InterfaceSpec, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode};
 use asperity_fem::term::{Instant, Linearized, Term};
 use asperity_friction::Failure;
-use asperity_friction::law::{Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials};
+use asperity_friction::law::{
+    Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
+};
 use std::sync::Arc;
 
 /// Coulomb friction, written here a second time and independently of the friction crate.
@@ -53,8 +55,10 @@ impl Law for Mu {
             }
             // Linear in r on each branch of |τ + r Δτ| = μ (f + r Δf): the first root that leaves the cone.
             for sign in [1.0, -1.0] {
-                let (slack, closing) =
-                    (self.0 * p.normal[i] - sign * p.traction[i], sign * s.traction[i] - self.0 * s.normal[i]);
+                let (slack, closing) = (
+                    self.0 * p.normal[i] - sign * p.traction[i],
+                    sign * s.traction[i] - self.0 * s.normal[i],
+                );
                 if closing > 0.0 && slack < closing {
                     let fraction = (slack / closing).max(0.0);
                     if best.is_none_or(|b| fraction < b.fraction) {
@@ -222,8 +226,16 @@ pub fn spec<const D: usize>(
 ) -> InterfaceSpec<D> {
     InterfaceSpec {
         name: "fault".to_owned(),
-        nodes: positions.iter().enumerate().map(|(i, p)| SurfaceNode { position: *p, dof: D * i, label: 100 + i }).collect(),
-        slave: slaves.iter().enumerate().map(|(k, &node)| SlavePoint { node, area: 0.5 + 0.1 * k as f64 }).collect(),
+        nodes: positions
+            .iter()
+            .enumerate()
+            .map(|(i, p)| SurfaceNode { position: *p, dof: D * i, label: 100 + i })
+            .collect(),
+        slave: slaves
+            .iter()
+            .enumerate()
+            .map(|(k, &node)| SlavePoint { node, area: 0.5 + 0.1 * k as f64 })
+            .collect(),
         master,
         sliding,
         fixed_normal: None,
@@ -252,7 +264,12 @@ pub fn line_spec(angle: f64, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Int
 }
 
 /// A 3 x 3 grid of nodes with outward normal +z (then rotated), as quads or triangles, slightly irregular; slaves above.
-pub fn plate_spec(angle: f64, kind: SegmentKind, sliding: Sliding, law: Option<Arc<dyn Law>>) -> InterfaceSpec<3> {
+pub fn plate_spec(
+    angle: f64,
+    kind: SegmentKind,
+    sliding: Sliding,
+    law: Option<Arc<dyn Law>>,
+) -> InterfaceSpec<3> {
     let mut noise = Noise::new(7);
     let mut x = Vec::new();
     for j in 0..3 {
@@ -280,7 +297,13 @@ pub fn plate_spec(angle: f64, kind: SegmentKind, sliding: Sliding, law: Option<A
 }
 
 /// Displacement that moves every slave node of `spec` by its own vector (in unrotated axes), the rest by noise.
-pub fn moved<const D: usize>(spec: &InterfaceSpec<D>, angle: f64, moves: &[[f64; D]], noise: f64, seed: u64) -> Vec<f64> {
+pub fn moved<const D: usize>(
+    spec: &InterfaceSpec<D>,
+    angle: f64,
+    moves: &[[f64; D]],
+    noise: f64,
+    seed: u64,
+) -> Vec<f64> {
     let mut source = Noise::new(seed);
     let mut u: Vec<f64> = source.vector(D * spec.nodes.len()).into_iter().map(|v| noise * v).collect();
     for (s, m) in spec.slave.iter().zip(moves) {

@@ -54,7 +54,13 @@ impl<const D: usize> Local<D> {
     }
 
     /// Increments of gap and ξ for increments of the slave and the master nodes.
-    pub(super) fn rates(&self, gap: f64, slave: &[f64; D], nodes: &[usize], du: &[[f64; D]]) -> (f64, [f64; 2]) {
+    pub(super) fn rates(
+        &self,
+        gap: f64,
+        slave: &[f64; D],
+        nodes: &[usize],
+        du: &[[f64; D]],
+    ) -> (f64, [f64; 2]) {
         let mut relative = *slave;
         let mut stretch = [0.0; 2];
         for (k, &node) in nodes.iter().enumerate() {

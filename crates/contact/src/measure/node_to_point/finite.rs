@@ -73,7 +73,13 @@ impl<const D: usize> Finite<D> {
     #[must_use]
     pub fn new(nodes: &[SurfaceNode<D>], slave: &[SlavePoint], surface: Surface<D>) -> (Self, u64) {
         let reference: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
-        let point = |s: &SlavePoint| Point { slave: *s, place: None, anchor: None, leaving: false, nodes: Vec::new() };
+        let point = |s: &SlavePoint| Point {
+            slave: *s,
+            place: None,
+            anchor: None,
+            leaving: false,
+            nodes: Vec::new(),
+        };
         let mut measure = Self {
             surface,
             x: reference.clone(),
@@ -104,7 +110,11 @@ impl<const D: usize> Finite<D> {
             return held;
         }
         let (segment, found) = self.surface.closest(&self.x, p, projections)?;
-        let found = if point.leaving { self.entering(held, segment, found, p, projections) } else { (segment, found) };
+        let found = if point.leaving {
+            self.entering(held, segment, found, p, projections)
+        } else {
+            (segment, found)
+        };
         let (segment, projection) = found;
         if self.surface.on_rim(segment, projection.outcome) && self.off_normal(segment, &projection, p) {
             return held.filter(|h| self.keeps(h));
@@ -270,7 +280,8 @@ impl<const D: usize> Measure<D> for Finite<D> {
             }
             let (here, there) = (self.local(&place), self.local(&anchor));
             let shear = tractions.shear.map(|s| &s[p]);
-            let column = Column::new(&here, &there, geometry, p, &tractions.normal[p], shear, tractions.stiffness);
+            let column =
+                Column::new(&here, &there, geometry, p, &tractions.normal[p], shear, tractions.stiffness);
             let held = &self.segment(&place).nodes;
             let from = &self.segment(&anchor).nodes;
             for (k, &node) in point.nodes.iter().enumerate() {
@@ -278,7 +289,17 @@ impl<const D: usize> Measure<D> for Finite<D> {
                 let alpha = if k > 0 { from.iter().position(|&n| n == node) } else { None };
                 for i in 0..D {
                     let (df, dxi) = column.derivative(k == 0, gamma, alpha, i);
-                    write_column(block, size, k * D + i, point.slave.area, &here, held.len(), &column.force, &df, &dxi);
+                    write_column(
+                        block,
+                        size,
+                        k * D + i,
+                        point.slave.area,
+                        &here,
+                        held.len(),
+                        &column.force,
+                        &df,
+                        &dxi,
+                    );
                 }
             }
         }
@@ -292,7 +313,8 @@ impl<const D: usize> Measure<D> for Finite<D> {
                 continue;
             };
             let local = self.local(&place);
-            let (gap, dxi) = local.rates(geometry.gap[p], &du[point.slave.node], &self.segment(&place).nodes, du);
+            let (gap, dxi) =
+                local.rates(geometry.gap[p], &du[point.slave.node], &self.segment(&place).nodes, du);
             let mut slide = [0.0; D];
             axpy(&mut slide, dxi[0], &local.e[0]);
             axpy(&mut slide, dxi[1], &local.e[1]);
@@ -326,7 +348,9 @@ impl<const D: usize> Measure<D> for Finite<D> {
             reframe(p, &self.local(&place).frame);
             let kind = self.segment(&place).kind;
             let point = &mut self.points[p];
-            let outwards = point.anchor.is_some_and(|a| a.segment != place.segment || depth(kind, place.xi) < depth(kind, a.xi));
+            let outwards = point
+                .anchor
+                .is_some_and(|a| a.segment != place.segment || depth(kind, place.xi) < depth(kind, a.xi));
             point.leaving = outwards && depth(kind, place.xi) <= BORDER;
             point.anchor = Some(place);
         }
@@ -391,7 +415,8 @@ fn write_column<const D: usize>(
     for g in 0..held {
         let moved = here.shape.first[0][g] * dxi[0] + here.shape.first[1][g] * dxi[1];
         for i in 0..D {
-            block[((1 + g) * D + i) * size + column] = area * (here.shape.value[g] * df[i] + moved * force[i]);
+            block[((1 + g) * D + i) * size + column] =
+                area * (here.shape.value[g] * df[i] + moved * force[i]);
         }
     }
     for row in (1 + held) * D..size {
