@@ -79,7 +79,7 @@ impl<const D: usize> Model<D> {
             let material = material_of(scene, body)?;
             let block = LinearBlock::new(&mesh, index, &material)
                 .map_err(|e| PlanError::body(name, body.material.span(), e.to_string()))?;
-            bodies.push(Body { name: name.clone(), nodes, material, block, size });
+            bodies.push(Body { name: name.to_string(), nodes, material, block, size });
         }
         let scale = diagonal(&mesh.nodes);
         Ok(Self { mesh, bodies, scale })

@@ -115,7 +115,7 @@ impl<const D: usize> Running<'_, D> {
         &mut self,
         index: usize,
         stage: &Stage,
-        system: &Assembled<'_, D>,
+        system: &mut Assembled<'_, D>,
         accepted: &Accepted,
         (rejected, reason): (usize, &str),
     ) {

@@ -51,7 +51,6 @@ pub struct Assembled<'a, const D: usize> {
     areas: Vec<(String, Vec<f64>)>,
     body_factorisations: usize,
     body_solves: usize,
-    largest_rate: f64,
 }
 
 impl<'a, const D: usize> Assembled<'a, D> {
@@ -67,13 +66,16 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let number = system_numbers(plan, &retained);
         let dofs = number.iter().filter(|&&n| n != usize::MAX).count();
         let largest_rate = plan.stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
-        let interfaces = plan
+        let mut interfaces = plan
             .interfaces
             .iter()
             .map(|i| Interface::new(spec(plan, i, &number, largest_rate)).map_err(|e| e.to_string()))
-            .collect::<Result<Vec<_>, _>>()?;
+            .collect::<Result<Vec<_>, String>>()?;
         let areas =
             plan.interfaces.iter().map(|i| (i.name.clone(), i.slave.iter().map(|s| s.1).collect())).collect();
+        if let Stepping::Implicit { rule } = plan.stepping {
+            interfaces.iter_mut().for_each(|i| i.set_time_rule(time_rule(rule)));
+        }
         let bodies = match plan.path {
             Path::Condensed => Bodies::Condensed(Vec::new()),
             Path::Full => Bodies::Full {
@@ -93,7 +95,6 @@ impl<'a, const D: usize> Assembled<'a, D> {
             areas,
             body_factorisations: 0,
             body_solves: 0,
-            largest_rate,
         })
     }
 
@@ -205,7 +206,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// Slip rates of all points of all interfaces \[m/s\].
     #[must_use]
     pub fn slip_rates(&self) -> Vec<f64> {
-        self.interfaces.iter().flat_map(|i| i.points().rate.iter().copied()).collect()
+        self.interfaces.iter().flat_map(|i| i.points().slip_rate.iter().copied()).collect()
     }
 
     /// Estimated error of slip of the last step: backward Euler leaves half the change of V times the step \[m\].
@@ -216,17 +217,20 @@ impl<'a, const D: usize> Assembled<'a, D> {
 
     /// Largest drift of the friction law over the interfaces.
     #[must_use]
-    pub fn drift(&self) -> f64 {
+    pub fn drift(&mut self) -> f64 {
         match self.plan.stepping {
             Stepping::Implicit { .. } => 0.0,
-            Stepping::StaticExplicit { .. } => self.interfaces.iter().map(Interface::drift).fold(0.0, f64::max),
+            Stepping::StaticExplicit { .. } => {
+                // A drift that cannot be evaluated is shown as NaN, not hidden.
+                self.interfaces.iter_mut().map(|i| i.drift().unwrap_or(f64::NAN)).fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a })
+            }
         }
     }
 
     /// Largest penetration \[m\].
     #[must_use]
     pub fn largest_penetration(&self) -> f64 {
-        self.interfaces.iter().map(Interface::largest_penetration).fold(0.0, f64::max)
+        self.interfaces.iter().map(|i| i.points().largest_penetration()).fold(0.0, f64::max)
     }
 
     /// Name and tributary areas of each interface.
@@ -267,7 +271,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// Balance of contact forces.
     #[must_use]
     pub fn balances(&self) -> Vec<InterfaceBalance> {
-        self.plan.interfaces.iter().zip(&self.interfaces).map(|(p, i)| views::balance(&p.name, i)).collect()
+        self.plan.interfaces.iter().zip(&self.interfaces).map(|(p, i)| views::balance(&p.name, i, self.plan.model.scale)).collect()
     }
 
     /// Adds the work done outside the steps.
@@ -277,13 +281,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
         if let Bodies::Condensed(bodies) = &self.bodies {
             counts.body_solves += bodies.iter().map(|b| b.reduction().solves()).sum::<usize>();
         }
-        counts.searches += self.interfaces.iter().map(|i| i.work().searches).sum::<usize>();
-    }
-
-    /// Largest prescribed rate of the run \[m/s\].
-    #[must_use]
-    pub fn largest_rate(&self) -> f64 {
-        self.largest_rate
+        counts.searches += self.interfaces.iter().map(|i| i.work().searches as usize).sum::<usize>();
     }
 }
 
@@ -439,7 +437,7 @@ fn segment_kind<const D: usize>(nodes: usize) -> SegmentKind {
 
 /// Time rule of the contact crate.
 #[must_use]
-pub fn time_rule(rule: Rule) -> TimeRule {
+fn time_rule(rule: Rule) -> TimeRule {
     match rule {
         Rule::BackwardEuler => TimeRule::BackwardEuler,
         Rule::Bdf2 => TimeRule::Bdf2,

@@ -75,26 +75,14 @@ fn nearest(positions: &[[f64; 3]], target: [f64; 3]) -> usize {
 #[must_use]
 pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFields {
     let p = interface.points();
-    let n = p.gap.len();
-    let magnitude = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
-    let measure = |v: &[f64; D], e: &[f64; D]| {
-        if D == 2 { v.iter().zip(e).map(|(a, b)| a * b).sum() } else { magnitude(v) }
-    };
-    let along = |field: &[[f64; D]]| (0..n).map(|k| measure(&field[k], &p.tangent[k])).collect::<Vec<f64>>();
-    let slip = along(&p.slip);
-    let shear_traction = along(&p.shear);
-    let relative_displacement = along(&p.relative);
-    let friction = (0..n)
-        .map(|k| if p.normal_traction[k] > 0.0 { magnitude(&p.shear[k]) / p.normal_traction[k] } else { 0.0 })
-        .collect();
     InterfaceFields {
         gap: p.gap.clone(),
         normal_traction: p.normal_traction.clone(),
-        shear_traction,
-        relative_displacement,
-        slip,
-        slip_rate: p.rate.clone(),
-        friction,
+        shear_traction: p.shear_measure.clone(),
+        relative_displacement: p.relative_measure.clone(),
+        slip: p.slip_measure.clone(),
+        slip_rate: p.slip_rate.clone(),
+        friction: p.friction.clone(),
         status: p
             .status
             .iter()
@@ -135,13 +123,16 @@ pub fn body_fields<const D: usize>(plan: &Plan<D>, u: &[f64]) -> BodyFields {
 
 /// Balance of contact forces.
 #[must_use]
-pub fn balance<const D: usize>(name: &str, interface: &Interface<D>) -> InterfaceBalance {
+pub fn balance<const D: usize>(name: &str, interface: &Interface<D>, scale: f64) -> InterfaceBalance {
     let b = interface.balance();
+    let size = |v: &[f64]| v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    let force = size(&b.slave_force);
+    let relative = |v: &[f64], scale: f64| if scale > 0.0 { size(v) / scale } else { 0.0 };
     InterfaceBalance {
         interface: name.to_string(),
         slave_force: b.slave_force.to_vec(),
-        force_residual: b.force_residual,
-        moment_residual: b.moment_residual,
+        force_residual: relative(&b.residual, force),
+        moment_residual: relative(&b.moment_residual, force * scale),
         couple: b.couple.to_vec(),
     }
 }

@@ -124,10 +124,10 @@ impl<const D: usize> LinearBlock<D> {
         let nodes = self.cells.cell(cell);
         self.cell_data(cell).iter().map(move |point| {
             let mut h = [[0.0; 3]; 3];
-            for (a, &node) in nodes.iter().enumerate() {
-                for i in 0..D {
-                    for j in 0..D {
-                        h[i][j] += u[node * D + i] * point.gradients[a][j];
+            for (&node, gradient) in nodes.iter().zip(&point.gradients) {
+                for (row, &u) in h.iter_mut().zip(&u[node * D..(node + 1) * D]) {
+                    for (entry, g) in row.iter_mut().zip(gradient) {
+                        *entry += u * g;
                     }
                 }
             }
@@ -208,7 +208,7 @@ impl<const D: usize> LinearBlock<D> {
     /// # Errors
     /// None today; faces without area are found when the cells are set up.
     pub fn traction(&self, mesh: &Mesh<D>, sides: &[Side], t: [f64; D]) -> Result<Vec<(usize, f64)>, FemError> {
-        Ok(surface::integrate(mesh, sides, |_, n| std::array::from_fn(|c| t[c] * surface::length(&n))))
+        Ok(surface::integrate(mesh, sides, |n| std::array::from_fn(|c| t[c] * surface::length(&n))))
     }
 
     /// Nodal forces of a uniform pressure \[Pa\], positive into the body.
@@ -216,7 +216,7 @@ impl<const D: usize> LinearBlock<D> {
     /// # Errors
     /// As [`LinearBlock::traction`].
     pub fn pressure(&self, mesh: &Mesh<D>, sides: &[Side], p: f64) -> Result<Vec<(usize, f64)>, FemError> {
-        Ok(surface::integrate(mesh, sides, |_, n| std::array::from_fn(|c| -p * n[c])))
+        Ok(surface::integrate(mesh, sides, |n| std::array::from_fn(|c| -p * n[c])))
     }
 
     /// Integral of each face shape function: tributary area of each node \[m^(D-1)\].

@@ -6,9 +6,9 @@ use crate::element::Point;
 #[must_use]
 pub fn gauss(n: usize, dimension: usize) -> Vec<Point> {
     let line = gauss_line(n);
-    let flat = [(0.0, 1.0)];
-    let (ys, zs): (&[(f64, f64)], &[(f64, f64)]) =
-        (if dimension > 1 { &line } else { &flat }, if dimension > 2 { &line } else { &flat });
+    let flat = vec![(0.0, 1.0)];
+    let ys = if dimension > 1 { &line } else { &flat };
+    let zs = if dimension > 2 { &line } else { &flat };
     let mut points = Vec::new();
     for &(z, wz) in zs {
         for &(y, wy) in ys {

@@ -130,16 +130,19 @@ impl ScatterMap {
     /// When the matrix is structurally singular.
     pub fn lu(&self, symbolic: &SymbolicLu<usize>) -> Result<Factor, FemError> {
         Lu::try_new_with_symbolic(symbolic.clone(), self.matrix())
-            .map(Factor::Lu)
+            .map(|f| Factor::Lu(Box::new(f)))
             .map_err(|e| FemError::Factorisation(format!("the tangent is singular ({e:?})")))
     }
 }
+
+/// Calls its argument with (row, column) of every entry of every block, in order.
+type Visit<'a> = dyn Fn(&mut dyn FnMut(usize, usize)) + 'a;
 
 /// Row indices of each column, sorted and without repetition: (column starts, rows).
 fn compress_columns(
     n: usize,
     wanted: &dyn Fn(usize, usize) -> bool,
-    visit: &dyn Fn(&mut dyn FnMut(usize, usize)),
+    visit: &Visit<'_>,
 ) -> (Vec<usize>, Vec<usize>) {
     let mut count = vec![0_usize; n + 1];
     visit(&mut |row, col| {
@@ -179,7 +182,7 @@ pub enum Factor {
     /// Symmetric positive definite.
     Cholesky(Llt<usize, f64>),
     /// General.
-    Lu(Lu<usize, f64>),
+    Lu(Box<Lu<usize, f64>>),
 }
 
 impl Factor {

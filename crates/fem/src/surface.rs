@@ -41,15 +41,15 @@ fn line(nodes: usize, x: f64, w: f64) -> FacePoint {
     }
 }
 
-/// Nodal integrals ∫ N_a g(n dA): `g` receives the position in the rule and the outward normal times the area element.
+/// Nodal integrals ∫ N_a g(n dA): `g` receives the outward normal times the area element.
 pub fn integrate<const D: usize>(
     mesh: &Mesh<D>,
     sides: &[Side],
-    g: impl Fn(usize, [f64; D]) -> [f64; D],
+    g: impl Fn([f64; D]) -> [f64; D],
 ) -> Vec<(usize, f64)> {
     let mut forces: BTreeMap<usize, f64> = BTreeMap::new();
     for_each_point(mesh, sides, |node, n, weight, normal| {
-        let value = g(0, normal);
+        let value = g(normal);
         for (c, v) in value.iter().enumerate() {
             *forces.entry(node * D + c).or_default() += n * weight * v;
         }
@@ -84,9 +84,10 @@ fn for_each_point<const D: usize>(
         for (n, dn, weight) in rule::<D>(nodes.len()) {
             let mut e = [[0.0; D]; 2];
             for (a, &node) in nodes.iter().enumerate() {
-                for c in 0..D {
-                    e[0][c] += dn[a][0] * mesh.nodes[node][c];
-                    e[1][c] += dn[a][1] * mesh.nodes[node][c];
+                for (tangent, slope) in e.iter_mut().zip(dn[a]) {
+                    for (t, x) in tangent.iter_mut().zip(&mesh.nodes[node]) {
+                        *t += slope * x;
+                    }
                 }
             }
             let normal = normal(&e);

@@ -4,7 +4,7 @@ use super::{Accepted, Balance, State, Trial};
 use crate::observe::view::Counts;
 use asperity_fem::assembly::System;
 use asperity_fem::dof::Constraints;
-use asperity_fem::term::{Instant, Linearized, Term};
+use asperity_fem::term::{Instant, Linearized};
 
 /// Residual over the largest force at which an iteration has converged. Rounding leaves 1e-14 to 1e-12 (the condensed
 /// stiffness acts on displacements some hundred times the elastic ones); a Newton step below this bound squares it.

@@ -22,9 +22,9 @@ pub(super) fn shape([x, y, _]: [f64; 3]) -> Shape {
         let j = (i + 1) % 3;
         s.n[i] = l[i] * (2.0 * l[i] - 1.0);
         s.n[3 + i] = 4.0 * l[i] * l[j];
-        for m in 0..2 {
-            s.dn[i][m] = (4.0 * l[i] - 1.0) * dl[i][m];
-            s.dn[3 + i][m] = 4.0 * (dl[i][m] * l[j] + l[i] * dl[j][m]);
+        for (m, (di, dj)) in dl[i].iter().zip(&dl[j]).enumerate() {
+            s.dn[i][m] = (4.0 * l[i] - 1.0) * di;
+            s.dn[3 + i][m] = 4.0 * (di * l[j] + l[i] * dj);
         }
     }
     s

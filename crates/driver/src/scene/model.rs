@@ -1,0 +1,332 @@
+//! The scene as a value: what a scene file says, in SI units, before any decision is taken.
+//!
+//! Names that the plan looks up later are [`Spanned`], so that an error can point into the file. A scene built in Rust
+//! uses the empty span (see [`here`]), and its errors name the key instead.
+
+use super::units::{Density, Length, Penalty, Pressure, Time, Velocity};
+use serde::Deserialize;
+pub use serde_spanned::Spanned;
+use std::collections::BTreeMap;
+
+/// A value without a place in a file, for scenes built in Rust.
+pub fn here<T>(value: T) -> Spanned<T> {
+    Spanned::new(0..0, value)
+}
+
+/// A whole scene.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "snake_case")]
+pub struct Scene {
+    /// Version of the scene format; 1.
+    pub schema: Spanned<u32>,
+    /// Title, shown in reports.
+    pub title: String,
+    /// Idealisation.
+    pub kinematics: Spanned<Kinematics>,
+    /// Materials by name.
+    pub materials: BTreeMap<String, Material>,
+    /// Bodies by name.
+    pub bodies: BTreeMap<String, Body>,
+    /// Interfaces by name.
+    #[serde(default)]
+    pub interfaces: BTreeMap<String, Interface>,
+    /// Stages in sequence.
+    pub stages: Vec<Stage>,
+    /// Time integration.
+    pub time: TimeControl,
+    /// Outputs.
+    #[serde(default)]
+    pub output: Output,
+}
+
+/// Idealisations that exist.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Kinematics {
+    /// Two-dimensional, ε_zz = 0.
+    #[serde(rename = "plane-strain")]
+    PlaneStrain,
+    /// Three-dimensional.
+    #[serde(rename = "3d")]
+    ThreeD,
+}
+
+/// An isotropic linear elastic material.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E \[Pa\].
+    pub young: Spanned<Pressure>,
+    /// Poisson's ratio ν \[-\].
+    pub poisson: Spanned<f64>,
+    /// Density ρ \[kg/m³\], needed only with a body force.
+    pub density: Option<Spanned<Density>>,
+}
+
+/// A deformable body.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Where its mesh comes from.
+    pub mesh: MeshSource,
+    /// Name of its material.
+    pub material: Spanned<String>,
+    /// Uniform initial stress [xx, yy, xy] or [xx, yy, zz, xy, yz, zx] \[Pa\], tension positive.
+    pub initial_stress: Option<Spanned<Vec<Pressure>>>,
+    /// Acceleration acting on the body's mass \[m/s²\], one entry per axis.
+    pub gravity: Option<Spanned<Vec<f64>>>,
+}
+
+/// Sources of meshes.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub enum MeshSource {
+    /// A generated rectangular block.
+    Block(BlockMesh),
+}
+
+/// A structured, possibly graded block.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BlockMesh {
+    /// Lower corner \[m\].
+    pub min: Spanned<Vec<Length>>,
+    /// Upper corner \[m\].
+    pub max: Spanned<Vec<Length>>,
+    /// Element size h \[m\]; must divide each edge. Either this or `divisions`.
+    pub size: Option<Spanned<Length>>,
+    /// Elements along each axis. Either this or `size`.
+    pub divisions: Option<Spanned<Vec<usize>>>,
+    /// Ratio of the last to the first element along each axis (1 = uniform).
+    pub grading: Option<Spanned<Vec<f64>>>,
+    /// Element name: quad4, quad9, tri3, tri6, hex8, tet4.
+    pub element: Spanned<String>,
+}
+
+/// A contact interface between two side sets.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Interface {
+    /// Slave side set, `body.set`.
+    pub slave: Spanned<String>,
+    /// Master side set, `body.set`.
+    pub master: Spanned<String>,
+    /// How gaps are measured.
+    pub measure: Spanned<Measure>,
+    /// Whether the pairing follows the motion.
+    pub sliding: Spanned<Sliding>,
+    /// How contact is enforced.
+    pub enforcement: Enforcement,
+    /// Friction; absent = frictionless.
+    pub law: Option<Spanned<LawSpec>>,
+}
+
+/// Measures that exist.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Measure {
+    /// Slave node against the closest point of a master segment.
+    NodeToPoint,
+}
+
+/// Sliding regimes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sliding {
+    /// Pairing fixed in the reference configuration; condensation possible.
+    Small,
+    /// Pairing and normal follow the motion.
+    Finite,
+}
+
+/// Enforcement of the contact constraint.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Enforcement {
+    /// Kind.
+    pub kind: Spanned<EnforcementKind>,
+    /// Normal penalty E_n \[Pa/m\].
+    pub normal: Spanned<Penalty>,
+    /// Tangential penalty E_t \[Pa/m\]; needed with friction.
+    pub tangential: Option<Spanned<Penalty>>,
+}
+
+/// Enforcements that exist.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EnforcementKind {
+    /// Traction proportional to penetration.
+    Penalty,
+}
+
+/// A friction law as written in a scene. Which parameters belong to which kind is checked by the plan.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LawSpec {
+    /// coulomb, rate, rate-and-state.
+    pub kind: Option<Spanned<String>>,
+    /// Coulomb: friction coefficient \[-\].
+    pub mu: Option<Spanned<f64>>,
+    /// Strength form: regularised (default) or bare.
+    pub form: Option<Spanned<String>>,
+    /// State evolution: ageing or slip.
+    pub evolution: Option<Spanned<String>>,
+    /// Reference coefficient μ0 \[-\].
+    pub mu0: Option<Spanned<f64>>,
+    /// Direct effect a \[-\].
+    pub a: Option<Spanned<f64>>,
+    /// Evolution effect b \[-\].
+    pub b: Option<Spanned<f64>>,
+    /// Characteristic slip L \[m\].
+    pub l: Option<Spanned<Length>>,
+    /// Reference slip rate Vref \[m/s\].
+    pub v_ref: Option<Spanned<Velocity>>,
+    /// Initial state: slip rate at which the point was in steady state \[m/s\].
+    pub v_initial: Option<Spanned<Velocity>>,
+    /// F_limit: largest shear traction \[Pa\].
+    pub f_limit: Option<Spanned<Pressure>>,
+}
+
+/// One stage of loading.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stage {
+    /// Name.
+    pub name: String,
+    /// Duration \[s\].
+    pub duration: Spanned<Time>,
+    /// Interfaces whose friction is absent during this stage.
+    #[serde(default)]
+    pub frictionless: Vec<Spanned<String>>,
+    /// Conditions that begin with this stage; those of earlier stages go on unless replaced here.
+    #[serde(default)]
+    pub conditions: Vec<Spanned<Condition>>,
+    /// Number of equal steps; overrides the adaptive choice of `[time]`.
+    pub steps: Option<Spanned<usize>>,
+}
+
+/// A condition on a set.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Condition {
+    /// The set, `body.set`.
+    pub set: Option<Spanned<String>>,
+    /// Motion in x.
+    pub x: Option<Spanned<Motion>>,
+    /// Motion in y.
+    pub y: Option<Spanned<Motion>>,
+    /// Motion in z.
+    pub z: Option<Spanned<Motion>>,
+    /// Symmetry plane: no displacement along the (axis-parallel) normal of the set.
+    pub symmetry: Option<Spanned<bool>>,
+    /// Traction vector \[Pa\] per axis.
+    pub traction: Option<Spanned<Vec<Loading>>>,
+    /// Pressure \[Pa\], positive into the body.
+    pub pressure: Option<Spanned<Loading>>,
+}
+
+/// How a displacement component moves during a stage.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// Held at this displacement \[m\] (a step, applied with the first increment, when it differs from the present one).
+    Fixed(f64),
+    /// Ramped linearly from the present value to this one at the end of the stage \[m\].
+    To(f64),
+    /// Moved from the present value at this rate \[m/s\].
+    Rate(f64),
+    /// Piecewise linear: (time since the stage began \[s\], displacement \[m\]).
+    Table(Vec<(f64, f64)>),
+    /// Held at the value it has.
+    Hold,
+    /// Released.
+    Free,
+}
+
+/// How a traction component or pressure develops during a stage.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Loading {
+    /// Constant from the start of the stage \[Pa\].
+    Fixed(f64),
+    /// Ramped linearly from the present value to this one at the end of the stage \[Pa\].
+    To(f64),
+    /// Piecewise linear: (time since the stage began \[s\], Pa).
+    Table(Vec<(f64, f64)>),
+}
+
+/// Time integration.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "snake_case")]
+pub struct TimeControl {
+    /// The stepper.
+    pub stepper: Spanned<Stepper>,
+    /// Implicit: the rule for the slip rate.
+    #[serde(default)]
+    pub rule: Option<Spanned<Rule>>,
+    /// Whether linear bodies are condensed onto the interface.
+    #[serde(default)]
+    pub path: Path,
+    /// Implicit, adaptive: bound on the estimated local error of slip per step \[m\].
+    pub tolerance: Option<Spanned<Length>>,
+    /// First step \[s\].
+    pub first_step: Option<Spanned<Time>>,
+    /// Largest step \[s\].
+    pub max_step: Option<Spanned<Time>>,
+    /// Smallest step \[s\]: below it the run stops with an outcome.
+    pub min_step: Option<Spanned<Time>>,
+    /// Static-explicit: carry the residual into the next step (default true).
+    pub carry: Option<Spanned<bool>>,
+    /// Static-explicit, r8: bound on |Δ ln max(V, V_floor)| per step (default 0.5).
+    pub rate_change: Option<Spanned<f64>>,
+    /// Static-explicit, r8: ζ, slip increment per characteristic slip L (default 0.1).
+    pub zeta: Option<Spanned<f64>>,
+    /// Not readable from a file: the ends of all steps of the run, imposed \[s\].
+    #[serde(skip)]
+    pub imposed: Option<Vec<f64>>,
+}
+
+/// Steppers that exist.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stepper {
+    /// Newton with line search.
+    Implicit,
+    /// Forward steps limited by the R-minimum rule.
+    StaticExplicit,
+}
+
+/// Rules of the implicit stepper for the slip rate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rule {
+    /// First order.
+    #[default]
+    BackwardEuler,
+    /// Second order, laws without state.
+    Bdf2,
+}
+
+/// Which system is solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Path {
+    /// Condensed where the scene allows it.
+    #[default]
+    Auto,
+    /// Condensed, or an error.
+    Condensed,
+    /// All degrees of freedom.
+    Full,
+}
+
+/// Outputs.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Probes per interface: this many positions, equally spaced along the slave side, at the nearest nodes.
+    #[serde(default)]
+    pub probes: BTreeMap<String, Spanned<usize>>,
+    /// Fields are written at this many equal intervals of each stage (default 1: the end of each stage).
+    pub fields: Option<Spanned<usize>>,
+    /// Profiles are written at this many equal intervals of each stage (default 10).
+    pub profiles: Option<Spanned<usize>>,
+}
+
