@@ -3,7 +3,7 @@
 use crate::loading::{self, Stage};
 use crate::model::Model;
 use crate::rigid;
-use crate::scene::law::{self, LawChoice};
+use crate::scene::law;
 use crate::scene::model::{
     Interface as InterfaceSpec, Kinematics, Path as PathChoice, Rule, Scene, Sliding, Spanned, Stepper,
 };

@@ -1,0 +1,77 @@
+//! Scenes: read from a file, checked as a whole, handed on as a value.
+
+pub mod check;
+pub mod diagnostic;
+pub mod law;
+pub mod model;
+mod motion;
+pub mod near;
+pub mod units;
+
+use crate::plan::PlanError;
+use model::Scene;
+use std::fmt;
+use std::ops::Range;
+
+/// Something wrong in a scene.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct SceneError {
+    /// What is wrong.
+    pub message: String,
+    /// What would be right.
+    pub help: Option<String>,
+    /// Bytes of the scene file it is about; empty when there is no file.
+    pub span: Range<usize>,
+}
+
+impl SceneError {
+    /// An error with a place and a remedy.
+    #[must_use]
+    pub fn at(span: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { message: message.into(), help: Some(help.into()), span }
+    }
+}
+
+/// Everything wrong in a scene, in the order of the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneErrors(pub Vec<SceneError>);
+
+impl fmt::Display for SceneErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, error) in self.0.iter().enumerate() {
+            if i > 0 {
+                f.write_str("\n")?;
+            }
+            f.write_str(&error.message)?;
+            if let Some(help) = &error.help {
+                write!(f, " ({help})")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for SceneErrors {}
+
+impl From<PlanError> for SceneErrors {
+    fn from(e: PlanError) -> Self {
+        Self(vec![SceneError { message: e.message, help: e.help, span: e.span }])
+    }
+}
+
+impl From<SceneError> for PlanError {
+    fn from(e: SceneError) -> Self {
+        Self { message: e.message, help: e.help, span: e.span }
+    }
+}
+
+/// Reads and checks a scene.
+///
+/// # Errors
+/// All that is wrong with it, or the first thing that keeps it from being read.
+pub fn read(text: &str) -> Result<Scene, SceneErrors> {
+    let scene: Scene = toml::from_str(text).map_err(|e| SceneErrors(vec![near::explain(&e)]))?;
+    let errors = check::check(&scene);
+    if errors.is_empty() { Ok(scene) } else { Err(SceneErrors(errors)) }
+}

@@ -1,0 +1,108 @@
+//! How motions and loadings are written.
+
+use super::model::{Loading, Motion};
+use super::units::{self, Dimension, Length, Pressure, Time, Velocity};
+use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor, value::MapAccessDeserializer};
+use std::fmt;
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MotionTable {
+    to: Option<Length>,
+    rate: Option<Velocity>,
+    table: Option<Vec<(Time, Length)>>,
+}
+
+impl<'de> Deserialize<'de> for Motion {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct MotionVisitor;
+        impl<'de> Visitor<'de> for MotionVisitor {
+            type Value = Motion;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "a motion: a displacement such as \"1 mm\" or 0, \"hold\", \"free\", { to = .. }, { rate = .. } or \
+                     { table = [[time, displacement], ..] }",
+                )
+            }
+
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Motion, E> {
+                units::finite(value, Dimension::Length).map(Motion::Fixed)
+            }
+
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Motion, E> {
+                Ok(Motion::Fixed(value as f64))
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Motion, E> {
+                match text {
+                    "hold" => Ok(Motion::Hold),
+                    "free" => Ok(Motion::Free),
+                    _ if text.starts_with(|c: char| c.is_ascii_alphabetic()) => {
+                        Err(E::invalid_value(de::Unexpected::Str(text), &self))
+                    }
+                    _ => units::parse(text, Dimension::Length).map(Motion::Fixed).map_err(E::custom),
+                }
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Motion, A::Error> {
+                let t = MotionTable::deserialize(MapAccessDeserializer::new(map))?;
+                match (t.to, t.rate, t.table) {
+                    (Some(to), None, None) => Ok(Motion::To(to.0)),
+                    (None, Some(rate), None) => Ok(Motion::Rate(rate.0)),
+                    (None, None, Some(points)) => {
+                        Ok(Motion::Table(points.into_iter().map(|(t, u)| (t.0, u.0)).collect()))
+                    }
+                    _ => Err(de::Error::custom("a motion has exactly one of the keys `to`, `rate`, `table`")),
+                }
+            }
+        }
+        deserializer.deserialize_any(MotionVisitor)
+    }
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LoadingTable {
+    to: Option<Pressure>,
+    table: Option<Vec<(Time, Pressure)>>,
+}
+
+impl<'de> Deserialize<'de> for Loading {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct LoadingVisitor;
+        impl<'de> Visitor<'de> for LoadingVisitor {
+            type Value = Loading;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "a load: a pressure such as \"5 MPa\", { to = .. } or { table = [[time, pressure], ..] }",
+                )
+            }
+
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Loading, E> {
+                units::finite(value, Dimension::Pressure).map(Loading::Fixed)
+            }
+
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Loading, E> {
+                Ok(Loading::Fixed(value as f64))
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Loading, E> {
+                units::parse(text, Dimension::Pressure).map(Loading::Fixed).map_err(E::custom)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Loading, A::Error> {
+                let t = LoadingTable::deserialize(MapAccessDeserializer::new(map))?;
+                match (t.to, t.table) {
+                    (Some(to), None) => Ok(Loading::To(to.0)),
+                    (None, Some(points)) => {
+                        Ok(Loading::Table(points.into_iter().map(|(t, p)| (t.0, p.0)).collect()))
+                    }
+                    _ => Err(de::Error::custom("a load has exactly one of the keys `to`, `table`")),
+                }
+            }
+        }
+        deserializer.deserialize_any(LoadingVisitor)
+    }
+}

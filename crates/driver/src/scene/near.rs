@@ -1,0 +1,75 @@
+//! What was probably meant: the nearest of the names that exist.
+
+use super::SceneError;
+
+/// Edit distance of two names: insertions, deletions, substitutions and transpositions of neighbours.
+#[must_use]
+pub fn distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
+    for i in 0..=a.len() {
+        for j in 0..=b.len() {
+            rows[i][j] = if i == 0 || j == 0 {
+                i.max(j)
+            } else {
+                let change = usize::from(a[i - 1] != b[j - 1]);
+                let mut best =
+                    (rows[i - 1][j] + 1).min(rows[i][j - 1] + 1).min(rows[i - 1][j - 1] + change);
+                if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                    best = best.min(rows[i - 2][j - 2] + 1);
+                }
+                best
+            };
+        }
+    }
+    rows[a.len()][b.len()]
+}
+
+/// The nearest of `known` to `name`, where it is near enough to have been meant.
+#[must_use]
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let lower = name.to_lowercase();
+    known
+        .into_iter()
+        .map(|k| (distance(&lower, &k.to_lowercase()), k))
+        .min_by_key(|(d, _)| *d)
+        .filter(|(d, k)| *d <= 1 + k.chars().count().min(name.chars().count()) / 4)
+        .map(|(_, k)| k)
+}
+
+/// "did you mean `x`? the sets are x, y, z".
+#[must_use]
+pub fn suggest<'a>(name: &str, what: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    let known: Vec<&str> = known.into_iter().collect();
+    let list = if known.is_empty() { format!("there are no {what}") } else { format!("the {what} are {}", known.join(", ")) };
+    match nearest(name, known.iter().copied()) {
+        Some(meant) => format!("did you mean `{meant}`? {list}"),
+        None => list,
+    }
+}
+
+/// An error of the TOML reader, with what was probably meant.
+#[must_use]
+pub fn explain(error: &toml::de::Error) -> SceneError {
+    let span = error.span().unwrap_or(0..0);
+    let message = error.message();
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    let short = message.split(", expected").next().unwrap_or(message);
+    let listed = |what: &str| match quoted.split_first() {
+        Some((wrong, known)) => Some(suggest(wrong, what, known.iter().copied())),
+        None => None,
+    };
+    if message.starts_with("unknown field") {
+        let message = short.replacen("unknown field", "there is no key", 1);
+        return SceneError { message: format!("{message} here"), help: listed("keys"), span };
+    }
+    if message.starts_with("unknown variant") {
+        let message = short.replacen("unknown variant", "there is no choice", 1);
+        return SceneError { message: format!("{message} here"), help: listed("choices"), span };
+    }
+    if message.starts_with("missing field") {
+        let key = quoted.first().copied().unwrap_or_default();
+        return SceneError { message: format!("the key `{key}` is missing"), help: Some(format!("add `{key} = ..` here")), span };
+    }
+    SceneError { message: message.to_string(), help: None, span }
+}

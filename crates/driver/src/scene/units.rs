@@ -1,0 +1,274 @@
+//! Physical values of a scene: a number in SI, or a string with a unit.
+//!
+//! Decimal prefixes shift the exponent of the number before it is read, so `"25 mm"` is the same value as `0.025`.
+
+use serde::de::{self, Deserialize, Deserializer, Visitor};
+use std::fmt;
+
+/// What a unit measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimension {
+    /// \[m\].
+    Length,
+    /// \[s\].
+    Time,
+    /// \[Pa\].
+    Pressure,
+    /// \[m/s\].
+    Velocity,
+    /// \[kg/m³\].
+    Density,
+    /// \[Pa/m\].
+    Stiffness,
+}
+
+impl Dimension {
+    /// In words, with the article.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Length => "a length",
+            Self::Time => "a time",
+            Self::Pressure => "a pressure",
+            Self::Velocity => "a velocity",
+            Self::Density => "a density",
+            Self::Stiffness => "a contact stiffness",
+        }
+    }
+
+    fn expected(self) -> &'static str {
+        match self {
+            Self::Length => "a length such as \"25 mm\" or a number in m",
+            Self::Time => "a time such as \"9.66 s\" or \"20 yr\" or a number in s",
+            Self::Pressure => "a pressure such as \"25 MPa\" or a number in Pa",
+            Self::Velocity => "a velocity such as \"1e-3 mm/s\" or a number in m/s",
+            Self::Density => "a density such as \"2700 kg/m^3\" or a number in kg/m^3",
+            Self::Stiffness => "a penalty such as \"100 E/h\" or \"1e12 Pa/m\" or a number in Pa/m",
+        }
+    }
+
+    fn units(self) -> &'static str {
+        match self {
+            Self::Length => "nm, um, mm, cm, m, km",
+            Self::Time => "us, ms, s, min, h, d, yr",
+            Self::Pressure => "Pa, kPa, MPa, GPa",
+            Self::Velocity => "m/s, mm/s, um/s, mm/yr and other lengths per time",
+            Self::Density => "kg/m^3, g/cm^3",
+            Self::Stiffness => "E/h, Pa/m, MPa/mm and other pressures per length",
+        }
+    }
+}
+
+/// A unit: the SI value of one of it is `factor * 10^power`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Unit {
+    dimension: Dimension,
+    power: i32,
+    factor: f64,
+}
+
+const MINUTE: f64 = 60.0;
+const HOUR: f64 = 3600.0;
+const DAY: f64 = 86400.0;
+/// The Julian year, 365.25 days.
+const YEAR: f64 = 365.25 * DAY;
+
+fn simple(name: &str) -> Option<Unit> {
+    use Dimension::{Length, Pressure, Time};
+    let (dimension, power, factor) = match name {
+        "nm" => (Length, -9, 1.0),
+        "um" | "µm" | "μm" => (Length, -6, 1.0),
+        "mm" => (Length, -3, 1.0),
+        "cm" => (Length, -2, 1.0),
+        "m" => (Length, 0, 1.0),
+        "km" => (Length, 3, 1.0),
+        "us" | "µs" | "μs" => (Time, -6, 1.0),
+        "ms" => (Time, -3, 1.0),
+        "s" => (Time, 0, 1.0),
+        "min" => (Time, 0, MINUTE),
+        "h" => (Time, 0, HOUR),
+        "d" => (Time, 0, DAY),
+        "yr" => (Time, 0, YEAR),
+        "Pa" => (Pressure, 0, 1.0),
+        "kPa" => (Pressure, 3, 1.0),
+        "MPa" => (Pressure, 6, 1.0),
+        "GPa" => (Pressure, 9, 1.0),
+        _ => return None,
+    };
+    Some(Unit { dimension, power, factor })
+}
+
+fn unit(name: &str) -> Option<Unit> {
+    match name {
+        "kg/m^3" | "kg/m³" | "kg/m3" => {
+            return Some(Unit { dimension: Dimension::Density, power: 0, factor: 1.0 });
+        }
+        "g/cm^3" | "g/cm³" | "g/cm3" => {
+            return Some(Unit { dimension: Dimension::Density, power: 3, factor: 1.0 });
+        }
+        _ => {}
+    }
+    let Some((over, under)) = name.split_once('/') else { return simple(name) };
+    let (over, under) = (simple(over.trim())?, simple(under.trim())?);
+    let dimension = match (over.dimension, under.dimension) {
+        (Dimension::Length, Dimension::Time) => Dimension::Velocity,
+        (Dimension::Pressure, Dimension::Length) => Dimension::Stiffness,
+        _ => return None,
+    };
+    Some(Unit { dimension, power: over.power - under.power, factor: over.factor / under.factor })
+}
+
+/// Splits `"1e-3 mm/s"` into the number and the unit.
+fn split(text: &str) -> (&str, &str) {
+    let text = text.trim();
+    let bytes = text.as_bytes();
+    let mut end = 0;
+    while end < bytes.len() {
+        let c = bytes[end];
+        let exponent = (c == b'e' || c == b'E')
+            && bytes.get(end + 1).is_some_and(|&n| n.is_ascii_digit() || n == b'-' || n == b'+');
+        let sign = (c == b'-' || c == b'+') && (end == 0 || matches!(bytes[end - 1], b'e' | b'E'));
+        if !(c.is_ascii_digit() || matches!(c, b'.' | b'_') || exponent || sign) {
+            break;
+        }
+        end += 1;
+    }
+    (&text[..end], text[end..].trim())
+}
+
+/// The number with its decimal exponent moved by `power`, correctly rounded.
+fn shifted(number: &str, power: i32) -> Option<f64> {
+    let digits = number.replace('_', "");
+    let (mantissa, exponent) = digits.split_once(['e', 'E']).unwrap_or((&digits, "0"));
+    let exponent: i32 = exponent.parse().ok()?;
+    format!("{mantissa}e{}", exponent.checked_add(power)?).parse().ok()
+}
+
+/// The SI value of a text with a unit.
+///
+/// # Errors
+/// What was expected and what was found.
+pub fn parse(text: &str, wanted: Dimension) -> Result<f64, String> {
+    let (number, name) = split(text);
+    let refuse = |why: &str| Err(format!("expected {}, found \"{text}\" ({why})", wanted.expected()));
+    if number.is_empty() {
+        return refuse("no number");
+    }
+    if name.is_empty() {
+        return refuse("no unit; a number without a unit is written without quotes");
+    }
+    let Some(unit) = unit(name) else {
+        return refuse(&format!("there is no unit `{name}`; units here are {}", wanted.units()));
+    };
+    if unit.dimension != wanted {
+        return refuse(unit.dimension.name());
+    }
+    match shifted(number, unit.power).map(|v| v * unit.factor) {
+        Some(value) if value.is_finite() => Ok(value),
+        Some(_) => refuse("not finite"),
+        None => refuse(&format!("`{number}` is not a number")),
+    }
+}
+
+/// Reads a finite number in SI or a text with a unit.
+struct ValueVisitor(Dimension);
+
+impl Visitor<'_> for ValueVisitor {
+    type Value = f64;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0.expected())
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<f64, E> {
+        finite(value, self.0)
+    }
+
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<f64, E> {
+        Ok(value as f64)
+    }
+
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<f64, E> {
+        Ok(value as f64)
+    }
+
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<f64, E> {
+        parse(text, self.0).map_err(E::custom)
+    }
+}
+
+/// A number that is finite.
+pub(super) fn finite<E: de::Error>(value: f64, dimension: Dimension) -> Result<f64, E> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(E::custom(format!("expected {}, found {value} (not finite)", dimension.expected())))
+    }
+}
+
+macro_rules! quantity {
+    ($($(#[$doc:meta])* $name:ident: $dimension:ident,)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $name(pub f64);
+
+        impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                deserializer.deserialize_any(ValueVisitor(Dimension::$dimension)).map(Self)
+            }
+        }
+    )*};
+}
+
+quantity! {
+    /// A length \[m\].
+    Length: Length,
+    /// A time \[s\].
+    Time: Time,
+    /// A pressure, stress or modulus \[Pa\].
+    Pressure: Pressure,
+    /// A velocity \[m/s\].
+    Velocity: Velocity,
+    /// A mass density \[kg/m³\].
+    Density: Density,
+}
+
+/// A contact penalty.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Penalty {
+    /// As such \[Pa/m\].
+    Value(f64),
+    /// This factor times Young's modulus of the slave body over its element size.
+    YoungPerSize(f64),
+}
+
+impl<'de> Deserialize<'de> for Penalty {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct PenaltyVisitor;
+        impl Visitor<'_> for PenaltyVisitor {
+            type Value = Penalty;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(Dimension::Stiffness.expected())
+            }
+
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Penalty, E> {
+                finite(value, Dimension::Stiffness).map(Penalty::Value)
+            }
+
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Penalty, E> {
+                Ok(Penalty::Value(value as f64))
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Penalty, E> {
+                let (number, name) = split(text);
+                let young = name.split_once('/').is_some_and(|(e, h)| e.trim() == "E" && h.trim() == "h");
+                match shifted(number, 0) {
+                    Some(factor) if young && factor.is_finite() => Ok(Penalty::YoungPerSize(factor)),
+                    _ => parse(text, Dimension::Stiffness).map(Penalty::Value).map_err(E::custom),
+                }
+            }
+        }
+        deserializer.deserialize_any(PenaltyVisitor)
+    }
+}
