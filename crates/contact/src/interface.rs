@@ -16,7 +16,7 @@ use asperity_friction::Failure;
 use asperity_friction::law::{Law, RateBounds};
 use std::sync::Arc;
 
-/// Gaps up to this share of the scene's size count as closed with f_n = 0 (PHYSICS of the R-minimum rule): far above the
+/// Gaps up to this share of the scene's size count as closed with f_n = 0: far above the
 /// rounding of positions (1e-16 of the size) and far below any elastic displacement that matters.
 const CLOSURE: f64 = 1e-12;
 
@@ -537,6 +537,7 @@ impl<const D: usize> Term for Interface<D> {
         if let Some(shear) = &mut self.shear {
             shear.trial.copy_from(&shear.committed);
         }
+        self.measure.revert();
         self.measure.measure(&self.u.committed, &mut self.geometry);
     }
 }

@@ -52,7 +52,18 @@ fn opening_and_closing_limit_a_step_where_they_happen() {
 
 #[test]
 fn a_sticking_point_is_limited_where_it_leaves_the_cone_and_slides_then() {
-    let mut interface = Interface::new(flat(Sliding::Small, coulomb())).unwrap();
+    for law in [coulomb(), cone()] {
+        leaves_the_cone_and_slides(law);
+    }
+}
+
+/// The friction crate's cone.
+fn cone() -> Option<Arc<dyn Law>> {
+    Some(Arc::new(asperity_friction::coulomb::Coulomb::new(0.5, None).unwrap()))
+}
+
+fn leaves_the_cone_and_slides(law: Option<Arc<dyn Law>>) {
+    let mut interface = Interface::new(flat(Sliding::Small, law)).unwrap();
     advance(&mut interface, &du([0.0, -0.2], [0.0, 0.0]));
     // |t| = 700 r 0.5 = 0.5 (200 + 100 r): r = 1/3.
     let push = du([0.5, -0.1], [0.0, 0.0]);
@@ -78,7 +89,13 @@ fn square(law: Option<Arc<dyn Law>>) -> InterfaceSpec<3> {
 
 #[test]
 fn a_turning_traction_leaves_the_cone_outwards_at_the_root_of_the_vector_form() {
-    let mut interface = Interface::new(square(coulomb())).unwrap();
+    for law in [coulomb(), cone()] {
+        turns_out_of_the_cone(law);
+    }
+}
+
+fn turns_out_of_the_cone(law: Option<Arc<dyn Law>>) {
+    let mut interface = Interface::new(square(law)).unwrap();
     let step = |x: f64, y: f64, z: f64| {
         let mut d = vec![0.0; 15];
         (d[12], d[13], d[14]) = (x, y, z);
@@ -200,7 +217,7 @@ fn rate_and_implicit_tangent_agree_to_first_order_in_the_step_for_a_rate_law() {
 
 #[test]
 fn a_reversing_traction_is_limited_on_the_far_side_of_the_cone() {
-    let mut interface = Interface::new(flat(Sliding::Small, coulomb())).unwrap();
+    let mut interface = Interface::new(flat(Sliding::Small, cone())).unwrap();
     advance(&mut interface, &du([0.1, -0.2], [0.0, 0.0]));
     // t = -70 along e_1, strength 100: back through zero to the other side, 700 * 0.5 r = 170.
     let r6 = interface.limit(&du([-0.5, 0.0], [0.0, 0.0]), AT).unwrap();

@@ -251,6 +251,10 @@ fn restoring_saved_history_continues_bit_by_bit() {
 fn a_rejected_step_leaves_no_trace() {
     let (mut first, a, b, _) = line_scene(Sliding::Finite);
     let (mut second, ..) = line_scene(Sliding::Finite);
+    // Also before anything has been committed.
+    second.prepare(&b).unwrap();
+    residual(&mut second, &b);
+    second.reject();
     step(&mut first, &a);
     step(&mut second, &a);
     second.prepare(&b).unwrap();
@@ -259,6 +263,26 @@ fn a_rejected_step_leaves_no_trace() {
     let c: Vec<f64> = a.iter().zip(&b).map(|(a, b)| 0.7 * a + 0.3 * b).collect();
     assert_eq!(step(&mut first, &c), step(&mut second, &c));
     assert_eq!(first.points(), second.points());
+}
+
+#[test]
+fn a_rejected_first_meeting_leaves_no_trace() {
+    let make = || {
+        let mut interface = Interface::new(flat(&[1.0, 4.5], Sliding::Finite, true)).unwrap();
+        step(&mut interface, &[0.0; 8]);
+        assert_eq!(interface.unpaired(), 1);
+        interface
+    };
+    let (mut first, mut second) = (make(), make());
+    let to = |x: f64| [0.0, 0.0, 0.0, 0.0, 0.0, -0.1, x, -0.1];
+    second.prepare(&to(-3.0)).unwrap();
+    residual(&mut second, &to(-3.0));
+    second.reject();
+    for x in [-1.0, -1.1] {
+        assert_eq!(step(&mut first, &to(x)), step(&mut second, &to(x)));
+        assert_eq!(first.points(), second.points());
+    }
+    assert_relative_eq!(first.points().relative_measure[1], 0.1, max_relative = 1e-12);
 }
 
 #[test]

@@ -4,7 +4,11 @@
 mod common;
 use asperity_contact::{Interface, SegmentKind, Sliding, Status, TimeRule};
 use asperity_fem::term::{Linearized, Term};
+use asperity_friction::coulomb::Coulomb;
+use asperity_friction::evolution::{ageing::Ageing, slip::Slip, stateless::Stateless};
 use asperity_friction::law::Law;
+use asperity_friction::rate::RateLaw;
+use asperity_friction::strength::{Parameters, regularised::Regularised};
 use common::*;
 use std::sync::Arc;
 
@@ -111,4 +115,28 @@ fn tangent_remains_exact_after_a_commit_without_search() {
     interface.accept();
     let moved: Vec<f64> = u.iter().zip(Noise::new(5).vector(u.len())).map(|(a, b)| a + 1e-2 * b).collect();
     assert_taylor(&mut interface, &moved, 13);
+}
+
+/// The friction crate's own laws: a capped cone, a rate law and two rate-and-state laws.
+fn product_laws() -> Vec<LawOption> {
+    let form = || Regularised(Parameters::new(0.4, 0.05, 0.1).unwrap());
+    vec![
+        Some(Arc::new(Coulomb::new(0.5, Some(45.0)).unwrap())),
+        Some(Arc::new(RateLaw::new(form(), Stateless, 0.1, None).unwrap())),
+        Some(Arc::new(RateLaw::new(form(), Ageing::new(0.02, 0.5, 0.1).unwrap(), 0.1, None).unwrap())),
+        Some(Arc::new(RateLaw::new(form(), Slip::new(0.02, 0.5, 0.1).unwrap(), 0.1, Some(60.0)).unwrap())),
+    ]
+}
+
+#[test]
+fn tangent_is_exact_under_the_laws_of_the_friction_crate() {
+    for sliding in [Sliding::Small, Sliding::Finite] {
+        for law in product_laws() {
+            let (mut interface, u) = line_case(sliding, law.clone(), TimeRule::BackwardEuler, 0.7);
+            assert_taylor(&mut interface, &u, 21);
+            let (mut interface, u) =
+                plate_case(SegmentKind::Quad4, sliding, law.clone(), TimeRule::BackwardEuler, 0.9);
+            assert_taylor(&mut interface, &u, 22);
+        }
+    }
 }

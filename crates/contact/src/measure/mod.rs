@@ -141,6 +141,9 @@ pub trait Measure<const D: usize>: Send + Sync + fmt::Debug {
     /// the new frame (given in the present configuration).
     fn commit(&mut self, geometry: &Geometry<D>, reframe: &mut dyn FnMut(usize, &[[f64; D]; 2]));
 
+    /// Returns to the pairing of the last commit; the pattern keeps its blocks until the next search.
+    fn revert(&mut self);
+
     /// Attachments of point `p` at the configuration last measured, written to `out` (cleared first).
     fn attachments(&self, p: usize, out: &mut Vec<Attachment>);
 

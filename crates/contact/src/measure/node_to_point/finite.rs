@@ -50,6 +50,8 @@ struct Point {
     place: Option<Place>,
     /// Where it lay at the last commit.
     anchor: Option<Place>,
+    /// Paired since the last commit: the anchor is where the first search of the step found the point.
+    fresh: bool,
     /// The last committed step ended on a border of the segment, moving outwards.
     leaving: bool,
     /// Nodes of its block: the slave, those of the held segment, those of the anchor's segment that are not yet there.
@@ -77,6 +79,7 @@ impl<const D: usize> Finite<D> {
             slave: *s,
             place: None,
             anchor: None,
+            fresh: false,
             leaving: false,
             nodes: Vec::new(),
         };
@@ -90,6 +93,8 @@ impl<const D: usize> Finite<D> {
         };
         let mut projections = 0;
         measure.search(&vec![[0.0; D]; nodes.len()], &mut projections);
+        // The reference configuration counts as committed.
+        measure.points.iter_mut().for_each(|p| p.fresh = false);
         (measure, projections)
     }
 
@@ -217,7 +222,8 @@ impl<const D: usize> Measure<D> for Finite<D> {
             }
             point.place = place;
             // A point that meets the master within this step has slipped nothing before.
-            point.anchor = if place.is_none() { None } else { point.anchor.or(place) };
+            point.fresh |= point.anchor.is_none() && place.is_some();
+            point.anchor = point.anchor.or(place);
         }
         self.rebuild();
         true
@@ -273,11 +279,11 @@ impl<const D: usize> Measure<D> for Finite<D> {
             let size = point.nodes.len() * D;
             let block = &mut values[at..at + size * size];
             at += block.len();
-            let (Some(place), Some(anchor)) = (point.place, point.anchor) else { continue };
-            if !tractions.normal[p].closed {
+            let (Some(place), Some(anchor), true) = (point.place, point.anchor, tractions.normal[p].closed)
+            else {
                 block.fill(0.0);
                 continue;
-            }
+            };
             let (here, there) = (self.local(&place), self.local(&anchor));
             let shear = tractions.shear.map(|s| &s[p]);
             let column =
@@ -344,7 +350,11 @@ impl<const D: usize> Measure<D> for Finite<D> {
 
     fn commit(&mut self, _geometry: &Geometry<D>, reframe: &mut dyn FnMut(usize, &[[f64; D]; 2])) {
         for p in 0..self.points.len() {
-            let Some(place) = self.points[p].place else { continue };
+            self.points[p].fresh = false;
+            let Some(place) = self.points[p].place else {
+                self.points[p].anchor = None;
+                continue;
+            };
             reframe(p, &self.local(&place).frame);
             let kind = self.segment(&place).kind;
             let point = &mut self.points[p];
@@ -353,6 +363,14 @@ impl<const D: usize> Measure<D> for Finite<D> {
                 .is_some_and(|a| a.segment != place.segment || depth(kind, place.xi) < depth(kind, a.xi));
             point.leaving = outwards && depth(kind, place.xi) <= BORDER;
             point.anchor = Some(place);
+        }
+    }
+
+    fn revert(&mut self) {
+        for point in &mut self.points {
+            point.anchor = point.anchor.filter(|_| !point.fresh);
+            point.fresh = false;
+            point.place = point.anchor;
         }
     }
 
@@ -390,6 +408,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
             let anchor = (v[0] >= 0.0).then(|| Place { segment: v[0] as usize, xi: [v[1], v[2]] });
             point.anchor = anchor;
             point.place = anchor;
+            point.fresh = false;
             point.leaving = v[3] > 0.0;
         }
         self.rebuild();

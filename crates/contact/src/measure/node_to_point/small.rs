@@ -276,6 +276,8 @@ impl<const D: usize> Measure<D> for Small<D> {
         }
     }
 
+    fn revert(&mut self) {}
+
     fn attachments(&self, p: usize, out: &mut Vec<Attachment>) {
         out.clear();
         // Pairs are in the order of the points.
