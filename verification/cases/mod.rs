@@ -32,5 +32,9 @@
 
 use crate::Case;
 
+pub mod sandwich;
+mod sandwich_pressed;
+mod sandwich_sheared;
+
 /// Every case, in the order of the report.
-pub const ALL: &[Case] = &[];
+pub const ALL: &[Case] = &[sandwich_pressed::CASE, sandwich_sheared::CASE];

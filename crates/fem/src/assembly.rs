@@ -25,6 +25,7 @@ pub struct System {
     store: Store,
     /// Values of one term, reused.
     buffer: Vec<f64>,
+    largest_entry: f64,
     /// Numeric factorisations so far.
     pub factorisations: usize,
     /// Solves so far.
@@ -54,13 +55,19 @@ impl System {
             Storage::Dense => Store::Dense { matrix: Mat::zeros(n, n), factor: None },
             Storage::Sparse => Store::Sparse(Box::default()),
         };
-        Self { equations, store, buffer: Vec::new(), factorisations: 0, solves: 0 }
+        Self { equations, store, buffer: Vec::new(), largest_entry: 0.0, factorisations: 0, solves: 0 }
     }
 
     /// The numbering.
     #[must_use]
     pub fn equations(&self) -> &Equations {
         &self.equations
+    }
+
+    /// Largest entry of any term's tangent in the last assembly: the scale of rounding in the forces.
+    #[must_use]
+    pub fn largest_entry(&self) -> f64 {
+        self.largest_entry
     }
 
     /// Assembles what `values_of` writes for each term (a consistent or a rate tangent) and factors it.
@@ -78,12 +85,14 @@ impl System {
             store.renew(&patterns, &self.equations);
         }
         self.store.clear();
+        self.largest_entry = 0.0;
         let mut offset = 0;
         for term in terms {
             let pattern = pattern_of(term).clone();
             self.buffer.clear();
             self.buffer.resize(pattern.values(), 0.0);
             values_of(term, &mut self.buffer)?;
+            self.largest_entry = self.buffer.iter().fold(self.largest_entry, |m, v| m.max(v.abs()));
             offset = self.store.add(&self.equations, &pattern, offset, &self.buffer);
         }
         self.factorisations += 1;

@@ -94,7 +94,8 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
             traction: 0.0,
             slip: drive.slip(rate),
             rate: drive.sign * rate,
-            d_trial: if free { 0.0 } else { 1.0 },
+            // At the apex of the cone, without drive, every slope between 0 and 1 is one: rest is the better guess.
+            d_trial: if free && drive.size > 0.0 { 0.0 } else { 1.0 },
             d_normal: drive.sign * mu,
             state,
         })

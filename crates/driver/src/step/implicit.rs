@@ -9,8 +9,8 @@ use asperity_fem::term::{Instant, Linearized};
 /// Residual over the largest force at which an iteration has converged. Rounding leaves 1e-14 to 1e-12 (the condensed
 /// stiffness acts on displacements some hundred times the elastic ones); a Newton step below this bound squares it.
 const CONVERGED: f64 = 1e-11;
-/// A residual that no longer falls is accepted below this ratio: it is the rounding floor of badly scaled systems.
-const FLOOR: f64 = 1e-9;
+/// Rounding of a force: each is a sum of products of stiffness and displacement, of some tens of terms.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// A step whose iteration needs more is better halved.
 const MOST_ITERATIONS: usize = 30;
 /// Halvings of the line search: beyond 2^-10 the direction itself is wrong.
@@ -18,7 +18,7 @@ const MOST_HALVINGS: usize = 10;
 /// A step of length s is taken when it lowers the residual by this share of s (Armijo's rule with its usual constant).
 const DECREASE: f64 = 1e-4;
 /// Iterations during which a small rise of the residual is tolerated: contact opening and closing may raise it once.
-const NONMONOTONE: f64 = 2.0;
+const NONMONOTONE: f64 = 100.0;
 
 /// Working memory of the stepper.
 #[derive(Debug)]
@@ -99,10 +99,12 @@ impl Implicit {
             if ratio <= CONVERGED && iteration > 0 || norm == 0.0 {
                 return Ok((iteration, ratio));
             }
-            if ratio <= FLOOR && norm >= 0.5 * best {
+            // A residual that no longer falls has converged when it is rounding of the forces it is the sum of.
+            if norm <= ROUNDING * self.system.largest_entry() * largest(u) && norm >= 0.5 * best {
                 return Ok((iteration, ratio));
             }
             best = best.min(norm);
+            if std::env::var("DBG").is_ok() { eprintln!("it {iteration} ratio {ratio:e}"); }
             let direction = self.direction(terms, counts)?;
             self.search(terms, u, &direction, at, counts)?;
             counts.iterations += 1;
@@ -193,6 +195,11 @@ impl Implicit {
             Err(_) => f64::NAN,
         }
     }
+}
+
+/// Largest displacement.
+fn largest(u: &[f64]) -> f64 {
+    u.iter().fold(0.0, |m, x| m.max(x.abs()))
 }
 
 fn moved(u: &[f64], direction: &[f64], length: f64) -> Vec<f64> {

@@ -1,0 +1,199 @@
+//! The sandwich benchmark as the cases use it: the scene file of the product, with one thing changed at a time.
+
+use crate::CaseError;
+use asperity_driver::observe::view::InterfaceFields;
+use asperity_driver::observe::Recorder;
+use asperity_driver::plan;
+use asperity_driver::report::{Outcome, RunReport, mean};
+use asperity_driver::run;
+pub use asperity_driver::scene::model::Scene;
+use asperity_driver::scene::model::{MeshSource, Stepper, here};
+use asperity_driver::scene::units::{Length, Penalty, Pressure, Velocity};
+use asperity_driver::scene;
+
+/// Young's modulus of the benchmark \[Pa\].
+pub const YOUNG: f64 = 44.8e9;
+/// Poisson's ratio of the benchmark.
+pub const POISSON: f64 = 0.12;
+/// Displacement of the pressed face \[m\].
+pub const U_X: f64 = 0.00966e-3;
+/// Loading rate \[m/s\].
+pub const V_LOAD: f64 = 1e-6;
+/// End of stage 1 \[s\].
+pub const PRESSED: f64 = 9.66;
+
+/// A finished run.
+pub struct Run {
+    /// Report.
+    pub report: RunReport,
+    /// Histories at all slave nodes.
+    pub record: Recorder,
+}
+
+impl Run {
+    /// Fields of the fault at the end of a stage.
+    pub fn end(&self, stage: &str) -> Result<&InterfaceFields, CaseError> {
+        Ok(&self.record.stage_end(stage).ok_or_else(|| format!("stage {stage} was not reached"))?.interfaces[0])
+    }
+
+    /// Area-weighted mean of the normal traction at the end of a stage \[MPa\].
+    pub fn mean_normal(&self, stage: &str) -> Result<f64, CaseError> {
+        Ok(mean(&self.end(stage)?.normal_traction, self.record.areas(0)) * 1e-6)
+    }
+
+    /// Heights y of the slave nodes \[m\].
+    pub fn heights(&self) -> Vec<f64> {
+        self.record.setup().interfaces[0].positions.iter().map(|p| p[1]).collect()
+    }
+
+    /// Slave node at height `y` \[m\].
+    pub fn node_at(&self, y: f64) -> Result<usize, CaseError> {
+        let heights = self.heights();
+        heights.iter().position(|h| (h - y).abs() < 1e-9).ok_or_else(|| format!("no slave node at y = {y}").into())
+    }
+
+    /// |slip| at heights `y` at the end of the run \[um\].
+    pub fn final_slip(&self, y: &[f64]) -> Result<Vec<f64>, CaseError> {
+        let slip = &self.end("shear")?.slip;
+        y.iter().map(|&y| Ok(slip[self.node_at(y)?].abs() * 1e6)).collect()
+    }
+
+    /// |slip| at a node, interpolated linearly at times \[s\], in \[um\].
+    pub fn slip_at(&self, node: usize, times: &[f64]) -> Vec<f64> {
+        let t = self.record.times();
+        let slip = &self.record.histories()[0].points[node].slip;
+        times
+            .iter()
+            .map(|&time| {
+                let k = t.partition_point(|&x| x < time * (1.0 - 1e-12)).min(t.len() - 1);
+                if k == 0 || (t[k] - time).abs() <= 1e-9 * time {
+                    return slip[k].abs() * 1e6;
+                }
+                let s = (time - t[k - 1]) / (t[k] - t[k - 1]);
+                (slip[k - 1] + s * (slip[k] - slip[k - 1])).abs() * 1e6
+            })
+            .collect()
+    }
+}
+
+/// The scene file of the product, through the public reader.
+pub fn base() -> Result<Scene, CaseError> {
+    scene::read(include_str!("../../scenes/sandwich.toml")).map_err(|e| format!("scenes/sandwich.toml: {e}").into())
+}
+
+/// Changes the generator of a body.
+fn mesh_of<'a>(scene: &'a mut Scene, body: &str) -> &'a mut scene::model::BlockMesh {
+    let MeshSource::Block(mesh) =
+        &mut scene.bodies.get_mut(body).expect("the sandwich has bodies A and B").mesh;
+    mesh
+}
+
+/// Element size h \[mm\] in both bodies.
+pub fn size(mut scene: Scene, h: f64) -> Scene {
+    for body in ["A", "B"] {
+        mesh_of(&mut scene, body).size = Some(here(Length(h * 1e-3)));
+    }
+    scene
+}
+
+/// No overhang: B as high as A.
+pub fn no_overhang(mut scene: Scene) -> Scene {
+    let mesh = mesh_of(&mut scene, "B");
+    mesh.min = here(vec![Length(25e-3), Length(0.0)]);
+    mesh.max = here(vec![Length(50e-3), Length(50e-3)]);
+    scene
+}
+
+/// Block A 50 mm wide.
+pub fn wide(mut scene: Scene) -> Scene {
+    mesh_of(&mut scene, "A").min = here(vec![Length(-25e-3), Length(0.0)]);
+    scene
+}
+
+/// Penalties times `factor`.
+pub fn penalty(mut scene: Scene, factor: f64) -> Scene {
+    for interface in scene.interfaces.values_mut() {
+        interface.enforcement.normal = here(Penalty::YoungPerSize(100.0 * factor));
+        interface.enforcement.tangential = Some(here(Penalty::YoungPerSize(100.0 * factor)));
+    }
+    scene
+}
+
+/// Young's modulus times `factor`.
+pub fn young(mut scene: Scene, factor: f64) -> Scene {
+    for material in scene.materials.values_mut() {
+        material.young = here(Pressure(YOUNG * factor));
+    }
+    scene
+}
+
+/// Poisson's ratio.
+pub fn poisson(mut scene: Scene, nu: f64) -> Scene {
+    for material in scene.materials.values_mut() {
+        material.poisson = here(nu);
+    }
+    scene
+}
+
+/// Reference slip rate over the loading rate.
+pub fn reference_rate(mut scene: Scene, over_load: f64) -> Scene {
+    for interface in scene.interfaces.values_mut() {
+        if let Some(law) = &mut interface.law {
+            law.get_mut().v_ref = Some(here(Velocity(V_LOAD * over_load)));
+        }
+    }
+    scene
+}
+
+/// Friction in stage 1 as well.
+pub fn frictional(mut scene: Scene) -> Scene {
+    scene.stages[0].frictionless.clear();
+    scene
+}
+
+/// Stage 1 only, in one step (it is linear without friction).
+pub fn press_only(mut scene: Scene) -> Scene {
+    scene.stages.truncate(1);
+    scene.stages[0].steps = Some(here(1));
+    scene
+}
+
+/// `n` equal steps in stage 2, one in stage 1.
+pub fn equal_steps(mut scene: Scene, n: usize) -> Scene {
+    scene.stages[0].steps = Some(here(1));
+    scene.stages[1].steps = Some(here(n));
+    scene
+}
+
+/// The static-explicit stepper.
+pub fn static_explicit(mut scene: Scene, carry: bool) -> Scene {
+    scene.time.stepper = here(Stepper::StaticExplicit);
+    scene.time.tolerance = None;
+    scene.time.carry = Some(here(carry));
+    scene
+}
+
+/// Local error of slip per step \[m\] of the implicit stepper.
+pub fn tolerance(mut scene: Scene, metres: f64) -> Scene {
+    scene.time.tolerance = Some(here(Length(metres)));
+    scene
+}
+
+/// Runs a scene to its end, keeping histories at all slave nodes.
+pub fn simulate(scene: &Scene) -> Result<Run, CaseError> {
+    let plan = plan::plan(scene).map_err(|e| e.to_string())?;
+    let mut record = Recorder::new().at_all_nodes();
+    let report = run::run(&plan, &mut record)?;
+    match &report.outcome {
+        Outcome::Completed => Ok(Run { report, record }),
+        Outcome::Stopped { reason, time, .. } => Err(format!("stopped at {time} s: {reason}").into()),
+    }
+}
+
+/// Limit of a sequence on meshes halved each time, and its observed order, from the last three values (Richardson).
+pub fn limit(values: &[f64]) -> (f64, f64) {
+    let n = values.len();
+    let (a, b, c) = (values[n - 3], values[n - 2], values[n - 1]);
+    let ratio = (b - a) / (c - b);
+    (c + (c - b) / (ratio - 1.0), ratio.log2())
+}
