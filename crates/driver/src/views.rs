@@ -71,17 +71,20 @@ fn nearest(positions: &[[f64; 3]], target: [f64; 3]) -> usize {
         .unwrap_or_default()
 }
 
-/// State of an interface. In two dimensions tangential quantities carry the sign of the first tangent.
+/// State of an interface. In two dimensions tangential quantities are measured along (n_y, -n_x), n the outward normal of
+/// the master: the direction in which the slave side is walked with its body to the left. That is minus the first tangent of
+/// the contact crate, which walks along the master side.
 #[must_use]
 pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFields {
     let p = interface.points();
+    let measure = |field: &[f64]| -> Vec<f64> { field.iter().map(|v| if D == 2 { -v } else { *v }).collect() };
     InterfaceFields {
         gap: p.gap.clone(),
         normal_traction: p.normal_traction.clone(),
-        shear_traction: p.shear_measure.clone(),
-        relative_displacement: p.relative_measure.clone(),
-        slip: p.slip_measure.clone(),
-        slip_rate: p.slip_rate.clone(),
+        shear_traction: measure(&p.shear_measure),
+        relative_displacement: measure(&p.relative_measure),
+        slip: measure(&p.slip_measure),
+        slip_rate: measure(&p.slip_rate),
         friction: p.friction.clone(),
         status: p
             .status

@@ -40,7 +40,7 @@ pub struct InterfaceFields {
     pub gap: Vec<f64>,
     /// Normal traction f_n \[Pa\].
     pub normal_traction: Vec<f64>,
-    /// Shear traction \[Pa\]: signed along the first tangent in two dimensions, magnitude in three.
+    /// Shear traction \[Pa\]: signed along (n_y, -n_x), n the outward normal of the master, in two dimensions, magnitude in three.
     pub shear_traction: Vec<f64>,
     /// Relative tangential displacement (slave relative to master) \[m\]: elastic part and slip together, with the sign of
     /// the shear traction's measure, since the law began to act.

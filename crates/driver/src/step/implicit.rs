@@ -17,7 +17,8 @@ const MOST_ITERATIONS: usize = 30;
 const MOST_HALVINGS: usize = 10;
 /// A step of length s is taken when it lowers the residual by this share of s (Armijo's rule with its usual constant).
 const DECREASE: f64 = 1e-4;
-/// Iterations during which a small rise of the residual is tolerated: contact opening and closing may raise it once.
+/// Rise of the residual a full step may cause: pairs that open, close or begin to slip raise it once, by the ratio of the
+/// penalty to the stiffness of the bodies (some hundred), and a shorter step would only spread that over many iterations.
 const NONMONOTONE: f64 = 100.0;
 
 /// Working memory of the stepper.
@@ -104,7 +105,6 @@ impl Implicit {
                 return Ok((iteration, ratio));
             }
             best = best.min(norm);
-            if std::env::var("DBG").is_ok() { eprintln!("it {iteration} ratio {ratio:e}"); }
             let direction = self.direction(terms, counts)?;
             self.search(terms, u, &direction, at, counts)?;
             counts.iterations += 1;
