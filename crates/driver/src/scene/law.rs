@@ -1,238 +1,289 @@
-//! Which law a scene chose, and whether its parameters are complete and its own.
+//! Which friction law a scene means, complete and in range.
 
-use super::SceneError;
 use super::model::{LawSpec, Spanned};
+use super::{SceneError, near};
 use std::ops::Range;
 
-/// A law with its parameters in SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LawChoice {
-    /// Constant coefficient.
-    Coulomb {
-        /// μ.
-        mu: f64,
-        /// F_limit \[Pa\].
-        f_limit: Option<f64>,
-    },
-    /// Velocity-dependent, no state.
-    Rate {
-        /// Strength form.
-        form: Form,
-        /// μ0.
-        mu0: f64,
-        /// a.
-        a: f64,
-        /// Vref \[m/s\].
-        v_ref: f64,
-        /// F_limit \[Pa\].
-        f_limit: Option<f64>,
-    },
-    /// Rate and state.
-    RateAndState {
-        /// Strength form.
-        form: Form,
-        /// Evolution.
-        evolution: Evolution,
-        /// μ0.
-        mu0: f64,
-        /// a.
-        a: f64,
-        /// b.
-        b: f64,
-        /// L \[m\].
-        l: f64,
-        /// Vref \[m/s\].
-        v_ref: f64,
-        /// Slip rate whose steady state is the initial state \[m/s\].
-        v_initial: f64,
-        /// F_limit \[Pa\].
-        f_limit: Option<f64>,
-    },
-}
-
-/// Strength forms.
+/// Forms of the rate-dependent strength.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// asinh.
+    /// With asinh: regular at rest.
     Regularised,
-    /// Logarithm.
+    /// The bare logarithm: not defined at rest.
     Bare,
 }
 
-/// Evolutions.
+/// Evolution of the state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Evolution {
-    /// Dieterich.
+    /// dθ/dt = 1 - V θ/L.
     Ageing,
-    /// Ruina.
+    /// dθ/dt = -(V θ/L) ln(V θ/L).
     Slip,
 }
 
-/// Kinds that exist, with the parameters each takes.
+/// A friction law with exactly the parameters it needs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LawChoice {
+    /// A constant coefficient.
+    Coulomb {
+        /// Friction coefficient \[-\].
+        mu: f64,
+        /// Largest shear traction \[Pa\].
+        f_limit: Option<f64>,
+    },
+    /// A coefficient that depends on the slip rate.
+    Rate {
+        /// Form of the strength.
+        form: Form,
+        /// Reference coefficient \[-\].
+        mu0: f64,
+        /// Direct effect \[-\].
+        a: f64,
+        /// Reference slip rate \[m/s\].
+        v_ref: f64,
+        /// Largest shear traction \[Pa\].
+        f_limit: Option<f64>,
+    },
+    /// A coefficient that depends on the slip rate and a state.
+    RateAndState {
+        /// Form of the strength.
+        form: Form,
+        /// Evolution of the state.
+        evolution: Evolution,
+        /// Reference coefficient \[-\].
+        mu0: f64,
+        /// Direct effect \[-\].
+        a: f64,
+        /// Evolution effect \[-\].
+        b: f64,
+        /// Characteristic slip \[m\].
+        l: f64,
+        /// Reference slip rate \[m/s\].
+        v_ref: f64,
+        /// Slip rate of the steady state the points start from \[m/s\].
+        v_initial: f64,
+        /// Largest shear traction \[Pa\].
+        f_limit: Option<f64>,
+    },
+}
+
+/// Kinds of law with the parameters of each.
 const KINDS: [(&str, &[&str]); 3] = [
     ("coulomb", &["mu", "f_limit"]),
     ("rate", &["form", "mu0", "a", "v_ref", "f_limit"]),
     ("rate-and-state", &["form", "evolution", "mu0", "a", "b", "l", "v_ref", "v_initial", "f_limit"]),
 ];
 
-/// A parameter as given: its key, value in SI where it is a number, and place.
-struct Given {
-    key: &'static str,
-    value: Option<f64>,
-    span: Range<usize>,
-}
-
-fn given(spec: &LawSpec) -> Vec<Given> {
-    let mut list = Vec::new();
-    let mut number = |key, value: Option<(f64, Range<usize>)>| {
-        if let Some((value, span)) = value {
-            list.push(Given { key, value: Some(value), span });
-        }
-    };
-    number("mu", spec.mu.as_ref().map(|s| (*s.get_ref(), s.span())));
-    number("mu0", spec.mu0.as_ref().map(|s| (*s.get_ref(), s.span())));
-    number("a", spec.a.as_ref().map(|s| (*s.get_ref(), s.span())));
-    number("b", spec.b.as_ref().map(|s| (*s.get_ref(), s.span())));
-    number("l", spec.l.as_ref().map(|s| (s.get_ref().0, s.span())));
-    number("v_ref", spec.v_ref.as_ref().map(|s| (s.get_ref().0, s.span())));
-    number("v_initial", spec.v_initial.as_ref().map(|s| (s.get_ref().0, s.span())));
-    number("f_limit", spec.f_limit.as_ref().map(|s| (s.get_ref().0, s.span())));
-    for (key, text) in [("form", &spec.form), ("evolution", &spec.evolution)] {
-        if let Some(text) = text {
-            list.push(Given { key, value: None, span: text.span() });
-        }
-    }
-    list
-}
-
-/// The law a scene chose.
+/// The law of a specification.
 ///
 /// # Errors
-/// Everything that is wrong with it.
-pub fn choose(law: &Spanned<LawSpec>) -> Result<LawChoice, Vec<SceneError>> {
-    let spec = law.get_ref();
-    let names = KINDS.map(|k| k.0).join(", ");
-    let Some(kind) = &spec.kind else {
-        return Err(vec![SceneError::at(law.span(), "the law has no `kind`", format!("kinds are {names}"))]);
+/// Every parameter that is missing, belongs to another law, or is out of range.
+pub fn choose(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<SceneError>> {
+    let law = spec.get_ref();
+    let kinds = || KINDS.iter().map(|k| k.0);
+    let Some(kind) = &law.kind else {
+        let help = format!("add `kind = ..`; the kinds are {}", kinds().collect::<Vec<_>>().join(", "));
+        return Err(vec![SceneError::at(spec.span(), "the law has no kind", help)]);
     };
-    let Some((_, own)) = KINDS.iter().find(|k| k.0 == kind.get_ref()) else {
-        let message = format!("there is no law `{}`", kind.get_ref());
-        return Err(vec![SceneError::at(kind.span(), message, format!("kinds are {names}"))]);
+    let Some((name, parameters)) = KINDS.iter().find(|k| k.0 == kind.get_ref()) else {
+        return Err(vec![SceneError::at(
+            kind.span(),
+            format!("there is no law of kind `{}`", kind.get_ref()),
+            near::suggest(kind.get_ref(), "kinds", kinds()),
+        )]);
     };
-    let given = given(spec);
-    let mut errors = foreign(kind.get_ref(), own, &given);
-    errors.extend(ranges(kind.get_ref(), &given));
-    let value = |key: &str| given.iter().find(|g| g.key == key).and_then(|g| g.value);
-    let mut need = |key: &'static str| {
-        value(key).unwrap_or_else(|| {
-            let message = format!("law `{}` needs `{key}`", kind.get_ref());
-            errors.push(SceneError::at(law.span(), message, format!("its parameters are {}", own.join(", "))));
-            f64::NAN
-        })
-    };
-    let f_limit = value("f_limit");
-    let choice = match kind.get_ref().as_str() {
-        "coulomb" => LawChoice::Coulomb { mu: need("mu"), f_limit },
-        "rate" => LawChoice::Rate {
-            mu0: need("mu0"),
-            a: need("a"),
-            v_ref: need("v_ref"),
-            form: form(spec, &mut errors),
-            f_limit,
-        },
-        _ => LawChoice::RateAndState {
-            mu0: need("mu0"),
-            a: need("a"),
-            b: need("b"),
-            l: need("l"),
-            v_ref: need("v_ref"),
-            v_initial: value("v_initial").or(value("v_ref")).unwrap_or(f64::NAN),
-            form: form(spec, &mut errors),
-            evolution: evolution(law, &mut errors),
-            f_limit,
-        },
-    };
-    if errors.is_empty() { Ok(choice) } else { Err(errors) }
+    let mut reader = Reader { kind: name, place: spec.span(), errors: foreign(law, name, parameters) };
+    let choice = reader.choice(law);
+    match choice {
+        Some(choice) if reader.errors.is_empty() => Ok(choice),
+        _ => Err(reader.errors),
+    }
 }
 
-/// Parameters of another law.
-fn foreign(kind: &str, own: &[&str], given: &[Given]) -> Vec<SceneError> {
-    given
-        .iter()
-        .filter(|g| !own.contains(&g.key))
-        .map(|g| {
-            let owners: Vec<&str> = KINDS.iter().filter(|k| k.1.contains(&g.key)).map(|k| k.0).collect();
+/// Parameters given, with their places, in the order of the specification.
+fn given(law: &LawSpec) -> Vec<(&'static str, Range<usize>)> {
+    let places = [
+        ("mu", law.mu.as_ref().map(Spanned::span)),
+        ("form", law.form.as_ref().map(Spanned::span)),
+        ("evolution", law.evolution.as_ref().map(Spanned::span)),
+        ("mu0", law.mu0.as_ref().map(Spanned::span)),
+        ("a", law.a.as_ref().map(Spanned::span)),
+        ("b", law.b.as_ref().map(Spanned::span)),
+        ("l", law.l.as_ref().map(Spanned::span)),
+        ("v_ref", law.v_ref.as_ref().map(Spanned::span)),
+        ("v_initial", law.v_initial.as_ref().map(Spanned::span)),
+        ("f_limit", law.f_limit.as_ref().map(Spanned::span)),
+    ];
+    places.into_iter().filter_map(|(name, place)| place.map(|p| (name, p))).collect()
+}
+
+fn foreign(law: &LawSpec, kind: &str, parameters: &[&str]) -> Vec<SceneError> {
+    let strange = given(law).into_iter().filter(|(name, _)| !parameters.contains(name));
+    strange
+        .map(|(name, place)| {
+            let owners: Vec<String> =
+                KINDS.iter().filter(|k| k.1.contains(&name)).map(|k| format!("\"{}\"", k.0)).collect();
             SceneError::at(
-                g.span.clone(),
-                format!("`{}` is no parameter of law `{kind}`: it belongs to {}", g.key, owners.join(", ")),
-                format!("parameters of `{kind}` are {}", own.join(", ")),
+                place,
+                format!(
+                    "`{name}` is not a parameter of the law \"{kind}\"; it belongs to {}",
+                    owners.join(" and ")
+                ),
+                format!("remove it; \"{kind}\" has {}", parameters.join(", ")),
             )
         })
         .collect()
 }
 
-/// Admissible ranges, and laws that are ill-posed in a continuum.
-fn ranges(kind: &str, given: &[Given]) -> Vec<SceneError> {
-    let mut errors = Vec::new();
-    for g in given {
-        let Some(value) = g.value else { continue };
-        let admissible = match g.key {
-            "a" if kind == "rate" && value < 0.0 => {
-                errors.push(SceneError::at(
-                    g.span.clone(),
-                    "strength that falls with the slip rate, without a state, is ill-posed in a quasi-static continuum",
-                    "give a > 0, or a state with a slip length (`rate-and-state` with b > a)",
-                ));
-                continue;
-            }
-            "a" | "l" | "v_ref" | "v_initial" | "f_limit" => (value > 0.0 && value.is_finite(), "a positive number"),
-            "mu" => (value >= 0.0 && value.is_finite(), "zero or a positive number"),
-            _ => (value.is_finite(), "a finite number"),
+/// Reads parameters and collects what is wrong with them.
+struct Reader {
+    kind: &'static str,
+    place: Range<usize>,
+    errors: Vec<SceneError>,
+}
+
+impl Reader {
+    fn choice(&mut self, law: &LawSpec) -> Option<LawChoice> {
+        let f_limit = match &law.f_limit {
+            None => Some(None),
+            Some(f) => self.positive("f_limit", Some((f.get_ref().0, f.span())), "100 MPa").map(Some),
         };
-        if !admissible.0 {
-            errors.push(SceneError::at(
-                g.span.clone(),
-                format!("{} = {value} is not admissible", g.key),
-                format!("{} must be {}", g.key, admissible.1),
-            ));
+        if self.kind == "coulomb" {
+            let mu = self.number("mu", law.mu.as_ref(), "0.6", (0.0, true));
+            return Some(LawChoice::Coulomb { mu: mu?, f_limit: f_limit? });
+        }
+        let form = self.form(law);
+        let mu0 = self.number("mu0", law.mu0.as_ref(), "0.6", (0.0, false));
+        let a = self.direct_effect(law);
+        let v_ref = self.positive("v_ref", law.v_ref.as_ref().map(|v| (v.get_ref().0, v.span())), "1 um/s");
+        if self.kind == "rate" {
+            return Some(LawChoice::Rate { form: form?, mu0: mu0?, a: a?, v_ref: v_ref?, f_limit: f_limit? });
+        }
+        let evolution = self.evolution(law);
+        let b = self.number("b", law.b.as_ref(), "0.015", (0.0, true));
+        let l = self.positive("l", law.l.as_ref().map(|v| (v.get_ref().0, v.span())), "10 um");
+        let start = law.v_initial.as_ref().map(|v| (v.get_ref().0, v.span()));
+        let v_initial = self.positive("v_initial", start, "1 um/s");
+        Some(LawChoice::RateAndState {
+            form: form?,
+            evolution: evolution?,
+            mu0: mu0?,
+            a: a?,
+            b: b?,
+            l: l?,
+            v_ref: v_ref?,
+            v_initial: v_initial?,
+            f_limit: f_limit?,
+        })
+    }
+
+    fn missing(&mut self, name: &str, example: &str) {
+        self.errors.push(SceneError::at(
+            self.place.clone(),
+            format!("the law \"{}\" needs `{name}`", self.kind),
+            format!("add it, such as `{name} = {example}`"),
+        ));
+    }
+
+    fn positive(&mut self, name: &str, value: Option<(f64, Range<usize>)>, example: &str) -> Option<f64> {
+        let Some((value, place)) = value else {
+            self.missing(name, &format!("\"{example}\""));
+            return None;
+        };
+        if value > 0.0 && value.is_finite() {
+            return Some(value);
+        }
+        let help = format!("such as `{name} = \"{example}\"`");
+        self.errors.push(SceneError::at(place, format!("`{name}` must be positive, found {value:?}"), help));
+        None
+    }
+
+    /// A number above `bound.0`, or equal to it where `bound.1`.
+    fn number(
+        &mut self,
+        name: &str,
+        v: Option<&Spanned<f64>>,
+        example: &str,
+        bound: (f64, bool),
+    ) -> Option<f64> {
+        let Some(v) = v else {
+            self.missing(name, example);
+            return None;
+        };
+        let value = *v.get_ref();
+        if value.is_finite() && (value > bound.0 || (bound.1 && value == bound.0)) {
+            return Some(value);
+        }
+        let sign = if bound.1 { "not be negative" } else { "be positive" };
+        let message = format!("`{name}` must {sign} and finite, found {value:?}");
+        self.errors.push(SceneError::at(v.span(), message, format!("such as `{name} = {example}`")));
+        None
+    }
+
+    fn direct_effect(&mut self, law: &LawSpec) -> Option<f64> {
+        let Some(a) = &law.a else {
+            self.missing("a", "0.01");
+            return None;
+        };
+        let value = *a.get_ref();
+        if value > 0.0 && value.is_finite() {
+            return Some(value);
+        }
+        let (message, help) = if value < 0.0 && value.is_finite() && self.kind == "rate" {
+            (
+                format!(
+                    "the problem is ill-posed: with a = {value:?} the strength falls with the slip rate at once, and \
+                     a quasi-static continuum has neither a state, a slip length nor inertia to bound how fast slip \
+                     grows at the shortest wavelengths, so the answer would be the mesh's"
+                ),
+                "for weakening use `kind = \"rate-and-state\"` with 0 < a < b and a slip length `l`"
+                    .to_string(),
+            )
+        } else if value < 0.0 && value.is_finite() {
+            (
+                format!(
+                    "the problem is ill-posed: a = {value:?} lets the strength fall at once with the slip rate"
+                ),
+                "a > 0; weakening comes from b > a, over the slip length `l`".to_string(),
+            )
+        } else if value == 0.0 {
+            (
+                "a = 0 leaves no direct effect, so the slip rate cannot be found from the strength"
+                    .to_string(),
+                "a > 0; for a constant coefficient use `kind = \"coulomb\"`".to_string(),
+            )
+        } else {
+            (format!("`a` must be finite, found {value:?}"), "such as `a = 0.01`".to_string())
+        };
+        self.errors.push(SceneError::at(a.span(), message, help));
+        None
+    }
+
+    fn form(&mut self, law: &LawSpec) -> Option<Form> {
+        let Some(form) = &law.form else { return Some(Form::Regularised) };
+        match form.get_ref().as_str() {
+            "regularised" => Some(Form::Regularised),
+            "bare" => Some(Form::Bare),
+            other => self.unknown(form.span(), other, "form", &["regularised", "bare"]),
         }
     }
-    errors
-}
 
-fn form(spec: &LawSpec, errors: &mut Vec<SceneError>) -> Form {
-    match spec.form.as_ref().map(|f| (f.get_ref().as_str(), f.span())) {
-        None | Some(("regularised", _)) => Form::Regularised,
-        Some(("bare", span)) => {
-            errors.push(SceneError::at(
-                span,
-                "the bare logarithm has no value at rest, and every stage of a contact scene starts from rest",
-                "use form = \"regularised\"",
-            ));
-            Form::Bare
-        }
-        Some((other, span)) => {
-            errors.push(SceneError::at(span, format!("there is no form `{other}`"), "forms are regularised, bare"));
-            Form::Regularised
+    fn evolution(&mut self, law: &LawSpec) -> Option<Evolution> {
+        let Some(evolution) = &law.evolution else {
+            self.missing("evolution", "\"ageing\"` or `evolution = \"slip\"");
+            return None;
+        };
+        match evolution.get_ref().as_str() {
+            "ageing" => Some(Evolution::Ageing),
+            "slip" => Some(Evolution::Slip),
+            other => self.unknown(evolution.span(), other, "evolution", &["ageing", "slip"]),
         }
     }
-}
 
-fn evolution(law: &Spanned<LawSpec>, errors: &mut Vec<SceneError>) -> Evolution {
-    match law.get_ref().evolution.as_ref().map(|e| (e.get_ref().as_str(), e.span())) {
-        Some(("ageing", _)) => Evolution::Ageing,
-        Some(("slip", _)) => Evolution::Slip,
-        Some((other, span)) => {
-            errors.push(SceneError::at(span, format!("there is no evolution `{other}`"), "evolutions are ageing, slip"));
-            Evolution::Ageing
-        }
-        None => {
-            errors.push(SceneError::at(
-                law.span(),
-                "law `rate-and-state` needs `evolution`",
-                "evolutions are ageing, slip",
-            ));
-            Evolution::Ageing
-        }
+    fn unknown<T>(&mut self, place: Range<usize>, name: &str, what: &str, known: &[&str]) -> Option<T> {
+        let help = near::suggest(name, "choices", known.iter().copied());
+        self.errors.push(SceneError::at(place, format!("there is no {what} `{name}`"), help));
+        None
     }
 }

@@ -71,7 +71,7 @@ impl From<SceneError> for PlanError {
 /// # Errors
 /// All that is wrong with it, or the first thing that keeps it from being read.
 pub fn read(text: &str) -> Result<Scene, SceneErrors> {
-    let scene: Scene = toml::from_str(text).map_err(|e| SceneErrors(vec![near::explain(&e)]))?;
+    let scene: Scene = toml::from_str(text).map_err(|e| SceneErrors(vec![near::explain(&e, text)]))?;
     let errors = check::check(&scene);
     if errors.is_empty() { Ok(scene) } else { Err(SceneErrors(errors)) }
 }

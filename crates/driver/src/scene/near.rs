@@ -1,6 +1,7 @@
 //! What was probably meant: the nearest of the names that exist.
 
 use super::SceneError;
+use std::ops::Range;
 
 /// Edit distance of two names: insertions, deletions, substitutions and transpositions of neighbours.
 #[must_use]
@@ -13,8 +14,7 @@ pub fn distance(a: &str, b: &str) -> usize {
                 i.max(j)
             } else {
                 let change = usize::from(a[i - 1] != b[j - 1]);
-                let mut best =
-                    (rows[i - 1][j] + 1).min(rows[i][j - 1] + 1).min(rows[i - 1][j - 1] + change);
+                let mut best = (rows[i - 1][j] + 1).min(rows[i][j - 1] + 1).min(rows[i - 1][j - 1] + change);
                 if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
                     best = best.min(rows[i - 2][j - 2] + 1);
                 }
@@ -41,17 +41,21 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 #[must_use]
 pub fn suggest<'a>(name: &str, what: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.into_iter().collect();
-    let list = if known.is_empty() { format!("there are no {what}") } else { format!("the {what} are {}", known.join(", ")) };
+    let list = if known.is_empty() {
+        format!("there are no {what}")
+    } else {
+        format!("the {what} are {}", known.join(", "))
+    };
     match nearest(name, known.iter().copied()) {
         Some(meant) => format!("did you mean `{meant}`? {list}"),
         None => list,
     }
 }
 
-/// An error of the TOML reader, with what was probably meant.
+/// An error of the TOML reader about `text`, with what was probably meant.
 #[must_use]
-pub fn explain(error: &toml::de::Error) -> SceneError {
-    let span = error.span().unwrap_or(0..0);
+pub fn explain(error: &toml::de::Error, text: &str) -> SceneError {
+    let span = visible(error.span().unwrap_or(0..0), text);
     let message = error.message();
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     let short = message.split(", expected").next().unwrap_or(message);
@@ -69,7 +73,48 @@ pub fn explain(error: &toml::de::Error) -> SceneError {
     }
     if message.starts_with("missing field") {
         let key = quoted.first().copied().unwrap_or_default();
-        return SceneError { message: format!("the key `{key}` is missing"), help: Some(format!("add `{key} = ..` here")), span };
+        return SceneError {
+            message: format!("the key `{key}` is missing"),
+            help: Some(format!("add `{key} = ..` here")),
+            span,
+        };
+    }
+    for kind in ["invalid type: ", "invalid value: ", "invalid length "] {
+        if let Some((found, expected)) = message.strip_prefix(kind).and_then(|m| m.split_once(", expected ")) {
+            let found = if kind.ends_with("length ") { format!("{found} entries") } else { found.to_string() };
+            return SceneError { message: format!("expected {expected}, found {found}"), help: None, span };
+        }
     }
     SceneError { message: message.to_string(), help: None, span }
+}
+
+/// A place of at least one character: where something is missing, the reader points between two.
+fn visible(span: Range<usize>, text: &str) -> Range<usize> {
+    if !span.is_empty() || text.is_empty() {
+        return span;
+    }
+    let width = |c: Option<char>| c.map_or(0, char::len_utf8);
+    match text.get(span.start..).and_then(|t| t.chars().next()).filter(|c| *c != '\n') {
+        Some(next) => span.start..span.start + next.len_utf8(),
+        None => span.start - width(text.get(..span.start).and_then(|t| t.chars().next_back()))..span.start,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distance_counts_edits() {
+        assert_eq!(distance("poison", "poisson"), 1);
+        assert_eq!(distance("slaev", "slave"), 1);
+        assert_eq!(distance("", "abc"), 3);
+        assert_eq!(distance("kitten", "sitting"), 3);
+    }
+
+    #[test]
+    fn a_name_far_from_all_is_not_corrected() {
+        assert_eq!(nearest("granit", ["granite", "gouge"]), Some("granite"));
+        assert_eq!(nearest("steel", ["granite", "gouge"]), None);
+    }
 }

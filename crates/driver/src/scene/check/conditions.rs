@@ -1,0 +1,354 @@
+//! Stages and their conditions: what they refer to, and whether two of them say different things about the same nodes.
+
+use super::{AXES, Checker, split};
+use crate::scene::model::{Condition, Loading, Motion, Spanned, Stage};
+use crate::scene::near::suggest;
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// A prescribed component of a set.
+#[derive(Clone, Debug)]
+struct Entry {
+    set: String,
+    axis: usize,
+    motion: Motion,
+    place: Range<usize>,
+    symmetry: bool,
+}
+
+/// How a prescribed value develops in a stage, as far as it is known here.
+#[derive(Debug, PartialEq)]
+enum Course {
+    /// From a value to a value, linearly.
+    Line(f64, f64),
+    /// As in the table.
+    Table(Vec<(f64, f64)>),
+    /// It depends on where the nodes are.
+    Relative(Motion),
+}
+
+/// What is prescribed from stage to stage.
+#[derive(Default)]
+struct Held {
+    entries: BTreeMap<(String, usize), Entry>,
+    /// Displacement of each component ever prescribed; `None` once it has been free.
+    present: BTreeMap<(String, usize), Option<f64>>,
+}
+
+impl Held {
+    fn course(&self, entry: &Entry, first: bool, duration: f64) -> Course {
+        let key = (entry.set.clone(), entry.axis);
+        let present = self.present.get(&key).copied().unwrap_or(first.then_some(0.0));
+        match (&entry.motion, present) {
+            (Motion::Fixed(value), _) => Course::Line(*value, *value),
+            (Motion::Table(points), _) => Course::Table(points.clone()),
+            (Motion::To(value), Some(from)) => Course::Line(from, *value),
+            (Motion::Rate(rate), Some(from)) => Course::Line(from, from + rate * duration),
+            (Motion::Hold, Some(from)) => Course::Line(from, from),
+            (motion, _) => Course::Relative(motion.clone()),
+        }
+    }
+
+    /// Ends a stage: targets that were reached are held.
+    fn settle(&mut self, first: bool, duration: f64) {
+        let ends: Vec<_> = self
+            .entries
+            .iter()
+            .map(|(key, entry)| {
+                let end = match self.course(entry, first, duration) {
+                    Course::Line(_, end) => Some(end),
+                    Course::Table(points) => points.last().map(|p| p.1),
+                    Course::Relative(_) => None,
+                };
+                (key.clone(), end)
+            })
+            .collect();
+        self.present.extend(ends);
+        for entry in self.entries.values_mut() {
+            if matches!(entry.motion, Motion::To(_) | Motion::Table(_)) {
+                entry.motion = Motion::Hold;
+            }
+        }
+    }
+}
+
+impl Checker<'_> {
+    pub(super) fn stages(&mut self) {
+        if self.scene.stages.is_empty() {
+            self.error(
+                self.scene.time.stepper.span(),
+                "the scene has no stages",
+                "add `[[stages]]` with a `duration`",
+            );
+        }
+        let mut held = Held::default();
+        for (index, stage) in self.scene.stages.iter().enumerate() {
+            self.stage(index, stage);
+            let mut fresh = Vec::new();
+            for condition in &stage.conditions {
+                self.condition(stage, condition, &mut fresh);
+            }
+            self.twice(stage, &fresh);
+            for entry in &fresh {
+                held.entries.insert((entry.set.clone(), entry.axis), entry.clone());
+            }
+            let duration = stage.duration.get_ref().0;
+            self.shared_nodes(stage, &fresh, &held, (index == 0, duration));
+            self.loads(stage, &held);
+            held.settle(index == 0, duration);
+        }
+    }
+
+    fn stage(&mut self, index: usize, stage: &Stage) {
+        let name = &stage.name;
+        if stage.duration.get_ref().0 <= 0.0 {
+            self.error(
+                stage.duration.span(),
+                format!("the duration of stage `{name}` must be positive"),
+                "such as `duration = \"10 s\"`",
+            );
+        }
+        if self.scene.stages[..index].iter().any(|s| s.name == *name) {
+            self.error(
+                stage.duration.span(),
+                format!("there are two stages named `{name}`"),
+                "results are named after stages: give each its own name",
+            );
+        }
+        if let Some(steps) = stage.steps.as_ref().filter(|s| *s.get_ref() == 0) {
+            self.error(
+                steps.span(),
+                "`steps` must be at least 1",
+                "or leave it out, and the steps are adapted",
+            );
+        }
+        for interface in &stage.frictionless {
+            if !self.scene.interfaces.contains_key(interface.get_ref()) {
+                let known = self.scene.interfaces.keys().map(String::as_str);
+                self.error(
+                    interface.span(),
+                    format!("there is no interface `{}`", interface.get_ref()),
+                    suggest(interface.get_ref(), "interfaces", known),
+                );
+            }
+        }
+    }
+
+    fn condition(&mut self, stage: &Stage, condition: &Spanned<Condition>, fresh: &mut Vec<Entry>) {
+        let c = condition.get_ref();
+        let Some(set) = &c.set else {
+            self.error(
+                condition.span(),
+                format!("a condition of stage `{}` names no set", stage.name),
+                "add `set = \"body.side\"`",
+            );
+            return;
+        };
+        let side = self.set(set);
+        let symmetric = c.symmetry.as_ref().is_some_and(|s| *s.get_ref());
+        let motions = [&c.x, &c.y, &c.z];
+        if motions.iter().all(|m| m.is_none()) && !symmetric && c.traction.is_none() && c.pressure.is_none() {
+            self.error(
+                condition.span(),
+                format!("the condition on `{}` prescribes nothing", set.get_ref()),
+                "add a motion such as `x = 0`, `symmetry = true`, a `traction` or a `pressure`",
+            );
+        }
+        for (axis, motion) in motions.into_iter().enumerate() {
+            let Some(motion) = motion else { continue };
+            if axis >= self.dimension() {
+                self.no_third_axis(motion.span(), "z");
+                continue;
+            }
+            if let Motion::Table(points) = motion.get_ref() {
+                self.table(points, motion.span());
+            }
+            let (motion, place) = (motion.get_ref().clone(), motion.span());
+            fresh.push(Entry { set: set.get_ref().clone(), axis, motion, place, symmetry: false });
+        }
+        if let (true, Some((_, axis, _)), Some(symmetry)) = (symmetric, side, &c.symmetry) {
+            let (motion, place) = (Motion::Fixed(0.0), symmetry.span());
+            fresh.push(Entry { set: set.get_ref().clone(), axis, motion, place, symmetry: true });
+        }
+        self.load_values(c);
+    }
+
+    fn no_third_axis(&mut self, place: Range<usize>, what: &str) {
+        self.error(
+            place,
+            format!("`{what}` in a scene of two dimensions"),
+            "remove it, or use `kinematics = \"3d\"`",
+        );
+    }
+
+    fn load_values(&mut self, c: &Condition) {
+        if let Some(traction) = &c.traction {
+            let (found, wanted) = (traction.get_ref().len(), self.dimension());
+            if found != wanted {
+                self.error(
+                    traction.span(),
+                    format!("`traction` has {found} entries, but {} needs {wanted}", self.idealisation()),
+                    format!("one for each of {}", AXES[..wanted].join(", ")),
+                );
+            }
+        }
+        let tractions = c.traction.iter().flat_map(|t| t.get_ref().iter().map(|l| (l, t.span())));
+        let pressures = c.pressure.iter().map(|p| (p.get_ref(), p.span()));
+        for (loading, place) in tractions.chain(pressures) {
+            if let Loading::Table(points) = loading {
+                self.table(points, place);
+            }
+        }
+    }
+
+    fn table(&mut self, points: &[(f64, f64)], place: Range<usize>) {
+        if points.len() < 2 {
+            self.error(
+                place,
+                format!("a table needs at least 2 points, found {}", points.len()),
+                "such as `table = [[\"0 s\", 0], [\"10 s\", \"1 mm\"]]`",
+            );
+        } else if let Some(w) = points.windows(2).find(|w| w[1].0 <= w[0].0) {
+            self.error(
+                place,
+                format!("the times of the table do not increase: {:?} s follows {:?} s", w[1].0, w[0].0),
+                "times count from the start of the stage and increase",
+            );
+        }
+    }
+
+    /// The same component of the same set twice in one stage.
+    fn twice(&mut self, stage: &Stage, fresh: &[Entry]) {
+        for (i, second) in fresh.iter().enumerate() {
+            let Some(first) = fresh[..i].iter().find(|f| f.set == second.set && f.axis == second.axis) else {
+                continue;
+            };
+            let (set, axis, name) = (&second.set, AXES[second.axis], &stage.name);
+            let place = if first.place.start > second.place.start {
+                first.place.clone()
+            } else {
+                second.place.clone()
+            };
+            if first.symmetry != second.symmetry {
+                self.error(
+                    place,
+                    format!("`{set}` has symmetry and a motion in {axis}, its normal, in stage `{name}`"),
+                    format!("symmetry is `{axis} = 0`: remove one of the two"),
+                );
+            } else {
+                self.error(
+                    place,
+                    format!("{axis} of `{set}` is prescribed twice in stage `{name}`"),
+                    "remove one of the two",
+                );
+            }
+        }
+        let mut seen: Vec<(&str, &str)> = Vec::new();
+        for condition in &stage.conditions {
+            let c = condition.get_ref();
+            let Some(set) = &c.set else { continue };
+            let traction = c.traction.as_ref().map(|t| ("traction", t.span()));
+            let pressure = c.pressure.as_ref().map(|p| ("pressure", p.span()));
+            for (what, place) in traction.into_iter().chain(pressure) {
+                let key = (set.get_ref().as_str(), what);
+                if seen.contains(&key) {
+                    let message =
+                        format!("the {what} on `{}` is prescribed twice in stage `{}`", key.0, stage.name);
+                    self.error(place, message, "remove one of the two");
+                }
+                seen.push(key);
+            }
+        }
+    }
+
+    /// Two sides of a body that meet at an edge or corner and move the nodes there differently.
+    fn shared_nodes(&mut self, stage: &Stage, fresh: &[Entry], held: &Held, (first, duration): (bool, f64)) {
+        for (i, entry) in fresh.iter().enumerate() {
+            for other in held.entries.values().filter(|o| o.axis == entry.axis && o.set != entry.set) {
+                // A pair that begins with this stage is told once, at the later of the two.
+                if fresh[i + 1..]
+                    .iter()
+                    .any(|f| f.place == other.place && f.set == other.set && f.axis == other.axis)
+                {
+                    continue;
+                }
+                let free = entry.motion == Motion::Free || other.motion == Motion::Free;
+                if free || !self.meet(&entry.set, &other.set) {
+                    continue;
+                }
+                let (a, b) = (held.course(other, first, duration), held.course(entry, first, duration));
+                if a == b {
+                    continue;
+                }
+                let axis = AXES[entry.axis];
+                self.error(
+                    entry.place.clone(),
+                    format!(
+                        "`{}` and `{}` share nodes and prescribe {axis} there differently in stage `{}`",
+                        other.set, entry.set, stage.name
+                    ),
+                    format!(
+                        "`{}` prescribes {}, `{}` {}: say the same on both, or release one with `{axis} = \"free\"`",
+                        other.set,
+                        words(&a),
+                        entry.set,
+                        words(&b)
+                    ),
+                );
+            }
+        }
+    }
+
+    /// Whether two sides are of one body and have an edge or corner in common.
+    fn meet(&self, a: &str, b: &str) -> bool {
+        let d = self.dimension();
+        match (split(a, d), split(b, d)) {
+            (Some((a, i, _)), Some((b, j, _))) => a == b && i != j,
+            _ => false,
+        }
+    }
+
+    /// Loads on components whose motion is prescribed would do nothing.
+    fn loads(&mut self, stage: &Stage, held: &Held) {
+        for condition in &stage.conditions {
+            let c = condition.get_ref();
+            let Some(set) = &c.set else { continue };
+            let mut loaded: Vec<(usize, &str, Range<usize>)> = Vec::new();
+            if let Some(t) = &c.traction {
+                let entries = t.get_ref().iter().enumerate().take(self.dimension());
+                let acting = entries.filter(|(_, l)| **l != Loading::Fixed(0.0));
+                loaded.extend(acting.map(|(axis, _)| (axis, "traction", t.span())));
+            }
+            if let (Some(p), Some((_, axis, _))) = (&c.pressure, split(set.get_ref(), self.dimension())) {
+                loaded.push((axis, "pressure", p.span()));
+            }
+            for (axis, what, place) in loaded {
+                let entry = held.entries.get(&(set.get_ref().clone(), axis));
+                if entry.is_some_and(|e| e.motion != Motion::Free) {
+                    let (set, axis) = (set.get_ref(), AXES[axis]);
+                    self.error(
+                        place,
+                        format!(
+                            "`{set}` has both a {what} and a prescribed motion in {axis} in stage `{}`, so the {what} \
+                             would do nothing",
+                            stage.name
+                        ),
+                        format!("remove one of the two; `{axis} = \"free\"` releases a motion of an earlier stage"),
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// A course in words.
+fn words(course: &Course) -> String {
+    match course {
+        Course::Line(a, b) if a == b => format!("{a} m"),
+        Course::Line(a, b) => format!("{a} m to {b} m"),
+        Course::Table(_) => "a table".into(),
+        Course::Relative(Motion::Hold) => "the value it has".into(),
+        Course::Relative(Motion::To(value)) => format!("the value it has to {value} m"),
+        Course::Relative(_) => "a rate from the value it has".into(),
+    }
+}

@@ -1,0 +1,114 @@
+//! Time integration.
+
+use super::Checker;
+use crate::scene::model::{Rule, Spanned, Stepper};
+use std::ops::Range;
+
+impl Checker<'_> {
+    pub(super) fn time(&mut self) {
+        let time = &self.scene.time;
+        let stepper = *time.stepper.get_ref();
+        self.foreign_keys(stepper);
+        if let Some(tolerance) = time.tolerance.as_ref().filter(|t| t.get_ref().0 <= 0.0) {
+            self.error(
+                tolerance.span(),
+                "`tolerance` must be positive: it bounds the error of slip in each step",
+                "such as `tolerance = \"1 nm\"`",
+            );
+        }
+        for (name, step) in
+            [("first_step", &time.first_step), ("max_step", &time.max_step), ("min_step", &time.min_step)]
+        {
+            if let Some(step) = step.as_ref().filter(|s| s.get_ref().0 <= 0.0) {
+                self.error(
+                    step.span(),
+                    format!("`{name}` must be positive"),
+                    format!("such as `{name} = \"0.1 s\"`"),
+                );
+            }
+        }
+        self.order_of_steps();
+        for (name, number) in [("rate_change", &time.rate_change), ("zeta", &time.zeta)] {
+            if let Some(number) = number.as_ref().filter(|n| !(*n.get_ref() > 0.0 && n.get_ref().is_finite()))
+            {
+                self.error(
+                    number.span(),
+                    format!("`{name}` must be positive and finite"),
+                    format!("such as `{name} = 0.1`"),
+                );
+            }
+        }
+        if let Some(rule) =
+            time.rule.as_ref().filter(|r| *r.get_ref() == Rule::Bdf2 && stepper == Stepper::Implicit)
+        {
+            self.second_order(rule);
+        }
+    }
+
+    fn order_of_steps(&mut self) {
+        let time = &self.scene.time;
+        let pairs = [
+            ("min_step", &time.min_step, "first_step", &time.first_step),
+            ("first_step", &time.first_step, "max_step", &time.max_step),
+            ("min_step", &time.min_step, "max_step", &time.max_step),
+        ];
+        for (small, a, large, b) in pairs {
+            if let (Some(a), Some(b)) = (a, b)
+                && a.get_ref().0 > b.get_ref().0
+            {
+                self.error(
+                    a.span(),
+                    format!("`{small}` is larger than `{large}`"),
+                    "min_step <= first_step <= max_step",
+                );
+                return;
+            }
+        }
+    }
+
+    fn second_order(&mut self, rule: &Spanned<Rule>) {
+        for (name, interface) in &self.scene.interfaces {
+            let kind = interface.law.as_ref().and_then(|l| l.get_ref().kind.as_ref());
+            if kind.is_some_and(|k| k.get_ref() == "rate-and-state") {
+                self.error(
+                    rule.span(),
+                    format!(
+                        "`bdf2` is for laws without state, but interface `{name}` has \"rate-and-state\""
+                    ),
+                    "use `rule = \"backward-euler\"`, or leave it out",
+                );
+            }
+        }
+    }
+
+    fn foreign_keys(&mut self, stepper: Stepper) {
+        let time = &self.scene.time;
+        let place = |p: Option<Range<usize>>, key: &'static str| p.map(|p| (key, p));
+        let (keys, own, other) = match stepper {
+            Stepper::Implicit => (
+                vec![
+                    place(time.carry.as_ref().map(Spanned::span), "carry"),
+                    place(time.rate_change.as_ref().map(Spanned::span), "rate_change"),
+                    place(time.zeta.as_ref().map(Spanned::span), "zeta"),
+                ],
+                "implicit",
+                "static-explicit",
+            ),
+            Stepper::StaticExplicit => (
+                vec![
+                    place(time.rule.as_ref().map(Spanned::span), "rule"),
+                    place(time.tolerance.as_ref().map(Spanned::span), "tolerance"),
+                ],
+                "static-explicit",
+                "implicit",
+            ),
+        };
+        for (key, place) in keys.into_iter().flatten() {
+            self.error(
+                place,
+                format!("`{key}` belongs to the stepper \"{other}\", but the stepper is \"{own}\""),
+                format!("remove `{key}`, or use `stepper = \"{other}\"`"),
+            );
+        }
+    }
+}
