@@ -80,8 +80,10 @@ pub fn explain(error: &toml::de::Error, text: &str) -> SceneError {
         };
     }
     for kind in ["invalid type: ", "invalid value: ", "invalid length "] {
-        if let Some((found, expected)) = message.strip_prefix(kind).and_then(|m| m.split_once(", expected ")) {
-            let found = if kind.ends_with("length ") { format!("{found} entries") } else { found.to_string() };
+        if let Some((found, expected)) = message.strip_prefix(kind).and_then(|m| m.split_once(", expected "))
+        {
+            let found =
+                if kind.ends_with("length ") { format!("{found} entries") } else { found.to_string() };
             return SceneError { message: format!("expected {expected}, found {found}"), help: None, span };
         }
     }

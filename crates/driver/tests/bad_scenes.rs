@@ -1,0 +1,184 @@
+//! Every file of `bad_scenes` is refused where and as its first line says: `# expect: LINE:COLUMN part of the message`,
+//! or `# expect: - part of the message` where the error is about no place in the file.
+#![allow(clippy::unwrap_used)]
+
+use asperity_driver::scene::{self, SceneErrors, diagnostic, units};
+use serde::Deserialize;
+use std::path::PathBuf;
+
+fn files(folder: &str) -> Vec<(String, String)> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    files.retain(|f| f.extension().is_some_and(|e| e == "toml"));
+    files.sort();
+    files
+        .into_iter()
+        .map(|f| {
+            (f.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read_to_string(&f).unwrap())
+        })
+        .collect()
+}
+
+fn errors(text: &str) -> Option<SceneErrors> {
+    match scene::read(text) {
+        Err(errors) => Some(errors),
+        Ok(scene) => asperity_driver::plan::plan(&scene).err().map(SceneErrors::from),
+    }
+}
+
+/// What is wrong with how a file is refused.
+fn complaint(text: &str) -> Option<String> {
+    let first = text.lines().next().unwrap_or_default();
+    let (place, part) = first.strip_prefix("# expect: ").and_then(|e| e.split_once(' ')).unwrap();
+    let Some(errors) = errors(text) else { return Some("is accepted".into()) };
+    let error = &errors.0[0];
+    let (line, column) = diagnostic::line_column(text, error.span.start);
+    let found = if error.span.is_empty() { "-".to_string() } else { format!("{line}:{column}") };
+    (found != place || !error.message.contains(part))
+        .then(|| format!("expected {place} {part}\n   found {found} {}", error.message))
+}
+
+#[test]
+fn every_bad_scene_is_refused_at_its_place_with_its_reason() {
+    let files = files("tests/bad_scenes");
+    assert!(files.len() >= 32, "only {} files", files.len());
+    let wrong: Vec<String> =
+        files.iter().filter_map(|(name, text)| complaint(text).map(|c| format!("{name}: {c}"))).collect();
+    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), files.len(), wrong.join("\n"));
+}
+
+#[test]
+fn every_scene_of_the_repository_is_accepted() {
+    let files = files("../../scenes");
+    assert!(!files.is_empty());
+    for (name, text) in files {
+        let refused = errors(&text);
+        assert!(refused.is_none(), "{name}: {}", refused.unwrap());
+    }
+}
+
+#[test]
+fn all_errors_of_a_scene_are_told_in_the_order_of_the_file() {
+    let (_, text) = files("tests/bad_scenes").into_iter().find(|(name, _)| name == "poisson.toml").unwrap();
+    let text = text.replace("\"A.bottom\"", "\"A.botom\"").replace("\"1 nm\"", "0");
+    let errors = scene::read(&text).unwrap_err();
+    assert_eq!(errors.0.len(), 3, "{errors}");
+    assert!(errors.0.windows(2).all(|w| w[0].span.start < w[1].span.start));
+}
+
+#[test]
+fn a_report_shows_the_place_a_caret_and_the_remedy() {
+    let text = "schema = 1\ntitle = \"x\"\nkinematics = \"plane-stress\"\n";
+    let errors = scene::read(text).unwrap_err();
+    let report = format!("{:?}", diagnostic::report("x.toml", text, &errors));
+    for part in ["x.toml:3:14", "plane-stress", "the choices are plane-strain, 3d"] {
+        assert!(report.contains(part), "{part} is not in\n{report}");
+    }
+}
+
+#[derive(Debug, Deserialize)]
+struct Holder<T> {
+    value: T,
+}
+
+fn value<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, String> {
+    toml::from_str::<Holder<T>>(&format!("value = {text}"))
+        .map(|h| h.value)
+        .map_err(|e| e.message().to_string())
+}
+
+#[test]
+fn units_are_read_to_the_last_bit() {
+    use units::{Density, Length, Penalty, Pressure, Time, Velocity};
+    assert_eq!(value("\"1.25 mm\""), Ok(Length(0.00125)));
+    assert_eq!(value("\"25mm\""), Ok(Length(0.025)));
+    assert_eq!(value("\"-10 mm\""), Ok(Length(-0.01)));
+    assert_eq!(value("\"1 nm\""), Ok(Length(1e-9)));
+    assert_eq!(value("\"3 µm\""), Ok(Length(3e-6)));
+    assert_eq!(value("\"100 km\""), Ok(Length(1e5)));
+    assert_eq!(value("0"), Ok(Length(0.0)));
+    assert_eq!(value("0.3"), Ok(Length(0.3)));
+    assert_eq!(value("\"44.8 GPa\""), Ok(Pressure(44.8e9)));
+    assert_eq!(value("\"1e-3 mm/s\""), Ok(Velocity(1e-6)));
+    assert_eq!(value("\"-1E-3 mm/s\""), Ok(Velocity(-1e-6)));
+    assert_eq!(value("\"35 mm/yr\""), Ok(Velocity(0.035 * (1.0 / 31_557_600.0))));
+    assert_eq!(value("\"9.66 s\""), Ok(Time(9.66)));
+    assert_eq!(value("\"20 yr\""), Ok(Time(631_152_000.0)));
+    assert_eq!(value("\"90 min\""), Ok(Time(5400.0)));
+    assert_eq!(value("\"2700 kg/m^3\""), Ok(Density(2700.0)));
+    assert_eq!(value("\"2.7 g/cm^3\""), Ok(Density(2700.0)));
+    assert_eq!(value("\"100 E/h\""), Ok(Penalty::YoungPerSize(100.0)));
+    assert_eq!(value("\"1e12 Pa/m\""), Ok(Penalty::Value(1e12)));
+    assert_eq!(value("\"5 MPa/mm\""), Ok(Penalty::Value(5e9)));
+    assert_eq!(value("1e12"), Ok(Penalty::Value(1e12)));
+}
+
+#[test]
+fn every_unit_is_of_one_dimension() {
+    use units::{Density, Length, Pressure, Time, Velocity};
+    let texts =
+        ["1 mm", "1 s", "1 MPa", "1 m/s", "1 kg/m^3", "1 Pa/m", "1 E/h", "1 s/m", "1 bananas", "mm", "1"];
+    for (i, text) in texts.iter().enumerate() {
+        let quoted = format!("\"{text}\"");
+        let read = [
+            value::<Length>(&quoted).is_ok(),
+            value::<Time>(&quoted).is_ok(),
+            value::<Pressure>(&quoted).is_ok(),
+            value::<Velocity>(&quoted).is_ok(),
+            value::<Density>(&quoted).is_ok(),
+        ];
+        for (j, read) in read.into_iter().enumerate() {
+            assert_eq!(read, i == j, "{text} as quantity {j}");
+        }
+    }
+}
+
+#[test]
+fn a_value_that_is_not_finite_is_refused() {
+    use units::Length;
+    for text in [
+        "inf",
+        "-inf",
+        "nan",
+        "\"1e400 m\"",
+        "\"inf m\"",
+        "\"nan m\"",
+        "\"1e99999999999 m\"",
+        "\"- m\"",
+        "\"e m\"",
+    ] {
+        assert!(value::<Length>(text).is_err(), "{text}");
+    }
+}
+
+/// A fixed sequence that covers mantissas and exponents.
+fn samples() -> impl Iterator<Item = f64> {
+    let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
+    (0..2000).map(move |k| {
+        seed ^= seed << 13;
+        seed ^= seed >> 7;
+        seed ^= seed << 17;
+        (seed as f64 / u64::MAX as f64 - 0.5) * 10f64.powi(k % 25 - 12)
+    })
+}
+
+#[test]
+fn a_number_and_the_same_number_with_the_si_unit_are_one_value() {
+    for x in samples() {
+        assert_eq!(units::parse(&format!("{x:e} m"), units::Dimension::Length), Ok(x));
+        assert_eq!(units::parse(&format!("{x} Pa"), units::Dimension::Pressure), Ok(x));
+    }
+}
+
+#[test]
+fn prefixes_agree_with_powers_of_ten() {
+    use units::{Dimension, parse};
+    for x in samples() {
+        let kilometres = parse(&format!("{x} km"), Dimension::Length).unwrap();
+        assert_eq!(kilometres, format!("{x}e3").parse::<f64>().unwrap());
+        let micrometres = parse(&format!("{x:e} um"), Dimension::Length).unwrap();
+        assert!((micrometres * 1e6 - x).abs() <= 4.0 * f64::EPSILON * x.abs());
+        let year = parse(&format!("{x} mm/yr"), Dimension::Velocity).unwrap();
+        assert!((year * 1e3 * 31_557_600.0 - x).abs() <= 8.0 * f64::EPSILON * x.abs());
+    }
+}
