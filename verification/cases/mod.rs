@@ -35,6 +35,7 @@ use crate::Case;
 pub mod sandwich;
 mod sandwich_pressed;
 mod sandwich_sheared;
+mod sandwich_steppers;
 
 /// Every case, in the order of the report.
-pub const ALL: &[Case] = &[sandwich_pressed::CASE, sandwich_sheared::CASE];
+pub const ALL: &[Case] = &[sandwich_pressed::CASE, sandwich_sheared::CASE, sandwich_steppers::CASE];
