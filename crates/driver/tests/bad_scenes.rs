@@ -57,6 +57,80 @@ fn every_scene_of_the_repository_is_accepted() {
     }
 }
 
+/// The scene of two blocks with some text replaced.
+fn changed(changes: &[(&str, &str)]) -> String {
+    let (_, text) = files("tests/bad_scenes").into_iter().find(|(name, _)| name == "poisson.toml").unwrap();
+    let mut text = text.replace("poisson = 0.5", "poisson = 0.25");
+    for (old, new) in changes {
+        assert!(text.contains(old), "{old}");
+        text = text.replacen(old, new, 1);
+    }
+    text
+}
+
+fn accepted(changes: &[(&str, &str)]) {
+    let text = changed(changes);
+    let refused = errors(&text);
+    assert!(refused.is_none(), "{}\n{text}", refused.unwrap());
+}
+
+const STATE: &str = "{ kind = \"rate-and-state\", form = \"bare\", evolution = \"slip\", mu0 = 0.6, a = 0.01, b = 0.02, \
+                     l = \"10 um\", v_ref = \"1 um/s\", v_initial = \"1 nm/s\", f_limit = \"50 MPa\" }";
+const RATE: &str = "{ kind = \"rate\", mu0 = 0.6, a = 0.01, v_ref = \"1 um/s\" }";
+
+#[test]
+fn each_law_with_its_parameters_is_accepted() {
+    accepted(&[]);
+    accepted(&[(RATE, "{ kind = \"coulomb\", mu = 0.6 }")]);
+    accepted(&[(RATE, STATE)]);
+    accepted(&[(RATE, &STATE.replace("slip", "ageing").replace("bare", "regularised"))]);
+    let law = format!("law = {RATE}\n");
+    accepted(&[(law.as_str(), ""), (", tangential = \"100 E/h\"", "")]);
+}
+
+#[test]
+fn sides_that_meet_may_say_the_same() {
+    let bottom = "{ set = \"A.bottom\", y = 0 }";
+    accepted(&[(bottom, "{ set = \"A.bottom\", x = { to = \"1 mm\" }, y = 0 }")]);
+    accepted(&[(bottom, "{ set = \"A.bottom\", y = 0 }, { set = \"A.right\", y = \"hold\" }")]);
+    // What one side reached in the first stage, the other may prescribe in the second.
+    accepted(&[(
+        "{ set = \"A.left\", x = \"hold\" }",
+        "{ set = \"A.left\", x = \"hold\" }, { set = \"A.top\", x = \"1 mm\" }",
+    )]);
+    // Opposite sides have no node in common.
+    accepted(&[(bottom, "{ set = \"A.bottom\", y = 0 }, { set = \"A.right\", x = \"2 mm\" }")]);
+}
+
+#[test]
+fn a_released_component_meets_no_other_and_may_be_loaded() {
+    accepted(&[(
+        "{ set = \"A.left\", x = \"hold\" }",
+        "{ set = \"A.left\", x = \"free\", pressure = { to = \"5 MPa\" } }, { set = \"A.bottom\", x = \"3 mm\" }",
+    )]);
+    accepted(&[(
+        "x = { to = \"1 mm\" }",
+        "y = 0, traction = [{ table = [[0, 0], [\"10 s\", \"5 MPa\"]] }, 0]",
+    )]);
+}
+
+#[test]
+fn a_scene_in_three_dimensions_is_accepted() {
+    accepted(&[
+        ("plane-strain", "3d"),
+        ("[0, 0]", "[0, 0, 0]"),
+        ("\"4 m\"]", "\"4 m\", \"2 m\"]"),
+        ("[\"2 m\", \"-1 m\"]", "[\"2 m\", \"-1 m\", 0]"),
+        ("\"5 m\"]", "\"5 m\", \"2 m\"]"),
+        ("quad4", "hex8"),
+        ("quad4", "tet4"),
+        (
+            "    { set = \"A.bottom\", y = 0 },",
+            "{ set = \"A.bottom\", y = 0, z = 0 }, { set = \"B.back\", symmetry = true },",
+        ),
+    ]);
+}
+
 #[test]
 fn all_errors_of_a_scene_are_told_in_the_order_of_the_file() {
     let (_, text) = files("tests/bad_scenes").into_iter().find(|(name, _)| name == "poisson.toml").unwrap();

@@ -215,8 +215,8 @@ impl Reader {
         if value.is_finite() && (value > bound.0 || (bound.1 && value == bound.0)) {
             return Some(value);
         }
-        let sign = if bound.1 { "not be negative" } else { "be positive" };
-        let message = format!("`{name}` must {sign} and finite, found {value:?}");
+        let sign = if bound.1 { "not negative" } else { "positive" };
+        let message = format!("`{name}` must be finite and {sign}, found {value:?}");
         self.errors.push(SceneError::at(v.span(), message, format!("such as `{name} = {example}`")));
         None
     }

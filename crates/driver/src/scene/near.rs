@@ -33,7 +33,10 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .into_iter()
         .map(|k| (distance(&lower, &k.to_lowercase()), k))
         .min_by_key(|(d, _)| *d)
-        .filter(|(d, k)| *d <= 1 + k.chars().count().min(name.chars().count()) / 4)
+        .filter(|(d, k)| {
+            let shorter = k.chars().count().min(name.chars().count());
+            *d < shorter && *d <= 1 + shorter / 4
+        })
         .map(|(_, k)| k)
 }
 
@@ -41,10 +44,10 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 #[must_use]
 pub fn suggest<'a>(name: &str, what: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.into_iter().collect();
-    let list = if known.is_empty() {
-        format!("there are no {what}")
-    } else {
-        format!("the {what} are {}", known.join(", "))
+    let list = match known[..] {
+        [] => format!("there are no {what}"),
+        [only] => format!("of the {what} there is only {only}"),
+        _ => format!("the {what} are {}", known.join(", ")),
     };
     match nearest(name, known.iter().copied()) {
         Some(meant) => format!("did you mean `{meant}`? {list}"),
@@ -84,8 +87,13 @@ pub fn explain(error: &toml::de::Error, text: &str) -> SceneError {
         {
             let found =
                 if kind.ends_with("length ") { format!("{found} entries") } else { found.to_string() };
+            let expected = expected.replacen("a sequence", "a list", 1);
             return SceneError { message: format!("expected {expected}, found {found}"), help: None, span };
         }
+    }
+    if message == "duplicate key" {
+        let help = Some("remove one of the two".to_string());
+        return SceneError { message: "this key is given twice".to_string(), help, span };
     }
     SceneError { message: message.to_string(), help: None, span }
 }
@@ -118,5 +126,6 @@ mod tests {
     fn a_name_far_from_all_is_not_corrected() {
         assert_eq!(nearest("granit", ["granite", "gouge"]), Some("granite"));
         assert_eq!(nearest("steel", ["granite", "gouge"]), None);
+        assert_eq!(nearest("A", ["B", "C"]), None);
     }
 }

@@ -33,6 +33,8 @@ struct Held {
     entries: BTreeMap<(String, usize), Entry>,
     /// Displacement of each component ever prescribed; `None` once it has been free.
     present: BTreeMap<(String, usize), Option<f64>>,
+    /// Pairs of sets already found to say different things about a component.
+    told: Vec<(String, String, usize)>,
 }
 
 impl Held {
@@ -93,7 +95,7 @@ impl Checker<'_> {
                 held.entries.insert((entry.set.clone(), entry.axis), entry.clone());
             }
             let duration = stage.duration.get_ref().0;
-            self.shared_nodes(stage, &fresh, &held, (index == 0, duration));
+            self.shared_nodes(stage, &fresh, &mut held, (index == 0, duration));
             self.loads(stage, &held);
             held.settle(index == 0, duration);
         }
@@ -262,41 +264,47 @@ impl Checker<'_> {
     }
 
     /// Two sides of a body that meet at an edge or corner and move the nodes there differently.
-    fn shared_nodes(&mut self, stage: &Stage, fresh: &[Entry], held: &Held, (first, duration): (bool, f64)) {
+    fn shared_nodes(
+        &mut self,
+        stage: &Stage,
+        fresh: &[Entry],
+        held: &mut Held,
+        (first, duration): (bool, f64),
+    ) {
+        let mut found = Vec::new();
         for (i, entry) in fresh.iter().enumerate() {
-            for other in held.entries.values().filter(|o| o.axis == entry.axis && o.set != entry.set) {
+            for other in held.entries.values().filter(|o| self.share_component(entry, o)) {
                 // A pair that begins with this stage is told once, at the later of the two.
-                if fresh[i + 1..]
-                    .iter()
-                    .any(|f| f.place == other.place && f.set == other.set && f.axis == other.axis)
-                {
-                    continue;
-                }
-                let free = entry.motion == Motion::Free || other.motion == Motion::Free;
-                if free || !self.meet(&entry.set, &other.set) {
-                    continue;
-                }
-                let (a, b) = (held.course(other, first, duration), held.course(entry, first, duration));
-                if a == b {
-                    continue;
-                }
-                let axis = AXES[entry.axis];
-                self.error(
-                    entry.place.clone(),
-                    format!(
-                        "`{}` and `{}` share nodes and prescribe {axis} there differently in stage `{}`",
-                        other.set, entry.set, stage.name
-                    ),
-                    format!(
-                        "`{}` prescribes {}, `{}` {}: say the same on both, or release one with `{axis} = \"free\"`",
-                        other.set,
-                        words(&a),
-                        entry.set,
-                        words(&b)
-                    ),
+                let later = fresh[i + 1..].iter().any(|f| f.set == other.set && f.axis == other.axis);
+                let pair = (
+                    entry.set.clone().min(other.set.clone()),
+                    entry.set.clone().max(other.set.clone()),
+                    entry.axis,
                 );
+                let (a, b) = (held.course(other, first, duration), held.course(entry, first, duration));
+                if !later && a != b && !held.told.contains(&pair) {
+                    found.push((pair, entry, other.set.clone(), words(&a), words(&b)));
+                }
             }
         }
+        for (pair, entry, other, a, b) in found {
+            let (set, axis, name) = (&entry.set, AXES[entry.axis], &stage.name);
+            held.told.push(pair);
+            self.error(
+                entry.place.clone(),
+                format!("`{other}` and `{set}` share nodes and prescribe {axis} there differently in stage `{name}`"),
+                format!(
+                    "`{other}` prescribes {a}, `{set}` {b}: say the same on both, or release one with \
+                     `{axis} = \"free\"`"
+                ),
+            );
+        }
+    }
+
+    /// Whether two entries prescribe one component of common nodes.
+    fn share_component(&self, a: &Entry, b: &Entry) -> bool {
+        let free = a.motion == Motion::Free || b.motion == Motion::Free;
+        a.axis == b.axis && !free && self.meet(&a.set, &b.set)
     }
 
     /// Whether two sides are of one body and have an edge or corner in common.

@@ -5,8 +5,8 @@ use crate::scene::law;
 use crate::scene::model::{Interface, MeshSource, Sliding, Spanned};
 use crate::scene::units::Penalty;
 
-/// Elements whose faces are flat and have nodes only at their corners.
-const LINEAR: [&str; 4] = ["quad4", "tri3", "hex8", "tet4"];
+/// Elements in two dimensions whose faces have nodes only at their corners; in three all have.
+const LINEAR: [&str; 2] = ["quad4", "tri3"];
 /// Elements with nodes between the corners.
 const QUADRATIC: [&str; 2] = ["quad9", "tri6"];
 
@@ -69,7 +69,7 @@ impl Checker<'_> {
                 self.error(
                     interface.sliding.span(),
                     format!("finite sliding needs linear elements, but body `{body}` has `{element}`"),
-                    format!("use one of {} there, or `sliding = \"small\"`", LINEAR.join(", ")),
+                    format!("use {} there, or `sliding = \"small\"`", LINEAR.join(" or ")),
                 );
             }
         }
