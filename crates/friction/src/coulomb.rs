@@ -1,10 +1,10 @@
 //! Coulomb friction with an optional cap: F̄ = min(μ f_n, F_limit), an elastic domain, no rate and no state.
 
 use crate::Failure;
-use crate::law::{Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials};
-
-/// Points within this relative distance of the cone switch with the event.
-const BAND: f64 = 1e-9;
+use crate::law::{
+    BAND, Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
+};
+use crate::line::Line;
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,12 +47,16 @@ pub fn cone_exit(t: [f64; 2], dt: [f64; 2], f: f64, df: f64, mu: f64) -> Option<
     let a = (norm(dt) - mu * df) * (norm(dt) + mu * df);
     let b = dot(t, dt) - mu * mu * f * df;
     let c = (norm(t) - mu * f) * (norm(t) + mu * f);
-    let discriminant = b * b - a * c;
+    // B² - A C = μ²|f Δt - Δf t|² - (t × Δt)², again as a product.
+    let turn = (t[0] * dt[1] - t[1] * dt[0]).abs();
+    let along = mu * norm([f * dt[0] - df * t[0], f * dt[1] - df * t[1]]);
+    let discriminant = (along - turn) * (along + turn);
     if discriminant < 0.0 {
         return None;
     }
     let root = discriminant.sqrt();
-    let candidates = if b >= 0.0 { [-c / (b + root), -(b + root) / a] } else { [(root - b) / a, c / (root - b)] };
+    let candidates =
+        if b >= 0.0 { [-c / (b + root), -(b + root) / a] } else { [(root - b) / a, c / (root - b)] };
     candidates
         .into_iter()
         .filter(|&r| r > 0.0 && r <= 1.0 && f + r * df > 0.0)
@@ -101,7 +105,9 @@ impl Law for Coulomb {
             let (strength, slope) = self.strength(present.normal[k]);
             (out.along[k], out.coupling[k], out.constant[k]) = match present.regime[k] {
                 Regime::Stick => (1.0, 0.0, 0.0),
-                Regime::Slip => (0.0, slope, if present.carry { strength - present.traction[k] } else { 0.0 }),
+                Regime::Slip => {
+                    (0.0, slope, if present.carry { strength - present.traction[k] } else { 0.0 })
+                }
             };
         }
         Ok(())
@@ -110,14 +116,11 @@ impl Law for Coulomb {
     fn limit(&self, present: Present<'_>, step: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
         let mut smallest: Option<Limit> = None;
         for k in (0..present.normal.len()).filter(|&k| present.regime[k] == Regime::Stick) {
-            let (strength, slope) = self.strength(present.normal[k]);
-            let distance = strength - present.traction[k];
-            let approach = step.traction[k] - slope * step.normal[k];
-            if approach <= 0.0 || distance <= BAND * strength {
-                continue;
-            }
-            let fraction = distance / approach;
-            if fraction < 1.0 && smallest.is_none_or(|s| fraction < s.fraction) {
+            let line = Line { at: present.traction[k], change: step.traction[k] };
+            let cone = Line { at: self.mu * present.normal[k], change: self.mu * step.normal[k] };
+            if let Some(fraction) = line.exit(cone, Some(self.limit))
+                && smallest.is_none_or(|s| fraction < s.fraction)
+            {
                 smallest = Some(Limit { fraction, point: k, kind: LimitKind::StickToSlip });
             }
         }
@@ -134,13 +137,14 @@ impl Law for Coulomb {
     ) -> Result<(), Failure> {
         for k in 0..present.normal.len() {
             let (strength, _) = self.strength(present.normal[k] + step.normal[k]);
-            let traction = present.traction[k] + step.traction[k];
+            let traction = (present.traction[k] + step.traction[k]).abs();
             let slipping = match present.regime[k] {
                 Regime::Stick => traction >= strength * (1.0 - BAND),
                 Regime::Slip => step.slip[k] > 0.0,
             };
             regime[k] = if slipping { Regime::Slip } else { Regime::Stick };
-            rate[k] = if present.regime[k] == Regime::Slip { (step.slip[k] / present.dt).max(0.0) } else { 0.0 };
+            rate[k] =
+                if present.regime[k] == Regime::Slip { (step.slip[k] / present.dt).max(0.0) } else { 0.0 };
         }
         Ok(())
     }

@@ -6,6 +6,10 @@
 
 use crate::Failure;
 
+/// Points within this relative distance of an event do not limit a step but switch with it; otherwise the simultaneous
+/// events of a symmetric scene would cost one step each, at fractions that are rounding.
+pub(crate) const BAND: f64 = 1e-9;
+
 /// What a point does over the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {

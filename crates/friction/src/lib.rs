@@ -7,6 +7,7 @@
 pub mod coulomb;
 pub mod evolution;
 pub mod law;
+mod line;
 pub mod point;
 pub mod rate;
 pub mod strength;
@@ -25,7 +26,9 @@ pub enum Failure {
         admissible: &'static str,
     },
     /// The bare logarithm has no value at rest or in reversal.
-    #[error("point {point}: the bare logarithm of the slip rate {rate:e} m/s does not exist; use the regularised form")]
+    #[error(
+        "point {point}: the bare logarithm of the slip rate {rate:e} m/s does not exist; use the regularised form"
+    )]
     BareLogAtRest {
         /// Point in the slice.
         point: usize,
@@ -53,7 +56,9 @@ pub enum Failure {
         trial: f64,
     },
     /// The root was not found.
-    #[error("point {point}: no slip rate found (normal traction {normal:e} Pa, trial {trial:e} Pa, residual {residual:e} Pa)")]
+    #[error(
+        "point {point}: no slip rate found (normal traction {normal:e} Pa, trial {trial:e} Pa, residual {residual:e} Pa)"
+    )]
     NotConverged {
         /// Point in the slice.
         point: usize,
@@ -72,7 +77,9 @@ impl Failure {
     pub fn at(self, index: usize) -> Self {
         match self {
             Self::BareLogAtRest { rate, .. } => Self::BareLogAtRest { point: index, rate },
-            Self::Unstable { stiffness, weakening, .. } => Self::Unstable { point: index, stiffness, weakening },
+            Self::Unstable { stiffness, weakening, .. } => {
+                Self::Unstable { point: index, stiffness, weakening }
+            }
             Self::NonFinite { normal, trial, .. } => Self::NonFinite { point: index, normal, trial },
             Self::NotConverged { normal, trial, residual, .. } => {
                 Self::NotConverged { point: index, normal, trial, residual }
@@ -93,5 +100,9 @@ pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, Failure> {
 
 /// Checks a parameter that must be finite.
 pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, Failure> {
-    if value.is_finite() { Ok(value) } else { Err(Failure::Parameter { name, value, admissible: "a finite number" }) }
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Failure::Parameter { name, value, admissible: "a finite number" })
+    }
 }

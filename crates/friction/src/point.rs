@@ -2,7 +2,8 @@
 //!
 //! With the spring's trial traction t^e and `c = E_t Δt/w`, the balance is `G(z) = c e^z + f_n μ(e^z, φ(e^z, Δt)) - T = 0`,
 //! z = ln V, T = t^e - c offset. Without weakening G is increasing and convex (a sum of e^z and asinh(k e^z)), so that
-//! Newton's method started where G ≥ 0 comes down on the root without overshooting. A bracket guards the laws with state.
+//! Newton's method started where G ≥ 0 comes down on the root without overshooting. With a state G may fall in between: see
+//! [`solve`].
 
 use crate::Failure;
 use crate::evolution::Evolution;
@@ -12,6 +13,12 @@ use crate::strength::{Form, Strength};
 const MOST: usize = 100;
 /// G is a sum of three terms of the size of T; each is rounded once or twice.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Stride of the search for the first root in ln V: x = V Δt/L and the asinh turn over one e-fold, so a quarter of it shows
+/// every fold that matters.
+const STRIDE: f64 = 0.25;
+/// Widest range searched, in e-folds of V below the rate of the free spring: below it no state evolves over a step.
+const WIDEST: f64 = 200.0;
 
 /// One point's problem.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +33,16 @@ pub struct Point {
     pub dt: f64,
     /// State before the step.
     pub state: f64,
+}
+
+impl Point {
+    /// Strength and spring traction of an answer, adding up to the drive: the larger of the two is the drive less the
+    /// smaller, so that neither loses digits.
+    #[must_use]
+    pub fn shares(&self, s: &Solution) -> (f64, f64) {
+        let (strength, spring) = (self.normal * s.mu, self.spring * s.log_rate.exp());
+        if spring >= strength { (strength, self.drive - strength) } else { (self.drive - spring, spring) }
+    }
 }
 
 /// One point's answer.
@@ -62,16 +79,34 @@ fn evaluate<F: Form, E: Evolution>(form: &F, evolution: &E, p: &Point, z: f64, i
     }
 }
 
-/// Solves one point.
+/// Solves one point. Where the state could weaken faster than the spring unloads, the answer is the one reached from rest
+/// without passing a rate at which G falls.
 ///
 /// # Errors
-/// [`Failure::NotConverged`] or [`Failure::NonFinite`], with point number 0.
+/// [`Failure::NotConverged`], [`Failure::NonFinite`], [`Failure::BareLogAtRest`] where the bare logarithm is negative at every
+/// rate in question, or, without such an answer, [`Failure::Unstable`] (per weight of a two-step difference); point 0.
 pub fn solve<F: Form, E: Evolution>(form: &F, evolution: &E, p: &Point) -> Result<Solution, Failure> {
-    let mut z = start(form, evolution, p);
-    if !z.is_finite() {
+    // The spring alone carries T at this rate.
+    let top = (p.drive / p.spring).ln();
+    let z = start(form, evolution, p, top);
+    if !(z.is_finite() && top.is_finite()) {
         return Err(Failure::NonFinite { point: 0, normal: p.normal, trial: p.drive });
     }
-    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    if !form.regular_at_rest() && evaluate(form, evolution, p, top, 0).g < 0.0 {
+        return Err(Failure::BareLogAtRest { point: 0, rate: top.exp() });
+    }
+    let bracket = bracket(form, evolution, p, top)?;
+    newton(form, evolution, p, z.clamp(bracket.0, bracket.1), bracket)
+}
+
+/// Newton's method from `z` inside the bracket, which it narrows.
+fn newton<F: Form, E: Evolution>(
+    form: &F,
+    evolution: &E,
+    p: &Point,
+    mut z: f64,
+    (mut low, mut high): (f64, f64),
+) -> Result<Solution, Failure> {
     let mut last = f64::INFINITY;
     for iteration in 1..=MOST {
         let value = evaluate(form, evolution, p, z, iteration);
@@ -86,7 +121,7 @@ pub fn solve<F: Form, E: Evolution>(form: &F, evolution: &E, p: &Point) -> Resul
         let next = guarded(z, -value.g / value.slope, (low, high));
         let floor = ROUNDING * (p.drive + p.normal * value.solution.mu.abs());
         // At the rounding floor of G, or when z can no longer be told from its successor, one is done.
-        if value.g.abs() <= floor || next == z || (next - z).abs() <= f64::EPSILON * z.abs() {
+        if value.g.abs() <= floor || (next - z).abs() <= f64::EPSILON * z.abs() {
             return Ok(value.solution);
         }
         last = value.g;
@@ -95,24 +130,59 @@ pub fn solve<F: Form, E: Evolution>(form: &F, evolution: &E, p: &Point) -> Resul
     Err(Failure::NotConverged { point: 0, normal: p.normal, trial: p.drive, residual: last })
 }
 
-/// Where the iteration starts: the smaller of the rates at which the spring alone and the strength alone would balance.
-fn start<F: Form, E: Evolution>(form: &F, evolution: &E, p: &Point) -> f64 {
-    let spring = (p.drive / p.spring).ln();
-    let strength = form.log_rate(p.drive / p.normal, evolution.phi(p.state));
-    spring.min(strength)
+/// Bounds of the answer in ln V. Without state or behind a stiff spring G increases everywhere, and below the rate of the
+/// free spring is enough.
+fn bracket<F: Form, E: Evolution>(
+    form: &F,
+    evolution: &E,
+    p: &Point,
+    top: f64,
+) -> Result<(f64, f64), Failure> {
+    // An e-fold above the bound, for rounding.
+    let everywhere = (f64::NEG_INFINITY, top + 1.0);
+    if E::STATES == 0 {
+        return Ok(everywhere);
+    }
+    let weakening = evolution.weakening(p.state, top);
+    if p.spring > p.normal * weakening * p.dt {
+        return Ok(everywhere);
+    }
+    // Up to here the direct effect outweighs the state, and G increases.
+    let safe = (form.direct_effect() / (weakening * p.dt)).ln().max(top - WIDEST);
+    if safe >= top || evaluate(form, evolution, p, safe, 0).g >= 0.0 {
+        return Ok((f64::NEG_INFINITY, safe.min(top)));
+    }
+    let mut z = safe;
+    while z < top {
+        let next = (z + STRIDE).min(top);
+        let value = evaluate(form, evolution, p, next, 0);
+        if value.g >= 0.0 || next == top {
+            return Ok((z, next));
+        }
+        if value.slope <= 0.0 {
+            let rate = next.exp();
+            let weakening = -p.normal * value.solution.slope / (rate * p.dt);
+            return Err(Failure::Unstable { point: 0, stiffness: p.spring / p.dt, weakening });
+        }
+        z = next;
+    }
+    Ok((z, top))
 }
 
-/// The Newton step kept inside the bracket; without a bracket on that side, its length is limited.
+/// Where the iteration starts: the smaller of the rates at which the spring alone and the strength alone would balance.
+fn start<F: Form, E: Evolution>(form: &F, evolution: &E, p: &Point, top: f64) -> f64 {
+    top.min(form.log_rate(p.drive / p.normal, evolution.phi(p.state)))
+}
+
+/// The Newton step where it stays inside the bracket, otherwise half the bracket or, without a lower bound, further down.
+/// Far down G is linear in z to rounding, so that long steps down are good ones; steps up are bounded by the free spring.
 fn guarded(z: f64, step: f64, (low, high): (f64, f64)) -> f64 {
-    /// Longest step outside a bracket: e-folds of V over which the exponential may be extrapolated.
-    const LONGEST: f64 = 50.0;
     let next = z + step;
-    if next.is_finite() && next > low && next < high && (low.is_finite() && high.is_finite() || step.abs() <= LONGEST) {
-        return next;
-    }
-    match (low.is_finite(), high.is_finite()) {
-        (true, true) => 0.5 * (low + high),
-        (true, false) => low + step.abs().clamp(1.0, LONGEST),
-        _ => high - step.abs().clamp(1.0, LONGEST),
+    if next > low && next < high {
+        next
+    } else if low.is_finite() {
+        0.5 * (low + high)
+    } else {
+        high - WIDEST
     }
 }

@@ -1,15 +1,16 @@
 //! Laws whose strength depends on the slip rate: a strength form times an evolution (possibly none).
 
 use crate::Failure;
-use crate::evolution::Evolution;
+use crate::evolution::{Evolution, stateless::Stateless};
 use crate::law::{
-    Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
+    BAND, Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
 };
+use crate::line::Line;
 use crate::point::{self, Point};
-use crate::strength::Form;
+use crate::strength::{Form, Parameters, regularised::Regularised};
 
-/// Points within this relative distance of an event switch with it.
-const BAND: f64 = 1e-9;
+/// ln V of a point at rest: e^z and z e^z vanish, and products of z stay finite.
+const AT_REST: f64 = f64::MIN;
 
 /// A rate-dependent law.
 #[derive(Clone, Debug)]
@@ -35,6 +36,13 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         Ok(Self { form, evolution, log_initial: crate::positive("v_initial", v_initial)?.ln(), limit })
     }
 
+    /// Whether the strength falls with the slip rate while no state holds it back: an ill-posed law, which the constructor
+    /// of [`Parameters`] refuses; ∂μ/∂V has the sign of a at every rate in both forms.
+    #[must_use]
+    pub fn rate_weakening_without_state(&self) -> bool {
+        E::STATES == 0 && self.form.direct_effect() <= 0.0
+    }
+
     fn state<'a>(&self, states: &'a [f64], k: usize) -> &'a [f64] {
         &states[k * E::STATES..(k + 1) * E::STATES]
     }
@@ -58,67 +66,86 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
             return Err(Failure::BareLogAtRest { point: k, rate: -drive.size / drive.spring });
         }
         let p = Point { normal, drive: drive.size, spring: drive.spring, dt: t.dt, state };
-        let s = point::solve(&self.form, &self.evolution, &p).map_err(|f| f.at(k))?;
-        let traction = normal * s.mu;
-        if traction > self.limit {
-            return Ok(self.at_limit(&p, &drive));
+        if let Some(answer) = self.at_limit(&p, &drive) {
+            return Ok(answer);
         }
-        let rate = s.log_rate.exp();
-        let (elastic, friction) = (drive.spring * rate, normal * s.slope);
+        let s = point::solve(&self.form, &self.evolution, &p).map_err(|f| f.at(k))?;
+        let (traction, elastic) = p.shares(&s);
+        let friction = normal * s.slope;
         if elastic + friction <= 0.0 {
-            let weakening = -friction / (rate * t.dt);
+            let weakening = -friction / (s.log_rate.exp() * t.dt);
             return Err(Failure::Unstable { point: k, stiffness: t.stiffness, weakening });
         }
-        let share = elastic / (elastic + friction);
+        let rate = elastic / drive.spring;
         Ok(Answer {
             traction: drive.sign * traction,
             slip: drive.slip(rate),
             rate: drive.sign * rate,
             d_trial: friction / (elastic + friction),
-            d_normal: drive.sign * s.mu * share,
+            d_normal: drive.sign * s.mu * (elastic / (elastic + friction)),
             state: s.state,
         })
     }
 
     /// A point without normal traction slips freely; one without drive keeps the slip of its past differences.
     fn unloaded(&self, k: usize, normal: f64, drive: &Drive, state: f64, dt: f64) -> Result<Answer, Failure> {
-        let free = normal == 0.0;
-        let rate = if free { drive.size / drive.spring } else { 0.0 };
-        if !free && !self.form.regular_at_rest() {
+        let rate = if normal == 0.0 { drive.size / drive.spring } else { 0.0 };
+        if normal > 0.0 && !self.form.regular_at_rest() {
             return Err(Failure::BareLogAtRest { point: k, rate });
         }
-        let log_rate = if rate > 0.0 { rate.ln() } else { f64::MIN };
+        let log_rate = if rate > 0.0 { rate.ln() } else { AT_REST };
         let state = self.evolution.step(state, log_rate, dt).state;
-        let mu = if rate > 0.0 { self.form.at(log_rate, self.evolution.phi(state)).mu } else { 0.0 };
+        let phi = self.evolution.phi(state);
+        let mu = if rate > 0.0 { self.form.at(log_rate, phi).mu } else { 0.0 };
+        let d_trial = if normal > 0.0 {
+            // H/(E_t + H) with H = f_n ∂μ/∂V w/Δt at V = 0, which may exceed the range of numbers.
+            self.form.rest_slope(phi).map_or(1.0, |slope| 1.0 / (1.0 + drive.spring / (normal * slope)))
+        } else if drive.size > 0.0 {
+            0.0
+        } else {
+            // At the apex of the cone, without drive, every slope between 0 and 1 is one: rest is the better guess.
+            1.0
+        };
         Ok(Answer {
             traction: 0.0,
             slip: drive.slip(rate),
             rate: drive.sign * rate,
-            // At the apex of the cone, without drive, every slope between 0 and 1 is one: rest is the better guess.
-            d_trial: if free && drive.size > 0.0 { 0.0 } else { 1.0 },
+            d_trial,
             d_normal: drive.sign * mu,
             state,
         })
     }
 
-    /// The strength is capped: what the spring holds beyond F_limit is slip.
-    fn at_limit(&self, p: &Point, drive: &Drive) -> Answer {
+    /// The answer where the strength reaches F_limit: what the spring holds beyond it is slip.
+    fn at_limit(&self, p: &Point, drive: &Drive) -> Option<Answer> {
+        if p.drive <= self.limit {
+            return None;
+        }
         let rate = (p.drive - self.limit) / p.spring;
-        let state = self.evolution.step(p.state, rate.ln(), p.dt).state;
-        Answer {
+        let log_rate = rate.ln();
+        let state = self.evolution.step(p.state, log_rate, p.dt).state;
+        let strength = p.normal * self.form.at(log_rate, self.evolution.phi(state)).mu;
+        (strength >= self.limit).then(|| Answer {
             traction: drive.sign * self.limit,
             slip: drive.slip(rate),
             rate: drive.sign * rate,
             d_trial: 0.0,
             d_normal: 0.0,
             state,
-        }
+        })
     }
 
-    /// Strength at the floor rate, for points at rest in forward steps.
-    fn floor_strength(&self, present: &Present<'_>, k: usize) -> f64 {
+    /// μ at the floor rate, for points at rest in forward steps.
+    fn floor_coefficient(&self, present: &Present<'_>, k: usize) -> f64 {
         let phi = self.evolution.phi(self.scalar_state(present.states, k));
         self.form.at(present.rate_floor.ln(), phi).mu
+    }
+
+    /// Whether the point ends the step on or above its strength at the floor rate.
+    fn starts(&self, present: &Present<'_>, step: &Increments<'_>, k: usize) -> bool {
+        let cone = self.floor_coefficient(present, k) * (present.normal[k] + step.normal[k]);
+        let traction = (present.traction[k] + step.traction[k]).abs();
+        traction > 0.0 && traction >= cone.min(self.limit) * (1.0 - BAND)
     }
 
     fn at_rest(present: &Present<'_>, k: usize) -> bool {
@@ -133,20 +160,18 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         let (phi_constant, phi_slope) = self.evolution.linear(state, log_rate, present.dt);
         Linearised {
             mu: s.mu,
-            hardening: present.normal[k] * (s.d_log_rate / (present.rate[k] * present.dt) + s.d_phi * phi_slope),
+            hardening: present.normal[k]
+                * (s.d_log_rate / (present.rate[k] * present.dt) + s.d_phi * phi_slope),
             constant: present.normal[k] * (s.d_phi * phi_constant - s.d_log_rate),
         }
     }
 
-    /// Limit r6 of a point at rest: where its traction meets the strength at the floor rate.
+    /// Limit r6 of a point at rest: where its traction, of either sign, meets the strength at the floor rate or F_limit.
     fn start_of_slip(&self, present: &Present<'_>, step: &Increments<'_>, k: usize) -> Option<f64> {
-        let strength = self.floor_strength(present, k);
-        let distance = strength * present.normal[k] - present.traction[k];
-        let approach = step.traction[k] - strength * step.normal[k];
-        if approach <= 0.0 || distance <= BAND * present.traction[k].abs() {
-            return None;
-        }
-        Some(distance / approach).filter(|r| *r < 1.0)
+        let mu = self.floor_coefficient(present, k);
+        let line = Line { at: present.traction[k], change: step.traction[k] };
+        let cone = Line { at: mu * present.normal[k], change: mu * step.normal[k] };
+        line.exit(cone, Some(self.limit))
     }
 
     /// Limits r8 of a slipping point. The rate at the end of a fraction r of the step is close to linear in r.
@@ -161,9 +186,10 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         let change = step.slip[k] / present.dt - rate;
         let by_rate = if change > 0.0 {
             bounds.log_rate.exp_m1() * rate / change
-        } else if change < 0.0 {
+        } else if change < 0.0 && rate * (-bounds.log_rate).exp() > present.rate_floor {
             (-bounds.log_rate).exp_m1() * rate / change
         } else {
+            // Below the floor nothing is rest but rest: max(V, V_floor) changes by less than its bound.
             f64::INFINITY
         };
         let by_length = match self.evolution.length() {
@@ -176,6 +202,17 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
             (by_length, LimitKind::SlipLength)
         };
         (fraction < 1.0).then_some((fraction, kind))
+    }
+}
+
+impl RateLaw<Regularised, Stateless> {
+    /// Velocity-dependent friction without state, of the regularised form, with an optional largest shear traction \[Pa\].
+    ///
+    /// # Errors
+    /// [`Failure::Parameter`].
+    pub fn velocity(parameters: Parameters, limit: Option<f64>) -> Result<Self, Failure> {
+        // Nothing depends on the initial rate without a state.
+        Self::new(Regularised(parameters), Stateless, 1.0, limit)
     }
 }
 
@@ -269,9 +306,18 @@ impl<F: Form, E: Evolution> Law for RateLaw<F, E> {
                 continue;
             }
             let l = self.linearised(&present, k);
+            if l.mu * present.normal[k] >= self.limit {
+                let carried = if present.carry { self.limit - present.traction[k] } else { 0.0 };
+                (out.along[k], out.coupling[k], out.constant[k]) = (0.0, 0.0, carried);
+                continue;
+            }
             let sum = present.stiffness + l.hardening;
             if sum <= 0.0 {
-                return Err(Failure::Unstable { point: k, stiffness: present.stiffness, weakening: -l.hardening });
+                return Err(Failure::Unstable {
+                    point: k,
+                    stiffness: present.stiffness,
+                    weakening: -l.hardening,
+                });
             }
             let kappa = present.stiffness / sum;
             let carried = if present.carry { l.mu * present.normal[k] - present.traction[k] } else { 0.0 };
@@ -308,22 +354,22 @@ impl<F: Form, E: Evolution> Law for RateLaw<F, E> {
         states: &mut [f64],
     ) -> Result<(), Failure> {
         for k in 0..present.normal.len() {
-            let v = if Self::at_rest(&present, k) {
-                let strength = self.floor_strength(&present, k) * (present.normal[k] + step.normal[k]);
-                let traction = present.traction[k] + step.traction[k];
-                if traction > 0.0 && traction >= strength * (1.0 - BAND) { present.rate_floor } else { 0.0 }
-            } else {
-                step.slip[k] / present.dt
-            };
-            if !v.is_finite() {
-                return Err(Failure::NonFinite { point: k, normal: present.normal[k], trial: present.traction[k] });
+            let resting = Self::at_rest(&present, k);
+            let v = if resting { 0.0 } else { step.slip[k] / present.dt };
+            if !(v.is_finite() && (present.traction[k] + step.traction[k]).is_finite()) {
+                return Err(Failure::NonFinite {
+                    point: k,
+                    normal: present.normal[k],
+                    trial: present.traction[k],
+                });
             }
-            let moving = v >= present.rate_floor;
+            let moving = v >= present.rate_floor || self.starts(&present, &step, k);
             regime[k] = if moving { Regime::Slip } else { Regime::Stick };
-            rate[k] = if moving { v } else { 0.0 };
+            rate[k] = if moving { v.max(present.rate_floor) } else { 0.0 };
             let state = self.scalar_state(present.states, k);
-            let log_rate = if v > 0.0 { v.ln() } else { f64::MIN };
-            states[k * E::STATES..(k + 1) * E::STATES].fill(self.evolution.step(state, log_rate, present.dt).state);
+            let log_rate = if v > 0.0 { v.ln() } else { AT_REST };
+            states[k * E::STATES..(k + 1) * E::STATES]
+                .fill(self.evolution.step(state, log_rate, present.dt).state);
         }
         Ok(())
     }

@@ -1,12 +1,12 @@
 //! The point return and the rate form, over the whole admissible range.
 #![allow(clippy::unwrap_used)]
 
+use asperity_friction::Failure;
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::evolution::{Evolution, ageing::Ageing, slip::Slip, stateless::Stateless};
 use asperity_friction::law::{Lag, Law, Present, Rates, Regime, Responses, Trials};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};
-use asperity_friction::Failure;
 use proptest::prelude::*;
 
 /// One point's answer.
@@ -19,14 +19,27 @@ struct One {
     d_normal: f64,
 }
 
-fn respond(law: &dyn Law, normal: f64, trial: f64, stiffness: f64, dt: f64, lag: Option<(f64, f64)>) -> Result<One, Failure> {
+fn respond(
+    law: &dyn Law,
+    normal: f64,
+    trial: f64,
+    stiffness: f64,
+    dt: f64,
+    lag: Option<(f64, f64)>,
+) -> Result<One, Failure> {
     let mut old = vec![0.0; law.states()];
     law.initial(&mut old);
     let offset = [lag.map_or(0.0, |l| l.1)];
     let mut new = vec![0.0; law.states()];
     let (mut t, mut s, mut v, mut g, mut dt_, mut dn) = ([0.0], [0.0], [0.0], [Regime::Stick], [0.0], [0.0]);
     law.respond(
-        Trials { normal: &[normal], trial: &[trial], stiffness, dt, lag: lag.map(|l| Lag { weight: l.0, offset: &offset }) },
+        Trials {
+            normal: &[normal],
+            trial: &[trial],
+            stiffness,
+            dt,
+            lag: lag.map(|l| Lag { weight: l.0, offset: &offset }),
+        },
         &old,
         Responses {
             traction: &mut t,
@@ -61,19 +74,27 @@ fn derivatives_of_the_point_return_are_consistent() {
         Box::new(velocity_law(0.01)),
         Box::new(state_law(Ageing::new(0.015, 1e-5, 1e-6).unwrap())),
         Box::new(state_law(Slip::new(0.015, 1e-5, 1e-6).unwrap())),
-        Box::new(RateLaw::new(Bare(Parameters::new(0.6, 0.01, 1e-6).unwrap()), Stateless, 1e-6, None).unwrap()),
+        Box::new(
+            RateLaw::new(Bare(Parameters::new(0.6, 0.01, 1e-6).unwrap()), Stateless, 1e-6, None).unwrap(),
+        ),
     ];
     let (normal, stiffness, dt) = (9e6, 3.5e12, 0.1);
     for law in &laws {
         for trial in [5.0e6, 5.6e6, 7e6] {
             let one = respond(law.as_ref(), normal, trial, stiffness, dt, None).unwrap();
-            let by_trial = |h: f64| respond(law.as_ref(), normal, trial + h, stiffness, dt, None).unwrap().traction;
-            let by_normal = |h: f64| respond(law.as_ref(), normal + h, trial, stiffness, dt, None).unwrap().traction;
+            let by_trial =
+                |h: f64| respond(law.as_ref(), normal, trial + h, stiffness, dt, None).unwrap().traction;
+            let by_normal =
+                |h: f64| respond(law.as_ref(), normal + h, trial, stiffness, dt, None).unwrap().traction;
             for (order, what) in [
                 (taylor_order(by_trial, one.d_trial, 0.02 * trial), "trial"),
                 (taylor_order(by_normal, one.d_normal, 0.02 * normal), "normal"),
             ] {
-                assert!((order - 2.0).abs() < 0.35, "{}: order {order} in the {what} traction at {trial}", law.name());
+                assert!(
+                    (order - 2.0).abs() < 0.35,
+                    "{}: order {order} in the {what} traction at {trial}",
+                    law.name()
+                );
             }
         }
     }
@@ -91,7 +112,9 @@ fn a_lagged_rate_keeps_the_derivative() {
 
 #[test]
 fn the_cap_holds_and_removes_the_normal_coupling() {
-    let law = RateLaw::new(Regularised(Parameters::new(0.6, 0.01, 1e-6).unwrap()), Stateless, 1e-6, Some(2e6)).unwrap();
+    let law =
+        RateLaw::new(Regularised(Parameters::new(0.6, 0.01, 1e-6).unwrap()), Stateless, 1e-6, Some(2e6))
+            .unwrap();
     let one = respond(&law, 9e6, 7e6, 3.5e12, 0.1, None).unwrap();
     assert_eq!((one.traction, one.d_trial, one.d_normal), (2e6, 0.0, 0.0));
     let coulomb = Coulomb::new(0.6, Some(2e6)).unwrap();

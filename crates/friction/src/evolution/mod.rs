@@ -28,11 +28,18 @@ pub trait Evolution: Send + Sync + Clone + std::fmt::Debug {
     /// State variable of the steady state at V \[m/s\].
     fn steady(&self, log_rate: f64) -> f64;
 
+    /// Rate of change of the state variable at ln V \[1/s\].
+    fn rate(&self, state: f64, log_rate: f64) -> f64;
+
     /// Exact step of length `dt` \[s\] at constant ln V.
     fn step(&self, state: f64, log_rate: f64, dt: f64) -> Evolved;
 
     /// Linear change of φ over a step with slip increment Δλ: `constant + slope Δλ` (\[-\], \[1/m\]).
     fn linear(&self, state: f64, log_rate: f64, dt: f64) -> (f64, f64);
+
+    /// A bound of the weakening `-∂φ/∂Λ` \[1/m\] of a step with slip Λ = V Δt, over all steps with rates up to
+    /// `log_rate`: a spring with `E_t/w > f_n` times this bound has one answer only.
+    fn weakening(&self, state: f64, log_rate: f64) -> f64;
 
     /// Characteristic slip L \[m\], where there is one.
     fn length(&self) -> Option<f64>;

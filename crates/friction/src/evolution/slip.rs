@@ -36,6 +36,11 @@ impl Evolution for Slip {
         -self.b * (log_rate - self.log_v_ref)
     }
 
+    fn rate(&self, state: f64, log_rate: f64) -> f64 {
+        let speed = log_rate.exp() / self.length;
+        if speed == 0.0 { 0.0 } else { -speed * (state - self.steady(log_rate)) }
+    }
+
     fn step(&self, state: f64, log_rate: f64, dt: f64) -> Evolved {
         // φ = φ_0 e^(-x) + φ_ss (1 - e^(-x)), x = V Δt/L: a weighted mean, nothing cancels.
         let x = log_rate.exp() * dt / self.length;
@@ -49,6 +54,14 @@ impl Evolution for Slip {
 
     fn linear(&self, state: f64, log_rate: f64, _dt: f64) -> (f64, f64) {
         (0.0, -(state - self.steady(log_rate)) / self.length)
+    }
+
+    fn weakening(&self, state: f64, log_rate: f64) -> f64 {
+        // -∂φ/∂ln V = x e^(-x) (φ_0 - φ_ss) + b (1 - e^(-x)) ≤ x [max(0, φ_0 - φ_ss) + b], and φ_ss falls with V for b ≥ 0.
+        if self.b < 0.0 {
+            return f64::INFINITY;
+        }
+        ((state - self.steady(log_rate)).max(0.0) + self.b) / self.length
     }
 
     fn length(&self) -> Option<f64> {

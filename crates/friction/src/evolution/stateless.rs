@@ -18,12 +18,20 @@ impl Evolution for Stateless {
         0.0
     }
 
+    fn rate(&self, _state: f64, _log_rate: f64) -> f64 {
+        0.0
+    }
+
     fn step(&self, _state: f64, _log_rate: f64, _dt: f64) -> Evolved {
         Evolved { state: 0.0, d_phi: 0.0 }
     }
 
     fn linear(&self, _state: f64, _log_rate: f64, _dt: f64) -> (f64, f64) {
         (0.0, 0.0)
+    }
+
+    fn weakening(&self, _state: f64, _log_rate: f64) -> f64 {
+        0.0
     }
 
     fn length(&self) -> Option<f64> {

@@ -17,7 +17,11 @@ impl Form for Bare {
         p.v_ref.ln() + (mu - p.mu0 - phi) / p.a
     }
 
-    fn regular_at_rest(&self) -> bool {
-        false
+    fn direct_effect(&self) -> f64 {
+        self.0.a
+    }
+
+    fn rest_slope(&self, _phi: f64) -> Option<f64> {
+        None
     }
 }

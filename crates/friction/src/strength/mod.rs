@@ -20,22 +20,36 @@ pub trait Form: Send + Sync + Clone + std::fmt::Debug {
     /// μ and derivatives at ln V \[ln(m/s)\] and the state contribution φ \[-\].
     fn at(&self, log_rate: f64, phi: f64) -> Strength;
 
+    /// ∂μ/∂V \[s/m\] at fixed state; infinite only where it exceeds the range of numbers.
+    fn d_rate(&self, log_rate: f64, phi: f64) -> f64 {
+        self.at(log_rate, phi).d_log_rate * (-log_rate).exp()
+    }
+
     /// ln V at which the coefficient is `mu` > 0.
     fn log_rate(&self, mu: f64, phi: f64) -> f64;
 
+    /// The direct effect a \[-\]: the ratio of ∂μ/∂ln V and ∂μ/∂φ, the same at every rate.
+    fn direct_effect(&self) -> f64;
+
+    /// ∂μ/∂V \[s/m\] at V = 0, or `None` where the form has no value there.
+    fn rest_slope(&self, phi: f64) -> Option<f64>;
+
     /// Whether the form has a value at V = 0 (then μ = 0) and is odd in V.
-    fn regular_at_rest(&self) -> bool;
+    fn regular_at_rest(&self) -> bool {
+        self.rest_slope(0.0).is_some()
+    }
 }
 
-/// Parameters both forms share.
+/// Parameters both forms share. Only [`Parameters::new`] makes them, so that a form never holds a ≤ 0: a law that weakens
+/// with the rate at once is ill-posed (its static problem has no continuous solution) whatever its state does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
     /// μ0 \[-\].
-    pub mu0: f64,
+    mu0: f64,
     /// a \[-\].
-    pub a: f64,
+    a: f64,
     /// Vref \[m/s\].
-    pub v_ref: f64,
+    v_ref: f64,
 }
 
 impl Parameters {
@@ -46,7 +60,13 @@ impl Parameters {
     pub fn new(mu0: f64, a: f64, v_ref: f64) -> Result<Self, crate::Failure> {
         Ok(Self {
             mu0: crate::finite("mu0", mu0)?,
-            a: crate::positive("a", a)?,
+            a: if a > 0.0 && a.is_finite() {
+                a
+            } else {
+                let admissible =
+                    "a positive, finite number: a strength that falls with the rate at once is ill-posed";
+                return Err(crate::Failure::Parameter { name: "a", value: a, admissible });
+            },
             v_ref: crate::positive("v_ref", v_ref)?,
         })
     }

@@ -12,17 +12,17 @@ const LARGE: f64 = 20.0;
 pub struct Regularised(pub Parameters);
 
 impl Regularised {
-    /// ln x of x = V/(2 Vref) exp((μ0 + φ)/a).
-    fn log_argument(&self, log_rate: f64, phi: f64) -> f64 {
+    /// ln of x/V, x = V/(2 Vref) exp((μ0 + φ)/a).
+    fn log_factor(&self, phi: f64) -> f64 {
         let p = &self.0;
-        log_rate - (2.0 * p.v_ref).ln() + (p.mu0 + phi) / p.a
+        (p.mu0 + phi) / p.a - (LN_2 + p.v_ref.ln())
     }
 }
 
 impl Form for Regularised {
     fn at(&self, log_rate: f64, phi: f64) -> Strength {
         let a = self.0.a;
-        let log_x = self.log_argument(log_rate, phi);
+        let log_x = log_rate + self.log_factor(phi);
         let (mu, slope) = if log_x > LARGE {
             (a * (log_x + LN_2), 1.0)
         } else {
@@ -36,10 +36,25 @@ impl Form for Regularised {
         let p = &self.0;
         let y = mu / p.a;
         // ln sinh y = y - ln 2 + ln(1 - e^(-2y)), which neither overflows nor cancels.
-        (2.0 * p.v_ref).ln() - (p.mu0 + phi) / p.a + y - LN_2 + (-(-2.0 * y).exp_m1()).ln()
+        p.v_ref.ln() + (mu - p.mu0 - phi) / p.a + (-(-2.0 * y).exp_m1()).ln()
     }
 
-    fn regular_at_rest(&self) -> bool {
-        true
+    fn d_rate(&self, log_rate: f64, phi: f64) -> f64 {
+        let factor = self.log_factor(phi);
+        let log_x = log_rate + factor;
+        // a (x/V)/√(1 + x²): at large x the factor alone may overflow where the quotient a/V does not.
+        if log_x > LARGE {
+            self.0.a * (-log_rate).exp()
+        } else {
+            self.0.a * factor.exp() / log_x.exp().hypot(1.0)
+        }
+    }
+
+    fn direct_effect(&self) -> f64 {
+        self.0.a
+    }
+
+    fn rest_slope(&self, phi: f64) -> Option<f64> {
+        Some(self.0.a * self.log_factor(phi).exp())
     }
 }

@@ -1,0 +1,338 @@
+//! The rate form: its linearisation, the limits r6 and r8, and the advance.
+#![allow(clippy::unwrap_used)]
+
+use asperity_friction::coulomb::Coulomb;
+use asperity_friction::evolution::{Evolution, ageing::Ageing, slip::Slip};
+use asperity_friction::law::{
+    Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
+};
+use asperity_friction::rate::RateLaw;
+use asperity_friction::strength::{Parameters, bare::Bare, regularised::Regularised};
+
+const NORMAL: f64 = 9e6;
+const STIFFNESS: f64 = 3.5e12;
+const V_REF: f64 = 1e-6;
+const LENGTH: f64 = 1e-5;
+const FLOOR: f64 = 1e-18;
+const BOUNDS: RateBounds = RateBounds { zeta: 0.1, log_rate: 1.0 };
+
+fn parameters() -> Parameters {
+    Parameters::new(0.6, 0.01, V_REF).unwrap()
+}
+
+/// One point at the start of a step.
+#[derive(Clone, Copy, Debug)]
+struct Start {
+    normal: f64,
+    traction: f64,
+    rate: f64,
+    dt: f64,
+    carry: bool,
+}
+
+fn present<'a>(s: &'a Start, regime: &'a [Regime; 1], states: &'a [f64]) -> Present<'a> {
+    use std::slice::from_ref;
+    Present {
+        normal: from_ref(&s.normal),
+        traction: from_ref(&s.traction),
+        rate: from_ref(&s.rate),
+        regime,
+        states,
+        stiffness: STIFFNESS,
+        dt: s.dt,
+        rate_floor: FLOOR,
+        carry: s.carry,
+    }
+}
+
+/// along, coupling, constant.
+fn rates(law: &dyn Law, s: &Start, regime: Regime, states: &[f64]) -> [f64; 3] {
+    let (mut along, mut coupling, mut constant) = ([f64::NAN], [f64::NAN], [f64::NAN]);
+    law.rates(
+        present(s, &[regime], states),
+        Rates { along: &mut along, coupling: &mut coupling, constant: &mut constant },
+    )
+    .unwrap();
+    [along[0], coupling[0], constant[0]]
+}
+
+fn limit(law: &dyn Law, s: &Start, regime: Regime, states: &[f64], step: [f64; 3]) -> Option<Limit> {
+    let [normal, traction, slip] = step.map(|x| [x]);
+    law.limit(
+        present(s, &[regime], states),
+        Increments { normal: &normal, traction: &traction, slip: &slip },
+        BOUNDS,
+    )
+}
+
+fn advance(law: &dyn Law, s: &Start, regime: Regime, states: &mut [f64], step: [f64; 3]) -> (Regime, f64) {
+    let [normal, traction, slip] = step.map(|x| [x]);
+    let (mut new, mut rate) = ([Regime::Stick], [f64::NAN]);
+    let old = states.to_vec();
+    law.advance(
+        present(s, &[regime], &old),
+        Increments { normal: &normal, traction: &traction, slip: &slip },
+        &mut new,
+        &mut rate,
+        states,
+    )
+    .unwrap();
+    (new[0], rate[0])
+}
+
+/// Increment of the traction by the implicit return.
+fn implicit(law: &dyn Law, s: &Start, states: &[f64], slide: f64, df: f64) -> f64 {
+    let mut new = states.to_vec();
+    let (mut t, mut l, mut v, mut g, mut dt, mut dn) = ([0.0], [0.0], [0.0], [Regime::Stick], [0.0], [0.0]);
+    law.respond(
+        Trials {
+            normal: &[s.normal + df],
+            trial: &[s.traction + STIFFNESS * slide],
+            stiffness: STIFFNESS,
+            dt: s.dt,
+            lag: None,
+        },
+        states,
+        Responses {
+            traction: &mut t,
+            slip: &mut l,
+            rate: &mut v,
+            regime: &mut g,
+            d_trial: &mut dt,
+            d_normal: &mut dn,
+            states: &mut new,
+        },
+    )
+    .unwrap();
+    t[0] - s.traction
+}
+
+/// From a balanced but unsteady state, the strengths of the forward and the implicit step part at second order in Δt.
+fn agrees_to_second_order<E: Evolution>(evolution: E) {
+    for offset in [-0.01, 0.008] {
+        let rate = 2e-7;
+        let state =
+            evolution.steady(f64::ln(rate)) + offset * if E::NAME.contains("ageing") { 60.0 } else { 1.0 };
+        let laws: [Box<dyn Law>; 2] = [
+            Box::new(RateLaw::new(Regularised(parameters()), evolution.clone(), rate, None).unwrap()),
+            Box::new(RateLaw::new(Bare(parameters()), evolution.clone(), rate, None).unwrap()),
+        ];
+        for law in laws {
+            let mut mu = [0.0];
+            law.coefficient(&[rate], &[state], &mut mu).unwrap();
+            let error = |dt: f64| {
+                let s = Start { normal: NORMAL, traction: NORMAL * mu[0], rate, dt, carry: true };
+                let [along, coupling, constant] = rates(law.as_ref(), &s, Regime::Slip, &[state]);
+                let (slide, df) = (rate * dt, 0.2 * NORMAL * rate * dt / LENGTH);
+                let forward = along * STIFFNESS * slide + coupling * df + constant;
+                // An error of the strength reaches the traction with the factor κ, itself of the order of Δt.
+                (forward - implicit(law.as_ref(), &s, &[state], slide, df)).abs() / (1.0 - along)
+            };
+            // Small against both L/V and a f_n/(E_t V), the times of state and spring.
+            let dt = 2e-3;
+            let order = (error(dt) / error(0.5 * dt)).log2();
+            assert!((order - 2.0).abs() < 0.1, "{}, offset {offset}: order {order}", E::NAME);
+        }
+    }
+}
+
+#[test]
+fn forward_and_implicit_steps_part_at_second_order_with_the_slip_law() {
+    agrees_to_second_order(Slip::new(0.015, LENGTH, V_REF).unwrap());
+}
+
+#[test]
+fn forward_and_implicit_steps_part_at_second_order_with_the_ageing_law() {
+    agrees_to_second_order(Ageing::new(0.015, LENGTH, V_REF).unwrap());
+}
+
+/// H = f_n [a/(V_0 Δt) - Ω/L], κ = E_t/(E_t + H), constant -κ a f_n: the closed form of the slip law.
+#[test]
+fn the_rate_form_of_the_slip_law_is_its_closed_form() {
+    let evolution = Slip::new(0.015, LENGTH, V_REF).unwrap();
+    let law = RateLaw::new(Bare(parameters()), evolution, V_REF, None).unwrap();
+    let (rate, dt, omega) = (3e-7, 0.01, 0.012);
+    let phi = evolution.steady(f64::ln(rate)) + omega;
+    let s = Start { normal: NORMAL, traction: 5e6, rate, dt, carry: false };
+    let [along, coupling, constant] = rates(&law, &s, Regime::Slip, &[phi]);
+    let hardening = NORMAL * (0.01 / (rate * dt) - omega / LENGTH);
+    let kappa = STIFFNESS / (STIFFNESS + hardening);
+    let mu = 0.6 + phi + 0.01 * (rate / V_REF).ln();
+    approx::assert_relative_eq!(along, hardening / (STIFFNESS + hardening), max_relative = 1e-14);
+    approx::assert_relative_eq!(coupling, kappa * mu, max_relative = 1e-14);
+    approx::assert_relative_eq!(constant, -kappa * 0.01 * NORMAL, max_relative = 1e-14);
+    let carried = rates(&law, &Start { carry: true, ..s }, Regime::Slip, &[phi]);
+    approx::assert_relative_eq!(carried[2] - constant, kappa * (mu * NORMAL - 5e6), max_relative = 1e-13);
+}
+
+/// The ageing law's constant is -κ f_n (a - b Δt/θ_0), its hardening f_n [a/(V_0 Δt) - b/L].
+#[test]
+fn the_rate_form_of_the_ageing_law_is_its_closed_form() {
+    let (b, theta, rate, dt) = (0.015, 7.0, 3e-7, 0.01);
+    let law = RateLaw::new(Bare(parameters()), Ageing::new(b, LENGTH, V_REF).unwrap(), V_REF, None).unwrap();
+    let s = Start { normal: NORMAL, traction: 5e6, rate, dt, carry: false };
+    let [along, _, constant] = rates(&law, &s, Regime::Slip, &[f64::ln(V_REF * theta / LENGTH)]);
+    let hardening = NORMAL * (0.01 / (rate * dt) - b / LENGTH);
+    let kappa = STIFFNESS / (STIFFNESS + hardening);
+    approx::assert_relative_eq!(along, hardening / (STIFFNESS + hardening), max_relative = 1e-13);
+    approx::assert_relative_eq!(constant, -kappa * NORMAL * (0.01 - b * dt / theta), max_relative = 1e-12);
+}
+
+#[test]
+fn a_point_weaker_than_its_spring_is_refused_in_the_rate_form() {
+    let evolution = Ageing::new(10.0, 1e-9, V_REF).unwrap();
+    let law = RateLaw::new(Regularised(parameters()), evolution, V_REF, None).unwrap();
+    let s = Start { normal: NORMAL, traction: 5e6, rate: 1e-6, dt: 10.0, carry: false };
+    let (mut a, mut b, mut c) = ([0.0], [0.0], [0.0]);
+    let failure = law
+        .rates(
+            present(&s, &[Regime::Slip], &[0.0]),
+            Rates { along: &mut a, coupling: &mut b, constant: &mut c },
+        )
+        .unwrap_err();
+    assert!(matches!(failure, asperity_friction::Failure::Unstable { point: 0, .. }), "{failure}");
+}
+
+fn velocity() -> RateLaw<Regularised, asperity_friction::evolution::stateless::Stateless> {
+    RateLaw::velocity(parameters(), None).unwrap()
+}
+
+fn floor_mu(law: &dyn Law) -> f64 {
+    let mut mu = [0.0];
+    law.coefficient(&[FLOOR], &[], &mut mu).unwrap();
+    mu[0]
+}
+
+#[test]
+fn a_resting_point_sticks_until_its_strength_at_the_floor_and_then_slips_at_the_floor() {
+    let law = velocity();
+    let s = Start { normal: NORMAL, traction: 1e6, rate: 0.0, dt: 0.1, carry: true };
+    assert_eq!(rates(&law, &s, Regime::Stick, &[]), [1.0, 0.0, 0.0]);
+    let (df, dtau) = (1e6, 6e6);
+    let found = limit(&law, &s, Regime::Stick, &[], [df, dtau, 0.0]).unwrap();
+    assert_eq!(found.kind, LimitKind::StickToSlip);
+    let r = found.fraction;
+    approx::assert_relative_eq!(1e6 + r * dtau, floor_mu(&law) * (NORMAL + r * df), max_relative = 1e-14);
+    // Just before, the point rests; at the event it slips at the floor rate.
+    let before = 0.999 * r;
+    assert_eq!(
+        advance(&law, &s, Regime::Stick, &mut [], [before * df, before * dtau, 0.0]),
+        (Regime::Stick, 0.0)
+    );
+    assert_eq!(advance(&law, &s, Regime::Stick, &mut [], [r * df, r * dtau, 0.0]), (Regime::Slip, FLOOR));
+    // A point within the band does not limit the step.
+    let near = Start { traction: floor_mu(&law) * NORMAL * (1.0 - 1e-10), ..s };
+    assert_eq!(limit(&law, &near, Regime::Stick, &[], [0.0, 1e6, 0.0]), None);
+}
+
+#[test]
+fn a_traction_leaves_on_the_other_side_too() {
+    let law = velocity();
+    let s = Start { normal: NORMAL, traction: 1e6, rate: 0.0, dt: 0.1, carry: true };
+    let r = limit(&law, &s, Regime::Stick, &[], [0.0, -1e7, 0.0]).unwrap().fraction;
+    approx::assert_relative_eq!(1e6 - r * 1e7, -floor_mu(&law) * NORMAL, max_relative = 1e-14);
+    assert_eq!(advance(&law, &s, Regime::Stick, &mut [], [0.0, -r * 1e7, 0.0]), (Regime::Slip, FLOOR));
+    // A cone that shrinks to nothing around an unloaded point is an opening.
+    let unloaded = Start { traction: 0.0, ..s };
+    assert_eq!(limit(&law, &unloaded, Regime::Stick, &[], [-2.0 * NORMAL, 0.0, 0.0]), None);
+}
+
+#[test]
+fn the_cap_is_a_surface_of_its_own() {
+    let (coulomb, capped) =
+        (Coulomb::new(0.6, Some(3e6)).unwrap(), RateLaw::velocity(parameters(), Some(3e6)).unwrap());
+    let laws: [&dyn Law; 2] = [&coulomb, &capped];
+    for law in laws {
+        // The cone grows past the cap before the traction arrives.
+        let s = Start { normal: NORMAL, traction: 1e6, rate: 0.0, dt: 0.1, carry: true };
+        let found = limit(law, &s, Regime::Stick, &[], [8e6, 4e6, 0.0]).unwrap();
+        assert_eq!(found.fraction, 0.5, "{}", law.name());
+        assert_eq!(advance(law, &s, Regime::Stick, &mut [], [4e6, 2e6, 0.0]).0, Regime::Slip);
+        // At the cap the normal traction has no say, and a residual is carried.
+        let s = Start { normal: NORMAL, traction: 2.9e6, rate: 1e-6, dt: 0.1, carry: true };
+        let [along, coupling, constant] = rates(law, &s, Regime::Slip, &[]);
+        assert_eq!((along, coupling), (0.0, 0.0));
+        approx::assert_relative_eq!(constant, 1e5, max_relative = 1e-9);
+    }
+}
+
+#[test]
+fn coulomb_points_switch_at_the_cone_and_return_when_slip_reverses() {
+    let law = Coulomb::new(0.5, None).unwrap();
+    let s = Start { normal: 8e6, traction: 3e6, rate: 0.0, dt: 0.1, carry: true };
+    assert_eq!(rates(&law, &s, Regime::Stick, &[]), [1.0, 0.0, 0.0]);
+    let found = limit(&law, &s, Regime::Stick, &[], [-2e6, 1e6, 0.0]).unwrap();
+    assert_eq!((found.fraction, found.kind), (0.5, LimitKind::StickToSlip));
+    assert_eq!(advance(&law, &s, Regime::Stick, &mut [], [-1e6, 0.5e6, 0.0]), (Regime::Slip, 0.0));
+    let s = Start { traction: 3.9e6, ..s };
+    assert_eq!(rates(&law, &s, Regime::Slip, &[]), [0.0, 0.5, 1e5]);
+    assert_eq!(rates(&law, &Start { carry: false, ..s }, Regime::Slip, &[]), [0.0, 0.5, 0.0]);
+    assert_eq!(advance(&law, &s, Regime::Slip, &mut [], [0.0, 0.0, 2e-7]), (Regime::Slip, 2e-7 / 0.1));
+    assert_eq!(advance(&law, &s, Regime::Slip, &mut [], [0.0, -1e5, -1e-9]), (Regime::Stick, 0.0));
+}
+
+#[test]
+fn the_slip_of_a_step_is_bounded_by_the_characteristic_length() {
+    let law = RateLaw::new(Regularised(parameters()), Slip::new(0.015, LENGTH, V_REF).unwrap(), V_REF, None)
+        .unwrap();
+    let s = Start { normal: NORMAL, traction: 5e6, rate: 1e-6, dt: 4.0, carry: true };
+    let found = limit(&law, &s, Regime::Slip, &[0.0], [0.0, 0.0, 4e-6]).unwrap();
+    assert_eq!(found.kind, LimitKind::SlipLength);
+    approx::assert_relative_eq!(found.fraction, BOUNDS.zeta * LENGTH / 4e-6, max_relative = 1e-15);
+    // Without a state there is no length.
+    assert_eq!(limit(&velocity(), &s, Regime::Slip, &[], [0.0, 0.0, 4e-6]), None);
+}
+
+#[test]
+fn the_change_of_the_rate_is_bounded_in_both_directions_and_ends_at_the_floor() {
+    let law = velocity();
+    let s = Start { normal: NORMAL, traction: 5e6, rate: 1e-9, dt: 0.1, carry: true };
+    let fraction = |slip: f64| limit(&law, &s, Regime::Slip, &[], [0.0, 0.0, slip]);
+    let up = fraction(1e-8 * s.dt).unwrap();
+    assert_eq!(up.kind, LimitKind::RateChange);
+    // V_0 + r (V - V_0) = e V_0.
+    approx::assert_relative_eq!(up.fraction, (1f64.exp() - 1.0) / 9.0, max_relative = 1e-14);
+    let down = fraction(-1e-9 * s.dt).unwrap();
+    approx::assert_relative_eq!(down.fraction, (1.0 - (-1f64).exp()) / 2.0, max_relative = 1e-14);
+    assert_eq!(fraction(1.5e-9 * s.dt), None);
+    // Near the floor max(V, V_floor) cannot fall by more than the bound.
+    let near = Start { rate: 2.0 * FLOOR, ..s };
+    assert_eq!(limit(&law, &near, Regime::Slip, &[], [0.0, 0.0, -FLOOR * s.dt]), None);
+}
+
+#[test]
+fn a_step_that_comes_out_backwards_ends_in_rest_below_the_strength_and_at_the_floor_on_it() {
+    let law = velocity();
+    let traction = floor_mu(&law) * NORMAL;
+    let s = Start { normal: NORMAL, traction, rate: 1e-17, dt: 0.1, carry: true };
+    assert_eq!(advance(&law, &s, Regime::Slip, &mut [], [0.0, -1e5, -1e-19]), (Regime::Stick, 0.0));
+    assert_eq!(advance(&law, &s, Regime::Slip, &mut [], [0.0, 0.0, -1e-19]), (Regime::Slip, FLOOR));
+}
+
+#[test]
+fn states_advance_by_their_exact_step() {
+    let evolution = Ageing::new(0.015, LENGTH, V_REF).unwrap();
+    let law = RateLaw::new(Regularised(parameters()), evolution, V_REF, None).unwrap();
+    let mut states = [0.0];
+    law.initial(&mut states);
+    let old = states[0];
+    let s = Start { normal: NORMAL, traction: 5e6, rate: 1e-6, dt: 2.0, carry: true };
+    let (_, rate) = advance(&law, &s, Regime::Slip, &mut states, [0.0, 0.0, 4e-6]);
+    assert_eq!(rate, 2e-6);
+    assert_eq!(states[0], evolution.step(old, f64::ln(2e-6), 2.0).state);
+    // At rest θ grows with time: θ = L/V_ref + 2 s.
+    let mut resting = [old];
+    let s = Start { traction: 0.0, rate: 0.0, ..s };
+    advance(&law, &s, Regime::Stick, &mut resting, [0.0, 0.0, 0.0]);
+    approx::assert_relative_eq!(resting[0], (V_REF * 12.0 / LENGTH).ln(), max_relative = 1e-14);
+}
+
+#[test]
+fn a_step_that_is_not_finite_is_refused() {
+    let law = velocity();
+    let s = Start { normal: NORMAL, traction: 5e6, rate: 1e-6, dt: 0.1, carry: true };
+    let (mut regime, mut rate) = ([Regime::Slip], [0.0]);
+    let step = Increments { normal: &[0.0], traction: &[0.0], slip: &[f64::NAN] };
+    let failure = law.advance(present(&s, &[Regime::Slip], &[]), step, &mut regime, &mut rate, &mut []);
+    assert!(matches!(failure, Err(asperity_friction::Failure::NonFinite { point: 0, .. })));
+}
