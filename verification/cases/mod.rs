@@ -32,10 +32,12 @@
 
 use crate::Case;
 
+mod contact_patch;
 pub mod sandwich;
+mod sandwich_3d;
 mod sandwich_pressed;
 mod sandwich_sheared;
 mod sandwich_steppers;
 
 /// Every case, in the order of the report.
-pub const ALL: &[Case] = &[sandwich_pressed::CASE, sandwich_sheared::CASE, sandwich_steppers::CASE];
+pub const ALL: &[Case] = &[contact_patch::CASE, sandwich_3d::CASE, sandwich_pressed::CASE, sandwich_sheared::CASE, sandwich_steppers::CASE];

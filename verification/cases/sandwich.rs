@@ -197,3 +197,40 @@ pub fn limit(values: &[f64]) -> (f64, f64) {
     let ratio = (b - a) / (c - b);
     (c + (c - b) / (ratio - 1.0), ratio.log2())
 }
+
+/// Another element in both bodies.
+pub fn element(mut scene: Scene, name: &str) -> Scene {
+    for body in ["A", "B"] {
+        mesh_of(&mut scene, body).element = here(name.to_string());
+    }
+    scene
+}
+
+/// The scene as a layer of `thickness` \[mm\] in z, held in z on both faces: plane strain in three dimensions.
+pub fn layer(mut scene: Scene, thickness: f64, name: &str) -> Scene {
+    use asperity_driver::scene::model::{Condition, Kinematics, Motion};
+    scene.kinematics = here(Kinematics::ThreeD);
+    for body in ["A", "B"] {
+        let mesh = mesh_of(&mut scene, body);
+        mesh.min.get_mut().push(Length(0.0));
+        mesh.max.get_mut().push(Length(thickness * 1e-3));
+        mesh.element = here(name.to_string());
+        for face in ["back", "front"] {
+            scene.stages[0].conditions.push(here(Condition {
+                set: Some(here(format!("{body}.{face}"))),
+                z: Some(here(Motion::Fixed(0.0))),
+                ..Condition::default()
+            }));
+        }
+    }
+    scene
+}
+
+/// The sequence of step ends of a finished run, imposed on another.
+pub fn imposed(mut scene: Scene, ends: &[f64]) -> Scene {
+    for stage in &mut scene.stages {
+        stage.steps = None;
+    }
+    scene.time.imposed = Some(ends.to_vec());
+    scene
+}
