@@ -2,15 +2,52 @@
 
 use super::model::{Loading, Motion};
 use super::units::{self, Dimension, Length, Pressure, Time, Velocity};
-use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor, value::MapAccessDeserializer};
+use serde::de::{
+    self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor, value::MapAccessDeserializer,
+};
 use std::fmt;
+use std::marker::PhantomData;
+
+/// A point of a table, `[time, value]`, and nothing after it.
+struct Point<V> {
+    time: Time,
+    value: V,
+}
+
+impl<'de, V: Deserialize<'de>> Deserialize<'de> for Point<V> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct PointVisitor<V>(PhantomData<V>);
+        impl<'de, V: Deserialize<'de>> Visitor<'de> for PointVisitor<V> {
+            type Value = Point<V>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a point of a table, [time, value]")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<Point<V>, A::Error> {
+                let time = entries.next_element()?.ok_or_else(|| de::Error::invalid_length(0, &self))?;
+                let value = entries.next_element()?.ok_or_else(|| de::Error::invalid_length(1, &self))?;
+                let mut length = 2;
+                while entries.next_element::<de::IgnoredAny>()?.is_some() {
+                    length += 1;
+                }
+                if length > 2 {
+                    Err(de::Error::invalid_length(length, &self))
+                } else {
+                    Ok(Point { time, value })
+                }
+            }
+        }
+        deserializer.deserialize_seq(PointVisitor(PhantomData))
+    }
+}
 
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MotionTable {
     to: Option<Length>,
     rate: Option<Velocity>,
-    table: Option<Vec<(Time, Length)>>,
+    table: Option<Vec<Point<Length>>>,
 }
 
 impl<'de> Deserialize<'de> for Motion {
@@ -51,7 +88,7 @@ impl<'de> Deserialize<'de> for Motion {
                     (Some(to), None, None) => Ok(Motion::To(to.0)),
                     (None, Some(rate), None) => Ok(Motion::Rate(rate.0)),
                     (None, None, Some(points)) => {
-                        Ok(Motion::Table(points.into_iter().map(|(t, u)| (t.0, u.0)).collect()))
+                        Ok(Motion::Table(points.into_iter().map(|p| (p.time.0, p.value.0)).collect()))
                     }
                     _ => Err(de::Error::custom("a motion has exactly one of the keys `to`, `rate`, `table`")),
                 }
@@ -65,7 +102,7 @@ impl<'de> Deserialize<'de> for Motion {
 #[serde(deny_unknown_fields)]
 struct LoadingTable {
     to: Option<Pressure>,
-    table: Option<Vec<(Time, Pressure)>>,
+    table: Option<Vec<Point<Pressure>>>,
 }
 
 impl<'de> Deserialize<'de> for Loading {
@@ -97,7 +134,7 @@ impl<'de> Deserialize<'de> for Loading {
                 match (t.to, t.table) {
                     (Some(to), None) => Ok(Loading::To(to.0)),
                     (None, Some(points)) => {
-                        Ok(Loading::Table(points.into_iter().map(|(t, p)| (t.0, p.0)).collect()))
+                        Ok(Loading::Table(points.into_iter().map(|p| (p.time.0, p.value.0)).collect()))
                     }
                     _ => Err(de::Error::custom("a load has exactly one of the keys `to`, `table`")),
                 }

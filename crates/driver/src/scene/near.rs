@@ -62,10 +62,8 @@ pub fn explain(error: &toml::de::Error, text: &str) -> SceneError {
     let message = error.message();
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     let short = message.split(", expected").next().unwrap_or(message);
-    let listed = |what: &str| match quoted.split_first() {
-        Some((wrong, known)) => Some(suggest(wrong, what, known.iter().copied())),
-        None => None,
-    };
+    let listed =
+        |what: &str| quoted.split_first().map(|(wrong, known)| suggest(wrong, what, known.iter().copied()));
     if message.starts_with("unknown field") {
         let message = short.replacen("unknown field", "there is no key", 1);
         return SceneError { message: format!("{message} here"), help: listed("keys"), span };
@@ -87,7 +85,7 @@ pub fn explain(error: &toml::de::Error, text: &str) -> SceneError {
         {
             let found =
                 if kind.ends_with("length ") { format!("{found} entries") } else { found.to_string() };
-            let expected = expected.replacen("a sequence", "a list", 1);
+            let expected = in_words(expected);
             return SceneError { message: format!("expected {expected}, found {found}"), help: None, span };
         }
     }
@@ -96,6 +94,17 @@ pub fn explain(error: &toml::de::Error, text: &str) -> SceneError {
         return SceneError { message: "this key is given twice".to_string(), help, span };
     }
     SceneError { message: message.to_string(), help: None, span }
+}
+
+/// The types of the reader as a person would call them.
+fn in_words(expected: &str) -> &str {
+    match expected {
+        "a sequence" => "a list",
+        "a map" => "a table",
+        "f64" => "a number",
+        "usize" | "u32" => "a whole number that is not negative",
+        other => other,
+    }
 }
 
 /// A place of at least one character: where something is missing, the reader points between two.

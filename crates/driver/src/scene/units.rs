@@ -157,6 +157,9 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, String> {
     if name.is_empty() {
         return refuse("no unit; a number without a unit is written without quotes");
     }
+    if name.starts_with(',') {
+        return refuse("the decimal sign is a point");
+    }
     let Some(unit) = unit(name) else {
         return refuse(&format!("there is no unit `{name}`; units here are {}", wanted.units()));
     };

@@ -106,7 +106,7 @@ impl Checker<'_> {
         if found != wanted {
             self.error(
                 values.span(),
-                format!("`{what}` has {found} entries, but {} needs {wanted}", self.idealisation()),
+                format!("`{what}` has {found} entries, expected {wanted} in {}", self.idealisation()),
                 format!("one for each of {}", AXES[..wanted].join(", ")),
             );
         }

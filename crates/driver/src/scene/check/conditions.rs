@@ -189,7 +189,7 @@ impl Checker<'_> {
             if found != wanted {
                 self.error(
                     traction.span(),
-                    format!("`traction` has {found} entries, but {} needs {wanted}", self.idealisation()),
+                    format!("`traction` has {found} entries, expected {wanted} in {}", self.idealisation()),
                     format!("one for each of {}", AXES[..wanted].join(", ")),
                 );
             }
