@@ -329,4 +329,3 @@ pub struct Output {
     /// Profiles are written at this many equal intervals of each stage (default 10).
     pub profiles: Option<Spanned<usize>>,
 }
-
