@@ -129,9 +129,15 @@ impl<'a, const D: usize> Assembled<'a, D> {
         };
         let system = System::new(self.constraints.equations(self.state.u.len()), storage);
         match self.plan.stepping {
-            Stepping::Implicit { .. } => ActiveStepper::Implicit(Box::new(Implicit::new(system))),
+            Stepping::Implicit { .. } => ActiveStepper::Implicit(Box::new(Implicit::new(system, self.position()))),
             Stepping::StaticExplicit { .. } => ActiveStepper::StaticExplicit(Box::new(StaticExplicit::new(system))),
         }
+    }
+
+    /// Size of the positions contact works on: that of the scene in finite sliding, none in small sliding.
+    fn position(&self) -> f64 {
+        let finite = self.plan.interfaces.iter().any(|i| i.sliding == Sliding::Finite);
+        if finite { self.plan.model.scale } else { 0.0 }
     }
 
     /// Hands the channels to the bodies, condensing them anew where asked.

@@ -9,6 +9,9 @@ use asperity_fem::term::{Instant, Linearized};
 /// Residual over the largest force at which an iteration has converged. Rounding leaves 1e-14 to 1e-12 (the condensed
 /// stiffness acts on displacements some hundred times the elastic ones); a Newton step below this bound squares it.
 const CONVERGED: f64 = 1e-11;
+/// Iterations that may change the pairing. A node that sits on a vertex of the master side would otherwise change segment
+/// for ever, since the normals of the two differ.
+const PAIRING: usize = 3;
 /// Rounding of a force: each is a sum of products of stiffness and displacement, of some tens of terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// A step whose iteration needs more is better halved.
@@ -27,15 +30,17 @@ pub struct Implicit {
     system: System,
     balance: Balance,
     trial: Balance,
+    /// Size of the positions gaps are differences of \[m\]; 0 where gaps are differences of displacements.
+    position: f64,
     /// Displacement increment of the last accepted step and its length, for the prediction of the next.
     last: Option<(Vec<f64>, f64)>,
 }
 
 impl Implicit {
-    /// A stepper for `system`.
+    /// A stepper for `system`. Where terms work on current positions, `position` is their size \[m\], else 0.
     #[must_use]
-    pub fn new(system: System) -> Self {
-        Self { system, balance: Balance::default(), trial: Balance::default(), last: None }
+    pub fn new(system: System, position: f64) -> Self {
+        Self { system, balance: Balance::default(), trial: Balance::default(), position, last: None }
     }
 
     /// The linear system, for its counts.
@@ -92,6 +97,7 @@ impl Implicit {
         at: Instant,
         counts: &mut Counts,
     ) -> Result<(usize, f64), String> {
+        prepare(terms, u)?;
         self.evaluate(terms, u, at, counts)?;
         let mut best = f64::INFINITY;
         for iteration in 0..MOST_ITERATIONS {
@@ -101,11 +107,14 @@ impl Implicit {
                 return Ok((iteration, ratio));
             }
             // A residual that no longer falls has converged when it is rounding of the forces it is the sum of.
-            if norm <= ROUNDING * self.system.largest_entry() * largest(u) && norm >= 0.5 * best {
+            if norm <= self.rounding(u) && norm >= 0.5 * best {
                 return Ok((iteration, ratio));
             }
             best = best.min(norm);
             let direction = self.direction(terms, counts)?;
+            if iteration < PAIRING {
+                prepare(terms, u)?;
+            }
             self.search(terms, u, &direction, at, counts)?;
             counts.iterations += 1;
         }
@@ -122,15 +131,17 @@ impl Implicit {
         at: Instant,
         counts: &mut Counts,
     ) -> Result<(), String> {
-        for term in terms.iter_mut() {
-            term.prepare(u).map_err(|e| e.to_string())?;
-        }
         self.balance.evaluate(terms, u, at, counts).map_err(|e| e.to_string())
     }
 
     fn norm(&self) -> Result<f64, String> {
         let norm = self.balance.largest_residual(&self.system.equations().free);
         if norm.is_finite() { Ok(norm) } else { Err("the residual is not finite".into()) }
+    }
+
+    /// Rounding of the forces at `u`.
+    fn rounding(&self, u: &[f64]) -> f64 {
+        ROUNDING * self.system.largest_entry() * largest(u).max(self.position)
     }
 
     fn scale(&self) -> f64 {
@@ -195,6 +206,11 @@ impl Implicit {
             Err(_) => f64::NAN,
         }
     }
+}
+
+/// Lets the terms search and pair at `u`.
+fn prepare(terms: &mut [&mut dyn Linearized], u: &[f64]) -> Result<(), String> {
+    terms.iter_mut().try_for_each(|term| term.prepare(u)).map_err(|e| e.to_string())
 }
 
 /// Largest displacement.
