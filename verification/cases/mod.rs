@@ -40,4 +40,10 @@ mod sandwich_sheared;
 mod sandwich_steppers;
 
 /// Every case, in the order of the report.
-pub const ALL: &[Case] = &[contact_patch::CASE, sandwich_3d::CASE, sandwich_pressed::CASE, sandwich_sheared::CASE, sandwich_steppers::CASE];
+pub const ALL: &[Case] = &[
+    contact_patch::CASE,
+    sandwich_3d::CASE,
+    sandwich_pressed::CASE,
+    sandwich_sheared::CASE,
+    sandwich_steppers::CASE,
+];

@@ -1,15 +1,15 @@
 //! The sandwich benchmark as the cases use it: the scene file of the product, with one thing changed at a time.
 
 use crate::CaseError;
-use asperity_driver::observe::view::InterfaceFields;
 use asperity_driver::observe::Recorder;
+use asperity_driver::observe::view::InterfaceFields;
 use asperity_driver::plan;
 use asperity_driver::report::{Outcome, RunReport, mean};
 use asperity_driver::run;
+use asperity_driver::scene;
 pub use asperity_driver::scene::model::Scene;
 use asperity_driver::scene::model::{MeshSource, Stepper, here};
 use asperity_driver::scene::units::{Length, Penalty, Pressure, Velocity};
-use asperity_driver::scene;
 
 /// Young's modulus of the benchmark \[Pa\].
 pub const YOUNG: f64 = 44.8e9;
@@ -33,7 +33,8 @@ pub struct Run {
 impl Run {
     /// Fields of the fault at the end of a stage.
     pub fn end(&self, stage: &str) -> Result<&InterfaceFields, CaseError> {
-        Ok(&self.record.stage_end(stage).ok_or_else(|| format!("stage {stage} was not reached"))?.interfaces[0])
+        Ok(&self.record.stage_end(stage).ok_or_else(|| format!("stage {stage} was not reached"))?.interfaces
+            [0])
     }
 
     /// Area-weighted mean of the normal traction at the end of a stage \[MPa\].
@@ -49,7 +50,10 @@ impl Run {
     /// Slave node at height `y` \[m\].
     pub fn node_at(&self, y: f64) -> Result<usize, CaseError> {
         let heights = self.heights();
-        heights.iter().position(|h| (h - y).abs() < 1e-9).ok_or_else(|| format!("no slave node at y = {y}").into())
+        heights
+            .iter()
+            .position(|h| (h - y).abs() < 1e-9)
+            .ok_or_else(|| format!("no slave node at y = {y}").into())
     }
 
     /// |slip| at heights `y` at the end of the run \[um\].
@@ -78,7 +82,8 @@ impl Run {
 
 /// The scene file of the product, through the public reader.
 pub fn base() -> Result<Scene, CaseError> {
-    scene::read(include_str!("../../scenes/sandwich.toml")).map_err(|e| format!("scenes/sandwich.toml: {e}").into())
+    scene::read(include_str!("../../scenes/sandwich.toml"))
+        .map_err(|e| format!("scenes/sandwich.toml: {e}").into())
 }
 
 /// Changes the generator of a body.

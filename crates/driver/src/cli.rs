@@ -2,7 +2,7 @@
 // The command line is where printing belongs.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
-use crate::observe::{FieldSchedule, Files, Multi, Observer, Progress, plots, Recorder};
+use crate::observe::{FieldSchedule, Files, Multi, Observer, Progress, Recorder, plots};
 use crate::plan::{self, AnyPlan};
 use crate::report::{Outcome, RunReport};
 use crate::run;
@@ -68,7 +68,7 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
 }
 
 fn default_output(scene: &Path) -> PathBuf {
-    Path::new("out").join(scene.file_stem().unwrap_or_else(|| scene.as_os_str()))
+    Path::new("out").join(scene.file_stem().unwrap_or(scene.as_os_str()))
 }
 
 /// Reads and plans a scene: the plan, the hash of its text, and the seconds planning took.

@@ -22,7 +22,9 @@ pub fn build(choice: &LawChoice) -> Result<Arc<dyn Law>, Failure> {
         LawChoice::RateAndState { form, evolution, mu0, a, b, l, v_ref, v_initial, f_limit } => {
             let parameters = Parameters::new(mu0, a, v_ref)?;
             match evolution {
-                Evolution::Ageing => with_form(form, parameters, Ageing::new(b, l, v_ref)?, v_initial, f_limit),
+                Evolution::Ageing => {
+                    with_form(form, parameters, Ageing::new(b, l, v_ref)?, v_initial, f_limit)
+                }
                 Evolution::Slip => with_form(form, parameters, Slip::new(b, l, v_ref)?, v_initial, f_limit),
             }
         }

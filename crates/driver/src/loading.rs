@@ -73,8 +73,9 @@ impl Stage {
         match motion {
             Motion::Fixed(value) if *value != 0.0 => channels.push(unit(constant(*value))),
             Motion::To(value) => channels.extend([present(ramp(1.0, 0.0)), unit(ramp(0.0, *value))]),
-            Motion::Rate(rate) => channels
-                .extend([present(constant(1.0)), unit(ramp(0.0, rate * (self.end - self.start)))]),
+            Motion::Rate(rate) => {
+                channels.extend([present(constant(1.0)), unit(ramp(0.0, rate * (self.end - self.start)))])
+            }
             Motion::Table(points) => channels.push(unit(Table::new(
                 points.iter().map(|p| self.start + p.0).collect(),
                 points.iter().map(|p| p.1).collect(),
@@ -158,7 +159,11 @@ fn take_up<const D: usize>(
 ) -> Result<(), PlanError> {
     let c = condition.get_ref();
     let set = c.set.as_ref().ok_or_else(|| {
-        PlanError::at(condition.span(), "the condition names no set".into(), "add `set = \"body.side\"`".into())
+        PlanError::at(
+            condition.span(),
+            "the condition names no set".into(),
+            "add `set = \"body.side\"`".into(),
+        )
     })?;
     model.sides(set)?;
     for (axis, motion) in [&c.x, &c.y, &c.z].into_iter().enumerate() {
@@ -240,10 +245,9 @@ fn load_channel<const D: usize>(
     let amplitude = match loading {
         Loading::Fixed(value) => Table::constant(*value),
         Loading::To(value) => Table::new(vec![start, end], vec![from, *value]),
-        Loading::Table(points) => Table::new(
-            points.iter().map(|p| start + p.0).collect(),
-            points.iter().map(|p| p.1).collect(),
-        ),
+        Loading::Table(points) => {
+            Table::new(points.iter().map(|p| start + p.0).collect(), points.iter().map(|p| p.1).collect())
+        }
     };
     Ok(Channel { prescribed: Vec::new(), forces, amplitude })
 }
@@ -255,7 +259,8 @@ fn body_loads<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Cha
         let spec = &scene.bodies[&body.name];
         if let Some(gravity) = &spec.gravity {
             let density = density_of(scene, &spec.material, gravity.span())?;
-            let force: [f64; D] = std::array::from_fn(|c| density * gravity.get_ref().get(c).copied().unwrap_or(0.0));
+            let force: [f64; D] =
+                std::array::from_fn(|c| density * gravity.get_ref().get(c).copied().unwrap_or(0.0));
             channels.push(steady(body.block.body_force(force), 1.0));
         }
         if let Some(stress) = initial_stress(spec) {
@@ -277,13 +282,18 @@ pub fn initial_stress(spec: &crate::scene::model::Body) -> Option<[f64; 6]> {
 }
 
 fn density_of(scene: &Scene, material: &Spanned<String>, place: Range<usize>) -> Result<f64, PlanError> {
-    scene.materials.get(material.get_ref()).and_then(|m| m.density.as_ref()).map(|d| d.get_ref().0).ok_or_else(|| {
-        PlanError::at(
-            place,
-            format!("material `{}` has no density", material.get_ref()),
-            "gravity acts on a mass: add `density = \"2700 kg/m^3\"`".into(),
-        )
-    })
+    scene
+        .materials
+        .get(material.get_ref())
+        .and_then(|m| m.density.as_ref())
+        .map(|d| d.get_ref().0)
+        .ok_or_else(|| {
+            PlanError::at(
+                place,
+                format!("material `{}` has no density", material.get_ref()),
+                "gravity acts on a mass: add `density = \"2700 kg/m^3\"`".into(),
+            )
+        })
 }
 
 fn steady(forces: Vec<(usize, f64)>, factor: f64) -> Channel {

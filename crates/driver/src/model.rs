@@ -129,11 +129,10 @@ fn material_of(scene: &scene::Scene, body: &scene::Body) -> Result<Elastic, Plan
 }
 
 fn generate<const D: usize>(name: &str, spec: &scene::BlockMesh) -> Result<Mesh<D>, PlanError> {
-    let element: ElementKind = spec
-        .element
-        .get_ref()
-        .parse()
-        .map_err(|e| PlanError::at(spec.element.span(), format!("{e}"), "see the list of elements".into()))?;
+    let element: ElementKind =
+        spec.element.get_ref().parse().map_err(|e| {
+            PlanError::at(spec.element.span(), format!("{e}"), "see the list of elements".into())
+        })?;
     let corner = |v: &scene::Spanned<Vec<crate::scene::units::Length>>| -> Result<[f64; D], PlanError> {
         let values: Vec<f64> = v.get_ref().iter().map(|l| l.0).collect();
         <[f64; D]>::try_from(values)

@@ -233,8 +233,11 @@ pub fn plan(scene: &Scene) -> Result<AnyPlan, PlanError> {
 fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
     let model = Model::<D>::new(scene)?;
     let stages = loading::stages(scene, &model)?;
-    let interfaces =
-        scene.interfaces.iter().map(|(name, spec)| interface(scene, &model, name, spec)).collect::<Result<Vec<_>, _>>()?;
+    let interfaces = scene
+        .interfaces
+        .iter()
+        .map(|(name, spec)| interface(scene, &model, name, spec))
+        .collect::<Result<Vec<_>, _>>()?;
     let path = choose_path(scene, &interfaces)?;
     let stepping = stepping(scene);
     let control = control(scene, &stages);
@@ -266,11 +269,11 @@ fn interface<const D: usize>(
     let slave_sides = model.sides(&spec.slave)?;
     let master_sides = model.sides(&spec.master)?;
     let body = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]);
-    let body = body.ok_or_else(|| PlanError::plain(format!("interface `{name}`: the slave side has no body")))?;
-    let areas = body
-        .block
-        .tributary_areas(&model.mesh, slave_sides)
-        .map_err(|e| PlanError::at(spec.slave.span(), e.to_string(), "use an element with positive nodal areas".into()))?;
+    let body =
+        body.ok_or_else(|| PlanError::plain(format!("interface `{name}`: the slave side has no body")))?;
+    let areas = body.block.tributary_areas(&model.mesh, slave_sides).map_err(|e| {
+        PlanError::at(spec.slave.span(), e.to_string(), "use an element with positive nodal areas".into())
+    })?;
     let slave = nodes_of_sides(&model.mesh, slave_sides).into_iter().map(|n| (n, areas[&n])).collect();
     let in_pascal_per_metre = |penalty: &Spanned<Penalty>| match *penalty.get_ref() {
         Penalty::Value(value) => value,
@@ -298,8 +301,9 @@ fn build_law(spec: &Spanned<crate::scene::model::LawSpec>) -> Result<Arc<dyn Law
         let first = errors.into_iter().next();
         first.map_or_else(|| PlanError::plain("the law is not complete".into()), PlanError::from)
     })?;
-    crate::laws::build(&choice)
-        .map_err(|e| PlanError::at(spec.span(), e.to_string(), "see the admissible range in the message".into()))
+    crate::laws::build(&choice).map_err(|e| {
+        PlanError::at(spec.span(), e.to_string(), "see the admissible range in the message".into())
+    })
 }
 
 fn choose_path(scene: &Scene, interfaces: &[PlannedInterface]) -> Result<Path, PlanError> {
@@ -318,7 +322,9 @@ fn choose_path(scene: &Scene, interfaces: &[PlannedInterface]) -> Result<Path, P
 fn stepping(scene: &Scene) -> Stepping {
     let time = &scene.time;
     match time.stepper.get_ref() {
-        Stepper::Implicit => Stepping::Implicit { rule: time.rule.as_ref().map(|r| *r.get_ref()).unwrap_or_default() },
+        Stepper::Implicit => {
+            Stepping::Implicit { rule: time.rule.as_ref().map(|r| *r.get_ref()).unwrap_or_default() }
+        }
         Stepper::StaticExplicit => Stepping::StaticExplicit {
             carry: time.carry.as_ref().is_none_or(|c| *c.get_ref()),
             rate_change: time.rate_change.as_ref().map_or(RATE_CHANGE, |r| *r.get_ref()),
@@ -396,7 +402,8 @@ fn summary<const D: usize>(
 fn describe(stepping: &Stepping) -> String {
     match stepping {
         Stepping::Implicit { rule: Rule::BackwardEuler } => {
-            "implicit: Newton with line search, backward Euler in slip, steps adapted to the error of slip".into()
+            "implicit: Newton with line search, backward Euler in slip, steps adapted to the error of slip"
+                .into()
         }
         Stepping::Implicit { rule: Rule::Bdf2 } => {
             "implicit: Newton with line search, second-order backward differences in slip".into()

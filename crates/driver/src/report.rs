@@ -123,7 +123,12 @@ impl RunReport {
     }
 
     /// Adds the results at the end of a stage. `interfaces` gives name and areas of each.
-    pub fn end_of_stage(&mut self, stage: &Stage, fields: &[InterfaceFields], interfaces: Vec<(&str, &[f64])>) {
+    pub fn end_of_stage(
+        &mut self,
+        stage: &Stage,
+        fields: &[InterfaceFields],
+        interfaces: Vec<(&str, &[f64])>,
+    ) {
         for (f, (name, areas)) in fields.iter().zip(interfaces) {
             self.results.push(InterfaceResult {
                 interface: name.to_string(),

@@ -1,8 +1,8 @@
 //! Running a plan: stages in sequence, steps within them, observers after each.
 
 use crate::loading::Stage;
-use crate::observe::view::{Counts, Observer, StepRecord, StepView};
 use crate::observe::ObserveError;
+use crate::observe::view::{Counts, Observer, StepRecord, StepView};
 use crate::plan::{AnyPlan, Plan, Stepping};
 use crate::report::{Outcome, Phases, RunReport};
 use crate::step::{Accepted, Trial};
@@ -41,7 +41,8 @@ pub fn run(plan: &AnyPlan, observer: &mut dyn Observer) -> Result<RunReport, Run
 fn run_in<const D: usize>(plan: &Plan<D>, observer: &mut dyn Observer) -> Result<RunReport, RunError> {
     let mut run = Running { plan, counts: Counts::default(), phases: Phases::default(), steps: Vec::new() };
     let clock = Clock::now();
-    let mut system = Assembled::new(plan).map_err(|reason| RunError::SetUp { stage: plan.stages[0].name.clone(), reason })?;
+    let mut system = Assembled::new(plan)
+        .map_err(|reason| RunError::SetUp { stage: plan.stages[0].name.clone(), reason })?;
     run.phases.set_up += clock.elapsed().as_secs_f64();
     observer.begin(&system.setup())?;
     let mut report = RunReport::new(plan);

@@ -129,8 +129,12 @@ impl<'a, const D: usize> Assembled<'a, D> {
         };
         let system = System::new(self.constraints.equations(self.state.u.len()), storage);
         match self.plan.stepping {
-            Stepping::Implicit { .. } => ActiveStepper::Implicit(Box::new(Implicit::new(system, self.position()))),
-            Stepping::StaticExplicit { .. } => ActiveStepper::StaticExplicit(Box::new(StaticExplicit::new(system))),
+            Stepping::Implicit { .. } => {
+                ActiveStepper::Implicit(Box::new(Implicit::new(system, self.position())))
+            }
+            Stepping::StaticExplicit { .. } => {
+                ActiveStepper::StaticExplicit(Box::new(StaticExplicit::new(system)))
+            }
         }
     }
 
@@ -218,7 +222,11 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// Estimated error of slip of the last step: backward Euler leaves half the change of V times the step \[m\].
     #[must_use]
     pub fn slip_error(&self, before: &[f64], dt: f64) -> f64 {
-        self.slip_rates().iter().zip(before).map(|(now, then)| 0.5 * dt * (now - then).abs()).fold(0.0, f64::max)
+        self.slip_rates()
+            .iter()
+            .zip(before)
+            .map(|(now, then)| 0.5 * dt * (now - then).abs())
+            .fold(0.0, f64::max)
     }
 
     /// Largest drift of the friction law over the interfaces.
@@ -228,7 +236,10 @@ impl<'a, const D: usize> Assembled<'a, D> {
             Stepping::Implicit { .. } => 0.0,
             Stepping::StaticExplicit { .. } => {
                 // A drift that cannot be evaluated is shown as NaN, not hidden.
-                self.interfaces.iter_mut().map(|i| i.drift().unwrap_or(f64::NAN)).fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a })
+                self.interfaces
+                    .iter_mut()
+                    .map(|i| i.drift().unwrap_or(f64::NAN))
+                    .fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a })
             }
         }
     }
@@ -265,7 +276,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// Present state of the interfaces.
     #[must_use]
     pub fn interface_fields(&self) -> Vec<InterfaceFields> {
-        self.interfaces.iter().map(|i| views::interface_fields(i)).collect()
+        self.interfaces.iter().map(views::interface_fields).collect()
     }
 
     /// Present fields of the bodies.
@@ -277,7 +288,12 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// Balance of contact forces.
     #[must_use]
     pub fn balances(&self) -> Vec<InterfaceBalance> {
-        self.plan.interfaces.iter().zip(&self.interfaces).map(|(p, i)| views::balance(&p.name, i, self.plan.model.scale)).collect()
+        self.plan
+            .interfaces
+            .iter()
+            .zip(&self.interfaces)
+            .map(|(p, i)| views::balance(&p.name, i, self.plan.model.scale))
+            .collect()
     }
 
     /// Adds the work done outside the steps.
@@ -332,7 +348,11 @@ fn retained_per_body<const D: usize>(plan: &Plan<D>) -> Vec<Vec<usize>> {
         .bodies
         .iter()
         .map(|b| {
-            nodes.iter().filter(|n| b.nodes.contains(n)).flat_map(|&n| (0..D).map(move |c| n * D + c)).collect()
+            nodes
+                .iter()
+                .filter(|n| b.nodes.contains(n))
+                .flat_map(|&n| (0..D).map(move |c| n * D + c))
+                .collect()
         })
         .collect()
 }
@@ -382,7 +402,11 @@ fn local_channels(constraints: &Constraints, dofs: std::ops::Range<usize>) -> Ve
     constraints
         .channels
         .iter()
-        .map(|c| Channel { prescribed: own(&c.prescribed), forces: own(&c.forces), amplitude: c.amplitude.clone() })
+        .map(|c| Channel {
+            prescribed: own(&c.prescribed),
+            forces: own(&c.forces),
+            amplitude: c.amplitude.clone(),
+        })
         .filter(|c| !c.prescribed.is_empty() || !c.forces.is_empty())
         .collect()
 }
@@ -403,10 +427,15 @@ fn spec<const D: usize>(
     let master = planned
         .master_faces
         .iter()
-        .map(|face| Segment { kind: segment_kind::<D>(face.len()), nodes: face.iter().map(|&n| local(n)).collect() })
+        .map(|face| Segment {
+            kind: segment_kind::<D>(face.len()),
+            nodes: face.iter().map(|&n| local(n)).collect(),
+        })
         .collect();
     let (carry, rate_bounds) = match plan.stepping {
-        Stepping::StaticExplicit { carry, rate_change, zeta } => (carry, RateBounds { zeta, log_rate: rate_change }),
+        Stepping::StaticExplicit { carry, rate_change, zeta } => {
+            (carry, RateBounds { zeta, log_rate: rate_change })
+        }
         Stepping::Implicit { .. } => (false, RateBounds { zeta: f64::INFINITY, log_rate: f64::INFINITY }),
     };
     InterfaceSpec {

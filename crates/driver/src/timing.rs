@@ -128,5 +128,8 @@ fn within(times: &[f64], stage: &Stage) -> Vec<f64> {
 
 fn equal(stage: &Stage, n: usize) -> Vec<f64> {
     let duration = stage.end - stage.start;
-    (1..=n).rev().map(|k| if k == n { stage.end } else { stage.start + duration * k as f64 / n as f64 }).collect()
+    (1..=n)
+        .rev()
+        .map(|k| if k == n { stage.end } else { stage.start + duration * k as f64 / n as f64 })
+        .collect()
 }

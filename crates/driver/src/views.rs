@@ -77,7 +77,8 @@ fn nearest(positions: &[[f64; 3]], target: [f64; 3]) -> usize {
 #[must_use]
 pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFields {
     let p = interface.points();
-    let measure = |field: &[f64]| -> Vec<f64> { field.iter().map(|v| if D == 2 { -v } else { *v }).collect() };
+    let measure =
+        |field: &[f64]| -> Vec<f64> { field.iter().map(|v| if D == 2 { -v } else { *v }).collect() };
     InterfaceFields {
         gap: p.gap.clone(),
         normal_traction: p.normal_traction.clone(),

@@ -95,7 +95,8 @@ impl<const D: usize> LinearBlock<D> {
                     for i in 0..D {
                         for j in 0..D {
                             let shear = g * ga[j] * gb[i] + if i == j { g * dot } else { 0.0 };
-                            k_e[(a * D + i) * width + b * D + j] += point.volume * (lambda * ga[i] * gb[j] + shear);
+                            k_e[(a * D + i) * width + b * D + j] +=
+                                point.volume * (lambda * ga[i] * gb[j] + shear);
                         }
                     }
                 }
@@ -207,7 +208,12 @@ impl<const D: usize> LinearBlock<D> {
     ///
     /// # Errors
     /// None today; faces without area are found when the cells are set up.
-    pub fn traction(&self, mesh: &Mesh<D>, sides: &[Side], t: [f64; D]) -> Result<Vec<(usize, f64)>, FemError> {
+    pub fn traction(
+        &self,
+        mesh: &Mesh<D>,
+        sides: &[Side],
+        t: [f64; D],
+    ) -> Result<Vec<(usize, f64)>, FemError> {
         Ok(surface::integrate(mesh, sides, |n| std::array::from_fn(|c| t[c] * surface::length(&n))))
     }
 

@@ -53,7 +53,8 @@ impl Reduction {
     /// # Errors
     /// [`FemError::Factorisation`] when the interior is not held by the retained and fixed degrees of freedom.
     pub fn new(body: &Stiffness, retained: &[usize], fixed: &[usize]) -> Result<Self, FemError> {
-        let fixed: Vec<usize> = fixed.iter().copied().filter(|d| retained.binary_search(d).is_err()).collect();
+        let fixed: Vec<usize> =
+            fixed.iter().copied().filter(|d| retained.binary_search(d).is_err()).collect();
         let mut removed: Vec<usize> = retained.iter().chain(&fixed).copied().collect();
         removed.sort_unstable();
         let interior = Constraints { fixed: removed, channels: Vec::new() }.equations(body.dofs);
@@ -97,8 +98,10 @@ impl Reduction {
         }
         let columns = by_column(&self.interior_retained, m);
         // Blocks of a fixed width, independent of the thread count: identical bits for any number of threads.
-        let parts: Vec<Vec<f64>> =
-            (0..m.div_ceil(COLUMNS)).into_par_iter().map(|b| self.schur_columns(&columns, b * COLUMNS)).collect();
+        let parts: Vec<Vec<f64>> = (0..m.div_ceil(COLUMNS))
+            .into_par_iter()
+            .map(|b| self.schur_columns(&columns, b * COLUMNS))
+            .collect();
         for (b, part) in parts.iter().enumerate() {
             let width = part.len() / m;
             for (k, column) in part.chunks_exact(m).enumerate() {
@@ -206,8 +209,7 @@ impl Condensed {
 
     /// Sets the loads, given in body numbering; one solve each.
     pub fn set_channels(&mut self, channels: Vec<Channel>) {
-        self.loads =
-            channels.iter().map(|c| (c.amplitude.clone(), self.reduction.reduced_load(c))).collect();
+        self.loads = channels.iter().map(|c| (c.amplitude.clone(), self.reduction.reduced_load(c))).collect();
         self.channels = channels;
     }
 

@@ -14,7 +14,9 @@ pub enum FemError {
         admissible: &'static str,
     },
     /// An element turned inside out or without volume.
-    #[error("cell {cell} of block {block} has the Jacobian determinant {determinant:e} (it must be positive)")]
+    #[error(
+        "cell {cell} of block {block} has the Jacobian determinant {determinant:e} (it must be positive)"
+    )]
     Jacobian {
         /// Block of cells.
         block: usize,
@@ -24,7 +26,9 @@ pub enum FemError {
         determinant: f64,
     },
     /// An element that does not exist.
-    #[error("there is no element `{0}`; those that exist are tri3, tri6, quad4, quad9 (plane), hex8, tet4 (3d)")]
+    #[error(
+        "there is no element `{0}`; those that exist are tri3, tri6, quad4, quad9 (plane), hex8, tet4 (3d)"
+    )]
     UnknownElement(String),
     /// An element of the other dimension.
     #[error("element {element} is not {dimension}-dimensional")]

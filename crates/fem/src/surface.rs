@@ -12,7 +12,10 @@ type FacePoint = (Vec<f64>, Vec<[f64; 2]>, f64);
 /// flat faces.
 fn rule<const D: usize>(nodes: usize) -> Vec<FacePoint> {
     if D == 2 {
-        return quadrature::gauss(if nodes == 2 { 2 } else { 3 }, 1).into_iter().map(|(x, w)| line(nodes, x[0], w)).collect();
+        return quadrature::gauss(if nodes == 2 { 2 } else { 3 }, 1)
+            .into_iter()
+            .map(|(x, w)| line(nodes, x[0], w))
+            .collect();
     }
     let (kind, points) = if nodes == 3 {
         (ElementKind::Tri3, quadrature::triangle_3())

@@ -18,7 +18,9 @@ fn material() -> Elastic {
 }
 
 fn unit<const D: usize>(kind: ElementKind, n: usize) -> Mesh<D> {
-    Block { min: [0.0; D], max: [1.0; D], divisions: [n; D], grading: [Grading::Uniform; D], kind }.mesh().unwrap()
+    Block { min: [0.0; D], max: [1.0; D], divisions: [n; D], grading: [Grading::Uniform; D], kind }
+        .mesh()
+        .unwrap()
 }
 
 /// Moves interior nodes by a smooth map: straight edges stay straight to first order, corner elements are distorted.
@@ -44,7 +46,8 @@ fn distorted<const D: usize>(kind: ElementKind, n: usize) -> Mesh<D> {
         let ids = mesh.blocks[0].cell(cell).to_vec();
         for (a, &id) in ids.iter().enumerate() {
             let s = linear.shape(kind.node_coordinates()[a]);
-            mesh.nodes[id] = std::array::from_fn(|c| (0..corners).map(|b| s.n[b] * moved(nodes[ids[b]])[c]).sum());
+            mesh.nodes[id] =
+                std::array::from_fn(|c| (0..corners).map(|b| s.n[b] * moved(nodes[ids[b]])[c]).sum());
         }
     }
     mesh
@@ -58,7 +61,12 @@ fn boundary<const D: usize>(mesh: &Mesh<D>) -> Vec<usize> {
 }
 
 /// Solves with displacements prescribed on the whole boundary and nodal forces `f`.
-fn solve<const D: usize>(mesh: &Mesh<D>, block: &LinearBlock<D>, exact: &dyn Fn([f64; D]) -> [f64; D], f: &[f64]) -> Vec<f64> {
+fn solve<const D: usize>(
+    mesh: &Mesh<D>,
+    block: &LinearBlock<D>,
+    exact: &dyn Fn([f64; D]) -> [f64; D],
+    f: &[f64],
+) -> Vec<f64> {
     faer::set_global_parallelism(faer::Par::Seq);
     let n = mesh.nodes.len() * D;
     let mut u = vec![0.0; n];
@@ -75,7 +83,9 @@ fn solve<const D: usize>(mesh: &Mesh<D>, block: &LinearBlock<D>, exact: &dyn Fn(
     let mut matrix = ScatterMap::new(&[block.pattern()], &equations, Part::Lower);
     matrix.add(0, block.stiffness());
     let factor = matrix.cholesky(&matrix.analyse_cholesky().unwrap()).unwrap();
-    let mut x = faer::Mat::<f64>::from_fn(equations.free.len(), 1, |k, _| f[equations.free[k]] - r[equations.free[k]]);
+    let mut x = faer::Mat::<f64>::from_fn(equations.free.len(), 1, |k, _| {
+        f[equations.free[k]] - r[equations.free[k]]
+    });
     factor.solve(x.as_mut());
     for (k, &dof) in equations.free.iter().enumerate() {
         u[dof] = x[(k, 0)];
@@ -178,21 +188,25 @@ fn derivatives_of_shape_functions_are_consistent() {
 
 /// u = (sin(x + 2y), cos(2x - y)) and its three-dimensional like, with the body force that holds it.
 fn manufactured<const D: usize>(x: [f64; D]) -> ([f64; D], [f64; D]) {
-    let waves: [([f64; 3], f64); 3] = [([1.0, 2.0, 0.5], 0.0), ([2.0, -1.0, 1.0], 1.3), ([0.5, 1.0, -2.0], 0.4)];
+    let waves: [([f64; 3], f64); 3] =
+        [([1.0, 2.0, 0.5], 0.0), ([2.0, -1.0, 1.0], 1.3), ([0.5, 1.0, -2.0], 0.4)];
     let (g, lambda) = (material().shear(), material().lame());
     let phase = |i: usize| (0..D).map(|j| waves[i].0[j] * x[j]).sum::<f64>() + waves[i].1;
     let u = std::array::from_fn(|i| phase(i).sin());
     // div sigma = (lambda + G) grad div u + G lap u; second derivatives of sin(k.x) are -k_i k_j sin(k.x).
     let f = std::array::from_fn(|i| {
         let mut divergence = 0.0;
-        for j in 0..D {
-            divergence -= waves[j].0[i] * waves[j].0[j] * phase(j).sin();
+        for (j, (wave, _)) in waves.iter().enumerate().take(D) {
+            divergence -= wave[i] * wave[j] * phase(j).sin();
         }
         let laplacian: f64 = -(0..D).map(|j| waves[i].0[j].powi(2)).sum::<f64>() * phase(i).sin();
         -((lambda + g) * divergence + g * laplacian)
     });
     (u, f)
 }
+
+/// Receives the nodes of a cell, shape functions, position and volume at a quadrature point.
+type Visitor<'a, const D: usize> = dyn FnMut(&[usize], &asperity_fem::element::Shape, [f64; D], f64) + 'a;
 
 /// Nodal displacement error in the root mean square of a fine quadrature.
 fn l2_error<const D: usize>(kind: ElementKind, n: usize) -> f64 {
@@ -213,12 +227,13 @@ fn l2_error<const D: usize>(kind: ElementKind, n: usize) -> f64 {
     } else {
         asperity_fem::quadrature::gauss(3, D)
     };
-    let mut visit = |g: &mut dyn FnMut(&[usize], &asperity_fem::element::Shape, [f64; D], f64)| {
+    let visit = |g: &mut Visitor<'_, D>| {
         for cell in 0..mesh.blocks[0].len() {
             let ids = mesh.blocks[0].cell(cell);
             for (xi, w) in &rule {
                 let s = kind.shape(*xi);
-                let x: [f64; D] = std::array::from_fn(|c| ids.iter().zip(&s.n).map(|(&i, n)| n * mesh.nodes[i][c]).sum());
+                let x: [f64; D] =
+                    std::array::from_fn(|c| ids.iter().zip(&s.n).map(|(&i, n)| n * mesh.nodes[i][c]).sum());
                 let j = DMatrix::from_fn(D, D, |i, m| {
                     ids.iter().zip(&s.dn).map(|(&id, d)| d[m] * mesh.nodes[id][i]).sum::<f64>()
                 });
@@ -286,7 +301,8 @@ fn an_inverted_cell_is_named() {
 fn loads_sum_to_their_resultants() {
     let mesh = unit::<3>(ElementKind::Hex8, 3);
     let block = LinearBlock::new(&mesh, 0, &material()).unwrap();
-    let sum = |f: &[(usize, f64)], c: usize| f.iter().filter(|(d, _)| d % 3 == c).map(|(_, f)| f).sum::<f64>();
+    let sum =
+        |f: &[(usize, f64)], c: usize| f.iter().filter(|(d, _)| d % 3 == c).map(|(_, f)| f).sum::<f64>();
     let sides = &mesh.side_sets["top"];
     let pressure = block.pressure(&mesh, sides, 2.0).unwrap();
     assert!((sum(&pressure, 1) + 2.0).abs() < 1e-14 && sum(&pressure, 0).abs() < 1e-14);
@@ -297,7 +313,8 @@ fn loads_sum_to_their_resultants() {
     assert!((areas.values().sum::<f64>() - 1.0).abs() < 1e-14 && areas.values().all(|a| *a > 0.0));
     let quad9 = unit::<2>(ElementKind::Quad9, 1);
     let block = LinearBlock::new(&quad9, 0, &material()).unwrap();
-    let mut areas: Vec<f64> = block.tributary_areas(&quad9, &quad9.side_sets["left"]).unwrap().into_values().collect();
+    let mut areas: Vec<f64> =
+        block.tributary_areas(&quad9, &quad9.side_sets["left"]).unwrap().into_values().collect();
     areas.sort_by(f64::total_cmp);
     for (area, exact) in areas.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) {
         assert!((area - exact).abs() < 1e-15);

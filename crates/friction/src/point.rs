@@ -14,6 +14,8 @@ const MOST: usize = 100;
 /// G is a sum of three terms of the size of T; each is rounded once or twice.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
+/// Neighbouring numbers are at most this far apart, relatively; a step of two of them may be the rounding of G.
+const SPACING: f64 = 2.0 * f64::EPSILON;
 /// Stride of the search for the first root in ln V: x = V Δt/L and the asinh turn over one e-fold, so a quarter of it shows
 /// every fold that matters.
 const STRIDE: f64 = 0.25;
@@ -118,12 +120,13 @@ fn newton<F: Form, E: Evolution>(
         } else {
             low = z;
         }
-        let next = guarded(z, -value.g / value.slope, (low, high));
+        let step = step(p, &value);
         let floor = ROUNDING * (p.drive + p.normal * value.solution.mu.abs());
         // At the rounding floor of G, or when z can no longer be told from its successor, one is done.
-        if value.g.abs() <= floor || (next - z).abs() <= f64::EPSILON * z.abs() {
+        if value.g.abs() <= floor || step.abs() <= SPACING * z.abs() {
             return Ok(value.solution);
         }
+        let next = guarded(z, step, (low, high));
         last = value.g;
         z = next;
     }
@@ -172,6 +175,16 @@ fn bracket<F: Form, E: Evolution>(
 /// Where the iteration starts: the smaller of the rates at which the spring alone and the strength alone would balance.
 fn start<F: Form, E: Evolution>(form: &F, evolution: &E, p: &Point, top: f64) -> f64 {
     top.min(form.log_rate(p.drive / p.normal, evolution.phi(p.state)))
+}
+
+/// The Newton step. Above the root on G, which is convex; below it on ln(G + T), which is close to concave (linear in z where
+/// the strength is linear in V, logarithmic above): neither overshoots by much.
+fn step(p: &Point, value: &Value) -> f64 {
+    if value.g < 0.0 {
+        -(value.g / p.drive).ln_1p() * (p.drive + value.g) / value.slope
+    } else {
+        -value.g / value.slope
+    }
 }
 
 /// The Newton step where it stays inside the bracket, otherwise half the bracket or, without a lower bound, further down.

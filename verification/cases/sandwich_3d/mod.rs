@@ -33,7 +33,12 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Largest difference of a field between the layer and the plane, node by node in y, over the largest value.
-fn difference(two: &Run, three: &Run, stage: &str, field: fn(&asperity_driver::observe::view::InterfaceFields) -> &Vec<f64>) -> Result<f64, CaseError> {
+fn difference(
+    two: &Run,
+    three: &Run,
+    stage: &str,
+    field: fn(&asperity_driver::observe::view::InterfaceFields) -> &Vec<f64>,
+) -> Result<f64, CaseError> {
     let (plane, solid) = (field(two.end(stage)?), field(three.end(stage)?));
     let largest = plane.iter().map(|v| v.abs()).fold(0.0, f64::max);
     let mut difference = 0.0_f64;
@@ -74,7 +79,9 @@ fn threads(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut different = 0_u64;
     for (a, b) in one.record.stage_ends().iter().zip(two.record.stage_ends()) {
         let (a, b) = (&a.interfaces[0], &b.interfaces[0]);
-        for (x, y) in [(&a.slip, &b.slip), (&a.normal_traction, &b.normal_traction), (&a.slip_rate, &b.slip_rate)] {
+        for (x, y) in
+            [(&a.slip, &b.slip), (&a.normal_traction, &b.normal_traction), (&a.slip_rate, &b.slip_rate)]
+        {
             different += x.iter().zip(y).filter(|(x, y)| x.to_bits() != y.to_bits()).count() as u64;
         }
     }

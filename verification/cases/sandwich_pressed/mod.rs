@@ -73,8 +73,12 @@ fn exact(ledger: &mut Ledger) -> Result<(), CaseError> {
             .equals(stress)
             .relative(1e-9)
             .evidence(Evidence::Exact, "bars in series: u_x / (50 mm (1 - nu^2)/E + h/(100 E))")
-            .because("the uniform field lies in the space; rounding times the condition of the stiffness is left")
-            .why_not_tighter("rounding grows as h^-2 to about 1e-11 on the finest mesh; one bound serves all four")
+            .because(
+                "the uniform field lies in the space; rounding times the condition of the stiffness is left",
+            )
+            .why_not_tighter(
+                "rounding grows as h^-2 to about 1e-11 on the finest mesh; one bound serves all four",
+            )
             .cost(&cost.counts(&run.report.counts))
             .record();
     }
@@ -100,7 +104,9 @@ fn converging(ledger: &mut Ledger, variant: &Variant) -> Result<(), CaseError> {
             .relative(1e-4)
             .evidence(Evidence::OtherCode, INDEPENDENT)
             .because("the same discretisation: six printed digits, and nothing else to differ in")
-            .why_not_tighter("the bound is the issue's; the digits that differ are those the reference does not print")
+            .why_not_tighter(
+                "the bound is the issue's; the digits that differ are those the reference does not print",
+            )
             .cost(&cost.counts(&run.report.counts))
             .record();
     }
@@ -116,7 +122,10 @@ fn converging(ledger: &mut Ledger, variant: &Variant) -> Result<(), CaseError> {
         .because("uncertainty of the reference and of our own extrapolation, one each")
         .why_not_tighter("both limits are extrapolated from the same discretisation, so they agree better than either is known")
         .record();
-    ledger.note(&format!("{}: observed order of the mean {order:.2}; the corner singularity is what limits it", variant.name));
+    ledger.note(&format!(
+        "{}: observed order of the mean {order:.2}; the corner singularity is what limits it",
+        variant.name
+    ));
     if variant.name == "base" {
         ledger
             .claim("mid-point over mean normal stress, four meshes")
@@ -126,7 +135,8 @@ fn converging(ledger: &mut Ledger, variant: &Variant) -> Result<(), CaseError> {
             .evidence(Evidence::OtherCode, INDEPENDENT)
             .because("four printed digits of the reference")
             .record();
-        let points: Vec<(f64, f64)> = SIZES.iter().zip(&means).map(|(h, m)| (*h, (m - limit).abs() / limit)).collect();
+        let points: Vec<(f64, f64)> =
+            SIZES.iter().zip(&means).map(|(h, m)| (*h, (m - limit).abs() / limit)).collect();
         ledger.plot(
             Plot::xy("Mean normal stress: distance from the limit", "h [mm]", "relative difference")
                 .axes(crate::Axis::Log, crate::Axis::Log)

@@ -114,7 +114,9 @@ fn late_time(ledger: &mut Ledger, fine: &Run) -> Result<(), CaseError> {
         .value(over.max(0.0))
         .at_most(1e-6)
         .evidence(Evidence::OtherCode, "an independent solver sees 1e-9: V approaches V_load from below")
-        .because("rounding of V, which is a difference of displacements over the last step: 1e-16 m over 1e-9 m")
+        .because(
+            "rounding of V, which is a difference of displacements over the last step: 1e-16 m over 1e-9 m",
+        )
         .why_not_tighter("the rounding scales with the smallest step of the run")
         .record();
     let times = [PRESSED + 40.0, PRESSED + 45.0, PRESSED + 50.0];
@@ -236,7 +238,8 @@ fn variants(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut rows = Vec::new();
     let mut scene = sandwich::tolerance(sandwich::base()?, 1e-8);
     for interface in scene.interfaces.values_mut() {
-        interface.sliding = asperity_driver::scene::model::here(asperity_driver::scene::model::Sliding::Finite);
+        interface.sliding =
+            asperity_driver::scene::model::here(asperity_driver::scene::model::Sliding::Finite);
     }
     let finite = sandwich::simulate(&scene)?;
     for (name, run, stress, slips) in [
@@ -254,7 +257,9 @@ fn variants(ledger: &mut Ledger) -> Result<(), CaseError> {
             .because("seven printed digits; final slip has no error in time")
             .record();
     }
-    for (name, run) in [("nu = 0.25", &nu), ("Vref = V_load/100", &vref), ("finite sliding (no reference)", &finite)] {
+    for (name, run) in
+        [("nu = 0.25", &nu), ("Vref = V_load/100", &vref), ("finite sliding (no reference)", &finite)]
+    {
         let slips = run.final_slip(&HEIGHTS)?;
         rows.push(
             std::iter::once(name.to_string())

@@ -8,7 +8,12 @@ use asperity_driver::scene::model::{Path, Rule, here};
 pub const CASE: Case = Case {
     name: "sandwich_steppers",
     readme: include_str!("README.md"),
-    covers: &[Capability::Implicit, Capability::StaticExplicit, Capability::VelocityFriction, Capability::Condensation],
+    covers: &[
+        Capability::Implicit,
+        Capability::StaticExplicit,
+        Capability::VelocityFriction,
+        Capability::Condensation,
+    ],
     quick: true,
     run,
 };
@@ -136,9 +141,10 @@ fn refined(ends: &[f64], factor: usize) -> Vec<f64> {
     let mut start = PRESSED;
     let mut result = vec![PRESSED];
     for &end in ends {
-        result.extend((1..=factor).map(|k| {
-            if k == factor { end } else { start + (end - start) * k as f64 / factor as f64 }
-        }));
+        result.extend(
+            (1..=factor)
+                .map(|k| if k == factor { end } else { start + (end - start) * k as f64 / factor as f64 }),
+        );
         start = end;
     }
     result
@@ -170,7 +176,8 @@ fn static_explicit(ledger: &mut Ledger, reference: &Reference) -> Result<[Vec<Se
         let cost = cost.ok_or("no level was run")?;
         // A point grows from the floor rate, 1e-12 V_load, through ln(1e12) = 27.6 e-folds. Steps of Δ = 1/8 e-fold leave
         // a Δ²/2 each: 27.6 a Δ/2 in all without the carry, 0.017 of a coefficient of 0.6; with it, that of one step.
-        let (name, order, bound) = if carry { ("carried", 2.0, 1.3e-4) } else { ("not carried", 1.0, 2.9e-2) };
+        let (name, order, bound) =
+            if carry { ("carried", 2.0, 1.3e-4) } else { ("not carried", 1.0, 2.9e-2) };
         // The wrong traction moves the blocks by 0.029 x 5.6 MPa x 50 mm / (G = 20 GPa); with the carry what is left is the
         // error of backward Euler on these steps.
         let slip_bound = if carry { 2e-2 } else { 0.4 };
@@ -241,14 +248,20 @@ fn work_precision(
         ("wall time of the steps [s]", (|s: &Setting| s.wall) as fn(&Setting) -> f64),
         ("solves", |s: &Setting| s.solves),
     ] {
-        let mut plot = Plot::work_precision(&format!("Slip histories: error against {label}"), "largest error of slip [um]", label);
+        let mut plot = Plot::work_precision(
+            &format!("Slip histories: error against {label}"),
+            "largest error of slip [um]",
+            label,
+        );
         for (name, settings) in series {
             let points: Vec<(f64, f64)> = settings.iter().map(|s| (s.error, work(s))).collect();
             plot = plot.series(Series::marked(name, &points));
         }
         ledger.plot(plot);
     }
-    let at = |settings: &[Setting]| settings.iter().filter(|s| s.error < 1e-2).map(|s| s.solves).fold(f64::INFINITY, f64::min);
+    let at = |settings: &[Setting]| {
+        settings.iter().filter(|s| s.error < 1e-2).map(|s| s.solves).fold(f64::INFINITY, f64::min)
+    };
     ledger.table(
         "Fewest solves that reach an error of slip below 0.01 um",
         &["method", "solves"],

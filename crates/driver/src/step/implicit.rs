@@ -86,7 +86,9 @@ impl Implicit {
     fn predict(&self, state: &State, dt: f64) -> Vec<f64> {
         match &self.last {
             None => state.u.clone(),
-            Some((increment, last)) => state.u.iter().zip(increment).map(|(u, du)| u + du * (dt / last)).collect(),
+            Some((increment, last)) => {
+                state.u.iter().zip(increment).map(|(u, du)| u + du * (dt / last)).collect()
+            }
         }
     }
 
@@ -149,7 +151,11 @@ impl Implicit {
     }
 
     /// Newton's direction over all degrees of freedom (zero where fixed).
-    fn direction(&mut self, terms: &mut [&mut dyn Linearized], counts: &mut Counts) -> Result<Vec<f64>, String> {
+    fn direction(
+        &mut self,
+        terms: &mut [&mut dyn Linearized],
+        counts: &mut Counts,
+    ) -> Result<Vec<f64>, String> {
         counts.tangents += 1;
         counts.factorisations += 1;
         counts.solves += 1;
@@ -183,7 +189,8 @@ impl Implicit {
             if norm.is_finite() && best.is_none_or(|(b, _)| norm < b) {
                 best = Some((norm, length));
             }
-            let enough = norm <= start * (1.0 - DECREASE * length) || (halving == 0 && norm <= NONMONOTONE * start);
+            let enough =
+                norm <= start * (1.0 - DECREASE * length) || (halving == 0 && norm <= NONMONOTONE * start);
             if enough {
                 break;
             }

@@ -81,4 +81,3 @@ impl Balance {
         free.iter().map(|&d| self.r[d].abs()).fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a })
     }
 }
-

@@ -158,6 +158,9 @@ impl FromStr for ElementKind {
     type Err = FemError;
 
     fn from_str(name: &str) -> Result<Self, FemError> {
-        Self::ALL.into_iter().find(|k| k.name() == name).ok_or_else(|| FemError::UnknownElement(name.to_string()))
+        Self::ALL
+            .into_iter()
+            .find(|k| k.name() == name)
+            .ok_or_else(|| FemError::UnknownElement(name.to_string()))
     }
 }

@@ -48,7 +48,7 @@ impl Evolution for Slip {
         let steady = self.steady(log_rate);
         // A point at rest keeps its state, however far its steady state is.
         let reached = if share == 0.0 { 0.0 } else { steady * share };
-        let drift = if x * decay == 0.0 { 0.0 } else { x * decay * (steady - state) };
+        let drift = if decay == 0.0 || x == 0.0 { 0.0 } else { x * decay * (steady - state) };
         Evolved { state: state * decay + reached, d_phi: drift - self.b * share }
     }
 
