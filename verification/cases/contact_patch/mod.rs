@@ -42,7 +42,7 @@ fn patch(ledger: &mut Ledger, element: &str, covers: &[Capability]) -> Result<()
     let tractions: Vec<f64> = run.end("press")?.normal_traction.iter().map(|t| t * 1e-6).collect();
     let reference = vec![exact * 1e-6; tractions.len()];
     ledger
-        .claim(&format!("normal traction of every slave node, {element}"))
+        .claim(format!("normal traction of every slave node, {element}"))
         .unit("MPa")
         .values(&tractions)
         .equals_each(&reference)
@@ -55,7 +55,7 @@ fn patch(ledger: &mut Ledger, element: &str, covers: &[Capability]) -> Result<()
         .record();
     let balance = &run.report.balance[0];
     ledger
-        .claim(&format!("sum of all contact forces and moments, relative, {element}"))
+        .claim(format!("sum of all contact forces and moments, relative, {element}"))
         .value(balance.force_residual.max(balance.moment_residual))
         .at_most(1e-13)
         .evidence(Evidence::Exact, "action and reaction")

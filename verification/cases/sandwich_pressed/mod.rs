@@ -67,7 +67,7 @@ fn exact(ledger: &mut Ledger) -> Result<(), CaseError> {
         let modulus = YOUNG / (1.0 - POISSON * POISSON);
         let stress = U_X / (50e-3 / modulus + h * 1e-3 / (100.0 * YOUNG)) * 1e-6;
         ledger
-            .claim(&format!("mean normal stress without overhang, h = {h} mm"))
+            .claim(format!("mean normal stress without overhang, h = {h} mm"))
             .unit("MPa")
             .value(run.mean_normal("press")?)
             .equals(stress)
@@ -97,7 +97,7 @@ fn converging(ledger: &mut Ledger, variant: &Variant) -> Result<(), CaseError> {
         means.push(mean);
         middle.push(mid / mean);
         ledger
-            .claim(&format!("mean normal stress, {}, h = {h} mm", variant.name))
+            .claim(format!("mean normal stress, {}, h = {h} mm", variant.name))
             .unit("MPa")
             .value(mean)
             .equals(reference)
@@ -112,7 +112,7 @@ fn converging(ledger: &mut Ledger, variant: &Variant) -> Result<(), CaseError> {
     }
     let (limit, order) = sandwich::limit(&means);
     ledger
-        .claim(&format!("limit of the mean normal stress, {}", variant.name))
+        .claim(format!("limit of the mean normal stress, {}", variant.name))
         .unit("MPa")
         .value(limit)
         .equals(variant.limit)
@@ -122,7 +122,7 @@ fn converging(ledger: &mut Ledger, variant: &Variant) -> Result<(), CaseError> {
         .because("uncertainty of the reference and of our own extrapolation, one each")
         .why_not_tighter("both limits are extrapolated from the same discretisation, so they agree better than either is known")
         .record();
-    ledger.note(&format!(
+    ledger.note(format!(
         "{}: observed order of the mean {order:.2}; the corner singularity is what limits it",
         variant.name
     ));
@@ -156,7 +156,7 @@ fn frictional(ledger: &mut Ledger) -> Result<(), CaseError> {
         let run = run?;
         let cost = cost.counts(&run.report.counts);
         ledger
-            .claim(&format!("mean normal stress after a frictional stage 1, h = {h} mm"))
+            .claim(format!("mean normal stress after a frictional stage 1, h = {h} mm"))
             .unit("MPa")
             .value(run.mean_normal("press")?)
             .equals(reference)

@@ -146,7 +146,7 @@ fn late_time(ledger: &mut Ledger, fine: &Run) -> Result<(), CaseError> {
             .filter(|(t, _)| **t > PRESSED && **t < PRESSED + 30.0)
             .map(|(t, v)| ((t - PRESSED) * V_LOAD * 1e6, v.abs() / V_LOAD))
             .collect();
-        plot = plot.series(Series::line(&format!("y = {:.1} mm", p.position[1] * 1e3), &points));
+        plot = plot.series(Series::line(format!("y = {:.1} mm", p.position[1] * 1e3), &points));
     }
     ledger.plot(plot);
     Ok(())
@@ -249,7 +249,7 @@ fn variants(ledger: &mut Ledger) -> Result<(), CaseError> {
         let mut found = vec![run.mean_normal("press")?];
         found.extend(run.final_slip(&HEIGHTS)?);
         ledger
-            .claim(&format!("mean normal stress [MPa] and slip at three heights [um], {name}"))
+            .claim(format!("mean normal stress [MPa] and slip at three heights [um], {name}"))
             .values(&found)
             .equals_each(&[stress, slips[0], slips[1], slips[2]])
             .relative(2e-6)
@@ -297,7 +297,7 @@ fn penalties(ledger: &mut Ledger) -> Result<(), CaseError> {
         [("mean normal stress", "MPa", &stress, 1e-3), ("slip at y = 25 mm", "um", &slip, 0.02)]
     {
         ledger
-            .order(&format!("{name} in 1/E_n"))
+            .order(format!("{name} in 1/E_n"))
             .unit(unit)
             .levels(levels)
             .expected(1.0)

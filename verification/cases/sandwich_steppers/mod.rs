@@ -108,7 +108,7 @@ fn implicit(ledger: &mut Ledger, reference: &Reference) -> Result<[Vec<Setting>;
             Rule::Bdf2 => ("BDF2", 2.0, 5e-6),
         };
         ledger
-            .order(&format!("slip histories in the time step, implicit, {name}"))
+            .order(format!("slip histories in the time step, implicit, {name}"))
             .unit("um")
             .levels(&levels(list))
             .expected(order)
@@ -182,7 +182,7 @@ fn static_explicit(ledger: &mut Ledger, reference: &Reference) -> Result<[Vec<Se
         // error of backward Euler on these steps.
         let slip_bound = if carry { 2e-2 } else { 0.4 };
         ledger
-            .order(&format!("drift at u_y = 0.015 mm in the refinement, residual {name}"))
+            .order(format!("drift at u_y = 0.015 mm in the refinement, residual {name}"))
             .levels(&drifts)
             .expected(order)
             .within(0.25)
@@ -194,7 +194,7 @@ fn static_explicit(ledger: &mut Ledger, reference: &Reference) -> Result<[Vec<Se
             .covers(&[Capability::StaticExplicit])
             .record();
         ledger
-            .order(&format!("slip histories in the refinement, static-explicit, residual {name}"))
+            .order(format!("slip histories in the refinement, static-explicit, residual {name}"))
             .unit("um")
             .levels(&levels(list))
             .expected(1.0)
@@ -249,7 +249,7 @@ fn work_precision(
         ("solves", |s: &Setting| s.solves),
     ] {
         let mut plot = Plot::work_precision(
-            &format!("Slip histories: error against {label}"),
+            format!("Slip histories: error against {label}"),
             "largest error of slip [um]",
             label,
         );
