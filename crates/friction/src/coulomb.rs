@@ -167,4 +167,98 @@ mod tests {
     fn no_exit_when_unloading_within_the_cone() {
         assert_eq!(cone_exit([0.3, 0.0], [-0.2, 0.0], 1.0, 0.1, 0.6), None);
     }
+
+    #[test]
+    fn the_first_of_two_crossings_is_the_exit() {
+        // Straight through the disc of radius 0.6: in at rest from inside, out at (0.6, 0).
+        assert_eq!(cone_exit([0.0, 0.0], [1.2, 0.0], 1.0, 0.0, 0.6), Some(0.5));
+        // A point on the cone that cuts through it leaves at the far side only.
+        let far = cone_exit([-0.6, 0.0], [2.0, 0.0], 1.0, 0.0, 0.6).unwrap();
+        approx::assert_relative_eq!(far, 0.6, max_relative = 1e-14);
+        // A cone that shrinks to nothing is an opening.
+        assert_eq!(cone_exit([0.0, 0.0], [0.0, 0.0], 1.0, -1.0, 0.6), None);
+        // Linear equation: the traction grows exactly as fast as the cone, along another direction.
+        let r = cone_exit([0.5, 0.0], [0.6, 0.0], 1.0, 1.0, 0.6);
+        assert_eq!(r, None);
+    }
+
+    #[test]
+    fn a_distance_of_the_last_digits_is_resolved() {
+        // The stable form keeps the relative precision of a root where the usual one has none left.
+        let gap = 1e-13;
+        let r = cone_exit([0.6 - gap, 0.0], [1.0, 0.0], 1.0, 0.0, 0.6).unwrap();
+        approx::assert_relative_eq!(r, 0.6 - (0.6 - gap), max_relative = 1e-12);
+    }
+
+    fn respond(law: &Coulomb, normal: f64, trial: f64, lag: Option<f64>) -> [f64; 5] {
+        let (mut t, mut s, mut v, mut g) = ([0.0], [0.0], [0.0], [Regime::Slip]);
+        let (mut by_trial, mut by_normal) = ([0.0], [0.0]);
+        let offset = [lag.unwrap_or_default()];
+        law.respond(
+            Trials {
+                normal: &[normal],
+                trial: &[trial],
+                stiffness: 4.0,
+                dt: 0.5,
+                lag: lag.map(|_| crate::law::Lag { weight: 1.5, offset: &offset }),
+            },
+            &[],
+            Responses {
+                traction: &mut t,
+                slip: &mut s,
+                rate: &mut v,
+                regime: &mut g,
+                d_trial: &mut by_trial,
+                d_normal: &mut by_normal,
+                states: &mut [],
+            },
+        )
+        .unwrap();
+        [t[0], s[0], v[0], by_trial[0], by_normal[0]]
+    }
+
+    #[test]
+    fn the_point_return_is_that_of_perfect_plasticity() {
+        let law = Coulomb::new(0.5, Some(3.0)).unwrap();
+        assert_eq!(respond(&law, 2.0, 0.75, None), [0.75, 0.0, 0.0, 1.0, 0.0]);
+        assert_eq!(respond(&law, 2.0, 3.0, None), [1.0, 0.5, 1.0, 0.0, 0.5]);
+        assert_eq!(respond(&law, 2.0, 3.0, Some(0.25)), [1.0, 0.5, 1.25, 0.0, 0.5]);
+        assert_eq!(respond(&law, 8.0, 5.0, None), [3.0, 0.5, 1.0, 0.0, 0.0]);
+        // Without normal traction everything slips; without drive nothing does.
+        assert_eq!(respond(&law, 0.0, 2.0, None), [0.0, 0.5, 1.0, 0.0, 0.5]);
+        assert_eq!(respond(&law, 0.0, 0.0, None), [0.0, 0.0, 0.0, 1.0, 0.0]);
+    }
+
+    #[test]
+    fn parameters_out_of_range_are_refused() {
+        for (mu, limit) in
+            [(-0.1, None), (f64::NAN, None), (f64::INFINITY, None), (0.5, Some(0.0)), (0.5, Some(f64::NAN))]
+        {
+            assert!(matches!(Coulomb::new(mu, limit), Err(Failure::Parameter { .. })));
+        }
+    }
+
+    proptest::proptest! {
+        /// Inside the cone up to the exit, outside just after, and no crossing where there is no exit.
+        #[test]
+        fn exits_are_first_crossings(
+            angle in 0.0f64..6.3,
+            share in 0.0f64..0.999,
+            dt0 in -3.0f64..3.0,
+            dt1 in -3.0f64..3.0,
+            df in -0.9f64..3.0,
+            mu in 0.05f64..2.0,
+        ) {
+            let t = [share * mu * angle.cos(), share * mu * angle.sin()];
+            let outside = |r: f64| (t[0] + r * dt0).hypot(t[1] + r * dt1) - mu * (1.0 + r * df);
+            let exit = cone_exit(t, [dt0, dt1], 1.0, df, mu);
+            if let Some(r) = exit {
+                proptest::prop_assert!(outside(r).abs() < 1e-12, "{r}: {}", outside(r));
+            }
+            for k in 1..100 {
+                let r = f64::from(k) / 100.0 * exit.unwrap_or(1.0);
+                proptest::prop_assert!(outside(r) <= 1e-12, "{r} before {exit:?}: {}", outside(r));
+            }
+        }
+    }
 }
