@@ -153,7 +153,8 @@ pub trait Law: Send + Sync + std::fmt::Debug {
     /// elastic domain is the caller's business.
     fn coefficient(&self, rate: &[f64], states: &[f64], mu: &mut [f64]) -> Result<(), Failure>;
 
-    /// The implicit point return of PHYSICS sections 2 and 3: for each point finds Δλ ≥ 0.
+    /// The implicit point return: for each point finds Δλ ≥ 0 with `τ = |t^e| - E_t Δλ = min(μ(V, φ) f_n, F_limit)`. With a
+    /// lag V = 0 is not Δλ = 0, and where the spring pulls back V, τ and Δλ may all be negative.
     ///
     /// # Errors
     /// [`Failure`] names the point and its inputs; a trial that cannot be answered is the step controller's matter.

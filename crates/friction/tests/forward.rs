@@ -336,3 +336,33 @@ fn a_step_that_is_not_finite_is_refused() {
     let failure = law.advance(present(&s, &[Regime::Slip], &[]), step, &mut regime, &mut rate, &mut []);
     assert!(matches!(failure, Err(asperity_friction::Failure::NonFinite { point: 0, .. })));
 }
+
+/// With the a-term in the tangent the disturbance that a lagged coefficient lets grow below Δt = 2 a σ/(k V) decays at any
+/// step: a point on its penalty spring, pulled at V, with a rate that starts off by a tenth.
+#[test]
+fn forward_steps_are_stable_for_small_steps() {
+    let law = velocity();
+    let v = 1e-6;
+    for factor in [0.05, 0.5, 1.98, 20.0] {
+        let dt = factor * 0.01 * NORMAL / (STIFFNESS * v);
+        let mut mu = [0.0];
+        law.coefficient(&[1.1 * v], &[], &mut mu).unwrap();
+        let mut s = Start { normal: NORMAL, traction: NORMAL * mu[0], rate: 1.1 * v, dt, carry: true };
+        let mut last = 0.1;
+        for _ in 0..400 {
+            let [along, _, constant] = rates(&law, &s, Regime::Slip, &[]);
+            let change = along * STIFFNESS * v * dt + constant;
+            let slip = v * dt - change / STIFFNESS;
+            let (regime, rate) = advance(&law, &s, Regime::Slip, &mut [], [0.0, change, slip]);
+            assert_eq!(regime, Regime::Slip);
+            s = Start { traction: s.traction + change, rate, ..s };
+            let deviation = (rate / v - 1.0).abs();
+            assert!(
+                deviation <= last * (1.0 + 1e-12) || deviation < 1e-9,
+                "{factor}: {deviation} after {last}"
+            );
+            last = deviation;
+        }
+        assert!(last < 1e-7, "{factor}: {last}");
+    }
+}
