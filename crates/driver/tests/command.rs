@@ -1,0 +1,98 @@
+//! The command line: exit codes, messages, and what is left behind.
+#![allow(clippy::unwrap_used, clippy::disallowed_methods)]
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+const SANDWICH: &str = include_str!("../../../scenes/sandwich.toml");
+
+fn asperity(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_asperity")).current_dir(folder).args(arguments).output().unwrap()
+}
+
+/// A coarse sandwich, so that the tests are quick.
+fn coarse() -> String {
+    SANDWICH.replace("1.25 mm", "5 mm").replace("1 nm", "20 nm")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+fn a_run_leaves_everything_it_promises() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), coarse()).unwrap();
+    let output = asperity(folder.path(), &["run", "s.toml"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    for file in [
+        "report.json",
+        "fields.pvd",
+        "fields/bodies_00001.vtu",
+        "fields/fault_00001.vtu",
+        "profiles/fault_001.csv",
+        "probes/fault.csv",
+        "plots/mises_1_press.svg",
+        "plots/mises_1_press.png",
+        "plots/fault_relative_displacement.svg",
+        "plots/fault_friction.png",
+        "plots/fault_relative_velocity.svg",
+    ] {
+        assert!(folder.path().join("out/s").join(file).is_file(), "{file} is missing");
+    }
+    let report = std::fs::read_to_string(folder.path().join("out/s/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    assert_eq!(report["outcome"], "completed");
+    assert_eq!(report["scene_sha256"].as_str().unwrap().len(), 64);
+    assert!(report["steps"].as_array().unwrap().len() > 10);
+}
+
+#[test]
+fn check_prints_the_plan_and_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), coarse()).unwrap();
+    let output = asperity(folder.path(), &["check", "s.toml"]);
+    assert!(output.status.success());
+    assert!(text(&output.stdout).contains("condensed"));
+    assert!(!folder.path().join("out").exists());
+}
+
+#[test]
+fn a_bad_scene_is_refused_with_its_line_and_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), coarse().replace("44.8 GPa", "-44.8 GPa")).unwrap();
+    let output = asperity(folder.path(), &["run", "s.toml"]);
+    assert_eq!(output.status.code(), Some(1));
+    let line = SANDWICH.lines().position(|l| l.contains("44.8 GPa")).unwrap() + 1;
+    assert!(text(&output.stderr).contains(&format!("s.toml:{line}:")), "{}", text(&output.stderr));
+    assert!(!folder.path().join("out").exists());
+}
+
+#[test]
+fn an_output_directory_that_cannot_be_written_is_named_before_anything_is_computed() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), coarse()).unwrap();
+    std::fs::write(folder.path().join("file"), "no directory").unwrap();
+    let output = asperity(folder.path(), &["run", "s.toml", "--out", "file/out"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("file/out"), "{}", text(&output.stderr));
+    assert_eq!(std::fs::read_to_string(folder.path().join("file")).unwrap(), "no directory");
+}
+
+#[test]
+fn a_run_that_cannot_go_on_keeps_its_last_good_state_and_says_so() {
+    // The law weakens by sigma (b - a)/L = 2e13 Pa/m, twenty times the stiffness of the blocks: quasi-static equilibrium
+    // ceases to exist when slip begins.
+    let weak = coarse().replace(
+            r#"law = { kind = "rate", form = "regularised", mu0 = 0.6, a = 0.01, v_ref = "1e-3 mm/s" }"#,
+            r#"law = { kind = "rate-and-state", evolution = "slip", mu0 = 0.6, a = 0.005, b = 0.2, l = "0.1 um", v_ref = "1e-3 mm/s", v_initial = "1e-6 mm/s" }"#,
+    );
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), weak).unwrap();
+    let output = asperity(folder.path(), &["run", "s.toml"]);
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("stopped: stage `shear`"), "{}", text(&output.stderr));
+    let report = std::fs::read_to_string(folder.path().join("out/s/report.json")).unwrap();
+    assert!(report.contains("stopped"));
+    assert!(folder.path().join("out/s/fields.pvd").is_file());
+}
