@@ -1,1 +1,94 @@
-//! Placeholder.
+//! Problems the benches share.
+
+use asperity_contact::{Interface, InterfaceSpec, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode};
+use asperity_friction::law::{Law, RateBounds};
+use std::sync::Arc;
+
+/// A flat interface in the plane: `n` slave nodes over `n` master segments of length 1 m, half a segment out of step.
+///
+/// # Panics
+/// Never: the specification is admissible.
+#[must_use]
+pub fn flat_2d(n: usize, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Interface<2> {
+    let mut nodes = Vec::new();
+    for k in 0..n {
+        nodes.push(SurfaceNode { position: [k as f64 + 0.5, 0.0], dof: 2 * k, label: k });
+    }
+    for k in 0..=n {
+        // The master lies below: its outward normal is (0, 1), so its edges run towards -x.
+        nodes.push(SurfaceNode { position: [k as f64, 0.0], dof: 2 * (n + k), label: n + k });
+    }
+    let master = (0..n).map(|k| Segment { kind: SegmentKind::Seg2, nodes: vec![n + k + 1, n + k] }).collect();
+    let slave = (0..n).map(|k| SlavePoint { node: k, area: 1.0 }).collect();
+    Interface::new(spec(nodes, slave, master, sliding, law)).expect("an admissible interface")
+}
+
+/// A flat interface in space: `m * m` slave nodes over `m * m` square master facets of 1 m.
+///
+/// # Panics
+/// Never: the specification is admissible.
+#[must_use]
+pub fn flat_3d(m: usize, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Interface<3> {
+    let mut nodes = Vec::new();
+    let mut add = |position: [f64; 3]| {
+        let k = nodes.len();
+        nodes.push(SurfaceNode { position, dof: 3 * k, label: k });
+    };
+    for j in 0..m {
+        for i in 0..m {
+            add([i as f64 + 0.4, j as f64 + 0.3, 0.0]);
+        }
+    }
+    for j in 0..=m {
+        for i in 0..=m {
+            add([i as f64, j as f64, 0.0]);
+        }
+    }
+    let at = |i: usize, j: usize| m * m + j * (m + 1) + i;
+    let facet = |k: usize| {
+        let (i, j) = (k % m, k / m);
+        Segment {
+            kind: SegmentKind::Quad4,
+            nodes: vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)],
+        }
+    };
+    let slave = (0..m * m).map(|k| SlavePoint { node: k, area: 1.0 }).collect();
+    let master = (0..m * m).map(facet).collect();
+    Interface::new(spec(nodes, slave, master, sliding, law)).expect("an admissible interface")
+}
+
+fn spec<const D: usize>(
+    nodes: Vec<SurfaceNode<D>>,
+    slave: Vec<SlavePoint>,
+    master: Vec<Segment>,
+    sliding: Sliding,
+    law: Option<Arc<dyn Law>>,
+) -> InterfaceSpec<D> {
+    InterfaceSpec {
+        name: "flat".into(),
+        nodes,
+        slave,
+        master,
+        sliding,
+        fixed_normal: None,
+        normal_penalty: 1e12,
+        tangential_penalty: 1e12,
+        law,
+        scale: 1e3,
+        rate_floor: 1e-18,
+        rate_bounds: RateBounds { zeta: 0.1, log_rate: 0.5 },
+        carry: true,
+        label_rate: None,
+    }
+}
+
+/// Displacements that press the slave side in by 10 um and move it along x by 8 um: every point slips.
+#[must_use]
+pub fn pressed<const D: usize>(slaves: usize, nodes: usize) -> Vec<f64> {
+    let mut u = vec![0.0; nodes * D];
+    for k in 0..slaves {
+        u[k * D] = 8e-6;
+        u[k * D + D - 1] = -1e-5;
+    }
+    u
+}

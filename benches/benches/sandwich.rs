@@ -1,0 +1,24 @@
+//! The main job without its output: plan and run of the sandwich.
+#![allow(missing_docs)]
+
+use asperity_driver::observe::Recorder;
+use asperity_driver::{plan, run, scene};
+use criterion::{Criterion, criterion_group, criterion_main};
+
+fn sandwich(c: &mut Criterion) {
+    faer::set_global_parallelism(faer::Par::Seq);
+    let scene = scene::read(include_str!("../../scenes/sandwich.toml")).expect("the scene is admissible");
+    let mut group = c.benchmark_group("sandwich");
+    group.sample_size(10);
+    group.bench_function("plan", |b| b.iter(|| plan::plan(&scene)));
+    group.bench_function("plan and run", |b| {
+        b.iter(|| {
+            let plan = plan::plan(&scene).expect("a plan");
+            run::run(&plan, &mut Recorder::new()).expect("a report")
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, sandwich);
+criterion_main!(benches);
