@@ -75,20 +75,25 @@ fn spec<const D: usize>(
         tangential_penalty: 1e12,
         law,
         scale: 1e3,
-        rate_floor: 1e-18,
+        rate_floor: f64::MIN_POSITIVE,
         rate_bounds: RateBounds { zeta: 0.1, log_rate: 0.5 },
         carry: true,
         label_rate: None,
     }
 }
 
-/// Displacements that press the slave side in by 10 um and move it along x by 8 um: every point slips.
+/// Displacement along the interface \[m\]: beyond the cone of the friction coefficient the benches use, 0.3.
+const ALONG: f64 = 8e-6;
+/// Penetration \[m\].
+const INTO: f64 = 1e-5;
+
+/// Displacements that press the slave side in and move it along x so far that every point slips.
 #[must_use]
 pub fn pressed<const D: usize>(slaves: usize, nodes: usize) -> Vec<f64> {
     let mut u = vec![0.0; nodes * D];
     for k in 0..slaves {
-        u[k * D] = 8e-6;
-        u[k * D + D - 1] = -1e-5;
+        u[k * D] = ALONG;
+        u[k * D + D - 1] = -INTO;
     }
     u
 }
