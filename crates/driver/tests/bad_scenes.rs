@@ -98,6 +98,13 @@ fn sides_that_meet_may_say_the_same() {
         "{ set = \"A.left\", x = \"hold\" }",
         "{ set = \"A.left\", x = \"hold\" }, { set = \"A.top\", x = \"1 mm\" }",
     )]);
+    // One course in other words: a rate, a table, and what is held on both.
+    let hold = "{ set = \"A.left\", x = \"hold\" }";
+    let rate = "{ set = \"A.bottom\", x = { rate = \"0.1 mm/s\" }, y = 0 }";
+    accepted(&[(bottom, rate), (hold, &format!("{hold}, {{ set = \"A.bottom\", x = \"hold\" }}"))]);
+    let table = "{ set = \"A.bottom\", x = { table = [[0, 0], [\"4 s\", \"0.4 mm\"], [\"10 s\", \"1 mm\"]] }, y = 0 }";
+    accepted(&[(bottom, table)]);
+    accepted(&[(hold, &format!("{hold}, {{ set = \"A.top\", x = \"hold\" }}"))]);
     // Opposite sides have no node in common.
     accepted(&[(bottom, "{ set = \"A.bottom\", y = 0 }, { set = \"A.right\", x = \"2 mm\" }")]);
 }
@@ -148,6 +155,59 @@ fn a_report_shows_the_place_a_caret_and_the_remedy() {
     for part in ["x.toml:3:14", "plane-stress", "the choices are plane-strain, 3d"] {
         assert!(report.contains(part), "{part} is not in\n{report}");
     }
+}
+
+/// Line and column of the places an error points to, its own first.
+fn places(name: &str) -> Vec<(usize, usize)> {
+    let (_, text) = files("tests/bad_scenes").into_iter().find(|(file, _)| file == name).unwrap();
+    let error = errors(&text).unwrap().0.swap_remove(0);
+    let spans = std::iter::once(&error.span).chain(error.also.iter().map(|(span, _)| span));
+    spans.map(|span| diagnostic::line_column(&text, span.start)).collect()
+}
+
+#[test]
+fn what_contradicts_itself_is_shown_at_both_places() {
+    assert_eq!(places("shared_nodes.toml"), [(27, 29), (26, 27)]);
+    assert_eq!(places("shared_nodes_later.toml"), [(34, 68), (34, 37)]);
+    assert_eq!(places("condition_twice.toml"), [(27, 58), (27, 29)]);
+    assert_eq!(places("symmetry_and_motion.toml"), [(28, 45), (28, 35)]);
+    assert_eq!(places("traction_and_motion.toml"), [(26, 55), (26, 27)]);
+    assert_eq!(places("pressure_on_held_motion.toml"), [(34, 44), (26, 27)]);
+    assert_eq!(places("size_and_divisions.toml"), [(9, 78), (9, 59)]);
+    assert_eq!(places("min_above_max.toml"), [(37, 12), (38, 12)]);
+    assert_eq!(places("bdf2_with_state.toml"), [(37, 8), (20, 16)]);
+    assert_eq!(places("table_beyond_its_stage.toml"), [(26, 27), (23, 12)]);
+}
+
+#[test]
+fn a_report_marks_both_places() {
+    let (_, text) =
+        files("tests/bad_scenes").into_iter().find(|(file, _)| file == "shared_nodes.toml").unwrap();
+    let report = format!("{:?}", diagnostic::report("x.toml", &text, &errors(&text).unwrap()));
+    for part in ["x.toml:27:29", "here", "and here", "`A.left` prescribes 0 m to 1 mm, `A.bottom` 0 m"] {
+        assert!(report.contains(part), "{part} is not in\n{report}");
+    }
+}
+
+#[test]
+fn places_far_apart_are_shown_without_what_lies_between() {
+    let (_, text) =
+        files("tests/bad_scenes").into_iter().find(|(file, _)| file == "bdf2_with_state.toml").unwrap();
+    let report = format!("{:?}", diagnostic::report("x.toml", &text, &errors(&text).unwrap()));
+    for part in ["x.toml:20:16", "the law with state", "x.toml:37:8", "rule = \"bdf2\""] {
+        assert!(report.contains(part), "{part} is not in\n{report}");
+    }
+    assert!(!report.contains("frictionless"), "{report}");
+}
+
+#[test]
+fn a_name_that_cannot_be_is_told_once() {
+    let errors =
+        scene::read(&changed(&[("[bodies.A]", "[bodies.\"A.1\"]"), ("\"A.right\"", "\"A.1.right\"")]))
+            .unwrap_err();
+    let about: Vec<&str> =
+        errors.0.iter().map(|e| e.message.as_str()).filter(|m| m.contains("A.1")).collect();
+    assert_eq!(about, ["`A.1` cannot be the name of a body"]);
 }
 
 #[derive(Debug, Deserialize)]

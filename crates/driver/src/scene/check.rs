@@ -2,6 +2,7 @@
 
 mod bodies;
 mod conditions;
+mod course;
 mod interfaces;
 mod time;
 
@@ -27,6 +28,9 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     errors
 }
 
+/// More probes of an interface, or outputs of a stage, than this are a slip of the keyboard: each output is a file.
+const MOST_OUTPUTS: usize = 100_000;
+
 /// Axes by name.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -38,6 +42,26 @@ struct Checker<'a> {
 impl Checker<'_> {
     fn error(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
         self.errors.push(SceneError::at(span, message, help));
+    }
+
+    /// An error about one place that another takes part in.
+    fn conflict(
+        &mut self,
+        span: &Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+        also: (&Range<usize>, &str),
+    ) {
+        self.errors.push(SceneError::at(span.clone(), message, help).and(also.0.clone(), also.1));
+    }
+
+    /// A count nobody means, which would exhaust the memory.
+    fn too_many(&mut self, count: &Spanned<usize>, name: &str, most: usize) {
+        self.error(
+            count.span(),
+            format!("`{name}` is {}, more than anyone could use", count.get_ref()),
+            format!("at most {most}"),
+        );
     }
 
     fn dimension(&self) -> usize {
@@ -91,6 +115,10 @@ impl Checker<'_> {
     fn unknown_set(&mut self, set: &Spanned<String>) {
         let name = set.get_ref();
         let sides: Vec<&str> = SIDES[..self.dimension()].iter().flatten().copied().collect();
+        let dotted = |b: &String| b.contains('.') && name.strip_prefix(b).is_some_and(|s| s.starts_with('.'));
+        if self.scene.bodies.keys().any(dotted) {
+            return; // The name of the body is the error, and is told once.
+        }
         let Some((body, side)) = name.split_once('.') else {
             let list = format!("a set is `body.side`, with the sides {}", sides.join(", "));
             self.error(set.span(), format!("`{name}` names no side of a body"), list);
@@ -116,6 +144,9 @@ impl Checker<'_> {
                     suggest(name, "interfaces", known),
                 );
             }
+            if *probes.get_ref() > MOST_OUTPUTS {
+                self.too_many(probes, "probes", MOST_OUTPUTS);
+            }
             if *probes.get_ref() == 0 {
                 self.error(
                     probes.span(),
@@ -127,6 +158,9 @@ impl Checker<'_> {
         for (name, count) in
             [("fields", &self.scene.output.fields), ("profiles", &self.scene.output.profiles)]
         {
+            if let Some(count) = count.as_ref().filter(|c| *c.get_ref() > MOST_OUTPUTS) {
+                self.too_many(count, name, MOST_OUTPUTS);
+            }
             if let Some(count) = count.as_ref().filter(|c| *c.get_ref() == 0) {
                 self.error(
                     count.span(),
@@ -145,4 +179,32 @@ fn split(set: &str, dimension: usize) -> Option<(&str, usize, usize)> {
         .iter()
         .enumerate()
         .find_map(|(axis, ends)| ends.iter().position(|&end| end == side).map(|end| (body, axis, end)))
+}
+
+/// A length in the unit that shows it shortest.
+fn show(length: f64) -> String {
+    let (factor, unit) = match length.abs() {
+        0.0 => (1.0, "m"),
+        l if l >= 1e3 => (1e-3, "km"),
+        l if l >= 1.0 => (1.0, "m"),
+        l if l * 1e3 >= 1.0 => (1e3, "mm"),
+        l if l * 1e6 >= 1.0 => (1e6, "um"),
+        _ => (1e9, "nm"),
+    };
+    let rounded: f64 = format!("{:.9e}", length * factor).parse().unwrap_or(length * factor);
+    format!("{rounded} {unit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_shown_in_the_unit_that_fits() {
+        assert_eq!(show(0.00125), "1.25 mm");
+        assert_eq!(show(40.0e3), "40 km");
+        assert_eq!(show(2.0 / 1e8), "20 nm");
+        assert_eq!(show(-0.001), "-1 mm");
+        assert_eq!(show(0.0), "0 m");
+    }
 }

@@ -1,8 +1,11 @@
 //! Errors of a scene as a person sees them: the place in the file, a caret, and what would be right.
 
 use super::{SceneError, SceneErrors};
-use miette::{Diagnostic, LabeledSpan, NamedSource, Report, SourceCode};
+use miette::{
+    Diagnostic, LabeledSpan, MietteError, NamedSource, Report, SourceCode, SourceSpan, SpanContents,
+};
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Line and column of a byte of a text, both counted from 1; columns count characters.
@@ -17,11 +20,34 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[start..].chars().count() + 1)
 }
 
+/// Two places further apart than this many lines are shown apart, without what lies between them.
+const FAR: usize = 8;
+
+/// The text of a scene, shown in short pieces only: asked for a long one, it refuses, and the renderer, which would put
+/// all places of an error into one piece, shows each with its own surroundings.
+#[derive(Debug)]
+struct Excerpts(NamedSource<String>);
+
+impl SourceCode for Excerpts {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let text = self.0.inner().get(span.offset()..span.offset() + span.len()).unwrap_or_default();
+        if text.lines().count() > FAR {
+            return Err(MietteError::OutOfBounds);
+        }
+        self.0.read_span(span, before, after)
+    }
+}
+
 /// One error with the text it is about.
 #[derive(Debug)]
 struct Placed {
     error: SceneError,
-    source: Arc<NamedSource<String>>,
+    source: Arc<Excerpts>,
 }
 
 impl fmt::Display for Placed {
@@ -45,11 +71,22 @@ impl Diagnostic for Placed {
         if self.error.span.is_empty() {
             return None;
         }
-        // A caret under the first line of a long table says enough.
-        let span = self.error.span.clone();
-        let text = self.source.inner().get(span.clone()).unwrap_or_default();
-        let length = text.find('\n').unwrap_or(span.len()).max(1);
-        Some(Box::new(std::iter::once(LabeledSpan::new_primary_with_span(None, (span.start, length)))))
+        let also = self.error.also.iter().filter(|(span, _)| !span.is_empty());
+        let also: Vec<LabeledSpan> = also
+            .map(|(span, words)| LabeledSpan::new_with_span(Some(words.clone()), self.first_line(span)))
+            .collect();
+        let here = (!also.is_empty()).then(|| "here".to_string());
+        let place = LabeledSpan::new_primary_with_span(here, self.first_line(&self.error.span));
+        Some(Box::new(std::iter::once(place).chain(also)))
+    }
+}
+
+impl Placed {
+    /// Start and length of the first line of a place: a caret under the first line of a long table says enough.
+    fn first_line(&self, span: &Range<usize>) -> (usize, usize) {
+        let text = self.source.0.inner().get(span.clone()).unwrap_or_default();
+        let line = text.lines().next().map_or(span.len(), str::len);
+        (span.start, line.max(1))
     }
 }
 
@@ -77,7 +114,7 @@ impl Diagnostic for Many {
 /// The errors of the scene `text`, read from `file`, ready to be printed.
 #[must_use]
 pub fn report(file: &str, text: &str, errors: &SceneErrors) -> Report {
-    let source = Arc::new(NamedSource::new(file, text.to_string()));
+    let source = Arc::new(Excerpts(NamedSource::new(file, text.to_string())));
     let mut placed: Vec<Placed> =
         errors.0.iter().map(|error| Placed { error: error.clone(), source: Arc::clone(&source) }).collect();
     match (placed.len(), placed.pop()) {

@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod diagnostic;
+mod explain;
 pub mod law;
 pub mod model;
 mod motion;
@@ -23,13 +24,22 @@ pub struct SceneError {
     pub help: Option<String>,
     /// Bytes of the scene file it is about; empty when there is no file.
     pub span: Range<usize>,
+    /// Other places that take part in it, each with a few words.
+    pub also: Vec<(Range<usize>, String)>,
 }
 
 impl SceneError {
     /// An error with a place and a remedy.
     #[must_use]
     pub fn at(span: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { message: message.into(), help: Some(help.into()), span }
+        Self { message: message.into(), help: Some(help.into()), span, also: Vec::new() }
+    }
+
+    /// The same error, pointing to another place as well.
+    #[must_use]
+    pub fn and(mut self, span: Range<usize>, words: impl Into<String>) -> Self {
+        self.also.push((span, words.into()));
+        self
     }
 }
 
@@ -56,7 +66,7 @@ impl std::error::Error for SceneErrors {}
 
 impl From<PlanError> for SceneErrors {
     fn from(e: PlanError) -> Self {
-        Self(vec![SceneError { message: e.message, help: e.help, span: e.span }])
+        Self(vec![SceneError { message: e.message, help: e.help, span: e.span, also: Vec::new() }])
     }
 }
 
@@ -71,7 +81,7 @@ impl From<SceneError> for PlanError {
 /// # Errors
 /// All that is wrong with it, or the first thing that keeps it from being read.
 pub fn read(text: &str) -> Result<Scene, SceneErrors> {
-    let scene: Scene = toml::from_str(text).map_err(|e| SceneErrors(vec![near::explain(&e, text)]))?;
+    let scene: Scene = toml::from_str(text).map_err(|e| SceneErrors(vec![explain::explain(&e, text)]))?;
     let errors = check::check(&scene);
     if errors.is_empty() { Ok(scene) } else { Err(SceneErrors(errors)) }
 }

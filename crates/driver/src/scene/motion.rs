@@ -126,6 +126,9 @@ impl<'de> Deserialize<'de> for Loading {
             }
 
             fn visit_str<E: de::Error>(self, text: &str) -> Result<Loading, E> {
+                if text.starts_with(|c: char| c.is_ascii_alphabetic()) {
+                    return Err(E::invalid_value(de::Unexpected::Str(text), &self));
+                }
                 units::parse(text, Dimension::Pressure).map(Loading::Fixed).map_err(E::custom)
             }
 

@@ -1,16 +1,19 @@
 //! Materials, bodies and their meshes.
 
-use super::{AXES, Checker};
+use super::{AXES, Checker, show};
 use crate::scene::model::{BlockMesh, Body, MeshSource, Spanned};
 use crate::scene::near::suggest;
 use crate::scene::units::Length;
 use asperity_fem::element::ElementKind;
+use std::ops::Range;
 
 /// How far an edge over a size may be from a whole number, relative to it: the rounding of decimal input with room to
 /// spare, and less than any intended difference.
 const WHOLE: f64 = 1e-9;
 /// How far around the nearest number of elements a size that divides all edges is looked for.
 const SEARCH: usize = 1000;
+/// More elements than this are a slip of the keyboard: their stiffness alone would take 50 GB.
+const MOST_ELEMENTS: f64 = 1e8;
 
 impl Checker<'_> {
     pub(super) fn materials(&mut self) {
@@ -19,7 +22,7 @@ impl Checker<'_> {
             if young <= 0.0 {
                 self.error(
                     material.young.span(),
-                    format!("Young's modulus of `{name}` must be positive, found {young:?} Pa"),
+                    format!("Young's modulus of `{name}` must be positive, found {young:e} Pa"),
                     "such as `young = \"44.8 GPa\"`",
                 );
             }
@@ -124,10 +127,11 @@ impl Checker<'_> {
                 format!("the block of body `{name}` has neither `size` nor `divisions`"),
                 "give one, such as `size = \"1 mm\"`",
             ),
-            (Some(_), Some(divisions)) => self.error(
-                divisions.span(),
+            (Some(size), Some(divisions)) => self.conflict(
+                &divisions.span(),
                 format!("the block of body `{name}` has both `size` and `divisions`"),
                 "give one of them",
+                (&size.span(), "and here"),
             ),
             (None, Some(divisions)) => {
                 self.count(divisions, "divisions", d);
@@ -138,6 +142,8 @@ impl Checker<'_> {
                         "at least 1 along each axis",
                     );
                 }
+                let elements = divisions.get_ref().iter().map(|&n| n as f64).product();
+                self.too_many_elements(elements, divisions.span());
             }
             (Some(size), None) => self.size(size, edges.as_deref()),
         }
@@ -151,6 +157,18 @@ impl Checker<'_> {
                 );
             }
         }
+    }
+
+    fn too_many_elements(&mut self, elements: f64, place: Range<usize>) -> bool {
+        let many = elements > MOST_ELEMENTS;
+        if many {
+            self.error(
+                place,
+                format!("the block would have {elements:.1e} elements, more than any memory holds"),
+                format!("at most {MOST_ELEMENTS:e}; is the unit right?"),
+            );
+        }
+        many
     }
 
     fn element(&mut self, block: &BlockMesh) {
@@ -204,6 +222,10 @@ impl Checker<'_> {
             return;
         }
         let Some(edges) = edges else { return };
+        let elements = edges.iter().map(|e| e / h).product();
+        if self.too_many_elements(elements, size.span()) {
+            return;
+        }
         let Some((edge, axis)) = edges.iter().zip(AXES).find(|(e, _)| !divides(h, **e)) else { return };
         let message =
             format!("the size {} does not divide the edge of {} along {axis}", show(h), show(*edge));
@@ -243,19 +265,6 @@ fn fitting_divisions(size: f64, edges: &[f64]) -> Option<Vec<usize>> {
     Some(edges.iter().map(|e| (e / best).round() as usize).collect())
 }
 
-/// A length in the unit that shows it shortest.
-fn show(length: f64) -> String {
-    let (factor, unit) = match length.abs() {
-        l if l >= 1e3 => (1e-3, "km"),
-        l if l >= 1.0 => (1.0, "m"),
-        l if l * 1e3 >= 1.0 => (1e3, "mm"),
-        l if l * 1e6 >= 1.0 => (1e6, "um"),
-        _ => (1e9, "nm"),
-    };
-    let rounded: f64 = format!("{:.9e}", length * factor).parse().unwrap_or(length * factor);
-    format!("{rounded} {unit}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -265,12 +274,5 @@ mod tests {
         assert_eq!(fitting_divisions(1.3, &[25.0, 50.0]), Some(vec![19, 38]));
         assert_eq!(fitting_divisions(0.0013, &[0.025, 0.07]), Some(vec![20, 56]));
         assert_eq!(fitting_divisions(1.0, &[1.0, 2.0_f64.sqrt()]), None);
-    }
-
-    #[test]
-    fn lengths_are_shown_in_the_unit_that_fits() {
-        assert_eq!(show(0.00125), "1.25 mm");
-        assert_eq!(show(40.0e3), "40 km");
-        assert_eq!(show(2.0 / 1e8), "20 nm");
     }
 }

@@ -1,6 +1,8 @@
 //! Stages and their conditions: what they refer to, and whether two of them say different things about the same nodes.
 
+use super::course::Course;
 use super::{AXES, Checker, split};
+use crate::scene::SceneError;
 use crate::scene::model::{Condition, Loading, Motion, Spanned, Stage};
 use crate::scene::near::suggest;
 use std::collections::BTreeMap;
@@ -16,17 +18,6 @@ struct Entry {
     symmetry: bool,
 }
 
-/// How a prescribed value develops in a stage, as far as it is known here.
-#[derive(Debug, PartialEq)]
-enum Course {
-    /// From a value to a value, linearly.
-    Line(f64, f64),
-    /// As in the table.
-    Table(Vec<(f64, f64)>),
-    /// It depends on where the nodes are.
-    Relative(Motion),
-}
-
 /// What is prescribed from stage to stage.
 #[derive(Default)]
 struct Held {
@@ -38,17 +29,19 @@ struct Held {
 }
 
 impl Held {
-    fn course(&self, entry: &Entry, first: bool, duration: f64) -> Course {
+    /// Displacement of a component at the start of a stage, where it is known.
+    fn start(&self, entry: &Entry, first: bool) -> Option<f64> {
         let key = (entry.set.clone(), entry.axis);
-        let present = self.present.get(&key).copied().unwrap_or(first.then_some(0.0));
-        match (&entry.motion, present) {
-            (Motion::Fixed(value), _) => Course::Line(*value, *value),
-            (Motion::Table(points), _) => Course::Table(points.clone()),
-            (Motion::To(value), Some(from)) => Course::Line(from, *value),
-            (Motion::Rate(rate), Some(from)) => Course::Line(from, from + rate * duration),
-            (Motion::Hold, Some(from)) => Course::Line(from, from),
-            (motion, _) => Course::Relative(motion.clone()),
-        }
+        self.present.get(&key).copied().unwrap_or(first.then_some(0.0))
+    }
+
+    /// Courses of two entries at the nodes they share, which start from where either entry is known to be.
+    fn courses(&self, a: &Entry, b: &Entry, (first, duration): (bool, f64)) -> (Course, Course) {
+        let (from_a, from_b) = (self.start(a, first), self.start(b, first));
+        (
+            Course::new(&a.motion, from_a.or(from_b), duration),
+            Course::new(&b.motion, from_b.or(from_a), duration),
+        )
     }
 
     /// Ends a stage: targets that were reached are held.
@@ -57,12 +50,8 @@ impl Held {
             .entries
             .iter()
             .map(|(key, entry)| {
-                let end = match self.course(entry, first, duration) {
-                    Course::Line(_, end) => Some(end),
-                    Course::Table(points) => points.last().map(|p| p.1),
-                    Course::Relative(_) => None,
-                };
-                (key.clone(), end)
+                let course = Course::new(&entry.motion, self.start(entry, first), duration);
+                (key.clone(), course.at(duration))
             })
             .collect();
         self.present.extend(ends);
@@ -73,6 +62,11 @@ impl Held {
         }
     }
 }
+
+/// How far a table may reach past the end of its stage, relative to the duration: the rounding of decimal input.
+const ROUNDING: f64 = 1e-9;
+/// More equal steps than this are a slip of the keyboard: a thousand times what a long run takes.
+const MOST_STEPS: usize = 10_000_000;
 
 impl Checker<'_> {
     pub(super) fn stages(&mut self) {
@@ -124,6 +118,12 @@ impl Checker<'_> {
                 "or leave it out, and the steps are adapted",
             );
         }
+        if name.trim().is_empty() {
+            self.error(stage.duration.span(), "a stage has no name", "such as `name = \"press\"`");
+        }
+        if let Some(steps) = stage.steps.as_ref().filter(|s| *s.get_ref() > MOST_STEPS) {
+            self.too_many(steps, "steps", MOST_STEPS);
+        }
         for interface in &stage.frictionless {
             if !self.scene.interfaces.contains_key(interface.get_ref()) {
                 let known = self.scene.interfaces.keys().map(String::as_str);
@@ -163,7 +163,7 @@ impl Checker<'_> {
                 continue;
             }
             if let Motion::Table(points) = motion.get_ref() {
-                self.table(points, motion.span());
+                self.table(points, motion.span(), stage);
             }
             let (motion, place) = (motion.get_ref().clone(), motion.span());
             fresh.push(Entry { set: set.get_ref().clone(), axis, motion, place, symmetry: false });
@@ -172,7 +172,7 @@ impl Checker<'_> {
             let (motion, place) = (Motion::Fixed(0.0), symmetry.span());
             fresh.push(Entry { set: set.get_ref().clone(), axis, motion, place, symmetry: true });
         }
-        self.load_values(c);
+        self.load_values(stage, c);
     }
 
     fn no_third_axis(&mut self, place: Range<usize>, what: &str) {
@@ -183,7 +183,7 @@ impl Checker<'_> {
         );
     }
 
-    fn load_values(&mut self, c: &Condition) {
+    fn load_values(&mut self, stage: &Stage, c: &Condition) {
         if let Some(traction) = &c.traction {
             let (found, wanted) = (traction.get_ref().len(), self.dimension());
             if found != wanted {
@@ -198,12 +198,14 @@ impl Checker<'_> {
         let pressures = c.pressure.iter().map(|p| (p.get_ref(), p.span()));
         for (loading, place) in tractions.chain(pressures) {
             if let Loading::Table(points) = loading {
-                self.table(points, place);
+                self.table(points, place, stage);
             }
         }
     }
 
-    fn table(&mut self, points: &[(f64, f64)], place: Range<usize>) {
+    /// A table lies within its stage: what comes after the end would be silently lost, or taken for reached.
+    fn table(&mut self, points: &[(f64, f64)], place: Range<usize>, stage: &Stage) {
+        let duration = stage.duration.get_ref().0;
         if points.len() < 2 {
             self.error(
                 place,
@@ -216,6 +218,21 @@ impl Checker<'_> {
                 format!("the times of the table do not increase: {:?} s follows {:?} s", w[1].0, w[0].0),
                 "times count from the start of the stage and increase",
             );
+        } else if let Some((time, _)) = points.first().filter(|p| p.0 < 0.0) {
+            self.error(
+                place,
+                format!("the table begins at {time:?} s, before its stage"),
+                "times count from the start of the stage: begin at 0",
+            );
+        } else if let Some((time, _)) = points.last().filter(|p| p.0 > duration * (1.0 + ROUNDING)) {
+            let message = format!(
+                "the table goes on to {time:?} s, but stage `{}` ends after {duration:?} s",
+                stage.name
+            );
+            let help =
+                "times count from the start of the stage: end the table with it, or lengthen the stage";
+            self.errors
+                .push(SceneError::at(place, message, help).and(stage.duration.span(), "the stage ends"));
         }
     }
 
@@ -226,26 +243,20 @@ impl Checker<'_> {
                 continue;
             };
             let (set, axis, name) = (&second.set, AXES[second.axis], &stage.name);
-            let place = if first.place.start > second.place.start {
-                first.place.clone()
-            } else {
-                second.place.clone()
-            };
-            if first.symmetry != second.symmetry {
-                self.error(
-                    place,
+            let (before, after) =
+                if first.place.start > second.place.start { (second, first) } else { (first, second) };
+            let (message, help) = if first.symmetry != second.symmetry {
+                (
                     format!("`{set}` has symmetry and a motion in {axis}, its normal, in stage `{name}`"),
                     format!("symmetry is `{axis} = 0`: remove one of the two"),
-                );
+                )
             } else {
-                self.error(
-                    place,
-                    format!("{axis} of `{set}` is prescribed twice in stage `{name}`"),
-                    "remove one of the two",
-                );
-            }
+                let message = format!("{axis} of `{set}` is prescribed twice in stage `{name}`");
+                (message, "remove one of the two".into())
+            };
+            self.conflict(&after.place, message, help, (&before.place, "and here"));
         }
-        let mut seen: Vec<(&str, &str)> = Vec::new();
+        let mut seen: Vec<((&str, &str), Range<usize>)> = Vec::new();
         for condition in &stage.conditions {
             let c = condition.get_ref();
             let Some(set) = &c.set else { continue };
@@ -253,12 +264,12 @@ impl Checker<'_> {
             let pressure = c.pressure.as_ref().map(|p| ("pressure", p.span()));
             for (what, place) in traction.into_iter().chain(pressure) {
                 let key = (set.get_ref().as_str(), what);
-                if seen.contains(&key) {
+                if let Some((_, before)) = seen.iter().find(|s| s.0 == key) {
                     let message =
                         format!("the {what} on `{}` is prescribed twice in stage `{}`", key.0, stage.name);
-                    self.error(place, message, "remove one of the two");
+                    self.conflict(&place, message, "remove one of the two", (before, "and here"));
                 }
-                seen.push(key);
+                seen.push((key, place));
             }
         }
     }
@@ -281,23 +292,26 @@ impl Checker<'_> {
                     entry.set.clone().max(other.set.clone()),
                     entry.axis,
                 );
-                let (a, b) = (held.course(other, first, duration), held.course(entry, first, duration));
-                if !later && a != b && !held.told.contains(&pair) {
-                    found.push((pair, entry, other.set.clone(), words(&a), words(&b)));
+                let (a, b) = held.courses(other, entry, (first, duration));
+                if !later && !a.agrees(&b, duration) && !held.told.contains(&pair) {
+                    found.push((pair, entry, other.clone(), (a, b)));
                 }
             }
         }
-        for (pair, entry, other, a, b) in found {
+        for (pair, entry, other, (a, b)) in found {
             let (set, axis, name) = (&entry.set, AXES[entry.axis], &stage.name);
             held.told.push(pair);
-            self.error(
-                entry.place.clone(),
-                format!("`{other}` and `{set}` share nodes and prescribe {axis} there differently in stage `{name}`"),
-                format!(
-                    "`{other}` prescribes {a}, `{set}` {b}: say the same on both, or release one with \
-                     `{axis} = \"free\"`"
-                ),
+            let message = format!(
+                "`{}` and `{set}` share nodes and prescribe {axis} there differently in stage `{name}`",
+                other.set
             );
+            let help = format!(
+                "`{}` prescribes {}, `{set}` {}: say the same on both, or release one with `{axis} = \"free\"`",
+                other.set,
+                a.words(),
+                b.words()
+            );
+            self.conflict(&entry.place, message, help, (&other.place, "and here"));
         }
     }
 
@@ -332,31 +346,18 @@ impl Checker<'_> {
             }
             for (axis, what, place) in loaded {
                 let entry = held.entries.get(&(set.get_ref().clone(), axis));
-                if entry.is_some_and(|e| e.motion != Motion::Free) {
-                    let (set, axis) = (set.get_ref(), AXES[axis]);
-                    self.error(
-                        place,
-                        format!(
-                            "`{set}` has both a {what} and a prescribed motion in {axis} in stage `{}`, so the {what} \
-                             would do nothing",
-                            stage.name
-                        ),
-                        format!("remove one of the two; `{axis} = \"free\"` releases a motion of an earlier stage"),
-                    );
-                }
+                let Some(entry) = entry.filter(|e| e.motion != Motion::Free) else { continue };
+                let (set, axis) = (set.get_ref(), AXES[axis]);
+                let message = format!(
+                    "`{set}` has both a {what} and a prescribed motion in {axis} in stage `{}`, so the {what} would \
+                     do nothing",
+                    stage.name
+                );
+                let help = format!(
+                    "remove one of the two; `{axis} = \"free\"` releases a motion of an earlier stage"
+                );
+                self.conflict(&place, message, help, (&entry.place, "the motion"));
             }
         }
-    }
-}
-
-/// A course in words.
-fn words(course: &Course) -> String {
-    match course {
-        Course::Line(a, b) if a == b => format!("{a} m"),
-        Course::Line(a, b) => format!("{a} m to {b} m"),
-        Course::Table(_) => "a table".into(),
-        Course::Relative(Motion::Hold) => "the value it has".into(),
-        Course::Relative(Motion::To(value)) => format!("the value it has to {value} m"),
-        Course::Relative(_) => "a rate from the value it has".into(),
     }
 }

@@ -4,11 +4,15 @@ use super::Checker;
 use crate::scene::law;
 use crate::scene::model::{Interface, MeshSource, Sliding, Spanned};
 use crate::scene::units::Penalty;
+use asperity_fem::mesh::generate::SIDES;
 
 /// Elements in two dimensions whose faces have nodes only at their corners; in three all have.
 const LINEAR: [&str; 2] = ["quad4", "tri3"];
 /// Elements with nodes between the corners.
 const QUADRATIC: [&str; 2] = ["quad9", "tri6"];
+
+/// Body, axis and end of a side.
+type Side = (String, usize, usize);
 
 impl Checker<'_> {
     pub(super) fn interfaces(&mut self) {
@@ -50,14 +54,8 @@ impl Checker<'_> {
 
     fn sides(&mut self, name: &str, interface: &Interface) {
         let (slave, master) = (self.set(&interface.slave), self.set(&interface.master));
-        if let (Some((a, _, _)), Some((b, _, _))) = (&slave, &master)
-            && a == b
-        {
-            self.error(
-                interface.master.span(),
-                format!("slave and master of interface `{name}` are both sides of body `{a}`"),
-                "an interface lies between two bodies",
-            );
+        if let (Some(slave), Some(master)) = (&slave, &master) {
+            self.pairing(name, interface, slave, master);
         }
         if *interface.sliding.get_ref() != Sliding::Finite {
             return;
@@ -66,12 +64,39 @@ impl Checker<'_> {
             let MeshSource::Block(block) = &self.scene.bodies[&body].mesh;
             let element = block.element.get_ref();
             if QUADRATIC.contains(&element.as_str()) {
-                self.error(
-                    interface.sliding.span(),
+                self.conflict(
+                    &interface.sliding.span(),
                     format!("finite sliding needs linear elements, but body `{body}` has `{element}`"),
                     format!("use {} there, or `sliding = \"small\"`", LINEAR.join(" or ")),
+                    (&block.element.span(), "the element"),
                 );
             }
+        }
+    }
+
+    /// Whether two sides can be in contact: of two bodies, face to face, and not paired already.
+    fn pairing(&mut self, name: &str, interface: &Interface, slave: &Side, master: &Side) {
+        let (slave_name, master_name) = (interface.slave.get_ref(), interface.master.get_ref());
+        let (place, also) = (interface.master.span(), (&interface.slave.span(), "the slave"));
+        if slave.0 == master.0 {
+            let message =
+                format!("slave and master of interface `{name}` are both sides of body `{}`", slave.0);
+            self.conflict(&place, message, "an interface lies between two bodies", also);
+        } else if slave.1 != master.1 || slave.2 == master.2 {
+            let facing = format!("{}.{}", master.0, SIDES[slave.1][1 - slave.2]);
+            let message =
+                format!("`{slave_name}` and `{master_name}` of interface `{name}` do not face each other");
+            self.conflict(&place, message, format!("`{facing}` faces `{slave_name}`"), also);
+        }
+        let pair = |i: &Interface| {
+            let (a, b) = (i.slave.get_ref().clone(), i.master.get_ref().clone());
+            if a < b { (a, b) } else { (b, a) }
+        };
+        let mut before = self.scene.interfaces.iter().take_while(|(other, _)| other.as_str() != name);
+        if let Some((other, twin)) = before.find(|(_, other)| pair(other) == pair(interface)) {
+            let message = format!("interfaces `{other}` and `{name}` lie between the same sides");
+            let help = "contact there would be counted twice: remove one of the two";
+            self.conflict(&interface.slave.span(), message, help, (&twin.slave.span(), "and here"));
         }
     }
 

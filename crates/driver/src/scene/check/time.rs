@@ -56,10 +56,11 @@ impl Checker<'_> {
             if let (Some(a), Some(b)) = (a, b)
                 && a.get_ref().0 > b.get_ref().0
             {
-                self.error(
-                    a.span(),
+                self.conflict(
+                    &a.span(),
                     format!("`{small}` is larger than `{large}`"),
                     "min_step <= first_step <= max_step",
+                    (&b.span(), large),
                 );
                 return;
             }
@@ -69,13 +70,14 @@ impl Checker<'_> {
     fn second_order(&mut self, rule: &Spanned<Rule>) {
         for (name, interface) in &self.scene.interfaces {
             let kind = interface.law.as_ref().and_then(|l| l.get_ref().kind.as_ref());
-            if kind.is_some_and(|k| k.get_ref() == "rate-and-state") {
-                self.error(
-                    rule.span(),
+            if let Some(kind) = kind.filter(|k| k.get_ref() == "rate-and-state") {
+                self.conflict(
+                    &rule.span(),
                     format!(
                         "`bdf2` is for laws without state, but interface `{name}` has \"rate-and-state\""
                     ),
                     "use `rule = \"backward-euler\"`, or leave it out",
+                    (&kind.span(), "the law with state"),
                 );
             }
         }
@@ -104,10 +106,11 @@ impl Checker<'_> {
             ),
         };
         for (key, place) in keys.into_iter().flatten() {
-            self.error(
-                place,
+            self.conflict(
+                &place,
                 format!("`{key}` belongs to the stepper \"{other}\", but the stepper is \"{own}\""),
                 format!("remove `{key}`, or use `stepper = \"{other}\"`"),
+                (&self.scene.time.stepper.span(), "the stepper"),
             );
         }
     }
