@@ -190,8 +190,30 @@ pub fn simulate(scene: &Scene) -> Result<Run, CaseError> {
     let mut record = Recorder::new().at_all_nodes();
     let report = run::run(&plan, &mut record)?;
     match &report.outcome {
-        Outcome::Completed => Ok(Run { report, record }),
+        Outcome::Completed => finite(&record).map(|()| Run { report, record }),
         Outcome::Stopped { reason, time, .. } => Err(format!("stopped at {time} s: {reason}").into()),
+    }
+}
+
+/// Refuses a run with a value that is not a number, so that no maximum taken of it later can hide one.
+fn finite(record: &Recorder) -> Result<(), CaseError> {
+    for point in record.histories().iter().flat_map(|h| &h.points) {
+        for field in [
+            &point.slip,
+            &point.slip_rate,
+            &point.friction,
+            &point.normal_traction,
+            &point.shear_traction,
+            &point.relative_displacement,
+        ] {
+            if let Some(step) = field.iter().position(|v| !v.is_finite()) {
+                return Err(format!("node {}: a value of step {} is not finite", point.node, step + 1).into());
+            }
+        }
+    }
+    match record.records().iter().find(|r| !(r.drift.is_finite() && r.residual_ratio.is_finite())) {
+        None => Ok(()),
+        Some(r) => Err(format!("drift or residual of step {} is not finite", r.step).into()),
     }
 }
 

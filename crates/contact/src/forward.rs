@@ -273,7 +273,12 @@ impl<const D: usize> Interface<D> {
         }
         let (mut worst, mut largest) = (0.0f64, 0.0f64);
         for i in (0..s.index.len()).filter(|&i| s.regime[i] == Regime::Slip) {
-            worst = worst.max((s.trial[i] - s.traction[i] * s.normal[i]).abs());
+            let off = (s.trial[i] - s.traction[i] * s.normal[i]).abs();
+            // `max` would drop a NaN.
+            if off.is_nan() {
+                return Ok(f64::NAN);
+            }
+            worst = worst.max(off);
             largest = largest.max(s.trial[i]);
         }
         Ok(if largest > 0.0 { worst / largest } else { 0.0 })

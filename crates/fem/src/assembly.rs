@@ -88,12 +88,11 @@ impl System {
         self.largest_entry = 0.0;
         let mut offset = 0;
         for term in terms {
-            let pattern = pattern_of(term).clone();
             self.buffer.clear();
-            self.buffer.resize(pattern.values(), 0.0);
+            self.buffer.resize(pattern_of(term).values(), 0.0);
             values_of(term, &mut self.buffer)?;
             self.largest_entry = self.buffer.iter().fold(self.largest_entry, |m, v| m.max(v.abs()));
-            offset = self.store.add(&self.equations, &pattern, offset, &self.buffer);
+            offset = self.store.add(&self.equations, pattern_of(term), offset, &self.buffer);
         }
         self.factorisations += 1;
         Ok(self.store.factor())
