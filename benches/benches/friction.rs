@@ -43,6 +43,7 @@ fn point_return(c: &mut Criterion) {
                             stiffness: 3.6e15,
                             dt: 0.1,
                             lag: None,
+                            near: None,
                         },
                         &old,
                         Responses {

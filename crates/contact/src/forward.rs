@@ -268,7 +268,7 @@ impl<const D: usize> Interface<D> {
         shear.gather_present(&self.contact.committed);
         let s = &mut shear.slices;
         s.traction.resize(s.index.len(), 0.0);
-        if let Err(failure) = shear.law.coefficient(&s.rate, &s.old, &mut s.traction) {
+        if let Err(failure) = shear.law.coefficient(&s.normal, &s.rate, &s.old, &mut s.traction) {
             return Err(self.law_refusal(failure));
         }
         let (mut worst, mut largest) = (0.0f64, 0.0f64);

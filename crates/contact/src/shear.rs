@@ -166,7 +166,10 @@ impl Shear {
         s.size_answers(self.law.states());
         if !s.index.is_empty() {
             let lag = two_step.map(|t| Lag { weight: t.weight, offset: &s.offset });
-            let trials = Trials { normal: &s.normal, trial: &s.trial, stiffness: self.stiffness, dt, lag };
+            // The solver's own first guess is nearer than the rate of the step before wherever that changes by more than a
+            // few percent.
+            let trials =
+                Trials { normal: &s.normal, trial: &s.trial, stiffness: self.stiffness, dt, lag, near: None };
             let out = Responses {
                 traction: &mut s.traction,
                 slip: &mut s.slip,

@@ -76,7 +76,13 @@ impl Law for Coulomb {
 
     fn initial(&self, _states: &mut [f64]) {}
 
-    fn coefficient(&self, _rate: &[f64], _states: &[f64], mu: &mut [f64]) -> Result<(), Failure> {
+    fn coefficient(
+        &self,
+        _normal: &[f64],
+        _rate: &[f64],
+        _states: &[f64],
+        mu: &mut [f64],
+    ) -> Result<(), Failure> {
         mu.fill(self.mu);
         Ok(())
     }
@@ -201,6 +207,7 @@ mod tests {
                 stiffness: 4.0,
                 dt: 0.5,
                 lag: lag.map(|_| crate::law::Lag { weight: 1.5, offset: &offset }),
+                near: None,
             },
             &[],
             Responses {

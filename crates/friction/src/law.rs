@@ -32,6 +32,9 @@ pub struct Trials<'a> {
     pub dt: f64,
     /// Second-order backward differences in slip: `V = weight Δλ/Δt - offset_p`. Absent for backward Euler.
     pub lag: Option<Lag<'a>>,
+    /// Slip rates near the answers, such as those of the step before \[m/s\], `n` values; 0 where none is known. They shorten
+    /// the search and leave the answer alone, to rounding.
+    pub near: Option<&'a [f64]>,
 }
 
 /// Coefficients of a two-step backward difference in slip (BDF2 with variable step).
@@ -138,6 +141,34 @@ pub struct RateBounds {
     pub log_rate: f64,
 }
 
+/// Shear tractions that drive `n` points of a fault, with radiation damping: `τ = f_n μ(V, states) + η V`.
+#[derive(Clone, Copy, Debug)]
+pub struct Drives<'a> {
+    /// τ of either sign \[Pa\], `n` values.
+    pub traction: &'a [f64],
+    /// f_n ≥ 0 \[Pa\], `n` values.
+    pub normal: &'a [f64],
+    /// η ≥ 0 \[Pa s/m\].
+    pub damping: f64,
+    /// Slip rates near the answers \[m/s\], `n` values; 0 where none is known.
+    pub near: Option<&'a [f64]>,
+}
+
+/// A law whose slip rate follows from tractions and states.
+pub trait Rated: Law {
+    /// Slip rates \[m/s\] and the rates of change \[1/s\] of the states the law keeps, at constant f_n, point-major.
+    ///
+    /// # Errors
+    /// [`Failure`] names the point and its inputs.
+    fn slip_rates(
+        &self,
+        drives: Drives<'_>,
+        states: &[f64],
+        rate: &mut [f64],
+        state_rates: &mut [f64],
+    ) -> Result<(), Failure>;
+}
+
 /// A friction law as contact uses it: the point return for implicit steps, the rate form for forward steps.
 pub trait Law: Send + Sync + std::fmt::Debug {
     /// Name as a scene spells it.
@@ -149,9 +180,15 @@ pub trait Law: Send + Sync + std::fmt::Debug {
     /// Writes the initial states of `n` points, point-major (slice of length `n * states()`).
     fn initial(&self, states: &mut [f64]);
 
-    /// Friction coefficient μ(V, states) \[-\] for output, one value a point; `traction/normal` where the law has an
+    /// Friction coefficient μ(f_n, V, states) \[-\] for output, one value a point; `traction/normal` where the law has an
     /// elastic domain is the caller's business.
-    fn coefficient(&self, rate: &[f64], states: &[f64], mu: &mut [f64]) -> Result<(), Failure>;
+    fn coefficient(
+        &self,
+        normal: &[f64],
+        rate: &[f64],
+        states: &[f64],
+        mu: &mut [f64],
+    ) -> Result<(), Failure>;
 
     /// The implicit point return: for each point finds Δλ ≥ 0 with `τ = |t^e| - E_t Δλ = min(μ(V, φ) f_n, F_limit)`. With a
     /// lag V = 0 is not Δλ = 0, and where the spring pulls back V, τ and Δλ may all be negative.

@@ -4,6 +4,7 @@
 //! The crate knows no mesh, no files and no time loop. Everything is scalar: see [`law`].
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+pub mod component;
 pub mod coulomb;
 pub mod evolution;
 pub mod law;

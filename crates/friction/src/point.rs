@@ -1,16 +1,19 @@
 //! The point return: the slip rate at which a point behind a penalty spring balances its strength.
 //!
 //! With the spring's trial traction t^e and `c = E_t Δt/w`, the balance is `G(z) = c e^z + f_n μ(e^z, φ(e^z, Δt)) - T = 0`,
-//! z = ln V, T = t^e - c offset. Without weakening G is increasing and convex (a sum of e^z and asinh(k e^z)), so that
-//! Newton's method started where G ≥ 0 comes down on the root without overshooting. With a state G may fall in between: see
-//! [`solve`].
+//! z = ln V, T = t^e - c offset. A point with radiation damping η and a fixed state has the same balance with c = η. Without
+//! weakening G is increasing. With a state G may fall in between: see [`Solver::solve`].
 
 use crate::Failure;
-use crate::evolution::Evolution;
-use crate::strength::{Form, Strength};
+use crate::component::Component;
+use crate::evolution::{Evolution, Evolved, Speed};
+use crate::strength::Form;
 
-/// Iterations before a point is given up. Convex cases need 3 to 8; bisection over 700 e-folds to rounding needs 60.
-const MOST: usize = 100;
+/// ln V of a point at rest: e^z and z e^z vanish, and products of z stay finite.
+pub(crate) const AT_REST: f64 = f64::MIN;
+
+/// Iterations before a point is given up; none of the property tests takes more than twelve.
+const MOST: usize = 60;
 /// G is a sum of three terms of the size of T; each is rounded once or twice.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -21,6 +24,14 @@ const SPACING: f64 = 2.0 * f64::EPSILON;
 const STRIDE: f64 = 0.25;
 /// Widest range searched, in e-folds of V below the rate of the free spring: below it no state evolves over a step.
 const WIDEST: f64 = 200.0;
+/// What bounds of ln V are moved apart by, since the root may be the bound itself, to rounding; G does not turn so soon.
+const SLACK: f64 = 1e-2;
+/// Newton steps up to this many e-folds are improved by higher derivatives; longer ones leave the range of the series.
+const SERIES: f64 = 1.0;
+/// Below this μ/a the strength is closer to linear in V than to a logarithm.
+const LINEAR: f64 = 1.0;
+/// Where the jump of a memory of shear traction is as good as rounded: it converges quadratically from below.
+const MOST_JUMP: usize = 60;
 
 /// One point's problem.
 #[derive(Clone, Copy, Debug)]
@@ -29,12 +40,12 @@ pub struct Point {
     pub normal: f64,
     /// T > 0 \[Pa\].
     pub drive: f64,
-    /// c = E_t Δt/w \[Pa s/m\], positive.
+    /// c = E_t Δt/w, or η \[Pa s/m\], positive.
     pub spring: f64,
-    /// Δt \[s\] over which the state evolves.
+    /// Δt \[s\] over which the states evolve.
     pub dt: f64,
-    /// State before the step.
-    pub state: f64,
+    /// ln V near the answer, where one is known (that of the step before).
+    pub guess: Option<f64>,
 }
 
 impl Point {
@@ -54,141 +65,372 @@ pub struct Solution {
     pub log_rate: f64,
     /// μ.
     pub mu: f64,
-    /// dμ/dln V with the state following \[-\].
+    /// dμ/dln V with the states following \[-\].
     pub slope: f64,
-    /// State after the step.
-    pub state: f64,
-    /// Iterations.
+    /// f_n ∂μ/∂f_n at fixed V through the memory of normal traction \[-\].
+    pub d_normal: f64,
+    /// Iterations: changes of ln V from the first guess on. Each costs an evaluation of G, and one more confirms the answer.
     pub iterations: usize,
+    /// Evaluations of G before, in search of the first root behind a soft spring.
+    pub searched: usize,
 }
 
-/// G, its derivative and what they are made of.
+/// G with three derivatives by ln V and what they are made of.
+#[derive(Clone, Copy)]
 struct Value {
     g: f64,
     slope: f64,
+    curvature: f64,
+    third: f64,
+    spring: f64,
+    phi: f64,
+    /// ∂μ/∂φ.
+    d_phi: f64,
     solution: Solution,
 }
 
-fn evaluate<F: Form, E: Evolution>(form: &F, evolution: &E, p: &Point, z: f64, iterations: usize) -> Value {
-    let evolved = evolution.step(p.state, z, p.dt);
-    let Strength { mu, d_log_rate, d_phi } = form.at(z, evolution.phi(evolved.state));
-    let spring = p.spring * z.exp();
-    let slope = d_log_rate + d_phi * evolved.d_phi;
-    Value {
-        g: spring + p.normal * mu - p.drive,
-        slope: spring + p.normal * slope,
-        solution: Solution { log_rate: z, mu, slope, state: evolved.state, iterations },
-    }
+/// Strength at a slip rate, with the states as they are then.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Present {
+    pub mu: f64,
+    /// dμ/dln V with the states following \[-\].
+    pub slope: f64,
+    /// ∂μ/∂φ.
+    pub d_phi: f64,
+    /// f_n ∂μ/∂f_n at fixed V \[-\].
+    pub d_normal: f64,
+    /// φ.
+    pub phi: f64,
 }
 
-/// Solves one point. Where the state could weaken faster than the spring unloads, the answer is the one reached from rest
-/// without passing a rate at which G falls.
-///
-/// # Errors
-/// [`Failure::NotConverged`], [`Failure::NonFinite`], [`Failure::BareLogAtRest`] where the bare logarithm is negative at every
-/// rate in question, or, without such an answer, [`Failure::Unstable`] (per weight of a two-step difference); point 0.
-pub fn solve<F: Form, E: Evolution>(form: &F, evolution: &E, p: &Point) -> Result<Solution, Failure> {
-    // The spring alone carries T at this rate.
-    let top = (p.drive / p.spring).ln();
-    let z = start(form, evolution, p, top);
-    if !(z.is_finite() && top.is_finite()) {
-        return Err(Failure::NonFinite { point: 0, normal: p.normal, trial: p.drive });
-    }
-    if !form.regular_at_rest() && evaluate(form, evolution, p, top, 0).g < 0.0 {
-        return Err(Failure::BareLogAtRest { point: 0, rate: top.exp() });
-    }
-    let bracket = bracket(form, evolution, p, top)?;
-    newton(form, evolution, p, z.clamp(bracket.0, bracket.1), bracket)
+/// Solves points of one law one after another; its buffers serve a whole slice.
+#[derive(Debug)]
+pub struct Solver<'a, F, E: Evolution> {
+    form: &'a F,
+    parts: &'a [Component<E>],
+    /// f_ref of the memory of normal traction \[Pa\].
+    reference: f64,
+    starts: Vec<E::Start>,
+    /// State variables, before the jump of a shear memory.
+    before: Vec<f64>,
+    /// State variables after the last evaluation.
+    after: Vec<f64>,
+    /// ln(f_n/f_ref), where a part has that memory.
+    log_normal: f64,
+    /// Whether there is no normal traction.
+    open: bool,
+    dt: f64,
 }
 
-/// Newton's method from `z` inside the bracket, which it narrows.
-fn newton<F: Form, E: Evolution>(
-    form: &F,
-    evolution: &E,
-    p: &Point,
-    mut z: f64,
-    (mut low, mut high): (f64, f64),
-) -> Result<Solution, Failure> {
-    let mut last = f64::INFINITY;
-    for iteration in 1..=MOST {
-        let value = evaluate(form, evolution, p, z, iteration);
-        if !value.g.is_finite() {
+impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
+    /// A solver for points with this strength and these states; `reference` is f_ref of their memory of normal traction.
+    #[must_use]
+    pub fn new(form: &'a F, parts: &'a [Component<E>], reference: f64) -> Self {
+        let n = parts.len();
+        Self {
+            form,
+            parts,
+            reference,
+            starts: Vec::with_capacity(n),
+            before: vec![0.0; n],
+            after: vec![0.0; n],
+            log_normal: 0.0,
+            open: false,
+            dt: 0.0,
+        }
+    }
+
+    /// Strength after a step of length `dt` at constant ln V, from the states `old` as the law keeps them; [`AT_REST`] for none.
+    pub(crate) fn after(&mut self, old: &[f64], normal: f64, dt: f64, log_rate: f64) -> Present {
+        self.prepare(old, normal, dt);
+        // Only the strength is asked for: neither spring nor drive.
+        let p = Point { normal: 1.0, drive: 0.0, spring: 0.0, dt, guess: None };
+        let value = self.evaluate(&p, log_rate, 0);
+        let s = value.solution;
+        Present { mu: s.mu, slope: s.slope, d_phi: value.d_phi, d_normal: s.d_normal, phi: value.phi }
+    }
+
+    /// Takes the states as they are under f_n = `normal` and μ, and tells φ.
+    pub(crate) fn present(&mut self, old: &[f64], normal: f64, mu: f64) -> f64 {
+        self.prepare(old, normal, 0.0);
+        let mut phi = 0.0;
+        for ((part, &before), after) in self.parts.iter().zip(&self.before).zip(&mut self.after) {
+            *after = before - part.shear_memory * mu;
+            phi += part.evolution.phi(*after);
+        }
+        phi
+    }
+
+    /// Rates of change of what the law keeps at constant f_n, for the states of the last evaluation: with a memory of shear
+    /// traction `s + c' μ` changes by `1 + c' ∂μ/∂s` of the change of s at constant V.
+    pub(crate) fn state_rates(&self, speed: Speed, rates: &mut [f64]) {
+        for ((part, &state), rate) in self.parts.iter().zip(&self.after).zip(rates) {
+            *rate = part.evolution.rate(state, speed).rate;
+            if part.shear_memory != 0.0 && speed.rate > 0.0 {
+                let strength = self.form.at(speed.log, part.evolution.phi(state));
+                *rate *= 1.0 + part.shear_memory * strength.d_phi * part.evolution.phi_slopes(state).0;
+            }
+        }
+    }
+
+    /// The state variables s after the last evaluation.
+    pub(crate) fn states(&self) -> &[f64] {
+        &self.after
+    }
+
+    /// Takes the states as the law keeps them and prepares a step of length `dt` under f_n = `normal`.
+    pub(crate) fn prepare(&mut self, old: &[f64], normal: f64, dt: f64) {
+        self.dt = dt;
+        // Without normal traction nothing is remembered of it: see `keep`.
+        let remembers = normal > 0.0 && self.parts.iter().any(|p| p.normal_memory != 0.0);
+        self.log_normal = if remembers { (normal / self.reference).ln() } else { 0.0 };
+        self.open = normal == 0.0;
+        self.starts.clear();
+        for ((part, before), &old) in self.parts.iter().zip(&mut self.before).zip(old) {
+            *before = old - part.normal_memory * self.log_normal;
+            self.starts.push(part.evolution.start(*before, dt));
+        }
+    }
+
+    /// The states after the last evaluation, at friction coefficient `mu`, as the law keeps them. A memory of normal traction
+    /// is left as it was where there is no normal traction.
+    pub(crate) fn keep(&self, old: &[f64], mu: f64, new: &mut [f64]) {
+        for (((part, &after), &old), new) in self.parts.iter().zip(&self.after).zip(old).zip(new) {
+            *new = if self.open && part.normal_memory != 0.0 {
+                old
+            } else {
+                after + part.normal_memory * self.log_normal + part.shear_memory * mu
+            };
+        }
+    }
+
+    /// Evolves one part; with a memory of shear traction the state jumps first.
+    fn evolve(&mut self, i: usize, speed: Speed) -> (Evolved, f64) {
+        let part = &self.parts[i];
+        if part.shear_memory == 0.0 {
+            let evolved = part.evolution.evolve(&self.starts[i], speed);
+            return (evolved, evolved.d_state);
+        }
+        let (before, d_before, share) = self.jump(i, speed.log);
+        let mut evolved = part.evolution.evolve(&part.evolution.start(before, self.dt), speed);
+        evolved.d_log_rate += evolved.d_state * d_before;
+        (evolved, evolved.d_state * share)
+    }
+
+    /// State after the jump of V: s with s + c' μ(V, φ(s)) kept, its slope by ln V and by what is kept.
+    fn jump(&self, i: usize, log_rate: f64) -> (f64, f64, f64) {
+        let part = &self.parts[i];
+        let (kept, c) = (self.before[i], part.shear_memory);
+        if log_rate == AT_REST {
+            // At rest there is no shear traction to remember.
+            return (kept, 0.0, 1.0);
+        }
+        // h(s) = s + c' μ(s) - kept grows and is convex in s: Newton from above comes down on the root.
+        let mut state = kept;
+        let mut strength = self.form.at(log_rate, part.evolution.phi(state));
+        for _ in 0..MOST_JUMP {
+            let slope = 1.0 + c * strength.d_phi * part.evolution.phi_slopes(state).0;
+            let step = (kept - state - c * strength.mu) / slope;
+            state += step;
+            strength = self.form.at(log_rate, part.evolution.phi(state));
+            if step.abs() <= ROUNDING * (kept.abs() + c * strength.mu.abs()) {
+                break;
+            }
+        }
+        let slope = 1.0 + c * strength.d_phi * part.evolution.phi_slopes(state).0;
+        (state, -c * strength.d_log_rate / slope, 1.0 / slope)
+    }
+
+    fn evaluate(&mut self, p: &Point, z: f64, iterations: usize) -> Value {
+        let speed = Speed::of_log(z);
+        let (mut phi, mut first, mut second, mut by_normal) = (0.0, 0.0, 0.0, 0.0);
+        for i in 0..self.parts.len() {
+            let (evolved, d_kept) = self.evolve(i, speed);
+            let part = &self.parts[i];
+            self.after[i] = evolved.state;
+            let (slope, bend) = part.evolution.phi_slopes(evolved.state);
+            phi += part.evolution.phi(evolved.state);
+            first += slope * evolved.d_log_rate;
+            second += slope * evolved.curvature + bend * evolved.d_log_rate * evolved.d_log_rate;
+            by_normal -= slope * d_kept * part.normal_memory;
+        }
+        let s = self.form.at(z, phi);
+        let slope = s.d_log_rate + s.d_phi * first;
+        // Of a strength that depends on ln V + φ/a; the step, not the answer, depends on it.
+        let along = 1.0 + first / self.form.scale();
+        let bend = s.curvature * along * along;
+        let spring = p.spring * speed.rate;
+        Value {
+            g: spring + p.normal * s.mu - p.drive,
+            slope: spring + p.normal * slope,
+            curvature: spring + p.normal * (bend + s.d_phi * second),
+            third: spring + p.normal * bend * along * (1.0 - 3.0 * s.d_phi * s.d_phi),
+            spring,
+            phi,
+            d_phi: s.d_phi,
+            solution: Solution {
+                log_rate: z,
+                mu: s.mu,
+                slope,
+                d_normal: s.d_phi * by_normal,
+                iterations,
+                searched: 0,
+            },
+        }
+    }
+
+    /// Solves one point from the states `old` as the law keeps them. Where the states could weaken faster than the spring
+    /// unloads, the answer is the one reached from rest without passing a rate at which G falls.
+    ///
+    /// # Errors
+    /// [`Failure::NotConverged`], [`Failure::NonFinite`], [`Failure::BareLogAtRest`] where the bare logarithm is negative at
+    /// every rate in question, or, without such an answer, [`Failure::Unstable`] (per weight of a two-step difference); point
+    /// 0.
+    pub fn solve(&mut self, p: &Point, old: &[f64]) -> Result<Solution, Failure> {
+        self.prepare(old, p.normal, p.dt);
+        // The spring alone carries T at this rate.
+        let top = (p.drive / p.spring).ln();
+        if !(top.is_finite() && p.normal.is_finite() && self.before.iter().all(|s| s.is_finite())) {
             return Err(Failure::NonFinite { point: 0, normal: p.normal, trial: p.drive });
         }
-        if value.g > 0.0 {
-            high = z;
-        } else {
-            low = z;
+        if !self.form.regular_at_rest() && self.evaluate(p, top, 0).g < 0.0 {
+            return Err(Failure::BareLogAtRest { point: 0, rate: top.exp() });
         }
-        let step = step(p, &value);
-        let floor = ROUNDING * (p.drive + p.normal * value.solution.mu.abs());
-        // At the rounding floor of G, or when z can no longer be told from its successor, one is done.
-        if value.g.abs() <= floor || step.abs() <= SPACING * z.abs() {
-            return Ok(value.solution);
-        }
-        let next = guarded(z, step, (low, high));
-        last = value.g;
-        z = next;
+        let (bracket, searched) = self.bracket(p, top)?;
+        let z = p.guess.unwrap_or_else(|| self.start(p, top));
+        let z = if z.is_finite() { z.clamp(bracket.0, bracket.1) } else { bracket.1 };
+        let mut solution = self.newton(p, z, bracket)?;
+        solution.searched = searched;
+        Ok(solution)
     }
-    Err(Failure::NotConverged { point: 0, normal: p.normal, trial: p.drive, residual: last })
+
+    /// Newton's method from `z` inside the bracket, which it narrows.
+    fn newton(&mut self, p: &Point, mut z: f64, (mut low, mut high): (f64, f64)) -> Result<Solution, Failure> {
+        let (mut last, mut before) = (f64::INFINITY, 0.0f64);
+        for iteration in 0..=MOST {
+            let value = self.evaluate(p, z, iteration);
+            if !value.g.is_finite() {
+                return Err(Failure::NonFinite { point: 0, normal: p.normal, trial: p.drive });
+            }
+            if value.g > 0.0 {
+                high = z;
+            } else {
+                low = z;
+            }
+            let step = step(p, &value);
+            // At the rounding floor of G, or when z can no longer be told from its successor, one is done.
+            if value.g.abs() <= self.floor(p, &value) || step.abs() <= SPACING * z.abs() {
+                return Ok(value.solution);
+            }
+            // A step back that undoes most of the one before may be half of a cycle.
+            let turns = step * before < 0.0 && step.abs() > 0.5 * before.abs();
+            let next = if turns && low.is_finite() { 0.5 * (low + high) } else { guarded(z, step, (low, high)) };
+            (before, z) = (next - z, next);
+            last = value.g;
+        }
+        Err(Failure::NotConverged { point: 0, normal: p.normal, trial: p.drive, residual: last })
+    }
+
+    /// Rounding of G: of its three terms, and of φ and a ln V within the strength.
+    fn floor(&self, p: &Point, value: &Value) -> f64 {
+        let s = &value.solution;
+        let within = value.phi.abs() + self.form.scale() * s.log_rate.abs();
+        ROUNDING * (p.drive + p.normal * (s.mu.abs() + value.d_phi * within))
+    }
+
+    /// Bounds of the answer in ln V. Without state or behind a stiff spring G increases everywhere, and below the rate of the
+    /// free spring is enough.
+    fn bracket(&mut self, p: &Point, top: f64) -> Result<((f64, f64), usize), Failure> {
+        // An e-fold above the bound, for rounding.
+        let everywhere = (f64::NEG_INFINITY, top + 1.0);
+        if self.parts.is_empty() || p.dt == 0.0 {
+            return Ok((everywhere, 0));
+        }
+        let weakening: f64 =
+            self.parts.iter().zip(&self.before).map(|(part, &s)| part.evolution.weakening(s, top)).sum();
+        if p.spring > p.normal * weakening * p.dt {
+            return Ok((everywhere, 0));
+        }
+        // Up to here the direct effect, reduced by a memory of shear traction, outweighs the state, and G increases.
+        let direct = self.form.direct_effect(top) / (1.0 + self.shear_memory());
+        let safe = (direct / (weakening * p.dt)).ln().max(top - WIDEST);
+        if safe >= top || self.evaluate(p, safe, 0).g >= 0.0 {
+            return Ok(((f64::NEG_INFINITY, safe.min(top) + SLACK), 1));
+        }
+        let (mut z, mut searched) = (safe, 1);
+        while z < top {
+            let next = (z + STRIDE).min(top);
+            let value = self.evaluate(p, next, 0);
+            searched += 1;
+            if value.g >= 0.0 {
+                return Ok(((z - SLACK, next + SLACK), searched));
+            }
+            if value.slope <= 0.0 {
+                let rate = next.exp();
+                let weakening = -p.normal * value.solution.slope / (rate * p.dt);
+                return Err(Failure::Unstable { point: 0, stiffness: p.spring / p.dt, weakening });
+            }
+            z = next;
+        }
+        Ok(((z - SLACK, top + 1.0), searched))
+    }
+
+    fn shear_memory(&self) -> f64 {
+        self.parts.iter().map(|part| part.evolution.shear_memory()).sum()
+    }
+
+    /// Where the iteration starts: the answer for states as they are before the step, which for a logarithmic strength is
+    /// `A z + c e^z = T'` with A = f_n a, solved by Wright's ω; elsewhere a bound of it.
+    fn start(&self, p: &Point, top: f64) -> f64 {
+        let phi: f64 = self.parts.iter().zip(&self.before).map(|(part, &s)| part.evolution.phi(s)).sum();
+        // A memory of shear traction lowers φ by c μ at once, and the direct effect by 1 + c.
+        let memory = self.shear_memory();
+        let mu = p.drive / p.normal;
+        let at_strength = self.form.log_rate(mu, phi - memory * mu);
+        let a = p.normal * self.form.scale() / (1.0 + memory);
+        if p.drive < LINEAR * a {
+            // Two conductances in parallel.
+            return top.min(at_strength) - (-(top - at_strength).abs()).exp().ln_1p();
+        }
+        // y = c V/A obeys y + ln y = ln(c/A) + z at which the strength alone would balance.
+        let log_ratio = (p.spring / a).ln();
+        omega_log(at_strength + log_ratio).min(top + log_ratio) - log_ratio
+    }
 }
 
-/// Bounds of the answer in ln V. Without state or behind a stiff spring G increases everywhere, and below the rate of the
-/// free spring is enough.
-fn bracket<F: Form, E: Evolution>(
-    form: &F,
-    evolution: &E,
-    p: &Point,
-    top: f64,
-) -> Result<(f64, f64), Failure> {
-    // An e-fold above the bound, for rounding.
-    let everywhere = (f64::NEG_INFINITY, top + 1.0);
-    if E::STATES == 0 {
-        return Ok(everywhere);
+/// ln ω(x) with ω + ln ω = x, to about a percent of an e-fold: asymptotic forms at both ends and one Newton step between.
+fn omega_log(x: f64) -> f64 {
+    if x < -2.0 {
+        // ω = e^x (1 - e^x + ...).
+        x - x.exp()
+    } else {
+        // From the logarithm of a smooth guess, Newton on u + e^u = x.
+        let guess = if x > 1.0 { x.ln() - x.ln() / (x + 1.0) } else { 0.6 * x - 0.6 };
+        let power = guess.exp();
+        guess - (guess + power - x) / (1.0 + power)
     }
-    let weakening = evolution.weakening(p.state, top);
-    if p.spring > p.normal * weakening * p.dt {
-        return Ok(everywhere);
-    }
-    // Up to here the direct effect outweighs the state, and G increases.
-    let safe = (form.direct_effect() / (weakening * p.dt)).ln().max(top - WIDEST);
-    if safe >= top || evaluate(form, evolution, p, safe, 0).g >= 0.0 {
-        return Ok((f64::NEG_INFINITY, safe.min(top)));
-    }
-    let mut z = safe;
-    while z < top {
-        let next = (z + STRIDE).min(top);
-        let value = evaluate(form, evolution, p, next, 0);
-        if value.g >= 0.0 || next == top {
-            return Ok((z, next));
-        }
-        if value.slope <= 0.0 {
-            let rate = next.exp();
-            let weakening = -p.normal * value.solution.slope / (rate * p.dt);
-            return Err(Failure::Unstable { point: 0, stiffness: p.spring / p.dt, weakening });
-        }
-        z = next;
-    }
-    Ok((z, top))
 }
 
-/// Where the iteration starts: the smaller of the rates at which the spring alone and the strength alone would balance.
-fn start<F: Form, E: Evolution>(form: &F, evolution: &E, p: &Point, top: f64) -> f64 {
-    top.min(form.log_rate(p.drive / p.normal, evolution.phi(p.state)))
-}
-
-/// The Newton step. Above the root on G, which is convex; below it on ln(G + T), which is close to concave (linear in z where
-/// the strength is linear in V, logarithmic above): neither overshoots by much.
+/// The step from a value of G. Short ones are of fourth order (Householder's method with three derivatives). Long ones are
+/// Newton's on ln(G + T) where the spring carries more than the strength or G < 0, which is linear in z for both.
 fn step(p: &Point, value: &Value) -> f64 {
-    if value.g < 0.0 {
+    let newton = -value.g / value.slope;
+    if newton.abs() < SERIES {
+        let (a2, a3) = (0.5 * value.curvature / value.slope, value.third / (6.0 * value.slope));
+        let denominator = 1.0 + newton * (2.0 * a2 + newton * a3);
+        let factor = (1.0 + a2 * newton) / denominator;
+        // The series is of use where it is a correction.
+        return if (0.5..2.0).contains(&factor) { newton * factor } else { newton };
+    }
+    if value.g < 0.0 || value.spring > p.normal * value.solution.mu {
         -(value.g / p.drive).ln_1p() * (p.drive + value.g) / value.slope
     } else {
-        -value.g / value.slope
+        newton
     }
 }
 
-/// The Newton step where it stays inside the bracket, otherwise half the bracket or, without a lower bound, further down.
-/// Far down G is linear in z to rounding, so that long steps down are good ones; steps up are bounded by the free spring.
+/// The step where it stays inside the bracket, otherwise half the bracket or, without a lower bound, further down. Far down G
+/// is linear in z to rounding, so that long steps down are good ones; steps up are bounded by the free spring.
 fn guarded(z: f64, step: f64, (low, high): (f64, f64)) -> f64 {
     let next = z + step;
     if next > low && next < high {

@@ -91,6 +91,7 @@ fn implicit(law: &dyn Law, s: &Start, states: &[f64], slide: f64, df: f64) -> f6
             stiffness: STIFFNESS,
             dt: s.dt,
             lag: None,
+            near: None,
         },
         states,
         Responses {
@@ -119,7 +120,7 @@ fn agrees_to_second_order<E: Evolution>(evolution: E) {
         ];
         for law in laws {
             let mut mu = [0.0];
-            law.coefficient(&[rate], &[state], &mut mu).unwrap();
+            law.coefficient(&[9e6], &[rate], &[state], &mut mu).unwrap();
             let error = |dt: f64| {
                 let s = Start { normal: NORMAL, traction: NORMAL * mu[0], rate, dt, carry: true };
                 let [along, coupling, constant] = rates(law.as_ref(), &s, Regime::Slip, &[state]);
@@ -199,7 +200,7 @@ fn velocity() -> RateLaw<Regularised, asperity_friction::evolution::stateless::S
 
 fn floor_mu(law: &dyn Law) -> f64 {
     let mut mu = [0.0];
-    law.coefficient(&[FLOOR], &[], &mut mu).unwrap();
+    law.coefficient(&[9e6], &[FLOOR], &[], &mut mu).unwrap();
     mu[0]
 }
 
@@ -346,7 +347,7 @@ fn forward_steps_are_stable_for_small_steps() {
     for factor in [0.05, 0.5, 1.98, 20.0] {
         let dt = factor * 0.01 * NORMAL / (STIFFNESS * v);
         let mut mu = [0.0];
-        law.coefficient(&[1.1 * v], &[], &mut mu).unwrap();
+        law.coefficient(&[9e6], &[1.1 * v], &[], &mut mu).unwrap();
         let mut s = Start { normal: NORMAL, traction: NORMAL * mu[0], rate: 1.1 * v, dt, carry: true };
         let mut last = 0.1;
         for _ in 0..400 {

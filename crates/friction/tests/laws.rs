@@ -39,6 +39,7 @@ fn respond(
             stiffness,
             dt,
             lag: lag.map(|l| Lag { weight: l.0, offset: &offset }),
+            near: None,
         },
         &old,
         Responses {
@@ -127,7 +128,7 @@ fn the_bare_logarithm_refuses_rest() {
     let law = RateLaw::new(Bare(Parameters::new(0.6, 0.01, 1e-6).unwrap()), Stateless, 1e-6, None).unwrap();
     assert!(matches!(respond(&law, 1e6, 0.0, 1e12, 0.1, None), Err(Failure::BareLogAtRest { .. })));
     let mut mu = [0.0];
-    assert!(matches!(law.coefficient(&[0.0], &[], &mut mu), Err(Failure::BareLogAtRest { .. })));
+    assert!(matches!(law.coefficient(&[9e6], &[0.0], &[], &mut mu), Err(Failure::BareLogAtRest { .. })));
 }
 
 #[test]
@@ -218,7 +219,7 @@ fn the_rate_form_is_the_linear_part_of_the_point_return_at_steady_slip() {
     let law = velocity_law(0.01);
     let (normal, stiffness, dt, v) = (9e6, 3.5e12, 0.01, 2e-7);
     let mut mu = [0.0];
-    law.coefficient(&[v], &[], &mut mu).unwrap();
+    law.coefficient(&[9e6], &[v], &[], &mut mu).unwrap();
     let traction = normal * mu[0];
     let (mut along, mut coupling, mut constant) = ([0.0], [0.0], [0.0]);
     law.rates(

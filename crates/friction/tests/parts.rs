@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use asperity_friction::Failure;
-use asperity_friction::evolution::{Evolution, ageing::Ageing, slip::Slip};
+use asperity_friction::evolution::{Evolution, Speed, ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};
 
@@ -78,7 +78,8 @@ fn derivatives_of_the_exact_steps_are_their_derivatives() {
                 for x in [1e-6, 1e-3, 0.019, 0.021, 0.5, 3.0, 39.0, 41.0] {
                     let (z, dt) = (f64::ln(v), x * LENGTH / v);
                     let phi = |h: f64| e.phi(e.step(state, z + h, dt).state);
-                    let d = e.step(state, z, dt).d_phi;
+                    let step = e.step(state, z, dt);
+                    let d = e.phi_slopes(step.state).0 * step.d_log_rate;
                     let remainder = |h: f64| (phi(h) - phi(0.0) - h * d).abs();
                     // The old state fades over δx = 1.
                     let h = 2e-3 / (1.0 + x);
@@ -148,7 +149,7 @@ fn the_rate_of_the_state_is_the_slope_of_its_exact_step_in_time() {
     fn check<E: Evolution>(e: &E, state: f64) {
         for v in [1e-12, 1e-8, 1e-6, 1e-3] {
             let z = f64::ln(v);
-            let rate = e.rate(state, z);
+            let rate = e.rate(state, Speed::of_log(z)).rate;
             // Of the order of the shortest time in play.
             let dt = 1e-4 / (v / LENGTH + rate.abs());
             let found = order(|h| e.step(state, z, h).state, rate, dt);
@@ -162,7 +163,7 @@ fn the_rate_of_the_state_is_the_slope_of_its_exact_step_in_time() {
     for v in rates() {
         // A steady state does not move, to rounding of its logarithm.
         let rounding = 8.0 * f64::EPSILON * (1.0 + v.ln().abs()) * v / LENGTH;
-        assert!(ageing.rate(ageing.steady(v.ln()), v.ln()).abs() <= rounding);
+        assert!(ageing.rate(ageing.steady(v.ln()), Speed::of_log(v.ln())).rate.abs() <= rounding);
     }
 }
 
@@ -172,7 +173,8 @@ fn no_step_weakens_more_than_its_bound() {
         for &state in states {
             for v in rates() {
                 for x in [1e-9, 1e-3, 0.1, 1.0, 10.0, 1e3] {
-                    let weakening = -e.step(state, v.ln(), x * LENGTH / v).d_phi;
+                    let step = e.step(state, v.ln(), x * LENGTH / v);
+                    let weakening = -e.phi_slopes(step.state).0 * step.d_log_rate;
                     let bound = e.weakening(state, v.ln()) * x * LENGTH;
                     assert!(weakening <= bound * (1.0 + 1e-12), "{} {state} {v} {x}", E::NAME);
                 }
@@ -189,7 +191,7 @@ fn extreme_rates_and_rest_leave_numbers() {
     for z in [f64::MIN, -1e4, -700.0, 0.0, 700.0, 1e4] {
         for dt in [1e-300, 1e-9, 1.0, 1e20] {
             let (s, a) = (slip.step(0.1, z, dt), ageing.step(0.1, z, dt));
-            for number in [s.state, s.d_phi, a.state, a.d_phi] {
+            for number in [s.state, s.d_log_rate, s.curvature, s.d_state, a.state, a.d_log_rate, a.curvature, a.d_state] {
                 assert!(number.is_finite(), "{z} {dt}: {s:?} {a:?}");
             }
         }

@@ -21,7 +21,13 @@ impl Law for Mu {
         0
     }
     fn initial(&self, _states: &mut [f64]) {}
-    fn coefficient(&self, _rate: &[f64], _states: &[f64], mu: &mut [f64]) -> Result<(), Failure> {
+    fn coefficient(
+        &self,
+        _normal: &[f64],
+        _rate: &[f64],
+        _states: &[f64],
+        mu: &mut [f64],
+    ) -> Result<(), Failure> {
         mu.fill(self.0);
         Ok(())
     }
@@ -110,7 +116,13 @@ impl Law for Viscous {
         0
     }
     fn initial(&self, _states: &mut [f64]) {}
-    fn coefficient(&self, rate: &[f64], _states: &[f64], mu: &mut [f64]) -> Result<(), Failure> {
+    fn coefficient(
+        &self,
+        _normal: &[f64],
+        rate: &[f64],
+        _states: &[f64],
+        mu: &mut [f64],
+    ) -> Result<(), Failure> {
         for (m, v) in mu.iter_mut().zip(rate) {
             *m = self.mu(*v).0;
         }

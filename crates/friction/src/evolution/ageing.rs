@@ -1,16 +1,19 @@
 //! Ageing law (Dieterich 1979): dθ/dt = 1 - V θ/L, φ = b ψ with ψ = ln(Vref θ/L), which is the state variable.
+//!
+//! With a cut-off rate V2 (Okubo 1989) the contribution levels off at high rates: φ = b ln(1 + V2 θ/L).
 
-use super::{Evolution, Evolved};
+use super::relaxation::decay;
+use super::{Evolution, Evolved, Rate, Speed};
 
-/// Below this x the series of [`log_slope`] is exact to rounding (its fifth term is x^7/604800 of the first), and above it
+/// Below this x the series of x/(e^x - 1) - 1 is exact to rounding (its fifth term is x^7/604800 of the first), and above it
 /// the closed form loses two digits at most.
 const SMALL: f64 = 2e-2;
 
-/// Above this x the memory of the old state is below rounding in (1 - e^(-x))/x.
-const LARGE: f64 = 40.0;
-
 /// Above this ψ_ss - ψ the two terms of dψ/dt differ by more than a factor e, and their difference does not cancel.
 const APART: f64 = 1.0;
+
+/// Above this y, ln(1 + e^y) = y to rounding.
+const LARGE: f64 = 40.0;
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +21,9 @@ pub struct Ageing {
     b: f64,
     length: f64,
     v_ref: f64,
+    log_v_ref: f64,
+    /// ln(V2/Vref), where there is a cut-off.
+    cut_off: Option<f64>,
 }
 
 impl Ageing {
@@ -30,68 +36,114 @@ impl Ageing {
             b: crate::finite("b", b)?,
             length: crate::positive("l", length)?,
             v_ref: crate::positive("v_ref", v_ref)?,
+            log_v_ref: v_ref.ln(),
+            cut_off: None,
         })
+    }
+
+    /// With the cut-off rate V2 > 0 \[m/s\] of the state effect.
+    ///
+    /// # Errors
+    /// [`crate::Failure::Parameter`].
+    pub fn with_cut_off(mut self, v_cut: f64) -> Result<Self, crate::Failure> {
+        self.cut_off = Some((crate::positive("v_cut_state", v_cut)? / self.v_ref).ln());
+        Ok(self)
+    }
+
+    /// The same law without a cut-off and with the clock of θ running slower by `1/(1 + c)`: see [`super::nagata`].
+    pub(super) fn slowed(&self, state: f64, dt: f64, c: f64) -> (f64, f64, f64) {
+        self.start(state, dt / (1.0 + c))
     }
 }
 
-/// d ln m/d ln x of m = (1 - e^(-x))/x, that is x/(e^x - 1) - 1: from 0 at x = 0 to -1.
-fn log_slope(x: f64) -> f64 {
+/// The exact step of ψ, with x = V Δt/L, from `(ψ_0, e^(ψ_0), Vref Δt/L)`: θ = θ_0 e^(-x) + Δt (1 - e^(-x))/x, a sum of
+/// positive parts.
+fn step(&(old, theta, time): &(f64, f64, f64), x: f64, steady: f64) -> Evolved {
+    if time == 0.0 {
+        return Evolved { state: old, d_log_rate: 0.0, curvature: 0.0, d_state: 1.0 };
+    }
+    let (decay, share) = decay(x);
+    if decay == 0.0 {
+        return Evolved { state: steady, d_log_rate: -1.0, curvature: 0.0, d_state: 0.0 };
+    }
+    let (mean, slope) = mean_decay(x, decay, share);
+    let (kept, fading) = (theta * decay, x * decay);
+    let sum = kept + time * mean;
+    // d(mean)/dln x = e^(-x) - mean = mean * slope, and its derivative -x e^(-x) - (e^(-x) - mean).
+    let first = (time * mean * slope - theta * fading) / sum;
+    let second = (-time * (fading + mean * slope) - theta * (1.0 - x) * fading) / sum;
+    Evolved { state: sum.ln(), d_log_rate: first, curvature: second - first * first, d_state: kept / sum }
+}
+
+/// m = (1 - e^(-x))/x and d ln m/d ln x = x/(e^x - 1) - 1, which runs from 0 to -1.
+fn mean_decay(x: f64, decay: f64, share: f64) -> (f64, f64) {
     if x < SMALL {
         let y = x * x;
-        -0.5 * x + y * (1.0 / 12.0 - y * (1.0 / 720.0 - y / 30_240.0))
-    } else if x > LARGE {
-        -1.0
+        let mean = if x == 0.0 { 1.0 } else { share / x };
+        (mean, -0.5 * x + y * (1.0 / 12.0 - y * (1.0 / 720.0 - y / 30_240.0)))
     } else {
-        x / x.exp_m1() - 1.0
+        (share / x, x * decay / share - 1.0)
     }
 }
 
 impl Evolution for Ageing {
     const STATES: usize = 1;
     const NAME: &'static str = "rate-and-state, ageing law";
+    /// ψ_0, e^(ψ_0) and Vref Δt/L.
+    type Start = (f64, f64, f64);
 
     fn phi(&self, state: f64) -> f64 {
-        self.b * state
-    }
-
-    fn steady(&self, log_rate: f64) -> f64 {
-        self.v_ref.ln() - log_rate
-    }
-
-    fn rate(&self, state: f64, log_rate: f64) -> f64 {
-        // dψ/dt = 1/θ - V/L = (V/L) (e^(ψ_ss - ψ) - 1).
-        let (speed, distance) = (log_rate.exp() / self.length, self.steady(log_rate) - state);
-        if distance > APART {
-            self.v_ref / self.length * (-state).exp() - speed
-        } else {
-            speed * distance.exp_m1()
+        match self.cut_off {
+            None => self.b * state,
+            Some(shift) => {
+                let y = state + shift;
+                self.b * if y > LARGE { y } else { y.exp().ln_1p() }
+            }
         }
     }
 
-    fn step(&self, state: f64, log_rate: f64, dt: f64) -> Evolved {
-        // θ = θ_0 e^(-x) + Δt (1 - e^(-x))/x, x = V Δt/L, summed in logarithms so that no power overflows.
-        let x = log_rate.exp() * dt / self.length;
-        let new = if x > LARGE {
-            self.steady(log_rate)
-        } else {
-            let mean_decay = if x == 0.0 { 1.0 } else { -(-x).exp_m1() / x };
-            (self.v_ref * dt / self.length * mean_decay).ln()
-        };
-        let old = state - x;
-        let largest = old.max(new);
-        let (weight_old, weight_new) = ((old - largest).exp(), (new - largest).exp());
-        let sum = weight_old + weight_new;
-        let forgotten = if weight_old == 0.0 { 0.0 } else { x * weight_old };
-        Evolved { state: largest + sum.ln(), d_phi: self.b * (weight_new * log_slope(x) - forgotten) / sum }
+    fn phi_slopes(&self, state: f64) -> (f64, f64) {
+        match self.cut_off {
+            None => (self.b, 0.0),
+            Some(shift) => {
+                let share = 1.0 / (1.0 + (-state - shift).exp());
+                (self.b * share, self.b * share * (1.0 - share))
+            }
+        }
+    }
+
+    fn per_phi(&self) -> f64 {
+        1.0 / self.b
+    }
+
+    fn steady(&self, log_rate: f64) -> f64 {
+        self.log_v_ref - log_rate
+    }
+
+    fn rate(&self, state: f64, speed: Speed) -> Rate {
+        // dψ/dt = 1/θ - V/L = (V/L) (e^(ψ_ss - ψ) - 1).
+        let (frequency, distance) = (speed.rate / self.length, self.steady(speed.log) - state);
+        let healing = self.v_ref / self.length * (-state).exp();
+        let rate = if distance.abs() > APART { healing - frequency } else { frequency * distance.exp_m1() };
+        Rate { rate, d_log_rate: -frequency, d_state: -healing }
+    }
+
+    fn start(&self, state: f64, dt: f64) -> (f64, f64, f64) {
+        (state, state.exp(), self.v_ref * dt / self.length)
+    }
+
+    fn evolve(&self, start: &(f64, f64, f64), speed: Speed) -> Evolved {
+        step(start, speed.rate / self.v_ref * start.2, self.steady(speed.log))
     }
 
     fn linear(&self, state: f64, _log_rate: f64, dt: f64) -> (f64, f64) {
-        // b Δθ/θ_0 = b (Δt/θ_0 - Δλ/L), 1/θ_0 = (Vref/L) e^(-ψ).
-        (self.b * dt * self.v_ref / self.length * (-state).exp(), -self.b / self.length)
+        // φ' Δθ/θ_0 = φ' (Δt/θ_0 - Δλ/L), 1/θ_0 = (Vref/L) e^(-ψ).
+        let (slope, _) = self.phi_slopes(state);
+        (slope * dt * self.v_ref / self.length * (-state).exp(), -slope / self.length)
     }
 
     fn weakening(&self, _state: f64, _log_rate: f64) -> f64 {
-        // Of the weighted mean in `step`, -x is the old part and -x/2 bounds the new one.
+        // Of the weighted mean in `step`, -x is the old part and -x/2 bounds the new one; a cut-off only lowers φ'.
         self.b.max(0.0) / self.length
     }
 

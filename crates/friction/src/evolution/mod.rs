@@ -1,20 +1,58 @@
 //! Evolution of the state: one law per file. Each has its exact step at constant V and keeps a variable in which thirty
 //! decades of state cost nothing.
+//!
+//! A new law is one short file: the contribution φ(s) of its variable s, the steady state, the rate, and the step.
 
 pub mod ageing;
+pub mod flash;
+pub mod nagata;
+pub mod prz;
+mod relaxation;
 pub mod slip;
 pub mod stateless;
 
-/// State after a step at constant V, with its derivative.
+/// State after a step at constant V, with its derivatives at fixed Δt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evolved {
-    /// State variable.
+    /// State variable s.
     pub state: f64,
-    /// ∂φ/∂ln V at fixed Δt \[-\].
-    pub d_phi: f64,
+    /// ∂s/∂ln V.
+    pub d_log_rate: f64,
+    /// ∂²s/∂(ln V)².
+    pub curvature: f64,
+    /// ∂s/∂s_0, s_0 being the variable before the step.
+    pub d_state: f64,
 }
 
-/// An evolution law for one state variable per point (or none).
+/// Rate of change of a state variable at constant V, with its derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rate {
+    /// ds/dt \[1/s\].
+    pub rate: f64,
+    /// ∂(ds/dt)/∂ln V \[1/s\].
+    pub d_log_rate: f64,
+    /// ∂(ds/dt)/∂s \[1/s\].
+    pub d_state: f64,
+}
+
+/// A slip rate with its logarithm, so that neither is computed twice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Speed {
+    /// |V| \[m/s\].
+    pub rate: f64,
+    /// ln |V|.
+    pub log: f64,
+}
+
+impl Speed {
+    /// From ln |V|.
+    #[must_use]
+    pub fn of_log(log: f64) -> Self {
+        Self { rate: log.exp(), log }
+    }
+}
+
+/// An evolution law for one state variable s per point (or none).
 pub trait Evolution: Send + Sync + Clone + std::fmt::Debug {
     /// State variables per point: 0 or 1.
     const STATES: usize;
@@ -22,17 +60,35 @@ pub trait Evolution: Send + Sync + Clone + std::fmt::Debug {
     /// Name of the law with this evolution.
     const NAME: &'static str;
 
-    /// Contribution φ of a state variable to μ \[-\].
+    /// What a step from one state needs at every rate it is tried at.
+    type Start: Copy + Send + std::fmt::Debug;
+
+    /// Contribution φ(s) to μ \[-\].
     fn phi(&self, state: f64) -> f64;
+
+    /// (dφ/ds, d²φ/ds²).
+    fn phi_slopes(&self, state: f64) -> (f64, f64);
+
+    /// By how much s moves where μ is to move by one through the state: 1/b for s = ln θ, 1 for s = φ. The memories of normal
+    /// and shear traction are stated in μ and act on s through this factor.
+    fn per_phi(&self) -> f64;
 
     /// State variable of the steady state at V \[m/s\].
     fn steady(&self, log_rate: f64) -> f64;
 
-    /// Rate of change of the state variable at ln V \[1/s\].
-    fn rate(&self, state: f64, log_rate: f64) -> f64;
+    /// Rate of change of the state variable.
+    fn rate(&self, state: f64, speed: Speed) -> Rate;
+
+    /// Prepares steps of length `dt` \[s\] from a state.
+    fn start(&self, state: f64, dt: f64) -> Self::Start;
+
+    /// Exact step at constant V from a prepared state.
+    fn evolve(&self, start: &Self::Start, speed: Speed) -> Evolved;
 
     /// Exact step of length `dt` \[s\] at constant ln V.
-    fn step(&self, state: f64, log_rate: f64, dt: f64) -> Evolved;
+    fn step(&self, state: f64, log_rate: f64, dt: f64) -> Evolved {
+        self.evolve(&self.start(state, dt), Speed::of_log(log_rate))
+    }
 
     /// Linear change of φ over a step with slip increment Δλ: `constant + slope Δλ` (\[-\], \[1/m\]).
     fn linear(&self, state: f64, log_rate: f64, dt: f64) -> (f64, f64);
@@ -43,4 +99,9 @@ pub trait Evolution: Send + Sync + Clone + std::fmt::Debug {
 
     /// Characteristic slip L \[m\], where there is one.
     fn length(&self) -> Option<f64>;
+
+    /// c of the memory of shear traction, by which `φ + c μ` and not φ is continuous where V jumps \[-\].
+    fn shear_memory(&self) -> f64 {
+        0.0
+    }
 }

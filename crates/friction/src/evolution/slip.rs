@@ -1,6 +1,7 @@
 //! Slip law (Ruina 1983): dφ/dt = -(V/L)(φ + b ln(V/Vref)). The state variable is φ itself.
 
-use super::{Evolution, Evolved};
+use super::relaxation::{self, Steady};
+use super::{Evolution, Evolved, Rate, Speed};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,34 +23,44 @@ impl Slip {
             log_v_ref: crate::positive("v_ref", v_ref)?.ln(),
         })
     }
+
+    fn towards(&self, log_rate: f64) -> Steady {
+        Steady { value: self.steady(log_rate), slope: -self.b, curvature: 0.0 }
+    }
 }
 
 impl Evolution for Slip {
     const STATES: usize = 1;
     const NAME: &'static str = "rate-and-state, slip law";
+    /// φ_0 and Δt/L \[s/m\].
+    type Start = (f64, f64);
 
     fn phi(&self, state: f64) -> f64 {
         state
+    }
+
+    fn phi_slopes(&self, _state: f64) -> (f64, f64) {
+        (1.0, 0.0)
+    }
+
+    fn per_phi(&self) -> f64 {
+        1.0
     }
 
     fn steady(&self, log_rate: f64) -> f64 {
         -self.b * (log_rate - self.log_v_ref)
     }
 
-    fn rate(&self, state: f64, log_rate: f64) -> f64 {
-        let speed = log_rate.exp() / self.length;
-        if speed == 0.0 { 0.0 } else { -speed * (state - self.steady(log_rate)) }
+    fn rate(&self, state: f64, speed: Speed) -> Rate {
+        relaxation::rate(state, speed, self.length, self.towards(speed.log))
     }
 
-    fn step(&self, state: f64, log_rate: f64, dt: f64) -> Evolved {
-        // φ = φ_0 e^(-x) + φ_ss (1 - e^(-x)), x = V Δt/L: a weighted mean, nothing cancels.
-        let x = log_rate.exp() * dt / self.length;
-        let (decay, share) = ((-x).exp(), -(-x).exp_m1());
-        let steady = self.steady(log_rate);
-        // A point at rest keeps its state, however far its steady state is.
-        let reached = if share == 0.0 { 0.0 } else { steady * share };
-        let drift = if decay == 0.0 || x == 0.0 { 0.0 } else { x * decay * (steady - state) };
-        Evolved { state: state * decay + reached, d_phi: drift - self.b * share }
+    fn start(&self, state: f64, dt: f64) -> (f64, f64) {
+        (state, dt / self.length)
+    }
+
+    fn evolve(&self, &(old, per_rate): &(f64, f64), speed: Speed) -> Evolved {
+        relaxation::step(old, speed.rate * per_rate, self.towards(speed.log))
     }
 
     fn linear(&self, state: f64, log_rate: f64, _dt: f64) -> (f64, f64) {

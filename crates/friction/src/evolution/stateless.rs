@@ -1,16 +1,25 @@
 //! No state: velocity-dependent friction.
 
-use super::{Evolution, Evolved};
+use super::{Evolution, Evolved, Rate, Speed};
 
-/// See the module.
+/// See the module. A law of this kind holds no component, so that nothing here is ever evaluated for a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stateless;
 
 impl Evolution for Stateless {
     const STATES: usize = 0;
     const NAME: &'static str = "rate";
+    type Start = ();
 
     fn phi(&self, _state: f64) -> f64 {
+        0.0
+    }
+
+    fn phi_slopes(&self, _state: f64) -> (f64, f64) {
+        (0.0, 0.0)
+    }
+
+    fn per_phi(&self) -> f64 {
         0.0
     }
 
@@ -18,12 +27,14 @@ impl Evolution for Stateless {
         0.0
     }
 
-    fn rate(&self, _state: f64, _log_rate: f64) -> f64 {
-        0.0
+    fn rate(&self, _state: f64, _speed: Speed) -> Rate {
+        Rate { rate: 0.0, d_log_rate: 0.0, d_state: 0.0 }
     }
 
-    fn step(&self, _state: f64, _log_rate: f64, _dt: f64) -> Evolved {
-        Evolved { state: 0.0, d_phi: 0.0 }
+    fn start(&self, _state: f64, _dt: f64) {}
+
+    fn evolve(&self, _start: &(), _speed: Speed) -> Evolved {
+        Evolved { state: 0.0, d_log_rate: 0.0, curvature: 0.0, d_state: 1.0 }
     }
 
     fn linear(&self, _state: f64, _log_rate: f64, _dt: f64) -> (f64, f64) {

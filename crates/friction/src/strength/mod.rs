@@ -1,7 +1,9 @@
 //! Strength forms μ(V, φ): one form per file. All of them work with `ln V`, so that neither 1e-30 m/s nor a = 1e-4
 //! overflows.
 
+pub mod arrhenius;
 pub mod bare;
+pub mod cut_off;
 pub mod regularised;
 
 /// Value and derivatives of a strength at a slip rate and state.
@@ -13,6 +15,27 @@ pub struct Strength {
     pub d_log_rate: f64,
     /// ∂μ/∂φ \[-\].
     pub d_phi: f64,
+    /// ∂²μ/∂(ln V)² \[-\].
+    pub curvature: f64,
+}
+
+/// The slip rate at which a strength is `a m`, with its derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlipRate {
+    /// V \[m/s\], negative where m is.
+    pub rate: f64,
+    /// ln |V|.
+    pub log: f64,
+    /// ∂V/∂m.
+    pub d_m: f64,
+    /// ∂V/∂φ.
+    pub d_phi: f64,
+    /// ∂²V/∂m².
+    pub d_mm: f64,
+    /// ∂²V/∂m∂φ.
+    pub d_m_phi: f64,
+    /// ∂²V/∂φ².
+    pub d_phi_phi: f64,
 }
 
 /// A strength form.
@@ -25,11 +48,22 @@ pub trait Form: Send + Sync + Clone + std::fmt::Debug {
         self.at(log_rate, phi).d_log_rate * (-log_rate).exp()
     }
 
+    /// ∂μ/∂T \[1/K\] at fixed V and state.
+    fn d_temperature(&self, _log_rate: f64, _phi: f64) -> f64 {
+        0.0
+    }
+
     /// ln V at which the coefficient is `mu` > 0.
     fn log_rate(&self, mu: f64, phi: f64) -> f64;
 
-    /// The direct effect a \[-\]: the ratio of ∂μ/∂ln V and ∂μ/∂φ, the same at every rate.
-    fn direct_effect(&self) -> f64;
+    /// V at which the coefficient is `a m`, of either sign where the form is odd.
+    fn slip_rate(&self, m: f64, phi: f64) -> SlipRate;
+
+    /// a \[-\], the scale of μ over an e-fold of V.
+    fn scale(&self) -> f64;
+
+    /// The direct effect \[-\]: the least ratio of ∂μ/∂ln V and ∂μ/∂φ over all rates up to ln V.
+    fn direct_effect(&self, log_rate: f64) -> f64;
 
     /// ∂μ/∂V \[s/m\] at V = 0, or `None` where the form has no value there.
     fn rest_slope(&self, phi: f64) -> Option<f64>;
@@ -40,7 +74,7 @@ pub trait Form: Send + Sync + Clone + std::fmt::Debug {
     }
 }
 
-/// Parameters both forms share. Only [`Parameters::new`] makes them, so that a form never holds a ≤ 0: a law that weakens
+/// Parameters all forms share. Only [`Parameters::new`] makes them, so that a form never holds a ≤ 0: a law that weakens
 /// with the rate at once is ill-posed (its static problem has no continuous solution) whatever its state does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
@@ -50,6 +84,8 @@ pub struct Parameters {
     a: f64,
     /// Vref \[m/s\].
     v_ref: f64,
+    /// ln Vref, which every evaluation needs.
+    log_v_ref: f64,
 }
 
 impl Parameters {
@@ -68,6 +104,25 @@ impl Parameters {
                 return Err(crate::Failure::Parameter { name: "a", value: a, admissible });
             },
             v_ref: crate::positive("v_ref", v_ref)?,
+            log_v_ref: v_ref.ln(),
         })
+    }
+
+    /// μ0 \[-\].
+    #[must_use]
+    pub fn mu0(&self) -> f64 {
+        self.mu0
+    }
+
+    /// a \[-\].
+    #[must_use]
+    pub fn a(&self) -> f64 {
+        self.a
+    }
+
+    /// Vref \[m/s\].
+    #[must_use]
+    pub fn v_ref(&self) -> f64 {
+        self.v_ref
     }
 }

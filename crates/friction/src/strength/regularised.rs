@@ -1,11 +1,14 @@
 //! μ = a asinh[V/(2 Vref) exp((μ0 + φ)/a)], the regularised form (Rice & Ben-Zion 1996): odd in V, zero at rest, and equal to
 //! the bare logarithm to e^(-2μ/a) elsewhere.
 
-use super::{Form, Parameters, Strength};
+use super::{Form, Parameters, SlipRate, Strength};
 use std::f64::consts::LN_2;
 
-/// Above this ln x, asinh x = ln 2x to rounding: the next term, 1/(4x²), is below 1e-17.
+/// Above this ln x, asinh x = ln 2x to rounding: the next term, 1/(4x²), is below 1e-17. Above this m, 2 sinh m = e^m.
 const LARGE: f64 = 20.0;
+
+/// Below this m, sinh is taken from the standard library, since e^m - e^(-m) loses digits.
+const SMALL: f64 = 1.0;
 
 /// See the module.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +18,7 @@ impl Regularised {
     /// ln of x/V, x = V/(2 Vref) exp((μ0 + φ)/a).
     fn log_factor(&self, phi: f64) -> f64 {
         let p = &self.0;
-        (p.mu0 + phi) / p.a - (LN_2 + p.v_ref.ln())
+        (p.mu0 + phi) / p.a - (LN_2 + p.log_v_ref)
     }
 }
 
@@ -23,20 +26,56 @@ impl Form for Regularised {
     fn at(&self, log_rate: f64, phi: f64) -> Strength {
         let a = self.0.a;
         let log_x = log_rate + self.log_factor(phi);
-        let (mu, slope) = if log_x > LARGE {
-            (a * (log_x + LN_2), 1.0)
-        } else {
-            let x = log_x.exp();
-            (a * x.asinh(), x / x.hypot(1.0))
-        };
-        Strength { mu, d_log_rate: a * slope, d_phi: slope }
+        if log_x > LARGE {
+            return Strength { mu: a * (log_x + LN_2), d_log_rate: a, d_phi: 1.0, curvature: 0.0 };
+        }
+        let x = log_x.exp();
+        let root = x.hypot(1.0);
+        let slope = x / root;
+        // dS/dln x = S (1 - S²) with 1 - S² = 1/(1 + x²).
+        Strength {
+            mu: a * x.asinh(),
+            d_log_rate: a * slope,
+            d_phi: slope,
+            curvature: a * slope / (root * root),
+        }
     }
 
     fn log_rate(&self, mu: f64, phi: f64) -> f64 {
         let p = &self.0;
         let y = mu / p.a;
         // ln sinh y = y - ln 2 + ln(1 - e^(-2y)), which neither overflows nor cancels.
-        p.v_ref.ln() + (mu - p.mu0 - phi) / p.a + (-(-2.0 * y).exp_m1()).ln()
+        p.log_v_ref + (mu - p.mu0 - phi) / p.a + (-(-2.0 * y).exp_m1()).ln()
+    }
+
+    fn slip_rate(&self, m: f64, phi: f64) -> SlipRate {
+        let per = -1.0 / self.0.a;
+        // V = 2 Vref e^(-(μ0+φ)/a) sinh m, with the two exponents added before either can overflow.
+        let size = m.abs();
+        let log_factor = self.log_factor(phi);
+        let (log, speed, d_m) = if size > LARGE {
+            let log = size - LN_2 - log_factor;
+            let speed = log.exp();
+            (log, speed, speed)
+        } else if size > SMALL {
+            let share = -(-2.0 * size).exp_m1();
+            let log = size - LN_2 - log_factor + share.ln();
+            let speed = log.exp();
+            (log, speed, (2.0 - share) / share * speed)
+        } else {
+            let (sinh, factor) = (size.sinh(), (-log_factor).exp());
+            (sinh.ln() - log_factor, sinh * factor, size.cosh() * factor)
+        };
+        let rate = speed.copysign(m);
+        SlipRate {
+            rate,
+            log,
+            d_m,
+            d_phi: per * rate,
+            d_mm: rate,
+            d_m_phi: per * d_m,
+            d_phi_phi: per * per * rate,
+        }
     }
 
     fn d_rate(&self, log_rate: f64, phi: f64) -> f64 {
@@ -50,7 +89,11 @@ impl Form for Regularised {
         }
     }
 
-    fn direct_effect(&self) -> f64 {
+    fn scale(&self) -> f64 {
+        self.0.a
+    }
+
+    fn direct_effect(&self, _log_rate: f64) -> f64 {
         self.0.a
     }
 

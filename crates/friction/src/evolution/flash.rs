@@ -1,0 +1,147 @@
+//! Slip law towards a strongly weakening steady state (flash heating; Rice 2006, Noda et al. 2009, Dunham et al. 2011):
+//! dφ/dt = -(V/L)(φ - φ_ss(V)) with φ_ss = μ_ss - μ0 - a ln(V/Vref) and
+//! μ_ss = μ_w + (μ_lv - μ_w)/[1 + (V/V_w)⁸]^(1/8), μ_lv = μ0 + (a - b) ln(V/Vref).
+//!
+//! φ_ss is the bare logarithm's, which differs from that of the regularised strength by a e^(-2μ_ss/a) and exists for every
+//! rate. As a bare function of V such a weakening would be ill-posed; as the aim of an evolving state over L it is not.
+
+use super::relaxation::{self, Steady};
+use super::{Evolution, Evolved, Rate, Speed};
+
+/// Exponent of the transition (Dunham et al. 2011).
+const POWER: f64 = 8.0;
+
+/// Parameters of the steady state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weakening {
+    /// μ0 \[-\] of the strength.
+    pub mu0: f64,
+    /// a \[-\] of the strength.
+    pub a: f64,
+    /// b \[-\].
+    pub b: f64,
+    /// Vref \[m/s\] > 0.
+    pub v_ref: f64,
+    /// μ_w ≥ 0 \[-\], the fully weakened coefficient.
+    pub mu_w: f64,
+    /// V_w \[m/s\] > 0, the rate at which weakening begins.
+    pub v_w: f64,
+}
+
+/// See the module.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flash {
+    p: Weakening,
+    length: f64,
+    log_v_ref: f64,
+    log_v_w: f64,
+}
+
+impl Flash {
+    /// The steady state and L \[m\] > 0.
+    ///
+    /// # Errors
+    /// [`crate::Failure::Parameter`].
+    pub fn new(p: Weakening, length: f64) -> Result<Self, crate::Failure> {
+        crate::finite("mu0", p.mu0)?;
+        crate::finite("a", p.a)?;
+        crate::finite("b", p.b)?;
+        if !(p.mu_w >= 0.0 && p.mu_w < p.mu0) {
+            let admissible = "0 <= mu_w < mu0";
+            return Err(crate::Failure::Parameter { name: "mu_w", value: p.mu_w, admissible });
+        }
+        Ok(Self {
+            p,
+            length: crate::positive("l", length)?,
+            log_v_ref: crate::positive("v_ref", p.v_ref)?.ln(),
+            log_v_w: crate::positive("v_w", p.v_w)?.ln(),
+        })
+    }
+
+    /// φ_ss with its derivatives by ln V.
+    fn towards(&self, log_rate: f64) -> Steady {
+        let p = &self.p;
+        let y = log_rate - self.log_v_ref;
+        // w = [1 + (V/V_w)⁸]^(-1/8) in logarithms: ln w = -ln(1 + e^u)/8, u = 8 ln(V/V_w).
+        let u = POWER * (log_rate - self.log_v_w);
+        let softened = if u > 0.0 { u + (-u).exp().ln_1p() } else { u.exp().ln_1p() };
+        let w = (-softened / POWER).exp();
+        // d ln w/dln V = -q with q = e^u/(1 + e^u), dq/dln V = 8 q (1 - q).
+        let q = 1.0 / (1.0 + (-u).exp());
+        let above = p.mu0 + (p.a - p.b) * y - p.mu_w;
+        let slope = w * ((p.a - p.b) - q * above);
+        let bend = w * (-2.0 * q * (p.a - p.b) + (q * q - POWER * q * (1.0 - q)) * above);
+        Steady {
+            value: p.mu_w + above * w - p.mu0 - p.a * y,
+            slope: slope - p.a,
+            curvature: bend,
+        }
+    }
+
+    /// μ_ss(V) \[-\].
+    #[must_use]
+    pub fn steady_coefficient(&self, log_rate: f64) -> f64 {
+        self.steady(log_rate) + self.p.mu0 + self.p.a * (log_rate - self.log_v_ref)
+    }
+}
+
+impl Evolution for Flash {
+    const STATES: usize = 1;
+    const NAME: &'static str = "rate-and-state, slip law with flash heating";
+    /// φ_0 and Δt/L \[s/m\].
+    type Start = (f64, f64);
+
+    fn phi(&self, state: f64) -> f64 {
+        state
+    }
+
+    fn phi_slopes(&self, _state: f64) -> (f64, f64) {
+        (1.0, 0.0)
+    }
+
+    fn per_phi(&self) -> f64 {
+        1.0
+    }
+
+    fn steady(&self, log_rate: f64) -> f64 {
+        self.towards(log_rate).value
+    }
+
+    fn rate(&self, state: f64, speed: Speed) -> Rate {
+        relaxation::rate(state, speed, self.length, self.towards(speed.log))
+    }
+
+    fn start(&self, state: f64, dt: f64) -> (f64, f64) {
+        (state, dt / self.length)
+    }
+
+    fn evolve(&self, &(old, per_rate): &(f64, f64), speed: Speed) -> Evolved {
+        let x = speed.rate * per_rate;
+        // At rest the aim lies at -∞, and nothing moves towards it.
+        if x == 0.0 {
+            return Evolved { state: old, d_log_rate: 0.0, curvature: 0.0, d_state: 1.0 };
+        }
+        relaxation::step(old, x, self.towards(speed.log))
+    }
+
+    fn linear(&self, state: f64, log_rate: f64, _dt: f64) -> (f64, f64) {
+        (0.0, -(state - self.steady(log_rate)) / self.length)
+    }
+
+    fn weakening(&self, state: f64, log_rate: f64) -> f64 {
+        // As for the slip law, with -dφ_ss/dln V = a (1 - w) + b w + w q (μ_lv - μ_w) and μ_lv - μ_w at its largest over the
+        // rates in question: at `log_rate` where a > b, otherwise at V_w, since w q falls as V⁸ below it.
+        let p = &self.p;
+        let at = |log: f64| (p.mu0 + (p.a - p.b) * (log - self.log_v_ref) - p.mu_w).max(0.0);
+        // Below V_w, q ≤ (V/V_w)⁸, and y e^(-8 y) has its maximum 1/(8 e) at y = 1/8.
+        let steep = at(log_rate).max(at(self.log_v_w)) + (p.b - p.a).abs() / POWER;
+        if p.b < 0.0 {
+            return f64::INFINITY;
+        }
+        ((state - self.steady(log_rate)).max(0.0) + p.a.max(p.b) + steep) / self.length
+    }
+
+    fn length(&self) -> Option<f64> {
+        Some(self.length)
+    }
+}
