@@ -11,6 +11,7 @@ pub mod law;
 mod line;
 pub mod point;
 pub mod rate;
+pub mod slider;
 pub mod strength;
 
 /// What can go wrong in a law.

@@ -305,7 +305,12 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
     }
 
     /// Newton's method from `z` inside the bracket, which it narrows.
-    fn newton(&mut self, p: &Point, mut z: f64, (mut low, mut high): (f64, f64)) -> Result<Solution, Failure> {
+    fn newton(
+        &mut self,
+        p: &Point,
+        mut z: f64,
+        (mut low, mut high): (f64, f64),
+    ) -> Result<Solution, Failure> {
         let (mut last, mut before) = (f64::INFINITY, 0.0f64);
         for iteration in 0..=MOST {
             let value = self.evaluate(p, z, iteration);
@@ -324,7 +329,8 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
             }
             // A step back that undoes most of the one before may be half of a cycle.
             let turns = step * before < 0.0 && step.abs() > 0.5 * before.abs();
-            let next = if turns && low.is_finite() { 0.5 * (low + high) } else { guarded(z, step, (low, high)) };
+            let next =
+                if turns && low.is_finite() { 0.5 * (low + high) } else { guarded(z, step, (low, high)) };
             (before, z) = (next - z, next);
             last = value.g;
         }

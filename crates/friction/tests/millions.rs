@@ -62,15 +62,8 @@ impl Tally {
 }
 
 /// What is left of the balance, relative to the drive, over what rounding of ln V and of its parts makes of it.
-fn left_over<F: Form, E: Evolution>(
-    form: &F,
-    parts: &[E],
-    p: &Point,
-    old: &[f64],
-    s: &Solution,
-) -> f64 {
-    let phi: f64 =
-        parts.iter().zip(old).map(|(e, &o)| e.phi(e.step(o, s.log_rate, p.dt).state)).sum();
+fn left_over<F: Form, E: Evolution>(form: &F, parts: &[E], p: &Point, old: &[f64], s: &Solution) -> f64 {
+    let phi: f64 = parts.iter().zip(old).map(|(e, &o)| e.phi(e.step(o, s.log_rate, p.dt).state)).sum();
     let strength = form.at(s.log_rate, phi);
     let spring = p.spring * s.log_rate.exp();
     let rest = (p.normal * strength.mu + spring - p.drive).abs() / p.drive;
@@ -93,8 +86,7 @@ fn implicit<F: Form, E: Evolution>(
     for _ in 0..DRAWS {
         let a = random.decades(-4.0, -1.0);
         let (form, evolutions) = (form(a), make(&mut random, a));
-        let parts: Vec<_> =
-            evolutions.iter().map(|e| Component::new(e.clone(), 0.0).unwrap()).collect();
+        let parts: Vec<_> = evolutions.iter().map(|e| Component::new(e.clone(), 0.0).unwrap()).collect();
         let parts = if E::STATES == 0 { vec![] } else { parts };
         let normal = random.decades(0.0, 9.0);
         let dt = random.decades(-9.0, 9.0);

@@ -191,7 +191,9 @@ fn extreme_rates_and_rest_leave_numbers() {
     for z in [f64::MIN, -1e4, -700.0, 0.0, 700.0, 1e4] {
         for dt in [1e-300, 1e-9, 1.0, 1e20] {
             let (s, a) = (slip.step(0.1, z, dt), ageing.step(0.1, z, dt));
-            for number in [s.state, s.d_log_rate, s.curvature, s.d_state, a.state, a.d_log_rate, a.curvature, a.d_state] {
+            for number in
+                [s.state, s.d_log_rate, s.curvature, s.d_state, a.state, a.d_log_rate, a.curvature, a.d_state]
+            {
                 assert!(number.is_finite(), "{z} {dt}: {s:?} {a:?}");
             }
         }

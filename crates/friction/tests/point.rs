@@ -2,9 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use asperity_friction::Failure;
+use asperity_friction::component::Component;
 use asperity_friction::evolution::{Evolution, ageing::Ageing, slip::Slip, stateless::Stateless};
 use asperity_friction::law::{Lag, Law, Regime, Responses, Trials};
-use asperity_friction::component::Component;
 use asperity_friction::point::{Point, Solution, Solver};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};

@@ -71,11 +71,7 @@ impl Flash {
         let above = p.mu0 + (p.a - p.b) * y - p.mu_w;
         let slope = w * ((p.a - p.b) - q * above);
         let bend = w * (-2.0 * q * (p.a - p.b) + (q * q - POWER * q * (1.0 - q)) * above);
-        Steady {
-            value: p.mu_w + above * w - p.mu0 - p.a * y,
-            slope: slope - p.a,
-            curvature: bend,
-        }
+        Steady { value: p.mu_w + above * w - p.mu0 - p.a * y, slope: slope - p.a, curvature: bend }
     }
 
     /// μ_ss(V) \[-\].

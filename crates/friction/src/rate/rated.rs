@@ -60,9 +60,9 @@ impl<F: Form, E: Evolution> Rated for RateLaw<F, E> {
         state_rates: &mut [f64],
     ) -> Result<(), Failure> {
         let mut solver = self.solver();
-        for k in 0..drives.traction.len() {
+        for (k, rate) in rate.iter_mut().enumerate() {
             let speed = self.slip_rate(k, &drives, self.state(states, k), &mut solver)?;
-            rate[k] = speed.rate;
+            *rate = speed.rate;
             let speed = Speed { rate: speed.rate.abs(), log: speed.log };
             solver.state_rates(speed, self.state_mut(state_rates, k));
         }

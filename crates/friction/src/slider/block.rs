@@ -1,0 +1,270 @@
+//! One slider: the differential equations of its friction and states under a spring.
+//!
+//! With μ = a m the unknowns are m, the state variables s_i, and with inertia the net traction d. Radiation damping η and mass
+//! M (per area) enter as `M dV/dt = T - f_n a m - η V = f_n a d`, T being the traction of the springs with
+//! `dT/dt = p - K V`. V follows from m and φ = Σ φ_i(s_i) without iteration, `dV/dt = P dm/dt + Q` with
+//! `P = ∂V/∂m - ∂V/∂φ C a` and `Q = ∂V/∂φ A`, where A is the change of φ at constant V and f_n plus that by the memory of f_n,
+//! and C μ that by the memory of shear traction (`dφ = A dt - C dμ`). Hence
+//!
+//! * without inertia `dm/dt = (p - K V - f_n' a m - η Q)/(f_n a + η P)`;
+//! * with inertia `dm/dt = (f_n a d/M - Q)/P` and `f_n a dd/dt = p - K V - f_n a dm/dt - f_n' a (m + d) - η (P dm/dt + Q)`.
+//!
+//! ln V = m - (μ0 + φ)/a + ... follows from numbers of order one to a hundred, so that sixteen decades of V cost nothing, and V
+//! passes through zero without harm. d is an unknown because T - f_n μ - η V would have no digits left while the slider
+//! creeps.
+
+use super::number::{Dual, Number};
+use crate::Failure;
+use crate::evolution::{Evolution, Speed};
+use crate::law::{Drives, Rated};
+use crate::rate::RateLaw;
+use crate::strength::{Form, SlipRate};
+
+/// What acts on a slider at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Forcing {
+    /// f_n > 0 \[Pa\].
+    pub normal: f64,
+    /// df_n/dt \[Pa/s\].
+    pub normal_rate: f64,
+    /// p = k V_load + Σ k_j V_j \[Pa/s\]: what the springs would gain if the slider stood still.
+    pub pull: f64,
+    /// K = k + Σ k_j \[Pa/m\].
+    pub stiffness: f64,
+    /// η ≥ 0 \[Pa s/m\].
+    pub damping: f64,
+    /// M > 0 \[kg/m²\], or none.
+    pub mass: Option<f64>,
+}
+
+/// What a direction of the Jacobian is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// An unknown of the slider.
+    Unknown(usize),
+    /// The pull of its springs.
+    Pull,
+}
+
+/// A law as a slider uses it. One call treats one slider.
+pub trait Sliding: Rated {
+    /// Rates of change of the unknowns of a slider.
+    fn equations(&self, forcing: &Forcing, unknowns: &[f64], rates: &mut [f64]);
+
+    /// Derivative of those rates in a direction.
+    fn gradient(&self, forcing: &Forcing, unknowns: &[f64], along: Direction, slopes: &mut [f64]);
+
+    /// Signed slip rate \[m/s\] and ln |V|, and the friction coefficient, from m and the state variables.
+    fn slip(&self, unknowns: &[f64]) -> (Speed, f64);
+
+    /// Slip rate with its derivatives by m and by each state variable.
+    fn slip_slopes(&self, unknowns: &[f64], slopes: &mut [f64]) -> f64;
+
+    /// The unknown m at a slip rate \[m/s\] of either sign, with the state variables as they stand.
+    ///
+    /// # Errors
+    /// [`Failure::BareLogAtRest`] where the form has no value at this rate.
+    fn at_rate(&self, rate: f64, states: &[f64]) -> Result<f64, Failure>;
+
+    /// State variables that are steady at ln V.
+    fn steady(&self, log_rate: f64, states: &mut [f64]);
+
+    /// Carries the unknowns over a jump of f_n from `old` to `new`. Without inertia the traction of the springs is what it was
+    /// and V jumps; with inertia V is what it was.
+    ///
+    /// # Errors
+    /// [`Failure`] of the point solver.
+    fn jump(
+        &self,
+        unknowns: &mut [f64],
+        old: f64,
+        new: f64,
+        damping: f64,
+        inertia: bool,
+    ) -> Result<(), Failure>;
+
+    /// a \[-\], the scale of m.
+    fn scale(&self) -> f64;
+
+    /// What a change of ln V by one is in each state variable, for error norms: 1 for logarithms, a for friction.
+    fn state_scale(&self) -> f64;
+
+    /// Shortest characteristic slip L \[m\], where there is one.
+    fn length(&self) -> Option<f64>;
+}
+
+impl<F: Form, E: Evolution> RateLaw<F, E> {
+    /// φ and V at the unknowns.
+    fn kinematics<N: Number>(&self, y: &[N]) -> (N, SlipRate) {
+        let mut phi = N::constant(0.0);
+        for (part, &s) in self.parts().iter().zip(&y[1..]) {
+            let e = &part.evolution;
+            phi = phi + s.lift(e.phi(s.value()), || e.phi_slopes(s.value()).0);
+        }
+        (phi, self.form().slip_rate(y[0].value(), phi.value()))
+    }
+
+    fn generic<N: Number>(&self, f: &Forcing, pull: N, y: &[N], dy: &mut [N]) {
+        let (a, m, n) = (self.form().scale(), y[0], self.parts().len());
+        let (phi, v) = self.kinematics(y);
+        let rate = m.lift2(phi, v.rate, || (v.d_m, v.d_phi));
+        let by_m = m.lift2(phi, v.d_m, || (v.d_mm, v.d_m_phi));
+        let by_phi = m.lift2(phi, v.d_phi, || (v.d_m_phi, v.d_phi_phi));
+        let speed = Speed { rate: v.rate.abs(), log: v.log };
+        let relative = f.normal_rate / f.normal;
+        // A and C of the module's equations.
+        let (mut ageing, mut memory) = (N::constant(0.0), N::constant(0.0));
+        for ((part, &s), ds) in self.parts().iter().zip(&y[1..]).zip(&mut dy[1..]) {
+            let e = &part.evolution;
+            let r = e.rate(s.value(), speed);
+            // ∂/∂V from ∂/∂ln V, which vanishes with V.
+            let by_rate = if v.rate == 0.0 { 0.0 } else { r.d_log_rate / v.rate };
+            let mut change = rate.lift2(s, r.rate, || (by_rate, r.d_state));
+            let (slope, bend) = e.phi_slopes(s.value());
+            let slope = s.lift(slope, || bend);
+            if part.shear_memory != 0.0 {
+                // |μ| is remembered. ∂μ/∂φ = -a (∂V/∂φ)/(∂V/∂m): what is kept changes by 1 + c ∂|μ|/∂φ of the change at
+                // constant V.
+                let c = part.shear_memory.copysign(m.value());
+                let softening = (by_phi / by_m).times(-a * c) * slope;
+                change = change * (N::constant(1.0) + softening);
+                memory = memory + slope.times(c);
+            }
+            change = change - N::constant(part.normal_memory * relative);
+            ageing = ageing + slope * change;
+            *ds = change;
+        }
+        let (along, drift) = (by_m - (by_phi * memory).times(a), by_phi * ageing);
+        let gained = pull - rate.times(f.stiffness) - m.times(f.normal_rate * a);
+        let strength = f.normal * a;
+        match f.mass {
+            None => {
+                dy[0] = (gained - drift.times(f.damping)) / (along.times(f.damping) + N::constant(strength));
+            }
+            Some(mass) => {
+                let d = y[n + 1];
+                dy[0] = (d.times(strength / mass) - drift) / along;
+                let accelerated = along * dy[0] + drift;
+                dy[n + 1] = (gained - dy[0].times(strength) - accelerated.times(f.damping))
+                    .times(1.0 / strength)
+                    - d.times(relative);
+            }
+        }
+        for (part, ds) in self.parts().iter().zip(1..) {
+            if part.shear_memory != 0.0 {
+                dy[ds] = dy[ds] - dy[0].times(a * part.shear_memory.copysign(m.value()));
+            }
+        }
+    }
+}
+
+/// More unknowns than this a slider may not have; several times what any law in use needs.
+pub(super) const MOST_UNKNOWNS: usize = 16;
+
+impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
+    fn equations(&self, forcing: &Forcing, unknowns: &[f64], rates: &mut [f64]) {
+        self.generic(forcing, forcing.pull, unknowns, rates);
+    }
+
+    fn gradient(&self, forcing: &Forcing, unknowns: &[f64], along: Direction, slopes: &mut [f64]) {
+        let n = unknowns.len();
+        let mut y = [Dual::constant(0.0); MOST_UNKNOWNS];
+        let mut dy = y;
+        for (y, &u) in y.iter_mut().zip(unknowns) {
+            y.value = u;
+        }
+        let mut pull = Dual::constant(forcing.pull);
+        match along {
+            Direction::Unknown(i) => y[i].slope = 1.0,
+            Direction::Pull => pull.slope = 1.0,
+        }
+        self.generic(forcing, pull, &y[..n], &mut dy[..n]);
+        for (slope, d) in slopes.iter_mut().zip(&dy[..n]) {
+            *slope = d.slope;
+        }
+    }
+
+    fn slip(&self, unknowns: &[f64]) -> (Speed, f64) {
+        let (_, v) = self.kinematics(unknowns);
+        (Speed { rate: v.rate, log: v.log }, self.form().scale() * unknowns[0])
+    }
+
+    fn slip_slopes(&self, unknowns: &[f64], slopes: &mut [f64]) -> f64 {
+        let (_, v) = self.kinematics(unknowns);
+        slopes.fill(0.0);
+        slopes[0] = v.d_m;
+        for ((part, &s), slope) in self.parts().iter().zip(&unknowns[1..]).zip(&mut slopes[1..]) {
+            *slope = v.d_phi * part.evolution.phi_slopes(s).0;
+        }
+        v.rate
+    }
+
+    fn at_rate(&self, rate: f64, states: &[f64]) -> Result<f64, Failure> {
+        if rate == 0.0 || (rate < 0.0 && !self.form().regular_at_rest()) {
+            return if rate == 0.0 && self.form().regular_at_rest() {
+                Ok(0.0)
+            } else {
+                Err(Failure::BareLogAtRest { point: 0, rate })
+            };
+        }
+        let phi: f64 = self.parts().iter().zip(states).map(|(p, &s)| p.evolution.phi(s)).sum();
+        Ok((self.form().at(rate.abs().ln(), phi).mu / self.form().scale()).copysign(rate))
+    }
+
+    fn steady(&self, log_rate: f64, states: &mut [f64]) {
+        for (part, state) in self.parts().iter().zip(states) {
+            *state = part.evolution.steady(log_rate);
+        }
+    }
+
+    fn jump(
+        &self,
+        unknowns: &mut [f64],
+        old: f64,
+        new: f64,
+        damping: f64,
+        inertia: bool,
+    ) -> Result<(), Failure> {
+        let (a, n) = (self.form().scale(), self.parts().len());
+        let (before, mu) = self.slip(unknowns);
+        let net = if inertia { unknowns[n + 1] * a * old } else { 0.0 };
+        let traction = old * mu + damping * before.rate + net;
+        if inertia {
+            for (part, s) in self.parts().iter().zip(&mut unknowns[1..]) {
+                *s -= part.normal_memory * (new / old).ln();
+            }
+            unknowns[0] = self.at_rate(before.rate, &unknowns[1..=n])?;
+            // T - f_n a m - η V with T as before: the change of f_n m is all there is.
+            unknowns[n + 1] = (net + old * mu - new * a * unknowns[0]) / (new * a);
+            return Ok(());
+        }
+        let under = |normal: f64| (normal / self.reference()).ln();
+        let mut kept = [0.0; MOST_UNKNOWNS];
+        for ((part, s), kept) in self.parts().iter().zip(&unknowns[1..]).zip(&mut kept) {
+            *kept = s + part.normal_memory * under(old) + part.shear_memory * mu.abs();
+        }
+        let (mut rate, mut change) = ([0.0], [0.0; MOST_UNKNOWNS]);
+        let drives = Drives { traction: &[traction], normal: &[new], damping, near: None };
+        self.slip_rates(drives, &kept[..n], &mut rate, &mut change[..n])?;
+        let mu = (traction - damping * rate[0]) / new;
+        unknowns[0] = mu / a;
+        for ((part, s), kept) in self.parts().iter().zip(&mut unknowns[1..]).zip(&kept) {
+            *s = kept - part.normal_memory * under(new) - part.shear_memory * mu.abs();
+        }
+        Ok(())
+    }
+
+    fn scale(&self) -> f64 {
+        self.form().scale()
+    }
+
+    fn state_scale(&self) -> f64 {
+        // What moves ln V by one at constant m is a/φ', and a logarithm by itself at most.
+        let slope = self.parts().iter().map(|p| p.evolution.phi_slopes(0.0).0.abs()).fold(0.0, f64::max);
+        if slope == 0.0 { 1.0 } else { (self.form().scale() / slope).min(1.0) }
+    }
+
+    fn length(&self) -> Option<f64> {
+        self.parts().iter().filter_map(|p| p.evolution.length()).reduce(f64::min)
+    }
+}

@@ -1,0 +1,320 @@
+//! Spring-sliders: one block or several, each on a spring to a load point and possibly on springs to others, quasi-static,
+//! radiation-damped or inertial. This module holds the equations; their integration in time is the driver's.
+
+mod block;
+mod history;
+mod number;
+
+pub use block::{Direction, Forcing, Sliding};
+pub use history::{History, Piece};
+
+use crate::Failure;
+use block::MOST_UNKNOWNS;
+use std::sync::Arc;
+
+/// One slider.
+#[derive(Clone, Debug)]
+pub struct Slider {
+    /// Friction.
+    pub law: Arc<dyn Sliding>,
+    /// Stiffness k ≥ 0 to the load point \[Pa/m\].
+    pub stiffness: f64,
+    /// Radiation damping η ≥ 0 \[Pa s/m\].
+    pub damping: f64,
+    /// Mass per area M > 0 \[kg/m²\], or none.
+    pub mass: Option<f64>,
+    /// Normal traction f_n > 0 \[Pa\].
+    pub normal: History,
+}
+
+/// A spring between two sliders.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring {
+    /// The sliders, by their position in the list.
+    pub between: [usize; 2],
+    /// Stiffness k > 0 \[Pa/m\].
+    pub stiffness: f64,
+}
+
+/// Sliders with their springs and the rate of the load point. Unknowns stand slider by slider: m = μ/a, the state variables,
+/// and with inertia the net traction over f_n a.
+#[derive(Clone, Debug)]
+pub struct System {
+    sliders: Vec<Slider>,
+    springs: Vec<Spring>,
+    load: History,
+    /// First unknown of each slider, and the number of unknowns.
+    starts: Vec<usize>,
+}
+
+impl System {
+    /// Checks ranges.
+    ///
+    /// # Errors
+    /// [`Failure::Parameter`].
+    pub fn new(sliders: Vec<Slider>, springs: Vec<Spring>, load: History) -> Result<Self, Failure> {
+        let mut starts = vec![0];
+        for s in &sliders {
+            not_negative("stiffness", s.stiffness)?;
+            not_negative("damping", s.damping)?;
+            crate::positive("normal", s.normal.least())?;
+            if s.law.states() + 2 > MOST_UNKNOWNS {
+                let admissible = "at most 14 state variables";
+                return Err(Failure::Parameter { name: "states", value: s.law.states() as f64, admissible });
+            }
+            if let Some(mass) = s.mass {
+                crate::positive("mass", mass)?;
+            }
+            starts.push(starts[starts.len() - 1] + 1 + s.law.states() + usize::from(s.mass.is_some()));
+        }
+        for spring in &springs {
+            crate::positive("stiffness", spring.stiffness)?;
+            if let Some(&slider) = spring.between.iter().find(|&&i| i >= sliders.len()) {
+                let admissible = "a slider of the list";
+                return Err(Failure::Parameter { name: "between", value: slider as f64, admissible });
+            }
+        }
+        Ok(Self { sliders, springs, load, starts })
+    }
+
+    /// Number of unknowns.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.starts[self.sliders.len()]
+    }
+
+    /// The sliders.
+    #[must_use]
+    pub fn sliders(&self) -> &[Slider] {
+        &self.sliders
+    }
+
+    /// The springs between them.
+    #[must_use]
+    pub fn springs(&self) -> &[Spring] {
+        &self.springs
+    }
+
+    /// The rate of the load point \[m/s\].
+    #[must_use]
+    pub fn load(&self) -> &History {
+        &self.load
+    }
+
+    /// Unknowns of one slider.
+    #[must_use]
+    pub fn of<'a>(&self, slider: usize, unknowns: &'a [f64]) -> &'a [f64] {
+        &unknowns[self.starts[slider]..self.starts[slider + 1]]
+    }
+
+    /// Unknowns of one slider, to be written.
+    pub fn of_mut<'a>(&self, slider: usize, unknowns: &'a mut [f64]) -> &'a mut [f64] {
+        &mut unknowns[self.starts[slider]..self.starts[slider + 1]]
+    }
+
+    /// Times in (after, until) at which a prescribed history has a kink or a jump, in order \[s\].
+    #[must_use]
+    pub fn breaks(&self, after: f64, until: f64) -> Vec<f64> {
+        let mut times = self.load.breaks();
+        times.extend(self.sliders.iter().flat_map(|s| s.normal.breaks()));
+        times.retain(|&t| t > after && t < until);
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
+    /// The smooth problem that holds around a time between two breaks.
+    #[must_use]
+    pub fn segment(&self, within: f64) -> Segment<'_> {
+        Segment {
+            system: self,
+            load: self.load.piece(within),
+            normals: self.sliders.iter().map(|s| s.normal.piece(within)).collect(),
+            stiffness: (0..self.sliders.len()).map(|i| self.stiffness(i)).collect(),
+        }
+    }
+
+    /// K = k + Σ k_j of one slider \[Pa/m\].
+    #[must_use]
+    pub fn stiffness(&self, slider: usize) -> f64 {
+        let coupled = self.springs.iter().filter(|s| s.between[0] != s.between[1]);
+        let springs: f64 = coupled.filter(|s| s.between.contains(&slider)).map(|s| s.stiffness).sum();
+        self.sliders[slider].stiffness + springs
+    }
+
+    /// Scales of the unknowns for error norms, each worth a change of ln V by about one.
+    #[must_use]
+    pub fn scales(&self) -> Vec<f64> {
+        let mut scales = vec![1.0; self.size()];
+        for (i, s) in self.sliders.iter().enumerate() {
+            self.of_mut(i, &mut scales)[1..=s.law.states()].fill(s.law.state_scale());
+        }
+        scales
+    }
+
+    /// Unknowns for given slip rates \[m/s\] and state variables (point-major), in equilibrium.
+    ///
+    /// # Errors
+    /// [`Failure`] of the laws, naming the slider as the point.
+    pub fn start(&self, rates: &[f64], states: &[Vec<f64>]) -> Result<Vec<f64>, Failure> {
+        let mut unknowns = vec![0.0; self.size()];
+        for (i, slider) in self.sliders.iter().enumerate() {
+            let y = self.of_mut(i, &mut unknowns);
+            y[1..=states[i].len()].copy_from_slice(&states[i]);
+            y[0] = slider.law.at_rate(rates[i], &states[i]).map_err(|f| f.at(i))?;
+        }
+        Ok(unknowns)
+    }
+
+    /// Carries the unknowns over a time at which normal tractions may jump, from one segment to the next.
+    ///
+    /// # Errors
+    /// [`Failure`] of the point solver, naming the slider as the point.
+    pub fn jump(
+        &self,
+        time: f64,
+        from: &Segment<'_>,
+        to: &Segment<'_>,
+        unknowns: &mut [f64],
+    ) -> Result<(), Failure> {
+        for (i, s) in self.sliders.iter().enumerate() {
+            let (old, new) = (from.normals[i].at(time).0, to.normals[i].at(time).0);
+            if old != new {
+                let y = self.of_mut(i, unknowns);
+                s.law.jump(y, old, new, s.damping, s.mass.is_some()).map_err(|f| f.at(i))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn not_negative(name: &'static str, value: f64) -> Result<f64, Failure> {
+    if value >= 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Failure::Parameter { name, value, admissible: "0 or more, finite" })
+    }
+}
+
+/// The equations between two breaks of the prescribed histories.
+#[derive(Clone, Debug)]
+pub struct Segment<'a> {
+    system: &'a System,
+    load: Piece,
+    normals: Vec<Piece>,
+    stiffness: Vec<f64>,
+}
+
+/// Traction, friction and slip rate of a slider at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Condition {
+    /// Slip rate V \[m/s\].
+    pub rate: f64,
+    /// ln |V|.
+    pub log_rate: f64,
+    /// Friction coefficient μ \[-\].
+    pub friction: f64,
+    /// Normal traction f_n \[Pa\].
+    pub normal: f64,
+    /// Traction T of the springs \[Pa\].
+    pub traction: f64,
+}
+
+impl Segment<'_> {
+    /// The smooth piece of the load point's rate.
+    #[must_use]
+    pub fn load(&self) -> &Piece {
+        &self.load
+    }
+
+    fn forcing(&self, i: usize, time: f64, unknowns: &[f64], load: f64) -> Forcing {
+        let slider = &self.system.sliders[i];
+        let (normal, normal_rate) = self.normals[i].at(time);
+        let mut pull = slider.stiffness * load;
+        for spring in &self.system.springs {
+            if let Some(other) = across(spring, i) {
+                let (speed, _) = self.system.sliders[other].law.slip(self.system.of(other, unknowns));
+                pull += spring.stiffness * speed.rate;
+            }
+        }
+        Forcing {
+            normal,
+            normal_rate,
+            pull,
+            stiffness: self.stiffness[i],
+            damping: slider.damping,
+            mass: slider.mass,
+        }
+    }
+
+    /// Rates of change of the unknowns at a time \[s\].
+    pub fn rates(&self, time: f64, unknowns: &[f64], rates: &mut [f64]) {
+        let load = self.load.at(time).0;
+        for (i, slider) in self.system.sliders.iter().enumerate() {
+            let forcing = self.forcing(i, time, unknowns, load);
+            slider.law.equations(&forcing, self.system.of(i, unknowns), self.system.of_mut(i, rates));
+        }
+    }
+
+    /// Their Jacobian, column-major.
+    pub fn jacobian(&self, time: f64, unknowns: &[f64], jacobian: &mut [f64]) {
+        let (n, load) = (unknowns.len(), self.load.at(time).0);
+        jacobian.fill(0.0);
+        let mut by_pull = vec![0.0; n];
+        for (i, slider) in self.system.sliders.iter().enumerate() {
+            let forcing = self.forcing(i, time, unknowns, load);
+            let (y, rows) = (self.system.of(i, unknowns), self.system.starts[i]..self.system.starts[i + 1]);
+            for (local, column) in rows.clone().enumerate() {
+                let target = &mut jacobian[column * n..][rows.clone()];
+                slider.law.gradient(&forcing, y, Direction::Unknown(local), target);
+            }
+            slider.law.gradient(&forcing, y, Direction::Pull, &mut by_pull[rows.clone()]);
+            for spring in &self.system.springs {
+                let Some(other) = across(spring, i) else { continue };
+                let columns = self.system.starts[other]..self.system.starts[other + 1];
+                let mut slopes = vec![0.0; columns.len()];
+                self.system.sliders[other].law.slip_slopes(self.system.of(other, unknowns), &mut slopes);
+                for (column, slope) in columns.zip(slopes) {
+                    for row in rows.clone() {
+                        jacobian[column * n + row] += spring.stiffness * by_pull[row] * slope;
+                    }
+                }
+            }
+        }
+    }
+
+    /// What a slider is doing.
+    #[must_use]
+    pub fn condition(&self, i: usize, time: f64, unknowns: &[f64]) -> Condition {
+        let (slider, y) = (&self.system.sliders[i], self.system.of(i, unknowns));
+        let (speed, friction) = slider.law.slip(y);
+        let normal = self.normals[i].at(time).0;
+        let net = if slider.mass.is_some() { y[y.len() - 1] * normal * slider.law.scale() } else { 0.0 };
+        Condition {
+            rate: speed.rate,
+            log_rate: speed.log,
+            friction,
+            normal,
+            traction: normal * friction + slider.damping * speed.rate + net,
+        }
+    }
+
+    /// dV/dt of a slider over |V| \[1/s\]: its sign tells whether the slider speeds up.
+    #[must_use]
+    pub fn acceleration(&self, i: usize, unknowns: &[f64], rates: &[f64]) -> f64 {
+        let y = self.system.of(i, unknowns);
+        let mut slopes = [0.0; MOST_UNKNOWNS];
+        let rate = self.system.sliders[i].law.slip_slopes(y, &mut slopes[..y.len()]);
+        let gained: f64 = slopes.iter().zip(self.system.of(i, rates)).map(|(a, b)| a * b).sum();
+        gained / rate.abs()
+    }
+}
+
+/// The slider at the other end of a spring.
+fn across(spring: &Spring, i: usize) -> Option<usize> {
+    match spring.between {
+        [a, b] if a == i && b != i => Some(b),
+        [a, b] if b == i && a != i => Some(a),
+        _ => None,
+    }
+}
