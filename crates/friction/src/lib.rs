@@ -12,6 +12,8 @@ mod line;
 pub mod point;
 pub mod rate;
 pub mod slider;
+pub mod slip_weakening;
+pub mod static_kinetic;
 pub mod strength;
 
 /// What can go wrong in a law.
