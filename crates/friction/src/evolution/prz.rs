@@ -3,7 +3,7 @@
 
 use super::{Evolution, Evolved, Rate, Speed};
 
-/// Below this ln(tanh x/x) slope term the series of x/(sinh x cosh x) - 1 is exact to rounding.
+/// Below this x four terms of the series of tanh x/x and of x/(sinh x cosh x) - 1 are exact to rounding.
 const SMALL: f64 = 1e-2;
 
 /// Above this ψ_ss - ψ the two terms of dψ/dt differ by more than a factor e², and their difference does not cancel.
@@ -42,7 +42,8 @@ fn mean_decay(x: f64) -> (f64, f64) {
     if x < SMALL {
         // tanh x/x = 1 - x²/3 + 2x⁴/15 - ...; 2x/sinh 2x = 1 - (2x)²/6 + 7 (2x)⁴/360 - ...
         let y = x * x;
-        (1.0 - y / 3.0 * (1.0 - 0.4 * y), -2.0 / 3.0 * y * (1.0 - 7.0 / 15.0 * y))
+        let mean = 1.0 - y * (1.0 / 3.0 - y * (2.0 / 15.0 - y * (17.0 / 315.0)));
+        (mean, -y * (2.0 / 3.0 - y * (14.0 / 45.0 - y * (124.0 / 945.0 - y * (254.0 / 4725.0)))))
     } else if x > LARGE {
         (1.0 / x, -1.0)
     } else {
