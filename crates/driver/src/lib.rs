@@ -8,6 +8,7 @@ pub mod laws;
 pub mod loading;
 pub mod model;
 pub mod observe;
+pub mod ode;
 pub mod plan;
 pub mod report;
 pub mod rigid;

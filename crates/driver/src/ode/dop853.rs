@@ -1,0 +1,135 @@
+//! Dormand and Prince's explicit method of order 8, with error estimates of order 5 and 3 and dense output of order 7.
+//!
+//! Source: E. Hairer, S. P. Norsett, G. Wanner, "Solving Ordinary Differential Equations I", 2nd ed. (1993), section II.10 and the
+//! authors' code DOP853.
+
+use super::dop853_table::{
+    DENSE, ERROR_FIFTH, ERROR_THIRD, EXTENDED, EXTRA_WEIGHTS, NODES, STAGE_WEIGHTS, STAGES, WEIGHTS,
+};
+use super::explicit::{Pi, combine};
+use super::own::{Formula, Span, Trial};
+use super::problem::System;
+use super::report::Counts;
+use std::cell::{Cell, RefCell};
+
+/// Coefficients of the dense output: those of Hermite's cubic and four above.
+const COEFFICIENTS: usize = 7;
+
+/// The method.
+#[derive(Debug)]
+pub(super) struct Dop853 {
+    /// Rates of the stages, one after the other.
+    k: RefCell<Vec<f64>>,
+    stage: RefCell<Vec<f64>>,
+    /// Coefficients of the dense output of the step last tried, where `dense_ready`.
+    dense: RefCell<Vec<f64>>,
+    dense_ready: Cell<bool>,
+    fifth: Vec<f64>,
+    third: Vec<f64>,
+    control: Pi,
+}
+
+/// Weight of the third order estimate in the error.
+const THIRD: f64 = 0.01;
+
+impl Dop853 {
+    pub fn new(size: usize) -> Self {
+        Self {
+            k: RefCell::new(vec![0.0; EXTENDED * size]),
+            stage: RefCell::new(vec![0.0; size]),
+            dense: RefCell::new(vec![0.0; COEFFICIENTS * size]),
+            dense_ready: Cell::new(false),
+            fifth: vec![0.0; size],
+            third: vec![0.0; size],
+            control: Pi::new(8.0, 0.2, 1.0 / 3.0, 6.0),
+        }
+    }
+
+    /// The three further stages and the coefficients.
+    fn prepare(&self, system: &System<'_>, span: &Span) {
+        let n = span.y0.len();
+        let (mut k, mut stage, mut dense) =
+            (self.k.borrow_mut(), self.stage.borrow_mut(), self.dense.borrow_mut());
+        let (y0, y1, f0, f1, h) = (&span.y0, &span.y1, &span.f0, &span.f1, span.h);
+        k[STAGES * n..(STAGES + 1) * n].copy_from_slice(f1);
+        for (row, s) in EXTRA_WEIGHTS.iter().zip(STAGES + 1..EXTENDED) {
+            let (known, next) = k.split_at_mut(s * n);
+            combine(&mut stage, y0, h, &row[..s], known);
+            system.rates(span.t + NODES[s] * h, &stage, &mut next[..n]);
+        }
+        for i in 0..n {
+            let rise = y1[i] - y0[i];
+            dense[i] = rise;
+            dense[n + i] = h * f0[i] - rise;
+            dense[2 * n + i] = 2.0 * rise - h * (f0[i] + f1[i]);
+        }
+        for (row, coefficients) in DENSE.iter().zip(dense.chunks_exact_mut(n).skip(3)) {
+            for (i, c) in coefficients.iter_mut().enumerate() {
+                *c = h * row.iter().zip(k.chunks_exact(n)).map(|(w, rates)| w * rates[i]).sum::<f64>();
+            }
+        }
+        self.dense_ready.set(true);
+    }
+}
+
+impl Formula for Dop853 {
+    fn order(&self) -> i32 {
+        8
+    }
+
+    fn attempt(&mut self, system: &System<'_>, span: &mut Span) -> Trial {
+        self.dense_ready.set(false);
+        let n = span.y0.len();
+        let (h, k, stage) = (span.h, self.k.get_mut(), self.stage.get_mut());
+        k[..n].copy_from_slice(&span.f0);
+        for (s, row) in STAGE_WEIGHTS.iter().enumerate().skip(1) {
+            let (known, next) = k.split_at_mut(s * n);
+            combine(stage, &span.y0, h, &row[..s], known);
+            system.rates(span.t + NODES[s] * h, stage, &mut next[..n]);
+        }
+        combine(&mut span.y1, &span.y0, h, &WEIGHTS, k);
+        stage.fill(0.0);
+        combine(&mut self.fifth, stage, h, &ERROR_FIFTH, k);
+        combine(&mut self.third, stage, h, &ERROR_THIRD, k);
+        let fifth = system.norm(&self.fifth, &span.y0, &span.y1);
+        let third = system.norm(&self.third, &span.y0, &span.y1);
+        let both = (fifth * fifth + THIRD * third * third).sqrt();
+        let error = if both == 0.0 { 0.0 } else { fifth * fifth / both };
+        if error <= 1.0 {
+            system.rates(span.t + h, &span.y1, &mut span.f1);
+        }
+        Trial::Error(error)
+    }
+
+    fn complete(&mut self, system: &System<'_>, span: &mut Span) {
+        system.rates(span.t + span.h, &span.y1, &mut span.f1);
+    }
+
+    fn share(&mut self, _h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64 {
+        self.control.share(error, accepted, rejected_before)
+    }
+
+    fn forget(&mut self) {
+        self.control.forget();
+    }
+
+    fn interpolate(&self, system: &System<'_>, span: &Span, fraction: f64, y: &mut [f64]) {
+        if !self.dense_ready.get() {
+            self.prepare(system, span);
+        }
+        let dense = self.dense.borrow();
+        let n = y.len();
+        y.fill(0.0);
+        for (number, coefficients) in dense.chunks_exact(n).enumerate().rev() {
+            let factor = if number % 2 == 0 { fraction } else { 1.0 - fraction };
+            for (value, c) in y.iter_mut().zip(coefficients) {
+                *value = (*value + c) * factor;
+            }
+        }
+        for (value, start) in y.iter_mut().zip(&span.y0) {
+            *value += start;
+        }
+    }
+
+    fn tally(&self, _counts: &mut Counts) {}
+}

@@ -1,0 +1,241 @@
+//! Changes of sign within a step.
+
+use super::problem::System;
+use super::root::root;
+use super::stepper::Stepper;
+
+/// Share of the step at which a function that begins at zero shows its side.
+const EARLY: f64 = 1.0 / 1024.0;
+/// Roots this much later than the first are at the same time: rounding of the search.
+const SAME: f64 = 32.0 * f64::EPSILON;
+/// A function whose parabola through three points comes this near to zero, over its size at the ends, is looked at there.
+const NEAR: f64 = 0.1;
+/// Growth of a function that has just fired beyond which it has left zero.
+const LEFT_ZERO: f64 = 8.0;
+
+/// One event function.
+#[derive(Clone, Copy, Debug, Default)]
+struct Function {
+    /// Sign since the last change: 1, -1, or 0 while unknown.
+    side: f64,
+    /// Value left over where it fired last, until it is seen on its new side.
+    left: Option<f64>,
+    /// Share of the step of the first change of sign; infinite: none.
+    found: f64,
+}
+
+/// Watches the event functions.
+#[derive(Debug)]
+pub(super) struct Watch {
+    functions: Vec<Function>,
+    start: Vec<f64>,
+    middle: Vec<f64>,
+    end: Vec<f64>,
+    other: Vec<f64>,
+    state: Vec<f64>,
+}
+
+/// The first change of sign in a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    /// Share of the step.
+    pub fraction: f64,
+    /// Number of the function.
+    pub event: usize,
+}
+
+impl Watch {
+    pub fn new(system: &System<'_>) -> Self {
+        let zeros = || vec![0.0; system.problem.events()];
+        Self {
+            functions: vec![Function::default(); system.problem.events()],
+            start: zeros(),
+            middle: zeros(),
+            end: zeros(),
+            other: zeros(),
+            state: vec![0.0; system.size],
+        }
+    }
+
+    /// Whether there is nothing to watch.
+    pub fn idle(&self) -> bool {
+        self.functions.is_empty()
+    }
+
+    /// Begins at a state.
+    pub fn begin(&mut self, system: &System<'_>, t: f64, y: &[f64]) {
+        system.problem.event(system.clock(t), y, &mut self.end);
+        for (function, &value) in self.functions.iter_mut().zip(&self.end) {
+            function.side = sign(value);
+        }
+    }
+
+    /// The first change of sign in the stepper's last step.
+    pub fn scan(&mut self, system: &System<'_>, stepper: &dyn Stepper) -> Option<Found> {
+        if self.idle() {
+            return None;
+        }
+        let (t0, t1) = stepper.span();
+        std::mem::swap(&mut self.start, &mut self.end);
+        system.problem.event(system.clock(t1), stepper.end(), &mut self.end);
+        self.middle_state(stepper, t1 - t0, system);
+        system.problem.event(system.clock(t0 + 0.5 * (t1 - t0)), &self.state, &mut self.middle);
+        let mut first: Option<Found> = None;
+        for event in 0..self.functions.len() {
+            let fraction = self.first_change(system, stepper, event);
+            self.functions[event].found = fraction;
+            if fraction < first.map_or(f64::INFINITY, |f| f.fraction) {
+                first = Some(Found { fraction, event });
+            }
+        }
+        first
+    }
+
+    /// The state in the middle of the step: by Hermite's cubic where the rates are at hand, which is enough to look for signs.
+    fn middle_state(&mut self, stepper: &dyn Stepper, h: f64, system: &System<'_>) {
+        let Some((f0, f1)) = stepper.rates() else {
+            stepper.interpolate(system, 0.5, &mut self.state);
+            return;
+        };
+        let (y0, y1) = (stepper.start(), stepper.end());
+        for (i, value) in self.state.iter_mut().enumerate() {
+            *value = 0.5 * (y0[i] + y1[i]) + 0.125 * h * (f0[i] - f1[i]);
+        }
+    }
+
+    /// A function at a share of the step.
+    fn value(&mut self, system: &System<'_>, stepper: &dyn Stepper, event: usize, fraction: f64) -> f64 {
+        let (t0, t1) = stepper.span();
+        stepper.interpolate(system, fraction, &mut self.state);
+        system.problem.event(system.clock(t0 + fraction * (t1 - t0)), &self.state, &mut self.other);
+        self.other[event]
+    }
+
+    /// Share of the step at which a function first changes sign; infinite: it does not.
+    fn first_change(&mut self, system: &System<'_>, stepper: &dyn Stepper, event: usize) -> f64 {
+        let (start, middle, end) = (self.start[event], self.middle[event], self.end[event]);
+        let mut begin = (0.0, start);
+        if self.functions[event].side == 0.0 {
+            begin = (EARLY, self.value(system, stepper, event, EARLY));
+            self.functions[event].side = first_sign(&[begin.1, middle, end]);
+        }
+        let side = self.functions[event].side;
+        let Some(mut ends) = self.changed(system, stepper, event, side) else {
+            if end * side > 0.0 {
+                self.functions[event].left = None;
+            }
+            return f64::INFINITY;
+        };
+        if let Some(left) = self.functions[event].left {
+            // Rounding may leave it on the old side where it fired; only a change seen after it was on the new side counts.
+            if ends.1.abs() <= LEFT_ZERO * left {
+                return f64::INFINITY;
+            }
+            begin = (EARLY, self.value(system, stepper, event, EARLY));
+            if begin.1 * side <= 0.0 && middle * side > 0.0 && ends.0 > 0.5 {
+                begin = (0.5, middle);
+            }
+            if begin.1 * side <= 0.0 {
+                self.functions[event].side = -side;
+                self.functions[event].left = None;
+                return f64::INFINITY;
+            }
+        }
+        if begin.1 * side < 0.0 {
+            begin.1 = 0.0;
+        }
+        if ends.0 > 0.5 && begin.0 < 0.5 && middle * side > 0.0 {
+            let exact = self.value(system, stepper, event, 0.5);
+            if exact * side > 0.0 {
+                begin = (0.5, exact);
+            } else {
+                ends = (0.5, exact);
+            }
+        }
+        root(|x| self.value(system, stepper, event, x), begin, ends)
+    }
+
+    /// A share of the step where a function is beyond zero, and its value there.
+    fn changed(
+        &mut self,
+        system: &System<'_>,
+        stepper: &dyn Stepper,
+        event: usize,
+        side: f64,
+    ) -> Option<(f64, f64)> {
+        let (start, middle, end) = (self.start[event], self.middle[event], self.end[event]);
+        let beyond = |value: f64| value * side < 0.0;
+        if beyond(middle) {
+            let exact = self.value(system, stepper, event, 0.5);
+            if beyond(exact) {
+                return Some((0.5, exact));
+            }
+        }
+        if beyond(end) || (end == 0.0 && side != 0.0) {
+            return Some((1.0, end));
+        }
+        // Both ends and the middle are on one side: two changes between them would show in the parabola.
+        let (slope, bend) = (4.0 * middle - 3.0 * start - end, 2.0 * (start + end) - 4.0 * middle);
+        let place = -0.5 * slope / bend;
+        let height = start + 0.5 * slope * place;
+        if place > 0.0 && place < 1.0 && height * side < NEAR * start.abs().max(end.abs()) {
+            let exact = self.value(system, stepper, event, place);
+            if beyond(exact) {
+                return Some((place, exact));
+            }
+        }
+        None
+    }
+
+    /// Value of the function `event` at a share of the step and its slope over the share.
+    pub fn slope(&mut self, system: &System<'_>, stepper: &dyn Stepper, found: Found) -> f64 {
+        let (low, high) = ((found.fraction - EARLY).max(0.0), (found.fraction + EARLY).min(1.0));
+        let rise =
+            self.value(system, stepper, found.event, high) - self.value(system, stepper, found.event, low);
+        rise / (high - low)
+    }
+
+    /// The function `event` at the end of the stepper's step.
+    pub fn at_end(&mut self, system: &System<'_>, stepper: &dyn Stepper, event: usize) -> f64 {
+        system.problem.event(system.clock(stepper.span().1), stepper.end(), &mut self.other);
+        self.other[event]
+    }
+
+    /// Takes note that the step ended at the change `found`, in state `y` at local time `t`; calls `fired` with the number and
+    /// the direction of each event there.
+    pub fn fire(
+        &mut self,
+        system: &System<'_>,
+        t: f64,
+        y: &[f64],
+        found: Found,
+        mut fired: impl FnMut(usize, bool),
+    ) {
+        system.problem.event(system.clock(t), y, &mut self.end);
+        for (event, function) in self.functions.iter_mut().enumerate() {
+            let value = self.end[event];
+            // Another function that is not beyond zero yet fires in a next step, of no length if need be.
+            let same = function.found <= found.fraction * (1.0 + SAME) && value * function.side <= 0.0;
+            if !same && event != found.event {
+                continue;
+            }
+            fired(event, function.side < 0.0);
+            function.side = -function.side;
+            function.left = Some(value.abs());
+        }
+    }
+}
+
+fn sign(value: f64) -> f64 {
+    if value > 0.0 {
+        1.0
+    } else if value < 0.0 {
+        -1.0
+    } else {
+        0.0
+    }
+}
+
+fn first_sign(values: &[f64]) -> f64 {
+    values.iter().map(|&v| sign(v)).find(|&s| s != 0.0).unwrap_or(0.0)
+}

@@ -1,0 +1,78 @@
+//! The methods and their options.
+
+use std::str::FromStr;
+
+/// A method of integration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Backward differentiation of orders 1 to 5, implicit (diffsol).
+    Bdf,
+    /// Trapezoidal rule and backward differentiation in one step, order 2, implicit (diffsol).
+    TrBdf2,
+    /// Diagonally implicit Runge-Kutta of order 4(3) with explicit first stage (diffsol).
+    Esdirk34,
+    /// Tsitouras 5(4), explicit (diffsol).
+    Tsit45,
+    /// Dormand-Prince 8(5,3), explicit.
+    Dop853,
+    /// Tsitouras 5(4), explicit.
+    Tsit5,
+    /// Radau IIA of order 5, implicit.
+    Radau5,
+}
+
+impl Method {
+    /// All methods.
+    pub const ALL: [Self; 7] =
+        [Self::Bdf, Self::TrBdf2, Self::Esdirk34, Self::Tsit45, Self::Dop853, Self::Tsit5, Self::Radau5];
+
+    /// The name, as in scenes.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Bdf => "bdf",
+            Self::TrBdf2 => "tr-bdf2",
+            Self::Esdirk34 => "esdirk34",
+            Self::Tsit45 => "tsit45",
+            Self::Dop853 => "dop853",
+            Self::Tsit5 => "tsit5",
+            Self::Radau5 => "radau5",
+        }
+    }
+
+    /// Whether the method solves equations with the Jacobian, and so takes long steps in stiff problems.
+    #[must_use]
+    pub const fn implicit(self) -> bool {
+        matches!(self, Self::Bdf | Self::TrBdf2 | Self::Esdirk34 | Self::Radau5)
+    }
+}
+
+/// A name that is none of the methods'.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no method of integration is called \"{0}\"")]
+pub struct UnknownMethod(pub String);
+
+impl FromStr for Method {
+    type Err = UnknownMethod;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        Self::ALL.into_iter().find(|m| m.name() == name).ok_or_else(|| UnknownMethod(name.to_owned()))
+    }
+}
+
+/// How to integrate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// The method.
+    pub method: Method,
+    /// Error of a step allowed over the size of an unknown.
+    pub rtol: f64,
+    /// Error of a step allowed besides, one per unknown and in its unit.
+    pub atol: Vec<f64>,
+    /// Length of the first step tried \[s\]; chosen from the rates where absent.
+    pub first_step: Option<f64>,
+    /// Length no step exceeds \[s\].
+    pub largest_step: Option<f64>,
+    /// Accepted steps after which to give up.
+    pub most_steps: usize,
+}

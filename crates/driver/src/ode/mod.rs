@@ -1,0 +1,108 @@
+//! Integration of small systems of ordinary differential equations, with events and with time resolved to 1e-9 s at 1e9 s.
+//!
+//! All methods run in one loop (`drive`), which keeps the time, finds the events and counts; a method only takes steps. Those of
+//! the library diffsol are behind the module of that name, and nothing else names it.
+//!
+//! An event is a change of sign of a function of time and state. It is looked for at the end and in the middle of each accepted
+//! step, and where a parabola through these values comes near to zero; two changes of one function within a step that show in
+//! none of these are missed. The step ends at the event, and the next begins there.
+
+mod clock;
+mod diffsol;
+mod dop853;
+mod dop853_table;
+mod drive;
+mod events;
+mod explicit;
+mod lu;
+mod method;
+mod own;
+mod problem;
+mod radau5;
+mod radau5_table;
+mod report;
+mod root;
+mod stepper;
+mod tsit5;
+
+pub use clock::Clock;
+pub use method::{Method, Options, UnknownMethod};
+pub use problem::Problem;
+pub use report::{Control, Counts, Failure, Finished, Occurrence, Outcome, Sink, Step};
+
+use drive::Drive;
+use own::OneStep;
+use problem::System;
+use std::cell::Cell;
+use stepper::Stepper;
+
+/// Integrates `problem` from `state` at `at` until `until` \[s\] later.
+///
+/// What is returned is the last good state and its time, however the integration ends: every state told to the sink is finite.
+pub fn integrate(
+    problem: &dyn Problem,
+    at: Clock,
+    state: &[f64],
+    until: f64,
+    options: &Options,
+    sink: &mut dyn Sink,
+) -> Finished {
+    if let Err(reason) = fit(problem, state, until, options) {
+        let outcome = Outcome::Failed { reason };
+        return Finished { outcome, at, state: state.to_vec(), counts: Counts::default() };
+    }
+    let base = at.rebased();
+    let target = base.with_local(until).rebased();
+    let size = problem.size();
+    let system = System {
+        problem,
+        size,
+        rtol: options.rtol,
+        atol: &options.atol,
+        base: Cell::new(base),
+        rates: Cell::new(0),
+        jacobians: Cell::new(0),
+    };
+    let largest = options.largest_step.unwrap_or(f64::INFINITY).min(until);
+    let mut run = |stepper: &mut dyn Stepper| {
+        Drive::new(&system, stepper, sink, state, target, options.most_steps).run(options.first_step)
+    };
+    match options.method {
+        Method::Dop853 => run(&mut OneStep::new(dop853::Dop853::new(size), size, largest)),
+        Method::Tsit5 => run(&mut OneStep::new(tsit5::Tsit5::new(size), size, largest)),
+        Method::Radau5 => run(&mut OneStep::new(radau5::Radau5::new(size), size, largest)),
+        Method::Bdf | Method::TrBdf2 | Method::Esdirk34 | Method::Tsit45 => {
+            match diffsol::with_stepper(options.method, &system, state, largest, &mut run) {
+                Ok(finished) => finished,
+                Err(reason) => {
+                    let outcome = Outcome::Failed { reason };
+                    Finished { outcome, at, state: state.to_vec(), counts: Counts::default() }
+                }
+            }
+        }
+    }
+}
+
+/// Whether sizes and tolerances make sense.
+fn fit(problem: &dyn Problem, state: &[f64], until: f64, options: &Options) -> Result<(), Failure> {
+    let positive = |value: f64| value > 0.0 && value.is_finite();
+    if problem.size() == 0 || state.len() != problem.size() {
+        return Err(Failure::Unfit("the state has not the size of the problem"));
+    }
+    if options.atol.len() != state.len() || !options.atol.iter().all(|&v| positive(v)) {
+        return Err(Failure::Unfit("each unknown needs an absolute tolerance above zero"));
+    }
+    if !positive(options.rtol) {
+        return Err(Failure::Unfit("the relative tolerance must be above zero"));
+    }
+    if !(until >= 0.0 && until.is_finite()) {
+        return Err(Failure::Unfit("the duration must be finite and not negative"));
+    }
+    if ![options.first_step, options.largest_step].iter().flatten().all(|&v| positive(v)) {
+        return Err(Failure::Unfit("lengths of steps must be above zero"));
+    }
+    if state.iter().any(|v| !v.is_finite()) {
+        return Err(Failure::NotFinite);
+    }
+    Ok(())
+}

@@ -1,0 +1,112 @@
+//! What is integrated.
+
+use super::clock::Clock;
+use std::cell::Cell;
+
+/// A system of ordinary differential equations dy/dt = f(t, y) with events.
+pub trait Problem {
+    /// Number of unknowns.
+    fn size(&self) -> usize;
+
+    /// Writes the rates dy/dt \[unit of y/s\] into `dy`. A value that is not finite means that the step was too long.
+    fn rates(&self, at: Clock, y: &[f64], dy: &mut [f64]);
+
+    /// Writes the derivatives of the rates by the unknowns \[1/s\] into `jac`, column by column.
+    fn jacobian(&self, at: Clock, y: &[f64], jac: &mut [f64]);
+
+    /// Number of event functions.
+    fn events(&self) -> usize {
+        0
+    }
+
+    /// Writes the event functions into `g`: an event is a change of sign.
+    fn event(&self, _at: Clock, _y: &[f64], _g: &mut [f64]) {}
+}
+
+/// A problem in local time, with its tolerances, that counts what is evaluated.
+pub(super) struct System<'a> {
+    pub problem: &'a dyn Problem,
+    pub size: usize,
+    pub rtol: f64,
+    pub atol: &'a [f64],
+    /// The time at which local time is zero.
+    pub base: Cell<Clock>,
+    pub rates: Cell<u64>,
+    pub jacobians: Cell<u64>,
+}
+
+impl System<'_> {
+    /// The time `t` seconds after the base.
+    pub fn clock(&self, t: f64) -> Clock {
+        self.base.get().with_local(t)
+    }
+
+    /// The rates at local time `t`.
+    #[inline]
+    pub fn rates(&self, t: f64, y: &[f64], dy: &mut [f64]) {
+        self.rates.set(self.rates.get() + 1);
+        self.problem.rates(self.clock(t), y, dy);
+    }
+
+    /// The Jacobian at local time `t`.
+    pub fn jacobian(&self, t: f64, y: &[f64], jac: &mut [f64]) {
+        self.jacobians.set(self.jacobians.get() + 1);
+        self.problem.jacobian(self.clock(t), y, jac);
+    }
+
+    /// Root mean square of `error` over the tolerance at the larger of two states.
+    #[inline]
+    pub fn norm(&self, error: &[f64], y0: &[f64], y1: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        for (((e, a), b), atol) in error.iter().zip(y0).zip(y1).zip(self.atol) {
+            // A NaN in either state must reach the norm, which f64::max alone would drop.
+            let scale = atol + self.rtol * larger(a.abs(), b.abs());
+            sum += (e / scale) * (e / scale);
+        }
+        (sum / error.len() as f64).sqrt()
+    }
+
+    /// The first step where nothing is known of the solution: E. Hairer, S. P. Norsett, G. Wanner, "Solving Ordinary Differential
+    /// Equations I", 2nd ed. (1993), section II.4, for a method of order `order` from `y` with rates `f`, at most `most` \[s\].
+    pub fn first_step(&self, t: f64, y: &[f64], f: &[f64], order: i32, most: f64) -> f64 {
+        let (size, speed) = (self.norm(y, y, y), self.norm(f, y, y));
+        let mut h =
+            if size < NEGLIGIBLE || speed < NEGLIGIBLE { TINY_SHARE * most } else { SHARE * size / speed };
+        h = h.min(most);
+        let (mut y1, mut f1) = (vec![0.0; self.size], vec![0.0; self.size]);
+        for _ in 0..MOST_HALVINGS {
+            for i in 0..self.size {
+                y1[i] = y[i] + h * f[i];
+            }
+            self.rates(t + h, &y1, &mut f1);
+            if f1.iter().all(|v| v.is_finite()) {
+                break;
+            }
+            h *= SHARE;
+        }
+        for i in 0..self.size {
+            f1[i] -= f[i];
+        }
+        let bend = self.norm(&f1, y, y) / h;
+        let largest = larger(speed, bend);
+        let second = if largest > 0.0 { (SHARE / largest).powf(1.0 / f64::from(order + 1)) } else { most };
+        // With only a negligible rate the bound on the speed says nothing and the curvature decides.
+        let next = (h / SHARE).min(second).min(most);
+        if next.is_finite() && next > 0.0 { next } else { h }
+    }
+}
+
+/// Tries to find finite rates near the start before giving up.
+const MOST_HALVINGS: usize = 40;
+/// Share of the time scale of the solution that is tried first.
+const SHARE: f64 = 0.01;
+/// Norm over the tolerance below which a state or a rate gives no time scale.
+const NEGLIGIBLE: f64 = 1e-5;
+/// Share of the longest step that is tried where there is no time scale.
+const TINY_SHARE: f64 = 1e-6;
+
+/// The larger of two, or NaN where either is.
+#[inline]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}

@@ -1,0 +1,143 @@
+//! What an integration tells while it runs and at its end.
+
+use super::clock::Clock;
+use super::problem::System;
+use super::stepper::Stepper;
+
+/// A change of sign of an event function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Occurrence {
+    /// Number of the event function.
+    pub event: usize,
+    /// Whether the function went from negative to positive.
+    pub rising: bool,
+    /// When.
+    pub at: Clock,
+    /// The unknowns then.
+    pub state: Vec<f64>,
+}
+
+/// Whether to go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Control {
+    /// Go on.
+    Go,
+    /// End the integration here.
+    Stop,
+}
+
+/// Receives the solution as it is found.
+pub trait Sink {
+    /// A step was accepted. A step in which an event occurs ends there.
+    fn accepted(&mut self, step: &Step<'_>) -> Control;
+
+    /// An event occurred at the end of the last step. Events of one time come in the order of their numbers, all of them.
+    fn occurred(&mut self, occurrence: &Occurrence) -> Control;
+}
+
+/// An accepted step.
+pub struct Step<'a> {
+    /// When it began.
+    pub start: Clock,
+    /// When it ended.
+    pub end: Clock,
+    /// The unknowns at its end.
+    pub state: &'a [f64],
+    /// The rates at its end, where the method has them without another evaluation.
+    pub rates: Option<&'a [f64]>,
+    pub(super) stepper: &'a dyn Stepper,
+    pub(super) system: &'a System<'a>,
+    /// The share of the stepper's step this one covers.
+    pub(super) share: f64,
+}
+
+impl Step<'_> {
+    /// Length \[s\].
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.end.since(&self.start)
+    }
+
+    /// Writes the unknowns at `fraction` of the step, from 0 to 1, into `y`.
+    ///
+    /// The polynomial is the method's own: of degree 7 (local error of order 8) for dop853, for which the first call in a step
+    /// evaluates the rates three times; degree 4 for tsit5 and tsit45; the collocation polynomial of degree 3 for radau5; the
+    /// one of the current order, 1 to 5, for bdf. For tr-bdf2 and esdirk34 it is what diffsol has: the cubic of their stages.
+    pub fn at(&self, fraction: f64, y: &mut [f64]) {
+        self.stepper.interpolate(self.system, fraction * self.share, y);
+    }
+}
+
+/// What an integration took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps tried and not accepted.
+    pub rejected: u64,
+    /// Evaluations of the rates, those of dense output and of products with numerical differences included.
+    pub rates: u64,
+    /// Evaluations of the Jacobian.
+    pub jacobians: u64,
+    /// Factorisations (radau5: a real and a complex one are two).
+    pub factorisations: u64,
+    /// Solutions with a factorised matrix: iterations of Newton's method.
+    pub solves: u64,
+    /// Iterations of Newton's method that did not converge.
+    pub newton_failures: u64,
+    /// Restarts after events and after rejected values that are not finite.
+    pub restarts: u64,
+}
+
+/// How an integration ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// At the end asked for.
+    Completed,
+    /// Where the sink wanted.
+    Stopped,
+    /// Before, at the last good state.
+    Failed {
+        /// Why.
+        reason: Failure,
+    },
+}
+
+/// Why an integration cannot go on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Failure {
+    /// The tolerance, or rates that are not finite, would need a shorter step than time resolves.
+    #[error("the step would have to be shorter than {length:e} s")]
+    StepTooSmall {
+        /// The length reached \[s\].
+        length: f64,
+    },
+    /// The state to start from, or its rates, are not finite.
+    #[error("the state or its rates are not finite at the start")]
+    NotFinite,
+    /// More steps than allowed.
+    #[error("the end is not reached in {most} steps")]
+    TooManySteps {
+        /// The steps allowed.
+        most: usize,
+    },
+    /// Sizes or tolerances that make no sense.
+    #[error("{0}")]
+    Unfit(&'static str),
+    /// What the solver says.
+    #[error("the solver reports: {0}")]
+    Solver(String),
+}
+
+/// The end of an integration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finished {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// When: the time of the last good state.
+    pub at: Clock,
+    /// The last good state.
+    pub state: Vec<f64>,
+    /// What it took.
+    pub counts: Counts,
+}

@@ -1,0 +1,136 @@
+//! Tsitouras' explicit method of order 5(4) with its free dense output of order 4.
+//!
+//! Source: Ch. Tsitouras, "Runge-Kutta pairs of order 5(4) satisfying only the first column simplifying assumption", Computers &
+//! Mathematics with Applications 62 (2011) 770-775.
+
+use super::explicit::{Pi, combine};
+use super::own::{Formula, Span, Trial};
+use super::problem::System;
+use super::report::Counts;
+
+/// Stages; the last is the rate at the end of the step.
+const STAGES: usize = 7;
+
+/// Nodes of the stages, as shares of the step.
+const NODES: [f64; STAGES] = [0.0, 0.161, 0.327, 0.9, 0.980_025_540_904_509_7, 1.0, 1.0];
+
+/// Weights of the rates in the stages; the last row is the step.
+const STAGE_WEIGHTS: [[f64; STAGES]; STAGES] = [
+    [0.0; STAGES],
+    [0.161, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [-0.008_480_655_492_356_989, 0.335_480_655_492_357, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [2.897_153_057_105_493, -6.359_448_489_975_075, 4.362_295_432_869_581_5, 0.0, 0.0, 0.0, 0.0],
+    [
+        5.325_864_828_439_257,
+        -11.748_883_564_062_828,
+        7.495_539_342_889_836_5,
+        -0.092_495_066_361_755_25,
+        0.0,
+        0.0,
+        0.0,
+    ],
+    [
+        5.861_455_442_946_42,
+        -12.920_969_317_847_11,
+        8.159_367_898_576_159,
+        -0.071_584_973_281_401,
+        -0.028_269_050_394_068_383,
+        0.0,
+        0.0,
+    ],
+    [
+        0.096_460_766_818_065_23,
+        0.01,
+        0.479_889_650_414_499_6,
+        1.379_008_574_103_742,
+        -3.290_069_515_436_081,
+        2.324_710_524_099_774,
+        0.0,
+    ],
+];
+
+/// Weights of the rates in the error estimate.
+const ERROR: [f64; STAGES] = [
+    -0.001_780_011_052_225_777,
+    -0.000_816_434_459_656_746_9,
+    0.007_880_878_010_261_995,
+    -0.144_711_007_173_262_9,
+    0.582_357_165_452_555_2,
+    -0.458_082_105_929_186_97,
+    1.0 / 66.0,
+];
+
+/// Coefficients of the second, third and fourth power of the share of the step in the weights of the dense output; the first
+/// power has the first rate alone.
+const DENSE: [[f64; 3]; STAGES] = [
+    [-2.763_706_197_274_826, 2.913_255_461_821_912_6, -1.053_088_497_729_021_6],
+    [0.1317, -0.2234, 0.1017],
+    [3.930_296_236_894_751_6, -5.941_033_872_131_505, 2.490_627_285_651_253],
+    [-12.411_077_166_933_676, 30.338_188_630_282_32, -16.548_102_889_244_902],
+    [37.509_313_416_511_04, -88.178_904_894_766_4, 47.379_521_962_819_28],
+    [-27.896_526_289_197_286, 65.091_894_674_793_66, -34.870_657_861_496_61],
+    [1.5, -4.0, 2.5],
+];
+
+/// The method.
+#[derive(Debug)]
+pub(super) struct Tsit5 {
+    /// Rates of the stages, one after the other.
+    k: Vec<f64>,
+    stage: Vec<f64>,
+    error: Vec<f64>,
+    control: Pi,
+}
+
+impl Tsit5 {
+    pub fn new(size: usize) -> Self {
+        Self {
+            k: vec![0.0; STAGES * size],
+            stage: vec![0.0; size],
+            error: vec![0.0; size],
+            control: Pi::new(5.0, 0.75, 0.2, 10.0),
+        }
+    }
+}
+
+impl Formula for Tsit5 {
+    fn order(&self) -> i32 {
+        5
+    }
+
+    fn attempt(&mut self, system: &System<'_>, span: &mut Span) -> Trial {
+        let n = span.y0.len();
+        let h = span.h;
+        self.k[..n].copy_from_slice(&span.f0);
+        for s in 1..STAGES - 1 {
+            let (known, next) = self.k.split_at_mut(s * n);
+            combine(&mut self.stage, &span.y0, h, &STAGE_WEIGHTS[s][..s], known);
+            system.rates(span.t + NODES[s] * h, &self.stage, &mut next[..n]);
+        }
+        let (known, last) = self.k.split_at_mut((STAGES - 1) * n);
+        combine(&mut span.y1, &span.y0, h, &STAGE_WEIGHTS[STAGES - 1][..STAGES - 1], known);
+        system.rates(span.t + h, &span.y1, &mut span.f1);
+        last.copy_from_slice(&span.f1);
+        self.stage.fill(0.0);
+        combine(&mut self.error, &self.stage, h, &ERROR, &self.k);
+        Trial::Error(system.norm(&self.error, &span.y0, &span.y1))
+    }
+
+    fn complete(&mut self, _system: &System<'_>, _span: &mut Span) {}
+
+    fn share(&mut self, _h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64 {
+        self.control.share(error, accepted, rejected_before)
+    }
+
+    fn forget(&mut self) {
+        self.control.forget();
+    }
+
+    fn interpolate(&self, _system: &System<'_>, span: &Span, fraction: f64, y: &mut [f64]) {
+        let mut weights = DENSE.map(|[a, b, c]| fraction * fraction * (a + fraction * (b + fraction * c)));
+        weights[0] += fraction;
+        combine(y, &span.y0, span.h, &weights, &self.k);
+    }
+
+    fn tally(&self, _counts: &mut Counts) {}
+}
