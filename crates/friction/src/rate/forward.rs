@@ -18,10 +18,16 @@ struct Linearised {
 }
 
 impl<F: Form, E: Evolution> RateLaw<F, E> {
-    /// μ at the floor rate, for points at rest in forward steps.
-    fn floor_coefficient(&self, present: &Present<'_>, k: usize, solver: &mut Solver<'_, F, E>) -> f64 {
+    /// μ and f_n ∂μ/∂f_n at the floor rate, for points at rest in forward steps.
+    fn floor_coefficient(
+        &self,
+        present: &Present<'_>,
+        k: usize,
+        solver: &mut Solver<'_, F, E>,
+    ) -> (f64, f64) {
         let states = self.state(present.states, k);
-        solver.after(states, present.normal[k], 0.0, present.rate_floor.ln()).mu
+        let now = solver.after(states, present.normal[k], 0.0, present.rate_floor.ln());
+        (now.mu, now.d_normal)
     }
 
     fn at_rest(present: &Present<'_>, k: usize) -> bool {
@@ -55,9 +61,9 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         k: usize,
         solver: &mut Solver<'_, F, E>,
     ) -> Option<f64> {
-        let mu = self.floor_coefficient(present, k, solver);
+        let (mu, d_normal) = self.floor_coefficient(present, k, solver);
         let line = Line { at: present.traction[k], change: step.traction[k] };
-        let cone = Line { at: mu * present.normal[k], change: mu * step.normal[k] };
+        let cone = Line { at: mu * present.normal[k], change: (mu + d_normal) * step.normal[k] };
         line.exit(cone, Some(self.limit))
     }
 
@@ -170,7 +176,8 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
                 });
             }
             // Whether the point ends the step on or above its strength at the floor rate.
-            let cone = self.floor_coefficient(present, k, &mut solver) * normal;
+            let (mu, d_normal) = self.floor_coefficient(present, k, &mut solver);
+            let cone = mu * normal + d_normal * step.normal[k];
             let starts = traction != 0.0 && traction.abs() >= cone.min(self.limit) * (1.0 - BAND);
             let moving = v >= present.rate_floor || starts;
             regime[k] = if moving { Regime::Slip } else { Regime::Stick };
@@ -178,6 +185,8 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
             let log_rate = if v > 0.0 { v.ln() } else { AT_REST };
             let old = self.state(present.states, k);
             let mu = solver.after(old, normal.max(0.0), present.dt, log_rate).mu;
+            // At rest there is no shear traction to remember, whatever the form makes of it.
+            let mu = if v > 0.0 { mu } else { 0.0 };
             solver.keep(old, mu, self.state_mut(states, k));
         }
         Ok(())
