@@ -289,7 +289,7 @@ impl<F: Form, E: Evolution> Law for RateLaw<F, E> {
             } else if rate <= 0.0 && !self.form.regular_at_rest() {
                 return Err(Failure::BareLogAtRest { point: k, rate });
             } else {
-                solver.after(self.state(states, k), normal[k], 0.0, rate.abs().ln()).mu.copysign(rate)
+                rate.signum() * solver.after(self.state(states, k), normal[k], 0.0, rate.abs().ln()).mu
             };
         }
         Ok(())

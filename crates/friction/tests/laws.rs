@@ -2,10 +2,16 @@
 #![allow(clippy::unwrap_used)]
 
 use asperity_friction::Failure;
+use asperity_friction::component::Component;
 use asperity_friction::coulomb::Coulomb;
+use asperity_friction::evolution::flash::{Flash, Weakening};
+use asperity_friction::evolution::nagata::Nagata;
+use asperity_friction::evolution::prz::Prz;
 use asperity_friction::evolution::{Evolution, ageing::Ageing, slip::Slip, stateless::Stateless};
 use asperity_friction::law::{Lag, Law, Present, Rates, Regime, Responses, Trials};
 use asperity_friction::rate::RateLaw;
+use asperity_friction::strength::arrhenius::Arrhenius;
+use asperity_friction::strength::cut_off::CutOff;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};
 use proptest::prelude::*;
 
@@ -99,6 +105,84 @@ fn derivatives_of_the_point_return_are_consistent() {
             }
         }
     }
+}
+
+/// Every kind of law with state, steady at 1e-7 m/s under 6 MPa, by name.
+fn laws_with_state() -> Vec<(String, Box<dyn Law>)> {
+    let mut laws: Vec<(String, Box<dyn Law>)> = Vec::new();
+    fn add<E: Evolution + 'static>(laws: &mut Vec<(String, Box<dyn Law>)>, name: &str, parts: &[(E, f64)]) {
+        let p = Parameters::new(0.6, 0.01, 1e-6).unwrap();
+        let parts = || parts.iter().map(|(e, alpha)| Component::new(e.clone(), *alpha).unwrap()).collect();
+        fn law<F: Form + 'static, E: Evolution + 'static>(form: F, parts: Vec<Component<E>>) -> Box<dyn Law> {
+            Box::new(RateLaw::with_parts(form, parts, 1e-7, 6e6, None).unwrap())
+        }
+        let warm = Arrhenius::new(Regularised(p), 9e4, 293.0, 320.0).unwrap();
+        laws.push((format!("{name}, regularised"), law(Regularised(p), parts())));
+        laws.push((format!("{name}, bare"), law(Bare(p), parts())));
+        laws.push((format!("{name}, cut-off"), law(CutOff::new(p, 1e-5).unwrap(), parts())));
+        laws.push((format!("{name}, warm"), law(warm, parts())));
+    }
+    let ageing = |b, l| Ageing::new(b, l, 1e-6).unwrap();
+    let cut = |b, l| ageing(b, l).with_cut_off(1e-6).unwrap();
+    let slip = |b, l| Slip::new(b, l, 1e-6).unwrap();
+    let prz = |b, l| Prz::new(b, l, 1e-6).unwrap();
+    let flash = |mu_w, l| {
+        Flash::new(Weakening { mu0: 0.6, a: 0.01, b: 0.015, v_ref: 1e-6, mu_w, v_w: 3e-6 }, l).unwrap()
+    };
+    for alpha in [0.0, 0.2] {
+        let name = |kind: &str| format!("{kind}, alpha {alpha}");
+        add(&mut laws, &name("ageing"), &[(ageing(0.015, 1e-5), alpha)]);
+        add(&mut laws, &name("ageing with cut-off"), &[(cut(0.015, 1e-5), alpha)]);
+        add(&mut laws, &name("slip"), &[(slip(0.015, 1e-5), alpha)]);
+        add(&mut laws, &name("PRZ"), &[(prz(0.015, 1e-5), alpha)]);
+        add(&mut laws, &name("flash"), &[(flash(0.5, 1e-5), alpha)]);
+        for c in [0.5, 3.0] {
+            let nagata = Nagata::new(0.015, 1e-5, 1e-6, c).unwrap();
+            add(&mut laws, &name(&format!("Nagata {c}")), &[(nagata, alpha)]);
+        }
+        add(&mut laws, &name("two ageing"), &[(ageing(0.01, 1e-5), alpha), (ageing(0.005, 1e-4), 0.0)]);
+        add(&mut laws, &name("two cut-off"), &[(cut(0.01, 1e-5), alpha), (cut(0.005, 1e-4), 0.5 * alpha)]);
+        add(&mut laws, &name("two slip"), &[(slip(0.01, 1e-5), alpha), (slip(0.005, 1e-4), 0.5 * alpha)]);
+        add(&mut laws, &name("two PRZ"), &[(prz(0.01, 1e-5), alpha), (prz(0.005, 1e-4), 0.0)]);
+        add(&mut laws, &name("two flash"), &[(flash(0.5, 1e-5), alpha), (flash(0.58, 1e-4), 0.0)]);
+    }
+    laws
+}
+
+/// Behind stiff and soft springs, with slip from a fraction of L to many, and with memories of both tractions.
+#[test]
+fn every_law_with_state_balances_and_has_consistent_derivatives() {
+    let mut shown = 0;
+    for (name, law) in laws_with_state() {
+        for (stiffness, dt) in [(3.5e12, 0.1), (2e11, 10.0), (1e11, 100.0)] {
+            for (normal, trial) in [(9e6, 5.2e6), (9e6, 6.3e6), (9e6, 9e6), (5e6, 2.9e6), (5e6, 4.5e6)] {
+                let what = format!("{name}: {normal} {trial} {stiffness} {dt}");
+                let one = respond(law.as_ref(), normal, trial, stiffness, dt, None).expect(&what);
+                let left = trial - stiffness * one.slip - one.traction;
+                assert!(left.abs() <= 4.0 * f64::EPSILON * trial, "{what}: {left:e}");
+                assert!((one.rate * dt - one.slip).abs() <= 4.0 * f64::EPSILON * one.slip, "{what}");
+                let at = |normal: f64, trial: f64| {
+                    respond(law.as_ref(), normal, trial, stiffness, dt, None).unwrap().traction
+                };
+                for (f, derivative, h, by) in [
+                    (&(|h| at(normal, trial + h)) as &dyn Fn(f64) -> f64, one.d_trial, 2e-3 * trial, "trial"),
+                    (&|h| at(normal + h, trial), one.d_normal, 2e-3 * normal, "normal"),
+                ] {
+                    let remainder = |h: f64| (f(h) - f(0.0) - h * derivative).abs();
+                    let (coarse, fine) = (remainder(h), remainder(0.5 * h));
+                    // ln V is found to rounding of the balance, over the slope of its weaker side.
+                    let rounding = 1e-13 * trial;
+                    let order = (coarse / fine).log2();
+                    assert!(
+                        coarse < rounding || fine < 10.0 * rounding || order > 1.7,
+                        "{what}: order {order} in the {by} traction, {coarse:e} {fine:e}: {one:?}"
+                    );
+                    shown += usize::from(fine > 10.0 * rounding);
+                }
+            }
+        }
+    }
+    assert!(shown > 2000, "{shown}");
 }
 
 #[test]
