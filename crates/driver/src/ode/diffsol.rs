@@ -188,7 +188,7 @@ where
 
     /// A step so short that the library takes it for none: along the rates, exact to rounding.
     fn creep(&mut self, system: &System<'_>, end: f64) {
-        let length = self.solver.state().h.to_owned();
+        let length = self.solver.state().h;
         let state = self.solver.state_mut();
         let y = state.y.batch_as_mut_slice(0);
         for (value, rate) in y.iter_mut().zip(&self.f0) {

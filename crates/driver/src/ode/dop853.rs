@@ -3,9 +3,8 @@
 //! Source: E. Hairer, S. P. Norsett, G. Wanner, "Solving Ordinary Differential Equations I", 2nd ed. (1993), section II.10 and the
 //! authors' code DOP853.
 
-use super::dop853_table::{
-    DENSE, ERROR_FIFTH, ERROR_THIRD, EXTENDED, EXTRA_WEIGHTS, NODES, STAGE_WEIGHTS, STAGES, WEIGHTS,
-};
+use super::dop853_table as table;
+use super::dop853_table::{DENSE, ERROR_FIFTH, ERROR_THIRD, EXTENDED, NODES, STAGES, WEIGHTS};
 use super::explicit::{Pi, combine};
 use super::own::{Formula, Span, Trial};
 use super::problem::System;
@@ -52,11 +51,9 @@ impl Dop853 {
             (self.k.borrow_mut(), self.stage.borrow_mut(), self.dense.borrow_mut());
         let (y0, y1, f0, f1, h) = (&span.y0, &span.y1, &span.f0, &span.f1, span.h);
         k[STAGES * n..(STAGES + 1) * n].copy_from_slice(f1);
-        for (row, s) in EXTRA_WEIGHTS.iter().zip(STAGES + 1..EXTENDED) {
-            let (known, next) = k.split_at_mut(s * n);
-            combine(&mut stage, y0, h, &row[..s], known);
-            system.rates(span.t + NODES[s] * h, &stage, &mut next[..n]);
-        }
+        take_stage(system, span, &table::STAGE_14, &mut k, &mut stage);
+        take_stage(system, span, &table::STAGE_15, &mut k, &mut stage);
+        take_stage(system, span, &table::STAGE_16, &mut k, &mut stage);
         for i in 0..n {
             let rise = y1[i] - y0[i];
             dense[i] = rise;
@@ -72,6 +69,20 @@ impl Dop853 {
     }
 }
 
+/// The rates of the stage after the first `S`.
+#[inline(always)]
+fn take_stage<const S: usize>(
+    system: &System<'_>,
+    span: &Span,
+    weights: &[f64; S],
+    k: &mut [f64],
+    stage: &mut [f64],
+) {
+    let n = span.y0.len();
+    combine(stage, &span.y0, span.h, weights, k);
+    system.rates(span.t + NODES[S] * span.h, stage, &mut k[S * n..(S + 1) * n]);
+}
+
 impl Formula for Dop853 {
     fn order(&self) -> i32 {
         8
@@ -82,11 +93,17 @@ impl Formula for Dop853 {
         let n = span.y0.len();
         let (h, k, stage) = (span.h, self.k.get_mut(), self.stage.get_mut());
         k[..n].copy_from_slice(&span.f0);
-        for (s, row) in STAGE_WEIGHTS.iter().enumerate().skip(1) {
-            let (known, next) = k.split_at_mut(s * n);
-            combine(stage, &span.y0, h, &row[..s], known);
-            system.rates(span.t + NODES[s] * h, stage, &mut next[..n]);
-        }
+        take_stage(system, span, &table::STAGE_2, k, stage);
+        take_stage(system, span, &table::STAGE_3, k, stage);
+        take_stage(system, span, &table::STAGE_4, k, stage);
+        take_stage(system, span, &table::STAGE_5, k, stage);
+        take_stage(system, span, &table::STAGE_6, k, stage);
+        take_stage(system, span, &table::STAGE_7, k, stage);
+        take_stage(system, span, &table::STAGE_8, k, stage);
+        take_stage(system, span, &table::STAGE_9, k, stage);
+        take_stage(system, span, &table::STAGE_10, k, stage);
+        take_stage(system, span, &table::STAGE_11, k, stage);
+        take_stage(system, span, &table::STAGE_12, k, stage);
         combine(&mut span.y1, &span.y0, h, &WEIGHTS, k);
         stage.fill(0.0);
         combine(&mut self.fifth, stage, h, &ERROR_FIFTH, k);
@@ -132,4 +149,85 @@ impl Formula for Dop853 {
     }
 
     fn tally(&self, _counts: &mut Counts) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::table::*;
+
+    /// Row `i` of the weights of the stages, by number from 0.
+    fn rows() -> [&'static [f64]; EXTENDED] {
+        [
+            &[],
+            &STAGE_2,
+            &STAGE_3,
+            &STAGE_4,
+            &STAGE_5,
+            &STAGE_6,
+            &STAGE_7,
+            &STAGE_8,
+            &STAGE_9,
+            &STAGE_10,
+            &STAGE_11,
+            &STAGE_12,
+            &WEIGHTS,
+            &STAGE_14,
+            &STAGE_15,
+            &STAGE_16,
+        ]
+    }
+
+    fn power(k: i32) -> Vec<f64> {
+        NODES.iter().map(|c| c.powi(k)).collect()
+    }
+
+    /// The weights of the stages applied to `values`.
+    fn apply(values: &[f64]) -> Vec<f64> {
+        rows().iter().map(|row| dot(row, values)).collect()
+    }
+
+    fn dot(weights: &[f64], values: &[f64]) -> f64 {
+        weights.iter().zip(values).map(|(w, v)| w * v).sum()
+    }
+
+    fn near(a: f64, b: f64) {
+        assert!((a - b).abs() < 1e-13, "{a} is not {b}");
+    }
+
+    #[test]
+    fn the_nodes_are_the_sums_of_the_rows() {
+        for (sum, node) in apply(&power(0)).iter().zip(NODES) {
+            near(*sum, node);
+        }
+    }
+
+    #[test]
+    fn the_weights_satisfy_conditions_of_order_eight() {
+        for k in 0..8 {
+            near(dot(&WEIGHTS, &power(k)), 1.0 / f64::from(k + 1));
+        }
+        // Trees with one branch: sum b_i c_i^j sum a_ik c_k^l = 1/((l + 1)(j + l + 2)).
+        for (j, l) in (0..7).flat_map(|j| (0..7 - j).map(move |l| (j, l))) {
+            let inner: Vec<f64> = apply(&power(l)).iter().zip(power(j)).map(|(a, c)| a * c).collect();
+            near(dot(&WEIGHTS, &inner), 1.0 / f64::from((l + 1) * (j + l + 2)));
+        }
+        // The tall tree: each level integrates the one above.
+        let mut chain = power(0);
+        let mut expected = 1.0;
+        for level in 1..=8 {
+            expected /= f64::from(level);
+            near(dot(&WEIGHTS, &chain), expected);
+            chain = apply(&chain);
+        }
+    }
+
+    #[test]
+    fn the_error_estimates_vanish_for_low_orders() {
+        for k in 0..5 {
+            near(dot(&ERROR_FIFTH, &power(k)), 0.0);
+        }
+        for k in 0..3 {
+            near(dot(&ERROR_THIRD, &power(k)), 0.0);
+        }
+    }
 }

@@ -28,6 +28,8 @@ pub(super) struct Drive<'a> {
     state: Vec<f64>,
     t: f64,
     counts: Counts,
+    /// Steps, those of no length to an event included.
+    advances: usize,
     still: Still,
 }
 
@@ -63,6 +65,7 @@ impl<'a> Drive<'a> {
             system,
             stepper,
             start,
+            advances: 0,
             still: Still::default(),
             sink,
             target,
@@ -95,9 +98,10 @@ impl<'a> Drive<'a> {
             if left <= NOTHING * limit.abs() || left <= SHORTEST * self.target.seconds().abs() {
                 return Ok(Outcome::Completed);
             }
-            if self.counts.steps >= self.most_steps as u64 {
+            if self.advances == self.most_steps {
                 return Err(Failure::TooManySteps { most: self.most_steps });
             }
+            self.advances += 1;
             self.stepper.advance(self.system, limit)?;
             let control = match self.watch.scan(self.system, self.stepper) {
                 None => self.plain()?,

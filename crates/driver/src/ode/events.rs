@@ -6,6 +6,9 @@ use super::stepper::Stepper;
 
 /// Share of the step at which a function that begins at zero shows its side.
 const EARLY: f64 = 1.0 / 1024.0;
+/// A function that begins below this share of its values in the first step begins at zero: an integration may start where
+/// another one stopped at an event, to rounding.
+const AT_ZERO: f64 = 1e-12;
 /// Roots this much later than the first are at the same time: rounding of the search.
 const SAME: f64 = 32.0 * f64::EPSILON;
 /// A function whose parabola through three points comes this near to zero, over its size at the ends, is looked at there.
@@ -33,6 +36,8 @@ pub(super) struct Watch {
     end: Vec<f64>,
     other: Vec<f64>,
     state: Vec<f64>,
+    /// Whether no step has been seen yet.
+    fresh: bool,
 }
 
 /// The first change of sign in a step.
@@ -54,6 +59,7 @@ impl Watch {
             end: zeros(),
             other: zeros(),
             state: vec![0.0; system.size],
+            fresh: true,
         }
     }
 
@@ -64,6 +70,9 @@ impl Watch {
 
     /// Begins at a state.
     pub fn begin(&mut self, system: &System<'_>, t: f64, y: &[f64]) {
+        if self.idle() {
+            return;
+        }
         system.problem.event(system.clock(t), y, &mut self.end);
         for (function, &value) in self.functions.iter_mut().zip(&self.end) {
             function.side = sign(value);
@@ -88,6 +97,7 @@ impl Watch {
                 first = Some(Found { fraction, event });
             }
         }
+        self.fresh = false;
         first
     }
 
@@ -115,7 +125,8 @@ impl Watch {
     fn first_change(&mut self, system: &System<'_>, stepper: &dyn Stepper, event: usize) -> f64 {
         let (start, middle, end) = (self.start[event], self.middle[event], self.end[event]);
         let mut begin = (0.0, start);
-        if self.functions[event].side == 0.0 {
+        let nothing = self.fresh && start.abs() <= AT_ZERO * middle.abs().max(end.abs());
+        if nothing || self.functions[event].side == 0.0 {
             begin = (EARLY, self.value(system, stepper, event, EARLY));
             self.functions[event].side = first_sign(&[begin.1, middle, end]);
         }

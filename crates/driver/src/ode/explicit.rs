@@ -1,13 +1,13 @@
 //! What the explicit Runge-Kutta methods share.
 
 /// Writes `y0 + h sum_j weights_j k_j` into `y`; `k` holds the rates of the stages one after the other.
-#[inline]
-pub(super) fn combine(y: &mut [f64], y0: &[f64], h: f64, weights: &[f64], k: &[f64]) {
+#[inline(always)]
+pub(super) fn combine<const S: usize>(y: &mut [f64], y0: &[f64], h: f64, weights: &[f64; S], k: &[f64]) {
     // Two unknowns are the usual case and three and four are common: sums in registers save half of the time there.
     match y0.len() {
-        2 => combine_fixed::<2>(y, y0, h, weights, k),
-        3 => combine_fixed::<3>(y, y0, h, weights, k),
-        4 => combine_fixed::<4>(y, y0, h, weights, k),
+        2 => combine_fixed::<2, S>(y, y0, h, weights, k),
+        3 => combine_fixed::<3, S>(y, y0, h, weights, k),
+        4 => combine_fixed::<4, S>(y, y0, h, weights, k),
         n => {
             y.fill(0.0);
             for (w, rates) in weights.iter().zip(k.chunks_exact(n)) {
@@ -22,16 +22,27 @@ pub(super) fn combine(y: &mut [f64], y0: &[f64], h: f64, weights: &[f64], k: &[f
     }
 }
 
-#[inline]
-fn combine_fixed<const N: usize>(y: &mut [f64], y0: &[f64], h: f64, weights: &[f64], k: &[f64]) {
+#[inline(always)]
+fn combine_fixed<const N: usize, const S: usize>(
+    y: &mut [f64],
+    y0: &[f64],
+    h: f64,
+    weights: &[f64; S],
+    k: &[f64],
+) {
+    let (Some((y, _)), Some((y0, _))) = (y.split_first_chunk_mut::<N>(), y0.split_first_chunk::<N>()) else {
+        return;
+    };
+    let (rates, _) = k.as_chunks::<N>();
+    let Some((rates, _)) = rates.split_first_chunk::<S>() else { return };
     let mut sums = [0.0; N];
-    for (w, rates) in weights.iter().zip(k.chunks_exact(N)) {
+    for (w, rates) in weights.iter().zip(rates) {
         for i in 0..N {
             sums[i] += w * rates[i];
         }
     }
-    for ((value, start), sum) in y.iter_mut().zip(y0).zip(sums) {
-        *value = start + h * sum;
+    for i in 0..N {
+        y[i] = y0[i] + h * sums[i];
     }
 }
 
@@ -45,6 +56,7 @@ pub(super) struct Pi {
     shrink: f64,
     /// Largest growth.
     growth: f64,
+    /// Logarithm of the last error.
     last: f64,
 }
 
@@ -52,8 +64,10 @@ pub(super) struct Pi {
 const SAFETY: f64 = 0.9;
 /// Power of the error before.
 const INTEGRAL: f64 = 0.04;
-/// Errors below this say as little as this about the next.
-const LEAST_ERROR: f64 = 1e-4;
+/// Logarithm of 1e-4: errors below say as little as that one about the next.
+const LEAST_ERROR: f64 = -9.210_340_371_976_182;
+/// Errors below say nothing.
+const NO_ERROR: f64 = 1e-100;
 
 impl Pi {
     /// For an error that goes with the power `order` of the step, of which `damping` times the integral part is taken off.
@@ -63,11 +77,11 @@ impl Pi {
 
     /// Share of the length to take next.
     pub fn share(&mut self, error: f64, accepted: bool, rejected_before: bool) -> f64 {
-        let power = error.max(f64::MIN_POSITIVE).powf(-self.exponent);
+        let error = error.max(NO_ERROR).ln();
         if !accepted {
-            return (SAFETY * power).clamp(self.shrink, 1.0 - INTEGRAL);
+            return (SAFETY * (-self.exponent * error).exp()).clamp(self.shrink, 1.0 - INTEGRAL);
         }
-        let share = SAFETY * power * self.last.powf(INTEGRAL);
+        let share = SAFETY * (INTEGRAL * self.last - self.exponent * error).exp();
         self.last = error.max(LEAST_ERROR);
         // A length just found too long is not tried again at once.
         share.clamp(self.shrink, if rejected_before { 1.0 } else { self.growth })

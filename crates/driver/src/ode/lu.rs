@@ -86,3 +86,42 @@ impl<T: Number> Lu<T> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Lu;
+    use nalgebra::Complex;
+
+    #[test]
+    fn a_matrix_that_needs_pivots_is_solved() {
+        // Columns (0, 1, 2), (3, 1, 0), (1, 0, 4).
+        let columns = [0.0, 1.0, 2.0, 3.0, 1.0, 0.0, 1.0, 0.0, 4.0];
+        let mut real = Lu::new(3, 0.0);
+        real.entries.copy_from_slice(&columns);
+        assert!(real.factorise());
+        let mut b = [9.0, 3.0, 14.0];
+        real.solve(&mut b);
+        for (value, expected) in b.into_iter().zip([1.0, 2.0, 3.0]) {
+            assert!((value - expected).abs() < 1e-14, "{value}");
+        }
+        let turn = Complex::new(0.0, 2.0);
+        let mut complex = Lu::new(3, turn);
+        for (entry, value) in complex.entries.iter_mut().zip(columns) {
+            *entry = turn * value;
+        }
+        assert!(complex.factorise());
+        let mut b = [9.0, 3.0, 14.0].map(|v| turn * v);
+        complex.solve(&mut b);
+        for (value, expected) in b.into_iter().zip([1.0, 2.0, 3.0]) {
+            assert!((value - expected).norm() < 1e-14, "{value}");
+        }
+    }
+
+    #[test]
+    fn singular_and_undefined_matrices_are_refused() {
+        let mut lu = Lu::new(2, 1.0);
+        assert!(!lu.factorise());
+        lu.entries.fill(f64::NAN);
+        assert!(!lu.factorise());
+    }
+}

@@ -9,7 +9,7 @@ pub enum Method {
     Bdf,
     /// Trapezoidal rule and backward differentiation in one step, order 2, implicit (diffsol).
     TrBdf2,
-    /// Diagonally implicit Runge-Kutta of order 4(3) with explicit first stage (diffsol).
+    /// Diagonally implicit Runge-Kutta of order 3 with four stages, the first explicit (diffsol).
     Esdirk34,
     /// Tsitouras 5(4), explicit (diffsol).
     Tsit45,

@@ -305,3 +305,48 @@ impl Formula for Radau5 {
         counts.newton_failures += self.failures;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{COMPLEX_IMAGINARY, COMPLEX_REAL, DENSE, FROM, INTO, NODES, REAL};
+
+    fn near(a: f64, b: f64) {
+        assert!((a - b).abs() < 1e-12, "{a} is not {b}");
+    }
+
+    fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
+    }
+
+    #[test]
+    fn the_polynomial_takes_the_values_of_the_stages() {
+        for (s, x) in NODES.into_iter().enumerate() {
+            for (stage, c) in DENSE.iter().enumerate() {
+                near(x * (c[0] + x * (c[1] + x * c[2])), if s == stage { 1.0 } else { 0.0 });
+            }
+        }
+    }
+
+    #[test]
+    fn the_transformation_separates_the_stages() {
+        let unit = product(&INTO, &FROM);
+        for (i, row) in unit.iter().enumerate() {
+            for (j, value) in row.iter().enumerate() {
+                near(*value, if i == j { 1.0 } else { 0.0 });
+            }
+        }
+        // Slopes of the polynomial at the nodes: the inverse of the matrix of the method.
+        let inverse: [[f64; 3]; 3] = NODES.map(|x| DENSE.map(|c| c[0] + x * (2.0 * c[1] + 3.0 * x * c[2])));
+        let separated = product(&INTO, &product(&inverse, &FROM));
+        let expected = [
+            [REAL, 0.0, 0.0],
+            [0.0, COMPLEX_REAL, -COMPLEX_IMAGINARY],
+            [0.0, COMPLEX_IMAGINARY, COMPLEX_REAL],
+        ];
+        for (row, values) in separated.iter().zip(expected) {
+            for (a, b) in row.iter().zip(values) {
+                near(*a, b);
+            }
+        }
+    }
+}

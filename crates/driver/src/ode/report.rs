@@ -60,9 +60,10 @@ impl Step<'_> {
 
     /// Writes the unknowns at `fraction` of the step, from 0 to 1, into `y`.
     ///
-    /// The polynomial is the method's own: of degree 7 (local error of order 8) for dop853, for which the first call in a step
-    /// evaluates the rates three times; degree 4 for tsit5 and tsit45; the collocation polynomial of degree 3 for radau5; the
-    /// one of the current order, 1 to 5, for bdf. For tr-bdf2 and esdirk34 it is what diffsol has: the cubic of their stages.
+    /// The polynomial is the method's own: of degree 7 for dop853, for which the first call in a step evaluates the rates
+    /// three times; degree 4 for tsit5 and tsit45; the collocation polynomial of degree 3 for radau5; that of the current
+    /// order, 1 to 5, for bdf; the continuous extensions of diffsol for esdirk34 and, of degree 2, for tr-bdf2. The error of a
+    /// polynomial of degree p goes with the power p + 1 of the step.
     pub fn at(&self, fraction: f64, y: &mut [f64]) {
         self.stepper.interpolate(self.system, fraction * self.share, y);
     }
@@ -75,7 +76,7 @@ pub struct Counts {
     pub steps: u64,
     /// Steps tried and not accepted.
     pub rejected: u64,
-    /// Evaluations of the rates, those of dense output and of products with numerical differences included.
+    /// Evaluations of the rates, those of dense output included.
     pub rates: u64,
     /// Evaluations of the Jacobian.
     pub jacobians: u64,
@@ -85,7 +86,7 @@ pub struct Counts {
     pub solves: u64,
     /// Iterations of Newton's method that did not converge.
     pub newton_failures: u64,
-    /// Restarts after events and after rejected values that are not finite.
+    /// Restarts after events by methods that do not take the step again up to the event.
     pub restarts: u64,
 }
 

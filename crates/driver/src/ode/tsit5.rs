@@ -11,42 +11,30 @@ use super::report::Counts;
 /// Stages; the last is the rate at the end of the step.
 const STAGES: usize = 7;
 
-/// Nodes of the stages, as shares of the step.
-const NODES: [f64; STAGES] = [0.0, 0.161, 0.327, 0.9, 0.980_025_540_904_509_7, 1.0, 1.0];
+/// Nodes of the second to the sixth stage, as shares of the step.
+const NODES: [f64; 5] = [0.161, 0.327, 0.9, 0.980_025_540_904_509_7, 1.0];
 
-/// Weights of the rates in the stages; the last row is the step.
-const STAGE_WEIGHTS: [[f64; STAGES]; STAGES] = [
-    [0.0; STAGES],
-    [0.161, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-    [-0.008_480_655_492_356_989, 0.335_480_655_492_357, 0.0, 0.0, 0.0, 0.0, 0.0],
-    [2.897_153_057_105_493, -6.359_448_489_975_075, 4.362_295_432_869_581_5, 0.0, 0.0, 0.0, 0.0],
-    [
-        5.325_864_828_439_257,
-        -11.748_883_564_062_828,
-        7.495_539_342_889_836_5,
-        -0.092_495_066_361_755_25,
-        0.0,
-        0.0,
-        0.0,
-    ],
-    [
-        5.861_455_442_946_42,
-        -12.920_969_317_847_11,
-        8.159_367_898_576_159,
-        -0.071_584_973_281_401,
-        -0.028_269_050_394_068_383,
-        0.0,
-        0.0,
-    ],
-    [
-        0.096_460_766_818_065_23,
-        0.01,
-        0.479_889_650_414_499_6,
-        1.379_008_574_103_742,
-        -3.290_069_515_436_081,
-        2.324_710_524_099_774,
-        0.0,
-    ],
+/// Weights of the rates in the second to the sixth stage.
+const SECOND: [f64; 1] = [0.161];
+const THIRD: [f64; 2] = [-0.008_480_655_492_356_989, 0.335_480_655_492_357];
+const FOURTH: [f64; 3] = [2.897_153_057_105_493, -6.359_448_489_975_075, 4.362_295_432_869_581_5];
+const FIFTH: [f64; 4] =
+    [5.325_864_828_439_257, -11.748_883_564_062_828, 7.495_539_342_889_836_5, -0.092_495_066_361_755_25];
+const SIXTH: [f64; 5] = [
+    5.861_455_442_946_42,
+    -12.920_969_317_847_11,
+    8.159_367_898_576_159,
+    -0.071_584_973_281_401,
+    -0.028_269_050_394_068_383,
+];
+/// Weights of the rates in the step.
+const WEIGHTS: [f64; 6] = [
+    0.096_460_766_818_065_23,
+    0.01,
+    0.479_889_650_414_499_6,
+    1.379_008_574_103_742,
+    -3.290_069_515_436_081,
+    2.324_710_524_099_774,
 ];
 
 /// Weights of the rates in the error estimate.
@@ -91,6 +79,14 @@ impl Tsit5 {
             control: Pi::new(5.0, 0.75, 0.2, 10.0),
         }
     }
+
+    /// The rates of the stage after the first `S`.
+    #[inline(always)]
+    fn stage<const S: usize>(&mut self, system: &System<'_>, span: &Span, weights: &[f64; S]) {
+        let n = span.y0.len();
+        combine(&mut self.stage, &span.y0, span.h, weights, &self.k);
+        system.rates(span.t + NODES[S - 1] * span.h, &self.stage, &mut self.k[S * n..(S + 1) * n]);
+    }
 }
 
 impl Formula for Tsit5 {
@@ -102,15 +98,14 @@ impl Formula for Tsit5 {
         let n = span.y0.len();
         let h = span.h;
         self.k[..n].copy_from_slice(&span.f0);
-        for s in 1..STAGES - 1 {
-            let (known, next) = self.k.split_at_mut(s * n);
-            combine(&mut self.stage, &span.y0, h, &STAGE_WEIGHTS[s][..s], known);
-            system.rates(span.t + NODES[s] * h, &self.stage, &mut next[..n]);
-        }
-        let (known, last) = self.k.split_at_mut((STAGES - 1) * n);
-        combine(&mut span.y1, &span.y0, h, &STAGE_WEIGHTS[STAGES - 1][..STAGES - 1], known);
+        self.stage(system, span, &SECOND);
+        self.stage(system, span, &THIRD);
+        self.stage(system, span, &FOURTH);
+        self.stage(system, span, &FIFTH);
+        self.stage(system, span, &SIXTH);
+        combine(&mut span.y1, &span.y0, h, &WEIGHTS, &self.k);
         system.rates(span.t + h, &span.y1, &mut span.f1);
-        last.copy_from_slice(&span.f1);
+        self.k[(STAGES - 1) * n..].copy_from_slice(&span.f1);
         self.stage.fill(0.0);
         combine(&mut self.error, &self.stage, h, &ERROR, &self.k);
         Trial::Error(system.norm(&self.error, &span.y0, &span.y1))
@@ -133,4 +128,55 @@ impl Formula for Tsit5 {
     }
 
     fn tally(&self, _counts: &mut Counts) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DENSE, ERROR, FIFTH, FOURTH, NODES, SECOND, SIXTH, STAGES, THIRD, WEIGHTS};
+
+    fn nodes() -> [f64; STAGES] {
+        [0.0, NODES[0], NODES[1], NODES[2], NODES[3], NODES[4], 1.0]
+    }
+
+    fn dot(weights: &[f64], values: &[f64]) -> f64 {
+        weights.iter().zip(values).map(|(w, v)| w * v).sum()
+    }
+
+    fn near(a: f64, b: f64) {
+        assert!((a - b).abs() < 1e-13, "{a} is not {b}");
+    }
+
+    #[test]
+    fn the_weights_satisfy_conditions_of_order_five() {
+        let rows: [&[f64]; STAGES] = [&[], &SECOND, &THIRD, &FOURTH, &FIFTH, &SIXTH, &WEIGHTS];
+        let power = |k: i32| nodes().map(|c| c.powi(k));
+        for (row, node) in rows.iter().zip(nodes()) {
+            near(row.iter().sum(), node);
+        }
+        for k in 0..5 {
+            near(dot(&WEIGHTS, &power(k)), 1.0 / f64::from(k + 1));
+        }
+        for (j, l) in (0..4).flat_map(|j| (0..4 - j).map(move |l| (j, l))) {
+            let inner: Vec<f64> = rows.iter().zip(power(j)).map(|(row, c)| c * dot(row, &power(l))).collect();
+            near(dot(&WEIGHTS, &inner), 1.0 / f64::from((l + 1) * (j + l + 2)));
+        }
+        for k in 0..4 {
+            near(dot(&ERROR, &power(k)), 0.0);
+        }
+    }
+
+    #[test]
+    fn the_dense_output_is_of_order_four_and_ends_at_the_step() {
+        for x in [0.1_f64, 0.5, 0.9, 1.0] {
+            let mut weights = DENSE.map(|[a, b, c]| x * x * (a + x * (b + x * c)));
+            weights[0] += x;
+            for k in 0..4 {
+                near(dot(&weights, &nodes().map(|c| c.powi(k))), x.powi(k + 1) / f64::from(k + 1));
+            }
+        }
+        let ends = DENSE.map(|[a, b, c]| a + b + c);
+        for (s, weight) in WEIGHTS.into_iter().enumerate() {
+            near(ends[s] + if s == 0 { 1.0 } else { 0.0 }, weight);
+        }
+    }
 }
