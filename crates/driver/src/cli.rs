@@ -7,6 +7,7 @@ use crate::plan::{self, AnyPlan};
 use crate::report::{Outcome, RunReport};
 use crate::run;
 use crate::scene;
+use crate::slider;
 use clap::{Parser, Subcommand};
 use miette::{IntoDiagnostic, WrapErr, miette};
 use sha2::{Digest, Sha256};
@@ -56,46 +57,73 @@ pub enum End {
 pub fn execute(arguments: &Arguments) -> miette::Result<End> {
     match &arguments.command {
         Command::Check { scene } => {
-            let (plan, _, _) = planned(scene)?;
-            print!("{}", plan.summary());
+            match planned(scene)?.plan {
+                Planned::Bodies(plan) => print!("{}", plan.summary()),
+                Planned::Sliders(plan) => print!("{}", plan.summary()),
+            }
             Ok(End::Done)
         }
         Command::Run { scene, out } => {
             let out = out.clone().unwrap_or_else(|| default_output(scene));
-            run_scene(scene, &out)
+            let ready = planned(scene)?;
+            match &ready.plan {
+                Planned::Bodies(plan) => run_bodies(plan, &ready, &out),
+                Planned::Sliders(plan) => run_sliders(plan, &ready, &out),
+            }
         }
     }
+}
+
+/// What a scene asks for.
+enum Planned {
+    /// Deformable bodies.
+    Bodies(Box<AnyPlan>),
+    /// Spring-sliders.
+    Sliders(Box<slider::Plan>),
+}
+
+/// A plan with where it came from.
+struct Ready {
+    plan: Planned,
+    /// SHA-256 of the scene file.
+    hash: String,
+    /// Wall time of reading and planning \[s\].
+    seconds: f64,
 }
 
 fn default_output(scene: &Path) -> PathBuf {
     Path::new("out").join(scene.file_stem().unwrap_or(scene.as_os_str()))
 }
 
-/// Reads and plans a scene: the plan, the hash of its text, and the seconds planning took.
-fn planned(path: &Path) -> miette::Result<(AnyPlan, String, f64)> {
+/// Reads and plans a scene.
+fn planned(path: &Path) -> miette::Result<Ready> {
     let text = std::fs::read_to_string(path)
         .into_diagnostic()
         .wrap_err_with(|| format!("cannot read the scene {}", path.display()))?;
     let clock = Instant::now();
     let name = path.display().to_string();
-    let parsed = scene::read(&text).map_err(|errors| scene::diagnostic::report(&name, &text, &errors))?;
-    let plan = plan::plan(&parsed)
-        .map_err(|error| scene::diagnostic::report(&name, &text, &scene::SceneErrors::from(error)))?;
+    let told = |errors: &scene::SceneErrors| scene::diagnostic::report(&name, &text, errors);
+    let plan = if scene::slider::is_slider(&text) {
+        Planned::Sliders(Box::new(scene::slider::read(&text).map_err(|errors| told(&errors))?))
+    } else {
+        let parsed = scene::read(&text).map_err(|errors| told(&errors))?;
+        let plan = plan::plan(&parsed).map_err(|error| told(&scene::SceneErrors::from(error)))?;
+        Planned::Bodies(Box::new(plan))
+    };
     let hash = Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect();
-    Ok((plan, hash, clock.elapsed().as_secs_f64()))
+    Ok(Ready { plan, hash, seconds: clock.elapsed().as_secs_f64() })
 }
 
-fn run_scene(path: &Path, out: &Path) -> miette::Result<End> {
-    let (plan, hash, seconds) = planned(path)?;
+fn run_bodies(plan: &AnyPlan, ready: &Ready, out: &Path) -> miette::Result<End> {
     print!("{}", plan.summary());
     let (fields, profiles) = plan.outputs();
     let mut files = Files::create(out, FieldSchedule { fields, profiles }).into_diagnostic()?;
     let mut recorder = Recorder::new().with_bodies();
     let mut progress = Progress::new();
     let mut observers = Multi::new(vec![&mut files as &mut dyn Observer, &mut recorder, &mut progress]);
-    let mut report = run::run(&plan, &mut observers).into_diagnostic()?;
-    report.scene_sha256 = hash;
-    report.run.seconds.plan = seconds;
+    let mut report = run::run(plan, &mut observers).into_diagnostic()?;
+    report.scene_sha256.clone_from(&ready.hash);
+    report.run.seconds.plan = ready.seconds;
     write_report(out, &report)?;
     plots::draw_all(&out.join("plots"), &recorder).into_diagnostic()?;
     print_results(out, &report);
@@ -107,7 +135,31 @@ fn run_scene(path: &Path, out: &Path) -> miette::Result<End> {
     })
 }
 
-fn write_report(out: &Path, report: &RunReport) -> miette::Result<()> {
+fn run_sliders(plan: &slider::Plan, ready: &Ready, out: &Path) -> miette::Result<End> {
+    print!("{}", plan.summary());
+    let mut histories = slider::Histories::create(out, plan).into_diagnostic()?;
+    let (mut recorder, mut progress) = (Recorder::new(), Progress::new());
+    let clock = Instant::now();
+    let ended = {
+        let mut show = slider::Show::to(vec![&mut recorder as &mut dyn Observer, &mut progress]);
+        let mut both = slider::Both(&mut histories, &mut show);
+        slider::run(plan, &mut both).into_diagnostic()?
+    };
+    histories.finish().into_diagnostic()?;
+    let mut report = slider::Report::new(plan, &ended);
+    report.scene_sha256.clone_from(&ready.hash);
+    report.run.seconds = clock.elapsed().as_secs_f64();
+    write_report(out, &report)?;
+    plots::draw_all(&out.join("plots"), &recorder).into_diagnostic()?;
+    print!("{}", report.text());
+    println!("  written to {}", out.display());
+    Ok(match report.outcome {
+        slider::End::Stopped { reason } => End::Stopped(format!("at {:.6e} s: {reason}", report.end)),
+        slider::End::Completed | slider::End::EnoughEvents => End::Done,
+    })
+}
+
+fn write_report(out: &Path, report: &impl serde::Serialize) -> miette::Result<()> {
     let text = serde_json::to_string_pretty(report).into_diagnostic()?;
     crate::observe::atomic::write(&out.join("report.json"), text.as_bytes())
         .map_err(|e| miette!("cannot write the report: {e}"))

@@ -14,6 +14,7 @@ pub mod report;
 pub mod rigid;
 pub mod run;
 pub mod scene;
+pub mod slider;
 pub mod step;
 pub mod system;
 pub mod timing;

@@ -149,7 +149,7 @@ impl RunReport {
         self.counts = counts;
         self.run.seconds = phases;
         self.run.threads = rayon::current_num_threads();
-        self.run.commit = option_env!("ASPERITY_COMMIT").unwrap_or("unknown").to_string();
+        self.run.commit = commit().to_string();
         self.steps = steps;
     }
 }
@@ -165,4 +165,9 @@ fn range(values: &[f64]) -> [f64; 2] {
     let min = values.iter().copied().fold(f64::INFINITY, f64::min);
     let max = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if values.is_empty() { [0.0, 0.0] } else { [min, max] }
+}
+
+/// Commit of the program, "unknown" outside a checkout.
+pub(crate) fn commit() -> &'static str {
+    option_env!("ASPERITY_COMMIT").unwrap_or("unknown")
 }

@@ -455,7 +455,7 @@ fn spec<const D: usize>(
         rate_floor: RATE_FLOOR * largest_rate,
         rate_bounds,
         carry,
-        label_rate: planned.law.as_ref().filter(|l| l.name() != "coulomb").map(|_| largest_rate),
+        label_rate: planned.law.as_ref().filter(|l| !l.has_elastic_domain()).map(|_| largest_rate),
     }
 }
 

@@ -43,6 +43,7 @@ fn interface_mesh<const D: usize>(plan: &Plan<D>, planned: &PlannedInterface) ->
     let positions: Vec<[f64; 3]> = nodes.iter().map(|&n| padded(&plan.model.mesh.nodes[n])).collect();
     InterfaceMesh {
         name: planned.name.clone(),
+        labels: Vec::new(),
         areas: planned.slave.iter().map(|s| s.1).collect(),
         faces: planned.slave_faces.iter().map(|f| f.iter().map(local).collect()).collect(),
         probes: probes(&positions, planned.probes),

@@ -74,6 +74,10 @@ impl Law for Coulomb {
         0
     }
 
+    fn has_elastic_domain(&self) -> bool {
+        true
+    }
+
     fn initial(&self, _states: &mut [f64]) {}
 
     fn coefficient(

@@ -177,6 +177,11 @@ pub trait Law: Send + Sync + std::fmt::Debug {
     /// State variables per point; 0 for a law without memory.
     fn states(&self) -> usize;
 
+    /// Whether the law has a yield surface with an elastic domain inside, so that a point sticks or slips.
+    fn has_elastic_domain(&self) -> bool {
+        false
+    }
+
     /// Writes the initial states of `n` points, point-major (slice of length `n * states()`).
     fn initial(&self, states: &mut [f64]);
 

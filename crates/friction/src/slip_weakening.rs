@@ -147,6 +147,10 @@ impl Law for SlipWeakening {
         1
     }
 
+    fn has_elastic_domain(&self) -> bool {
+        true
+    }
+
     fn initial(&self, states: &mut [f64]) {
         states.fill(0.0);
     }

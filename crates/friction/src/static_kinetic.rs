@@ -106,6 +106,10 @@ impl Law for StaticKinetic {
         1
     }
 
+    fn has_elastic_domain(&self) -> bool {
+        true
+    }
+
     fn initial(&self, states: &mut [f64]) {
         states.fill(RESTING);
     }

@@ -256,7 +256,7 @@ fn check_bodies(mesh: &MeshView, fields: &BodyFields) -> Result<(), ObserveError
 }
 
 /// File names for names of interfaces: letters, digits, `-` and `_` stay; what would collide gets its number.
-pub(super) fn stems<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+pub(crate) fn stems<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut taken: Vec<String> = vec!["bodies".to_string()];
     for (i, name) in names.enumerate() {
         let safe = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '_' };

@@ -15,6 +15,7 @@ pub mod view;
 pub mod vtu;
 
 pub use files::Files;
+pub(crate) use files::stems;
 pub use multi::Multi;
 pub use progress::Progress;
 pub use record::{InterfaceHistory, PointHistory, Recorder, StageEnd};
@@ -63,7 +64,7 @@ pub enum ObserveError {
 }
 
 impl ObserveError {
-    fn write(path: &Path, source: std::io::Error) -> Self {
+    pub(crate) fn write(path: &Path, source: std::io::Error) -> Self {
         Self::Write { path: path.to_path_buf(), source }
     }
 }

@@ -25,6 +25,8 @@ pub struct InterfaceMesh {
     pub name: String,
     /// Reference positions of the slave nodes \[m\].
     pub positions: Vec<[f64; 3]>,
+    /// Names of the points where they have names; otherwise their positions tell them apart.
+    pub labels: Vec<String>,
     /// Tributary areas \[m², or m of thickness-unit in two dimensions\].
     pub areas: Vec<f64>,
     /// Faces of the slave side as polylines (2 nodes) or polygons (3, 4 nodes), numbering `positions`.

@@ -7,6 +7,7 @@ pub mod law;
 pub mod model;
 mod motion;
 pub mod near;
+pub mod slider;
 pub mod units;
 
 use crate::plan::PlanError;

@@ -18,8 +18,14 @@ pub enum Dimension {
     Velocity,
     /// \[kg/m³\].
     Density,
-    /// \[Pa/m\].
+    /// \[Pa/m\], of a contact.
     Stiffness,
+    /// \[Pa/m\], of a spring per area.
+    Spring,
+    /// \[Pa s/m\].
+    Damping,
+    /// \[kg/m²\].
+    Mass,
 }
 
 impl Dimension {
@@ -33,6 +39,9 @@ impl Dimension {
             Self::Velocity => "a velocity",
             Self::Density => "a density",
             Self::Stiffness => "a contact stiffness",
+            Self::Spring => "a stiffness",
+            Self::Damping => "a damping",
+            Self::Mass => "a mass per area",
         }
     }
 
@@ -44,6 +53,9 @@ impl Dimension {
             Self::Velocity => "a velocity such as \"1e-3 mm/s\" or a number in m/s",
             Self::Density => "a density such as \"2700 kg/m^3\" or a number in kg/m^3",
             Self::Stiffness => "a penalty such as \"100 E/h\" or \"1e12 Pa/m\" or a number in Pa/m",
+            Self::Spring => "a stiffness such as \"1.25 GPa/m\" or a number in Pa/m",
+            Self::Damping => "a damping such as \"5 MPa s/m\" or a number in Pa s/m",
+            Self::Mass => "a mass per area such as \"3000 kg/m^2\" or a number in kg/m^2",
         }
     }
 
@@ -55,6 +67,9 @@ impl Dimension {
             Self::Velocity => "m/s, mm/s, um/s, mm/yr and other lengths per time",
             Self::Density => "kg/m^3, g/cm^3",
             Self::Stiffness => "E/h, Pa/m, MPa/mm and other pressures per length",
+            Self::Spring => "Pa/m, MPa/mm and other pressures per length",
+            Self::Damping => "Pa s/m, MPa s/m and other pressures times s/m",
+            Self::Mass => "kg/m^2",
         }
     }
 }
@@ -106,7 +121,15 @@ fn unit(name: &str) -> Option<Unit> {
         "g/cm^3" | "g/cm³" | "g/cm3" => {
             return Some(Unit { dimension: Dimension::Density, power: 3, factor: 1.0 });
         }
+        "kg/m^2" | "kg/m²" | "kg/m2" => {
+            return Some(Unit { dimension: Dimension::Mass, power: 0, factor: 1.0 });
+        }
         _ => {}
+    }
+    if let Some(pressure) = name.strip_suffix("s/m").and_then(|p| simple(p.trim()))
+        && pressure.dimension == Dimension::Pressure
+    {
+        return Some(Unit { dimension: Dimension::Damping, ..pressure });
     }
     let Some((over, under)) = name.split_once('/') else { return simple(name) };
     let (over, under) = (simple(over.trim())?, simple(under.trim())?);
@@ -163,7 +186,10 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, String> {
     let Some(unit) = unit(name) else {
         return refuse(&format!("there is no unit `{name}`; units here are {}", wanted.units()));
     };
-    if unit.dimension != wanted {
+    // A stiffness is a stiffness, of a contact or of a spring.
+    let same = unit.dimension == wanted
+        || (unit.dimension == Dimension::Stiffness && wanted == Dimension::Spring);
+    if !same {
         return refuse(unit.dimension.name());
     }
     match shifted(number, unit.power).map(|v| v * unit.factor) {
@@ -234,6 +260,12 @@ quantity! {
     Velocity: Velocity,
     /// A mass density \[kg/m³\].
     Density: Density,
+    /// A stiffness per area \[Pa/m\].
+    Spring: Spring,
+    /// Radiation damping \[Pa s/m\].
+    Damping: Damping,
+    /// A mass per area \[kg/m²\].
+    Mass: Mass,
 }
 
 /// A contact penalty.

@@ -91,7 +91,12 @@ pub(super) fn history(recorder: &Recorder, interface: usize, quantity: &Quantity
         }
     }
     frame.draw(&mut figure);
-    let labels = position_labels(points.iter().map(|p| p.position));
+    let names = &recorder.setup().interfaces[interface].labels;
+    let labels = if names.is_empty() {
+        position_labels(points.iter().map(|p| p.position))
+    } else {
+        points.iter().map(|p| names[p.node].clone()).collect()
+    };
     let entries = labels.into_iter().enumerate();
     let entries = entries.map(|(i, name)| Entry { name, colour: of_curve(i, series.len()), dashed: false });
     legend(&mut figure, &frame, entries);

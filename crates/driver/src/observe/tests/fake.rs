@@ -55,6 +55,7 @@ pub(crate) fn setup(layers: usize) -> Setup {
     };
     let fault = InterfaceMesh {
         name: "fault".into(),
+        labels: Vec::new(),
         areas: vec![H; positions.len()],
         positions,
         faces,

@@ -1,0 +1,77 @@
+//! Shows a run of sliders to the observers of runs with bodies: plots and progress. The sliders are the points of one
+//! interface without a mesh.
+
+use super::plan::Plan;
+use super::run::{Now, Watcher};
+use crate::observe::view::{BodyFields, InterfaceFields, InterfaceMesh, Setup, StepRecord, StepView};
+use crate::observe::{ObserveError, Observer};
+
+/// The stage there is.
+const STAGE: &str = "run";
+
+/// Passes a run on to observers.
+pub struct Show<'a> {
+    observers: Vec<&'a mut dyn Observer>,
+    begun: bool,
+}
+
+impl<'a> Show<'a> {
+    /// To these observers.
+    #[must_use]
+    pub fn to(observers: Vec<&'a mut dyn Observer>) -> Self {
+        Self { observers, begun: false }
+    }
+
+    fn setup(plan: &Plan) -> Setup {
+        let n = plan.names.len();
+        let sliders = InterfaceMesh {
+            name: "sliders".into(),
+            positions: vec![[0.0; 3]; n],
+            labels: plan.names.clone(),
+            areas: vec![1.0; n],
+            faces: Vec::new(),
+            probes: (0..n).collect(),
+        };
+        Setup {
+            title: plan.title.clone(),
+            interfaces: vec![sliders],
+            stages: vec![(STAGE.into(), plan.end)],
+            ..Setup::default()
+        }
+    }
+}
+
+impl Watcher for Show<'_> {
+    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), ObserveError> {
+        if !self.begun {
+            self.begun = true;
+            let setup = Self::setup(plan);
+            self.observers.iter_mut().try_for_each(|o| o.begin(&setup))?;
+        }
+        let time = now.at.seconds();
+        let record = StepRecord { step: now.step, time, dt: now.dt, ..StepRecord::default() };
+        let each = |read: fn(&asperity_friction::slider::Condition) -> f64| -> Vec<f64> {
+            now.conditions.iter().map(read).collect()
+        };
+        let n = now.conditions.len();
+        let fields = InterfaceFields {
+            gap: vec![0.0; n],
+            normal_traction: each(|c| c.normal),
+            shear_traction: each(|c| c.traction),
+            relative_displacement: now.slip.to_vec(),
+            slip: now.slip.to_vec(),
+            slip_rate: each(|c| c.rate),
+            friction: each(|c| c.friction),
+            status: vec![2; n],
+        };
+        let view = StepView {
+            record: &record,
+            stage: STAGE,
+            ends_stage: false,
+            end_time: plan.end,
+            interfaces: &[fields],
+            fields: &BodyFields::default,
+        };
+        self.observers.iter_mut().try_for_each(|o| o.step(&view))
+    }
+}

@@ -1,0 +1,184 @@
+//! `report.json` of a spring-slider.
+
+use super::catalogue::Event;
+use super::plan::{Plan, Thresholds};
+use super::run::Run;
+use crate::ode::{Counts, Outcome};
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// Work, in operations that do not depend on the machine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Work {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps tried and not accepted.
+    pub rejected: u64,
+    /// Right-hand sides.
+    pub right_hand_sides: u64,
+    /// Jacobians.
+    pub jacobians: u64,
+    /// Factorisations.
+    pub factorisations: u64,
+    /// Solutions with them.
+    pub solves: u64,
+    /// Restarts after events.
+    pub restarts: u64,
+}
+
+impl From<Counts> for Work {
+    fn from(c: Counts) -> Self {
+        Self {
+            steps: c.steps,
+            rejected: c.rejected,
+            right_hand_sides: c.rates,
+            jacobians: c.jacobians,
+            factorisations: c.factorisations,
+            solves: c.solves,
+            restarts: c.restarts,
+        }
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum End {
+    /// At the end asked for.
+    Completed,
+    /// After the events asked for.
+    EnoughEvents,
+    /// Before; everything until then stands.
+    Stopped {
+        /// Why.
+        reason: String,
+    },
+}
+
+/// What may differ from machine to machine and from run to run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Provenance {
+    /// Wall time of the integration, its outputs included \[s\].
+    pub seconds: f64,
+    /// Commit of the program.
+    pub commit: String,
+}
+
+/// A slider at the end.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Final {
+    /// Name.
+    pub slider: String,
+    /// Slip rate \[m/s\].
+    pub slip_rate: f64,
+    /// Friction coefficient \[-\].
+    pub friction: f64,
+    /// State variables, as the law evolves them.
+    pub states: Vec<f64>,
+}
+
+/// The report of a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// Title of the scene.
+    pub title: String,
+    /// Version of the program.
+    pub version: String,
+    /// SHA-256 of the scene file.
+    pub scene_sha256: String,
+    /// Dynamics in words.
+    pub dynamics: String,
+    /// Sliders by name.
+    pub sliders: Vec<String>,
+    /// Method of integration.
+    pub method: String,
+    /// Tolerance per step \[-\].
+    pub tolerance: f64,
+    /// Thresholds of events.
+    pub thresholds: Option<Thresholds>,
+    /// How it ended.
+    pub outcome: End,
+    /// When \[s\].
+    pub end: f64,
+    /// The sliders then.
+    pub last: Vec<Final>,
+    /// Events.
+    pub events: Vec<Event>,
+    /// Work.
+    pub counts: Work,
+    /// Machine-dependent.
+    pub run: Provenance,
+}
+
+impl Report {
+    /// The report of a run of a plan.
+    #[must_use]
+    pub fn new(plan: &Plan, run: &Run) -> Self {
+        let outcome = match &run.outcome {
+            Outcome::Completed => End::Completed,
+            Outcome::Stopped => End::EnoughEvents,
+            Outcome::Failed { reason } => {
+                End::Stopped { reason: run.hint.clone().unwrap_or_else(|| reason.to_string()) }
+            }
+        };
+        let last = plan.names.iter().zip(plan.system.sliders()).enumerate().map(|(i, (name, s))| {
+            let y = plan.system.of(i, &run.unknowns);
+            let (speed, friction) = s.law.slip(y);
+            Final {
+                slider: name.clone(),
+                slip_rate: speed.rate,
+                friction,
+                states: y[1..=s.law.states()].to_vec(),
+            }
+        });
+        Self {
+            title: plan.title.clone(),
+            version: env!("CARGO_PKG_VERSION").to_string(),
+            scene_sha256: String::new(),
+            dynamics: plan.dynamics().to_string(),
+            sliders: plan.names.clone(),
+            method: plan.method.name().to_string(),
+            tolerance: plan.tolerance,
+            thresholds: plan.events,
+            outcome,
+            end: run.at.seconds(),
+            last: last.collect(),
+            events: run.catalogue.events.clone(),
+            counts: run.counts.into(),
+            run: Provenance { seconds: 0.0, commit: crate::report::commit().to_string() },
+        }
+    }
+
+    /// What a person should read at the end.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut text = String::from("results\n");
+        for e in &self.events {
+            let told = |value: Option<f64>, unit: &str| value.map_or("-".into(), |v| format!("{v:.6} {unit}"));
+            let _ = writeln!(
+                text,
+                "  `{}` at {:.6} s: interval {}, slip {}, peak {:.6e} m/s",
+                self.sliders[e.slider],
+                e.onset,
+                told(e.interval, "s"),
+                told(e.slip.map(|s| s * 1e6), "um"),
+                e.peak_rate
+            );
+        }
+        for l in &self.last {
+            let _ = writeln!(
+                text,
+                "  `{}` at the end, {:.6} s: V = {:.6e} m/s, friction {:.6}",
+                l.slider, self.end, l.slip_rate, l.friction
+            );
+        }
+        let c = &self.counts;
+        let _ = writeln!(
+            text,
+            "  {} steps ({} rejected), {} right-hand sides, {} Jacobians, {} factorisations",
+            c.steps, c.rejected, c.right_hand_sides, c.jacobians, c.factorisations
+        );
+        let _ = writeln!(text, "  seconds: {:.3}", self.run.seconds);
+        text
+    }
+}

@@ -1,0 +1,344 @@
+//! Integration from break to break of the prescribed histories.
+
+use super::catalogue::Catalogue;
+use super::plan::Plan;
+use super::problem::{Kind, Piece, kinds};
+use crate::observe::ObserveError;
+use crate::ode::{self, Clock, Control, Counts, Occurrence, Outcome, Sink, Step};
+use asperity_friction::slider::Condition;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+/// Why a run could not begin, or not be observed.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// Nothing holds a slider.
+    #[error("no spring leads from the sliders to the load point, so that their slip is not determined")]
+    Loose,
+    /// A law has no answer at a jump of the normal traction.
+    #[error(transparent)]
+    Law(#[from] asperity_friction::Failure),
+    /// An observer could not write.
+    #[error(transparent)]
+    Observe(#[from] ObserveError),
+}
+
+/// The sliders at an instant.
+#[derive(Clone, Debug)]
+pub struct Now<'a> {
+    /// When.
+    pub at: Clock,
+    /// Length of the step that ended \[s\].
+    pub dt: f64,
+    /// Number of the step, from 0 at the start.
+    pub step: usize,
+    /// Unknowns.
+    pub unknowns: &'a [f64],
+    /// Of each slider: what it is doing.
+    pub conditions: &'a [Condition],
+    /// Of each slider: slip since time 0 \[m\].
+    pub slip: &'a [f64],
+    /// Displacement of the load point since time 0 \[m\].
+    pub load: f64,
+}
+
+/// Watches a run.
+pub trait Watcher {
+    /// At the start and after each step.
+    ///
+    /// # Errors
+    /// When something cannot be written.
+    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), ObserveError>;
+
+    /// Whether it looks at all: what nobody looks at is not computed.
+    fn watches(&self) -> bool {
+        true
+    }
+}
+
+impl Watcher for () {
+    fn watches(&self) -> bool {
+        false
+    }
+
+    fn now(&mut self, _: &Plan, _: &Now<'_>) -> Result<(), ObserveError> {
+        Ok(())
+    }
+}
+
+impl<F: FnMut(&Plan, &Now<'_>)> Watcher for F {
+    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), ObserveError> {
+        self(plan, now);
+        Ok(())
+    }
+}
+
+/// Two watchers, the first one first.
+pub struct Both<'a>(pub &'a mut dyn Watcher, pub &'a mut dyn Watcher);
+
+impl Watcher for Both<'_> {
+    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), ObserveError> {
+        self.0.now(plan, now)?;
+        self.1.now(plan, now)
+    }
+}
+
+/// Change of ln V of which outputs show what lies between: a tenth of an e-fold is a hair on a plot over sixteen decades.
+const RESOLUTION: f64 = 0.1;
+/// Outputs within one step at most.
+const MOST_PARTS: f64 = 200.0;
+
+/// What a run found.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// When.
+    pub at: Clock,
+    /// Unknowns then.
+    pub unknowns: Vec<f64>,
+    /// Events.
+    pub catalogue: Catalogue,
+    /// Work.
+    pub counts: Counts,
+    /// Why a run that failed may have failed, in terms of the scene.
+    pub hint: Option<String>,
+}
+
+/// Runs a plan. An integration that fails is no error: the outcome says so, and all found until then stands.
+///
+/// # Errors
+/// [`RunError`].
+pub fn run(plan: &Plan, watcher: &mut dyn Watcher) -> Result<Run, RunError> {
+    let kinds = kinds(plan);
+    let options = plan.options();
+    let mut slips = Slips::new(plan)?;
+    let mut breaks = plan.system.breaks(0.0, plan.end);
+    breaks.push(plan.end);
+    let mut piece = Piece::new(plan, 0.5 * breaks[0], &kinds);
+    let mut state = Following::new(plan, watcher);
+    let (mut at, mut unknowns) = (Clock::new(0.0, 0.0), plan.start.clone());
+    let mut counts = Counts::default();
+    let mut outcome = Outcome::Completed;
+    for (k, &end) in breaks.iter().enumerate() {
+        if k > 0 {
+            let next = Piece::new(plan, 0.5 * (breaks[k - 1] + end), &kinds);
+            plan.system.jump(breaks[k - 1], &piece.segment, &next.segment, &mut unknowns)?;
+            piece = next;
+        }
+        slips.enter(&piece, at);
+        let mut sink = Running { piece: &piece, slips: &slips, state: &mut state };
+        sink.begin(at, &unknowns);
+        if sink.state.failure.is_some() {
+            break;
+        }
+        let duration = Clock::new(end, 0.0).since(&at);
+        let finished = ode::integrate(&piece, at, &unknowns, duration, &options, &mut sink);
+        slips.leave(&piece, finished.at);
+        (at, unknowns, outcome) = (finished.at, finished.state, finished.outcome);
+        add(&mut counts, &finished.counts);
+        if outcome != Outcome::Completed {
+            break;
+        }
+    }
+    let (catalogue, failure) = (state.catalogue, state.failure);
+    if let Some(failure) = failure {
+        return Err(failure.into());
+    }
+    let hint = matches!(outcome, Outcome::Failed { .. }).then(|| hint(plan, &piece, at, &unknowns)).flatten();
+    Ok(Run { outcome, at, unknowns, catalogue, counts, hint })
+}
+
+fn add(sum: &mut Counts, part: &Counts) {
+    sum.steps += part.steps;
+    sum.rejected += part.rejected;
+    sum.rates += part.rates;
+    sum.jacobians += part.jacobians;
+    sum.factorisations += part.factorisations;
+    sum.solves += part.solves;
+    sum.newton_failures += part.newton_failures;
+    sum.restarts += part.restarts;
+}
+
+/// What a failure means, where a quasi-static slider runs away.
+fn hint(plan: &Plan, piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<String> {
+    let load = piece.segment.load().at(at.seconds()).0.abs();
+    let running = plan.system.sliders().iter().enumerate().find_map(|(i, s)| {
+        let rate = piece.segment.condition(i, at.seconds(), unknowns).rate;
+        (s.damping == 0.0 && s.mass.is_none() && rate > load).then_some((i, rate))
+    });
+    running.map(|(i, rate)| {
+        format!(
+            "`{}` slides at {rate:.3e} m/s and faster and faster: quasi-static equilibrium ends here; give it `damping` or `mass`",
+            plan.names[i]
+        )
+    })
+}
+
+/// Slip of the sliders from the tractions of their springs: `K u = k u_load - (T - T_0)`.
+struct Slips {
+    stiffness: Cholesky<f64, Dyn>,
+    /// Tractions at time 0 \[Pa\].
+    first: Vec<f64>,
+    /// Displacement of the load point when the present piece began, and when that was.
+    load: f64,
+    entered: Clock,
+}
+
+impl Slips {
+    fn new(plan: &Plan) -> Result<Self, RunError> {
+        let n = plan.names.len();
+        let mut k = DMatrix::from_fn(n, n, |i, j| if i == j { plan.system.stiffness(i) } else { 0.0 });
+        for spring in plan.system.springs() {
+            let [a, b] = spring.between;
+            if a != b {
+                k[(a, b)] -= spring.stiffness;
+                k[(b, a)] -= spring.stiffness;
+            }
+        }
+        let held = plan.system.sliders().iter().any(|s| s.stiffness > 0.0);
+        let stiffness = Cholesky::new(k).filter(|_| held).ok_or(RunError::Loose)?;
+        let segment = plan.system.segment(0.0);
+        let first = (0..n).map(|i| segment.condition(i, 0.0, &plan.start).traction).collect();
+        Ok(Self { stiffness, first, load: 0.0, entered: Clock::new(0.0, 0.0) })
+    }
+
+    fn enter(&mut self, _: &Piece<'_>, at: Clock) {
+        self.entered = at;
+    }
+
+    fn leave(&mut self, piece: &Piece<'_>, at: Clock) {
+        self.load = self.load_at(piece, at);
+    }
+
+    fn load_at(&self, piece: &Piece<'_>, at: Clock) -> f64 {
+        self.load + piece.segment.load().integral(self.entered.seconds(), at.since(&self.entered))
+    }
+
+    fn slip(&self, plan: &Plan, load: f64, conditions: &[Condition]) -> Vec<f64> {
+        let rhs = conditions.iter().zip(&self.first).zip(plan.system.sliders());
+        let rhs = DVector::from_iterator(
+            conditions.len(),
+            rhs.map(|((c, first), s)| s.stiffness * load - (c.traction - first)),
+        );
+        self.stiffness.solve(&rhs).iter().copied().collect()
+    }
+}
+
+/// What goes on from piece to piece.
+struct Following<'a> {
+    plan: &'a Plan,
+    watcher: &'a mut dyn Watcher,
+    catalogue: Catalogue,
+    failure: Option<ObserveError>,
+    step: usize,
+}
+
+impl<'a> Following<'a> {
+    fn new(plan: &'a Plan, watcher: &'a mut dyn Watcher) -> Self {
+        let catalogue = Catalogue::new(plan.names.len());
+        Self { plan, watcher, catalogue, failure: None, step: 0 }
+    }
+}
+
+/// The sink of one piece.
+struct Running<'a, 'b> {
+    piece: &'a Piece<'a>,
+    slips: &'a Slips,
+    state: &'a mut Following<'b>,
+}
+
+impl Running<'_, '_> {
+    /// Shows the first state, and that after a jump.
+    fn begin(&mut self, at: Clock, unknowns: &[f64]) {
+        self.show(at, 0.0, unknowns);
+        let Some(thresholds) = self.state.plan.events else { return };
+        let (load, conditions) = self.look(at, unknowns);
+        let slip = self.slips.slip(self.state.plan, load, &conditions);
+        for (i, c) in conditions.iter().enumerate() {
+            // A run that begins within an event, or a jump into one.
+            if c.rate > thresholds.on {
+                self.state.catalogue.begins(i, at, slip[i], c.rate);
+            } else if c.rate < thresholds.off {
+                self.state.catalogue.ends(i, at, slip[i]);
+            }
+        }
+    }
+
+    /// Shows what lies within a step, from the dense output, so that curves are smooth where steps are long.
+    fn between(&mut self, step: &Step<'_>) {
+        let plan = self.state.plan;
+        let logs = |y: &[f64]| -> Vec<f64> {
+            plan.system.sliders().iter().enumerate().map(|(i, s)| s.law.slip(plan.system.of(i, y)).0.log).collect()
+        };
+        let mut y = step.state.to_vec();
+        let end = logs(&y);
+        step.at(0.0, &mut y);
+        let change = logs(&y).iter().zip(&end).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        // A slider that passes rest changes ln V without bound.
+        let parts = (change / RESOLUTION).ceil().clamp(1.0, MOST_PARTS);
+        let length = step.length();
+        for part in 1..parts as usize {
+            let fraction = part as f64 / parts;
+            step.at(fraction, &mut y);
+            self.show(step.start.later(fraction * length), length / parts, &y);
+        }
+    }
+
+    fn look(&self, at: Clock, unknowns: &[f64]) -> (f64, Vec<Condition>) {
+        let time = at.seconds();
+        let conditions = (0..self.state.plan.names.len())
+            .map(|i| self.piece.segment.condition(i, time, unknowns))
+            .collect();
+        (self.slips.load_at(self.piece, at), conditions)
+    }
+
+    fn show(&mut self, at: Clock, dt: f64, unknowns: &[f64]) {
+        let plan = self.state.plan;
+        if !self.state.watcher.watches() {
+            for (i, s) in plan.system.sliders().iter().enumerate() {
+                self.state.catalogue.sees(i, s.law.slip(plan.system.of(i, unknowns)).0.rate);
+            }
+            return;
+        }
+        let (load, conditions) = self.look(at, unknowns);
+        let slip = self.slips.slip(plan, load, &conditions);
+        for (i, c) in conditions.iter().enumerate() {
+            self.state.catalogue.sees(i, c.rate);
+        }
+        let now =
+            Now { at, dt, step: self.state.step, unknowns, conditions: &conditions, slip: &slip, load };
+        if let Err(failure) = self.state.watcher.now(plan, &now) {
+            self.state.failure = Some(failure);
+        }
+    }
+}
+
+impl Sink for Running<'_, '_> {
+    fn accepted(&mut self, step: &Step<'_>) -> Control {
+        self.state.step += 1;
+        if self.state.watcher.watches() {
+            self.between(step);
+        }
+        self.show(step.end, step.length(), step.state);
+        if self.state.failure.is_some() { Control::Stop } else { Control::Go }
+    }
+
+    fn occurred(&mut self, o: &Occurrence) -> Control {
+        let kind = self.piece.kinds[o.event];
+        let (Kind::On(i) | Kind::Off(i) | Kind::Acceleration(i)) = kind;
+        let (load, conditions) = self.look(o.at, &o.state);
+        let slip = self.slips.slip(self.state.plan, load, &conditions);
+        match (kind, o.rising) {
+            (Kind::On(_), true) => self.state.catalogue.begins(i, o.at, slip[i], conditions[i].rate),
+            (Kind::Off(_), false) => self.state.catalogue.ends(i, o.at, slip[i]),
+            (Kind::Acceleration(_), _) => self.state.catalogue.sees(i, conditions[i].rate),
+            _ => {}
+        }
+        let enough = self.state.plan.most_events;
+        let reached = enough.is_some_and(|n| {
+            // The last event counts when it is over, so that its peak and slip are known.
+            self.state.catalogue.of(0).filter(|e| e.duration.is_some()).count() >= n
+        });
+        if reached { Control::Stop } else { Control::Go }
+    }
+}
