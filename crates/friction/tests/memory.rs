@@ -307,7 +307,7 @@ fn an_open_point_keeps_its_memory() {
     let old = initial(&law);
     let (_, rate, states) = implicit(&law, 0.0, 3e6, 1e12, 10.0, &old).unwrap();
     assert_eq!(states[0], old[0]);
-    approx::assert_relative_eq!(rate, 3e6 / 1e13, max_relative = 1e-15);
+    approx::assert_relative_eq!(rate, 3e6 / 1e13, epsilon = 0.0, max_relative = 1e-15);
     approx::assert_abs_diff_eq!(states[1], ageing().step(old[1], rate.ln(), 10.0).state, epsilon = 1e-14);
 }
 
@@ -323,7 +323,7 @@ fn initial_states_are_steady_under_the_initial_normal_traction() {
             let drives =
                 Drives { traction: &[friction * REFERENCE], normal: &[REFERENCE], damping: 0.0, near: None };
             law.slip_rates(drives, &states, &mut v, &mut rates).unwrap();
-            approx::assert_relative_eq!(v[0], rate, max_relative = 1e-11);
+            approx::assert_relative_eq!(v[0], rate, epsilon = 0.0, max_relative = 1e-11);
             for r in rates {
                 assert!(r.abs() <= 1e-11 * rate / LENGTH, "{} {rate}: {r:e}", E::NAME);
             }
@@ -331,8 +331,8 @@ fn initial_states_are_steady_under_the_initial_normal_traction() {
             let (stiffness, dt) = (1e12, 1e-2 * LENGTH / rate);
             let trial = friction * REFERENCE + stiffness * rate * dt;
             let (traction, after, new) = implicit(&law, REFERENCE, trial, stiffness, dt, &states).unwrap();
-            approx::assert_relative_eq!(traction, friction * REFERENCE, max_relative = 1e-11);
-            approx::assert_relative_eq!(after, rate, max_relative = 1e-9);
+            approx::assert_relative_eq!(traction, friction * REFERENCE, epsilon = 0.0, max_relative = 1e-11);
+            approx::assert_relative_eq!(after, rate, epsilon = 0.0, max_relative = 1e-9);
             for (new, old) in new.iter().zip(&states) {
                 assert!((new - old).abs() <= 1e-9 * (1.0 + old.abs()), "{} {rate}", E::NAME);
             }
@@ -397,4 +397,40 @@ fn equal_states_add_up() {
     check(&Prz::new(B, LENGTH, V_REF).unwrap(), &Prz::new(0.5 * B, LENGTH, V_REF).unwrap());
     let cut = |b| Ageing::new(b, LENGTH, V_REF).unwrap().with_cut_off(1e-5).unwrap();
     check(&cut(B), &cut(0.5 * B));
+}
+
+/// Rates of change are those of what the law keeps, at constant V and normal traction.
+#[test]
+fn rates_of_the_states_are_the_slopes_of_their_steps() {
+    fn check<F: Form, E: Evolution>(form: F, parts: &[(E, f64)]) {
+        let law = with_form(form, parts, 1e-7);
+        let states = initial(&law);
+        let normal = 1.2 * REFERENCE;
+        for rate in [1e-9, 1e-6, 1e-4] {
+            let traction = normal * mu(&law, normal, rate, &states);
+            let (mut v, mut rates) = ([0.0], vec![f64::NAN; states.len()]);
+            let drives = Drives { traction: &[traction], normal: &[normal], damping: 0.0, near: None };
+            law.slip_rates(drives, &states, &mut v, &mut rates).unwrap();
+            assert!((v[0] / rate - 1.0).abs() < 1e-11, "{} {rate}: {}", E::NAME, v[0]);
+            let remainders = |dt: f64| -> Vec<f64> {
+                let new = slide(&law, [normal; 2], rate, dt, &states);
+                (0..rates.len()).map(|i| (new[i] - states[i] - dt * rates[i]).abs()).collect()
+            };
+            let fastest = rates.iter().fold(rate / LENGTH, |most, r| most.max(r.abs()));
+            let dt = 1e-2 / fastest;
+            for (coarse, fine) in remainders(dt).iter().zip(&remainders(0.5 * dt)) {
+                let order = (coarse / fine).log2();
+                assert!(*fine < 1e-12 || (order - 2.0).abs() < 0.1, "{} {rate}: order {order}", E::NAME);
+            }
+        }
+    }
+    fn check_all<F: Form>(form: &F) {
+        check(form.clone(), &[(slip(), ALPHA), (Slip::new(0.003, 1e-4, V_REF).unwrap(), 0.1)]);
+        check(form.clone(), &[(ageing(), ALPHA), (Ageing::new(0.003, 1e-4, V_REF).unwrap(), 0.0)]);
+        check(form.clone(), &[(Prz::new(B, LENGTH, V_REF).unwrap(), 0.02)]);
+        check(form.clone(), &[(flash(), ALPHA)]);
+        check(form.clone(), &[(Nagata::new(B, LENGTH, V_REF, 2.0).unwrap(), 0.1)]);
+    }
+    check_all(&Bare(parameters()));
+    check_all(&Regularised(parameters()));
 }

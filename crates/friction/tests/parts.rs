@@ -88,13 +88,23 @@ fn the_regularised_strength_has_its_limits() {
     let a = 0.02;
     let form = Regularised(Parameters::new(0.0, a, 0.5).unwrap());
     for v in rates() {
-        approx::assert_relative_eq!(form.at(v.ln(), 0.0).mu, a * v.asinh(), max_relative = 1e-13);
-        approx::assert_relative_eq!(form.d_rate(v.ln(), 0.0), a / v.hypot(1.0), max_relative = 1e-13);
+        approx::assert_relative_eq!(
+            form.at(v.ln(), 0.0).mu,
+            a * v.asinh(),
+            epsilon = 0.0,
+            max_relative = 1e-13
+        );
+        approx::assert_relative_eq!(
+            form.d_rate(v.ln(), 0.0),
+            a / v.hypot(1.0),
+            epsilon = 0.0,
+            max_relative = 1e-13
+        );
     }
     assert_eq!(form.rest_slope(0.0), Some(a));
     // Where the factor of V exceeds the range of numbers the slope does not.
     let stiff = Regularised(Parameters::new(0.6, 1e-4, V_REF).unwrap());
-    approx::assert_relative_eq!(stiff.d_rate(1e-6f64.ln(), 0.2), 100.0, max_relative = 1e-12);
+    approx::assert_relative_eq!(stiff.d_rate(1e-6f64.ln(), 0.2), 100.0, epsilon = 0.0, max_relative = 1e-12);
     assert_eq!(stiff.rest_slope(0.0), Some(f64::INFINITY));
 }
 
@@ -119,7 +129,12 @@ fn derivatives_of_the_strength_are_its_derivatives() {
         assert!(found.iter().all(|o| (o - 2.0).abs() < 0.1), "{v}: {found:?}");
     }
     let bare = Bare(Parameters::new(0.6, 0.01, V_REF).unwrap());
-    approx::assert_relative_eq!(bare.d_rate(3e-7f64.ln(), 0.1), 0.01 / 3e-7, max_relative = 1e-14);
+    approx::assert_relative_eq!(
+        bare.d_rate(3e-7f64.ln(), 0.1),
+        0.01 / 3e-7,
+        epsilon = 0.0,
+        max_relative = 1e-14
+    );
 }
 
 /// Calls a function with every strength form, of μ0 = 0.6 and a = 0.005.
@@ -180,7 +195,12 @@ fn the_slip_rate_is_the_inverse_of_every_strength() {
                     let what = || format!("{name} m {m}, φ {phi}, sign {sign}");
                     let s = form.slip_rate(sign * m, phi);
                     assert!(s.rate.signum() == sign && s.rate.is_finite(), "{}", what());
-                    approx::assert_relative_eq!(s.rate.abs(), s.log.exp(), max_relative = 1e-13);
+                    approx::assert_relative_eq!(
+                        s.rate.abs(),
+                        s.log.exp(),
+                        epsilon = 0.0,
+                        max_relative = 1e-13
+                    );
                     let mu = form.at(s.log, phi).mu;
                     assert!((mu - a * m).abs() <= 1e-15 + 4e-16 * a * s.log.abs(), "{}: {mu}", what());
                     approx::assert_abs_diff_eq!(form.log_rate(a * m, phi), s.log, epsilon = 1e-12);
@@ -208,7 +228,12 @@ fn the_slip_rate_is_the_inverse_of_every_strength() {
         if form.regular_at_rest() {
             let rest = form.slip_rate(0.0, 0.1);
             assert_eq!((rest.rate, rest.log), (0.0, f64::NEG_INFINITY));
-            approx::assert_relative_eq!(rest.d_m, a / form.rest_slope(0.1).unwrap(), max_relative = 1e-13);
+            approx::assert_relative_eq!(
+                rest.d_m,
+                a / form.rest_slope(0.1).unwrap(),
+                epsilon = 0.0,
+                max_relative = 1e-13
+            );
         }
     }
     with_every_form!(check);
@@ -226,7 +251,12 @@ fn the_cut_off_saturates_the_direct_effect() {
     for v in rates() {
         let expected = 0.6 + 0.1 - a * (v1 / v).ln_1p();
         approx::assert_abs_diff_eq!(form.at(v.ln(), 0.1).mu, expected, epsilon = 1e-15);
-        approx::assert_relative_eq!(form.d_rate(v.ln(), 0.1), a / v * (v1 / (v + v1)), max_relative = 1e-13);
+        approx::assert_relative_eq!(
+            form.d_rate(v.ln(), 0.1),
+            a / v * (v1 / (v + v1)),
+            epsilon = 0.0,
+            max_relative = 1e-13
+        );
     }
     // Above V1 nothing is gained: less than a V1/V is left.
     assert!((form.at(1e4f64.ln(), 0.0).mu - 0.6).abs() <= a * 1.001e-9);
@@ -248,7 +278,12 @@ fn temperature_shifts_the_strength_by_its_arrhenius_factor() {
             let (z, expected) = (v.ln(), Bare(p).at(v.ln(), 0.05).mu + a * factor);
             approx::assert_abs_diff_eq!(bare.at(z, 0.05).mu, expected, epsilon = 1e-13);
             let expected = a * (v * factor.exp() / (2.0 * V_REF) * (0.65f64 / a).exp()).asinh();
-            approx::assert_relative_eq!(regularised.at(z, 0.05).mu, expected, max_relative = 1e-12);
+            approx::assert_relative_eq!(
+                regularised.at(z, 0.05).mu,
+                expected,
+                epsilon = 0.0,
+                max_relative = 1e-12
+            );
             let at = |t: f64| Arrhenius::new(Regularised(p), q, reference, t).unwrap().at(z, 0.05).mu;
             let d = regularised.d_temperature(z, 0.05);
             let (holds, shows) = taylor(|h| at(t + h), d, 1e-3 * t, 1e-16 * (1.0 + a * z.abs()));
@@ -256,6 +291,7 @@ fn temperature_shifts_the_strength_by_its_arrhenius_factor() {
             approx::assert_relative_eq!(
                 bare.d_temperature(z, 0.0),
                 -a * q / (GAS_CONSTANT * t * t),
+                epsilon = 0.0,
                 max_relative = 1e-14
             );
         }
@@ -472,12 +508,27 @@ fn extreme_rates_and_rest_leave_numbers() {
     let flash = Flash::new(weakening(0.01), LENGTH).unwrap();
     assert_eq!(slip.step(0.1, f64::MIN, 1e9).state, 0.1);
     assert_eq!(flash.step(0.1, f64::MIN, 1e9).state, 0.1);
-    approx::assert_relative_eq!(ageing.step(0.0, f64::MIN, 90.0).state, 10f64.ln(), max_relative = 1e-14);
+    approx::assert_relative_eq!(
+        ageing.step(0.0, f64::MIN, 90.0).state,
+        10f64.ln(),
+        epsilon = 0.0,
+        max_relative = 1e-14
+    );
     // θ_0 = 2L/Vref = 20 s.
     let prz = Prz::new(B, LENGTH, V_REF).unwrap();
-    approx::assert_relative_eq!(prz.step(0.0, f64::MIN, 180.0).state, 10f64.ln(), max_relative = 1e-14);
+    approx::assert_relative_eq!(
+        prz.step(0.0, f64::MIN, 180.0).state,
+        10f64.ln(),
+        epsilon = 0.0,
+        max_relative = 1e-14
+    );
     let nagata = Nagata::new(B, LENGTH, V_REF, 2.0).unwrap();
-    approx::assert_relative_eq!(nagata.step(0.0, f64::MIN, 270.0).state, 10f64.ln(), max_relative = 1e-14);
+    approx::assert_relative_eq!(
+        nagata.step(0.0, f64::MIN, 270.0).state,
+        10f64.ln(),
+        epsilon = 0.0,
+        max_relative = 1e-14
+    );
 }
 
 /// u = V θ/2L obeys du/dx = 1 - u² over x = V t/2L: tanh below its steady state of 1 and coth above.
@@ -558,12 +609,22 @@ fn a_cut_off_bounds_the_state_effect() {
     let expected = |theta: f64| B * (v2 * theta / LENGTH).ln_1p();
     for (v1, v) in [(1e-9, 1e-6), (1e-6, 1e-3), (1e-2, 1e-5), (1e-3, 1.0)] {
         let state = cut.steady(f64::ln(v1));
-        approx::assert_relative_eq!(cut.phi(state), expected(LENGTH / v1), max_relative = 1e-13);
+        approx::assert_relative_eq!(
+            cut.phi(state),
+            expected(LENGTH / v1),
+            epsilon = 0.0,
+            max_relative = 1e-13
+        );
         for slip in [1e-3, 0.1, 1.0, 5.0] {
             let after = cut.step(state, f64::ln(v), slip * LENGTH / v);
             assert_eq!(after, plain.step(state, f64::ln(v), slip * LENGTH / v));
             let theta = LENGTH / v + (LENGTH / v1 - LENGTH / v) * f64::exp(-slip);
-            approx::assert_relative_eq!(cut.phi(after.state), expected(theta), max_relative = 1e-13);
+            approx::assert_relative_eq!(
+                cut.phi(after.state),
+                expected(theta),
+                epsilon = 0.0,
+                max_relative = 1e-13
+            );
         }
     }
     // Nothing is left of it at V ≫ V2; at V ≪ V2 it is the plain law with another reference.
@@ -572,6 +633,7 @@ fn a_cut_off_bounds_the_state_effect() {
         approx::assert_relative_eq!(
             cut.phi(state),
             plain.phi(state) + B * f64::ln(100.0),
+            epsilon = 0.0,
             max_relative = 1e-14
         );
     }
