@@ -447,54 +447,38 @@ fn events_a_microsecond_apart_are_resolved_after_thirty_years() {
     }
 }
 
+/// Nothing moves; events at 1e9 s and 1e-6 s later.
+struct Wait;
+
+impl Problem for Wait {
+    fn size(&self) -> usize {
+        1
+    }
+    fn rates(&self, _: Clock, _: &[f64], dy: &mut [f64]) {
+        dy[0] = 0.0;
+    }
+    fn jacobian(&self, _: Clock, _: &[f64], jac: &mut [f64]) {
+        jac[0] = 0.0;
+    }
+    fn events(&self) -> usize {
+        2
+    }
+    fn event(&self, at: Clock, _: &[f64], g: &mut [f64]) {
+        g[0] = at.since(&Clock::new(1e9, 0.0));
+        g[1] = at.since(&Clock::new(1e9, 1e-6));
+    }
+}
+
 #[test]
 fn a_short_event_after_a_long_wait_keeps_its_length() {
-    // A pulse of 1e-6 s at 1e9 s, all in one integration.
-    let pulse = Given {
-        events: 2,
-        rates: |t, _, dy| dy[0] = if t > 2e9 { 1.0 } else { 0.0 },
-        jacobian: |_, _, j| j[0] = 0.0,
-        event: |_, _, _| {},
-        ..draining()
-    };
-    struct Long(Given);
-    impl Problem for Long {
-        fn size(&self) -> usize {
-            1
-        }
-        fn rates(&self, at: Clock, y: &[f64], dy: &mut [f64]) {
-            self.0.rates(at, y, dy);
-        }
-        fn jacobian(&self, at: Clock, y: &[f64], jac: &mut [f64]) {
-            self.0.jacobian(at, y, jac);
-        }
-        fn events(&self) -> usize {
-            2
-        }
-        fn event(&self, at: Clock, _: &[f64], g: &mut [f64]) {
-            g[0] = at.since(&Clock::new(1e9, 0.0));
-            g[1] = at.since(&Clock::new(1e9, 1e-6));
-        }
-    }
     for method in Method::ALL {
         let mut record = Record::new();
-        completed(&integrate(
-            &Long(pulse_of(&pulse)),
-            START,
-            &[0.0],
-            1.5e9,
-            &options(method, 1e-6, 1),
-            &mut record,
-        ));
+        completed(&integrate(&Wait, START, &[0.0], 1.5e9, &options(method, 1e-6, 1), &mut record));
         assert_eq!(record.occurrences.len(), 2, "{}", method.name());
         let apart = record.occurrences[1].at.since(&record.occurrences[0].at);
         // The first is found on the clock of the long wait, whose resolution there is 1e-7 s.
         assert!((apart - 1e-6).abs() < 3e-7, "{}: {apart:e}", method.name());
     }
-}
-
-fn pulse_of(given: &Given) -> Given {
-    Given { ..*given }
 }
 
 #[test]
@@ -669,6 +653,59 @@ fn an_integration_goes_on_from_an_event_without_finding_it_again() {
             let time = finished.at.since(&at);
             assert!(k == 0 || (time - PI).abs() < 1e-3, "{} after {time} s", method.name());
             (at, state) = (finished.at, finished.state);
+        }
+    }
+}
+
+#[test]
+fn an_event_at_the_end_or_just_before_it_is_found() {
+    for method in Method::ALL {
+        for place in [1.0, 1.0 - 1e-9, 1e-9] {
+            let given = Given { events: 1, event: |t, y, g| g[0] = t - y[1], ..unit_ramp() };
+            let mut record = Record::new();
+            completed(&integrate(&given, START, &[0.0, place], 1.0, &options(method, 1e-6, 2), &mut record));
+            assert_eq!(record.occurrences.len(), 1, "{} at {place}", method.name());
+            assert!(
+                (record.occurrences[0].at.seconds() - place).abs() < 1e-13,
+                "{} at {place}",
+                method.name()
+            );
+            assert_eq!(record.last.map(|at| at.seconds()), Some(1.0), "{} at {place}", method.name());
+        }
+    }
+}
+
+/// y0' = 1 and y1' = 0.
+fn unit_ramp() -> Given {
+    Given { rates: |_, _, dy| (dy[0], dy[1]) = (1.0, 0.0), ..ramp() }
+}
+
+#[test]
+fn many_unknowns_are_integrated_like_two() {
+    // Decays of ten rates.
+    let decays = Given {
+        zero: START,
+        size: 10,
+        events: 0,
+        rates: |_, y, dy| {
+            for (i, (rate, value)) in dy.iter_mut().zip(y).enumerate() {
+                *rate = -0.1 * (i + 1) as f64 * value;
+            }
+        },
+        jacobian: |_, _, j| {
+            j.fill(0.0);
+            for i in 0..10 {
+                j[11 * i] = -0.1 * (i + 1) as f64;
+            }
+        },
+        event: no_events,
+    };
+    for method in Method::ALL {
+        let finished =
+            integrate(&decays, START, &[1.0; 10], 2.0, &options(method, 1e-7, 10), &mut Record::new());
+        completed(&finished);
+        for (i, value) in finished.state.iter().enumerate() {
+            assert!((value - (-0.2 * (i + 1) as f64).exp()).abs() < 1e-5, "{} {i}: {value}", method.name());
         }
     }
 }

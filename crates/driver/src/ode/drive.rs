@@ -152,7 +152,7 @@ impl<'a> Drive<'a> {
         let landing = self.land(found);
         self.t = landing.t;
         let mut control = Control::Go;
-        if landing.share > NOTHING {
+        if landing.t > start {
             control = self.emit(start, landing.share, landing.exact);
         }
         let mut fired = Vec::new();
@@ -181,9 +181,13 @@ impl<'a> Drive<'a> {
             return Landing { t: t1, share: 1.0, exact: true };
         }
         self.stepper.interpolate(self.system, found.fraction, &mut self.state);
-        if found.fraction > NOTHING && self.retake(found, h) {
-            self.state.copy_from_slice(self.stepper.end());
-            return Landing { t: self.stepper.span().1, share: 1.0, exact: true };
+        if found.fraction > NOTHING {
+            if self.retake(found, h) {
+                self.state.copy_from_slice(self.stepper.end());
+                return Landing { t: self.stepper.span().1, share: 1.0, exact: true };
+            }
+            // Back to the whole step, whose dense output is cut.
+            self.stepper.retake(self.system, h);
         }
         Landing { t: t0 + found.fraction * h, share: found.fraction, exact: false }
     }
@@ -199,7 +203,7 @@ impl<'a> Drive<'a> {
         for _ in 0..CORRECTIONS {
             let trial = length - value / slope;
             let change = trial - length;
-            if !(trial > 0.0 && trial < 2.0 * h) || change.abs() <= NOTHING * h {
+            if !(trial > 0.0 && trial <= h) || change.abs() <= NOTHING * h {
                 break;
             }
             if !self.stepper.retake(self.system, trial) {

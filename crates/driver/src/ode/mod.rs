@@ -5,7 +5,8 @@
 //!
 //! An event is a change of sign of a function of time and state. It is looked for at the end and in the middle of each accepted
 //! step, and where a parabola through these values comes near to zero; two changes of one function within a step that show in
-//! none of these are missed. The step ends at the event, and the next begins there.
+//! none of these are missed. The step ends at the event, and the next begins there. A function that is zero to rounding where an
+//! integration begins takes its side from what follows and does not fire there.
 
 mod clock;
 mod diffsol;
