@@ -20,6 +20,9 @@ fn files(folder: &str) -> Vec<(String, String)> {
 }
 
 fn errors(text: &str) -> Option<SceneErrors> {
+    if scene::slider::is_slider(text) {
+        return scene::slider::read(text).err();
+    }
     match scene::read(text) {
         Err(errors) => Some(errors),
         Ok(scene) => asperity_driver::plan::plan(&scene).err().map(SceneErrors::from),
@@ -41,7 +44,7 @@ fn complaint(text: &str) -> Option<String> {
 #[test]
 fn every_bad_scene_is_refused_at_its_place_with_its_reason() {
     let files = files("tests/bad_scenes");
-    assert!(files.len() >= 32, "only {} files", files.len());
+    assert!(files.len() >= 120, "only {} files", files.len());
     let wrong: Vec<String> =
         files.iter().filter_map(|(name, text)| complaint(text).map(|c| format!("{name}: {c}"))).collect();
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), files.len(), wrong.join("\n"));
@@ -84,6 +87,10 @@ fn each_law_with_its_parameters_is_accepted() {
     accepted(&[(RATE, "{ kind = \"coulomb\", mu = 0.6 }")]);
     accepted(&[(RATE, STATE)]);
     accepted(&[(RATE, &STATE.replace("slip", "ageing").replace("bare", "regularised"))]);
+    accepted(&[(RATE, "{ kind = \"static-kinetic\", mu_s = 0.6, mu_k = 0.5 }")]);
+    accepted(&[(RATE, "{ kind = \"slip-weakening\", mu_s = 0.6, mu_k = 0.5, d_c = \"0.4 m\" }")]);
+    let two = STATE.replace("b = 0.02, l = \"10 um\"", "b = [0.012, 0.003], l = [\"10 um\", \"1 mm\"]");
+    accepted(&[(RATE, &two)]);
     let law = format!("law = {RATE}\n");
     accepted(&[(law.as_str(), ""), (", tangential = \"100 E/h\"", "")]);
 }
@@ -176,6 +183,9 @@ fn what_contradicts_itself_is_shown_at_both_places() {
     assert_eq!(places("size_and_divisions.toml"), [(9, 78), (9, 59)]);
     assert_eq!(places("min_above_max.toml"), [(37, 12), (38, 12)]);
     assert_eq!(places("bdf2_with_state.toml"), [(37, 8), (20, 16)]);
+    assert_eq!(places("law_states_of_two_lengths.toml"), [(20, 139), (20, 119)]);
+    assert_eq!(places("law_memory_without_state.toml"), [(20, 170), (20, 129)]);
+    assert_eq!(places("law_kinetic_above_static.toml"), [(20, 53), (20, 41)]);
     assert_eq!(places("table_beyond_its_stage.toml"), [(26, 27), (23, 12)]);
 }
 

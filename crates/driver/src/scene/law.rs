@@ -1,29 +1,94 @@
 //! Which friction law a scene means, complete and in range.
 
+mod reader;
+mod several;
+
+pub use several::Several;
+
 use super::model::{LawSpec, Spanned};
 use super::{SceneError, near};
+use reader::Reader;
 use std::ops::Range;
 
 /// Forms of the rate-dependent strength.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
     /// With asinh: regular at rest.
     Regularised,
     /// The bare logarithm: not defined at rest.
     Bare,
+    /// With a direct effect that saturates: not defined at rest.
+    CutOff {
+        /// Cut-off rate V1 of the direct effect \[m/s\].
+        v_cut: f64,
+    },
+}
+
+/// Temperature of the interface, by an Arrhenius factor of the slip rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Heat {
+    /// Activation energy Q \[J/mol\].
+    pub activation: f64,
+    /// Temperature of the parameters \[K\].
+    pub t_ref: f64,
+    /// Temperature \[K\].
+    pub temperature: f64,
+}
+
+/// The rate-dependent strength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strength {
+    /// Form.
+    pub form: Form,
+    /// Reference coefficient \[-\].
+    pub mu0: f64,
+    /// Direct effect \[-\].
+    pub a: f64,
+    /// Reference slip rate \[m/s\].
+    pub v_ref: f64,
+    /// Temperature, where it matters.
+    pub heat: Option<Heat>,
 }
 
 /// Evolution of the state.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Evolution {
     /// dθ/dt = 1 - V θ/L.
-    Ageing,
+    Ageing {
+        /// Cut-off rate V2 of the state effect \[m/s\].
+        v_cut: Option<f64>,
+    },
     /// dθ/dt = -(V θ/L) ln(V θ/L).
     Slip,
+    /// Perrin-Rice-Zheng: dθ/dt = 1 - (V θ/2L)².
+    Prz,
+    /// Ageing with a memory of shear traction.
+    Nagata {
+        /// c \[-\].
+        c: f64,
+    },
+    /// The slip law towards a steady state weakened by flash heating.
+    Flash {
+        /// Fully weakened coefficient \[-\].
+        mu_w: f64,
+        /// Slip rate at which weakening begins \[m/s\].
+        v_w: f64,
+    },
+}
+
+/// A state variable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Evolution effect \[-\].
+    pub b: f64,
+    /// Characteristic slip \[m\].
+    pub l: f64,
+    /// Memory of normal traction \[-\].
+    pub alpha: f64,
 }
 
 /// A friction law with exactly the parameters it needs.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum LawChoice {
     /// A constant coefficient.
     Coulomb {
@@ -32,47 +97,93 @@ pub enum LawChoice {
         /// Largest shear traction \[Pa\].
         f_limit: Option<f64>,
     },
-    /// A coefficient that depends on the slip rate.
-    Rate {
-        /// Form of the strength.
-        form: Form,
-        /// Reference coefficient \[-\].
-        mu0: f64,
-        /// Direct effect \[-\].
-        a: f64,
-        /// Reference slip rate \[m/s\].
-        v_ref: f64,
+    /// A coefficient that falls where slip begins.
+    StaticKinetic {
+        /// Coefficient at rest \[-\].
+        mu_s: f64,
+        /// Coefficient in slip \[-\].
+        mu_k: f64,
         /// Largest shear traction \[Pa\].
         f_limit: Option<f64>,
     },
-    /// A coefficient that depends on the slip rate and a state.
+    /// A coefficient that falls linearly with slip.
+    SlipWeakening {
+        /// Coefficient before slip \[-\].
+        mu_s: f64,
+        /// Coefficient after slip over `d_c` \[-\].
+        mu_k: f64,
+        /// Slip over which it falls \[m\].
+        d_c: f64,
+        /// Largest shear traction \[Pa\].
+        f_limit: Option<f64>,
+    },
+    /// A coefficient that depends on the slip rate.
+    Rate {
+        /// Strength.
+        strength: Strength,
+        /// Largest shear traction \[Pa\].
+        f_limit: Option<f64>,
+    },
+    /// A coefficient that depends on the slip rate and one or more states.
     RateAndState {
-        /// Form of the strength.
-        form: Form,
-        /// Evolution of the state.
+        /// Strength.
+        strength: Strength,
+        /// Evolution of every state variable.
         evolution: Evolution,
-        /// Reference coefficient \[-\].
-        mu0: f64,
-        /// Direct effect \[-\].
-        a: f64,
-        /// Evolution effect \[-\].
-        b: f64,
-        /// Characteristic slip \[m\].
-        l: f64,
-        /// Reference slip rate \[m/s\].
-        v_ref: f64,
+        /// The state variables.
+        states: Vec<State>,
         /// Slip rate of the steady state the points start from \[m/s\].
         v_initial: f64,
+        /// Normal traction of that steady state \[Pa\], where a state variable remembers normal traction.
+        normal_initial: Option<f64>,
         /// Largest shear traction \[Pa\].
         f_limit: Option<f64>,
     },
 }
 
 /// Kinds of law with the parameters of each.
-const KINDS: [(&str, &[&str]); 3] = [
+const KINDS: [(&str, &[&str]); 5] = [
     ("coulomb", &["mu", "f_limit"]),
-    ("rate", &["form", "mu0", "a", "v_ref", "f_limit"]),
-    ("rate-and-state", &["form", "evolution", "mu0", "a", "b", "l", "v_ref", "v_initial", "f_limit"]),
+    ("static-kinetic", &["mu_s", "mu_k", "f_limit"]),
+    ("slip-weakening", &["mu_s", "mu_k", "d_c", "f_limit"]),
+    ("rate", &["form", "mu0", "a", "v_ref", "v_cut", "activation", "t_ref", "temperature", "f_limit"]),
+    (
+        "rate-and-state",
+        &[
+            "form",
+            "evolution",
+            "mu0",
+            "a",
+            "b",
+            "l",
+            "v_ref",
+            "v_initial",
+            "v_cut",
+            "v_cut_state",
+            "alpha",
+            "normal_initial",
+            "c",
+            "mu_w",
+            "v_w",
+            "activation",
+            "t_ref",
+            "temperature",
+            "f_limit",
+        ],
+    ),
+];
+
+/// Forms and evolutions.
+const FORMS: [&str; 3] = ["regularised", "bare", "cut-off"];
+const EVOLUTIONS: [&str; 5] = ["ageing", "slip", "prz", "nagata", "flash"];
+
+/// Parameters of one form or evolution only.
+const PARTICULAR: [(&str, &str, &str); 5] = [
+    ("v_cut", "form", "cut-off"),
+    ("v_cut_state", "evolution", "ageing"),
+    ("c", "evolution", "nagata"),
+    ("mu_w", "evolution", "flash"),
+    ("v_w", "evolution", "flash"),
 ];
 
 /// The law of a specification.
@@ -93,7 +204,9 @@ pub fn choose(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<SceneError>> {
             near::suggest(kind.get_ref(), "kinds", kinds()),
         )]);
     };
-    let mut reader = Reader { kind: name, place: spec.span(), errors: foreign(law, name, parameters) };
+    let mut errors = foreign(law, name, parameters);
+    errors.extend(particular(law, parameters));
+    let mut reader = Reader { kind: name, place: spec.span(), errors };
     let choice = reader.choice(law);
     match choice {
         Some(choice) if reader.errors.is_empty() => Ok(choice),
@@ -101,20 +214,17 @@ pub fn choose(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<SceneError>> {
     }
 }
 
+/// Keys with their places where they are given.
+macro_rules! places {
+    ($law:ident: $($key:ident)*) => {
+        [$((stringify!($key), $law.$key.as_ref().map(Spanned::span))),*]
+    };
+}
+
 /// Parameters given, with their places, in the order of the specification.
 fn given(law: &LawSpec) -> Vec<(&'static str, Range<usize>)> {
-    let places = [
-        ("mu", law.mu.as_ref().map(Spanned::span)),
-        ("form", law.form.as_ref().map(Spanned::span)),
-        ("evolution", law.evolution.as_ref().map(Spanned::span)),
-        ("mu0", law.mu0.as_ref().map(Spanned::span)),
-        ("a", law.a.as_ref().map(Spanned::span)),
-        ("b", law.b.as_ref().map(Spanned::span)),
-        ("l", law.l.as_ref().map(Spanned::span)),
-        ("v_ref", law.v_ref.as_ref().map(Spanned::span)),
-        ("v_initial", law.v_initial.as_ref().map(Spanned::span)),
-        ("f_limit", law.f_limit.as_ref().map(Spanned::span)),
-    ];
+    let places = places!(law: mu mu_s mu_k d_c form evolution mu0 a b l v_ref v_initial v_cut v_cut_state alpha normal_initial
+                         c mu_w v_w activation t_ref temperature f_limit);
     places.into_iter().filter_map(|(name, place)| place.map(|p| (name, p))).collect()
 }
 
@@ -136,154 +246,19 @@ fn foreign(law: &LawSpec, kind: &str, parameters: &[&str]) -> Vec<SceneError> {
         .collect()
 }
 
-/// Reads parameters and collects what is wrong with them.
-struct Reader {
-    kind: &'static str,
-    place: Range<usize>,
-    errors: Vec<SceneError>,
-}
-
-impl Reader {
-    fn choice(&mut self, law: &LawSpec) -> Option<LawChoice> {
-        let f_limit = match &law.f_limit {
-            None => Some(None),
-            Some(f) => self.positive("f_limit", Some((f.get_ref().0, f.span())), "100 MPa").map(Some),
-        };
-        if self.kind == "coulomb" {
-            let mu = self.number("mu", law.mu.as_ref(), "0.6", (0.0, true));
-            return Some(LawChoice::Coulomb { mu: mu?, f_limit: f_limit? });
-        }
-        let form = self.form(law);
-        let mu0 = self.number("mu0", law.mu0.as_ref(), "0.6", (0.0, false));
-        let a = self.direct_effect(law);
-        let v_ref = self.positive("v_ref", law.v_ref.as_ref().map(|v| (v.get_ref().0, v.span())), "1 um/s");
-        if self.kind == "rate" {
-            return Some(LawChoice::Rate { form: form?, mu0: mu0?, a: a?, v_ref: v_ref?, f_limit: f_limit? });
-        }
-        let evolution = self.evolution(law);
-        let b = self.number("b", law.b.as_ref(), "0.015", (0.0, true));
-        let l = self.positive("l", law.l.as_ref().map(|v| (v.get_ref().0, v.span())), "10 um");
-        let start = law.v_initial.as_ref().map(|v| (v.get_ref().0, v.span()));
-        let v_initial = self.positive("v_initial", start, "1 um/s");
-        Some(LawChoice::RateAndState {
-            form: form?,
-            evolution: evolution?,
-            mu0: mu0?,
-            a: a?,
-            b: b?,
-            l: l?,
-            v_ref: v_ref?,
-            v_initial: v_initial?,
-            f_limit: f_limit?,
-        })
-    }
-
-    fn missing(&mut self, name: &str, example: &str) {
-        self.errors.push(SceneError::at(
-            self.place.clone(),
-            format!("the law \"{}\" needs `{name}`", self.kind),
-            format!("add it, such as `{name} = {example}`"),
-        ));
-    }
-
-    fn positive(&mut self, name: &str, value: Option<(f64, Range<usize>)>, example: &str) -> Option<f64> {
-        let Some((value, place)) = value else {
-            self.missing(name, &format!("\"{example}\""));
-            return None;
-        };
-        if value > 0.0 && value.is_finite() {
-            return Some(value);
-        }
-        let help = format!("such as `{name} = \"{example}\"`");
-        self.errors.push(SceneError::at(place, format!("`{name}` must be positive, found {value:?}"), help));
-        None
-    }
-
-    /// A number above `bound.0`, or equal to it where `bound.1`.
-    fn number(
-        &mut self,
-        name: &str,
-        v: Option<&Spanned<f64>>,
-        example: &str,
-        bound: (f64, bool),
-    ) -> Option<f64> {
-        let Some(v) = v else {
-            self.missing(name, example);
-            return None;
-        };
-        let value = *v.get_ref();
-        if value.is_finite() && (value > bound.0 || (bound.1 && value == bound.0)) {
-            return Some(value);
-        }
-        let sign = if bound.1 { "not negative" } else { "positive" };
-        let message = format!("`{name}` must be finite and {sign}, found {value:?}");
-        self.errors.push(SceneError::at(v.span(), message, format!("such as `{name} = {example}`")));
-        None
-    }
-
-    fn direct_effect(&mut self, law: &LawSpec) -> Option<f64> {
-        let Some(a) = &law.a else {
-            self.missing("a", "0.01");
-            return None;
-        };
-        let value = *a.get_ref();
-        if value > 0.0 && value.is_finite() {
-            return Some(value);
-        }
-        let (message, help) = if value < 0.0 && value.is_finite() && self.kind == "rate" {
-            (
-                format!(
-                    "the problem is ill-posed: with a = {value:?} the strength falls with the slip rate at once, and \
-                     a quasi-static continuum has neither a state, a slip length nor inertia to bound how fast slip \
-                     grows at the shortest wavelengths, so the answer would be the mesh's"
-                ),
-                "for weakening use `kind = \"rate-and-state\"` with 0 < a < b and a slip length `l`"
-                    .to_string(),
-            )
-        } else if value < 0.0 && value.is_finite() {
-            (
-                format!(
-                    "the problem is ill-posed: a = {value:?} lets the strength fall at once with the slip rate"
-                ),
-                "a > 0; weakening comes from b > a, over the slip length `l`".to_string(),
-            )
-        } else if value == 0.0 {
-            (
-                "a = 0 leaves no direct effect, so the slip rate cannot be found from the strength"
-                    .to_string(),
-                "a > 0; for a constant coefficient use `kind = \"coulomb\"`".to_string(),
-            )
-        } else {
-            (format!("`a` must be finite, found {value:?}"), "such as `a = 0.01`".to_string())
-        };
-        self.errors.push(SceneError::at(a.span(), message, help));
-        None
-    }
-
-    fn form(&mut self, law: &LawSpec) -> Option<Form> {
-        let Some(form) = &law.form else { return Some(Form::Regularised) };
-        match form.get_ref().as_str() {
-            "regularised" => Some(Form::Regularised),
-            "bare" => Some(Form::Bare),
-            other => self.unknown(form.span(), other, "form", &["regularised", "bare"]),
+/// Parameters of a form or evolution other than the chosen one.
+fn particular(law: &LawSpec, parameters: &[&str]) -> Vec<SceneError> {
+    let form = law.form.as_ref().map_or(FORMS[0], |f| f.get_ref());
+    let evolution = law.evolution.as_ref().map_or("", |e| e.get_ref());
+    let mut errors = Vec::new();
+    for (name, place) in given(law).into_iter().filter(|(name, _)| parameters.contains(name)) {
+        let Some((_, what, owner)) = PARTICULAR.iter().find(|p| p.0 == name) else { continue };
+        let (chosen, known) = if *what == "form" { (form, &FORMS[..]) } else { (evolution, &EVOLUTIONS[..]) };
+        if chosen != *owner && known.contains(&chosen) {
+            let message =
+                format!("`{name}` is not a parameter of the {what} \"{chosen}\"; it belongs to \"{owner}\"");
+            errors.push(SceneError::at(place, message, format!("remove it, or use `{what} = \"{owner}\"`")));
         }
     }
-
-    fn evolution(&mut self, law: &LawSpec) -> Option<Evolution> {
-        let Some(evolution) = &law.evolution else {
-            self.missing("evolution", "\"ageing\"` or `evolution = \"slip\"");
-            return None;
-        };
-        match evolution.get_ref().as_str() {
-            "ageing" => Some(Evolution::Ageing),
-            "slip" => Some(Evolution::Slip),
-            other => self.unknown(evolution.span(), other, "evolution", &["ageing", "slip"]),
-        }
-    }
-
-    fn unknown<T>(&mut self, place: Range<usize>, name: &str, what: &str, known: &[&str]) -> Option<T> {
-        let help = near::suggest(name, "choices", known.iter().copied());
-        self.errors.push(SceneError::at(place, format!("there is no {what} `{name}`"), help));
-        None
-    }
+    errors
 }

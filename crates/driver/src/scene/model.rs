@@ -3,6 +3,7 @@
 //! Names that the plan looks up later are [`Spanned`], so that an error can point into the file. A scene built in Rust
 //! uses the empty span (see [`here`]), and its errors name the key instead.
 
+use super::law::Several;
 use super::units::{Density, Length, Penalty, Pressure, Time, Velocity};
 use serde::Deserialize;
 pub use serde_spanned::Spanned;
@@ -162,26 +163,52 @@ pub enum EnforcementKind {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LawSpec {
-    /// coulomb, rate, rate-and-state.
+    /// coulomb, static-kinetic, slip-weakening, rate, rate-and-state.
     pub kind: Option<Spanned<String>>,
     /// Coulomb: friction coefficient \[-\].
     pub mu: Option<Spanned<f64>>,
-    /// Strength form: regularised (default) or bare.
+    /// Static-kinetic, slip-weakening: coefficient before slip \[-\].
+    pub mu_s: Option<Spanned<f64>>,
+    /// Static-kinetic, slip-weakening: coefficient in or after slip \[-\].
+    pub mu_k: Option<Spanned<f64>>,
+    /// Slip-weakening: slip over which the coefficient falls \[m\].
+    pub d_c: Option<Spanned<Length>>,
+    /// Strength form: regularised (default), bare or cut-off.
     pub form: Option<Spanned<String>>,
-    /// State evolution: ageing or slip.
+    /// State evolution: ageing, slip, prz, nagata or flash.
     pub evolution: Option<Spanned<String>>,
     /// Reference coefficient μ0 \[-\].
     pub mu0: Option<Spanned<f64>>,
     /// Direct effect a \[-\].
     pub a: Option<Spanned<f64>>,
-    /// Evolution effect b \[-\].
-    pub b: Option<Spanned<f64>>,
-    /// Characteristic slip L \[m\].
-    pub l: Option<Spanned<Length>>,
+    /// Evolution effect b \[-\], of each state variable.
+    pub b: Option<Spanned<Several<f64>>>,
+    /// Characteristic slip L \[m\], of each state variable.
+    pub l: Option<Spanned<Several<Length>>>,
     /// Reference slip rate Vref \[m/s\].
     pub v_ref: Option<Spanned<Velocity>>,
     /// Initial state: slip rate at which the point was in steady state \[m/s\].
     pub v_initial: Option<Spanned<Velocity>>,
+    /// Form cut-off: cut-off rate V1 of the direct effect \[m/s\].
+    pub v_cut: Option<Spanned<Velocity>>,
+    /// Evolution ageing: cut-off rate V2 of the state effect \[m/s\].
+    pub v_cut_state: Option<Spanned<Velocity>>,
+    /// Memory of normal traction α \[-\], of each state variable (default 0).
+    pub alpha: Option<Spanned<Several<f64>>>,
+    /// With α > 0: normal traction under which the point was in steady state \[Pa\].
+    pub normal_initial: Option<Spanned<Pressure>>,
+    /// Evolution nagata: memory of shear traction c \[-\].
+    pub c: Option<Spanned<f64>>,
+    /// Evolution flash: fully weakened coefficient μ_w \[-\].
+    pub mu_w: Option<Spanned<f64>>,
+    /// Evolution flash: slip rate V_w at which weakening begins \[m/s\].
+    pub v_w: Option<Spanned<Velocity>>,
+    /// Activation energy Q \[J/mol\].
+    pub activation: Option<Spanned<f64>>,
+    /// Temperature for which the parameters hold \[K\].
+    pub t_ref: Option<Spanned<f64>>,
+    /// Temperature \[K\].
+    pub temperature: Option<Spanned<f64>>,
     /// F_limit: largest shear traction \[Pa\].
     pub f_limit: Option<Spanned<Pressure>>,
 }
