@@ -178,3 +178,73 @@ fn a_law_is_written_in_rust_as_in_a_file() {
     let law = format!("kind = \"rate-and-state\", {STRENGTH}, v_initial = 1e-6, evolution = \"slip\", {ONE}");
     assert_eq!(law::choose(&here(one)), Ok(choose(&law)));
 }
+
+/// What the scene lets pass, the law admits: parameters at the ends of the range of numbers, and beyond.
+#[test]
+fn a_law_that_is_chosen_can_be_built() {
+    const POOL: [f64; 14] =
+        [0.0, -0.0, 5e-324, 1e-308, 1e-300, 1e-9, 0.1, 0.5, 1.0, 300.0, 1e9, 1e300, f64::MAX, -1.0];
+    let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut draw = |n: usize| {
+        seed ^= seed << 13;
+        seed ^= seed >> 7;
+        seed ^= seed << 17;
+        (seed >> 32) as usize % n
+    };
+    let kinds: [(&str, &[&str]); 3] = [
+        ("static-kinetic", &["mu_s", "mu_k"]),
+        ("slip-weakening", &["mu_s", "mu_k", "d_c"]),
+        (
+            "rate-and-state",
+            &[
+                "mu0",
+                "a",
+                "b",
+                "l",
+                "v_ref",
+                "v_initial",
+                "alpha",
+                "normal_initial",
+                "c",
+                "mu_w",
+                "v_w",
+                "v_cut",
+            ],
+        ),
+    ];
+    let (mut passed, mut refused) = ([0; 3], 0);
+    for _ in 0..60_000 {
+        let kind = draw(3);
+        let mut law = format!("kind = \"{}\"", kinds[kind].0);
+        let evolution = ["ageing", "slip", "prz", "nagata", "flash"][draw(5)];
+        let cut_off = draw(2) == 1;
+        if kind == 2 {
+            law += &format!(
+                ", evolution = \"{evolution}\"{}",
+                if cut_off { ", form = \"cut-off\"" } else { "" }
+            );
+        }
+        for &key in kinds[kind].1 {
+            let needed = match key {
+                "c" => evolution == "nagata",
+                "mu_w" | "v_w" => evolution == "flash",
+                "v_cut" => cut_off,
+                _ => true,
+            };
+            // Mostly numbers that can be, so that the rest meets them.
+            let value = POOL[if draw(4) == 0 { draw(POOL.len()) } else { 5 + draw(5) }];
+            if needed {
+                law += &format!(", {key} = {value:e}");
+            }
+        }
+        let holder: Holder = toml::from_str(&format!("law = {{ {law} }}")).unwrap();
+        match law::choose(&holder.law) {
+            Err(errors) => refused += usize::from(!errors.is_empty()),
+            Ok(choice) => {
+                passed[kind] += 1;
+                assert!(laws::build(&choice).is_ok(), "{law}: {}", laws::build(&choice).unwrap_err());
+            }
+        }
+    }
+    assert!(passed.iter().all(|&n| n > 1000) && refused > 1000, "{passed:?} passed, {refused} refused");
+}
