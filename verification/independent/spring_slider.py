@@ -1,8 +1,8 @@
 """Reference solutions of spring sliders with rate-and-state friction, with other people's integrators only.
 
 Primary: heyoka (adaptive Taylor series, events to rounding) in w = ln(V/Vref) and the states, in 80-bit numbers.
-Checks: the same in 64-bit numbers; scipy's DOP853 in (spring traction, ln theta or phi) with V from Newton's rule; scipy's
-Radau IIA with an analytic Jacobian.  See README.md for the model, the conventions and what the uncertainties mean.
+Checks: the same in 64-bit numbers; scipy's DOP853 in (spring traction, ln theta or phi) with V from Newton's rule, at rtol 1e-13;
+with mass, scipy's Radau IIA with an analytic Jacobian.  See README.md for the model, the conventions and what the uncertainties mean.
 
 Model: T' = k (V_load - V), M V' = T - sigma mu - eta V, mu = a asinh(V/(2 Vref) exp((mu0 + phi)/a)).  With g the
 derivative of mu by phi (a g: by w), X the logarithm of the argument of asinh, M = 0:
@@ -35,6 +35,8 @@ HARD = dict(sigma=50e6, a=0.0045, b=0.015, L=1e-4, Vref=1e-6, V_load=1e-9, eta=4
 HARD["k"] = 0.05 * (HARD["sigma"] * (HARD["b"] - HARD["a"]) / HARD["L"])
 REFERENCE = dict(sigma=50e6, a=0.01, b=0.015, L=1e-4, Vref=1e-6, V_load=1e-9, eta=4.62444e6)
 REFERENCE["k"] = 0.01 * (REFERENCE["sigma"] * (REFERENCE["b"] - REFERENCE["a"]) / REFERENCE["L"])
+INERTIAL = MILD | dict(eta=0.0, M=MILD["k"] * (0.01 / (2 * math.pi)) ** 2)
+DAMPED = dict(eta=5e6)
 K_C = MILD["sigma"] * (MILD["b"] - MILD["a"]) / MILD["L"]
 V_EVENT = 1e-3  # m/s, rising
 
@@ -269,12 +271,12 @@ def orbit(fp):
     y0 = kick(p, 0.5, fp)
     y, t = s.hop(y0)
     out, total = {}, t
-    y, dt, _ = s.run("min", y, 1e6)
-    total, out["v_min"] = total + dt, s.speed(y)
-    y, dt = s.hop(y)
-    total += dt
     y, dt, _ = s.run("max", y, 1e6)
     total, out["v_max"] = total + dt, s.speed(y)
+    y, dt = s.hop(y)
+    total += dt
+    y, dt, _ = s.run("min", y, 1e6)
+    total, out["v_min"] = total + dt, s.speed(y)
     y, dt = s.hop(y, 1e-4)
     total += dt
     y, dt, _ = s.run("phi", y, 1e6)
@@ -284,14 +286,32 @@ def orbit(fp):
 
 
 def orbit_closed_form(fp):
-    """(e^-x - 1 + x + F - 1/beta) e^(beta F) is constant; x = ln(V/V_load), F = (phi + a x)/(b - a), beta = (b - a)/a."""
+    """(e^-x - 1 + x + F - 1/beta) e^(beta F) is constant; x = ln(V/V_load), F = (phi + a x)/(b - a), beta = (b - a)/a.
+
+    The period, which has no closed form, by DOP853."""
     a, b = MILD["a"], MILD["b"]
     beta, x = (b - a) / a, 0.5
     F = a * x / (b - a)
     c = (math.expm1(-x) + x + F - 1 / beta) * math.exp(beta * F)
     h = -math.log(-beta * c) / beta
     roots = [brentq(lambda z: math.expm1(-z) + z - h, *lim, xtol=1e-15) for lim in ((-5, 0), (0, 5))]
-    return {"v_min": MILD["V_load"] * math.exp(roots[0]), "v_max": MILD["V_load"] * math.exp(roots[1])}
+    L, V_load, sigma_a = MILD["L"], MILD["V_load"], MILD["sigma"] * a
+
+    def rhs(_, y):
+        V = V_load * math.exp(y[0])
+        dphi = -(V / L) * (y[1] + b * y[0])
+        return [(K_C * (V_load - V) - MILD["sigma"] * dphi) / sigma_a, dphi]
+
+    def section(_, y):
+        return y[1]
+
+    section.terminal, section.direction = 2, -1  # the first is the start
+    r = solve_ivp(rhs, (0, 1e3), [x, 0.0], "DOP853", events=section, rtol=1e-13, atol=1e-15)
+    y0, t = r.y[:, -2], r.t[-1]
+    for _ in range(3):  # the interpolant only brackets the root
+        y = solve_ivp(rhs, (r.t[-2], t), y0, "DOP853", rtol=1e-13, atol=1e-15).y[:, -1]
+        t -= y[1] / rhs(t, y)[1]
+    return {"v_min": V_load * math.exp(roots[0]), "v_max": V_load * math.exp(roots[1]), "period_s": t}
 
 
 def threshold(ratio, fp):
@@ -494,6 +514,212 @@ def check_times(s, y, times):
     return {"t_s": list(times), "v": v, "mu": m}
 
 
+class Inertial:
+    """Mass: (w, phi, A = w'), A' = (k (V_load - V) - sigma g phi' - (sigma a g + eta V) A)/(M V) - A^2; net force M V A.
+
+    Below the speed `switch`, where A relaxes within 1e-6 s or less, heyoka integrates (w, phi) on the slow manifold: A from the
+    equation above, iterated twice from the slider without mass (relative error about e^3, e = 1 - A1/A2).  Back to the full
+    equation at w = switch, rising; to the manifold only when A has relaxed to it (see `cycles`)."""
+
+    def __init__(self, p, law, fp, switch=2e-5):
+        self.p, self.fp, self.switch, self.tol = p, fp, switch, 3e-15 if fp == np.float64 else 1e-17
+        w, f, A = hy.make_vars("w", "f", "A")
+        values = [p[n] for n in ("sigma", "a", "b", "L", "Vref", "V_load", "eta", "k", "M")]
+        values += [np.log(fp(2)), np.log(fp(V_EVENT) / fp(p["Vref"])), np.log(fp(switch) / fp(p["Vref"])), MU0]
+        self.values = np.array([fp(v) for v in values], dtype=fp)
+        sig, a, b, L, Vr, Vl, eta, k, M, ln2, ev, sw, mu0 = (hy.par[i] for i in range(13))
+        V = Vr * hy.exp(w)
+        g = 1.0 / hy.sqrt(1.0 + hy.exp(-2.0 * (w - ln2 + (mu0 + f) / a)))
+        df = b * Vr / L * hy.exp(-f / b) - b * V / L if law == "ageing" else -(V / L) * (f + b * w)
+        pull, resist = k * (Vl - V) - sig * g * df, sig * a * g + eta * V
+        S = pull / resist
+        levels = [S]
+        for _ in range(2):
+            S = (pull - M * V * (S * S + hy.diff(S, w) * S + hy.diff(S, f) * df)) / resist
+            levels.append(S)
+        self.manifold = hy.cfunc(levels, [w, f], fp_type=fp)
+        up, down = hy.event_direction.positive, hy.event_direction.negative
+
+        def make(system, *events):
+            events = [hy.t_event(e, direction=d, fp_type=fp) for e, d in events]
+            zeros = np.zeros(len(system), dtype=fp)
+            return hy.taylor_adaptive(system, zeros, fp_type=fp, pars=self.values, t_events=events)
+
+        full, slow = [(w, A), (f, df), (A, (pull - resist * A) / (M * V) - A * A)], [(w, S), (f, df)]
+        self.full_plain, self.slow_plain = make(full), make(slow)
+        self.full = make(full, (w - sw, down), (w - ev, up), (A, down), (A, up))
+        self.slow = make(slow, (w - sw, up), (S, up))
+
+    def run(self, ta, y, t):
+        ta.time, ta.state[:] = self.fp(0), y
+        if ta.with_events:
+            ta.reset_cooldowns()
+        outcome = int(ta.propagate_until(self.fp(t), max_steps=10**8)[0])
+        if outcome != int(hy.taylor_outcome.time_limit) and not -10 < outcome < 0:
+            raise RuntimeError(f"heyoka: {outcome}")
+        return ta.state.copy(), ta.time, -1 - outcome
+
+    def cycles(self, n):
+        fp, p = self.fp, self.p
+        y, t, times = np.array([np.log(fp(1.5) * fp(p["V_load"]) / fp(p["Vref"])), 0, 0], dtype=fp), fp(0), []
+
+        def go(ta, duration):
+            nonlocal y, t
+            y, dt, event = self.run(ta, y, duration)
+            t += dt
+            return event
+
+        def speed():
+            return np.exp(y[0]) * fp(p["Vref"])
+
+        def manifold():
+            return self.manifold(y[:2].copy(), pars=self.values[: self.manifold.nparams])
+
+        lowest = highest = None
+        while True:
+            # relax on the full equation, then to the manifold; here also at the start, with A = 0 (net force zero)
+            relaxed = False
+            while not relaxed and speed() < 1.000001 * self.switch:  # rounding: it may be entered at the switch
+                m = manifold()
+                relaxed = abs(y[2] / m[2] - 1) < self.tol and abs(m[1] / m[2] - 1) < 1e-10
+                if not relaxed:
+                    go(self.full_plain, 40 * fp(p["M"]) * speed() / fp(p["sigma"] * p["a"]))
+            if relaxed:
+                y = y[:2]
+                while go(self.slow, 1e9) == 1:
+                    lowest = min(lowest or np.inf, speed())
+                    go(self.slow_plain, 1e-2)
+                y = np.append(y, manifold()[2])
+            while True:
+                event = go(self.full, 1e9)
+                if event == 0:
+                    break
+                if event == 1:
+                    times.append(t)
+                    if len(times) == n:
+                        return {
+                            "crossings_s": times,
+                            "last_interval_s": times[-1] - times[-2],
+                            "v_max_between_last_two": highest,
+                            "v_min_between_last_two": lowest,
+                        }
+                    lowest = highest = None
+                if event == 2:
+                    highest = max(highest or 0, speed())
+                if event == 3:
+                    lowest = min(lowest or np.inf, speed())
+                go(self.full_plain, 1e-8 if event == 1 else 1e-7)
+
+
+def check_inertial(p, law, n, rtol):
+    """The same by scipy's Radau IIA in (w, phi, A) throughout, analytic Jacobian, restarted at every event."""
+    sig, a, b, L, Vr, Vl, eta, k, M = (p[x] for x in ("sigma", "a", "b", "L", "Vref", "V_load", "eta", "k", "M"))
+
+    def parts(y):
+        w, f, A = y
+        V = Vr * math.exp(min(max(w, -300.0), 100.0))
+        g = 1 / math.sqrt(1 + math.exp(-2 * max(w - math.log(2) + (MU0 + f) / a, -300.0)))
+        if law == "ageing":
+            heal = b * Vr / L * math.exp(min(-f / b, 600.0))
+            df, df_w, df_f = heal - b * V / L, -b * V / L, -heal / b
+        else:
+            df = -(V / L) * (f + b * w)
+            df_w, df_f = df - b * V / L, -V / L
+        return V, g, df, df_w, df_f, A
+
+    def rhs(_, y):
+        V, g, df, _, _, A = parts(y)
+        return [A, df, (k * (Vl - V) - sig * g * df - (sig * a * g + eta * V) * A) / (M * V) - A * A]
+
+    def jac(_, y):
+        V, g, df, df_w, df_f, A = parts(y)
+        gx = g * (1 - g * g)
+        force = k * (Vl - V) - sig * g * df - (sig * a * g + eta * V) * A
+        by_w = (-k * V - sig * (gx * df + g * df_w) - (sig * a * gx + eta * V) * A - force) / (M * V)
+        by_f = (-sig * (gx / a * df + g * df_f) - sig * gx * A) / (M * V)
+        return [[0, 0, 1], [df_w, df_f, 0], [by_w, by_f, -(sig * a * g + eta * V) / (M * V) - 2 * A]]
+
+    level = math.log(V_EVENT / Vr)
+
+    def cross(_, y):
+        return y[0] - level
+
+    def extreme(_, y):
+        return y[2]
+
+    cross.terminal, cross.direction = True, 1
+    extreme.terminal = False
+
+    def solve(y, t0, t1, **more):
+        return solve_ivp(rhs, (t0, t1), y, "Radau", jac=jac, rtol=rtol, atol=[rtol, rtol * 1e-2, rtol * 1e-3], **more)
+
+    y, t, times = np.array([math.log(1.5 * Vl / Vr), 0.0, 0.0]), 0.0, []
+    while len(times) < n:
+        r = solve(y, 0.0, 1e9, events=[cross, extreme])
+        if r.status != 1:
+            raise RuntimeError(r.message)
+        speeds = [Vr * math.exp(z[0]) for z in r.y_events[1]]
+        t0, y0, te = r.t[-2], r.y[:, -2], r.t[-1]
+        for _ in range(3):  # the interpolant only brackets the root
+            y = solve(y0, t0, te).y[:, -1]
+            if abs(y[0] - level) < 1e-14:
+                break
+            te -= (y[0] - level) / y[2]
+        t += te
+        times.append(t)
+        y, t = solve(y, 0.0, 1e-6).y[:, -1], t + 1e-6  # away from the event
+    return {"crossings_s": times, "last_interval_s": times[-1] - times[-2], "v_max_between_last_two": max(speeds), "v_min_between_last_two": min(speeds)}
+
+
+def scipy_cost(reference):
+    """reference_ageing in (ln(V/Vref), ln(Vref theta/L)): one call to the 10th crossing, atol = rtol, first_step left to scipy."""
+    p = REFERENCE
+    sig, a, b, L, Vr, Vl, eta, k = (p[n] for n in ("sigma", "a", "b", "L", "Vref", "V_load", "eta", "k"))
+    ln2 = math.log(2)
+
+    def parts(y):
+        w, x = y
+        V = Vr * math.exp(min(w, 600.0))
+        X = max(w - ln2 + (MU0 + b * x) / a, -300.0)
+        g = 1 / math.sqrt(1 + math.exp(-2 * X))
+        heal = Vr / L * math.exp(min(-x, 600.0))
+        dx = heal - V / L
+        den = sig * a * g + eta * V
+        return V, g, heal, dx, den, (k * (Vl - V) - sig * g * b * dx) / den
+
+    def rhs(_, y):
+        *_, dx, _, dw = parts(y)
+        return [dw, dx]
+
+    def jac(_, y):
+        V, g, heal, dx, den, dw = parts(y)
+        dg_dX = g * (1 - g * g)
+        by_w = (-k * V - sig * b * (dg_dX * dx - g * V / L) - dw * (sig * a * dg_dX + eta * V)) / den
+        by_x = (-sig * b * (dg_dX * b / a * dx - g * heal) - dw * sig * a * dg_dX * b / a) / den
+        return [[by_w, by_x], [-V / L, -heal]]
+
+    level = math.log(V_EVENT / Vr)
+
+    def event(_, y):
+        return y[0] - level
+
+    event.terminal, event.direction = len(reference), 1
+    v = math.log(Vl / Vr)
+    rows = []
+    for method in ("DOP853", "LSODA", "Radau"):
+        for rtol in (1e-6, 1e-8, 1e-10):
+            more = {} if method == "DOP853" else {"jac": jac}
+            t0 = time.process_time()
+            r = solve_ivp(rhs, (0, 1e11), [v + math.log(1.5), -v], method, events=event, rtol=rtol, atol=rtol, **more)
+            cpu = time.process_time() - t0
+            found = r.t_events[0]
+            error = float(abs(found[-1] - reference[-1]) / (reference[-1] - reference[-2])) if len(found) == len(reference) else None
+            rows.append(dict(method=method, rtol=rtol, status=r.status, steps=len(r.t) - 1, rhs=r.nfev, jacobians=int(r.njev), lu=int(r.nlu), cpu_s=round(cpu, 3),
+                             crossings=len(found), error_of_last_over_recurrence=error))
+            print(rows[-1], flush=True)
+    return rows
+
+
 def check(name, found):
     """The same case by Traction; None where the case has its own check."""
     law = "two" if name.startswith("two") else "slip" if name.endswith("slip") else "ageing"
@@ -541,6 +767,8 @@ def check(name, found):
         return orbit_closed_form(float)
     if name == "runaway_threshold":
         return {k: threshold_by_bisection(float(k.split("_")[-3])) for k in found}
+    if name.startswith("inertial"):
+        return check_inertial(INERTIAL | (DAMPED if "damped" in name else {}), law, len(found["crossings_s"]), 1e-10)
     return None
 
 
@@ -555,6 +783,8 @@ def cases():
         c[f"slide_hold_slide_{law}"] = (shs_p, lambda fp, law=law: slide_hold_slide(law, fp))
     c["reference_ageing"] = (REFERENCE, lambda fp: cycles(REFERENCE, "ageing", 10, fp))
     c["two_state_slip"] = (TWO, lambda fp: cycles(TWO, "two", 12, fp))
+    for name, p in (("ageing", INERTIAL), ("slip", INERTIAL), ("damped_ageing", INERTIAL | DAMPED)):
+        c[f"inertial_{name}"] = (p, lambda fp, p=p, law=name.split("_")[-1]: Inertial(p, law, fp).cycles(6))
     for alpha in (0.0, 0.3):
         c[f"normal_step_alpha_{alpha:g}"] = (
             MILD | dict(k=2 * K_C, sigma_before=5e6, sigma_after=5.5e6, alpha=alpha),
@@ -569,13 +799,13 @@ def cases():
 
 
 def difference(x, y):
-    """Largest relative difference per quantity."""
+    """Largest relative difference per quantity (of a closure, which is zero, the absolute one)."""
     out = {}
     for key in x:
         if key in ("t_s", "hold_s") or key not in y:
             continue
         u, v = (np.atleast_1d(np.array(z, dtype=np.longdouble)) for z in (x[key], y[key]))
-        out[key] = float(np.max(np.abs(u - v) / np.maximum(np.abs(u), np.longdouble(1e-300))))
+        out[key] = float(np.max(np.abs(u - v) / (1 if key.startswith("closure") else np.abs(u))))
     return out
 
 
@@ -606,9 +836,13 @@ def main():
         t1 = time.time()
         other = check(name, r)
         if other is not None:
-            unc["closed_form" if name == "periodic_orbit" else "scipy_dop853"] = difference(r, other)
+            key = {"peri": "closed_form_and_dop853", "iner": "scipy_radau"}.get(name[:4], "scipy_dop853")
+            unc[key] = difference(r, other)
         results[name] = {"parameters": p, "quantities": plain_numbers(r), "uncertainty": unc}
         print(name, f"{t1 - t0:.1f} s, {time.time() - t1:.1f} s", json.dumps(unc), flush=True)
+        path.write_text(json.dumps(results, indent=1) + "\n")
+    if not only or "scipy_cost" in only:
+        results["scipy_cost"] = scipy_cost(np.array(results["reference_ageing"]["quantities"]["crossings_s"]))
         path.write_text(json.dumps(results, indent=1) + "\n")
 
 
