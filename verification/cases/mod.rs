@@ -33,17 +33,36 @@
 use crate::Case;
 
 mod contact_patch;
+mod friction_hard_numerics;
+mod friction_steady_state;
+mod friction_velocity_steps;
 pub mod sandwich;
 mod sandwich_3d;
 mod sandwich_pressed;
 mod sandwich_sheared;
 mod sandwich_steppers;
+pub mod slider;
+mod slider_cycles;
+mod slider_normal;
+mod slider_orbit;
+mod slider_stability;
+mod slider_states;
+mod slider_work_precision;
 
 /// Every case, in the order of the report.
 pub const ALL: &[Case] = &[
     contact_patch::CASE,
+    friction_hard_numerics::CASE,
+    friction_steady_state::CASE,
+    friction_velocity_steps::CASE,
     sandwich_3d::CASE,
     sandwich_pressed::CASE,
     sandwich_sheared::CASE,
     sandwich_steppers::CASE,
+    slider_cycles::CASE,
+    slider_normal::CASE,
+    slider_orbit::CASE,
+    slider_stability::CASE,
+    slider_states::CASE,
+    slider_work_precision::CASE,
 ];

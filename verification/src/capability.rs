@@ -49,6 +49,22 @@ capabilities! {
     SlipLaw => "rate and state, slip law",
     /// Rate-and-state friction, ageing law.
     AgeingLaw => "rate and state, ageing law",
+    /// Bare, regularised, cut-off and Arrhenius strengths with every evolution law.
+    LawFamily => "family of rate and state laws",
+    /// Any number of state variables.
+    SeveralStates => "several state variables",
+    /// Memory of normal traction (Linker and Dieterich).
+    NormalMemory => "memory of normal traction",
+    /// Slip rate from traction, and the implicit step of a point.
+    PointSolver => "point solver",
+    /// One slider on a spring.
+    Slider => "spring-slider",
+    /// Sliders with springs between them.
+    CoupledSliders => "coupled sliders",
+    /// Detection of events and extremes.
+    Events => "events",
+    /// Integrators of ordinary differential equations.
+    Integrators => "integrators in time",
     /// The implicit stepper.
     Implicit => "implicit stepper",
     /// The static-explicit stepper.

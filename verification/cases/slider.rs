@@ -1,0 +1,267 @@
+//! What the cases of spring-sliders share: parameter sets, laws, runs, and the references of the second implementation.
+
+use crate::CaseError;
+use asperity_driver::ode::{Method, Outcome};
+use asperity_driver::slider::{self, Now, Plan, Run, Thresholds};
+use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
+use asperity_friction::rate::RateLaw;
+use asperity_friction::slider::{History, Slider, Sliding, System};
+use asperity_friction::strength::{Parameters, regularised::Regularised};
+use std::sync::Arc;
+
+/// Reference friction of all sets.
+pub const MU0: f64 = 0.6;
+/// Reference slip rate of all sets \[m/s\].
+pub const V_REF: f64 = 1e-6;
+/// Tolerance of runs that stand against references: what a few hundred steps a cycle leave is below their uncertainty.
+pub const TIGHT: f64 = 1e-13;
+/// The same with inertia: Newton's method on equations with rates of 1e10 per second leaves rounding of 1e-13.
+pub const TIGHT_INERTIAL: f64 = 1e-12;
+/// Source of the references.
+pub const SOURCE: &str =
+    "verification/independent/spring_slider.py: Taylor series of order 20 (heyoka) and scipy's DOP853 agree";
+
+/// Evolutions of the sets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Ageing law.
+    Ageing,
+    /// Slip law.
+    Slip,
+}
+
+/// A parameter set.
+#[derive(Clone, Copy, Debug)]
+pub struct Set {
+    /// f_n \[Pa\].
+    pub normal: f64,
+    /// a \[-\].
+    pub a: f64,
+    /// b \[-\].
+    pub b: f64,
+    /// L \[m\].
+    pub length: f64,
+    /// Rate of the load point \[m/s\].
+    pub load: f64,
+    /// η \[Pa s/m\].
+    pub damping: f64,
+    /// k \[Pa/m\].
+    pub stiffness: f64,
+    /// M \[kg/m²\].
+    pub mass: Option<f64>,
+}
+
+/// The set of QDYN's cross-check: k is half of k_c.
+pub const MILD: Set = Set {
+    normal: 5e6,
+    a: 0.01,
+    b: 0.015,
+    length: 1e-5,
+    load: 1e-6,
+    damping: 5e6,
+    stiffness: 1.25e9,
+    mass: None,
+};
+
+/// a/b = 0.3 and k/k_c = 0.05: V from 3e-31 to 3 m/s.
+pub const HARD: Set = Set {
+    normal: 50e6,
+    a: 0.0045,
+    b: 0.015,
+    length: 1e-4,
+    load: 1e-9,
+    damping: 4.62444e6,
+    stiffness: 0.05 * 50e6 * 0.0105 / 1e-4,
+    mass: None,
+};
+
+/// A plate-boundary cycle of ten years: V from 1.7e-16 to 1.8 m/s.
+pub const REFERENCE: Set = Set {
+    normal: 50e6,
+    a: 0.01,
+    b: 0.015,
+    length: 1e-4,
+    load: 1e-9,
+    damping: 4.62444e6,
+    stiffness: 0.01 * 50e6 * 0.005 / 1e-4,
+    mass: None,
+};
+
+/// The mild set with inertia instead of damping: an oscillator of 0.01 s.
+pub const INERTIAL: Set = Set { damping: 0.0, mass: Some(OSCILLATOR * OSCILLATOR * 1.25e9), ..MILD };
+
+/// 0.01 s over 2π.
+const OSCILLATOR: f64 = 0.01 / std::f64::consts::TAU;
+
+impl Set {
+    /// Critical stiffness f_n (b - a)/L \[Pa/m\].
+    pub fn critical(&self) -> f64 {
+        self.normal * (self.b - self.a) / self.length
+    }
+
+    /// The set at another stiffness, in units of the critical one.
+    pub fn at(self, ratio: f64) -> Self {
+        Self { stiffness: ratio * self.critical(), ..self }
+    }
+
+    /// The law.
+    ///
+    /// # Errors
+    /// Parameters out of range.
+    pub fn law(&self, kind: Kind) -> Result<Arc<dyn Sliding>, CaseError> {
+        let form = Regularised(Parameters::new(MU0, self.a, V_REF)?);
+        Ok(match kind {
+            Kind::Ageing => {
+                Arc::new(RateLaw::new(form, Ageing::new(self.b, self.length, V_REF)?, self.load, None)?)
+            }
+            Kind::Slip => {
+                Arc::new(RateLaw::new(form, Slip::new(self.b, self.length, V_REF)?, self.load, None)?)
+            }
+        })
+    }
+
+    /// One slider with this law.
+    pub fn slider(&self, law: Arc<dyn Sliding>) -> Slider {
+        Slider {
+            law,
+            stiffness: self.stiffness,
+            damping: self.damping,
+            mass: self.mass,
+            normal: History::Constant(self.normal),
+        }
+    }
+
+    /// A plan that starts at `factor` times the rate of the load point, the states steady at that rate.
+    ///
+    /// # Errors
+    /// Parameters out of range.
+    pub fn plan(&self, kind: Kind, factor: f64, end: f64) -> Result<Plan, CaseError> {
+        plan(self.slider(self.law(kind)?), History::Constant(self.load), self.load, factor, end)
+    }
+}
+
+/// A plan for one slider that starts at `factor` times `steady`, with states steady at `steady` \[m/s\].
+///
+/// # Errors
+/// Parameters out of range.
+pub fn plan(slider: Slider, load: History, steady: f64, factor: f64, end: f64) -> Result<Plan, CaseError> {
+    let mut states = vec![0.0; slider.law.states()];
+    slider.law.steady(steady.ln(), &mut states);
+    let inertial = slider.mass.is_some();
+    let system = System::new(vec![slider], vec![], load)?;
+    let start = system.start(&[factor * steady], &[states])?;
+    let mut plan = Plan::new(system, start, end);
+    plan.tolerance = if inertial { TIGHT_INERTIAL } else { TIGHT };
+    Ok(plan)
+}
+
+/// Wants this many events above 1 mm/s, with their peaks.
+pub fn events(plan: &mut Plan, number: usize) {
+    plan.events = Some(Thresholds { on: 1e-3, off: 1e-4 });
+    plan.most_events = Some(number);
+    plan.peaks = true;
+}
+
+/// Runs a plan to its end.
+///
+/// # Errors
+/// When it fails.
+pub fn finish(plan: &Plan) -> Result<Run, CaseError> {
+    let run = slider::run(plan, &mut ())?;
+    match &run.outcome {
+        Outcome::Failed { reason } => Err(format!(
+            "failed at {:e} s: {}",
+            run.at.seconds(),
+            run.hint.clone().unwrap_or(reason.to_string())
+        )
+        .into()),
+        Outcome::Completed | Outcome::Stopped => Ok(run),
+    }
+}
+
+/// Slip rate and friction of the first slider at the given times, each the end of a run of its own pieces.
+///
+/// # Errors
+/// When a run fails.
+pub fn at_times(plan: &Plan, times: &[f64]) -> Result<Vec<(f64, f64)>, CaseError> {
+    times
+        .iter()
+        .map(|&time| {
+            let until = Plan { end: time, events: None, peaks: false, most_events: None, ..plan.clone() };
+            let run = finish(&until)?;
+            let (speed, mu) = plan.system.sliders()[0].law.slip(plan.system.of(0, &run.unknowns));
+            Ok((speed.rate, mu))
+        })
+        .collect()
+}
+
+/// Largest friction coefficient of the first slider after a time: bracketed by outputs, then found by golden sections of runs
+/// that end there.
+///
+/// # Errors
+/// When a run fails.
+pub fn largest_friction(plan: &Plan, after: f64) -> Result<f64, CaseError> {
+    let mut seen: Vec<(f64, f64)> = Vec::new();
+    let mut look = |_: &Plan, now: &Now<'_>| {
+        if now.at.seconds() > after {
+            seen.push((now.at.seconds(), now.conditions[0].friction));
+        }
+    };
+    let run = slider::run(plan, &mut look)?;
+    if let Outcome::Failed { reason } = run.outcome {
+        return Err(reason.to_string().into());
+    }
+    let highest = seen.iter().enumerate().max_by(|a, b| a.1.1.total_cmp(&b.1.1)).ok_or("no output")?.0;
+    let time = |i: usize| seen.get(i).map_or(plan.end, |s| s.0);
+    let (mut low, mut high) = (if highest == 0 { after } else { time(highest - 1) }, time(highest + 1));
+    let friction = |t: f64| -> Result<f64, CaseError> { Ok(at_times(plan, &[t])?[0].1) };
+    let mut largest = seen[highest].1;
+    // To a millionth of the bracket: friction is flat there, and its error the square of that.
+    while high - low > 1e-6 * (time(highest + 1) - time(highest)) {
+        let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+        let (fa, fb) = (friction(a)?, friction(b)?);
+        largest = largest.max(fa).max(fb);
+        if fa > fb { high = b } else { low = a }
+    }
+    Ok(largest)
+}
+
+/// Golden section.
+const GOLDEN: f64 = 0.618_033_988_749_894_8;
+
+/// Results of the second implementation.
+pub struct Independent(serde_json::Value);
+
+impl Independent {
+    /// Reads them.
+    ///
+    /// # Errors
+    /// When they are not JSON.
+    pub fn read() -> Result<Self, CaseError> {
+        Ok(Self(serde_json::from_str(include_str!("../independent/spring_slider.json"))?))
+    }
+
+    /// A list of numbers.
+    ///
+    /// # Errors
+    /// When there is no such list.
+    pub fn numbers(&self, case: &str, key: &str) -> Result<Vec<f64>, CaseError> {
+        let value = self.0[case]["quantities"][key].clone();
+        serde_json::from_value(value).map_err(|_| format!("no list `{key}` of `{case}`").into())
+    }
+
+    /// A number.
+    ///
+    /// # Errors
+    /// When there is no such number.
+    pub fn number(&self, case: &str, key: &str) -> Result<f64, CaseError> {
+        self.0[case]["quantities"][key]
+            .as_f64()
+            .ok_or_else(|| format!("no number `{key}` of `{case}`").into())
+    }
+}
+
+/// The method that suits a set best, with its tight tolerance.
+pub fn method(set: &Set) -> (Method, f64) {
+    if set.mass.is_some() { (Method::Radau5, TIGHT_INERTIAL) } else { (Method::Dop853, TIGHT) }
+}

@@ -1,0 +1,204 @@
+//! Error against work of all integrators over three cycles.
+
+use super::slider::{self, Kind, Set};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
+use asperity_driver::ode::{Method, Outcome};
+use asperity_driver::slider::{self as driver, Event, Plan};
+use std::time::Instant;
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "slider_work_precision",
+    readme: include_str!("README.md"),
+    covers: &[Capability::Integrators, Capability::Events],
+    quick: true,
+    run,
+};
+
+/// Steps after which a setting has failed.
+const MOST_STEPS: usize = 60_000;
+/// Errors at which methods are compared, over the recurrence, with what the default may need in units of any other. Explicit
+/// pairs of order 5 and 8 are level there, to what a lattice of tolerances by factors of ten and errors that change sign tell.
+const TARGETS: [(f64, f64); 2] = [(1e-8, 1.1), (1e-10, 1.1)];
+
+/// A setting: error in the time of the last event, in its peak, wall time, right-hand sides.
+struct Point {
+    tolerance: f64,
+    time: f64,
+    peak: f64,
+    wall: f64,
+    work: f64,
+}
+
+/// What a method gave.
+struct Curve {
+    method: Method,
+    points: Vec<Point>,
+    failed: Vec<(f64, String)>,
+}
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    for (name, set, kind, events) in [
+        ("mild", slider::MILD, Kind::Ageing, 5),
+        ("hard", slider::HARD, Kind::Ageing, 4),
+        ("inertial", slider::INERTIAL, Kind::Ageing, 4),
+    ] {
+        cycle(ledger, name, &set, kind, events)?;
+    }
+    defaults(ledger)
+}
+
+fn plan(set: &Set, kind: Kind, events: usize, method: Method, tolerance: f64) -> Result<Plan, CaseError> {
+    let mut plan = set.plan(kind, 1.5, 1e12)?;
+    slider::events(&mut plan, events);
+    (plan.method, plan.tolerance, plan.most_steps) = (method, tolerance, MOST_STEPS);
+    Ok(plan)
+}
+
+/// Runs a setting: its last event and the recurrence, or why it failed.
+fn setting(plan: &Plan, events: usize) -> Result<Result<(Event, f64, f64), String>, CaseError> {
+    let clock = Instant::now();
+    let run = driver::run(plan, &mut ())?;
+    let wall = clock.elapsed().as_secs_f64();
+    if let Outcome::Failed { reason } = run.outcome {
+        return Ok(Err(reason.to_string()));
+    }
+    let found: Vec<&Event> = run.catalogue.of(0).collect();
+    Ok(match found.get(events - 1) {
+        Some(event) => Ok(((*event).clone(), wall, run.counts.rates as f64)),
+        None => Err(format!("{} events instead of {events}", found.len())),
+    })
+}
+
+fn cycle(ledger: &mut Ledger, name: &str, set: &Set, kind: Kind, events: usize) -> Result<(), CaseError> {
+    let (method, tolerance) = slider::method(set);
+    let reference = plan(set, kind, events, method, tolerance)?;
+    let reference = slider::finish(&Plan { most_steps: driver::MOST_STEPS, ..reference })?;
+    let last = reference.catalogue.of(0).last().ok_or("no event")?.clone();
+    let recurrence = last.interval.ok_or("one event only")?;
+    let mut curves = Vec::new();
+    for method in Method::ALL {
+        let mut curve = Curve { method, points: Vec::new(), failed: Vec::new() };
+        for power in 3..=12 {
+            let tolerance = 10f64.powi(-power);
+            match setting(&plan(set, kind, events, method, tolerance)?, events)? {
+                Ok((event, wall, work)) => curve.points.push(Point {
+                    tolerance,
+                    time: (event.onset - last.onset).abs() / recurrence,
+                    peak: (event.peak_rate / last.peak_rate).ln().abs(),
+                    wall,
+                    work,
+                }),
+                Err(reason) => curve.failed.push((tolerance, reason)),
+            }
+        }
+        curves.push(curve);
+    }
+    draw(ledger, name, &curves);
+    judge(ledger, name, set, &curves)
+}
+
+fn draw(ledger: &mut Ledger, name: &str, curves: &[Curve]) {
+    let kinds: [(&str, &str, fn(&Point) -> (f64, f64)); 3] = [
+        ("time of the last event over the recurrence", "wall time [s]", |p| (p.time, p.wall)),
+        ("time of the last event over the recurrence", "right-hand sides", |p| (p.time, p.work)),
+        ("ln of the last peak slip rate", "right-hand sides", |p| (p.peak, p.work)),
+    ];
+    for (error, work, read) in kinds {
+        let mut plot =
+            Plot::work_precision(format!("{name} cycle"), format!("error in the {error}"), work.to_string());
+        for curve in curves {
+            let points: Vec<(f64, f64)> = curve.points.iter().map(read).collect();
+            let mut series = Series::marked(curve.method.name(), &points);
+            for (tolerance, reason) in &curve.failed {
+                series = series
+                    .failed(*tolerance, format!("{} at {tolerance:.0e}: {reason}", curve.method.name()));
+            }
+            plot = plot.series(series);
+        }
+        ledger.plot(plot.caption(
+            "Tolerances from 1e-3 to 1e-12; a failed setting stands at the tolerance it was given.",
+        ));
+    }
+    let rows = curves.iter().flat_map(|c| {
+        c.points.iter().map(move |p| {
+            [
+                c.method.name().to_string(),
+                format!("{:.0e}", p.tolerance),
+                format!("{:.2e}", p.time),
+                format!("{:.2e}", p.peak),
+                format!("{}", p.work),
+            ]
+        })
+    });
+    ledger.table(
+        format!("{name} cycle"),
+        &["method", "tolerance", "error of time", "error of ln peak", "right-hand sides"],
+        rows.collect::<Vec<_>>(),
+    );
+}
+
+/// Right-hand sides a method needs to reach an error: between the settings on its two sides, on a line in logarithms.
+fn needed(curve: &Curve, error: f64) -> Option<f64> {
+    let pair = curve.points.windows(2).find(|w| w[0].time > error && w[1].time <= error)?;
+    let share = (pair[0].time / error).ln() / (pair[0].time / pair[1].time).ln();
+    Some((pair[0].work.ln() + share * (pair[1].work / pair[0].work).ln()).exp())
+}
+
+fn judge(ledger: &mut Ledger, name: &str, set: &Set, curves: &[Curve]) -> Result<(), CaseError> {
+    let best = slider::method(set).0;
+    for (error, bound) in TARGETS {
+        let own = curves.iter().find(|c| c.method == best).and_then(|c| needed(c, error));
+        let own = own.ok_or("the default misses the target")?;
+        for rival in curves.iter().filter(|c| c.method != best) {
+            let Some(work) = needed(rival, error) else {
+                ledger.note(format!(
+                    "{name}: {} does not pass through an error of {error:e}.",
+                    rival.method.name()
+                ));
+                continue;
+            };
+            ledger
+                .claim(format!(
+                    "{name} cycle, error {error:e}: right-hand sides of {} over those of {}",
+                    best.name(),
+                    rival.method.name()
+                ))
+                .value(own / work)
+                .at_most(bound)
+                .evidence(Evidence::ConvergedSelf, "the same cycle at the tightest tolerance")
+                .because("the default method of scenes is the one that needs least, or is level with it")
+                .why_not_tighter("the ratio is what the case measures")
+                .record();
+        }
+    }
+    Ok(())
+}
+
+/// What the defaults of scenes give.
+fn defaults(ledger: &mut Ledger) -> Result<(), CaseError> {
+    for (name, set) in [("mild", slider::MILD), ("hard", slider::HARD), ("inertial", slider::INERTIAL)] {
+        let mut tight = set.plan(Kind::Ageing, 1.5, 1e12)?;
+        slider::events(&mut tight, 4);
+        let reference = slider::finish(&tight)?;
+        let fresh = Plan::new(tight.system.clone(), tight.start.clone(), tight.end);
+        let loose = Plan { events: tight.events, most_events: tight.most_events, peaks: true, ..fresh };
+        let (run, cost) = Cost::of(|| slider::finish(&loose));
+        let run = run?;
+        let cost = cost.counts(&driver::Report::new(&loose, &run).counts);
+        let (Some(a), Some(b)) = (run.catalogue.of(0).nth(3), reference.catalogue.of(0).nth(3)) else {
+            return Err(format!("{name}: less than four events").into());
+        };
+        let recurrence = b.interval.ok_or("one event only")?;
+        ledger
+            .claim(format!("{name} cycle with the default method and tolerance of scenes: time of the fourth event over the recurrence"))
+            .value((a.onset - b.onset).abs() / recurrence)
+            .at_most(1e-6)
+            .evidence(Evidence::ConvergedSelf, "the same cycle at a tolerance of 1e-13")
+            .because("a tolerance of 1e-8 a step over some hundred steps a cycle, all of one sign at worst")
+            .why_not_tighter("it is a default, not a promise for every scene")
+            .cost(&cost)
+            .record();
+    }
+    Ok(())
+}
