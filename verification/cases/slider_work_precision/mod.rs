@@ -98,8 +98,11 @@ fn cycle(ledger: &mut Ledger, name: &str, set: &Set, kind: Kind, events: usize) 
     judge(ledger, name, set, &curves)
 }
 
+/// Error and work of a point.
+type Read = fn(&Point) -> (f64, f64);
+
 fn draw(ledger: &mut Ledger, name: &str, curves: &[Curve]) {
-    let kinds: [(&str, &str, fn(&Point) -> (f64, f64)); 3] = [
+    let kinds: [(&str, &str, Read); 3] = [
         ("time of the last event over the recurrence", "wall time [s]", |p| (p.time, p.wall)),
         ("time of the last event over the recurrence", "right-hand sides", |p| (p.time, p.work)),
         ("ln of the last peak slip rate", "right-hand sides", |p| (p.peak, p.work)),

@@ -187,8 +187,8 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, String> {
         return refuse(&format!("there is no unit `{name}`; units here are {}", wanted.units()));
     };
     // A stiffness is a stiffness, of a contact or of a spring.
-    let same = unit.dimension == wanted
-        || (unit.dimension == Dimension::Stiffness && wanted == Dimension::Spring);
+    let same =
+        unit.dimension == wanted || (unit.dimension == Dimension::Stiffness && wanted == Dimension::Spring);
     if !same {
         return refuse(unit.dimension.name());
     }

@@ -90,10 +90,19 @@ impl Watcher for Histories {
         let rows = Self::rows(plan, now);
         let time = now.at.seconds();
         let logs: Vec<f64> = now.conditions.iter().map(|c| c.log_rate).collect();
-        let changed = self.last.as_ref().is_none_or(|(last, before)| {
-            time - last >= SHARE * plan.end || before.iter().zip(&logs).any(|(a, b)| !((a - b).abs() < CHANGE))
-        });
-        if changed {
+        // A slider at rest has no ln V to compare.
+        let moved = |(a, b): (&f64, &f64), by: f64| (a - b).abs() >= by || (a - b).is_nan();
+        let by = |before: &[f64], by: f64| before.iter().zip(&logs).any(|pair| moved(pair, by));
+        let changed = self
+            .last
+            .as_ref()
+            .is_none_or(|(last, before)| time - last >= SHARE * plan.end || by(before, CHANGE));
+        // A jump is drawn from where it began.
+        let jumped = now.dt == 0.0 || self.last.as_ref().is_some_and(|(_, before)| by(before, 2.0 * CHANGE));
+        if jumped && let Some(before) = self.pending.take() {
+            self.write(&before)?;
+        }
+        if changed || jumped {
             self.write(&rows)?;
             (self.last, self.pending) = (Some((time, logs)), None);
         } else {

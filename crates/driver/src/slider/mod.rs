@@ -13,6 +13,6 @@ mod run;
 pub use catalogue::{Catalogue, Event};
 pub use files::Histories;
 pub use observe::Show;
-pub use plan::{DEFAULT_METHOD, DEFAULT_TOLERANCE, Plan, Thresholds};
+pub use plan::{DEFAULT_METHOD, DEFAULT_TOLERANCE, MOST_STEPS, Plan, Thresholds};
 pub use report::{End, Report};
 pub use run::{Both, Now, Run, RunError, Watcher, run};

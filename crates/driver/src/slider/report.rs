@@ -154,7 +154,8 @@ impl Report {
     pub fn text(&self) -> String {
         let mut text = String::from("results\n");
         for e in &self.events {
-            let told = |value: Option<f64>, unit: &str| value.map_or("-".into(), |v| format!("{v:.6} {unit}"));
+            let told =
+                |value: Option<f64>, unit: &str| value.map_or("-".into(), |v| format!("{v:.6} {unit}"));
             let _ = writeln!(
                 text,
                 "  `{}` at {:.6} s: interval {}, slip {}, peak {:.6e} m/s",

@@ -82,10 +82,11 @@ impl Watcher for Both<'_> {
     }
 }
 
-/// Change of ln V of which outputs show what lies between: a tenth of an e-fold is a hair on a plot over sixteen decades.
-const RESOLUTION: f64 = 0.1;
-/// Outputs within one step at most.
-const MOST_PARTS: f64 = 200.0;
+/// Change of ln V of which outputs show what lies between: a twentieth of an e-fold is less than a hair on a plot over sixteen
+/// decades.
+const RESOLUTION: f64 = 0.05;
+/// A step is halved so often at most: a slider that passes rest changes ln V without bound.
+const MOST_HALVES: u32 = 8;
 
 /// What a run found.
 #[derive(Clone, Debug)]
@@ -251,6 +252,7 @@ impl Running<'_, '_> {
     /// Shows the first state, and that after a jump.
     fn begin(&mut self, at: Clock, unknowns: &[f64]) {
         self.show(at, 0.0, unknowns);
+        self.sees(unknowns);
         let Some(thresholds) = self.state.plan.events else { return };
         let (load, conditions) = self.look(at, unknowns);
         let slip = self.slips.slip(self.state.plan, load, &conditions);
@@ -266,22 +268,37 @@ impl Running<'_, '_> {
 
     /// Shows what lies within a step, from the dense output, so that curves are smooth where steps are long.
     fn between(&mut self, step: &Step<'_>) {
-        let plan = self.state.plan;
-        let logs = |y: &[f64]| -> Vec<f64> {
-            plan.system.sliders().iter().enumerate().map(|(i, s)| s.law.slip(plan.system.of(i, y)).0.log).collect()
-        };
-        let mut y = step.state.to_vec();
-        let end = logs(&y);
-        step.at(0.0, &mut y);
-        let change = logs(&y).iter().zip(&end).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        // A slider that passes rest changes ln V without bound.
-        let parts = (change / RESOLUTION).ceil().clamp(1.0, MOST_PARTS);
-        let length = step.length();
-        for part in 1..parts as usize {
-            let fraction = part as f64 / parts;
-            step.at(fraction, &mut y);
-            self.show(step.start.later(fraction * length), length / parts, &y);
+        let start = Sample::of(self.state.plan, step, 0.0);
+        let end = Sample::of(self.state.plan, step, 1.0);
+        // The middle is looked at in any case: what rises and falls within a step may be at its end what it was at its start.
+        let middle = Sample::of(self.state.plan, step, 0.5);
+        let mut samples = Vec::new();
+        self.halves(step, [&start, &middle], 1, &mut samples);
+        samples.push(middle.clone());
+        self.halves(step, [&middle, &end], 1, &mut samples);
+        samples.push(end);
+        // Those between which ln V changes by less are left out.
+        let mut last = start;
+        for pair in samples.windows(2) {
+            if pair[1].change(&last) < RESOLUTION {
+                continue;
+            }
+            let fraction = pair[0].fraction;
+            let length = (fraction - last.fraction) * step.length();
+            self.show(step.start.later(fraction * step.length()), length, &pair[0].unknowns);
+            last = pair[0].clone();
         }
+    }
+
+    /// Samples between two, so that ln V changes little from each to the next.
+    fn halves(&self, step: &Step<'_>, ends: [&Sample; 2], depth: u32, samples: &mut Vec<Sample>) {
+        if depth == MOST_HALVES || ends[1].change(ends[0]) < 0.5 * RESOLUTION {
+            return;
+        }
+        let middle = Sample::of(self.state.plan, step, 0.5 * (ends[0].fraction + ends[1].fraction));
+        self.halves(step, [ends[0], &middle], depth + 1, samples);
+        samples.push(middle.clone());
+        self.halves(step, [&middle, ends[1]], depth + 1, samples);
     }
 
     fn look(&self, at: Clock, unknowns: &[f64]) -> (f64, Vec<Condition>) {
@@ -293,23 +310,53 @@ impl Running<'_, '_> {
     }
 
     fn show(&mut self, at: Clock, dt: f64, unknowns: &[f64]) {
-        let plan = self.state.plan;
-        if !self.state.watcher.watches() {
-            for (i, s) in plan.system.sliders().iter().enumerate() {
-                self.state.catalogue.sees(i, s.law.slip(plan.system.of(i, unknowns)).0.rate);
-            }
+        if !self.state.watcher.watches() || self.state.failure.is_some() {
             return;
         }
+        let plan = self.state.plan;
         let (load, conditions) = self.look(at, unknowns);
         let slip = self.slips.slip(plan, load, &conditions);
-        for (i, c) in conditions.iter().enumerate() {
-            self.state.catalogue.sees(i, c.rate);
-        }
-        let now =
-            Now { at, dt, step: self.state.step, unknowns, conditions: &conditions, slip: &slip, load };
+        let now = Now { at, dt, step: self.state.step, unknowns, conditions: &conditions, slip: &slip, load };
         if let Err(failure) = self.state.watcher.now(plan, &now) {
             self.state.failure = Some(failure);
         }
+    }
+}
+
+impl Running<'_, '_> {
+    /// Tells the catalogue of the slip rates at the end of a step.
+    fn sees(&mut self, unknowns: &[f64]) {
+        let plan = self.state.plan;
+        for (i, s) in plan.system.sliders().iter().enumerate() {
+            self.state.catalogue.sees(i, s.law.slip(plan.system.of(i, unknowns)).0.rate);
+        }
+    }
+}
+
+/// The sliders within a step.
+#[derive(Clone, Debug)]
+struct Sample {
+    /// Share of the step that is over.
+    fraction: f64,
+    unknowns: Vec<f64>,
+    /// ln |V| of each slider.
+    logs: Vec<f64>,
+}
+
+impl Sample {
+    fn of(plan: &Plan, step: &Step<'_>, fraction: f64) -> Self {
+        let mut unknowns = step.state.to_vec();
+        if fraction < 1.0 {
+            step.at(fraction, &mut unknowns);
+        }
+        let each = plan.system.sliders().iter().enumerate();
+        let logs = each.map(|(i, s)| s.law.slip(plan.system.of(i, &unknowns)).0.log).collect();
+        Self { fraction, unknowns, logs }
+    }
+
+    /// Largest change of ln |V| from another.
+    fn change(&self, other: &Self) -> f64 {
+        self.logs.iter().zip(&other.logs).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     }
 }
 
@@ -320,6 +367,7 @@ impl Sink for Running<'_, '_> {
             self.between(step);
         }
         self.show(step.end, step.length(), step.state);
+        self.sees(step.state);
         if self.state.failure.is_some() { Control::Stop } else { Control::Go }
     }
 
@@ -330,7 +378,11 @@ impl Sink for Running<'_, '_> {
         let slip = self.slips.slip(self.state.plan, load, &conditions);
         match (kind, o.rising) {
             (Kind::On(_), true) => self.state.catalogue.begins(i, o.at, slip[i], conditions[i].rate),
-            (Kind::Off(_), false) => self.state.catalogue.ends(i, o.at, slip[i]),
+            (Kind::Off(_), false) => {
+                self.state.catalogue.ends(i, o.at, slip[i]);
+                // The first of the rates until the next event.
+                self.state.catalogue.sees(i, conditions[i].rate);
+            }
             (Kind::Acceleration(_), _) => self.state.catalogue.sees(i, conditions[i].rate),
             _ => {}
         }

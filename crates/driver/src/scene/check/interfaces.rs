@@ -40,16 +40,26 @@ impl Checker<'_> {
                 self.errors.extend(law::choose(spec).err().unwrap_or_default());
                 let form = &spec.get_ref().form;
                 let rate = spec.get_ref().kind.as_ref().is_some_and(|k| k.get_ref() == "rate");
-                if let Some(form) = form.as_ref().filter(|f| rate && f.get_ref() == "bare") {
-                    self.error(
-                        form.span(),
-                        "the bare logarithm has no value at rest, and with the law \"rate\" the interface starts at rest",
-                        "use `form = \"regularised\"`, which is the same at every rate that matters; the bare form \
-                         needs the initial rate of a law with state, `v_initial`",
-                    );
+                if let Some(form) = form.as_ref().filter(|_| rate) {
+                    self.at_rest(form);
                 }
             }
         }
+    }
+
+    /// Whether a strength without state has a value where the interface starts.
+    fn at_rest(&mut self, form: &Spanned<String>) {
+        let strength = match form.get_ref().as_str() {
+            "bare" => "the bare logarithm",
+            "cut-off" => "the strength with a cut-off",
+            _ => return,
+        };
+        self.error(
+            form.span(),
+            format!("{strength} has no value at rest, and with the law \"rate\" the interface starts at rest"),
+            "use `form = \"regularised\"`, which is regular at rest; the other forms need the initial rate of a law with \
+             state, `v_initial`",
+        );
     }
 
     fn sides(&mut self, name: &str, interface: &Interface) {

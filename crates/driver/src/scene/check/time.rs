@@ -4,6 +4,9 @@ use super::Checker;
 use crate::scene::model::{Rule, Spanned, Stepper};
 use std::ops::Range;
 
+/// Kinds of law with a state, which backward differentiation of order 2 does not carry.
+const WITH_STATE: [&str; 3] = ["static-kinetic", "slip-weakening", "rate-and-state"];
+
 impl Checker<'_> {
     pub(super) fn time(&mut self) {
         let time = &self.scene.time;
@@ -70,11 +73,12 @@ impl Checker<'_> {
     fn second_order(&mut self, rule: &Spanned<Rule>) {
         for (name, interface) in &self.scene.interfaces {
             let kind = interface.law.as_ref().and_then(|l| l.get_ref().kind.as_ref());
-            if let Some(kind) = kind.filter(|k| k.get_ref() == "rate-and-state") {
+            if let Some(kind) = kind.filter(|k| WITH_STATE.contains(&k.get_ref().as_str())) {
                 self.conflict(
                     &rule.span(),
                     format!(
-                        "`bdf2` is for laws without state, but interface `{name}` has \"rate-and-state\""
+                        "`bdf2` is for laws without state, but interface `{name}` has \"{}\"",
+                        kind.get_ref()
                     ),
                     "use `rule = \"backward-euler\"`, or leave it out",
                     (&kind.span(), "the law with state"),
