@@ -55,6 +55,10 @@ pub struct Mesh<const D: usize> {
     pub blocks: Vec<Cells>,
     /// Named faces.
     pub side_sets: BTreeMap<String, Vec<Side>>,
+    /// Named groups of cells, as ascending lists of blocks: a block lies in a group wholly or not at all.
+    pub cell_sets: BTreeMap<String, Vec<usize>>,
+    /// Named nodes, ascending.
+    pub node_sets: BTreeMap<String, Vec<usize>>,
 }
 
 impl<const D: usize> Mesh<D> {
@@ -69,6 +73,12 @@ impl<const D: usize> Mesh<D> {
         for (name, sides) in other.side_sets {
             let sides = sides.into_iter().map(|s| Side { block: s.block + blocks, ..s }).collect();
             self.side_sets.insert(format!("{prefix}.{name}"), sides);
+        }
+        for (name, set) in other.cell_sets {
+            self.cell_sets.insert(format!("{prefix}.{name}"), set.iter().map(|b| b + blocks).collect());
+        }
+        for (name, set) in other.node_sets {
+            self.node_sets.insert(format!("{prefix}.{name}"), set.iter().map(|n| n + nodes).collect());
         }
     }
 }
