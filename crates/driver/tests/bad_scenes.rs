@@ -44,7 +44,7 @@ fn complaint(text: &str) -> Option<String> {
 #[test]
 fn every_bad_scene_is_refused_at_its_place_with_its_reason() {
     let files = files("tests/bad_scenes");
-    assert!(files.len() >= 120, "only {} files", files.len());
+    assert!(files.len() >= 200, "only {} files", files.len());
     let wrong: Vec<String> =
         files.iter().filter_map(|(name, text)| complaint(text).map(|c| format!("{name}: {c}"))).collect();
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), files.len(), wrong.join("\n"));
@@ -187,6 +187,33 @@ fn what_contradicts_itself_is_shown_at_both_places() {
     assert_eq!(places("law_memory_without_state.toml"), [(20, 170), (20, 129)]);
     assert_eq!(places("law_kinetic_above_static.toml"), [(20, 53), (20, 41)]);
     assert_eq!(places("table_beyond_its_stage.toml"), [(26, 27), (23, 12)]);
+    assert_eq!(places("bdf2_of_static_kinetic.toml"), [(37, 8), (20, 16)]);
+    assert_eq!(places("slider_table_backwards.toml"), [(6, 58), (6, 38)]);
+    assert_eq!(places("slider_first_step_above_largest.toml"), [(22, 14), (23, 12)]);
+}
+
+#[test]
+fn a_slider_that_is_wrong_once_is_told_once() {
+    for (name, text) in files("tests/bad_scenes").iter().filter(|(name, _)| name.starts_with("slider_")) {
+        let errors = errors(text).unwrap();
+        assert_eq!(errors.0.len(), 1, "{name}: {errors}");
+    }
+}
+
+#[test]
+fn all_errors_of_sliders_are_told_in_the_order_of_the_file() {
+    let (_, text) =
+        files("tests/bad_scenes").into_iter().find(|(name, _)| name == "slider_unknown_slider.toml").unwrap();
+    let text = text
+        .replace("\"5 MPa s/m\"", "\"-5 MPa s/m\"")
+        .replace("\"1000 s\"", "0")
+        .replace("\"3000 kg/m^2\"", "-1")
+        .replace("stop_after = 10", "stop_after = 0");
+    let errors = errors(&text).unwrap();
+    let lines: Vec<usize> = errors.0.iter().map(|e| diagnostic::line_column(&text, e.span.start).0).collect();
+    assert_eq!(lines, [10, 15, 18, 21, 25], "{errors}");
+    let meant = errors.0[2].help.as_ref().unwrap();
+    assert!(meant.contains("did you mean `right`?"), "{meant}");
 }
 
 #[test]

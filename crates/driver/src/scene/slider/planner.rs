@@ -1,0 +1,90 @@
+//! From a scene of spring-sliders to a plan.
+
+use super::spec::SliderScene;
+use crate::scene::SceneError;
+use crate::scene::model::Spanned;
+use crate::slider::Plan;
+use asperity_friction::slider::{Slider, System};
+use std::ops::Range;
+
+/// Turns a scene into a plan and collects what is wrong.
+#[derive(Default)]
+pub(super) struct Planner {
+    pub errors: Vec<SceneError>,
+}
+
+impl Planner {
+    pub(super) fn error<T>(
+        &mut self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<T> {
+        self.errors.push(SceneError::at(span, message, help));
+        None
+    }
+
+    pub(super) fn plan(&mut self, scene: &SliderScene) -> Option<Plan> {
+        if *scene.schema.get_ref() != 1 {
+            let message = format!("there is no version {} of the scene format", scene.schema.get_ref());
+            self.error::<()>(scene.schema.span(), message, "this program reads `schema = 1`");
+        }
+        if scene.sliders.is_empty() {
+            return self.error(0..0, "the scene has no slider", "add a table `[sliders.NAME]`");
+        }
+        let load = match &scene.load {
+            Some(load) => self.course(&load.rate, |v| v.0, "rate"),
+            None => self.error(0..0, "the scene has no load point", "add a table `[load]` with its `rate`"),
+        };
+        let names: Vec<String> = scene.sliders.keys().cloned().collect();
+        let sliders: Vec<Option<Slider>> = scene.sliders.values().map(|s| self.slider(s.get_ref())).collect();
+        let springs: Vec<_> = scene.springs.iter().map(|s| self.spring(s.get_ref(), &names)).collect();
+        let settings = self.settings(&scene.time);
+        let events = scene.events.as_ref().map(|e| self.events(e));
+        let (load, sliders) = (load?, sliders.into_iter().collect::<Option<Vec<_>>>()?);
+        let springs = springs.into_iter().collect::<Option<Vec<_>>>()?;
+        let system = match System::new(sliders, springs, load) {
+            Ok(system) => system,
+            Err(failure) => return self.error(0..0, failure.to_string(), "change that value"),
+        };
+        self.held(scene, &system, &names)?;
+        let start = self.start(scene, &system)?;
+        let mut plan = Plan::new(system, start, settings.end?);
+        plan.title.clone_from(&scene.title);
+        plan.names = names;
+        plan.method = settings.method.unwrap_or(plan.method);
+        plan.tolerance = settings.tolerance.unwrap_or(plan.tolerance);
+        plan.most_steps = settings.most_steps.unwrap_or(plan.most_steps);
+        (plan.first_step, plan.largest_step) = (settings.first_step, settings.largest_step);
+        if let (Some(thresholds), Some(spec)) = (events, &scene.events) {
+            plan.events = Some(thresholds?);
+            plan.peaks = spec.peaks.unwrap_or(true);
+            plan.most_events = spec.stop_after.as_ref().map(|n| *n.get_ref());
+        }
+        Some(plan)
+    }
+
+    /// A count of at least one.
+    pub(super) fn count(&mut self, name: &str, value: Option<&Spanned<usize>>) -> Option<usize> {
+        let value = value?;
+        if *value.get_ref() == 0 {
+            let help = "at least 1, or leave the line out";
+            return self.error(value.span(), format!("`{name}` must be positive"), help);
+        }
+        Some(*value.get_ref())
+    }
+
+    pub(super) fn positive(
+        &mut self,
+        name: &str,
+        value: f64,
+        span: Range<usize>,
+        example: &str,
+    ) -> Option<f64> {
+        if value > 0.0 && value.is_finite() {
+            return Some(value);
+        }
+        let message = format!("`{name}` must be positive, found {value:?}");
+        self.error(span, message, format!("such as `{name} = {example}`"))
+    }
+}

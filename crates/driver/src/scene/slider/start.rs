@@ -1,0 +1,49 @@
+//! Where the sliders start.
+
+use super::planner::Planner;
+use super::spec::SliderScene;
+use asperity_friction::Failure;
+use asperity_friction::slider::{Slider, System};
+
+impl Planner {
+    pub(super) fn start(&mut self, scene: &SliderScene, system: &System) -> Option<Vec<f64>> {
+        let (mut rates, mut states) = (Vec::new(), Vec::new());
+        for (spec, slider) in scene.sliders.values().zip(system.sliders()) {
+            let spec = spec.get_ref();
+            let law = spec.law.get_ref();
+            let initial = law.v_initial.as_ref().or(law.v_ref.as_ref());
+            let steady = initial.map_or(1.0, |v| v.get_ref().0);
+            let rate = match &spec.start {
+                None => steady,
+                Some(start) => self.positive("start", start.get_ref().0, start.span(), "\"1 um/s\"")?,
+            };
+            let pressed = law.normal_initial.as_ref().map(|p| p.get_ref().0);
+            match initial_states(slider, steady, pressed) {
+                Ok(found) => states.push(found),
+                Err(failure) => {
+                    return self.error(spec.law.span(), failure.to_string(), "change that value");
+                }
+            }
+            rates.push(rate);
+        }
+        match system.start(&rates, &states) {
+            Ok(start) => Some(start),
+            Err(failure) => self.error(0..0, failure.to_string(), "change the start"),
+        }
+    }
+}
+
+/// The state variables of a slider that was in steady state at a slip rate \[m/s\], and under this normal traction \[Pa\]
+/// where the state remembers normal traction.
+fn initial_states(slider: &Slider, steady: f64, pressed: Option<f64>) -> Result<Vec<f64>, Failure> {
+    let n = slider.law.states();
+    let mut y = vec![0.0; n + 2];
+    slider.law.steady(steady.ln(), &mut y[1..=n]);
+    let now = slider.normal.piece(0.0).at(0.0).0;
+    if let Some(before) = pressed.filter(|&p| p != now) {
+        // As if the slider went on at its rate while the normal traction changed to that of time 0.
+        y[0] = slider.law.at_rate(steady, &y[1..=n])?;
+        slider.law.jump(&mut y, before, now, 0.0, true)?;
+    }
+    Ok(y[1..=n].to_vec())
+}
