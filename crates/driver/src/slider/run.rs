@@ -4,7 +4,7 @@ use super::catalogue::Catalogue;
 use super::plan::Plan;
 use super::problem::{Kind, Piece, kinds};
 use crate::observe::ObserveError;
-use crate::ode::{self, Clock, Control, Counts, Occurrence, Outcome, Sink, Step};
+use crate::ode::{self, Clock, Control, Counts, Failure, Occurrence, Outcome, Sink, Step};
 use asperity_friction::slider::Condition;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -88,6 +88,13 @@ const RESOLUTION: f64 = 0.05;
 /// A step is halved so often at most: a slider that passes rest changes ln V without bound.
 const MOST_HALVES: u32 = 8;
 
+/// A step below this share of the time is not resolved: where an undamped slider takes [`MOST_UNRESOLVED`] of them, its slip rate
+/// grows beyond bounds in finite time. Explicit methods end there by themselves; methods that solve equations may step over that
+/// time onto a branch that is no solution, and would go on.
+const UNRESOLVED: f64 = 1e-26;
+/// So many steps in a row are no accident: the step before an event may be as short.
+const MOST_UNRESOLVED: u32 = 10;
+
 /// What a run found.
 #[derive(Clone, Debug)]
 pub struct Run {
@@ -126,7 +133,7 @@ pub fn run(plan: &Plan, watcher: &mut dyn Watcher) -> Result<Run, RunError> {
             plan.system.jump(breaks[k - 1], &piece.segment, &next.segment, &mut unknowns)?;
             piece = next;
         }
-        slips.enter(&piece, at);
+        slips.enter(at);
         let mut sink = Running { piece: &piece, slips: &slips, state: &mut state };
         sink.begin(at, &unknowns);
         if sink.state.failure.is_some() {
@@ -137,6 +144,9 @@ pub fn run(plan: &Plan, watcher: &mut dyn Watcher) -> Result<Run, RunError> {
         slips.leave(&piece, finished.at);
         (at, unknowns, outcome) = (finished.at, finished.state, finished.outcome);
         add(&mut counts, &finished.counts);
+        if let Some(length) = state.ran_away {
+            outcome = Outcome::Failed { reason: Failure::StepTooSmall { length } };
+        }
         if outcome != Outcome::Completed {
             break;
         }
@@ -160,14 +170,18 @@ fn add(sum: &mut Counts, part: &Counts) {
     sum.restarts += part.restarts;
 }
 
-/// What a failure means, where a quasi-static slider runs away.
-fn hint(plan: &Plan, piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<String> {
+/// The first slider that nothing keeps from running away, and that is faster than the load point, with its slip rate.
+fn running(piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<(usize, f64)> {
     let load = piece.segment.load().at(at.seconds()).0.abs();
-    let running = plan.system.sliders().iter().enumerate().find_map(|(i, s)| {
+    piece.plan.system.sliders().iter().enumerate().find_map(|(i, s)| {
         let rate = piece.segment.condition(i, at.seconds(), unknowns).rate;
         (s.damping == 0.0 && s.mass.is_none() && rate > load).then_some((i, rate))
-    });
-    running.map(|(i, rate)| {
+    })
+}
+
+/// What a failure means, where a quasi-static slider runs away.
+fn hint(plan: &Plan, piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<String> {
+    running(piece, at, unknowns).map(|(i, rate)| {
         format!(
             "`{}` slides at {rate:.3e} m/s and faster and faster: quasi-static equilibrium ends here; give it `damping` or `mass`",
             plan.names[i]
@@ -203,7 +217,7 @@ impl Slips {
         Ok(Self { stiffness, first, load: 0.0, entered: Clock::new(0.0, 0.0) })
     }
 
-    fn enter(&mut self, _: &Piece<'_>, at: Clock) {
+    fn enter(&mut self, at: Clock) {
         self.entered = at;
     }
 
@@ -232,12 +246,16 @@ struct Following<'a> {
     catalogue: Catalogue,
     failure: Option<ObserveError>,
     step: usize,
+    /// Steps in a row that time does not resolve.
+    unresolved: u32,
+    /// Length of the last of them \[s\], where a slider has run away.
+    ran_away: Option<f64>,
 }
 
 impl<'a> Following<'a> {
     fn new(plan: &'a Plan, watcher: &'a mut dyn Watcher) -> Self {
         let catalogue = Catalogue::new(plan.names.len());
-        Self { plan, watcher, catalogue, failure: None, step: 0 }
+        Self { plan, watcher, catalogue, failure: None, step: 0, unresolved: 0, ran_away: None }
     }
 }
 
@@ -324,6 +342,20 @@ impl Running<'_, '_> {
 }
 
 impl Running<'_, '_> {
+    /// Whether a slider runs away in steps that time does not resolve.
+    fn runs_away(&mut self, step: &Step<'_>) -> bool {
+        let length = step.length();
+        let short = length < UNRESOLVED * step.end.seconds().abs();
+        if !short || running(self.piece, step.end, step.state).is_none() {
+            self.state.unresolved = 0;
+            return false;
+        }
+        self.state.unresolved += 1;
+        let away = self.state.unresolved == MOST_UNRESOLVED;
+        self.state.ran_away = away.then_some(length);
+        away
+    }
+
     /// Tells the catalogue of the slip rates at the end of a step.
     fn sees(&mut self, unknowns: &[f64]) {
         let plan = self.state.plan;
@@ -368,7 +400,7 @@ impl Sink for Running<'_, '_> {
         }
         self.show(step.end, step.length(), step.state);
         self.sees(step.state);
-        if self.state.failure.is_some() { Control::Stop } else { Control::Go }
+        if self.runs_away(step) || self.state.failure.is_some() { Control::Stop } else { Control::Go }
     }
 
     fn occurred(&mut self, o: &Occurrence) -> Control {
