@@ -96,3 +96,61 @@ fn a_run_that_cannot_go_on_keeps_its_last_good_state_and_says_so() {
     assert!(report.contains("stopped"));
     assert!(folder.path().join("out/s/fields.pvd").is_file());
 }
+
+const SLIDER: &str = include_str!("../../../scenes/spring-slider.toml");
+
+#[test]
+fn a_run_of_a_spring_slider_leaves_everything_it_promises() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), SLIDER).unwrap();
+    let output = asperity(folder.path(), &["run", "s.toml"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    for file in [
+        "report.json",
+        "history/block.csv",
+        "plots/sliders_friction.svg",
+        "plots/sliders_friction.png",
+        "plots/sliders_relative_displacement.svg",
+        "plots/sliders_relative_velocity.png",
+    ] {
+        assert!(folder.path().join("out/s").join(file).is_file(), "{file} is missing");
+    }
+    let report = std::fs::read_to_string(folder.path().join("out/s/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    assert_eq!(report["outcome"], "enough_events");
+    assert_eq!(report["events"].as_array().unwrap().len(), 10);
+}
+
+#[test]
+fn check_of_a_spring_slider_prints_the_plan_and_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), SLIDER).unwrap();
+    let output = asperity(folder.path(), &["check", "s.toml"]);
+    assert!(output.status.success());
+    assert!(text(&output.stdout).contains("spring-slider, quasi-static with radiation damping"));
+    assert!(!folder.path().join("out").exists());
+}
+
+#[test]
+fn a_bad_output_directory_of_a_spring_slider_is_named_before_anything_is_computed() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), SLIDER).unwrap();
+    std::fs::write(folder.path().join("file"), "no directory").unwrap();
+    let output = asperity(folder.path(), &["run", "s.toml", "--out", "file/out"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("file/out"), "{}", text(&output.stderr));
+    assert!(!text(&output.stdout).contains("results"));
+}
+
+#[test]
+fn a_slider_that_runs_away_keeps_its_last_good_state_and_is_told_what_it_needs() {
+    let folder = tempfile::tempdir().unwrap();
+    let undamped: Vec<&str> = SLIDER.lines().filter(|l| !l.starts_with("damping")).collect();
+    std::fs::write(folder.path().join("s.toml"), undamped.join("\n")).unwrap();
+    let output = asperity(folder.path(), &["run", "s.toml"]);
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("give it `damping` or `mass`"), "{}", text(&output.stderr));
+    let report = std::fs::read_to_string(folder.path().join("out/s/report.json")).unwrap();
+    assert!(report.contains("stopped"));
+    assert!(folder.path().join("out/s/history/block.csv").is_file());
+}

@@ -274,9 +274,9 @@ fn an_undamped_slider_runs_away_with_every_method_and_is_told_what_it_needs() {
 #[test]
 fn a_slider_that_starts_steady_stays_steady() {
     let (_, rows) = completed(&stable("\"1 um/s\"", "\"5 MPa\"", ""));
-    assert!(rows.iter().all(|r| relative(r.conditions[0].rate, 1e-6) < 1e-11));
+    assert!(rows.iter().all(|r| relative(r.conditions[0].rate, 1e-6) < 1e-8));
     // v_ref is the rate at which friction is mu0, but for the regularisation.
-    assert!(rows.iter().all(|r| (r.conditions[0].friction - 0.6).abs() < 1e-12));
+    assert!(rows.iter().all(|r| (r.conditions[0].friction - 0.6).abs() < 1e-10));
 }
 
 #[test]
