@@ -9,6 +9,7 @@ pub mod condense;
 pub mod dof;
 pub mod element;
 pub mod error;
+pub mod iterative;
 pub mod loads;
 pub mod material;
 pub mod mesh;

@@ -1,0 +1,158 @@
+//! Conjugate gradients with smoothed aggregation and with block-Jacobi on hex8 bodies clamped on one face, beside the direct
+//! solver. Prints one line for each case; arguments choose cases by their names and sizes (`cube 400`).
+#![allow(
+    missing_docs,
+    clippy::print_stdout,
+    reason = "a table, not samples of one number: criterion does not fit"
+)]
+
+use asperity_fem::block::LinearBlock;
+use asperity_fem::dof::{Constraints, Equations};
+use asperity_fem::element::ElementKind;
+use asperity_fem::iterative::smoothed_aggregation::Settings;
+use asperity_fem::iterative::{Method, Outcome, Spatial, near_null};
+use asperity_fem::material::elastic::Elastic;
+use asperity_fem::mesh::generate::{Block, Grading};
+use asperity_fem::mesh::{Mesh, nodes_of_sides};
+use asperity_fem::sparse::{Part, ScatterMap};
+use asperity_fem::term::{Linearized, Pattern};
+use faer::MatMut;
+use std::time::Instant;
+
+/// A body: elements along an edge for the sizes of the table, and what makes it hard.
+struct Case {
+    name: &'static str,
+    /// Length along x over the elements' width: 10 makes elements 1:10.
+    stretch: f64,
+    grading: Grading,
+    poisson: f64,
+    /// Young's modulus of every second of eight layers over that of the first.
+    contrast: f64,
+}
+
+const PLAIN: Case =
+    Case { name: "cube", stretch: 1.0, grading: Grading::Uniform, poisson: 0.25, contrast: 1.0 };
+
+fn cases() -> Vec<Case> {
+    vec![
+        PLAIN,
+        Case { name: "graded", grading: Grading::Geometric { ratio: 20.0 }, ..PLAIN },
+        Case { name: "poisson", poisson: 0.45, ..PLAIN },
+        Case { name: "layers", contrast: 1e3, ..PLAIN },
+        Case { name: "stretched", stretch: 10.0, ..PLAIN },
+    ]
+}
+
+/// Cells, their values, the free equations and a load.
+struct Body {
+    mesh: Mesh<3>,
+    pattern: Pattern,
+    values: Vec<f64>,
+    equations: Equations,
+    load: Vec<f64>,
+}
+
+fn body(case: &Case, n: usize) -> Body {
+    let mesh = Block {
+        min: [0.0; 3],
+        max: [case.stretch, 1.0, 1.0],
+        divisions: [n; 3],
+        grading: [case.grading; 3],
+        kind: ElementKind::Hex8,
+    }
+    .mesh()
+    .expect("admissible");
+    let block = LinearBlock::new(&mesh, 0, &Elastic::new(1e10, case.poisson).expect("admissible"))
+        .expect("admissible");
+    let mut values = block.stiffness().to_vec();
+    for (cell, k) in values.chunks_exact_mut(576).enumerate() {
+        if (8 * (cell / (n * n)) / n) % 2 == 1 {
+            k.iter_mut().for_each(|v| *v *= case.contrast);
+        }
+    }
+    let fixed = nodes_of_sides(&mesh, &mesh.side_sets["left"]).into_iter().flat_map(|k| 3 * k..3 * k + 3);
+    let equations =
+        Constraints { fixed: fixed.collect(), channels: Vec::new() }.equations(3 * mesh.nodes.len());
+    let mut load = vec![0.0; 3 * mesh.nodes.len()];
+    for (dof, force) in block.body_force([0.3, 0.2, -1.0]) {
+        load[dof] = force;
+    }
+    let load = equations.free.iter().map(|&d| load[d]).collect();
+    Body { pattern: block.pattern().clone(), mesh, values, equations, load }
+}
+
+fn seconds<T>(f: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let result = f();
+    (result, start.elapsed().as_secs_f64())
+}
+
+fn iterate(body: &Body, method: Method, tolerance: f64) -> (Vec<f64>, Spatial, [f64; 3], Outcome) {
+    let modes = near_null::spatial(&body.mesh.nodes);
+    let (solver, setup) =
+        seconds(|| Spatial::new(&[&body.pattern], &[&body.values], &body.equations, modes, method));
+    let solver = solver.expect("positive definite");
+    let (solver, again) = seconds(|| solver.renewed(&[&body.values]));
+    let solver = solver.expect("positive definite");
+    let mut x = vec![0.0; body.load.len()];
+    let (outcome, solve) = seconds(|| solver.solve(&mut x, &body.load, tolerance));
+    (x, solver, [setup, again, solve], outcome)
+}
+
+fn direct(body: &Body) -> (Vec<f64>, f64) {
+    let mut x = body.load.clone();
+    let ((), time) = seconds(|| {
+        let mut matrix = ScatterMap::new(&[&body.pattern], &body.equations, Part::Lower);
+        matrix.add(0, &body.values);
+        let factor = matrix.cholesky(&matrix.analyse_cholesky().expect("memory")).expect("positive definite");
+        let n = x.len();
+        factor.solve(MatMut::from_column_major_slice_mut(&mut x, n, 1));
+    });
+    (x, time)
+}
+
+fn report(case: &Case, n: usize, method: &str, tolerance: f64, threads: usize, amg: Method) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    let body = body(case, n);
+    let kind = if method == "jacobi" { Method::BlockJacobi } else { amg };
+    if method == "direct" {
+        let (_, time) = pool.install(|| direct(&body));
+        println!("| {} | {} | direct | {threads} | | {time:.2} |", case.name, body.load.len());
+        return;
+    }
+    let (_, solver, [setup, again, solve], outcome) = pool.install(|| iterate(&body, kind, tolerance));
+    println!(
+        "| {} | {} | {method} | {threads} | {} | {setup:.2} | {again:.2} | {solve:.2} | {:.0} | {:?}",
+        case.name,
+        body.load.len(),
+        outcome.report().iterations,
+        solver.bytes() as f64 / 1e6,
+        solver.levels().iter().map(|l| (l.unknowns, l.entries / l.unknowns)).collect::<Vec<_>>(),
+    );
+    if !outcome.converged() {
+        println!("  {outcome}");
+    }
+}
+
+fn main() {
+    faer::set_global_parallelism(faer::Par::Seq);
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let value = |key: &str, default: f64| -> f64 {
+        words.iter().find_map(|w| w.strip_prefix(key)?.parse().ok()).unwrap_or(default)
+    };
+    let mut s = Settings::default();
+    s.threshold = value("t=", s.threshold);
+    s.degree = value("d=", s.degree as f64) as usize;
+    s.range = value("r=", s.range);
+    let n = value("n=", 25.0) as usize;
+    let threads = value("threads=", 2.0) as usize;
+    for case in cases() {
+        if words.iter().any(|w| w == case.name) {
+            for m in ["amg", "jacobi", "direct"] {
+                if words.iter().any(|w| w == m) {
+                    report(&case, n, m, 1e-8, threads, Method::SmoothedAggregation(s));
+                }
+            }
+        }
+    }
+}
