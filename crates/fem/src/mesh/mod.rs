@@ -1,6 +1,7 @@
 //! Meshes: nodes, blocks of cells of one kind, and named sets of cell faces.
 
 pub mod generate;
+pub mod split;
 
 use crate::element::ElementKind;
 use std::collections::BTreeMap;

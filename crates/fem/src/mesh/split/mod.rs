@@ -1,0 +1,122 @@
+//! Splitting a mesh along internal surfaces, so that their two sides can slip past each other.
+//!
+//! Every node on a surface is replaced by as many copies as there are fans of cells around it: two cells belong to one
+//! fan when they share a face that contains the node and is no face of a surface. One rule thus covers what matters:
+//! a tip inside the body has one fan and stays single; a node inside a surface, or where it leaves the body, has two;
+//! a junction of n branches has n. Nodes of second-order elements on edges and faces follow the same rule.
+//!
+//! Which side is which: a face given by its nodes has the direction it would have as a face of the cell on its `minus`
+//! side ([`ElementKind::faces`]): in the plane minus lies to the left of the edge from its first to its second node, in
+//! space the normal by the right-hand rule points from minus to plus. The first face of each connected piece of a
+//! surface decides for the piece; `towards_plus`, where given, turns whole pieces instead.
+//!
+//! [`ElementKind::faces`]: crate::element::ElementKind::faces
+
+mod error;
+mod fans;
+mod orient;
+mod surface;
+
+pub use error::SplitError;
+
+use super::{Mesh, Side, face_nodes};
+use std::collections::BTreeSet;
+use surface::InnerFace;
+
+/// A surface inside a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface<const D: usize> {
+    /// Name: the new side sets are `NAME.minus` and `NAME.plus`.
+    pub name: String,
+    /// Nodes of each face, corners first; nodes beyond the corners may be left out.
+    pub faces: Vec<Vec<usize>>,
+    /// A direction that points from the minus to the plus side, on average over each connected piece \[any length\].
+    pub towards_plus: Option<[f64; D]>,
+}
+
+impl<const D: usize> Surface<D> {
+    /// The surface that a set of sides forms. Minus is where the cell of the first side lies.
+    ///
+    /// # Errors
+    /// [`SplitError::UnknownSet`] with the sets that exist.
+    pub fn from_side_set(mesh: &Mesh<D>, name: &str) -> Result<Self, SplitError> {
+        let sides = mesh.side_sets.get(name).ok_or_else(|| SplitError::UnknownSet {
+            name: name.to_string(),
+            existing: mesh.side_sets.keys().cloned().collect(),
+        })?;
+        let faces = sides.iter().map(|s| face_nodes(mesh, s)).collect();
+        Ok(Self { name: name.to_string(), faces, towards_plus: None })
+    }
+}
+
+/// A node of the minus side and the node of the plus side at the same place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Pair {
+    /// Node of the minus side.
+    pub minus: usize,
+    /// Node of the plus side.
+    pub plus: usize,
+}
+
+impl Pair {
+    /// Whether it is a tip: one node, which both sides share.
+    #[must_use]
+    pub fn is_tip(&self) -> bool {
+        self.minus == self.plus
+    }
+}
+
+/// The node pairs of a surface after splitting.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Name of the surface.
+    pub name: String,
+    /// Pairs. In the plane they ascend along the fault, mid-nodes between their ends, starting from the end that the
+    /// list of faces came to first; each connected piece follows the one before. In space they ascend by the number
+    /// the node had before. Where other surfaces meet a fault, a place has several pairs, one after another.
+    pub pairs: Vec<Pair>,
+}
+
+/// Splits `mesh` along all `surfaces` at once. Adds the side sets `NAME.minus` and `NAME.plus`, whose faces correspond one
+/// to one: in the plane ascending along the fault, in space in the order given. Node sets receive all copies of their
+/// nodes. The copy that touches no plus side keeps its number; new nodes follow those there were.
+///
+/// # Errors
+/// See [`SplitError`]; the mesh is then unchanged.
+pub fn split<const D: usize>(mesh: &mut Mesh<D>, surfaces: &[Surface<D>]) -> Result<Vec<Fault>, SplitError> {
+    let mut found = surface::locate(mesh, surfaces)?;
+    for (surface, faces) in surfaces.iter().zip(&mut found) {
+        orient::orient(mesh, surface, faces)?;
+    }
+    let copies = fans::classify(mesh, &found);
+    for (surface, faces) in surfaces.iter().zip(&found) {
+        if !faces.iter().any(|f| fans::opens(&copies, f)) {
+            return Err(SplitError::Closed { surface: surface.name.clone() });
+        }
+    }
+    fans::apply(mesh, &copies);
+    let mut faults = Vec::new();
+    for (surface, faces) in surfaces.iter().zip(&found) {
+        faults.push(Fault { name: surface.name.clone(), pairs: pairs(mesh, faces) });
+        for (end, pick) in [("minus", 0), ("plus", 1)] {
+            let sides: Vec<Side> = faces.iter().map(|f| f.sides[pick]).collect();
+            mesh.side_sets.insert(format!("{}.{end}", surface.name), sides);
+        }
+    }
+    Ok(faults)
+}
+
+/// Pairs of nodes of the faces, after splitting, each once.
+fn pairs<const D: usize>(mesh: &Mesh<D>, faces: &[InnerFace]) -> Vec<Pair> {
+    let mut all: Vec<(usize, Pair)> = Vec::new();
+    for face in faces {
+        let [minus, plus] = face.sides.map(|s| face_nodes(mesh, &s));
+        let at = |old: usize| Pair { minus: minus[face.place(0, old)], plus: plus[face.place(1, old)] };
+        all.extend(face.path(D).into_iter().map(|old| (old, at(old))));
+    }
+    if D > 2 {
+        all.sort_unstable();
+    }
+    let mut seen = BTreeSet::new();
+    all.into_iter().map(|(_, pair)| pair).filter(|pair| seen.insert(*pair)).collect()
+}
