@@ -1,5 +1,6 @@
 //! Meshes: nodes, blocks of cells of one kind, and named sets of cell faces.
 
+pub mod fault;
 pub mod generate;
 pub mod split;
 

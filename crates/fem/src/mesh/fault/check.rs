@@ -1,0 +1,140 @@
+//! What a fault mesh asks of its input.
+
+use super::{FaultMesh, FaultMeshError, Spacing};
+
+/// Part of the box within which a tip counts as lying on its bottom or top, and of the fault within which a node counts as
+/// lying on a vertex: rounding of decimal input.
+const ROUNDING: f64 = 1e-9;
+
+/// Smallest dip \[degrees\]: below it cells at the free surface have a scaled Jacobian under sin 10° = 0.17.
+const LEAST_DIP: f64 = 10.0;
+
+/// Checks the input; gives the trace with tips that reach the boundary put there exactly.
+pub(super) fn trace(input: &FaultMesh) -> Result<Vec<[f64; 2]>, FaultMeshError> {
+    values(input)?;
+    let (min, max) = (input.min, input.max);
+    for axis in 0..2 {
+        if !((max[axis] - min[axis]).is_finite() && max[axis] > min[axis]) {
+            return Err(FaultMeshError::EmptyBox { axis, min: min[axis], max: max[axis] });
+        }
+    }
+    let mut trace = input.trace.clone();
+    let bad = trace.iter().filter(|v| !v.iter().all(|c| c.is_finite())).count();
+    if trace.len() < 2 || bad > 0 {
+        return Err(FaultMeshError::Trace { vertices: trace.len(), bad });
+    }
+    let close = ROUNDING * (max[1] - min[1]);
+    for (vertex, at) in trace.iter_mut().enumerate() {
+        for end in [min[1], max[1]] {
+            if (at[1] - end).abs() <= close {
+                at[1] = end;
+            }
+        }
+        let inside = min[0] < at[0] && at[0] < max[0] && min[1] <= at[1] && at[1] <= max[1];
+        if !inside {
+            return Err(FaultMeshError::Outside { vertex, at: *at, min, max });
+        }
+    }
+    crossings(&trace)?;
+    dips(&trace)?;
+    Ok(trace)
+}
+
+fn values(input: &FaultMesh) -> Result<(), FaultMeshError> {
+    let kind = input.kind.name();
+    if !matches!(kind, "quad4" | "quad8" | "quad9") {
+        return Err(FaultMeshError::Element(kind));
+    }
+    let positive = "a positive number of metres";
+    let least_one = "at least 1 (1.05 to 1.5 are usual)";
+    let mut asked = vec![("growth", input.growth, 1.0, least_one)];
+    match input.spacing {
+        Spacing::Constant(size) => asked.push(("size", size, f64::MIN_POSITIVE, positive)),
+        Spacing::Zone { size, ratio, .. } => {
+            asked.push(("size", size, f64::MIN_POSITIVE, positive));
+            asked.push(("ratio", ratio, 1.0, least_one));
+        }
+    }
+    asked.extend(input.thickness.map(|t| ("thickness", t, f64::MIN_POSITIVE, positive)));
+    for (name, value, least, admissible) in asked {
+        if !(value.is_finite() && value >= least) {
+            return Err(FaultMeshError::Value { name, value, admissible });
+        }
+    }
+    Ok(())
+}
+
+/// Twice the signed area of a triangle: positive when it runs counter-clockwise.
+fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// Refuses segments that cross or touch, neighbours at their common vertex excepted.
+fn crossings(trace: &[[f64; 2]]) -> Result<(), FaultMeshError> {
+    let within = |a: [f64; 2], b: [f64; 2], p: [f64; 2]| {
+        (0..2).all(|c| p[c] >= a[c].min(b[c]) && p[c] <= a[c].max(b[c]))
+    };
+    for second in 2..trace.len() - 1 {
+        for first in 0..second - 1 {
+            let [a, b, c, d] = [trace[first], trace[first + 1], trace[second], trace[second + 1]];
+            let [s1, s2, s3, s4] = [turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b)];
+            let cross = s1 * s2 < 0.0 && s3 * s4 < 0.0;
+            let touch = (s1 == 0.0 && within(a, b, c))
+                || (s2 == 0.0 && within(a, b, d))
+                || (s3 == 0.0 && within(c, d, a))
+                || (s4 == 0.0 && within(c, d, b));
+            if cross || touch {
+                return Err(FaultMeshError::SelfIntersection { first, second });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Refuses segments that are too flat or go the other way than the trace as a whole.
+fn dips(trace: &[[f64; 2]]) -> Result<(), FaultMeshError> {
+    let down = (trace[0][1] - trace[trace.len() - 1][1]).signum();
+    for (segment, w) in trace.windows(2).enumerate() {
+        let (dx, dy) = (down * (w[1][0] - w[0][0]), down * (w[0][1] - w[1][1]));
+        let dip = dy.atan2(dx).to_degrees();
+        // Rounding of a dip that is just the smallest one must not refuse it.
+        if !(LEAST_DIP - ROUNDING..=180.0 - LEAST_DIP + ROUNDING).contains(&dip) {
+            return Err(FaultMeshError::Dip { segment, dip, least: LEAST_DIP });
+        }
+    }
+    Ok(())
+}
+
+/// Distances of the vertices from the first, along the trace.
+pub(super) fn distances(trace: &[[f64; 2]]) -> Vec<f64> {
+    let mut total = 0.0;
+    let steps = trace.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]));
+    [0.0]
+        .into_iter()
+        .chain(steps.map(|s| {
+            total += s;
+            total
+        }))
+        .collect()
+}
+
+/// Positions at ascending distances `along`; vertices exactly.
+pub(super) fn places(trace: &[[f64; 2]], along: &[f64]) -> Vec<[f64; 2]> {
+    let at = distances(trace);
+    let close = ROUNDING * at[at.len() - 1];
+    let mut k = 0;
+    along
+        .iter()
+        .map(|&s| {
+            while k + 2 < at.len() && s > at[k + 1] + close {
+                k += 1;
+            }
+            let ends = [(at[k], trace[k]), (at[k + 1], trace[k + 1])];
+            if let Some((_, vertex)) = ends.into_iter().find(|(d, _)| (s - d).abs() <= close) {
+                return vertex;
+            }
+            let t = (s - at[k]) / (at[k + 1] - at[k]);
+            std::array::from_fn(|c| (1.0 - t) * trace[k][c] + t * trace[k + 1][c])
+        })
+        .collect()
+}

@@ -1,0 +1,143 @@
+//! Why a fault mesh cannot be made.
+
+use crate::mesh::split::SplitError;
+
+/// Why a mesh around a fault cannot be made. Vertices and segments are numbered from 0 in the order of the trace.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FaultMeshError {
+    /// Fewer than two vertices, or one that is no number.
+    #[error(
+        "the trace needs at least two vertices with finite coordinates; it has {vertices}, of which {bad} are not finite"
+    )]
+    Trace {
+        /// Vertices.
+        vertices: usize,
+        /// Those with a coordinate that is no finite number.
+        bad: usize,
+    },
+    /// A box without extent.
+    #[error("the box is empty along axis {axis}: from {min} m to {max} m")]
+    EmptyBox {
+        /// Axis.
+        axis: usize,
+        /// Lower end \[m\].
+        min: f64,
+        /// Upper end \[m\].
+        max: f64,
+    },
+    /// A vertex outside the box.
+    #[error(
+        "vertex {vertex} of the trace at ({}, {}) m lies outside the box: x must lie between {} and {} m, the sides \
+         excluded, y from {} to {} m", .at[0], .at[1], .min[0], .max[0], .min[1], .max[1]
+    )]
+    Outside {
+        /// Vertex.
+        vertex: usize,
+        /// Its position \[m\].
+        at: [f64; 2],
+        /// Lower corner of the box \[m\].
+        min: [f64; 2],
+        /// Upper corner of the box \[m\].
+        max: [f64; 2],
+    },
+    /// Segments that meet where they should not.
+    #[error("segments {first} and {second} of the trace intersect; a trace must not cross or touch itself")]
+    SelfIntersection {
+        /// One segment.
+        first: usize,
+        /// The other.
+        second: usize,
+    },
+    /// A segment too flat, or one that turns back up.
+    #[error(
+        "segment {segment} of the trace dips {dip:.1} degrees; grid lines follow the fault from the bottom to the top of \
+         the box, so that all segments must go the same way, up or down, with dips between {least} and {} degrees", 180.0 - .least
+    )]
+    Dip {
+        /// Segment.
+        segment: usize,
+        /// Angle from the x axis downwards, for a walk in the direction of the trace as a whole \[degrees\].
+        dip: f64,
+        /// Smallest admissible one \[degrees\].
+        least: f64,
+    },
+    /// A number that must be positive.
+    #[error("{name} = {value} is not admissible: {admissible}")]
+    Value {
+        /// Which.
+        name: &'static str,
+        /// Given.
+        value: f64,
+        /// What would be right.
+        admissible: &'static str,
+    },
+    /// A zone of fine cells that is not on the fault.
+    #[error("the zone from {from} m to {to} m does not lie on the fault, which runs from 0 m to {length} m")]
+    Zone {
+        /// Begin \[m\].
+        from: f64,
+        /// End \[m\].
+        to: f64,
+        /// Length of the fault \[m\].
+        length: f64,
+    },
+    /// Equal cells that do not fit between two fixed points.
+    #[error(
+        "cells of {size} m do not fit the piece of the fault from {from} m to {to} m (between bends and ends of zones); \
+         {coarser} m and {finer} m do"
+    )]
+    Size {
+        /// Given size \[m\].
+        size: f64,
+        /// Begin of the piece along the fault \[m\].
+        from: f64,
+        /// Its end \[m\].
+        to: f64,
+        /// Next larger size that fits \[m\].
+        coarser: f64,
+        /// Next smaller size that fits \[m\].
+        finer: f64,
+    },
+    /// A distance too short for the cells beside it.
+    #[error(
+        "{place} there are {length} m, less than half of the neighbouring cell of {size} m: give at least {size} m, finer \
+         cells, or (for a tip) let the fault reach the boundary"
+    )]
+    Gap {
+        /// Where.
+        place: &'static str,
+        /// Distance \[m\].
+        length: f64,
+        /// Size of the neighbouring cell \[m\].
+        size: f64,
+    },
+    /// More cells than anybody means.
+    #[error(
+        "the mesh would have more than {most} cells: a coarser size, a larger growth ratio or a smaller box is needed"
+    )]
+    TooMany {
+        /// Limit.
+        most: usize,
+    },
+    /// An element other than a quadrilateral.
+    #[error("element {0} is no quadrilateral; quad4, quad8 and quad9 are")]
+    Element(&'static str),
+    /// A cell turned inside out.
+    #[error(
+        "the mesh folds at ({:.6}, {:.6}) m (scaled Jacobian {quality:.2e}), closest to vertex {vertex} of the trace, where it \
+         turns by {bend:.1} degrees: a smaller bend, smaller cells or a growth ratio closer to 1 is needed", .at[0], .at[1]
+    )]
+    Inverted {
+        /// Centre of the cell \[m\].
+        at: [f64; 2],
+        /// Its smallest scaled Jacobian \[-\].
+        quality: f64,
+        /// Closest vertex of the trace.
+        vertex: usize,
+        /// Change of direction at that vertex \[degrees\].
+        bend: f64,
+    },
+    /// The fault cannot be opened.
+    #[error(transparent)]
+    Split(#[from] SplitError),
+}

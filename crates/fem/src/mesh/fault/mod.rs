@@ -1,0 +1,161 @@
+//! Graded quadrilateral meshes around a fault in the plane, without any other program.
+//!
+//! The grid is structured. One of its columns of edges holds the fault and its continuation to the bottom and the top of
+//! the box; rows run across from the left to the right side. Cells at the fault are rectangles, except close to the free
+//! surface, where rows turn horizontal and cells become parallelograms with the angle of the dip ([`map`] has the formulas).
+
+mod check;
+mod error;
+mod grid;
+mod map;
+mod quality;
+mod spacing;
+mod spine;
+
+pub use error::FaultMeshError;
+pub use quality::{Quality, quality, scaled_jacobian};
+
+use super::Mesh;
+use super::split::{Fault, Surface, split};
+use crate::element::ElementKind;
+use map::Map;
+use spine::Spine;
+
+/// Most cells of a fault mesh: more do not fit a factorisation on any machine this crate is meant for.
+pub const MOST_CELLS: usize = 10_000_000;
+
+/// Sizes of cells along the fault.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spacing {
+    /// One size \[m\]; on each segment the nearest one that divides it, at most 5 % off.
+    Constant(f64),
+    /// One size within a zone, growing beyond it.
+    Zone {
+        /// Begin of the zone, along the fault from its first vertex \[m\].
+        from: f64,
+        /// End of the zone \[m\].
+        to: f64,
+        /// Size within \[m\].
+        size: f64,
+        /// Largest ratio of neighbouring sizes beyond, at least 1 \[-\].
+        ratio: f64,
+    },
+}
+
+/// A body with one fault.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FaultMesh {
+    /// Vertices of the fault, from one tip to the other \[m\]; y points up. A tip on the bottom or top of the box reaches
+    /// the boundary and opens there; others stay closed.
+    pub trace: Vec<[f64; 2]>,
+    /// Sizes along the fault.
+    pub spacing: Spacing,
+    /// Thickness of the first cells across the fault \[m\]; the smallest size along it when none.
+    pub thickness: Option<f64>,
+    /// Lower corner of the box \[m\].
+    pub min: [f64; 2],
+    /// Upper corner of the box \[m\]; its upper side is the free surface.
+    pub max: [f64; 2],
+    /// Largest ratio of neighbouring sizes away from the fault, at least 1 \[-\].
+    pub growth: f64,
+    /// quad4, quad8 or quad9; edges are straight.
+    pub kind: ElementKind,
+}
+
+/// A mesh that is split along its fault.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Faulted {
+    /// The mesh, with the side sets left, right, bottom, top, fault.minus (the side of smaller x) and fault.plus.
+    pub mesh: Mesh<2>,
+    /// Pairs of nodes in the direction of the trace.
+    pub fault: Fault,
+    /// Distance of each pair from the first vertex, along the fault \[m\].
+    pub along: Vec<f64>,
+    /// Shape of the cells.
+    pub quality: Quality,
+}
+
+impl FaultMesh {
+    /// Generates the mesh.
+    ///
+    /// # Errors
+    /// See [`FaultMeshError`].
+    pub fn mesh(&self) -> Result<Faulted, FaultMeshError> {
+        let trace = check::trace(self)?;
+        // From the highest vertex down; distances along stay those of the given direction.
+        let downwards = trace[0][1] > trace[trace.len() - 1][1];
+        let mut along = spacing::along(&check::distances(&trace), self.spacing)?;
+        let mut places = check::places(&trace, &along);
+        let mut vertices = trace.clone();
+        if !downwards {
+            vertices.reverse();
+        } else {
+            places.reverse();
+        }
+        let spine = Spine::new(vertices, [self.min[0], self.max[0]]);
+        let map = Map::new(&spine, [self.min[0], self.max[0]]);
+        let rows = self.rows(&places)?;
+        let columns = self.columns(&map, &along, &spine)?;
+        let grid = grid::Grid::new(self, &map, &spine, &rows, &columns, &places)?;
+        let mut mesh = grid.mesh(self);
+        let quality = grid.check(self, &mesh)?;
+        let mut faces = grid.fault_edges(&places);
+        if downwards {
+            faces.reverse();
+        }
+        let surface = Surface { name: "fault".to_string(), faces, towards_plus: Some([1.0, 0.0]) };
+        let fault = split(&mut mesh, &[surface])?.remove(0);
+        if fault.pairs.len() > along.len() {
+            along = with_middles(&along);
+        }
+        Ok(Faulted { mesh, fault, along, quality })
+    }
+
+    /// Heights where rows cross the spine, ascending; `places`: nodes of the fault, ascending.
+    fn rows(&self, places: &[[f64; 2]]) -> Result<Vec<f64>, FaultMeshError> {
+        let n = places.len();
+        let (low, high) = (places[0][1], places[n - 1][1]);
+        let mut rows = Vec::new();
+        if low > self.min[1] {
+            let first = places[1][1] - low;
+            let below = spacing::geometric(first, low - self.min[1], self.growth, "below the lower tip")?;
+            rows.push(self.min[1]);
+            rows.extend(below[1..below.len() - 1].iter().rev().map(|d| low - d));
+        }
+        rows.extend(places.iter().map(|x| x[1]));
+        if high < self.max[1] {
+            let first = high - places[n - 2][1];
+            let above = spacing::geometric(first, self.max[1] - high, self.growth, "above the upper tip")?;
+            rows.extend(above[1..above.len() - 1].iter().map(|d| high + d));
+            rows.push(self.max[1]);
+        }
+        Ok(rows)
+    }
+
+    /// ξ of the columns, ascending, 0 among them.
+    fn columns(&self, map: &Map, along: &[f64], spine: &Spine) -> Result<Vec<f64>, FaultMeshError> {
+        let smallest = along.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
+        let thickness = self.thickness.unwrap_or(smallest);
+        // A horizontal distance ξ is the thickness ξ sin δ; the steepest segment has just the thickness asked for.
+        let steepest = spine.slopes.iter().map(|p| 1.0 / p.hypot(1.0)).fold(0.0, f64::max);
+        let first = thickness / steepest;
+        let [left, right] = map.widths();
+        let side = |width: f64, place: &'static str| -> Result<Vec<f64>, FaultMeshError> {
+            let rest = spacing::geometric(first, (width - first).max(0.0), self.growth, place)?;
+            let inner = rest[..rest.len() - 1].iter().map(|d| first + d);
+            Ok(inner.chain([width]).collect())
+        };
+        let left = side(left, "between the cells at the fault and the left side")?;
+        let right = side(right, "between the cells at the fault and the right side")?;
+        Ok(left.iter().rev().map(|d| -d).chain([0.0]).chain(right).collect())
+    }
+}
+
+/// Values and the means of neighbours between them.
+fn with_middles(values: &[f64]) -> Vec<f64> {
+    let mut all = vec![values[0]];
+    for w in values.windows(2) {
+        all.extend([0.5 * (w[0] + w[1]), w[1]]);
+    }
+    all
+}
