@@ -52,7 +52,11 @@ fn shared(mesh: &Mesh<2>) -> BTreeMap<[usize; 2], usize> {
 }
 
 fn length(mesh: &Mesh<2>, sides: &[Side]) -> f64 {
-    asperity_fem::surface::areas(mesh, sides).values().sum()
+    let ends = |s: &Side| {
+        let n = face_nodes(mesh, s);
+        [mesh.nodes[n[0]], mesh.nodes[n[1]]]
+    };
+    sides.iter().map(|s| sizes(&ends(s))[0]).sum()
 }
 
 /// Everything that holds for any fault mesh: it fills the box, conforms, is open on the fault and nowhere else.
