@@ -13,6 +13,7 @@ pub mod iterative;
 pub mod loads;
 pub mod material;
 pub mod mesh;
+pub mod nonlinear;
 pub mod quadrature;
 pub mod sparse;
 pub mod surface;

@@ -1,0 +1,276 @@
+//! The block as a term: residual, consistent tangent, history.
+
+use super::body::Body;
+use super::cell::Scratch;
+use super::model::{Model, ModelError, with_material};
+use crate::element::ElementKind;
+use crate::material::constitutive::{Constitutive, Voigt, contract};
+use crate::mesh::Mesh;
+use crate::term::{Instant, Linearized, Pattern, Refusal, Saved, Term};
+
+/// A quantity at the last accepted state and at the trial state.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Two {
+    pub committed: Vec<f64>,
+    pub trial: Vec<f64>,
+}
+
+impl Two {
+    pub fn zeros(n: usize) -> Self {
+        Self { committed: vec![0.0; n], trial: vec![0.0; n] }
+    }
+
+    fn accept(&mut self) {
+        self.committed.copy_from_slice(&self.trial);
+    }
+
+    fn reject(&mut self) {
+        self.trial.copy_from_slice(&self.committed);
+    }
+}
+
+/// Cells of one kind, one material, one kinematics. See the module.
+#[derive(Clone, Debug)]
+pub struct Block<const D: usize> {
+    pub(super) name: String,
+    pub(super) body: Body<D>,
+    /// Displacements in local numbering \[m\].
+    pub(super) u: Two,
+    /// Kept numbers of all points.
+    pub(super) state: Two,
+    /// Force a forward step left unbalanced, cell by cell, when it is carried; else empty.
+    pub(super) drift: Two,
+    /// Forces of each cell, before they are summed.
+    pub(super) forces: Vec<f64>,
+    /// Zeros: the start of every step of a material without memory.
+    pub(super) none: Vec<f64>,
+    pub(super) dt: f64,
+}
+
+impl<const D: usize> Block<D> {
+    /// Block `block` of `mesh`, without stress; degree of freedom = node * components + component.
+    ///
+    /// # Errors
+    /// [`ModelError`] for a cell inside out and for combinations that do not exist.
+    pub fn new(mesh: &Mesh<D>, block: usize, model: Model) -> Result<Self, ModelError> {
+        let carry = model.carry;
+        let body = Body::new(mesh, block, model)?;
+        let (cells, width) = (body.cells.len(), body.frame.width());
+        let dofs = body.nodes.len() * body.frame.components;
+        Ok(Self {
+            name: format!("cells {block}"),
+            u: Two::zeros(dofs),
+            state: Two::zeros(cells * body.state_size()),
+            drift: Two::zeros(if carry && body.frame.layout.stride > 0 { cells * width } else { 0 }),
+            forces: vec![0.0; cells * width],
+            none: vec![0.0; if body.frame.layout.stride == 0 { dofs } else { 0 }],
+            dt: 0.0,
+            body,
+        })
+    }
+
+    /// Sets the Kirchhoff stress at the start \[Pa\] as a function of cell and quadrature point.
+    ///
+    /// # Errors
+    /// [`ModelError::Combination`] for a block that keeps no stress (small strain, elastic), for stress through the thickness
+    /// in plane stress, and for viscoelastic materials of several elements, whose shares of it are unknown.
+    pub fn prestress(&mut self, stress: impl Fn(usize, usize) -> Voigt) -> Result<(), ModelError> {
+        let refuse = |reason| Err(ModelError::Combination { combination: "initial stress", reason });
+        let (layout, points) = (self.body.frame.layout, self.body.frame.points());
+        if layout.stride == 0 {
+            return refuse("a small-strain elastic block keeps no stress: add its forces to the loads");
+        }
+        if layout.tensors > 0 {
+            return refuse("the shares of several viscoelastic elements in it are unknown");
+        }
+        for (k, state) in self.state.committed.chunks_exact_mut(layout.stride).enumerate() {
+            let s = stress(k / points, k % points);
+            if self.body.frame.plane_stress && s[2] != 0.0 {
+                return refuse("in plane stress the component zz is zero");
+            }
+            state[..6].copy_from_slice(&s);
+        }
+        self.state.reject();
+        Ok(())
+    }
+
+    /// Kind of the cells.
+    #[must_use]
+    pub fn kind(&self) -> ElementKind {
+        self.body.cells.kind
+    }
+
+    /// Material and options.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        &self.body.model
+    }
+
+    /// Numbers kept at each quadrature point, stress included; 0 where the displacements say everything.
+    #[must_use]
+    pub fn kept_per_point(&self) -> usize {
+        self.body.frame.layout.stride
+    }
+
+    /// Takes this block's displacements out of those of the system.
+    pub(super) fn take(&mut self, u: &[f64]) {
+        let c = self.body.frame.components;
+        for (own, &node) in self.u.trial.chunks_exact_mut(c).zip(&self.body.nodes) {
+            own.copy_from_slice(&u[node * c..(node + 1) * c]);
+        }
+    }
+
+    /// Displacements at the start of the step.
+    pub(super) fn start(&self) -> &[f64] {
+        if self.none.is_empty() { &self.u.committed } else { &self.none }
+    }
+
+    /// Trial stress, history and forces from the trial displacements.
+    pub(super) fn evaluate(&mut self) -> Result<(), Refusal> {
+        let mut forces = std::mem::take(&mut self.forces);
+        let mut state = std::mem::take(&mut self.state.trial);
+        let result =
+            with_material!(&self.body.model.material, m => self.evaluate_with(m, &mut forces, &mut state));
+        self.forces = forces;
+        self.state.trial = state;
+        result.map_err(|reason| Refusal { term: self.name.clone(), reason })
+    }
+
+    fn evaluate_with<M: Constitutive>(
+        &self,
+        material: &M,
+        forces: &mut [f64],
+        state: &mut [f64],
+    ) -> Result<(), String> {
+        let body = &self.body;
+        let sizes = (body.frame.width(), body.state_size());
+        body.chunks((forces, sizes.0), (state, sizes.1), |scratch, mut task| {
+            for (cell, f, new) in task.cells() {
+                self.step(cell, scratch)?;
+                let (volumes, old) = (body.cell_volumes(cell), body.cell_state(cell, &self.state.committed));
+                scratch.stresses(&body.frame, material, self.dt, old, new, false);
+                scratch.forces(&body.frame, volumes, f);
+                if f.iter().any(|f| !f.is_finite()) {
+                    return Err(format!("cell {cell}: the forces are not finite"));
+                }
+            }
+            Ok(())
+        })
+        .into_iter()
+        .collect()
+    }
+
+    /// Motion of a cell over the step, refused where it is no longer one.
+    pub(super) fn step(&self, cell: usize, scratch: &mut Scratch<D>) -> Result<(), String> {
+        let body = &self.body;
+        body.gather(cell, self.start(), &self.u.trial, scratch);
+        scratch.motion(&body.frame, body.cell_volumes(cell)).map_err(|bad| {
+            format!(
+                "cell {cell} turns inside out: Jacobian determinant {:e} at its point {}",
+                bad.determinant, bad.point
+            )
+        })?;
+        if !body.frame.finite {
+            return Ok(());
+        }
+        let most = body.model.limits.refused;
+        for (point, increment) in scratch.increments.iter().enumerate() {
+            let size = size_of(&increment.strain);
+            if size > most || !size.is_finite() {
+                return Err(format!(
+                    "cell {cell}: strain increment {size:.3} at its point {point} (at most {most} in a step)"
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the forces of all cells in order.
+    pub(super) fn scatter(&self, forces: &[f64], r: &mut [f64]) {
+        for (&dof, f) in self.body.pattern.dofs.iter().zip(forces) {
+            r[dof] += f;
+        }
+    }
+}
+
+/// √(ε:ε) of an engineering strain.
+pub(super) fn size_of(strain: &Voigt) -> f64 {
+    let e: Voigt = std::array::from_fn(|i| if i < 3 { strain[i] } else { 0.5 * strain[i] });
+    contract(&e, &e).sqrt()
+}
+
+impl<const D: usize> Term for Block<D> {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn residual(&mut self, u: &[f64], at: Instant, r: &mut [f64]) -> Result<(), Refusal> {
+        self.take(u);
+        self.dt = at.dt;
+        self.evaluate()?;
+        self.scatter(&self.forces, r);
+        Ok(())
+    }
+
+    fn accept(&mut self) {
+        self.u.accept();
+        self.state.accept();
+        self.drift.accept();
+    }
+
+    fn reject(&mut self) {
+        self.u.reject();
+        self.state.reject();
+        self.drift.reject();
+    }
+}
+
+impl<const D: usize> Linearized for Block<D> {
+    fn pattern(&self) -> &Pattern {
+        &self.body.pattern
+    }
+
+    fn tangent(&mut self, values: &mut [f64]) {
+        with_material!(&self.body.model.material, m => self.tangent_with(m, values));
+    }
+}
+
+impl<const D: usize> Block<D> {
+    fn tangent_with<M: Constitutive>(&self, material: &M, values: &mut [f64]) {
+        let body = &self.body;
+        let width = body.frame.width();
+        body.chunks((values, width * width), (&mut [], 0), |scratch, mut task| {
+            for (cell, k, _) in task.cells() {
+                // The residual at this state has been evaluated: the motion is admissible.
+                if self.step(cell, scratch).is_err() {
+                    k.fill(f64::NAN);
+                    continue;
+                }
+                let (volumes, old) = (body.cell_volumes(cell), body.cell_state(cell, &self.state.committed));
+                scratch.linearised(&body.frame, material, self.dt, old);
+                scratch.tangent(&body.frame, volumes, k);
+            }
+        });
+    }
+}
+
+impl<const D: usize> Saved for Block<D> {
+    fn save(&self) -> Vec<f64> {
+        [&self.u, &self.state, &self.drift].iter().flat_map(|two| two.committed.iter().copied()).collect()
+    }
+
+    fn restore(&mut self, saved: &[f64]) -> bool {
+        let parts = [&mut self.u, &mut self.state, &mut self.drift];
+        if saved.len() != parts.iter().map(|p| p.committed.len()).sum::<usize>() {
+            return false;
+        }
+        let mut rest = saved;
+        for part in parts {
+            let (own, others) = rest.split_at(part.committed.len());
+            part.committed.copy_from_slice(own);
+            part.reject();
+            rest = others;
+        }
+        true
+    }
+}

@@ -1,0 +1,199 @@
+//! What does not change in a run: cells in local numbering, reference geometry, model; and the loop over chunks of cells.
+
+use super::cell::{Frame, Inverted, Scratch};
+use super::history::Layout;
+use super::ideal::Idealisation;
+use super::model::{Kinematics, Material, Model, ModelError};
+use crate::error::FemError;
+use crate::mesh::{Cells, Mesh};
+use crate::term::Pattern;
+use rayon::prelude::*;
+
+/// Cells treated by one task: fixed, so that results do not depend on the number of threads.
+const CHUNK: usize = 64;
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub struct Body<const D: usize> {
+    /// Block of the mesh.
+    pub block: usize,
+    /// Its cells, nodes in local numbering.
+    pub cells: Cells,
+    /// Node of the mesh of each local node, ascending.
+    pub nodes: Vec<usize>,
+    /// Reference positions of the local nodes \[m\].
+    pub reference: Vec<[f64; D]>,
+    /// Reference volume of each point \[m^D; m³ over the full turn where axisymmetric\].
+    pub volumes: Vec<f64>,
+    /// What is the same in all cells.
+    pub frame: Frame,
+    /// Material and options.
+    pub model: Model,
+    /// Degrees of freedom of each cell in the numbering of the system.
+    pub pattern: Pattern,
+}
+
+/// Parts of a cell's arrays one task works on.
+pub struct Task<'a, const D: usize> {
+    /// First cell.
+    pub first: usize,
+    /// Numbers per cell of `out`.
+    size: usize,
+    /// What is written, `size` numbers a cell.
+    pub out: &'a mut [f64],
+    /// The second thing that is written, cell by cell.
+    pub state: &'a mut [f64],
+    state_size: usize,
+}
+
+impl<const D: usize> Task<'_, D> {
+    /// Cells of the task with their parts of `out` and `state`.
+    pub fn cells(&mut self) -> impl Iterator<Item = (usize, &mut [f64], &mut [f64])> {
+        let (first, state_size) = (self.first, self.state_size);
+        let mut rest = std::mem::take(&mut self.state);
+        self.out.chunks_exact_mut(self.size).enumerate().map(move |(k, out)| {
+            let (state, others) = std::mem::take(&mut rest).split_at_mut(state_size);
+            rest = others;
+            (first + k, out, state)
+        })
+    }
+}
+
+impl<const D: usize> Body<D> {
+    /// Block `block` of `mesh`; degree of freedom = node * components + component.
+    pub fn new(mesh: &Mesh<D>, block: usize, model: Model) -> Result<Self, ModelError> {
+        model.check(D)?;
+        let global = &mesh.blocks[block];
+        if global.kind.dimension() != D {
+            return Err(FemError::Dimension { element: global.kind.name(), dimension: D }.into());
+        }
+        let mut nodes = global.connectivity.clone();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let mut local = vec![0; mesh.nodes.len()];
+        nodes.iter().enumerate().for_each(|(k, &n)| local[n] = k);
+        let frame = frame::<D>(global, &model)?;
+        if frame.axisymmetric
+            && let Some(&node) = nodes.iter().find(|&&n| mesh.nodes[n][0] < 0.0)
+        {
+            return Err(ModelError::Radius { node, radius: mesh.nodes[node][0] });
+        }
+        let components = frame.components;
+        let dofs: Vec<Vec<usize>> = (0..global.len())
+            .map(|c| {
+                global
+                    .cell(c)
+                    .iter()
+                    .flat_map(|&n| (0..components).map(move |i| n * components + i))
+                    .collect()
+            })
+            .collect();
+        let mut body = Self {
+            block,
+            cells: Cells {
+                kind: global.kind,
+                connectivity: global.connectivity.iter().map(|&n| local[n]).collect(),
+            },
+            reference: nodes.iter().map(|&n| mesh.nodes[n]).collect(),
+            volumes: Vec::new(),
+            pattern: Pattern::of_blocks(0, dofs.iter().map(Vec::as_slice)),
+            nodes,
+            frame,
+            model,
+        };
+        body.volumes = body.reference_volumes()?;
+        Ok(body)
+    }
+
+    fn reference_volumes(&self) -> Result<Vec<f64>, FemError> {
+        let mut flat = self.frame.clone();
+        (flat.finite, flat.modes) = (false, 0);
+        let mut scratch = Scratch::<D>::new(&flat);
+        let none = vec![0.0; self.nodes.len() * flat.components];
+        let mut volumes = Vec::with_capacity(self.cells.len() * flat.points());
+        for cell in 0..self.cells.len() {
+            self.gather(cell, &none, &none, &mut scratch);
+            scratch.motion(&flat, &[]).map_err(|Inverted { determinant, .. }| FemError::Jacobian {
+                block: self.block,
+                cell,
+                determinant,
+            })?;
+            volumes.extend_from_slice(&scratch.volume);
+        }
+        Ok(volumes)
+    }
+
+    /// Puts the positions of a cell into the working memory, displaced by `base` and by `end` (local numbering).
+    pub fn gather(&self, cell: usize, base: &[f64], end: &[f64], scratch: &mut Scratch<D>) {
+        let components = self.frame.components;
+        for (a, &node) in self.cells.cell(cell).iter().enumerate() {
+            scratch.reference[a] = self.reference[node];
+            for i in 0..components {
+                scratch.base[a][i + self.frame.row] = base[node * components + i];
+                scratch.end[a][i + self.frame.row] = end[node * components + i];
+            }
+        }
+    }
+
+    /// Reference volumes of the points of a cell.
+    pub fn cell_volumes(&self, cell: usize) -> &[f64] {
+        let n = self.frame.points();
+        &self.volumes[cell * n..(cell + 1) * n]
+    }
+
+    /// Kept numbers of a cell in `state`.
+    pub fn cell_state<'a>(&self, cell: usize, state: &'a [f64]) -> &'a [f64] {
+        let n = self.state_size();
+        &state[cell * n..(cell + 1) * n]
+    }
+
+    /// Kept numbers per cell.
+    pub fn state_size(&self) -> usize {
+        self.frame.points() * self.frame.layout.stride
+    }
+
+    /// Runs `work` on chunks of cells in parallel, each with its part of `out` (`size` > 0 numbers a cell) and of `state`,
+    /// and returns the results in the order of the chunks.
+    pub fn chunks<R: Send>(
+        &self,
+        (out, size): (&mut [f64], usize),
+        (mut state, state_size): (&mut [f64], usize),
+        work: impl Fn(&mut Scratch<D>, Task<'_, D>) -> R + Sync,
+    ) -> Vec<R> {
+        let mut tasks = Vec::with_capacity(self.cells.len().div_ceil(CHUNK));
+        for (k, out) in out.chunks_mut(size * CHUNK).enumerate() {
+            let (part, rest) = std::mem::take(&mut state).split_at_mut(out.len() / size * state_size);
+            state = rest;
+            tasks.push(Task { first: k * CHUNK, size, out, state: part, state_size });
+        }
+        tasks
+            .into_par_iter()
+            .map_init(|| Scratch::new(&self.frame), |scratch, task| work(scratch, task))
+            .collect()
+    }
+}
+
+fn frame<const D: usize>(cells: &Cells, model: &Model) -> Result<Frame, ModelError> {
+    let rule = cells.kind.quadrature();
+    let nodes = cells.kind.nodes();
+    let shapes: Vec<_> = rule.iter().map(|(xi, _)| cells.kind.shape(*xi)).collect();
+    let finite = model.kinematics == Kinematics::UpdatedLagrangian;
+    let (tensors, scalars) = model.material.history();
+    let plane_stress = model.idealisation == Idealisation::PlaneStress;
+    let layout = Layout::new(tensors, scalars, plane_stress);
+    let remembers = finite || !matches!(model.material, Material::Elastic(_));
+    Ok(Frame {
+        nodes,
+        dn: shapes.iter().flat_map(|s| s.dn[..nodes].to_vec()).collect(),
+        n: shapes.iter().flat_map(|s| s.n[..nodes].to_vec()).collect(),
+        weight: rule.iter().map(|(_, w)| *w).collect(),
+        xi: rule.iter().map(|(xi, _)| *xi).collect(),
+        modes: model.modes(cells.kind)?,
+        components: model.idealisation.components(),
+        row: if model.idealisation == Idealisation::Antiplane { 2 } else { 0 },
+        axisymmetric: model.idealisation == Idealisation::Axisymmetric,
+        plane_stress,
+        finite,
+        layout: if remembers { layout } else { layout.forgetful() },
+    })
+}

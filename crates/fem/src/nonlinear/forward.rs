@@ -1,0 +1,233 @@
+//! Forward steps: the rate tangent, its limits, and the state after a step.
+//!
+//! The rate of the forces over the current configuration is `∫ ∂δu_i/∂x_j Σ_ijkl ∂v_k/∂x_l dV` with
+//! `Σ_ijkl = C^ep_ijkl + (τ_jl δ_ik - τ_ik δ_jl - τ_il δ_jk - τ_jk δ_il)/2` over the reference volumes: the consistent tangent of
+//! a step of length zero, with the continuum moduli. Stresses after a step are those of the objective update, so that they
+//! stay on the yield surface; what the linearisation missed is left as a force, which the next step may carry.
+
+use super::block::{Block, size_of};
+use super::cell::Scratch;
+use super::model::with_material;
+use crate::material::constitutive::Constitutive;
+use crate::term::{Fraction, Instant, Limited, Refusal};
+
+/// A limit found at a point.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    value: f64,
+    limit: &'static str,
+    event: &'static str,
+    cell: usize,
+    point: usize,
+}
+
+/// The smaller of two; the first where they are equal, so that the order of cells decides.
+fn smaller(a: Option<Found>, b: Option<Found>) -> Option<Found> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.value < a.value { b } else { a }),
+        (a, b) => a.or(b),
+    }
+}
+
+impl<const D: usize> Block<D> {
+    /// Forward tangent of one cell from the committed state into `k`, and the forces by which its stresses change over
+    /// `dt` at rest into `f`.
+    fn forward_cell<M: Constitutive>(
+        &self,
+        material: &M,
+        dt: f64,
+        cell: usize,
+        scratch: &mut Scratch<D>,
+        k: &mut [f64],
+        f: &mut [f64],
+    ) -> Result<(), String> {
+        let body = &self.body;
+        let (frame, volumes) = (&body.frame, body.cell_volumes(cell));
+        let old = body.cell_state(cell, &self.state.committed);
+        body.gather(cell, &self.u.committed, &self.u.committed, scratch);
+        scratch.motion(frame, volumes).map_err(|_| format!("cell {cell} is inside out"))?;
+        scratch.forward(frame, material, dt, old);
+        scratch.tangent(frame, volumes, k);
+        if M::RELAXES {
+            scratch.relaxation(frame, volumes, material, dt, old, f);
+        } else {
+            f.fill(0.0);
+        }
+        Ok(())
+    }
+
+    /// Rate tangents, and the force of each cell that does not depend on Δu.
+    fn rate_with<M: Constitutive>(
+        &self,
+        material: &M,
+        dt: f64,
+        values: &mut [f64],
+        forces: &mut [f64],
+    ) -> Result<(), String> {
+        let width = self.body.frame.width();
+        self.body
+            .chunks((values, width * width), (forces, width), |scratch, mut task| {
+                for (cell, k, f) in task.cells() {
+                    self.forward_cell(material, dt, cell, scratch, k, f)?;
+                    if !self.drift.committed.is_empty() {
+                        let drift = &self.drift.committed[cell * width..(cell + 1) * width];
+                        f.iter_mut().zip(drift).for_each(|(f, d)| *f += d);
+                    }
+                }
+                Ok(())
+            })
+            .into_iter()
+            .collect()
+    }
+
+    fn limit_with<M: Constitutive>(&self, material: &M) -> Option<Found> {
+        let mut marks = vec![0.0; self.body.cells.len()];
+        self.body
+            .chunks((&mut marks, 1), (&mut [], 0), |scratch, mut task| {
+                let mut best = None;
+                for (cell, _, _) in task.cells() {
+                    best = smaller(best, self.cell_limit(material, cell, scratch));
+                }
+                best
+            })
+            .into_iter()
+            .fold(None, smaller)
+    }
+
+    fn cell_limit<M: Constitutive>(
+        &self,
+        material: &M,
+        cell: usize,
+        scratch: &mut Scratch<D>,
+    ) -> Option<Found> {
+        let (body, limits) = (&self.body, &self.body.model.limits);
+        let found = |value, limit, event, point| Some(Found { value, limit, event, cell, point });
+        body.gather(cell, &self.u.committed, &self.u.trial, scratch);
+        if let Err(bad) = scratch.motion(&body.frame, body.cell_volumes(cell)) {
+            return found(HALF, "r2", "cell inside out", bad.point);
+        }
+        let mut best = None;
+        let old = body.cell_state(cell, &self.state.committed);
+        for point in 0..body.frame.points() {
+            if body.frame.finite {
+                let increment = &scratch.increments[point];
+                let (strain, angle) = (size_of(&increment.strain), increment.angle());
+                if strain > limits.strain {
+                    best = smaller(best, found(limits.strain / strain, "r2", "strain increment", point));
+                }
+                if angle > limits.rotation {
+                    best = smaller(best, found(limits.rotation / angle, "r3", "rotation increment", point));
+                }
+            }
+            if let Some(value) = self.yields(material, point, old, scratch) {
+                best = smaller(best, found(value, "r1", "elastic -> plastic", point));
+            }
+        }
+        best
+    }
+
+    /// Fraction at which an elastic point starts to yield.
+    fn yields<M: Constitutive>(
+        &self,
+        material: &M,
+        point: usize,
+        old: &[f64],
+        scratch: &Scratch<D>,
+    ) -> Option<f64> {
+        let layout = &self.body.frame.layout;
+        let mut state = layout.read(&old[point * layout.stride..(point + 1) * layout.stride]);
+        let (stress, history) = layout.split(&mut state);
+        let mut strain = scratch.increments[point].strain;
+        if self.body.frame.plane_stress {
+            // Through the thickness the elastic strain that keeps σ_zz = 0.
+            let c = material.forward(self.dt, stress, history);
+            strain[2] = -(c[2][0] * strain[0] + c[2][1] * strain[1] + c[2][3] * strain[3]) / c[2][2];
+        }
+        material.yields(&strain, &scratch.turned(point, stress), history)
+    }
+
+    /// What the linearisation of the step missed: forces after it, less those the rate tangent foresaw.
+    fn drift_with<M: Constitutive>(&self, material: &M, dt: f64, drift: &mut [f64]) -> Result<(), String> {
+        let body = &self.body;
+        let (width, c) = (body.frame.width(), body.frame.components);
+        body.chunks((drift, width), (&mut [], 0), |scratch, mut task| {
+            let (mut k, mut f, mut du) = (vec![0.0; width * width], vec![0.0; width], vec![0.0; width]);
+            for (cell, out, _) in task.cells() {
+                // Forces of the committed stresses; then of the prediction.
+                body.gather(cell, &self.u.committed, &self.u.committed, scratch);
+                scratch
+                    .motion(&body.frame, body.cell_volumes(cell))
+                    .map_err(|_| format!("cell {cell} is inside out"))?;
+                let old = body.cell_state(cell, &self.state.committed);
+                scratch.forward(&body.frame, material, dt, old);
+                scratch.forces(&body.frame, body.cell_volumes(cell), &mut f);
+                for (o, (new, f)) in out.iter_mut().zip(self.forces[cell * width..].iter().zip(&f)) {
+                    *o = new - f;
+                }
+                self.forward_cell(material, dt, cell, scratch, &mut k, &mut f)?;
+                for (a, &node) in body.cells.cell(cell).iter().enumerate() {
+                    for i in 0..c {
+                        du[a * c + i] = self.u.trial[node * c + i] - self.u.committed[node * c + i];
+                    }
+                }
+                for ((o, row), f) in out.iter_mut().zip(k.chunks_exact(width)).zip(&f) {
+                    *o -= f + row.iter().zip(&du).map(|(k, d)| k * d).sum::<f64>();
+                }
+            }
+            Ok(())
+        })
+        .into_iter()
+        .collect()
+    }
+
+    /// Trial displacements: the committed ones and an increment of the system.
+    fn take_increment(&mut self, du: &[f64]) {
+        self.take(du);
+        self.u.trial.iter_mut().zip(&self.u.committed).for_each(|(t, c)| *t += c);
+    }
+
+    fn refusal(&self, reason: String) -> Refusal {
+        Refusal { term: self.name.clone(), reason }
+    }
+}
+
+/// Fraction of an increment that turns a cell inside out which is tried next.
+const HALF: f64 = 0.5;
+
+impl<const D: usize> Limited for Block<D> {
+    fn rate(&mut self, at: Instant, values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal> {
+        let mut forces = std::mem::take(&mut self.forces);
+        let result =
+            with_material!(&self.body.model.material, m => self.rate_with(m, at.dt, values, &mut forces));
+        self.forces = forces;
+        result.map_err(|reason| self.refusal(reason))?;
+        self.scatter(&self.forces, constant);
+        Ok(())
+    }
+
+    fn limit(&mut self, du: &[f64], at: Instant) -> Option<Fraction> {
+        self.take_increment(du);
+        self.dt = at.dt;
+        let found = with_material!(&self.body.model.material, m => self.limit_with(m))?;
+        let Found { value, limit, event, cell, point } = found;
+        Some(Fraction {
+            value,
+            cause: format!("{limit} {event}, {}, cell {cell}, point {point}", self.name),
+            limit,
+        })
+    }
+
+    fn advance(&mut self, du: &[f64], at: Instant) -> Result<(), Refusal> {
+        self.take_increment(du);
+        self.dt = at.dt;
+        self.evaluate()?;
+        if !self.drift.trial.is_empty() {
+            let mut drift = std::mem::take(&mut self.drift.trial);
+            let result =
+                with_material!(&self.body.model.material, m => self.drift_with(m, at.dt, &mut drift));
+            self.drift.trial = drift;
+            result.map_err(|reason| self.refusal(reason))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,158 @@
+//! What a block is made of, as values, and the combinations that exist.
+
+use super::ideal::{Formulation, Idealisation};
+use crate::element::ElementKind;
+use crate::error::FemError;
+use crate::material::constitutive::Constitutive;
+use crate::material::elastic::Elastic;
+use crate::material::j2::J2;
+use crate::material::maxwell::Maxwell;
+
+/// Materials a block can have.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Material {
+    /// Linear elasticity; hypoelastic under [`Kinematics::UpdatedLagrangian`].
+    Elastic(Elastic),
+    /// J2 plasticity.
+    J2(J2),
+    /// Linear viscoelasticity.
+    Maxwell(Maxwell),
+}
+
+/// Evaluates an expression with the material as a concrete type: the choice is made once for a whole block.
+macro_rules! with_material {
+    ($material:expr, $m:ident => $body:expr) => {
+        match $material {
+            $crate::nonlinear::Material::Elastic($m) => $body,
+            $crate::nonlinear::Material::J2($m) => $body,
+            $crate::nonlinear::Material::Maxwell($m) => $body,
+        }
+    };
+}
+pub(super) use with_material;
+
+impl Material {
+    /// Tensors and numbers in the history of a point, stress aside.
+    #[must_use]
+    pub fn history(&self) -> (usize, usize) {
+        with_material!(self, m => (m.tensors(), m.scalars()))
+    }
+}
+
+/// Strains and configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kinematics {
+    /// Small strain on the reference geometry.
+    Small,
+    /// Current geometry at each evaluation; the Jaumann rate of the Kirchhoff stress τ = J σ (J from the start of the run)
+    /// is the material's response to the rate of deformation.
+    UpdatedLagrangian,
+}
+
+/// Bounds on the increments of a step under [`Kinematics::UpdatedLagrangian`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Largest strain increment √(Δε:Δε) of a forward step (r2) \[-\].
+    pub strain: f64,
+    /// Largest rotation of a forward step (r3) \[rad\].
+    pub rotation: f64,
+    /// Strain increment √(Δε:Δε) above which an implicit step is refused \[-\].
+    pub refused: f64,
+}
+
+/// Largest strain increment of a forward step, from the model's source.
+const STRAIN: f64 = 2.0e-3;
+/// Largest rotation of a forward step in degrees, from the model's source.
+const ROTATION_DEGREES: f64 = 0.5;
+/// The error of the midpoint strain is Δε³/12: an implicit step beyond this is no longer a small one.
+const REFUSED: f64 = 0.5;
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { strain: STRAIN, rotation: ROTATION_DEGREES.to_radians(), refused: REFUSED }
+    }
+}
+
+/// A block's material, kinematics and element formulation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// Material.
+    pub material: Material,
+    /// Plane strain, plane stress, axisymmetric, antiplane or three-dimensional.
+    pub idealisation: Idealisation,
+    /// Small strain or updated Lagrangian.
+    pub kinematics: Kinematics,
+    /// Standard, or with averaged dilatation.
+    pub formulation: Formulation,
+    /// Limits of forward steps.
+    pub limits: Limits,
+    /// Whether a forward step carries the force its predecessor left unbalanced into its right-hand side: the drift is then
+    /// of second order in the step instead of first.
+    pub carry: bool,
+}
+
+/// Why a block cannot be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// Mesh, element or material.
+    #[error(transparent)]
+    Fem(#[from] FemError),
+    /// A combination that does not exist.
+    #[error("{combination}: {reason}")]
+    Combination {
+        /// What was asked for.
+        combination: &'static str,
+        /// Why it does not exist, and what does.
+        reason: &'static str,
+    },
+    /// An axisymmetric mesh that reaches across its axis.
+    #[error("node {node} has the radius {radius} m (axisymmetric: x is the radius, never negative)")]
+    Radius {
+        /// Node.
+        node: usize,
+        /// x \[m\].
+        radius: f64,
+    },
+}
+
+impl Model {
+    /// Polynomials on which the dilatation of each cell is projected: none for the standard formulation, else 1, or 1 and
+    /// the natural coordinates for biquadratic and triquadratic cells (the optimal pair there).
+    pub(super) fn modes(&self, kind: ElementKind) -> Result<usize, ModelError> {
+        if self.formulation == Formulation::Standard {
+            return Ok(0);
+        }
+        let refuse = |combination, reason| Err(ModelError::Combination { combination, reason });
+        match self.idealisation {
+            Idealisation::PlaneStress => {
+                return refuse("averaged dilatation in plane stress", "thickness is free: use standard");
+            }
+            Idealisation::Antiplane => {
+                return refuse("averaged dilatation in antiplane shear", "there is none: use standard");
+            }
+            _ => {}
+        }
+        if kind.quadrature().len() == 1 {
+            return refuse(
+                "averaged dilatation on a cell with one quadrature point",
+                "averaging changes nothing; use quad4 or hex8, or second-order cells",
+            );
+        }
+        let tensor_product = matches!(kind.nodes(), 9 | 27);
+        Ok(if tensor_product { 1 + kind.dimension() } else { 1 })
+    }
+
+    pub(super) fn check(&self, dimension: usize) -> Result<(), ModelError> {
+        let refuse = |combination, reason| Err(ModelError::Combination { combination, reason });
+        if self.idealisation.dimension() != dimension {
+            return refuse(
+                "idealisation and mesh",
+                "plane ones need a plane mesh, three-dimensional a solid",
+            );
+        }
+        if self.idealisation == Idealisation::Antiplane && self.kinematics == Kinematics::UpdatedLagrangian {
+            return refuse("antiplane shear, updated Lagrangian", "use small strain, or three dimensions");
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,92 @@
+//! Fields of the committed state.
+
+use super::block::Block;
+use super::cell::Scratch;
+use super::model::{Material, with_material};
+use crate::material::constitutive::{Constitutive, Voigt};
+
+impl<const D: usize> Block<D> {
+    /// Cauchy stress xx, yy, zz, xy, yz, zx at every quadrature point, cell by cell \[Pa\].
+    #[must_use]
+    pub fn stress_at_points(&self) -> Vec<Voigt> {
+        with_material!(&self.body.model.material, m => self.stresses(m)).into_iter().map(|(s, _)| s).collect()
+    }
+
+    /// Cauchy stress of each cell, averaged over its present volume \[Pa\].
+    #[must_use]
+    pub fn cell_stress(&self) -> Vec<Voigt> {
+        with_material!(&self.body.model.material, m => self.stresses(m))
+            .chunks_exact(self.body.frame.points())
+            .map(|points| {
+                let volume: f64 = points.iter().map(|(_, v)| v).sum();
+                std::array::from_fn(|i| points.iter().map(|(s, v)| v * s[i]).sum::<f64>() / volume)
+            })
+            .collect()
+    }
+
+    /// Equivalent plastic strain of every quadrature point, cell by cell, of a plastic material.
+    #[must_use]
+    pub fn plastic_strain_at_points(&self) -> Option<Vec<f64>> {
+        let layout = self.body.frame.layout;
+        matches!(self.body.model.material, Material::J2(_)).then(|| {
+            self.state.committed.chunks_exact(layout.stride).map(|s| s[6 + 6 * layout.tensors]).collect()
+        })
+    }
+
+    /// Equivalent plastic strain of each cell, averaged over its reference volume, of a plastic material.
+    #[must_use]
+    pub fn cell_plastic_strain(&self) -> Option<Vec<f64>> {
+        let points = self.body.frame.points();
+        let strains = self.plastic_strain_at_points()?;
+        let cells = strains.chunks_exact(points).zip(self.body.volumes.chunks_exact(points));
+        Some(
+            cells
+                .map(|(e, v)| e.iter().zip(v).map(|(e, v)| e * v).sum::<f64>() / v.iter().sum::<f64>())
+                .collect(),
+        )
+    }
+
+    /// Logarithmic strain through the thickness at every quadrature point, in plane stress where it is kept.
+    #[must_use]
+    pub fn thickness_strain_at_points(&self) -> Option<Vec<f64>> {
+        let layout = self.body.frame.layout;
+        let kept = layout.thickness && layout.stride > 0;
+        kept.then(|| self.state.committed.chunks_exact(layout.stride).map(|s| s[layout.stride - 1]).collect())
+    }
+
+    /// Stress of every point and its present volume. Under finite deformation σ = τ/J; with averaged dilatation J is that
+    /// of the cell, as the dilatation the stress answers to.
+    fn stresses<M: Constitutive>(&self, material: &M) -> Vec<(Voigt, f64)> {
+        let (body, frame) = (&self.body, &self.body.frame);
+        let mut scratch = Scratch::new(frame);
+        let mut kept = vec![0.0; body.state_size()];
+        let mut out = Vec::with_capacity(body.volumes.len());
+        for cell in 0..body.cells.len() {
+            let volumes = body.cell_volumes(cell);
+            let start = if self.none.is_empty() { &self.u.committed } else { &self.none };
+            body.gather(cell, start, &self.u.committed, &mut scratch);
+            if scratch.motion(frame, volumes).is_err() {
+                // A committed state was evaluated, so it has a volume; a restored one may be anything.
+                out.extend(volumes.iter().map(|_| ([f64::NAN; 6], f64::NAN)));
+                continue;
+            }
+            let old = body.cell_state(cell, &self.state.committed);
+            if self.none.is_empty() {
+                scratch.forward(frame, material, 0.0, old);
+            } else {
+                scratch.stresses(frame, material, 0.0, old, &mut kept, false);
+            }
+            let mean = scratch.volume.iter().sum::<f64>() / volumes.iter().sum::<f64>();
+            for (point, (stress, v)) in scratch.stress.iter().zip(&scratch.volume).enumerate() {
+                let thickness = match (frame.thickness_of(old, point), frame.finite) {
+                    (Some(strain), true) => strain.exp(),
+                    _ => 1.0,
+                };
+                let j = if frame.modes > 0 { mean } else { v / volumes[point] * thickness };
+                let stress = if frame.finite { stress.map(|s| s / j) } else { *stress };
+                out.push((stress, v * thickness));
+            }
+        }
+        out
+    }
+}
