@@ -222,28 +222,27 @@ impl<const D: usize> Scratch<D> {
     }
 
     fn finite_motion(&mut self, frame: &Frame, point: usize) -> Result<(), Inverted> {
-        let at = |u: &[[f64; 3]], a: usize| -> [f64; D] {
-            std::array::from_fn(|i| self.reference[a][i] + u[a][i])
-        };
-        let old = self.jacobian(frame, point, |a| at(&self.base, a));
-        let new = self.jacobian(frame, point, |a| at(&self.end, a));
+        let at = |a: usize| -> [f64; D] { std::array::from_fn(|i| self.reference[a][i] + self.end[a][i]) };
+        // From the increments themselves: a difference of positions would lose the digits of small steps.
+        let step = |a: usize| -> [f64; D] { std::array::from_fn(|i| self.end[a][i] - self.base[a][i]) };
+        let new = self.jacobian(frame, point, at);
+        let change = self.jacobian(frame, point, step);
         let mid: [[f64; D]; D] =
-            std::array::from_fn(|i| std::array::from_fn(|m| 0.5 * (old[i][m] + new[i][m])));
+            std::array::from_fn(|i| std::array::from_fn(|m| new[i][m] - 0.5 * change[i][m]));
         let determinant_mid = positive(determinant(&mid), point)?;
         let determinant_new = positive(determinant(&new), point)?;
         let by_mid = inverse(&mid, determinant_mid);
         let mut g = [[0.0; 3]; 3];
-        for i in 0..D {
-            for j in 0..D {
-                g[i][j] = (0..D).map(|m| (new[i][m] - old[i][m]) * by_mid[m][j]).sum();
+        for (row, change) in g.iter_mut().zip(&change) {
+            for (j, entry) in row.iter_mut().enumerate().take(D) {
+                *entry = (0..D).map(|m| change[m] * by_mid[m][j]).sum();
             }
         }
         let mut radius = 0.0;
         if frame.axisymmetric {
-            let before = self.radius(frame, point, |a| at(&self.base, a)[0]);
-            radius = self.radius(frame, point, |a| at(&self.end, a)[0]);
-            positive(radius, point)?;
-            g[2][2] = 2.0 * (radius - before) / positive(radius + before, point)?;
+            radius = positive(self.radius(frame, point, |a| at(a)[0]), point)?;
+            let grown = self.radius(frame, point, |a| step(a)[0]);
+            g[2][2] = grown / positive(radius - 0.5 * grown, point)?;
         }
         self.growth[point] = g;
         self.set_gradients(frame, point, &inverse(&new, determinant_new), radius);
