@@ -1,8 +1,16 @@
 //! Meshes: nodes, blocks of cells of one kind, and named sets of cell faces.
 
+pub mod abaqus;
+mod check;
+mod error;
 pub mod fault;
 pub mod generate;
+pub mod gmsh;
+mod raw;
 pub mod split;
+
+pub use error::{GroupName, Holder, MeshError, Part, Place};
+pub use raw::{GroupTag, Options, RawBlock, RawGroup, RawMesh, RawNode, RawSide, Shape};
 
 use crate::element::ElementKind;
 use std::collections::BTreeMap;

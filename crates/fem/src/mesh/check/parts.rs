@@ -1,0 +1,178 @@
+//! Parts of a mesh that touch without being tied.
+//!
+//! Coincident nodes are no fault in themselves: a mesh split along an interface has them by design, and then the faces on both
+//! sides have names, for nothing else could be put between them. A part hangs free where its nodes coincide with those of
+//! another part while one of the two has no named face there: no interface can be declared, and neither part holds the other.
+
+use super::super::Mesh;
+use std::collections::BTreeMap;
+
+/// Distance of coincident nodes over the shortest edge there \[-\]: far above the rounding of written coordinates, far below
+/// any wanted opening.
+const COINCIDENT: f64 = 1e-6;
+
+/// Two parts that touch: a node of each, the one that hangs free first, and how many pairs of nodes coincide.
+pub(crate) struct Touch {
+    /// Cell (block, cell) of the part that hangs free, and the cells it has.
+    pub free: Extent,
+    /// The same of the part it lies against.
+    pub other: Extent,
+    /// Pairs of coincident nodes.
+    pub pairs: usize,
+}
+
+/// A part: cells joined by common nodes.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Extent {
+    /// First cell: block and cell.
+    pub first: (usize, usize),
+    /// Number of cells.
+    pub cells: usize,
+    /// Blocks with cells in it, ascending.
+    pub blocks: Vec<usize>,
+}
+
+/// Union-find over nodes, the lowest node of a part being its root.
+struct Roots(Vec<usize>);
+
+impl Roots {
+    fn find(&mut self, mut a: usize) -> usize {
+        while self.0[a] != a {
+            self.0[a] = self.0[self.0[a]];
+            a = self.0[a];
+        }
+        a
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.find(a), self.find(b));
+        self.0[a.max(b)] = a.min(b);
+    }
+}
+
+/// What two parts have in common: pairs of coincident nodes, and those of them off the named faces of the lower and the
+/// upper part (numbered by their roots).
+#[derive(Default)]
+struct Common {
+    pairs: usize,
+    unnamed: usize,
+    unnamed_lower: usize,
+    unnamed_upper: usize,
+}
+
+/// The first part that hangs free against another. `named` says which nodes lie on named faces.
+pub(crate) fn free_part<const D: usize>(mesh: &Mesh<D>, named: &[bool]) -> Option<Touch> {
+    let (root, parts) = parts(mesh);
+    if parts.len() < 2 {
+        return None;
+    }
+    let mut common: BTreeMap<(usize, usize), Common> = BTreeMap::new();
+    for_each_coincident(&mesh.nodes, &shortest_edges(mesh), |a, b| {
+        if root[a] == root[b] {
+            return;
+        }
+        let (a, b) = if root[a] < root[b] { (a, b) } else { (b, a) };
+        let c = common.entry((root[a], root[b])).or_default();
+        c.pairs += 1;
+        c.unnamed += usize::from(!named[a] || !named[b]);
+        c.unnamed_lower += usize::from(!named[a]);
+        c.unnamed_upper += usize::from(!named[b]);
+    });
+    // Fewer than D nodes carry no face: bodies may touch at a corner.
+    let ((lower, upper), c) = common.into_iter().find(|(_, c)| c.unnamed >= D)?;
+    let (lower, upper) = (parts.get(&lower)?.clone(), parts.get(&upper)?.clone());
+    let lower_is_free = (c.unnamed_lower, upper.cells) > (c.unnamed_upper, lower.cells);
+    let (free, other) = if lower_is_free { (lower, upper) } else { (upper, lower) };
+    Some(Touch { free, other, pairs: c.pairs })
+}
+
+/// The root of every node, and the parts by their roots.
+fn parts<const D: usize>(mesh: &Mesh<D>) -> (Vec<usize>, BTreeMap<usize, Extent>) {
+    let mut roots = Roots((0..mesh.nodes.len()).collect());
+    for block in &mesh.blocks {
+        for cell in 0..block.len() {
+            let nodes = block.cell(cell);
+            nodes[1..].iter().for_each(|&n| roots.join(nodes[0], n));
+        }
+    }
+    let mut parts: BTreeMap<usize, Extent> = BTreeMap::new();
+    for (b, block) in mesh.blocks.iter().enumerate() {
+        for cell in 0..block.len() {
+            let part = parts.entry(roots.find(block.cell(cell)[0])).or_default();
+            if part.cells == 0 {
+                part.first = (b, cell);
+            }
+            part.cells += 1;
+            if part.blocks.last() != Some(&b) {
+                part.blocks.push(b);
+            }
+        }
+    }
+    ((0..mesh.nodes.len()).map(|n| roots.find(n)).collect(), parts)
+}
+
+/// Shortest distance of each node to its neighbours in faces of cells \[m\].
+fn shortest_edges<const D: usize>(mesh: &Mesh<D>) -> Vec<f64> {
+    let mut shortest = vec![f64::INFINITY; mesh.nodes.len()];
+    for block in &mesh.blocks {
+        for cell in 0..block.len() {
+            let nodes = block.cell(cell);
+            for face in block.kind.faces() {
+                for k in 0..face.len() {
+                    let (a, b) = (nodes[face[k]], nodes[face[(k + 1) % face.len()]]);
+                    let d = distance(&mesh.nodes[a], &mesh.nodes[b]);
+                    shortest[a] = shortest[a].min(d);
+                    shortest[b] = shortest[b].min(d);
+                }
+            }
+        }
+    }
+    shortest
+}
+
+fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Visits every pair of coincident nodes. Nodes are sorted into boxes a little wider than the greatest tolerance, so that
+/// coincident ones lie in the same box or in neighbours.
+fn for_each_coincident<const D: usize>(x: &[[f64; D]], h: &[f64], mut visit: impl FnMut(usize, usize)) {
+    let greatest = h.iter().copied().filter(|h| h.is_finite()).fold(0.0, f64::max);
+    let width = 2.0 * COINCIDENT * greatest;
+    if !width.is_normal() {
+        return;
+    }
+    let mut boxes: Vec<([i64; D], usize)> =
+        x.iter().enumerate().map(|(n, x)| (x.map(|c| (c / width).floor() as i64), n)).collect();
+    boxes.sort_unstable();
+    for &(key, a) in &boxes {
+        for_each_column::<D>(|step| {
+            let mut low = key;
+            for (l, s) in low.iter_mut().zip(step) {
+                *l = l.saturating_add(s);
+            }
+            let mut high = low;
+            low[D - 1] = low[D - 1].saturating_sub(1);
+            high[D - 1] = high[D - 1].saturating_add(1);
+            let from = boxes.partition_point(|(k, _)| *k < low);
+            for &(_, b) in boxes[from..].iter().take_while(|(k, _)| *k <= high) {
+                if a < b && distance(&x[a], &x[b]) <= COINCIDENT * h[a].min(h[b]) {
+                    visit(a, b);
+                }
+            }
+        });
+    }
+}
+
+/// Visits the steps to the neighbouring columns of boxes: -1, 0, 1 along all axes but the last.
+fn for_each_column<const D: usize>(mut visit: impl FnMut([i64; D])) {
+    let columns = if D == 2 { 3 } else { 9 };
+    for c in 0..columns {
+        let mut step = [0; D];
+        step[0] = c % 3 - 1;
+        if D > 2 {
+            step[1] = c / 3 - 1;
+        }
+        visit(step);
+    }
+}

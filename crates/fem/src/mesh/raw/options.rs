@@ -1,0 +1,56 @@
+//! What the reader of a mesh file is told beside the file.
+
+use crate::mesh::MeshError;
+use std::collections::BTreeMap;
+
+/// The number of a group, for files that name their groups by numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GroupTag {
+    /// Number of the physical group, or N of a group named `material-id:N`.
+    pub tag: i64,
+    /// Dimension of the group; without it the name goes to the groups of this number on every dimension.
+    pub dimension: Option<usize>,
+}
+
+impl From<i64> for GroupTag {
+    fn from(tag: i64) -> Self {
+        Self { tag, dimension: None }
+    }
+}
+
+/// How to make a mesh of what a file says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Length of the file's unit \[m\]: 1000 for a mesh in kilometres.
+    pub length_unit: f64,
+    /// Names given to groups by their numbers, beside the names of the file.
+    pub tags: BTreeMap<String, GroupTag>,
+    /// Groups that must exist, of cells, faces or nodes.
+    pub required: Vec<String>,
+    /// Whether a part may lie against another without being tied to it and without a named face there. Without this such
+    /// a part is an error ([`MeshError::FreePart`]).
+    pub allow_free_parts: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { length_unit: 1.0, tags: BTreeMap::new(), required: Vec::new(), allow_free_parts: false }
+    }
+}
+
+impl Options {
+    /// Requires groups.
+    #[must_use]
+    pub fn requiring<'a>(mut self, names: impl IntoIterator<Item = &'a str>) -> Self {
+        self.required.extend(names.into_iter().map(str::to_string));
+        self
+    }
+
+    pub(super) fn check(&self) -> Result<(), MeshError> {
+        if self.length_unit.is_finite() && self.length_unit > 0.0 {
+            Ok(())
+        } else {
+            Err(MeshError::LengthUnit { metres: self.length_unit })
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! Elements of groups of faces, found again as faces of cells.
+
+use super::RawMesh;
+use crate::mesh::error::MeshError;
+use crate::mesh::{Mesh, Side};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// Corners of a face, ascending, the fourth of a triangle and the third and fourth of an edge absent.
+type Key = [usize; 4];
+
+/// A node that no cell has.
+pub(super) const UNUSED: usize = usize::MAX;
+
+/// A face that was asked for.
+struct Wanted<'a> {
+    key: Key,
+    /// Number of its corners.
+    corners: usize,
+    /// All nodes, ascending.
+    nodes: Vec<usize>,
+    /// Only this element's face is meant.
+    owner: Option<u64>,
+    /// Number of the element that names the face.
+    element: u64,
+    /// Sets it belongs to.
+    names: Rc<[&'a str]>,
+    found: bool,
+}
+
+fn key(corners: impl Iterator<Item = usize>) -> Key {
+    let mut key = [UNUSED; 4];
+    for (k, c) in key.iter_mut().zip(corners) {
+        *k = c;
+    }
+    key.sort_unstable();
+    key
+}
+
+fn sorted(mut nodes: Vec<usize>) -> Vec<usize> {
+    nodes.sort_unstable();
+    nodes
+}
+
+impl RawMesh {
+    /// The named faces of a mesh. `connectivity` holds, for each block of the file, the nodes of its elements in the
+    /// numbering of the mesh, or [`UNUSED`]; `cells` the numbers of the mesh's cells.
+    ///
+    /// A face between two cells belongs to both: both sides are in the set, the lower (block, cell, face) first.
+    pub(super) fn side_sets<const D: usize>(
+        &self,
+        mesh: &Mesh<D>,
+        connectivity: &[Vec<usize>],
+        index: impl Fn(u64) -> usize,
+        cells: &[Vec<u64>],
+        names: &[Vec<String>],
+    ) -> Result<BTreeMap<String, Vec<Side>>, MeshError> {
+        let mut wanted = self.grouped_faces::<D>(connectivity, names);
+        for (name, sides) in &self.surfaces {
+            let names: Rc<[&str]> = Rc::new([name.as_str()]);
+            for side in sides {
+                let nodes = sorted(side.corners.iter().map(|&n| index(n)).collect());
+                let (key, corners) = (key(nodes.iter().copied()), nodes.len());
+                let (owner, names) = (Some(side.element), Rc::clone(&names));
+                wanted.push(Wanted {
+                    key,
+                    corners,
+                    nodes,
+                    owner,
+                    element: side.element,
+                    names,
+                    found: false,
+                });
+            }
+        }
+        wanted.sort_by_key(|w| (w.key, w.element));
+        let mut sets: BTreeMap<String, Vec<Side>> = BTreeMap::new();
+        for (b, block) in mesh.blocks.iter().enumerate() {
+            for (cell, &tag) in cells[b].iter().enumerate() {
+                let nodes = block.cell(cell);
+                for (face, local) in block.kind.faces().iter().enumerate() {
+                    let all: Vec<usize> = local.iter().map(|&a| nodes[a]).collect();
+                    let side = Side { block: b, cell, face };
+                    collect(&mut wanted, &all, corners::<D>(local.len()), tag, side, &mut sets);
+                }
+            }
+        }
+        no_orphans(&wanted)?;
+        // A face may be named twice in one set.
+        sets.values_mut().for_each(Vec::dedup);
+        Ok(sets)
+    }
+
+    /// Elements of the groups of faces.
+    fn grouped_faces<'a, const D: usize>(
+        &self,
+        connectivity: &[Vec<usize>],
+        names: &'a [Vec<String>],
+    ) -> Vec<Wanted<'a>> {
+        let mut wanted = Vec::new();
+        for (block, connectivity) in self.blocks.iter().zip(connectivity) {
+            if block.shape.dimension() + 1 != D || block.groups.is_empty() {
+                continue;
+            }
+            let names: Rc<[&str]> =
+                block.groups.iter().flat_map(|&g| names[g].iter().map(String::as_str)).collect();
+            for (nodes, &element) in connectivity.chunks_exact(block.shape.nodes()).zip(&block.tags) {
+                let corners = block.shape.corners();
+                let (key, names) = (key(nodes[..corners].iter().copied()), Rc::clone(&names));
+                let nodes = sorted(nodes.to_vec());
+                wanted.push(Wanted { key, corners, nodes, owner: None, element, names, found: false });
+            }
+        }
+        wanted
+    }
+}
+
+/// Corners of a face of so many nodes.
+fn corners<const D: usize>(nodes: usize) -> usize {
+    match (D, nodes) {
+        (2, _) => 2,
+        (_, 3 | 6) => 3,
+        _ => 4,
+    }
+}
+
+/// Adds a side to the sets that want it. Faces of equal order must agree in all nodes: the two sides of a crack of one
+/// element share the corners and not the middle.
+fn collect(
+    wanted: &mut [Wanted<'_>],
+    all: &[usize],
+    corners: usize,
+    cell: u64,
+    side: Side,
+    sets: &mut BTreeMap<String, Vec<Side>>,
+) {
+    let key = key(all[..corners].iter().copied());
+    let from = wanted.partition_point(|w| w.key < key);
+    let matching = wanted[from..].iter_mut().take_while(|w| w.key == key);
+    let mut nodes: Option<Vec<usize>> = None;
+    for w in matching {
+        let same_order = w.nodes.len() == all.len();
+        if w.corners != corners
+            || w.owner.is_some_and(|o| o != cell)
+            || same_order && w.nodes != *nodes.get_or_insert_with(|| sorted(all.to_vec()))
+        {
+            continue;
+        }
+        w.found = true;
+        for name in w.names.iter() {
+            sets.entry((*name).to_string()).or_default().push(side);
+        }
+    }
+}
+
+/// The first group with elements that no cell has as a face.
+fn no_orphans(wanted: &[Wanted<'_>]) -> Result<(), MeshError> {
+    let lost = || wanted.iter().filter(|w| !w.found);
+    let Some(first) = lost().min_by_key(|w| w.element) else {
+        return Ok(());
+    };
+    let group = first.names.first().map_or_else(String::new, |n| (*n).to_string());
+    let count = lost().filter(|w| w.names.contains(&group.as_str())).count();
+    Err(MeshError::Orphan { group, element: first.element, count })
+}
