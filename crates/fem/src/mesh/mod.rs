@@ -1,8 +1,8 @@
 //! Meshes: nodes, blocks of cells of one kind, and named sets of cell faces.
 
+pub mod abaqus;
 mod check;
 mod error;
-pub mod abaqus;
 pub mod extrude;
 pub mod fault;
 pub mod generate;
