@@ -104,7 +104,7 @@ fn reference(c: &mut Criterion) {
     group.sample_size(20);
     let exact = Plan { method: Method::Dop853, tolerance: 1e-13, ..plan(&REFERENCE, EVENTS) };
     let (onset, interval) = last(&exact);
-    for method in [Method::Dop853, Method::Tsit5, Method::Tsit45] {
+    for method in [Method::Switching, Method::Dop853, Method::Tsit5, Method::Tsit45] {
         let candidates = (16..48).map(|quarter| 10f64.powf(-0.25 * f64::from(quarter)));
         let mut tried = candidates.map(|tolerance| {
             let plan = Plan { method, tolerance, ..exact.clone() };

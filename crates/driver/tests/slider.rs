@@ -6,7 +6,9 @@ use asperity_driver::observe::{Observer, Recorder};
 use asperity_driver::ode::{Method, Outcome};
 use asperity_driver::scene::law::{Evolution, Form, LawChoice, State, Strength};
 use asperity_driver::scene::slider;
-use asperity_driver::slider::{Both, Histories, Now, Plan, Report, Run, Show, Thresholds, run};
+use asperity_driver::slider::{
+    Both, DEFAULT_METHOD, Histories, Now, Plan, Report, Run, Show, Thresholds, run,
+};
 use asperity_friction::slider::{Condition, History, Slider, Spring, System};
 use nalgebra::Complex;
 
@@ -267,13 +269,15 @@ fn an_undamped_slider_runs_away_with_every_method_and_is_told_what_it_needs() {
     }
     // The slip rate becomes infinite at one time, whatever the method.
     for end in &ends {
-        assert!((end - ends[4]).abs() < 1e-3, "{ends:?}");
+        assert!((end - ends[ends.len() - 1]).abs() < 1e-3, "{ends:?}");
     }
 }
 
 #[test]
 fn a_slider_that_starts_steady_stays_steady() {
     let (_, rows) = completed(&stable("\"1 um/s\"", "\"5 MPa\"", ""));
+    // At rest relative to the load an explicit step grows until stability binds: rounding then grows to the tolerance of a step in
+    // ln V, and friction to a times that.
     assert!(rows.iter().all(|r| relative(r.conditions[0].rate, 1e-6) < 1e-8));
     // v_ref is the rate at which friction is mu0, but for the regularisation.
     assert!(rows.iter().all(|r| (r.conditions[0].friction - 0.6).abs() < 1e-10));
@@ -484,11 +488,9 @@ fn a_library_call_and_a_scene_of_two_sliders_give_the_same_bits() {
 }
 
 #[test]
-fn sliders_with_mass_are_integrated_with_a_stiff_method_unless_the_scene_says_otherwise() {
-    let inertial = CYCLE.replace("damping = \"5 MPa s/m\"", "mass = \"3000 kg/m^2\"");
-    assert_eq!(plan(CYCLE).method, Method::Dop853);
-    assert_eq!(plan(&inertial).method, Method::Radau5);
-    assert_eq!(plan(&inertial.replace("[time]", "[time]\nmethod = \"bdf\"")).method, Method::Bdf);
+fn the_method_is_the_default_unless_the_scene_says_otherwise() {
+    assert_eq!(plan(CYCLE).method, DEFAULT_METHOD);
+    assert_eq!(plan(&CYCLE.replace("[time]", "[time]\nmethod = \"bdf\"")).method, Method::Bdf);
 }
 
 #[test]

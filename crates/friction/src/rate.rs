@@ -88,7 +88,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         self.reference
     }
 
-    fn solver(&self) -> Solver<'_, F, E> {
+    pub(crate) fn solver(&self) -> Solver<'_, F, E> {
         Solver::new(&self.form, &self.parts, self.reference)
     }
 

@@ -185,6 +185,20 @@ fn a_step_of_normal_traction_keeps_what_cannot_jump() {
     approx::assert_relative_eq!(B * (0.4 - y[1]), 0.3 * 1.1f64.ln(), max_relative = 1e-12);
 }
 
+/// With both memories and inertia V stays, and `dφ = -α d ln f_n - c dμ` with dμ = dφ far from rest.
+#[test]
+fn a_step_of_normal_traction_is_remembered_beside_that_of_shear_traction() {
+    let form = Regularised(Parameters::new(0.6, A, 1e-6).unwrap());
+    let part = Component::new(Nagata::new(B, 1e-5, 1e-6, 2.0).unwrap(), 0.3).unwrap();
+    let law = RateLaw::with_parts(form, vec![part], 1e-6, 5e6, None).unwrap();
+    let mut y = [60.0, 0.4, 0.02];
+    let (was, _) = law.slip(&y);
+    law.jump(&mut y, 5e6, 5.5e6, 0.0, true).unwrap();
+    let (is, _) = law.slip(&y);
+    approx::assert_relative_eq!(is.log, was.log, max_relative = 1e-13);
+    approx::assert_relative_eq!(B * (0.4 - y[1]), 0.3 * 1.1f64.ln() / 3.0, max_relative = 1e-11);
+}
+
 /// With asinh the equations are odd: mirrored tractions give mirrored rates, and V = 0 is nothing special.
 #[test]
 fn reversal_is_a_mirror_image() {

@@ -5,7 +5,7 @@
 
 use super::dop853_table as table;
 use super::dop853_table::{DENSE, ERROR_FIFTH, ERROR_THIRD, EXTENDED, NODES, STAGES, WEIGHTS};
-use super::explicit::{Pi, combine};
+use super::explicit::{Control, combine};
 use super::own::{Formula, Span, Trial};
 use super::problem::System;
 use super::report::Counts;
@@ -25,7 +25,9 @@ pub(super) struct Dop853 {
     dense_ready: Cell<bool>,
     fifth: Vec<f64>,
     third: Vec<f64>,
-    control: Pi,
+    /// State of the twelfth stage.
+    twelfth: Vec<f64>,
+    control: Control,
 }
 
 /// Weight of the third order estimate in the error.
@@ -40,8 +42,21 @@ impl Dop853 {
             dense_ready: Cell::new(false),
             fifth: vec![0.0; size],
             third: vec![0.0; size],
-            control: Pi::new(8.0, 0.2, 1.0 / 3.0, 6.0),
+            twelfth: vec![0.0; size],
+            control: Control::new(8.0, 0.2, 1.0 / 3.0, 6.0),
         }
+    }
+
+    /// An estimate of `h |λ|` for the fastest decay, from the last stage and the end of the step, which share their time.
+    pub fn stretch(&self, system: &System<'_>, span: &Span) -> f64 {
+        let (n, k) = (span.y0.len(), self.k.borrow());
+        let last = &k[(STAGES - 1) * n..STAGES * n];
+        let (mut rates, mut states) = (0.0, 0.0);
+        for i in 0..n {
+            rates += ((span.f1[i] - last[i]) / system.atol[i]).powi(2);
+            states += ((span.y1[i] - self.twelfth[i]) / system.atol[i]).powi(2);
+        }
+        if states > 0.0 { span.h * (rates / states).sqrt() } else { 0.0 }
     }
 
     /// The three further stages and the coefficients.
@@ -104,6 +119,7 @@ impl Formula for Dop853 {
         take_stage(system, span, &table::STAGE_10, k, stage);
         take_stage(system, span, &table::STAGE_11, k, stage);
         take_stage(system, span, &table::STAGE_12, k, stage);
+        self.twelfth.copy_from_slice(stage);
         combine(&mut span.y1, &span.y0, h, &WEIGHTS, k);
         stage.fill(0.0);
         combine(&mut self.fifth, stage, h, &ERROR_FIFTH, k);
@@ -122,8 +138,8 @@ impl Formula for Dop853 {
         system.rates(span.t + span.h, &span.y1, &mut span.f1);
     }
 
-    fn share(&mut self, _h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64 {
-        self.control.share(error, accepted, rejected_before)
+    fn share(&mut self, h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64 {
+        self.control.share(h, error, accepted, rejected_before)
     }
 
     fn forget(&mut self) {

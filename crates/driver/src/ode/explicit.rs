@@ -46,49 +46,65 @@ fn combine_fixed<const N: usize, const S: usize>(
     }
 }
 
-/// The usual control of step lengths by the last two errors: E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II",
-/// 2nd ed. (1996), section IV.2.
+/// Control of step lengths by the last two steps, in two ways.
+///
+/// Where errors change little from step to step, the trend of the lengths is expected to go on (predictive control, K. Gustafsson,
+/// ACM Trans. Math. Softw. 20 (1994) 496): a slider that speeds up towards an instability needs steps that shrink by one factor
+/// each, and one that heals needs steps that grow so; control by the errors alone tries every second step in vain there. Where
+/// errors jump, as they do at the end of the stability region, the errors alone decide (E. Hairer, G. Wanner, "Solving Ordinary
+/// Differential Equations II", 2nd ed. (1996), section IV.2).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pi {
-    /// Power of the error.
+pub(super) struct Control {
+    /// Power of the error: one over the order of the error in the length.
     exponent: f64,
+    /// Share of the integral part that is taken off the power where the errors alone decide.
+    damping: f64,
     /// Largest shrinkage.
     shrink: f64,
     /// Largest growth.
     growth: f64,
-    /// Logarithm of the last error.
-    last: f64,
+    /// Length and error of the last accepted step.
+    last: Option<(f64, f64)>,
 }
 
 /// Share of the optimal length that is tried.
 const SAFETY: f64 = 0.9;
 /// Power of the error before.
 const INTEGRAL: f64 = 0.04;
-/// Logarithm of 1e-4: errors below say as little as that one about the next.
-const LEAST_ERROR: f64 = -9.210_340_371_976_182;
-/// Errors below say nothing.
-const NO_ERROR: f64 = 1e-100;
+/// Errors below say as little as this one about the next.
+const LEAST_ERROR: f64 = 1e-4;
+/// Most by which errors differ from one step to the next where they change little.
+const SMOOTH: f64 = 4.0;
 
-impl Pi {
+impl Control {
     /// For an error that goes with the power `order` of the step, of which `damping` times the integral part is taken off.
     pub const fn new(order: f64, damping: f64, shrink: f64, growth: f64) -> Self {
-        Self { exponent: 1.0 / order - damping * INTEGRAL, shrink, growth, last: LEAST_ERROR }
+        Self { exponent: 1.0 / order, damping, shrink, growth, last: None }
     }
 
-    /// Share of the length to take next.
-    pub fn share(&mut self, error: f64, accepted: bool, rejected_before: bool) -> f64 {
-        let error = error.max(NO_ERROR).ln();
+    /// Share of the length `h` to take next.
+    pub fn share(&mut self, h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64 {
+        let error = error.max(LEAST_ERROR);
+        let alone = self.exponent - self.damping * INTEGRAL;
         if !accepted {
-            return (SAFETY * (-self.exponent * error).exp()).clamp(self.shrink, 1.0 - INTEGRAL);
+            return (SAFETY * error.powf(-alone)).clamp(self.shrink, 1.0 - INTEGRAL);
         }
-        let share = SAFETY * (INTEGRAL * self.last - self.exponent * error).exp();
-        self.last = error.max(LEAST_ERROR);
+        let share = match self.last {
+            Some((length, last)) if (1.0 / SMOOTH..SMOOTH).contains(&(last / error)) => {
+                SAFETY * (last / (error * error)).powf(self.exponent) * (h / length)
+            }
+            last => {
+                let before = last.map_or(LEAST_ERROR, |(_, error)| error);
+                SAFETY * error.powf(-alone) * before.powf(INTEGRAL)
+            }
+        };
+        self.last = Some((h, error));
         // A length just found too long is not tried again at once.
         share.clamp(self.shrink, if rejected_before { 1.0 } else { self.growth })
     }
 
-    /// Forgets the last error.
+    /// Forgets the last step.
     pub fn forget(&mut self) {
-        self.last = LEAST_ERROR;
+        self.last = None;
     }
 }

@@ -19,12 +19,22 @@ pub enum Method {
     Tsit5,
     /// Radau IIA of order 5, implicit.
     Radau5,
+    /// Dormand-Prince 8(5,3) and, where stability limits its steps, Radau IIA.
+    Switching,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Self; 7] =
-        [Self::Bdf, Self::TrBdf2, Self::Esdirk34, Self::Tsit45, Self::Dop853, Self::Tsit5, Self::Radau5];
+    pub const ALL: [Self; 8] = [
+        Self::Bdf,
+        Self::TrBdf2,
+        Self::Esdirk34,
+        Self::Tsit45,
+        Self::Dop853,
+        Self::Tsit5,
+        Self::Radau5,
+        Self::Switching,
+    ];
 
     /// The name, as in scenes.
     #[must_use]
@@ -37,13 +47,14 @@ impl Method {
             Self::Dop853 => "dop853",
             Self::Tsit5 => "tsit5",
             Self::Radau5 => "radau5",
+            Self::Switching => "switching",
         }
     }
 
     /// Whether the method solves equations with the Jacobian, and so takes long steps in stiff problems.
     #[must_use]
     pub const fn implicit(self) -> bool {
-        matches!(self, Self::Bdf | Self::TrBdf2 | Self::Esdirk34 | Self::Radau5)
+        matches!(self, Self::Bdf | Self::TrBdf2 | Self::Esdirk34 | Self::Radau5 | Self::Switching)
     }
 }
 

@@ -24,6 +24,7 @@ mod radau5_table;
 mod report;
 mod root;
 mod stepper;
+mod switching;
 mod tsit5;
 
 pub use clock::Clock;
@@ -72,6 +73,7 @@ pub fn integrate(
         Method::Dop853 => run(&mut OneStep::new(dop853::Dop853::new(size), size, largest)),
         Method::Tsit5 => run(&mut OneStep::new(tsit5::Tsit5::new(size), size, largest)),
         Method::Radau5 => run(&mut OneStep::new(radau5::Radau5::new(size), size, largest)),
+        Method::Switching => run(&mut OneStep::new(switching::Switching::new(size), size, largest)),
         Method::Bdf | Method::TrBdf2 | Method::Esdirk34 | Method::Tsit45 => {
             match diffsol::with_stepper(options.method, &system, state, largest, &mut run) {
                 Ok(finished) => finished,

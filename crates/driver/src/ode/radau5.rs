@@ -87,6 +87,23 @@ impl Radau5 {
         }
     }
 
+    /// An estimate of the largest |λ| of the Jacobian J \[1/s\]: the eighth root of the largest row sum of J^8, which is never
+    /// below it.
+    pub fn spectral_radius(&self) -> f64 {
+        let n = self.stage.len();
+        let largest = self.jacobian.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        if largest == 0.0 {
+            return 0.0;
+        }
+        // Powers of J over its largest entry stay in the range of numbers.
+        let mut power = nalgebra::DMatrix::from_iterator(n, n, self.jacobian.iter().map(|v| v / largest));
+        for _ in 0..3 {
+            power = &power * &power;
+        }
+        let row_sum = power.row_iter().map(|row| row.abs().sum()).fold(0.0, f64::max);
+        largest * row_sum.powf(0.125)
+    }
+
     /// Factorises both matrices for steps of length `h`.
     fn factorise(&mut self, n: usize, h: f64) -> bool {
         for (i, &entry) in self.jacobian.iter().enumerate() {

@@ -3,7 +3,7 @@
 //! Source: Ch. Tsitouras, "Runge-Kutta pairs of order 5(4) satisfying only the first column simplifying assumption", Computers &
 //! Mathematics with Applications 62 (2011) 770-775.
 
-use super::explicit::{Pi, combine};
+use super::explicit::{Control, combine};
 use super::own::{Formula, Span, Trial};
 use super::problem::System;
 use super::report::Counts;
@@ -67,7 +67,7 @@ pub(super) struct Tsit5 {
     k: Vec<f64>,
     stage: Vec<f64>,
     error: Vec<f64>,
-    control: Pi,
+    control: Control,
 }
 
 impl Tsit5 {
@@ -76,7 +76,7 @@ impl Tsit5 {
             k: vec![0.0; STAGES * size],
             stage: vec![0.0; size],
             error: vec![0.0; size],
-            control: Pi::new(5.0, 0.75, 0.2, 10.0),
+            control: Control::new(5.0, 0.75, 0.2, 10.0),
         }
     }
 
@@ -113,8 +113,8 @@ impl Formula for Tsit5 {
 
     fn complete(&mut self, _system: &System<'_>, _span: &mut Span) {}
 
-    fn share(&mut self, _h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64 {
-        self.control.share(error, accepted, rejected_before)
+    fn share(&mut self, h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64 {
+        self.control.share(h, error, accepted, rejected_before)
     }
 
     fn forget(&mut self) {

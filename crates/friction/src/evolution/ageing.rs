@@ -92,6 +92,7 @@ impl Evolution for Ageing {
     /// ψ_0, e^(ψ_0) and Vref Δt/L.
     type Start = (f64, f64, f64);
 
+    #[inline]
     fn phi(&self, state: f64) -> f64 {
         match self.cut_off {
             None => self.b * state,
@@ -102,6 +103,7 @@ impl Evolution for Ageing {
         }
     }
 
+    #[inline]
     fn phi_slopes(&self, state: f64) -> (f64, f64) {
         match self.cut_off {
             None => (self.b, 0.0),
@@ -116,10 +118,12 @@ impl Evolution for Ageing {
         1.0 / self.b
     }
 
+    #[inline]
     fn steady(&self, log_rate: f64) -> f64 {
         self.log_v_ref - log_rate
     }
 
+    #[inline]
     fn rate(&self, state: f64, speed: Speed) -> Rate {
         // dψ/dt = 1/θ - V/L = (V/L) (e^(ψ_ss - ψ) - 1).
         let (frequency, distance) = (speed.rate / self.length, self.steady(speed.log) - state);

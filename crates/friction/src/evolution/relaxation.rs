@@ -43,6 +43,7 @@ pub(super) fn step(old: f64, x: f64, steady: Steady) -> Evolved {
 }
 
 /// dφ/dt and its derivatives.
+#[inline]
 pub(super) fn rate(state: f64, speed: Speed, length: f64, steady: Steady) -> Rate {
     let frequency = speed.rate / length;
     if frequency == 0.0 {

@@ -35,10 +35,12 @@ impl Evolution for Slip {
     /// φ_0 and Δt/L \[s/m\].
     type Start = (f64, f64);
 
+    #[inline]
     fn phi(&self, state: f64) -> f64 {
         state
     }
 
+    #[inline]
     fn phi_slopes(&self, _state: f64) -> (f64, f64) {
         (1.0, 0.0)
     }
@@ -47,10 +49,12 @@ impl Evolution for Slip {
         1.0
     }
 
+    #[inline]
     fn steady(&self, log_rate: f64) -> f64 {
         -self.b * (log_rate - self.log_v_ref)
     }
 
+    #[inline]
     fn rate(&self, state: f64, speed: Speed) -> Rate {
         relaxation::rate(state, speed, self.length, self.towards(speed.log))
     }

@@ -95,6 +95,7 @@ pub trait Sliding: Rated {
 
 impl<F: Form, E: Evolution> RateLaw<F, E> {
     /// φ and V at the unknowns.
+    #[inline]
     fn kinematics<N: Number>(&self, y: &[N]) -> (N, SlipRate) {
         let mut phi = N::constant(0.0);
         for (part, &s) in self.parts().iter().zip(&y[1..]) {
@@ -111,15 +112,15 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         let by_m = m.lift2(phi, v.d_m, || (v.d_mm, v.d_m_phi));
         let by_phi = m.lift2(phi, v.d_phi, || (v.d_m_phi, v.d_phi_phi));
         let speed = Speed { rate: v.rate.abs(), log: v.log };
-        let relative = f.normal_rate / f.normal;
+        let relative = if f.normal_rate == 0.0 { 0.0 } else { f.normal_rate / f.normal };
         // A and C of the module's equations.
         let (mut ageing, mut memory) = (N::constant(0.0), N::constant(0.0));
         for ((part, &s), ds) in self.parts().iter().zip(&y[1..]).zip(&mut dy[1..]) {
             let e = &part.evolution;
             let r = e.rate(s.value(), speed);
             // ∂/∂V from ∂/∂ln V, which vanishes with V.
-            let by_rate = if v.rate == 0.0 { 0.0 } else { r.d_log_rate / v.rate };
-            let mut change = rate.lift2(s, r.rate, || (by_rate, r.d_state));
+            let by_rate = || if v.rate == 0.0 { 0.0 } else { r.d_log_rate / v.rate };
+            let mut change = rate.lift2(s, r.rate, || (by_rate(), r.d_state));
             let (slope, bend) = e.phi_slopes(s.value());
             let slope = s.lift(slope, || bend);
             if part.shear_memory != 0.0 {
@@ -229,19 +230,26 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
         let (before, mu) = self.slip(unknowns);
         let net = if inertia { unknowns[n + 1] * a * old } else { 0.0 };
         let traction = old * mu + damping * before.rate + net;
+        let under = |normal: f64| (normal / self.reference()).ln();
+        let mut kept = [0.0; MOST_UNKNOWNS];
+        for ((part, s), kept) in self.parts().iter().zip(&unknowns[1..]).zip(&mut kept) {
+            *kept = s + part.normal_memory * under(old) + part.shear_memory * mu.abs();
+        }
         if inertia {
-            for (part, s) in self.parts().iter().zip(&mut unknowns[1..]) {
-                *s -= part.normal_memory * (new / old).ln();
+            if before.rate == 0.0 {
+                // μ is nothing before and after.
+                for (part, s) in self.parts().iter().zip(&mut unknowns[1..]) {
+                    *s -= part.normal_memory * (new / old).ln();
+                }
+            } else {
+                let mut solver = self.solver();
+                solver.after(&kept[..n], new, 0.0, before.log);
+                unknowns[1..=n].copy_from_slice(solver.states());
             }
             unknowns[0] = self.at_rate(before.rate, &unknowns[1..=n])?;
             // T - f_n a m - η V with T as before: the change of f_n m is all there is.
             unknowns[n + 1] = (net + old * mu - new * a * unknowns[0]) / (new * a);
             return Ok(());
-        }
-        let under = |normal: f64| (normal / self.reference()).ln();
-        let mut kept = [0.0; MOST_UNKNOWNS];
-        for ((part, s), kept) in self.parts().iter().zip(&unknowns[1..]).zip(&mut kept) {
-            *kept = s + part.normal_memory * under(old) + part.shear_memory * mu.abs();
         }
         let (mut rate, mut change) = ([0.0], [0.0; MOST_UNKNOWNS]);
         let drives = Drives { traction: &[traction], normal: &[new], damping, near: None };

@@ -134,6 +134,7 @@ pub enum Piece {
 impl Piece {
     /// Value and slope at a time.
     #[must_use]
+    #[inline]
     pub fn at(&self, time: f64) -> (f64, f64) {
         match *self {
             Self::Line { from, value, slope } => {

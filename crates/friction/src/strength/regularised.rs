@@ -16,6 +16,7 @@ pub struct Regularised(pub Parameters);
 
 impl Regularised {
     /// ln of x/V, x = V/(2 Vref) exp((μ0 + φ)/a).
+    #[inline]
     fn log_factor(&self, phi: f64) -> f64 {
         let p = &self.0;
         (p.mu0 + phi) / p.a - (LN_2 + p.log_v_ref)
@@ -48,6 +49,7 @@ impl Form for Regularised {
         p.log_v_ref + (mu - p.mu0 - phi) / p.a + (-(-2.0 * y).exp_m1()).ln()
     }
 
+    #[inline]
     fn slip_rate(&self, m: f64, phi: f64) -> SlipRate {
         let per = -1.0 / self.0.a;
         // V = 2 Vref e^(-(μ0+φ)/a) sinh m, with the two exponents added before either can overflow.
@@ -89,6 +91,7 @@ impl Form for Regularised {
         }
     }
 
+    #[inline]
     fn scale(&self) -> f64 {
         self.0.a
     }
