@@ -4,7 +4,7 @@
 mod reading;
 
 use asperity_fem::element::ElementKind;
-use asperity_fem::mesh::{GroupTag, Mesh, MeshError, Options, Place, gmsh};
+use asperity_fem::mesh::{GroupTag, Mesh, MeshError, Options, Place, Shape, abaqus, gmsh};
 use reading::{face_measure, measure, nodes_lie_where_the_element_has_them, sample, total};
 
 /// The written coordinates carry Gmsh's rounding of transfinite curves.
@@ -357,4 +357,78 @@ fn a_count_of_a_header_is_bounded_before_anything_is_made_of_it() {
     bytes[at..at + 8].copy_from_slice(&(1_u64 << 40).to_le_bytes());
     let error = gmsh::parse(&bytes).unwrap_err();
     assert!(matches!(error, MeshError::Truncated { count: 0x100_0000_0000, what: "nodes", .. }), "{error}");
+}
+
+/// For each node beyond the corners, in the order of VTK, the corners in whose middle it lies.
+fn middles(shape: Shape) -> &'static [&'static [usize]] {
+    match shape {
+        Shape::Tet10 => &[&[0, 1], &[1, 2], &[2, 0], &[0, 3], &[1, 3], &[2, 3]],
+        Shape::Wedge15 => &[&[0, 1], &[1, 2], &[2, 0], &[3, 4], &[4, 5], &[5, 3], &[0, 3], &[1, 4], &[2, 5]],
+        Shape::Hex20 => &HEX27_MIDDLES[..12],
+        Shape::Hex27 => &HEX27_MIDDLES,
+        Shape::Quad8 => &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
+        Shape::Quad9 => &[&[0, 1], &[1, 2], &[2, 3], &[3, 0], &[0, 1, 2, 3]],
+        Shape::Tri6 => &[&[0, 1], &[1, 2], &[2, 0]],
+        _ => &[],
+    }
+}
+
+/// Edges below, above and between; faces x-, x+, y-, y+, z-, z+; centre.
+const HEX27_MIDDLES: [&[usize]; 19] = [
+    &[0, 1],
+    &[1, 2],
+    &[2, 3],
+    &[3, 0],
+    &[4, 5],
+    &[5, 6],
+    &[6, 7],
+    &[7, 4],
+    &[0, 4],
+    &[1, 5],
+    &[2, 6],
+    &[3, 7],
+    &[0, 3, 7, 4],
+    &[1, 2, 6, 5],
+    &[0, 1, 5, 4],
+    &[2, 3, 7, 6],
+    &[0, 1, 2, 3],
+    &[4, 5, 6, 7],
+    &[0, 1, 2, 3, 4, 5, 6, 7],
+];
+
+#[test]
+fn mid_nodes_of_a_file_lie_between_their_corners_in_the_order_of_vtk() {
+    for (name, shape) in [
+        ("unit_tri6.msh", Shape::Tri6),
+        ("unit_quad8.msh", Shape::Quad8),
+        ("good_2d_quad8_shared_ascii.msh", Shape::Quad8),
+        ("unit_quad9.msh", Shape::Quad9),
+        ("unit_tet10.msh", Shape::Tet10),
+        ("unit_tet10_v22_binary.msh", Shape::Tet10),
+        ("unit_tet10.inp", Shape::Tet10),
+        ("good_3d_tet10_shared_binary.msh", Shape::Tet10),
+        ("unit_hex20.msh", Shape::Hex20),
+        ("unit_hex20_v22_binary.msh", Shape::Hex20),
+        ("unit_hex20.inp", Shape::Hex20),
+        ("unit_hex27.msh", Shape::Hex27),
+        ("unit_hex27.inp", Shape::Hex27),
+        ("unit_wedge15.msh", Shape::Wedge15),
+        ("unit_wedge15_v22_binary.msh", Shape::Wedge15),
+        ("unit_wedge15.inp", Shape::Wedge15),
+    ] {
+        let read = if name.ends_with(".inp") { abaqus::parse } else { gmsh::parse };
+        let raw = read(&sample(name)).unwrap();
+        let x = |tag: u64| raw.nodes.iter().find(|n| n.tag == tag).unwrap().x;
+        let blocks: Vec<_> = raw.blocks.iter().filter(|b| b.shape == shape).collect();
+        assert!(!blocks.is_empty(), "{name}");
+        for nodes in blocks.iter().flat_map(|b| b.nodes.chunks_exact(shape.nodes())) {
+            assert_eq!(shape.corners() + middles(shape).len(), shape.nodes());
+            for (corners, &node) in middles(shape).iter().zip(&nodes[shape.corners()..]) {
+                for axis in 0..3 {
+                    let mean = corners.iter().map(|&c| x(nodes[c])[axis]).sum::<f64>() / corners.len() as f64;
+                    assert!((x(node)[axis] - mean).abs() < 1e-9, "{name}: node {node}");
+                }
+            }
+        }
+    }
 }
