@@ -5,6 +5,7 @@ use asperity_fem::block::LinearBlock;
 use asperity_fem::condense::{Reduction, Stiffness};
 use asperity_fem::dof::Constraints;
 use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::generate::{Block, Grading};
 use asperity_fem::mesh::{Mesh, nodes_of_sides};
@@ -23,11 +24,16 @@ fn mesh<const D: usize>(kind: ElementKind, n: usize) -> Mesh<D> {
     block.mesh().expect("admissible")
 }
 
+fn block<const D: usize>(mesh: &Mesh<D>) -> LinearBlock<D> {
+    LinearBlock::new(mesh, 0, &material(), Idealisation::of_dimension(D), Formulation::Standard)
+        .expect("admissible")
+}
+
 fn stiffness<const D: usize>(c: &mut Criterion, kind: ElementKind, n: usize) {
     let mesh = mesh::<D>(kind, n);
     let mut group = c.benchmark_group("stiffness per element");
     group.sample_size(10).throughput(Throughput::Elements(mesh.blocks[0].len() as u64));
-    group.bench_function(kind.name(), |b| b.iter(|| LinearBlock::new(black_box(&mesh), 0, &material())));
+    group.bench_function(kind.name(), |b| b.iter(|| block(black_box(&mesh))));
     group.finish();
 }
 
@@ -41,7 +47,7 @@ fn side<const D: usize>(mesh: &Mesh<D>, name: &str) -> Vec<usize> {
 
 fn solver<const D: usize>(c: &mut Criterion, kind: ElementKind, n: usize) {
     let mesh = mesh::<D>(kind, n);
-    let block = LinearBlock::new(&mesh, 0, &material()).expect("admissible");
+    let block = block(&mesh);
     let dofs = mesh.nodes.len() * D;
     let fixed = side(&mesh, "left");
     let equations = Constraints { fixed: fixed.clone(), channels: Vec::new() }.equations(dofs);

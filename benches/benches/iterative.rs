@@ -11,6 +11,7 @@ use asperity_fem::dof::{Constraints, Equations};
 use asperity_fem::element::ElementKind;
 use asperity_fem::iterative::smoothed_aggregation::Settings;
 use asperity_fem::iterative::{Method, Outcome, Spatial, near_null};
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::generate::{Block, Grading};
 use asperity_fem::mesh::{Mesh, nodes_of_sides};
@@ -62,7 +63,8 @@ fn body(case: &Case, n: usize) -> Body {
     }
     .mesh()
     .expect("admissible");
-    let block = LinearBlock::new(&mesh, 0, &Elastic::new(1e10, case.poisson).expect("admissible"))
+    let material = Elastic::new(1e10, case.poisson).expect("admissible");
+    let block = LinearBlock::new(&mesh, 0, &material, Idealisation::ThreeD, Formulation::Standard)
         .expect("admissible");
     let mut values = block.stiffness().to_vec();
     for (cell, k) in values.chunks_exact_mut(576).enumerate() {
@@ -74,7 +76,7 @@ fn body(case: &Case, n: usize) -> Body {
     let equations =
         Constraints { fixed: fixed.collect(), channels: Vec::new() }.equations(3 * mesh.nodes.len());
     let mut load = vec![0.0; 3 * mesh.nodes.len()];
-    for (dof, force) in block.body_force([0.3, 0.2, -1.0]) {
+    for (dof, force) in block.body_force(&mesh, &[0.3, 0.2, -1.0]).expect("three components") {
         load[dof] = force;
     }
     let load = equations.free.iter().map(|&d| load[d]).collect();

@@ -239,7 +239,7 @@ fn load_channel<const D: usize>(
     } else {
         let mut unit = [0.0; D];
         unit[*axis] = 1.0;
-        body.block.traction(&model.mesh, sides, unit)
+        body.block.traction(&model.mesh, sides, &unit)
     }
     .map_err(|e| PlanError::plain(format!("load on `{set}`: {e}")))?;
     let amplitude = match loading {
@@ -261,7 +261,11 @@ fn body_loads<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Cha
             let density = density_of(scene, &spec.material, gravity.span())?;
             let force: [f64; D] =
                 std::array::from_fn(|c| density * gravity.get_ref().get(c).copied().unwrap_or(0.0));
-            channels.push(steady(body.block.body_force(force), 1.0));
+            let forces = body
+                .block
+                .body_force(&model.mesh, &force)
+                .map_err(|e| PlanError::body(&body.name, gravity.span(), e.to_string()))?;
+            channels.push(steady(forces, 1.0));
         }
         if let Some(stress) = initial_stress(spec) {
             channels.push(steady(body.block.initial_stress(stress), -1.0));

@@ -5,6 +5,7 @@ use crate::scene::model as scene;
 use asperity_fem::block::LinearBlock;
 use asperity_fem::condense::Stiffness;
 use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::generate::{Block, Grading, divisions_for};
 use asperity_fem::mesh::{Mesh, Side};
@@ -77,7 +78,8 @@ impl<const D: usize> Model<D> {
         let mut bodies = Vec::new();
         for (index, (name, body, nodes, size)) in parts.into_iter().enumerate() {
             let material = material_of(scene, body)?;
-            let block = LinearBlock::new(&mesh, index, &material)
+            let space = Idealisation::of_dimension(D);
+            let block = LinearBlock::new(&mesh, index, &material, space, Formulation::Standard)
                 .map_err(|e| PlanError::body(name, body.material.span(), e.to_string()))?;
             bodies.push(Body { name: name.to_string(), nodes, material, block, size });
         }

@@ -271,6 +271,14 @@ fn interface<const D: usize>(
     let body = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]);
     let body =
         body.ok_or_else(|| PlanError::plain(format!("interface `{name}`: the slave side has no body")))?;
+    if let Some(side) = master_sides.iter().find(|s| D == 3 && face_nodes(&model.mesh, s).len() == 8) {
+        let element = model.mesh.blocks[side.block].kind.name();
+        return Err(PlanError::at(
+            spec.master.span(),
+            format!("faces of {element} cannot be master segments: they have eight nodes"),
+            "use hex8 or hex27".into(),
+        ));
+    }
     let areas = body.block.tributary_areas(&model.mesh, slave_sides).map_err(|e| {
         PlanError::at(spec.slave.span(), e.to_string(), "use an element with positive nodal areas".into())
     })?;

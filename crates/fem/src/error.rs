@@ -27,7 +27,8 @@ pub enum FemError {
     },
     /// An element that does not exist.
     #[error(
-        "there is no element `{0}`; those that exist are tri3, tri6, quad4, quad9 (plane), hex8, tet4 (3d)"
+        "there is no element `{0}`; those that exist are tri3, tri6, quad4, quad8, quad9 (plane), tet4, tet10, \
+         hex8, hex20, hex27, wedge6, wedge15 (3d)"
     )]
     UnknownElement(String),
     /// An element of the other dimension.
@@ -37,6 +38,49 @@ pub enum FemError {
         element: &'static str,
         /// Dimension of the mesh.
         dimension: usize,
+    },
+    /// An idealisation that does not serve here.
+    #[error("{idealisation}: {reason}")]
+    Idealisation {
+        /// Idealisation.
+        idealisation: &'static str,
+        /// Why not.
+        reason: &'static str,
+    },
+    /// A vector with the wrong number of components.
+    #[error("{idealisation} has {expected} components of displacement, not {given}")]
+    Components {
+        /// Idealisation.
+        idealisation: &'static str,
+        /// Components it has.
+        expected: usize,
+        /// Components given.
+        given: usize,
+    },
+    /// A node on the wrong side of the axis of revolution.
+    #[error("node {node} has the radius {radius} m: in an axisymmetric body x is the radius, 0 or more")]
+    Radius {
+        /// Node.
+        node: usize,
+        /// Its x \[m\].
+        radius: f64,
+    },
+    /// A formulation that does not serve an element.
+    #[error("B-bar for {element}: {reason}")]
+    Formulation {
+        /// Element.
+        element: &'static str,
+        /// Why not, and what to take instead.
+        reason: &'static str,
+    },
+    /// Faces whose shape functions have integrals that are zero or negative.
+    #[error(
+        "faces of {element} have nodal areas that are zero or negative, so that their nodes cannot stand for areas: take \
+         elements of first order, quad9 or hex27, or integrate over the faces"
+    )]
+    NodalAreas {
+        /// Element.
+        element: &'static str,
     },
     /// A generator's block that is no block.
     #[error("the block is empty along axis {axis}: from {min} m to {max} m in {divisions} elements")]

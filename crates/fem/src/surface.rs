@@ -1,28 +1,46 @@
 //! Integrals over faces of cells.
 
 use crate::element::ElementKind;
+use crate::kinematics::Idealisation;
 use crate::mesh::{Mesh, Side};
 use crate::quadrature;
 use std::collections::BTreeMap;
 
 /// Shape functions of a face at its quadrature points: N, dN/dξ, weight.
-type FacePoint = (Vec<f64>, Vec<[f64; 2]>, f64);
+type RulePoint = (Vec<f64>, Vec<[f64; 2]>, f64);
 
-/// Quadrature on a face of `nodes` nodes of a `D`-dimensional body. Exact for the products of shape functions and normals of
-/// flat faces.
-fn rule<const D: usize>(nodes: usize) -> Vec<FacePoint> {
+/// A quadrature point of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FacePoint<const D: usize> {
+    /// Position \[m\].
+    pub position: [f64; D],
+    /// Outward normal; its length is the area element that belongs to a unit of natural coordinates \[m^(D-1)\].
+    pub normal: [f64; D],
+}
+
+/// Element of a face of `nodes` nodes of a body in three dimensions.
+fn face_kind(nodes: usize) -> ElementKind {
+    match nodes {
+        3 => ElementKind::Tri3,
+        4 => ElementKind::Quad4,
+        6 => ElementKind::Tri6,
+        8 => ElementKind::Quad8,
+        _ => ElementKind::Quad9,
+    }
+}
+
+/// Quadrature on a face of `nodes` nodes of a `D`-dimensional body. Exact for shape functions times normals times r, curved
+/// faces included: degree 3 on two-node lines, 5 on three-node lines; 2 on tri3, 4 on tri6; 3 and 5 in each variable on quad4
+/// and on quad8, quad9.
+fn rule<const D: usize>(nodes: usize) -> Vec<RulePoint> {
     if D == 2 {
         return quadrature::gauss(if nodes == 2 { 2 } else { 3 }, 1)
             .into_iter()
             .map(|(x, w)| line(nodes, x[0], w))
             .collect();
     }
-    let (kind, points) = if nodes == 3 {
-        (ElementKind::Tri3, quadrature::triangle_3())
-    } else {
-        (ElementKind::Quad4, quadrature::gauss(2, 2))
-    };
-    points
+    let kind = face_kind(nodes);
+    kind.mass_quadrature()
         .into_iter()
         .map(|(xi, w)| {
             let s = kind.shape(xi);
@@ -32,7 +50,7 @@ fn rule<const D: usize>(nodes: usize) -> Vec<FacePoint> {
 }
 
 /// Linear or quadratic line: ends, then the middle.
-fn line(nodes: usize, x: f64, w: f64) -> FacePoint {
+fn line(nodes: usize, x: f64, w: f64) -> RulePoint {
     if nodes == 2 {
         (vec![0.5 * (1.0 - x), 0.5 * (1.0 + x)], vec![[-0.5, 0.0], [0.5, 0.0]], w)
     } else {
@@ -44,28 +62,41 @@ fn line(nodes: usize, x: f64, w: f64) -> FacePoint {
     }
 }
 
-/// Nodal integrals ∫ N_a g(n dA): `g` receives the outward normal times the area element.
+/// Nodal integrals ∫ N_a g dA: `g` gets a point of the face and writes one value per component, already multiplied with the
+/// length of the normal it received. Returns degree of freedom (node * components + component) and value, ascending.
+/// About an axis of revolution the area element includes 2πr.
 pub fn integrate<const D: usize>(
     mesh: &Mesh<D>,
     sides: &[Side],
-    g: impl Fn([f64; D]) -> [f64; D],
+    idealisation: Idealisation,
+    g: impl Fn(&FacePoint<D>, &mut [f64]),
 ) -> Vec<(usize, f64)> {
+    let components = idealisation.components();
     let mut forces: BTreeMap<usize, f64> = BTreeMap::new();
-    for_each_point(mesh, sides, |node, n, weight, normal| {
-        let value = g(normal);
-        for (c, v) in value.iter().enumerate() {
-            *forces.entry(node * D + c).or_default() += n * weight * v;
+    for_each_point(mesh, sides, idealisation, |nodes, n, weight, point| {
+        let mut value = [0.0; 3];
+        g(point, &mut value[..components]);
+        for (&node, n) in nodes.iter().zip(n) {
+            for (c, v) in value[..components].iter().enumerate() {
+                *forces.entry(node * components + c).or_default() += n * weight * v;
+            }
         }
     });
     forces.into_iter().collect()
 }
 
-/// Tributary area of each node: ∫ N_a dA.
+/// Tributary area of each node: ∫ N_a dA \[m^(D-1); m² about an axis of revolution\].
 #[must_use]
-pub fn areas<const D: usize>(mesh: &Mesh<D>, sides: &[Side]) -> BTreeMap<usize, f64> {
+pub fn areas<const D: usize>(
+    mesh: &Mesh<D>,
+    sides: &[Side],
+    idealisation: Idealisation,
+) -> BTreeMap<usize, f64> {
     let mut areas: BTreeMap<usize, f64> = BTreeMap::new();
-    for_each_point(mesh, sides, |node, n, weight, normal| {
-        *areas.entry(node).or_default() += n * weight * length(&normal);
+    for_each_point(mesh, sides, idealisation, |nodes, n, weight, point| {
+        for (&node, n) in nodes.iter().zip(n) {
+            *areas.entry(node).or_default() += n * weight * length(&point.normal);
+        }
     });
     areas
 }
@@ -76,27 +107,28 @@ pub fn length<const D: usize>(v: &[f64; D]) -> f64 {
     v.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
-/// Visits every node of every face at every quadrature point: node, N, weight, normal times area element.
+/// Visits every quadrature point of every face: nodes, N, weight (2πr included), point.
 fn for_each_point<const D: usize>(
     mesh: &Mesh<D>,
     sides: &[Side],
-    mut visit: impl FnMut(usize, f64, f64, [f64; D]),
+    idealisation: Idealisation,
+    mut visit: impl FnMut(&[usize], &[f64], f64, &FacePoint<D>),
 ) {
+    let mut rules: BTreeMap<usize, Vec<RulePoint>> = BTreeMap::new();
     for side in sides {
         let nodes = crate::mesh::face_nodes(mesh, side);
-        for (n, dn, weight) in rule::<D>(nodes.len()) {
+        for (n, dn, weight) in rules.entry(nodes.len()).or_insert_with(|| rule::<D>(nodes.len())).iter() {
             let mut e = [[0.0; D]; 2];
+            let mut position = [0.0; D];
             for (a, &node) in nodes.iter().enumerate() {
-                for (tangent, slope) in e.iter_mut().zip(dn[a]) {
-                    for (t, x) in tangent.iter_mut().zip(&mesh.nodes[node]) {
-                        *t += slope * x;
-                    }
+                for (c, x) in mesh.nodes[node].iter().enumerate() {
+                    position[c] += n[a] * x;
+                    e[0][c] += dn[a][0] * x;
+                    e[1][c] += dn[a][1] * x;
                 }
             }
-            let normal = normal(&e);
-            for (a, &node) in nodes.iter().enumerate() {
-                visit(node, n[a], weight, normal);
-            }
+            let weight = weight * idealisation.weight(&position);
+            visit(&nodes, n, weight, &FacePoint { position, normal: normal(&e) });
         }
     }
 }

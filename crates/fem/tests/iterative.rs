@@ -6,6 +6,7 @@ use asperity_fem::dof::{Constraints, Equations};
 use asperity_fem::element::ElementKind;
 use asperity_fem::iterative::smoothed_aggregation::Settings;
 use asperity_fem::iterative::{Antiplane, Method, Outcome, Plane, Solver, Spatial, near_null};
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::generate::{Block, Grading};
 use asperity_fem::mesh::{Mesh, nodes_of_sides};
@@ -25,7 +26,9 @@ struct Body<const D: usize> {
 /// A block of elements whose left face is clamped and whose bottom is held in its normal direction only.
 fn body<const D: usize>(kind: ElementKind, divisions: [usize; D], grading: Grading, poisson: f64) -> Body<D> {
     let mesh = Block { min: [0.0; D], max: [1.0; D], divisions, grading: [grading; D], kind }.mesh().unwrap();
-    let block = LinearBlock::new(&mesh, 0, &Elastic::new(2.5e9, poisson).unwrap()).unwrap();
+    let material = Elastic::new(2.5e9, poisson).unwrap();
+    let space = Idealisation::of_dimension(D);
+    let block = LinearBlock::new(&mesh, 0, &material, space, Formulation::Standard).unwrap();
     let side = |name: &str| nodes_of_sides(&mesh, &mesh.side_sets[name]);
     let mut fixed: Vec<usize> = side("left").into_iter().flat_map(|n| n * D..(n + 1) * D).collect();
     fixed.extend(side("bottom").into_iter().map(|n| n * D + 1));

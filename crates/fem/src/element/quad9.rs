@@ -18,7 +18,7 @@ pub(super) const NODES: &[[f64; 3]] = &[
 pub(super) const FACES: &[&[usize]] = &[&[0, 1, 4], &[1, 2, 5], &[2, 3, 6], &[3, 0, 7]];
 
 /// Lagrange function that is 1 at `node` in {-1, 0, 1}, and its derivative.
-fn lagrange(node: f64, x: f64) -> (f64, f64) {
+pub(super) fn lagrange(node: f64, x: f64) -> (f64, f64) {
     if node == 0.0 { (1.0 - x * x, -2.0 * x) } else { (0.5 * x * (x + node), x + 0.5 * node) }
 }
 

@@ -48,6 +48,18 @@ impl Elastic {
         self.young * self.poisson / ((1.0 + self.poisson) * (1.0 - 2.0 * self.poisson))
     }
 
+    /// Bulk modulus κ = E/(3(1-2ν)) \[Pa\].
+    #[must_use]
+    pub fn bulk(&self) -> f64 {
+        self.young / (3.0 * (1.0 - 2.0 * self.poisson))
+    }
+
+    /// What stands for λ in plane stress, 2Gλ/(λ+2G) = E ν/(1-ν²) \[Pa\]: the strain along z is condensed.
+    #[must_use]
+    pub fn plane_stress_lame(&self) -> f64 {
+        self.young * self.poisson / (1.0 - self.poisson * self.poisson)
+    }
+
     /// Cauchy stress xx, yy, zz, xy, yz, zx \[Pa\] of a displacement gradient `h[i][j]` = ∂u_i/∂x_j; the third axis of a
     /// plane problem has none (plane strain).
     #[must_use]

@@ -57,19 +57,26 @@ impl<const D: usize> Block<D> {
     /// When the block is empty, a ratio is not positive, or the element has another dimension.
     pub fn mesh(&self) -> Result<Mesh<D>, FemError> {
         self.check()?;
-        let order = if matches!(self.kind, ElementKind::Tri6 | ElementKind::Quad9) { 2 } else { 1 };
+        let order = self.kind.order();
         let lines: Vec<Vec<f64>> = (0..D).map(|axis| self.line(axis, order)).collect();
         let counts: Vec<usize> = lines.iter().map(Vec::len).collect();
-        let mut mesh = Mesh { nodes: grid_nodes(&lines, &counts), ..Mesh::default() };
+        let parts = self.parts();
         let mut connectivity = Vec::new();
         let cells = self.divisions;
         for k in 0..if D > 2 { cells[D - 1] } else { 1 } {
             for j in 0..cells[1] {
                 for i in 0..cells[0] {
-                    self.cell([i, j, k], order, &counts, &mut connectivity);
+                    let first = [order * i, order * j, order * k];
+                    for offset in parts.iter().flatten() {
+                        let [x, y, z] = std::array::from_fn(|c| first[c] + offset[c]);
+                        let layers = if D > 2 { z * counts[1] } else { 0 };
+                        connectivity.push((layers + y) * counts[0] + x);
+                    }
                 }
             }
         }
+        let nodes = used(grid_nodes(&lines, &counts), &mut connectivity);
+        let mut mesh = Mesh { nodes, ..Mesh::default() };
         mesh.blocks.push(Cells { kind: self.kind, connectivity });
         self.name_sides(&mut mesh);
         Ok(mesh)
@@ -114,44 +121,34 @@ impl<const D: usize> Block<D> {
             .collect()
     }
 
-    /// Adds the cells of one grid position: one, two triangles, or six tetrahedra.
-    fn cell(&self, [i, j, k]: [usize; 3], order: usize, counts: &[usize], connectivity: &mut Vec<usize>) {
-        let at = |di: usize, dj: usize, dk: usize| {
-            let z = if D > 2 { k + dk } else { 0 };
-            (z * counts[1] + j * order + dj) * counts[0] + i * order + di
+    /// The cells of one grid position, each as the grid steps of its nodes from the lower corner: one quadrilateral or two
+    /// triangles; one hexahedron, two wedges, or six tetrahedra. The split is the same everywhere, and its diagonals on opposite
+    /// faces are parallel, so that cells conform.
+    fn parts(&self) -> Vec<Vec<[usize; 3]>> {
+        let corners: Vec<Vec<usize>> = match self.kind.linear() {
+            ElementKind::Tri3 => vec![vec![0, 1, 2], vec![0, 2, 3]],
+            ElementKind::Wedge6 => vec![vec![0, 1, 2, 4, 5, 6], vec![0, 2, 3, 4, 6, 7]],
+            // Kuhn's split: around the diagonal from corner 0 to corner 6.
+            ElementKind::Tet4 => [[1, 2], [2, 3], [3, 7], [7, 4], [4, 5], [5, 1]]
+                .into_iter()
+                .map(|[a, b]| vec![0, a, b, 6])
+                .collect(),
+            linear => vec![(0..linear.nodes()).collect()],
         };
-        let mut add = |nodes: &[[usize; 3]]| {
-            connectivity.extend(nodes.iter().map(|&[a, b, c]| at(a, b, c)));
+        corners.iter().map(|c| self.nodes_between(c)).collect()
+    }
+
+    /// Grid steps of the nodes of a cell with these corners of the hexahedron: second-order nodes lie midway.
+    fn nodes_between(&self, corners: &[usize]) -> Vec<[usize; 3]> {
+        let step = self.kind.order() as f64;
+        let place = |xi: &[f64; 3]| {
+            let shape = self.kind.linear().shape(*xi);
+            // Shape functions of first order at nodes of second order are multiples of 1/8: sums are exact.
+            std::array::from_fn(|c| {
+                corners.iter().zip(&shape.n).map(|(&k, n)| n * step * HEX[k][c] as f64).sum::<f64>() as usize
+            })
         };
-        match self.kind {
-            ElementKind::Quad4 => add(&[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]),
-            ElementKind::Tri3 => {
-                add(&[[0, 0, 0], [1, 0, 0], [1, 1, 0]]);
-                add(&[[0, 0, 0], [1, 1, 0], [0, 1, 0]]);
-            }
-            ElementKind::Quad9 => add(&[
-                [0, 0, 0],
-                [2, 0, 0],
-                [2, 2, 0],
-                [0, 2, 0],
-                [1, 0, 0],
-                [2, 1, 0],
-                [1, 2, 0],
-                [0, 1, 0],
-                [1, 1, 0],
-            ]),
-            ElementKind::Tri6 => {
-                add(&[[0, 0, 0], [2, 0, 0], [2, 2, 0], [1, 0, 0], [2, 1, 0], [1, 1, 0]]);
-                add(&[[0, 0, 0], [2, 2, 0], [0, 2, 0], [1, 1, 0], [1, 2, 0], [0, 1, 0]]);
-            }
-            ElementKind::Hex8 => add(&HEX),
-            ElementKind::Tet4 => {
-                // The Kuhn split: six tetrahedra around the diagonal from corner 0 to corner 6, conforming between cells.
-                for [a, b] in [[1, 2], [2, 3], [3, 7], [7, 4], [4, 5], [5, 1]] {
-                    add(&[HEX[0], HEX[a], HEX[b], HEX[6]]);
-                }
-            }
-        }
+        self.kind.node_coordinates().iter().map(place).collect()
     }
 
     fn name_sides(&self, mesh: &mut Mesh<D>) {
@@ -180,6 +177,21 @@ impl<const D: usize> Block<D> {
 /// Corners of a hexahedron in the order of the element.
 const HEX: [[usize; 3]; 8] =
     [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
+
+/// Keeps the nodes that cells use, in their order, and renumbers the cells: serendipity elements leave centres out.
+fn used<const D: usize>(nodes: Vec<[f64; D]>, connectivity: &mut [usize]) -> Vec<[f64; D]> {
+    let mut number = vec![usize::MAX; nodes.len()];
+    connectivity.iter().for_each(|&n| number[n] = 0);
+    let mut kept = Vec::with_capacity(nodes.len());
+    for (number, x) in number.iter_mut().zip(nodes) {
+        if *number == 0 {
+            *number = kept.len();
+            kept.push(x);
+        }
+    }
+    connectivity.iter_mut().for_each(|n| *n = number[*n]);
+    kept
+}
 
 fn grid_nodes<const D: usize>(lines: &[Vec<f64>], counts: &[usize]) -> Vec<[f64; D]> {
     let total: usize = counts.iter().product();

@@ -309,6 +309,7 @@ mod tests {
     use crate::element::ElementKind;
     use crate::iterative::matrix::Assembly;
     use crate::iterative::near_null;
+    use crate::kinematics::{Formulation, Idealisation};
     use crate::material::elastic::Elastic;
     use crate::mesh::generate;
     use crate::mesh::nodes_of_sides;
@@ -318,7 +319,14 @@ mod tests {
         let grading = [generate::Grading::Geometric { ratio: 2.0 }; 3];
         let (min, max, kind) = ([0.0; 3], [2.0, 1.0, 1.0], ElementKind::Hex8);
         let mesh = generate::Block { min, max, divisions, grading, kind }.mesh().unwrap();
-        let block = LinearBlock::new(&mesh, 0, &Elastic::new(1e9, 0.3).unwrap()).unwrap();
+        let block = LinearBlock::new(
+            &mesh,
+            0,
+            &Elastic::new(1e9, 0.3).unwrap(),
+            Idealisation::ThreeD,
+            Formulation::Standard,
+        )
+        .unwrap();
         let fixed = nodes_of_sides(&mesh, &mesh.side_sets["left"]);
         let fixed: Vec<usize> = fixed.into_iter().flat_map(|n| 3 * n..3 * n + 3).collect();
         let equations = Constraints { fixed, channels: Vec::new() }.equations(3 * mesh.nodes.len());

@@ -1,0 +1,172 @@
+//! Gradients of the shape functions at the quadrature points of a block, stored flat.
+
+use super::CHUNK;
+use crate::element::Shape;
+use crate::error::FemError;
+use crate::kinematics::Idealisation;
+use crate::mesh::{Cells, Mesh};
+use nalgebra::SMatrix;
+use rayon::prelude::*;
+
+/// Geometry of all cells of a block.
+#[derive(Clone, Debug)]
+pub(super) struct Geometry<const D: usize> {
+    /// Nodes of a cell.
+    nodes: usize,
+    /// Quadrature points of a cell.
+    points: usize,
+    /// ∂N_a/∂x \[1/m\]: cell, point, node.
+    gradients: Vec<[f64; D]>,
+    /// Weight times Jacobian, times 2πr about an axis \[m^D or m³\]: cell, point.
+    volumes: Vec<f64>,
+    /// Positions of the points \[m\]: cell, point.
+    positions: Vec<[f64; D]>,
+    /// N_a of the rule: point, node.
+    shapes: Vec<f64>,
+    idealisation: Idealisation,
+}
+
+/// Geometry of one cell.
+#[derive(Clone, Copy)]
+pub(super) struct CellGeometry<'a, const D: usize> {
+    nodes: usize,
+    gradients: &'a [[f64; D]],
+    /// Volume of each point.
+    pub volumes: &'a [f64],
+    /// Position of each point.
+    pub positions: &'a [[f64; D]],
+    shapes: &'a [f64],
+    axisymmetric: bool,
+}
+
+impl<const D: usize> Geometry<D> {
+    /// Evaluates the gradients of `cells` (block number `block`) at the points of the idealisation's rule.
+    ///
+    /// # Errors
+    /// [`FemError::Jacobian`] naming the first cell that is inside out, [`FemError::Radius`] naming the first node left of the
+    /// axis.
+    pub fn new(
+        mesh: &Mesh<D>,
+        cells: &Cells,
+        block: usize,
+        idealisation: Idealisation,
+    ) -> Result<Self, FemError> {
+        check_radii(mesh, cells, idealisation)?;
+        let rule: Vec<(Shape, f64)> = idealisation
+            .quadrature(cells.kind)
+            .into_iter()
+            .map(|(xi, w)| (cells.kind.shape(xi), w))
+            .collect();
+        let (nodes, points) = (cells.kind.nodes(), rule.len());
+        let mut result = Self {
+            nodes,
+            points,
+            gradients: vec![[0.0; D]; cells.len() * points * nodes],
+            volumes: vec![0.0; cells.len() * points],
+            positions: vec![[0.0; D]; cells.len() * points],
+            shapes: rule.iter().flat_map(|(s, _)| s.n[..nodes].to_vec()).collect(),
+            idealisation,
+        };
+        let chunks: Vec<Result<(), FemError>> = result
+            .gradients
+            .par_chunks_mut(CHUNK * points * nodes)
+            .zip(result.volumes.par_chunks_mut(CHUNK * points))
+            .zip(result.positions.par_chunks_mut(CHUNK * points))
+            .enumerate()
+            .map(|(chunk, ((gradients, volumes), positions))| {
+                for (k, volume) in volumes.iter_mut().enumerate() {
+                    let (cell, (shape, weight)) = (chunk * CHUNK + k / points, &rule[k % points]);
+                    let ids = cells.cell(cell);
+                    let (x, j) = place(mesh, ids, shape);
+                    let determinant = determinant(&j);
+                    let bad = || FemError::Jacobian { block, cell, determinant };
+                    let inverse = if determinant > 0.0 { j.try_inverse() } else { None }.ok_or_else(bad)?;
+                    for (a, g) in gradients[k * nodes..(k + 1) * nodes].iter_mut().enumerate() {
+                        *g = std::array::from_fn(|i| {
+                            (0..D).map(|m| shape.dn[a][m] * inverse[(m, i)]).sum::<f64>()
+                        });
+                    }
+                    positions[k] = x;
+                    *volume = weight * determinant * idealisation.weight(&x);
+                }
+                Ok(())
+            })
+            .collect();
+        // In order: the first cell is named whatever thread found it.
+        chunks.into_iter().collect::<Result<(), FemError>>()?;
+        Ok(result)
+    }
+
+    /// One cell.
+    pub fn cell(&self, cell: usize) -> CellGeometry<'_, D> {
+        let points = cell * self.points..(cell + 1) * self.points;
+        CellGeometry {
+            nodes: self.nodes,
+            gradients: &self.gradients[points.start * self.nodes..points.end * self.nodes],
+            volumes: &self.volumes[points.clone()],
+            positions: &self.positions[points],
+            shapes: &self.shapes,
+            axisymmetric: self.idealisation == Idealisation::Axisymmetric,
+        }
+    }
+}
+
+impl<const D: usize> CellGeometry<'_, D> {
+    /// Gradients of all nodes at a point.
+    pub fn gradients(&self, point: usize) -> &[[f64; D]] {
+        &self.gradients[point * self.nodes..(point + 1) * self.nodes]
+    }
+
+    /// Shape functions of all nodes at a point.
+    pub fn shapes(&self, point: usize) -> &[f64] {
+        &self.shapes[point * self.nodes..(point + 1) * self.nodes]
+    }
+
+    /// 1/r at a point, what turns u_r into hoop strain \[1/m\]; 0 without an axis. Points lie inside cells, so that r > 0.
+    pub fn hoop(&self, point: usize) -> f64 {
+        if self.axisymmetric { 1.0 / self.positions[point][0] } else { 0.0 }
+    }
+}
+
+/// Nodes left of the axis of revolution are refused; nodes on it are welcome.
+fn check_radii<const D: usize>(
+    mesh: &Mesh<D>,
+    cells: &Cells,
+    idealisation: Idealisation,
+) -> Result<(), FemError> {
+    if idealisation != Idealisation::Axisymmetric {
+        return Ok(());
+    }
+    match cells.connectivity.iter().copied().filter(|&n| mesh.nodes[n][0] < 0.0).min() {
+        Some(node) => Err(FemError::Radius { node, radius: mesh.nodes[node][0] }),
+        None => Ok(()),
+    }
+}
+
+/// Position and Jacobian ∂x_i/∂ξ_m of a point of a cell.
+pub(super) fn place<const D: usize>(
+    mesh: &Mesh<D>,
+    nodes: &[usize],
+    shape: &Shape,
+) -> ([f64; D], SMatrix<f64, D, D>) {
+    let mut x = [0.0; D];
+    let mut j = SMatrix::<f64, D, D>::zeros();
+    for (a, &node) in nodes.iter().enumerate() {
+        for i in 0..D {
+            x[i] += mesh.nodes[node][i] * shape.n[a];
+            for m in 0..D {
+                j[(i, m)] += mesh.nodes[node][i] * shape.dn[a][m];
+            }
+        }
+    }
+    (x, j)
+}
+
+/// Determinant of a 2x2 or 3x3 matrix.
+pub(super) fn determinant<const D: usize>(j: &SMatrix<f64, D, D>) -> f64 {
+    if D == 2 {
+        return j[(0, 0)] * j[(1, 1)] - j[(0, 1)] * j[(1, 0)];
+    }
+    let minor = |a: usize, b: usize| j[(1, a)] * j[(2, b)] - j[(1, b)] * j[(2, a)];
+    j[(0, 0)] * minor(1, 2) - j[(0, 1)] * minor(0, 2) + j[(0, 2)] * minor(0, 1)
+}

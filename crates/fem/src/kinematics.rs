@@ -1,0 +1,194 @@
+//! What a displacement field is allowed to be: the idealisation of space, and the treatment of the dilatation.
+
+use crate::element::{ElementKind, Point};
+use crate::error::FemError;
+use std::f64::consts::TAU;
+
+/// Idealisation of space. Degree of freedom = node * [`Idealisation::components`] + component.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Idealisation {
+    /// u_x(x, y), u_y(x, y), no strain along z; per metre of thickness.
+    PlaneStrain,
+    /// u_x(x, y), u_y(x, y), no stress along z; a sheet of thickness 1 m.
+    PlaneStress,
+    /// u_r(r, z), u_z(r, z) with x = r ≥ 0 and y = z, the axis of revolution; hoop strain u_r/r stands at zz. Integrals go over
+    /// the full circle: weights 2πr.
+    Axisymmetric,
+    /// u_z(x, y) alone; stresses yz and zx; per metre of thickness.
+    Antiplane,
+    /// u_x, u_y, u_z.
+    ThreeD,
+}
+
+impl Idealisation {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::PlaneStrain, Self::PlaneStress, Self::Axisymmetric, Self::Antiplane, Self::ThreeD];
+
+    /// Plane strain or three dimensions: what a mesh of this dimension means without further assumption.
+    #[must_use]
+    pub fn of_dimension(dimension: usize) -> Self {
+        if dimension == 2 { Self::PlaneStrain } else { Self::ThreeD }
+    }
+
+    /// Name as a scene spells it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PlaneStrain => "plane-strain",
+            Self::PlaneStress => "plane-stress",
+            Self::Axisymmetric => "axisymmetric",
+            Self::Antiplane => "antiplane",
+            Self::ThreeD => "3d",
+        }
+    }
+
+    /// Degrees of freedom of a node.
+    #[must_use]
+    pub fn components(self) -> usize {
+        match self {
+            Self::PlaneStrain | Self::PlaneStress | Self::Axisymmetric => 2,
+            Self::Antiplane => 1,
+            Self::ThreeD => 3,
+        }
+    }
+
+    /// Dimension of the mesh.
+    #[must_use]
+    pub fn dimension(self) -> usize {
+        if self == Self::ThreeD { 3 } else { 2 }
+    }
+
+    /// Axis of space (0, 1, 2) along which a component of the displacement points.
+    #[must_use]
+    pub fn axis(self, component: usize) -> usize {
+        if self == Self::Antiplane { 2 } else { component }
+    }
+
+    /// Number of motions without strain of a connected body that nothing holds.
+    #[must_use]
+    pub fn rigid_motions(self) -> usize {
+        match self {
+            Self::PlaneStrain | Self::PlaneStress => 3,
+            Self::Axisymmetric | Self::Antiplane => 1,
+            Self::ThreeD => 6,
+        }
+    }
+
+    /// Factor of volumes and areas at a place: 2πr \[m\] about an axis, else 1 \[-\].
+    #[must_use]
+    pub fn weight<const D: usize>(self, x: &[f64; D]) -> f64 {
+        if self == Self::Axisymmetric { TAU * x[0] } else { 1.0 }
+    }
+
+    /// Quadrature of stiffness and stress. About an axis the factor r raises the degree of triangles: one point would leave
+    /// tri3 with motions that cost no energy.
+    #[must_use]
+    pub fn quadrature(self, kind: ElementKind) -> Vec<Point> {
+        if self == Self::Axisymmetric { kind.mass_quadrature() } else { kind.quadrature() }
+    }
+
+    /// Tells whether a mesh of `D` dimensions can be read this way.
+    ///
+    /// # Errors
+    /// [`FemError::Idealisation`] when it cannot.
+    pub fn check_dimension(self, dimension: usize) -> Result<(), FemError> {
+        if self.dimension() == dimension {
+            return Ok(());
+        }
+        Err(FemError::Idealisation {
+            idealisation: self.name(),
+            reason: "it does not fit the dimension of the mesh",
+        })
+    }
+
+    /// Tells whether a vector has one entry per component.
+    ///
+    /// # Errors
+    /// [`FemError::Components`] when it has not.
+    pub fn check_components(self, given: usize) -> Result<(), FemError> {
+        if self.components() == given {
+            return Ok(());
+        }
+        Err(FemError::Components { idealisation: self.name(), expected: self.components(), given })
+    }
+}
+
+/// Treatment of the dilatation θ = tr ε.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Formulation {
+    /// As the shape functions give it. Locks as ν approaches 0.5.
+    #[default]
+    Standard,
+    /// B-bar: θ replaced by its projection θ̄, cell by cell, on the polynomials of [`Dilatation`].
+    BBar,
+}
+
+/// What B-bar does to the dilatation of an element.
+///
+/// The pair of displacement and dilatation has to satisfy the inf-sup condition as the body becomes incompressible, with a
+/// constant β that does not fall with refinement (values measured on crooked meshes with all boundaries held):
+/// - quad9 and hex27 do with linear polynomials (β = 0.6 and 0.5), the optimal pair: nothing is lost in order. The polynomials
+///   are those of the positions, not of the natural coordinates, which would lose an order on general quadrilaterals (Boffi,
+///   Gastaldi 2002).
+/// - quad8 with linear polynomials is not stable (β = 0.07 to 0.13), with constants it is (0.65), as is tri6 (0.63). The
+///   price is an order: 2 in displacement and 1 in strain. hex20, tet10 and wedge15 take constants too (linear polynomials
+///   give β = 0.01 and less): with no node inside their faces they reach β = 0.05 to 0.09 only, so that stresses are less
+///   smooth than with hex27.
+/// - quad4 and hex8 with constants lose no order in displacement, while their mean stress may oscillate from cell to cell
+///   (β = 0.03 and less).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Dilatation {
+    /// Assumed strain (Hughes 1980): ε̄ = ε + (θ̄ - θ) I/3 with θ̄ the mean over the cell; σ = C ε̄.
+    Constant,
+    /// As [`Dilatation::Constant`] with θ̄ the projection on linear polynomials of the position.
+    Linear,
+    /// Mean pressure: σ = 2G ε + λ θ̄ I with θ̄ the mean over the cell. For elements of second order, which hold fields without
+    /// deviator whose dilatation has zero mean over a cell (u = 2 (b·x) x - |x|² b in space, u_r = r z, u_z = (z² - r²)/2
+    /// about an axis): the assumed strain of a single element would leave them without energy.
+    ConstantPressure,
+}
+
+impl Formulation {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Standard, Self::BBar];
+
+    /// Name as a scene spells it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Standard => "standard",
+            Self::BBar => "b-bar",
+        }
+    }
+
+    /// The projection of the dilatation, or `None` where there is none.
+    ///
+    /// # Errors
+    /// [`FemError::Formulation`] where B-bar would change nothing, saying what to take instead.
+    pub fn dilatation(
+        self,
+        kind: ElementKind,
+        idealisation: Idealisation,
+    ) -> Result<Option<Dilatation>, FemError> {
+        let refuse = |reason| Err(FemError::Formulation { element: kind.name(), reason });
+        match (self, idealisation, kind) {
+            (Self::Standard, ..) => Ok(None),
+            (_, Idealisation::PlaneStress, _) => refuse(
+                "in plane stress the thickness follows, so nothing locks: take the standard formulation",
+            ),
+            (_, Idealisation::Antiplane, _) => {
+                refuse("antiplane motion has no dilatation: take the standard formulation")
+            }
+            (_, _, ElementKind::Tri3) => refuse(
+                "its dilatation is constant already, so that projecting changes nothing: take tri6, quad4 or quad9",
+            ),
+            (_, _, ElementKind::Tet4) => refuse(
+                "its dilatation is constant already, so that projecting changes nothing: take tet10, hex8 or hex27",
+            ),
+            (_, _, ElementKind::Quad9 | ElementKind::Hex27) => Ok(Some(Dilatation::Linear)),
+            _ if kind.order() == 2 => Ok(Some(Dilatation::ConstantPressure)),
+            _ => Ok(Some(Dilatation::Constant)),
+        }
+    }
+}
