@@ -489,7 +489,14 @@ fn combinations_that_do_not_exist_are_refused_with_a_reason() {
 #[test]
 fn small_strain_elasticity_agrees_with_the_linear_block() {
     let mesh = mesh::<2>(ElementKind::Quad9, [0.0; 2], [1.0; 2], [3, 3], 0.2);
-    let linear = asperity_fem::block::LinearBlock::new(&mesh, 0, &elastic()).unwrap();
+    let linear = asperity_fem::block::LinearBlock::new(
+        &mesh,
+        0,
+        &elastic(),
+        asperity_fem::kinematics::Idealisation::PlaneStrain,
+        asperity_fem::kinematics::Formulation::Standard,
+    )
+    .unwrap();
     let options = model(Material::Elastic(elastic()), Idealisation::PlaneStrain, Kinematics::Small);
     let mut block = Block::new(&mesh, 0, options).unwrap();
     let u = field(&mesh, |x| [x[0] * x[1], x[1] * x[1] - x[0]]);
