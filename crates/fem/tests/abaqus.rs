@@ -19,7 +19,7 @@ fn is(value: f64, expected: f64, what: &str) {
 
 #[test]
 fn the_files_that_gmsh_writes_are_read_with_their_groups() {
-    for name in ["tet4", "hex8"] {
+    for name in ["tet4", "tet10", "hex8", "hex20", "hex27", "wedge6", "wedge15"] {
         let text = String::from_utf8(sample(&format!("unit_{name}.inp"))).unwrap();
         let mesh: Mesh<3> = read(&text).unwrap_or_else(|e| panic!("{name}: {e}"));
         is(total(&mesh), 1.0, name);

@@ -88,10 +88,10 @@ fn version_22_and_41_of_a_mesh_agree() {
 
 #[test]
 fn every_element_has_its_nodes_in_place() {
-    for name in ["tri3", "tri6", "quad4", "quad9"] {
+    for name in ["tri3", "tri6", "quad4", "quad8", "quad9"] {
         unit::<2>(&[format!("unit_{name}.msh"), format!("unit_{name}_v22.msh"), binary(name)]);
     }
-    for name in ["tet4", "hex8"] {
+    for name in ["tet4", "tet10", "hex8", "hex20", "hex27", "wedge6", "wedge15"] {
         unit::<3>(&[format!("unit_{name}.msh"), binary(name)]);
     }
 }
