@@ -40,8 +40,8 @@ pub trait Constitutive: Sync {
     /// yield surface.
     fn forward(&self, dt: f64, stress: &Voigt, history: &[f64]) -> Moduli;
 
-    /// The fraction of an elastic stress path along `strain` at which an elastic state starts to yield (r1), or `None`
-    /// when it does not yield on the way, yields already, or cannot yield.
+    /// The fraction of an elastic stress path along `strain`, perhaps beyond 1, at which an elastic state starts to yield
+    /// (r1); `None` when it yields already or cannot yield.
     fn yields(&self, _strain: &Voigt, _stress: &Voigt, _history: &[f64]) -> Option<f64> {
         None
     }

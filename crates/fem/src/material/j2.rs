@@ -151,11 +151,10 @@ impl Constitutive for J2 {
         let ds = deviator(&elastic_increment(0.0, self.elastic.shear(), strain));
         let y = self.hardening.at(history[0]).stress;
         let q = equivalent(&s);
-        let new = equivalent(&std::array::from_fn(|i| s[i] + ds[i]));
-        if q >= y * (1.0 - BAND) || new <= y {
+        let (g, d2, room) = (-3.0 * contract(&s, &ds), 1.5 * contract(&ds, &ds), (y - q) * (y + q));
+        if q >= y * (1.0 - BAND) || d2 == 0.0 {
             return None;
         }
-        let (g, d2, room) = (-3.0 * contract(&s, &ds), 1.5 * contract(&ds, &ds), (y - q) * (y + q));
         let root = (g * g + 4.0 * d2 * room).sqrt();
         Some(if g >= 0.0 { (g + root) / (2.0 * d2) } else { 2.0 * room / (root - g) })
     }

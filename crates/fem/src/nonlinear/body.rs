@@ -187,7 +187,6 @@ fn frame<const D: usize>(cells: &Cells, model: &Model) -> Result<Frame, ModelErr
         dn: shapes.iter().flat_map(|s| s.dn[..nodes].to_vec()).collect(),
         n: shapes.iter().flat_map(|s| s.n[..nodes].to_vec()).collect(),
         weight: rule.iter().map(|(_, w)| *w).collect(),
-        xi: rule.iter().map(|(xi, _)| *xi).collect(),
         modes: model.modes(cells.kind)?,
         components: model.idealisation.components(),
         row: if model.idealisation == Idealisation::Antiplane { 2 } else { 0 },

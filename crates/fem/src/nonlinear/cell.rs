@@ -14,7 +14,7 @@ use super::tensor::{PLACE, Tensor, determinant, inverse, rotated};
 use crate::material::constitutive::{Constitutive, Moduli, Voigt, pressure};
 use crate::material::plane_stress;
 
-/// Most polynomials of the projected dilatation: 1, ξ, η, ζ.
+/// Most polynomials of the projected dilatation: 1, x, y, z.
 pub const MOST_MODES: usize = 4;
 
 /// What is the same in all cells of a block.
@@ -28,8 +28,6 @@ pub struct Frame {
     pub n: Vec<f64>,
     /// Weight of each quadrature point.
     pub weight: Vec<f64>,
-    /// Natural coordinates of each quadrature point.
-    pub xi: Vec<[f64; 3]>,
     /// Polynomials of the projection; none: standard.
     pub modes: usize,
     /// Degrees of freedom of a node.
@@ -175,8 +173,8 @@ impl<const D: usize> Scratch<D> {
         j
     }
 
-    /// Radius of a point with the positions `x`.
-    fn radius(&self, frame: &Frame, point: usize, x: impl Fn(usize) -> f64) -> f64 {
+    /// Σ_a N_a x_a at a point.
+    fn interpolate(&self, frame: &Frame, point: usize, x: impl Fn(usize) -> f64) -> f64 {
         frame.n[point * frame.nodes..(point + 1) * frame.nodes]
             .iter()
             .enumerate()
@@ -201,7 +199,7 @@ impl<const D: usize> Scratch<D> {
         let j = self.jacobian(frame, point, |a| self.reference[a]);
         let determinant = positive(determinant(&j), point)?;
         let radius =
-            if frame.axisymmetric { self.radius(frame, point, |a| self.reference[a][0]) } else { 0.0 };
+            if frame.axisymmetric { self.interpolate(frame, point, |a| self.reference[a][0]) } else { 0.0 };
         self.set_gradients(frame, point, &inverse(&j, determinant), radius);
         self.volume[point] = frame.weight[point] * determinant * circumference(frame, radius);
         let mut h = [[0.0; 3]; 3];
@@ -240,8 +238,8 @@ impl<const D: usize> Scratch<D> {
         }
         let mut radius = 0.0;
         if frame.axisymmetric {
-            radius = positive(self.radius(frame, point, |a| at(a)[0]), point)?;
-            let grown = self.radius(frame, point, |a| step(a)[0]);
+            radius = positive(self.interpolate(frame, point, |a| at(a)[0]), point)?;
+            let grown = self.interpolate(frame, point, |a| step(a)[0]);
             g[2][2] = grown / positive(radius - 0.5 * grown, point)?;
         }
         self.growth[point] = g;
@@ -250,11 +248,15 @@ impl<const D: usize> Scratch<D> {
         Ok(())
     }
 
-    /// Orthonormal polynomials by Gram and Schmidt on 1, ξ, η, ζ.
+    /// Orthonormal polynomials by Gram and Schmidt on 1, x, y, z of the reference: natural coordinates would lose an order on
+    /// general quadrilaterals (Boffi, Gastaldi 2002).
     fn orthonormal(&mut self, frame: &Frame, volumes: &[f64]) {
         for m in 0..frame.modes {
-            for (psi, xi) in self.psi.iter_mut().zip(&frame.xi) {
-                psi[m] = if m == 0 { 1.0 } else { xi[m - 1] };
+            for point in 0..frame.points() {
+                let place = |m: usize| {
+                    self.interpolate(frame, point, |a| self.reference[a][m] - self.reference[0][m])
+                };
+                self.psi[point][m] = if m == 0 { 1.0 } else { place(m - 1) };
             }
             for k in 0..m {
                 let overlap: f64 = self.psi.iter().zip(volumes).map(|(p, v)| v * p[m] * p[k]).sum();
@@ -490,9 +492,12 @@ impl<const D: usize> Scratch<D> {
                 }
                 let d = d.map(|d| v * d);
                 let out = &mut self.columns[column * width..(column + 1) * width];
-                add_column(out, components, frame.row, gradients, &d);
-                if frame.finite {
-                    subtract_stress(out, components, k, gradients, &turned);
+                // The gradients of the forces move with the cell: -∂N_a/∂x_k τ∇N_b joins as a column of dτ.
+                let moving = if frame.finite { turned } else { [0.0; 3] };
+                match components {
+                    1 => add_column::<D, 1>(out, frame.row, k, gradients, &d, &moving),
+                    2 => add_column::<D, 2>(out, frame.row, k, gradients, &d, &moving),
+                    _ => add_column::<D, 3>(out, frame.row, k, gradients, &d, &moving),
                 }
                 if frame.axisymmetric {
                     let geometric = if frame.finite { stress[2] * first } else { 0.0 };
@@ -521,32 +526,22 @@ fn trace_of<const D: usize>(d: &Tensor, k: usize, g: &[f64; D], hoop: f64) -> f6
     (0..D).map(|r| d[k][r] * g[r]).sum::<f64>() + d[2][2] * hoop
 }
 
-/// Adds `d ∇N_a` to the entries of every node.
-fn add_column<const D: usize>(
+/// Adds `(d - moving ⊗ e_k) ∇N_a` to the entries of every node, `C` of them from tensor row `row` on.
+fn add_column<const D: usize, const C: usize>(
     out: &mut [f64],
-    components: usize,
     row: usize,
-    gradients: &[[f64; D]],
-    d: &Voigt,
-) {
-    for (out, g) in out.chunks_exact_mut(components).zip(gradients) {
-        for (i, out) in out.iter_mut().enumerate() {
-            *out += (0..D).map(|j| d[PLACE[i + row][j]] * g[j]).sum::<f64>();
-        }
-    }
-}
-
-/// Subtracts `∂N_a/∂x_k τ∇N_b`: the gradients of the forces move with the cell.
-fn subtract_stress<const D: usize>(
-    out: &mut [f64],
-    components: usize,
     k: usize,
     gradients: &[[f64; D]],
-    turned: &[f64; 3],
+    d: &Voigt,
+    moving: &[f64; 3],
 ) {
-    for (out, g) in out.chunks_exact_mut(components).zip(gradients) {
-        for (out, t) in out.iter_mut().zip(turned) {
-            *out -= g[k] * t;
+    let mut m: [[f64; D]; C] = std::array::from_fn(|i| std::array::from_fn(|j| d[PLACE[i + row][j]]));
+    for (m, t) in m.iter_mut().zip(moving) {
+        m[k] -= t;
+    }
+    for (out, g) in out.as_chunks_mut::<C>().0.iter_mut().zip(gradients) {
+        for (out, m) in out.iter_mut().zip(&m) {
+            *out += m.iter().zip(g).map(|(m, g)| m * g).sum::<f64>();
         }
     }
 }

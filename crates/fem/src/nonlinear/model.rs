@@ -117,7 +117,7 @@ pub enum ModelError {
 
 impl Model {
     /// Polynomials on which the dilatation of each cell is projected: none for the standard formulation, else 1, or 1 and
-    /// the natural coordinates for biquadratic and triquadratic cells (the optimal pair there).
+    /// the positions for biquadratic and triquadratic cells (the optimal pair there).
     pub(super) fn modes(&self, kind: ElementKind) -> Result<usize, ModelError> {
         if self.formulation == Formulation::Standard {
             return Ok(0);
