@@ -4,9 +4,10 @@
 mod lab;
 
 use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::hardening::Hardening;
 use asperity_fem::mesh::{Mesh, nodes_of_sides};
-use asperity_fem::nonlinear::{Block, Formulation, Idealisation, Kinematics, Limits, Material, Model};
+use asperity_fem::nonlinear::{Block, Kinematics, Limits, Material, Model};
 use asperity_fem::term::{Instant, Limited, Linearized, Saved, Term};
 use lab::{
     AT, Noise, POISSON, SHEAR, YOUNG, assert_taylor, elastic, field, j2, mesh, mises, model, newton, product,

@@ -4,10 +4,11 @@
 mod lab;
 
 use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::constitutive::{Constitutive, Moduli, Voigt};
 use asperity_fem::material::maxwell::{Branch, Maxwell};
 use asperity_fem::mesh::nodes_of_sides;
-use asperity_fem::nonlinear::{Block, Formulation, Idealisation, Kinematics, Material, Model};
+use asperity_fem::nonlinear::{Block, Kinematics, Material, Model};
 use asperity_fem::term::{Instant, Limited, Linearized, Term};
 use lab::{
     AT, Noise, POISSON, SHEAR, YOUNG, assert_derivative, assert_taylor, elastic, field, mesh, model, product,

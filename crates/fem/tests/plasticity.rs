@@ -4,13 +4,14 @@
 mod lab;
 
 use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::constitutive::{Constitutive, Moduli, Voigt, contract, deviator};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::material::hardening::Hardening;
 use asperity_fem::material::j2::J2;
 use asperity_fem::material::plane_stress;
 use asperity_fem::mesh::nodes_of_sides;
-use asperity_fem::nonlinear::{Block, Formulation, Idealisation, Kinematics, Limits, Material, Model};
+use asperity_fem::nonlinear::{Block, Kinematics, Limits, Material, Model};
 use asperity_fem::term::{Instant, Limited, Linearized, Saved, Term};
 use lab::{
     AT, Noise, POISSON, SHEAR, YIELD, YOUNG, assert_derivative, assert_taylor, elastic, field, j2, linear_j2,
@@ -478,10 +479,10 @@ fn combinations_that_do_not_exist_are_refused_with_a_reason() {
     };
     let base = |i| model(linear_j2(), i, Kinematics::Small);
     let bbar = |i| Model { formulation: Formulation::BBar, ..base(i) };
-    refused(bbar(Idealisation::PlaneStrain), "one quadrature point");
-    refused(bbar(Idealisation::PlaneStress), "thickness is free");
-    refused(bbar(Idealisation::Antiplane), "antiplane");
-    refused(base(Idealisation::ThreeD), "three-dimensional");
+    refused(bbar(Idealisation::PlaneStrain), "tri3");
+    refused(bbar(Idealisation::PlaneStress), "thickness follows");
+    refused(bbar(Idealisation::Antiplane), "antiplane motion");
+    refused(base(Idealisation::ThreeD), "dimension of the mesh");
     refused(model(linear_j2(), Idealisation::Antiplane, Kinematics::UpdatedLagrangian), "three dimensions");
     let mut shifted = mesh.clone();
     shifted.nodes.iter_mut().for_each(|x| x[0] -= 0.1);
@@ -500,8 +501,8 @@ fn small_strain_elasticity_agrees_with_the_linear_block() {
         &mesh,
         0,
         &elastic(),
-        asperity_fem::kinematics::Idealisation::PlaneStrain,
-        asperity_fem::kinematics::Formulation::Standard,
+        Idealisation::PlaneStrain,
+        Formulation::Standard,
     )
     .unwrap();
     let options = model(Material::Elastic(elastic()), Idealisation::PlaneStrain, Kinematics::Small);

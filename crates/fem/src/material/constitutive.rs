@@ -59,12 +59,6 @@ pub fn isotropic(bulk: f64, shear: f64) -> Moduli {
     c
 }
 
-/// Bulk modulus λ + 2 G/3 \[Pa\].
-#[must_use]
-pub fn bulk(elastic: &Elastic) -> f64 {
-    elastic.lame() + 2.0 / 3.0 * elastic.shear()
-}
-
 /// Deviator of a stress.
 #[must_use]
 pub fn deviator(s: &Voigt) -> Voigt {
@@ -110,7 +104,7 @@ impl Constitutive for Elastic {
         _history: &mut [f64],
         moduli: Option<&mut Moduli>,
     ) {
-        let (k, g) = (bulk(self), self.shear());
+        let (k, g) = (self.bulk(), self.shear());
         for (s, d) in stress.iter_mut().zip(elastic_increment(k, g, strain)) {
             *s += d;
         }
@@ -120,6 +114,6 @@ impl Constitutive for Elastic {
     }
 
     fn forward(&self, _dt: f64, _stress: &Voigt, _history: &[f64]) -> Moduli {
-        isotropic(bulk(self), self.shear())
+        isotropic(self.bulk(), self.shear())
     }
 }

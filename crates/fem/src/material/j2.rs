@@ -5,7 +5,7 @@
 //! sections 3.3 and 3.4). The left side minus the right falls monotonically, so the root is unique.
 
 use super::constitutive::{
-    Constitutive, Moduli, Voigt, bulk, contract, deviator, elastic_increment, isotropic, pressure,
+    Constitutive, Moduli, Voigt, contract, deviator, elastic_increment, isotropic, pressure,
 };
 use super::elastic::Elastic;
 use super::hardening::Hardening;
@@ -105,7 +105,7 @@ impl Constitutive for J2 {
         history: &mut [f64],
         moduli: Option<&mut Moduli>,
     ) {
-        let (k, g) = (bulk(&self.elastic), self.elastic.shear());
+        let (k, g) = (self.elastic.bulk(), self.elastic.shear());
         for (s, d) in stress.iter_mut().zip(elastic_increment(k, g, strain)) {
             *s += d;
         }
@@ -133,7 +133,7 @@ impl Constitutive for J2 {
     }
 
     fn forward(&self, _dt: f64, stress: &Voigt, history: &[f64]) -> Moduli {
-        let (k, g) = (bulk(&self.elastic), self.elastic.shear());
+        let (k, g) = (self.elastic.bulk(), self.elastic.shear());
         let mut c = isotropic(k, g);
         let s = deviator(stress);
         let at = self.hardening.at(history[0]);

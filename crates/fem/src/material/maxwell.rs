@@ -3,7 +3,7 @@
 //! Each element obeys `ds/dt + s/τ = 2 G de/dt`, τ = η/G. Over a step at constant strain rate this has the exact solution
 //! `s = exp(-x) s_0 + 2 G φ(x) Δe`, x = dt/τ, φ(x) = (1 - exp(-x))/x, for steps of any length.
 
-use super::constitutive::{Constitutive, Moduli, Voigt, bulk, deviator, isotropic, pressure};
+use super::constitutive::{Constitutive, Moduli, Voigt, deviator, isotropic, pressure};
 use super::elastic::Elastic;
 use crate::error::FemError;
 
@@ -77,7 +77,7 @@ impl Maxwell {
         if elements.len() > MOST_ELEMENTS {
             return refuse("number of springs and branches", elements.len() as f64, "at most 4");
         }
-        Ok(Self { bulk: bulk(elastic), elements })
+        Ok(Self { bulk: elastic.bulk(), elements })
     }
 
     /// Shear modulus a step of length `dt` meets: Σ G φ \[Pa\].

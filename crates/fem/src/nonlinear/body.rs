@@ -2,9 +2,9 @@
 
 use super::cell::{Frame, Inverted, Scratch};
 use super::history::Layout;
-use super::ideal::Idealisation;
 use super::model::{Kinematics, Material, Model, ModelError};
 use crate::error::FemError;
+use crate::kinematics::Idealisation;
 use crate::mesh::{Cells, Mesh};
 use crate::term::Pattern;
 use rayon::prelude::*;
@@ -76,7 +76,7 @@ impl<const D: usize> Body<D> {
         if frame.axisymmetric
             && let Some(&node) = nodes.iter().find(|&&n| mesh.nodes[n][0] < 0.0)
         {
-            return Err(ModelError::Radius { node, radius: mesh.nodes[node][0] });
+            return Err(FemError::Radius { node, radius: mesh.nodes[node][0] }.into());
         }
         let components = frame.components;
         let dofs: Vec<Vec<usize>> = (0..global.len())
@@ -174,7 +174,7 @@ impl<const D: usize> Body<D> {
 }
 
 fn frame<const D: usize>(cells: &Cells, model: &Model) -> Result<Frame, ModelError> {
-    let rule = cells.kind.quadrature();
+    let rule = model.idealisation.quadrature(cells.kind);
     let nodes = cells.kind.nodes();
     let shapes: Vec<_> = rule.iter().map(|(xi, _)| cells.kind.shape(*xi)).collect();
     let finite = model.kinematics == Kinematics::UpdatedLagrangian;
@@ -189,7 +189,7 @@ fn frame<const D: usize>(cells: &Cells, model: &Model) -> Result<Frame, ModelErr
         weight: rule.iter().map(|(_, w)| *w).collect(),
         modes: model.modes(cells.kind)?,
         components: model.idealisation.components(),
-        row: if model.idealisation == Idealisation::Antiplane { 2 } else { 0 },
+        row: model.idealisation.axis(0),
         axisymmetric: model.idealisation == Idealisation::Axisymmetric,
         plane_stress,
         finite,

@@ -12,12 +12,10 @@ mod body;
 mod cell;
 mod forward;
 mod history;
-mod ideal;
 mod model;
 mod motion;
 mod output;
 mod tensor;
 
 pub use block::Block;
-pub use ideal::{Formulation, Idealisation};
 pub use model::{Kinematics, Limits, Material, Model, ModelError};

@@ -1,8 +1,8 @@
 //! What a block is made of, as values, and the combinations that exist.
 
-use super::ideal::{Formulation, Idealisation};
 use crate::element::ElementKind;
 use crate::error::FemError;
+use crate::kinematics::{Dilatation, Formulation, Idealisation};
 use crate::material::constitutive::Constitutive;
 use crate::material::elastic::Elastic;
 use crate::material::j2::J2;
@@ -105,53 +105,28 @@ pub enum ModelError {
         /// Why it does not exist, and what does.
         reason: &'static str,
     },
-    /// An axisymmetric mesh that reaches across its axis.
-    #[error("node {node} has the radius {radius} m (axisymmetric: x is the radius, never negative)")]
-    Radius {
-        /// Node.
-        node: usize,
-        /// x \[m\].
-        radius: f64,
-    },
 }
 
 impl Model {
     /// Polynomials on which the dilatation of each cell is projected: none for the standard formulation, else 1, or 1 and
-    /// the positions for biquadratic and triquadratic cells (the optimal pair there).
+    /// the positions. Where the linear block takes the mean pressure alone the strain increment is averaged here, since a
+    /// plastic deviator has no pressure of its own: the motions of a single cell that this leaves without energy (conformal
+    /// ones, on cells of second order) are held by its neighbours.
     pub(super) fn modes(&self, kind: ElementKind) -> Result<usize, ModelError> {
-        if self.formulation == Formulation::Standard {
-            return Ok(0);
-        }
-        let refuse = |combination, reason| Err(ModelError::Combination { combination, reason });
-        match self.idealisation {
-            Idealisation::PlaneStress => {
-                return refuse("averaged dilatation in plane stress", "thickness is free: use standard");
-            }
-            Idealisation::Antiplane => {
-                return refuse("averaged dilatation in antiplane shear", "there is none: use standard");
-            }
-            _ => {}
-        }
-        if kind.quadrature().len() == 1 {
-            return refuse(
-                "averaged dilatation on a cell with one quadrature point",
-                "averaging changes nothing; use quad4 or hex8, or second-order cells",
-            );
-        }
-        let tensor_product = matches!(kind.nodes(), 9 | 27);
-        Ok(if tensor_product { 1 + kind.dimension() } else { 1 })
+        Ok(match self.formulation.dilatation(kind, self.idealisation)? {
+            None => 0,
+            Some(Dilatation::Constant | Dilatation::ConstantPressure) => 1,
+            Some(Dilatation::Linear) => 1 + kind.dimension(),
+        })
     }
 
     pub(super) fn check(&self, dimension: usize) -> Result<(), ModelError> {
-        let refuse = |combination, reason| Err(ModelError::Combination { combination, reason });
-        if self.idealisation.dimension() != dimension {
-            return refuse(
-                "idealisation and mesh",
-                "plane ones need a plane mesh, three-dimensional a solid",
-            );
-        }
+        self.idealisation.check_dimension(dimension)?;
         if self.idealisation == Idealisation::Antiplane && self.kinematics == Kinematics::UpdatedLagrangian {
-            return refuse("antiplane shear, updated Lagrangian", "use small strain, or three dimensions");
+            return Err(ModelError::Combination {
+                combination: "antiplane shear, updated Lagrangian",
+                reason: "use small strain, or three dimensions",
+            });
         }
         Ok(())
     }

@@ -2,13 +2,14 @@
 #![allow(dead_code)]
 
 use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::material::hardening::Hardening;
 use asperity_fem::material::j2::J2;
 use asperity_fem::material::maxwell::{Branch, Maxwell};
 use asperity_fem::mesh::Mesh;
 use asperity_fem::mesh::generate::{Block as Box, Grading};
-use asperity_fem::nonlinear::{Block, Formulation, Idealisation, Kinematics, Limits, Material, Model};
+use asperity_fem::nonlinear::{Block, Kinematics, Limits, Material, Model};
 use asperity_fem::term::{Instant, Linearized, Pattern, Term};
 use nalgebra::{DMatrix, DVector};
 
