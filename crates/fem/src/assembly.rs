@@ -4,9 +4,10 @@ use crate::dof::Equations;
 use crate::error::FemError;
 use crate::sparse::{Factor, Part, ScatterMap};
 use crate::term::{Linearized, Pattern};
-use faer::linalg::solvers::{PartialPivLu, SolveCore};
-use faer::sparse::linalg::solvers::SymbolicLu;
-use faer::{Conj, Mat, MatMut};
+use faer::linalg::solvers::{Llt, PartialPivLu, SolveCore};
+use faer::sparse::linalg::solvers::{SymbolicLlt, SymbolicLu};
+use faer::{Conj, Mat, MatMut, Side};
+use rayon::prelude::*;
 
 /// How the system's matrix is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,12 +18,27 @@ pub enum Storage {
     Sparse,
 }
 
+/// What the caller knows of the tangents of all terms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Symmetry {
+    /// Nothing: LU.
+    General,
+    /// Symmetric, and their sum positive definite on the free degrees of freedom: Cholesky, half the entries.
+    Positive,
+}
+
+/// Values scanned by one task.
+const CHUNK: usize = 1 << 16;
+
 /// Matrix, pattern and factorisation of the step's system. The symbolic analysis is kept as long as the patterns of all
 /// terms keep their version; a factor never outlives the values it was made from.
 #[derive(Debug)]
 pub struct System {
     equations: Equations,
+    symmetry: Symmetry,
     store: Store,
+    /// Versions and sizes of the patterns the present factor was made from; none without a factor.
+    factored: Option<Vec<Version>>,
     /// Values of one term, reused.
     buffer: Vec<f64>,
     largest_entry: f64,
@@ -32,22 +48,37 @@ pub struct System {
     pub solves: usize,
 }
 
+/// Version and size of a pattern.
+type Version = (u64, usize);
+
 #[derive(Debug)]
 enum Store {
-    Dense { matrix: Mat<f64>, factor: Option<PartialPivLu<f64>> },
+    Dense { matrix: Mat<f64>, factor: Option<DenseFactor> },
     Sparse(Box<SparseStore>),
+}
+
+#[derive(Debug)]
+enum DenseFactor {
+    Cholesky(Llt<f64>),
+    Lu(PartialPivLu<f64>),
+}
+
+#[derive(Debug)]
+enum Symbolic {
+    Cholesky(SymbolicLlt<usize>),
+    Lu(SymbolicLu<usize>),
 }
 
 #[derive(Debug, Default)]
 struct SparseStore {
-    versions: Vec<(u64, usize)>,
+    versions: Vec<Version>,
     map: Option<ScatterMap>,
-    symbolic: Option<SymbolicLu<usize>>,
+    symbolic: Option<Symbolic>,
     factor: Option<Factor>,
 }
 
 impl System {
-    /// A system on the free degrees of freedom.
+    /// A system on the free degrees of freedom, without knowledge of symmetry.
     #[must_use]
     pub fn new(equations: Equations, storage: Storage) -> Self {
         let n = equations.free.len();
@@ -55,7 +86,32 @@ impl System {
             Storage::Dense => Store::Dense { matrix: Mat::zeros(n, n), factor: None },
             Storage::Sparse => Store::Sparse(Box::default()),
         };
-        Self { equations, store, buffer: Vec::new(), largest_entry: 0.0, factorisations: 0, solves: 0 }
+        Self {
+            equations,
+            symmetry: Symmetry::General,
+            store,
+            factored: None,
+            buffer: Vec::new(),
+            largest_entry: 0.0,
+            factorisations: 0,
+            solves: 0,
+        }
+    }
+
+    /// The same system with what the caller knows of the tangents. What was factored is forgotten.
+    #[must_use]
+    pub fn with_symmetry(self, symmetry: Symmetry) -> Self {
+        let storage = match self.store {
+            Store::Dense { .. } => Storage::Dense,
+            Store::Sparse(_) => Storage::Sparse,
+        };
+        Self { symmetry, ..Self::new(self.equations, storage) }
+    }
+
+    /// Whether there is a factor, made from these patterns. A caller whose values depend on nothing that changed (small
+    /// strain, linear materials, no contact) need not factor anew then.
+    pub fn is_factored<'a>(&self, patterns: impl IntoIterator<Item = &'a Pattern>) -> bool {
+        self.factored.as_ref().is_some_and(|f| f.iter().copied().eq(patterns.into_iter().map(version)))
     }
 
     /// The numbering.
@@ -80,22 +136,46 @@ impl System {
         pattern_of: impl Fn(&T) -> &Pattern,
         mut values_of: impl FnMut(&mut T, &mut [f64]) -> Result<(), E>,
     ) -> Result<Result<(), FemError>, E> {
+        self.factored = None;
         if let Store::Sparse(store) = &mut self.store {
             let patterns: Vec<&Pattern> = terms.iter().map(&pattern_of).collect();
-            store.renew(&patterns, &self.equations);
+            if let Err(error) = store.renew(&patterns, &self.equations, self.symmetry) {
+                return Ok(Err(error));
+            }
         }
         self.store.clear();
         self.largest_entry = 0.0;
         let mut offset = 0;
-        for term in terms {
+        for term in &mut *terms {
             self.buffer.clear();
             self.buffer.resize(pattern_of(term).values(), 0.0);
             values_of(term, &mut self.buffer)?;
-            self.largest_entry = self.buffer.iter().fold(self.largest_entry, |m, v| m.max(v.abs()));
+            self.largest_entry = self.largest_entry.max(largest(&self.buffer));
             offset = self.store.add(&self.equations, pattern_of(term), offset, &self.buffer);
         }
         self.factorisations += 1;
-        Ok(self.store.factor())
+        let outcome = self.check_held().and_then(|()| self.store.factor(self.symmetry));
+        if outcome.is_ok() {
+            self.factored = Some(terms.iter().map(|t| version(pattern_of(t))).collect());
+        }
+        Ok(outcome)
+    }
+
+    /// What nothing holds can be named before the factorisation: a column without entries, and in a positive definite
+    /// matrix a diagonal that is not positive.
+    fn check_held(&self) -> Result<(), FemError> {
+        let (what, unheld) = match self.symmetry {
+            Symmetry::General => ("singular", self.store.empty_column()),
+            Symmetry::Positive => {
+                ("not positive definite", self.store.diagonal().iter().position(|&d| d.is_nan() || d <= 0.0))
+            }
+        };
+        unheld.map_or(Ok(()), |k| {
+            let dof = self.equations.free[k];
+            Err(FemError::Factorisation(format!(
+                "the tangent is {what}: degree of freedom {dof} is not held"
+            )))
+        })
     }
 
     /// Assembles and factors the consistent tangents of `terms` at the state of their last residual.
@@ -117,6 +197,18 @@ impl System {
         }
     }
 
+    /// As [`System::factor_tangent`], but only when there is no factor of these patterns: the caller vouches that the values
+    /// are the same. Tells whether it factored.
+    ///
+    /// # Errors
+    /// As [`System::factor_tangent`].
+    pub fn factor_tangent_once(&mut self, terms: &mut [&mut dyn Linearized]) -> Result<bool, FemError> {
+        if self.is_factored(terms.iter().map(|t| t.pattern())) {
+            return Ok(false);
+        }
+        self.factor_tangent(terms).map(|()| true)
+    }
+
     /// Solves `K x = rhs` in place over the free equations.
     ///
     /// # Errors
@@ -125,7 +217,12 @@ impl System {
         let n = rhs.len();
         let columns = MatMut::from_column_major_slice_mut(rhs, n, 1);
         match &self.store {
-            Store::Dense { factor: Some(f), .. } => f.solve_in_place_with_conj(Conj::No, columns),
+            Store::Dense { factor: Some(DenseFactor::Lu(f)), .. } => {
+                f.solve_in_place_with_conj(Conj::No, columns)
+            }
+            Store::Dense { factor: Some(DenseFactor::Cholesky(f)), .. } => {
+                f.solve_in_place_with_conj(Conj::No, columns);
+            }
             Store::Sparse(store) => match &store.factor {
                 Some(f) => f.solve(columns),
                 None => return Err(FemError::Factorisation("there is no factor to solve with".into())),
@@ -171,35 +268,89 @@ impl Store {
         }
     }
 
-    fn factor(&mut self) -> Result<(), FemError> {
+    /// The first column all of whose entries are zero.
+    fn empty_column(&self) -> Option<usize> {
+        let empty = |column: &[f64]| column.iter().all(|&v| v == 0.0);
+        match self {
+            Self::Dense { matrix, .. } => (0..matrix.ncols()).position(|k| empty(matrix.col_as_slice(k))),
+            Self::Sparse(store) => store.map.as_ref().and_then(|map| {
+                let matrix = map.matrix();
+                (0..map.order()).position(|k| empty(matrix.val_of_col(k)))
+            }),
+        }
+    }
+
+    /// The diagonal, by equation.
+    fn diagonal(&self) -> Vec<f64> {
+        match self {
+            Self::Dense { matrix, .. } => (0..matrix.nrows()).map(|k| matrix[(k, k)]).collect(),
+            Self::Sparse(store) => store.map.as_ref().map_or_else(Vec::new, |map| {
+                let matrix = map.matrix();
+                (0..map.order()).map(|k| matrix.get(k, k).copied().unwrap_or(0.0)).collect()
+            }),
+        }
+    }
+
+    fn factor(&mut self, symmetry: Symmetry) -> Result<(), FemError> {
         match self {
             Self::Dense { matrix, factor } => {
-                *factor = Some(matrix.partial_piv_lu());
-                Ok(())
+                *factor = Some(match symmetry {
+                    Symmetry::General => DenseFactor::Lu(matrix.partial_piv_lu()),
+                    Symmetry::Positive => DenseFactor::Cholesky(matrix.llt(Side::Lower).map_err(|e| {
+                        FemError::Factorisation(format!("the tangent is not positive definite ({e:?})"))
+                    })?),
+                });
             }
             Self::Sparse(store) => {
                 let store = store.as_mut();
                 let (Some(map), Some(symbolic)) = (&store.map, &store.symbolic) else {
                     return Err(FemError::Factorisation("the pattern was not analysed".into()));
                 };
-                store.factor = Some(map.lu(symbolic)?);
-                Ok(())
+                store.factor = Some(match symbolic {
+                    Symbolic::Cholesky(symbolic) => map.cholesky(symbolic)?,
+                    Symbolic::Lu(symbolic) => map.lu(symbolic)?,
+                });
             }
         }
+        Ok(())
     }
 }
 
 impl SparseStore {
     /// Builds pattern and symbolic analysis anew when a term's pattern changed.
-    fn renew(&mut self, patterns: &[&Pattern], equations: &Equations) {
-        let versions: Vec<(u64, usize)> = patterns.iter().map(|p| (p.version, p.dofs.len())).collect();
-        if self.map.is_none() || versions != self.versions {
-            let map = ScatterMap::new(patterns, equations, Part::Whole);
-            self.symbolic = map.analyse_lu().ok();
-            self.map = Some(map);
-            self.versions = versions;
+    fn renew(
+        &mut self,
+        patterns: &[&Pattern],
+        equations: &Equations,
+        symmetry: Symmetry,
+    ) -> Result<(), FemError> {
+        let versions: Vec<Version> = patterns.iter().map(|p| version(p)).collect();
+        if self.symbolic.is_some() && versions == self.versions {
+            return Ok(());
         }
+        *self = Self::default();
+        let part = if symmetry == Symmetry::Positive { Part::Lower } else { Part::Whole };
+        let map = ScatterMap::new(patterns, equations, part);
+        self.symbolic = Some(match symmetry {
+            Symmetry::Positive => Symbolic::Cholesky(map.analyse_cholesky()?),
+            Symmetry::General => Symbolic::Lu(map.analyse_lu()?),
+        });
+        self.map = Some(map);
+        self.versions = versions;
+        Ok(())
     }
+}
+
+fn version(pattern: &Pattern) -> Version {
+    (pattern.version, pattern.dofs.len())
+}
+
+/// Largest magnitude. The order of the pieces does not matter to a maximum.
+fn largest(values: &[f64]) -> f64 {
+    values
+        .par_chunks(CHUNK)
+        .map(|part| part.iter().fold(0.0_f64, |m, v| m.max(v.abs())))
+        .reduce(|| 0.0, f64::max)
 }
 
 /// Adds blocks to a dense matrix on the free equations.

@@ -16,6 +16,7 @@ pub mod material;
 pub mod mesh;
 pub mod nonlinear;
 pub mod quadrature;
+pub mod scatter;
 pub mod sparse;
 pub mod surface;
 pub mod table;

@@ -3,6 +3,7 @@
 
 use crate::dof::Equations;
 use crate::error::FemError;
+use crate::scatter::Gather;
 use crate::term::Pattern;
 use faer::linalg::solvers::SolveCore;
 use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
@@ -22,8 +23,8 @@ pub enum Part {
 #[derive(Clone, Debug)]
 pub struct ScatterMap {
     symbolic: SymbolicSparseColMat<usize>,
-    /// For each value of the blocks, in order, its place among the stored entries, or `SKIPPED`.
-    place: Vec<usize>,
+    /// For each pattern the number of its first value among all, and what each stored entry sums.
+    gathers: Vec<(usize, Gather)>,
     values: Vec<f64>,
 }
 
@@ -59,7 +60,14 @@ impl ScatterMap {
             });
         });
         let values = vec![0.0; rows.len()];
-        Self { symbolic: SymbolicSparseColMat::new_checked(n, n, starts, None, rows), place, values }
+        let mut first = 0;
+        let gathers = patterns.iter().map(|pattern| {
+            let offset = first;
+            first += pattern.values();
+            (offset, Gather::new(&place[offset..first], rows.len()))
+        });
+        let gathers = gathers.collect();
+        Self { symbolic: SymbolicSparseColMat::new_checked(n, n, starts, None, rows), gathers, values }
     }
 
     /// Sets the stored entries to zero.
@@ -67,15 +75,17 @@ impl ScatterMap {
         self.values.fill(0.0);
     }
 
-    /// Adds block values whose first is the `offset`-th of all blocks. Returns the offset after them.
+    /// Adds the values of one pattern, whose first is the `offset`-th of all. Returns the offset after them. Parallel; the same
+    /// bits for any number of threads.
     pub fn add(&mut self, offset: usize, block_values: &[f64]) -> usize {
-        let end = offset + block_values.len();
-        for (&place, &value) in self.place[offset..end].iter().zip(block_values) {
-            if place != SKIPPED {
-                self.values[place] += value;
-            }
+        if block_values.is_empty() {
+            return offset;
         }
-        end
+        // Patterns without values share their offset with the one after, and add nothing.
+        for (_, gather) in self.gathers.iter().filter(|(first, _)| *first == offset) {
+            gather.add(block_values, &mut self.values);
+        }
+        offset + block_values.len()
     }
 
     /// The matrix as it stands.
@@ -94,6 +104,12 @@ impl ScatterMap {
     #[must_use]
     pub fn stored(&self) -> usize {
         self.values.len()
+    }
+
+    /// Bytes of the lists of contributions.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.gathers.iter().map(|(_, gather)| gather.bytes()).sum()
     }
 
     /// Symbolic Cholesky analysis (approximate minimum degree ordering) of a pattern built with [`Part::Lower`].
