@@ -1,5 +1,5 @@
 //! Conjugate gradients with smoothed aggregation and with block-Jacobi on hex8 bodies clamped on one face, beside the direct
-//! solver. Prints one line for each case; arguments choose cases by their names and sizes (`cube 400`).
+//! solver. Prints one line for each; arguments choose (`cube graded amg direct n=25 threads=1`).
 #![allow(
     missing_docs,
     clippy::print_stdout,
@@ -89,7 +89,7 @@ fn seconds<T>(f: impl FnOnce() -> T) -> (T, f64) {
     (result, start.elapsed().as_secs_f64())
 }
 
-fn iterate(body: &Body, method: Method, tolerance: f64) -> (Vec<f64>, Spatial, [f64; 3], Outcome) {
+fn iterate(body: &Body, method: Method) -> (Spatial, [f64; 3], Outcome) {
     let modes = near_null::spatial(&body.mesh.nodes);
     let (solver, setup) =
         seconds(|| Spatial::new(&[&body.pattern], &[&body.values], &body.equations, modes, method));
@@ -97,11 +97,11 @@ fn iterate(body: &Body, method: Method, tolerance: f64) -> (Vec<f64>, Spatial, [
     let (solver, again) = seconds(|| solver.renewed(&[&body.values]));
     let solver = solver.expect("positive definite");
     let mut x = vec![0.0; body.load.len()];
-    let (outcome, solve) = seconds(|| solver.solve(&mut x, &body.load, tolerance));
-    (x, solver, [setup, again, solve], outcome)
+    let (outcome, solve) = seconds(|| solver.solve(&mut x, &body.load, TOLERANCE));
+    (solver, [setup, again, solve], outcome)
 }
 
-fn direct(body: &Body) -> (Vec<f64>, f64) {
+fn direct(body: &Body) -> f64 {
     let mut x = body.load.clone();
     let ((), time) = seconds(|| {
         let mut matrix = ScatterMap::new(&[&body.pattern], &body.equations, Part::Lower);
@@ -110,19 +110,19 @@ fn direct(body: &Body) -> (Vec<f64>, f64) {
         let n = x.len();
         factor.solve(MatMut::from_column_major_slice_mut(&mut x, n, 1));
     });
-    (x, time)
+    time
 }
 
-fn report(case: &Case, n: usize, method: &str, tolerance: f64, threads: usize, amg: Method) {
+fn report(case: &Case, n: usize, method: &str, threads: usize, amg: Method) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     let body = body(case, n);
     let kind = if method == "jacobi" { Method::BlockJacobi } else { amg };
     if method == "direct" {
-        let (_, time) = pool.install(|| direct(&body));
+        let time = pool.install(|| direct(&body));
         println!("| {} | {} | direct | {threads} | | {time:.2} |", case.name, body.load.len());
         return;
     }
-    let (_, solver, [setup, again, solve], outcome) = pool.install(|| iterate(&body, kind, tolerance));
+    let (solver, [setup, again, solve], outcome) = pool.install(|| iterate(&body, kind));
     println!(
         "| {} | {} | {method} | {threads} | {} | {setup:.2} | {again:.2} | {solve:.2} | {:.0} | {:?}",
         case.name,
@@ -136,25 +136,34 @@ fn report(case: &Case, n: usize, method: &str, tolerance: f64, threads: usize, a
     }
 }
 
+/// Elements along an edge: about 50 000, 150 000 and 400 000 unknowns.
+const SIZES: [usize; 3] = [25, 36, 50];
+
 fn main() {
     faer::set_global_parallelism(faer::Par::Seq);
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let value = |key: &str, default: f64| -> f64 {
-        words.iter().find_map(|w| w.strip_prefix(key)?.parse().ok()).unwrap_or(default)
+    let number = |key: &str| words.iter().find_map(|w| w.strip_prefix(key)?.parse::<usize>().ok());
+    let chosen = |name: &str, among: &[&str]| {
+        words.iter().any(|w| w == name) || !words.iter().any(|w| among.contains(&w.as_str()))
     };
-    let mut s = Settings::default();
-    s.threshold = value("t=", s.threshold);
-    s.degree = value("d=", s.degree as f64) as usize;
-    s.range = value("r=", s.range);
-    let n = value("n=", 25.0) as usize;
-    let threads = value("threads=", 2.0) as usize;
-    for case in cases() {
-        if words.iter().any(|w| w == case.name) {
-            for m in ["amg", "jacobi", "direct"] {
-                if words.iter().any(|w| w == m) {
-                    report(&case, n, m, 1e-8, threads, Method::SmoothedAggregation(s));
+    let cases = cases();
+    let names: Vec<&str> = cases.iter().map(|c| c.name).collect();
+    let amg = Method::SmoothedAggregation(Settings::default());
+    println!("| case | unknowns | method | threads | iterations | set up | renew | solve | MB | levels");
+    for n in number("n=").map_or(SIZES.to_vec(), |n| vec![n]) {
+        for case in cases.iter().filter(|c| chosen(c.name, &names)) {
+            for method in ["amg", "jacobi", "direct"] {
+                // The direct solver takes minutes: only when asked for.
+                if chosen(method, METHODS) && (method != "direct" || words.iter().any(|w| w == method)) {
+                    report(case, n, method, number("threads=").unwrap_or(2), amg);
                 }
             }
         }
     }
 }
+
+/// What can be asked for.
+const METHODS: &[&str] = &["amg", "jacobi", "direct"];
+
+/// Relative residual of the table.
+const TOLERANCE: f64 = 1e-8;

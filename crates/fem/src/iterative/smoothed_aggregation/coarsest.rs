@@ -4,8 +4,8 @@ use crate::error::FemError;
 use crate::iterative::csr::BlockCsr;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// A pivot below this share of its diagonal entry is rounding: that combination of rigid motions is not held. Held bodies
-/// have pivots of at least (size over length)² of slender ones, far above.
+/// A pivot below this share of its diagonal entry is rounding: that combination of rigid motions is not held. The pivots of a
+/// held body that is slender fall with powers of its length over its thickness and stay above for ratios in the hundreds.
 const FREE: f64 = 1e-12;
 
 /// See the module.

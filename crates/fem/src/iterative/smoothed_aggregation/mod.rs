@@ -29,8 +29,10 @@ const LEVELS: usize = 20;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Strength of connection below which neighbours are not aggregated, on the finest level; half on each coarser one.
+    /// At 0.12 cubes of hexahedra coarsen slowly and their levels fill up; below 0.08 elements of 1:10 take half as many
+    /// iterations again.
     pub threshold: f64,
-    /// Degree of the smoother.
+    /// Degree of the smoother. Three instead of two saves fewer iterations than it costs.
     pub degree: usize,
     /// Largest over smallest eigenvalue the smoother damps.
     pub range: f64,
