@@ -6,6 +6,7 @@ use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::Constraints;
 use asperity_fem::element::ElementKind;
 use asperity_fem::iterative::matrix::Assembly;
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::generate::{Block, Grading};
 use asperity_fem::mesh::nodes_of_sides;
@@ -59,7 +60,8 @@ fn measure<const D: usize>(kind: ElementKind, n: usize, pools: &[rayon::ThreadPo
             .mesh()
             .expect("admissible");
     let material = Elastic::new(44.8e9, 0.25).expect("admissible");
-    let block = LinearBlock::new(&mesh, 0, &material).expect("admissible");
+    let space = Idealisation::of_dimension(D);
+    let block = LinearBlock::new(&mesh, 0, &material, space, Formulation::Standard).expect("admissible");
     let fixed = nodes_of_sides(&mesh, &mesh.side_sets["left"]).into_iter();
     let fixed = fixed.flat_map(|k| k * D..(k + 1) * D).collect();
     let equations = Constraints { fixed, channels: Vec::new() }.equations(D * mesh.nodes.len());
@@ -84,7 +86,8 @@ fn measure<const D: usize>(kind: ElementKind, n: usize, pools: &[rayon::ThreadPo
             keep(
                 4,
                 seconds(pool, || {
-                    black_box(LinearBlock::new(&mesh, 0, &material)).expect("admissible");
+                    black_box(LinearBlock::new(&mesh, 0, &material, space, Formulation::Standard))
+                        .expect("admissible");
                 }),
             );
         }

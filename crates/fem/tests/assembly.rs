@@ -5,6 +5,7 @@ use asperity_fem::assembly::{Storage, Symmetry, System};
 use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::{Constraints, Equations};
 use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::generate::{Block, Grading};
 use asperity_fem::mesh::{Mesh, nodes_of_sides};
@@ -20,7 +21,8 @@ fn mesh(n: usize) -> Mesh<2> {
 }
 
 fn block(mesh: &Mesh<2>) -> LinearBlock<2> {
-    LinearBlock::new(mesh, 0, &Elastic::new(3e9, 0.2).unwrap()).unwrap()
+    let material = Elastic::new(3e9, 0.2).unwrap();
+    LinearBlock::new(mesh, 0, &material, Idealisation::of_dimension(2), Formulation::Standard).unwrap()
 }
 
 fn clamped(mesh: &Mesh<2>) -> Equations {

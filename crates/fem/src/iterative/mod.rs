@@ -24,7 +24,7 @@ use matrix::Assembly;
 pub use outcome::{Outcome, Report};
 use smoothed_aggregation::{Hierarchy, LevelSize, Settings};
 
-/// Iterations after which a solution is given up: ten times what the hardest case of the benchmark takes with
+/// Iterations after which a solution is given up: several times what the hardest case of the benchmark takes with
 /// block-Jacobi.
 pub const MOST_ITERATIONS: usize = 20_000;
 
