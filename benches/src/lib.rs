@@ -1,5 +1,7 @@
 //! Problems the benches share.
 
+pub mod direct;
+
 use asperity_contact::{Interface, InterfaceSpec, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode};
 use asperity_friction::law::{Law, RateBounds};
 use std::sync::Arc;

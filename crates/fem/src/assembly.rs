@@ -2,11 +2,13 @@
 
 use crate::dof::Equations;
 use crate::error::FemError;
+use crate::multifrontal;
 use crate::sparse::{Factor, Part, ScatterMap};
 use crate::term::{Linearized, Pattern};
 use faer::linalg::solvers::{Llt, PartialPivLu, SolveCore};
-use faer::sparse::linalg::solvers::{SymbolicLlt, SymbolicLu};
+use faer::sparse::linalg::solvers::SymbolicLu;
 use faer::{Conj, Mat, MatMut, Side};
+use std::sync::Arc;
 use rayon::prelude::*;
 
 /// How the system's matrix is kept.
@@ -65,7 +67,7 @@ enum DenseFactor {
 
 #[derive(Debug)]
 enum Symbolic {
-    Cholesky(SymbolicLlt<usize>),
+    Cholesky(Arc<multifrontal::Symbolic>),
     Lu(SymbolicLu<usize>),
 }
 

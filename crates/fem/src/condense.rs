@@ -2,19 +2,19 @@
 //!
 //! With interior b, retained i and prescribed d, `K_bb u_b + K_bi u_i + K_bd u_d = f_b` gives
 //! `r_i = S u_i + h`, `S = K_ii - K_ib K_bb⁻¹ K_bi`, `h = K_ib K_bb⁻¹ (f_b - K_bd u_d) + K_id u_d - f_i`.
-//! Loads are linear in the channel amplitudes, so `h = Σ_c α_c(t) h_c` with one solve per channel. A stepper cannot tell a
-//! [`Condensed`] body from any other term; interior displacements are recovered only when asked for.
+//! The retained equations come last in the elimination, which stops before them: what is left there is S, without solving
+//! for any column of it. Loads are linear in the channel amplitudes, so `h = Σ_c α_c(t) h_c` with half a solve per channel.
+//! A stepper cannot tell a [`Condensed`] body from any other term; interior displacements are recovered only when asked for.
 
 use crate::dof::{Channel, Constraints, Equations};
 use crate::error::FemError;
-use crate::sparse::{Factor, Part, ScatterMap};
+use crate::multifrontal::{Cholesky, DirectError, Symbolic};
+use crate::ordering::Ordering;
+use crate::sparse::{Part, ScatterMap};
 use crate::table::Table;
 use crate::term::{Fraction, Instant, Limited, Linearized, Pattern, Refusal, Term};
-use faer::Mat;
-use rayon::prelude::*;
-
-/// Columns of right-hand sides solved together: measured optimum of faer's supernodal solve is 64 to 128.
-const COLUMNS: usize = 64;
+use faer::MatMut;
+use std::sync::Arc;
 
 /// A linear body before condensation: its stiffness as dense cell blocks.
 #[derive(Clone, Debug)]
@@ -27,53 +27,101 @@ pub struct Stiffness {
     pub dofs: usize,
 }
 
+/// What a condensation will cost, known before any number is computed. Holds the assembled stiffness.
+#[derive(Debug)]
+pub struct Condensation<'a> {
+    body: &'a Stiffness,
+    /// Numbering of the degrees of freedom that are not fixed: interior and retained.
+    active: Equations,
+    /// Retained degrees of freedom.
+    retained: Vec<usize>,
+    /// Prescribed degrees of freedom that are not retained.
+    fixed: Vec<usize>,
+    matrix: ScatterMap,
+    symbolic: Arc<Symbolic>,
+}
+
+impl<'a> Condensation<'a> {
+    /// Orders and analyses `body` for condensation onto `retained` (sorted). `fixed` (sorted) are its prescribed degrees of
+    /// freedom; those that are retained as well stay in the reduced system, where the stepper prescribes them.
+    ///
+    /// # Errors
+    /// [`FemError::Direct`] when the pattern cannot be ordered.
+    pub fn analyse(body: &'a Stiffness, retained: &[usize], fixed: &[usize]) -> Result<Self, FemError> {
+        let fixed: Vec<usize> =
+            fixed.iter().copied().filter(|d| retained.binary_search(d).is_err()).collect();
+        let active = Constraints { fixed: fixed.clone(), channels: Vec::new() }.equations(body.dofs);
+        let mut matrix = ScatterMap::new(&[&body.pattern], &active, Part::Lower);
+        matrix.add(0, &body.values);
+        let last: Vec<usize> = retained.iter().map(|&d| active.number[d]).collect();
+        let symbolic = Arc::new(Symbolic::retaining(matrix.symbolic(), Ordering::Automatic, &last)?);
+        Ok(Self { body, active, retained: retained.to_vec(), fixed, matrix, symbolic })
+    }
+
+    /// Memory of the condensation at its worst moment \[bytes\].
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.symbolic.bytes() + self.retained.len().pow(2) * size_of::<f64>()
+    }
+
+    /// Multiplications and additions of the factorisation.
+    #[must_use]
+    pub fn operations(&self) -> f64 {
+        self.symbolic.operations()
+    }
+
+    /// Factors the interior.
+    ///
+    /// # Errors
+    /// [`FemError::Direct`] when more than `allowed` bytes are needed, or with the degree of freedom (in body numbering)
+    /// where the interior is not held by the retained and fixed ones.
+    pub fn factor(self, allowed: usize) -> Result<Reduction, FemError> {
+        let needed = self.bytes();
+        if needed > allowed {
+            let equations = self.symbolic.equations();
+            return Err(DirectError::Memory { needed, allowed, equations }.into());
+        }
+        let mut factor = Cholesky::new(self.symbolic, self.matrix.values())
+            .map_err(|e| e.renumbered(|equation| self.active.free[equation]))?;
+        let schur = factor.take_schur();
+        let fixed_columns = coupling(self.body, &self.active.number, &number_in(&self.fixed, self.body.dofs));
+        Ok(Reduction {
+            active: self.active,
+            retained: self.retained,
+            fixed: self.fixed,
+            fixed_columns,
+            factor,
+            schur,
+            solves: 0,
+        })
+    }
+}
+
 /// Entries (row, column, value) coupling two groups of degrees of freedom, each in its group's numbering.
 type Coupling = Vec<(usize, usize, f64)>;
 
 /// A factored body: everything that depends on which degrees of freedom are retained and fixed, but not on loads.
 #[derive(Debug)]
 pub struct Reduction {
-    interior: Equations,
+    active: Equations,
     retained: Vec<usize>,
     fixed: Vec<usize>,
-    /// Interior rows of the retained and of the fixed columns, and retained rows of fixed columns.
-    interior_retained: Coupling,
-    interior_fixed: Coupling,
-    retained_fixed: Coupling,
-    factor: Factor,
+    /// Active rows of the fixed columns.
+    fixed_columns: Coupling,
+    factor: Cholesky,
     schur: Vec<f64>,
     /// Right-hand sides solved so far.
     solves: usize,
 }
 
 impl Reduction {
-    /// Condenses `body` onto `retained` (sorted). `fixed` (sorted) are its prescribed degrees of freedom; those that are
-    /// retained as well stay in the reduced system, where the stepper prescribes them.
+    /// Condenses `body` onto `retained` (sorted) with `fixed` (sorted), whatever memory it takes: see
+    /// [`Condensation::analyse`].
     ///
     /// # Errors
-    /// [`FemError::Factorisation`] when the interior is not held by the retained and fixed degrees of freedom.
+    /// [`FemError::Direct`] when the interior is not held by the retained and fixed degrees of freedom.
     pub fn new(body: &Stiffness, retained: &[usize], fixed: &[usize]) -> Result<Self, FemError> {
-        let fixed: Vec<usize> =
-            fixed.iter().copied().filter(|d| retained.binary_search(d).is_err()).collect();
-        let mut removed: Vec<usize> = retained.iter().chain(&fixed).copied().collect();
-        removed.sort_unstable();
-        let interior = Constraints { fixed: removed, channels: Vec::new() }.equations(body.dofs);
-        let mut matrix = ScatterMap::new(&[&body.pattern], &interior, Part::Lower);
-        matrix.add(0, &body.values);
-        let factor = matrix.cholesky(&matrix.analyse_cholesky()?)?;
-        let mut reduction = Self {
-            interior_retained: coupling(body, &interior.number, &number_in(retained, body.dofs)),
-            interior_fixed: coupling(body, &interior.number, &number_in(&fixed, body.dofs)),
-            retained_fixed: coupling(body, &number_in(retained, body.dofs), &number_in(&fixed, body.dofs)),
-            interior,
-            retained: retained.to_vec(),
-            fixed,
-            factor,
-            schur: Vec::new(),
-            solves: 0,
-        };
-        reduction.schur = reduction.schur_complement(body);
-        Ok(reduction)
+        Condensation::analyse(body, retained, fixed)?.factor(usize::MAX)
     }
 
     /// The retained degrees of freedom, in body numbering.
@@ -82,74 +130,16 @@ impl Reduction {
         &self.retained
     }
 
+    /// `S`, row by row; rows and columns as [`Reduction::retained`].
+    #[must_use]
+    pub fn schur(&self) -> &[f64] {
+        &self.schur
+    }
+
     /// Right-hand sides solved so far.
     #[must_use]
     pub fn solves(&self) -> usize {
         self.solves
-    }
-
-    /// `S`, row by row; rows and columns as [`Reduction::retained`].
-    fn schur_complement(&mut self, body: &Stiffness) -> Vec<f64> {
-        let m = self.retained.len();
-        let numbers = number_in(&self.retained, body.dofs);
-        let mut schur = vec![0.0; m * m];
-        for (r, c, v) in coupling(body, &numbers, &numbers) {
-            schur[r * m + c] += v;
-        }
-        let columns = by_column(&self.interior_retained, m);
-        // Blocks of a fixed width, independent of the thread count: identical bits for any number of threads.
-        let parts: Vec<Vec<f64>> = (0..m.div_ceil(COLUMNS))
-            .into_par_iter()
-            .map(|b| self.schur_columns(&columns, b * COLUMNS))
-            .collect();
-        for (b, part) in parts.iter().enumerate() {
-            let width = part.len() / m;
-            for (k, column) in part.chunks_exact(m).enumerate() {
-                debug_assert!(k < width);
-                for (r, &value) in column.iter().enumerate() {
-                    schur[r * m + b * COLUMNS + k] -= value;
-                }
-            }
-        }
-        self.solves += m;
-        symmetrise(&mut schur, m);
-        schur
-    }
-
-    /// `K_ib K_bb⁻¹ K_bi` for one block of columns, column by column.
-    fn schur_columns(&self, columns: &[Vec<(usize, f64)>], first: usize) -> Vec<f64> {
-        let m = self.retained.len();
-        let width = COLUMNS.min(m - first);
-        let mut x = Mat::<f64>::zeros(self.interior.free.len(), width);
-        for k in 0..width {
-            for &(row, value) in &columns[first + k] {
-                x[(row, k)] += value;
-            }
-        }
-        self.factor.solve(x.as_mut());
-        let mut result = vec![0.0; m * width];
-        for k in 0..width {
-            for (c, column) in columns.iter().enumerate() {
-                result[k * m + c] = column.iter().map(|&(row, value)| value * x[(row, k)]).sum();
-            }
-        }
-        result
-    }
-
-    /// Interior force `f_b - K_bd u_d` of a channel at unit amplitude, in body numbering of `prescribed` and `forces`.
-    fn interior_load(&self, channel: &Channel) -> Mat<f64> {
-        let mut load = Mat::<f64>::zeros(self.interior.free.len(), 1);
-        for &(dof, force) in &channel.forces {
-            let row = self.interior.number[dof];
-            if row != Equations::FIXED {
-                load[(row, 0)] += force;
-            }
-        }
-        let fixed = self.fixed_values(channel);
-        for &(row, col, value) in &self.interior_fixed {
-            load[(row, 0)] -= value * fixed[col];
-        }
-        load
     }
 
     /// Values at unit amplitude of the fixed degrees of freedom that are not retained.
@@ -163,26 +153,37 @@ impl Reduction {
         values
     }
 
-    /// `h_c` of a channel.
-    fn reduced_load(&mut self, channel: &Channel) -> Vec<f64> {
-        let mut x = self.interior_load(channel);
-        self.factor.solve(x.as_mut());
-        self.solves += 1;
-        let mut h = vec![0.0; self.retained.len()];
-        for &(row, col, value) in &self.interior_retained {
-            h[col] += value * x[(row, 0)];
-        }
-        let fixed = self.fixed_values(channel);
-        for &(row, col, value) in &self.retained_fixed {
-            h[row] += value * fixed[col];
-        }
+    /// A channel at unit amplitude in the active equations: `f - K_·d u_d`, its interior part forwards through the factor
+    /// (`L⁻¹ (f_b - K_bd u_d)`), its retained part `-h_c`.
+    fn reduced(&mut self, channel: &Channel) -> Vec<f64> {
+        let mut load = vec![0.0; self.active.free.len()];
         for &(dof, force) in &channel.forces {
-            if let Ok(k) = self.retained.binary_search(&dof) {
-                h[k] -= force;
+            let row = self.active.number[dof];
+            if row != Equations::FIXED {
+                load[row] += force;
             }
         }
-        h
+        let fixed = self.fixed_values(channel);
+        for &(row, col, value) in &self.fixed_columns {
+            load[row] -= value * fixed[col];
+        }
+        let n = load.len();
+        self.factor.reduce(MatMut::from_column_major_slice_mut(&mut load, n, 1));
+        self.solves += 1;
+        load
     }
+}
+
+/// A channel, condensed.
+#[derive(Debug)]
+struct Load {
+    amplitude: Table,
+    /// Values at unit amplitude of the fixed degrees of freedom.
+    fixed: Vec<f64>,
+    /// See [`Reduction::reduced`].
+    reduced: Vec<f64>,
+    /// `h_c` on the retained degrees of freedom.
+    retained: Vec<f64>,
 }
 
 /// A condensed body as a term on the interface degrees of freedom.
@@ -190,8 +191,7 @@ impl Reduction {
 pub struct Condensed {
     name: String,
     reduction: Reduction,
-    channels: Vec<Channel>,
-    loads: Vec<(Table, Vec<f64>)>,
+    loads: Vec<Load>,
     /// System number of each retained degree of freedom.
     pattern: Pattern,
     /// Retained displacements of the last residual.
@@ -204,13 +204,18 @@ impl Condensed {
     pub fn new(name: String, reduction: Reduction, system: &[usize]) -> Self {
         let pattern = Pattern::of_blocks(0, [system]);
         let local = vec![0.0; system.len()];
-        Self { name, reduction, channels: Vec::new(), loads: Vec::new(), pattern, local }
+        Self { name, reduction, loads: Vec::new(), pattern, local }
     }
 
-    /// Sets the loads, given in body numbering; one solve each.
+    /// Sets the loads, given in body numbering; half a solve each.
     pub fn set_channels(&mut self, channels: Vec<Channel>) {
-        self.loads = channels.iter().map(|c| (c.amplitude.clone(), self.reduction.reduced_load(c))).collect();
-        self.channels = channels;
+        let mut load = |channel: Channel| {
+            let reduced = self.reduction.reduced(&channel);
+            let r = &self.reduction;
+            let retained = r.retained.iter().map(|&d| -reduced[r.active.number[d]]).collect();
+            Load { fixed: r.fixed_values(&channel), amplitude: channel.amplitude, reduced, retained }
+        };
+        self.loads = channels.into_iter().map(&mut load).collect();
     }
 
     /// The reduction behind the term.
@@ -223,24 +228,22 @@ impl Condensed {
     #[must_use]
     pub fn recover(&self, u: &[f64], time: f64) -> Vec<f64> {
         let r = &self.reduction;
-        let mut x = Mat::<f64>::zeros(r.interior.free.len(), 1);
-        let mut body = vec![0.0; r.interior.number.len()];
-        for channel in &self.channels {
-            let amplitude = channel.amplitude.value(time);
-            x += faer::Scale(amplitude) * r.interior_load(channel);
-            for (&dof, value) in r.fixed.iter().zip(r.fixed_values(channel)) {
+        let mut x = vec![0.0; r.active.free.len()];
+        let mut body = vec![0.0; r.active.number.len()];
+        for load in &self.loads {
+            let amplitude = load.amplitude.value(time);
+            x.iter_mut().zip(&load.reduced).for_each(|(x, part)| *x += amplitude * part);
+            for (&dof, value) in r.fixed.iter().zip(&load.fixed) {
                 body[dof] += amplitude * value;
             }
         }
         for (&dof, &system) in r.retained.iter().zip(&self.pattern.dofs) {
-            body[dof] = u[system];
+            x[r.active.number[dof]] = u[system];
         }
-        for &(row, col, value) in &r.interior_retained {
-            x[(row, 0)] -= value * body[r.retained[col]];
-        }
-        r.factor.solve(x.as_mut());
-        for (row, &dof) in r.interior.free.iter().enumerate() {
-            body[dof] = x[(row, 0)];
+        let n = x.len();
+        r.factor.recover(MatMut::from_column_major_slice_mut(&mut x, n, 1));
+        for (value, &dof) in x.iter().zip(&r.active.free) {
+            body[dof] = *value;
         }
         body
     }
@@ -259,9 +262,9 @@ impl Term for Condensed {
         for (row, &dof) in self.reduction.schur.chunks_exact(m.max(1)).zip(&self.pattern.dofs) {
             r[dof] += row.iter().zip(&self.local).map(|(s, u)| s * u).sum::<f64>();
         }
-        for (amplitude, load) in &self.loads {
-            let alpha = amplitude.value(at.time);
-            for (&dof, h) in self.pattern.dofs.iter().zip(load) {
+        for load in &self.loads {
+            let alpha = load.amplitude.value(at.time);
+            for (&dof, h) in self.pattern.dofs.iter().zip(&load.retained) {
                 r[dof] += alpha * h;
             }
         }
@@ -286,9 +289,9 @@ impl Linearized for Condensed {
 impl Limited for Condensed {
     fn rate(&mut self, at: Instant, values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal> {
         values.copy_from_slice(&self.reduction.schur);
-        for (amplitude, load) in &self.loads {
-            let change = amplitude.value(at.time) - amplitude.value(at.time - at.dt);
-            for (&dof, h) in self.pattern.dofs.iter().zip(load) {
+        for load in &self.loads {
+            let change = load.amplitude.value(at.time) - load.amplitude.value(at.time - at.dt);
+            for (&dof, h) in self.pattern.dofs.iter().zip(&load.retained) {
                 constant[dof] += change * h;
             }
         }
@@ -329,24 +332,4 @@ fn coupling(body: &Stiffness, rows: &[usize], cols: &[usize]) -> Coupling {
         offset += n * n;
     }
     entries
-}
-
-/// Groups entries by column.
-fn by_column(entries: &Coupling, columns: usize) -> Vec<Vec<(usize, f64)>> {
-    let mut result = vec![Vec::new(); columns];
-    for &(row, col, value) in entries {
-        result[col].push((row, value));
-    }
-    result
-}
-
-/// Replaces a matrix by its symmetric part: S is symmetric, and rounding must not say otherwise.
-fn symmetrise(matrix: &mut [f64], m: usize) {
-    for r in 0..m {
-        for c in 0..r {
-            let mean = 0.5 * (matrix[r * m + c] + matrix[c * m + r]);
-            matrix[r * m + c] = mean;
-            matrix[c * m + r] = mean;
-        }
-    }
 }

@@ -110,4 +110,7 @@ pub enum FemError {
     /// A matrix that could not be factored.
     #[error("{0}")]
     Factorisation(String),
+    /// A symmetric matrix that the direct solver could not factor.
+    #[error(transparent)]
+    Direct(#[from] crate::multifrontal::DirectError),
 }

@@ -1,14 +1,9 @@
-//! Sparse matrices on faer: a fixed pattern with a precomputed scatter map, and factorisations split into the symbolic
-//! part, done once per pattern, and the numeric part.
+//! A fixed pattern of a sum of dense blocks, with the place of every block entry.
 
 use crate::dof::Equations;
-use crate::error::FemError;
 use crate::scatter::Gather;
 use crate::term::Pattern;
-use faer::linalg::solvers::SolveCore;
-use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
-use faer::{Conj, MatMut, Side};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 
 /// Which entries of a matrix are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,6 +89,18 @@ impl ScatterMap {
         SparseColMatRef::new(self.symbolic.as_ref(), &self.values)
     }
 
+    /// The stored entries' places.
+    #[must_use]
+    pub fn symbolic(&self) -> SymbolicSparseColMatRef<'_, usize> {
+        self.symbolic.as_ref()
+    }
+
+    /// Values of the stored entries, column by column.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
     /// Number of equations.
     #[must_use]
     pub fn order(&self) -> usize {
@@ -110,44 +117,6 @@ impl ScatterMap {
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.gathers.iter().map(|(_, gather)| gather.bytes()).sum()
-    }
-
-    /// Symbolic Cholesky analysis (approximate minimum degree ordering) of a pattern built with [`Part::Lower`].
-    ///
-    /// # Errors
-    /// When memory does not suffice.
-    pub fn analyse_cholesky(&self) -> Result<SymbolicLlt<usize>, FemError> {
-        SymbolicLlt::try_new(self.symbolic.as_ref(), Side::Lower)
-            .map_err(|e| FemError::Factorisation(format!("symbolic Cholesky: {e:?}")))
-    }
-
-    /// Numeric Cholesky factorisation.
-    ///
-    /// # Errors
-    /// When the matrix is not positive definite.
-    pub fn cholesky(&self, symbolic: &SymbolicLlt<usize>) -> Result<Factor, FemError> {
-        Llt::try_new_with_symbolic(symbolic.clone(), self.matrix(), Side::Lower)
-            .map(Factor::Cholesky)
-            .map_err(|e| FemError::Factorisation(format!("the stiffness is not positive definite ({e:?})")))
-    }
-
-    /// Symbolic LU analysis (column ordering) of a pattern built with [`Part::Whole`].
-    ///
-    /// # Errors
-    /// When memory does not suffice.
-    pub fn analyse_lu(&self) -> Result<SymbolicLu<usize>, FemError> {
-        SymbolicLu::try_new(self.symbolic.as_ref())
-            .map_err(|e| FemError::Factorisation(format!("symbolic LU: {e:?}")))
-    }
-
-    /// Numeric LU factorisation.
-    ///
-    /// # Errors
-    /// When the matrix is structurally singular.
-    pub fn lu(&self, symbolic: &SymbolicLu<usize>) -> Result<Factor, FemError> {
-        Lu::try_new_with_symbolic(symbolic.clone(), self.matrix())
-            .map(|f| Factor::Lu(Box::new(f)))
-            .map_err(|e| FemError::Factorisation(format!("the tangent is singular ({e:?})")))
     }
 }
 
@@ -190,23 +159,4 @@ fn compress_columns(
         starts[col + 1] = rows.len();
     }
     (starts, rows)
-}
-
-/// A numeric factorisation, tied to the values it was made from.
-#[derive(Clone, Debug)]
-pub enum Factor {
-    /// Symmetric positive definite.
-    Cholesky(Llt<usize, f64>),
-    /// General.
-    Lu(Box<Lu<usize, f64>>),
-}
-
-impl Factor {
-    /// Solves in place for the columns of `rhs`.
-    pub fn solve(&self, rhs: MatMut<'_, f64>) {
-        match self {
-            Self::Cholesky(f) => f.solve_in_place_with_conj(Conj::No, rhs),
-            Self::Lu(f) => f.solve_in_place_with_conj(Conj::No, rhs),
-        }
-    }
 }

@@ -1,0 +1,298 @@
+//! Numeric factorisation over the tree of fronts.
+//!
+//! A front takes the matrix's values of its columns and what its children pass on (extend-add), eliminates its pivots, and
+//! passes on `-L L'` of its other rows plus what its children hold there (Duff, Reid 1983; Liu 1992).
+
+use super::dense;
+use super::symbolic::{Front, Symbolic};
+use super::tasks::{self, Slot, open, slots};
+use super::{DirectError, Pivot};
+use pulp::Arch;
+use std::fmt;
+use std::sync::{Arc, Mutex};
+
+/// A pivot below this times sqrt(n) of the diagonal entry it came from has no correct digit: eliminating n equations
+/// perturbs it by v'Ev, with entries of E of the size of eps times the diagonal and v the free mode scaled to one at the
+/// pivot; n such rounding errors add up like sqrt(n). The factor 16 covers modes that are larger elsewhere.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Numeric Cholesky factorisation `P K P' = L L'`, or, with retained equations, its part up to their Schur complement.
+#[derive(Clone)]
+pub struct Cholesky {
+    pub(super) symbolic: Arc<Symbolic>,
+    /// Values of each task's fronts.
+    pub(super) values: Vec<Vec<f64>>,
+    pub(super) arch: Arch,
+}
+
+impl fmt::Debug for Cholesky {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Cholesky")
+            .field("equations", &self.symbolic.equations())
+            .field("stored", &self.symbolic.stored())
+            .finish_non_exhaustive()
+    }
+}
+
+/// Buffers for contributions, handed from front to front.
+#[derive(Default)]
+struct Pool(Mutex<Vec<Vec<f64>>>);
+
+impl Pool {
+    /// A buffer of at least `len` values, whatever they are.
+    fn take(&self, len: usize) -> Result<Vec<f64>, DirectError> {
+        if len == 0 {
+            return Ok(Vec::new());
+        }
+        let mut buffers = open(&self.0);
+        let best = (0..buffers.len()).filter(|&k| buffers[k].len() >= len).min_by_key(|&k| buffers[k].len());
+        if let Some(k) = best {
+            return Ok(buffers.swap_remove(k));
+        }
+        drop(buffers);
+        let mut buffer = Vec::new();
+        buffer.try_reserve_exact(len).map_err(|_| DirectError::OutOfMemory)?;
+        buffer.resize(len, 0.0);
+        Ok(buffer)
+    }
+
+    fn give(&self, buffer: Vec<f64>) {
+        if !buffer.is_empty() {
+            open(&self.0).push(buffer);
+        }
+    }
+}
+
+/// What all fronts of one factorisation share.
+struct Run<'a> {
+    symbolic: &'a Symbolic,
+    matrix: &'a [f64],
+    arch: Arch,
+    /// Smallest pivot relative to its diagonal entry.
+    smallest: f64,
+    pool: Pool,
+    /// Values of each task's fronts.
+    values: Vec<Mutex<Vec<f64>>>,
+    /// What each task passes on.
+    passed: Vec<Slot<Result<Vec<f64>, DirectError>>>,
+}
+
+impl Cholesky {
+    /// Factors the matrix whose stored values are `matrix`, in the order of the pattern that was analysed.
+    ///
+    /// # Errors
+    /// [`DirectError::NotPositive`] and [`DirectError::Singular`] with the equation; [`DirectError::OutOfMemory`].
+    pub fn new(symbolic: Arc<Symbolic>, matrix: &[f64]) -> Result<Self, DirectError> {
+        let values = vec![Vec::new(); symbolic.tasks.len()];
+        Self { symbolic, values, arch: Arch::new() }.refactor(matrix)
+    }
+
+    /// Factors another matrix of the same pattern in the same storage.
+    ///
+    /// # Errors
+    /// As [`Cholesky::new`]; the factor is gone then.
+    pub fn refactor(self, matrix: &[f64]) -> Result<Self, DirectError> {
+        let Self { symbolic, values, arch } = self;
+        let eliminated = (symbolic.equations() - symbolic.retained()) as f64;
+        let run = Run {
+            matrix,
+            arch,
+            smallest: ROUNDING * eliminated.sqrt(),
+            pool: Pool::default(),
+            values: values.into_iter().map(Mutex::new).collect(),
+            passed: slots(symbolic.tasks.len()),
+            symbolic: &symbolic,
+        };
+        tasks::upwards(&symbolic, &|t| {
+            let result = run.task(t);
+            *open(&run.passed[t]) = Some(result);
+        });
+        for &root in &symbolic.roots {
+            if let Some(Err(error)) = open(&run.passed[root]).take() {
+                return Err(error);
+            }
+        }
+        let values = run.values.into_iter().map(|v| v.into_inner().unwrap_or_default()).collect();
+        Ok(Self { symbolic, values, arch })
+    }
+
+    /// The analysis behind it.
+    #[must_use]
+    pub fn symbolic(&self) -> &Arc<Symbolic> {
+        &self.symbolic
+    }
+
+    /// The Schur complement of the retained equations, column by column and symmetric. Empties its place.
+    #[must_use]
+    pub fn take_schur(&mut self) -> Vec<f64> {
+        let m = self.symbolic.retained();
+        if m == 0 {
+            return Vec::new();
+        }
+        let mut schur = self.values.pop().unwrap_or_default();
+        self.values.push(Vec::new());
+        for col in 0..m {
+            for row in 0..col {
+                schur[col * m + row] = schur[row * m + col];
+            }
+        }
+        schur
+    }
+}
+
+impl Run<'_> {
+    /// Eliminates the fronts of a task and returns what the last of them passes on.
+    fn task(&self, t: usize) -> Result<Vec<f64>, DirectError> {
+        let task = &self.symbolic.tasks[t];
+        let mut values = std::mem::take(&mut *open(&self.values[t]));
+        values.clear();
+        values.try_reserve_exact(task.values).map_err(|_| DirectError::OutOfMemory)?;
+        let result = if task.subtree { self.subtree(t, &mut values) } else { self.single(t, &mut values) };
+        *open(&self.values[t]) = values;
+        result
+    }
+
+    /// One front near the root, whose children are tasks.
+    fn single(&self, t: usize, values: &mut Vec<f64>) -> Result<Vec<f64>, DirectError> {
+        let task = &self.symbolic.tasks[t];
+        let s = task.fronts.start;
+        let mut children = Vec::with_capacity(task.children.len());
+        for &child in &task.children {
+            let passed = open(&self.passed[child]).take();
+            children.push(passed.expect("a task runs after its children")?);
+        }
+        let front = self.symbolic.fronts[s];
+        let mut own = self.pool.take(front.rest().pow(2))?;
+        let borrowed: Vec<&[f64]> = children.iter().map(Vec::as_slice).collect();
+        self.front(s, values, &borrowed, &mut own)?;
+        children.into_iter().for_each(|c| self.pool.give(c));
+        Ok(own)
+    }
+
+    /// A subtree, its contributions on two stacks.
+    fn subtree(&self, t: usize, values: &mut Vec<f64>) -> Result<Vec<f64>, DirectError> {
+        let task = &self.symbolic.tasks[t];
+        let mut stacks = [self.pool.take(task.stacks[0])?, self.pool.take(task.stacks[1])?];
+        let root = task.fronts.end - 1;
+        let mut last = self.pool.take(self.symbolic.fronts[root].rest().pow(2))?;
+        let mut borrowed: Vec<&[f64]> = Vec::new();
+        for s in task.fronts.clone() {
+            let front = self.symbolic.fronts[s];
+            let (side, at) = front.stack;
+            let [even, odd] = &mut stacks;
+            let (mine, theirs) = if side == 0 { (even, odd) } else { (odd, even) };
+            let own = if s == root { &mut last[..] } else { &mut mine[at..at + front.rest().pow(2)] };
+            let mut list = recycle(borrowed);
+            list.extend(self.symbolic.children[s].iter().map(|&c| {
+                let child = self.symbolic.fronts[c as usize];
+                &theirs[child.stack.1..child.stack.1 + child.rest().pow(2)]
+            }));
+            self.front(s, values, &list, own)?;
+            borrowed = recycle(list);
+        }
+        let [even, odd] = stacks;
+        self.pool.give(even);
+        self.pool.give(odd);
+        Ok(last)
+    }
+
+    /// Appends the values of a front to `values` and writes what it passes on to `own`.
+    fn front(
+        &self,
+        s: usize,
+        values: &mut Vec<f64>,
+        children: &[&[f64]],
+        own: &mut [f64],
+    ) -> Result<(), DirectError> {
+        let symbolic = self.symbolic;
+        let front = symbolic.fronts[s];
+        let start = values.len();
+        values.resize(start + front.width * front.height, 0.0);
+        let panel = &mut values[start..];
+        for (k, column) in panel.chunks_exact_mut(front.height).enumerate() {
+            let col = front.first + k;
+            for entry in &symbolic.entries[symbolic.entry_start[col]..symbolic.entry_start[col + 1]] {
+                column[entry.row as usize] = self.matrix[entry.source as usize];
+            }
+        }
+        let smallest: Vec<f64> =
+            (0..front.width).map(|k| self.smallest * panel[k * front.height + k].max(0.0)).collect();
+        for (&child, from) in symbolic.children[s].iter().zip(children) {
+            extend_pivots(&front, symbolic.places(child as usize), from, panel);
+        }
+        if symbolic.retained > 0 && s + 1 == symbolic.fronts.len() {
+            return Ok(());
+        }
+        dense::eliminate(self.arch, panel, front.height, front.height, &smallest)
+            .map_err(|(k, pivot)| self.failure(front.first + k, pivot))?;
+        let rest = front.rest();
+        if rest > 0 {
+            dense::update(self.arch, own, &panel[front.width..], front.height, rest, front.width);
+            for (&child, from) in symbolic.children[s].iter().zip(children) {
+                extend_rest(&front, symbolic.places(child as usize), from, own);
+            }
+        }
+        Ok(())
+    }
+
+    /// The error of a pivot that is none.
+    fn failure(&self, position: usize, pivot: f64) -> DirectError {
+        let equation = self.symbolic.order[position] as usize;
+        let entries = &self.symbolic.entries
+            [self.symbolic.entry_start[position]..self.symbolic.entry_start[position + 1]];
+        let front = self.symbolic.fronts.partition_point(|f| f.first <= position) - 1;
+        let row = (position - self.symbolic.fronts[front].first) as u32;
+        let diagonal = entries.iter().find(|e| e.row == row).map_or(0.0, |e| self.matrix[e.source as usize]);
+        let pivot = Pivot { equation, pivot, diagonal };
+        if pivot.pivot.abs() <= self.smallest * diagonal.abs() {
+            DirectError::Singular(pivot)
+        } else {
+            DirectError::NotPositive(pivot)
+        }
+    }
+}
+
+/// Empties a list of borrowed slices for the next borrow, keeping its memory.
+fn recycle<'b>(mut list: Vec<&[f64]>) -> Vec<&'b [f64]> {
+    list.clear();
+    list.into_iter().map(|_: &[f64]| -> &'b [f64] { &[] }).collect()
+}
+
+/// Adds the columns of a child's contribution that the parent eliminates.
+fn extend_pivots(front: &Front, places: &[u32], from: &[f64], panel: &mut [f64]) {
+    let rest = places.len();
+    for (j, &col) in places.iter().enumerate() {
+        let col = col as usize;
+        if col >= front.width {
+            break;
+        }
+        let column = &mut panel[col * front.height..(col + 1) * front.height];
+        add_at(column, 0, &places[j..], &from[j * rest + j..(j + 1) * rest]);
+    }
+}
+
+/// Adds the others.
+fn extend_rest(front: &Front, places: &[u32], from: &[f64], own: &mut [f64]) {
+    let (rest, height) = (places.len(), front.rest());
+    let first = places.partition_point(|&p| (p as usize) < front.width);
+    for j in first..rest {
+        let col = places[j] as usize - front.width;
+        let column = &mut own[col * height..(col + 1) * height];
+        add_at(column, front.width, &places[j..], &from[j * rest + j..(j + 1) * rest]);
+    }
+}
+
+/// `column[places - shift] += from`, at once where the places are consecutive.
+fn add_at(column: &mut [f64], shift: usize, places: &[u32], from: &[f64]) {
+    let (Some(&first), Some(&last)) = (places.first(), places.last()) else { return };
+    let first = first as usize - shift;
+    if last as usize - shift == first + places.len() - 1 {
+        for (to, value) in column[first..first + places.len()].iter_mut().zip(from) {
+            *to += value;
+        }
+        return;
+    }
+    for (&place, value) in places.iter().zip(from) {
+        column[place as usize - shift] += value;
+    }
+}
