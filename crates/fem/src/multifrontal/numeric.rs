@@ -16,6 +16,10 @@ use std::sync::{Arc, Mutex};
 /// pivot; n such rounding errors add up like sqrt(n). The factor 16 covers modes that are larger elsewhere.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
+/// A pivot that is not positive but smaller than this relative to its diagonal entry is rounding of a singular matrix, not
+/// a sign of a negative mode: the free mode may be much larger elsewhere than at its pivot.
+const NOT_NEGATIVE: f64 = 1e-8;
+
 /// Numeric Cholesky factorisation `P K P' = L L'`, or, with retained equations, its part up to their Schur complement.
 #[derive(Clone)]
 pub struct Cholesky {
@@ -244,7 +248,7 @@ impl Run<'_> {
         let row = (position - self.symbolic.fronts[front].first) as u32;
         let diagonal = entries.iter().find(|e| e.row == row).map_or(0.0, |e| self.matrix[e.source as usize]);
         let pivot = Pivot { equation, pivot, diagonal };
-        if pivot.pivot.abs() <= self.smallest * diagonal.abs() {
+        if pivot.pivot.abs() <= NOT_NEGATIVE * diagonal.abs() {
             DirectError::Singular(pivot)
         } else {
             DirectError::NotPositive(pivot)
