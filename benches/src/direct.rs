@@ -3,6 +3,7 @@
 use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::Constraints;
 use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::generate::{Block, Grading};
 use asperity_fem::sparse::{Part, ScatterMap};
@@ -34,7 +35,8 @@ fn of_block<const D: usize>(kind: ElementKind, divisions: f64) -> ScatterMap {
     };
     let mesh = block.mesh().expect("the block is well formed");
     let material = Elastic::new(50e9, 0.25).expect("an admissible material");
-    let cells = LinearBlock::new(&mesh, 0, &material).expect("its cells are cubes");
+    let cells = LinearBlock::new(&mesh, 0, &material, Idealisation::of_dimension(D), Formulation::Standard)
+        .expect("its cells are cubes");
     let left = mesh.nodes.iter().enumerate().filter(|(_, x)| x[0] == 0.0);
     let fixed = left.flat_map(|(n, _)| (0..D).map(move |i| n * D + i)).collect();
     let equations = Constraints { fixed, channels: Vec::new() }.equations(mesh.nodes.len() * D);

@@ -6,6 +6,7 @@ use asperity_fem::condense::{Condensation, Condensed, Reduction, Stiffness};
 use asperity_fem::dof::Channel;
 use asperity_fem::element::ElementKind;
 use asperity_fem::error::FemError;
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::generate::{Block, Grading};
 use asperity_fem::multifrontal::DirectError;
@@ -25,7 +26,14 @@ fn body() -> Body {
     let block =
         Block { min: [0.0; 2], max: [2.0, 1.0], divisions: DIVISIONS, grading, kind: ElementKind::Quad4 };
     let mesh = block.mesh().unwrap();
-    let cells = LinearBlock::new(&mesh, 0, &Elastic::new(3.0, 0.3).unwrap()).unwrap();
+    let cells = LinearBlock::new(
+        &mesh,
+        0,
+        &Elastic::new(3.0, 0.3).unwrap(),
+        Idealisation::of_dimension(2),
+        Formulation::Standard,
+    )
+    .unwrap();
     let stiffness = Stiffness {
         pattern: cells.pattern().clone(),
         values: cells.stiffness().to_vec(),

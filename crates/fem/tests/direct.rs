@@ -4,6 +4,7 @@
 use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::{Constraints, Equations};
 use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::Mesh;
 use asperity_fem::mesh::generate::{Block, Grading};
@@ -128,7 +129,14 @@ fn block_of<const D: usize>(divisions: [usize; D], kind: ElementKind) -> (Mesh<D
     let grading = [Grading::Uniform; D];
     let max = std::array::from_fn(|i| divisions[i] as f64);
     let mesh = Block { min: [0.0; D], max, divisions, grading, kind }.mesh().unwrap();
-    let cells = LinearBlock::new(&mesh, 0, &Elastic::new(2.0, 0.25).unwrap()).unwrap();
+    let cells = LinearBlock::new(
+        &mesh,
+        0,
+        &Elastic::new(2.0, 0.25).unwrap(),
+        Idealisation::of_dimension(D),
+        Formulation::Standard,
+    )
+    .unwrap();
     (mesh, cells)
 }
 

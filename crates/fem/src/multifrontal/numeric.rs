@@ -7,6 +7,7 @@ use super::dense;
 use super::symbolic::{Front, Symbolic};
 use super::tasks::{self, Slot, open, slots};
 use super::{DirectError, Pivot};
+use faer::MatMut;
 use pulp::Arch;
 use std::fmt;
 use std::sync::{Arc, Mutex};
@@ -19,6 +20,9 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// A pivot that is not positive but smaller than this relative to its diagonal entry is rounding of a singular matrix, not
 /// a sign of a negative mode: the free mode may be much larger elsewhere than at its pivot.
 const NOT_NEGATIVE: f64 = 1e-8;
+
+/// A positive pivot below this relative to its diagonal entry is worth a look at the mode it belongs to: one half solve.
+const SUSPECT: f64 = 1e-8;
 
 /// Numeric Cholesky factorisation `P K P' = L L'`, or, with retained equations, its part up to their Schur complement.
 #[derive(Clone)]
@@ -77,6 +81,8 @@ struct Run<'a> {
     pool: Pool,
     /// Values of each task's fronts.
     values: Vec<Mutex<Vec<f64>>>,
+    /// Smallest pivot relative to its diagonal entry, and its position.
+    least: Mutex<(f64, usize)>,
     /// What each task passes on.
     passed: Vec<Slot<Result<Vec<f64>, DirectError>>>,
 }
@@ -104,6 +110,7 @@ impl Cholesky {
             smallest: ROUNDING * eliminated.sqrt(),
             pool: Pool::default(),
             values: values.into_iter().map(Mutex::new).collect(),
+            least: Mutex::new((f64::INFINITY, 0)),
             passed: slots(symbolic.tasks.len()),
             symbolic: &symbolic,
         };
@@ -116,8 +123,36 @@ impl Cholesky {
                 return Err(error);
             }
         }
+        let (ratio, position) = *open(&run.least);
+        let diagonal: Vec<f64> = if ratio < SUSPECT {
+            (0..symbolic.equations()).map(|k| run.diagonal(k)).collect()
+        } else {
+            Vec::new()
+        };
         let values = run.values.into_iter().map(|v| v.into_inner().unwrap_or_default()).collect();
-        Ok(Self { symbolic, values, arch })
+        let factor = Self { symbolic, values, arch };
+        if ratio < SUSPECT {
+            factor.examine(ratio, position, &diagonal)?;
+        }
+        Ok(factor)
+    }
+
+    /// Tells a soft mode from a free one: `v = L⁻ᵀ e_j` has `v'Kv = 1`, so its stiffness relative to the diagonal D is
+    /// 1/v'Dv. Rounding errors of the size eps D, independent in each row, make that of a free mode about eps/sqrt(n).
+    /// Unlike the pivot, this does not depend on where the mode is large.
+    fn examine(&self, ratio: f64, position: usize, diagonal: &[f64]) -> Result<(), DirectError> {
+        let n = self.symbolic.equations();
+        let equation = self.symbolic.order[position] as usize;
+        let mut mode = vec![0.0; n];
+        mode[equation] = 1.0;
+        self.recover(MatMut::from_column_major_slice_mut(&mut mode, n, 1));
+        let scale: f64 = diagonal.iter().zip(self.symbolic.order()).map(|(d, e)| d * mode[e] * mode[e]).sum();
+        // Written so that NaN does not pass.
+        if scale * ROUNDING < (n as f64).sqrt() {
+            return Ok(());
+        }
+        let diagonal = diagonal[position];
+        Err(DirectError::Singular(Pivot { equation, pivot: ratio * diagonal, diagonal }))
     }
 
     /// The analysis behind it.
@@ -229,6 +264,7 @@ impl Run<'_> {
         }
         dense::eliminate(self.arch, panel, front.height, front.height, &smallest)
             .map_err(|(k, pivot)| self.failure(front.first + k, pivot))?;
+        self.note_least(&front, panel, &smallest);
         let rest = front.rest();
         if rest > 0 {
             dense::update(self.arch, own, &panel[front.width..], front.height, rest, front.width);
@@ -239,14 +275,33 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// Keeps the smallest relative pivot; the first one among equals, whichever thread comes first.
+    fn note_least(&self, front: &Front, panel: &[f64], smallest: &[f64]) {
+        let ratio = |k: usize| panel[k * front.height + k].powi(2) * self.smallest / smallest[k];
+        let own = (0..front.width)
+            .map(|k| (ratio(k), front.first + k))
+            .fold((f64::INFINITY, 0), |m, x| if x.0 < m.0 { x } else { m });
+        if own.0 < SUSPECT {
+            let mut least = open(&self.least);
+            if own < *least {
+                *least = own;
+            }
+        }
+    }
+
+    /// The diagonal entry at a position of the order of elimination.
+    fn diagonal(&self, position: usize) -> f64 {
+        let symbolic = self.symbolic;
+        let entries = &symbolic.entries[symbolic.entry_start[position]..symbolic.entry_start[position + 1]];
+        let front = symbolic.fronts.partition_point(|f| f.first <= position) - 1;
+        let row = (position - symbolic.fronts[front].first) as u32;
+        entries.iter().find(|e| e.row == row).map_or(0.0, |e| self.matrix[e.source as usize])
+    }
+
     /// The error of a pivot that is none.
     fn failure(&self, position: usize, pivot: f64) -> DirectError {
         let equation = self.symbolic.order[position] as usize;
-        let entries = &self.symbolic.entries
-            [self.symbolic.entry_start[position]..self.symbolic.entry_start[position + 1]];
-        let front = self.symbolic.fronts.partition_point(|f| f.first <= position) - 1;
-        let row = (position - self.symbolic.fronts[front].first) as u32;
-        let diagonal = entries.iter().find(|e| e.row == row).map_or(0.0, |e| self.matrix[e.source as usize]);
+        let diagonal = self.diagonal(position);
         let pivot = Pivot { equation, pivot, diagonal };
         if pivot.pivot.abs() <= NOT_NEGATIVE * diagonal.abs() {
             DirectError::Singular(pivot)
