@@ -37,6 +37,9 @@ pub const DISSECTION_PAYS: f64 = 2.5e4;
 /// Marks the absence of a vertex.
 pub(crate) const NONE: usize = usize::MAX;
 
+/// Calls its argument with every edge.
+type Visit<'a> = dyn Fn(&mut dyn FnMut(usize, usize)) + 'a;
+
 /// Undirected graph: neighbours of each vertex, sorted, without itself.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Graph {
@@ -58,7 +61,7 @@ impl Graph {
     }
 
     /// Builds the graph from edges (larger, smaller), visited twice in the same order.
-    fn from_edges(n: usize, visit: &dyn Fn(&mut dyn FnMut(usize, usize))) -> Self {
+    fn from_edges(n: usize, visit: &Visit<'_>) -> Self {
         let mut starts = vec![0_usize; n + 1];
         visit(&mut |a, b| {
             starts[a + 1] += 1;

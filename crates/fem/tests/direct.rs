@@ -74,7 +74,10 @@ fn residual(a: &DMatrix<f64>, x: &Mat<f64>, b: &Mat<f64>) -> f64 {
     worst
 }
 
-fn graph() -> impl Strategy<Value = (usize, Vec<(usize, usize, f64)>, bool, Vec<bool>)> {
+/// Equations, couplings, whether there is a dense row, and which equations are retained.
+type Problem = (usize, Vec<(usize, usize, f64)>, bool, Vec<bool>);
+
+fn graph() -> impl Strategy<Value = Problem> {
     (1_usize..60).prop_flat_map(|n| {
         let edges = proptest::collection::vec((0..n, 0..n, -1.0_f64..1.0), 0..3 * n);
         (Just(n), edges, any::<bool>(), proptest::collection::vec(any::<bool>(), n))

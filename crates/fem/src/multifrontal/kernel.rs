@@ -191,8 +191,7 @@ fn finish<S: Simd>(
             combine(simd, column, other, |old, new| simd.mul_add_e_f64s(new, factor, old));
         }
         let pivot = column[0];
-        // Written so that NaN does not pass.
-        if !(pivot > smallest) {
+        if pivot.is_nan() || pivot <= smallest {
             return Err((c, pivot));
         }
         let root = pivot.sqrt();

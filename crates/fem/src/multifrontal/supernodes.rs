@@ -96,7 +96,7 @@ fn fundamental(matrix: &Compressed, forest: &Forest, retained: usize) -> (Vec<Me
     };
     let mut fronts: Vec<Merging> = Vec::new();
     let mut front_of = vec![0_usize; n];
-    for k in 0..n {
+    for (k, front_of) in front_of.iter_mut().enumerate() {
         if k == 0 || !continues(k) {
             let height = forest.count[k];
             fronts.push(Merging {
@@ -107,7 +107,7 @@ fn fundamental(matrix: &Compressed, forest: &Forest, retained: usize) -> (Vec<Me
                 children: Vec::new(),
             });
         }
-        front_of[k] = fronts.len() - 1;
+        *front_of = fronts.len() - 1;
         if let Some(front) = fronts.last_mut() {
             front.width += weight(k);
             front.members.push(k);

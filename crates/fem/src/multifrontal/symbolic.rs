@@ -147,13 +147,13 @@ impl Symbolic {
         let mut relative = Vec::new();
         let mut place = vec![0_usize; matrix.graph.len()];
         let mut first = 0;
-        for s in 0..count {
+        for (s, rows) in rows.iter().enumerate() {
             let pivots = supernodes.first[s]..supernodes.first[s + 1];
             let sum = |list: &mut dyn Iterator<Item = usize>| {
                 list.map(|k| matrix.weight(supernodes.order[k])).sum::<usize>()
             };
             let width = sum(&mut pivots.clone());
-            let height = width + sum(&mut rows[s].iter().map(|&k| k as usize));
+            let height = width + sum(&mut rows.iter().map(|&k| k as usize));
             fronts.push(Front { first, width, height, offset: 0, relative: 0, stack: (0, 0) });
             first += width;
         }

@@ -28,8 +28,8 @@ impl Forest {
         }
         let mut parent = vec![NONE; n];
         let mut ancestor = vec![NONE; n];
-        for k in 0..n {
-            for &u in graph.neighbours(order[k]) {
+        for (k, &v) in order.iter().enumerate() {
+            for &u in graph.neighbours(v) {
                 let mut i = place[u as usize];
                 // Climbs from i to the root of its tree so far, shortening the path.
                 while i < k {
@@ -48,8 +48,8 @@ impl Forest {
                 *p = (*p).min(inner);
             }
         }
-        for k in inner..n {
-            parent[k] = if k + 1 < n { k + 1 } else { NONE };
+        for (k, p) in parent.iter_mut().enumerate().skip(inner) {
+            *p = if k + 1 < n { k + 1 } else { NONE };
         }
         let post = postorder(&parent);
         let mut renumber = vec![0_usize; n];
