@@ -8,8 +8,8 @@ use crate::term::{Linearized, Pattern};
 use faer::linalg::solvers::{Llt, PartialPivLu, SolveCore};
 use faer::sparse::linalg::solvers::SymbolicLu;
 use faer::{Conj, Mat, MatMut, Side};
-use std::sync::Arc;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// How the system's matrix is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

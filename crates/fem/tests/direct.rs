@@ -294,8 +294,7 @@ fn the_free_one_of_two_bodies_is_named() {
     let fixed = (0..count).filter(|&n| mesh.nodes[n][0] == 0.0).flat_map(|n| [2 * n, 2 * n + 1]).collect();
     let equations = Constraints { fixed, channels: Vec::new() }.equations(mesh.nodes.len() * 2);
     let mut matrix = ScatterMap::new(&[&pattern], &equations, Part::Lower);
-    let first = matrix.add(0, cells.stiffness());
-    matrix.add(first, cells.stiffness());
+    matrix.add(0, &[cells.stiffness(), cells.stiffness()].concat());
     let (node, text) = failure(&mesh, &matrix, &equations);
     assert!(node >= count, "{node}");
     assert!(text.contains(&format!("{count} nodes around node {count} ")), "{text}");
