@@ -11,7 +11,7 @@ use faer::{Accum, MatMut, MatRef, Par};
 use pulp::Arch;
 use rayon::prelude::*;
 
-/// Columns eliminated by the small kernel at once, and columns of a block of large fronts: measured; multiples of the
+/// Columns eliminated by the small kernel at once, and columns of a block of large fronts: a choice, not yet tuned; multiples of the
 /// kernel's width.
 const SMALL: usize = 32;
 const BLOCK: usize = 128;
