@@ -152,13 +152,20 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
 
     /// Takes the states as they are under f_n = `normal` and μ, and tells φ.
     pub(crate) fn present(&mut self, old: &[f64], normal: f64, mu: f64) -> f64 {
-        self.prepare(old, normal, 0.0);
+        self.under(normal);
         let mut phi = 0.0;
-        for ((part, &before), after) in self.parts.iter().zip(&self.before).zip(&mut self.after) {
-            *after = before - part.shear_memory * mu;
+        for ((part, &old), after) in self.parts.iter().zip(old).zip(&mut self.after) {
+            *after = old - part.normal_memory * self.log_normal - part.shear_memory * mu;
             phi += part.evolution.phi(*after);
         }
         phi
+    }
+
+    /// Takes f_n = `normal`. Without normal traction nothing is remembered of it: see `keep`.
+    fn under(&mut self, normal: f64) {
+        let remembers = normal > 0.0 && self.parts.iter().any(|p| p.normal_memory != 0.0);
+        self.log_normal = if remembers { (normal / self.reference).ln() } else { 0.0 };
+        self.open = normal == 0.0;
     }
 
     /// Rates of change of what the law keeps at constant f_n, for the states of the last evaluation: with a memory of shear
@@ -181,10 +188,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
     /// Takes the states as the law keeps them and prepares a step of length `dt` under f_n = `normal`.
     pub(crate) fn prepare(&mut self, old: &[f64], normal: f64, dt: f64) {
         self.dt = dt;
-        // Without normal traction nothing is remembered of it: see `keep`.
-        let remembers = normal > 0.0 && self.parts.iter().any(|p| p.normal_memory != 0.0);
-        self.log_normal = if remembers { (normal / self.reference).ln() } else { 0.0 };
-        self.open = normal == 0.0;
+        self.under(normal);
         self.starts.clear();
         for ((part, before), &old) in self.parts.iter().zip(&mut self.before).zip(old) {
             *before = old - part.normal_memory * self.log_normal;

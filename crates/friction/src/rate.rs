@@ -1,5 +1,6 @@
 //! Laws whose strength depends on the slip rate: a strength form times an evolution (possibly none).
 
+mod balance;
 mod forward;
 mod rated;
 

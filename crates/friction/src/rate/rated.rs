@@ -1,6 +1,6 @@
 //! Slip rates and state rates from tractions.
 
-use super::RateLaw;
+use super::{RateLaw, balance};
 use crate::Failure;
 use crate::evolution::{Evolution, Speed};
 use crate::law::{Drives, Rated};
@@ -42,12 +42,36 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
             let speed = self.form.slip_rate(mu / self.form.scale(), phi);
             return Ok(Speed { rate: speed.rate.copysign(traction), log: speed.log });
         }
+        if let Some(speed) = self.closed(normal, size, d.damping, states, solver) {
+            return Ok(Speed { rate: speed.rate.copysign(traction), log: speed.log });
+        }
         let guess = d.near.map(|near| near[k].abs()).filter(|&v| v > 0.0).map(f64::ln);
         let p = Point { normal, drive: size, spring: d.damping, dt: 0.0, guess };
         let s = solver.solve(&p, states).map_err(|f| f.at(k))?;
         // Where the damping carries most of the traction, V is what it carries.
         let rate = p.shares(&s).1 / d.damping;
         Ok(Speed { rate: rate.copysign(traction), log: s.log_rate })
+    }
+}
+
+impl<F: Form, E: Evolution> RateLaw<F, E> {
+    /// The slip rate in closed form, where the strength is a logarithm and the states do not jump with V.
+    fn closed(
+        &self,
+        normal: f64,
+        traction: f64,
+        damping: f64,
+        states: &[f64],
+        solver: &mut Solver<'_, F, E>,
+    ) -> Option<Speed> {
+        if self.parts.iter().any(|p| p.shear_memory != 0.0) {
+            return None;
+        }
+        let phi = solver.present(states, normal, 0.0);
+        let (offset, least) = self.form.logarithm(phi)?;
+        let scale = normal * self.form.scale();
+        let speed = balance::speed(traction / scale - offset, damping / scale)?;
+        (speed.log + offset > least && speed.rate > 0.0).then_some(speed)
     }
 }
 

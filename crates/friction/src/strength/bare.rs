@@ -13,6 +13,12 @@ impl Form for Bare {
         Strength { mu, d_log_rate: p.a, d_phi: 1.0, curvature: 0.0 }
     }
 
+    fn logarithm(&self, phi: f64) -> Option<(f64, f64)> {
+        let p = &self.0;
+        // The rest has no value.
+        Some(((p.mu0 + phi) / p.a - p.log_v_ref, 0.0))
+    }
+
     fn log_rate(&self, mu: f64, phi: f64) -> f64 {
         let p = &self.0;
         p.log_v_ref + (mu - p.mu0 - phi) / p.a

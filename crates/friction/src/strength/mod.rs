@@ -56,6 +56,11 @@ pub trait Form: Send + Sync + Clone + std::fmt::Debug {
     /// ln V at which the coefficient is `mu` > 0.
     fn log_rate(&self, mu: f64, phi: f64) -> f64;
 
+    /// F and m such that `μ = a (ln V + F)` to rounding wherever `μ > a m`, for forms that are logarithms there.
+    fn logarithm(&self, _phi: f64) -> Option<(f64, f64)> {
+        None
+    }
+
     /// V at which the coefficient is `a m`, of either sign where the form is odd.
     fn slip_rate(&self, m: f64, phi: f64) -> SlipRate;
 

@@ -42,6 +42,11 @@ impl Form for Regularised {
         }
     }
 
+    #[inline]
+    fn logarithm(&self, phi: f64) -> Option<(f64, f64)> {
+        Some((self.log_factor(phi) + LN_2, LARGE + LN_2))
+    }
+
     fn log_rate(&self, mu: f64, phi: f64) -> f64 {
         let p = &self.0;
         let y = mu / p.a;
