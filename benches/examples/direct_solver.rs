@@ -4,6 +4,8 @@
 //! `direct_solver time CASE THREADS RUNS [faer]` prints one line per solver; `direct_solver dump CASE FILE` writes the lower
 //! triangle: n and the number of entries (u64), column starts and rows (i64), values (f64), little endian.
 //! A case is `2d:N` (quad4) or `3d:N` (hex8) with about N equations.
+// A program for the terminal.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use asperity_benches::direct::stiffness;
 use asperity_fem::multifrontal::{Cholesky, Symbolic};
@@ -192,8 +194,8 @@ fn relative_residual(matrix: &ScatterMap, x: &Mat<f64>, b: &Mat<f64>) -> f64 {
     }
     let (starts, rows) = (matrix.symbolic().col_ptr(), matrix.symbolic().row_idx());
     for col in 0..n {
-        for k in starts[col]..starts[col + 1] {
-            let (row, value) = (rows[k], matrix.values()[k]);
+        let column = starts[col]..starts[col + 1];
+        for (&row, &value) in rows[column.clone()].iter().zip(&matrix.values()[column]) {
             r[row] += value * x[(col, 0)];
             scale[row] += (value * x[(col, 0)]).abs();
             if row != col {

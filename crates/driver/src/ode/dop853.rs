@@ -52,9 +52,9 @@ impl Dop853 {
         let (n, k) = (span.y0.len(), self.k.borrow());
         let last = &k[(STAGES - 1) * n..STAGES * n];
         let (mut rates, mut states) = (0.0, 0.0);
-        for i in 0..n {
-            rates += ((span.f1[i] - last[i]) / system.atol[i]).powi(2);
-            states += ((span.y1[i] - self.twelfth[i]) / system.atol[i]).powi(2);
+        for (i, (rate, atol)) in last.iter().zip(system.atol).enumerate() {
+            rates += ((span.f1[i] - rate) / atol).powi(2);
+            states += ((span.y1[i] - self.twelfth[i]) / atol).powi(2);
         }
         if states > 0.0 { span.h * (rates / states).sqrt() } else { 0.0 }
     }

@@ -65,9 +65,7 @@ impl Formula for Switching {
     }
 
     fn share(&mut self, h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64 {
-        let r = self.active().share(h, error, accepted, rejected_before);
-
-        r
+        self.active().share(h, error, accepted, rejected_before)
     }
 
     fn accept(&mut self, system: &System<'_>, span: &Span, error: f64) {

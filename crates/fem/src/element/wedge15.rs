@@ -44,9 +44,9 @@ pub(super) fn shape([x, y, z]: [f64; 3]) -> Shape {
             let (corner, middle) = (3 * layer + i, 6 + 3 * layer + i);
             s.n[corner] = 0.5 * l[i] * ((2.0 * l[i] - 1.0) * f - bubble);
             s.n[middle] = 2.0 * l[i] * l[j] * f;
-            for m in 0..2 {
-                s.dn[corner][m] = 0.5 * dl[i][m] * ((4.0 * l[i] - 1.0) * f - bubble);
-                s.dn[middle][m] = 2.0 * (dl[i][m] * l[j] + l[i] * dl[j][m]) * f;
+            for (m, (own, next)) in dl[i].into_iter().zip(dl[j]).enumerate() {
+                s.dn[corner][m] = 0.5 * own * ((4.0 * l[i] - 1.0) * f - bubble);
+                s.dn[middle][m] = 2.0 * (own * l[j] + l[i] * next) * f;
             }
             s.dn[corner][2] = 0.5 * l[i] * ((2.0 * l[i] - 1.0) * end + 2.0 * z);
             s.dn[middle][2] = 2.0 * l[i] * l[j] * end;
