@@ -99,9 +99,8 @@ fn second_order_nodes_lie_between_the_corners_vtk_names() {
     for (kind, edges) in edges {
         let x = kind.node_coordinates();
         for (k, &[a, b]) in edges.iter().enumerate() {
-            for c in 0..3 {
-                assert_eq!(x[kind.corners() + k][c], 0.5 * (x[a][c] + x[b][c]), "{} edge {k}", kind.name());
-            }
+            let middle: [f64; 3] = std::array::from_fn(|c| 0.5 * (x[a][c] + x[b][c]));
+            assert_eq!(x[kind.corners() + k], middle, "{} edge {k}", kind.name());
         }
         assert_eq!(x[..kind.corners()], *kind.linear().node_coordinates());
     }
@@ -137,10 +136,8 @@ fn faces_have_corners_first_and_middles_in_their_order() {
                 }
             }
             if face.len() == 9 {
-                for c in 0..3 {
-                    let centre: f64 = face[..4].iter().map(|&a| 0.25 * x[a][c]).sum();
-                    assert_eq!(x[face[8]][c], centre, "{} {face:?}", kind.name());
-                }
+                let centre = std::array::from_fn(|c| face[..4].iter().map(|&a| 0.25 * x[a][c]).sum::<f64>());
+                assert_eq!(x[face[8]], centre, "{} {face:?}", kind.name());
             }
         }
     }
