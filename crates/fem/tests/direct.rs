@@ -163,8 +163,8 @@ fn left<const D: usize>(mesh: &Mesh<D>) -> Vec<usize> {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    // Large enough for many tasks and for fronts that are cut into tiles.
-    let (mesh, cells) = block_of::<3>([16, 15, 14], ElementKind::Hex8);
+    // Large enough for many tasks and for fronts that are cut into tiles and pieces.
+    let (mesh, cells) = block_of::<3>([20, 19, 18], ElementKind::Hex8);
     let (matrix, _) = assembled(&mesh, &cells, left(&mesh));
     let solved = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

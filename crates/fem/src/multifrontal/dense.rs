@@ -1,4 +1,4 @@
-//! Elimination of fronts of any size: blocks of columns, left-looking, on faer's dense kernels.
+//! Elimination of fronts of any size: halves of the columns, again and again, on faer's dense kernels.
 //!
 //! Large fronts are cut into tiles whose size depends on nothing but the front, each computed by one thread: the bits do
 //! not depend on the number of threads.
@@ -11,10 +11,11 @@ use faer::{Accum, MatMut, MatRef, Par};
 use pulp::Arch;
 use rayon::prelude::*;
 
-/// Columns eliminated by the small kernel at once, and columns of a block of large fronts: a choice, not yet tuned; multiples of the
-/// kernel's width.
+/// Columns eliminated by the small kernel at once.
 const SMALL: usize = 32;
-const BLOCK: usize = 128;
+
+/// Rows from which those below the pivots of so few columns are cut into tiles.
+const SMALL_TILES: usize = 1024;
 
 /// Rows of a tile.
 const TILE: usize = 512;
@@ -39,26 +40,36 @@ pub(super) fn eliminate(
 ) -> Result<(), Break> {
     let columns = smallest.len();
     if columns <= SMALL {
+        return few_columns(arch, values, stride, rows, smallest);
+    }
+    // Halves: nearly all work is in products of the widest blocks there are.
+    let half = (columns / 2).next_multiple_of(SMALL);
+    eliminate(arch, values, stride, rows, &smallest[..half])?;
+    let (left, right) = values.split_at_mut(half * stride);
+    let (below, others) = (rows - half, columns - half);
+    let rest = &mut right[half..];
+    subtract_product(view_mut(rest, below, others, stride), view(&left[half..], below, half, stride));
+    eliminate(arch, rest, stride, below, &smallest[half..]).map_err(|(k, pivot)| (half + k, pivot))
+}
+
+/// The small kernel, on the pivots' rows alone when there are many others.
+fn few_columns(
+    arch: Arch,
+    values: &mut [f64],
+    stride: usize,
+    rows: usize,
+    smallest: &[f64],
+) -> Result<(), Break> {
+    let columns = smallest.len();
+    if rows < SMALL_TILES {
         return arch.dispatch(Eliminate { values, stride, rows, columns, smallest });
     }
-    let block = if columns <= 2 * BLOCK { SMALL } else { BLOCK };
-    let mut start = 0;
-    while start < columns {
-        let width = block.min(columns - start);
-        let below = rows - start;
-        let (left, right) = values.split_at_mut(start * stride);
-        if start > 0 {
-            let a = view(&left[start..], below, start, stride);
-            let target = view_mut(&mut right[start..], below, width, stride);
-            subtract_product(target, a, a.subrows(0, width));
-        }
-        eliminate(arch, &mut right[start..], stride, width, &smallest[start..start + width])
-            .map_err(|(k, pivot)| (start + k, pivot))?;
-        let current = view_mut(&mut right[start..], below, width, stride);
-        let (pivots, rest) = current.split_at_row_mut(width);
-        solve_rows(pivots.as_ref(), rest);
-        start += width;
-    }
+    arch.dispatch(Eliminate { values: &mut *values, stride, rows: columns, columns, smallest })?;
+    let (pivots, rest) = view_mut(values, rows, columns, stride).split_at_row_mut(columns);
+    let pivots = pivots.as_ref();
+    row_tiles(rest).into_par_iter().with_max_len(1).for_each(|(_, tile)| {
+        solve_lower_triangular_in_place(pivots, tile.transpose_mut(), Par::Seq);
+    });
     Ok(())
 }
 
@@ -72,7 +83,7 @@ pub(super) fn update(arch: Arch, result: &mut [f64], l: &[f64], stride: usize, r
     let a = view(l, rows, columns, stride);
     let target = view_mut(result, rows, rows, rows);
     if (rows * rows * columns) as f64 <= WORTH_TILES {
-        minus_square(target, a);
+        square(target, Accum::Replace, a);
         return;
     }
     let mut tiles = Vec::new();
@@ -95,7 +106,7 @@ pub(super) fn update(arch: Arch, result: &mut [f64], l: &[f64], stride: usize, r
     tiles.into_par_iter().with_max_len(1).for_each(|(row, col, mut tile)| {
         let (height, width) = (tile.nrows(), tile.ncols());
         if row == col {
-            minus_square(tile, a.subrows(row, height));
+            square(tile, Accum::Replace, a.subrows(row, height));
         } else {
             let (left, right) = (a.subrows(row, height), a.subrows(col, width));
             matmul(tile.as_mut(), Accum::Replace, left, right.transpose(), -1.0, Par::Seq);
@@ -103,11 +114,12 @@ pub(super) fn update(arch: Arch, result: &mut [f64], l: &[f64], stride: usize, r
     });
 }
 
-fn minus_square(target: MatMut<'_, f64>, a: MatRef<'_, f64>) {
+/// The lower triangle of `-a a'`.
+fn square(target: MatMut<'_, f64>, accumulate: Accum, a: MatRef<'_, f64>) {
     triangular::matmul(
         target,
         BlockStructure::TriangularLower,
-        Accum::Replace,
+        accumulate,
         a,
         BlockStructure::Rectangular,
         a.transpose(),
@@ -117,32 +129,34 @@ fn minus_square(target: MatMut<'_, f64>, a: MatRef<'_, f64>) {
     );
 }
 
-/// `target -= a b'`.
-fn subtract_product(target: MatMut<'_, f64>, a: MatRef<'_, f64>, b: MatRef<'_, f64>) {
-    let operations = 2.0 * (target.nrows() * target.ncols() * b.ncols()) as f64;
-    let one = |mut target: MatMut<'_, f64>, a: MatRef<'_, f64>| {
-        matmul(target.as_mut(), Accum::Add, a, b.transpose(), -1.0, Par::Seq);
+/// `target -= a b'` below the diagonal, b being the rows of a that belong to the columns of the target.
+fn subtract_product(target: MatMut<'_, f64>, a: MatRef<'_, f64>) {
+    let width = target.ncols();
+    let operations = ((2 * target.nrows() - width) * width * a.ncols()) as f64;
+    let (top, bottom) = target.split_at_row_mut(width);
+    let b = a.subrows(0, width);
+    let below = |target: MatMut<'_, f64>, row: usize| {
+        let rows = target.nrows();
+        matmul(target, Accum::Add, a.subrows(row, rows), b.transpose(), -1.0, Par::Seq);
     };
     if operations <= WORTH_TILES {
-        one(target, a);
+        square(top, Accum::Add, b);
+        below(bottom, width);
         return;
     }
-    row_tiles(target).into_par_iter().with_max_len(1).for_each(|(row, tile)| {
+    let in_top = |tile: MatMut<'_, f64>, row: usize| {
         let rows = tile.nrows();
-        one(tile, a.subrows(row, rows));
-    });
-}
-
-/// `rest := rest L⁻ᵀ` with the lower triangle of `pivots`.
-fn solve_rows(pivots: MatRef<'_, f64>, rest: MatMut<'_, f64>) {
-    let operations = (rest.nrows() * rest.ncols() * rest.ncols()) as f64;
-    if operations <= WORTH_TILES {
-        solve_lower_triangular_in_place(pivots, rest.transpose_mut(), Par::Seq);
-        return;
-    }
-    row_tiles(rest).into_par_iter().with_max_len(1).for_each(|(_, tile)| {
-        solve_lower_triangular_in_place(pivots, tile.transpose_mut(), Par::Seq);
-    });
+        let own = a.subrows(row, rows);
+        let (left, right) = tile.split_at_col_mut(row);
+        matmul(left, Accum::Add, own, b.subrows(0, row).transpose(), -1.0, Par::Seq);
+        square(right.subcols_mut(0, rows), Accum::Add, own);
+    };
+    let bottom = row_tiles(bottom).into_par_iter().map(|(row, tile)| (width + row, tile));
+    row_tiles(top)
+        .into_par_iter()
+        .chain(bottom)
+        .with_max_len(1)
+        .for_each(|(row, tile)| if row < width { in_top(tile, row) } else { below(tile, row) });
 }
 
 fn row_tiles(target: MatMut<'_, f64>) -> Vec<(usize, MatMut<'_, f64>)> {

@@ -8,6 +8,7 @@
 //! Pattern, order and memory are in [`Symbolic`]; numbers in [`Cholesky`].
 
 mod dense;
+mod extend;
 mod kernel;
 mod mode;
 mod numeric;

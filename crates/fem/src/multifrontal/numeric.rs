@@ -4,6 +4,7 @@
 //! passes on `-L L'` of its other rows plus what its children hold there (Duff, Reid 1983; Liu 1992).
 
 use super::dense;
+use super::extend::{Passed, extend};
 use super::symbolic::{Front, Symbolic};
 use super::tasks::{self, Slot, open, slots};
 use super::{DirectError, Pivot};
@@ -58,10 +59,7 @@ impl Pool {
             return Ok(buffers.swap_remove(k));
         }
         drop(buffers);
-        let mut buffer = Vec::new();
-        buffer.try_reserve_exact(len).map_err(|_| DirectError::OutOfMemory)?;
-        buffer.resize(len, 0.0);
-        Ok(buffer)
+        zeros(len)
     }
 
     fn give(&self, buffer: Vec<f64>) {
@@ -69,6 +67,13 @@ impl Pool {
             open(&self.0).push(buffer);
         }
     }
+}
+
+/// Zeros. Asked for first because `vec!` cannot refuse; `vec!` because pages that the system hands out are zero and stay
+/// untouched until used.
+fn zeros(len: usize) -> Result<Vec<f64>, DirectError> {
+    Vec::<f64>::new().try_reserve_exact(len).map_err(|_| DirectError::OutOfMemory)?;
+    Ok(vec![0.0; len])
 }
 
 /// What all fronts of one factorisation share.
@@ -184,15 +189,18 @@ impl Run<'_> {
     fn task(&self, t: usize) -> Result<Vec<f64>, DirectError> {
         let task = &self.symbolic.tasks[t];
         let mut values = std::mem::take(&mut *open(&self.values[t]));
-        values.clear();
-        values.try_reserve_exact(task.values).map_err(|_| DirectError::OutOfMemory)?;
+        if values.len() == task.values {
+            values.fill(0.0);
+        } else {
+            values = zeros(task.values)?;
+        }
         let result = if task.subtree { self.subtree(t, &mut values) } else { self.single(t, &mut values) };
         *open(&self.values[t]) = values;
         result
     }
 
     /// One front near the root, whose children are tasks.
-    fn single(&self, t: usize, values: &mut Vec<f64>) -> Result<Vec<f64>, DirectError> {
+    fn single(&self, t: usize, values: &mut [f64]) -> Result<Vec<f64>, DirectError> {
         let task = &self.symbolic.tasks[t];
         let s = task.fronts.start;
         let mut children = Vec::with_capacity(task.children.len());
@@ -209,7 +217,7 @@ impl Run<'_> {
     }
 
     /// A subtree, its contributions on two stacks.
-    fn subtree(&self, t: usize, values: &mut Vec<f64>) -> Result<Vec<f64>, DirectError> {
+    fn subtree(&self, t: usize, values: &mut [f64]) -> Result<Vec<f64>, DirectError> {
         let task = &self.symbolic.tasks[t];
         let mut stacks = [self.pool.take(task.stacks[0])?, self.pool.take(task.stacks[1])?];
         let root = task.fronts.end - 1;
@@ -235,19 +243,17 @@ impl Run<'_> {
         Ok(last)
     }
 
-    /// Appends the values of a front to `values` and writes what it passes on to `own`.
+    /// Computes the values of a front in its task's `values`, zero so far, and writes what it passes on to `own`.
     fn front(
         &self,
         s: usize,
-        values: &mut Vec<f64>,
+        values: &mut [f64],
         children: &[&[f64]],
         own: &mut [f64],
     ) -> Result<(), DirectError> {
         let symbolic = self.symbolic;
         let front = symbolic.fronts[s];
-        let start = values.len();
-        values.resize(start + front.width * front.height, 0.0);
-        let panel = &mut values[start..];
+        let panel = &mut values[front.offset..][..front.width * front.height];
         for (k, column) in panel.chunks_exact_mut(front.height).enumerate() {
             let col = front.first + k;
             for entry in &symbolic.entries[symbolic.entry_start[col]..symbolic.entry_start[col + 1]] {
@@ -256,9 +262,10 @@ impl Run<'_> {
         }
         let smallest: Vec<f64> =
             (0..front.width).map(|k| self.smallest * panel[k * front.height + k].max(0.0)).collect();
-        for (&child, from) in symbolic.children[s].iter().zip(children) {
-            extend_pivots(&front, symbolic.places(child as usize), from, panel);
-        }
+        let passed = symbolic.children[s].iter().zip(children);
+        let passed: Vec<Passed<'_>> =
+            passed.map(|(&child, from)| Passed::new(symbolic.places(child as usize), from)).collect();
+        extend(&passed, panel, front.height, 0);
         if symbolic.retained > 0 && s + 1 == symbolic.fronts.len() {
             return Ok(());
         }
@@ -267,10 +274,9 @@ impl Run<'_> {
         self.note_least(&front, panel, &smallest);
         let rest = front.rest();
         if rest > 0 {
+            let own = &mut own[..rest * rest];
             dense::update(self.arch, own, &panel[front.width..], front.height, rest, front.width);
-            for (&child, from) in symbolic.children[s].iter().zip(children) {
-                extend_rest(&front, symbolic.places(child as usize), from, own);
-            }
+            extend(&passed, own, rest, front.width);
         }
         Ok(())
     }
@@ -315,43 +321,4 @@ impl Run<'_> {
 fn recycle<'b>(mut list: Vec<&[f64]>) -> Vec<&'b [f64]> {
     list.clear();
     list.into_iter().map(|_: &[f64]| -> &'b [f64] { &[] }).collect()
-}
-
-/// Adds the columns of a child's contribution that the parent eliminates.
-fn extend_pivots(front: &Front, places: &[u32], from: &[f64], panel: &mut [f64]) {
-    let rest = places.len();
-    for (j, &col) in places.iter().enumerate() {
-        let col = col as usize;
-        if col >= front.width {
-            break;
-        }
-        let column = &mut panel[col * front.height..(col + 1) * front.height];
-        add_at(column, 0, &places[j..], &from[j * rest + j..(j + 1) * rest]);
-    }
-}
-
-/// Adds the others.
-fn extend_rest(front: &Front, places: &[u32], from: &[f64], own: &mut [f64]) {
-    let (rest, height) = (places.len(), front.rest());
-    let first = places.partition_point(|&p| (p as usize) < front.width);
-    for j in first..rest {
-        let col = places[j] as usize - front.width;
-        let column = &mut own[col * height..(col + 1) * height];
-        add_at(column, front.width, &places[j..], &from[j * rest + j..(j + 1) * rest]);
-    }
-}
-
-/// `column[places - shift] += from`, at once where the places are consecutive.
-fn add_at(column: &mut [f64], shift: usize, places: &[u32], from: &[f64]) {
-    let (Some(&first), Some(&last)) = (places.first(), places.last()) else { return };
-    let first = first as usize - shift;
-    if last as usize - shift == first + places.len() - 1 {
-        for (to, value) in column[first..first + places.len()].iter_mut().zip(from) {
-            *to += value;
-        }
-        return;
-    }
-    for (&place, value) in places.iter().zip(from) {
-        column[place as usize - shift] += value;
-    }
 }
