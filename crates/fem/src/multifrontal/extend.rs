@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn pieces_and_runs_add_what_values_one_by_one_add() {
         let (rows, width) = (900_usize, 100_usize);
-        let child = |keep: &dyn Fn(u32) -> bool| {
+        let child = |keep: &dyn Fn(u32) -> bool| -> (Vec<u32>, Vec<f64>) {
             let places: Vec<u32> = (0..rows as u32).filter(|&p| keep(p)).collect();
             let values = (0..places.len().pow(2)).map(|k| (k as f64).sin()).collect();
             (places, values)
