@@ -112,6 +112,36 @@ pub fn tetrahedron_14() -> Vec<Point> {
     points
 }
 
+/// From [-1, 1] to [0, 1].
+fn half(x: f64) -> f64 {
+    0.5 * (1.0 + x)
+}
+
+/// The square's product rule collapsed onto the triangle, (s, t) to (s, t (1 - s)): degree 2n - 2 in x and y together.
+#[must_use]
+pub fn collapsed_triangle(n: usize) -> Vec<Point> {
+    gauss(n, 2)
+        .into_iter()
+        .map(|(p, w)| {
+            let (s, t) = (half(p[0]), half(p[1]));
+            ([s, t * (1.0 - s), 0.0], 0.25 * w * (1.0 - s))
+        })
+        .collect()
+}
+
+/// The cube's product rule collapsed onto the tetrahedron: degree 2n - 3 in x, y and z together.
+#[must_use]
+pub fn collapsed_tetrahedron(n: usize) -> Vec<Point> {
+    gauss(n, 3)
+        .into_iter()
+        .map(|(p, w)| {
+            let (r, s, t) = (half(p[0]), half(p[1]), half(p[2]));
+            let (y, left) = (s * (1.0 - r), (1.0 - r) * (1.0 - s));
+            ([r, y, t * left], 0.125 * w * (1.0 - r) * left)
+        })
+        .collect()
+}
+
 /// A rule of the triangle times `n` Gauss points along the wedge.
 #[must_use]
 pub fn wedge(triangle: Vec<Point>, n: usize) -> Vec<Point> {

@@ -2,6 +2,7 @@
 
 mod geometry;
 mod loads;
+mod norm;
 mod projection;
 mod stiffness;
 mod stress;
@@ -13,6 +14,7 @@ use crate::material::elastic::Elastic;
 use crate::mesh::{Cells, Mesh};
 use crate::term::{Fraction, Instant, Limited, Linearized, Pattern, Refusal, Term};
 use geometry::Geometry;
+pub use norm::FieldValue;
 use projection::Projection;
 use rayon::prelude::*;
 use stiffness::Moduli;

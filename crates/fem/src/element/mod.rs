@@ -268,6 +268,17 @@ impl ElementKind {
         }
     }
 
+    /// Quadrature to measure errors with: degree 7 in each variable, on simplices a collapsed cube.
+    #[must_use]
+    pub fn fine_quadrature(self) -> Vec<Point> {
+        match self.linear() {
+            Self::Tri3 => quadrature::collapsed_triangle(4),
+            Self::Tet4 => quadrature::collapsed_tetrahedron(4),
+            Self::Wedge6 => quadrature::wedge(quadrature::collapsed_triangle(4), 4),
+            _ => quadrature::gauss(4, self.dimension()),
+        }
+    }
+
     /// Natural coordinates of the nodes.
     #[must_use]
     pub fn node_coordinates(self) -> &'static [[f64; 3]] {

@@ -3,15 +3,13 @@
 
 use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::Constraints;
-use asperity_fem::element::{ElementKind, Point};
+use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::generate::{Block, Grading};
 use asperity_fem::mesh::{Mesh, nodes_of_sides};
-use asperity_fem::quadrature;
 use asperity_fem::sparse::{Part, ScatterMap};
 use asperity_fem::term::{Instant, Linearized, Term};
-use nalgebra::DMatrix;
 
 pub const AT: Instant = Instant { time: 0.0, dt: 1.0 };
 
@@ -30,6 +28,8 @@ pub enum Shape {
     /// Corners inside move by a fixed share of the element size, to alternating sides: the shape of elements does not improve
     /// with refinement. Edges stay straight.
     Crooked,
+    /// Corners inside move by a smooth map of the block: cells become parallelograms as the mesh is refined.
+    Mapped,
     /// One constant shear: all elements are affine images of the reference element.
     Sheared,
 }
@@ -55,6 +55,10 @@ pub fn mesh<const D: usize>(kind: ElementKind, lower: [f64; D], n: usize, shape:
         let index: [usize; D] = std::array::from_fn(|c| ((x[c] - lower[c]) * n as f64).round() as usize);
         if index.iter().any(|&i| i == 0 || i == n) {
             return x;
+        }
+        if shape == Shape::Mapped {
+            let wave: f64 = (0..D).map(|c| (std::f64::consts::PI * (x[c] - lower[c])).sin()).product();
+            return std::array::from_fn(|c| x[c] + MOVE[c] * wave);
         }
         let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         // Rows alternate in x, columns in y: trapezoids.
@@ -89,23 +93,42 @@ pub trait Field<const D: usize> {
 
 /// Solves with the field prescribed on the nodes of the whole boundary and its body force inside.
 pub fn solve<const D: usize>(mesh: &Mesh<D>, block: &LinearBlock<D>, exact: &dyn Field<D>) -> Vec<f64> {
-    faer::set_global_parallelism(faer::Par::Seq);
+    solve_held(mesh, block, exact, &boundary(mesh), &[])
+}
+
+/// Solves with the field prescribed on some nodes, and with given nodal forces beside its body force.
+pub fn solve_held<const D: usize>(
+    mesh: &Mesh<D>,
+    block: &LinearBlock<D>,
+    exact: &dyn Field<D>,
+    held: &[usize],
+    forces: &[(usize, f64)],
+) -> Vec<f64> {
     let components = block.idealisation().components();
-    let n = mesh.nodes.len() * components;
+    let fixed: Vec<(usize, f64)> = held
+        .iter()
+        .flat_map(|&n| (0..components).map(move |c| (n * components + c, exact.value(&mesh.nodes[n])[c])))
+        .collect();
+    let mut all = block.body_force_field(mesh, |x, f| f.copy_from_slice(&exact.force(x)[..components]));
+    all.extend_from_slice(forces);
+    solve_dofs(mesh, block, &fixed, &all)
+}
+
+/// Solves with prescribed degrees of freedom (ascending) and nodal forces.
+pub fn solve_dofs<const D: usize>(
+    mesh: &Mesh<D>,
+    block: &LinearBlock<D>,
+    prescribed: &[(usize, f64)],
+    forces: &[(usize, f64)],
+) -> Vec<f64> {
+    let n = mesh.nodes.len() * block.idealisation().components();
     let mut u = vec![0.0; n];
-    let mut fixed = Vec::new();
-    for node in boundary(mesh) {
-        for c in 0..components {
-            u[node * components + c] = exact.value(&mesh.nodes[node])[c];
-            fixed.push(node * components + c);
-        }
-    }
+    prescribed.iter().for_each(|&(dof, value)| u[dof] = value);
+    let fixed = prescribed.iter().map(|p| p.0).collect();
     let equations = Constraints { fixed, channels: Vec::new() }.equations(n);
     let mut r = vec![0.0; n];
     block.clone().residual(&u, AT, &mut r).unwrap();
-    for (dof, f) in block.body_force_field(mesh, |x, f| f.copy_from_slice(&exact.force(x)[..components])) {
-        r[dof] -= f;
-    }
+    forces.iter().for_each(|&(dof, f)| r[dof] -= f);
     let mut matrix = ScatterMap::new(&[block.pattern()], &equations, Part::Lower);
     matrix.add(0, block.stiffness());
     let factor = matrix.cholesky(&matrix.analyse_cholesky().unwrap()).unwrap();
@@ -117,72 +140,14 @@ pub fn solve<const D: usize>(mesh: &Mesh<D>, block: &LinearBlock<D>, exact: &dyn
     u
 }
 
-/// A rule fine enough to measure errors of second-order elements: degree 7 in each variable, collapsed onto simplices.
-pub fn fine_rule(kind: ElementKind) -> Vec<Point> {
-    let cube = quadrature::gauss(4, kind.dimension());
-    let half = |x: f64| 0.5 * (1.0 + x);
-    match kind.linear() {
-        ElementKind::Tri3 => cube
-            .into_iter()
-            .map(|(p, w)| {
-                let (s, t) = (half(p[0]), half(p[1]));
-                ([s, t * (1.0 - s), 0.0], 0.25 * w * (1.0 - s))
-            })
-            .collect(),
-        ElementKind::Wedge6 => cube
-            .into_iter()
-            .map(|(p, w)| {
-                let (s, t) = (half(p[0]), half(p[1]));
-                ([s, t * (1.0 - s), p[2]], 0.25 * w * (1.0 - s))
-            })
-            .collect(),
-        ElementKind::Tet4 => cube
-            .into_iter()
-            .map(|(p, w)| {
-                let (r, s, t) = (half(p[0]), half(p[1]), half(p[2]));
-                let (y, left) = (s * (1.0 - r), (1.0 - r) * (1.0 - s));
-                ([r, y, t * left], 0.125 * w * (1.0 - r) * left)
-            })
-            .collect(),
-        _ => cube,
-    }
-}
-
 /// Errors in L2 and in the H1 seminorm over the mesh.
 pub fn errors<const D: usize>(
     mesh: &Mesh<D>,
     u: &[f64],
-    idealisation: Idealisation,
+    block: &LinearBlock<D>,
     exact: &dyn Field<D>,
 ) -> [f64; 2] {
-    let components = idealisation.components();
-    let cells = &mesh.blocks[0];
-    let rule: Vec<_> = fine_rule(cells.kind).into_iter().map(|(xi, w)| (cells.kind.shape(xi), w)).collect();
-    let mut sums = [0.0; 2];
-    for cell in 0..cells.len() {
-        let ids = cells.cell(cell);
-        for (s, w) in &rule {
-            let x: [f64; D] =
-                std::array::from_fn(|c| ids.iter().zip(&s.n).map(|(&i, n)| n * mesh.nodes[i][c]).sum());
-            let j = DMatrix::from_fn(D, D, |i, m| {
-                ids.iter().zip(&s.dn).map(|(&id, d)| d[m] * mesh.nodes[id][i]).sum::<f64>()
-            });
-            let volume = w * j.determinant() * idealisation.weight(&x);
-            let inverse = j.try_inverse().unwrap();
-            let (value, gradient) = (exact.value(&x), exact.gradient(&x));
-            for c in 0..components {
-                let nodal = || ids.iter().map(|&id| u[id * components + c]);
-                let found: f64 = nodal().zip(&s.n).map(|(u, n)| n * u).sum();
-                sums[0] += volume * (found - value[c]).powi(2);
-                for k in 0..D {
-                    let slope = |d: &[f64; 3]| (0..D).map(|m| d[m] * inverse[(m, k)]).sum::<f64>();
-                    let found: f64 = nodal().zip(&s.dn).map(|(u, d)| slope(d) * u).sum();
-                    sums[1] += volume * (found - gradient[c][k]).powi(2);
-                }
-            }
-        }
-    }
-    sums.map(f64::sqrt)
+    block.error_norms(mesh, u, |x| (exact.value(x), exact.gradient(x)))
 }
 
 /// Plane waves u = Σ A sin(k·x + φ). With modified λ in plane stress, -div σ = Σ (G |k|² A + (λ+G) (k·A) k) sin(k·x + φ).

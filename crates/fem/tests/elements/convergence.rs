@@ -27,7 +27,7 @@ fn error<const D: usize>(
     let mesh = mesh::<D>(kind, [0.0; D], n, shape);
     let block = LinearBlock::new(&mesh, 0, &material(0.3), space, formulation).unwrap();
     let u = solve(&mesh, &block, exact);
-    errors(&mesh, &u, space, exact)
+    errors(&mesh, &u, &block, exact)
 }
 
 /// p + 1 and p; 2 and 1 where B-bar leaves a second-order element a constant dilatation.

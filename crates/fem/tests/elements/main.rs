@@ -4,7 +4,10 @@
 mod common;
 mod convergence;
 mod generate;
+mod idealisations;
 mod loads;
+mod locking;
 mod patch;
+mod serendipity;
 mod shape;
 mod spectrum;
