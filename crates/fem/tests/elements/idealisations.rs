@@ -113,7 +113,7 @@ fn cylinder(kind: ElementKind, formulation: Formulation, poisson: f64) -> f64 {
 fn a_nearly_incompressible_cylinder_about_its_axis_follows_lame_with_b_bar_and_locks_without() {
     for kind in planar() {
         let order = kind.order();
-        // (h/a)^p of the interpolation, h = 1/8, times 1/4 and less.
+        // h^(p+1) with h = 1/8, times 1/4 and 1/6.
         let bound = if order == 1 { 4e-3 } else { 3e-4 };
         for nu in [0.3, 0.4999, 0.499_999_9] {
             for formulation in formulations(kind, Idealisation::Axisymmetric) {
