@@ -1,7 +1,7 @@
 //! Times the direct solver on stiffnesses of meshes of chosen size, and faer's beside it; writes the matrices for other
 //! programs (`benches/compare/cholmod`).
 //!
-//! `direct_solver time CASE THREADS RUNS [faer]` prints one line per solver; `direct_solver dump CASE FILE` writes the lower
+//! `direct_solver time CASE THREADS RUNS [faer|faer-alone]` prints one line per solver; `direct_solver dump CASE FILE` writes the lower
 //! triangle: n and the number of entries (u64), column starts and rows (i64), values (f64), little endian.
 //! A case is `2d:N` (quad4) or `3d:N` (hex8) with about N equations.
 // A program for the terminal.
@@ -24,9 +24,13 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let outcome = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["dump", case, file] => stiffness(case).and_then(|matrix| dump(&matrix, file)),
-        ["time", case, threads, runs] => time(case, threads, runs, false),
-        ["time", case, threads, runs, "faer"] => time(case, threads, runs, true),
-        _ => Err("usage: direct_solver time CASE THREADS RUNS [faer] | direct_solver dump CASE FILE".into()),
+        ["time", case, threads, runs] => time(case, threads, runs, &["own"]),
+        ["time", case, threads, runs, "faer"] => time(case, threads, runs, &["own", "faer"]),
+        ["time", case, threads, runs, "faer-alone"] => time(case, threads, runs, &["faer"]),
+        _ => Err(
+            "usage: direct_solver time CASE THREADS RUNS [faer|faer-alone] | direct_solver dump CASE FILE"
+                .into(),
+        ),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
@@ -48,14 +52,16 @@ fn dump(matrix: &ScatterMap, file: &str) -> Result<(), String> {
     std::fs::File::create(file).and_then(|mut f| f.write_all(&bytes)).map_err(|e| format!("{file}: {e}"))
 }
 
-fn time(case: &str, threads: &str, runs: &str, faer_too: bool) -> Result<(), String> {
+fn time(case: &str, threads: &str, runs: &str, solvers: &[&str]) -> Result<(), String> {
     let threads: usize = threads.parse().map_err(|e| format!("{threads}: {e}"))?;
     let runs: usize = runs.parse().map_err(|e| format!("{runs}: {e}"))?;
     let matrix = stiffness(case)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| e.to_string())?;
     pool.install(|| {
-        own(case, &matrix, threads, runs)?;
-        if faer_too { library(case, &matrix, threads, runs) } else { Ok(()) }
+        solvers.iter().try_for_each(|&solver| match solver {
+            "own" => own(case, &matrix, threads, runs),
+            _ => library(case, &matrix, threads, runs),
+        })
     })
 }
 
@@ -99,11 +105,12 @@ fn own(case: &str, matrix: &ScatterMap, threads: usize, runs: usize) -> Result<(
     let n = matrix.order();
     let mut times = [Least { wall: f64::INFINITY, processors: f64::INFINITY }; 5];
     let mut residual = 0.0;
-    let mut stored = 0;
+    let (mut stored, mut bytes, mut operations) = (0, 0.0, 0.0);
     for _ in 0..runs {
         let symbolic = clock(&mut times[0], || Symbolic::new(matrix.symbolic(), Ordering::Automatic));
         let symbolic = Arc::new(symbolic.map_err(|e| e.to_string())?);
         stored = symbolic.stored();
+        (bytes, operations) = (symbolic.bytes() as f64, symbolic.operations());
         let factor =
             clock(&mut times[1], || Cholesky::new(symbolic, matrix.values())).map_err(|e| e.to_string())?;
         let factor = clock(&mut times[2], || factor.refactor(matrix.values())).map_err(|e| e.to_string())?;
@@ -115,6 +122,7 @@ fn own(case: &str, matrix: &ScatterMap, threads: usize, runs: usize) -> Result<(
         clock(&mut times[4], || factor.solve(many.as_mut()));
     }
     print("asperity", case, threads, n, stored, times, residual);
+    println!("         predicted bytes {:.0} MB, operations {:.2}e9", bytes / 1e6, operations / 1e9);
     Ok(())
 }
 

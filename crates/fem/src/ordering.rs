@@ -33,8 +33,8 @@ pub enum Ordering {
 pub const DISSECTION_PAYS: f64 = 2.5e4;
 
 /// By how much the parts that a separator leaves may differ from equal ones. Cubes of hex8, four seeds each, mean operations
-/// of the factorisation in 1e9 (57k and 150k equations): 0.2 (METIS) 71 and 624, 0.1 64 and 581, 0.05 65 and 591, 0.02 64 and
-/// 551; the spread of seeds is 7 %, with 0.2 it is 15 %.
+/// of the factorisation in 1e9 (57k and 160k equations): 0.2 (METIS) 71 and 624, 0.1 64 and 581, 0.05 65 and 591, 0.02 64 and
+/// 551; the spread of seeds is 7 %, with 0.2 it is 14 %.
 const IMBALANCE: f64 = 0.02;
 
 /// Marks the absence of a vertex.
