@@ -106,7 +106,8 @@ fn planned(path: &Path) -> miette::Result<Ready> {
     let plan = if scene::slider::is_slider(&text) {
         Planned::Sliders(Box::new(scene::slider::read(&text).map_err(|errors| told(&errors))?))
     } else {
-        let parsed = scene::read(&text).map_err(|errors| told(&errors))?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let parsed = scene::read_in(&text, folder).map_err(|errors| told(&errors))?;
         let plan = plan::plan(&parsed).map_err(|error| told(&scene::SceneErrors::from(error)))?;
         Planned::Bodies(Box::new(plan))
     };

@@ -1,11 +1,17 @@
 //! Conditions of the stages, turned into fixed degrees of freedom and loading channels.
 
+mod shared;
+
 use crate::model::{Model, bounds};
 use crate::plan::PlanError;
-use crate::scene::model::{Condition, Loading, Motion, Scene, Spanned};
+use crate::scene::model::{Condition, Loading, Material, Motion, Scene, Spanned};
+use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::{Channel, Constraints};
+use asperity_fem::kinematics::Formulation;
 use asperity_fem::mesh::nodes_of_sides;
+use asperity_fem::surface;
 use asperity_fem::table::Table;
+use shared::Shared;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -94,6 +100,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
     let body_loads = body_loads(scene, model)?;
     let mut held: BTreeMap<(String, usize), Motion> = BTreeMap::new();
     let mut loads: BTreeMap<(String, usize), Loading> = BTreeMap::new();
+    let mut shared = Shared::default();
     let mut start = 0.0;
     let mut stages = Vec::new();
     for spec in &scene.stages {
@@ -104,15 +111,16 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
             present.insert(key.clone(), end_value(loading));
         }
         for condition in &spec.conditions {
-            take_up(model, condition, &mut held, &mut loads)?;
+            take_up(model, condition, (&mut held, &mut shared), &mut loads)?;
         }
+        shared.stage(model, spec, &held)?;
         let motions = motions::<D>(model, &held)?;
         let mut fixed: Vec<usize> = motions.iter().flat_map(|(dofs, _)| dofs.iter().copied()).collect();
         fixed.sort_unstable();
         let mut channels = body_loads.clone();
         for (key, loading) in &loads {
             let from = present.get(key).copied().unwrap_or(0.0);
-            channels.push(load_channel(model, key, loading, (from, start, end))?);
+            channels.push(load_channel(model, key, loading, (from, start, end)));
         }
         stages.push(Stage {
             name: spec.name.clone(),
@@ -154,7 +162,7 @@ const PRESSURE: usize = 3;
 fn take_up<const D: usize>(
     model: &Model<D>,
     condition: &Spanned<Condition>,
-    held: &mut BTreeMap<(String, usize), Motion>,
+    (held, shared): (&mut BTreeMap<(String, usize), Motion>, &mut Shared),
     loads: &mut BTreeMap<(String, usize), Loading>,
 ) -> Result<(), PlanError> {
     let c = condition.get_ref();
@@ -169,10 +177,12 @@ fn take_up<const D: usize>(
     for (axis, motion) in [&c.x, &c.y, &c.z].into_iter().enumerate() {
         if let Some(motion) = motion {
             held.insert((set.get_ref().clone(), axis), motion.get_ref().clone());
+            shared.places.insert((set.get_ref().clone(), axis), motion.span());
         }
     }
-    if c.symmetry.as_ref().is_some_and(|s| *s.get_ref()) {
+    if let Some(symmetry) = c.symmetry.as_ref().filter(|s| *s.get_ref()) {
         let axis = normal_axis(model, set)?;
+        shared.places.insert((set.get_ref().clone(), axis), symmetry.span());
         held.insert((set.get_ref().clone(), axis), Motion::Fixed(0.0));
     }
     if let Some(traction) = &c.traction {
@@ -202,8 +212,8 @@ fn normal_axis<const D: usize>(model: &Model<D>, set: &Spanned<String>) -> Resul
     })
 }
 
-/// Degrees of freedom of each held component; one that belongs to two sets is taken by the first, which
-/// the check of the scene has found to say the same.
+/// Degrees of freedom of each held component; one that belongs to two sets is taken by the first: they were found to say the
+/// same.
 fn motions<const D: usize>(
     model: &Model<D>,
     held: &BTreeMap<(String, usize), Motion>,
@@ -230,18 +240,16 @@ fn load_channel<const D: usize>(
     (set, axis): &(String, usize),
     loading: &Loading,
     (from, start, end): (f64, f64, f64),
-) -> Result<Channel, PlanError> {
+) -> Channel {
     let sides = &model.mesh.side_sets[set];
-    let body = model.body_of(set).map(|b| &model.bodies[b]);
-    let body = body.ok_or_else(|| PlanError::plain(format!("set `{set}` belongs to no body")))?;
-    let forces = if *axis == PRESSURE {
-        body.block.pressure(&model.mesh, sides, 1.0)
-    } else {
-        let mut unit = [0.0; D];
-        unit[*axis] = 1.0;
-        body.block.traction(&model.mesh, sides, &unit)
-    }
-    .map_err(|e| PlanError::plain(format!("load on `{set}`: {e}")))?;
+    // A force by area for each point, in proportion to the length of its normal.
+    let forces = surface::integrate(&model.mesh, sides, model.idealisation, |point, value| {
+        if *axis == PRESSURE {
+            value.iter_mut().zip(&point.normal).for_each(|(v, n)| *v = -n);
+        } else {
+            value[*axis] = surface::length(&point.normal);
+        }
+    });
     let amplitude = match loading {
         Loading::Fixed(value) => Table::constant(*value),
         Loading::To(value) => Table::new(vec![start, end], vec![from, *value]),
@@ -249,7 +257,7 @@ fn load_channel<const D: usize>(
             Table::new(points.iter().map(|p| start + p.0).collect(), points.iter().map(|p| p.1).collect())
         }
     };
-    Ok(Channel { prescribed: Vec::new(), forces, amplitude })
+    Channel { prescribed: Vec::new(), forces, amplitude }
 }
 
 /// Channels of body forces and initial stresses, which act from the start.
@@ -257,18 +265,29 @@ fn body_loads<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Cha
     let mut channels = Vec::new();
     for body in &model.bodies {
         let spec = &scene.bodies[&body.name];
-        if let Some(gravity) = &spec.gravity {
-            let density = density_of(scene, &spec.material, gravity.span())?;
-            let force: [f64; D] =
-                std::array::from_fn(|c| density * gravity.get_ref().get(c).copied().unwrap_or(0.0));
-            let forces = body
-                .block
-                .body_force(&model.mesh, &force)
-                .map_err(|e| PlanError::body(&body.name, gravity.span(), e.to_string()))?;
-            channels.push(steady(forces, 1.0));
-        }
-        if let Some(stress) = initial_stress(spec) {
-            channels.push(steady(body.block.initial_stress(stress), -1.0));
+        for (k, block) in body.blocks.clone().enumerate() {
+            if let Some(gravity) = &spec.gravity {
+                let (name, material) = model.material(scene, (&body.name, spec), block)?;
+                let density = density_of(name, material, gravity.span())?;
+                let force: [f64; D] =
+                    std::array::from_fn(|c| density * gravity.get_ref().get(c).copied().unwrap_or(0.0));
+                // Weight does not depend on the stiffness; blocks that are not linear have it from one that is.
+                let weight = |b: &LinearBlock<D>| b.body_force(&model.mesh, &force);
+                let forces = match model.blocks[block].linear() {
+                    Some(linear) => weight(linear),
+                    None => {
+                        let (space, standard) = (model.idealisation, Formulation::Standard);
+                        LinearBlock::new(&model.mesh, block, &body.elastic[k], space, standard)
+                            .and_then(|b| weight(&b))
+                    }
+                };
+                let forces =
+                    forces.map_err(|e| PlanError::body(&body.name, gravity.span(), e.to_string()))?;
+                channels.push(steady(forces, 1.0));
+            }
+            if let (Some(stress), Some(linear)) = (initial_stress(spec), model.blocks[block].linear()) {
+                channels.push(steady(linear.initial_stress(stress), -1.0));
+            }
         }
     }
     Ok(channels)
@@ -285,19 +304,14 @@ pub fn initial_stress(spec: &crate::scene::model::Body) -> Option<[f64; 6]> {
     }
 }
 
-fn density_of(scene: &Scene, material: &Spanned<String>, place: Range<usize>) -> Result<f64, PlanError> {
-    scene
-        .materials
-        .get(material.get_ref())
-        .and_then(|m| m.density.as_ref())
-        .map(|d| d.get_ref().0)
-        .ok_or_else(|| {
-            PlanError::at(
-                place,
-                format!("material `{}` has no density", material.get_ref()),
-                "gravity acts on a mass: add `density = \"2700 kg/m^3\"`".into(),
-            )
-        })
+fn density_of(name: &str, material: &Material, place: Range<usize>) -> Result<f64, PlanError> {
+    material.density.as_ref().map(|d| d.get_ref().0).ok_or_else(|| {
+        PlanError::at(
+            place,
+            format!("material `{name}` has no density"),
+            "gravity acts on a mass: add `density = \"2700 kg/m^3\"`".into(),
+        )
+    })
 }
 
 fn steady(forces: Vec<(usize, f64)>, factor: f64) -> Channel {

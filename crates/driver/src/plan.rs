@@ -1,14 +1,16 @@
 //! Scene -> Plan: the one place where it is decided what is modelled and how. Below it nothing asks what was declared.
 
 use crate::loading::{self, Stage};
-use crate::model::Model;
+use crate::model::{CellBlock, Model};
 use crate::rigid;
 use crate::scene::law;
 use crate::scene::model::{
-    Interface as InterfaceSpec, Kinematics, Path as PathChoice, Rule, Scene, Sliding, Spanned, Stepper,
+    Formulation, Interface as InterfaceSpec, Kinematics, Path as PathChoice, Rule, Scene, Sliding, Spanned,
+    Stepper,
 };
 use crate::scene::units::Penalty;
-use asperity_fem::mesh::{face_nodes, nodes_of_sides};
+use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
+use asperity_fem::nonlinear::Material;
 use asperity_friction::law::Law;
 use serde::Serialize;
 use std::ops::Range;
@@ -128,6 +130,8 @@ pub struct Plan<const D: usize> {
     pub stages: Vec<Stage>,
     /// Path.
     pub path: Path,
+    /// Whether the tangents of all terms are symmetric and positive: the full system is factored symmetrically then.
+    pub symmetric: bool,
     /// Stepper.
     pub stepping: Stepping,
     /// Step control.
@@ -219,14 +223,17 @@ const RATE_CHANGE: f64 = 0.5;
 /// Default ζ of r8.
 const ZETA: f64 = 0.1;
 
+/// Share of the largest tributary area of an interface below which one is zero but for rounding.
+const NO_AREA: f64 = 1e-12;
+
 /// Plans a scene.
 ///
 /// # Errors
 /// [`PlanError`] with the place in the scene.
 pub fn plan(scene: &Scene) -> Result<AnyPlan, PlanError> {
-    Ok(match scene.kinematics.get_ref() {
-        Kinematics::PlaneStrain => AnyPlan::Two(Box::new(plan_in::<2>(scene)?)),
-        Kinematics::ThreeD => AnyPlan::Three(Box::new(plan_in::<3>(scene)?)),
+    Ok(match scene.kinematics.get_ref().idealisation().dimension() {
+        2 => AnyPlan::Two(Box::new(plan_in::<2>(scene)?)),
+        _ => AnyPlan::Three(Box::new(plan_in::<3>(scene)?)),
     })
 }
 
@@ -238,13 +245,14 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
         .iter()
         .map(|(name, spec)| interface(scene, &model, name, spec))
         .collect::<Result<Vec<_>, _>>()?;
-    let path = choose_path(scene, &interfaces)?;
+    let path = choose_path(scene, &model, &interfaces)?;
     let stepping = stepping(scene);
     let control = control(scene, &stages);
     let remarks = rigid::check(&model, &stages, &interfaces)?;
     let summary = summary(scene, &model, &interfaces, path, &stepping, remarks);
     let initial_stress =
         model.bodies.iter().map(|b| loading::initial_stress(&scene.bodies[&b.name])).collect();
+    let symmetric = interfaces.is_empty() && model.is_linear();
     Ok(Plan {
         title: scene.title.clone(),
         model,
@@ -252,6 +260,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
         interfaces,
         stages,
         path,
+        symmetric,
         stepping,
         control,
         field_outputs: scene.output.fields.as_ref().map_or(1, |f| *f.get_ref()),
@@ -271,21 +280,38 @@ fn interface<const D: usize>(
     let body = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]);
     let body =
         body.ok_or_else(|| PlanError::plain(format!("interface `{name}`: the slave side has no body")))?;
-    if let Some(side) = master_sides.iter().find(|s| D == 3 && face_nodes(&model.mesh, s).len() == 8) {
-        let element = model.mesh.blocks[side.block].kind.name();
-        return Err(PlanError::at(
-            spec.master.span(),
-            format!("faces of {element} cannot be master segments: they have eight nodes"),
-            "use hex8 or hex27".into(),
-        ));
-    }
-    let areas = body.block.tributary_areas(&model.mesh, slave_sides).map_err(|e| {
+    check_faces(model, spec, slave_sides, master_sides)?;
+    let areas = model.tributary_areas(slave_sides).map_err(|e| {
         PlanError::at(spec.slave.span(), e.to_string(), "use an element with positive nodal areas".into())
     })?;
-    let slave = nodes_of_sides(&model.mesh, slave_sides).into_iter().map(|n| (n, areas[&n])).collect();
+    // The tip of a split surface lies on both sides, where they cannot part.
+    let master_nodes = nodes_of_sides(&model.mesh, master_sides);
+    let slave: Vec<(usize, f64)> = nodes_of_sides(&model.mesh, slave_sides)
+        .into_iter()
+        .filter(|n| master_nodes.binary_search(n).is_err())
+        .map(|n| (n, areas[&n]))
+        .collect();
+    let largest = slave.iter().map(|s| s.1).fold(0.0, f64::max);
+    if let Some((node, _)) = slave.iter().find(|s| s.1 <= NO_AREA * largest) {
+        return Err(PlanError::at(
+            spec.slave.span(),
+            format!(
+                "the slave node at {} of interface `{name}` has no tributary area",
+                rigid::place(&model.mesh.nodes[*node])
+            ),
+            "elements of second order have none on the axis of revolution: use quad4 or tri3".into(),
+        ));
+    }
+    if slave.is_empty() {
+        return Err(PlanError::at(
+            spec.master.span(),
+            format!("the two sides of interface `{name}` are the same nodes"),
+            "an interface lies between two sides that can part; `split` in a mesh makes them".into(),
+        ));
+    }
     let in_pascal_per_metre = |penalty: &Spanned<Penalty>| match *penalty.get_ref() {
         Penalty::Value(value) => value,
-        Penalty::YoungPerSize(factor) => factor * body.material.young() / body.size,
+        Penalty::YoungPerSize(factor) => factor * model.young_per_size(body, slave_sides),
     };
     let law = match &spec.law {
         Some(law) => Some(build_law(law)?),
@@ -304,6 +330,33 @@ fn interface<const D: usize>(
     })
 }
 
+/// Whether the contact can work with the faces of both sides.
+fn check_faces<const D: usize>(
+    model: &Model<D>,
+    spec: &InterfaceSpec,
+    slave: &[Side],
+    master: &[Side],
+) -> Result<(), PlanError> {
+    let nodes = |side: &Side| face_nodes(&model.mesh, side).len();
+    let element = |side: &Side| model.mesh.blocks[side.block].kind.name();
+    if let Some(side) = master.iter().find(|s| D == 3 && nodes(s) == 8) {
+        return Err(PlanError::at(
+            spec.master.span(),
+            format!("faces of {} cannot be master segments: they have eight nodes", element(side)),
+            "use hex8 or hex27".into(),
+        ));
+    }
+    let linear = |side: &Side| if D == 2 { nodes(side) == 2 } else { nodes(side) <= 4 };
+    match slave.iter().chain(master).find(|s| !linear(s)) {
+        Some(side) if *spec.sliding.get_ref() == Sliding::Finite => Err(PlanError::at(
+            spec.sliding.span(),
+            format!("finite sliding needs linear elements, but the interface has faces of {}", element(side)),
+            "use elements of first order there, or `sliding = \"small\"`".into(),
+        )),
+        _ => Ok(()),
+    }
+}
+
 fn build_law(spec: &Spanned<crate::scene::model::LawSpec>) -> Result<Arc<dyn Law>, PlanError> {
     let choice = law::choose(spec).map_err(|errors| {
         let first = errors.into_iter().next();
@@ -314,17 +367,32 @@ fn build_law(spec: &Spanned<crate::scene::model::LawSpec>) -> Result<Arc<dyn Law
     })
 }
 
-fn choose_path(scene: &Scene, interfaces: &[PlannedInterface]) -> Result<Path, PlanError> {
+fn choose_path<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    interfaces: &[PlannedInterface],
+) -> Result<Path, PlanError> {
+    let refuse = |message: String| {
+        let help = "use `path = \"auto\"` or `path = \"full\"`".into();
+        Err(PlanError::at(scene.time.stepper.span(), message, help))
+    };
     let small = !interfaces.is_empty() && interfaces.iter().all(|i| i.sliding == Sliding::Small);
-    match (scene.time.path, small) {
-        (PathChoice::Auto, true) | (PathChoice::Condensed, true) => Ok(Path::Condensed),
-        (PathChoice::Auto, false) | (PathChoice::Full, _) => Ok(Path::Full),
-        (PathChoice::Condensed, false) => Err(PlanError::at(
-            scene.time.stepper.span(),
-            "the condensed path needs an interface, and `sliding = \"small\"` on every one".into(),
-            "use `path = \"auto\"` or `path = \"full\"`".into(),
-        )),
+    match (scene.time.path, small, not_linear(model)) {
+        (PathChoice::Full, ..) => Ok(Path::Full),
+        (_, true, None) => Ok(Path::Condensed),
+        (PathChoice::Auto, ..) => Ok(Path::Full),
+        (PathChoice::Condensed, false, _) => {
+            refuse("the condensed path needs an interface, and `sliding = \"small\"` on every one".into())
+        }
+        (PathChoice::Condensed, true, Some(why)) => {
+            refuse(format!("the condensed path needs linear bodies, but {why}"))
+        }
     }
+}
+
+/// The first body that is not linear, and why.
+fn not_linear<const D: usize>(model: &Model<D>) -> Option<String> {
+    model.bodies.iter().find_map(|b| b.nonlinear.map(|why| format!("in body `{}` {why}", b.name)))
 }
 
 fn stepping(scene: &Scene) -> Stepping {
@@ -361,12 +429,7 @@ fn summary<const D: usize>(
     stepping: &Stepping,
     remarks: Vec<String>,
 ) -> Summary {
-    let mut physics = vec![format!(
-        "linear elasticity, small strain, {} ({} bodies, {} cells)",
-        if D == 2 { "plane strain" } else { "three-dimensional" },
-        model.bodies.len(),
-        model.mesh.blocks.iter().map(asperity_fem::mesh::Cells::len).sum::<usize>()
-    )];
+    let mut physics = bodies_in_words(scene, model);
     let mut state_bytes = 0;
     let mut retained = 0;
     for i in interfaces {
@@ -386,11 +449,9 @@ fn summary<const D: usize>(
         (Path::Condensed, _) => {
             ("condensed: bodies are linear and sliding is small, so each is factored once and only the interface is solved".to_string(), retained)
         }
-        (Path::Full, PathChoice::Full) => ("full: the scene asks for it".to_string(), model.dofs()),
-        (Path::Full, _) if interfaces.is_empty() => ("full: there is no interface to condense onto".to_string(), model.dofs()),
-        (Path::Full, _) => ("full: finite sliding changes the pairing during the run".to_string(), model.dofs()),
+        (Path::Full, choice) => (full_because(model, interfaces, choice), model.dofs()),
     };
-    let cells: usize = model.bodies.iter().map(|b| b.block.stiffness().len()).sum();
+    let cells: usize = model.blocks.iter().map(|b| b.pattern().values()).sum();
     let dense = if path == Path::Condensed { 3 * retained * retained } else { 0 };
     // Fill of a planar nested factorisation, 31 n log2 n / 4, is the usual estimate; three dimensions fill as n^(4/3).
     let n = model.dofs() as f64;
@@ -398,7 +459,7 @@ fn summary<const D: usize>(
     Summary {
         physics,
         path: path_text,
-        stepper: describe(stepping),
+        stepper: describe(stepping, !model.is_linear()),
         remarks,
         dofs: model.dofs(),
         system_dofs,
@@ -407,7 +468,72 @@ fn summary<const D: usize>(
     }
 }
 
-fn describe(stepping: &Stepping) -> String {
+/// Why the full system is solved, and how it is factored.
+fn full_because<const D: usize>(
+    model: &Model<D>,
+    interfaces: &[PlannedInterface],
+    choice: PathChoice,
+) -> String {
+    let why = match (choice, not_linear(model)) {
+        (PathChoice::Full, _) => "the scene asks for it".to_string(),
+        (_, Some(why)) => why,
+        _ if interfaces.is_empty() => "there is no interface to condense onto".into(),
+        _ => "finite sliding changes the pairing during the run".into(),
+    };
+    let symmetric = interfaces.is_empty() && model.is_linear();
+    format!("full: {why}; {} factorisation", if symmetric { "symmetric" } else { "unsymmetric" })
+}
+
+/// What the bodies are made of, one line for each kind there is.
+fn bodies_in_words<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<String> {
+    let mut lines: Vec<(String, Vec<&str>, usize)> = Vec::new();
+    for body in &model.bodies {
+        let spec = &scene.bodies[&body.name];
+        for block in body.blocks.clone() {
+            let material = match &model.blocks[block] {
+                CellBlock::Linear(_) => "linear elasticity, small strain",
+                CellBlock::Nonlinear(b) => match (&b.model().material, spec.is_finite()) {
+                    (Material::Elastic(_), _) => {
+                        "hypoelasticity, large deformation (updated Lagrangian, Jaumann rate)"
+                    }
+                    (Material::J2(_), true) => {
+                        "plasticity, large deformation (updated Lagrangian, Jaumann rate)"
+                    }
+                    (Material::J2(_), false) => "plasticity, small strain",
+                    (Material::Maxwell(_), true) => {
+                        "viscoelasticity, large deformation (updated Lagrangian, Jaumann rate)"
+                    }
+                    (Material::Maxwell(_), false) => "viscoelasticity, small strain",
+                },
+            };
+            let b_bar = spec.formulation.as_ref().is_some_and(|f| *f.get_ref() == Formulation::BBar);
+            let text = format!("{material}{}", if b_bar { ", B-bar" } else { "" });
+            let cells = model.mesh.blocks[block].len();
+            match lines.iter_mut().find(|l| l.0 == text) {
+                Some((_, bodies, n)) => {
+                    *n += cells;
+                    if bodies.last() != Some(&body.name.as_str()) {
+                        bodies.push(&body.name);
+                    }
+                }
+                None => lines.push((text, vec![&body.name], cells)),
+            }
+        }
+    }
+    let space = match scene.kinematics.get_ref() {
+        Kinematics::ThreeD => "three-dimensional",
+        Kinematics::Axisymmetric => "axisymmetric",
+        other => other.words(),
+    };
+    let several = lines.len() > 1;
+    let line = |(text, bodies, cells): (String, Vec<&str>, usize)| {
+        let names = if several { format!(": {}", bodies.join(", ")) } else { String::new() };
+        format!("{text}, {space} ({} bodies, {cells} cells{names})", bodies.len())
+    };
+    lines.into_iter().map(line).collect()
+}
+
+fn describe(stepping: &Stepping, limits: bool) -> String {
     match stepping {
         Stepping::Implicit { rule: Rule::BackwardEuler } => {
             "implicit: Newton with line search, backward Euler in slip, steps adapted to the error of slip"
@@ -417,7 +543,8 @@ fn describe(stepping: &Stepping) -> String {
             "implicit: Newton with line search, second-order backward differences in slip".into()
         }
         Stepping::StaticExplicit { carry, .. } => format!(
-            "static-explicit: R-minimum rule, residual {} into the next step",
+            "static-explicit: R-minimum rule{}, residual {} into the next step",
+            if limits { ", bodies limited by yield (r1), strain (r2) and rotation (r3)" } else { "" },
             if *carry { "carried" } else { "not carried" }
         ),
     }

@@ -1,12 +1,14 @@
-//! Whether every body is held: by its conditions, by symmetry, or by contact alone.
+//! Whether every body, and every part of one that is split, is held: by its conditions, by symmetry, or by contact alone.
 //!
 //! A rigid motion is free when no fixed degree of freedom sees it. It is refused when no interface of the body could
 //! hold it either, in any stage.
 
 use crate::loading::Stage;
-use crate::model::{Body, Model};
+use crate::model::Model;
 use crate::plan::{PlanError, PlannedInterface};
+use asperity_fem::kinematics::Idealisation;
 use nalgebra::DMatrix;
+use std::ops::Range;
 
 /// Eigenvalue of the Gram matrix of constraints, relative to the largest, below which a motion is free: rounding of a
 /// sum over at most 1e6 rows of order one.
@@ -22,16 +24,24 @@ pub fn check<const D: usize>(
     interfaces: &[PlannedInterface],
 ) -> Result<Vec<String>, PlanError> {
     let mut remarks = Vec::new();
-    for body in &model.bodies {
+    for (body, nodes) in model.bodies.iter().flat_map(|b| b.parts.iter().map(move |p| (b, p))) {
+        let what = match body.parts.len() {
+            1 => format!("body `{}`", body.name),
+            _ => format!(
+                "the part of body `{}` with the node at {}",
+                body.name,
+                place(&model.mesh.nodes[nodes[0]])
+            ),
+        };
         for stage in stages {
-            let mut rows = condition_rows(model, body, stage);
-            let Some(motion) = free_motion::<D>(&rows) else { continue };
-            rows.extend(contact_rows(model, body, stage, interfaces));
-            if let Some(loose) = free_motion::<D>(&rows) {
+            let mut rows = condition_rows(model, nodes, stage);
+            let Some(motion) = free_motion::<D>(&rows, model.idealisation) else { continue };
+            rows.extend(contact_rows(model, nodes, stage, interfaces));
+            if let Some(loose) = free_motion::<D>(&rows, model.idealisation) {
                 return Err(PlanError {
                     message: format!(
-                        "body `{}` is free to move in stage `{}`: nothing holds its {loose}",
-                        body.name, stage.name
+                        "{what} is free to move in stage `{}`: nothing holds its {loose}",
+                        stage.name
                     ),
                     help: Some(format!(
                         "add a condition on one of its sets that prevents the {loose}, or an interface that can"
@@ -39,13 +49,16 @@ pub fn check<const D: usize>(
                     span: 0..0,
                 });
             }
-            remarks.push(format!(
-                "stage `{}`: contact alone holds the {motion} of body `{}`",
-                stage.name, body.name
-            ));
+            remarks.push(format!("stage `{}`: contact alone holds the {motion} of {what}", stage.name));
         }
     }
     Ok(remarks)
+}
+
+/// A position in words.
+pub(crate) fn place<const D: usize>(x: &[f64; D]) -> String {
+    let coordinates: Vec<String> = x.iter().map(|c| c.to_string()).collect();
+    format!("({}) m", coordinates.join(", "))
 }
 
 /// Rigid modes of a point, one entry a mode: translations, then rotations about the body's centre.
@@ -53,6 +66,11 @@ type Row = Vec<f64>;
 
 fn modes<const D: usize>() -> usize {
     D * (D + 1) / 2
+}
+
+/// The modes without strain: about an axis of revolution only the translation along it.
+fn rigid<const D: usize>(idealisation: Idealisation) -> Range<usize> {
+    if idealisation == Idealisation::Axisymmetric { 1..2 } else { 0..modes::<D>() }
 }
 
 /// Displacement component `axis` at `x` of every rigid mode; lengths in units of the body.
@@ -70,32 +88,32 @@ fn row<const D: usize>(x: [f64; D], axis: usize) -> Row {
     row
 }
 
-fn centred<const D: usize>(model: &Model<D>, body: &Body<D>) -> impl Fn(usize) -> [f64; D] {
-    let points = &model.mesh.nodes[body.nodes.clone()];
-    let (min, max) = crate::model::bounds(points);
+fn centred<const D: usize>(model: &Model<D>, nodes: &[usize]) -> impl Fn(usize) -> [f64; D] {
+    let points: Vec<[f64; D]> = nodes.iter().map(|&n| model.mesh.nodes[n]).collect();
+    let (min, max) = crate::model::bounds(&points);
     let size = (0..D).map(|c| max[c] - min[c]).fold(0.0, f64::max);
     move |node| std::array::from_fn(|c| (model.mesh.nodes[node][c] - 0.5 * (min[c] + max[c])) / size)
 }
 
-fn condition_rows<const D: usize>(model: &Model<D>, body: &Body<D>, stage: &Stage) -> Vec<Row> {
-    let position = centred(model, body);
-    let dofs = body.dofs();
-    stage.fixed.iter().filter(|d| dofs.contains(d)).map(|&d| row(position(d / D), d % D)).collect()
+fn condition_rows<const D: usize>(model: &Model<D>, nodes: &[usize], stage: &Stage) -> Vec<Row> {
+    let position = centred(model, nodes);
+    let held = stage.fixed.iter().filter(|&&d| nodes.binary_search(&(d / D)).is_ok());
+    held.map(|&d| row(position(d / D), d % D)).collect()
 }
 
 /// Contact holds the normal of each face; friction its tangents as well.
 fn contact_rows<const D: usize>(
     model: &Model<D>,
-    body: &Body<D>,
+    nodes: &[usize],
     stage: &Stage,
     interfaces: &[PlannedInterface],
 ) -> Vec<Row> {
-    let position = centred(model, body);
+    let position = centred(model, nodes);
     let mut rows = Vec::new();
     for interface in interfaces {
         let friction = interface.law.is_some() && !stage.frictionless.contains(&interface.name);
         for face in interface.slave_faces.iter().chain(&interface.master_faces) {
-            if !body.nodes.contains(&face[0]) {
+            if nodes.binary_search(&face[0]).is_err() {
                 continue;
             }
             let normal = face_normal(model, face);
@@ -138,10 +156,12 @@ fn face_normal<const D: usize>(model: &Model<D>, face: &[usize]) -> Vec<f64> {
 }
 
 /// A rigid motion no row sees, in words.
-fn free_motion<const D: usize>(rows: &[Row]) -> Option<String> {
-    let m = modes::<D>();
+fn free_motion<const D: usize>(rows: &[Row], idealisation: Idealisation) -> Option<String> {
+    let rigid = rigid::<D>(idealisation);
+    let m = rigid.len();
     let mut gram = DMatrix::<f64>::zeros(m, m);
     for row in rows {
+        let row = &row[rigid.clone()];
         for i in 0..m {
             for j in 0..m {
                 gram[(i, j)] += row[i] * row[j];
@@ -156,7 +176,7 @@ fn free_motion<const D: usize>(rows: &[Row]) -> Option<String> {
     }
     let mode = eigen.eigenvectors.column(k);
     let dominant = (0..m).max_by(|&i, &j| mode[i].abs().total_cmp(&mode[j].abs()))?;
-    Some(name_of_mode::<D>(dominant))
+    Some(name_of_mode::<D>(rigid.start + dominant))
 }
 
 fn name_of_mode<const D: usize>(mode: usize) -> String {
@@ -173,6 +193,7 @@ fn name_of_mode<const D: usize>(mode: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_fem::kinematics::Idealisation::{Axisymmetric, PlaneStrain};
 
     #[test]
     fn rows_of_three_dimensions_are_those_of_a_rotation() {
@@ -185,8 +206,15 @@ mod tests {
     #[test]
     fn a_line_of_rollers_leaves_the_translation_along_it() {
         let rows: Vec<Row> = [-0.5, 0.0, 0.5].iter().map(|&y| row([0.0, y], 0)).collect();
-        assert_eq!(free_motion::<2>(&rows).as_deref(), Some("translation in y"));
+        assert_eq!(free_motion::<2>(&rows, PlaneStrain).as_deref(), Some("translation in y"));
         let held: Vec<Row> = rows.into_iter().chain([row([0.0, 0.5], 1)]).collect();
-        assert_eq!(free_motion::<2>(&held), None);
+        assert_eq!(free_motion::<2>(&held, PlaneStrain), None);
+    }
+
+    #[test]
+    fn about_an_axis_only_the_translation_along_it_is_rigid() {
+        let radial = vec![row([0.5, 0.1], 0)];
+        assert_eq!(free_motion::<2>(&radial, Axisymmetric).as_deref(), Some("translation in y"));
+        assert_eq!(free_motion::<2>(&[row([0.5, 0.1], 1)], Axisymmetric), None);
     }
 }

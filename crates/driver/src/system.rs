@@ -1,6 +1,7 @@
 //! A plan brought to life: terms, constraints, stepper and state, on either path.
 
 use crate::loading::Stage;
+use crate::model::CellBlock;
 use crate::observe::view::{BodyFields, Counts, InterfaceFields, Setup};
 use crate::plan::{Path, Plan, PlannedInterface, Stepping, interface_nodes};
 use crate::report::InterfaceBalance;
@@ -10,11 +11,11 @@ use crate::step::static_explicit::StaticExplicit;
 use crate::step::{State, Trial};
 use crate::views;
 use asperity_contact::{Interface, InterfaceSpec, Segment, SegmentKind, SlavePoint, SurfaceNode, TimeRule};
-use asperity_fem::assembly::{Storage, System};
-use asperity_fem::block::LinearBlock;
+use asperity_fem::assembly::{Storage, Symmetry, System};
 use asperity_fem::condense::{Condensed, Reduction};
 use asperity_fem::dof::{Channel, Constraints};
 use asperity_fem::loads::ExternalForces;
+use asperity_fem::nonlinear::Kinematics;
 use asperity_fem::term::{Limited, Linearized};
 use asperity_friction::law::RateBounds;
 
@@ -26,7 +27,7 @@ enum Bodies<const D: usize> {
     /// One term a body, on its retained degrees of freedom.
     Condensed(Vec<Condensed>),
     /// Cell blocks and loads on all degrees of freedom.
-    Full { blocks: Vec<LinearBlock<D>>, loads: Box<ExternalForces> },
+    Full { blocks: Vec<CellBlock<D>>, loads: Box<ExternalForces> },
 }
 
 /// The stepper at work.
@@ -79,7 +80,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let bodies = match plan.path {
             Path::Condensed => Bodies::Condensed(Vec::new()),
             Path::Full => Bodies::Full {
-                blocks: plan.model.bodies.iter().map(|b| b.block.clone()).collect(),
+                blocks: plan.model.blocks.clone(),
                 loads: Box::new(ExternalForces::new(Vec::new())),
             },
         };
@@ -127,7 +128,9 @@ impl<'a, const D: usize> Assembled<'a, D> {
             Path::Condensed => Storage::Dense,
             Path::Full => Storage::Sparse,
         };
-        let system = System::new(self.constraints.equations(self.state.u.len()), storage);
+        let symmetry = if self.plan.symmetric { Symmetry::Positive } else { Symmetry::General };
+        let equations = self.constraints.equations(self.state.u.len());
+        let system = System::new(equations, storage).with_symmetry(symmetry);
         match self.plan.stepping {
             Stepping::Implicit { .. } => {
                 ActiveStepper::Implicit(Box::new(Implicit::new(system, self.position())))
@@ -138,9 +141,14 @@ impl<'a, const D: usize> Assembled<'a, D> {
         }
     }
 
-    /// Size of the positions contact works on: that of the scene in finite sliding, none in small sliding.
+    /// Size of the positions forces are computed from: that of the scene in finite sliding and large deformation, none otherwise.
     fn position(&self) -> f64 {
-        let finite = self.plan.interfaces.iter().any(|i| i.sliding == Sliding::Finite);
+        let deformed = |b: &CellBlock<D>| match b {
+            CellBlock::Linear(_) => false,
+            CellBlock::Nonlinear(b) => b.model().kinematics == Kinematics::UpdatedLagrangian,
+        };
+        let finite = self.plan.interfaces.iter().any(|i| i.sliding == Sliding::Finite)
+            || self.plan.model.blocks.iter().any(deformed);
         if finite { self.plan.model.scale } else { 0.0 }
     }
 
@@ -282,7 +290,11 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// Present fields of the bodies.
     #[must_use]
     pub fn body_fields(&self) -> BodyFields {
-        views::body_fields(self.plan, &self.displacement())
+        let blocks = match &self.bodies {
+            Bodies::Full { blocks, .. } => blocks,
+            Bodies::Condensed(_) => &self.plan.model.blocks,
+        };
+        views::body_fields(self.plan, blocks, &self.displacement())
     }
 
     /// Balance of contact forces.
@@ -315,7 +327,7 @@ fn linearized<'t, const D: usize>(
         Bodies::Condensed(bodies) => bodies.iter_mut().map(|b| b as &mut dyn Linearized).collect(),
         Bodies::Full { blocks, loads } => blocks
             .iter_mut()
-            .map(|b| b as &mut dyn Linearized)
+            .map(CellBlock::linearized)
             .chain(std::iter::once(loads.as_mut() as &mut dyn Linearized))
             .collect(),
     };
@@ -331,7 +343,7 @@ fn limited<'t, const D: usize>(
         Bodies::Condensed(bodies) => bodies.iter_mut().map(|b| b as &mut dyn Limited).collect(),
         Bodies::Full { blocks, loads } => blocks
             .iter_mut()
-            .map(|b| b as &mut dyn Limited)
+            .map(CellBlock::limited)
             .chain(std::iter::once(loads.as_mut() as &mut dyn Limited))
             .collect(),
     };
@@ -385,7 +397,7 @@ fn condense<const D: usize>(
         let own = |list: &[usize]| -> Vec<usize> {
             list.iter().filter(|d| dofs.contains(d)).map(|d| d - dofs.start).collect()
         };
-        let reduction = Reduction::new(&body.stiffness(), &own(retained), &own(&constraints.fixed))
+        let reduction = Reduction::new(&plan.model.stiffness(body), &own(retained), &own(&constraints.fixed))
             .map_err(|e| format!("body `{}`: {e}", body.name))?;
         let system: Vec<usize> = (first..first + retained.len()).collect();
         first += retained.len();

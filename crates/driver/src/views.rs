@@ -1,10 +1,12 @@
 //! The model and its state as observers see them.
 
+use crate::model::CellBlock;
 use crate::observe::view::{BodyFields, InterfaceFields, InterfaceMesh, MeshView, Setup};
 use crate::plan::{Plan, PlannedInterface};
 use crate::report::InterfaceBalance;
 use asperity_contact::{Interface, Status};
 use asperity_fem::block::von_mises;
+use std::collections::BTreeMap;
 
 /// Pads a vector to three components.
 fn padded<const D: usize>(v: &[f64; D]) -> [f64; 3] {
@@ -17,10 +19,12 @@ pub fn setup<const D: usize>(plan: &Plan<D>) -> Setup {
     let mesh = &plan.model.mesh;
     let mut cells = Vec::new();
     let mut cell_body = Vec::new();
-    for (body, block) in mesh.blocks.iter().enumerate() {
-        for cell in block.connectivity.chunks_exact(block.kind.nodes()) {
-            cells.push((block.kind.vtk_type(), cell.to_vec()));
-            cell_body.push(body);
+    for (index, body) in plan.model.bodies.iter().enumerate() {
+        for block in &mesh.blocks[body.blocks.clone()] {
+            for cell in block.connectivity.chunks_exact(block.kind.nodes()) {
+                cells.push((block.kind.vtk_type(), cell.to_vec()));
+                cell_body.push(index);
+            }
         }
     }
     Setup {
@@ -45,7 +49,13 @@ fn interface_mesh<const D: usize>(plan: &Plan<D>, planned: &PlannedInterface) ->
         name: planned.name.clone(),
         labels: Vec::new(),
         areas: planned.slave.iter().map(|s| s.1).collect(),
-        faces: planned.slave_faces.iter().map(|f| f.iter().map(local).collect()).collect(),
+        // The face at a tip has a node that is no point of the interface.
+        faces: planned
+            .slave_faces
+            .iter()
+            .filter(|f| f.iter().all(|n| nodes.binary_search(n).is_ok()))
+            .map(|f| f.iter().map(local).collect())
+            .collect(),
         probes: probes(&positions, planned.probes),
         positions,
     }
@@ -100,30 +110,73 @@ pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFi
     }
 }
 
-/// Fields of the bodies for the displacement `u` of the common mesh.
+/// Fields of the bodies for the displacement `u` of the common mesh; `blocks` are those of the mesh in their present state.
 #[must_use]
-pub fn body_fields<const D: usize>(plan: &Plan<D>, u: &[f64]) -> BodyFields {
+pub fn body_fields<const D: usize>(plan: &Plan<D>, blocks: &[CellBlock<D>], u: &[f64]) -> BodyFields {
     let nodes = plan.model.mesh.nodes.len();
     let displacement =
         (0..nodes).map(|n| std::array::from_fn(|c| if c < D { u[n * D + c] } else { 0.0 })).collect();
     let mut fields = BodyFields { displacement, node_mises: vec![0.0; nodes], ..BodyFields::default() };
+    let plastic = blocks.iter().any(|b| plastic_strain(b).is_some());
+    // Sum of the blocks' nodal stresses and their number: a node between blocks of a body has their mean.
+    let mut sums = vec![([0.0; 6], 0.0); nodes];
     for (body, initial) in plan.model.bodies.iter().zip(&plan.initial_stress) {
-        let add = |mut s: [f64; 6]| {
-            for (s, s0) in s.iter_mut().zip(initial.iter().flatten()) {
-                *s += s0;
+        for index in body.blocks.clone() {
+            let block = &blocks[index];
+            // Blocks that are not linear keep their initial stress themselves.
+            let initial = initial.filter(|_| block.linear().is_some()).unwrap_or([0.0; 6]);
+            let add = |s: [f64; 6]| std::array::from_fn(|i| s[i] + initial[i]);
+            let cells: Vec<[f64; 6]> = match block {
+                CellBlock::Linear(block) => block.cell_stress(u).into_iter().map(add).collect(),
+                CellBlock::Nonlinear(block) => block.cell_stress(),
+            };
+            if plastic {
+                let zero = || vec![0.0; cells.len()];
+                fields.cell_plastic_strain.extend(plastic_strain(block).unwrap_or_else(zero));
             }
-            s
-        };
-        for stress in body.block.cell_stress(u) {
-            let stress = add(stress);
-            fields.cell_stress.push(stress);
-            fields.cell_mises.push(von_mises(&stress));
-        }
-        for (node, stress) in body.block.nodal_stress(&plan.model.mesh, u) {
-            fields.node_mises[node] = von_mises(&add(stress));
+            for (node, stress) in nodal_stress(plan, block, (index, &cells), u) {
+                let (sum, count) = &mut sums[node];
+                *count += 1.0;
+                let stress: [f64; 6] = if block.linear().is_some() { add(stress) } else { stress };
+                sum.iter_mut().zip(stress).for_each(|(a, b)| *a += b);
+            }
+            fields.cell_mises.extend(cells.iter().map(von_mises));
+            fields.cell_stress.extend(cells);
         }
     }
+    for (mises, (sum, count)) in fields.node_mises.iter_mut().zip(sums).filter(|(_, s)| s.1 > 0.0) {
+        *mises = von_mises(&sum.map(|s| s / count));
+    }
     fields
+}
+
+fn plastic_strain<const D: usize>(block: &CellBlock<D>) -> Option<Vec<f64>> {
+    match block {
+        CellBlock::Linear(_) => None,
+        CellBlock::Nonlinear(block) => block.cell_plastic_strain(),
+    }
+}
+
+/// Stress at the nodes of a block: mean of the adjoining cells, weighted with their volume where the block is linear.
+fn nodal_stress<const D: usize>(
+    plan: &Plan<D>,
+    block: &CellBlock<D>,
+    (index, stresses): (usize, &[[f64; 6]]),
+    u: &[f64],
+) -> Vec<(usize, [f64; 6])> {
+    if let CellBlock::Linear(block) = block {
+        return block.nodal_stress(&plan.model.mesh, u);
+    }
+    let cells = &plan.model.mesh.blocks[index];
+    let mut sums: BTreeMap<usize, ([f64; 6], f64)> = BTreeMap::new();
+    for (cell, stress) in stresses.iter().enumerate() {
+        for &node in cells.cell(cell) {
+            let (sum, count) = sums.entry(node).or_default();
+            sum.iter_mut().zip(stress).for_each(|(a, b)| *a += b);
+            *count += 1.0;
+        }
+    }
+    sums.into_iter().map(|(node, (sum, count))| (node, sum.map(|s| s / count))).collect()
 }
 
 /// Balance of contact forces.

@@ -198,11 +198,14 @@ impl Bodies {
             Array::vector("displacement", &fields.displacement),
             Array::scalar("mises", Values::F64(&fields.node_mises)),
         ];
-        let cells = [
+        let mut cells = vec![
             Array::tensor("stress", &fields.cell_stress),
             Array::scalar("mises", Values::F64(&fields.cell_mises)),
             Array::scalar("body", Values::I64(&self.body)),
         ];
+        if !fields.cell_plastic_strain.is_empty() {
+            cells.push(Array::scalar("plastic_strain", Values::F64(&fields.cell_plastic_strain)));
+        }
         self.grid.file(time, &points, &cells)
     }
 }
@@ -252,7 +255,11 @@ fn check_bodies(mesh: &MeshView, fields: &BodyFields) -> Result<(), ObserveError
     expect_length("displacement of the nodes", nodes, fields.displacement.len())?;
     expect_length("Mises stress of the nodes", nodes, fields.node_mises.len())?;
     expect_length("stress of the cells", cells, fields.cell_stress.len())?;
-    expect_length("Mises stress of the cells", cells, fields.cell_mises.len())
+    expect_length("Mises stress of the cells", cells, fields.cell_mises.len())?;
+    match fields.cell_plastic_strain.len() {
+        0 => Ok(()),
+        found => expect_length("plastic strain of the cells", cells, found),
+    }
 }
 
 /// File names for names of interfaces: letters, digits, `-` and `_` stay; what would collide gets its number.

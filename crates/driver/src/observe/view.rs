@@ -66,6 +66,8 @@ pub struct BodyFields {
     pub cell_stress: Vec<[f64; 6]>,
     /// Mises stress per cell \[Pa\].
     pub cell_mises: Vec<f64>,
+    /// Equivalent plastic strain per cell \[-\], averaged over its quadrature points; empty where nothing is plastic.
+    pub cell_plastic_strain: Vec<f64>,
     /// Mises stress per node, averaged within each body \[Pa\].
     pub node_mises: Vec<f64>,
 }

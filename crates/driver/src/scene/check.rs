@@ -2,12 +2,14 @@
 
 mod bodies;
 mod conditions;
-mod course;
+pub(crate) mod course;
 mod interfaces;
+mod materials;
+mod meshes;
 mod time;
 
 use super::SceneError;
-use super::model::{Kinematics, Scene, Spanned};
+use super::model::{Body, Kinematics, MeshSource, Scene, Spanned};
 use super::near::suggest;
 use asperity_fem::mesh::generate::SIDES;
 use std::ops::Range;
@@ -17,6 +19,7 @@ use std::ops::Range;
 pub fn check(scene: &Scene) -> Vec<SceneError> {
     let mut checker = Checker { scene, errors: Vec::new() };
     checker.schema();
+    checker.kinematics();
     checker.materials();
     checker.bodies();
     checker.interfaces();
@@ -65,15 +68,22 @@ impl Checker<'_> {
     }
 
     fn dimension(&self) -> usize {
-        match self.scene.kinematics.get_ref() {
-            Kinematics::PlaneStrain => 2,
-            Kinematics::ThreeD => 3,
-        }
+        self.scene.kinematics.get_ref().idealisation().dimension()
     }
 
     /// The idealisation in words.
     fn idealisation(&self) -> &'static str {
-        if self.dimension() == 2 { "plane strain" } else { "three dimensions" }
+        self.scene.kinematics.get_ref().words()
+    }
+
+    fn kinematics(&mut self) {
+        if *self.scene.kinematics.get_ref() == Kinematics::Antiplane {
+            self.error(
+                self.scene.kinematics.span(),
+                "bodies in antiplane motion are for fault cycles, which do not exist yet",
+                "the choices for bodies are \"plane-strain\", \"plane-stress\", \"axisymmetric\" and \"3d\"",
+            );
+        }
     }
 
     fn schema(&mut self) {
@@ -98,18 +108,24 @@ impl Checker<'_> {
         }
     }
 
-    /// Body and axis and end (0 lower, 1 upper) of a set `body.side`, where it exists.
+    /// Body and axis and end (0 lower, 1 upper) of a set `body.side` of a rectangular block, where it exists. Sets of other
+    /// meshes are known only when these are made or read.
     fn set(&mut self, set: &Spanned<String>) -> Option<(String, usize, usize)> {
-        let found = split(set.get_ref(), self.dimension());
-        match found {
-            Some((body, axis, end)) if self.scene.bodies.contains_key(body) => {
-                Some((body.to_string(), axis, end))
-            }
-            _ => {
-                self.unknown_set(set);
-                None
-            }
+        let body = set.get_ref().split('.').next().and_then(|name| self.scene.bodies.get(name));
+        if body.is_some_and(|b| !matches!(b.mesh, MeshSource::Block(_))) && set.get_ref().contains('.') {
+            return None;
         }
+        let found = self.block_side(set.get_ref()).map(|(body, axis, end)| (body.to_string(), axis, end));
+        if found.is_none() {
+            self.unknown_set(set);
+        }
+        found
+    }
+
+    /// Body, axis and end of a side of a rectangular block.
+    fn block_side<'s>(&self, set: &'s str) -> Option<(&'s str, usize, usize)> {
+        let is_block = |b: &Body| matches!(b.mesh, MeshSource::Block(_));
+        split(set, self.dimension()).filter(|side| self.scene.bodies.get(side.0).is_some_and(is_block))
     }
 
     fn unknown_set(&mut self, set: &Spanned<String>) {

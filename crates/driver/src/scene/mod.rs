@@ -14,6 +14,7 @@ use crate::plan::PlanError;
 use model::Scene;
 use std::fmt;
 use std::ops::Range;
+use std::path::Path;
 
 /// Something wrong in a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -77,12 +78,21 @@ impl From<SceneError> for PlanError {
     }
 }
 
-/// Reads and checks a scene.
+/// Reads and checks a scene; paths of mesh files in it are relative to the present folder.
 ///
 /// # Errors
 /// All that is wrong with it, or the first thing that keeps it from being read.
 pub fn read(text: &str) -> Result<Scene, SceneErrors> {
-    let scene: Scene = toml::from_str(text).map_err(|e| SceneErrors(vec![explain::explain(&e, text)]))?;
+    read_in(text, Path::new(""))
+}
+
+/// Reads and checks a scene whose mesh files are named relative to `folder`.
+///
+/// # Errors
+/// See [`read`].
+pub fn read_in(text: &str, folder: &Path) -> Result<Scene, SceneErrors> {
+    let mut scene: Scene = toml::from_str(text).map_err(|e| SceneErrors(vec![explain::explain(&e, text)]))?;
+    scene.folder = folder.to_path_buf();
     let errors = check::check(&scene);
     if errors.is_empty() { Ok(scene) } else { Err(SceneErrors(errors)) }
 }

@@ -3,11 +3,15 @@
 //! Names that the plan looks up later are [`Spanned`], so that an error can point into the file. A scene built in Rust
 //! uses the empty span (see [`here`]), and its errors name the key instead.
 
+mod body;
+
 use super::law::Several;
-use super::units::{Density, Length, Penalty, Pressure, Time, Velocity};
+use super::units::{Length, Penalty, Pressure, Time, Velocity};
+pub use body::*;
 use serde::Deserialize;
 pub use serde_spanned::Spanned;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// A value without a place in a file, for scenes built in Rust.
 pub fn here<T>(value: T) -> Spanned<T> {
@@ -38,69 +42,9 @@ pub struct Scene {
     /// Outputs.
     #[serde(default)]
     pub output: Output,
-}
-
-/// Idealisations that exist.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-pub enum Kinematics {
-    /// Two-dimensional, ε_zz = 0.
-    #[serde(rename = "plane-strain")]
-    PlaneStrain,
-    /// Three-dimensional.
-    #[serde(rename = "3d")]
-    ThreeD,
-}
-
-/// An isotropic linear elastic material.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Material {
-    /// Young's modulus E \[Pa\].
-    pub young: Spanned<Pressure>,
-    /// Poisson's ratio ν \[-\].
-    pub poisson: Spanned<f64>,
-    /// Density ρ \[kg/m³\], needed only with a body force.
-    pub density: Option<Spanned<Density>>,
-}
-
-/// A deformable body.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Body {
-    /// Where its mesh comes from.
-    pub mesh: MeshSource,
-    /// Name of its material.
-    pub material: Spanned<String>,
-    /// Uniform initial stress [xx, yy, xy] or [xx, yy, zz, xy, yz, zx] \[Pa\], tension positive.
-    pub initial_stress: Option<Spanned<Vec<Pressure>>>,
-    /// Acceleration acting on the body's mass \[m/s²\], one entry per axis.
-    pub gravity: Option<Spanned<Vec<f64>>>,
-}
-
-/// Sources of meshes.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub enum MeshSource {
-    /// A generated rectangular block.
-    Block(BlockMesh),
-}
-
-/// A structured, possibly graded block.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BlockMesh {
-    /// Lower corner \[m\].
-    pub min: Spanned<Vec<Length>>,
-    /// Upper corner \[m\].
-    pub max: Spanned<Vec<Length>>,
-    /// Element size h \[m\]; must divide each edge. Either this or `divisions`.
-    pub size: Option<Spanned<Length>>,
-    /// Elements along each axis. Either this or `size`.
-    pub divisions: Option<Spanned<Vec<usize>>>,
-    /// Ratio of the last to the first element along each axis (1 = uniform).
-    pub grading: Option<Spanned<Vec<f64>>>,
-    /// Element name: quad4, quad9, tri3, tri6, hex8, tet4.
-    pub element: Spanned<String>,
+    /// Folder of the scene file, which the paths of mesh files are relative to; empty: the present one.
+    #[serde(skip)]
+    pub folder: PathBuf,
 }
 
 /// A contact interface between two side sets.

@@ -18,7 +18,8 @@ use planner::Planner;
 use serde::Deserialize;
 
 /// The kinematics there are.
-const KINEMATICS: [&str; 3] = ["plane-strain", "3d", "spring-slider"];
+const KINEMATICS: [&str; 6] =
+    ["plane-strain", "plane-stress", "axisymmetric", "antiplane", "3d", "spring-slider"];
 
 /// So much of a scene as tells of what kind it is.
 #[derive(Deserialize)]

@@ -26,6 +26,8 @@ pub enum Dimension {
     Damping,
     /// \[kg/m²\].
     Mass,
+    /// \[Pa s\].
+    Viscosity,
 }
 
 impl Dimension {
@@ -42,6 +44,7 @@ impl Dimension {
             Self::Spring => "a stiffness",
             Self::Damping => "a damping",
             Self::Mass => "a mass per area",
+            Self::Viscosity => "a viscosity",
         }
     }
 
@@ -56,6 +59,7 @@ impl Dimension {
             Self::Spring => "a stiffness such as \"1.25 GPa/m\" or a number in Pa/m",
             Self::Damping => "a damping such as \"5 MPa s/m\" or a number in Pa s/m",
             Self::Mass => "a mass per area such as \"3000 kg/m^2\" or a number in kg/m^2",
+            Self::Viscosity => "a viscosity such as \"1e19 Pa s\" or a number in Pa s",
         }
     }
 
@@ -70,6 +74,7 @@ impl Dimension {
             Self::Spring => "Pa/m, MPa/mm and other pressures per length",
             Self::Damping => "Pa s/m, MPa s/m and other pressures times s/m",
             Self::Mass => "kg/m^2",
+            Self::Viscosity => "Pa s, GPa yr and other pressures times times",
         }
     }
 }
@@ -130,6 +135,16 @@ fn unit(name: &str) -> Option<Unit> {
         && pressure.dimension == Dimension::Pressure
     {
         return Some(Unit { dimension: Dimension::Damping, ..pressure });
+    }
+    if let Some((pressure, time)) = name.split_once(' ')
+        && let (Some(pressure), Some(time)) = (simple(pressure), simple(time.trim()))
+        && (pressure.dimension, time.dimension) == (Dimension::Pressure, Dimension::Time)
+    {
+        return Some(Unit {
+            dimension: Dimension::Viscosity,
+            power: pressure.power + time.power,
+            factor: pressure.factor * time.factor,
+        });
     }
     let Some((over, under)) = name.split_once('/') else { return simple(name) };
     let (over, under) = (simple(over.trim())?, simple(under.trim())?);
@@ -266,6 +281,8 @@ quantity! {
     Damping: Damping,
     /// A mass per area \[kg/m²\].
     Mass: Mass,
+    /// A viscosity \[Pa s\].
+    Viscosity: Viscosity,
 }
 
 /// A contact penalty.

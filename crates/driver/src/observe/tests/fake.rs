@@ -104,6 +104,7 @@ pub(crate) fn body_fields(mesh: &MeshView, time: f64, spoil: Option<f64>) -> Bod
         displacement: mesh.nodes.iter().map(|p| [1e-3 * p[0], -1e-4 * p[1], 0.0]).collect(),
         cell_stress: cell_mises.iter().map(|&m| [-m, 0.0, 0.0, 0.0, 0.0, 0.0]).collect(),
         cell_mises,
+        cell_plastic_strain: Vec::new(),
         node_mises: mesh.nodes.iter().map(mises).collect(),
     }
 }

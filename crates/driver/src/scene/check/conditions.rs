@@ -1,7 +1,7 @@
 //! Stages and their conditions: what they refer to, and whether two of them say different things about the same nodes.
 
 use super::course::Course;
-use super::{AXES, Checker, split};
+use super::{AXES, Checker};
 use crate::scene::SceneError;
 use crate::scene::model::{Condition, Loading, Motion, Spanned, Stage};
 use crate::scene::near::suggest;
@@ -323,8 +323,7 @@ impl Checker<'_> {
 
     /// Whether two sides are of one body and have an edge or corner in common.
     fn meet(&self, a: &str, b: &str) -> bool {
-        let d = self.dimension();
-        match (split(a, d), split(b, d)) {
+        match (self.block_side(a), self.block_side(b)) {
             (Some((a, i, _)), Some((b, j, _))) => a == b && i != j,
             _ => false,
         }
@@ -341,7 +340,7 @@ impl Checker<'_> {
                 let acting = entries.filter(|(_, l)| **l != Loading::Fixed(0.0));
                 loaded.extend(acting.map(|(axis, _)| (axis, "traction", t.span())));
             }
-            if let (Some(p), Some((_, axis, _))) = (&c.pressure, split(set.get_ref(), self.dimension())) {
+            if let (Some(p), Some((_, axis, _))) = (&c.pressure, self.block_side(set.get_ref())) {
                 loaded.push((axis, "pressure", p.span()));
             }
             for (axis, what, place) in loaded {

@@ -9,7 +9,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// How a prescribed value develops in a stage.
 #[derive(Clone, Debug)]
-pub(super) enum Course {
+pub(crate) enum Course {
     /// Piecewise linear through (time since the stage began \[s\], displacement \[m\]), constant beyond.
     Known(Vec<(f64, f64)>),
     /// It depends on where the nodes are.
@@ -18,7 +18,7 @@ pub(super) enum Course {
 
 impl Course {
     /// The course of `motion` over `duration`, from the displacement `present` where that is known.
-    pub(super) fn new(motion: &Motion, present: Option<f64>, duration: f64) -> Self {
+    pub(crate) fn new(motion: &Motion, present: Option<f64>, duration: f64) -> Self {
         match (motion, present) {
             (Motion::Fixed(value), _) => Self::Known(vec![(0.0, *value)]),
             (Motion::Table(points), _) if !points.is_empty() => Self::Known(points.clone()),
@@ -32,7 +32,7 @@ impl Course {
     }
 
     /// Displacement at a time since the stage began, where it is known.
-    pub(super) fn at(&self, time: f64) -> Option<f64> {
+    pub(crate) fn at(&self, time: f64) -> Option<f64> {
         let Self::Known(points) = self else { return None };
         let after = points.iter().position(|p| p.0 > time);
         Some(match after {
@@ -46,7 +46,7 @@ impl Course {
     }
 
     /// Whether both courses are the same during a stage, however they are written.
-    pub(super) fn agrees(&self, other: &Self, duration: f64) -> bool {
+    pub(crate) fn agrees(&self, other: &Self, duration: f64) -> bool {
         match (self, other) {
             (Self::Known(a), Self::Known(b)) => {
                 let largest = a.iter().chain(b).map(|p| p.1.abs()).fold(0.0, f64::max);
@@ -62,7 +62,7 @@ impl Course {
     }
 
     /// In words, with units.
-    pub(super) fn words(&self) -> String {
+    pub(crate) fn words(&self) -> String {
         match self {
             Self::Known(points) => match points[..] {
                 [(_, only)] => show(only),

@@ -9,7 +9,7 @@ use asperity_fem::mesh::generate::SIDES;
 /// Elements in two dimensions whose faces have nodes only at their corners; in three all have.
 const LINEAR: [&str; 2] = ["quad4", "tri3"];
 /// Elements with nodes between the corners.
-const QUADRATIC: [&str; 2] = ["quad9", "tri6"];
+const QUADRATIC: [&str; 3] = ["quad8", "quad9", "tri6"];
 
 /// Body, axis and end of a side.
 type Side = (String, usize, usize);
@@ -71,7 +71,7 @@ impl Checker<'_> {
             return;
         }
         for (body, _, _) in [slave, master].into_iter().flatten() {
-            let MeshSource::Block(block) = &self.scene.bodies[&body].mesh;
+            let MeshSource::Block(block) = &self.scene.bodies[&body].mesh else { continue };
             let element = block.element.get_ref();
             if QUADRATIC.contains(&element.as_str()) {
                 self.conflict(

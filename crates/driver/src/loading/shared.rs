@@ -1,0 +1,91 @@
+//! Sets that share nodes and say different things about them. For generated blocks the check of the scene has found this
+//! already; which nodes the sets of other meshes share is known only from the mesh.
+
+use crate::model::Model;
+use crate::plan::PlanError;
+use crate::scene::check::course::Course;
+use crate::scene::model::{Motion, Stage};
+use asperity_fem::mesh::nodes_of_sides;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+/// A component of a set.
+pub(super) type Key = (String, usize);
+
+/// What is prescribed from stage to stage, and where the scene says so.
+#[derive(Default)]
+pub(super) struct Shared {
+    /// Places of the motions in force.
+    pub places: BTreeMap<Key, Range<usize>>,
+    /// Displacement of each component ever prescribed; `None` once it has been free.
+    present: BTreeMap<Key, Option<f64>>,
+    stages: usize,
+}
+
+impl Shared {
+    /// Checks the motions of a stage, and takes them to its end.
+    pub fn stage<const D: usize>(
+        &mut self,
+        model: &Model<D>,
+        stage: &Stage,
+        held: &BTreeMap<Key, Motion>,
+    ) -> Result<(), PlanError> {
+        let duration = stage.duration.get_ref().0;
+        for (a, b) in pairs(model, held) {
+            let (from_a, from_b) = (self.start(a), self.start(b));
+            let first = Course::new(&held[a], from_a.or(from_b), duration);
+            let second = Course::new(&held[b], from_b.or(from_a), duration);
+            if !first.agrees(&second, duration) {
+                let place = |key| self.places.get(key).cloned().unwrap_or_default();
+                let span = if place(a).start > place(b).start { place(a) } else { place(b) };
+                let axis = ["x", "y", "z"][a.1];
+                return Err(PlanError::at(
+                    span,
+                    format!(
+                        "`{}` and `{}` share nodes and prescribe {axis} there differently in stage `{}`",
+                        a.0, b.0, stage.name
+                    ),
+                    format!(
+                        "`{}` prescribes {}, `{}` {}: say the same on both, or release one with `{axis} = \"free\"`",
+                        a.0,
+                        first.words(),
+                        b.0,
+                        second.words()
+                    ),
+                ));
+            }
+        }
+        let ends: Vec<(Key, Option<f64>)> = held
+            .iter()
+            .map(|(key, motion)| (key.clone(), Course::new(motion, self.start(key), duration).at(duration)))
+            .collect();
+        self.present.extend(ends);
+        self.stages += 1;
+        Ok(())
+    }
+
+    /// Displacement of a component at the start of the stage, where it is known.
+    fn start(&self, key: &Key) -> Option<f64> {
+        self.present.get(key).copied().unwrap_or((self.stages == 0).then_some(0.0))
+    }
+}
+
+/// Pairs of sets that prescribe one component of common nodes, in order.
+fn pairs<'a, const D: usize>(
+    model: &Model<D>,
+    held: &'a BTreeMap<Key, Motion>,
+) -> BTreeSet<(&'a Key, &'a Key)> {
+    let mut owners: Vec<Option<&Key>> = vec![None; model.dofs()];
+    let mut pairs = BTreeSet::new();
+    for (key, _) in held.iter().filter(|(_, m)| **m != Motion::Free) {
+        for node in nodes_of_sides(&model.mesh, &model.mesh.side_sets[&key.0]) {
+            match &mut owners[node * D + key.1] {
+                Some(owner) => {
+                    pairs.insert((*owner, key));
+                }
+                none => *none = Some(key),
+            }
+        }
+    }
+    pairs
+}

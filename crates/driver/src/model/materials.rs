@@ -1,0 +1,83 @@
+//! Materials of a scene as the bodies take them.
+
+use crate::plan::PlanError;
+use crate::scene::model as scene;
+use crate::scene::near::suggest;
+use asperity_fem::FemError;
+use asperity_fem::material::elastic::Elastic;
+use asperity_fem::material::hardening::Hardening;
+use asperity_fem::material::j2::J2;
+use asperity_fem::material::maxwell::{Branch, Maxwell};
+use asperity_fem::nonlinear::Material;
+use std::ops::Range;
+
+/// The material `name` of a scene.
+///
+/// # Errors
+/// [`PlanError`] at `place` with the materials that exist.
+pub fn find<'a>(
+    scene: &'a scene::Scene,
+    name: &str,
+    place: Range<usize>,
+) -> Result<&'a scene::Material, PlanError> {
+    scene.materials.get(name).ok_or_else(|| {
+        let known = scene.materials.keys().map(String::as_str);
+        PlanError::at(place, format!("there is no material `{name}`"), suggest(name, "materials", known))
+    })
+}
+
+/// Its elastic part.
+///
+/// # Errors
+/// [`PlanError`] for constants out of range.
+pub fn elastic(spec: &scene::Material) -> Result<Elastic, PlanError> {
+    Elastic::new(spec.young.get_ref().0, *spec.poisson.get_ref())
+        .map_err(|e| PlanError::at(spec.young.span(), e.to_string(), "0 < E and -1 < nu < 0.5".into()))
+}
+
+/// All of it.
+///
+/// # Errors
+/// [`PlanError`] for parameters out of range.
+pub fn behaviour(spec: &scene::Material) -> Result<Material, PlanError> {
+    let elastic = elastic(spec)?;
+    if let Some(plasticity) = &spec.plasticity {
+        let hardening = hardening(plasticity.get_ref()).map_err(|e| refused(plasticity.span(), &e))?;
+        return Ok(Material::J2(J2::new(elastic, hardening)));
+    }
+    let (viscous, place) = match (&spec.maxwell, &spec.viscosity) {
+        (Some(branches), _) => {
+            let given = branches.get_ref().iter();
+            let branches_of: Vec<Branch> =
+                given.map(|b| Branch { share: b.share, viscosity: b.viscosity.0 }).collect();
+            (Maxwell::generalised(&elastic, &branches_of), branches.span())
+        }
+        (None, Some(viscosity)) => (Maxwell::new(&elastic, viscosity.get_ref().0), viscosity.span()),
+        (None, None) => return Ok(Material::Elastic(elastic)),
+    };
+    viscous.map(Material::Maxwell).map_err(|e| refused(place, &e))
+}
+
+fn refused(place: Range<usize>, error: &FemError) -> PlanError {
+    PlanError::at(place, error.to_string(), "see the admissible range in the message".into())
+}
+
+/// Hardening with the parameters of its kind; which belong to it is checked with the scene, and those missing read as 0, which
+/// the bodies refuse.
+fn hardening(spec: &scene::Plasticity) -> Result<Hardening, FemError> {
+    let initial = spec.initial.as_ref().map_or(0.0, |y| y.get_ref().0);
+    match spec.hardening.get_ref() {
+        scene::Hardening::Perfect => Hardening::perfect(initial),
+        scene::Hardening::Linear => {
+            Hardening::linear(initial, spec.modulus.as_ref().map_or(0.0, |h| h.get_ref().0))
+        }
+        scene::Hardening::Power => {
+            let number = |v: &Option<scene::Spanned<f64>>| v.as_ref().map_or(0.0, |v| *v.get_ref());
+            Hardening::swift(initial, number(&spec.strain), number(&spec.exponent))
+        }
+        scene::Hardening::Table => {
+            let entries = spec.table.as_ref().map_or(&[][..], |t| t.get_ref());
+            Hardening::table(&entries.iter().map(|(e, y)| (*e, y.0)).collect::<Vec<_>>())
+        }
+    }
+}

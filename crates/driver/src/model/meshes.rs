@@ -1,0 +1,293 @@
+//! Meshes of the bodies: generated, or read from files.
+
+use crate::plan::PlanError;
+use crate::scene::model as scene;
+use crate::scene::near::suggest;
+use crate::scene::units::{self, Dimension, Length};
+use asperity_fem::element::ElementKind;
+use asperity_fem::mesh::extrude::extrude;
+use asperity_fem::mesh::fault::{FaultMesh, Spacing};
+use asperity_fem::mesh::generate::{Block, Grading, divisions_for};
+use asperity_fem::mesh::split::{Surface, split};
+use asperity_fem::mesh::{Cells, Mesh, MeshError, Options, RawMesh, Side, abaqus, gmsh};
+use scene::Spanned;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The mesh of a body, with its sets by their own names.
+///
+/// # Errors
+/// [`PlanError`] at the place in the scene; a file that cannot be read is named with what is wrong in it.
+pub fn of_body<const D: usize>(
+    scene: &scene::Scene,
+    name: &str,
+    body: &scene::Body,
+) -> Result<Mesh<D>, PlanError> {
+    let Some(layers) = &body.extrude else { return source::<D>(scene, name, body) };
+    let plane = source::<2>(scene, name, body)?;
+    let z: Vec<f64> = layers.get_ref().iter().map(|z| z.0).collect();
+    let drawn = extrude(&plane, &z).map_err(|e| PlanError::body(name, layers.span(), e.to_string()))?;
+    in_dimension(drawn.mesh, || {
+        PlanError::at(
+            layers.span(),
+            format!("`extrude` makes the mesh of body `{name}` three-dimensional"),
+            "remove it, or use `kinematics = \"3d\"`".into(),
+        )
+    })
+}
+
+fn source<const D: usize>(
+    scene: &scene::Scene,
+    name: &str,
+    body: &scene::Body,
+) -> Result<Mesh<D>, PlanError> {
+    let plane = |place: std::ops::Range<usize>| {
+        move || {
+            PlanError::at(
+                place,
+                format!("the mesh of body `{name}` is plane"),
+                "in three dimensions add `extrude = [..]` to the body, the heights of its layers".into(),
+            )
+        }
+    };
+    match &body.mesh {
+        scene::MeshSource::Block(spec) => block::<D>(name, spec),
+        scene::MeshSource::Quadrilateral(spec) => {
+            in_dimension(quadrilateral(name, spec)?, plane(spec.element.span()))
+        }
+        scene::MeshSource::Fault(spec) => in_dimension(fault(name, spec)?, plane(spec.element.span())),
+        scene::MeshSource::Gmsh(spec) => {
+            let tags = spec.tags.iter().map(|(name, tag)| (name.clone(), (*tag.get_ref()).into())).collect();
+            let options = Options { length_unit: unit(spec.unit.as_ref())?, tags, ..Options::default() };
+            let groups = (spec.groups.as_ref(), "groups of cells");
+            read(scene, &spec.file, gmsh::parse, &options, groups, &spec.split)
+        }
+        scene::MeshSource::Abaqus(spec) => {
+            let options = Options { length_unit: unit(spec.unit.as_ref())?, ..Options::default() };
+            let groups = (spec.elsets.as_ref(), "element sets");
+            read(scene, &spec.file, abaqus::parse, &options, groups, &spec.split)
+        }
+    }
+}
+
+/// The same mesh as one of dimension `B`, or the error when it is of another.
+fn in_dimension<const A: usize, const B: usize>(
+    mesh: Mesh<A>,
+    error: impl FnOnce() -> PlanError,
+) -> Result<Mesh<B>, PlanError> {
+    if A != B {
+        return Err(error());
+    }
+    let Mesh { nodes, blocks, side_sets, cell_sets, node_sets } = mesh;
+    let nodes = nodes.iter().map(|x| std::array::from_fn(|c| x[c])).collect();
+    Ok(Mesh { nodes, blocks, side_sets, cell_sets, node_sets })
+}
+
+fn element(name: &Spanned<String>) -> Result<ElementKind, PlanError> {
+    name.get_ref()
+        .parse()
+        .map_err(|e| PlanError::at(name.span(), format!("{e}"), "see the list of elements".into()))
+}
+
+fn grading(ratio: f64) -> Grading {
+    if ratio == 1.0 { Grading::Uniform } else { Grading::Geometric { ratio } }
+}
+
+fn block<const D: usize>(name: &str, spec: &scene::BlockMesh) -> Result<Mesh<D>, PlanError> {
+    let kind = element(&spec.element)?;
+    let corner = |v: &Spanned<Vec<Length>>| -> Result<[f64; D], PlanError> {
+        let values: Vec<f64> = v.get_ref().iter().map(|l| l.0).collect();
+        <[f64; D]>::try_from(values)
+            .map_err(|c| PlanError::at(v.span(), format!("{} coordinates", c.len()), format!("give {D}")))
+    };
+    let (min, max) = (corner(&spec.min)?, corner(&spec.max)?);
+    let mut divisions = [1; D];
+    let mut gradings = [Grading::Uniform; D];
+    for axis in 0..D {
+        divisions[axis] = divisions_along(spec, axis, max[axis] - min[axis])?;
+        if let Some(g) = &spec.grading {
+            gradings[axis] = g.get_ref().get(axis).map_or(Grading::Uniform, |&ratio| grading(ratio));
+        }
+    }
+    Block { min, max, divisions, grading: gradings, kind }
+        .mesh()
+        .map_err(|e| PlanError::body(name, spec.element.span(), e.to_string()))
+}
+
+fn divisions_along(spec: &scene::BlockMesh, axis: usize, length: f64) -> Result<usize, PlanError> {
+    if let Some(divisions) = &spec.divisions {
+        return divisions.get_ref().get(axis).copied().filter(|&n| n > 0).ok_or_else(|| {
+            PlanError::at(
+                divisions.span(),
+                "divisions are incomplete".into(),
+                "one positive number an axis".into(),
+            )
+        });
+    }
+    let size = spec.size.as_ref().ok_or_else(|| {
+        PlanError::at(spec.element.span(), "the block has no element size".into(), "give `size`".into())
+    })?;
+    divisions_for(length, size.get_ref().0).map_err(|e| {
+        PlanError::at(size.span(), e.to_string(), "a size that divides each edge of the block".into())
+    })
+}
+
+/// The unit square, mapped bilinearly onto four corners.
+fn quadrilateral(name: &str, spec: &scene::QuadrilateralMesh) -> Result<Mesh<2>, PlanError> {
+    let ratios = spec.grading.as_ref().map_or([1.0; 2], |g| *g.get_ref());
+    let unit = Block {
+        min: [0.0; 2],
+        max: [1.0; 2],
+        divisions: *spec.divisions.get_ref(),
+        grading: ratios.map(grading),
+        kind: element(&spec.element)?,
+    };
+    let mut mesh = unit.mesh().map_err(|e| PlanError::body(name, spec.element.span(), e.to_string()))?;
+    let corners = spec.corners.get_ref().map(|x| x.map(|c| c.0));
+    for x in &mut mesh.nodes {
+        let [s, t] = *x;
+        let shares = [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t];
+        *x = std::array::from_fn(|c| shares.iter().zip(&corners).map(|(n, p)| n * p[c]).sum());
+    }
+    Ok(mesh)
+}
+
+/// A box around a fault. Lengths along the fault count from the first vertex of its trace.
+fn fault(name: &str, spec: &scene::FaultMesh) -> Result<Mesh<2>, PlanError> {
+    let point = |x: &[Length; 2]| x.map(|c| c.0);
+    let spacing = match *spec.spacing.get_ref() {
+        scene::SpacingSpec::Constant(size) => Spacing::Constant(size.0),
+        scene::SpacingSpec::Zone(zone) => {
+            Spacing::Zone { from: zone.from.0, to: zone.to.0, size: zone.size.0, ratio: zone.ratio }
+        }
+    };
+    let generated = FaultMesh {
+        trace: spec.trace.get_ref().iter().map(point).collect(),
+        spacing,
+        thickness: spec.thickness.as_ref().map(|t| t.get_ref().0),
+        min: point(spec.min.get_ref()),
+        max: point(spec.max.get_ref()),
+        growth: *spec.growth.get_ref(),
+        kind: element(&spec.element)?,
+    }
+    .mesh();
+    Ok(generated.map_err(|e| PlanError::body(name, spec.trace.span(), e.to_string()))?.mesh)
+}
+
+/// Metres in the unit of a file.
+fn unit(name: Option<&Spanned<String>>) -> Result<f64, PlanError> {
+    let Some(name) = name else { return Ok(1.0) };
+    units::parse(&format!("1 {}", name.get_ref()), Dimension::Length).map_err(|_| {
+        PlanError::at(
+            name.span(),
+            format!("there is no unit of length `{}`", name.get_ref()),
+            "such as `unit = \"km\"`".into(),
+        )
+    })
+}
+
+/// Parser of a file's bytes.
+type Parse = fn(&[u8]) -> Result<RawMesh, MeshError>;
+
+/// Reads a file, takes the cells of the groups, and splits them along the surfaces.
+fn read<const D: usize>(
+    scene: &scene::Scene,
+    file: &Spanned<String>,
+    parse: Parse,
+    options: &Options,
+    (groups, what): (Option<&Spanned<Vec<Spanned<String>>>>, &str),
+    surfaces: &[Spanned<String>],
+) -> Result<Mesh<D>, PlanError> {
+    let name = file.get_ref();
+    let at = |message: String, help: &str| PlanError::at(file.span(), message, help.to_string());
+    let bytes = std::fs::read(scene.folder.join(name)).map_err(|e| {
+        at(
+            format!("the mesh file `{name}` cannot be read: {e}"),
+            "paths are relative to the folder of the scene",
+        )
+    })?;
+    let mesh = parse(&bytes)
+        .and_then(|raw| raw.into_mesh::<D>(options))
+        .map_err(|e| at(format!("mesh file `{name}`: {e}"), "the error is in the file, not in the scene"))?;
+    let mut mesh = match groups {
+        None => mesh,
+        Some(groups) => {
+            let mut blocks = Vec::new();
+            for group in groups.get_ref() {
+                let found = mesh.cell_sets.get(group.get_ref()).ok_or_else(|| {
+                    let known = mesh.cell_sets.keys().map(String::as_str);
+                    PlanError::at(
+                        group.span(),
+                        format!("the mesh file `{name}` has no cells in a group `{}`", group.get_ref()),
+                        suggest(group.get_ref(), what, known),
+                    )
+                })?;
+                blocks.extend_from_slice(found);
+            }
+            blocks.sort_unstable();
+            blocks.dedup();
+            part(&mesh, &blocks)
+        }
+    };
+    for surface in surfaces {
+        cut(&mut mesh, name, surface)?;
+    }
+    Ok(mesh)
+}
+
+fn cut<const D: usize>(mesh: &mut Mesh<D>, file: &str, name: &Spanned<String>) -> Result<(), PlanError> {
+    let known = || suggest(name.get_ref(), "sets", mesh.side_sets.keys().map(String::as_str));
+    let refuse = |message: String, help: String| PlanError::at(name.span(), message, help);
+    let mut surface = Surface::from_side_set(mesh, name.get_ref()).map_err(|_| {
+        refuse(format!("the mesh file `{file}` has no faces in a group `{}` here", name.get_ref()), known())
+    })?;
+    // A group between cells holds both sides of each face.
+    let mut seen = BTreeSet::new();
+    surface.faces.retain(|face| {
+        let mut nodes = face.clone();
+        nodes.sort_unstable();
+        seen.insert(nodes)
+    });
+    split(mesh, &[surface]).map(|_| ()).map_err(|e| {
+        refuse(
+            e.to_string(),
+            "a surface that is split lies inside the body and has cells on both sides".into(),
+        )
+    })
+}
+
+/// Some blocks of a mesh, with the nodes they use and those parts of the sets that touch them. A face between a block taken and
+/// one left out thus keeps the side that is taken.
+fn part<const D: usize>(mesh: &Mesh<D>, blocks: &[usize]) -> Mesh<D> {
+    let mut used = vec![false; mesh.nodes.len()];
+    blocks.iter().flat_map(|&b| &mesh.blocks[b].connectivity).for_each(|&n| used[n] = true);
+    let mut next = 0..;
+    let number: Vec<Option<usize>> = used.iter().map(|&u| if u { next.next() } else { None }).collect();
+    let new_block = |b: usize| blocks.binary_search(&b).ok();
+    fn kept<T>(sets: impl Iterator<Item = (String, Vec<T>)>) -> BTreeMap<String, Vec<T>> {
+        sets.filter(|(_, set)| !set.is_empty()).collect()
+    }
+    let sides = |set: &Vec<Side>| {
+        set.iter().filter_map(|s| new_block(s.block).map(|block| Side { block, ..*s })).collect()
+    };
+    Mesh {
+        nodes: mesh.nodes.iter().zip(&used).filter(|(_, used)| **used).map(|(x, _)| *x).collect(),
+        blocks: blocks
+            .iter()
+            .map(|&b| {
+                let Cells { kind, connectivity } = &mesh.blocks[b];
+                Cells { kind: *kind, connectivity: connectivity.iter().filter_map(|&n| number[n]).collect() }
+            })
+            .collect(),
+        side_sets: kept(mesh.side_sets.iter().map(|(name, set)| (name.clone(), sides(set)))),
+        cell_sets: kept(
+            mesh.cell_sets
+                .iter()
+                .map(|(name, set)| (name.clone(), set.iter().filter_map(|&b| new_block(b)).collect())),
+        ),
+        node_sets: kept(
+            mesh.node_sets
+                .iter()
+                .map(|(name, set)| (name.clone(), set.iter().filter_map(|&n| number[n]).collect())),
+        ),
+    }
+}

@@ -1,0 +1,389 @@
+//! The discrete model of a scene: one mesh of all bodies, and what each block of its cells is.
+
+pub mod materials;
+pub mod meshes;
+
+use crate::plan::PlanError;
+use crate::scene::model as scene;
+use crate::scene::near::suggest;
+use asperity_fem::FemError;
+use asperity_fem::block::{LinearBlock, von_mises};
+use asperity_fem::condense::Stiffness;
+use asperity_fem::kinematics::{Formulation, Idealisation};
+use asperity_fem::material::elastic::Elastic;
+use asperity_fem::mesh::{Mesh, Side};
+use asperity_fem::nonlinear::{self, Kinematics, Limits, Material};
+use asperity_fem::surface;
+use asperity_fem::term::{Limited, Linearized, Pattern};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// Cells of one kind and material as a term.
+#[derive(Clone, Debug)]
+pub enum CellBlock<const D: usize> {
+    /// Elastic, small strain.
+    Linear(Box<LinearBlock<D>>),
+    /// Anything else.
+    Nonlinear(Box<nonlinear::Block<D>>),
+}
+
+impl<const D: usize> CellBlock<D> {
+    /// The linear block, where it is one.
+    #[must_use]
+    pub fn linear(&self) -> Option<&LinearBlock<D>> {
+        match self {
+            Self::Linear(block) => Some(block),
+            Self::Nonlinear(_) => None,
+        }
+    }
+
+    /// As a term of an implicit step.
+    pub fn linearized(&mut self) -> &mut dyn Linearized {
+        match self {
+            Self::Linear(block) => block.as_mut(),
+            Self::Nonlinear(block) => block.as_mut(),
+        }
+    }
+
+    /// As a term of a forward step.
+    pub fn limited(&mut self) -> &mut dyn Limited {
+        match self {
+            Self::Linear(block) => block.as_mut(),
+            Self::Nonlinear(block) => block.as_mut(),
+        }
+    }
+
+    /// Its degrees of freedom, cell by cell.
+    #[must_use]
+    pub fn pattern(&self) -> &Pattern {
+        match self {
+            Self::Linear(block) => block.pattern(),
+            Self::Nonlinear(block) => block.pattern(),
+        }
+    }
+}
+
+/// A body of the model.
+#[derive(Debug)]
+pub struct Body<const D: usize> {
+    /// Name in the scene.
+    pub name: String,
+    /// Its nodes in the common mesh.
+    pub nodes: Range<usize>,
+    /// Its blocks of cells in the common mesh.
+    pub blocks: Range<usize>,
+    /// Elastic constants of each of its blocks.
+    pub elastic: Vec<Elastic>,
+    /// Element size h of a generated rectangular block: the largest edge of the bounding box of its first cell \[m\].
+    size: Option<f64>,
+    /// Nodes of each connected part, ascending; a body that is split right through has several.
+    pub parts: Vec<Vec<usize>>,
+    /// Why it is not linear; `None` when it is.
+    pub nonlinear: Option<&'static str>,
+}
+
+impl<const D: usize> Body<D> {
+    /// Degrees of freedom of the body in the common mesh.
+    #[must_use]
+    pub fn dofs(&self) -> Range<usize> {
+        self.nodes.start * D..self.nodes.end * D
+    }
+}
+
+/// Mesh and bodies of a scene.
+#[derive(Debug)]
+pub struct Model<const D: usize> {
+    /// All bodies in one mesh; sets are named `body.set`.
+    pub mesh: Mesh<D>,
+    /// What the blocks of the mesh are, in its order.
+    pub blocks: Vec<CellBlock<D>>,
+    /// The bodies, in the order of their names.
+    pub bodies: Vec<Body<D>>,
+    /// Idealisation of space: degree of freedom = node * D + component.
+    pub idealisation: Idealisation,
+    /// Diagonal of the bounding box \[m\].
+    pub scale: f64,
+}
+
+impl<const D: usize> Model<D> {
+    /// Makes or reads the meshes of a scene and the terms of its bodies.
+    ///
+    /// # Errors
+    /// [`PlanError`] naming the body whose mesh or material is not admissible.
+    pub fn new(scene: &scene::Scene) -> Result<Self, PlanError> {
+        let idealisation = scene.kinematics.get_ref().idealisation();
+        if idealisation.components() != D {
+            return Err(PlanError::at(
+                scene.kinematics.span(),
+                format!("bodies in {} do not exist", scene.kinematics.get_ref().words()),
+                "use \"plane-strain\", \"plane-stress\", \"axisymmetric\" or \"3d\"".into(),
+            ));
+        }
+        let mut mesh = Mesh::<D>::default();
+        let mut parts = Vec::new();
+        for (name, body) in &scene.bodies {
+            let part = meshes::of_body::<D>(scene, name, body)?;
+            let generated = matches!(body.mesh, scene::MeshSource::Block(_));
+            let size = generated.then(|| cell_size(&part, 0, 0));
+            let (nodes, blocks) = (mesh.nodes.len(), mesh.blocks.len());
+            mesh.append(part, name);
+            parts.push((name, body, (nodes..mesh.nodes.len(), blocks..mesh.blocks.len()), size));
+        }
+        let mut model =
+            Self { scale: diagonal(&mesh.nodes), mesh, blocks: Vec::new(), bodies: Vec::new(), idealisation };
+        for (name, body, (nodes, blocks), size) in parts {
+            let mut elastic = Vec::new();
+            for block in blocks.clone() {
+                let (_, material) = model.material(scene, (name, body), block)?;
+                elastic.push(materials::elastic(material)?);
+                model.blocks.push(cell_block(
+                    &model.mesh,
+                    block,
+                    scene,
+                    (name, body),
+                    material,
+                    idealisation,
+                )?);
+            }
+            let parts = connected(&model.mesh, nodes.clone(), blocks.clone());
+            let linear = model.blocks[blocks.clone()].iter().all(|b| b.linear().is_some());
+            let nonlinear = match (linear, body.is_finite()) {
+                (true, _) => None,
+                (false, true) => Some("large deformation is followed"),
+                (false, false) => Some("its material is not elastic"),
+            };
+            let name = name.to_string();
+            model.bodies.push(Body { name, nodes, blocks, elastic, size, parts, nonlinear });
+        }
+        Ok(model)
+    }
+
+    /// The material of a block of a body, with its name.
+    ///
+    /// # Errors
+    /// [`PlanError`] when its cells have none, or several.
+    pub fn material<'a>(
+        &self,
+        scene: &'a scene::Scene,
+        (name, body): (&str, &'a scene::Body),
+        block: usize,
+    ) -> Result<(&'a str, &'a scene::Material), PlanError> {
+        let prefix = format!("{name}.");
+        let of_block = |group: &str| self.mesh.cell_sets.get(group).is_some_and(|s| s.contains(&block));
+        let mut found: Option<(&str, (&'a str, &'a scene::Material))> = None;
+        for (group, material, place) in body.materials() {
+            let Some(group) = group else { return Ok((material, materials::find(scene, material, place)?)) };
+            if !self.mesh.cell_sets.contains_key(&format!("{prefix}{group}")) {
+                let known = self.mesh.cell_sets.keys().filter_map(|k| k.strip_prefix(&prefix));
+                return Err(PlanError::at(
+                    place,
+                    format!("body `{name}` has no cells in a group `{group}`"),
+                    suggest(group, "groups of its cells", known),
+                ));
+            }
+            if !of_block(&format!("{prefix}{group}")) {
+                continue;
+            }
+            if let Some((first, _)) = found {
+                return Err(PlanError::at(
+                    place,
+                    format!("cells of body `{name}` lie in both groups `{first}` and `{group}`"),
+                    "one material for each cell".into(),
+                ));
+            }
+            found = Some((group, (material, materials::find(scene, material, place)?)));
+        }
+        found.map(|f| f.1).ok_or_else(|| {
+            let groups: Vec<&str> =
+                self.mesh.cell_sets.keys().filter(|g| of_block(g)).map(String::as_str).collect();
+            let which =
+                if groups.is_empty() { "in no group".into() } else { format!("in {}", groups.join(", ")) };
+            PlanError::at(
+                body.material.span(),
+                format!("cells of body `{name}` {which} have no material"),
+                "name one for each group of cells".into(),
+            )
+        })
+    }
+
+    /// Degrees of freedom in all.
+    #[must_use]
+    pub fn dofs(&self) -> usize {
+        self.mesh.nodes.len() * D
+    }
+
+    /// Whether all bodies are linear.
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        self.bodies.iter().all(|b| b.nonlinear.is_none())
+    }
+
+    /// The stiffness of a linear body in its own numbering, for condensation; blocks that are not linear have none.
+    #[must_use]
+    pub fn stiffness(&self, body: &Body<D>) -> Stiffness {
+        let first = body.dofs().start;
+        let mut own = Pattern { dofs: Vec::new(), starts: vec![0], version: 0 };
+        let mut values = Vec::new();
+        for block in self.blocks[body.blocks.clone()].iter().filter_map(CellBlock::linear) {
+            let (pattern, offset) = (block.pattern(), own.dofs.len());
+            own.dofs.extend(pattern.dofs.iter().map(|d| d - first));
+            own.starts.extend(pattern.starts[1..].iter().map(|s| s + offset));
+            values.extend_from_slice(block.stiffness());
+        }
+        Stiffness { pattern: own, values, dofs: body.dofs().len() }
+    }
+
+    /// The faces of a set.
+    ///
+    /// # Errors
+    /// [`PlanError`] when the set does not exist, with those that do.
+    pub fn sides(&self, set: &scene::Spanned<String>) -> Result<&[Side], PlanError> {
+        self.mesh.side_sets.get(set.get_ref()).map(Vec::as_slice).ok_or_else(|| {
+            let known = self.mesh.side_sets.keys().map(String::as_str);
+            PlanError::at(
+                set.span(),
+                format!("there is no set `{}`", set.get_ref()),
+                suggest(set.get_ref(), "sets", known),
+            )
+        })
+    }
+
+    /// Index of the body a set belongs to, by the part of its name before the point.
+    #[must_use]
+    pub fn body_of(&self, set: &str) -> Option<usize> {
+        let name = set.split('.').next()?;
+        self.bodies.iter().position(|b| b.name == name)
+    }
+
+    /// Tributary areas of the nodes of faces \[m^(D-1); m² of the full circle about an axis\].
+    ///
+    /// # Errors
+    /// [`FemError::NodalAreas`] for faces in space of six or eight nodes, whose nodes cannot stand for areas.
+    pub fn tributary_areas(&self, sides: &[Side]) -> Result<BTreeMap<usize, f64>, FemError> {
+        for side in sides {
+            let kind = self.mesh.blocks[side.block].kind;
+            if D == 3 && matches!(kind.faces()[side.face].len(), 6 | 8) {
+                return Err(FemError::NodalAreas { element: kind.name() });
+            }
+        }
+        Ok(surface::areas(&self.mesh, sides, self.idealisation))
+    }
+
+    /// Young's modulus over element size behind the faces of a body \[Pa/m\]: of the first cell there, and for the size of a
+    /// generated block of the first cell of the block, of other meshes the mean of the cells at the faces.
+    #[must_use]
+    pub fn young_per_size(&self, body: &Body<D>, sides: &[Side]) -> f64 {
+        let first = sides.first().map_or(body.blocks.start, |s| s.block);
+        let young = body.elastic[first - body.blocks.start].young();
+        let size = body.size.unwrap_or_else(|| {
+            sides.iter().map(|s| cell_size(&self.mesh, s.block, s.cell)).sum::<f64>()
+                / sides.len().max(1) as f64
+        });
+        young / size
+    }
+}
+
+/// The one place where it is decided whether cells are linear.
+fn cell_block<const D: usize>(
+    mesh: &Mesh<D>,
+    block: usize,
+    scene: &scene::Scene,
+    (name, body): (&str, &scene::Body),
+    material: &scene::Material,
+    idealisation: Idealisation,
+) -> Result<CellBlock<D>, PlanError> {
+    let place = body.formulation.as_ref().map_or_else(|| body.material.span(), scene::Spanned::span);
+    let formulation = match body.formulation.as_ref().map(|f| *f.get_ref()) {
+        Some(scene::Formulation::BBar) => Formulation::BBar,
+        _ => Formulation::Standard,
+    };
+    if material.is_elastic() && !body.is_finite() {
+        let elastic = materials::elastic(material)?;
+        return LinearBlock::new(mesh, block, &elastic, idealisation, formulation)
+            .map(|b| CellBlock::Linear(Box::new(b)))
+            .map_err(|e| PlanError::body(name, place, e.to_string()));
+    }
+    let carry = *scene.time.stepper.get_ref() == scene::Stepper::StaticExplicit
+        && scene.time.carry.as_ref().is_none_or(|c| *c.get_ref());
+    let model = nonlinear::Model {
+        material: materials::behaviour(material)?,
+        idealisation,
+        kinematics: if body.is_finite() { Kinematics::UpdatedLagrangian } else { Kinematics::Small },
+        formulation,
+        limits: Limits::default(),
+        carry,
+    };
+    let mut term =
+        nonlinear::Block::new(mesh, block, model).map_err(|e| PlanError::body(name, place, e.to_string()))?;
+    if let (Some(stress), Some(given)) = (crate::loading::initial_stress(body), &body.initial_stress) {
+        admissible(&stress, &term.model().material)
+            .and_then(|()| term.prestress(|_, _| stress).map_err(|e| e.to_string()))
+            .map_err(|e| PlanError::body(name, given.span(), e))?;
+    }
+    Ok(CellBlock::Nonlinear(Box::new(term)))
+}
+
+/// Whether a material can bear a stress.
+fn admissible(stress: &[f64; 6], material: &Material) -> Result<(), String> {
+    let Material::J2(j2) = material else { return Ok(()) };
+    let (mises, limit) = (von_mises(stress), j2.hardening().at(0.0).stress);
+    if mises <= limit {
+        return Ok(());
+    }
+    Err(format!(
+        "the Mises stress {mises:.6e} Pa of the initial stress lies above the yield stress {limit:.6e} Pa"
+    ))
+}
+
+/// Nodes of each connected part of some blocks, in the order of their first nodes.
+fn connected<const D: usize>(mesh: &Mesh<D>, nodes: Range<usize>, blocks: Range<usize>) -> Vec<Vec<usize>> {
+    fn root(parent: &mut [usize], mut n: usize) -> usize {
+        while parent[n] != n {
+            parent[n] = parent[parent[n]];
+            n = parent[n];
+        }
+        n
+    }
+    let first = nodes.start;
+    let mut parent: Vec<usize> = (0..nodes.len()).collect();
+    for cells in &mesh.blocks[blocks] {
+        for cell in 0..cells.len() {
+            let cell = cells.cell(cell);
+            for &n in &cell[1..] {
+                let (a, b) = (root(&mut parent, cell[0] - first), root(&mut parent, n - first));
+                parent[a.max(b)] = a.min(b);
+            }
+        }
+    }
+    let mut parts: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for n in 0..nodes.len() {
+        parts.entry(root(&mut parent, n)).or_default().push(first + n);
+    }
+    parts.into_values().collect()
+}
+
+/// Largest extent of a cell along an axis \[m\].
+fn cell_size<const D: usize>(mesh: &Mesh<D>, block: usize, cell: usize) -> f64 {
+    let points: Vec<[f64; D]> = mesh.blocks[block].cell(cell).iter().map(|&n| mesh.nodes[n]).collect();
+    let (min, max) = bounds(&points);
+    (0..D).map(|c| max[c] - min[c]).fold(0.0, f64::max)
+}
+
+/// Corners of the bounding box.
+#[must_use]
+pub fn bounds<const D: usize>(points: &[[f64; D]]) -> ([f64; D], [f64; D]) {
+    let mut min = [f64::INFINITY; D];
+    let mut max = [f64::NEG_INFINITY; D];
+    for p in points {
+        for c in 0..D {
+            min[c] = min[c].min(p[c]);
+            max[c] = max[c].max(p[c]);
+        }
+    }
+    (min, max)
+}
+
+fn diagonal<const D: usize>(points: &[[f64; D]]) -> f64 {
+    let (min, max) = bounds(points);
+    (0..D).map(|c| (max[c] - min[c]).powi(2)).sum::<f64>().sqrt()
+}
