@@ -110,7 +110,9 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let renewed = self.fixed.as_ref() != Some(&stage.fixed);
         self.load_bodies(&constraints, renewed)?;
         self.constraints = self.in_system(&constraints);
-        if renewed {
+        // Bodies with a history do not go on as before when their loads turn: a stepper with the rate of the stage before would
+        // begin far off.
+        if renewed || !self.plan.model.is_linear() {
             self.stepper = Some(self.new_stepper());
             self.fixed = Some(stage.fixed.clone());
         }
@@ -132,9 +134,11 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let equations = self.constraints.equations(self.state.u.len());
         let system = System::new(equations, storage).with_symmetry(symmetry);
         match self.plan.stepping {
-            Stepping::Implicit { .. } => {
-                ActiveStepper::Implicit(Box::new(Implicit::new(system, self.position())))
-            }
+            Stepping::Implicit { .. } => ActiveStepper::Implicit(Box::new(Implicit::new(
+                system,
+                self.position(),
+                self.plan.model.scale,
+            ))),
             Stepping::StaticExplicit { .. } => {
                 ActiveStepper::StaticExplicit(Box::new(StaticExplicit::new(system)))
             }

@@ -317,7 +317,7 @@ fn the_thick_walled_cylinder_yields_from_the_inside() {
     assert!(outer(&elastic, 1).abs() < 1e-9 * lame);
     assert!(fields(&elastic).cell_plastic_strain.iter().all(|e| *e == 0.0));
     // Above it the plastic radius c of p = k (1 - c^2/b^2 + 2 ln(c/a)), which takes the axial stress for the mean of the
-    // others (Hill): 2 % off, and c by less than two of the cells.
+    // others (Hill): 2 % off, and c by less than a cell. What was plastic stays so when the pressure is gone.
     let (_, plastic) = simulate(text);
     let pressure = |c: f64| limit * (1.0 - c * c / (b * b) + 2.0 * (c / a).ln());
     let (mut low, mut high) = (a, b);
@@ -331,8 +331,8 @@ fn the_thick_walled_cylinder_yields_from_the_inside() {
     for ((_, cell), e) in mesh.cells.iter().zip(&fields(&plastic).cell_plastic_strain) {
         let (inner, end) =
             cell.iter().map(|&n| mesh.nodes[n][0]).fold((b, a), |(l, h), r| (l.min(r), h.max(r)));
-        assert!(end > low - 0.01 || *e > 0.0, "no plastic strain at {end}");
-        assert!(inner < low + 0.01 || *e == 0.0, "plastic strain at {inner}");
+        assert!(end > low - 0.005 || *e > 0.0, "no plastic strain at {end}");
+        assert!(inner < low + 0.005 || *e == 0.0, "plastic strain {e} at {inner}");
     }
 }
 

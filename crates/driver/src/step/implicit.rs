@@ -16,6 +16,9 @@ const PAIRING: usize = 3;
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// A step whose iteration needs more is better halved.
 const MOST_ITERATIONS: usize = 30;
+/// Displacements beyond so many sizes of the model, or of what is prescribed and predicted, are none: a body that flows without
+/// resistance runs away there, where rounding of its forces would pass for balance.
+const FARTHEST: f64 = 10.0;
 /// Halvings of the line search: beyond 2^-10 the direction itself is wrong.
 const MOST_HALVINGS: usize = 10;
 /// A step of length s is taken when it lowers the residual by this share of s (Armijo's rule with its usual constant).
@@ -32,15 +35,19 @@ pub struct Implicit {
     trial: Balance,
     /// Size of the positions gaps are differences of \[m\]; 0 where gaps are differences of displacements.
     position: f64,
+    /// Size of the model \[m\].
+    extent: f64,
     /// Displacement increment of the last accepted step and its length, for the prediction of the next.
     last: Option<(Vec<f64>, f64)>,
 }
 
 impl Implicit {
-    /// A stepper for `system`. Where terms work on current positions, `position` is their size \[m\], else 0.
+    /// A stepper for `system` of a model of size `extent` \[m\]. Where terms work on current positions, `position` is their
+    /// size \[m\], else 0.
     #[must_use]
-    pub fn new(system: System, position: f64) -> Self {
-        Self { system, balance: Balance::default(), trial: Balance::default(), position, last: None }
+    pub fn new(system: System, position: f64, extent: f64) -> Self {
+        let (balance, trial) = (Balance::default(), Balance::default());
+        Self { system, balance, trial, position, extent, last: None }
     }
 
     /// The linear system, for its counts.
@@ -102,6 +109,7 @@ impl Implicit {
         prepare(terms, u)?;
         self.evaluate(terms, u, at, counts)?;
         let mut best = f64::INFINITY;
+        let farthest = FARTHEST * self.extent.max(largest(u));
         for iteration in 0..MOST_ITERATIONS {
             let norm = self.norm()?;
             let ratio = norm / self.scale();
@@ -119,6 +127,10 @@ impl Implicit {
             }
             self.search(terms, u, &direction, at, counts)?;
             counts.iterations += 1;
+            if largest(u) > farthest {
+                let far = largest(u);
+                return Err(format!("the iteration runs away, to displacements of {far:.1e} m"));
+            }
         }
         Err(format!(
             "Newton's method did not converge in {MOST_ITERATIONS} iterations: residual over the largest force is {:.2e}",

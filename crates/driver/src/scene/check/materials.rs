@@ -5,6 +5,9 @@ use crate::model::materials::{behaviour, elastic};
 use crate::scene::model::{Hardening, Material, Plasticity, Spanned};
 use std::ops::Range;
 
+/// A parameter of hardening: its key, its place where it is given, and the kinds it belongs to.
+type Key = (&'static str, Option<Range<usize>>, &'static [Hardening]);
+
 impl Checker<'_> {
     pub(super) fn materials(&mut self) {
         for (name, material) in &self.scene.materials {
@@ -71,7 +74,7 @@ impl Checker<'_> {
     /// Which parameters belong to a hardening.
     fn plasticity(&mut self, name: &str, plasticity: &Spanned<Plasticity>) {
         let p = plasticity.get_ref();
-        let keys: [(&str, Option<Range<usize>>, &[Hardening]); 5] = [
+        let keys: [Key; 5] = [
             (
                 "yield",
                 p.initial.as_ref().map(Spanned::span),
