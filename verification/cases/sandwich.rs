@@ -88,8 +88,8 @@ pub fn base() -> Result<Scene, CaseError> {
 
 /// Changes the generator of a body.
 fn mesh_of<'a>(scene: &'a mut Scene, body: &str) -> &'a mut scene::model::BlockMesh {
-    let MeshSource::Block(mesh) =
-        &mut scene.bodies.get_mut(body).expect("the sandwich has bodies A and B").mesh;
+    let body = scene.bodies.get_mut(body).expect("the sandwich has bodies A and B");
+    let MeshSource::Block(mesh) = &mut body.mesh else { unreachable!("both are rectangular blocks") };
     mesh
 }
 
