@@ -32,10 +32,17 @@
 
 use crate::Case;
 
+pub mod body;
+mod cantilever_rotation;
 mod contact_patch;
+mod elastic_plastic_cylinder;
+mod forward_drift;
 mod friction_hard_numerics;
 mod friction_steady_state;
 mod friction_velocity_steps;
+mod jaumann_shear;
+mod large_rotation;
+mod maxwell_relaxation;
 pub mod sandwich;
 mod sandwich_3d;
 mod sandwich_pressed;
@@ -48,6 +55,8 @@ mod slider_orbit;
 mod slider_stability;
 mod slider_states;
 mod slider_work_precision;
+mod uniaxial_hardening;
+mod volumetric_path;
 
 /// Every case, in the order of the report.
 pub const ALL: &[Case] = &[
@@ -65,4 +74,13 @@ pub const ALL: &[Case] = &[
     slider_stability::CASE,
     slider_states::CASE,
     slider_work_precision::CASE,
+    // Nonlinear bodies.
+    cantilever_rotation::CASE,
+    elastic_plastic_cylinder::CASE,
+    forward_drift::CASE,
+    jaumann_shear::CASE,
+    large_rotation::CASE,
+    maxwell_relaxation::CASE,
+    uniaxial_hardening::CASE,
+    volumetric_path::CASE,
 ];

@@ -31,6 +31,14 @@ capabilities! {
     Quadrilaterals => "elements quad4, quad9",
     /// Linear hexahedra and tetrahedra.
     Solids => "elements hex8, tet4",
+    /// J2 plasticity with hardening.
+    Plasticity => "J2 plasticity",
+    /// Updated Lagrangian bodies with the Jaumann rate of the Kirchhoff stress.
+    FiniteStrain => "large strain and rotation",
+    /// Maxwell materials.
+    Viscoelasticity => "viscoelasticity",
+    /// Forward steps of bodies and their limits r1, r2, r3.
+    BodyLimits => "forward steps of nonlinear bodies",
     /// Dirichlet conditions, ramps, holds, symmetry planes and stages.
     Stages => "prescribed displacements and stages",
     /// Traction, pressure, body force, initial stress.
