@@ -68,11 +68,14 @@ fn driven(
     Ok(([s[3], (s[0] + s[1] + s[2]) / 3.0], body.work))
 }
 
+/// Makes a material.
+type Make<'a> = &'a dyn Fn() -> Result<Material, CaseError>;
+
 fn strains(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (jump, rate) = ([0.02, 0.03], 0.01);
     let grown = |x: f64| 1.0 - (-x).exp();
     let held = |time: f64, t: f64| (-t / time).exp();
-    let cases: [(&str, &dyn Fn() -> Result<Material, CaseError>, f64, f64, f64); 4] = [
+    let cases: [(&str, Make<'_>, f64, f64, f64); 4] = [
         (
             "Maxwell, strain held for 2.5 relaxation times",
             &fluid,

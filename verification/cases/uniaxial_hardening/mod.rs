@@ -80,13 +80,15 @@ impl<'a> Bar<'a> {
     }
 }
 
+/// What [`stretched`] returns.
+type Stretched = (Vec<Vec<[f64; 2]>>, f64, Work);
+
+/// A run of one idealisation.
+type Run<'a> = Box<dyn Fn() -> Result<Stretched, CaseError> + 'a>;
+
 /// Takes a box through axial strains; returns axial stress and plastic strain at every point after each, and the largest of the
 /// other components.
-fn stretched<const D: usize>(
-    mesh: Mesh<D>,
-    options: Model,
-    axis: usize,
-) -> Result<(Vec<Vec<[f64; 2]>>, f64, Work), CaseError> {
+fn stretched<const D: usize>(mesh: Mesh<D>, options: Model, axis: usize) -> Result<Stretched, CaseError> {
     let planes = &["left", "bottom", "back"][..D];
     let end = body::side(&mesh, ["right", "top"][axis])?;
     let mut held = Vec::new();
@@ -119,7 +121,7 @@ fn small(ledger: &mut Ledger, name: &str, hardening: &Hardening) -> Result<(), C
         let cube = body::grid::<3>(ElementKind::Hex8, [0.0; 3], [1.0; 3], [2; 3])?;
         Ok::<_, CaseError>(body::distorted(cube, [1.0; 3], 0.5, 0.2))
     };
-    let runs: [(&str, Box<dyn Fn() -> Result<_, CaseError>>); 3] = [
+    let runs: [(&str, Run<'_>); 3] = [
         ("hex8", Box::new(|| stretched::<3>(cube()?, options(Idealisation::ThreeD)?, 0))),
         (
             "plane stress, quad4",
