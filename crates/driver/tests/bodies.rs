@@ -342,3 +342,45 @@ fn cooks_membrane_rises_as_it_should() {
     let tip = displacements(&record, |x| x[0] > 47.99 && (x[1] - 52.0).abs() < 1e-9);
     close(tip[0].1[1], 23.96, 2e-3);
 }
+
+/// Two layers of a mixed mesh, both plastic, one pressed on the other.
+const LAYERS: &str = r#"
+schema = 1
+title = "plastic layers in contact"
+kinematics = "plane-strain"
+[materials.rock]
+young = "10 GPa"
+poisson = 0.25
+plasticity = { yield = "20 MPa", hardening = "linear", modulus = "1 GPa" }
+[bodies.A]
+mesh.gmsh = { file = "mixed.msh", groups = ["lower"] }
+material = "rock"
+[bodies.B]
+mesh.gmsh = { file = "mixed.msh", groups = ["upper"] }
+material = "rock"
+[interfaces.f]
+slave = "A.fault"
+master = "B.fault"
+measure = "node-to-point"
+sliding = "small"
+enforcement = { kind = "penalty", normal = "100 E/h", tangential = "100 E/h" }
+law = { kind = "coulomb", mu = 0.3 }
+[[stages]]
+name = "press"
+duration = "1 s"
+conditions = [{ set = "A.bottom", x = 0, y = 0 }, { set = "B.top", x = 0, y = { to = "-5 mm" } }]
+[time]
+stepper = "static-explicit"
+max_step = 0.02
+"#;
+
+#[test]
+fn forward_steps_of_plastic_bodies_in_contact_reach_the_implicit_traction() {
+    let mean = |text: &str| {
+        let (report, _) = simulate(text);
+        assert!(planned(text).summary().path.starts_with("full"));
+        report.results[0].mean_normal_traction
+    };
+    let implicit = LAYERS.replace("static-explicit", "implicit");
+    close(mean(LAYERS), mean(&implicit), 1e-3);
+}

@@ -303,8 +303,10 @@ fn cell_block<const D: usize>(
             .map(|b| CellBlock::Linear(Box::new(b)))
             .map_err(|e| PlanError::body(name, place, e.to_string()));
     }
+    // A carried force changes stresses in steps of any length, so that a point close to its yield surface would cross it in all of
+    // them and the step vanish: bodies carry only when the scene says so.
     let carry = *scene.time.stepper.get_ref() == scene::Stepper::StaticExplicit
-        && scene.time.carry.as_ref().is_none_or(|c| *c.get_ref());
+        && scene.time.carry.as_ref().is_some_and(|c| *c.get_ref());
     let model = nonlinear::Model {
         material: materials::behaviour(material)?,
         idealisation,
