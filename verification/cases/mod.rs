@@ -32,15 +32,21 @@
 
 use crate::Case;
 
+pub mod bodies;
+mod bodies_convergence;
+mod bodies_patch;
 pub mod body;
 mod cantilever_rotation;
 mod contact_patch;
+mod cook_membrane;
 mod elastic_plastic_cylinder;
+mod flamant_boussinesq;
 mod forward_drift;
 mod friction_hard_numerics;
 mod friction_steady_state;
 mod friction_velocity_steps;
 mod jaumann_shear;
+mod lame_cylinder;
 mod large_rotation;
 mod maxwell_relaxation;
 pub mod sandwich;
@@ -60,10 +66,15 @@ mod volumetric_path;
 
 /// Every case, in the order of the report.
 pub const ALL: &[Case] = &[
+    bodies_convergence::CASE,
+    bodies_patch::CASE,
     contact_patch::CASE,
+    cook_membrane::CASE,
+    flamant_boussinesq::CASE,
     friction_hard_numerics::CASE,
     friction_steady_state::CASE,
     friction_velocity_steps::CASE,
+    lame_cylinder::CASE,
     sandwich_3d::CASE,
     sandwich_pressed::CASE,
     sandwich_sheared::CASE,

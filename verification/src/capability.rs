@@ -23,6 +23,12 @@ macro_rules! capabilities {
 capabilities! {
     /// Linear elasticity in plane strain.
     PlaneStrain => "plane-strain elasticity",
+    /// Linear elasticity in plane stress.
+    PlaneStress => "plane-stress elasticity",
+    /// Linear elasticity about an axis of revolution.
+    Axisymmetric => "axisymmetric elasticity",
+    /// Antiplane elasticity.
+    Antiplane => "antiplane elasticity",
     /// Linear elasticity in three dimensions.
     Solid3d => "three-dimensional elasticity",
     /// Linear and quadratic triangles.
@@ -31,6 +37,14 @@ capabilities! {
     Quadrilaterals => "elements quad4, quad9",
     /// Linear hexahedra and tetrahedra.
     Solids => "elements hex8, tet4",
+    /// Quadrilaterals and hexahedra without nodes inside.
+    Serendipity => "elements quad8, hex20",
+    /// Quadratic solids that hold all quadratic polynomials.
+    QuadraticSolids => "elements tet10, hex27",
+    /// Prisms.
+    Wedges => "elements wedge6, wedge15",
+    /// B-bar and mean pressure.
+    NearlyIncompressible => "nearly incompressible bodies (B-bar)",
     /// J2 plasticity with hardening.
     Plasticity => "J2 plasticity",
     /// Updated Lagrangian bodies with the Jaumann rate of the Kirchhoff stress.
