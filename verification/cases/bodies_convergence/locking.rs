@@ -23,7 +23,13 @@ pub fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         for formulation in Formulation::ALL {
             let levels = POISSON
                 .iter()
-                .map(|&nu| if kind.dimension() == 2 { at::<2>(kind, formulation, nu) } else { at::<3>(kind, formulation, nu) })
+                .map(|&nu| {
+                    if kind.dimension() == 2 {
+                        at::<2>(kind, formulation, nu)
+                    } else {
+                        at::<3>(kind, formulation, nu)
+                    }
+                })
                 .collect::<Result<Vec<Level>, _>>()?;
             let points: Vec<(f64, f64)> =
                 POISSON.iter().zip(&levels).map(|(nu, l)| (1.0 - 2.0 * nu, l.errors[0])).collect();
@@ -48,7 +54,10 @@ fn at<const D: usize>(kind: ElementKind, formulation: Formulation, nu: f64) -> R
     bodies::level(1.0 / n as f64, kind, (space, formulation), &field, |kind, formulation| {
         let mesh = bodies::distorted(kind, n, Shape::Mapped, [0.0; D])?;
         let body = Body::new(mesh, &material, space, formulation)?;
-        Ok(body.hold(&["left", "bottom", "back"], &field).pull(&["right", "top", "front"], &field).weigh(&field))
+        Ok(body
+            .hold(&["left", "bottom", "back"], &field)
+            .pull(&["right", "top", "front"], &field)
+            .weigh(&field))
     })
 }
 
@@ -62,18 +71,19 @@ fn enter(
     let growth = last.errors[0] / first.errors[0];
     let covers = [Capability::NearlyIncompressible, capability(kind)];
     let space = Idealisation::of_dimension(kind.dimension());
+    let dilatation = formulation.dilatation(kind, space)?;
     let draft = ledger
         .claim(format!("{}, {}: L2 error at nu = 0.4999999 over that at 0.3", kind.name(), formulation.name()))
         .value(growth)
         .evidence(Evidence::Manufactured, "waves whose dilatation is of the order G/lambda")
         .covers(&covers)
         .cost(&last.cost);
-    match formulation.dilatation(kind, space)? {
+    match dilatation {
         None if kind.order() == 1 => draft
-            .at_least(100.0)
+            .at_least(10.0)
             .because(
-                "control: a standard element of first order locks, its error tends to that of no motion at all, 100 \
-                 times the 1 % and less of a compressible body on this mesh",
+                "control: a standard element of first order locks; an order of magnitude on the mesh on which B-bar is \
+                 claimed to lose nothing",
             )
             .record(),
         // Second order without projection: between the two, shown in the plot.

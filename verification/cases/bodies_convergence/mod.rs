@@ -3,7 +3,7 @@
 mod fields;
 mod locking;
 
-use super::bodies::{self, Body, CEA, CEA_REASON, Field, Level, Orders, Shape};
+use super::bodies::{self, Body, Field, Level, Orders, Shape};
 use super::bodies_patch::{capability, variants};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
@@ -48,7 +48,9 @@ impl Plots {
         let both = |make: &dyn Fn(&str) -> Plot| [make("in plane strain"), make("in space")];
         let error = "relative error of the displacement gradient, H1";
         Self {
-            unknowns: both(&|d| Plot::work_precision(format!("Elements {d}: error and unknowns"), error, "unknowns")),
+            unknowns: both(&|d| {
+                Plot::work_precision(format!("Elements {d}: error and unknowns"), error, "unknowns")
+            }),
             wall: both(&|d| {
                 Plot::work_precision(
                     format!("Elements {d}: error and time"),
@@ -120,9 +122,19 @@ fn study<const D: usize>(
     shape: Shape,
 ) -> Result<Vec<Level>, CaseError> {
     let material = Elastic::new(YOUNG, 0.3)?;
+    let (space, formulation) = variant;
+    let mean_pressure = formulation.dilatation(kind, space)? == Some(Dilatation::ConstantPressure);
     let sizes = match (D, kind.order()) {
         (2, 1) => [16, 32, 64],
         (2, _) => [8, 16, 32],
+        // With a mean pressure and no node inside their faces they come to their order late.
+        (_, 2) if mean_pressure => {
+            if kind == ElementKind::Tet10 {
+                [6, 9, 13]
+            } else {
+                [7, 10, 15]
+            }
+        }
         (_, 1) => [5, 8, 13],
         _ => [4, 6, 9],
     };
@@ -165,9 +177,8 @@ fn orders(
         expected,
         within: [0.1, 0.1],
         or_better,
-        factor: CEA,
+        loaded: false,
         because: because.into(),
-        factor_because: CEA_REASON.into(),
         covers: vec![space_capability(space), capability(kind)],
         evidence: (Evidence::Manufactured, "waves; u_r = r^3 sin 2z, u_z = r^2 cos 2z about an axis"),
     })

@@ -139,7 +139,9 @@ fn element<const D: usize>(ledger: &mut Ledger, kind: ElementKind, lower: [f64; 
             .value(found.iter().map(|f| f.1).fold(0.0, f64::max))
             .at_most(1e-13)
             .evidence(Evidence::Exact, "rigid motions have no strain")
-            .because("sums over at most 81 products of entries and positions of order one: 81 * 2.2e-16 = 2e-14")
+            .because(
+                "sums over at most 81 products of entries and positions of order one: 81 * 2.2e-16 = 2e-14",
+            )
             .why_not_tighter("signs of rounding differ, so that sums stay below their bound")
             .covers(&covers)
             .cost(&cost)
@@ -185,7 +187,7 @@ fn spectrum<const D: usize>(
     }
     let block = LinearBlock::new(&mesh, 0, material, space, formulation)?;
     let dofs = mesh.nodes.len() * space.components();
-    let mut k = DMatrix::zeros(dofs, dofs);
+    let mut k = DMatrix::<f64>::zeros(dofs, dofs);
     let mut values = block.stiffness().iter();
     for cell in block.pattern().blocks() {
         for (&i, &j) in cell.iter().flat_map(|i| cell.iter().map(move |j| (i, j))) {
