@@ -89,6 +89,9 @@ const VARIANTS: [Variant; 3] = [
 /// of order 2 and, at first, of the size of the singular one; they get the last mesh, too.
 const SIZES: [usize; 5] = [8, 16, 32, 64, 128];
 
+/// Elements along an edge, displacement at the two places, cost.
+type Run = (usize, [f64; 2], Cost);
+
 /// Meshes of an element.
 fn sizes(
     variant: &Variant,
@@ -171,9 +174,14 @@ fn converging(ledger: &mut Ledger, variant: &Variant) -> Result<(), CaseError> {
     .log_log();
     for &element in variant.elements {
         let meshes = sizes(variant, element)?;
-        let runs = meshes.iter().map(|&n| tip(variant, element, n)).collect::<Result<Vec<_>, _>>()?;
+        let run = |&n: &usize| tip(variant, element, n).map(|(tip, cost)| (n, tip, cost));
+        let runs = meshes.iter().map(run).collect::<Result<Vec<Run>, _>>()?;
         let name = format!("{}, {}, {}", variant.name, element.0.name(), element.1.name());
-        let points = order(ledger, variant, &name, element, lambda, &runs);
+        let points = if cancels(variant, element) {
+            relative(variant, &runs)
+        } else {
+            order(ledger, variant, &name, element, lambda, &runs)
+        };
         plot = plot.series(Series::marked(format!("{}, {}", element.0.name(), element.1.name()), &points));
         finest(ledger, variant, &name, element, lambda, &runs);
     }
@@ -193,6 +201,18 @@ fn covers(variant: &Variant, (kind, formulation): (ElementKind, Formulation)) ->
     covers
 }
 
+/// Whether the regular and the singular part of the error at (48, 52) have opposite signs and cancel on one of the meshes: then
+/// neither an order nor an estimate from two meshes means anything there.
+fn cancels(variant: &Variant, element: (ElementKind, Formulation)) -> bool {
+    variant.poisson > 0.49 && element == (ElementKind::Quad8, Formulation::BBar)
+}
+
+/// Element size and relative error at (48, 52).
+fn relative(variant: &Variant, runs: &[Run]) -> Vec<(f64, f64)> {
+    let error = |tip: &[f64; 2]| (tip[1] / variant.reference[1] - 1.0).abs();
+    runs.iter().map(|(n, tip, _)| (1.0 / *n as f64, error(tip))).collect()
+}
+
 /// Order at (48, 52), whose reference is the sharper one. Returns the points of the plot.
 fn order(
     ledger: &mut Ledger,
@@ -200,14 +220,11 @@ fn order(
     name: &str,
     element: (ElementKind, Formulation),
     lambda: f64,
-    runs: &[([f64; 2], Cost)],
+    runs: &[Run],
 ) -> Vec<(f64, f64)> {
-    let points: Vec<(f64, f64)> = SIZES
-        .iter()
-        .zip(runs)
-        .map(|(&n, (tip, _))| (1.0 / n as f64, (tip[1] / variant.reference[1] - 1.0).abs()))
-        .collect();
-    let Some((_, cost)) = runs.last() else { return points };
+    let points = relative(variant, runs);
+    let Some((n, _, cost)) = runs.last() else { return points };
+    let n = *n as f64;
     let first_order = element.0.order() == 1;
     let mut draft = ledger
         .order(format!("displacement at (48, 52), {name}"))
@@ -226,7 +243,7 @@ fn order(
         )
         .finest(
             // A bending beam of n elements in height: the regular part, of order h², with the constant of a cubic.
-            if first_order { 16.0 / (64.0 * 64.0) } else { 64.0_f64.powf(-2.0 * lambda) },
+            if first_order { 16.0 / (n * n) } else { n.powf(-2.0 * lambda) },
             "(h/L)^(2 lambda) with constant one for second order; for first order 16 (h/L)^2, the square of the aspect of \
              the panel in elements of its mean height, and the corner's part beside it",
         )
@@ -244,14 +261,15 @@ fn finest(
     name: &str,
     element: (ElementKind, Formulation),
     lambda: f64,
-    runs: &[([f64; 2], Cost)],
+    runs: &[Run],
 ) {
-    let [.., (coarse, _), (fine, cost)] = runs else { return };
+    let [.., (_, coarse, _), (n, fine, cost)] = runs else { return };
     let ratio = 2.0_f64.powf(2.0 * lambda) - 1.0;
-    for (k, place) in ["(48, 60)", "(48, 52)"].into_iter().enumerate() {
+    let places = if cancels(variant, element) { 1 } else { 2 };
+    for (k, place) in ["(48, 60)", "(48, 52)"].into_iter().enumerate().take(places) {
         let estimate = (fine[k] - coarse[k]).abs() / ratio;
         ledger
-            .claim(format!("vertical displacement at {place}, {name}, 64 x 64"))
+            .claim(format!("vertical displacement at {place}, {name}, {n} x {n}"))
             .value(fine[k])
             .equals(variant.reference[k])
             .absolute(1.5 * estimate + variant.uncertainty[k])
