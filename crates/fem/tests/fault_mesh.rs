@@ -213,7 +213,7 @@ fn the_row_through_a_bend_leaves_along_the_bisector() {
 
 #[test]
 fn every_element_has_its_nodes_and_pairs() {
-    let kinds = [(ElementKind::Quad4, 1), (ElementKind::Quad9, 2)];
+    let kinds = [(ElementKind::Quad4, 1), (ElementKind::Quad8, 2), (ElementKind::Quad9, 2)];
     for (kind, per) in kinds {
         for start in [0.0, -10.0] {
             let input = FaultMesh { kind, ..input(trace([0.0, start], &[(12.0, 60.0), (8.0, 80.0)])) };
@@ -229,15 +229,16 @@ fn every_element_has_its_nodes_and_pairs() {
 
 #[test]
 fn nodes_of_second_order_lie_in_the_middle() {
-    let input = FaultMesh { kind: ElementKind::Quad9, ..input(trace([0.0, 0.0], &[(20.0, 40.0)])) };
-    let mesh = input.mesh().unwrap().mesh;
-    for cell in 0..mesh.blocks[0].len() {
-        let nodes = mesh.blocks[0].cell(cell);
-        for (a, xi) in ElementKind::Quad9.node_coordinates().iter().enumerate() {
-            let s = ElementKind::Quad4.shape(*xi);
-            for c in 0..2 {
-                let x: f64 = (0..4).map(|b| s.n[b] * mesh.nodes[nodes[b]][c]).sum();
-                assert!((x - mesh.nodes[nodes[a]][c]).abs() < 1e-10 * 200.0);
+    for kind in [ElementKind::Quad8, ElementKind::Quad9] {
+        let mesh = FaultMesh { kind, ..input(trace([0.0, 0.0], &[(20.0, 40.0)])) }.mesh().unwrap().mesh;
+        for cell in 0..mesh.blocks[0].len() {
+            let nodes = mesh.blocks[0].cell(cell);
+            for (a, xi) in kind.node_coordinates().iter().enumerate() {
+                let s = ElementKind::Quad4.shape(*xi);
+                for c in 0..2 {
+                    let x: f64 = (0..4).map(|b| s.n[b] * mesh.nodes[nodes[b]][c]).sum();
+                    assert!((x - mesh.nodes[nodes[a]][c]).abs() < 1e-14 * 200.0);
+                }
             }
         }
     }

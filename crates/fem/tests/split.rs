@@ -135,7 +135,7 @@ fn a_buried_fault_opens_as_one_slit_with_single_tips() {
         let on = faces(&mesh, |x| near(x[0], 0.5) && (0.2..0.8).contains(&x[1]));
         assert_eq!(on.len(), 4);
         let faults = split(&mut mesh, &[surface("f", on, [1.0, 0.0])]).unwrap();
-        let second = usize::from(matches!(kind, ElementKind::Tri6 | ElementKind::Quad9));
+        let second = kind.order() - 1;
         assert_eq!(mesh.nodes.len(), before.nodes.len() + 3 + 4 * second, "{kind:?}");
         check_sides(&mesh, &faults[0]);
         let tips: Vec<bool> = faults[0].pairs.iter().map(Pair::is_tip).collect();
@@ -233,8 +233,7 @@ fn crossing_faults_split_their_common_node_into_four_and_a_branch_into_three() {
             let before = mesh.nodes.len();
             let a = faces(&mesh, |x| near(x[0], 0.5) && inside(x[1]));
             let b = faces(&mesh, |x| near(x[1], 0.5) && inside(x[0]) && (!branch || x[0] < 0.51));
-            let second =
-                if matches!(kind, ElementKind::Tri6 | ElementKind::Quad9) { a.len() + b.len() } else { 0 };
+            let second = (kind.order() - 1) * (a.len() + b.len());
             let faults =
                 split(&mut mesh, &[surface("a", a, [1.0, 0.0]), surface("b", b.clone(), [0.0, 1.0])])
                     .unwrap();
@@ -285,7 +284,7 @@ fn a_closed_surface_frees_an_inclusion() {
 
 #[test]
 fn in_space_the_tip_line_stays_whole_and_the_slit_is_one_cavity() {
-    for kind in [ElementKind::Hex8, ElementKind::Tet4] {
+    for kind in [ElementKind::Hex8, ElementKind::Tet4, ElementKind::Wedge6] {
         let mut mesh = cube(kind, 4);
         let before = mesh.nodes.len();
         let on =
@@ -419,7 +418,7 @@ proptest! {
     fn splitting_does_not_depend_on_the_order_of_cells(
         keys in proptest::collection::vec(any::<u32>(), 7),
         cut in proptest::collection::vec(any::<bool>(), 3..30),
-        kind in 0..4_usize,
+        kind in 0..PLANE.len(),
     ) {
         let mut mesh = square(PLANE[kind], 6);
         mesh.side_sets.clear();

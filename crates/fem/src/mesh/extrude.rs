@@ -147,15 +147,14 @@ struct Template {
 impl Template {
     /// Matches the elements' natural coordinates: (ξ, η) are those of the plane element, ζ runs upwards.
     fn of(plane: ElementKind) -> Result<Self, ExtrudeError> {
-        let name = match plane.name() {
-            "tri3" => "wedge6",
-            "tri6" => "wedge15",
-            "quad4" => "hex8",
-            "quad8" => "hex20",
-            "quad9" => "hex27",
-            other => return Err(ExtrudeError::Element(other)),
+        let kind = match plane {
+            ElementKind::Tri3 => ElementKind::Wedge6,
+            ElementKind::Tri6 => ElementKind::Wedge15,
+            ElementKind::Quad4 => ElementKind::Hex8,
+            ElementKind::Quad8 => ElementKind::Hex20,
+            ElementKind::Quad9 => ElementKind::Hex27,
+            other => return Err(ExtrudeError::Element(other.name())),
         };
-        let kind: ElementKind = name.parse().map_err(|_| ExtrudeError::Element(plane.name()))?;
         let nodes = (kind.node_coordinates().iter())
             .map(|xi| {
                 let same = |p: &[f64; 3]| p[0] == xi[0] && p[1] == xi[1];

@@ -1,6 +1,7 @@
 //! What a fault mesh asks of its input.
 
 use super::{FaultMesh, FaultMeshError, Spacing};
+use crate::element::ElementKind;
 
 /// Part of the box within which a tip counts as lying on its bottom or top, and of the fault within which a node counts as
 /// lying on a vertex: rounding of decimal input.
@@ -41,9 +42,8 @@ pub(super) fn trace(input: &FaultMesh) -> Result<Vec<[f64; 2]>, FaultMeshError> 
 }
 
 fn values(input: &FaultMesh) -> Result<(), FaultMeshError> {
-    let kind = input.kind.name();
-    if !matches!(kind, "quad4" | "quad8" | "quad9") {
-        return Err(FaultMeshError::Element(kind));
+    if !matches!(input.kind, ElementKind::Quad4 | ElementKind::Quad8 | ElementKind::Quad9) {
+        return Err(FaultMeshError::Element(input.kind.name()));
     }
     let positive = "a positive number of metres";
     let least_one = "at least 1 (1.05 to 1.5 are usual)";

@@ -1,6 +1,5 @@
 //! Shape of plane cells.
 
-use crate::element::ElementKind;
 use crate::mesh::Mesh;
 
 /// Smallest and mean scaled Jacobian of a mesh.
@@ -38,7 +37,7 @@ pub fn quality(mesh: &Mesh<2>) -> Quality {
     let mut quality = Quality { min: f64::INFINITY, mean: 0.0, worst: (0, 0) };
     let mut count = 0.0;
     for (block, cells) in mesh.blocks.iter().enumerate() {
-        let corners = if matches!(cells.kind, ElementKind::Tri3 | ElementKind::Tri6) { 3 } else { 4 };
+        let corners = cells.kind.corners();
         let mut x = [[0.0; 2]; 4];
         for cell in 0..cells.len() {
             for (x, &node) in x.iter_mut().zip(&cells.cell(cell)[..corners]) {
