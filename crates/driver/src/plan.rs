@@ -459,7 +459,7 @@ fn summary<const D: usize>(
     Summary {
         physics,
         path: path_text,
-        stepper: describe(stepping, !model.is_linear()),
+        stepper: describe(stepping, !model.is_linear(), !interfaces.is_empty()),
         remarks,
         dofs: model.dofs(),
         system_dofs,
@@ -528,13 +528,19 @@ fn bodies_in_words<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<Strin
     let several = lines.len() > 1;
     let line = |(text, bodies, cells): (String, Vec<&str>, usize)| {
         let names = if several { format!(": {}", bodies.join(", ")) } else { String::new() };
-        format!("{text}, {space} ({} bodies, {cells} cells{names})", bodies.len())
+        format!("{text}, {space} ({}, {cells} cells{names})", counted(bodies.len(), "body", "bodies"))
     };
     lines.into_iter().map(line).collect()
 }
 
-fn describe(stepping: &Stepping, limits: bool) -> String {
+/// A number with its noun.
+fn counted(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
+}
+
+fn describe(stepping: &Stepping, limits: bool, slips: bool) -> String {
     match stepping {
+        Stepping::Implicit { .. } if !slips => "implicit: Newton with line search".into(),
         Stepping::Implicit { rule: Rule::BackwardEuler } => {
             "implicit: Newton with line search, backward Euler in slip, steps adapted to the error of slip"
                 .into()

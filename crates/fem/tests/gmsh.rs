@@ -362,13 +362,15 @@ fn a_count_of_a_header_is_bounded_before_anything_is_made_of_it() {
 /// For each node beyond the corners, in the order of VTK, the corners in whose middle it lies.
 fn middles(shape: Shape) -> &'static [&'static [usize]] {
     match shape {
-        Shape::Tet10 => &[&[0, 1], &[1, 2], &[2, 0], &[0, 3], &[1, 3], &[2, 3]],
-        Shape::Wedge15 => &[&[0, 1], &[1, 2], &[2, 0], &[3, 4], &[4, 5], &[5, 3], &[0, 3], &[1, 4], &[2, 5]],
-        Shape::Hex20 => &HEX27_MIDDLES[..12],
-        Shape::Hex27 => &HEX27_MIDDLES,
-        Shape::Quad8 => &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
-        Shape::Quad9 => &[&[0, 1], &[1, 2], &[2, 3], &[3, 0], &[0, 1, 2, 3]],
-        Shape::Tri6 => &[&[0, 1], &[1, 2], &[2, 0]],
+        Shape::Cell(ElementKind::Tet10) => &[&[0, 1], &[1, 2], &[2, 0], &[0, 3], &[1, 3], &[2, 3]],
+        Shape::Cell(ElementKind::Wedge15) => {
+            &[&[0, 1], &[1, 2], &[2, 0], &[3, 4], &[4, 5], &[5, 3], &[0, 3], &[1, 4], &[2, 5]]
+        }
+        Shape::Cell(ElementKind::Hex20) => &HEX27_MIDDLES[..12],
+        Shape::Cell(ElementKind::Hex27) => &HEX27_MIDDLES,
+        Shape::Cell(ElementKind::Quad8) => &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
+        Shape::Cell(ElementKind::Quad9) => &[&[0, 1], &[1, 2], &[2, 3], &[3, 0], &[0, 1, 2, 3]],
+        Shape::Cell(ElementKind::Tri6) => &[&[0, 1], &[1, 2], &[2, 0]],
         _ => &[],
     }
 }
@@ -399,22 +401,22 @@ const HEX27_MIDDLES: [&[usize]; 19] = [
 #[test]
 fn mid_nodes_of_a_file_lie_between_their_corners_in_the_order_of_vtk() {
     for (name, shape) in [
-        ("unit_tri6.msh", Shape::Tri6),
-        ("unit_quad8.msh", Shape::Quad8),
-        ("good_2d_quad8_shared_ascii.msh", Shape::Quad8),
-        ("unit_quad9.msh", Shape::Quad9),
-        ("unit_tet10.msh", Shape::Tet10),
-        ("unit_tet10_v22_binary.msh", Shape::Tet10),
-        ("unit_tet10.inp", Shape::Tet10),
-        ("good_3d_tet10_shared_binary.msh", Shape::Tet10),
-        ("unit_hex20.msh", Shape::Hex20),
-        ("unit_hex20_v22_binary.msh", Shape::Hex20),
-        ("unit_hex20.inp", Shape::Hex20),
-        ("unit_hex27.msh", Shape::Hex27),
-        ("unit_hex27.inp", Shape::Hex27),
-        ("unit_wedge15.msh", Shape::Wedge15),
-        ("unit_wedge15_v22_binary.msh", Shape::Wedge15),
-        ("unit_wedge15.inp", Shape::Wedge15),
+        ("unit_tri6.msh", Shape::Cell(ElementKind::Tri6)),
+        ("unit_quad8.msh", Shape::Cell(ElementKind::Quad8)),
+        ("good_2d_quad8_shared_ascii.msh", Shape::Cell(ElementKind::Quad8)),
+        ("unit_quad9.msh", Shape::Cell(ElementKind::Quad9)),
+        ("unit_tet10.msh", Shape::Cell(ElementKind::Tet10)),
+        ("unit_tet10_v22_binary.msh", Shape::Cell(ElementKind::Tet10)),
+        ("unit_tet10.inp", Shape::Cell(ElementKind::Tet10)),
+        ("good_3d_tet10_shared_binary.msh", Shape::Cell(ElementKind::Tet10)),
+        ("unit_hex20.msh", Shape::Cell(ElementKind::Hex20)),
+        ("unit_hex20_v22_binary.msh", Shape::Cell(ElementKind::Hex20)),
+        ("unit_hex20.inp", Shape::Cell(ElementKind::Hex20)),
+        ("unit_hex27.msh", Shape::Cell(ElementKind::Hex27)),
+        ("unit_hex27.inp", Shape::Cell(ElementKind::Hex27)),
+        ("unit_wedge15.msh", Shape::Cell(ElementKind::Wedge15)),
+        ("unit_wedge15_v22_binary.msh", Shape::Cell(ElementKind::Wedge15)),
+        ("unit_wedge15.inp", Shape::Cell(ElementKind::Wedge15)),
     ] {
         let read = if name.ends_with(".inp") { abaqus::parse } else { gmsh::parse };
         let raw = read(&sample(name)).unwrap();

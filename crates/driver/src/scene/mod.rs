@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod diagnostic;
+mod entry;
 mod explain;
 pub mod law;
 pub mod model;
@@ -9,6 +10,8 @@ mod motion;
 pub mod near;
 pub mod slider;
 pub mod units;
+
+pub use entry::Entry;
 
 use crate::plan::PlanError;
 use model::Scene;

@@ -1,53 +1,17 @@
 //! How motions and loadings are written.
 
+use super::entry::Entry;
 use super::model::{Loading, Motion};
-use super::units::{self, Dimension, Length, Pressure, Time, Velocity};
-use serde::de::{
-    self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor, value::MapAccessDeserializer,
-};
+use super::units::{self, Dimension, Length, Pressure, Velocity};
+use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor, value::MapAccessDeserializer};
 use std::fmt;
-use std::marker::PhantomData;
-
-/// A point of a table, `[time, value]`, and nothing after it.
-struct Point<V> {
-    time: Time,
-    value: V,
-}
-
-impl<'de, V: Deserialize<'de>> Deserialize<'de> for Point<V> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct PointVisitor<V>(PhantomData<V>);
-        impl<'de, V: Deserialize<'de>> Visitor<'de> for PointVisitor<V> {
-            type Value = Point<V>;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a point of a table, [time, value]")
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<Point<V>, A::Error> {
-                let time = entries.next_element()?.ok_or_else(|| de::Error::invalid_length(0, &self))?;
-                let value = entries.next_element()?.ok_or_else(|| de::Error::invalid_length(1, &self))?;
-                let mut length = 2;
-                while entries.next_element::<de::IgnoredAny>()?.is_some() {
-                    length += 1;
-                }
-                if length > 2 {
-                    Err(de::Error::invalid_length(length, &self))
-                } else {
-                    Ok(Point { time, value })
-                }
-            }
-        }
-        deserializer.deserialize_seq(PointVisitor(PhantomData))
-    }
-}
 
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MotionTable {
     to: Option<Length>,
     rate: Option<Velocity>,
-    table: Option<Vec<Point<Length>>>,
+    table: Option<Vec<Entry<Length>>>,
 }
 
 impl<'de> Deserialize<'de> for Motion {
@@ -102,7 +66,7 @@ impl<'de> Deserialize<'de> for Motion {
 #[serde(deny_unknown_fields)]
 struct LoadingTable {
     to: Option<Pressure>,
-    table: Option<Vec<Point<Pressure>>>,
+    table: Option<Vec<Entry<Pressure>>>,
 }
 
 impl<'de> Deserialize<'de> for Loading {

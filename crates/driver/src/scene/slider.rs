@@ -8,7 +8,7 @@ mod settings;
 mod spec;
 mod start;
 
-pub use course::{Course, Entry};
+pub use course::Course;
 pub use spec::{EventSpec, Load, SliderScene, SliderSpec, SliderTime, SpringSpec};
 
 use super::model::Spanned;

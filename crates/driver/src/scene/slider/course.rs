@@ -1,10 +1,10 @@
 //! How the course of a quantity over time is written: a value, a table, or a sine.
 
+use crate::scene::entry::Entry;
 use crate::scene::model::Spanned;
 use crate::scene::units::Time;
 use serde::de::{
-    self, Deserialize, Deserializer, IntoDeserializer, MapAccess, SeqAccess, Visitor,
-    value::MapAccessDeserializer,
+    self, Deserialize, Deserializer, IntoDeserializer, MapAccess, Visitor, value::MapAccessDeserializer,
 };
 use std::fmt;
 use std::marker::PhantomData;
@@ -27,43 +27,6 @@ pub enum Course<Q> {
         /// Time of a rising crossing of the mean \[s\].
         start: Option<Time>,
     },
-}
-
-/// An entry of a table, `[time, value]`, and nothing after it.
-#[derive(Clone, Copy, Debug)]
-pub struct Entry<Q> {
-    /// Time \[s\].
-    pub time: Time,
-    /// Value then.
-    pub value: Q,
-}
-
-impl<'de, Q: Deserialize<'de>> Deserialize<'de> for Entry<Q> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct EntryVisitor<Q>(PhantomData<Q>);
-        impl<'de, Q: Deserialize<'de>> Visitor<'de> for EntryVisitor<Q> {
-            type Value = Entry<Q>;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("an entry of a table, [time, value]")
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<Entry<Q>, A::Error> {
-                let time = entries.next_element()?.ok_or_else(|| de::Error::invalid_length(0, &self))?;
-                let value = entries.next_element()?.ok_or_else(|| de::Error::invalid_length(1, &self))?;
-                let mut length = 2;
-                while entries.next_element::<de::IgnoredAny>()?.is_some() {
-                    length += 1;
-                }
-                if length > 2 {
-                    Err(de::Error::invalid_length(length, &self))
-                } else {
-                    Ok(Entry { time, value })
-                }
-            }
-        }
-        deserializer.deserialize_seq(EntryVisitor(PhantomData))
-    }
 }
 
 /// The keys of a course that is no constant.

@@ -1,7 +1,8 @@
 //! Prescribed histories: the rate of the load point and normal tractions.
 
-use super::course::{Course, Entry};
+use super::course::Course;
 use super::planner::Planner;
+use crate::scene::Entry;
 use crate::scene::SceneError;
 use crate::scene::model::Spanned;
 use crate::scene::units::Pressure;

@@ -1,25 +1,26 @@
 //! Types of elements, and Gmsh's order of nodes in terms of VTK's.
 
+use crate::element::ElementKind;
 use crate::mesh::raw::Shape;
 
 /// The shape of a type that is read.
 pub(super) fn shape(kind: i64) -> Option<Shape> {
     Some(match kind {
         1 => Shape::Line2,
-        2 => Shape::Tri3,
-        3 => Shape::Quad4,
-        4 => Shape::Tet4,
-        5 => Shape::Hex8,
-        6 => Shape::Wedge6,
+        2 => Shape::Cell(ElementKind::Tri3),
+        3 => Shape::Cell(ElementKind::Quad4),
+        4 => Shape::Cell(ElementKind::Tet4),
+        5 => Shape::Cell(ElementKind::Hex8),
+        6 => Shape::Cell(ElementKind::Wedge6),
         8 => Shape::Line3,
-        9 => Shape::Tri6,
-        10 => Shape::Quad9,
-        11 => Shape::Tet10,
-        12 => Shape::Hex27,
+        9 => Shape::Cell(ElementKind::Tri6),
+        10 => Shape::Cell(ElementKind::Quad9),
+        11 => Shape::Cell(ElementKind::Tet10),
+        12 => Shape::Cell(ElementKind::Hex27),
         15 => Shape::Point,
-        16 => Shape::Quad8,
-        17 => Shape::Hex20,
-        18 => Shape::Wedge15,
+        16 => Shape::Cell(ElementKind::Quad8),
+        17 => Shape::Cell(ElementKind::Hex20),
+        18 => Shape::Cell(ElementKind::Wedge15),
         _ => return None,
     })
 }
@@ -56,10 +57,10 @@ pub(super) fn name(kind: i64) -> String {
 /// of edges, but through the edges in different orders; the tests compare them with the midpoints.
 pub(super) fn order(shape: Shape) -> &'static [usize] {
     match shape {
-        Shape::Tet10 => &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8],
-        Shape::Hex20 => &HEX27[..20],
-        Shape::Hex27 => &HEX27,
-        Shape::Wedge15 => &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11],
+        Shape::Cell(ElementKind::Tet10) => &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8],
+        Shape::Cell(ElementKind::Hex20) => &HEX27[..20],
+        Shape::Cell(ElementKind::Hex27) => &HEX27,
+        Shape::Cell(ElementKind::Wedge15) => &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11],
         _ => &[],
     }
 }
