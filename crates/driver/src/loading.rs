@@ -156,7 +156,10 @@ fn end_value(loading: &Loading) -> f64 {
     }
 }
 
-/// Axis number used for pressures in the table of loads.
+/// Axes by name.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Axis number used for pressures in the table of loads; no displacement points along it.
 const PRESSURE: usize = 3;
 
 fn take_up<const D: usize>(
@@ -185,12 +188,37 @@ fn take_up<const D: usize>(
         shared.places.insert((set.get_ref().clone(), axis), symmetry.span());
         held.insert((set.get_ref().clone(), axis), Motion::Fixed(0.0));
     }
+    for ((set, axis), place) in shared.places.iter().filter(|(key, _)| key.0 == *set.get_ref()) {
+        if model.idealisation.component(*axis).is_none() {
+            return Err(PlanError::at(
+                place.clone(),
+                format!("bodies do not move along {} in {}", AXES[*axis], model.idealisation.name()),
+                format!("leave this condition on `{set}` out"),
+            ));
+        }
+    }
     if let Some(traction) = &c.traction {
-        for (axis, loading) in traction.get_ref().iter().enumerate() {
+        let components = traction.get_ref().len();
+        model.idealisation.check_components(components).map_err(|e| {
+            PlanError::at(
+                traction.span(),
+                e.to_string(),
+                "one entry for each component of the displacement".into(),
+            )
+        })?;
+        for (component, loading) in traction.get_ref().iter().enumerate() {
+            let axis = model.idealisation.axis(component);
             loads.insert((set.get_ref().clone(), axis), loading.clone());
         }
     }
     if let Some(pressure) = &c.pressure {
+        if model.idealisation.components() != D {
+            return Err(PlanError::at(
+                pressure.span(),
+                format!("a pressure does nothing in {}", model.idealisation.name()),
+                "use a `traction`".into(),
+            ));
+        }
         loads.insert((set.get_ref().clone(), PRESSURE), pressure.get_ref().clone());
     }
     Ok(())
@@ -224,7 +252,7 @@ fn motions<const D: usize>(
         let sides = &model.mesh.side_sets[set];
         let mut dofs = Vec::new();
         for node in nodes_of_sides(&model.mesh, sides) {
-            let dof = node * D + axis;
+            let dof = model.dof(node, *axis);
             if !taken[dof] {
                 taken[dof] = true;
                 dofs.push(dof);
@@ -243,12 +271,10 @@ fn load_channel<const D: usize>(
 ) -> Channel {
     let sides = &model.mesh.side_sets[set];
     // A force by area for each point, in proportion to the length of its normal.
-    let forces = surface::integrate(&model.mesh, sides, model.idealisation, |point, value| {
-        if *axis == PRESSURE {
-            value.iter_mut().zip(&point.normal).for_each(|(v, n)| *v = -n);
-        } else {
-            value[*axis] = surface::length(&point.normal);
-        }
+    let component = model.idealisation.component(*axis);
+    let forces = surface::integrate(&model.mesh, sides, model.idealisation, |point, value| match component {
+        Some(component) => value[component] = surface::length(&point.normal),
+        None => value.iter_mut().zip(&point.normal).for_each(|(v, n)| *v = -n),
     });
     let amplitude = match loading {
         Loading::Fixed(value) => Table::constant(*value),
@@ -269,8 +295,7 @@ fn body_loads<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Cha
             if let Some(gravity) = &spec.gravity {
                 let (name, material) = model.material(scene, (&body.name, spec), block)?;
                 let density = density_of(name, material, gravity.span())?;
-                let force: [f64; D] =
-                    std::array::from_fn(|c| density * gravity.get_ref().get(c).copied().unwrap_or(0.0));
+                let force: Vec<f64> = gravity.get_ref().iter().map(|g| density * g).collect();
                 // Weight does not depend on the stiffness; blocks that are not linear have it from one that is.
                 let weight = |b: &LinearBlock<D>| b.body_force(&model.mesh, &force);
                 let forces = match model.blocks[block].linear() {
@@ -293,11 +318,12 @@ fn body_loads<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Cha
     Ok(channels)
 }
 
-/// The initial stress of a body as xx, yy, zz, xy, yz, zx \[Pa\].
+/// The initial stress of a body, given in full, as xx, yy, xy or as yz, zx, as xx, yy, zz, xy, yz, zx \[Pa\].
 #[must_use]
 pub fn initial_stress(spec: &crate::scene::model::Body) -> Option<[f64; 6]> {
     let values: Vec<f64> = spec.initial_stress.as_ref()?.get_ref().iter().map(|p| p.0).collect();
     match values[..] {
+        [yz, zx] => Some([0.0, 0.0, 0.0, 0.0, yz, zx]),
         [xx, yy, xy] => Some([xx, yy, 0.0, xy, 0.0, 0.0]),
         [xx, yy, zz, xy, yz, zx] => Some([xx, yy, zz, xy, yz, zx]),
         _ => None,

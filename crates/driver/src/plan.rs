@@ -275,6 +275,15 @@ fn interface<const D: usize>(
     name: &str,
     spec: &InterfaceSpec,
 ) -> Result<PlannedInterface, PlanError> {
+    if model.idealisation.components() != D {
+        return Err(PlanError::at(
+            spec.slave.span(),
+            format!("interface `{name}`: there are no interfaces between bodies in antiplane motion"),
+            "interfaces exist with \"plane-strain\", \"plane-stress\", \"axisymmetric\" and \"3d\", and friction without \
+             bodies as `kinematics = \"spring-slider\"`; in antiplane motion bodies have conditions on their sets"
+                .into(),
+        ));
+    }
     let slave_sides = model.sides(&spec.slave)?;
     let master_sides = model.sides(&spec.master)?;
     let body = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]);

@@ -68,9 +68,13 @@ fn modes<const D: usize>() -> usize {
     D * (D + 1) / 2
 }
 
-/// The modes without strain: about an axis of revolution only the translation along it.
+/// The modes without strain: about an axis of revolution only the translation along it, in antiplane motion the only one there is.
 fn rigid<const D: usize>(idealisation: Idealisation) -> Range<usize> {
-    if idealisation == Idealisation::Axisymmetric { 1..2 } else { 0..modes::<D>() }
+    match idealisation {
+        Idealisation::Axisymmetric => 1..2,
+        Idealisation::Antiplane => 0..1,
+        _ => 0..modes::<D>(),
+    }
 }
 
 /// Displacement component `axis` at `x` of every rigid mode; lengths in units of the body.
@@ -97,8 +101,12 @@ fn centred<const D: usize>(model: &Model<D>, nodes: &[usize]) -> impl Fn(usize) 
 
 fn condition_rows<const D: usize>(model: &Model<D>, nodes: &[usize], stage: &Stage) -> Vec<Row> {
     let position = centred(model, nodes);
-    let held = stage.fixed.iter().filter(|&&d| nodes.binary_search(&(d / D)).is_ok());
-    held.map(|&d| row(position(d / D), d % D)).collect()
+    let components = model.idealisation.components();
+    let held = stage.fixed.iter().filter(|&&d| nodes.binary_search(&(d / components)).is_ok());
+    if model.idealisation == Idealisation::Antiplane {
+        return held.map(|_| vec![1.0]).collect();
+    }
+    held.map(|&d| row(position(d / components), d % components)).collect()
 }
 
 /// Contact holds the normal of each face; friction its tangents as well.
@@ -176,7 +184,10 @@ fn free_motion<const D: usize>(rows: &[Row], idealisation: Idealisation) -> Opti
     }
     let mode = eigen.eigenvectors.column(k);
     let dominant = (0..m).max_by(|&i, &j| mode[i].abs().total_cmp(&mode[j].abs()))?;
-    Some(name_of_mode::<D>(rigid.start + dominant))
+    Some(match idealisation {
+        Idealisation::Antiplane => "translation in z".into(),
+        _ => name_of_mode::<D>(rigid.start + dominant),
+    })
 }
 
 fn name_of_mode<const D: usize>(mode: usize) -> String {
@@ -193,7 +204,7 @@ fn name_of_mode<const D: usize>(mode: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_fem::kinematics::Idealisation::{Axisymmetric, PlaneStrain};
+    use asperity_fem::kinematics::Idealisation::{Antiplane, Axisymmetric, PlaneStrain};
 
     #[test]
     fn rows_of_three_dimensions_are_those_of_a_rotation() {
@@ -216,5 +227,11 @@ mod tests {
         let radial = vec![row([0.5, 0.1], 0)];
         assert_eq!(free_motion::<2>(&radial, Axisymmetric).as_deref(), Some("translation in y"));
         assert_eq!(free_motion::<2>(&[row([0.5, 0.1], 1)], Axisymmetric), None);
+    }
+
+    #[test]
+    fn in_antiplane_motion_one_node_holds_a_body() {
+        assert_eq!(free_motion::<2>(&[], Antiplane).as_deref(), Some("translation in z"));
+        assert_eq!(free_motion::<2>(&[vec![1.0]], Antiplane), None);
     }
 }

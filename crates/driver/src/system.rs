@@ -170,7 +170,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
                     self.body_factorisations += bodies.len();
                 }
                 for (body, term) in self.plan.model.bodies.iter().zip(bodies) {
-                    term.set_channels(local_channels(constraints, body.dofs()));
+                    term.set_channels(local_channels(constraints, body.dofs.clone()));
                 }
             }
         }
@@ -397,7 +397,7 @@ fn condense<const D: usize>(
     let mut first = 0;
     let mut terms = Vec::new();
     for (body, retained) in plan.model.bodies.iter().zip(retained) {
-        let dofs = body.dofs();
+        let dofs = &body.dofs;
         let own = |list: &[usize]| -> Vec<usize> {
             list.iter().filter(|d| dofs.contains(d)).map(|d| d - dofs.start).collect()
         };

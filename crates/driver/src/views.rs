@@ -114,8 +114,7 @@ pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFi
 #[must_use]
 pub fn body_fields<const D: usize>(plan: &Plan<D>, blocks: &[CellBlock<D>], u: &[f64]) -> BodyFields {
     let nodes = plan.model.mesh.nodes.len();
-    let displacement =
-        (0..nodes).map(|n| std::array::from_fn(|c| if c < D { u[n * D + c] } else { 0.0 })).collect();
+    let displacement = (0..nodes).map(|n| plan.model.displacement(n, u)).collect();
     let mut fields = BodyFields { displacement, node_mises: vec![0.0; nodes], ..BodyFields::default() };
     let plastic = blocks.iter().any(|b| plastic_strain(b).is_some());
     // Sum of the blocks' nodal stresses and their number: a node between blocks of a body has their mean.

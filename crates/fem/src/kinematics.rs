@@ -65,6 +65,12 @@ impl Idealisation {
         if self == Self::Antiplane { 2 } else { component }
     }
 
+    /// Component of the displacement that points along an axis of space, where there is one.
+    #[must_use]
+    pub fn component(self, axis: usize) -> Option<usize> {
+        (0..self.components()).find(|&component| self.axis(component) == axis)
+    }
+
     /// Number of motions without strain of a connected body that nothing holds.
     #[must_use]
     pub fn rigid_motions(self) -> usize {

@@ -79,7 +79,7 @@ fn pairs<'a, const D: usize>(
     let mut pairs = BTreeSet::new();
     for (key, _) in held.iter().filter(|(_, m)| **m != Motion::Free) {
         for node in nodes_of_sides(&model.mesh, &model.mesh.side_sets[&key.0]) {
-            match &mut owners[node * D + key.1] {
+            match &mut owners[model.dof(node, key.1)] {
                 Some(owner) => {
                     pairs.insert((*owner, key));
                 }

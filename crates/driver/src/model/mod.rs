@@ -80,14 +80,8 @@ pub struct Body<const D: usize> {
     pub parts: Vec<Vec<usize>>,
     /// Why it is not linear; `None` when it is.
     pub nonlinear: Option<&'static str>,
-}
-
-impl<const D: usize> Body<D> {
-    /// Degrees of freedom of the body in the common mesh.
-    #[must_use]
-    pub fn dofs(&self) -> Range<usize> {
-        self.nodes.start * D..self.nodes.end * D
-    }
+    /// Its degrees of freedom in the common mesh.
+    pub dofs: Range<usize>,
 }
 
 /// Mesh and bodies of a scene.
@@ -99,7 +93,7 @@ pub struct Model<const D: usize> {
     pub blocks: Vec<CellBlock<D>>,
     /// The bodies, in the order of their names.
     pub bodies: Vec<Body<D>>,
-    /// Idealisation of space: degree of freedom = node * D + component.
+    /// Idealisation of space: degree of freedom = node * [`Idealisation::components`] + component.
     pub idealisation: Idealisation,
     /// Diagonal of the bounding box \[m\].
     pub scale: f64,
@@ -112,13 +106,9 @@ impl<const D: usize> Model<D> {
     /// [`PlanError`] naming the body whose mesh or material is not admissible.
     pub fn new(scene: &scene::Scene) -> Result<Self, PlanError> {
         let idealisation = scene.kinematics.get_ref().idealisation();
-        if idealisation.components() != D {
-            return Err(PlanError::at(
-                scene.kinematics.span(),
-                format!("bodies in {} do not exist", scene.kinematics.get_ref().words()),
-                "use \"plane-strain\", \"plane-stress\", \"axisymmetric\" or \"3d\"".into(),
-            ));
-        }
+        idealisation
+            .check_dimension(D)
+            .map_err(|e| PlanError::at(scene.kinematics.span(), e.to_string(), "see `kinematics`".into()))?;
         let mut mesh = Mesh::<D>::default();
         let mut parts = Vec::new();
         for (name, body) in &scene.bodies {
@@ -152,8 +142,9 @@ impl<const D: usize> Model<D> {
                 (false, true) => Some("large deformation is followed"),
                 (false, false) => Some("its material is not elastic"),
             };
-            let name = name.to_string();
-            model.bodies.push(Body { name, nodes, blocks, elastic, size, parts, nonlinear });
+            let (name, components) = (name.to_string(), idealisation.components());
+            let dofs = nodes.start * components..nodes.end * components;
+            model.bodies.push(Body { name, nodes, blocks, elastic, size, parts, nonlinear, dofs });
         }
         Ok(model)
     }
@@ -209,7 +200,29 @@ impl<const D: usize> Model<D> {
     /// Degrees of freedom in all.
     #[must_use]
     pub fn dofs(&self) -> usize {
-        self.mesh.nodes.len() * D
+        self.mesh.nodes.len() * self.idealisation.components()
+    }
+
+    /// Degree of freedom of a node along an axis of space.
+    ///
+    /// # Panics
+    /// When no displacement points there, which the check of a scene refuses.
+    #[must_use]
+    pub fn dof(&self, node: usize, axis: usize) -> usize {
+        let component =
+            self.idealisation.component(axis).expect("the check refuses axes without a displacement");
+        node * self.idealisation.components() + component
+    }
+
+    /// Displacement of a node in space \[m\], given that of all degrees of freedom.
+    #[must_use]
+    pub fn displacement(&self, node: usize, u: &[f64]) -> [f64; 3] {
+        let components = self.idealisation.components();
+        let mut displacement = [0.0; 3];
+        for (c, value) in u[node * components..(node + 1) * components].iter().enumerate() {
+            displacement[self.idealisation.axis(c)] = *value;
+        }
+        displacement
     }
 
     /// Whether all bodies are linear.
@@ -221,7 +234,7 @@ impl<const D: usize> Model<D> {
     /// The stiffness of a linear body in its own numbering, for condensation; blocks that are not linear have none.
     #[must_use]
     pub fn stiffness(&self, body: &Body<D>) -> Stiffness {
-        let first = body.dofs().start;
+        let first = body.dofs.start;
         let mut own = Pattern { dofs: Vec::new(), starts: vec![0], version: 0 };
         let mut values = Vec::new();
         for block in self.blocks[body.blocks.clone()].iter().filter_map(CellBlock::linear) {
@@ -230,7 +243,7 @@ impl<const D: usize> Model<D> {
             own.starts.extend(pattern.starts[1..].iter().map(|s| s + offset));
             values.extend_from_slice(block.stiffness());
         }
-        Stiffness { pattern: own, values, dofs: body.dofs().len() }
+        Stiffness { pattern: own, values, dofs: body.dofs.len() }
     }
 
     /// The faces of a set.

@@ -19,7 +19,6 @@ use std::ops::Range;
 pub fn check(scene: &Scene) -> Vec<SceneError> {
     let mut checker = Checker { scene, errors: Vec::new() };
     checker.schema();
-    checker.kinematics();
     checker.materials();
     checker.bodies();
     checker.interfaces();
@@ -76,14 +75,14 @@ impl Checker<'_> {
         self.scene.kinematics.get_ref().words()
     }
 
-    fn kinematics(&mut self) {
-        if *self.scene.kinematics.get_ref() == Kinematics::Antiplane {
-            self.error(
-                self.scene.kinematics.span(),
-                "bodies in antiplane motion are for fault cycles, which do not exist yet",
-                "the choices for bodies are \"plane-strain\", \"plane-stress\", \"axisymmetric\" and \"3d\"",
-            );
-        }
+    /// Axes of space along which bodies move.
+    fn motions(&self) -> Vec<usize> {
+        let idealisation = self.scene.kinematics.get_ref().idealisation();
+        (0..idealisation.components()).map(|c| idealisation.axis(c)).collect()
+    }
+
+    fn is_antiplane(&self) -> bool {
+        *self.scene.kinematics.get_ref() == Kinematics::Antiplane
     }
 
     fn schema(&mut self) {

@@ -189,7 +189,7 @@ pub struct Condition {
     pub z: Option<Spanned<Motion>>,
     /// Symmetry plane: no displacement along the (axis-parallel) normal of the set.
     pub symmetry: Option<Spanned<bool>>,
-    /// Traction vector \[Pa\] per axis.
+    /// Traction vector \[Pa\], one entry per component of the displacement.
     pub traction: Option<Spanned<Vec<Loading>>>,
     /// Pressure \[Pa\], positive into the body.
     pub pressure: Option<Spanned<Loading>>,

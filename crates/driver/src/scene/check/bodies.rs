@@ -1,7 +1,7 @@
 //! Bodies: their materials and the forces on them.
 
 use super::Checker;
-use crate::scene::model::{Body, Kinematics};
+use crate::scene::model::{Body, Formulation, Kinematics, Strain};
 use crate::scene::near::suggest;
 
 impl Checker<'_> {
@@ -24,12 +24,43 @@ impl Checker<'_> {
             }
             self.mesh(name, body);
             self.forces(name, body);
+            if self.is_antiplane() {
+                self.antiplane(name, body);
+            }
+        }
+    }
+
+    /// What a body in antiplane motion cannot have.
+    fn antiplane(&mut self, name: &str, body: &Body) {
+        let refused = [
+            body.strain
+                .as_ref()
+                .filter(|s| *s.get_ref() == Strain::Finite)
+                .map(|s| ("large deformation", s.span())),
+            body.formulation
+                .as_ref()
+                .filter(|f| *f.get_ref() == Formulation::BBar)
+                .map(|f| ("B-bar", f.span())),
+        ];
+        for (what, place) in refused.into_iter().flatten() {
+            let why = match what {
+                "B-bar" => "antiplane motion has no dilatation, so nothing locks: leave `formulation` out",
+                _ => {
+                    "bodies in antiplane motion are elastic, plastic or viscous with small strain; leave `strain` out, or \
+                      use `kinematics = \"3d\"`"
+                }
+            };
+            self.error(
+                place,
+                format!("body `{name}` has {what}, which does not exist in antiplane motion"),
+                why,
+            );
         }
     }
 
     fn forces(&mut self, name: &str, body: &Body) {
         if let Some(gravity) = &body.gravity {
-            self.count(gravity, "gravity", self.dimension());
+            self.count(gravity, "gravity", &self.motions());
             if gravity.get_ref().iter().any(|g| !g.is_finite()) {
                 self.error(
                     gravity.span(),
@@ -49,13 +80,13 @@ impl Checker<'_> {
             }
         }
         if let Some(stress) = &body.initial_stress {
-            let (given, plane) = (stress.get_ref().len(), self.dimension() == 2);
-            if given != 6 && !(plane && given == 3) {
-                let right = if plane {
-                    "[xx, yy, xy] or [xx, yy, zz, xy, yz, zx]"
-                } else {
-                    "[xx, yy, zz, xy, yz, zx]"
-                };
+            let given = stress.get_ref().len();
+            let (short, right) = match (self.dimension(), self.is_antiplane()) {
+                (_, true) => (2, "[yz, zx] or [xx, yy, zz, xy, yz, zx]"),
+                (2, _) => (3, "[xx, yy, xy] or [xx, yy, zz, xy, yz, zx]"),
+                _ => (6, "[xx, yy, zz, xy, yz, zx]"),
+            };
+            if given != 6 && given != short {
                 self.error(
                     stress.span(),
                     format!("`initial_stress` has {given} components"),

@@ -158,8 +158,8 @@ impl Checker<'_> {
         }
         for (axis, motion) in motions.into_iter().enumerate() {
             let Some(motion) = motion else { continue };
-            if axis >= self.dimension() {
-                self.no_third_axis(motion.span(), "z");
+            if !self.motions().contains(&axis) {
+                self.no_motion(motion.span(), AXES[axis]);
                 continue;
             }
             if let Motion::Table(points) = motion.get_ref() {
@@ -168,31 +168,47 @@ impl Checker<'_> {
             let (motion, place) = (motion.get_ref().clone(), motion.span());
             fresh.push(Entry { set: set.get_ref().clone(), axis, motion, place, symmetry: false });
         }
-        if let (true, Some((_, axis, _)), Some(symmetry)) = (symmetric, side, &c.symmetry) {
+        if self.is_antiplane() {
+            self.in_plane(c);
+        } else if let (true, Some((_, axis, _)), Some(symmetry)) = (symmetric, side, &c.symmetry) {
             let (motion, place) = (Motion::Fixed(0.0), symmetry.span());
             fresh.push(Entry { set: set.get_ref().clone(), axis, motion, place, symmetry: true });
         }
         self.load_values(stage, c);
     }
 
-    fn no_third_axis(&mut self, place: Range<usize>, what: &str) {
-        self.error(
-            place,
-            format!("`{what}` in a scene of two dimensions"),
-            "remove it, or use `kinematics = \"3d\"`",
-        );
+    fn no_motion(&mut self, place: Range<usize>, axis: &str) {
+        let (message, help) = match self.is_antiplane() {
+            true => (format!("`{axis}` in antiplane motion, where bodies move along z alone"), "remove it"),
+            false => {
+                (format!("`{axis}` in a scene of two dimensions"), "remove it, or use `kinematics = \"3d\"`")
+            }
+        };
+        self.error(place, message, help);
+    }
+
+    /// Conditions about the plane, which say nothing of a motion along z.
+    fn in_plane(&mut self, c: &Condition) {
+        let symmetry = c.symmetry.as_ref().filter(|s| *s.get_ref()).map(|s| ("symmetry", s.span()));
+        let pressure = c.pressure.as_ref().map(|p| ("pressure", p.span()));
+        for (what, place) in [symmetry, pressure].into_iter().flatten() {
+            let help = match what {
+                "symmetry" => {
+                    "a plane of symmetry is free along z: leave it out; `z = 0` makes one of antisymmetry"
+                }
+                _ => "a load along z is `traction = [\"5 MPa\"]`",
+            };
+            self.error(
+                place,
+                format!("`{what}` acts in the plane, but in antiplane motion bodies move along z alone"),
+                help,
+            );
+        }
     }
 
     fn load_values(&mut self, stage: &Stage, c: &Condition) {
         if let Some(traction) = &c.traction {
-            let (found, wanted) = (traction.get_ref().len(), self.dimension());
-            if found != wanted {
-                self.error(
-                    traction.span(),
-                    format!("`traction` has {found} entries, expected {wanted} in {}", self.idealisation()),
-                    format!("one for each of {}", AXES[..wanted].join(", ")),
-                );
-            }
+            self.count(traction, "traction", &self.motions());
         }
         let tractions = c.traction.iter().flat_map(|t| t.get_ref().iter().map(|l| (l, t.span())));
         let pressures = c.pressure.iter().map(|p| (p.get_ref(), p.span()));
@@ -336,7 +352,7 @@ impl Checker<'_> {
             let Some(set) = &c.set else { continue };
             let mut loaded: Vec<(usize, &str, Range<usize>)> = Vec::new();
             if let Some(t) = &c.traction {
-                let entries = t.get_ref().iter().enumerate().take(self.dimension());
+                let entries = self.motions().into_iter().zip(t.get_ref());
                 let acting = entries.filter(|(_, l)| **l != Loading::Fixed(0.0));
                 loaded.extend(acting.map(|(axis, _)| (axis, "traction", t.span())));
             }

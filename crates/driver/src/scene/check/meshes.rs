@@ -177,13 +177,15 @@ impl Checker<'_> {
         );
     }
 
-    pub(super) fn count<T>(&mut self, values: &Spanned<Vec<T>>, what: &str, wanted: usize) -> bool {
-        let found = values.get_ref().len();
+    /// Whether a vector has one entry for each of some axes.
+    pub(super) fn count<T>(&mut self, values: &Spanned<Vec<T>>, what: &str, axes: &[usize]) -> bool {
+        let (found, wanted) = (values.get_ref().len(), axes.len());
         if found != wanted {
+            let names: Vec<&str> = axes.iter().map(|&a| AXES[a]).collect();
             self.error(
                 values.span(),
                 format!("`{what}` has {found} entries, expected {wanted} in {}", self.idealisation()),
-                format!("one for each of {}", AXES[..wanted].join(", ")),
+                format!("one for each of {}", names.join(", ")),
             );
         }
         found == wanted
@@ -192,7 +194,8 @@ impl Checker<'_> {
     fn block(&mut self, name: &str, block: &BlockMesh) {
         let d = self.dimension();
         self.element(&block.element, d);
-        let corners = [self.count(&block.min, "min", d), self.count(&block.max, "max", d)];
+        let axes: Vec<usize> = (0..d).collect();
+        let corners = [self.count(&block.min, "min", &axes), self.count(&block.max, "max", &axes)];
         self.radius(block.min.span(), block.min.get_ref().first().map(|x| x.0).into_iter());
         let edges = corners.iter().all(|&c| c).then(|| self.edges(name, block)).flatten();
         match (&block.size, &block.divisions) {
@@ -208,7 +211,7 @@ impl Checker<'_> {
                 (&size.span(), "and here"),
             ),
             (None, Some(divisions)) => {
-                self.count(divisions, "divisions", d);
+                self.count(divisions, "divisions", &axes);
                 if divisions.get_ref().contains(&0) {
                     self.error(
                         divisions.span(),
@@ -222,7 +225,7 @@ impl Checker<'_> {
             (Some(size), None) => self.size(size, edges.as_deref()),
         }
         if let Some(grading) = &block.grading {
-            self.count(grading, "grading", d);
+            self.count(grading, "grading", &axes);
             if grading.get_ref().iter().any(|g| !positive(*g)) {
                 self.bad_grading(grading.span());
             }

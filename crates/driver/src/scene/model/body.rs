@@ -20,7 +20,7 @@ pub enum Kinematics {
     /// x is the radius, y the axis of revolution; over the full circle.
     #[serde(rename = "axisymmetric")]
     Axisymmetric,
-    /// Out-of-plane motion alone; refused for bodies by the check.
+    /// Two-dimensional, u_z(x, y) alone.
     #[serde(rename = "antiplane")]
     Antiplane,
     /// Three-dimensional.
@@ -139,9 +139,9 @@ pub struct Body {
     /// Size of strains.
     #[serde(default)]
     pub strain: Option<Spanned<Strain>>,
-    /// Uniform initial stress [xx, yy, xy] or [xx, yy, zz, xy, yz, zx] \[Pa\], tension positive.
+    /// Uniform initial stress [xx, yy, xy], in antiplane motion [yz, zx], or [xx, yy, zz, xy, yz, zx] \[Pa\], tension positive.
     pub initial_stress: Option<Spanned<Vec<Pressure>>>,
-    /// Acceleration acting on the body's mass \[m/s²\], one entry per axis.
+    /// Acceleration acting on the body's mass \[m/s²\], one entry per component of the displacement.
     pub gravity: Option<Spanned<Vec<f64>>>,
 }
 
