@@ -1,11 +1,4 @@
-//! Any bytes, read as a mesh and made into meshes of both dimensions: an error or a mesh, never a panic.
+//! Any bytes, read as a mesh, made into meshes of both dimensions and split: an error or a mesh, never a panic.
 #![no_main]
 
-use asperity_fem::mesh::{Options, gmsh};
-
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    if let Ok(raw) = gmsh::parse(bytes) {
-        let _ = raw.clone().into_mesh::<2>(&Options::default());
-        let _ = raw.into_mesh::<3>(&Options::default());
-    }
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| asperity_fuzz::read(bytes, asperity_fem::mesh::gmsh::parse));

@@ -1,4 +1,4 @@
-//! The updated-Lagrangian block: objectivity, simple shear, volume, tangents, limits, refusals.
+//! The updated-Lagrangian block: objectivity, simple shear, volume, rate tangents, limits, refusals.
 #![allow(clippy::unwrap_used)]
 
 mod lab;
@@ -10,15 +10,12 @@ use asperity_fem::mesh::{Mesh, nodes_of_sides};
 use asperity_fem::nonlinear::{Block, Kinematics, Limits, Material, Model};
 use asperity_fem::term::{Instant, Limited, Linearized, Saved, Term};
 use lab::{
-    AT, Noise, POISSON, SHEAR, YOUNG, assert_taylor, elastic, field, j2, mesh, mises, model, newton, product,
-    residual, size, standard_solid, swift_j2, tangent,
+    AT, Noise, POISSON, SHEAR, YOUNG, elastic, field, j2, mesh, mises, model, newton, product, residual,
+    size, standard_solid, swift_j2, tangent,
 };
 
 const UL: Kinematics = Kinematics::UpdatedLagrangian;
 const BULK: f64 = YOUNG / (3.0 * (1.0 - 2.0 * POISSON));
-
-/// Admits the violent steps of the Taylor tests.
-const WIDE: Limits = Limits { strain: 1.0, rotation: 1.0, refused: 2.0 };
 
 fn hypoelastic() -> Material {
     Material::Elastic(elastic())
@@ -38,57 +35,6 @@ fn follow<const D: usize>(block: &mut Block<D>, mesh: &Mesh<D>, steps: impl Iter
         assert_eq!(u.len() % mesh.nodes.len(), 0);
         residual(block, &u);
         block.accept();
-    }
-}
-
-#[test]
-fn tangents_are_the_derivatives_of_residuals_in_large_steps() {
-    let plane = [
-        (Idealisation::PlaneStrain, Formulation::Standard),
-        (Idealisation::PlaneStrain, Formulation::BBar),
-        (Idealisation::PlaneStress, Formulation::Standard),
-        (Idealisation::Axisymmetric, Formulation::Standard),
-        (Idealisation::Axisymmetric, Formulation::BBar),
-    ];
-    let random =
-        |n: usize, seed: u64| -> Vec<f64> { Noise::new(seed).vector(n).iter().map(|x| 0.03 * x).collect() };
-    for material in [hypoelastic(), swift_j2(), standard_solid()] {
-        for (idealisation, formulation) in plane {
-            for kind in [ElementKind::Quad4, ElementKind::Tri6, ElementKind::Quad9] {
-                let mesh = mesh::<2>(kind, [0.2, 0.0], [1.2, 1.0], [2, 2], 0.2);
-                let options =
-                    Model { formulation, limits: WIDE, ..model(material.clone(), idealisation, UL) };
-                let mut block = block(&mesh, options);
-                // A state with stress and history, then a step with a rotation of half a radian about the axis there is.
-                let first = random(mesh.nodes.len() * 2, 1);
-                follow(&mut block, &mesh, [first.clone()].into_iter());
-                let (s, c) =
-                    if idealisation == Idealisation::Axisymmetric { (0.0, 1.0) } else { 0.5_f64.sin_cos() };
-                let turn = field(&mesh, |x| [c * x[0] - s * x[1] - x[0], s * x[0] + c * x[1] - x[1]]);
-                let u: Vec<f64> = random(first.len(), 2).iter().zip(&turn).map(|(a, b)| a + b).collect();
-                assert_taylor(
-                    &mut block,
-                    &u,
-                    3,
-                    &format!("{material:?} {} {idealisation:?} {formulation:?}", kind.name()),
-                );
-            }
-        }
-        for formulation in [Formulation::Standard, Formulation::BBar] {
-            let mesh = mesh::<3>(ElementKind::Hex8, [0.0; 3], [1.0; 3], [2, 1, 1], 0.1);
-            let options =
-                Model { formulation, limits: WIDE, ..model(material.clone(), Idealisation::ThreeD, UL) };
-            let mut block = block(&mesh, options);
-            let first = random(mesh.nodes.len() * 3, 1);
-            follow(&mut block, &mesh, [first.clone()].into_iter());
-            let q = rotation([0.3, -0.5, 0.4]);
-            let u: Vec<f64> = random(first.len(), 2)
-                .iter()
-                .zip(field(&mesh, |x| turned(&q, x)))
-                .map(|(a, b)| a + b)
-                .collect();
-            assert_taylor(&mut block, &u, 3, &format!("{material:?} hex8 {formulation:?}"));
-        }
     }
 }
 

@@ -1,10 +1,8 @@
 //! Coulomb friction with an optional cap: F̄ = min(μ f_n, F_limit), an elastic domain, no rate and no state.
 
 use crate::Failure;
-use crate::law::{
-    BAND, Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
-};
-use crate::line::Line;
+use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Trials};
+use crate::yielding::{all_finite, answer, cap, first_exit, next_regime, slipped, strength};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,17 +20,12 @@ impl Coulomb {
         if !(mu >= 0.0 && mu.is_finite()) {
             return Err(Failure::Parameter { name: "mu", value: mu, admissible: "0 <= mu, finite" });
         }
-        let limit = match limit {
-            Some(value) => crate::positive("f_limit", value)?,
-            None => f64::INFINITY,
-        };
-        Ok(Self { mu, limit })
+        Ok(Self { mu, limit: cap(limit)? })
     }
 
     /// Strength F̄ and ∂F̄/∂f_n.
     fn strength(&self, normal: f64) -> (f64, f64) {
-        let cone = self.mu * normal;
-        if cone <= self.limit { (cone, self.mu) } else { (self.limit, 0.0) }
+        strength(self.mu, normal, self.limit)
     }
 }
 
@@ -91,21 +84,11 @@ impl Law for Coulomb {
         Ok(())
     }
 
-    fn respond(&self, t: Trials<'_>, _old: &[f64], out: Responses<'_>) -> Result<(), Failure> {
+    fn respond(&self, t: Trials<'_>, _old: &[f64], mut out: Responses<'_>) -> Result<(), Failure> {
         for k in 0..t.trial.len() {
-            let (normal, trial) = (t.normal[k], t.trial[k]);
-            if !(normal.is_finite() && trial.is_finite()) {
-                return Err(Failure::NonFinite { point: k, normal, trial });
-            }
-            let (strength, slope) = self.strength(normal);
-            let stick = trial <= strength;
-            out.regime[k] = if stick { Regime::Stick } else { Regime::Slip };
-            out.traction[k] = if stick { trial } else { strength };
-            out.slip[k] = if stick { 0.0 } else { (trial - strength) / t.stiffness };
-            out.d_trial[k] = if stick { 1.0 } else { 0.0 };
-            out.d_normal[k] = if stick { 0.0 } else { slope };
-            let (weight, offset) = t.lag.map_or((1.0, 0.0), |lag| (lag.weight, lag.offset[k]));
-            out.rate[k] = if stick { 0.0 } else { weight * out.slip[k] / t.dt - offset };
+            all_finite(k, t.normal[k], t.trial[k], &[])?;
+            let strength = self.strength(t.normal[k]);
+            answer(&t, k, strength.0, strength, &mut out);
         }
         Ok(())
     }
@@ -124,17 +107,7 @@ impl Law for Coulomb {
     }
 
     fn limit(&self, present: Present<'_>, step: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
-        let mut smallest: Option<Limit> = None;
-        for k in (0..present.normal.len()).filter(|&k| present.regime[k] == Regime::Stick) {
-            let line = Line { at: present.traction[k], change: step.traction[k] };
-            let cone = Line { at: self.mu * present.normal[k], change: self.mu * step.normal[k] };
-            if let Some(fraction) = line.exit(cone, Some(self.limit))
-                && smallest.is_none_or(|s| fraction < s.fraction)
-            {
-                smallest = Some(Limit { fraction, point: k, kind: LimitKind::StickToSlip });
-            }
-        }
-        smallest
+        first_exit(&present, &step, |_| self.mu, self.limit)
     }
 
     fn advance(
@@ -147,14 +120,8 @@ impl Law for Coulomb {
     ) -> Result<(), Failure> {
         for k in 0..present.normal.len() {
             let (strength, _) = self.strength(present.normal[k] + step.normal[k]);
-            let traction = (present.traction[k] + step.traction[k]).abs();
-            let slipping = match present.regime[k] {
-                Regime::Stick => traction >= strength * (1.0 - BAND),
-                Regime::Slip => step.slip[k] > 0.0,
-            };
-            regime[k] = if slipping { Regime::Slip } else { Regime::Stick };
-            rate[k] =
-                if present.regime[k] == Regime::Slip { (step.slip[k] / present.dt).max(0.0) } else { 0.0 };
+            regime[k] = next_regime(&present, &step, k, strength);
+            rate[k] = slipped(&present, &step, k) / present.dt;
         }
         Ok(())
     }

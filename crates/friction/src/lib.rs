@@ -15,6 +15,7 @@ pub mod slider;
 pub mod slip_weakening;
 pub mod static_kinetic;
 pub mod strength;
+mod yielding;
 
 /// What can go wrong in a law.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -14,7 +14,7 @@ use crate::Failure;
 use crate::law::{
     BAND, Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
 };
-use crate::static_kinetic::{all_finite, exit, next_regime, smaller};
+use crate::yielding::{all_finite, cap, exit, next_regime, rate_of, slipped, smaller};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,11 +60,7 @@ impl SlipWeakening {
             return Err(Failure::Parameter { name: "mu_k", value: mu_k, admissible: "0 <= mu_k <= mu_s" });
         }
         let length = crate::positive("d_c", d_c)?;
-        let limit = match limit {
-            Some(value) => crate::positive("f_limit", value)?,
-            None => f64::INFINITY,
-        };
-        Ok(Self { mu_s, mu_k, length, limit })
+        Ok(Self { mu_s, mu_k, length, limit: cap(limit)? })
     }
 
     /// μ(λ) as a mean of μ_s and μ_k, exact at both ends and with nothing to cancel in between.
@@ -186,8 +182,7 @@ impl Law for SlipWeakening {
             out.regime[k] = Regime::Slip;
             out.traction[k] = strength.value;
             out.slip[k] = slip;
-            let (weight, offset) = t.lag.map_or((1.0, 0.0), |lag| (lag.weight, lag.offset[k]));
-            out.rate[k] = weight * slip / t.dt - offset;
+            out.rate[k] = rate_of(&t, k, slip);
             out.states[k] = total;
             out.d_trial[k] = -strength.weakening / left;
             out.d_normal[k] = t.stiffness / left * strength.slope;
@@ -243,8 +238,8 @@ impl Law for SlipWeakening {
             );
             all_finite(k, normal, traction, &[step.slip[k], old])?;
             regime[k] = next_regime(&present, &step, k, self.strength(old, normal).value);
-            // What comes out backwards is the overshoot of a linear step: slip accumulates, and nothing heals.
-            let slip = if present.regime[k] == Regime::Slip { step.slip[k].max(0.0) } else { 0.0 };
+            // Slip accumulates, and nothing heals.
+            let slip = slipped(&present, &step, k);
             rate[k] = slip / present.dt;
             states[k] = old + slip;
         }

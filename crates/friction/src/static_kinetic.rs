@@ -9,10 +9,8 @@
 //! shrinks. Slip weakening ([`crate::slip_weakening`]) spreads the drop over a length.
 
 use crate::Failure;
-use crate::law::{
-    BAND, Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
-};
-use crate::line::Line;
+use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Trials};
+use crate::yielding::{all_finite, answer, cap, first_exit, next_regime, slipped, strength};
 
 /// The state variable of a point that slips.
 const SLIPPING: f64 = 1.0;
@@ -37,11 +35,7 @@ impl StaticKinetic {
         if !(mu_k >= 0.0 && mu_k < mu_s) {
             return Err(Failure::Parameter { name: "mu_k", value: mu_k, admissible: "0 <= mu_k < mu_s" });
         }
-        let limit = match limit {
-            Some(value) => crate::positive("f_limit", value)?,
-            None => f64::INFINITY,
-        };
-        Ok(Self { mu_s, mu_k, limit })
+        Ok(Self { mu_s, mu_k, limit: cap(limit)? })
     }
 
     /// μ of a state.
@@ -51,50 +45,8 @@ impl StaticKinetic {
 
     /// Strength F̄ and ∂F̄/∂f_n at a friction coefficient.
     fn strength(&self, mu: f64, normal: f64) -> (f64, f64) {
-        let cone = mu * normal;
-        if cone <= self.limit { (cone, mu) } else { (self.limit, 0.0) }
+        strength(mu, normal, self.limit)
     }
-}
-
-/// Refuses a point with inputs that are not finite.
-pub(crate) fn all_finite(point: usize, normal: f64, trial: f64, others: &[f64]) -> Result<(), Failure> {
-    if normal.is_finite() && trial.is_finite() && others.iter().all(|x| x.is_finite()) {
-        Ok(())
-    } else {
-        Err(Failure::NonFinite { point, normal, trial })
-    }
-}
-
-/// The smaller of two limits; the first of equals.
-pub(crate) fn smaller(a: Option<Limit>, b: Option<Limit>) -> Option<Limit> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(if b.fraction < a.fraction { b } else { a }),
-        (a, b) => a.or(b),
-    }
-}
-
-/// Limit r6 of the sticking point k with friction coefficient μ and cap \[Pa\].
-pub(crate) fn exit(
-    present: &Present<'_>,
-    step: &Increments<'_>,
-    k: usize,
-    mu: f64,
-    cap: f64,
-) -> Option<Limit> {
-    let line = Line { at: present.traction[k], change: step.traction[k] };
-    let cone = Line { at: mu * present.normal[k], change: mu * step.normal[k] };
-    let fraction = line.exit(cone, Some(cap))?;
-    Some(Limit { fraction, point: k, kind: LimitKind::StickToSlip })
-}
-
-/// Regime after an accepted forward step over which the strength ends at `strength` \[Pa\]: a sticking point slips from the
-/// surface on, a slipping one sticks when its slip reverses.
-pub(crate) fn next_regime(present: &Present<'_>, step: &Increments<'_>, k: usize, strength: f64) -> Regime {
-    let slipping = match present.regime[k] {
-        Regime::Stick => (present.traction[k] + step.traction[k]).abs() >= strength * (1.0 - BAND),
-        Regime::Slip => step.slip[k] > 0.0,
-    };
-    if slipping { Regime::Slip } else { Regime::Stick }
 }
 
 impl Law for StaticKinetic {
@@ -127,20 +79,13 @@ impl Law for StaticKinetic {
         Ok(())
     }
 
-    fn respond(&self, t: Trials<'_>, old: &[f64], out: Responses<'_>) -> Result<(), Failure> {
+    fn respond(&self, t: Trials<'_>, old: &[f64], mut out: Responses<'_>) -> Result<(), Failure> {
         for (k, &old) in old.iter().enumerate() {
-            let (normal, trial) = (t.normal[k], t.trial[k]);
-            all_finite(k, normal, trial, &[old])?;
-            let stick = trial <= self.strength(self.mu(old), normal).0;
-            // No more than the strength just exceeded: the slip is not negative.
-            let (strength, slope) = self.strength(self.mu_k, normal);
-            out.regime[k] = if stick { Regime::Stick } else { Regime::Slip };
-            out.traction[k] = if stick { trial } else { strength };
-            out.slip[k] = if stick { 0.0 } else { (trial - strength) / t.stiffness };
-            out.d_trial[k] = if stick { 1.0 } else { 0.0 };
-            out.d_normal[k] = if stick { 0.0 } else { slope };
-            let (weight, offset) = t.lag.map_or((1.0, 0.0), |lag| (lag.weight, lag.offset[k]));
-            out.rate[k] = if stick { 0.0 } else { weight * out.slip[k] / t.dt - offset };
+            let normal = t.normal[k];
+            all_finite(k, normal, t.trial[k], &[old])?;
+            // The kinetic strength is no more than the one just exceeded: the slip is not negative.
+            let held = self.strength(self.mu(old), normal).0;
+            let stick = answer(&t, k, held, self.strength(self.mu_k, normal), &mut out);
             out.states[k] = if stick { RESTING } else { SLIPPING };
         }
         Ok(())
@@ -171,10 +116,7 @@ impl Law for StaticKinetic {
     }
 
     fn limit(&self, present: Present<'_>, step: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
-        (0..present.normal.len())
-            .filter(|&k| present.regime[k] == Regime::Stick)
-            .map(|k| exit(&present, &step, k, self.mu(present.states[k]), self.limit))
-            .fold(None, smaller)
+        first_exit(&present, &step, |k| self.mu(present.states[k]), self.limit)
     }
 
     fn advance(
@@ -191,8 +133,7 @@ impl Law for StaticKinetic {
             all_finite(k, normal, traction, &[step.slip[k], present.states[k]])?;
             let (strength, _) = self.strength(self.mu(present.states[k]), normal);
             regime[k] = next_regime(&present, &step, k, strength);
-            rate[k] =
-                if present.regime[k] == Regime::Slip { (step.slip[k] / present.dt).max(0.0) } else { 0.0 };
+            rate[k] = slipped(&present, &step, k) / present.dt;
             states[k] = if regime[k] == Regime::Slip { SLIPPING } else { RESTING };
         }
         Ok(())

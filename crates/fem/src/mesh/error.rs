@@ -278,6 +278,19 @@ pub enum MeshError {
         /// Number of them.
         count: usize,
     },
+    /// A named face of more than two cells.
+    #[error(
+        "element {element} of group `{group}` is a face of three cells or more, the third is element {cell}: a face lies \
+         between two cells at the most, so cells overlap or stand in the file twice"
+    )]
+    Crowded {
+        /// Group.
+        group: String,
+        /// The element that names the face.
+        element: u64,
+        /// The third cell.
+        cell: u64,
+    },
     /// An element turned inside out, folded, or without volume.
     #[error(
         "element {element} ({kind}) is {}: its Jacobian determinant, relative to its greatest, falls to {least:.3} \

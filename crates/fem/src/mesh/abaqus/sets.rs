@@ -4,9 +4,9 @@ use super::lines::Keyword;
 use crate::mesh::error::{MeshError, Place};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Entries that sets may have for each byte of the file. A number takes two bytes at least; only sets of sets and ranges
-/// make more of them, and a file that makes much more is no mesh.
-const ENTRIES_PER_BYTE: usize = 16;
+/// Entries that sets may have for each byte of the file. A number takes two bytes at least; only sets of sets and ranges make
+/// more of them. An element and its share of the nodes take 35 bytes or more, so that each may stand in 70 sets.
+const ENTRIES_PER_BYTE: usize = 2;
 
 /// A line of a set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -134,7 +134,11 @@ fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Visits every pair of coincident nodes. Nodes are sorted into boxes a little wider than the greatest tolerance, so that
+/// Most nodes at one place with which a node is paired: in a mesh of cells that are all parts by themselves some dozens meet.
+/// Where more do, cells lie on top of each other, and to find that some hang free takes no further ones.
+const MOST_PARTNERS: usize = 64;
+
+/// Visits every pair of coincident nodes once. Nodes are sorted into boxes a little wider than the greatest tolerance, so that
 /// coincident ones lie in the same box or in neighbours.
 fn for_each_coincident<const D: usize>(x: &[[f64; D]], h: &[f64], mut visit: impl FnMut(usize, usize)) {
     let greatest = h.iter().copied().filter(|h| h.is_finite()).fold(0.0, f64::max);
@@ -145,34 +149,37 @@ fn for_each_coincident<const D: usize>(x: &[[f64; D]], h: &[f64], mut visit: imp
     let mut boxes: Vec<([i64; D], usize)> =
         x.iter().enumerate().map(|(n, x)| (x.map(|c| (c / width).floor() as i64), n)).collect();
     boxes.sort_unstable();
-    for &(key, a) in &boxes {
-        for_each_column::<D>(|step| {
+    let columns = columns_ahead::<D>();
+    for (at, &(key, a)) in boxes.iter().enumerate() {
+        let near = |b: usize| distance(&x[a], &x[b]) <= COINCIDENT * h[a].min(h[b]);
+        for step in &columns {
             let mut low = key;
-            for (l, s) in low.iter_mut().zip(step) {
+            for (l, &s) in low.iter_mut().zip(step) {
                 *l = l.saturating_add(s);
             }
             let mut high = low;
             low[D - 1] = low[D - 1].saturating_sub(1);
             high[D - 1] = high[D - 1].saturating_add(1);
-            let from = boxes.partition_point(|(k, _)| *k < low);
-            for &(_, b) in boxes[from..].iter().take_while(|(k, _)| *k <= high) {
-                if a < b && distance(&x[a], &x[b]) <= COINCIDENT * h[a].min(h[b]) {
-                    visit(a, b);
-                }
-            }
-        });
+            // In its own column a node is paired with those behind it in the list.
+            let from = boxes.partition_point(|(k, _)| *k < low).max(at + 1);
+            let column = boxes[from..].iter().take_while(|(k, _)| *k <= high).map(|&(_, b)| b);
+            column.filter(|&b| near(b)).take(MOST_PARTNERS).for_each(|b| visit(a, b));
+        }
     }
 }
 
-/// Visits the steps to the neighbouring columns of boxes: -1, 0, 1 along all axes but the last.
-fn for_each_column<const D: usize>(mut visit: impl FnMut([i64; D])) {
-    let columns = if D == 2 { 3 } else { 9 };
-    for c in 0..columns {
-        let mut step = [0; D];
-        step[0] = c % 3 - 1;
-        if D > 2 {
-            step[1] = c / 3 - 1;
-        }
-        visit(step);
+/// Steps to the columns of boxes that do not come before a box's own: -1, 0, 1 along all axes but the last.
+fn columns_ahead<const D: usize>() -> Vec<[i64; D]> {
+    let mut steps = vec![[0; D]];
+    for axis in 0..D - 1 {
+        let along = |k| {
+            move |mut step: [i64; D]| {
+                step[axis] = k;
+                step
+            }
+        };
+        steps = [-1, 0, 1].into_iter().flat_map(|k| steps.iter().copied().map(along(k))).collect();
     }
+    steps.retain(|step| *step >= [0; D]);
+    steps
 }

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Most physical groups of one entity. Each element of the entity stands in the sets of all its groups, so that this bounds
 /// what a file of a given size can make; users have a handful.
-const MOST_GROUPS: usize = 256;
+const MOST_GROUPS: usize = 32;
 
 /// Dimension and number of an entity.
 type Entity = (usize, i64);
@@ -133,12 +133,21 @@ impl Reader {
         let announced = scan.count("elements", 2, 16)?;
         scan.size("the least number of an element")?;
         scan.size("the greatest number of an element")?;
-        let mut blocks = Vec::with_capacity(count);
+        let mut blocks: Vec<Block> = Vec::new();
+        let mut places = BTreeMap::new();
         let mut held = 0;
         for _ in 0..count {
-            let block = block(scan)?;
-            held += block.block.tags.len() as u64;
-            blocks.push(block);
+            let Block { entity, mut block } = block(scan)?;
+            held += block.tags.len() as u64;
+            // Blocks of one shape and entity are one: a file may cut them as small as it likes.
+            let place = *places.entry((entity, block.shape)).or_insert(blocks.len());
+            match blocks.get_mut(place) {
+                Some(Block { block: first, .. }) => {
+                    first.tags.append(&mut block.tags);
+                    first.nodes.append(&mut block.nodes);
+                }
+                None => blocks.push(Block { entity, block }),
+            }
         }
         self.blocks = Some(blocks);
         agree(scan, "elements", announced as u64, held)

@@ -25,7 +25,15 @@ struct Wanted<'a> {
     element: u64,
     /// Sets it belongs to.
     names: Rc<[&'a str]>,
-    found: bool,
+    /// Cells that have it.
+    found: usize,
+}
+
+impl Wanted<'_> {
+    /// The first of its sets, for an error.
+    fn group(&self) -> String {
+        self.names.first().map_or_else(String::new, |n| (*n).to_string())
+    }
 }
 
 fn key(corners: impl Iterator<Item = usize>) -> Key {
@@ -62,15 +70,7 @@ impl RawMesh {
                 let nodes = sorted(side.corners.iter().map(|&n| index(n)).collect());
                 let (key, corners) = (key(nodes.iter().copied()), nodes.len());
                 let (owner, names) = (Some(side.element), Rc::clone(&names));
-                wanted.push(Wanted {
-                    key,
-                    corners,
-                    nodes,
-                    owner,
-                    element: side.element,
-                    names,
-                    found: false,
-                });
+                wanted.push(Wanted { key, corners, nodes, owner, element: side.element, names, found: 0 });
             }
         }
         wanted.sort_by_key(|w| (w.key, w.element));
@@ -81,13 +81,11 @@ impl RawMesh {
                 for (face, local) in block.kind.faces().iter().enumerate() {
                     let all: Vec<usize> = local.iter().map(|&a| nodes[a]).collect();
                     let side = Side { block: b, cell, face };
-                    collect(&mut wanted, &all, corners::<D>(local.len()), tag, side, &mut sets);
+                    collect(&mut wanted, &all, corners::<D>(local.len()), tag, side, &mut sets)?;
                 }
             }
         }
         no_orphans(&wanted)?;
-        // A face may be named twice in one set.
-        sets.values_mut().for_each(Vec::dedup);
         Ok(sets)
     }
 
@@ -108,7 +106,7 @@ impl RawMesh {
                 let corners = block.shape.corners();
                 let (key, names) = (key(nodes[..corners].iter().copied()), Rc::clone(&names));
                 let nodes = sorted(nodes.to_vec());
-                wanted.push(Wanted { key, corners, nodes, owner: None, element, names, found: false });
+                wanted.push(Wanted { key, corners, nodes, owner: None, element, names, found: 0 });
             }
         }
         wanted
@@ -124,8 +122,8 @@ fn corners<const D: usize>(nodes: usize) -> usize {
     }
 }
 
-/// Adds a side to the sets that want it. Faces of equal order must agree in all nodes: the two sides of a crack of one
-/// element share the corners and not the middle.
+/// Adds a side to the sets that want it, to each once. Faces of equal order must agree in all nodes: the two sides of a crack
+/// of one element share the corners and not the middle.
 fn collect(
     wanted: &mut [Wanted<'_>],
     all: &[usize],
@@ -133,7 +131,7 @@ fn collect(
     cell: u64,
     side: Side,
     sets: &mut BTreeMap<String, Vec<Side>>,
-) {
+) -> Result<(), MeshError> {
     let key = key(all[..corners].iter().copied());
     let from = wanted.partition_point(|w| w.key < key);
     let matching = wanted[from..].iter_mut().take_while(|w| w.key == key);
@@ -146,20 +144,27 @@ fn collect(
         {
             continue;
         }
-        w.found = true;
+        w.found += 1;
+        if w.found > 2 {
+            return Err(MeshError::Crowded { group: w.group(), element: w.element, cell });
+        }
         for name in w.names.iter() {
-            sets.entry((*name).to_string()).or_default().push(side);
+            let sides = sets.entry((*name).to_string()).or_default();
+            if sides.last() != Some(&side) {
+                sides.push(side);
+            }
         }
     }
+    Ok(())
 }
 
 /// The first group with elements that no cell has as a face.
 fn no_orphans(wanted: &[Wanted<'_>]) -> Result<(), MeshError> {
-    let lost = || wanted.iter().filter(|w| !w.found);
+    let lost = || wanted.iter().filter(|w| w.found == 0);
     let Some(first) = lost().min_by_key(|w| w.element) else {
         return Ok(());
     };
-    let group = first.names.first().map_or_else(String::new, |n| (*n).to_string());
+    let group = first.group();
     let count = lost().filter(|w| w.names.contains(&group.as_str())).count();
     Err(MeshError::Orphan { group, element: first.element, count })
 }

@@ -1,0 +1,109 @@
+//! What laws with a yield surface share: the capped cone, the return of a point to it, limit r6, and the regime and slip rate
+//! after a forward step.
+
+use crate::Failure;
+use crate::law::{BAND, Increments, Limit, LimitKind, Present, Regime, Responses, Trials};
+use crate::line::Line;
+
+/// A largest shear traction F_limit \[Pa\]; infinite where there is none.
+///
+/// # Errors
+/// [`Failure::Parameter`] when it is not positive.
+pub(crate) fn cap(limit: Option<f64>) -> Result<f64, Failure> {
+    limit.map_or(Ok(f64::INFINITY), |value| crate::positive("f_limit", value))
+}
+
+/// Strength F̄ = min(μ f_n, F_limit) \[Pa\] and ∂F̄/∂f_n \[-\].
+#[inline]
+pub(crate) fn strength(mu: f64, normal: f64, cap: f64) -> (f64, f64) {
+    let cone = mu * normal;
+    if cone <= cap { (cone, mu) } else { (cap, 0.0) }
+}
+
+/// Refuses a point with inputs that are not finite.
+#[inline]
+pub(crate) fn all_finite(point: usize, normal: f64, trial: f64, others: &[f64]) -> Result<(), Failure> {
+    if normal.is_finite() && trial.is_finite() && others.iter().all(|x| x.is_finite()) {
+        Ok(())
+    } else {
+        Err(Failure::NonFinite { point, normal, trial })
+    }
+}
+
+/// The implicit answer of point k where the strength does not depend on slip: a trial up to `held` \[Pa\] sticks, one above slips
+/// at the strength and slope of `sliding` \[Pa, -\]. The states are the caller's; the answer tells whether the point sticks.
+#[inline]
+pub(crate) fn answer(
+    t: &Trials<'_>,
+    k: usize,
+    held: f64,
+    sliding: (f64, f64),
+    out: &mut Responses<'_>,
+) -> bool {
+    let (trial, (strength, slope)) = (t.trial[k], sliding);
+    let stick = trial <= held;
+    out.regime[k] = if stick { Regime::Stick } else { Regime::Slip };
+    out.traction[k] = if stick { trial } else { strength };
+    out.slip[k] = if stick { 0.0 } else { (trial - strength) / t.stiffness };
+    out.d_trial[k] = if stick { 1.0 } else { 0.0 };
+    out.d_normal[k] = if stick { 0.0 } else { slope };
+    out.rate[k] = if stick { 0.0 } else { rate_of(t, k, out.slip[k]) };
+    stick
+}
+
+/// Slip rate \[m/s\] of point k that slips by Δλ \[m\] over an implicit step.
+#[inline]
+pub(crate) fn rate_of(t: &Trials<'_>, k: usize, slip: f64) -> f64 {
+    let (weight, offset) = t.lag.map_or((1.0, 0.0), |lag| (lag.weight, lag.offset[k]));
+    weight * slip / t.dt - offset
+}
+
+/// Limit r6 over all sticking points, with the friction coefficient μ(k) that holds each and the cap \[Pa\].
+pub(crate) fn first_exit(
+    present: &Present<'_>,
+    step: &Increments<'_>,
+    mu: impl Fn(usize) -> f64,
+    cap: f64,
+) -> Option<Limit> {
+    (0..present.normal.len())
+        .filter(|&k| present.regime[k] == Regime::Stick)
+        .map(|k| exit(present, step, k, mu(k), cap))
+        .fold(None, smaller)
+}
+
+/// The smaller of two limits; the first of equals.
+pub(crate) fn smaller(a: Option<Limit>, b: Option<Limit>) -> Option<Limit> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.fraction < a.fraction { b } else { a }),
+        (a, b) => a.or(b),
+    }
+}
+
+/// Limit r6 of the sticking point k with friction coefficient μ and cap \[Pa\].
+pub(crate) fn exit(
+    present: &Present<'_>,
+    step: &Increments<'_>,
+    k: usize,
+    mu: f64,
+    cap: f64,
+) -> Option<Limit> {
+    let line = Line { at: present.traction[k], change: step.traction[k] };
+    let cone = Line { at: mu * present.normal[k], change: mu * step.normal[k] };
+    let fraction = line.exit(cone, Some(cap))?;
+    Some(Limit { fraction, point: k, kind: LimitKind::StickToSlip })
+}
+
+/// Regime after an accepted forward step over which the strength ends at `strength` \[Pa\]: a sticking point slips from the
+/// surface on, a slipping one sticks when its slip reverses.
+pub(crate) fn next_regime(present: &Present<'_>, step: &Increments<'_>, k: usize, strength: f64) -> Regime {
+    let slipping = match present.regime[k] {
+        Regime::Stick => (present.traction[k] + step.traction[k]).abs() >= strength * (1.0 - BAND),
+        Regime::Slip => step.slip[k] > 0.0,
+    };
+    if slipping { Regime::Slip } else { Regime::Stick }
+}
+
+/// Slip \[m\] of an accepted forward step. What comes out backwards is the overshoot of a linear step.
+pub(crate) fn slipped(present: &Present<'_>, step: &Increments<'_>, k: usize) -> f64 {
+    if present.regime[k] == Regime::Slip { step.slip[k].max(0.0) } else { 0.0 }
+}
