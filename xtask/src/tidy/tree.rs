@@ -15,7 +15,7 @@ pub struct File {
 /// Folders of results, at the top only: anywhere else such a name would hide sources.
 const RESULTS: [&str; 2] = ["target", "out"];
 
-/// Folders that hold nothing of ours, at any depth.
+/// Entries that hold nothing of ours, at any depth; in a linked worktree `.git` is a file.
 const FOREIGN: [&str; 4] = [".git", "__pycache__", ".venv", "book"];
 
 /// All UTF-8 files outside the skipped folders, sorted by path.
@@ -40,7 +40,7 @@ pub fn files(root: &Path) -> Result<Vec<File>, Failure> {
 fn skipped(entry: &DirEntry) -> bool {
     let name = entry.file_name().to_string_lossy();
     let results = entry.depth() == 1 && RESULTS.contains(&name.as_ref());
-    entry.file_type().is_dir() && (results || FOREIGN.contains(&name.as_ref()))
+    FOREIGN.contains(&name.as_ref()) || entry.file_type().is_dir() && results
 }
 
 fn relative(root: &Path, path: &Path) -> String {
