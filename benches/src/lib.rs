@@ -2,7 +2,9 @@
 
 pub mod direct;
 
-use asperity_contact::{Interface, InterfaceSpec, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode};
+use asperity_contact::{
+    Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode,
+};
 use asperity_friction::law::{Law, RateBounds};
 use std::sync::Arc;
 
@@ -71,6 +73,7 @@ fn spec<const D: usize>(
         nodes,
         slave,
         master,
+        measure: MeasureKind::NodeToPoint,
         sliding,
         fixed_normal: None,
         normal_penalty: 1e12,

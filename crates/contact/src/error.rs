@@ -34,11 +34,13 @@ pub enum ContactError {
     },
     /// A segment of the wrong dimension or with the wrong number of nodes.
     #[error(
-        "interface {name}: master segment {segment} ({kind}) with {nodes} nodes does not fit {dimension} dimensions"
+        "interface {name}: {side} segment {segment} ({kind}) with {nodes} nodes does not fit {dimension} dimensions"
     )]
     BadSegment {
         /// Interface.
         name: String,
+        /// "slave" or "master".
+        side: &'static str,
         /// Index of the segment.
         segment: usize,
         /// Its kind.
@@ -59,6 +61,14 @@ pub enum ContactError {
         index: usize,
         /// Number of nodes.
         nodes: usize,
+    },
+    /// A slave point at a node of no slave facet.
+    #[error("interface {name}: slave node {label} belongs to no slave facet")]
+    NoFace {
+        /// Interface.
+        name: String,
+        /// Mesh node.
+        label: usize,
     },
     /// A tributary area that is not positive.
     #[error("interface {name}: tributary area {area} of slave node {label} is not positive")]

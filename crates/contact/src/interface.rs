@@ -2,13 +2,14 @@
 
 use crate::enforce::Penalty;
 use crate::error::ContactError;
+use crate::measure::mortar;
 use crate::measure::node_to_point::finite::Finite;
-use crate::measure::node_to_point::small::Small;
+use crate::measure::node_to_point::small::small;
 use crate::measure::{Attachment, Geometry, Measure, NormalPoint, Slides, Tractions};
 use crate::observe::{Balance, PointFields, Work};
 use crate::search::surface::Surface;
 use crate::shear::{Shear, TwoStep};
-use crate::spec::{InterfaceSpec, SlavePoint, Sliding, SurfaceNode, TimeRule};
+use crate::spec::{InterfaceSpec, MeasureKind, Segment, SlavePoint, Sliding, SurfaceNode, TimeRule};
 use crate::status::{Status, label};
 use crate::vector::{add, axpy, dot, moment, norm, scaled, sub};
 use asperity_fem::term::{Instant, Linearized, Pattern, Refusal, Term};
@@ -326,11 +327,11 @@ impl<const D: usize> Interface<D> {
         let (g, f) = (&self.geometry, &mut self.fields);
         f.gap.copy_from_slice(&g.gap);
         f.normal.copy_from_slice(&g.normal);
+        self.measure.areas(&mut f.area);
         let motion = &self.motion.committed;
         for p in 0..self.slave.len() {
             let node = &self.nodes[self.slave[p].node];
             let u = &self.u.committed[self.slave[p].node];
-            f.area[p] = self.slave[p].area;
             f.position[p] = if self.measure.follows() { add(&node.position, u) } else { node.position };
             f.tangent[p] = g.frame[p][0];
             let contact = &self.contact.committed[p];
@@ -392,24 +393,23 @@ impl<const D: usize> Interface<D> {
             let x = &self.nodes[n].position;
             if self.measure.follows() { add(x, &self.u.committed[n]) } else { *x }
         };
-        for (p, s) in self.slave.iter().enumerate() {
+        for p in 0..self.slave.len() {
             let n = &self.fields.normal[p];
             let f: [f64; D] = std::array::from_fn(|i| {
-                s.area * (self.fields.normal_traction[p] * n[i] - self.fields.shear[p][i])
+                self.fields.area[p] * (self.fields.normal_traction[p] * n[i] - self.fields.shear[p][i])
             });
-            slave_force = add(&slave_force, &f);
-            total = add(&total, &moment(&place(s.node), &f));
             self.measure.attachments(p, &mut attachments);
-            let mut contact_point = [0.0; D];
+            let mut apart = [0.0; D];
             for a in &attachments {
-                let reaction = scaled(&f, -a.weight);
-                master_force = add(&master_force, &reaction);
-                total = add(&total, &moment(&place(a.node), &reaction));
-                axpy(&mut contact_point, a.weight, &place(a.node));
+                let part = scaled(&f, a.weight);
+                let side = if a.slave { &mut slave_force } else { &mut master_force };
+                axpy(side, 1.0, &part);
+                total = add(&total, &moment(&place(a.node), &part));
+                axpy(&mut apart, a.weight, &place(a.node));
             }
             if !attachments.is_empty() {
-                let gap = dot(n, &sub(&place(s.node), &contact_point));
-                couple = add(&couple, &moment(&scaled(n, gap), &f));
+                let arm = if self.measure.collocated() { scaled(n, dot(n, &apart)) } else { apart };
+                couple = add(&couple, &moment(&arm, &f));
             }
         }
         Balance {
@@ -443,19 +443,38 @@ fn check<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactError> {
             });
         }
     }
-    for (segment, s) in spec.master.iter().enumerate() {
+    check_segments(spec, "master", &spec.master)?;
+    if let MeasureKind::Mortar { faces, .. } = &spec.measure {
+        check_segments(spec, "slave", faces)?;
+        let mut faced = vec![false; nodes];
+        faces.iter().flat_map(|f| &f.nodes).for_each(|&n| faced[n] = true);
+        if let Some(s) = spec.slave.iter().find(|s| !faced[s.node]) {
+            return Err(ContactError::NoFace { name: name(), label: spec.nodes[s.node].label });
+        }
+    }
+    check_numbers(spec)
+}
+
+fn check_segments<const D: usize>(
+    spec: &InterfaceSpec<D>,
+    side: &'static str,
+    segments: &[Segment],
+) -> Result<(), ContactError> {
+    let name = || spec.name.clone();
+    for (segment, s) in segments.iter().enumerate() {
         if s.kind.space() != D || s.kind.nodes() != s.nodes.len() {
             let (kind, nodes) = (s.kind, s.nodes.len());
-            return Err(ContactError::BadSegment { name: name(), segment, kind, nodes, dimension: D });
+            return Err(ContactError::BadSegment { name: name(), side, segment, kind, nodes, dimension: D });
         }
+        let nodes = spec.nodes.len();
         if let Some(&index) = s.nodes.iter().find(|n| **n >= nodes) {
-            return Err(ContactError::BadNode { name: name(), side: "master", index, nodes });
+            return Err(ContactError::BadNode { name: name(), side, index, nodes });
         }
         if spec.sliding == Sliding::Finite && !s.kind.first_order() {
             return Err(ContactError::FiniteOnSecondOrder { name: name(), kind: s.kind });
         }
     }
-    check_numbers(spec)
+    Ok(())
 }
 
 fn check_numbers<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactError> {
@@ -479,12 +498,21 @@ fn check_numbers<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactE
 fn build_measure<const D: usize>(spec: &InterfaceSpec<D>) -> (Box<dyn Measure<D>>, u64) {
     let positions: Vec<[f64; D]> = spec.nodes.iter().map(|n| n.position).collect();
     let surface = Surface::new(spec.master.clone(), &positions);
-    match spec.sliding {
-        Sliding::Small => {
-            let (measure, projections) = Small::new(&spec.nodes, &spec.slave, &surface, spec.fixed_normal);
+    match (&spec.measure, spec.sliding) {
+        (MeasureKind::Mortar { faces, axisymmetric }, Sliding::Small) => {
+            let master = spec.master.clone();
+            let (measure, examined) =
+                mortar::small(&spec.nodes, &spec.slave, faces, master, *axisymmetric, spec.fixed_normal);
+            (Box::new(measure), examined)
+        }
+        (MeasureKind::Mortar { faces, axisymmetric }, Sliding::Finite) => {
+            mortar::finite(&spec.nodes, &spec.slave, faces, spec.master.clone(), *axisymmetric)
+        }
+        (MeasureKind::NodeToPoint, Sliding::Small) => {
+            let (measure, projections) = small(&spec.nodes, &spec.slave, &surface, spec.fixed_normal);
             (Box::new(measure), projections)
         }
-        Sliding::Finite => {
+        (MeasureKind::NodeToPoint, Sliding::Finite) => {
             let (measure, projections) = Finite::new(&spec.nodes, &spec.slave, surface);
             (Box::new(measure), projections)
         }

@@ -24,5 +24,7 @@ mod vector;
 pub use error::ContactError;
 pub use interface::Interface;
 pub use observe::{Balance, PointFields, Work};
-pub use spec::{InterfaceSpec, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode, TimeRule};
+pub use spec::{
+    InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode, TimeRule,
+};
 pub use status::Status;

@@ -20,11 +20,11 @@ pub struct SurfaceNode<const D: usize> {
 pub struct SlavePoint {
     /// Index into the nodes of the interface.
     pub node: usize,
-    /// Tributary area \[m²; m per unit of thickness in two dimensions\], positive.
+    /// Tributary area \[m²; m per unit of thickness in two dimensions\], positive. A mortar measure takes its own instead.
     pub area: f64,
 }
 
-/// Kinds of master segment. Node orders: corners first, then mid-nodes of the edges 12, 23, ..., then the centre.
+/// Kinds of segment. Node orders: corners first, then mid-nodes of the edges 12, 23, ..., then the centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SegmentKind {
     /// Straight line of 2 nodes.
@@ -83,7 +83,7 @@ impl fmt::Display for SegmentKind {
     }
 }
 
-/// A master segment. Its nodes run so that the outward normal is `(e_y, -e_x)/|e|` with `e = x_2 - x_1` in two dimensions
+/// A segment of a surface. Its nodes run so that the outward normal is `(e_y, -e_x)/|e|` with `e = x_2 - x_1` in two dimensions
 /// (the body lies to the left of the edge), and along `e_1 × e_2` in three (counter-clockwise seen from outside).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Segment {
@@ -100,6 +100,21 @@ pub enum Sliding {
     Small,
     /// Pairing and normal follow the motion.
     Finite,
+}
+
+/// How gaps are measured.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MeasureKind {
+    /// Slave nodes against closest points of the master.
+    NodeToPoint,
+    /// Overlaps of slave and master facets, the gap averaged to slave nodes.
+    Mortar {
+        /// Slave facets, oriented as master segments are (outward of the slave body). Points at their nodes take their areas
+        /// from the overlap; facet nodes that are no slave point (the tip of a split surface) leave their share to the others.
+        faces: Vec<Segment>,
+        /// Whether the first coordinate is the radius of a body of revolution: areas are then those of the full circle.
+        axisymmetric: bool,
+    },
 }
 
 /// Time rule for the slip rate of implicit steps.
@@ -123,6 +138,8 @@ pub struct InterfaceSpec<const D: usize> {
     pub slave: Vec<SlavePoint>,
     /// Master side.
     pub master: Vec<Segment>,
+    /// How gaps are measured.
+    pub measure: MeasureKind,
     /// Small or finite sliding.
     pub sliding: Sliding,
     /// Normal of every pair instead of the segments' own (small sliding only): outward of the master; any length.

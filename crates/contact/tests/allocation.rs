@@ -1,10 +1,10 @@
-//! Residual, tangent and commit of small sliding allocate nothing.
+//! Residual, tangent and commit of small sliding, and of mortar in finite sliding, allocate nothing.
 //!
 //! A counting allocator needs `unsafe`: it only adds one to a counter before handing on to the system's.
 #![allow(clippy::unwrap_used, unsafe_code)]
 
 mod common;
-use asperity_contact::{Interface, SegmentKind, Sliding};
+use asperity_contact::{Interface, MeasureKind, Segment, SegmentKind, Sliding};
 use asperity_fem::term::{Linearized, Term};
 use common::*;
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -40,8 +40,14 @@ fn count<const D: usize>(interface: &mut Interface<D>, u: &[f64]) -> usize {
     COUNT.load(Ordering::Relaxed) - before
 }
 
+/// One test: the counter is of the whole process.
 #[test]
-fn small_sliding_allocates_nothing_after_construction() {
+fn nothing_is_allocated_after_construction() {
+    small_sliding_allocates_nothing();
+    mortar_allocates_nothing_while_its_pairing_stays();
+}
+
+fn small_sliding_allocates_nothing() {
     let spec = line_spec(0.4, Sliding::Small, viscous());
     let u = moved(&spec, 0.4, &[[0.1, -0.1], [0.2, -0.1], [-0.3, -0.1], [0.0, 0.1]], 1e-3, 1);
     let mut line = Interface::new(spec).unwrap();
@@ -50,4 +56,24 @@ fn small_sliding_allocates_nothing_after_construction() {
     let mut plate = Interface::new(spec).unwrap();
     assert_eq!(count(&mut line, &u), 0);
     assert_eq!(count(&mut plate, &v), 0);
+}
+
+fn mortar_allocates_nothing_while_its_pairing_stays() {
+    for sliding in [Sliding::Small, Sliding::Finite] {
+        let mut spec = line_spec(0.4, sliding, coulomb());
+        let faces = (4..7).map(|k| Segment { kind: SegmentKind::Seg2, nodes: vec![k + 1, k] }).collect();
+        spec.measure = MeasureKind::Mortar { faces, axisymmetric: false };
+        let u = moved(&spec, 0.4, &[[0.01, -0.1], [0.02, -0.1], [-0.03, -0.1], [0.0, 0.1]], 1e-3, 1);
+        let mut line = Interface::new(spec).unwrap();
+        line.prepare(&u).unwrap();
+        assert_eq!(count(&mut line, &u), 0, "{sliding:?}");
+        let mut spec = plate_spec(0.4, SegmentKind::Quad4, sliding, coulomb());
+        let faces = vec![Segment { kind: SegmentKind::Quad4, nodes: vec![9, 11, 12, 10] }];
+        spec.slave.truncate(4);
+        spec.measure = MeasureKind::Mortar { faces, axisymmetric: false };
+        let u = moved(&spec, 0.4, &[[0.01, 0.0, -0.1]; 4], 1e-3, 1);
+        let mut plate = Interface::new(spec).unwrap();
+        plate.prepare(&u).unwrap();
+        assert_eq!(count(&mut plate, &u), 0, "{sliding:?}");
+    }
 }

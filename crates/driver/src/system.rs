@@ -10,7 +10,9 @@ use crate::step::implicit::Implicit;
 use crate::step::static_explicit::StaticExplicit;
 use crate::step::{State, Trial};
 use crate::views;
-use asperity_contact::{Interface, InterfaceSpec, Segment, SegmentKind, SlavePoint, SurfaceNode, TimeRule};
+use asperity_contact::{
+    Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, SurfaceNode, TimeRule,
+};
 use asperity_fem::assembly::{Storage, Symmetry, System};
 use asperity_fem::condense::{Condensed, Reduction};
 use asperity_fem::dof::{Channel, Constraints};
@@ -459,6 +461,7 @@ fn spec<const D: usize>(
         nodes,
         slave: planned.slave.iter().map(|&(n, area)| SlavePoint { node: local(n), area }).collect(),
         master,
+        measure: MeasureKind::NodeToPoint,
         sliding: match planned.sliding {
             Sliding::Small => asperity_contact::Sliding::Small,
             Sliding::Finite => asperity_contact::Sliding::Finite,

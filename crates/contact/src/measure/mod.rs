@@ -4,6 +4,8 @@
 //! components in an orthonormal frame that is carried along with the master surface, so that the frame, and nothing else,
 //! knows about rotation.
 
+pub mod fixed;
+pub mod mortar;
 pub mod node_to_point;
 
 use asperity_fem::term::Pattern;
@@ -103,13 +105,15 @@ pub struct Exit {
     pub point: usize,
 }
 
-/// Master nodes a point acts on: interface node and weight.
+/// A node a point acts on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attachment {
     /// Index into the nodes of the interface.
     pub node: usize,
-    /// N_γ.
+    /// s_k: the share of the point's force that acts on the node, negative for the reaction on the master.
     pub weight: f64,
+    /// Whether the node belongs to the slave side.
+    pub slave: bool,
 }
 
 /// A measure of contact. `u` holds the displacements of the interface's nodes \[m\], not the system vector.
@@ -144,8 +148,16 @@ pub trait Measure<const D: usize>: Send + Sync + fmt::Debug {
     /// Returns to the pairing of the last commit; the pattern keeps its blocks until the next search.
     fn revert(&mut self);
 
-    /// Attachments of point `p` at the configuration last measured, written to `out` (cleared first).
+    /// Nodes of both sides point `p` acts on at the configuration last measured, written to `out` (cleared first); none
+    /// where it is unpaired.
     fn attachments(&self, p: usize, out: &mut Vec<Attachment>);
+
+    /// Areas the points stand for at the configuration last measured \[m², m in two dimensions\].
+    fn areas(&self, out: &mut [f64]);
+
+    /// Whether a point's force acts at its slave node and on the closest master point, so that the arm of the couple is
+    /// `g_n n`; otherwise both act on averages over facets, and the arm is the averaged `x_s - x_c`.
+    fn collocated(&self) -> bool;
 
     /// Whether forces act on the current configuration (moments are then taken there).
     fn follows(&self) -> bool;

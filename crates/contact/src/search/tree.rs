@@ -51,6 +51,12 @@ impl<const D: usize> Aabb<D> {
         s
     }
 
+    /// Whether the two boxes have a point in common.
+    #[must_use]
+    pub fn meets(&self, other: &Self) -> bool {
+        (0..D).all(|i| self.min[i] <= other.max[i] && other.min[i] <= self.max[i])
+    }
+
     fn centre(&self, axis: usize) -> f64 {
         0.5 * (self.min[axis] + self.max[axis])
     }
@@ -176,5 +182,28 @@ impl<const D: usize> Tree<D> {
             }
         }
         best
+    }
+
+    /// Calls `found` for every item whose box (one of `boxes`, as last given to `build` or `refit`) meets `query`, in the
+    /// order of the tree.
+    pub fn overlapping(&self, query: &Aabb<D>, boxes: &[Aabb<D>], mut found: impl FnMut(usize)) {
+        let mut stack = [0usize; DEPTH];
+        let mut top = usize::from(!self.nodes.is_empty());
+        while top > 0 {
+            top -= 1;
+            let node = &self.nodes[stack[top]];
+            if !node.aabb.meets(query) {
+                continue;
+            }
+            if let Some((a, b)) = node.children {
+                stack[top] = b;
+                stack[top + 1] = a;
+                top += 2;
+                continue;
+            }
+            for &k in self.order[node.range.0..node.range.1].iter().filter(|&&k| boxes[k].meets(query)) {
+                found(k);
+            }
+        }
     }
 }

@@ -1,7 +1,9 @@
 //! Scenes and laws for the tests of this crate.
 #![allow(dead_code, clippy::unwrap_used)]
 
-use asperity_contact::{Interface, InterfaceSpec, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode};
+use asperity_contact::{
+    Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode,
+};
 use asperity_fem::term::{Instant, Linearized, Term};
 use asperity_friction::Failure;
 use asperity_friction::law::{
@@ -249,6 +251,7 @@ pub fn spec<const D: usize>(
             .map(|(k, &node)| SlavePoint { node, area: 0.5 + 0.1 * k as f64 })
             .collect(),
         master,
+        measure: MeasureKind::NodeToPoint,
         sliding,
         fixed_normal: None,
         normal_penalty: 1000.0,

@@ -379,8 +379,20 @@ impl<const D: usize> Measure<D> for Finite<D> {
         if let Some(place) = self.points[p].place {
             let s = self.segment(&place);
             let shapes = shape(s.kind, place.xi);
-            out.extend(s.nodes.iter().zip(shapes.value).map(|(&node, weight)| Attachment { node, weight }));
+            out.push(Attachment { node: self.points[p].slave.node, weight: 1.0, slave: true });
+            let master = s.nodes.iter().zip(shapes.value);
+            out.extend(master.map(|(&node, n)| Attachment { node, weight: -n, slave: false }));
         }
+    }
+
+    fn areas(&self, out: &mut [f64]) {
+        for (a, p) in out.iter_mut().zip(&self.points) {
+            *a = p.slave.area;
+        }
+    }
+
+    fn collocated(&self) -> bool {
+        true
     }
 
     fn follows(&self) -> bool {

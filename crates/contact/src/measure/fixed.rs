@@ -1,0 +1,287 @@
+//! Pairing fixed in the reference configuration: every slave point acts on the same nodes with the same weights and the
+//! same normal throughout.
+//!
+//! With s_k the weights of the nodes, positive on the slave side and negative on the master's, and `w = Σ_k s_k u_k` the
+//! relative displacement, the gap is `g_n = g_0 + n·w` and the tangential increment the tangential part of
+//! `w - w_committed`. Normal, frame and weights are constants, so the residual of node k is `-A s_k (f_n n - t)` and the
+//! tangent block `A s_k s_j M` with one matrix M per point:
+//!
+//! `M = E_n n⊗n + T [ratio E_t (I - η⊗η) + d_trial E_t η⊗η] Tᵀ - E_n d_normal (Tη)⊗n`,
+//!
+//! T the two tangents as columns. M is unsymmetric in slip through its last part.
+
+use crate::measure::{Attachment, Exit, Geometry, Measure, NormalPoint, ShearPoint, Slides, Tractions};
+use crate::spec::SurfaceNode;
+use crate::vector::{axpy, dot, scaled, sub, unit};
+use asperity_fem::term::Pattern;
+
+/// Constants of a paired point.
+#[derive(Clone, Debug)]
+struct Pair<const D: usize> {
+    /// Slave point.
+    point: usize,
+    /// Start of its nodes in the flat arrays.
+    from: usize,
+    /// Start of the master's among them.
+    split: usize,
+    /// End of its nodes in the flat arrays.
+    to: usize,
+    normal: [f64; D],
+    frame: [[f64; D]; 2],
+    gap: f64,
+    area: f64,
+    /// Tangential components of the committed relative displacement \[m\].
+    committed: [f64; 2],
+    /// The same at the configuration last measured.
+    present: [f64; 2],
+}
+
+/// The measure.
+#[derive(Clone, Debug)]
+pub struct Fixed<const D: usize> {
+    pairs: Vec<Pair<D>>,
+    /// Interface nodes of all pairs, the slave's first.
+    nodes: Vec<usize>,
+    /// s_k of the nodes.
+    signs: Vec<f64>,
+    /// First degrees of freedom of the nodes.
+    dofs: Vec<usize>,
+    areas: Vec<f64>,
+    pattern: Pattern,
+    collocated: bool,
+}
+
+impl<const D: usize> Fixed<D> {
+    /// No pairs yet, of slave points with these areas; `collocated` as in [`Measure::collocated`].
+    pub(super) fn new(areas: Vec<f64>, collocated: bool) -> Self {
+        Self {
+            pairs: Vec::new(),
+            nodes: Vec::new(),
+            signs: Vec::new(),
+            dofs: Vec::new(),
+            areas,
+            pattern: Pattern::default(),
+            collocated,
+        }
+    }
+
+    /// Pairs slave point `point` (ascending from call to call) by nodes and weights of either side. `apart` is
+    /// `Σ_k s_k X_k`.
+    pub(super) fn pair(
+        &mut self,
+        point: usize,
+        slave: &[(usize, f64)],
+        master: &[(usize, f64)],
+        normal: [f64; D],
+        apart: &[f64; D],
+    ) {
+        let from = self.nodes.len();
+        let split = from + slave.len();
+        for &(node, weight) in slave.iter().chain(master) {
+            self.nodes.push(node);
+            self.signs.push(weight);
+        }
+        self.pairs.push(Pair {
+            point,
+            from,
+            split,
+            to: self.nodes.len(),
+            normal,
+            frame: fixed_frame(&normal),
+            gap: dot(&normal, apart),
+            area: self.areas[point],
+            committed: [0.0; 2],
+            present: [0.0; 2],
+        });
+    }
+
+    /// Builds the pattern once all points are paired.
+    pub(super) fn finish(&mut self, nodes: &[SurfaceNode<D>]) {
+        self.dofs = self.nodes.iter().map(|&n| nodes[n].dof).collect();
+        let blocks: Vec<Vec<usize>> = self
+            .pairs
+            .iter()
+            .map(|p| self.dofs[p.from..p.to].iter().flat_map(|&d| d..d + D).collect())
+            .collect();
+        self.pattern = Pattern::of_blocks(0, blocks.iter().map(Vec::as_slice));
+    }
+
+    /// Number of paired points.
+    #[must_use]
+    pub fn paired(&self) -> usize {
+        self.pairs.len()
+    }
+}
+
+/// Frame of a fixed normal: `(-n_y, n_x)` in two dimensions; in three, the x axis (the y axis where n is within about 25
+/// degrees of x) laid into the plane, and `n × e_1`, so that neighbouring points share their signs.
+pub(super) fn fixed_frame<const D: usize>(n: &[f64; D]) -> [[f64; D]; 2] {
+    let mut e1 = [0.0; D];
+    if D == 2 {
+        e1[0] = -n[1];
+        e1[1] = n[0];
+        return [e1, [0.0; D]];
+    }
+    let axis = usize::from(n[0].abs() > 0.9);
+    e1[axis] = 1.0;
+    axpy(&mut e1, -n[axis], n);
+    let e1 = unit(&e1);
+    [e1, crate::vector::cross(n, &e1)]
+}
+
+/// The matrix M of a closed point.
+#[inline]
+fn point_matrix<const D: usize>(
+    normal: &[f64; D],
+    frame: &[[f64; D]; 2],
+    contact: &NormalPoint,
+    shear: Option<&ShearPoint>,
+    stiffness: f64,
+) -> [[f64; D]; D] {
+    let mut m = [[0.0; D]; D];
+    let scaled_normal = scaled(normal, contact.stiffness);
+    for i in 0..D {
+        axpy(&mut m[i], normal[i], &scaled_normal);
+    }
+    let Some(shear) = shear else { return m };
+    let eta = &shear.direction;
+    let (across, along) = (stiffness * shear.ratio, stiffness * (shear.d_trial - shear.ratio));
+    let direction: [f64; D] = std::array::from_fn(|i| eta[0] * frame[0][i] + eta[1] * frame[1][i]);
+    for i in 0..D {
+        axpy(&mut m[i], across * frame[0][i], &frame[0]);
+        axpy(&mut m[i], across * frame[1][i], &frame[1]);
+        axpy(&mut m[i], along * direction[i], &direction);
+        axpy(&mut m[i], -shear.d_normal * direction[i], &scaled_normal);
+    }
+    m
+}
+
+impl<const D: usize> Measure<D> for Fixed<D> {
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    fn search(&mut self, _u: &[[f64; D]], _projections: &mut u64) -> bool {
+        false
+    }
+
+    fn measure(&mut self, u: &[[f64; D]], out: &mut Geometry<D>) {
+        for pair in &mut self.pairs {
+            let mut w = [0.0; D];
+            for k in pair.from..pair.to {
+                axpy(&mut w, self.signs[k], &u[self.nodes[k]]);
+            }
+            pair.present = [dot(&pair.frame[0], &w), dot(&pair.frame[1], &w)];
+            let p = pair.point;
+            out.paired[p] = true;
+            out.gap[p] = pair.gap + dot(&pair.normal, &w);
+            out.normal[p] = pair.normal;
+            out.frame[p] = pair.frame;
+            out.increment[p] = sub(&pair.present, &pair.committed);
+        }
+    }
+
+    fn spread(&self, force: &[[f64; D]], residual: &mut [f64]) {
+        for pair in &self.pairs {
+            let f = &force[pair.point];
+            for k in pair.from..pair.to {
+                let c = -pair.area * self.signs[k];
+                for (r, fi) in residual[self.dofs[k]..self.dofs[k] + D].iter_mut().zip(f) {
+                    *r += c * fi;
+                }
+            }
+        }
+    }
+
+    fn tangent(&self, _geometry: &Geometry<D>, tractions: Tractions<'_>, values: &mut [f64]) {
+        let mut at = 0;
+        for pair in &self.pairs {
+            let n = pair.to - pair.from;
+            let block = &mut values[at..at + n * n * D * D];
+            at += block.len();
+            let contact = &tractions.normal[pair.point];
+            if !contact.closed {
+                block.fill(0.0);
+                continue;
+            }
+            let shear = tractions.shear.map(|s| &s[pair.point]);
+            let m = point_matrix(&pair.normal, &pair.frame, contact, shear, tractions.stiffness);
+            let signs = &self.signs[pair.from..pair.to];
+            let mut rows = block.chunks_exact_mut(n * D);
+            for sk in signs {
+                for mi in &m {
+                    let Some(row) = rows.next() else { return };
+                    for (cell, sj) in row.chunks_exact_mut(D).zip(signs) {
+                        let c = pair.area * sk * sj;
+                        for (v, x) in cell.iter_mut().zip(mi) {
+                            *v = c * x;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn slides(&self, _geometry: &Geometry<D>, du: &[[f64; D]], out: &mut Slides) {
+        for pair in &self.pairs {
+            let mut w = [0.0; D];
+            for k in pair.from..pair.to {
+                axpy(&mut w, self.signs[k], &du[self.nodes[k]]);
+            }
+            out.gap[pair.point] = dot(&pair.normal, &w);
+            out.increment[pair.point] = [dot(&pair.frame[0], &w), dot(&pair.frame[1], &w)];
+        }
+    }
+
+    fn exit(&self, _du: &[[f64; D]]) -> Option<Exit> {
+        None
+    }
+
+    fn commit(&mut self, _geometry: &Geometry<D>, _reframe: &mut dyn FnMut(usize, &[[f64; D]; 2])) {
+        for pair in &mut self.pairs {
+            pair.committed = pair.present;
+        }
+    }
+
+    fn revert(&mut self) {}
+
+    fn attachments(&self, p: usize, out: &mut Vec<Attachment>) {
+        out.clear();
+        // Pairs are in the order of the points.
+        if let Ok(i) = self.pairs.binary_search_by_key(&p, |pair| pair.point) {
+            let pair = &self.pairs[i];
+            for k in pair.from..pair.to {
+                out.push(Attachment { node: self.nodes[k], weight: self.signs[k], slave: k < pair.split });
+            }
+        }
+    }
+
+    fn areas(&self, out: &mut [f64]) {
+        out.copy_from_slice(&self.areas);
+    }
+
+    fn collocated(&self) -> bool {
+        self.collocated
+    }
+
+    fn follows(&self) -> bool {
+        false
+    }
+
+    fn save(&self, out: &mut Vec<f64>) {
+        for pair in &self.pairs {
+            out.extend_from_slice(&pair.committed);
+        }
+    }
+
+    fn saved(&self) -> usize {
+        2 * self.pairs.len()
+    }
+
+    fn restore(&mut self, from: &[f64]) {
+        for (pair, c) in self.pairs.iter_mut().zip(from.chunks_exact(2)) {
+            pair.committed = [c[0], c[1]];
+            pair.present = pair.committed;
+        }
+    }
+}

@@ -1,0 +1,363 @@
+//! The overlap of a slave with a master facet, integrated.
+//!
+//! Both are projected along the slave facet's normal onto its (mean) plane, where they are polygons (in two dimensions
+//! intervals) and meet in a polygon. At each Gauss point of its triangles the natural coordinates on either facet follow
+//! from the position in the plane. The measure is the reference area of the slave, `w J_0/J` (times 2 π r about an axis), so
+//! that tractions are forces per reference area, as those of bodies and of node-to-point contact are.
+
+use super::clip::{Polygon, twice_area};
+use super::scalar::Scalar;
+use super::weighting::Weighting;
+use crate::shape::{MOST_NODES, Shape, shape};
+use crate::spec::SegmentKind;
+use crate::vector::dot;
+
+/// Newton iterations for natural coordinates: those of facets without re-entrant corners converge in 3 to 6.
+const ITERATIONS: usize = 30;
+
+/// A step in natural coordinates below this one has converged: a few units of rounding.
+const CONVERGED: f64 = 1e-15;
+
+/// Pieces smaller than this share of the slave facet are rounding of coinciding edges.
+const SLIVER: f64 = 1e-15;
+
+/// What stays the same for a slave facet in all configurations.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frozen<'a, const D: usize> {
+    pub kind: SegmentKind,
+    pub weighting: &'a Weighting,
+    /// Reference positions of its nodes.
+    pub reference: &'a [[f64; D]],
+    pub axisymmetric: bool,
+}
+
+/// Integrals over the overlap: row a is a point of the slave facet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sums<T, const N: usize> {
+    /// ∫ ψ_a N_B.
+    pub own: [[T; N]; N],
+    /// ∫ ψ_a N_γ, master.
+    pub other: [[T; N]; N],
+}
+
+impl<T: Scalar, const N: usize> Sums<T, N> {
+    pub(super) fn zero() -> Self {
+        Self { own: [[T::of(0.0); N]; N], other: [[T::of(0.0); N]; N] }
+    }
+}
+
+/// One pair of facets in the plane of the slave.
+struct Pair<'a, T, const D: usize, const N: usize> {
+    frozen: Frozen<'a, D>,
+    slave: [[T; 2]; N],
+    kind: SegmentKind,
+    master: [[T; 2]; N],
+}
+
+/// Integrates the overlap of a slave facet at `x` with a master facet at `y`; false where there is none. Sums that cannot be
+/// computed (a degenerate facet) are not numbers.
+pub(super) fn integrate<T: Scalar, const D: usize, const N: usize>(
+    frozen: Frozen<'_, D>,
+    x: &[[T; D]],
+    kind: SegmentKind,
+    y: &[[T; D]],
+    gauss: &[[f64; 2]],
+    sums: &mut Sums<T, N>,
+) -> bool {
+    let (origin, base) = plane(frozen.kind, x);
+    let flat = |p: &[T; D]| -> [T; 2] {
+        let d: [T; D] = std::array::from_fn(|i| p[i] - origin[i]);
+        std::array::from_fn(|m| inner(&d, &base[m]))
+    };
+    let mut pair = Pair { frozen, slave: [[T::of(0.0); 2]; N], kind, master: [[T::of(0.0); 2]; N] };
+    pair.slave.iter_mut().zip(x).for_each(|(s, p)| *s = flat(p));
+    pair.master.iter_mut().zip(y).for_each(|(s, p)| *s = flat(p));
+    *sums = Sums::zero();
+    if D == 2 { pair.interval(gauss, sums) } else { pair.polygons(gauss, sums) }
+}
+
+impl<T: Scalar, const D: usize, const N: usize> Pair<'_, T, D, N> {
+    /// Two dimensions: the common interval.
+    fn interval(&self, gauss: &[[f64; 2]], sums: &mut Sums<T, N>) -> bool {
+        let (a, b) = (self.slave[0][0], self.slave[1][0]);
+        // The master's sense is opposite.
+        let (c, d) = (self.master[1][0], self.master[0][0]);
+        let from = if c.value() > a.value() { c } else { a };
+        let to = if d.value() < b.value() { d } else { b };
+        if to.value() - from.value() <= SLIVER * (b.value() - a.value()) {
+            return false;
+        }
+        for [t, w] in gauss {
+            let y = from + (to - from).times(*t);
+            self.add([y, T::of(0.0)], (to - from).times(*w), sums);
+        }
+        true
+    }
+
+    /// Three dimensions: the common polygons of all parts, as fans of triangles.
+    fn polygons(&self, gauss: &[[f64; 2]], sums: &mut Sums<T, N>) -> bool {
+        let mut found = false;
+        let whole = |part: &Polygon<T>| {
+            (2..part.corners)
+                .map(|k| twice_area(&part.at[0], &part.at[k - 1], &part.at[k]).value())
+                .sum::<f64>()
+        };
+        for s in parts(self.frozen.kind) {
+            let own = outline(self.frozen.kind, &self.slave, s);
+            let least = SLIVER * whole(&own);
+            for m in parts(self.kind) {
+                let mut other = outline(self.kind, &self.master, m);
+                other.reverse();
+                if whole(&other) <= 0.0 || apart(&own, &other) {
+                    continue;
+                }
+                let common = own.clipped(&other);
+                for k in 2..common.corners {
+                    let (a, b, c) = (common.at[0], common.at[k - 1], common.at[k]);
+                    let double = twice_area(&a, &b, &c);
+                    if double.value() > least {
+                        found = true;
+                        self.triangle(&a, &b, &c, double, gauss, sums);
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    /// The square's rule collapsed onto a triangle.
+    fn triangle(
+        &self,
+        a: &[T; 2],
+        b: &[T; 2],
+        c: &[T; 2],
+        double: T,
+        gauss: &[[f64; 2]],
+        sums: &mut Sums<T, N>,
+    ) {
+        for [s, ws] in gauss {
+            for [t, wt] in gauss {
+                let v = t * (1.0 - s);
+                let y = std::array::from_fn(|i| a[i].times(1.0 - s - v) + b[i].times(*s) + c[i].times(v));
+                self.add(y, double.times(ws * wt * (1.0 - s)), sums);
+            }
+        }
+    }
+
+    /// Adds a Gauss point of the plane with its area.
+    fn add(&self, y: [T; 2], area: T, sums: &mut Sums<T, N>) {
+        let (own, other) = (self.frozen.kind.nodes(), self.kind.nodes());
+        let xi = locate::<T, D>(self.frozen.kind, &self.slave[..own], &y);
+        let eta = locate::<T, D>(self.kind, &self.master[..other], &y);
+        let s = shape(self.frozen.kind, [xi[0].value(), xi[1].value()]);
+        let m = shape(self.kind, [eta[0].value(), eta[1].value()]);
+        let w = area * self.density(&s, &xi);
+        let n: [T; N] = std::array::from_fn(|k| value(&s, k, &xi));
+        let o: [T; N] = std::array::from_fn(|k| value(&m, k, &eta));
+        for a in 0..self.frozen.weighting.points.len() {
+            let (psi, slopes) = self.frozen.weighting.slopes(a, own, &s);
+            let psi = w * T::chain(psi, slopes, &xi);
+            for (sum, nk) in sums.own[a][..own].iter_mut().zip(&n) {
+                *sum = *sum + psi * *nk;
+            }
+            for (sum, ok) in sums.other[a][..other].iter_mut().zip(&o) {
+                *sum = *sum + psi * *ok;
+            }
+        }
+    }
+
+    /// Reference area per area of the plane, times 2 π r about an axis.
+    fn density(&self, s: &Shape, xi: &[T; 2]) -> T {
+        let nodes = self.frozen.kind.nodes();
+        let flat = bases(s, xi, nodes, |k| self.slave[k]);
+        let plane = if D == 2 { flat[0][0] } else { flat[0][0] * flat[1][1] - flat[0][1] * flat[1][0] };
+        let reference = &self.frozen.reference;
+        let e = bases(s, xi, nodes, |k| reference[k].map(T::of));
+        let square = |a: &[T; D]| inner(a, a);
+        let squared = if D == 2 {
+            square(&e[0])
+        } else {
+            // |a × b|² = |a|² |b|² - (a·b)²
+            let ab = inner(&e[0], &e[1]);
+            square(&e[0]) * square(&e[1]) - ab * ab
+        };
+        let mut density = squared.sqrt() / plane;
+        if self.frozen.axisymmetric {
+            let mut r = T::of(0.0);
+            for (k, x) in reference.iter().enumerate() {
+                r = r + value(s, k, xi).times(x[0]);
+            }
+            density = density * r.times(std::f64::consts::TAU);
+        }
+        density
+    }
+}
+
+/// N_k with derivatives.
+#[inline]
+fn value<T: Scalar>(s: &Shape, k: usize, xi: &[T; 2]) -> T {
+    T::chain(s.value[k], [s.first[0][k], s.first[1][k]], xi)
+}
+
+/// Base vectors with derivatives.
+#[inline]
+fn bases<T: Scalar, const L: usize>(
+    s: &Shape,
+    xi: &[T; 2],
+    nodes: usize,
+    x: impl Fn(usize) -> [T; L],
+) -> [[T; L]; 2] {
+    let mut e = [[T::of(0.0); L]; 2];
+    for k in 0..nodes {
+        let p = x(k);
+        for (m, em) in e.iter_mut().enumerate() {
+            let slope = T::chain(s.first[m][k], [s.second[m][k], s.second[m + 1][k]], xi);
+            for (ei, pi) in em.iter_mut().zip(p) {
+                *ei = *ei + slope * pi;
+            }
+        }
+    }
+    e
+}
+
+#[inline]
+pub(super) fn inner<T: Scalar, const L: usize>(a: &[T; L], b: &[T; L]) -> T {
+    let mut s = a[0] * b[0];
+    for i in 1..L {
+        s = s + a[i] * b[i];
+    }
+    s
+}
+
+/// Origin and orthonormal base of the plane a facet is projected on: through its first node, normal to its chord, or to the
+/// sum of its corners' normals, so that the projection runs counter-clockwise.
+fn plane<T: Scalar, const D: usize>(kind: SegmentKind, x: &[[T; D]]) -> ([T; D], [[T; D]; 2]) {
+    let minus = |a: &[T; D], b: &[T; D]| -> [T; D] { std::array::from_fn(|i| a[i] - b[i]) };
+    let over = |a: [T; D], c: T| -> [T; D] { a.map(|v| v / c) };
+    let unit = |a: [T; D]| over(a, inner(&a, &a).sqrt());
+    let along = minus(&x[1], &x[0]);
+    if D == 2 {
+        return (x[0], [unit(along), [T::of(0.0); D]]);
+    }
+    let n = if matches!(kind, SegmentKind::Tri3 | SegmentKind::Tri6) {
+        cross(&along, &minus(&x[2], &x[0]))
+    } else {
+        cross(&minus(&x[2], &x[0]), &minus(&x[3], &x[1]))
+    };
+    let n = unit(n);
+    let off = inner(&n, &along);
+    let first = unit(std::array::from_fn(|i| along[i] - n[i] * off));
+    (x[0], [first, cross(&n, &first)])
+}
+
+fn cross<T: Scalar, const D: usize>(a: &[T; D], b: &[T; D]) -> [T; D] {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % D, (i + 2) % D);
+        a[j] * b[k] - a[k] * b[j]
+    })
+}
+
+/// Natural coordinates of a point of the plane. The values are found by Newton's method; one step more with the numbers
+/// themselves then gives the derivatives of the implicit function.
+fn locate<T: Scalar, const D: usize>(kind: SegmentKind, x: &[[T; 2]], y: &[T; 2]) -> [T; 2] {
+    let target = [y[0].value(), y[1].value()];
+    let mut xi =
+        if matches!(kind, SegmentKind::Tri3 | SegmentKind::Tri6) { [1.0 / 3.0; 2] } else { [0.0; 2] };
+    let mut inverse = [[f64::NAN; 2]; 2];
+    for _ in 0..ITERATIONS {
+        let s = shape(kind, xi);
+        let mut off = target;
+        let mut e = [[0.0; 2]; 2];
+        for (k, p) in x.iter().enumerate() {
+            for i in 0..2 {
+                let v = p[i].value();
+                off[i] -= s.value[k] * v;
+                e[0][i] += s.first[0][k] * v;
+                e[1][i] += s.first[1][k] * v;
+            }
+        }
+        inverse = if D == 2 {
+            [[e[0][0].recip(), 0.0], [0.0, 0.0]]
+        } else {
+            let det = e[0][0] * e[1][1] - e[0][1] * e[1][0];
+            [[e[1][1] / det, -e[1][0] / det], [-e[0][1] / det, e[0][0] / det]]
+        };
+        let step = [dot(&inverse[0], &off), dot(&inverse[1], &off)];
+        xi = [xi[0] + step[0], xi[1] + step[1]];
+        if step[0].abs().max(step[1].abs()) <= CONVERGED * (1.0 + xi[0].abs().max(xi[1].abs())) {
+            break;
+        }
+    }
+    let s = shape(kind, xi);
+    let mut off = *y;
+    for (k, p) in x.iter().enumerate() {
+        for i in 0..2 {
+            off[i] = off[i] - p[i].times(s.value[k]);
+        }
+    }
+    std::array::from_fn(|m| T::of(xi[m]) + off[0].times(inverse[m][0]) + off[1].times(inverse[m][1]))
+}
+
+/// Convex parts of a facet, corners in natural coordinates: itself when of first order, a fan of triangles about its centre
+/// through the mid-nodes otherwise.
+fn parts(kind: SegmentKind) -> &'static [&'static [[f64; 2]]] {
+    const C: [f64; 2] = [1.0 / 3.0; 2];
+    const O: [f64; 2] = [0.0; 2];
+    match kind {
+        SegmentKind::Seg2 | SegmentKind::Seg3 => &[&[[-1.0, 0.0], [1.0, 0.0]]],
+        SegmentKind::Tri3 => &[&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]],
+        SegmentKind::Quad4 => &[&[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]],
+        SegmentKind::Tri6 => &[
+            &[C, [0.0, 0.0], [0.5, 0.0]],
+            &[C, [0.5, 0.0], [1.0, 0.0]],
+            &[C, [1.0, 0.0], [0.5, 0.5]],
+            &[C, [0.5, 0.5], [0.0, 1.0]],
+            &[C, [0.0, 1.0], [0.0, 0.5]],
+            &[C, [0.0, 0.5], [0.0, 0.0]],
+        ],
+        SegmentKind::Quad9 => &[
+            &[O, [-1.0, -1.0], [0.0, -1.0]],
+            &[O, [0.0, -1.0], [1.0, -1.0]],
+            &[O, [1.0, -1.0], [1.0, 0.0]],
+            &[O, [1.0, 0.0], [1.0, 1.0]],
+            &[O, [1.0, 1.0], [0.0, 1.0]],
+            &[O, [0.0, 1.0], [-1.0, 1.0]],
+            &[O, [-1.0, 1.0], [-1.0, 0.0]],
+            &[O, [-1.0, 0.0], [-1.0, -1.0]],
+        ],
+    }
+}
+
+/// A part in the plane.
+fn outline<T: Scalar, const N: usize>(kind: SegmentKind, x: &[[T; 2]; N], part: &[[f64; 2]]) -> Polygon<T> {
+    let mut out = Polygon::empty();
+    if kind.first_order() {
+        x[..part.len()].iter().for_each(|p| out.push(*p));
+        return out;
+    }
+    for xi in part {
+        let s = shape(kind, *xi);
+        let mut p = [T::of(0.0); 2];
+        for (k, xk) in x.iter().enumerate().take(kind.nodes().min(MOST_NODES)) {
+            for i in 0..2 {
+                p[i] = p[i] + xk[i].times(s.value[k]);
+            }
+        }
+        out.push(p);
+    }
+    out
+}
+
+/// Whether the boxes of two polygons are apart.
+fn apart<T: Scalar>(a: &Polygon<T>, b: &Polygon<T>) -> bool {
+    let range = |p: &Polygon<T>, i: usize| {
+        p.at[..p.corners]
+            .iter()
+            .map(|x| x[i].value())
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)))
+    };
+    (0..2).any(|i| {
+        let ((al, ah), (bl, bh)) = (range(a, i), range(b, i));
+        ah <= bl || bh <= al
+    })
+}

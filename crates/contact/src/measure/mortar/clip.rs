@@ -1,0 +1,106 @@
+//! Intersection of convex polygons in a plane (Sutherland and Hodgman 1974), with derivatives where the numbers carry them.
+
+use super::scalar::Scalar;
+
+/// Corners of an intersection of two quadrilaterals are 8 at most, since each cut adds one; two are spare for rounding.
+const MOST_CORNERS: usize = 10;
+
+/// A convex polygon, counter-clockwise.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Polygon<T> {
+    pub corners: usize,
+    pub at: [[T; 2]; MOST_CORNERS],
+}
+
+impl<T: Scalar> Polygon<T> {
+    pub(super) fn empty() -> Self {
+        Self { corners: 0, at: [[T::of(0.0); 2]; MOST_CORNERS] }
+    }
+
+    #[inline]
+    pub(super) fn push(&mut self, p: [T; 2]) {
+        if self.corners < MOST_CORNERS {
+            self.at[self.corners] = p;
+            self.corners += 1;
+        }
+    }
+
+    /// Reverses the sense of rotation.
+    pub(super) fn reverse(&mut self) {
+        self.at[..self.corners].reverse();
+    }
+
+    /// The part inside the convex polygon `other`.
+    pub(super) fn clipped(&self, other: &Self) -> Self {
+        let mut out = *self;
+        for k in 0..other.corners {
+            let (a, b) = (other.at[k], other.at[(k + 1) % other.corners]);
+            out = out.left_of(&a, &b);
+            if out.corners < 3 {
+                return Self::empty();
+            }
+        }
+        out
+    }
+
+    /// The part left of the line from `a` to `b`.
+    fn left_of(&self, a: &[T; 2], b: &[T; 2]) -> Self {
+        let mut out = Self::empty();
+        let side = |p: &[T; 2]| twice_area(a, b, p);
+        let mut from = self.at[self.corners - 1];
+        let mut s = side(&from);
+        for to in &self.at[..self.corners] {
+            let t = side(to);
+            if (s.value() < 0.0) != (t.value() < 0.0) {
+                let c = s / (s - t);
+                out.push(std::array::from_fn(|i| from[i] + c * (to[i] - from[i])));
+            }
+            if t.value() >= 0.0 {
+                out.push(*to);
+            }
+            (from, s) = (*to, t);
+        }
+        out
+    }
+}
+
+/// Twice the area of the triangle a, b, c, positive counter-clockwise.
+#[inline]
+pub(super) fn twice_area<T: Scalar>(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> T {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn polygon(points: &[[f64; 2]]) -> Polygon<f64> {
+        let mut p = Polygon::empty();
+        points.iter().for_each(|x| p.push(*x));
+        p
+    }
+
+    fn area(p: &Polygon<f64>) -> f64 {
+        (2..p.corners).map(|k| 0.5 * twice_area(&p.at[0], &p.at[k - 1], &p.at[k])).sum()
+    }
+
+    #[test]
+    fn a_square_and_its_turn_by_45_degrees_meet_in_an_octagon() {
+        let square = polygon(&[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]);
+        let r = 2f64.sqrt();
+        let turned = polygon(&[[0.0, -r], [r, 0.0], [0.0, r], [-r, 0.0]]);
+        let both = square.clipped(&turned);
+        assert_eq!(both.corners, 8);
+        assert!((area(&both) - 8.0 * (r - 1.0)).abs() < 1e-14);
+        assert!((area(&turned.clipped(&square)) - area(&both)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn polygons_apart_or_sharing_an_edge_have_no_overlap() {
+        let square = polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        let beside = polygon(&[[1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0]]);
+        let apart = polygon(&[[3.0, 0.0], [4.0, 0.0], [4.0, 1.0]]);
+        assert!(area(&square.clipped(&beside)).abs() < 1e-15);
+        assert_eq!(square.clipped(&apart).corners, 0);
+    }
+}

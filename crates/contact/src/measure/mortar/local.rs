@@ -1,0 +1,127 @@
+//! A slave point in the present configuration, and how its traction changes with the geometry.
+
+use crate::measure::{NormalPoint, ShearPoint};
+use crate::vector::{add, axpy, cross, dot, norm, scaled, unit};
+
+/// Normal, frame and averaged distances of a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Local<const D: usize> {
+    /// n, outward from the master.
+    pub n: [f64; D],
+    /// Length of the sum of facet normals.
+    length: f64,
+    /// The material tangent vector e the frame is laid along.
+    e: [f64; D],
+    /// Length of its projection on the tangent plane.
+    projected: f64,
+    pub frame: [[f64; D]; 2],
+    /// Averaged x_s - x_c: `Σ_k s_k x_k`.
+    pub d: [f64; D],
+    /// Its growth since the last commit at fixed material points: `Σ_k (s_k of the last commit) x_k - d`.
+    pub v: [f64; D],
+}
+
+/// Changes of a point's geometry.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Change<const D: usize> {
+    pub n: [f64; D],
+    pub frame: [[f64; D]; 2],
+    pub d: [f64; D],
+    pub v: [f64; D],
+}
+
+impl<const D: usize> Change<D> {
+    pub(super) fn none() -> Self {
+        Self { n: [0.0; D], frame: [[0.0; D]; 2], d: [0.0; D], v: [0.0; D] }
+    }
+}
+
+/// Tractions of a point with their derivatives.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Traction<'a> {
+    pub normal: &'a NormalPoint,
+    pub shear: Option<&'a ShearPoint>,
+    /// E_t \[Pa/m\].
+    pub stiffness: f64,
+}
+
+impl<const D: usize> Local<D> {
+    /// From the sum of the outward slave normals and a material tangent vector (unused in two dimensions).
+    pub(super) fn new(normals: &[f64; D], e: [f64; D], d: [f64; D], v: [f64; D]) -> Self {
+        let length = norm(normals);
+        let n = scaled(normals, -length.recip());
+        if D == 2 {
+            let frame = [quarter(&n), [0.0; D]];
+            return Self { n, length, e, projected: 1.0, frame, d, v };
+        }
+        let mut q = e;
+        axpy(&mut q, -dot(&n, &e), &n);
+        let first = unit(&q);
+        Self { n, length, e, projected: norm(&q), frame: [first, cross(&n, &first)], d, v }
+    }
+
+    /// g_n.
+    pub(super) fn gap(&self) -> f64 {
+        dot(&self.n, &self.d)
+    }
+
+    /// Tangential displacement since the last commit.
+    pub(super) fn increment(&self) -> [f64; 2] {
+        [dot(&self.frame[0], &self.v), dot(&self.frame[1], &self.v)]
+    }
+
+    /// δn and δframe for changes of the normals' sum and of the tangent vector.
+    pub(super) fn turn(&self, normals: &[f64; D], e: &[f64; D], out: &mut Change<D>) {
+        let mut dn = scaled(normals, -self.length.recip());
+        let out_of_plane = dot(&self.n, &dn);
+        axpy(&mut dn, -out_of_plane, &self.n);
+        out.n = dn;
+        if D == 2 {
+            out.frame[0] = quarter(&dn);
+            return;
+        }
+        let along = dot(&self.n, &self.e);
+        let mut dq = *e;
+        axpy(&mut dq, -along, &dn);
+        axpy(&mut dq, -(dot(&dn, &self.e) + dot(&self.n, e)), &self.n);
+        let first = &self.frame[0];
+        let lengthening = dot(first, &dq);
+        axpy(&mut dq, -lengthening, first);
+        let first_change = scaled(&dq, self.projected.recip());
+        out.frame = [first_change, add(&cross(&dn, first), &cross(&self.n, &first_change))];
+    }
+
+    /// Force per area on the slave.
+    pub(super) fn force(&self, t: &Traction<'_>) -> [f64; D] {
+        let mut f = scaled(&self.n, t.normal.traction);
+        if let Some(s) = t.shear {
+            axpy(&mut f, -s.traction[0], &self.frame[0]);
+            axpy(&mut f, -s.traction[1], &self.frame[1]);
+        }
+        f
+    }
+
+    /// Its change.
+    pub(super) fn force_change(&self, t: &Traction<'_>, c: &Change<D>) -> [f64; D] {
+        let df_n = -t.normal.stiffness * (dot(&c.n, &self.d) + dot(&self.n, &c.d));
+        let mut df = scaled(&self.n, df_n);
+        axpy(&mut df, t.normal.traction, &c.n);
+        let Some(s) = t.shear else { return df };
+        let trial: [f64; 2] =
+            std::array::from_fn(|j| t.stiffness * (dot(&c.frame[j], &self.v) + dot(&self.frame[j], &c.v)));
+        let radial = (s.d_trial - s.ratio) * dot(&s.direction, &trial) + s.d_normal * df_n;
+        for (j, dt) in trial.iter().enumerate() {
+            axpy(&mut df, -(s.ratio * dt + radial * s.direction[j]), &self.frame[j]);
+            axpy(&mut df, -s.traction[j], &c.frame[j]);
+        }
+        df
+    }
+}
+
+/// `(-n_y, n_x)`.
+fn quarter<const D: usize>(n: &[f64; D]) -> [f64; D] {
+    let mut a = [0.0; D];
+    a[0] = -n[1];
+    a[1] = n[0];
+    a
+}

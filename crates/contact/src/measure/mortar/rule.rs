@@ -1,0 +1,109 @@
+//! Quadrature on the pieces of an overlap.
+
+use crate::shape::shape;
+use crate::spec::SegmentKind;
+use crate::vector::{axpy, cross, dot, norm};
+
+/// Most Gauss points in one direction. Faces so distorted that the product of shape functions needs more are integrated
+/// to a smaller accuracy, as every element is.
+const MOST: usize = 12;
+
+/// Accuracy for which the number of points on irregular quadrilaterals is chosen: rounding.
+const ACCURACY: f64 = 1e-16;
+
+/// A facet whose Jacobian varies by less than this share is a parallelogram but for the rounding of coordinates.
+const REGULAR: f64 = 1e-10;
+
+/// Gauss-Legendre points on [0, 1] for 1 to [`MOST`] points: abscissa and weight.
+#[derive(Clone, Debug)]
+pub(super) struct Rules {
+    lines: Vec<Vec<[f64; 2]>>,
+}
+
+impl Rules {
+    pub(super) fn new() -> Self {
+        Self { lines: (1..=MOST).map(legendre).collect() }
+    }
+
+    /// The rule of `n` points.
+    #[inline]
+    pub(super) fn line(&self, n: usize) -> &[[f64; 2]] {
+        &self.lines[n - 1]
+    }
+}
+
+/// Zeros of the Legendre polynomial by Newton's method with their weights 2/((1 - x²) P'²), on [0, 1].
+fn legendre(n: usize) -> Vec<[f64; 2]> {
+    #[expect(clippy::cast_precision_loss, reason = "n is at most MOST")]
+    let count = n as f64;
+    (0..n)
+        .map(|i| {
+            #[expect(clippy::cast_precision_loss, reason = "i is below MOST")]
+            let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (count + 0.5)).cos();
+            let mut slope = 1.0;
+            // Quadratic convergence from a guess good to two digits: rounding after four steps.
+            for _ in 0..8 {
+                let (mut p, mut before) = (1.0, 0.0);
+                for k in 0..n {
+                    #[expect(clippy::cast_precision_loss, reason = "k is below MOST")]
+                    let k = k as f64;
+                    (p, before) = (((2.0 * k + 1.0) * x * p - k * before) / (k + 1.0), p);
+                }
+                slope = count * (x * p - before) / (x * x - 1.0);
+                x -= p / slope;
+            }
+            [0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope)]
+        })
+        .collect()
+}
+
+/// Gauss points in one direction for the product of shape functions (and the radius) of a facet of this kind with one of
+/// kind `other`: exact where the shape functions are polynomials in the plane.
+pub(super) fn points(kind: SegmentKind, other: SegmentKind, distortion: f64) -> usize {
+    let degree = |k: SegmentKind| match k {
+        SegmentKind::Seg2 | SegmentKind::Tri3 => 1,
+        SegmentKind::Seg3 | SegmentKind::Tri6 | SegmentKind::Quad4 => 2,
+        SegmentKind::Quad9 => 4,
+    };
+    let of_products = degree(kind) + degree(other).max(degree(kind));
+    // 2n - 1 on lines, where the radius of a body of revolution adds one; 2n - 2 on triangles.
+    let n = (of_products + 3) / 2;
+    if distortion < REGULAR {
+        return n;
+    }
+    // The inverse of the bilinear map is analytic up to where the Jacobian vanishes, at 1/distortion in natural coordinates:
+    // Gauss points converge with the square of the parameter of that ellipse.
+    let far = distortion.min(1.0).recip();
+    let ellipse = (far + (far * far - 1.0).max(0.0).sqrt()).max(1.0 + REGULAR);
+    let more = -ACCURACY.ln() / (2.0 * ellipse.ln());
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "positive and bounded by MOST"
+    )]
+    let more = more.min(MOST as f64).ceil() as usize;
+    (n + more).min(MOST)
+}
+
+/// Largest relative deviation of the Jacobian from its mean at the corners of a facet with nodes `x`; 0 on lines and on
+/// triangles with straight edges and centred mid-nodes.
+pub(super) fn distortion<const D: usize>(kind: SegmentKind, x: &[[f64; D]]) -> f64 {
+    let corners: &[[f64; 2]] = match kind {
+        SegmentKind::Seg2 | SegmentKind::Tri3 => return 0.0,
+        SegmentKind::Seg3 => &[[-1.0, 0.0], [1.0, 0.0]],
+        SegmentKind::Tri6 => &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
+        SegmentKind::Quad4 | SegmentKind::Quad9 => &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
+    };
+    let jacobian = |xi: &[f64; 2]| {
+        let s = shape(kind, *xi);
+        let mut e = [[0.0; D]; 2];
+        for (k, xk) in x.iter().enumerate() {
+            axpy(&mut e[0], s.first[0][k], xk);
+            axpy(&mut e[1], s.first[1][k], xk);
+        }
+        if D == 2 { dot(&e[0], &e[0]).sqrt() } else { norm(&cross(&e[0], &e[1])) }
+    };
+    let (low, high) =
+        corners.iter().map(jacobian).fold((f64::INFINITY, 0.0f64), |(l, h), j| (l.min(j), h.max(j)));
+    (high - low) / (high + low)
+}

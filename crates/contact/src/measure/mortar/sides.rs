@@ -1,0 +1,247 @@
+//! The two surfaces of a mortar interface: facets with their weightings, averaged normals, and which facets may overlap.
+
+use super::cell::Frozen;
+use super::rule::{self, Rules};
+use super::weighting::Weighting;
+use crate::search::tree::{Aabb, Tree};
+use crate::shape::{MOST_NODES, shape};
+use crate::spec::{Segment, SegmentKind, SlavePoint};
+use crate::vector::{axpy, dot, norm, perpendicular, scaled, sub};
+
+/// Facets whose normals enclose less than about 96 degrees with each other do not face: along the slave's normal the
+/// projection of such a master facet degenerates.
+const FACING: f64 = 0.1;
+
+/// Boxes of the search grow by this share of a facet, so that candidates change only when the motion reaches it.
+const MARGIN: f64 = 0.25;
+
+/// A slave facet.
+#[derive(Clone, Debug)]
+pub(super) struct Facet {
+    pub kind: SegmentKind,
+    pub nodes: Vec<usize>,
+    pub weighting: Weighting,
+    /// Start of its nodes' reference positions.
+    from: usize,
+    distortion: f64,
+}
+
+/// A slave facet beside a slave point's node: facet and local number of the node there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beside {
+    pub facet: usize,
+    pub local: usize,
+}
+
+/// Both surfaces.
+#[derive(Clone, Debug)]
+pub(super) struct Sides<const D: usize> {
+    pub facets: Vec<Facet>,
+    pub master: Vec<Segment>,
+    /// Facets beside each slave point.
+    pub beside: Vec<Vec<Beside>>,
+    pub axisymmetric: bool,
+    reference: Vec<[f64; D]>,
+    distortion: Vec<f64>,
+    rules: Rules,
+    boxes: Vec<Aabb<D>>,
+    tree: Tree<D>,
+}
+
+impl<const D: usize> Sides<D> {
+    /// Facets at reference `positions` of the interface's nodes; facets none of whose nodes is a slave point are left out.
+    pub(super) fn new(
+        faces: &[Segment],
+        slave: &[SlavePoint],
+        master: Vec<Segment>,
+        positions: &[[f64; D]],
+        axisymmetric: bool,
+    ) -> Self {
+        let mut point_of = vec![None; positions.len()];
+        for (p, s) in slave.iter().enumerate() {
+            point_of[s.node] = Some(p);
+        }
+        let mut beside = vec![Vec::new(); slave.len()];
+        let (mut facets, mut reference) = (Vec::new(), Vec::new());
+        for face in faces {
+            if face.nodes.iter().all(|&n| point_of[n].is_none()) {
+                continue;
+            }
+            for (local, &n) in face.nodes.iter().enumerate() {
+                if let Some(p) = point_of[n] {
+                    beside[p].push(Beside { facet: facets.len(), local });
+                }
+            }
+            let x: Vec<[f64; D]> = face.nodes.iter().map(|&n| positions[n]).collect();
+            facets.push(Facet {
+                kind: face.kind,
+                nodes: face.nodes.clone(),
+                weighting: Weighting::new(face.kind, |k| point_of[face.nodes[k]]),
+                from: reference.len(),
+                distortion: rule::distortion(face.kind, &x),
+            });
+            reference.extend(x);
+        }
+        let distortion = master
+            .iter()
+            .map(|m| rule::distortion(m.kind, &m.nodes.iter().map(|&n| positions[n]).collect::<Vec<_>>()))
+            .collect();
+        let boxes: Vec<_> = master.iter().map(|m| box_of(&m.nodes, positions)).collect();
+        let tree = Tree::build(&boxes);
+        let rules = Rules::new();
+        Self { facets, master, beside, axisymmetric, reference, distortion, rules, boxes, tree }
+    }
+
+    /// What of slave facet `f` never changes.
+    #[inline]
+    pub(super) fn frozen(&self, f: usize) -> Frozen<'_, D> {
+        let facet = &self.facets[f];
+        Frozen {
+            kind: facet.kind,
+            weighting: &facet.weighting,
+            reference: &self.reference[facet.from..facet.from + facet.nodes.len()],
+            axisymmetric: self.axisymmetric,
+        }
+    }
+
+    /// The quadrature rule for slave facet `f` with master facet `m`; chosen by the reference configuration.
+    #[inline]
+    pub(super) fn rule(&self, f: usize, m: usize) -> &[[f64; 2]] {
+        let distortion = self.facets[f].distortion.max(self.distortion[m]);
+        self.rules.line(rule::points(self.facets[f].kind, self.master[m].kind, distortion))
+    }
+
+    /// Base vectors of facet `b.facet` at the node of a slave point.
+    #[inline]
+    pub(super) fn bases(&self, b: Beside, x: &[[f64; D]]) -> [[f64; D]; 2] {
+        let facet = &self.facets[b.facet];
+        bases(facet.kind, &facet.nodes, x, node_at(facet.kind, b.local))
+    }
+
+    /// Sum of the outward normals of the facets beside slave point `p`, each weighted by its Jacobian there.
+    #[inline]
+    pub(super) fn normal_sum(&self, p: usize, x: &[[f64; D]]) -> [f64; D] {
+        let mut sum = [0.0; D];
+        for b in &self.beside[p] {
+            axpy(&mut sum, 1.0, &perpendicular(&self.bases(*b, x)));
+        }
+        sum
+    }
+
+    /// About the area of each point's function over the whole slave surface, in the reference configuration.
+    pub(super) fn whole_areas(&self, points: usize) -> Vec<f64> {
+        let mut out = vec![0.0; points];
+        for f in 0..self.facets.len() {
+            let frozen = self.frozen(f);
+            let (low, high) =
+                frozen.reference.iter().fold(([f64::INFINITY; D], [f64::NEG_INFINITY; D]), |(l, h), x| {
+                    (std::array::from_fn(|i| l[i].min(x[i])), std::array::from_fn(|i| h[i].max(x[i])))
+                });
+            let size = norm(&sub(&high, &low));
+            let mut area = if D == 2 { size } else { size * size };
+            if self.axisymmetric {
+                area *= std::f64::consts::TAU * high[0];
+            }
+            frozen.weighting.points.iter().for_each(|&p| out[p] += area);
+        }
+        out
+    }
+
+    /// Moves the search to `x`.
+    pub(super) fn refit(&mut self, x: &[[f64; D]]) {
+        for (b, m) in self.boxes.iter_mut().zip(&self.master) {
+            *b = box_of(&m.nodes, x);
+        }
+        self.tree.refit(&self.boxes);
+    }
+
+    /// Master facets that may overlap slave facet `f` at `x`, ascending. They face it, and lie along its normal no farther
+    /// than the nearest master node does from its middle, plus its own size: of several layers of a master the nearest counts.
+    pub(super) fn candidates(&self, f: usize, x: &[[f64; D]], out: &mut Vec<usize>, count: &mut u64) {
+        out.clear();
+        let facet = &self.facets[f];
+        let n = facet_normal(facet.kind, &facet.nodes, x);
+        let mut middle = [0.0; D];
+        #[expect(clippy::cast_precision_loss, reason = "at most nine nodes")]
+        let share = 1.0 / facet.nodes.len() as f64;
+        facet.nodes.iter().for_each(|&k| axpy(&mut middle, share, &x[k]));
+        let mut own = box_of(&facet.nodes, x);
+        let size = norm(&sub(&own.max, &own.min));
+        let nearest = self.tree.nearest(&middle, |m| {
+            let squares = self.master[m].nodes.iter().map(|&k| {
+                let d = sub(&x[k], &middle);
+                dot(&d, &d)
+            });
+            Some(squares.fold(f64::INFINITY, f64::min))
+        });
+        let Some((_, squared)) = nearest else { return };
+        let reach = scaled(&n, squared.sqrt() + size);
+        let mut grown = own;
+        for &k in &facet.nodes {
+            grown.include(&std::array::from_fn(|i| x[k][i] + reach[i]));
+            grown.include(&std::array::from_fn(|i| x[k][i] - reach[i]));
+        }
+        own = grown.inflated(MARGIN * size);
+        self.tree.overlapping(&own, &self.boxes, |m| {
+            *count += 1;
+            let s = &self.master[m];
+            if dot(&facet_normal(s.kind, &s.nodes, x), &n) < -FACING {
+                out.push(m);
+            }
+        });
+        out.sort_unstable();
+    }
+}
+
+fn box_of<const D: usize>(nodes: &[usize], x: &[[f64; D]]) -> Aabb<D> {
+    let mut b = Aabb::empty();
+    nodes.iter().for_each(|&n| b.include(&x[n]));
+    b
+}
+
+/// Outward unit normal in the middle of a facet.
+fn facet_normal<const D: usize>(kind: SegmentKind, nodes: &[usize], x: &[[f64; D]]) -> [f64; D] {
+    let middle =
+        if matches!(kind, SegmentKind::Tri3 | SegmentKind::Tri6) { [1.0 / 3.0; 2] } else { [0.0; 2] };
+    let n = perpendicular(&bases(kind, nodes, x, middle));
+    scaled(&n, norm(&n).recip())
+}
+
+/// Base vectors at natural coordinates.
+#[inline]
+pub(super) fn bases<const D: usize>(
+    kind: SegmentKind,
+    nodes: &[usize],
+    x: &[[f64; D]],
+    xi: [f64; 2],
+) -> [[f64; D]; 2] {
+    let s = shape(kind, xi);
+    let mut e = [[0.0; D]; 2];
+    for (k, &n) in nodes.iter().enumerate().take(MOST_NODES) {
+        axpy(&mut e[0], s.first[0][k], &x[n]);
+        axpy(&mut e[1], s.first[1][k], &x[n]);
+    }
+    e
+}
+
+/// Natural coordinates of local node `k`.
+pub(super) fn node_at(kind: SegmentKind, k: usize) -> [f64; 2] {
+    const LINE: [[f64; 2]; 3] = [[-1.0, 0.0], [1.0, 0.0], [0.0, 0.0]];
+    const TRIANGLE: [[f64; 2]; 6] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
+    const SQUARE: [[f64; 2]; 9] = [
+        [-1.0, -1.0],
+        [1.0, -1.0],
+        [1.0, 1.0],
+        [-1.0, 1.0],
+        [0.0, -1.0],
+        [1.0, 0.0],
+        [0.0, 1.0],
+        [-1.0, 0.0],
+        [0.0, 0.0],
+    ];
+    match kind {
+        SegmentKind::Seg2 | SegmentKind::Seg3 => LINE[k],
+        SegmentKind::Tri3 | SegmentKind::Tri6 => TRIANGLE[k],
+        SegmentKind::Quad4 | SegmentKind::Quad9 => SQUARE[k],
+    }
+}

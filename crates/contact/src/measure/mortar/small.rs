@@ -1,0 +1,86 @@
+//! Small sliding: the overlap of the reference configuration.
+
+use super::cell::{Sums, integrate};
+use super::sides::Sides;
+use crate::measure::fixed::Fixed;
+use crate::shape::MOST_NODES;
+use crate::spec::{Segment, SlavePoint, SurfaceNode};
+use crate::vector::{axpy, scaled, unit};
+use std::collections::BTreeMap;
+
+/// A point that faces the master over less than this share of the area of its functions is unpaired: what is left is the
+/// rounding of rims that coincide.
+pub(super) const FACED: f64 = 1e-9;
+
+/// Row A of `D` and `M`.
+#[derive(Clone, Debug, Default)]
+struct Row {
+    area: f64,
+    slave: BTreeMap<usize, f64>,
+    master: BTreeMap<usize, f64>,
+}
+
+/// Integrates the overlaps in the reference configuration. Returns the measure and the number of pairs of facets examined.
+#[must_use]
+pub fn small<const D: usize>(
+    nodes: &[SurfaceNode<D>],
+    slave: &[SlavePoint],
+    faces: &[Segment],
+    master: Vec<Segment>,
+    axisymmetric: bool,
+    fixed_normal: Option<[f64; D]>,
+) -> (Fixed<D>, u64) {
+    let x: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
+    let sides = Sides::new(faces, slave, master, &x, axisymmetric);
+    let mut examined = 0;
+    let rows = rows(&sides, slave.len(), &x, &mut examined);
+    let whole = sides.whole_areas(slave.len());
+    let paired = |p: usize| rows[p].area > FACED * whole[p];
+    let areas = (0..slave.len()).map(|p| if paired(p) { rows[p].area } else { 0.0 }).collect();
+    let mut measure = Fixed::new(areas, false);
+    for (p, row) in rows.iter().enumerate().filter(|(p, _)| paired(*p)) {
+        let normal = fixed_normal.unwrap_or_else(|| scaled(&sides.normal_sum(p, &x), -1.0));
+        // A node of both sides (the tip of a split surface) acts with the difference of its weights.
+        let mut own = row.slave.clone();
+        let mut other = row.master.clone();
+        own.iter_mut().for_each(|(n, w)| *w -= other.remove(n).unwrap_or(0.0));
+        let share = row.area.recip();
+        let list = |weights: &BTreeMap<usize, f64>, c: f64| -> Vec<(usize, f64)> {
+            weights.iter().filter(|(_, w)| **w != 0.0).map(|(&n, w)| (n, c * w)).collect()
+        };
+        let (own, other) = (list(&own, share), list(&other, -share));
+        let mut apart = [0.0; D];
+        own.iter().chain(&other).for_each(|&(n, w)| axpy(&mut apart, w, &x[n]));
+        measure.pair(p, &own, &other, unit(&normal), &apart);
+    }
+    measure.finish(nodes);
+    (measure, examined)
+}
+
+fn rows<const D: usize>(sides: &Sides<D>, points: usize, x: &[[f64; D]], examined: &mut u64) -> Vec<Row> {
+    let mut rows = vec![Row::default(); points];
+    let mut candidates = Vec::new();
+    let mut sums = Sums::<f64, MOST_NODES>::zero();
+    for (f, facet) in sides.facets.iter().enumerate() {
+        let own: Vec<[f64; D]> = facet.nodes.iter().map(|&n| x[n]).collect();
+        sides.candidates(f, x, &mut candidates, examined);
+        for &m in &candidates {
+            let s = &sides.master[m];
+            let other: Vec<[f64; D]> = s.nodes.iter().map(|&n| x[n]).collect();
+            if !integrate(sides.frozen(f), &own, s.kind, &other, sides.rule(f, m), &mut sums) {
+                continue;
+            }
+            for (a, &p) in facet.weighting.points.iter().enumerate() {
+                let row = &mut rows[p];
+                for (&n, w) in facet.nodes.iter().zip(&sums.own[a]) {
+                    row.area += w;
+                    *row.slave.entry(n).or_default() += w;
+                }
+                for (&n, w) in s.nodes.iter().zip(&sums.other[a]) {
+                    *row.master.entry(n).or_default() += w;
+                }
+            }
+        }
+    }
+    rows
+}
