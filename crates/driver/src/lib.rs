@@ -4,6 +4,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod cli;
+mod free;
 pub mod laws;
 pub mod loading;
 pub mod model;
@@ -15,6 +16,7 @@ pub mod rigid;
 pub mod run;
 pub mod scene;
 pub mod slider;
+pub mod solver;
 pub mod step;
 pub mod system;
 pub mod timing;

@@ -5,10 +5,11 @@ use crate::model::{CellBlock, Model};
 use crate::rigid;
 use crate::scene::law;
 use crate::scene::model::{
-    Formulation, Interface as InterfaceSpec, Kinematics, Path as PathChoice, Rule, Scene, Sliding, Spanned,
-    Stepper,
+    Formulation, Interface as InterfaceSpec, Kinematics, Method, Path as PathChoice, Rule, Scene, Sliding,
+    Spanned, Stepper,
 };
 use crate::scene::units::Penalty;
+use crate::solver::{self, Solver};
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
 use asperity_fem::nonlinear::Material;
 use asperity_friction::law::Law;
@@ -130,8 +131,8 @@ pub struct Plan<const D: usize> {
     pub stages: Vec<Stage>,
     /// Path.
     pub path: Path,
-    /// Whether the tangents of all terms are symmetric and positive: the full system is factored symmetrically then.
-    pub symmetric: bool,
+    /// How the linear systems are solved.
+    pub solver: Solver,
     /// Stepper.
     pub stepping: Stepping,
     /// Step control.
@@ -180,6 +181,8 @@ pub struct Summary {
     pub physics: Vec<String>,
     /// Path taken, and why.
     pub path: String,
+    /// Solver of the linear systems, and why.
+    pub solver: String,
     /// Stepper.
     pub stepper: String,
     /// Remarks: bodies held by contact alone, unpaired nodes.
@@ -201,6 +204,7 @@ impl std::fmt::Display for Summary {
             writeln!(f, "  physics   {line}")?;
         }
         writeln!(f, "  path      {}", self.path)?;
+        writeln!(f, "  solver    {}", self.solver)?;
         writeln!(f, "  stepper   {}", self.stepper)?;
         for line in &self.remarks {
             writeln!(f, "  note      {line}")?;
@@ -249,10 +253,10 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
     let stepping = stepping(scene);
     let control = control(scene, &stages);
     let remarks = rigid::check(&model, &stages, &interfaces)?;
-    let summary = summary(scene, &model, &interfaces, path, &stepping, remarks);
+    let solver = solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
+    let summary = summary(scene, &model, &interfaces, path, &stepping, &solver, remarks);
     let initial_stress =
         model.bodies.iter().map(|b| loading::initial_stress(&scene.bodies[&b.name])).collect();
-    let symmetric = interfaces.is_empty() && model.is_linear();
     Ok(Plan {
         title: scene.title.clone(),
         model,
@@ -260,7 +264,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
         interfaces,
         stages,
         path,
-        symmetric,
+        solver,
         stepping,
         control,
         field_outputs: scene.output.fields.as_ref().map_or(1, |f| *f.get_ref()),
@@ -387,6 +391,7 @@ fn choose_path<const D: usize>(
     };
     let small = !interfaces.is_empty() && interfaces.iter().all(|i| i.sliding == Sliding::Small);
     match (scene.time.path, small, not_linear(model)) {
+        _ if scene.solver.method() == Method::Iterative => Ok(Path::Full),
         (PathChoice::Full, ..) => Ok(Path::Full),
         (_, true, None) => Ok(Path::Condensed),
         (PathChoice::Auto, ..) => Ok(Path::Full),
@@ -421,8 +426,10 @@ fn stepping(scene: &Scene) -> Stepping {
 fn control(scene: &Scene, stages: &[Stage]) -> Control {
     let time = &scene.time;
     let travel = stages.iter().map(|s| s.largest_rate() * (s.end - s.start)).fold(0.0, f64::max);
+    // Where nothing is moved there is no travel to compare slip with.
+    let usual = if travel > 0.0 { SLIP_TOLERANCE * travel } else { f64::INFINITY };
     Control {
-        tolerance: time.tolerance.as_ref().map_or(SLIP_TOLERANCE * travel, |t| t.get_ref().0),
+        tolerance: time.tolerance.as_ref().map_or(usual, |t| t.get_ref().0),
         first_step: time.first_step.as_ref().map(|t| t.get_ref().0),
         max_step: time.max_step.as_ref().map(|t| t.get_ref().0),
         min_step: time.min_step.as_ref().map(|t| t.get_ref().0),
@@ -436,6 +443,7 @@ fn summary<const D: usize>(
     interfaces: &[PlannedInterface],
     path: Path,
     stepping: &Stepping,
+    solver: &Solver,
     remarks: Vec<String>,
 ) -> Summary {
     let mut physics = bodies_in_words(scene, model);
@@ -458,39 +466,37 @@ fn summary<const D: usize>(
         (Path::Condensed, _) => {
             ("condensed: bodies are linear and sliding is small, so each is factored once and only the interface is solved".to_string(), retained)
         }
-        (Path::Full, choice) => (full_because(model, interfaces, choice), model.dofs()),
+        (Path::Full, _) => (full_because(scene, model, interfaces), model.dofs()),
     };
     let cells: usize = model.blocks.iter().map(|b| b.pattern().values()).sum();
-    let dense = if path == Path::Condensed { 3 * retained * retained } else { 0 };
-    // Fill of a planar nested factorisation, 31 n log2 n / 4, is the usual estimate; three dimensions fill as n^(4/3).
-    let n = model.dofs() as f64;
-    let fill = if D == 2 { 8.0 * n * n.log2() } else { 4.0 * n.powf(4.0 / 3.0) };
     Summary {
         physics,
         path: path_text,
+        solver: format!(
+            "{}; about {} of the {} allowed",
+            solver.why,
+            solver::size(solver.bytes),
+            solver::size(solver.memory)
+        ),
         stepper: describe(stepping, !model.is_linear(), !interfaces.is_empty()),
         remarks,
         dofs: model.dofs(),
         system_dofs,
         state_bytes,
-        memory_bytes: (cells + dense + fill as usize) * size_of::<f64>(),
+        memory_bytes: cells * size_of::<f64>() + solver.bytes,
     }
 }
 
-/// Why the full system is solved, and how it is factored.
-fn full_because<const D: usize>(
-    model: &Model<D>,
-    interfaces: &[PlannedInterface],
-    choice: PathChoice,
-) -> String {
-    let why = match (choice, not_linear(model)) {
+/// Why the full system is solved.
+fn full_because<const D: usize>(scene: &Scene, model: &Model<D>, interfaces: &[PlannedInterface]) -> String {
+    let why = match (scene.time.path, not_linear(model)) {
         (PathChoice::Full, _) => "the scene asks for it".to_string(),
         (_, Some(why)) => why,
         _ if interfaces.is_empty() => "there is no interface to condense onto".into(),
+        _ if scene.solver.method() == Method::Iterative => "the iterative method does not condense".into(),
         _ => "finite sliding changes the pairing during the run".into(),
     };
-    let symmetric = interfaces.is_empty() && model.is_linear();
-    format!("full: {why}; {} factorisation", if symmetric { "symmetric" } else { "unsymmetric" })
+    format!("full: {why}")
 }
 
 /// What the bodies are made of, one line for each kind there is.

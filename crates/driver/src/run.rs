@@ -5,7 +5,7 @@ use crate::observe::ObserveError;
 use crate::observe::view::{Counts, Observer, StepRecord, StepView};
 use crate::plan::{AnyPlan, Plan, Stepping};
 use crate::report::{Outcome, Phases, RunReport};
-use crate::step::{Accepted, Trial};
+use crate::step::{Accepted, Failure};
 use crate::system::Assembled;
 use crate::timing::StepLength;
 use std::time::Instant as Clock;
@@ -82,6 +82,7 @@ impl<const D: usize> Running<'_, D> {
         self.phases.set_up += clock.elapsed().as_secs_f64();
         let mut length = StepLength::new(&self.plan.control, stage, adaptive(&self.plan.stepping));
         let mut rejected = 0;
+        let mut free: Option<String> = None;
         loop {
             let Some(dt) = length.next(system.time()) else { return Ok(None) };
             let clock = Clock::now();
@@ -89,23 +90,32 @@ impl<const D: usize> Running<'_, D> {
             let trial = system.step(dt, &mut self.counts);
             self.phases.steps += clock.elapsed().as_secs_f64();
             match trial {
-                Trial::Accepted(accepted) => {
+                Ok(accepted) => {
                     system.set_time(length.snap(system.time()));
                     let error = system.slip_error(&before, accepted.dt);
                     length.accepted(accepted.dt, dt, error);
                     self.record(index, stage, system, &accepted, (rejected, length.reason()));
                     self.show(index, stage, system, observer)?;
-                    rejected = 0;
+                    (rejected, free) = (0, None);
                 }
-                Trial::Failed(why) => {
+                Err(failure) => {
                     self.counts.rejected += 1;
                     rejected += 1;
-                    if !length.halve(dt) {
-                        return Ok(Some(Outcome::Stopped {
-                            stage: stage.name.clone(),
-                            time: system.time(),
-                            reason: format!("{why}; the step was halved to {dt:.3e} s without success"),
-                        }));
+                    if free.is_none() && failure.is_singular() {
+                        free = system.free_motion();
+                    }
+                    let always = matches!(failure, Failure::Unsolved { always: true, .. });
+                    if always || !length.halve(dt) {
+                        let mut reason = system.in_words(&failure);
+                        if !always {
+                            reason += &format!("; the step was halved to {dt:.3e} s without success");
+                        }
+                        // Shorter steps may fail otherwise than the first did: what that one found is told.
+                        if let Some(free) = free {
+                            reason += &format!("; {free}");
+                        }
+                        let stage = stage.name.clone();
+                        return Ok(Some(Outcome::Stopped { stage, time: system.time(), reason }));
                     }
                 }
             }

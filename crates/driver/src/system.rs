@@ -1,20 +1,23 @@
 //! A plan brought to life: terms, constraints, stepper and state, on either path.
 
+use crate::free;
 use crate::loading::Stage;
 use crate::model::CellBlock;
 use crate::observe::view::{BodyFields, Counts, InterfaceFields, Setup};
 use crate::plan::{Path, Plan, PlannedInterface, Stepping, interface_nodes};
 use crate::report::InterfaceBalance;
 use crate::scene::model::{Rule, Sliding};
+use crate::solver::{self, Method, Prepared};
 use crate::step::implicit::Implicit;
 use crate::step::static_explicit::StaticExplicit;
-use crate::step::{State, Trial};
+use crate::step::{Accepted, Failure, State};
 use crate::views;
 use asperity_contact::{
     Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, SurfaceNode, TimeRule,
 };
-use asperity_fem::assembly::{Storage, Symmetry, System};
-use asperity_fem::condense::{Condensed, Reduction};
+use asperity_fem::FemError;
+use asperity_fem::assembly::{Iterative, NearNull, Storage, System};
+use asperity_fem::condense::{Analysis, Condensation, Condensed};
 use asperity_fem::dof::{Channel, Constraints};
 use asperity_fem::loads::ExternalForces;
 use asperity_fem::nonlinear::Kinematics;
@@ -63,7 +66,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// The reason in words when an interface cannot be paired.
     pub fn new(plan: &'a Plan<D>) -> Result<Self, String> {
         let retained = match plan.path {
-            Path::Condensed => retained_per_body(plan),
+            Path::Condensed => solver::retained(&plan.model, &plan.interfaces),
             Path::Full => Vec::new(),
         };
         let number = system_numbers(plan, &retained);
@@ -112,11 +115,19 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let renewed = self.fixed.as_ref() != Some(&stage.fixed);
         self.load_bodies(&constraints, renewed)?;
         self.constraints = self.in_system(&constraints);
+        let symmetry = solver::symmetry(&self.plan.model, &self.plan.interfaces, &self.plan.stepping, stage);
+        if renewed {
+            self.stepper = Some(self.new_stepper()?);
+            self.fixed = Some(stage.fixed.clone());
+        }
         // Bodies with a history do not go on as before when their loads turn: a stepper with the rate of the stage before would
         // begin far off.
-        if renewed || !self.plan.model.is_linear() {
-            self.stepper = Some(self.new_stepper());
-            self.fixed = Some(stage.fixed.clone());
+        match &mut self.stepper {
+            Some(ActiveStepper::Implicit(stepper)) => {
+                stepper.begin_stage(symmetry, self.plan.model.is_linear());
+            }
+            Some(ActiveStepper::StaticExplicit(stepper)) => stepper.begin_stage(symmetry),
+            None => {}
         }
         for (interface, planned) in self.interfaces.iter_mut().zip(&self.plan.interfaces) {
             let law = if stage.frictionless.contains(&planned.name) { None } else { planned.law.clone() };
@@ -127,15 +138,9 @@ impl<'a, const D: usize> Assembled<'a, D> {
         Ok(())
     }
 
-    fn new_stepper(&self) -> ActiveStepper {
-        let storage = match self.plan.path {
-            Path::Condensed => Storage::Dense,
-            Path::Full => Storage::Sparse,
-        };
-        let symmetry = if self.plan.symmetric { Symmetry::Positive } else { Symmetry::General };
-        let equations = self.constraints.equations(self.state.u.len());
-        let system = System::new(equations, storage).with_symmetry(symmetry);
-        match self.plan.stepping {
+    fn new_stepper(&self) -> Result<ActiveStepper, String> {
+        let system = self.linear_system()?;
+        Ok(match self.plan.stepping {
             Stepping::Implicit { .. } => ActiveStepper::Implicit(Box::new(Implicit::new(
                 system,
                 self.position(),
@@ -144,7 +149,29 @@ impl<'a, const D: usize> Assembled<'a, D> {
             Stepping::StaticExplicit { .. } => {
                 ActiveStepper::StaticExplicit(Box::new(StaticExplicit::new(system)))
             }
-        }
+        })
+    }
+
+    /// An empty system of the method of the plan.
+    fn linear_system(&self) -> Result<System, String> {
+        let equations = self.constraints.equations(self.state.u.len());
+        let (model, solver) = (&self.plan.model, &self.plan.solver);
+        Ok(match (solver.method, self.plan.path) {
+            (Method::Iterative { tolerance, most_iterations }, _) => {
+                let components = model.idealisation.components();
+                let near_null = NearNull::new(&model.mesh.nodes, components)
+                    .ok_or_else(|| format!("no rigid motions of {components} components"))?;
+                System::iterative(equations, Iterative { near_null, tolerance, most_iterations })
+            }
+            (Method::Direct, Path::Condensed) => System::new(equations, Storage::Dense),
+            (Method::Direct, Path::Full) => {
+                let analysis = match &solver.prepared {
+                    Prepared::System(analysis) => Some(analysis.clone()),
+                    _ => None,
+                };
+                System::new(equations, Storage::Sparse).prepared(solver.memory, analysis)
+            }
+        })
     }
 
     /// Size of the positions forces are computed from: that of the scene in finite sliding and large deformation, none otherwise.
@@ -168,7 +195,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
             Bodies::Condensed(bodies) => {
                 if renew {
                     self.body_solves += bodies.iter().map(|b| b.reduction().solves()).sum::<usize>();
-                    *bodies = condense(self.plan, &self.retained, constraints)?;
+                    *bodies = self::condense(self.plan, &self.retained, constraints)?;
                     self.body_factorisations += bodies.len();
                 }
                 for (body, term) in self.plan.model.bodies.iter().zip(bodies) {
@@ -201,10 +228,13 @@ impl<'a, const D: usize> Assembled<'a, D> {
     }
 
     /// Tries a step.
-    pub fn step(&mut self, dt: f64, counts: &mut Counts) -> Trial {
+    ///
+    /// # Errors
+    /// [`Failure`]; nothing was committed.
+    pub fn step(&mut self, dt: f64, counts: &mut Counts) -> Result<Accepted, Failure> {
         let (state, constraints) = (&mut self.state, &self.constraints);
         match &mut self.stepper {
-            None => Trial::Failed("no stage has begun".into()),
+            None => Err(Failure::Refused("no stage has begun".into())),
             Some(ActiveStepper::Implicit(stepper)) => {
                 let mut terms = linearized(&mut self.bodies, &mut self.interfaces);
                 stepper.step(&mut terms, constraints, state, dt, counts)
@@ -212,6 +242,45 @@ impl<'a, const D: usize> Assembled<'a, D> {
             Some(ActiveStepper::StaticExplicit(stepper)) => {
                 let mut terms = limited(&mut self.bodies, &mut self.interfaces);
                 stepper.step(&mut terms, constraints, state, dt, counts)
+            }
+        }
+    }
+
+    /// A failed step in words: degrees of freedom by body and place.
+    #[must_use]
+    pub fn in_words(&self, failure: &Failure) -> String {
+        match failure {
+            Failure::Refused(why) => why.clone(),
+            Failure::Unsolved { error, .. } => {
+                let nodes = self.nodes();
+                free::unsolved(&self.plan.model, error, |dof| {
+                    let components = self.plan.model.idealisation.components();
+                    (nodes[dof / components], dof % components)
+                })
+            }
+        }
+    }
+
+    /// The motion that the system assembled last does not resist, in words, where there is one.
+    #[must_use]
+    pub fn free_motion(&self) -> Option<String> {
+        let system = match self.stepper.as_ref()? {
+            ActiveStepper::Implicit(stepper) => stepper.system(),
+            ActiveStepper::StaticExplicit(stepper) => stepper.system(),
+        };
+        let nodes = self.nodes();
+        let places: Vec<[f64; D]> = nodes.iter().map(|&n| self.plan.model.mesh.nodes[n]).collect();
+        let mode = system.free_mode(&places)?;
+        Some(free::motion(&self.plan.model, &mode, &nodes))
+    }
+
+    /// Mesh node of each node of the system.
+    fn nodes(&self) -> Vec<usize> {
+        match self.plan.path {
+            Path::Full => (0..self.plan.model.mesh.nodes.len()).collect(),
+            Path::Condensed => {
+                let components = self.plan.model.idealisation.components();
+                self.retained.iter().flatten().step_by(components).map(|d| d / components).collect()
             }
         }
     }
@@ -357,24 +426,6 @@ fn limited<'t, const D: usize>(
     terms
 }
 
-/// Retained degrees of freedom of each body, in mesh numbering.
-fn retained_per_body<const D: usize>(plan: &Plan<D>) -> Vec<Vec<usize>> {
-    let mut nodes: Vec<usize> = plan.interfaces.iter().flat_map(interface_nodes).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    plan.model
-        .bodies
-        .iter()
-        .map(|b| {
-            nodes
-                .iter()
-                .filter(|n| b.nodes.contains(n))
-                .flat_map(|&n| (0..D).map(move |c| n * D + c))
-                .collect()
-        })
-        .collect()
-}
-
 /// System number of each degree of freedom of the mesh, `usize::MAX` for those condensed away.
 fn system_numbers<const D: usize>(plan: &Plan<D>, retained: &[Vec<usize>]) -> Vec<usize> {
     let n = plan.model.dofs();
@@ -398,13 +449,29 @@ fn condense<const D: usize>(
 ) -> Result<Vec<Condensed>, String> {
     let mut first = 0;
     let mut terms = Vec::new();
-    for (body, retained) in plan.model.bodies.iter().zip(retained) {
-        let dofs = &body.dofs;
-        let own = |list: &[usize]| -> Vec<usize> {
-            list.iter().filter(|d| dofs.contains(d)).map(|d| d - dofs.start).collect()
+    let prepared = match &plan.solver.prepared {
+        Prepared::Bodies(analyses) if constraints.fixed == plan.stages[0].fixed => Some(analyses),
+        _ => None,
+    };
+    let mut left = plan.solver.memory;
+    for (k, (body, retained)) in plan.model.bodies.iter().zip(retained).enumerate() {
+        let told = |e: FemError| {
+            let first = body.nodes.start;
+            let place = |dof: usize| (first + dof / D, dof % D);
+            format!("body `{}`: {}", body.name, free::unsolved(&plan.model, &e, place))
         };
-        let reduction = Reduction::new(&plan.model.stiffness(body), &own(retained), &own(&constraints.fixed))
-            .map_err(|e| format!("body `{}`: {e}", body.name))?;
+        let stiffness = plan.model.stiffness(body);
+        let dofs = &body.dofs;
+        let analysis = match prepared {
+            Some(analyses) => analyses[k].clone(),
+            None => {
+                let (kept, fixed) = (solver::local(retained, dofs), solver::local(&constraints.fixed, dofs));
+                Analysis::new(&[&stiffness.pattern], dofs.len(), &kept, &fixed).map_err(told)?
+            }
+        };
+        let bytes = analysis.bytes();
+        let reduction = Condensation::prepared(&stiffness, analysis).factor(left).map_err(told)?;
+        left = left.saturating_sub(bytes);
         let system: Vec<usize> = (first..first + retained.len()).collect();
         first += retained.len();
         terms.push(Condensed::new(format!("body `{}`", body.name), reduction, &system));

@@ -10,7 +10,7 @@ use crate::dof::{Channel, Constraints, Equations};
 use crate::error::FemError;
 use crate::multifrontal::{Cholesky, DirectError, Symbolic};
 use crate::ordering::Ordering;
-use crate::sparse::{Part, ScatterMap};
+use crate::sparse::{Part, ScatterMap, lower_pattern};
 use crate::table::Table;
 use crate::term::{Fraction, Instant, Limited, Linearized, Pattern, Refusal, Term};
 use faer::MatMut;
@@ -31,31 +31,42 @@ pub struct Stiffness {
 #[derive(Debug)]
 pub struct Condensation<'a> {
     body: &'a Stiffness,
+    analysis: Analysis,
+    matrix: ScatterMap,
+}
+
+/// The analysis of a condensation: which equations there are and in what order they are eliminated. Needs no values.
+#[derive(Clone, Debug)]
+pub struct Analysis {
     /// Numbering of the degrees of freedom that are not fixed: interior and retained.
     active: Equations,
     /// Retained degrees of freedom.
     retained: Vec<usize>,
     /// Prescribed degrees of freedom that are not retained.
     fixed: Vec<usize>,
-    matrix: ScatterMap,
     symbolic: Arc<Symbolic>,
 }
 
-impl<'a> Condensation<'a> {
-    /// Orders and analyses `body` for condensation onto `retained` (sorted). `fixed` (sorted) are its prescribed degrees of
-    /// freedom; those that are retained as well stay in the reduced system, where the stepper prescribes them.
+impl Analysis {
+    /// Orders and analyses a body of `dofs` degrees of freedom for condensation onto `retained` (sorted). `fixed` (sorted) are
+    /// its prescribed degrees of freedom; those that are retained as well stay in the reduced system, where the stepper
+    /// prescribes them.
     ///
     /// # Errors
     /// [`FemError::Direct`] when the pattern cannot be ordered.
-    pub fn analyse(body: &'a Stiffness, retained: &[usize], fixed: &[usize]) -> Result<Self, FemError> {
+    pub fn new(
+        patterns: &[&Pattern],
+        dofs: usize,
+        retained: &[usize],
+        fixed: &[usize],
+    ) -> Result<Self, FemError> {
         let fixed: Vec<usize> =
             fixed.iter().copied().filter(|d| retained.binary_search(d).is_err()).collect();
-        let active = Constraints { fixed: fixed.clone(), channels: Vec::new() }.equations(body.dofs);
-        let mut matrix = ScatterMap::new(&[&body.pattern], &active, Part::Lower);
-        matrix.add(0, &body.values);
+        let active = Constraints { fixed: fixed.clone(), channels: Vec::new() }.equations(dofs);
         let last: Vec<usize> = retained.iter().map(|&d| active.number[d]).collect();
-        let symbolic = Arc::new(Symbolic::retaining(matrix.symbolic(), Ordering::Automatic, &last)?);
-        Ok(Self { body, active, retained: retained.to_vec(), fixed, matrix, symbolic })
+        let lower = lower_pattern(patterns, &active);
+        let symbolic = Arc::new(Symbolic::retaining(lower.as_ref(), Ordering::Automatic, &last)?);
+        Ok(Self { active, retained: retained.to_vec(), fixed, symbolic })
     }
 
     /// Memory of the condensation at its worst moment \[bytes\].
@@ -63,11 +74,35 @@ impl<'a> Condensation<'a> {
     pub fn bytes(&self) -> usize {
         self.symbolic.bytes() + self.retained.len().pow(2) * size_of::<f64>()
     }
+}
+
+impl<'a> Condensation<'a> {
+    /// [`Analysis::new`] of `body`, and its matrix.
+    ///
+    /// # Errors
+    /// As [`Analysis::new`].
+    pub fn analyse(body: &'a Stiffness, retained: &[usize], fixed: &[usize]) -> Result<Self, FemError> {
+        Ok(Self::prepared(body, Analysis::new(&[&body.pattern], body.dofs, retained, fixed)?))
+    }
+
+    /// The condensation of `body` with an analysis of its pattern.
+    #[must_use]
+    pub fn prepared(body: &'a Stiffness, analysis: Analysis) -> Self {
+        let mut matrix = ScatterMap::new(&[&body.pattern], &analysis.active, Part::Lower);
+        matrix.add(0, &body.values);
+        Self { body, analysis, matrix }
+    }
+
+    /// Memory of the condensation at its worst moment \[bytes\].
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.analysis.bytes()
+    }
 
     /// Multiplications and additions of the factorisation.
     #[must_use]
     pub fn operations(&self) -> f64 {
-        self.symbolic.operations()
+        self.analysis.symbolic.operations()
     }
 
     /// Factors the interior.
@@ -78,22 +113,15 @@ impl<'a> Condensation<'a> {
     pub fn factor(self, allowed: usize) -> Result<Reduction, FemError> {
         let needed = self.bytes();
         if needed > allowed {
-            let equations = self.symbolic.equations();
+            let equations = self.analysis.symbolic.equations();
             return Err(DirectError::Memory { needed, allowed, equations }.into());
         }
-        let mut factor = Cholesky::new(self.symbolic, self.matrix.values())
-            .map_err(|e| e.renumbered(|equation| self.active.free[equation]))?;
+        let Analysis { active, retained, fixed, symbolic } = self.analysis;
+        let mut factor = Cholesky::new(symbolic, self.matrix.values())
+            .map_err(|e| e.renumbered(|equation| active.free[equation]))?;
         let schur = factor.take_schur();
-        let fixed_columns = coupling(self.body, &self.active.number, &number_in(&self.fixed, self.body.dofs));
-        Ok(Reduction {
-            active: self.active,
-            retained: self.retained,
-            fixed: self.fixed,
-            fixed_columns,
-            factor,
-            schur,
-            solves: 0,
-        })
+        let fixed_columns = coupling(self.body, &active.number, &number_in(&fixed, self.body.dofs));
+        Ok(Reduction { active, retained, fixed, fixed_columns, factor, schur, solves: 0 })
     }
 }
 
@@ -283,6 +311,10 @@ impl Linearized for Condensed {
 
     fn tangent(&mut self, values: &mut [f64]) {
         values.copy_from_slice(&self.reduction.schur);
+    }
+
+    fn constant_tangent(&self) -> Option<&[f64]> {
+        Some(&self.reduction.schur)
     }
 }
 

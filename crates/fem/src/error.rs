@@ -110,7 +110,45 @@ pub enum FemError {
     /// A matrix that could not be factored.
     #[error("{0}")]
     Factorisation(String),
+    /// A tangent that is singular, or not positive definite where it must be. The pivot's `equation` is a degree of freedom.
+    #[error(
+        "the tangent is {}: degree of freedom {} is not held (pivot {:e}, diagonal {:e})",
+        if *.singular { "singular" } else { "not positive definite" },
+        .pivot.equation, .pivot.pivot, .pivot.diagonal
+    )]
+    Unheld {
+        /// Singular, or not positive definite.
+        singular: bool,
+        /// Where it was found out.
+        pivot: crate::multifrontal::Pivot,
+    },
+    /// The iterative solver gave up.
+    #[error("conjugate gradients: {0}")]
+    NotConverged(crate::iterative::Outcome),
     /// A symmetric matrix that the direct solver could not factor.
     #[error(transparent)]
     Direct(#[from] crate::multifrontal::DirectError),
+}
+
+impl FemError {
+    /// The pivot of a matrix that could not be factored. Its `equation` is a degree of freedom in [`FemError::Unheld`] and in
+    /// errors of a condensation (there of the body).
+    #[must_use]
+    pub fn pivot(&self) -> Option<crate::multifrontal::Pivot> {
+        match self {
+            Self::Unheld { pivot, .. } => Some(*pivot),
+            Self::Direct(error) => error.pivot(),
+            _ => None,
+        }
+    }
+
+    /// Whether it says that a matrix is singular, a motion free, rather than that its energy is negative.
+    #[must_use]
+    pub fn is_singular(&self) -> bool {
+        match self {
+            Self::Unheld { singular, .. } => *singular,
+            Self::Direct(error) => matches!(error, crate::multifrontal::DirectError::Singular(_)),
+            _ => false,
+        }
+    }
 }

@@ -48,6 +48,10 @@ impl Linearized for ExternalForces {
     }
 
     fn tangent(&mut self, _values: &mut [f64]) {}
+
+    fn constant_tangent(&self) -> Option<&[f64]> {
+        Some(&[])
+    }
 }
 
 impl Limited for ExternalForces {

@@ -95,6 +95,12 @@ pub trait Linearized: Term {
 
     /// Writes the tangent at the state of the last residual: for each block of the pattern its entries row by row.
     fn tangent(&mut self, values: &mut [f64]);
+
+    /// The tangent, where it is the same at every state and in every step, as [`Linearized::tangent`] writes it. A system of
+    /// such terms alone is factored once.
+    fn constant_tangent(&self) -> Option<&[f64]> {
+        None
+    }
 }
 
 /// The largest admissible fraction of a forward step (the R-minimum rule).

@@ -231,19 +231,25 @@ impl<const D: usize> Model<D> {
         self.bodies.iter().all(|b| b.nonlinear.is_none())
     }
 
-    /// The stiffness of a linear body in its own numbering, for condensation; blocks that are not linear have none.
+    /// Degrees of freedom of the cells of a linear body in its own numbering, cell by cell.
     #[must_use]
-    pub fn stiffness(&self, body: &Body<D>) -> Stiffness {
+    pub fn pattern(&self, body: &Body<D>) -> Pattern {
         let first = body.dofs.start;
         let mut own = Pattern { dofs: Vec::new(), starts: vec![0], version: 0 };
-        let mut values = Vec::new();
         for block in self.blocks[body.blocks.clone()].iter().filter_map(CellBlock::linear) {
             let (pattern, offset) = (block.pattern(), own.dofs.len());
             own.dofs.extend(pattern.dofs.iter().map(|d| d - first));
             own.starts.extend(pattern.starts[1..].iter().map(|s| s + offset));
-            values.extend_from_slice(block.stiffness());
         }
-        Stiffness { pattern: own, values, dofs: body.dofs.len() }
+        own
+    }
+
+    /// The stiffness of a linear body in its own numbering, for condensation; blocks that are not linear have none.
+    #[must_use]
+    pub fn stiffness(&self, body: &Body<D>) -> Stiffness {
+        let blocks = self.blocks[body.blocks.clone()].iter().filter_map(CellBlock::linear);
+        let values = blocks.flat_map(|b| b.stiffness().iter().copied()).collect();
+        Stiffness { pattern: self.pattern(body), values, dofs: body.dofs.len() }
     }
 
     /// The faces of a set.

@@ -112,8 +112,12 @@ pub struct Counts {
     pub tangents: usize,
     /// Factorisations of the step's system.
     pub factorisations: usize,
+    /// Those of them that were LU because a symmetric system was not positive definite.
+    pub indefinite: usize,
     /// Solves with such a factorisation.
     pub solves: usize,
+    /// Iterations of conjugate gradients, where the method is iterative.
+    pub linear_iterations: usize,
     /// Factorisations of bodies (condensation).
     pub body_factorisations: usize,
     /// Right-hand sides solved with those.

@@ -6,6 +6,7 @@ pub(crate) mod course;
 mod interfaces;
 mod materials;
 mod meshes;
+mod solver;
 mod time;
 
 use super::SceneError;
@@ -24,6 +25,7 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     checker.interfaces();
     checker.stages();
     checker.time();
+    checker.solver();
     checker.output();
     let mut errors = checker.errors;
     errors.sort_by_key(|e| (e.span.is_empty(), e.span.start));

@@ -4,12 +4,14 @@
 //! uses the empty span (see [`here`]), and its errors name the key instead.
 
 mod body;
+mod solver;
 
 use super::law::Several;
 use super::units::{Length, Penalty, Pressure, Time, Velocity};
 pub use body::*;
 use serde::Deserialize;
 pub use serde_spanned::Spanned;
+pub use solver::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -39,6 +41,9 @@ pub struct Scene {
     pub stages: Vec<Stage>,
     /// Time integration.
     pub time: TimeControl,
+    /// Solution of the linear systems.
+    #[serde(default)]
+    pub solver: Solver,
     /// Outputs.
     #[serde(default)]
     pub output: Output,

@@ -28,6 +28,8 @@ pub enum Dimension {
     Mass,
     /// \[Pa s\].
     Viscosity,
+    /// \[bytes\].
+    Memory,
 }
 
 impl Dimension {
@@ -45,6 +47,7 @@ impl Dimension {
             Self::Damping => "a damping",
             Self::Mass => "a mass per area",
             Self::Viscosity => "a viscosity",
+            Self::Memory => "an amount of memory",
         }
     }
 
@@ -60,6 +63,7 @@ impl Dimension {
             Self::Damping => "a damping such as \"5 MPa s/m\" or a number in Pa s/m",
             Self::Mass => "a mass per area such as \"3000 kg/m^2\" or a number in kg/m^2",
             Self::Viscosity => "a viscosity such as \"1e19 Pa s\" or a number in Pa s",
+            Self::Memory => "an amount of memory such as \"8 GiB\" or a number of bytes",
         }
     }
 
@@ -75,6 +79,7 @@ impl Dimension {
             Self::Damping => "Pa s/m, MPa s/m and other pressures times s/m",
             Self::Mass => "kg/m^2",
             Self::Viscosity => "Pa s, GPa yr and other pressures times times",
+            Self::Memory => "B, kB, MB, GB, KiB, MiB, GiB",
         }
     }
 }
@@ -87,6 +92,7 @@ struct Unit {
     factor: f64,
 }
 
+const KIBIBYTE: f64 = 1024.0;
 const MINUTE: f64 = 60.0;
 const HOUR: f64 = 3600.0;
 const DAY: f64 = 86400.0;
@@ -94,7 +100,7 @@ const DAY: f64 = 86400.0;
 const YEAR: f64 = 365.25 * DAY;
 
 fn simple(name: &str) -> Option<Unit> {
-    use Dimension::{Length, Pressure, Time};
+    use Dimension::{Length, Memory, Pressure, Time};
     let (dimension, power, factor) = match name {
         "nm" => (Length, -9, 1.0),
         "um" | "µm" | "μm" => (Length, -6, 1.0),
@@ -113,6 +119,13 @@ fn simple(name: &str) -> Option<Unit> {
         "kPa" => (Pressure, 3, 1.0),
         "MPa" => (Pressure, 6, 1.0),
         "GPa" => (Pressure, 9, 1.0),
+        "B" => (Memory, 0, 1.0),
+        "kB" => (Memory, 3, 1.0),
+        "MB" => (Memory, 6, 1.0),
+        "GB" => (Memory, 9, 1.0),
+        "KiB" => (Memory, 0, KIBIBYTE),
+        "MiB" => (Memory, 0, KIBIBYTE * KIBIBYTE),
+        "GiB" => (Memory, 0, KIBIBYTE * KIBIBYTE * KIBIBYTE),
         _ => return None,
     };
     Some(Unit { dimension, power, factor })
@@ -283,6 +296,8 @@ quantity! {
     Mass: Mass,
     /// A viscosity \[Pa s\].
     Viscosity: Viscosity,
+    /// An amount of memory \[bytes\].
+    Memory: Memory,
 }
 
 /// A contact penalty.

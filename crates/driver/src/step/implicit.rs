@@ -1,8 +1,8 @@
 //! The implicit stepper: Newton's method with a line search on the balance of forces at the end of the step.
 
-use super::{Accepted, Balance, State, Trial};
+use super::{Accepted, Balance, Before, Failure, State};
 use crate::observe::view::Counts;
-use asperity_fem::assembly::System;
+use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{Instant, Linearized};
 
@@ -56,7 +56,18 @@ impl Implicit {
         &self.system
     }
 
+    /// Goes on with another stage: what is known of its tangents, and whether the rate of the last step holds there.
+    pub fn begin_stage(&mut self, symmetry: Symmetry, goes_on: bool) {
+        self.system.set_symmetry(symmetry);
+        if !goes_on {
+            self.last = None;
+        }
+    }
+
     /// Tries a step of length `dt`. On success the terms have accepted and `state` has advanced.
+    ///
+    /// # Errors
+    /// [`Failure`]; the terms have dropped what they tried.
     pub fn step(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -64,7 +75,7 @@ impl Implicit {
         state: &mut State,
         dt: f64,
         counts: &mut Counts,
-    ) -> Trial {
+    ) -> Result<Accepted, Failure> {
         let at = Instant { time: state.time + dt, dt };
         let mut u = self.predict(state, dt);
         constraints.impose(at.time, &mut u);
@@ -77,14 +88,14 @@ impl Implicit {
                 self.last = Some((increment, dt));
                 state.u = u;
                 state.time = at.time;
-                Trial::Accepted(Accepted { dt, iterations, residual_ratio, limited_by: None })
+                Ok(Accepted { dt, iterations, residual_ratio, limited_by: None })
             }
             Err(why) => {
                 for term in terms.iter_mut() {
                     term.reject();
                 }
                 self.last = None;
-                Trial::Failed(why)
+                Err(why)
             }
         }
     }
@@ -105,15 +116,16 @@ impl Implicit {
         u: &mut Vec<f64>,
         at: Instant,
         counts: &mut Counts,
-    ) -> Result<(usize, f64), String> {
+    ) -> Result<(usize, f64), Failure> {
         prepare(terms, u)?;
         self.evaluate(terms, u, at, counts)?;
         let mut best = f64::INFINITY;
         let farthest = FARTHEST * self.extent.max(largest(u));
+        let converged = CONVERGED.max(self.system.tolerance());
         for iteration in 0..MOST_ITERATIONS {
             let norm = self.norm()?;
             let ratio = norm / self.scale();
-            if ratio <= CONVERGED && iteration > 0 || norm == 0.0 {
+            if ratio <= converged && iteration > 0 || norm == 0.0 {
                 return Ok((iteration, ratio));
             }
             // A residual that no longer falls has converged when it is rounding of the forces it is the sum of.
@@ -129,13 +141,14 @@ impl Implicit {
             counts.iterations += 1;
             if largest(u) > farthest {
                 let far = largest(u);
-                return Err(format!("the iteration runs away, to displacements of {far:.1e} m"));
+                return Err(format!("the iteration runs away, to displacements of {far:.1e} m").into());
             }
         }
         Err(format!(
             "Newton's method did not converge in {MOST_ITERATIONS} iterations: residual over the largest force is {:.2e}",
             self.norm()? / self.scale()
-        ))
+        )
+        .into())
     }
 
     fn evaluate(
@@ -167,14 +180,18 @@ impl Implicit {
         &mut self,
         terms: &mut [&mut dyn Linearized],
         counts: &mut Counts,
-    ) -> Result<Vec<f64>, String> {
-        counts.tangents += 1;
-        counts.factorisations += 1;
-        counts.solves += 1;
-        self.system.factor_tangent(terms).map_err(|e| e.to_string())?;
+    ) -> Result<Vec<f64>, Failure> {
+        let before = Before::of(&self.system);
         let free = &self.system.equations().free;
         let mut rhs: Vec<f64> = free.iter().map(|&d| -self.balance.r[d]).collect();
-        self.system.solve(&mut rhs).map_err(|e| e.to_string())?;
+        let solved = self.system.factor_tangent(terms).and_then(|anew| {
+            counts.tangents += usize::from(anew);
+            counts.factorisations += usize::from(anew);
+            self.system.solve(&mut rhs)
+        });
+        counts.solves += 1;
+        before.count(&self.system, counts);
+        solved.map_err(|e| Failure::unsolved(e, terms))?;
         let mut direction = vec![0.0; self.balance.r.len()];
         for (&dof, &value) in self.system.equations().free.iter().zip(&rhs) {
             direction[dof] = value;

@@ -4,7 +4,9 @@ pub mod implicit;
 pub mod static_explicit;
 
 use crate::observe::view::Counts;
-use asperity_fem::term::{Instant, Refusal, Term};
+use asperity_fem::FemError;
+use asperity_fem::assembly::System;
+use asperity_fem::term::{Instant, Linearized, Refusal, Term};
 
 /// Displacements of the system and where they stand in time.
 #[derive(Clone, Debug)]
@@ -15,13 +17,62 @@ pub struct State {
     pub time: f64,
 }
 
-/// How a trial step ended.
+/// Why a trial step failed. Nothing was committed.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Trial {
-    /// The step is accepted and committed.
-    Accepted(Accepted),
-    /// The step failed; nothing was committed. The text says why.
-    Failed(String),
+pub enum Failure {
+    /// The state was refused, or the iteration did not converge: a shorter step may do.
+    Refused(String),
+    /// A linear system could not be solved.
+    Unsolved {
+        /// Why.
+        error: FemError,
+        /// Whether it is the same in steps of any length, so that a shorter one does not help.
+        always: bool,
+    },
+}
+
+impl Failure {
+    /// Whether a motion was found free.
+    #[must_use]
+    pub fn is_singular(&self) -> bool {
+        matches!(self, Self::Unsolved { error, .. } if error.is_singular())
+    }
+
+    /// A failure of the linear system of some terms.
+    fn unsolved<T: Linearized + ?Sized>(error: FemError, terms: &[&mut T]) -> Self {
+        Self::Unsolved { error, always: terms.iter().all(|t| t.constant_tangent().is_some()) }
+    }
+}
+
+impl From<String> for Failure {
+    fn from(why: String) -> Self {
+        Self::Refused(why)
+    }
+}
+
+impl From<Refusal> for Failure {
+    fn from(refusal: Refusal) -> Self {
+        Self::Refused(refusal.to_string())
+    }
+}
+
+/// Work of a linear system before a step.
+#[derive(Clone, Copy)]
+struct Before {
+    indefinite: usize,
+    iterations: usize,
+}
+
+impl Before {
+    fn of(system: &System) -> Self {
+        Self { indefinite: system.indefinite, iterations: system.iterations }
+    }
+
+    /// Adds what was done since.
+    fn count(self, system: &System, counts: &mut Counts) {
+        counts.indefinite += system.indefinite - self.indefinite;
+        counts.linear_iterations += system.iterations - self.iterations;
+    }
 }
 
 /// Figures of an accepted step.

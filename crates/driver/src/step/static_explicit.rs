@@ -4,11 +4,11 @@
 //! With the a-term of the friction law, or a carried residual, the increment is affine in the step and not proportional to
 //! it, so that scaling it would not be exact: the step is solved again at `R dt` until no limit binds.
 
-use super::{Accepted, State, Trial};
+use super::{Accepted, Before, Failure, State};
 use crate::observe::view::Counts;
-use asperity_fem::assembly::System;
+use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
-use asperity_fem::term::{Fraction, Instant, Limited, Pattern, Refusal};
+use asperity_fem::term::{Fraction, Instant, Limited, Pattern};
 
 /// A fraction this close to 1 does not bind: events within 1e-9 of the step's end switch with it.
 const WHOLE: f64 = 1.0 - 1e-9;
@@ -37,7 +37,15 @@ impl StaticExplicit {
         &self.system
     }
 
+    /// Goes on with another stage.
+    pub fn begin_stage(&mut self, symmetry: Symmetry) {
+        self.system.set_symmetry(symmetry);
+    }
+
     /// Takes a step of at most `dt`.
+    ///
+    /// # Errors
+    /// [`Failure`]; the terms have dropped what they tried.
     pub fn step(
         &mut self,
         terms: &mut [&mut dyn Limited],
@@ -45,16 +53,14 @@ impl StaticExplicit {
         state: &mut State,
         dt: f64,
         counts: &mut Counts,
-    ) -> Trial {
-        match self.limited(terms, constraints, state, dt, counts) {
-            Ok(accepted) => Trial::Accepted(accepted),
-            Err(why) => {
-                for term in terms.iter_mut() {
-                    term.reject();
-                }
-                Trial::Failed(why)
+    ) -> Result<Accepted, Failure> {
+        let result = self.limited(terms, constraints, state, dt, counts);
+        if result.is_err() {
+            for term in terms.iter_mut() {
+                term.reject();
             }
         }
+        result
     }
 
     fn limited(
@@ -64,9 +70,9 @@ impl StaticExplicit {
         state: &mut State,
         mut dt: f64,
         counts: &mut Counts,
-    ) -> Result<Accepted, String> {
+    ) -> Result<Accepted, Failure> {
         for term in terms.iter_mut() {
-            term.prepare(&state.u).map_err(|e| e.to_string())?;
+            term.prepare(&state.u)?;
         }
         let mut cause: Option<Fraction> = None;
         for solve in 1..=MOST_SOLVES {
@@ -78,7 +84,7 @@ impl StaticExplicit {
                     let soft = limit.limit == "r8";
                     dt *= if soft { SOFT * limit.value } else { limit.value };
                     if dt <= 0.0 || !dt.is_finite() {
-                        return Err(format!("the step vanishes: {}", limit.cause));
+                        return Err(format!("the step vanishes: {}", limit.cause).into());
                     }
                     cause = Some(limit);
                 }
@@ -90,7 +96,7 @@ impl StaticExplicit {
             }
         }
         let why = cause.map_or_else(String::new, |c| c.cause);
-        Err(format!("the R-minimum rule did not settle in {MOST_SOLVES} solves; last limit {why}"))
+        Err(format!("the R-minimum rule did not settle in {MOST_SOLVES} solves; last limit {why}").into())
     }
 
     /// Solves `K Δu = ΔF` over the step `at`.
@@ -101,40 +107,38 @@ impl StaticExplicit {
         state: &State,
         at: Instant,
         counts: &mut Counts,
-    ) -> Result<Vec<f64>, String> {
+    ) -> Result<Vec<f64>, Failure> {
         let n = state.u.len();
         let mut du = prescribed_increment(constraints, state, at);
         let mut load = vec![0.0; n];
-        self.system
-            .factor(
-                terms,
-                |t| t.pattern(),
-                |t, values| {
-                    t.rate(at, values, &mut load)?;
-                    add_product(t.pattern(), values, &du, &mut load);
-                    Ok(())
-                },
-            )
-            .map_err(|e: Refusal| e.to_string())?
-            .map_err(|e| e.to_string())?;
+        let before = Before::of(&self.system);
+        let factored = self.system.factor_rate(terms, |t, values| {
+            t.rate(at, values, &mut load)?;
+            add_product(t.pattern(), values, &du, &mut load);
+            Ok::<_, Failure>(())
+        })?;
         let mut rhs: Vec<f64> = self.system.equations().free.iter().map(|&d| -load[d]).collect();
-        self.system.solve(&mut rhs).map_err(|e| e.to_string())?;
+        let solved = factored.and_then(|anew| {
+            counts.tangents += usize::from(anew);
+            counts.factorisations += usize::from(anew);
+            self.system.solve(&mut rhs)
+        });
+        counts.iterations += 1;
+        counts.solves += 1;
+        before.count(&self.system, counts);
+        solved.map_err(|e| Failure::unsolved(e, terms))?;
         for (&dof, &value) in self.system.equations().free.iter().zip(&rhs) {
             du[dof] = value;
         }
-        counts.iterations += 1;
-        counts.tangents += 1;
-        counts.factorisations += 1;
-        counts.solves += 1;
         Ok(du)
     }
 }
 
 /// Advances all terms by the increment and commits. On linear bodies, with tractions advanced by the same tangent, the
 /// balance of forces holds identically; what drifts is the friction law, which the interface measures.
-fn commit(terms: &mut [&mut dyn Limited], state: &mut State, du: &[f64], at: Instant) -> Result<(), String> {
+fn commit(terms: &mut [&mut dyn Limited], state: &mut State, du: &[f64], at: Instant) -> Result<(), Failure> {
     for term in terms.iter_mut() {
-        term.advance(du, at).map_err(|e| e.to_string())?;
+        term.advance(du, at)?;
     }
     for term in terms.iter_mut() {
         term.accept();

@@ -185,6 +185,10 @@ impl<const D: usize> Linearized for LinearBlock<D> {
     fn tangent(&mut self, values: &mut [f64]) {
         values.copy_from_slice(&self.stiffness);
     }
+
+    fn constant_tangent(&self) -> Option<&[f64]> {
+        Some(&self.stiffness)
+    }
 }
 
 impl<const D: usize> Limited for LinearBlock<D> {

@@ -44,9 +44,16 @@ pub struct FreeMode<const D: usize> {
 impl<const D: usize> fmt::Display for FreeMode<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let first = self.nodes.first().copied().unwrap_or(0);
-        write!(f, "the connected part of {} nodes around node {first} ", self.nodes.len())?;
+        write!(f, "the connected part of {} nodes around node {first} {}", self.nodes.len(), self.motion())
+    }
+}
+
+impl<const D: usize> FreeMode<D> {
+    /// What the part can do, in words.
+    #[must_use]
+    pub fn motion(&self) -> String {
         if self.deformation > RIGID {
-            return write!(f, "can deform without resistance");
+            return "can deform without resistance".into();
         }
         let turns = self.rotation.map(|r| r * self.extent);
         let largest = self.translation.iter().chain(&turns).fold(0.0_f64, |m, x| m.max(x.abs()));
@@ -60,10 +67,9 @@ impl<const D: usize> fmt::Display for FreeMode<D> {
         let turned: Vec<&str> =
             ["x", "y", "z"].into_iter().zip(turns).filter(|&(_, t)| named(t)).map(|(n, _)| n).collect();
         match (translated.is_empty(), turned.is_empty()) {
-            (false, true) => write!(f, "can translate along {}", translated.join(", ")),
-            (true, _) => write!(f, "can rotate about {} through {:?}", turned.join(", "), self.centre),
-            (false, false) => write!(
-                f,
+            (false, true) => format!("can translate along {}", translated.join(", ")),
+            (true, _) => format!("can rotate about {} through {:?}", turned.join(", "), self.centre),
+            (false, false) => format!(
                 "can rotate about {} while its centre {:?} moves along {}",
                 turned.join(", "),
                 self.centre,

@@ -108,6 +108,21 @@ pub enum ModelError {
 }
 
 impl Model {
+    /// Whether the consistent tangent of an implicit step is symmetric: at small strain it is `∫ B'CB` with the algorithmic
+    /// moduli C, which have major symmetry for all materials here. The objective update of large deformation is not the
+    /// derivative of an energy of the step.
+    #[must_use]
+    pub fn symmetric_tangent(&self) -> bool {
+        self.kinematics == Kinematics::Small
+    }
+
+    /// Whether the rate tangent of a forward step is symmetric: Σ of the Jaumann rate of the Kirchhoff stress has major
+    /// symmetry where the continuum moduli have it.
+    #[must_use]
+    pub fn symmetric_rate(&self) -> bool {
+        true
+    }
+
     /// Polynomials on which the dilatation of each cell is projected: none for the standard formulation, else 1, or 1 and
     /// the positions. Where the linear block takes the mean pressure alone the strain increment is averaged here, since a
     /// plastic deviator has no pressure of its own: the motions of a single cell that this leaves without energy (conformal

@@ -1,7 +1,9 @@
 //! Sparse matrices: assembly into a fixed pattern, and factorisations.
 
 mod factor;
+mod mirror;
 mod scatter;
 
 pub use factor::Factor;
-pub use scatter::{Part, ScatterMap};
+pub use mirror::Mirror;
+pub use scatter::{Part, ScatterMap, lower_pattern};

@@ -34,15 +34,7 @@ impl ScatterMap {
         let wanted = |row: usize, col: usize| {
             row != Equations::FIXED && col != Equations::FIXED && (part == Part::Whole || row >= col)
         };
-        let visit = |f: &mut dyn FnMut(usize, usize)| {
-            for block in patterns.iter().flat_map(|p| p.blocks()) {
-                for &r in block {
-                    for &c in block {
-                        f(equations.number[r], equations.number[c]);
-                    }
-                }
-            }
-        };
+        let visit = |f: &mut dyn FnMut(usize, usize)| visit_blocks(patterns, equations, f);
         let (starts, rows) = compress_columns(n, &wanted, &visit);
         let mut place = Vec::new();
         visit(&mut |row, col| {
@@ -117,6 +109,27 @@ impl ScatterMap {
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.gathers.iter().map(|(_, gather)| gather.bytes()).sum()
+    }
+}
+
+/// The lower triangle of the free equations of some patterns, without the places of their blocks.
+#[must_use]
+pub fn lower_pattern(patterns: &[&Pattern], equations: &Equations) -> SymbolicSparseColMat<usize> {
+    let n = equations.free.len();
+    let wanted = |row: usize, col: usize| row != Equations::FIXED && col != Equations::FIXED && row >= col;
+    let visit = |f: &mut dyn FnMut(usize, usize)| visit_blocks(patterns, equations, f);
+    let (starts, rows) = compress_columns(n, &wanted, &visit);
+    SymbolicSparseColMat::new_checked(n, n, starts, None, rows)
+}
+
+/// Calls `f` with (row, column) of every entry of every block, in order.
+fn visit_blocks(patterns: &[&Pattern], equations: &Equations, f: &mut dyn FnMut(usize, usize)) {
+    for block in patterns.iter().flat_map(|p| p.blocks()) {
+        for &r in block {
+            for &c in block {
+                f(equations.number[r], equations.number[c]);
+            }
+        }
     }
 }
 

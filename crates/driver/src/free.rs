@@ -1,0 +1,38 @@
+//! What is free to move, in words: bodies, places and components instead of equations.
+
+use crate::model::Model;
+use crate::rigid::place;
+use asperity_fem::FemError;
+use asperity_fem::multifrontal::FreeMode;
+
+/// Axes by name.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Why a system was not solved; `node_of` gives mesh node and component of a degree of freedom of the error.
+pub(crate) fn unsolved<const D: usize>(
+    model: &Model<D>,
+    error: &FemError,
+    node_of: impl Fn(usize) -> (usize, usize),
+) -> String {
+    let Some(pivot) = error.pivot() else { return error.to_string() };
+    let (node, component) = node_of(pivot.equation);
+    let axis = AXES[model.idealisation.axis(component)];
+    let at = place(&model.mesh.nodes[node]);
+    let body = model.bodies.iter().find(|b| b.nodes.contains(&node));
+    let body = body.map_or(String::new(), |b| format!(" of body `{}`", b.name));
+    format!(
+        "the system is {}: the motion in {axis} of the node at {at}{body} is not held (pivot {:.1e}, diagonal {:.1e})",
+        if error.is_singular() { "singular" } else { "not positive definite" },
+        pivot.pivot,
+        pivot.diagonal
+    )
+}
+
+/// A motion that nothing resists; `nodes` gives the mesh node of each node of the system.
+pub(crate) fn motion<const D: usize>(model: &Model<D>, mode: &FreeMode<D>, nodes: &[usize]) -> String {
+    let moving: Vec<usize> = mode.nodes.iter().map(|&n| nodes[n]).collect();
+    let bodies = model.bodies.iter().filter(|b| moving.iter().any(|n| b.nodes.contains(n)));
+    let names: Vec<String> = bodies.map(|b| format!("`{}`", b.name)).collect();
+    let noun = if names.len() == 1 { "body" } else { "bodies" };
+    format!("{noun} {} {}", names.join(", "), mode.motion())
+}

@@ -1,0 +1,299 @@
+//! How the linear systems of the steps are solved: chosen from the scene alone, so that the choice and the results do not
+//! depend on the machine.
+
+use crate::loading::Stage;
+use crate::model::{CellBlock, Model};
+use crate::plan::{Path, PlanError, PlannedInterface, Stepping, interface_nodes};
+use crate::scene::model::{Method as Asked, Scene, Spanned};
+use asperity_fem::assembly::{Analysis, Lower, Symmetry};
+use asperity_fem::condense;
+use asperity_fem::dof::{Constraints, Equations};
+use asperity_fem::term::Pattern;
+
+/// Default of `memory`: a constant, because a choice that depends on the machine would give other digits elsewhere.
+const MEMORY: f64 = 8.0 * 1024.0 * 1024.0 * 1024.0;
+/// Default of `tolerance`. A Newton iteration ends at 1e-11 of the largest force; with one solution at 1e-10 linear steps end
+/// after one or two.
+const TOLERANCE: f64 = 1e-10;
+/// Default of `most_iterations`: twenty times what the hardest case of the benchmark takes.
+const MOST_ITERATIONS: usize = 2000;
+/// Memory of the iterative method over that of its matrix: 2.5 to 3.8 in the benchmark.
+const HIERARCHY: usize = 4;
+/// Memory of LU over that of Cholesky of the same pattern: both triangles, before any fill that pivoting adds.
+const UNSYMMETRIC: usize = 2;
+
+/// How the linear systems are solved.
+#[derive(Debug)]
+pub struct Solver {
+    /// Method.
+    pub method: Method,
+    /// Bytes a factorisation may take.
+    pub memory: usize,
+    /// What was analysed to know the memory.
+    pub prepared: Prepared,
+    /// Bytes the method is predicted to take.
+    pub bytes: usize,
+    /// Why this method.
+    pub why: String,
+}
+
+/// Methods.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    /// Factorisation.
+    Direct,
+    /// Conjugate gradients with smoothed aggregation.
+    Iterative {
+        /// Relative residual at which a solution is accepted.
+        tolerance: f64,
+        /// Iterations after which a solution is given up.
+        most_iterations: usize,
+    },
+}
+
+/// Symbolic analyses for the degrees of freedom fixed in the first stage.
+#[derive(Debug)]
+pub enum Prepared {
+    /// None.
+    Nothing,
+    /// Of the bodies, for condensation.
+    Bodies(Vec<condense::Analysis>),
+    /// Of the system of all bodies, interfaces apart.
+    System(Analysis),
+}
+
+/// What is known of the tangents in a stage. This is the one place where it is decided: bodies say whether their tangent is
+/// symmetric, and contact without a law is; friction couples shear traction to normal traction in one direction only.
+#[must_use]
+pub fn symmetry<const D: usize>(
+    model: &Model<D>,
+    interfaces: &[PlannedInterface],
+    stepping: &Stepping,
+    stage: &Stage,
+) -> Symmetry {
+    let forward = matches!(stepping, Stepping::StaticExplicit { .. });
+    let of_block = |block: &CellBlock<D>| match block {
+        CellBlock::Linear(_) => true,
+        CellBlock::Nonlinear(b) if forward => b.model().symmetric_rate(),
+        CellBlock::Nonlinear(b) => b.model().symmetric_tangent(),
+    };
+    let friction = |i: &PlannedInterface| i.law.is_some() && !stage.frictionless.contains(&i.name);
+    if !model.blocks.iter().all(of_block) || interfaces.iter().any(friction) {
+        Symmetry::General
+    } else if interfaces.is_empty() && model.is_linear() {
+        Symmetry::Positive
+    } else {
+        Symmetry::Symmetric
+    }
+}
+
+/// Degrees of freedom of the interfaces that each body keeps when it is condensed, in mesh numbering.
+#[must_use]
+pub fn retained<const D: usize>(model: &Model<D>, interfaces: &[PlannedInterface]) -> Vec<Vec<usize>> {
+    let mut nodes: Vec<usize> = interfaces.iter().flat_map(interface_nodes).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    let components = model.idealisation.components();
+    let of_body = |own: &std::ops::Range<usize>| {
+        let kept = nodes.iter().filter(|n| own.contains(n));
+        kept.flat_map(|&n| (0..components).map(move |c| n * components + c)).collect()
+    };
+    model.bodies.iter().map(|b| of_body(&b.nodes)).collect()
+}
+
+/// Members of a sorted list that lie in `dofs`, counted from its start.
+#[must_use]
+pub fn local(list: &[usize], dofs: &std::ops::Range<usize>) -> Vec<usize> {
+    list.iter().filter(|d| dofs.contains(d)).map(|d| d - dofs.start).collect()
+}
+
+/// Chooses.
+///
+/// # Errors
+/// [`PlanError`] when the method does not serve the scene, or takes more memory than is allowed.
+pub fn choose<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    interfaces: &[PlannedInterface],
+    stages: &[Stage],
+    path: Path,
+    stepping: &Stepping,
+) -> Result<Solver, PlanError> {
+    let choice = Choice { scene, model, interfaces, stages, stepping };
+    match path {
+        Path::Condensed => choice.condensed(),
+        Path::Full => choice.full(),
+    }
+}
+
+struct Choice<'a, const D: usize> {
+    scene: &'a Scene,
+    model: &'a Model<D>,
+    interfaces: &'a [PlannedInterface],
+    stages: &'a [Stage],
+    stepping: &'a Stepping,
+}
+
+impl<const D: usize> Choice<'_, D> {
+    fn memory(&self) -> usize {
+        self.scene.solver.memory.as_ref().map_or(MEMORY, |m| m.get_ref().0) as usize
+    }
+
+    /// The first stage with an unsymmetric tangent.
+    fn unsymmetric(&self) -> Option<&Stage> {
+        let general =
+            |s: &&Stage| symmetry(self.model, self.interfaces, self.stepping, s) == Symmetry::General;
+        self.stages.iter().find(general)
+    }
+
+    fn condensed(&self) -> Result<Solver, PlanError> {
+        let mut analyses = Vec::new();
+        let mut kept = 0;
+        let fixed = &self.stages[0].fixed;
+        for (body, retained) in self.model.bodies.iter().zip(retained(self.model, self.interfaces)) {
+            let dofs = &body.dofs;
+            kept += retained.len();
+            let pattern = self.model.pattern(body);
+            let analysis = condense::Analysis::new(
+                &[&pattern],
+                dofs.len(),
+                &local(&retained, dofs),
+                &local(fixed, dofs),
+            );
+            analyses.push(analysis.map_err(|e| PlanError::body(&body.name, 0..0, e.to_string()))?);
+        }
+        // The interface's matrix, its factor, and the copy a term hands over.
+        let dense = 3 * kept * kept * size_of::<f64>();
+        let bytes = analyses.iter().map(condense::Analysis::bytes).sum::<usize>() + dense;
+        if bytes > self.memory() {
+            let what = format!("condensing the bodies onto {kept} degrees of freedom");
+            return Err(self.too_much(&what, bytes, false));
+        }
+        let why = match self.unsymmetric() {
+            None => "bodies by Cholesky factors, the interface by dense Cholesky factors",
+            Some(_) => "bodies by Cholesky factors, the interface by dense LU where friction acts",
+        };
+        Ok(Solver {
+            method: Method::Direct,
+            memory: self.memory(),
+            prepared: Prepared::Bodies(analyses),
+            bytes,
+            why: format!("direct: {why}"),
+        })
+    }
+
+    fn full(&self) -> Result<Solver, PlanError> {
+        let patterns: Vec<&Pattern> = self.model.blocks.iter().map(CellBlock::pattern).collect();
+        let lower = Lower::new(&patterns, &self.equations());
+        let matrix = 2 * lower.stored() * size_of::<f64>();
+        match self.scene.solver.method() {
+            Asked::Iterative => self.iterative(matrix, "the scene asks for it".into()),
+            method => {
+                let analysis = lower.analyse().map_err(|e| PlanError::plain(e.to_string()))?;
+                let unsymmetric = self.unsymmetric();
+                let factor = if unsymmetric.is_some() { UNSYMMETRIC } else { 1 };
+                let bytes = factor * analysis.symbolic().bytes();
+                if bytes <= self.memory() {
+                    return Ok(self.direct(analysis, bytes));
+                }
+                let linear = D == 3 && self.interfaces.is_empty() && self.model.is_linear();
+                if method == Asked::Auto && linear {
+                    let why =
+                        format!("a factorisation would take {} of {}", size(bytes), size(self.memory()));
+                    return self.iterative(matrix, why);
+                }
+                let n = self.model.dofs();
+                let what = format!("the factorisation of {n} degrees of freedom");
+                Err(self.too_much(&what, bytes, unsymmetric.is_none()))
+            }
+        }
+    }
+
+    /// Numbering of the first stage.
+    fn equations(&self) -> Equations {
+        let constraints = Constraints { fixed: self.stages[0].fixed.clone(), channels: Vec::new() };
+        constraints.equations(self.model.dofs())
+    }
+
+    fn direct(&self, analysis: Analysis, bytes: usize) -> Solver {
+        let general =
+            |s: &&Stage| symmetry(self.model, self.interfaces, self.stepping, s) == Symmetry::General;
+        let count = self.stages.iter().filter(general).count();
+        let factors = match count {
+            0 => "symmetric factorisation (Cholesky)".to_string(),
+            n if n == self.stages.len() => "unsymmetric factorisation (LU)".to_string(),
+            _ => {
+                let names: Vec<String> =
+                    self.stages.iter().filter(general).map(|s| format!("`{}`", s.name)).collect();
+                format!("symmetric factorisation (Cholesky), unsymmetric (LU) in {}", names.join(", "))
+            }
+        };
+        let once = self.interfaces.is_empty() && self.model.is_linear();
+        let often = if once { ", once for each set of supports" } else { "" };
+        Solver {
+            method: Method::Direct,
+            memory: self.memory(),
+            prepared: Prepared::System(analysis),
+            bytes,
+            why: format!("direct: {factors}{often}"),
+        }
+    }
+
+    fn iterative(&self, matrix: usize, why: String) -> Result<Solver, PlanError> {
+        let solver = &self.scene.solver;
+        if let Some(stage) = self.unsymmetric() {
+            let reason = if self.interfaces.iter().any(|i| i.law.is_some()) {
+                format!("friction in stage `{}` makes its matrix unsymmetric", stage.name)
+            } else {
+                "large deformation makes its matrix unsymmetric".into()
+            };
+            return Err(PlanError::at(
+                solver.method.as_ref().map_or(0..0, Spanned::span),
+                format!("the iterative method needs a symmetric matrix, but {reason}"),
+                "use `method = \"direct\"`, or leave it out".into(),
+            ));
+        }
+        let bytes = HIERARCHY * matrix;
+        if bytes > self.memory() {
+            let what = format!("the iterative solution of {} degrees of freedom", self.model.dofs());
+            return Err(self.too_much(&what, bytes, false));
+        }
+        let tolerance = solver.tolerance.as_ref().map_or(TOLERANCE, |t| *t.get_ref());
+        let most_iterations = solver.most_iterations.as_ref().map_or(MOST_ITERATIONS, |m| *m.get_ref());
+        Ok(Solver {
+            method: Method::Iterative { tolerance, most_iterations },
+            memory: self.memory(),
+            prepared: Prepared::Nothing,
+            bytes,
+            why: format!(
+                "iterative: {why}; conjugate gradients with smoothed aggregation to a residual of {tolerance:e}"
+            ),
+        })
+    }
+
+    fn too_much(&self, what: &str, bytes: usize, iterative: bool) -> PlanError {
+        let memory = &self.scene.solver.memory;
+        let iterative = if iterative { ", use `method = \"iterative\"` in `[solver]`" } else { "" };
+        PlanError {
+            message: format!("{what} needs about {}, and {} are allowed", size(bytes), size(self.memory())),
+            help: Some(format!(
+                "raise `memory` in `[solver]` where the machine has it{iterative}, or take a coarser mesh"
+            )),
+            span: memory.as_ref().map_or(0..0, Spanned::span),
+        }
+    }
+}
+
+/// An amount of memory in words.
+#[must_use]
+pub fn size(bytes: usize) -> String {
+    let bytes = bytes as f64;
+    let unit = |power: i32| bytes / 1024.0_f64.powi(power);
+    if unit(3) >= 1.0 {
+        format!("{:.1} GiB", unit(3))
+    } else if unit(2) >= 1.0 {
+        format!("{:.1} MiB", unit(2))
+    } else {
+        format!("{:.1} KiB", unit(1))
+    }
+}

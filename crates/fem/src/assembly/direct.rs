@@ -1,0 +1,217 @@
+//! A sparse system solved by a factorisation.
+
+use super::{Symmetry, Version, version};
+use crate::dof::Equations;
+use crate::error::FemError;
+use crate::multifrontal::{self, DirectError};
+use crate::ordering::Ordering;
+use crate::sparse::{Factor, Mirror, Part, ScatterMap, lower_pattern};
+use crate::term::Pattern;
+use faer::MatMut;
+use faer::sparse::SymbolicSparseColMat;
+use faer::sparse::linalg::solvers::SymbolicLu;
+use std::sync::Arc;
+
+/// Where the lower triangle of a system's matrix has entries.
+#[derive(Clone, Debug)]
+pub struct Lower {
+    equations: Equations,
+    versions: Vec<Version>,
+    pattern: SymbolicSparseColMat<usize>,
+}
+
+impl Lower {
+    /// The pattern of the free equations of some terms.
+    #[must_use]
+    pub fn new(patterns: &[&Pattern], equations: &Equations) -> Self {
+        Self {
+            versions: versions(patterns),
+            pattern: lower_pattern(patterns, equations),
+            equations: equations.clone(),
+        }
+    }
+
+    /// Entries of the lower triangle.
+    #[must_use]
+    pub fn stored(&self) -> usize {
+        self.pattern.row_idx().len()
+    }
+
+    /// Orders and analyses the pattern.
+    ///
+    /// # Errors
+    /// [`FemError::Direct`] when it cannot be ordered.
+    pub fn analyse(self) -> Result<Analysis, FemError> {
+        let symbolic = Arc::new(multifrontal::Symbolic::new(self.pattern.as_ref(), Ordering::Automatic)?);
+        Ok(Analysis { equations: self.equations, versions: self.versions, symbolic })
+    }
+}
+
+/// A symbolic Cholesky analysis made before there are values. It serves a [`super::System`] of the same terms, those without a
+/// tangent apart, and equations.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    equations: Equations,
+    versions: Vec<Version>,
+    symbolic: Arc<multifrontal::Symbolic>,
+}
+
+impl Analysis {
+    /// What a factorisation will need and cost.
+    #[must_use]
+    pub fn symbolic(&self) -> &multifrontal::Symbolic {
+        &self.symbolic
+    }
+}
+
+#[derive(Debug)]
+enum Symbolic {
+    Cholesky(Arc<multifrontal::Symbolic>),
+    Lu(SymbolicLu<usize>),
+}
+
+#[derive(Debug)]
+pub(super) struct SparseStore {
+    versions: Vec<Version>,
+    pub map: Option<ScatterMap>,
+    symbolic: Option<Symbolic>,
+    factor: Option<Factor>,
+    /// The last Cholesky factor, whose storage the next takes.
+    stale: Option<multifrontal::Cholesky>,
+    /// The whole of a symmetric matrix, made when Cholesky fails for the first time.
+    mirror: Option<Mirror>,
+    /// Bytes a Cholesky factorisation may take.
+    memory: usize,
+    analysis: Option<Analysis>,
+}
+
+impl Default for SparseStore {
+    fn default() -> Self {
+        Self {
+            versions: Vec::new(),
+            map: None,
+            symbolic: None,
+            factor: None,
+            stale: None,
+            mirror: None,
+            memory: usize::MAX,
+            analysis: None,
+        }
+    }
+}
+
+impl SparseStore {
+    pub fn prepare(&mut self, memory: usize, analysis: Option<Analysis>) {
+        self.memory = memory;
+        self.analysis = analysis;
+    }
+
+    /// Forgets patterns and factors.
+    pub fn forget(&mut self) {
+        let (memory, analysis) = (self.memory, self.analysis.take());
+        *self = Self { memory, analysis, ..Self::default() };
+    }
+
+    /// Builds pattern and symbolic analysis anew when a term's pattern changed.
+    pub fn renew(
+        &mut self,
+        patterns: &[&Pattern],
+        equations: &Equations,
+        symmetry: Symmetry,
+    ) -> Result<(), FemError> {
+        let exact: Vec<Version> = patterns.iter().map(|p| version(p)).collect();
+        if self.symbolic.is_some() && exact == self.versions {
+            return Ok(());
+        }
+        self.forget();
+        let part = if symmetry == Symmetry::General { Part::Whole } else { Part::Lower };
+        let map = ScatterMap::new(patterns, equations, part);
+        self.symbolic = Some(match symmetry {
+            Symmetry::General => Symbolic::Lu(map.analyse_lu()?),
+            Symmetry::Symmetric | Symmetry::Positive => {
+                let fits = |a: &&Analysis| a.equations == *equations && a.versions == versions(patterns);
+                let symbolic = match self.analysis.as_ref().filter(fits) {
+                    Some(analysis) => analysis.symbolic.clone(),
+                    None => map.analyse_cholesky()?,
+                };
+                symbolic.admit(self.memory)?;
+                Symbolic::Cholesky(symbolic)
+            }
+        });
+        self.map = Some(map);
+        self.versions = exact;
+        Ok(())
+    }
+
+    pub fn clear(&mut self) {
+        if let Some(Factor::Cholesky(factor)) = self.factor.take() {
+            self.stale = Some(factor);
+        }
+        if let Some(map) = &mut self.map {
+            map.clear();
+        }
+    }
+
+    pub fn add(&mut self, offset: usize, values: &[f64]) -> usize {
+        self.map.as_mut().map_or(offset, |map| map.add(offset, values))
+    }
+
+    /// The diagonal, by equation.
+    pub fn diagonal(&self) -> Vec<f64> {
+        self.map.as_ref().map_or_else(Vec::new, |map| {
+            let matrix = map.matrix();
+            (0..map.order()).map(|k| matrix.get(k, k).copied().unwrap_or(0.0)).collect()
+        })
+    }
+
+    /// The first column all of whose stored entries are zero.
+    pub fn empty_column(&self) -> Option<usize> {
+        let map = self.map.as_ref()?;
+        let matrix = map.matrix();
+        (0..map.order()).position(|k| matrix.val_of_col(k).iter().all(|&v| v == 0.0))
+    }
+
+    /// Whether LU had to stand in for Cholesky.
+    pub fn factor(&mut self, symmetry: Symmetry) -> Result<bool, FemError> {
+        let (Some(map), Some(symbolic)) = (&self.map, &self.symbolic) else {
+            return Err(FemError::Factorisation("the pattern was not analysed".into()));
+        };
+        let factor = match symbolic {
+            Symbolic::Lu(symbolic) => map.lu(symbolic)?,
+            Symbolic::Cholesky(symbolic) => {
+                let factor = match self.stale.take() {
+                    Some(stale) => stale.refactor(map.values()),
+                    None => multifrontal::Cholesky::new(symbolic.clone(), map.values()),
+                };
+                match factor {
+                    Ok(factor) => Factor::Cholesky(factor),
+                    Err(DirectError::NotPositive(_)) if symmetry == Symmetry::Symmetric => {
+                        let mirror = match self.mirror.take() {
+                            Some(mirror) => mirror,
+                            None => Mirror::new(map)?,
+                        };
+                        self.factor = Some(self.mirror.insert(mirror).lu(map.values())?);
+                        return Ok(true);
+                    }
+                    Err(error) => return Err(error.into()),
+                }
+            }
+        };
+        self.factor = Some(factor);
+        Ok(false)
+    }
+
+    /// Solves in place; false without a factor.
+    pub fn solve(&self, rhs: &mut [f64]) -> bool {
+        let n = rhs.len();
+        let columns = MatMut::from_column_major_slice_mut(rhs, n, 1);
+        let Some(factor) = &self.factor else { return false };
+        factor.solve(columns);
+        true
+    }
+}
+
+/// Versions of the patterns that have entries.
+fn versions(patterns: &[&Pattern]) -> Vec<Version> {
+    patterns.iter().filter(|p| !p.dofs.is_empty()).map(|p| version(p)).collect()
+}

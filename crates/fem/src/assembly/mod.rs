@@ -1,0 +1,395 @@
+//! The linear system of a step: tangents of all terms on the free degrees of freedom and its solution: dense, sparse by a
+//! factorisation, or by conjugate gradients.
+
+mod dense;
+mod direct;
+mod held;
+mod iterative;
+
+use crate::dof::Equations;
+use crate::error::FemError;
+use crate::multifrontal::{DirectError, Pivot};
+use crate::term::{Limited, Linearized, Pattern};
+use dense::DenseStore;
+use direct::SparseStore;
+pub use direct::{Analysis, Lower};
+use iterative::IterativeStore;
+pub use iterative::{Iterative, NearNull};
+use rayon::prelude::*;
+use std::convert::Infallible;
+
+/// How the system's matrix is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// Dense: condensed systems.
+    Dense,
+    /// Compressed columns: systems of all degrees of freedom.
+    Sparse,
+}
+
+/// What the caller knows of the tangents of all terms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Symmetry {
+    /// Nothing: LU.
+    General,
+    /// Symmetric: Cholesky with half the entries; LU where their sum turns out not to be positive definite.
+    Symmetric,
+    /// Symmetric, and their sum positive definite on the free degrees of freedom: Cholesky, or an error.
+    Positive,
+}
+
+/// Values scanned by one task.
+const CHUNK: usize = 1 << 16;
+
+/// Matrix, pattern and factorisation of the step's system. The symbolic analysis is kept as long as the patterns of all
+/// terms keep their version; a factor never outlives the values it was made from. A system of terms whose tangents are
+/// constant ([`Linearized::constant_tangent`]) is factored once.
+#[derive(Debug)]
+pub struct System {
+    equations: Equations,
+    symmetry: Symmetry,
+    store: Store,
+    /// Versions and sizes of the patterns the present factor was made from; none without a factor.
+    factored: Option<Vec<Version>>,
+    /// Values of one term, reused.
+    buffer: Vec<f64>,
+    largest_entry: f64,
+    /// Numeric factorisations so far; for the iterative method, preconditioners set up.
+    pub factorisations: usize,
+    /// Those of them that were LU of a symmetric matrix which is not positive definite.
+    pub indefinite: usize,
+    /// Solves so far.
+    pub solves: usize,
+    /// Iterations of conjugate gradients so far.
+    pub iterations: usize,
+}
+
+/// Version and size of a pattern.
+type Version = (u64, usize);
+
+#[derive(Debug)]
+enum Store {
+    Dense(DenseStore),
+    Sparse(Box<SparseStore>),
+    Iterative(Box<IterativeStore>),
+}
+
+impl System {
+    /// A system on the free degrees of freedom, without knowledge of symmetry.
+    #[must_use]
+    pub fn new(equations: Equations, storage: Storage) -> Self {
+        let store = match storage {
+            Storage::Dense => Store::Dense(DenseStore::new(equations.free.len())),
+            Storage::Sparse => Store::Sparse(Box::default()),
+        };
+        Self::with_store(equations, Symmetry::General, store)
+    }
+
+    /// A system solved by conjugate gradients; the tangents of all terms are symmetric, their sum positive definite.
+    #[must_use]
+    pub fn iterative(equations: Equations, iterative: Iterative) -> Self {
+        Self::with_store(
+            equations,
+            Symmetry::Positive,
+            Store::Iterative(Box::new(IterativeStore::new(iterative))),
+        )
+    }
+
+    fn with_store(equations: Equations, symmetry: Symmetry, store: Store) -> Self {
+        Self {
+            equations,
+            symmetry,
+            store,
+            factored: None,
+            buffer: Vec::new(),
+            largest_entry: 0.0,
+            factorisations: 0,
+            indefinite: 0,
+            solves: 0,
+            iterations: 0,
+        }
+    }
+
+    /// The same system with what the caller knows of the tangents.
+    #[must_use]
+    pub fn with_symmetry(mut self, symmetry: Symmetry) -> Self {
+        self.set_symmetry(symmetry);
+        self
+    }
+
+    /// Sets what the caller knows of the tangents. Where that changes, what was factored is forgotten. The iterative method
+    /// needs [`Symmetry::Positive`] and keeps it.
+    pub fn set_symmetry(&mut self, symmetry: Symmetry) {
+        if symmetry == self.symmetry || matches!(self.store, Store::Iterative(_)) {
+            return;
+        }
+        self.symmetry = symmetry;
+        self.factored = None;
+        if let Store::Sparse(store) = &mut self.store {
+            store.forget();
+        }
+    }
+
+    /// Bounds the memory of sparse Cholesky factorisations \[bytes\]; those that need more are refused before they begin. An
+    /// analysis made beforehand is used where it fits.
+    #[must_use]
+    pub fn prepared(mut self, memory: usize, analysis: Option<Analysis>) -> Self {
+        if let Store::Sparse(store) = &mut self.store {
+            store.prepare(memory, analysis);
+        }
+        self
+    }
+
+    /// Whether there is a factor, made from these patterns.
+    pub fn is_factored<'a>(&self, patterns: impl IntoIterator<Item = &'a Pattern>) -> bool {
+        self.factored.as_ref().is_some_and(|f| f.iter().copied().eq(patterns.into_iter().map(version)))
+    }
+
+    /// The numbering.
+    #[must_use]
+    pub fn equations(&self) -> &Equations {
+        &self.equations
+    }
+
+    /// Largest entry of any term's tangent in the last assembly: the scale of rounding in the forces.
+    #[must_use]
+    pub fn largest_entry(&self) -> f64 {
+        self.largest_entry
+    }
+
+    /// Relative residual a solution may have: 0 for direct methods, whose residual is rounding.
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        match &self.store {
+            Store::Iterative(store) => store.tolerance(),
+            _ => 0.0,
+        }
+    }
+
+    /// Assembles what `values_of` writes for each term (a consistent or a rate tangent) and factors it.
+    ///
+    /// # Errors
+    /// [`FemError::Unheld`] when the matrix is singular, or not positive definite where it must be; whatever `values_of`
+    /// refuses.
+    pub fn factor<T, E>(
+        &mut self,
+        terms: &mut [T],
+        pattern_of: impl Fn(&T) -> &Pattern,
+        values_of: impl FnMut(&mut T, &mut [f64]) -> Result<(), E>,
+    ) -> Result<Result<(), FemError>, E> {
+        let outcome = self.assemble(terms, pattern_of, |_| None, true, values_of)?;
+        Ok(outcome.map(|_| ()))
+    }
+
+    /// Assembles and factors the consistent tangents of `terms` at the state of their last residual. Returns false when all of
+    /// them are constant and there is a factor already.
+    ///
+    /// # Errors
+    /// As [`System::factor`].
+    pub fn factor_tangent(&mut self, terms: &mut [&mut dyn Linearized]) -> Result<bool, FemError> {
+        let outcome: Result<_, Infallible> = self.assemble(
+            terms,
+            |t| t.pattern(),
+            |t| t.constant_tangent(),
+            false,
+            |t, values| {
+                t.tangent(values);
+                Ok(())
+            },
+        );
+        match outcome {
+            Ok(result) => result,
+            Err(never) => match never {},
+        }
+    }
+
+    /// Assembles and factors the rate tangents that `values_of` writes. It is asked for those of all terms; false is returned
+    /// when all of them are constant and there is a factor already.
+    ///
+    /// # Errors
+    /// As [`System::factor`].
+    pub fn factor_rate<E>(
+        &mut self,
+        terms: &mut [&mut dyn Limited],
+        mut values_of: impl FnMut(&mut dyn Limited, &mut [f64]) -> Result<(), E>,
+    ) -> Result<Result<bool, FemError>, E> {
+        self.assemble(
+            terms,
+            |t| t.pattern(),
+            |t| t.constant_tangent(),
+            true,
+            |t, values| values_of(&mut **t, values),
+        )
+    }
+
+    /// Assembles and factors, unless the values of all terms are constant and factored. With `always`, `values_of` is called
+    /// for constant terms as well.
+    fn assemble<T, E>(
+        &mut self,
+        terms: &mut [T],
+        pattern_of: impl Fn(&T) -> &Pattern,
+        constant_of: impl Fn(&T) -> Option<&[f64]>,
+        always: bool,
+        mut values_of: impl FnMut(&mut T, &mut [f64]) -> Result<(), E>,
+    ) -> Result<Result<bool, FemError>, E> {
+        let keep =
+            terms.iter().all(|t| constant_of(t).is_some()) && self.is_factored(terms.iter().map(&pattern_of));
+        if !keep && let Err(error) = self.begin(&terms.iter().map(&pattern_of).collect::<Vec<_>>()) {
+            return Ok(Err(error));
+        }
+        let mut own: Vec<Option<Vec<f64>>> = Vec::new();
+        let mut offset = 0;
+        for term in &mut *terms {
+            let values = pattern_of(term).values();
+            if always || constant_of(term).is_none() {
+                self.buffer.clear();
+                self.buffer.resize(values, 0.0);
+                values_of(term, &mut self.buffer)?;
+            }
+            if keep {
+                continue;
+            }
+            let constant = constant_of(term);
+            let tangent = constant.unwrap_or(&self.buffer);
+            self.largest_entry = self.largest_entry.max(largest(tangent));
+            match &mut self.store {
+                Store::Dense(store) => store.add(&self.equations, pattern_of(term), tangent),
+                Store::Sparse(store) => offset = store.add(offset, tangent),
+                Store::Iterative(_) => own.push(match constant {
+                    Some(_) => None,
+                    None => Some(std::mem::take(&mut self.buffer)),
+                }),
+            }
+        }
+        if keep {
+            return Ok(Ok(false));
+        }
+        self.factorisations += 1;
+        let outcome = match &mut self.store {
+            Store::Iterative(store) => {
+                let patterns: Vec<&Pattern> = terms.iter().map(&pattern_of).collect();
+                let tangents = terms.iter().zip(&own).map(|(t, own)| match own {
+                    Some(own) => own.as_slice(),
+                    None => constant_of(t).unwrap_or_default(),
+                });
+                store.set(&patterns, &tangents.collect::<Vec<_>>(), &self.equations)
+            }
+            _ => self.finish(),
+        };
+        let outcome = outcome.map_err(|e| self.in_degrees_of_freedom(e));
+        if outcome.is_ok() {
+            self.factored = Some(terms.iter().map(|t| version(pattern_of(t))).collect());
+        }
+        Ok(outcome.map(|()| true))
+    }
+
+    /// Prepares an assembly of these patterns.
+    fn begin(&mut self, patterns: &[&Pattern]) -> Result<(), FemError> {
+        self.factored = None;
+        self.largest_entry = 0.0;
+        match &mut self.store {
+            Store::Dense(store) => store.clear(),
+            Store::Sparse(store) => {
+                store.renew(patterns, &self.equations, self.symmetry)?;
+                store.clear();
+            }
+            Store::Iterative(_) => {}
+        }
+        Ok(())
+    }
+
+    /// Factors what was assembled.
+    fn finish(&mut self) -> Result<(), FemError> {
+        self.check_held()?;
+        let indefinite = match &mut self.store {
+            Store::Dense(store) => store.factor(self.symmetry)?,
+            Store::Sparse(store) => store.factor(self.symmetry)?,
+            Store::Iterative(_) => false,
+        };
+        self.indefinite += usize::from(indefinite);
+        Ok(())
+    }
+
+    /// What nothing holds can be named before the factorisation: a column without entries, and in a symmetric matrix a
+    /// diagonal that is zero or, where it must be positive, negative.
+    fn check_held(&self) -> Result<(), FemError> {
+        let (diagonal, unheld) = match &self.store {
+            Store::Dense(store) => (store.diagonal(), store.empty_column()),
+            Store::Sparse(store) => (store.diagonal(), store.empty_column()),
+            Store::Iterative(_) => return Ok(()),
+        };
+        let unheld = match self.symmetry {
+            Symmetry::General => unheld,
+            Symmetry::Symmetric => diagonal.iter().position(|&d| d.is_nan() || d == 0.0),
+            Symmetry::Positive => diagonal.iter().position(|&d| d.is_nan() || d <= 0.0),
+        };
+        let pivot = |k: usize| Pivot { equation: k, pivot: diagonal[k], diagonal: diagonal[k] };
+        match unheld.map(pivot) {
+            None => Ok(()),
+            Some(pivot) if pivot.pivot == 0.0 => Err(DirectError::Singular(pivot).into()),
+            Some(pivot) => Err(DirectError::NotPositive(pivot).into()),
+        }
+    }
+
+    /// An error with the degree of freedom instead of the equation.
+    fn in_degrees_of_freedom(&self, error: FemError) -> FemError {
+        match error {
+            FemError::Direct(direct) => match direct.pivot() {
+                Some(pivot) => FemError::Unheld {
+                    singular: matches!(direct, DirectError::Singular(_)),
+                    pivot: Pivot { equation: self.equations.free[pivot.equation], ..pivot },
+                },
+                None => FemError::Direct(direct),
+            },
+            other => other,
+        }
+    }
+
+    /// Solves `K x = rhs` in place over the free equations.
+    ///
+    /// # Errors
+    /// [`FemError::Unheld`] when the matrix was numerically singular, which LU does not notice before.
+    /// [`FemError::NotConverged`] of the iterative method.
+    pub fn solve(&mut self, rhs: &mut [f64]) -> Result<(), FemError> {
+        let size = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let load = size(rhs);
+        let solved = match &self.store {
+            Store::Dense(store) => store.solve(rhs),
+            Store::Sparse(store) => store.solve(rhs),
+            Store::Iterative(store) => match store.solve(rhs) {
+                None => false,
+                Some(outcome) => {
+                    self.iterations += outcome.report().iterations;
+                    if !outcome.converged() {
+                        return Err(FemError::NotConverged(outcome));
+                    }
+                    true
+                }
+            },
+        };
+        if !solved {
+            return Err(FemError::Factorisation("there is no factor to solve with".into()));
+        }
+        self.solves += 1;
+        let pivot = match rhs.iter().position(|x| !x.is_finite()) {
+            Some(k) => Pivot { equation: k, pivot: 0.0, diagonal: 0.0 },
+            None => match self.suspect(size(rhs), load) {
+                Some(pivot) => pivot,
+                None => return Ok(()),
+            },
+        };
+        Err(self.in_degrees_of_freedom(DirectError::Singular(pivot).into()))
+    }
+}
+
+fn version(pattern: &Pattern) -> Version {
+    (pattern.version, pattern.dofs.len())
+}
+
+/// Largest magnitude. The order of the pieces does not matter to a maximum.
+fn largest(values: &[f64]) -> f64 {
+    values
+        .par_chunks(CHUNK)
+        .map(|part| part.iter().fold(0.0_f64, |m, v| m.max(v.abs())))
+        .reduce(|| 0.0, f64::max)
+}
