@@ -21,16 +21,53 @@ pub enum ContactError {
         /// "slave" or "master".
         side: &'static str,
     },
-    /// Finite sliding on a segment it does not exist for.
+    /// Finite sliding with mortar on a segment it does not exist for.
     #[error(
-        "interface {name}: finite sliding does not exist on {kind} segments (it exists on seg2 in two dimensions, \
-         tri3 and quad4 in three; sliding = \"small\" exists on all segments)"
+        "interface {name}: mortar in finite sliding does not exist on {kind} segments (it exists on seg2 in two dimensions, \
+         tri3 and quad4 in three; sliding = \"small\" and node-to-point exist on all segments)"
     )]
     FiniteOnSecondOrder {
         /// Interface.
         name: String,
         /// The segment kind found.
         kind: SegmentKind,
+    },
+    /// Smoothing of an interface of overlaps.
+    #[error("interface {name}: smoothing is a property of node-to-point; mortar integrates over the facets themselves")]
+    SmoothingOfMortar {
+        /// Interface.
+        name: String,
+    },
+    /// Smoothing of a surface of second order.
+    #[error(
+        "interface {name}: {kind} segments are curved already; smoothing exists on seg2 in two dimensions, tri3 and quad4 \
+         in three"
+    )]
+    SmoothingOnSecondOrder {
+        /// Interface.
+        name: String,
+        /// The segment kind found.
+        kind: SegmentKind,
+    },
+    /// A smoothed segment with too many nodes around it.
+    #[error("interface {name}: smoothed master segment {segment} depends on {nodes} nodes, at most {most} are possible")]
+    SmoothingTooWide {
+        /// Interface.
+        name: String,
+        /// Index of the segment.
+        segment: usize,
+        /// Nodes it depends on.
+        nodes: usize,
+        /// The largest number possible.
+        most: usize,
+    },
+    /// A crease angle outside (0, π).
+    #[error("interface {name}: the crease angle {angle} of the smoothing must lie between 0 and pi")]
+    BadCrease {
+        /// Interface.
+        name: String,
+        /// The angle \[rad\].
+        angle: f64,
     },
     /// A segment of the wrong dimension or with the wrong number of nodes.
     #[error(

@@ -9,7 +9,7 @@ use crate::measure::{Attachment, Geometry, Measure, NormalPoint, Slides, Tractio
 use crate::observe::{Balance, PointFields, Work};
 use crate::search::surface::Surface;
 use crate::shear::{Shear, TwoStep};
-use crate::spec::{InterfaceSpec, MeasureKind, Segment, SlavePoint, Sliding, SurfaceNode, TimeRule};
+use crate::spec::{InterfaceSpec, MeasureKind, Segment, SlavePoint, Sliding, Smoothing, SurfaceNode, TimeRule};
 use crate::status::{Status, label};
 use crate::vector::{add, axpy, dot, moment, norm, scaled, sub};
 use asperity_fem::term::{Instant, Linearized, Pattern, Refusal, Term};
@@ -96,7 +96,7 @@ impl<const D: usize> Interface<D> {
     pub fn new(spec: InterfaceSpec<D>) -> Result<Self, ContactError> {
         check(&spec)?;
         let n = spec.slave.len();
-        let (measure, projections) = build_measure(&spec);
+        let (measure, projections) = build_measure(&spec)?;
         let mut interface = Self {
             penalty: Penalty { stiffness: spec.normal_penalty, closure: CLOSURE * spec.scale },
             tangential_penalty: spec.tangential_penalty,
@@ -470,7 +470,13 @@ fn check_segments<const D: usize>(
         if let Some(&index) = s.nodes.iter().find(|n| **n >= nodes) {
             return Err(ContactError::BadNode { name: name(), side, index, nodes });
         }
-        if spec.sliding == Sliding::Finite && !s.kind.first_order() {
+        if s.kind.first_order() {
+            continue;
+        }
+        if spec.smoothing.is_some() {
+            return Err(ContactError::SmoothingOnSecondOrder { name: name(), kind: s.kind });
+        }
+        if spec.sliding == Sliding::Finite && spec.measure != MeasureKind::NodeToPoint {
             return Err(ContactError::FiniteOnSecondOrder { name: name(), kind: s.kind });
         }
     }
@@ -487,6 +493,15 @@ fn check_numbers<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactE
             return Err(ContactError::NotPositive { name: spec.name.clone(), what, value });
         }
     }
+    if let Some(Smoothing { crease: angle }) = spec.smoothing {
+        let name = spec.name.clone();
+        if spec.measure != MeasureKind::NodeToPoint {
+            return Err(ContactError::SmoothingOfMortar { name });
+        }
+        if !(angle > 0.0 && angle < std::f64::consts::PI) {
+            return Err(ContactError::BadCrease { name, angle });
+        }
+    }
     match spec.fixed_normal {
         Some(n) if spec.sliding == Sliding::Finite || !norm(&n).is_normal() => {
             Err(ContactError::BadNormal { name: spec.name.clone() })
@@ -495,10 +510,15 @@ fn check_numbers<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactE
     }
 }
 
-fn build_measure<const D: usize>(spec: &InterfaceSpec<D>) -> (Box<dyn Measure<D>>, u64) {
+fn build_measure<const D: usize>(
+    spec: &InterfaceSpec<D>,
+) -> Result<(Box<dyn Measure<D>>, u64), ContactError> {
     let positions: Vec<[f64; D]> = spec.nodes.iter().map(|n| n.position).collect();
-    let surface = Surface::new(spec.master.clone(), &positions);
-    match (&spec.measure, spec.sliding) {
+    let surface = match spec.smoothing {
+        Some(smoothing) => Surface::smoothed(&spec.name, spec.master.clone(), &positions, smoothing)?,
+        None => Surface::new(spec.master.clone(), &positions),
+    };
+    Ok(match (&spec.measure, spec.sliding) {
         (MeasureKind::Mortar { faces, axisymmetric }, Sliding::Small) => {
             let master = spec.master.clone();
             let (measure, examined) =
@@ -516,7 +536,7 @@ fn build_measure<const D: usize>(spec: &InterfaceSpec<D>) -> (Box<dyn Measure<D>
             let (measure, projections) = Finite::new(&spec.nodes, &spec.slave, surface);
             (Box::new(measure), projections)
         }
-    }
+    })
 }
 
 impl<const D: usize> Term for Interface<D> {
@@ -549,6 +569,8 @@ impl<const D: usize> Term for Interface<D> {
         Self::gather(&self.nodes, u, &mut self.u.trial);
         if self.measure.search(&self.u.trial, &mut self.work.projections) {
             self.work.searches += 1;
+        } else if self.measure.follows() {
+            self.work.searches_skipped += 1;
         }
         Ok(())
     }

@@ -25,6 +25,6 @@ pub use error::ContactError;
 pub use interface::Interface;
 pub use observe::{Balance, PointFields, Work};
 pub use spec::{
-    InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode, TimeRule,
+    InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, Smoothing, SurfaceNode, TimeRule,
 };
 pub use status::Status;

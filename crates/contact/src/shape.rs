@@ -50,8 +50,24 @@ pub fn shape(kind: SegmentKind, xi: [f64; 2]) -> Shape {
             s.first[1][..3].copy_from_slice(&[-1.0, 0.0, 1.0]);
         }
         SegmentKind::Tri6 => triangle(&mut s, xi),
+        SegmentKind::Quad8 => serendipity(&mut s, xi),
     }
     s
+}
+
+/// Eight-node quadrilateral: the biquadratic one with its centre replaced by what makes the functions complete without it,
+/// `N_k + c_k N_9` with c = -1/4 at corners and 1/2 at mid-nodes.
+fn serendipity(s: &mut Shape, xi: [f64; 2]) {
+    product(s, &quadratic(xi[0]), &quadratic(xi[1]), 9);
+    let spread = |v: &mut [f64; MOST_NODES]| {
+        let centre = std::mem::take(&mut v[8]);
+        for (k, v) in v[..8].iter_mut().enumerate() {
+            *v += if k < 4 { -0.25 * centre } else { 0.5 * centre };
+        }
+    };
+    spread(&mut s.value);
+    s.first.iter_mut().for_each(spread);
+    s.second.iter_mut().for_each(spread);
 }
 
 fn line(s: &mut Shape, p: &[[f64; 3]; 3], n: usize) {

@@ -37,6 +37,8 @@ pub enum SegmentKind {
     Tri6,
     /// Bilinear quadrilateral.
     Quad4,
+    /// Serendipity quadrilateral of 8 nodes.
+    Quad8,
     /// Biquadratic quadrilateral of 9 nodes.
     Quad9,
 }
@@ -50,6 +52,7 @@ impl SegmentKind {
             Self::Seg3 | Self::Tri3 => 3,
             Self::Quad4 => 4,
             Self::Tri6 => 6,
+            Self::Quad8 => 8,
             Self::Quad9 => 9,
         }
     }
@@ -59,7 +62,7 @@ impl SegmentKind {
     pub fn space(self) -> usize {
         match self {
             Self::Seg2 | Self::Seg3 => 2,
-            Self::Tri3 | Self::Tri6 | Self::Quad4 | Self::Quad9 => 3,
+            Self::Tri3 | Self::Tri6 | Self::Quad4 | Self::Quad8 | Self::Quad9 => 3,
         }
     }
 
@@ -78,6 +81,7 @@ impl fmt::Display for SegmentKind {
             Self::Tri3 => "tri3",
             Self::Tri6 => "tri6",
             Self::Quad4 => "quad4",
+            Self::Quad8 => "quad8",
             Self::Quad9 => "quad9",
         })
     }
@@ -117,6 +121,20 @@ pub enum MeasureKind {
     },
 }
 
+/// Smoothing of a master surface of first-order segments: cubic patches that share a tangent plane at their nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Smoothing {
+    /// Edges across which the reference normals turn by more than this angle stay sharp \[rad\].
+    pub crease: f64,
+}
+
+impl Default for Smoothing {
+    /// 45 degrees: a circle of nine facets is smoothed, the corner of a block is not.
+    fn default() -> Self {
+        Self { crease: std::f64::consts::FRAC_PI_4 }
+    }
+}
+
 /// Time rule for the slip rate of implicit steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TimeRule {
@@ -142,6 +160,8 @@ pub struct InterfaceSpec<const D: usize> {
     pub measure: MeasureKind,
     /// Small or finite sliding.
     pub sliding: Sliding,
+    /// Smoothing of the master surface; `None` = the segments as they are.
+    pub smoothing: Option<Smoothing>,
     /// Normal of every pair instead of the segments' own (small sliding only): outward of the master; any length.
     pub fixed_normal: Option<[f64; D]>,
     /// Normal penalty E_n \[Pa/m\].

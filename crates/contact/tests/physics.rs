@@ -4,7 +4,7 @@
 mod common;
 use approx::assert_relative_eq;
 use asperity_contact::{
-    ContactError, Interface, InterfaceSpec, Segment, SegmentKind, Sliding, Status, TimeRule,
+    ContactError, Interface, InterfaceSpec, Segment, SegmentKind, Sliding, Smoothing, Status, TimeRule,
 };
 use asperity_fem::term::{Instant, Linearized, Saved, Term};
 use common::*;
@@ -293,9 +293,12 @@ fn declarations_that_do_not_fit_are_refused() {
     far.nodes[2].position = [9.0, 0.0];
     assert_eq!(refuse(far), ContactError::NothingPairs { name: "fault".to_owned(), slaves: 1 });
     let mut curved = base.clone();
-    curved.sliding = Sliding::Finite;
+    curved.smoothing = Some(Smoothing::default());
     curved.master = vec![Segment { kind: SegmentKind::Seg3, nodes: vec![0, 1, 2] }];
-    assert!(matches!(refuse(curved), ContactError::FiniteOnSecondOrder { .. }));
+    assert!(matches!(refuse(curved), ContactError::SmoothingOnSecondOrder { .. }));
+    let mut crease = base.clone();
+    crease.smoothing = Some(Smoothing { crease: 0.0 });
+    assert!(matches!(refuse(crease), ContactError::BadCrease { .. }));
     let mut area = base.clone();
     area.slave[0].area = 0.0;
     assert!(matches!(refuse(area), ContactError::BadArea { label: 102, .. }));

@@ -4,7 +4,8 @@
 //! a flat triangle is exact after one step; when it falls outside, the closest point lies on the border, which is
 //! projected on edge by edge.
 
-use crate::shape::{MOST_NODES, Shape, shape};
+use super::patch::{Form, Patch, evaluate};
+use crate::shape::{MOST_NODES, Shape};
 use crate::spec::SegmentKind;
 use crate::vector::{axpy, dot, solve_tangential, sub};
 
@@ -15,8 +16,8 @@ pub const BORDER: f64 = 1e-9;
 /// Newton iterations of a foot. Flat segments need 1 to 4; what has not converged by then lies far outside.
 const ITERATIONS: usize = 30;
 
-/// A Newton step in natural coordinates below this one has converged: a few units of rounding of a coordinate of size 1.
-const CONVERGED: f64 = 1e-15;
+/// After a full Newton step of this size in natural coordinates the error is about its square, which is below rounding.
+const CONVERGED: f64 = 1e-9;
 
 /// Natural coordinates beyond this one are outside for certain; iterates are held within it.
 const FAR: f64 = 4.0;
@@ -53,7 +54,7 @@ pub fn corners(kind: SegmentKind) -> usize {
     match kind {
         SegmentKind::Seg2 | SegmentKind::Seg3 => 2,
         SegmentKind::Tri3 | SegmentKind::Tri6 => 3,
-        SegmentKind::Quad4 | SegmentKind::Quad9 => 4,
+        SegmentKind::Quad4 | SegmentKind::Quad8 | SegmentKind::Quad9 => 4,
     }
 }
 
@@ -63,7 +64,7 @@ pub fn corner(kind: SegmentKind, k: usize) -> [f64; 2] {
     match kind {
         SegmentKind::Seg2 | SegmentKind::Seg3 => [[-1.0, 0.0], [1.0, 0.0]][k],
         SegmentKind::Tri3 | SegmentKind::Tri6 => [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]][k],
-        SegmentKind::Quad4 | SegmentKind::Quad9 => [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]][k],
+        SegmentKind::Quad4 | SegmentKind::Quad8 | SegmentKind::Quad9 => [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]][k],
     }
 }
 
@@ -75,7 +76,7 @@ pub fn margins(kind: SegmentKind, xi: [f64; 2]) -> [f64; 4] {
     match kind {
         SegmentKind::Seg2 | SegmentKind::Seg3 => [x + 1.0, 1.0 - x, f64::INFINITY, f64::INFINITY],
         SegmentKind::Tri3 | SegmentKind::Tri6 => [y, 1.0 - x - y, x, f64::INFINITY],
-        SegmentKind::Quad4 | SegmentKind::Quad9 => [y + 1.0, 1.0 - x, 1.0 - y, x + 1.0],
+        SegmentKind::Quad4 | SegmentKind::Quad8 | SegmentKind::Quad9 => [y + 1.0, 1.0 - x, 1.0 - y, x + 1.0],
     }
 }
 
@@ -98,46 +99,27 @@ pub fn interpolate<const D: usize>(s: &Shape, x: &[[f64; D]]) -> ([f64; D], [[f6
     (p, e)
 }
 
-/// Second derivatives e_1,1, e_1,2, e_2,2 of the position.
-#[inline]
-pub fn curvature<const D: usize>(s: &Shape, x: &[[f64; D]]) -> [[f64; D]; 3] {
-    let mut c = [[0.0; D]; 3];
-    for (k, xk) in x.iter().enumerate() {
-        for (ci, si) in c.iter_mut().zip(&s.second) {
-            axpy(ci, si[k], xk);
-        }
-    }
-    c
-}
-
 /// Foot of the perpendicular from `p` on the unbounded continuation of the segment, from the guess `xi`; `None` when
 /// Newton's method does not converge.
-pub fn foot<const D: usize>(
-    kind: SegmentKind,
-    x: &[[f64; D]],
-    p: &[f64; D],
-    mut xi: [f64; 2],
-) -> Option<[f64; 2]> {
-    let m = D - 1;
-    if kind == SegmentKind::Seg2 {
+pub fn foot<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D], mut xi: [f64; 2]) -> Option<[f64; 2]> {
+    if form == Form::Nodes(SegmentKind::Seg2) {
         // Relative to the middle of the segment: both ends are treated alike, and ξ is exact for a point far along.
         let e = sub(&x[1], &x[0]);
         let middle: [f64; D] = std::array::from_fn(|i| 0.5 * (x[0][i] + x[1][i]));
         let s = 2.0 * dot(&sub(p, &middle), &e) / dot(&e, &e);
         return s.is_finite().then_some([s, 0.0]);
     }
+    let linear = form == Form::Nodes(SegmentKind::Tri3);
+    let m = D - 1;
     for _ in 0..ITERATIONS {
-        let s = shape(kind, xi);
-        let (point, e) = interpolate(&s, x);
-        let d = sub(p, &point);
-        let metric = [dot(&e[0], &e[0]), dot(&e[0], &e[1]), dot(&e[1], &e[1])];
-        let residual = [dot(&d, &e[0]), dot(&d, &e[1])];
-        let matrix = newton_matrix(m, &metric, &d, &curvature(&s, x));
+        let patch = evaluate(form, x, xi);
+        let d = sub(p, &patch.point);
+        let residual = [dot(&d, &patch.e[0]), dot(&d, &patch.e[1])];
+        let (matrix, full) = newton_matrix(&patch, &d);
         let step = solve_tangential(m, &matrix, &residual);
         if !(step[0].is_finite() && step[1].is_finite()) {
             return None;
         }
-        let linear = matches!(kind, SegmentKind::Tri3);
         for k in 0..m {
             xi[k] += step[k];
             if !linear {
@@ -145,86 +127,86 @@ pub fn foot<const D: usize>(
             }
         }
         let size = step[0].abs().max(step[1].abs());
-        if linear || size <= CONVERGED * (1.0 + xi[0].abs().max(xi[1].abs())) {
+        if linear || (full && size <= CONVERGED) {
             return Some(xi);
         }
     }
-    // Newton's last steps may oscillate at rounding; what is still moving visibly is not a foot.
-    let s = shape(kind, xi);
-    let (point, e) = interpolate(&s, x);
-    let d = sub(p, &point);
-    let off = (0..m).map(|k| dot(&d, &e[k]).abs() / dot(&e[k], &e[k])).fold(0.0, f64::max);
+    // Gauss-Newton converges linearly; what is still moving visibly is not a foot.
+    let patch = evaluate(form, x, xi);
+    let d = sub(p, &patch.point);
+    let off = (0..m).map(|k| dot(&d, &patch.e[k]).abs() / dot(&patch.e[k], &patch.e[k])).fold(0.0, f64::max);
     (off <= BORDER).then_some(xi)
 }
 
-/// `C - d·e_m,l` where that is positive definite, otherwise the metric C alone (Gauss-Newton).
+/// `C - d·e_m,l` where that is positive definite (true), otherwise the metric C alone (Gauss-Newton, false).
 #[inline]
-fn newton_matrix<const D: usize>(m: usize, metric: &[f64; 3], d: &[f64; D], c: &[[f64; D]; 3]) -> [f64; 3] {
-    let a: [f64; 3] = std::array::from_fn(|k| metric[k] - dot(d, &c[k]));
-    let definite = if m == 1 { a[0] > 0.0 } else { a[0] > 0.0 && a[0] * a[2] - a[1] * a[1] > 0.0 };
-    if definite { a } else { *metric }
+fn newton_matrix<const D: usize>(patch: &Patch<D>, d: &[f64; D]) -> ([f64; 3], bool) {
+    let e = &patch.e;
+    let metric = [dot(&e[0], &e[0]), dot(&e[0], &e[1]), dot(&e[1], &e[1])];
+    let a: [f64; 3] = std::array::from_fn(|k| metric[k] - dot(d, &patch.curvature[k]));
+    let definite = if D == 2 { a[0] > 0.0 } else { a[0] > 0.0 && a[0] * a[2] - a[1] * a[1] > 0.0 };
+    (if definite { a } else { metric }, definite)
 }
 
 /// Closest point of the segment with nodes `x` to `p`.
 pub fn project<const D: usize>(kind: SegmentKind, x: &[[f64; D]], p: &[f64; D]) -> Projection<D> {
-    let start = if corners(kind) == 3 { [1.0 / 3.0; 2] } else { [0.0; 2] };
-    let inside = foot(kind, x, p, start)
-        .filter(|&xi| depth(kind, xi) > BORDER)
-        .map(|xi| at(kind, x, p, xi, Outcome::Inside));
+    project_on(Form::Nodes(kind), x, p)
+}
+
+/// The same for a segment of either form with points `x`.
+pub fn project_on<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D]) -> Projection<D> {
+    let start = if corners(form.kind()) == 3 { [1.0 / 3.0; 2] } else { [0.0; 2] };
+    let inside = foot(form, x, p, start)
+        .filter(|&xi| depth(form.kind(), xi) > BORDER)
+        .map(|xi| at(form, x, p, xi, Outcome::Inside));
     if let Some(found) = inside
-        && kind.first_order()
+        && form.straight()
     {
         return found;
     }
     // On a curved segment a foot need not be the closest point: the border competes.
-    let border = if D == 2 { nearest_end(kind, x, p) } else { nearest_edge(kind, x, p) };
+    let border = if D == 2 { nearest_end(form, x, p) } else { nearest_edge(form, x, p) };
     match inside {
         Some(found) if found.distance_squared <= border.distance_squared => found,
         _ => border,
     }
 }
 
-fn at<const D: usize>(
-    kind: SegmentKind,
-    x: &[[f64; D]],
-    p: &[f64; D],
-    xi: [f64; 2],
-    outcome: Outcome,
-) -> Projection<D> {
-    let (point, _) = interpolate(&shape(kind, xi), x);
+fn at<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D], xi: [f64; 2], outcome: Outcome) -> Projection<D> {
+    let point = evaluate(form, x, xi).point;
     let d = sub(p, &point);
     let distance_squared = dot(&d, &d);
     let outcome = if distance_squared.is_finite() { outcome } else { Outcome::None };
     Projection { xi, point, distance_squared, outcome }
 }
 
-fn nearest_end<const D: usize>(kind: SegmentKind, x: &[[f64; D]], p: &[f64; D]) -> Projection<D> {
-    let a = at(kind, x, p, corner(kind, 0), Outcome::OnVertex(0));
-    let b = at(kind, x, p, corner(kind, 1), Outcome::OnVertex(1));
+fn nearest_end<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D]) -> Projection<D> {
+    let a = at(form, x, p, corner(form.kind(), 0), Outcome::OnVertex(0));
+    let b = at(form, x, p, corner(form.kind(), 1), Outcome::OnVertex(1));
     if b.distance_squared < a.distance_squared { b } else { a }
 }
 
-fn nearest_edge<const D: usize>(kind: SegmentKind, x: &[[f64; D]], p: &[f64; D]) -> Projection<D> {
-    let n = corners(kind);
+fn nearest_edge<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D]) -> Projection<D> {
     let mut best: Option<Projection<D>> = None;
-    for k in 0..n {
-        let found = on_edge(kind, x, p, k);
+    for k in 0..corners(form.kind()) {
+        let found = on_edge(form, x, p, k);
         if best.is_none_or(|b| found.distance_squared < b.distance_squared) {
             best = Some(found);
         }
     }
-    best.unwrap_or_else(|| at(kind, x, p, [0.0; 2], Outcome::None))
+    best.unwrap_or_else(|| at(form, x, p, [0.0; 2], Outcome::None))
 }
 
 /// Closest point of edge `k`, which joins corners `k` and `k + 1`.
-fn on_edge<const D: usize>(kind: SegmentKind, x: &[[f64; D]], p: &[f64; D], k: usize) -> Projection<D> {
-    let n = corners(kind);
-    let (i, j) = (k, (k + 1) % n);
-    let s = if kind.first_order() {
+fn on_edge<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D], k: usize) -> Projection<D> {
+    let kind = form.kind();
+    let (i, j) = (k, (k + 1) % corners(kind));
+    let (a, b) = (corner(kind, i), corner(kind, j));
+    let s = if form.straight() {
         let e = sub(&x[j], &x[i]);
         2.0 * dot(&sub(p, &x[i]), &e) / dot(&e, &e) - 1.0
     } else {
-        line_parameter(&[x[i], x[j], x[n + k]], p)
+        edge_parameter(form, x, p, a, b)
     };
     let outcome = if s <= -1.0 + BORDER {
         Outcome::OnVertex(i)
@@ -233,33 +215,43 @@ fn on_edge<const D: usize>(kind: SegmentKind, x: &[[f64; D]], p: &[f64; D], k: u
     } else {
         Outcome::OnEdge(k)
     };
-    let (a, b) = (corner(kind, i), corner(kind, j));
     let xi = match outcome {
         Outcome::OnVertex(v) => corner(kind, v),
-        _ => std::array::from_fn(|c| 0.5 * ((1.0 - s) * a[c] + (1.0 + s) * b[c])),
+        _ => between(a, b, s),
     };
-    at(kind, x, p, xi, outcome)
+    at(form, x, p, xi, outcome)
 }
 
-/// Closest parameter in [-1, 1] of a three-node line: Newton from the best of a few samples.
-fn line_parameter<const D: usize>(x: &[[f64; D]; 3], p: &[f64; D]) -> f64 {
+/// The point of the line from `a` to `b` with parameter `s` in [-1, 1].
+fn between(a: [f64; 2], b: [f64; 2], s: f64) -> [f64; 2] {
+    std::array::from_fn(|c| 0.5 * ((1.0 - s) * a[c] + (1.0 + s) * b[c]))
+}
+
+/// Closest parameter in [-1, 1] of the curved edge over the line from `a` to `b`: Newton from the best of a few samples.
+fn edge_parameter<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D], a: [f64; 2], b: [f64; 2]) -> f64 {
+    let along = [0.5 * (b[0] - a[0]), 0.5 * (b[1] - a[1])];
     let distance = |s: f64| {
-        let (q, _) = interpolate(&shape(SegmentKind::Seg3, [s, 0.0]), x);
-        dot(&sub(p, &q), &sub(p, &q))
+        let d = sub(p, &evaluate(form, x, between(a, b, s)).point);
+        dot(&d, &d)
     };
     let mut s = [-1.0, -0.5, 0.0, 0.5, 1.0]
         .into_iter()
         .fold(0.0, |a, b| if distance(b) < distance(a) { b } else { a });
     for _ in 0..ITERATIONS {
-        let shapes = shape(SegmentKind::Seg3, [s, 0.0]);
-        let (q, e) = interpolate(&shapes, x);
-        let d = sub(p, &q);
-        let metric = dot(&e[0], &e[0]);
-        let full = metric - dot(&d, &curvature(&shapes, x)[0]);
-        let next = (s + dot(&d, &e[0]) / if full > 0.0 { full } else { metric }).clamp(-1.0, 1.0);
+        let patch = evaluate(form, x, between(a, b, s));
+        let d = sub(p, &patch.point);
+        let (mut e, mut c) = ([0.0; D], [0.0; D]);
+        for m in 0..2 {
+            axpy(&mut e, along[m], &patch.e[m]);
+            axpy(&mut c, along[m] * along[m], &patch.curvature[2 * m]);
+        }
+        axpy(&mut c, 2.0 * along[0] * along[1], &patch.curvature[1]);
+        let metric = dot(&e, &e);
+        let full = metric - dot(&d, &c);
+        let next = (s + dot(&d, &e) / if full > 0.0 { full } else { metric }).clamp(-1.0, 1.0);
         let moved = (next - s).abs();
         s = next;
-        if moved <= CONVERGED {
+        if full > 0.0 && moved <= CONVERGED {
             break;
         }
     }

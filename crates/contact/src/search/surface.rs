@@ -1,20 +1,38 @@
 //! The master surface: its segments, which of their borders are shared, and the closest point among all of them.
 
-use super::project::{Outcome, Projection, corners, gather, project};
+use super::patch::{Basis, Form, MOST_POINTS, Patch, evaluate};
+use super::project::{Outcome, Projection, corners, foot, project_on};
+use super::smooth::Smooth;
 use super::tree::{Aabb, Tree};
-use crate::shape::MOST_NODES;
-use crate::spec::Segment;
+use crate::error::ContactError;
+use crate::spec::{Segment, Smoothing};
 use crate::vector::{norm, sub};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Boxes of curved segments grow by this share of their size: a parabola through the nodes bulges out of their box by at
 /// most 1/8 of it in each direction, twice over on a biquadratic face.
 const BULGE: f64 = 0.25;
 
+/// Segments whose control points are computed together on one thread.
+const CHUNK: usize = 256;
+
+/// Weights of nodes at one point of a segment, over at most `M` nodes; entries beyond the support are zero.
+#[derive(Clone, Copy, Debug)]
+pub struct Weights<const M: usize> {
+    /// N_γ.
+    pub value: [f64; M],
+    /// N_γ,m.
+    pub first: [[f64; M]; 2],
+}
+
 /// Segments with a search tree over them.
 #[derive(Clone, Debug)]
 pub struct Surface<const D: usize> {
     segments: Vec<Segment>,
+    smooth: Option<Smooth>,
+    /// Control points of the smoothed segments at the configuration last set \[m\].
+    controls: Vec<[f64; D]>,
     /// Whether a node lies on the rim of the surface.
     rim: Vec<bool>,
     /// Per segment and edge (three dimensions): whether no other segment shares it.
@@ -27,14 +45,39 @@ impl<const D: usize> Surface<D> {
     /// Builds the surface on `nodes` nodes at the given positions.
     #[must_use]
     pub fn new(segments: Vec<Segment>, positions: &[[f64; D]]) -> Self {
-        let boxes: Vec<_> = segments.iter().map(|s| segment_box(s, positions)).collect();
-        let tree = Tree::build(&boxes);
+        Self::build(segments, positions, None)
+    }
+
+    /// Builds a smoothed surface of the interface `name`; all segments are of the first order.
+    ///
+    /// # Errors
+    /// [`ContactError::SmoothingTooWide`] when too many segments meet in a node.
+    pub fn smoothed(
+        name: &str,
+        segments: Vec<Segment>,
+        positions: &[[f64; D]],
+        smoothing: Smoothing,
+    ) -> Result<Self, ContactError> {
+        let smooth = Smooth::new(name, &segments, positions, smoothing)?;
+        Ok(Self::build(segments, positions, Some(smooth)))
+    }
+
+    fn build(segments: Vec<Segment>, positions: &[[f64; D]], smooth: Option<Smooth>) -> Self {
         let (rim, free) = if D == 2 {
             rim_of_lines(&segments, positions.len())
         } else {
             rim_of_faces(&segments, positions.len())
         };
-        Self { segments, rim, free, boxes, tree }
+        let controls = vec![[0.0; D]; smooth.as_ref().map_or(0, Smooth::count)];
+        let boxes = vec![Aabb::empty(); segments.len()];
+        let tree = Tree::build(&[]);
+        let mut surface = Self { segments, smooth, controls, rim, free, boxes, tree };
+        surface.configure(positions);
+        for k in 0..surface.segments.len() {
+            surface.boxes[k] = surface.segment_box(k, positions);
+        }
+        surface.tree = Tree::build(&surface.boxes);
+        surface
     }
 
     /// The segments.
@@ -43,20 +86,136 @@ impl<const D: usize> Surface<D> {
         &self.segments
     }
 
-    /// Moves the boxes of the search to new positions.
+    /// Nodes a segment depends on, its own first; more than its own on smoothed surfaces.
+    #[inline]
+    #[must_use]
+    pub fn support(&self, segment: usize) -> &[usize] {
+        match &self.smooth {
+            Some(smooth) => smooth.support(segment),
+            None => &self.segments[segment].nodes,
+        }
+    }
+
+    /// How a segment is described.
+    #[inline]
+    #[must_use]
+    pub fn form(&self, segment: usize) -> Form {
+        match &self.smooth {
+            Some(smooth) => smooth.form(segment),
+            None => Form::Nodes(self.segments[segment].kind),
+        }
+    }
+
+    /// Moves the surface to new positions; the boxes of the search stay until [`Surface::refit`].
+    pub fn configure(&mut self, positions: &[[f64; D]]) {
+        let Some(smooth) = &self.smooth else { return };
+        let form = smooth.form(0);
+        if (0..self.segments.len()).all(|k| smooth.form(k) == form) {
+            let n = form.points();
+            self.controls.par_chunks_mut(CHUNK * n).enumerate().for_each(|(chunk, out)| {
+                for (k, out) in out.chunks_exact_mut(n).enumerate() {
+                    smooth.place(chunk * CHUNK + k, positions, out);
+                }
+            });
+        } else {
+            for k in 0..self.segments.len() {
+                smooth.place(k, positions, &mut self.controls[smooth.range(k)]);
+            }
+        }
+    }
+
+    /// Moves the boxes of the search to the positions last set.
     pub fn refit(&mut self, positions: &[[f64; D]]) {
-        for (b, s) in self.boxes.iter_mut().zip(&self.segments) {
-            *b = segment_box(s, positions);
+        for k in 0..self.segments.len() {
+            self.boxes[k] = self.segment_box(k, positions);
         }
         self.tree.refit(&self.boxes);
+    }
+
+    /// The points of a segment's form, gathered from the nodes or from the control points.
+    #[inline]
+    pub fn points<'a>(
+        &'a self,
+        segment: usize,
+        positions: &[[f64; D]],
+        buffer: &'a mut [[f64; D]; MOST_POINTS],
+    ) -> &'a [[f64; D]] {
+        if let Some(smooth) = &self.smooth {
+            return &self.controls[smooth.range(segment)];
+        }
+        let nodes = &self.segments[segment].nodes;
+        for (b, &n) in buffer.iter_mut().zip(nodes) {
+            *b = positions[n];
+        }
+        &buffer[..nodes.len()]
+    }
+
+    /// Geometry of a segment at `xi`.
+    #[inline]
+    #[must_use]
+    pub fn evaluate(&self, segment: usize, positions: &[[f64; D]], xi: [f64; 2]) -> Patch<D> {
+        let mut buffer = [[0.0; D]; MOST_POINTS];
+        evaluate(self.form(segment), self.points(segment, positions, &mut buffer), xi)
+    }
+
+    /// Foot of the perpendicular from `p` on the continued segment, from the guess `xi`.
+    #[inline]
+    #[must_use]
+    pub fn foot(&self, segment: usize, positions: &[[f64; D]], p: &[f64; D], xi: [f64; 2]) -> Option<[f64; 2]> {
+        let mut buffer = [[0.0; D]; MOST_POINTS];
+        foot(self.form(segment), self.points(segment, positions, &mut buffer), p, xi)
+    }
+
+    /// Weights of the support of a segment at `xi`.
+    #[inline]
+    #[must_use]
+    pub fn weights<const M: usize>(&self, segment: usize, xi: [f64; 2]) -> Weights<M> {
+        let mut w = Weights { value: [0.0; M], first: [[0.0; M]; 2] };
+        let form = self.form(segment);
+        if form == Form::Nodes(crate::spec::SegmentKind::Seg2) {
+            w.value[..2].copy_from_slice(&[0.5 * (1.0 - xi[0]), 0.5 * (1.0 + xi[0])]);
+            w.first[0][..2].copy_from_slice(&[-0.5, 0.5]);
+            return w;
+        }
+        let b = Basis::new(form, xi);
+        let Some(smooth) = &self.smooth else {
+            let n = form.points();
+            w.value[..n].copy_from_slice(&b.value[..n]);
+            for m in 0..2 {
+                w.first[m][..n].copy_from_slice(&b.first[m][..n]);
+            }
+            return w;
+        };
+        let n = smooth.support(segment).len();
+        for (c, row) in smooth.weights(segment).chunks_exact(n).enumerate() {
+            for (k, r) in row.iter().enumerate() {
+                w.value[k] += b.value[c] * r;
+                w.first[0][k] += b.first[0][c] * r;
+                w.first[1][k] += b.first[1][c] * r;
+            }
+        }
+        w
+    }
+
+    fn segment_box(&self, segment: usize, positions: &[[f64; D]]) -> Aabb<D> {
+        let mut buffer = [[0.0; D]; MOST_POINTS];
+        let mut b = Aabb::empty();
+        for x in self.points(segment, positions, &mut buffer) {
+            b.include(x);
+        }
+        match self.form(segment) {
+            // A Bézier patch lies within the hull of its control points.
+            Form::Cubic(_) => b,
+            Form::Nodes(kind) if kind.first_order() => b,
+            Form::Nodes(_) => b.inflated(BULGE * norm(&sub(&b.max, &b.min))),
+        }
     }
 
     /// Closest point of one segment.
     #[must_use]
     pub fn project(&self, segment: usize, positions: &[[f64; D]], p: &[f64; D]) -> Projection<D> {
-        let s = &self.segments[segment];
-        let mut buffer = [[0.0; D]; MOST_NODES];
-        project(s.kind, gather(&s.nodes, |n| positions[n], &mut buffer), p)
+        let mut buffer = [[0.0; D]; MOST_POINTS];
+        project_on(self.form(segment), self.points(segment, positions, &mut buffer), p)
     }
 
     /// The segment closest to `p` with its projection; `count` grows by the number of projections made.
@@ -110,14 +269,6 @@ impl<const D: usize> Surface<D> {
     pub fn size(&self, segment: usize) -> f64 {
         norm(&sub(&self.boxes[segment].max, &self.boxes[segment].min))
     }
-}
-
-fn segment_box<const D: usize>(s: &Segment, positions: &[[f64; D]]) -> Aabb<D> {
-    let mut b = Aabb::empty();
-    for &n in &s.nodes {
-        b.include(&positions[n]);
-    }
-    if s.kind.first_order() { b } else { b.inflated(BULGE * norm(&sub(&b.max, &b.min))) }
 }
 
 fn rim_of_lines(segments: &[Segment], nodes: usize) -> (Vec<bool>, Vec<[bool; 4]>) {

@@ -1,6 +1,8 @@
 //! Scenes and laws for the tests of this crate.
 #![allow(dead_code, clippy::unwrap_used)]
 
+pub mod curved;
+
 use asperity_contact::{
     Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode,
 };
@@ -253,6 +255,7 @@ pub fn spec<const D: usize>(
         master,
         measure: MeasureKind::NodeToPoint,
         sliding,
+        smoothing: None,
         fixed_normal: None,
         normal_penalty: 1000.0,
         tangential_penalty: 700.0,

@@ -11,62 +11,47 @@
 //! `a' = a - (n·a)/(1 + n_a·n) (n_a + n)`. Components are therefore unchanged by a rigid rotation, and the force turns
 //! with the master.
 //!
-//! Linearisation (δ in the direction of one nodal component), with `A_ml = e_m·e_l - g_n n·e_m,l` the curvature-corrected
-//! metric: `A_ml δξ_l = δ(u_s - N u)·e_m + g_n n·N_γ,m δx_γ`, `δg_n = n·δ(u_s - N u)`,
-//! `δn = -(n·δe_m) e^m`, `δe_m = N_γ,m δx_γ + e_m,l δξ_l`. The reaction `N_γ f` moves with ξ, hence `N_γ,m δξ_m f`.
+//! Linearisation, with `A_ml = e_m·e_l - g_n n·e_m,l` the curvature-corrected metric:
+//! `A_ml δξ_l = δ(u_s - N u)·e_m + g_n n·N_γ,m δx_γ`, `δg_n = n·δ(u_s - N u)`,
+//! `δn = -(n·δe_m) e^m`, `δe_m = N_γ,m δx_γ + e_m,l δξ_l`. The reaction `N_γ f` moves with ξ, hence `N_γ,m δξ_m f`; the
+//! blocks are built in [`super::kernel`]. On smoothed surfaces γ runs over all nodes the segment depends on.
+//!
+//! Points are worked on in pieces of fixed size on any number of threads; no point sees another, so that results do not
+//! depend on the number.
 
-use super::column::{Column, Local};
+use super::kernel::{Columns, Friction, Kernel};
+use super::local::Local;
+use super::track::{Bound, Place, Point};
 use crate::measure::{Attachment, Exit, Geometry, Measure, Slides, Tractions};
-use crate::search::project::{BORDER, Outcome, Projection, depth, foot, gather, margins};
-use crate::search::surface::Surface;
-use crate::shape::{MOST_NODES, shape};
-use crate::spec::{Segment, SlavePoint, SurfaceNode};
-use crate::vector::{add, axpy, dot, norm, perpendicular, sub, unit};
+use crate::search::project::{BORDER, depth, margins};
+use crate::search::smooth::MOST_SUPPORT;
+use crate::search::surface::{Surface, Weights};
+use crate::spec::{SlavePoint, SurfaceNode};
+use crate::vector::{add, axpy, dot, sub};
 use asperity_fem::term::Pattern;
 
-/// A held segment keeps its point until it lies this far outside, in natural coordinates: rounding and small movements
-/// at a shared border do not change the pairing back and forth, and the continued segment is off by this times the kink.
-const HYSTERESIS: f64 = 1e-3;
-
-/// The same where the border is the rim of the surface: bodies that end together and deform differently must not lose
-/// their last node.
-const OVERRUN: f64 = 1e-2;
-
-/// A point beyond the rim is paired anew when it lies off the normal through the rim by less than this share of the
-/// segment's size, as in small sliding.
-const RIM: f64 = 1e-6;
-
-/// A point of a segment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place {
-    pub segment: usize,
-    pub xi: [f64; 2],
-}
-
-#[derive(Clone, Debug)]
-struct Point {
-    slave: SlavePoint,
-    /// Where the closest point lies; the segment changes in searches only.
-    place: Option<Place>,
-    /// Where it lay at the last commit.
-    anchor: Option<Place>,
-    /// Paired since the last commit: the anchor is where the first search of the step found the point.
-    fresh: bool,
-    /// The last committed step ended on a border of the segment, moving outwards.
-    leaving: bool,
-    /// Nodes of its block: the slave, those of the held segment, those of the anchor's segment that are not yet there.
-    nodes: Vec<usize>,
-}
+/// Points worked on together on one thread: some 50 microseconds of work, and a tangent that fits the second-level cache.
+pub(super) const CHUNK: usize = 128;
 
 /// The measure.
 #[derive(Clone, Debug)]
 pub struct Finite<const D: usize> {
-    surface: Surface<D>,
+    pub(super) surface: Surface<D>,
     reference: Vec<[f64; D]>,
     dofs: Vec<usize>,
-    points: Vec<Point>,
+    pub(super) points: Vec<Point>,
     /// Positions of all nodes at the last measurement.
-    x: Vec<[f64; D]>,
+    pub(super) x: Vec<[f64; D]>,
+    /// What the last search proved.
+    pub(super) bound: Bound<D>,
+    /// Most nodes a segment depends on.
+    widest: usize,
+    /// Nodes of all blocks: the slave, those the held segment depends on, those of the anchor's that are not yet there.
+    nodes: Vec<usize>,
+    /// Start of each point's block in `nodes`.
+    starts: Vec<usize>,
+    /// Start of each point's block among the values of a tangent.
+    offsets: Vec<usize>,
     pattern: Pattern,
 }
 
@@ -75,20 +60,18 @@ impl<const D: usize> Finite<D> {
     #[must_use]
     pub fn new(nodes: &[SurfaceNode<D>], slave: &[SlavePoint], surface: Surface<D>) -> (Self, u64) {
         let reference: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
-        let point = |s: &SlavePoint| Point {
-            slave: *s,
-            place: None,
-            anchor: None,
-            fresh: false,
-            leaving: false,
-            nodes: Vec::new(),
-        };
+        let widest = (0..surface.segments().len()).map(|k| surface.support(k).len()).max().unwrap_or(0);
         let mut measure = Self {
             surface,
+            bound: Bound::default(),
+            widest,
             x: reference.clone(),
             reference,
             dofs: nodes.iter().map(|n| n.dof).collect(),
-            points: slave.iter().map(point).collect(),
+            points: slave.iter().map(Point::new).collect(),
+            nodes: Vec::new(),
+            starts: vec![0; slave.len() + 1],
+            offsets: vec![0; slave.len() + 1],
             pattern: Pattern::default(),
         };
         let mut projections = 0;
@@ -98,111 +81,225 @@ impl<const D: usize> Finite<D> {
         (measure, projections)
     }
 
+    /// Forgets what the last search proved, so that the next one is made in full.
+    pub fn forget(&mut self) {
+        self.bound = Bound::default();
+    }
+
     fn configure(&mut self, u: &[[f64; D]]) {
         for ((x, r), u) in self.x.iter_mut().zip(&self.reference).zip(u) {
             *x = add(r, u);
         }
+        self.surface.configure(&self.x);
     }
 
-    /// The segment that shall hold a point, with natural coordinates, from the present one.
-    fn hold(&self, point: &Point, projections: &mut u64) -> Option<Place> {
-        let p = &self.x[point.slave.node];
-        let held = point.place.and_then(|h| self.foot_on(&h, p));
-        if let Some(h) = held
-            && !point.leaving
-            && self.keeps(&h)
-        {
-            return held;
-        }
-        let (segment, found) = self.surface.closest(&self.x, p, projections)?;
-        let found = if point.leaving {
-            self.entering(held, segment, found, p, projections)
-        } else {
-            (segment, found)
-        };
-        let (segment, projection) = found;
-        if self.surface.on_rim(segment, projection.outcome) && self.off_normal(segment, &projection, p) {
-            return held.filter(|h| self.keeps(h));
-        }
-        (projection.outcome != Outcome::None).then_some(Place { segment, xi: projection.xi })
-    }
-
-    /// A point on a border belongs to the segment it is entering: another one than `held`, as close as the closest.
-    fn entering(
-        &self,
-        held: Option<Place>,
-        segment: usize,
-        found: Projection<D>,
-        p: &[f64; D],
-        projections: &mut u64,
-    ) -> (usize, Projection<D>) {
-        let Some(held) = held.filter(|h| h.segment == segment) else { return (segment, found) };
-        let reach = (found.distance_squared.sqrt() + BORDER * self.surface.size(segment)).powi(2);
-        let other = self.surface.closest_but(held.segment, &self.x, p, projections);
-        other.filter(|(_, o)| o.distance_squared <= reach).unwrap_or((segment, found))
-    }
-
-    /// Whether a held segment keeps its point.
-    fn keeps(&self, place: &Place) -> bool {
-        let kind = self.surface.segments()[place.segment].kind;
-        margins(kind, place.xi).iter().enumerate().all(|(k, &m)| {
-            let free = m < 0.0 && self.surface.border_is_free(place.segment, k);
-            m >= if free { -OVERRUN } else { -HYSTERESIS }
-        })
-    }
-
-    fn foot_on(&self, place: &Place, p: &[f64; D]) -> Option<Place> {
-        let s = &self.surface.segments()[place.segment];
-        let mut buffer = [[0.0; D]; MOST_NODES];
-        let x = gather(&s.nodes, |n| self.x[n], &mut buffer);
-        foot(s.kind, x, p, place.xi).map(|xi| Place { segment: place.segment, xi })
-    }
-
-    fn off_normal(&self, segment: usize, projection: &Projection<D>, p: &[f64; D]) -> bool {
-        let local = Local::new(&self.surface.segments()[segment], &self.x, projection.xi);
-        let mut off = sub(p, &projection.point);
-        let along = dot(&off, &local.n);
-        axpy(&mut off, -along, &local.n);
-        norm(&off) > RIM * self.surface.size(segment)
-    }
-
-    /// Rebuilds the blocks; the version changes when they do.
+    /// Rebuilds the blocks when a point's segments changed; the version changes with them.
     fn rebuild(&mut self) {
         let mut changed = false;
         for point in &mut self.points {
-            let mut nodes = Vec::with_capacity(point.nodes.len());
-            if let (Some(place), Some(anchor)) = (point.place, point.anchor) {
-                nodes.push(point.slave.node);
-                nodes.extend_from_slice(&self.surface.segments()[place.segment].nodes);
-                for &n in &self.surface.segments()[anchor.segment].nodes {
-                    if !nodes.contains(&n) {
-                        nodes.push(n);
+            let key = point.place.zip(point.anchor).map(|(h, a)| (h.segment, a.segment));
+            changed |= key != point.key;
+            point.key = key;
+        }
+        if !changed {
+            return;
+        }
+        self.nodes.clear();
+        let mut pattern = Pattern { version: self.pattern.version + 1, starts: vec![0], dofs: Vec::new() };
+        for (p, point) in self.points.iter().enumerate() {
+            let from = self.nodes.len();
+            if let Some((held, anchor)) = point.key {
+                self.nodes.push(point.slave.node);
+                self.nodes.extend_from_slice(self.surface.support(held));
+                if anchor != held {
+                    for n in self.surface.support(anchor) {
+                        if !self.nodes[from..].contains(n) {
+                            self.nodes.push(*n);
+                        }
                     }
                 }
+                pattern.dofs.extend(self.nodes[from..].iter().flat_map(|&n| self.dofs[n]..self.dofs[n] + D));
+                pattern.starts.push(pattern.dofs.len());
             }
-            if nodes != point.nodes {
-                point.nodes = nodes;
-                changed = true;
+            let size = (self.nodes.len() - from) * D;
+            self.starts[p + 1] = self.nodes.len();
+            self.offsets[p + 1] = self.offsets[p] + size * size;
+        }
+        self.pattern = pattern;
+    }
+
+    #[inline]
+    pub(super) fn local(&self, place: &Place) -> Local<D> {
+        Local::new(&self.surface.evaluate(place.segment, &self.x, place.xi))
+    }
+
+    /// Linearised motion of a point on its held segment: `(dg_n, dξ)`.
+    fn rates(&self, point: &Point, place: &Place, local: &Local<D>, gap: f64, du: &[[f64; D]]) -> (f64, [f64; 2]) {
+        let weights: Weights<MOST_SUPPORT> = self.surface.weights(place.segment, place.xi);
+        let mut relative = du[point.slave.node];
+        let mut stretch = [0.0; 2];
+        for (k, &node) in self.surface.support(place.segment).iter().enumerate() {
+            axpy(&mut relative, -weights.value[k], &du[node]);
+            let along = dot(&local.n, &du[node]);
+            stretch[0] += weights.first[0][k] * along;
+            stretch[1] += weights.first[1][k] * along;
+        }
+        local.rates(gap, &relative, stretch)
+    }
+
+    /// The places in the block of point `p` of the nodes a segment depends on; `leading` when they follow the slave.
+    fn rows<const M: usize>(&self, p: usize, segment: usize, leading: bool, rows: &mut [usize; M]) -> usize {
+        let support = self.surface.support(segment);
+        let block = &self.nodes[self.starts[p]..self.starts[p + 1]];
+        for (k, (row, node)) in rows.iter_mut().zip(support).enumerate() {
+            *row = if leading { k + 1 } else { 1 + block[1..].iter().position(|n| n == node).unwrap_or(0) };
+        }
+        support.len()
+    }
+
+    /// Writes the block of point `p`.
+    fn block<const M: usize, const K: usize>(
+        &self,
+        p: usize,
+        geometry: &Geometry<D>,
+        tractions: &Tractions<'_>,
+        block: &mut [f64],
+    ) {
+        let point = &self.points[p];
+        let (Some(place), Some(anchor), true) = (point.place, point.anchor, tractions.normal[p].closed) else {
+            block.fill(0.0);
+            return;
+        };
+        let (here, there) = (self.local(&place), self.local(&anchor));
+        let friction = tractions.shear.map(|s| Friction {
+            point: &s[p],
+            stiffness: tractions.stiffness,
+            there: &there,
+            frame: &geometry.frame[p],
+        });
+        let weights: Weights<M> = self.surface.weights(place.segment, place.xi);
+        let mut columns = Columns::<K>::zero();
+        let mut rows = [0; M];
+        let held = point.key.map(|k| k.0);
+        let n = self.rows(p, place.segment, held == Some(place.segment), &mut rows);
+        for (k, &row) in rows[..n].iter().enumerate() {
+            columns.value[row] = weights.value[k];
+            columns.first[0][row] = weights.first[0][k];
+            columns.first[1][row] = weights.first[1][k];
+        }
+        if friction.is_some() {
+            let weights: Weights<M> = self.surface.weights(anchor.segment, anchor.xi);
+            let mut rows = [0; M];
+            let n = self.rows(p, anchor.segment, held == Some(anchor.segment), &mut rows);
+            for (k, &row) in rows[..n].iter().enumerate() {
+                columns.anchor_value[row] = weights.value[k];
+                columns.anchor_first[0][row] = weights.first[0][k];
+                columns.anchor_first[1][row] = weights.first[1][k];
             }
         }
-        if changed {
-            let dofs = &self.dofs;
-            let blocks: Vec<Vec<usize>> = self
-                .points
-                .iter()
-                .filter(|p| !p.nodes.is_empty())
-                .map(|p| p.nodes.iter().flat_map(|&n| dofs[n]..dofs[n] + D).collect())
-                .collect();
-            self.pattern = Pattern::of_blocks(self.pattern.version + 1, blocks.iter().map(Vec::as_slice));
+        let kernel = Kernel::new(&here, geometry.gap[p], &tractions.normal[p], friction);
+        let nodes = self.starts[p + 1] - self.starts[p];
+        kernel.write(point.slave.area, nodes, &columns, &rows[..n], &weights, block);
+    }
+
+    /// Blocks of the points `from..to`, in pieces.
+    fn blocks<const M: usize, const K: usize>(
+        &self,
+        (from, to): (usize, usize),
+        geometry: &Geometry<D>,
+        tractions: &Tractions<'_>,
+        values: &mut [f64],
+    ) {
+        if to - from > CHUNK {
+            let middle = from + (to - from).div_ceil(2).next_multiple_of(CHUNK);
+            let (left, right) = values.split_at_mut(self.offsets[middle] - self.offsets[from]);
+            rayon::join(
+                || self.blocks::<M, K>((from, middle), geometry, tractions, left),
+                || self.blocks::<M, K>((middle, to), geometry, tractions, right),
+            );
+            return;
+        }
+        let mut rest = values;
+        for p in from..to {
+            let (block, tail) = rest.split_at_mut(self.offsets[p + 1] - self.offsets[p]);
+            rest = tail;
+            self.block::<M, K>(p, geometry, tractions, block);
         }
     }
 
-    fn segment(&self, place: &Place) -> &Segment {
-        &self.surface.segments()[place.segment]
+    /// Evaluates one point; returns its increment's chord in the carried frame through `out`.
+    fn measure_point(surface: &Surface<D>, x: &[[f64; D]], point: &mut Point, out: &mut View<'_, D>, p: usize) {
+        let (Some(place), Some(anchor)) = (point.place, point.anchor) else {
+            out.paired[p] = false;
+            out.gap[p] = f64::INFINITY;
+            out.increment[p] = [0.0; 2];
+            return;
+        };
+        let slave = x[point.slave.node];
+        out.paired[p] = true;
+        let Some(xi) = surface.foot(place.segment, x, &slave, place.xi) else {
+            out.gap[p] = f64::NAN;
+            return;
+        };
+        point.place = Some(Place { segment: place.segment, xi });
+        let here = Local::new(&surface.evaluate(place.segment, x, xi));
+        let there = Local::new(&surface.evaluate(anchor.segment, x, anchor.xi));
+        let frame = here.carry(&there);
+        let d = sub(&here.point, &there.point);
+        out.gap[p] = dot(&here.n, &sub(&slave, &here.point));
+        out.normal[p] = here.n;
+        out.frame[p] = frame;
+        out.increment[p] = [dot(&frame[0], &d), dot(&frame[1], &d)];
     }
 
-    fn local(&self, place: &Place) -> Local<D> {
-        Local::new(self.segment(place), &self.x, place.xi)
+    /// Evaluates points in pieces.
+    fn sweep(surface: &Surface<D>, x: &[[f64; D]], points: &mut [Point], mut out: View<'_, D>) {
+        if points.len() <= CHUNK {
+            for (p, point) in points.iter_mut().enumerate() {
+                Self::measure_point(surface, x, point, &mut out, p);
+            }
+            return;
+        }
+        let middle = points.len().div_ceil(2).next_multiple_of(CHUNK);
+        let (left, right) = points.split_at_mut(middle);
+        let (out_left, out_right) = out.split_at(middle);
+        rayon::join(
+            || Self::sweep(surface, x, left, out_left),
+            || Self::sweep(surface, x, right, out_right),
+        );
+    }
+}
+
+/// Part of a geometry.
+struct View<'a, const D: usize> {
+    paired: &'a mut [bool],
+    gap: &'a mut [f64],
+    normal: &'a mut [[f64; D]],
+    frame: &'a mut [[[f64; D]; 2]],
+    increment: &'a mut [[f64; 2]],
+}
+
+impl<'a, const D: usize> View<'a, D> {
+    fn new(g: &'a mut Geometry<D>) -> Self {
+        Self {
+            paired: &mut g.paired,
+            gap: &mut g.gap,
+            normal: &mut g.normal,
+            frame: &mut g.frame,
+            increment: &mut g.increment,
+        }
+    }
+
+    fn split_at(self, n: usize) -> (Self, Self) {
+        let (paired, paired_2) = self.paired.split_at_mut(n);
+        let (gap, gap_2) = self.gap.split_at_mut(n);
+        let (normal, normal_2) = self.normal.split_at_mut(n);
+        let (frame, frame_2) = self.frame.split_at_mut(n);
+        let (increment, increment_2) = self.increment.split_at_mut(n);
+        (
+            Self { paired, gap, normal, frame, increment },
+            Self { paired: paired_2, gap: gap_2, normal: normal_2, frame: frame_2, increment: increment_2 },
+        )
     }
 }
 
@@ -213,101 +310,54 @@ impl<const D: usize> Measure<D> for Finite<D> {
 
     fn search(&mut self, u: &[[f64; D]], projections: &mut u64) -> bool {
         self.configure(u);
-        self.surface.refit(&self.x);
-        for p in 0..self.points.len() {
-            let place = self.hold(&self.points[p], projections);
-            let point = &mut self.points[p];
-            if place.map(|h| h.segment) != point.place.map(|h| h.segment) {
-                point.leaving = false;
-            }
-            point.place = place;
-            // A point that meets the master within this step has slipped nothing before.
-            point.fresh |= point.anchor.is_none() && place.is_some();
-            point.anchor = point.anchor.or(place);
+        if self.bound.holds(&self.x) {
+            return false;
         }
+        self.track(projections);
         self.rebuild();
         true
     }
 
     fn measure(&mut self, u: &[[f64; D]], out: &mut Geometry<D>) {
         self.configure(u);
-        for p in 0..self.points.len() {
-            let (Some(place), Some(anchor)) = (self.points[p].place, self.points[p].anchor) else {
-                out.paired[p] = false;
-                out.gap[p] = f64::INFINITY;
-                out.increment[p] = [0.0; 2];
-                continue;
-            };
-            let x = self.x[self.points[p].slave.node];
-            out.paired[p] = true;
-            let Some(place) = self.foot_on(&place, &x) else {
-                out.gap[p] = f64::NAN;
-                continue;
-            };
-            self.points[p].place = Some(place);
-            let (here, there) = (self.local(&place), self.local(&anchor));
-            let frame = here.carry(&there);
-            let d = sub(&here.point, &there.point);
-            out.gap[p] = dot(&here.n, &sub(&x, &here.point));
-            out.normal[p] = here.n;
-            out.frame[p] = frame;
-            out.increment[p] = [dot(&frame[0], &d), dot(&frame[1], &d)];
-        }
+        Self::sweep(&self.surface, &self.x, &mut self.points, View::new(out));
     }
 
     fn spread(&self, force: &[[f64; D]], residual: &mut [f64]) {
         for (point, f) in self.points.iter().zip(force) {
             let Some(place) = point.place else { continue };
+            // An open point has no force.
+            if *f == [0.0; D] {
+                continue;
+            }
             let mut add = |node: usize, c: f64| {
                 let d = self.dofs[node];
                 for (r, fi) in residual[d..d + D].iter_mut().zip(f) {
                     *r += c * fi;
                 }
             };
-            let s = self.segment(&place);
-            let shapes = shape(s.kind, place.xi);
-            add(point.slave.node, -point.slave.area);
-            for (k, &n) in s.nodes.iter().enumerate() {
-                add(n, point.slave.area * shapes.value[k]);
+            let area = point.slave.area;
+            add(point.slave.node, -area);
+            let support = self.surface.support(place.segment);
+            if self.widest <= 4 {
+                let weights: Weights<4> = self.surface.weights(place.segment, place.xi);
+                support.iter().zip(weights.value).for_each(|(&n, w)| add(n, area * w));
+            } else {
+                let weights: Weights<MOST_SUPPORT> = self.surface.weights(place.segment, place.xi);
+                support.iter().zip(weights.value).for_each(|(&n, w)| add(n, area * w));
             }
         }
     }
 
     fn tangent(&self, geometry: &Geometry<D>, tractions: Tractions<'_>, values: &mut [f64]) {
-        let mut at = 0;
-        for (p, point) in self.points.iter().enumerate() {
-            let size = point.nodes.len() * D;
-            let block = &mut values[at..at + size * size];
-            at += block.len();
-            let (Some(place), Some(anchor), true) = (point.place, point.anchor, tractions.normal[p].closed)
-            else {
-                block.fill(0.0);
-                continue;
-            };
-            let (here, there) = (self.local(&place), self.local(&anchor));
-            let shear = tractions.shear.map(|s| &s[p]);
-            let column =
-                Column::new(&here, &there, geometry, p, &tractions.normal[p], shear, tractions.stiffness);
-            let held = &self.segment(&place).nodes;
-            let from = &self.segment(&anchor).nodes;
-            for (k, &node) in point.nodes.iter().enumerate() {
-                let gamma = if k > 0 { held.iter().position(|&n| n == node) } else { None };
-                let alpha = if k > 0 { from.iter().position(|&n| n == node) } else { None };
-                for i in 0..D {
-                    let (df, dxi) = column.derivative(k == 0, gamma, alpha, i);
-                    write_column(
-                        block,
-                        size,
-                        k * D + i,
-                        point.slave.area,
-                        &here,
-                        held.len(),
-                        &column.force,
-                        &df,
-                        &dxi,
-                    );
-                }
-            }
+        let range = (0, self.points.len());
+        // Twice the nodes of a segment, for the anchor's, and the slave.
+        match self.widest {
+            ..=2 => self.blocks::<2, 5>(range, geometry, &tractions, values),
+            ..=4 => self.blocks::<4, 9>(range, geometry, &tractions, values),
+            ..=9 => self.blocks::<9, 19>(range, geometry, &tractions, values),
+            ..=16 => self.blocks::<16, 33>(range, geometry, &tractions, values),
+            _ => self.blocks::<MOST_SUPPORT, { 2 * MOST_SUPPORT + 1 }>(range, geometry, &tractions, values),
         }
     }
 
@@ -319,8 +369,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
                 continue;
             };
             let local = self.local(&place);
-            let (gap, dxi) =
-                local.rates(geometry.gap[p], &du[point.slave.node], &self.segment(&place).nodes, du);
+            let (gap, dxi) = self.rates(point, &place, &local, geometry.gap[p], du);
             let mut slide = [0.0; D];
             axpy(&mut slide, dxi[0], &local.e[0]);
             axpy(&mut slide, dxi[1], &local.e[1]);
@@ -334,10 +383,10 @@ impl<const D: usize> Measure<D> for Finite<D> {
         for (p, point) in self.points.iter().enumerate() {
             let Some(place) = point.place else { continue };
             let local = self.local(&place);
-            let s = self.segment(&place);
+            let kind = self.surface.segments()[place.segment].kind;
             let gap = dot(&local.n, &sub(&self.x[point.slave.node], &local.point));
-            let (_, dxi) = local.rates(gap, &du[point.slave.node], &s.nodes, du);
-            let (now, then) = (margins(s.kind, place.xi), margins(s.kind, add(&place.xi, &dxi)));
+            let (_, dxi) = self.rates(point, &place, &local, gap, du);
+            let (now, then) = (margins(kind, place.xi), margins(kind, add(&place.xi, &dxi)));
             for (a, b) in now.into_iter().zip(then) {
                 // A point on the border, or beyond it, is already leaving and does not limit.
                 if a > BORDER && b < 0.0 && best.is_none_or(|e| a / (a - b) < e.fraction) {
@@ -356,13 +405,16 @@ impl<const D: usize> Measure<D> for Finite<D> {
                 continue;
             };
             reframe(p, &self.local(&place).frame);
-            let kind = self.segment(&place).kind;
+            let kind = self.surface.segments()[place.segment].kind;
             let point = &mut self.points[p];
             let outwards = point
                 .anchor
                 .is_some_and(|a| a.segment != place.segment || depth(kind, place.xi) < depth(kind, a.xi));
             point.leaving = outwards && depth(kind, place.xi) <= BORDER;
             point.anchor = Some(place);
+            if point.leaving {
+                self.bound = Bound::default();
+            }
         }
     }
 
@@ -370,6 +422,9 @@ impl<const D: usize> Measure<D> for Finite<D> {
         for point in &mut self.points {
             point.anchor = point.anchor.filter(|_| !point.fresh);
             point.fresh = false;
+            if point.place.map(|h| h.segment) != point.anchor.map(|a| a.segment) {
+                self.bound = Bound::default();
+            }
             point.place = point.anchor;
         }
     }
@@ -377,10 +432,10 @@ impl<const D: usize> Measure<D> for Finite<D> {
     fn attachments(&self, p: usize, out: &mut Vec<Attachment>) {
         out.clear();
         if let Some(place) = self.points[p].place {
-            let s = self.segment(&place);
-            let shapes = shape(s.kind, place.xi);
+            let weights: Weights<MOST_SUPPORT> = self.surface.weights(place.segment, place.xi);
+            let support = self.surface.support(place.segment);
             out.push(Attachment { node: self.points[p].slave.node, weight: 1.0, slave: true });
-            let master = s.nodes.iter().zip(shapes.value);
+            let master = support.iter().zip(weights.value);
             out.extend(master.map(|(&node, n)| Attachment { node, weight: -n, slave: false }));
         }
     }
@@ -423,41 +478,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
             point.fresh = false;
             point.leaving = v[3] > 0.0;
         }
+        self.forget();
         self.rebuild();
     }
-}
-
-/// Writes one column of a block from the derivatives of the force per area and of ξ.
-#[expect(clippy::too_many_arguments, reason = "plain numbers of one kernel")]
-fn write_column<const D: usize>(
-    block: &mut [f64],
-    size: usize,
-    column: usize,
-    area: f64,
-    here: &Local<D>,
-    held: usize,
-    force: &[f64; D],
-    df: &[f64; D],
-    dxi: &[f64; 2],
-) {
-    for i in 0..D {
-        block[i * size + column] = -area * df[i];
-    }
-    for g in 0..held {
-        let moved = here.shape.first[0][g] * dxi[0] + here.shape.first[1][g] * dxi[1];
-        for i in 0..D {
-            block[((1 + g) * D + i) * size + column] =
-                area * (here.shape.value[g] * df[i] + moved * force[i]);
-        }
-    }
-    for row in (1 + held) * D..size {
-        block[row * size + column] = 0.0;
-    }
-}
-
-/// Orthonormal frame and normal of base vectors.
-pub(super) fn frame_of<const D: usize>(e: &[[f64; D]; 2]) -> ([f64; D], [[f64; D]; 2]) {
-    let n = unit(&perpendicular(e));
-    let a1 = unit(&e[0]);
-    (n, [a1, crate::vector::cross(&n, &a1)])
 }

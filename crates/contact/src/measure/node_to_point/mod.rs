@@ -1,5 +1,7 @@
 //! Slave nodes against the closest point of a master segment.
 
-mod column;
 pub mod finite;
+mod kernel;
+mod local;
 pub mod small;
+mod track;

@@ -1,9 +1,9 @@
 //! Small sliding: every slave node keeps the point of the master surface that was closest in the reference configuration.
 
 use crate::measure::fixed::Fixed;
-use crate::search::project::{Outcome, Projection, gather, interpolate};
-use crate::search::surface::Surface;
-use crate::shape::{MOST_NODES, shape};
+use crate::search::project::{Outcome, Projection};
+use crate::search::smooth::MOST_SUPPORT;
+use crate::search::surface::{Surface, Weights};
 use crate::spec::{SlavePoint, SurfaceNode};
 use crate::vector::{axpy, dot, norm, perpendicular, sub, unit};
 
@@ -44,11 +44,8 @@ fn pair<const D: usize>(
     positions: &[[f64; D]],
     fixed_normal: Option<[f64; D]>,
 ) {
-    let s = &surface.segments()[segment];
-    let shapes = shape(s.kind, projection.xi);
-    let mut buffer = [[0.0; D]; MOST_NODES];
-    let (_, e) = interpolate(&shapes, gather(&s.nodes, |n| positions[n], &mut buffer));
-    let own = unit(&perpendicular(&e));
+    let weights: Weights<MOST_SUPPORT> = surface.weights(segment, projection.xi);
+    let own = unit(&perpendicular(&surface.evaluate(segment, positions, projection.xi).e));
     let apart = sub(&positions[slave.node], &projection.point);
     let mut off = apart;
     axpy(&mut off, -dot(&apart, &own), &own);
@@ -58,7 +55,7 @@ fn pair<const D: usize>(
     }
     let normal = fixed_normal.map_or(own, |n| unit(&n));
     // A point on a corner acts on that corner alone; the other weights are exact zeros and leave the pattern.
-    let master: Vec<(usize, f64)> =
-        s.nodes.iter().zip(shapes.value).filter(|(_, n)| *n != 0.0).map(|(&k, n)| (k, -n)).collect();
+    let support = surface.support(segment).iter().zip(weights.value);
+    let master: Vec<(usize, f64)> = support.filter(|(_, n)| *n != 0.0).map(|(&k, n)| (k, -n)).collect();
     measure.pair(point, &[(slave.node, 1.0)], &master, normal, &apart);
 }

@@ -1,0 +1,256 @@
+//! Which segment holds each point, and how long that is certain.
+//!
+//! A held point stays with its segment while its foot lies within the segment, grown by a margin. For segments with
+//! straight edges the search proves how far everything may move before that can change: for the foot to cross the border
+//! of the grown segment the point must lie on the normal of a point of the border, at the distance of its gap. If d is the
+//! distance from the border now and every node has moved by δ at most, then the distance is at least d - (1 + Λ) δ and the
+//! gap at most |g_n| + (1 + Λ) δ, Λ the largest sum of |N_γ| on the grown segment; so nothing changes while
+//! `2 (1 + Λ) δ < d - |g_n|`. The foot moves continuously meanwhile: always on lines and flat triangles, on quadrilaterals
+//! while the gap is small against the radius of curvature, which is asked for with a margin of 10.
+
+use super::finite::{CHUNK, Finite};
+use super::local::Local;
+use crate::search::patch::{Form, MOST_POINTS, evaluate};
+use crate::search::project::{BORDER, Outcome, Projection, corners, margins};
+use crate::search::surface::Surface;
+use crate::spec::SlavePoint;
+use crate::vector::{add, axpy, dot, norm, scaled, sub};
+
+/// A held segment keeps its point until it lies this far outside, in natural coordinates: rounding and small movements
+/// at a shared border do not change the pairing back and forth, and the continued segment is off by this times the kink.
+const HYSTERESIS: f64 = 1e-3;
+
+/// The same where the border is the rim of the surface: bodies that end together and deform differently must not lose
+/// their last node.
+const OVERRUN: f64 = 1e-2;
+
+/// A point beyond the rim is paired anew when it lies off the normal through the rim by less than this share of the
+/// segment's size, as in small sliding.
+const RIM: f64 = 1e-6;
+
+/// 2 (1 + Λ): on a bilinear segment grown by [`OVERRUN`] the sum of |N_γ| is at most 1.01², and rounding is far below.
+const REACH: f64 = 4.05;
+
+/// Largest gap, as a share of the radius of curvature, and motion, as a share of the shortest base vector, for which the
+/// bound is used on quadrilaterals.
+const GENTLE: f64 = 0.1;
+
+/// A point of a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Place {
+    pub segment: usize,
+    pub xi: [f64; 2],
+}
+
+/// A slave point and where it is.
+#[derive(Clone, Debug)]
+pub(super) struct Point {
+    pub slave: SlavePoint,
+    /// Where the closest point lies; the segment changes in searches only.
+    pub place: Option<Place>,
+    /// Where it lay at the last commit.
+    pub anchor: Option<Place>,
+    /// Paired since the last commit: the anchor is where the first search of the step found the point.
+    pub fresh: bool,
+    /// The last committed step ended on a border of the segment, moving outwards.
+    pub leaving: bool,
+    /// Held segment and anchor's segment its block was made for.
+    pub key: Option<(usize, usize)>,
+}
+
+impl Point {
+    pub(super) fn new(slave: &SlavePoint) -> Self {
+        Self { slave: *slave, place: None, anchor: None, fresh: false, leaving: false, key: None }
+    }
+}
+
+/// What a search proved: no point changes its segment while no node moves by as much as `radius` from `x`.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Bound<const D: usize> {
+    x: Vec<[f64; D]>,
+    radius: f64,
+}
+
+impl<const D: usize> Bound<D> {
+    /// Whether the pairing is certain at positions `x`.
+    pub(super) fn holds(&self, x: &[[f64; D]]) -> bool {
+        let limit = self.radius * self.radius;
+        self.radius > 0.0
+            && x.iter().zip(&self.x).all(|(a, b)| {
+                let d = sub(a, b);
+                dot(&d, &d) < limit
+            })
+    }
+}
+
+/// What tracking a range of points gives.
+#[derive(Clone, Copy)]
+struct Tracked {
+    radius: f64,
+    projections: u64,
+}
+
+impl<const D: usize> Finite<D> {
+    /// Decides anew which segment holds each point, at the configuration set.
+    pub(super) fn track(&mut self, projections: &mut u64) {
+        self.surface.refit(&self.x);
+        let found = track_range(&self.surface, &self.x, &mut self.points);
+        *projections += found.projections;
+        self.bound.x.clear();
+        self.bound.x.extend_from_slice(&self.x);
+        self.bound.radius = found.radius;
+    }
+}
+
+fn track_range<const D: usize>(surface: &Surface<D>, x: &[[f64; D]], points: &mut [Point]) -> Tracked {
+    if points.len() > CHUNK {
+        let middle = points.len().div_ceil(2).next_multiple_of(CHUNK);
+        let (left, right) = points.split_at_mut(middle);
+        let (a, b) = rayon::join(|| track_range(surface, x, left), || track_range(surface, x, right));
+        return Tracked { radius: a.radius.min(b.radius), projections: a.projections + b.projections };
+    }
+    let mut all = Tracked { radius: f64::INFINITY, projections: 0 };
+    for point in points {
+        let tracker = Tracker { surface, x, p: x[point.slave.node] };
+        let (place, radius) = tracker.hold(point, &mut all.projections);
+        if place.map(|h| h.segment) != point.place.map(|h| h.segment) {
+            point.leaving = false;
+        }
+        point.place = place;
+        // A point that meets the master within this step has slipped nothing before.
+        point.fresh |= point.anchor.is_none() && place.is_some();
+        point.anchor = point.anchor.or(place);
+        all.radius = all.radius.min(if point.leaving { 0.0 } else { radius });
+    }
+    all
+}
+
+/// One slave point against the surface.
+struct Tracker<'a, const D: usize> {
+    surface: &'a Surface<D>,
+    x: &'a [[f64; D]],
+    p: [f64; D],
+}
+
+impl<const D: usize> Tracker<'_, D> {
+    /// The segment that shall hold a point, with natural coordinates, from the present one, and how far all nodes may move
+    /// before that can change. A point that stays keeps its coordinates as they are: what follows does not depend on
+    /// whether a search was made.
+    fn hold(&self, point: &Point, projections: &mut u64) -> (Option<Place>, f64) {
+        let held = point.place.and_then(|h| {
+            let xi = self.surface.foot(h.segment, self.x, &self.p, h.xi)?;
+            Some(Place { segment: h.segment, xi })
+        });
+        if let Some(h) = held
+            && !point.leaving
+            && self.keeps(&h)
+        {
+            return (point.place, self.certain(&h));
+        }
+        let Some((segment, found)) = self.surface.closest(self.x, &self.p, projections) else {
+            return (None, 0.0);
+        };
+        let (segment, projection) = if point.leaving {
+            self.entering(held, segment, found, projections)
+        } else {
+            (segment, found)
+        };
+        if self.surface.on_rim(segment, projection.outcome) && self.off_normal(segment, &projection) {
+            return (held.filter(|h| self.keeps(h)), 0.0);
+        }
+        let place = Place { segment, xi: projection.xi };
+        if projection.outcome == Outcome::None {
+            return (None, 0.0);
+        }
+        (Some(place), if self.keeps(&place) { self.certain(&place) } else { 0.0 })
+    }
+
+    /// A point on a border belongs to the segment it is entering: another one than `held`, as close as the closest.
+    fn entering(
+        &self,
+        held: Option<Place>,
+        segment: usize,
+        found: Projection<D>,
+        projections: &mut u64,
+    ) -> (usize, Projection<D>) {
+        let Some(held) = held.filter(|h| h.segment == segment) else { return (segment, found) };
+        let reach = (found.distance_squared.sqrt() + BORDER * self.surface.size(segment)).powi(2);
+        let other = self.surface.closest_but(held.segment, self.x, &self.p, projections);
+        other.filter(|(_, o)| o.distance_squared <= reach).unwrap_or((segment, found))
+    }
+
+    /// How far border `k` of a segment is grown.
+    fn margin(&self, segment: usize, k: usize) -> f64 {
+        if self.surface.border_is_free(segment, k) { OVERRUN } else { HYSTERESIS }
+    }
+
+    /// Whether a held segment keeps its point.
+    fn keeps(&self, place: &Place) -> bool {
+        let kind = self.surface.segments()[place.segment].kind;
+        let borders = if D == 2 { 2 } else { corners(kind) };
+        margins(kind, place.xi)[..borders].iter().enumerate().all(|(k, &m)| m >= -self.margin(place.segment, k))
+    }
+
+    fn off_normal(&self, segment: usize, projection: &Projection<D>) -> bool {
+        let local = Local::new(&self.surface.evaluate(segment, self.x, projection.xi));
+        let mut off = sub(&self.p, &projection.point);
+        let along = dot(&off, &local.n);
+        axpy(&mut off, -along, &local.n);
+        norm(&off) > RIM * self.surface.size(segment)
+    }
+
+    /// How far every node may move while the point is certain to stay on its segment; 0 when that is not known.
+    fn certain(&self, place: &Place) -> f64 {
+        let form = self.surface.form(place.segment);
+        if !form.straight() {
+            return 0.0;
+        }
+        let local = Local::new(&self.surface.evaluate(place.segment, self.x, place.xi));
+        let gap = dot(&local.n, &sub(&self.p, &local.point)).abs();
+        let mut cap = f64::INFINITY;
+        if corners(form.kind()) == 4 {
+            let c = local.metric();
+            let least = (c[0] * c[2] - c[1] * c[1]) / (c[0] + c[2]);
+            if gap * norm(&local.curvature[1]) > GENTLE * least {
+                return 0.0;
+            }
+            cap = GENTLE * least / (c[0].max(c[2]).sqrt());
+        }
+        let distance = self.from_border(form, place.segment);
+        ((distance - gap) / REACH).clamp(0.0, cap)
+    }
+
+    /// Distance of the point from the border of the grown segment, whose edges are straight.
+    fn from_border(&self, form: Form, segment: usize) -> f64 {
+        let mut buffer = [[0.0; D]; MOST_POINTS];
+        let x = self.surface.points(segment, self.x, &mut buffer);
+        let m = |k: usize| self.margin(segment, k);
+        let at = |xi: [f64; 2]| evaluate(form, x, xi).point;
+        match corners(form.kind()) {
+            2 => [at([-1.0 - m(0), 0.0]), at([1.0 + m(1), 0.0])]
+                .iter()
+                .fold(f64::INFINITY, |d, q| d.min(norm(&sub(&self.p, q)))),
+            3 => self.from_polygon(&[
+                at([-m(2), -m(0)]),
+                at([1.0 + m(0) + m(1), -m(0)]),
+                at([-m(2), 1.0 + m(1) + m(2)]),
+            ]),
+            _ => self.from_polygon(&[
+                at([-1.0 - m(3), -1.0 - m(0)]),
+                at([1.0 + m(1), -1.0 - m(0)]),
+                at([1.0 + m(1), 1.0 + m(2)]),
+                at([-1.0 - m(3), 1.0 + m(2)]),
+            ]),
+        }
+    }
+
+    fn from_polygon(&self, corners: &[[f64; D]]) -> f64 {
+        let n = corners.len();
+        (0..n).fold(f64::INFINITY, |least, k| {
+            let (a, b) = (&corners[k], &corners[(k + 1) % n]);
+            let (e, d) = (sub(b, a), sub(&self.p, a));
+            let s = (dot(&d, &e) / dot(&e, &e)).clamp(0.0, 1.0);
+            least.min(norm(&sub(&self.p, &add(a, &scaled(&e, s)))))
+        })
+    }
+}
