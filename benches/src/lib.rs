@@ -75,6 +75,7 @@ fn spec<const D: usize>(
         master,
         measure: MeasureKind::NodeToPoint,
         sliding,
+        smoothing: None,
         fixed_normal: None,
         normal_penalty: 1e12,
         tangential_penalty: 1e12,

@@ -50,7 +50,9 @@ pub enum ContactError {
         kind: SegmentKind,
     },
     /// A smoothed segment with too many nodes around it.
-    #[error("interface {name}: smoothed master segment {segment} depends on {nodes} nodes, at most {most} are possible")]
+    #[error(
+        "interface {name}: smoothed master segment {segment} depends on {nodes} nodes, at most {most} are possible"
+    )]
     SmoothingTooWide {
         /// Interface.
         name: String,

@@ -27,7 +27,11 @@ const BOWL: [[[f64; 3]; 5]; 2] = [
 ];
 
 /// The interface after a committed first contact, prepared for the second displacement, which is returned.
-fn settled<const D: usize>(spec: InterfaceSpec<D>, angle: f64, moves: &[[[f64; D]; 5]; 2]) -> (Interface<D>, Vec<f64>) {
+fn settled<const D: usize>(
+    spec: InterfaceSpec<D>,
+    angle: f64,
+    moves: &[[[f64; D]; 5]; 2],
+) -> (Interface<D>, Vec<f64>) {
     let first = moved(&spec, angle, &moves[0], 1e-3, 1);
     let second = moved(&spec, angle, &moves[1], 5e-3, 2);
     let mut interface = Interface::new(spec).unwrap();
@@ -47,7 +51,8 @@ fn tangent_is_the_derivative_of_the_residual_on_lines_of_every_kind() {
     for (kind, smoothed) in LINES {
         for law in laws() {
             for angle in [0.0, 2.1] {
-                let (mut interface, u) = settled(arc_spec(kind, smoothed, angle, &ANGLES, law.clone()), angle, &ARC);
+                let (mut interface, u) =
+                    settled(arc_spec(kind, smoothed, angle, &ANGLES, law.clone()), angle, &ARC);
                 assert_taylor(&mut interface, &u, 11);
             }
         }
@@ -69,21 +74,33 @@ fn the_cases_contain_open_stick_slip_and_crossings() {
     for (kind, smoothed) in LINES {
         let (mut interface, u) = settled(arc_spec(kind, smoothed, 0.0, &ANGLES, coulomb()), 0.0, &ARC);
         let blocks = interface.pattern().blocks().map(<[usize]>::len).collect::<Vec<_>>();
-        assert!(blocks.iter().max() > blocks.iter().min(), "{kind} {smoothed}: no point has left its segment");
+        assert!(
+            blocks.iter().max() > blocks.iter().min(),
+            "{kind} {smoothed}: no point has left its segment"
+        );
         residual(&mut interface, &u);
         interface.accept();
         for status in [Status::Open, Status::Stick, Status::Slip] {
-            assert!(interface.points().count(status) > 0, "{kind} {smoothed}: no point has status {status:?}");
+            assert!(
+                interface.points().count(status) > 0,
+                "{kind} {smoothed}: no point has status {status:?}"
+            );
         }
     }
     for (kind, smoothed) in FACES {
         let (mut interface, u) = settled(bowl_spec(kind, smoothed, 0.0, &AT, coulomb()), 0.0, &BOWL);
         let blocks = interface.pattern().blocks().map(<[usize]>::len).collect::<Vec<_>>();
-        assert!(blocks.iter().max() > blocks.iter().min(), "{kind} {smoothed}: no point has left its segment");
+        assert!(
+            blocks.iter().max() > blocks.iter().min(),
+            "{kind} {smoothed}: no point has left its segment"
+        );
         residual(&mut interface, &u);
         interface.accept();
         for status in [Status::Open, Status::Stick, Status::Slip] {
-            assert!(interface.points().count(status) > 0, "{kind} {smoothed}: no point has status {status:?}");
+            assert!(
+                interface.points().count(status) > 0,
+                "{kind} {smoothed}: no point has status {status:?}"
+            );
         }
     }
 }

@@ -62,6 +62,8 @@ pub struct PlannedInterface {
     pub master_faces: Vec<Vec<usize>>,
     /// Whether the pairing follows the motion.
     pub sliding: Sliding,
+    /// Whether the master surface is smoothed.
+    pub smoothed: bool,
     /// E_n \[Pa/m\].
     pub normal_penalty: f64,
     /// E_t \[Pa/m\]; 0 without friction.
@@ -336,6 +338,7 @@ fn interface<const D: usize>(
         slave_faces: slave_sides.iter().map(|s| face_nodes(&model.mesh, s)).collect(),
         master_faces: master_sides.iter().map(|s| face_nodes(&model.mesh, s)).collect(),
         sliding: *spec.sliding.get_ref(),
+        smoothed: spec.smoothing.is_some(),
         normal_penalty: in_pascal_per_metre(&spec.enforcement.normal),
         tangential_penalty: spec.enforcement.tangential.as_ref().map_or(0.0, in_pascal_per_metre),
         law,
@@ -350,24 +353,31 @@ fn check_faces<const D: usize>(
     slave: &[Side],
     master: &[Side],
 ) -> Result<(), PlanError> {
-    let nodes = |side: &Side| face_nodes(&model.mesh, side).len();
-    let element = |side: &Side| model.mesh.blocks[side.block].kind.name();
-    if let Some(side) = master.iter().find(|s| D == 3 && nodes(s) == 8) {
+    let linear = |side: &Side| {
+        let nodes = face_nodes(&model.mesh, side).len();
+        if D == 2 { nodes == 2 } else { nodes <= 4 }
+    };
+    if let Some(smoothing) = &spec.smoothing
+        && let Some(side) = master.iter().find(|s| !linear(s))
+    {
+        let element = model.mesh.blocks[side.block].kind.name();
         return Err(PlanError::at(
-            spec.master.span(),
-            format!("faces of {} cannot be master segments: they have eight nodes", element(side)),
-            "use hex8 or hex27".into(),
+            smoothing.span(),
+            format!("smoothing needs master faces of first order, but the master has faces of {element}"),
+            "faces of second order are curved already: leave `smoothing` out".into(),
         ));
     }
-    let linear = |side: &Side| if D == 2 { nodes(side) == 2 } else { nodes(side) <= 4 };
-    match slave.iter().chain(master).find(|s| !linear(s)) {
-        Some(side) if *spec.sliding.get_ref() == Sliding::Finite => Err(PlanError::at(
-            spec.sliding.span(),
-            format!("finite sliding needs linear elements, but the interface has faces of {}", element(side)),
-            "use elements of first order there, or `sliding = \"small\"`".into(),
-        )),
-        _ => Ok(()),
+    let both = slave.iter().filter(|s| master.contains(s)).count();
+    if both > 0 {
+        return Err(PlanError::at(
+            spec.master.span(),
+            format!(
+                "{both} faces are slave and master at once: a surface in contact with itself is not supported"
+            ),
+            "declare the parts that meet as two sets without common faces".into(),
+        ));
     }
+    Ok(())
 }
 
 fn build_law(spec: &Spanned<crate::scene::model::LawSpec>) -> Result<Arc<dyn Law>, PlanError> {

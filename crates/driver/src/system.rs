@@ -390,7 +390,11 @@ impl<'a, const D: usize> Assembled<'a, D> {
         if let Bodies::Condensed(bodies) = &self.bodies {
             counts.body_solves += bodies.iter().map(|b| b.reduction().solves()).sum::<usize>();
         }
-        counts.searches += self.interfaces.iter().map(|i| i.work().searches as usize).sum::<usize>();
+        for work in self.interfaces.iter().map(Interface::work) {
+            counts.searches += work.searches as usize;
+            counts.searches_skipped += work.searches_skipped as usize;
+            counts.projections += work.projections as usize;
+        }
     }
 }
 
@@ -533,6 +537,7 @@ fn spec<const D: usize>(
             Sliding::Small => asperity_contact::Sliding::Small,
             Sliding::Finite => asperity_contact::Sliding::Finite,
         },
+        smoothing: planned.smoothed.then(asperity_contact::Smoothing::default),
         fixed_normal: None,
         normal_penalty: planned.normal_penalty,
         tangential_penalty: planned.tangential_penalty,
@@ -552,6 +557,7 @@ fn segment_kind<const D: usize>(nodes: usize) -> SegmentKind {
         (_, 3) => SegmentKind::Tri3,
         (_, 4) => SegmentKind::Quad4,
         (_, 6) => SegmentKind::Tri6,
+        (_, 8) => SegmentKind::Quad8,
         (_, _) => SegmentKind::Quad9,
     }
 }

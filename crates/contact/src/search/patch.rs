@@ -104,16 +104,14 @@ impl Basis {
     }
 
     fn product(&mut self, p: &[[f64; 4]; 3], q: &[[f64; 4]; 3]) {
-        for j in 0..4 {
-            for i in 0..4 {
-                let k = 4 * j + i;
-                self.value[k] = p[0][i] * q[0][j];
-                self.first[0][k] = p[1][i] * q[0][j];
-                self.first[1][k] = p[0][i] * q[1][j];
-                self.second[0][k] = p[2][i] * q[0][j];
-                self.second[1][k] = p[1][i] * q[1][j];
-                self.second[2][k] = p[0][i] * q[2][j];
-            }
+        for k in 0..16 {
+            let (i, j) = (k % 4, k / 4);
+            self.value[k] = p[0][i] * q[0][j];
+            self.first[0][k] = p[1][i] * q[0][j];
+            self.first[1][k] = p[0][i] * q[1][j];
+            self.second[0][k] = p[2][i] * q[0][j];
+            self.second[1][k] = p[1][i] * q[1][j];
+            self.second[2][k] = p[0][i] * q[2][j];
         }
     }
 
@@ -194,7 +192,8 @@ pub fn evaluate<const D: usize>(form: Form, x: &[[f64; D]], xi: [f64; 2]) -> Pat
             }
         }
         (Form::Nodes(SegmentKind::Quad4), [a, b, c, d]) => {
-            let (s, t) = ([0.5 * (1.0 - xi[0]), 0.5 * (1.0 + xi[0])], [0.5 * (1.0 - xi[1]), 0.5 * (1.0 + xi[1])]);
+            let (s, t) =
+                ([0.5 * (1.0 - xi[0]), 0.5 * (1.0 + xi[0])], [0.5 * (1.0 - xi[1]), 0.5 * (1.0 + xi[1])]);
             for i in 0..D {
                 p.point[i] = t[0] * (s[0] * a[i] + s[1] * b[i]) + t[1] * (s[1] * c[i] + s[0] * d[i]);
                 p.e[0][i] = 0.5 * (t[0] * (b[i] - a[i]) + t[1] * (c[i] - d[i]));

@@ -64,7 +64,9 @@ pub fn corner(kind: SegmentKind, k: usize) -> [f64; 2] {
     match kind {
         SegmentKind::Seg2 | SegmentKind::Seg3 => [[-1.0, 0.0], [1.0, 0.0]][k],
         SegmentKind::Tri3 | SegmentKind::Tri6 => [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]][k],
-        SegmentKind::Quad4 | SegmentKind::Quad8 | SegmentKind::Quad9 => [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]][k],
+        SegmentKind::Quad4 | SegmentKind::Quad8 | SegmentKind::Quad9 => {
+            [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]][k]
+        }
     }
 }
 
@@ -172,7 +174,13 @@ pub fn project_on<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D]) -> P
     }
 }
 
-fn at<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D], xi: [f64; 2], outcome: Outcome) -> Projection<D> {
+fn at<const D: usize>(
+    form: Form,
+    x: &[[f64; D]],
+    p: &[f64; D],
+    xi: [f64; 2],
+    outcome: Outcome,
+) -> Projection<D> {
     let point = evaluate(form, x, xi).point;
     let d = sub(p, &point);
     let distance_squared = dot(&d, &d);
@@ -241,9 +249,9 @@ fn edge_parameter<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D], a: [
         let patch = evaluate(form, x, between(a, b, s));
         let d = sub(p, &patch.point);
         let (mut e, mut c) = ([0.0; D], [0.0; D]);
-        for m in 0..2 {
-            axpy(&mut e, along[m], &patch.e[m]);
-            axpy(&mut c, along[m] * along[m], &patch.curvature[2 * m]);
+        for (m, a) in along.iter().enumerate() {
+            axpy(&mut e, *a, &patch.e[m]);
+            axpy(&mut c, a * a, &patch.curvature[2 * m]);
         }
         axpy(&mut c, 2.0 * along[0] * along[1], &patch.curvature[1]);
         let metric = dot(&e, &e);

@@ -89,7 +89,13 @@ impl Smooth {
     }
 
     /// Adds a segment from its handles.
-    fn push(&mut self, name: &str, k: usize, segment: &Segment, handles: &Handles) -> Result<(), ContactError> {
+    fn push(
+        &mut self,
+        name: &str,
+        k: usize,
+        segment: &Segment,
+        handles: &Handles,
+    ) -> Result<(), ContactError> {
         let mut support = segment.nodes.clone();
         for (node, _) in handles.iter().flatten().flatten() {
             if !support.contains(node) {
@@ -254,7 +260,11 @@ fn line_handles<const D: usize>(
                         (None, Some([p, q])) => {
                             let far = if q == i { p } else { q };
                             let b = length(far, j);
-                            vec![(i, -(2.0 * h + b) / (h + b)), (j, (h + b) / b), (far, -h * h / (b * (h + b)))]
+                            vec![
+                                (i, -(2.0 * h + b) / (h + b)),
+                                (j, (h + b) / b),
+                                (far, -h * h / (b * (h + b))),
+                            ]
                         }
                         (None, None) => vec![(i, -1.0), (j, 1.0)],
                     };
@@ -339,7 +349,10 @@ fn planes<const D: usize>(
         sharp[b] |= crease;
     }
     (0..positions.len())
-        .map(|i| (!sharp[i] && !around[i].is_empty()).then(|| plane(i, &around[i], segments, &normals, positions))?)
+        .map(|i| {
+            (!sharp[i] && !around[i].is_empty())
+                .then(|| plane(i, &around[i], segments, &normals, positions))?
+        })
         .collect()
 }
 
@@ -364,7 +377,8 @@ fn plane<const D: usize>(
     let mut e = first;
     axpy(&mut e, -dot(&first, &n), &n);
     let basis = [unit(&e), cross(&n, &unit(&e))];
-    let size = nodes.iter().map(|&j| norm(&sub(&positions[j], &positions[i]))).sum::<f64>() / nodes.len() as f64;
+    let size =
+        nodes.iter().map(|&j| norm(&sub(&positions[j], &positions[i]))).sum::<f64>() / nodes.len() as f64;
     let row = |j: usize| {
         let d = scaled(&sub(&positions[j], &positions[i]), size.recip());
         let (a, b, w) = (dot(&d, &basis[0]), dot(&d, &basis[1]), norm(&d).recip());

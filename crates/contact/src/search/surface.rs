@@ -161,7 +161,13 @@ impl<const D: usize> Surface<D> {
     /// Foot of the perpendicular from `p` on the continued segment, from the guess `xi`.
     #[inline]
     #[must_use]
-    pub fn foot(&self, segment: usize, positions: &[[f64; D]], p: &[f64; D], xi: [f64; 2]) -> Option<[f64; 2]> {
+    pub fn foot(
+        &self,
+        segment: usize,
+        positions: &[[f64; D]],
+        p: &[f64; D],
+        xi: [f64; 2],
+    ) -> Option<[f64; 2]> {
         let mut buffer = [[0.0; D]; MOST_POINTS];
         foot(self.form(segment), self.points(segment, positions, &mut buffer), p, xi)
     }

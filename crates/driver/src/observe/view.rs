@@ -124,6 +124,10 @@ pub struct Counts {
     pub body_solves: usize,
     /// Searches of contact pairs.
     pub searches: usize,
+    /// Searches left out because a bound on the motion proved that no pairing had changed.
+    pub searches_skipped: usize,
+    /// Projections on single segments in searches.
+    pub projections: usize,
 }
 
 /// A step as its observers see it.

@@ -64,6 +64,8 @@ pub struct Interface {
     pub measure: Spanned<Measure>,
     /// Whether the pairing follows the motion.
     pub sliding: Spanned<Sliding>,
+    /// Smoothing of the master surface; absent = the faces as they are.
+    pub smoothing: Option<Spanned<Smoothing>>,
     /// How contact is enforced.
     pub enforcement: Enforcement,
     /// Friction; absent = frictionless.
@@ -86,6 +88,14 @@ pub enum Sliding {
     Small,
     /// Pairing and normal follow the motion.
     Finite,
+}
+
+/// Smoothings of a master surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Smoothing {
+    /// Cubic patches that share a tangent plane at their nodes.
+    Cubic,
 }
 
 /// Enforcement of the contact constraint.

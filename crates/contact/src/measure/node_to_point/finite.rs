@@ -134,7 +134,14 @@ impl<const D: usize> Finite<D> {
     }
 
     /// Linearised motion of a point on its held segment: `(dg_n, dξ)`.
-    fn rates(&self, point: &Point, place: &Place, local: &Local<D>, gap: f64, du: &[[f64; D]]) -> (f64, [f64; 2]) {
+    fn rates(
+        &self,
+        point: &Point,
+        place: &Place,
+        local: &Local<D>,
+        gap: f64,
+        du: &[[f64; D]],
+    ) -> (f64, [f64; 2]) {
         let weights: Weights<MOST_SUPPORT> = self.surface.weights(place.segment, place.xi);
         let mut relative = du[point.slave.node];
         let mut stretch = [0.0; 2];
@@ -166,7 +173,8 @@ impl<const D: usize> Finite<D> {
         block: &mut [f64],
     ) {
         let point = &self.points[p];
-        let (Some(place), Some(anchor), true) = (point.place, point.anchor, tractions.normal[p].closed) else {
+        let (Some(place), Some(anchor), true) = (point.place, point.anchor, tractions.normal[p].closed)
+        else {
             block.fill(0.0);
             return;
         };
@@ -228,7 +236,13 @@ impl<const D: usize> Finite<D> {
     }
 
     /// Evaluates one point; returns its increment's chord in the carried frame through `out`.
-    fn measure_point(surface: &Surface<D>, x: &[[f64; D]], point: &mut Point, out: &mut View<'_, D>, p: usize) {
+    fn measure_point(
+        surface: &Surface<D>,
+        x: &[[f64; D]],
+        point: &mut Point,
+        out: &mut View<'_, D>,
+        p: usize,
+    ) {
         let (Some(place), Some(anchor)) = (point.place, point.anchor) else {
             out.paired[p] = false;
             out.gap[p] = f64::INFINITY;
@@ -263,10 +277,7 @@ impl<const D: usize> Finite<D> {
         let middle = points.len().div_ceil(2).next_multiple_of(CHUNK);
         let (left, right) = points.split_at_mut(middle);
         let (out_left, out_right) = out.split_at(middle);
-        rayon::join(
-            || Self::sweep(surface, x, left, out_left),
-            || Self::sweep(surface, x, right, out_right),
-        );
+        rayon::join(|| Self::sweep(surface, x, left, out_left), || Self::sweep(surface, x, right, out_right));
     }
 }
 
@@ -353,10 +364,10 @@ impl<const D: usize> Measure<D> for Finite<D> {
         let range = (0, self.points.len());
         // Twice the nodes of a segment, for the anchor's, and the slave.
         match self.widest {
-            ..=2 => self.blocks::<2, 5>(range, geometry, &tractions, values),
-            ..=4 => self.blocks::<4, 9>(range, geometry, &tractions, values),
-            ..=9 => self.blocks::<9, 19>(range, geometry, &tractions, values),
-            ..=16 => self.blocks::<16, 33>(range, geometry, &tractions, values),
+            0..=2 => self.blocks::<2, 5>(range, geometry, &tractions, values),
+            3..=4 => self.blocks::<4, 9>(range, geometry, &tractions, values),
+            5..=9 => self.blocks::<9, 19>(range, geometry, &tractions, values),
+            10..=16 => self.blocks::<16, 33>(range, geometry, &tractions, values),
             _ => self.blocks::<MOST_SUPPORT, { 2 * MOST_SUPPORT + 1 }>(range, geometry, &tractions, values),
         }
     }

@@ -52,12 +52,7 @@ pub(super) struct Columns<const K: usize> {
 
 impl<const K: usize> Columns<K> {
     pub(super) fn zero() -> Self {
-        Self {
-            value: [0.0; K],
-            first: [[0.0; K]; 2],
-            anchor_value: [0.0; K],
-            anchor_first: [[0.0; K]; 2],
-        }
+        Self { value: [0.0; K], first: [[0.0; K]; 2], anchor_value: [0.0; K], anchor_first: [[0.0; K]; 2] }
     }
 }
 
@@ -148,7 +143,8 @@ impl<const D: usize> Kernel<D> {
                 axpy(&mut df[i], -t[0] * drag.twist[i], &drag.anchor[1]);
             }
         }
-        let g = [self.spread[0] * s[0] + self.spread[1] * s[1], self.spread[1] * s[0] + self.spread[2] * s[1]];
+        let g =
+            [self.spread[0] * s[0] + self.spread[1] * s[1], self.spread[1] * s[0] + self.spread[2] * s[1]];
         let dxi = std::array::from_fn(|m| {
             let mut v = scaled(&self.dxi[m], w);
             axpy(&mut v, g[m], &self.n);

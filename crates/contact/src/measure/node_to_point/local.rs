@@ -23,13 +23,7 @@ impl<const D: usize> Local<D> {
     pub(super) fn new(patch: &Patch<D>) -> Self {
         let n = unit(&perpendicular(&patch.e));
         let a1 = unit(&patch.e[0]);
-        Self {
-            point: patch.point,
-            e: patch.e,
-            curvature: patch.curvature,
-            n,
-            frame: [a1, cross(&n, &a1)],
-        }
+        Self { point: patch.point, e: patch.e, curvature: patch.curvature, n, frame: [a1, cross(&n, &a1)] }
     }
 
     /// C_11, C_12, C_22.

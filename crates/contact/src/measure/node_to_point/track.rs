@@ -150,11 +150,8 @@ impl<const D: usize> Tracker<'_, D> {
         let Some((segment, found)) = self.surface.closest(self.x, &self.p, projections) else {
             return (None, 0.0);
         };
-        let (segment, projection) = if point.leaving {
-            self.entering(held, segment, found, projections)
-        } else {
-            (segment, found)
-        };
+        let (segment, projection) =
+            if point.leaving { self.entering(held, segment, found, projections) } else { (segment, found) };
         if self.surface.on_rim(segment, projection.outcome) && self.off_normal(segment, &projection) {
             return (held.filter(|h| self.keeps(h)), 0.0);
         }
@@ -188,7 +185,10 @@ impl<const D: usize> Tracker<'_, D> {
     fn keeps(&self, place: &Place) -> bool {
         let kind = self.surface.segments()[place.segment].kind;
         let borders = if D == 2 { 2 } else { corners(kind) };
-        margins(kind, place.xi)[..borders].iter().enumerate().all(|(k, &m)| m >= -self.margin(place.segment, k))
+        margins(kind, place.xi)[..borders]
+            .iter()
+            .enumerate()
+            .all(|(k, &m)| m >= -self.margin(place.segment, k))
     }
 
     fn off_normal(&self, segment: usize, projection: &Projection<D>) -> bool {
@@ -216,12 +216,12 @@ impl<const D: usize> Tracker<'_, D> {
             }
             cap = GENTLE * least / (c[0].max(c[2]).sqrt());
         }
-        let distance = self.from_border(form, place.segment);
+        let distance = self.border_distance(form, place.segment);
         ((distance - gap) / REACH).clamp(0.0, cap)
     }
 
     /// Distance of the point from the border of the grown segment, whose edges are straight.
-    fn from_border(&self, form: Form, segment: usize) -> f64 {
+    fn border_distance(&self, form: Form, segment: usize) -> f64 {
         let mut buffer = [[0.0; D]; MOST_POINTS];
         let x = self.surface.points(segment, self.x, &mut buffer);
         let m = |k: usize| self.margin(segment, k);
@@ -230,12 +230,12 @@ impl<const D: usize> Tracker<'_, D> {
             2 => [at([-1.0 - m(0), 0.0]), at([1.0 + m(1), 0.0])]
                 .iter()
                 .fold(f64::INFINITY, |d, q| d.min(norm(&sub(&self.p, q)))),
-            3 => self.from_polygon(&[
+            3 => self.polygon_distance(&[
                 at([-m(2), -m(0)]),
                 at([1.0 + m(0) + m(1), -m(0)]),
                 at([-m(2), 1.0 + m(1) + m(2)]),
             ]),
-            _ => self.from_polygon(&[
+            _ => self.polygon_distance(&[
                 at([-1.0 - m(3), -1.0 - m(0)]),
                 at([1.0 + m(1), -1.0 - m(0)]),
                 at([1.0 + m(1), 1.0 + m(2)]),
@@ -244,7 +244,7 @@ impl<const D: usize> Tracker<'_, D> {
         }
     }
 
-    fn from_polygon(&self, corners: &[[f64; D]]) -> f64 {
+    fn polygon_distance(&self, corners: &[[f64; D]]) -> f64 {
         let n = corners.len();
         (0..n).fold(f64::INFINITY, |least, k| {
             let (a, b) = (&corners[k], &corners[(k + 1) % n]);

@@ -2,14 +2,9 @@
 
 use super::Checker;
 use crate::scene::law;
-use crate::scene::model::{Interface, MeshSource, Sliding, Spanned};
+use crate::scene::model::{Interface, Spanned};
 use crate::scene::units::Penalty;
 use asperity_fem::mesh::generate::SIDES;
-
-/// Elements in two dimensions whose faces have nodes only at their corners; in three all have.
-const LINEAR: [&str; 2] = ["quad4", "tri3"];
-/// Elements with nodes between the corners.
-const QUADRATIC: [&str; 3] = ["quad8", "quad9", "tri6"];
 
 /// Body, axis and end of a side.
 type Side = (String, usize, usize);
@@ -66,21 +61,6 @@ impl Checker<'_> {
         let (slave, master) = (self.set(&interface.slave), self.set(&interface.master));
         if let (Some(slave), Some(master)) = (&slave, &master) {
             self.pairing(name, interface, slave, master);
-        }
-        if *interface.sliding.get_ref() != Sliding::Finite {
-            return;
-        }
-        for (body, _, _) in [slave, master].into_iter().flatten() {
-            let MeshSource::Block(block) = &self.scene.bodies[&body].mesh else { continue };
-            let element = block.element.get_ref();
-            if QUADRATIC.contains(&element.as_str()) {
-                self.conflict(
-                    &interface.sliding.span(),
-                    format!("finite sliding needs linear elements, but body `{body}` has `{element}`"),
-                    format!("use {} there, or `sliding = \"small\"`", LINEAR.join(" or ")),
-                    (&block.element.span(), "the element"),
-                );
-            }
         }
     }
 
