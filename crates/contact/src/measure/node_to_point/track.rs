@@ -137,10 +137,7 @@ impl<const D: usize> Tracker<'_, D> {
     /// before that can change. A point that stays keeps its coordinates as they are: what follows does not depend on
     /// whether a search was made.
     fn hold(&self, point: &Point, projections: &mut u64) -> (Option<Place>, f64) {
-        let held = point.place.and_then(|h| {
-            let xi = self.surface.foot(h.segment, self.x, &self.p, h.xi)?;
-            Some(Place { segment: h.segment, xi })
-        });
+        let held = point.place.and_then(|h| self.foot(&h));
         if let Some(h) = held
             && !point.leaving
             && self.keeps(&h)
@@ -159,7 +156,15 @@ impl<const D: usize> Tracker<'_, D> {
         if projection.outcome == Outcome::None {
             return (None, 0.0);
         }
-        (Some(place), if self.keeps(&place) { self.certain(&place) } else { 0.0 })
+        // Next to a corner that stands out the closest point is the corner, and the foot lies outside.
+        let foot = self.foot(&place).filter(|f| self.keeps(f));
+        (Some(place), foot.map_or(0.0, |f| self.certain(&f)))
+    }
+
+    /// The foot on the continued segment of `place`.
+    fn foot(&self, place: &Place) -> Option<Place> {
+        let xi = self.surface.foot(place.segment, self.x, &self.p, place.xi)?;
+        Some(Place { segment: place.segment, xi })
     }
 
     /// A point on a border belongs to the segment it is entering: another one than `held`, as close as the closest.
