@@ -33,7 +33,9 @@ pub enum ContactError {
         kind: SegmentKind,
     },
     /// Smoothing of an interface of overlaps.
-    #[error("interface {name}: smoothing is a property of node-to-point; mortar integrates over the facets themselves")]
+    #[error(
+        "interface {name}: smoothing is a property of node-to-point; mortar integrates over the facets themselves"
+    )]
     SmoothingOfMortar {
         /// Interface.
         name: String,

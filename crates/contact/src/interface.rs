@@ -9,7 +9,9 @@ use crate::measure::{Attachment, Geometry, Measure, NormalPoint, Slides, Tractio
 use crate::observe::{Balance, PointFields, Work};
 use crate::search::surface::Surface;
 use crate::shear::{Shear, TwoStep};
-use crate::spec::{InterfaceSpec, MeasureKind, Segment, SlavePoint, Sliding, Smoothing, SurfaceNode, TimeRule};
+use crate::spec::{
+    InterfaceSpec, MeasureKind, Segment, SlavePoint, Sliding, Smoothing, SurfaceNode, TimeRule,
+};
 use crate::status::{Status, label};
 use crate::vector::{add, axpy, dot, moment, norm, scaled, sub};
 use asperity_fem::term::{Instant, Linearized, Pattern, Refusal, Term};

@@ -315,7 +315,7 @@ fn parts(kind: SegmentKind) -> &'static [&'static [[f64; 2]]] {
             &[C, [0.0, 1.0], [0.0, 0.5]],
             &[C, [0.0, 0.5], [0.0, 0.0]],
         ],
-        SegmentKind::Quad9 => &[
+        SegmentKind::Quad8 | SegmentKind::Quad9 => &[
             &[O, [-1.0, -1.0], [0.0, -1.0]],
             &[O, [0.0, -1.0], [1.0, -1.0]],
             &[O, [1.0, -1.0], [1.0, 0.0]],

@@ -63,6 +63,7 @@ pub(super) fn points(kind: SegmentKind, other: SegmentKind, distortion: f64) -> 
     let degree = |k: SegmentKind| match k {
         SegmentKind::Seg2 | SegmentKind::Tri3 => 1,
         SegmentKind::Seg3 | SegmentKind::Tri6 | SegmentKind::Quad4 => 2,
+        SegmentKind::Quad8 => 3,
         SegmentKind::Quad9 => 4,
     };
     let of_products = degree(kind) + degree(other).max(degree(kind));
@@ -92,7 +93,9 @@ pub(super) fn distortion<const D: usize>(kind: SegmentKind, x: &[[f64; D]]) -> f
         SegmentKind::Seg2 | SegmentKind::Tri3 => return 0.0,
         SegmentKind::Seg3 => &[[-1.0, 0.0], [1.0, 0.0]],
         SegmentKind::Tri6 => &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
-        SegmentKind::Quad4 | SegmentKind::Quad9 => &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
+        SegmentKind::Quad4 | SegmentKind::Quad8 | SegmentKind::Quad9 => {
+            &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+        }
     };
     let jacobian = |xi: &[f64; 2]| {
         let s = shape(kind, *xi);

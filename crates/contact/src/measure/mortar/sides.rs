@@ -242,6 +242,6 @@ pub(super) fn node_at(kind: SegmentKind, k: usize) -> [f64; 2] {
     match kind {
         SegmentKind::Seg2 | SegmentKind::Seg3 => LINE[k],
         SegmentKind::Tri3 | SegmentKind::Tri6 => TRIANGLE[k],
-        SegmentKind::Quad4 | SegmentKind::Quad9 => SQUARE[k],
+        SegmentKind::Quad4 | SegmentKind::Quad8 | SegmentKind::Quad9 => SQUARE[k],
     }
 }

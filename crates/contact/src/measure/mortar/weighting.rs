@@ -3,7 +3,7 @@
 //! On faces of first order they are the shape functions. Those of second order are negative in places, and on six-node
 //! triangles and eight-node quadrilaterals the integral of a corner's function is zero or negative: no average can be
 //! taken with it. There a share of each mid-node's function is given to the ends of its edge: 1/4 on lines, triangles and
-//! nine-node quadrilaterals, which yields the Bernstein polynomials of second degree.
+//! nine-node quadrilaterals, which yields the Bernstein polynomials of second degree, and 3/8 on those of eight nodes.
 //!
 //! Any partition of unity transmits a uniform pressure exactly, because `Σ_A ψ_A p = p`; one that is nowhere negative
 //! makes tensile tractions impossible between the nodes too.
@@ -66,23 +66,25 @@ fn row(kind: SegmentKind, k: usize) -> [f64; MOST_NODES] {
     let mut c = [0.0; MOST_NODES];
     match kind {
         SegmentKind::Seg2 | SegmentKind::Tri3 | SegmentKind::Quad4 => c[k] = 1.0,
-        SegmentKind::Seg3 => share(&mut c, k, 2, &[[0, 1]]),
-        SegmentKind::Tri6 => share(&mut c, k, 3, &[[0, 1], [1, 2], [2, 0]]),
+        SegmentKind::Seg3 => share(&mut c, k, 0.25, 2, &[[0, 1]]),
+        SegmentKind::Tri6 => share(&mut c, k, 0.25, 3, &[[0, 1], [1, 2], [2, 0]]),
+        // N_k of a corner is the bilinear function less half of its mid-nodes': a quarter would leave it negative.
+        SegmentKind::Quad8 => share(&mut c, k, 0.375, 4, &[[0, 1], [1, 2], [2, 3], [3, 0]]),
         SegmentKind::Quad9 => return nine(k),
     }
     c
 }
 
-/// A corner takes a quarter of its mid-nodes' functions, a mid-node keeps half of its own.
-fn share(c: &mut [f64; MOST_NODES], k: usize, corners: usize, edges: &[[usize; 2]]) {
+/// A corner takes this `part` of its mid-nodes' functions, a mid-node keeps the rest of its own.
+fn share(c: &mut [f64; MOST_NODES], k: usize, part: f64, corners: usize, edges: &[[usize; 2]]) {
     if k >= corners {
-        c[k] = 0.5;
+        c[k] = 1.0 - 2.0 * part;
         return;
     }
     c[k] = 1.0;
     for (m, edge) in edges.iter().enumerate() {
         if edge.contains(&k) {
-            c[corners + m] = 0.25;
+            c[corners + m] = part;
         }
     }
 }
@@ -104,12 +106,13 @@ mod tests {
     use super::*;
     use crate::shape::shape;
 
-    const KINDS: [SegmentKind; 6] = [
+    const KINDS: [SegmentKind; 7] = [
         SegmentKind::Seg2,
         SegmentKind::Seg3,
         SegmentKind::Tri3,
         SegmentKind::Tri6,
         SegmentKind::Quad4,
+        SegmentKind::Quad8,
         SegmentKind::Quad9,
     ];
 
