@@ -131,4 +131,5 @@ fn main() {
     measure::<2>(ElementKind::Quad4, 316, &pools, &mut triad);
     measure::<2>(ElementKind::Quad9, 158, &pools, &mut triad);
     measure::<3>(ElementKind::Hex8, 32, &pools, &mut triad);
+    measure::<3>(ElementKind::Hex20, 20, &pools, &mut triad);
 }

@@ -1,9 +1,13 @@
-//! Checks of our outputs by their real readers, in a Python environment of its own.
+//! Checks of our outputs by their real readers, and of our reading of meshes by that of others, in a Python environment of its
+//! own.
 
 use crate::stage::{self, Failure, Stage};
 use std::path::{Path, PathBuf};
 
-/// Makes the environment, installs the pinned requirements and runs the checks on the sandwich's output.
+/// The meshes whose reading is compared.
+const MESHES: &str = "crates/fem/tests/meshes";
+
+/// Makes the environment, installs the pinned requirements and runs the checks on the sandwich's output and on the sample meshes.
 pub fn run(root: &Path) -> Result<(), Failure> {
     let python = ["python3", "python"].into_iter().find(|program| stage::exists(program));
     let Some(python) = python else {
@@ -25,7 +29,28 @@ pub fn run(root: &Path) -> Result<(), Failure> {
     let install =
         ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r", "interop/requirements.txt"];
     Stage::new("requirements", &inside).args(install).run(root)?;
-    Stage::new("interop", &inside).args(["interop/check_vtu.py", "out/sandwich"]).run(root)
+    Stage::new("interop", &inside).args(["interop/check_vtu.py", "out/sandwich"]).run(root)?;
+    let summary = "target/meshes.json";
+    let example = ["run", "--release", "--quiet", "-p", "asperity-driver", "--example", "mesh_summary", "--"];
+    let files = meshes(root)?;
+    Stage::new("meshes", "cargo")
+        .args(example)
+        .args([summary])
+        .args(files.iter().map(String::as_str))
+        .run(root)?;
+    Stage::new("interop of meshes", &inside).args(["interop/check_meshes.py", summary, MESHES]).run(root)
+}
+
+/// Sample meshes that are no errors, by name.
+fn meshes(root: &Path) -> Result<Vec<String>, Failure> {
+    let mut names = Vec::new();
+    for entry in walkdir::WalkDir::new(root.join(MESHES)).sort_by_file_name() {
+        let name = entry?.file_name().to_string_lossy().into_owned();
+        if (name.ends_with(".msh") || name.ends_with(".inp")) && !name.starts_with("bad_") {
+            names.push(format!("{MESHES}/{name}"));
+        }
+    }
+    Ok(names)
 }
 
 fn python_of(environment: &Path) -> PathBuf {

@@ -3,6 +3,7 @@
 
 mod common;
 
+use asperity_driver::observe::Recorder;
 use common::{close, displacements, fields, planned, simulate};
 
 /// Modulus of uniaxial strain over Young's modulus for a Poisson's ratio of a quarter.
@@ -36,6 +37,17 @@ stepper = "implicit"
 /// Rollers at the sides and the bottom of `B`, and a pressure on top.
 const PRESSED: &str = r#"{ set = "B.left", symmetry = true }, { set = "B.right", symmetry = true },
     { set = "B.bottom", symmetry = true }, { set = "B.top", pressure = "3 MPa" }"#;
+
+/// Asserts that two layers carry 3 MPa across their interface, and that the end at 1 m moved by what both shorten and the
+/// interface closes.
+fn assert_pressed(record: &Recorder, axis: usize) {
+    for traction in &record.stage_ends()[0].interfaces[0].normal_traction {
+        close(*traction, 3e6, 1e-9);
+    }
+    for (_, u) in displacements(record, |x| x[axis] == 1.0) {
+        close(u[axis], -3e6 * (2.0 / (10e9 * UNIAXIAL) + 1e-13), 1e-9);
+    }
+}
 
 #[test]
 fn the_blocks_of_a_file_have_their_own_materials() {
@@ -95,12 +107,7 @@ material = "rock"
     { set = "A.bottom", symmetry = true }, { set = "B.top", pressure = "3 MPa" }"#;
     let text = scene("plane-strain", &format!("{bodies}{}", interface("A.joint", "B.fault")), conditions);
     let (_, record) = simulate(&text);
-    for traction in &record.stage_ends()[0].interfaces[0].normal_traction {
-        close(*traction, 3e6, 1e-9);
-    }
-    for (_, u) in displacements(&record, |x| x[1] == 1.0) {
-        close(u[1], -3e6 * (2.0 / (10e9 * UNIAXIAL) + 1e-13), 1e-9);
-    }
+    assert_pressed(&record, 1);
 }
 
 #[test]
@@ -116,12 +123,7 @@ fn a_split_body_is_held_together_by_contact_alone() {
     for path in ["condensed", "full"] {
         let text = text.replace("stepper =", &format!("path = \"{path}\"\nstepper ="));
         let (_, record) = simulate(&text);
-        for traction in &record.stage_ends()[0].interfaces[0].normal_traction {
-            close(*traction, 3e6, 1e-9);
-        }
-        for (_, u) in displacements(&record, |x| x[1] == 1.0) {
-            close(u[1], -3e6 * (2.0 / (10e9 * UNIAXIAL) + 1e-13), 1e-9);
-        }
+        assert_pressed(&record, 1);
     }
 }
 
@@ -178,12 +180,7 @@ fn a_generated_fault_passes_the_pressure_from_side_to_side() {
         ("3d", "extrude = [0, 0.5, 1]\n", r#", { set = "B.back", z = 0 }, { set = "B.front", z = 0 }"#),
     ] {
         let (_, record) = simulate(&scene(kinematics, &through(extra), &format!("{conditions}{more}")));
-        for traction in &record.stage_ends()[0].interfaces[0].normal_traction {
-            close(*traction, 3e6, 1e-9);
-        }
-        for (_, u) in displacements(&record, |x| x[0] == 1.0) {
-            close(u[0], -3e6 * (2.0 / (10e9 * UNIAXIAL) + 1e-13), 1e-9);
-        }
+        assert_pressed(&record, 0);
     }
 }
 
