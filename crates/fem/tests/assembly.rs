@@ -190,6 +190,33 @@ fn a_negative_spring_is_not_positive_definite() {
 }
 
 #[test]
+fn a_symmetric_matrix_with_a_negative_mode_is_solved_by_lu_and_counted() {
+    let mesh = mesh(3);
+    let mut block = block(&mesh);
+    let n = clamped(&mesh).free.len();
+    let load: Vec<f64> = (0..n).map(|k| ((k * 31) % 17) as f64 - 8.0).collect();
+    // A spring that pushes away at the last degree of freedom, stiffer than the body: one negative eigenvalue.
+    let dof = 2 * mesh.nodes.len() - 1;
+    let mut away = Spring::new(dof, 0, -3e10);
+    for storage in [Storage::Dense, Storage::Sparse] {
+        let mut solve = |symmetry, stiffness: f64| {
+            away.stiffness = stiffness;
+            let mut system = System::new(clamped(&mesh), storage).with_symmetry(symmetry);
+            let anew = system.factor_tangent(&mut [&mut block, &mut away]).unwrap();
+            let mut x = load.clone();
+            system.solve(&mut x).unwrap();
+            assert!(anew);
+            (x, system.indefinite)
+        };
+        let (exact, _) = solve(Symmetry::General, -3e10);
+        let (found, counted) = solve(Symmetry::Symmetric, -3e10);
+        let size = exact.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        assert!(exact.iter().zip(&found).all(|(a, b)| (a - b).abs() < 1e-10 * size), "{storage:?}");
+        assert_eq!((counted, solve(Symmetry::Symmetric, 3e10).1), (1, 0), "{storage:?}");
+    }
+}
+
+#[test]
 fn parallel_cell_forces_are_the_residual_of_the_block() {
     let mesh = mesh(20);
     let mut block = block(&mesh);
