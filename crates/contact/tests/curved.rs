@@ -258,3 +258,15 @@ fn forces_and_moments_balance_on_every_kind_of_segment() {
         check(bowl_spec(kind, smoothed, 0.0, &AT, coulomb()), &BOWL);
     }
 }
+
+#[test]
+fn without_friction_tangents_are_symmetric_on_every_kind_of_segment() {
+    for (kind, smoothed) in LINES {
+        let found = asymmetries(settled(arc_spec(kind, smoothed, 0.9, &ANGLES, None), 0.9, &ARC));
+        assert!(found.iter().all(|a| *a < 1e-12), "{kind:?} {smoothed:?}: {found:?}");
+    }
+    for (kind, smoothed) in FACES {
+        let found = asymmetries(settled(bowl_spec(kind, smoothed, 0.9, &AT, None), 0.9, &BOWL));
+        assert!(found.iter().all(|a| *a < 1e-12), "{kind:?} {smoothed:?}: {found:?}");
+    }
+}

@@ -3,7 +3,7 @@
 
 mod common;
 use asperity_contact::{Interface, SegmentKind, Sliding, Status, TimeRule};
-use asperity_fem::term::{Limited, Linearized, Term};
+use asperity_fem::term::{Linearized, Term};
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip, stateless::Stateless};
 use asperity_friction::law::Law;
@@ -139,35 +139,6 @@ fn tangent_is_exact_under_the_laws_of_the_friction_crate() {
             assert_taylor(&mut interface, &u, 22);
         }
     }
-}
-
-/// Largest |K - K'| over the largest entry.
-fn asymmetry(pattern: &asperity_fem::term::Pattern, values: &[f64]) -> f64 {
-    let largest = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let (mut worst, mut at) = (0.0_f64, 0);
-    for block in pattern.blocks() {
-        let n = block.len();
-        for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
-            worst = worst.max((values[at + i * n + j] - values[at + j * n + i]).abs());
-        }
-        at += n * n;
-    }
-    worst / largest
-}
-
-/// Asymmetries of the consistent tangent at `u`, and of the rate tangent after it is accepted.
-fn asymmetries<const D: usize>((mut interface, u): (Interface<D>, Vec<f64>)) -> [f64; 2] {
-    residual(&mut interface, &u);
-    let pattern = interface.pattern().clone();
-    let mut values = vec![f64::NAN; pattern.values()];
-    interface.tangent(&mut values);
-    let consistent = asymmetry(&pattern, &values);
-    interface.accept();
-    interface.prepare(&u).unwrap();
-    let pattern = interface.pattern().clone();
-    let mut rate = vec![f64::NAN; pattern.values()];
-    interface.rate(AT, &mut rate, &mut vec![0.0; u.len()]).unwrap();
-    [consistent, asymmetry(&pattern, &rate)]
 }
 
 #[test]

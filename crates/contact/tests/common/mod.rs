@@ -6,7 +6,7 @@ pub mod curved;
 use asperity_contact::{
     Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode,
 };
-use asperity_fem::term::{Instant, Linearized, Term};
+use asperity_fem::term::{Instant, Limited, Linearized, Term};
 use asperity_friction::Failure;
 use asperity_friction::law::{
     Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
@@ -383,4 +383,33 @@ pub fn assert_taylor<const D: usize>(interface: &mut Interface<D>, u: &[f64], se
         let slope = (w[0] / w[1]).log10();
         assert!(w[1] < floor || slope > 1.9, "Taylor remainders {errors:?}, slope {slope}, floor {floor}");
     }
+}
+
+/// Largest |K - K'| over the largest entry.
+fn asymmetry(pattern: &asperity_fem::term::Pattern, values: &[f64]) -> f64 {
+    let largest = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let (mut worst, mut at) = (0.0_f64, 0);
+    for block in pattern.blocks() {
+        let n = block.len();
+        for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
+            worst = worst.max((values[at + i * n + j] - values[at + j * n + i]).abs());
+        }
+        at += n * n;
+    }
+    worst / largest
+}
+
+/// Asymmetries of the consistent tangent at `u`, and of the rate tangent after it is accepted.
+pub fn asymmetries<const D: usize>((mut interface, u): (Interface<D>, Vec<f64>)) -> [f64; 2] {
+    residual(&mut interface, &u);
+    let pattern = interface.pattern().clone();
+    let mut values = vec![f64::NAN; pattern.values()];
+    interface.tangent(&mut values);
+    let consistent = asymmetry(&pattern, &values);
+    interface.accept();
+    interface.prepare(&u).unwrap();
+    let pattern = interface.pattern().clone();
+    let mut rate = vec![f64::NAN; pattern.values()];
+    interface.rate(AT, &mut rate, &mut vec![0.0; u.len()]).unwrap();
+    [consistent, asymmetry(&pattern, &rate)]
 }
