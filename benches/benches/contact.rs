@@ -37,16 +37,19 @@ fn contact(c: &mut Criterion) {
     for n in [1_000, 10_000, 100_000] {
         let m = (n as f64).sqrt() as usize;
         for sliding in [Sliding::Small, Sliding::Finite] {
-            let mut interface = flat_2d(n, sliding, coulomb());
+            let mut interface = flat_2d(n, sliding, None, coulomb());
             assembly(c, &format!("contact 2d {sliding:?}"), n, &mut interface, &pressed::<2>(n, 2 * n + 1));
-            let mut interface = flat_3d(m, sliding, coulomb());
+            let mut interface = flat_3d(m, sliding, None, coulomb());
             let u = pressed::<3>(m * m, m * m + (m + 1) * (m + 1));
             assembly(c, &format!("contact 3d {sliding:?}"), m * m, &mut interface, &u);
         }
         let mut group = c.benchmark_group("contact search and pairing");
         group.sample_size(10).throughput(Throughput::Elements(n as u64));
-        group.bench_function(BenchmarkId::new("2d", n), |b| b.iter(|| flat_2d(n, Sliding::Small, None)));
-        group.bench_function(BenchmarkId::new("3d", m * m), |b| b.iter(|| flat_3d(m, Sliding::Small, None)));
+        group
+            .bench_function(BenchmarkId::new("2d", n), |b| b.iter(|| flat_2d(n, Sliding::Small, None, None)));
+        group.bench_function(BenchmarkId::new("3d", m * m), |b| {
+            b.iter(|| flat_3d(m, Sliding::Small, None, None))
+        });
         group.finish();
     }
 }

@@ -3,7 +3,7 @@
 pub mod direct;
 
 use asperity_contact::{
-    Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode,
+    Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, Smoothing, SurfaceNode,
 };
 use asperity_friction::law::{Law, RateBounds};
 use std::sync::Arc;
@@ -13,7 +13,12 @@ use std::sync::Arc;
 /// # Panics
 /// Never: the specification is admissible.
 #[must_use]
-pub fn flat_2d(n: usize, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Interface<2> {
+pub fn flat_2d(
+    n: usize,
+    sliding: Sliding,
+    smoothing: Option<Smoothing>,
+    law: Option<Arc<dyn Law>>,
+) -> Interface<2> {
     let mut nodes = Vec::new();
     for k in 0..n {
         nodes.push(SurfaceNode { position: [k as f64 + 0.5, 0.0], dof: 2 * k, label: k });
@@ -24,7 +29,7 @@ pub fn flat_2d(n: usize, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Interfa
     }
     let master = (0..n).map(|k| Segment { kind: SegmentKind::Seg2, nodes: vec![n + k + 1, n + k] }).collect();
     let slave = (0..n).map(|k| SlavePoint { node: k, area: 1.0 }).collect();
-    Interface::new(spec(nodes, slave, master, sliding, law)).expect("an admissible interface")
+    Interface::new(spec(nodes, slave, master, (sliding, smoothing), law)).expect("an admissible interface")
 }
 
 /// A flat interface in space: `m * m` slave nodes over `m * m` square master facets of 1 m.
@@ -32,7 +37,12 @@ pub fn flat_2d(n: usize, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Interfa
 /// # Panics
 /// Never: the specification is admissible.
 #[must_use]
-pub fn flat_3d(m: usize, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Interface<3> {
+pub fn flat_3d(
+    m: usize,
+    sliding: Sliding,
+    smoothing: Option<Smoothing>,
+    law: Option<Arc<dyn Law>>,
+) -> Interface<3> {
     let mut nodes = Vec::new();
     let mut add = |position: [f64; 3]| {
         let k = nodes.len();
@@ -58,14 +68,14 @@ pub fn flat_3d(m: usize, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Interfa
     };
     let slave = (0..m * m).map(|k| SlavePoint { node: k, area: 1.0 }).collect();
     let master = (0..m * m).map(facet).collect();
-    Interface::new(spec(nodes, slave, master, sliding, law)).expect("an admissible interface")
+    Interface::new(spec(nodes, slave, master, (sliding, smoothing), law)).expect("an admissible interface")
 }
 
 fn spec<const D: usize>(
     nodes: Vec<SurfaceNode<D>>,
     slave: Vec<SlavePoint>,
     master: Vec<Segment>,
-    sliding: Sliding,
+    (sliding, smoothing): (Sliding, Option<Smoothing>),
     law: Option<Arc<dyn Law>>,
 ) -> InterfaceSpec<D> {
     InterfaceSpec {
@@ -75,7 +85,7 @@ fn spec<const D: usize>(
         master,
         measure: MeasureKind::NodeToPoint,
         sliding,
-        smoothing: None,
+        smoothing,
         fixed_normal: None,
         normal_penalty: 1e12,
         tangential_penalty: 1e12,
