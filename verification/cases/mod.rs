@@ -38,6 +38,7 @@ mod bodies_patch;
 pub mod body;
 mod cantilever_rotation;
 mod contact_patch;
+mod contact_patch_mortar;
 mod cook_membrane;
 mod elastic_plastic_cylinder;
 mod flamant_boussinesq;
@@ -69,6 +70,7 @@ pub const ALL: &[Case] = &[
     bodies_convergence::CASE,
     bodies_patch::CASE,
     contact_patch::CASE,
+    contact_patch_mortar::CASE,
     cook_membrane::CASE,
     flamant_boussinesq::CASE,
     friction_hard_numerics::CASE,

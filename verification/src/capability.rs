@@ -61,6 +61,8 @@ capabilities! {
     PenaltyContact2d => "penalty contact, 2D",
     /// Node-to-point penalty contact in space.
     PenaltyContact3d => "penalty contact, 3D",
+    /// Mortar contact: gaps averaged over the overlap of facets.
+    Mortar => "mortar contact",
     /// Pairing that follows large sliding.
     FiniteSliding => "finite sliding on flat segments",
     /// Coulomb friction.

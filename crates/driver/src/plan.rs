@@ -5,8 +5,8 @@ use crate::model::{CellBlock, Model};
 use crate::rigid;
 use crate::scene::law;
 use crate::scene::model::{
-    Formulation, Interface as InterfaceSpec, Kinematics, Method, Path as PathChoice, Rule, Scene, Sliding,
-    Spanned, Stepper,
+    Formulation, Interface as InterfaceSpec, Kinematics, Measure, Method, Path as PathChoice, Rule, Scene,
+    Sliding, Spanned, Stepper,
 };
 use crate::scene::units::Penalty;
 use crate::solver::{self, Solver};
@@ -54,12 +54,15 @@ impl PlanError {
 pub struct PlannedInterface {
     /// Name in the scene.
     pub name: String,
-    /// Slave nodes, ascending, with their tributary areas \[m², or m per metre of thickness\].
+    /// Slave nodes, ascending, with their tributary areas \[m², or m per metre of thickness\]; a mortar interface finds its
+    /// own from the overlap, and these are ones.
     pub slave: Vec<(usize, f64)>,
     /// Slave faces, as lists of mesh nodes.
     pub slave_faces: Vec<Vec<usize>>,
     /// Master faces, as lists of mesh nodes.
     pub master_faces: Vec<Vec<usize>>,
+    /// How gaps are measured.
+    pub measure: Measure,
     /// Whether the pairing follows the motion.
     pub sliding: Sliding,
     /// Whether the master surface is smoothed.
@@ -296,27 +299,7 @@ fn interface<const D: usize>(
     let body =
         body.ok_or_else(|| PlanError::plain(format!("interface `{name}`: the slave side has no body")))?;
     check_faces(model, spec, slave_sides, master_sides)?;
-    let areas = model.tributary_areas(slave_sides).map_err(|e| {
-        PlanError::at(spec.slave.span(), e.to_string(), "use an element with positive nodal areas".into())
-    })?;
-    // The tip of a split surface lies on both sides, where they cannot part.
-    let master_nodes = nodes_of_sides(&model.mesh, master_sides);
-    let slave: Vec<(usize, f64)> = nodes_of_sides(&model.mesh, slave_sides)
-        .into_iter()
-        .filter(|n| master_nodes.binary_search(n).is_err())
-        .map(|n| (n, areas[&n]))
-        .collect();
-    let largest = slave.iter().map(|s| s.1).fold(0.0, f64::max);
-    if let Some((node, _)) = slave.iter().find(|s| s.1 <= NO_AREA * largest) {
-        return Err(PlanError::at(
-            spec.slave.span(),
-            format!(
-                "the slave node at {} of interface `{name}` has no tributary area",
-                rigid::place(&model.mesh.nodes[*node])
-            ),
-            "elements of second order have none on the axis of revolution: use quad4 or tri3".into(),
-        ));
-    }
+    let slave = slave_points(model, name, spec, slave_sides, master_sides)?;
     if slave.is_empty() {
         return Err(PlanError::at(
             spec.master.span(),
@@ -337,6 +320,7 @@ fn interface<const D: usize>(
         slave,
         slave_faces: slave_sides.iter().map(|s| face_nodes(&model.mesh, s)).collect(),
         master_faces: master_sides.iter().map(|s| face_nodes(&model.mesh, s)).collect(),
+        measure: *spec.measure.get_ref(),
         sliding: *spec.sliding.get_ref(),
         smoothed: spec.smoothing.is_some(),
         normal_penalty: in_pascal_per_metre(&spec.enforcement.normal),
@@ -344,6 +328,41 @@ fn interface<const D: usize>(
         law,
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),
     })
+}
+
+/// The slave points of an interface, ascending, with their tributary areas.
+fn slave_points<const D: usize>(
+    model: &Model<D>,
+    name: &str,
+    spec: &InterfaceSpec,
+    slave: &[Side],
+    master: &[Side],
+) -> Result<Vec<(usize, f64)>, PlanError> {
+    // The tip of a split surface lies on both sides, where they cannot part.
+    let master_nodes = nodes_of_sides(&model.mesh, master);
+    let nodes =
+        nodes_of_sides(&model.mesh, slave).into_iter().filter(|n| master_nodes.binary_search(n).is_err());
+    if *spec.measure.get_ref() == Measure::Mortar {
+        return Ok(nodes.map(|n| (n, 1.0)).collect());
+    }
+    let areas = model.tributary_areas(slave).map_err(|e| {
+        let help = "use an element with positive nodal areas, or `measure = \"mortar\"`";
+        PlanError::at(spec.slave.span(), e.to_string(), help.into())
+    })?;
+    let slave: Vec<(usize, f64)> = nodes.map(|n| (n, areas[&n])).collect();
+    let largest = slave.iter().map(|s| s.1).fold(0.0, f64::max);
+    if let Some((node, _)) = slave.iter().find(|s| s.1 <= NO_AREA * largest) {
+        return Err(PlanError::at(
+            spec.slave.span(),
+            format!(
+                "the slave node at {} of interface `{name}` has no tributary area",
+                rigid::place(&model.mesh.nodes[*node])
+            ),
+            "elements of second order have none on the axis of revolution: use quad4 or tri3, or `measure = \"mortar\"`"
+                .into(),
+        ));
+    }
+    Ok(slave)
 }
 
 /// Whether the contact can work with the faces of both sides.
@@ -366,6 +385,29 @@ fn check_faces<const D: usize>(
             format!("smoothing needs master faces of first order, but the master has faces of {element}"),
             "faces of second order are curved already: leave `smoothing` out".into(),
         ));
+    }
+    if *spec.measure.get_ref() == Measure::Mortar {
+        if let Some(smoothing) = &spec.smoothing {
+            return Err(PlanError::at(
+                smoothing.span(),
+                "smoothing is a property of node-to-point; mortar integrates over the facets themselves"
+                    .into(),
+                "leave `smoothing` out".into(),
+            ));
+        }
+        if *spec.sliding.get_ref() == Sliding::Finite
+            && let Some(side) = slave.iter().chain(master).find(|s| !linear(s))
+        {
+            let element = model.mesh.blocks[side.block].kind.name();
+            return Err(PlanError::at(
+                spec.sliding.span(),
+                format!(
+                    "finite sliding of a mortar interface needs faces of first order, but it has faces of {element}"
+                ),
+                "use elements of first order there, `sliding = \"small\"`, or `measure = \"node-to-point\"`"
+                    .into(),
+            ));
+        }
     }
     let both = slave.iter().filter(|s| master.contains(s)).count();
     if both > 0 {
@@ -465,8 +507,12 @@ fn summary<const D: usize>(
             format!("{} friction with {} state variables a point", l.name(), l.states())
         });
         physics.push(format!(
-            "interface `{}`: node-to-point penalty contact, {} slave nodes against {} master faces, {friction}",
+            "interface `{}`: {} penalty contact, {} slave nodes against {} master faces, {friction}",
             i.name,
+            match i.measure {
+                Measure::NodeToPoint => "node-to-point",
+                Measure::Mortar => "mortar",
+            },
             i.slave.len(),
             i.master_faces.len()
         ));

@@ -6,7 +6,7 @@ use crate::model::CellBlock;
 use crate::observe::view::{BodyFields, Counts, InterfaceFields, Setup};
 use crate::plan::{Path, Plan, PlannedInterface, Stepping, interface_nodes};
 use crate::report::InterfaceBalance;
-use crate::scene::model::{Rule, Sliding};
+use crate::scene::model::{Measure, Rule, Sliding};
 use crate::solver::{self, Method, Prepared};
 use crate::step::implicit::Implicit;
 use crate::step::static_explicit::StaticExplicit;
@@ -19,6 +19,7 @@ use asperity_fem::FemError;
 use asperity_fem::assembly::{Iterative, NearNull, Storage, System};
 use asperity_fem::condense::{Analysis, Condensation, Condensed};
 use asperity_fem::dof::{Channel, Constraints};
+use asperity_fem::kinematics::Idealisation;
 use asperity_fem::loads::ExternalForces;
 use asperity_fem::nonlinear::Kinematics;
 use asperity_fem::term::{Limited, Linearized};
@@ -77,8 +78,12 @@ impl<'a, const D: usize> Assembled<'a, D> {
             .iter()
             .map(|i| Interface::new(spec(plan, i, &number, largest_rate)).map_err(|e| e.to_string()))
             .collect::<Result<Vec<_>, String>>()?;
-        let areas =
-            plan.interfaces.iter().map(|i| (i.name.clone(), i.slave.iter().map(|s| s.1).collect())).collect();
+        let areas = plan
+            .interfaces
+            .iter()
+            .zip(&interfaces)
+            .map(|(planned, built)| (planned.name.clone(), built.points().area.clone()))
+            .collect();
         if let Stepping::Implicit { rule } = plan.stepping {
             interfaces.iter_mut().for_each(|i| i.set_time_rule(time_rule(rule)));
         }
@@ -353,7 +358,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// Fixed part of what observers see.
     #[must_use]
     pub fn setup(&self) -> Setup {
-        views::setup(self.plan)
+        views::setup(self.plan, &self.areas)
     }
 
     /// Present state of the interfaces.
@@ -513,14 +518,13 @@ fn spec<const D: usize>(
         .iter()
         .map(|&n| SurfaceNode { position: plan.model.mesh.nodes[n], dof: number[n * D], label: n })
         .collect();
-    let master = planned
-        .master_faces
-        .iter()
-        .map(|face| Segment {
+    let segments = |faces: &[Vec<usize>]| -> Vec<Segment> {
+        let segment = |face: &Vec<usize>| Segment {
             kind: segment_kind::<D>(face.len()),
             nodes: face.iter().map(|&n| local(n)).collect(),
-        })
-        .collect();
+        };
+        faces.iter().map(segment).collect()
+    };
     let (carry, rate_bounds) = match plan.stepping {
         Stepping::StaticExplicit { carry, rate_change, zeta } => {
             (carry, RateBounds { zeta, log_rate: rate_change })
@@ -531,8 +535,14 @@ fn spec<const D: usize>(
         name: planned.name.clone(),
         nodes,
         slave: planned.slave.iter().map(|&(n, area)| SlavePoint { node: local(n), area }).collect(),
-        master,
-        measure: MeasureKind::NodeToPoint,
+        master: segments(&planned.master_faces),
+        measure: match planned.measure {
+            Measure::NodeToPoint => MeasureKind::NodeToPoint,
+            Measure::Mortar => MeasureKind::Mortar {
+                faces: segments(&planned.slave_faces),
+                axisymmetric: plan.model.idealisation == Idealisation::Axisymmetric,
+            },
+        },
         sliding: match planned.sliding {
             Sliding::Small => asperity_contact::Sliding::Small,
             Sliding::Finite => asperity_contact::Sliding::Finite,

@@ -15,7 +15,7 @@ fn padded<const D: usize>(v: &[f64; D]) -> [f64; 3] {
 
 /// Fixed part.
 #[must_use]
-pub fn setup<const D: usize>(plan: &Plan<D>) -> Setup {
+pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[(String, Vec<f64>)]) -> Setup {
     let mesh = &plan.model.mesh;
     let mut cells = Vec::new();
     let mut cell_body = Vec::new();
@@ -36,19 +36,28 @@ pub fn setup<const D: usize>(plan: &Plan<D>) -> Setup {
             bodies: plan.model.bodies.iter().map(|b| b.name.clone()).collect(),
             dimension: D,
         },
-        interfaces: plan.interfaces.iter().map(|i| interface_mesh(plan, i)).collect(),
+        interfaces: plan
+            .interfaces
+            .iter()
+            .zip(areas)
+            .map(|(i, (_, areas))| interface_mesh(plan, i, areas))
+            .collect(),
         stages: plan.stages.iter().map(|s| (s.name.clone(), s.end)).collect(),
     }
 }
 
-fn interface_mesh<const D: usize>(plan: &Plan<D>, planned: &PlannedInterface) -> InterfaceMesh {
+fn interface_mesh<const D: usize>(
+    plan: &Plan<D>,
+    planned: &PlannedInterface,
+    areas: &[f64],
+) -> InterfaceMesh {
     let nodes: Vec<usize> = planned.slave.iter().map(|s| s.0).collect();
     let local = |n: &usize| nodes.partition_point(|m| m < n);
     let positions: Vec<[f64; 3]> = nodes.iter().map(|&n| padded(&plan.model.mesh.nodes[n])).collect();
     InterfaceMesh {
         name: planned.name.clone(),
         labels: Vec::new(),
-        areas: planned.slave.iter().map(|s| s.1).collect(),
+        areas: areas.to_vec(),
         // The face at a tip has a node that is no point of the interface.
         faces: planned
             .slave_faces

@@ -78,6 +78,8 @@ pub struct Interface {
 pub enum Measure {
     /// Slave node against the closest point of a master segment.
     NodeToPoint,
+    /// Slave facets against master facets over their overlap, the gap averaged to slave nodes.
+    Mortar,
 }
 
 /// Sliding regimes.
