@@ -22,15 +22,14 @@ const YOUNG: f64 = 1000.0;
 const POISSON: f64 = 0.3;
 const DOWN: f64 = 0.01;
 
-/// Divisions of slave and master with the stress error of one-pass node-to-segment contact in per cent at eps = 1 and 100 E/h.
-const PAIRS: [((usize, usize), [f64; 2]); 4] =
-    [((4, 5), [9.3, 8.2]), ((5, 4), [17.0, 15.0]), ((8, 13), [7.4, 7.0]), ((13, 8), [51.0, 46.0])];
+/// Divisions of slave and master.
+const PAIRS: [(usize, usize); 4] = [(4, 5), (5, 4), (8, 13), (13, 8)];
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut rows = Vec::new();
-    for ((slave, master), published) in PAIRS {
-        for (factor, published) in [1.0, 100.0].into_iter().zip(published) {
-            rows.push(plane(ledger, slave, master, factor, published)?);
+    for (slave, master) in PAIRS {
+        for factor in [1.0, 100.0] {
+            rows.push(plane(ledger, slave, master, factor)?);
         }
     }
     ledger.table(
@@ -157,13 +156,7 @@ fn passes(ledger: &mut Ledger, what: &str, done: &Done, covers: &[Capability]) -
 /// Bound of tractions: rounding times the stiffness of the penalty over that of the bodies.
 const TRACTION: f64 = 1e-10;
 
-fn plane(
-    ledger: &mut Ledger,
-    slave: usize,
-    master: usize,
-    factor: f64,
-    published: f64,
-) -> Result<[String; 5], CaseError> {
+fn plane(ledger: &mut Ledger, slave: usize, master: usize, factor: f64) -> Result<[String; 5], CaseError> {
     let eps = factor * YOUNG * slave as f64;
     let exact = DOWN / (2.0 * (1.0 - POISSON * POISSON) / YOUNG + eps.recip());
     let simulate = |measure, sliding| simulate(&base(slave, master, measure, sliding, eps)?, exact);
@@ -174,10 +167,10 @@ fn plane(
         .claim(format!("bulk stress error of node-to-point, {what}"))
         .unit("%")
         .value(100.0 * error)
-        .equals(published)
-        .absolute(0.5)
-        .evidence(Evidence::OtherCode, "one-pass node-to-segment penalty in Python, printed to two digits")
-        .because("the same discrete problem; the reference is printed to two digits")
+        .at_least(5.0)
+        .evidence(Evidence::Exact, "the stress is uniform; one-pass node-to-segment contact is known not to pass")
+        .because("a pressure that acts at slave nodes only does not load the master with the integrals of its shape functions")
+        .why_not_tighter("the claim is that the failure is far above rounding on every mesh; its size is in the table")
         .covers(&[Capability::PenaltyContact2d])
         .cost(&fails.cost)
         .record();
