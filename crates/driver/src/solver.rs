@@ -4,7 +4,7 @@
 use crate::loading::Stage;
 use crate::model::{CellBlock, Model};
 use crate::plan::{Path, PlanError, PlannedInterface, Stepping, interface_nodes};
-use crate::scene::model::{Method as Asked, Scene, Spanned};
+use crate::scene::model::{Measure, Method as Asked, Scene, Sliding, Spanned};
 use asperity_fem::assembly::{Analysis, Lower, Symmetry};
 use asperity_fem::condense;
 use asperity_fem::dof::{Constraints, Equations};
@@ -63,7 +63,8 @@ pub enum Prepared {
 }
 
 /// What is known of the tangents in a stage. This is the one place where it is decided: bodies say whether their tangent is
-/// symmetric, and contact without a law is; friction couples shear traction to normal traction in one direction only.
+/// symmetric, and contact without a law is; friction couples shear traction to normal traction in one direction only. Mortar
+/// contact that follows the motion is not: its forces are the averages of the pressure, not the gradient of an energy of gaps.
 #[must_use]
 pub fn symmetry<const D: usize>(
     model: &Model<D>,
@@ -78,13 +79,18 @@ pub fn symmetry<const D: usize>(
         CellBlock::Nonlinear(b) => b.model().symmetric_tangent(),
     };
     let friction = |i: &PlannedInterface| i.law.is_some() && !stage.frictionless.contains(&i.name);
-    if !model.blocks.iter().all(of_block) || interfaces.iter().any(friction) {
+    if !model.blocks.iter().all(of_block) || interfaces.iter().any(|i| friction(i) || moving_mortar(i)) {
         Symmetry::General
     } else if interfaces.is_empty() && model.is_linear() {
         Symmetry::Positive
     } else {
         Symmetry::Symmetric
     }
+}
+
+/// Mortar contact over an overlap that follows the motion.
+fn moving_mortar(i: &PlannedInterface) -> bool {
+    i.measure == Measure::Mortar && i.sliding == Sliding::Finite
 }
 
 /// Degrees of freedom of the interfaces that each body keeps when it is condensed, in mesh numbering.
@@ -244,6 +250,8 @@ impl<const D: usize> Choice<'_, D> {
         if let Some(stage) = self.unsymmetric() {
             let reason = if self.interfaces.iter().any(|i| i.law.is_some()) {
                 format!("friction in stage `{}` makes its matrix unsymmetric", stage.name)
+            } else if self.interfaces.iter().any(moving_mortar) {
+                "a mortar interface with finite sliding makes its matrix unsymmetric".into()
             } else {
                 "large deformation makes its matrix unsymmetric".into()
             };
