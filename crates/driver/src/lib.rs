@@ -5,6 +5,7 @@
 
 pub mod cli;
 mod free;
+pub mod fault;
 pub mod laws;
 pub mod loading;
 pub mod model;

@@ -252,6 +252,12 @@ impl Condensed {
         &self.reduction
     }
 
+    /// Amplitude and retained part h_c of each channel: the forces on the retained degrees of freedom, beside `S u`, are
+    /// `Σ_c α_c(t) h_c`.
+    pub fn channels(&self) -> impl Iterator<Item = (&Table, &[f64])> {
+        self.loads.iter().map(|load| (&load.amplitude, load.retained.as_slice()))
+    }
+
     /// Displacements of the whole body at `time` for the system displacement `u`.
     #[must_use]
     pub fn recover(&self, u: &[f64], time: f64) -> Vec<f64> {

@@ -10,6 +10,7 @@ pub mod dof;
 pub mod element;
 pub mod error;
 pub mod iterative;
+pub mod jump;
 pub mod kinematics;
 pub mod loads;
 pub mod material;

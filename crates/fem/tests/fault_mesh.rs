@@ -291,6 +291,37 @@ fn sizes_grow_by_no_more_than_the_ratios() {
 }
 
 #[test]
+fn sizes_follow_a_table() {
+    let table = vec![[0.0, 0.5], [10.0, 0.5], [20.0, 2.0], [30.0, 1.0]];
+    let spacing = Spacing::Graded(table);
+    let input = FaultMesh { spacing, ..input(trace([0.0, -30.0], &[(15.0, 90.0), (25.0, 90.0)])) };
+    let made = input.mesh().unwrap();
+    check(&input, &made);
+    let wanted = |z: f64| match z {
+        z if z < 10.0 => 0.5,
+        z if z < 20.0 => 0.5 + 0.15 * (z - 10.0),
+        z if z < 30.0 => 2.0 - 0.1 * (z - 20.0),
+        _ => 1.0,
+    };
+    let along: Vec<f64> = made.along.clone();
+    // With linear sizes the cell at z has, to first order in the slope, the size of its middle; a whole number of cells from
+    // bend to bend makes all smaller by one part in their number at most (22 up to the bend).
+    for w in along.windows(2) {
+        let (size, middle) = (w[1] - w[0], 0.5 * (w[0] + w[1]));
+        assert!(size <= wanted(middle) * 1.01 && size >= wanted(middle) * 0.93, "{middle}: {size}");
+    }
+    assert!(along.iter().any(|z| (z - 15.0).abs() < 1e-12), "the bend is a node");
+    assert_eq!(along.iter().filter(|&&z| z <= 10.0).count(), 21);
+    let refused = |table: Vec<[f64; 2]>| {
+        FaultMesh { spacing: Spacing::Graded(table), ..input.clone() }.mesh().unwrap_err().to_string()
+    };
+    assert!(refused(vec![]).contains("at least one"));
+    assert!(refused(vec![[1.0, 1.0], [1.0, 2.0]]).contains("ascend"));
+    assert!(refused(vec![[0.0, 1.0], [f64::NAN, 2.0]]).contains("ascend"));
+    assert!(refused(vec![[0.0, 0.0]]).contains("positive"));
+}
+
+#[test]
 fn the_first_cells_across_have_the_thickness_asked_for() {
     for dip in [90.0, 45.0] {
         let input = FaultMesh { thickness: Some(0.3), ..input(trace([0.0, -50.0], &[(30.0, dip)])) };

@@ -7,6 +7,7 @@
 pub mod component;
 pub mod coulomb;
 pub mod evolution;
+pub mod fault;
 pub mod law;
 mod line;
 pub mod point;

@@ -154,8 +154,9 @@ fn quadrilateral(name: &str, spec: &scene::QuadrilateralMesh) -> Result<Mesh<2>,
 /// A box around a fault. Lengths along the fault count from the first vertex of its trace.
 fn fault(name: &str, spec: &scene::FaultMesh) -> Result<Mesh<2>, PlanError> {
     let point = |x: &[Length; 2]| x.map(|c| c.0);
-    let spacing = match *spec.spacing.get_ref() {
+    let spacing = match spec.spacing.get_ref() {
         scene::SpacingSpec::Constant(size) => Spacing::Constant(size.0),
+        scene::SpacingSpec::Graded(table) => Spacing::Graded(table.iter().map(point).collect()),
         scene::SpacingSpec::Zone(zone) => {
             Spacing::Zone { from: zone.from.0, to: zone.to.0, size: zone.size.0, ratio: zone.ratio }
         }

@@ -124,11 +124,12 @@ impl Checker<'_> {
         if let Some(thickness) = fault.thickness.as_ref().filter(|t| t.get_ref().0 <= 0.0) {
             self.error(thickness.span(), "`thickness` must be positive", "such as `thickness = \"25 m\"`");
         }
-        let size = match fault.spacing.get_ref() {
-            SpacingSpec::Constant(size) => size.0,
-            SpacingSpec::Zone(zone) => zone.size.0,
+        let sizes = match fault.spacing.get_ref() {
+            SpacingSpec::Constant(size) => vec![size.0],
+            SpacingSpec::Zone(zone) => vec![zone.size.0],
+            SpacingSpec::Graded(table) => table.iter().map(|[_, size]| size.0).collect(),
         };
-        if !positive(size) {
+        if !sizes.into_iter().all(positive) {
             self.error(
                 fault.spacing.span(),
                 "the size of cells along the fault must be positive",

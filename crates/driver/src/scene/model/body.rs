@@ -3,7 +3,10 @@
 use crate::scene::units::{Density, Length, Pressure, Viscosity};
 use asperity_fem::kinematics::Idealisation;
 use serde::Deserialize;
-use serde::de::{self, Deserializer, MapAccess, Visitor, value::MapAccessDeserializer};
+use serde::de::{
+    self, Deserializer, MapAccess, SeqAccess, Visitor,
+    value::{MapAccessDeserializer, SeqAccessDeserializer},
+};
 use serde_spanned::Spanned;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -283,12 +286,14 @@ pub struct FaultMesh {
 }
 
 /// Sizes along a fault.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum SpacingSpec {
     /// One size \[m\].
     Constant(Length),
     /// One size within a zone, growing beyond.
     Zone(Zone),
+    /// Sizes at distances along the fault \[m\].
+    Graded(Vec<[Length; 2]>),
 }
 
 /// A zone of constant size along a fault.
@@ -312,7 +317,7 @@ impl<'de> Deserialize<'de> for SpacingSpec {
             type Value = SpacingSpec;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a length such as \"25 m\", or { size = .., from = .., to = .., ratio = .. }")
+                f.write_str("a length such as \"25 m\", { size = .., from = .., to = .., ratio = .. }, or pairs [distance, size]")
             }
 
             fn visit_f64<E: de::Error>(self, value: f64) -> Result<SpacingSpec, E> {
@@ -329,6 +334,10 @@ impl<'de> Deserialize<'de> for SpacingSpec {
 
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<SpacingSpec, A::Error> {
                 Zone::deserialize(MapAccessDeserializer::new(map)).map(SpacingSpec::Zone)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<SpacingSpec, A::Error> {
+                Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(SpacingSpec::Graded)
             }
         }
         deserializer.deserialize_any(SpacingVisitor)

@@ -25,7 +25,7 @@ use spine::Spine;
 pub const MOST_CELLS: usize = 10_000_000;
 
 /// Sizes of cells along the fault.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Spacing {
     /// One size \[m\]; on each segment the nearest one that divides it, at most 5 % off.
     Constant(f64),
@@ -40,6 +40,9 @@ pub enum Spacing {
         /// Largest ratio of neighbouring sizes beyond, at least 1 \[-\].
         ratio: f64,
     },
+    /// Sizes at distances along the fault from its first vertex, both \[m\] and the distances ascending: linear between, constant
+    /// beyond. Cells are at most so large.
+    Graded(Vec<[f64; 2]>),
 }
 
 /// A body with one fault.
@@ -84,7 +87,7 @@ impl FaultMesh {
         let trace = check::trace(self)?;
         // From the highest vertex down; distances along stay those of the given direction.
         let downwards = trace[0][1] > trace[trace.len() - 1][1];
-        let mut along = spacing::along(&check::distances(&trace), self.spacing)?;
+        let mut along = spacing::along(&check::distances(&trace), &self.spacing)?;
         let mut places = check::places(&trace, &along);
         let mut vertices = trace.clone();
         if !downwards {

@@ -58,11 +58,12 @@ pub(super) fn geometric(
 
 /// Distances along the fault of its nodes; the fixed points are among them. `vertices`: distances of the vertices, ascending
 /// from 0 to the length.
-pub(super) fn along(vertices: &[f64], spacing: Spacing) -> Result<Vec<f64>, FaultMeshError> {
+pub(super) fn along(vertices: &[f64], spacing: &Spacing) -> Result<Vec<f64>, FaultMeshError> {
     let length = vertices[vertices.len() - 1];
     match spacing {
-        Spacing::Constant(size) => uniform(vertices, size),
-        Spacing::Zone { from, to, size, ratio } => {
+        &Spacing::Constant(size) => uniform(vertices, size),
+        Spacing::Graded(table) => graded(vertices, table),
+        &Spacing::Zone { from, to, size, ratio } => {
             if !(0.0 <= from && from < to && to <= length) {
                 return Err(FaultMeshError::Zone { from, to, length });
             }
@@ -104,6 +105,77 @@ fn uniform(fixed: &[f64], size: f64) -> Result<Vec<f64>, FaultMeshError> {
         at.push(to);
     }
     Ok(at)
+}
+
+/// Cells whose sizes follow a table of (distance, size), linear between its entries: equal shares of `n(z) = ∫ dz/size`.
+fn graded(fixed: &[f64], table: &[[f64; 2]]) -> Result<Vec<f64>, FaultMeshError> {
+    let mut at = vec![fixed[0]];
+    for w in fixed.windows(2) {
+        let (from, to) = (w[0], w[1]);
+        // Pieces of the table between the fixed points: begin, size there, end, size there.
+        let inner = table.iter().map(|e| e[0]).filter(|&z| from < z && z < to);
+        let ends: Vec<f64> = [from].into_iter().chain(inner).chain([to]).collect();
+        let pieces: Vec<Piece> = ends
+            .windows(2)
+            .map(|e| Piece { from: e[0], to: e[1], sizes: [size_at(table, e[0]), size_at(table, e[1])] })
+            .collect();
+        let total: f64 = pieces.iter().map(Piece::cells).sum();
+        // Rounding of a whole number of cells must not cost one more.
+        let n = (total * (1.0 - f64::EPSILON.sqrt())).ceil().max(1.0);
+        if n > MOST_CELLS as f64 {
+            return Err(FaultMeshError::TooMany { most: MOST_CELLS });
+        }
+        let (mut piece, mut before) = (0, 0.0);
+        for k in 1..n as usize {
+            let wanted = total * (k as f64 / n);
+            while piece + 1 < pieces.len() && before + pieces[piece].cells() < wanted {
+                before += pieces[piece].cells();
+                piece += 1;
+            }
+            at.push(pieces[piece].after(wanted - before));
+        }
+        at.push(to);
+    }
+    Ok(at)
+}
+
+/// A piece of a fault along which the size of cells is linear.
+struct Piece {
+    from: f64,
+    to: f64,
+    sizes: [f64; 2],
+}
+
+impl Piece {
+    /// d(size)/dz.
+    fn slope(&self) -> f64 {
+        (self.sizes[1] - self.sizes[0]) / (self.to - self.from)
+    }
+
+    /// `∫ dz/size` over the piece: with slope k `ln(1 + k L/size_0)/k`, written so that it is stable for small k.
+    fn cells(&self) -> f64 {
+        let x = self.sizes[1] / self.sizes[0] - 1.0;
+        (self.to - self.from) / self.sizes[0] * if x == 0.0 { 1.0 } else { x.ln_1p() / x }
+    }
+
+    /// Distance at which the integral is `cells`.
+    fn after(&self, cells: f64) -> f64 {
+        let y = self.slope() * cells;
+        self.from + self.sizes[0] * cells * if y == 0.0 { 1.0 } else { y.exp_m1() / y }
+    }
+}
+
+/// Size at a distance: linear between entries, constant beyond.
+fn size_at(table: &[[f64; 2]], z: f64) -> f64 {
+    let k = table.partition_point(|e| e[0] <= z);
+    if k == 0 {
+        return table[0][1];
+    }
+    if k == table.len() {
+        return table[k - 1][1];
+    }
+    let s = (z - table[k - 1][0]) / (table[k][0] - table[k - 1][0]);
+    (1.0 - s) * table[k - 1][1] + s * table[k][1]
 }
 
 /// Distances from the zone, growing from fixed point to fixed point.

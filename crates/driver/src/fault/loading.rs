@@ -1,0 +1,51 @@
+//! Tractions that boundaries, creeping parts of the fault and other loads cause.
+
+use asperity_fem::table::Table;
+
+/// One load: an amplitude over time and the tractions at unit amplitude.
+#[derive(Clone, Debug, PartialEq)]
+struct Part {
+    amplitude: Table,
+    /// \[Pa\].
+    shear: Vec<f64>,
+    /// Compression positive \[Pa\]; empty where normal tractions do not change.
+    normal: Vec<f64>,
+}
+
+/// Loads of a fault; piecewise linear in time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Loading {
+    parts: Vec<Part>,
+}
+
+impl Loading {
+    /// Adds a load: shear and normal tractions of all points at unit amplitude \[Pa\]; `normal` is empty where normal tractions do
+    /// not change.
+    pub fn add(&mut self, amplitude: Table, shear: Vec<f64>, normal: Vec<f64>) {
+        self.parts.push(Part { amplitude, shear, normal });
+    }
+
+    /// Times in (after, until) at which the rate of a load changes, ascending \[s\].
+    #[must_use]
+    pub fn breaks(&self, after: f64, until: f64) -> Vec<f64> {
+        let mut times: Vec<f64> =
+            self.parts.iter().flat_map(|p| p.amplitude.times().iter().copied()).collect();
+        times.retain(|&t| t > after && t < until);
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
+    /// Rates of shear and normal tractions between two breaks, `within` which lies a time \[s\]; the second is empty where normal
+    /// tractions do not change.
+    #[must_use]
+    pub fn rates(&self, within: f64, points: usize, couples_normal: bool) -> (Vec<f64>, Vec<f64>) {
+        let (mut shear, mut normal) = (vec![0.0; points], vec![0.0; if couples_normal { points } else { 0 }]);
+        for part in &self.parts {
+            let slope = part.amplitude.slope(within);
+            shear.iter_mut().zip(&part.shear).for_each(|(sum, t)| *sum += slope * t);
+            normal.iter_mut().zip(&part.normal).for_each(|(sum, t)| *sum += slope * t);
+        }
+        (shear, normal)
+    }
+}

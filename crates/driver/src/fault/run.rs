@@ -1,0 +1,266 @@
+//! Integration of a fault from change to change of its loading.
+
+use super::catalogue::{Catalogue, Thresholds};
+use super::equations::{Equations, Fault, Layout};
+use super::loading::Loading;
+use crate::ode::{self, Clock, Control, Counts, Finished, Method, Occurrence, Options, Outcome, Sink, Step};
+
+/// How to integrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Explicit method.
+    pub method: Method,
+    /// Error of ln V allowed in a step.
+    pub tolerance: f64,
+    /// When to end \[s\].
+    pub end: f64,
+    /// Events.
+    pub thresholds: Thresholds,
+    /// Events after which to end.
+    pub most_events: Option<usize>,
+    /// Accepted steps after which to give up.
+    pub most_steps: usize,
+}
+
+/// A fault at the end of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment<'a> {
+    /// When.
+    pub at: Clock,
+    /// Length of the step \[s\]; 0 at the start.
+    pub dt: f64,
+    /// Unknowns.
+    pub unknowns: &'a [f64],
+    /// Where they stand.
+    pub layout: Layout,
+    /// Slip rates of all points \[m/s\].
+    pub rate: &'a [f64],
+    /// Largest slip rate \[m/s\].
+    pub largest: f64,
+    /// Events until now.
+    pub catalogue: &'a Catalogue,
+}
+
+impl Moment<'_> {
+    /// Slip \[m\].
+    #[must_use]
+    pub fn slip(&self) -> &[f64] {
+        &self.unknowns[self.layout.slip()]
+    }
+
+    /// States, point-major.
+    #[must_use]
+    pub fn states(&self) -> &[f64] {
+        &self.unknowns[self.layout.states()]
+    }
+}
+
+/// Watches a run.
+pub trait Watcher {
+    /// At the start and after each step.
+    fn now(&mut self, moment: &Moment<'_>) -> Control;
+}
+
+impl<F: FnMut(&Moment<'_>) -> Control> Watcher for F {
+    fn now(&mut self, moment: &Moment<'_>) -> Control {
+        self(moment)
+    }
+}
+
+/// What a run found.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// When.
+    pub at: Clock,
+    /// Unknowns then.
+    pub unknowns: Vec<f64>,
+    /// Events.
+    pub catalogue: Catalogue,
+    /// Work.
+    pub counts: Counts,
+}
+
+/// Rounding of m, of states and of f_n over their size, beside the tolerance.
+const ROUNDING: f64 = 1e-15;
+
+/// Integrates `fault` from `unknowns` at time 0. An integration that fails is no error: the outcome says so.
+pub fn run(
+    fault: &Fault,
+    loading: &Loading,
+    unknowns: Vec<f64>,
+    settings: &Settings,
+    watcher: &mut dyn Watcher,
+) -> Run {
+    let mut run = Run {
+        outcome: Outcome::Completed,
+        at: Clock::new(0.0, 0.0),
+        unknowns,
+        catalogue: Catalogue::new(settings.thresholds),
+        counts: Counts::default(),
+    };
+    let mut breaks = loading.breaks(0.0, settings.end);
+    breaks.push(settings.end);
+    for end in breaks {
+        let within = 0.5 * (run.at.seconds() + end);
+        let (shear, normal) = loading.rates(within, fault.law.points(), fault.operator.couples_normal());
+        let equations = Equations::new(fault, shear, normal);
+        leg(&equations, fault, end, settings, watcher, &mut run);
+        if run.outcome != Outcome::Completed {
+            break;
+        }
+    }
+    run
+}
+
+/// Integrates between two changes of the loading.
+fn leg(
+    equations: &Equations<'_>,
+    fault: &Fault,
+    end: f64,
+    settings: &Settings,
+    watcher: &mut dyn Watcher,
+    run: &mut Run,
+) {
+    let options = Options {
+        method: settings.method,
+        rtol: ROUNDING,
+        atol: equations.tolerances(settings.tolerance),
+        first_step: None,
+        largest_step: None,
+        most_steps: settings.most_steps,
+    };
+    let n = fault.law.points();
+    let mut follow = Follow {
+        equations,
+        fault,
+        watcher,
+        catalogue: &mut run.catalogue,
+        most_events: settings.most_events,
+        rate: vec![0.0; n],
+        shear: vec![0.0; n],
+        between: run.unknowns.clone(),
+        largest: 0.0,
+    };
+    if follow.begin(run.at, &run.unknowns) == Control::Stop {
+        run.outcome = Outcome::Stopped;
+        return;
+    }
+    let duration = Clock::new(end, 0.0).since(&run.at);
+    let Finished { outcome, at, state, counts } =
+        ode::integrate(equations, run.at, &run.unknowns, duration, &options, &mut follow);
+    (run.outcome, run.at, run.unknowns) = (outcome, at, state);
+    run.counts.steps += counts.steps;
+    run.counts.rejected += counts.rejected;
+    run.counts.rates += counts.rates;
+}
+
+/// Follows the largest slip rate through the steps.
+struct Follow<'a> {
+    equations: &'a Equations<'a>,
+    fault: &'a Fault,
+    watcher: &'a mut dyn Watcher,
+    catalogue: &'a mut Catalogue,
+    most_events: Option<usize>,
+    rate: Vec<f64>,
+    shear: Vec<f64>,
+    /// Unknowns within a step.
+    between: Vec<f64>,
+    /// Largest slip rate at the end of the last step \[m/s\].
+    largest: f64,
+}
+
+/// Halvings of a step in search of the time a slip rate is passed: below the rounding of times.
+const MOST_HALVINGS: usize = 60;
+
+impl Follow<'_> {
+    fn begin(&mut self, at: Clock, y: &[f64]) -> Control {
+        self.equations.slip_rates(y, &mut self.rate);
+        self.largest = fastest(&self.rate).1;
+        self.tell(at, 0.0, y)
+    }
+
+    fn tell(&mut self, at: Clock, dt: f64, unknowns: &[f64]) -> Control {
+        let layout = self.equations.layout();
+        let (rate, catalogue) = (self.rate.as_slice(), &*self.catalogue);
+        self.watcher.now(&Moment { at, dt, unknowns, layout, rate, largest: self.largest, catalogue })
+    }
+
+    /// Notes the passing of a threshold within the step, at the time the fastest point has it: by halving, since the fastest
+    /// point changes.
+    fn pass(&mut self, step: &Step<'_>, threshold: f64, upwards: bool) {
+        let (mut before, mut after) = (0.0, 1.0);
+        for _ in 0..MOST_HALVINGS {
+            let middle = 0.5 * (before + after);
+            if middle <= before || middle >= after {
+                break;
+            }
+            step.at(middle, &mut self.between);
+            self.equations.slip_rates(&self.between, &mut self.rate);
+            if (fastest(&self.rate).1 >= threshold) == upwards {
+                after = middle;
+            } else {
+                before = middle;
+            }
+        }
+        step.at(after, &mut self.between);
+        self.equations.slip_rates(&self.between, &mut self.rate);
+        let at = step.start.later(after * step.length());
+        let layout = self.equations.layout();
+        for (p, shear) in self.shear.iter_mut().enumerate() {
+            let normal = if layout.normal().is_empty() {
+                self.fault.normal[p]
+            } else {
+                self.between[layout.normal().start + p]
+            };
+            *shear = normal * self.fault.law.scale(p) * self.between[p];
+        }
+        self.catalogue.pass(at, fastest(&self.rate).0, &self.between[layout.slip()], &self.shear);
+    }
+}
+
+/// The fastest point and its slip rate \[m/s\].
+fn fastest(rate: &[f64]) -> (usize, f64) {
+    let mut best = (0, 0.0);
+    for (k, v) in rate.iter().enumerate() {
+        if v.abs() > best.1 {
+            best = (k, v.abs());
+        }
+    }
+    best
+}
+
+impl Sink for Follow<'_> {
+    fn accepted(&mut self, step: &Step<'_>) -> Control {
+        let layout = self.equations.layout();
+        let rates = step.rates.map(|dy| &dy[layout.slip()]);
+        let largest = match rates {
+            Some(rates) => fastest(rates).1,
+            None => {
+                self.equations.slip_rates(step.state, &mut self.rate);
+                fastest(&self.rate).1
+            }
+        };
+        let (threshold, upwards) = self.catalogue.next();
+        self.catalogue.rate(largest);
+        if (largest >= threshold) == upwards {
+            self.pass(step, threshold, upwards);
+            self.catalogue.rate(largest);
+        }
+        match rates {
+            Some(rates) => self.rate.copy_from_slice(rates),
+            None => self.equations.slip_rates(step.state, &mut self.rate),
+        }
+        self.largest = largest;
+        let control = self.tell(step.end, step.length(), step.state);
+        if self.most_events.is_some_and(|most| self.catalogue.events().len() >= most) {
+            return Control::Stop;
+        }
+        control
+    }
+
+    fn occurred(&mut self, _: &Occurrence) -> Control {
+        Control::Go
+    }
+}

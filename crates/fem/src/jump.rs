@@ -1,0 +1,212 @@
+//! The jump across a fault as a degree of freedom.
+//!
+//! Along a split surface each place has a node on the minus and one on the plus side. With `u⁺ = u⁻ + Σ_k s_k e_k`, e_k an
+//! orthonormal frame of the place, the displacement of the plus node gives way to its jump s: `u = T v`, and the stiffness of
+//! the body becomes `Tᵀ K T`, cell by cell, with the numbers of the plus node's degrees of freedom standing for the jump.
+//! No penalty is needed, and a jump that is fixed at zero joins the two sides again: where nothing opens, the opening is such
+//! a jump. The forces that belong to jumps are those that hold them, `f = ∂E/∂s`; the traction that drives slip is `-f` over the
+//! tributary area, and so is the compressive normal traction for the opening, whose axis points from minus to plus.
+
+use crate::condense::Stiffness;
+use crate::dof::Channel;
+use crate::term::Pattern;
+use std::collections::BTreeMap;
+
+/// Two nodes at one place, on both sides of a fault, with `C` components of displacement each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump<const C: usize> {
+    /// First of the `C` degrees of freedom of the node on the minus side.
+    pub minus: usize,
+    /// First of those of the node on the plus side, which become the components of the jump.
+    pub plus: usize,
+    /// Axes e_k of the jump, orthonormal: component c of axis k stands at `[k][c]`.
+    pub frame: [[f64; C]; C],
+}
+
+/// A prescribed displacement that jumps cannot express: it holds one component of the plus node in an oblique frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "degree of freedom {plus} on the plus side of a fault is prescribed, which neither all components on both sides nor an axis \
+     of the fault are"
+)]
+pub struct ObliqueConstraint {
+    /// The degree of freedom.
+    pub plus: usize,
+}
+
+/// The jumps of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Jumps<const C: usize> {
+    list: Vec<Jump<C>>,
+    /// Index of the jump by the first degree of freedom of its plus node.
+    by_plus: BTreeMap<usize, usize>,
+}
+
+impl<const C: usize> Jumps<C> {
+    /// The jumps at these places; a plus node belongs to one of them only.
+    #[must_use]
+    pub fn new(list: Vec<Jump<C>>) -> Self {
+        let by_plus: BTreeMap<usize, usize> = list.iter().enumerate().map(|(k, j)| (j.plus, k)).collect();
+        debug_assert!(by_plus.len() == list.len(), "a plus node appears twice");
+        Self { list, by_plus }
+    }
+
+    /// The jumps in the order given.
+    #[must_use]
+    pub fn list(&self) -> &[Jump<C>] {
+        &self.list
+    }
+
+    /// Jump and component of a degree of freedom of a plus node.
+    fn of(&self, dof: usize) -> Option<(&Jump<C>, usize)> {
+        let component = dof % C;
+        self.by_plus.get(&(dof - component)).map(|&k| (&self.list[k], component))
+    }
+
+    /// `Tᵀ K T` of a body whose degrees of freedom are node * `C` + component: cells at plus nodes also couple the minus nodes.
+    #[must_use]
+    pub fn stiffness(&self, body: &Stiffness) -> Stiffness {
+        let mut result = Stiffness {
+            pattern: Pattern { dofs: Vec::with_capacity(body.pattern.dofs.len()), starts: vec![0], version: 0 },
+            values: Vec::with_capacity(body.values.len()),
+            dofs: body.dofs,
+        };
+        let mut offset = 0;
+        for cell in body.pattern.blocks() {
+            let values = &body.values[offset..offset + cell.len() * cell.len()];
+            offset += values.len();
+            if cell.iter().any(|&d| self.of(d).is_some()) {
+                self.cell(cell, values, &mut result);
+            } else {
+                result.pattern.dofs.extend_from_slice(cell);
+                result.values.extend_from_slice(values);
+            }
+            result.pattern.starts.push(result.pattern.dofs.len());
+        }
+        result
+    }
+
+    /// One cell at the plus side: its degrees of freedom, those of the minus nodes that are not yet there, and `Tᵀ K T`.
+    fn cell(&self, cell: &[usize], values: &[f64], out: &mut Stiffness) {
+        let mut dofs = cell.to_vec();
+        for &dof in cell {
+            if let Some((jump, component)) = self.of(dof)
+                && !dofs.contains(&(jump.minus + component))
+            {
+                dofs.push(jump.minus + component);
+            }
+        }
+        let place = |dof: usize| dofs.iter().position(|&d| d == dof);
+        // Row i of T, as (column, value).
+        let rows: Vec<Vec<(usize, f64)>> = cell
+            .iter()
+            .map(|&dof| {
+                let row = self.row(dof);
+                row.into_iter().filter_map(|(d, v)| place(d).map(|p| (p, v))).collect()
+            })
+            .collect();
+        let (n, m) = (cell.len(), dofs.len());
+        let mut k = vec![0.0; m * m];
+        for i in 0..n {
+            for j in 0..n {
+                for &(p, a) in &rows[i] {
+                    for &(q, b) in &rows[j] {
+                        k[p * m + q] += a * b * values[i * n + j];
+                    }
+                }
+            }
+        }
+        out.pattern.dofs.extend_from_slice(&dofs);
+        out.values.extend_from_slice(&k);
+    }
+
+    /// Displacement `dof` in terms of the transformed unknowns.
+    fn row(&self, dof: usize) -> Vec<(usize, f64)> {
+        match self.of(dof) {
+            None => vec![(dof, 1.0)],
+            Some((jump, c)) => std::iter::once((jump.minus + c, 1.0))
+                .chain((0..C).map(|k| (jump.plus + k, jump.frame[k][c])))
+                .collect(),
+        }
+    }
+
+    /// A channel in the transformed unknowns: `Tᵀ f`, and prescribed displacements of plus nodes as prescribed jumps.
+    ///
+    /// # Errors
+    /// [`ObliqueConstraint`] where a plus node is held in some components only and its frame is oblique to them, or where its
+    /// minus node is not held alike.
+    pub fn channel(&self, channel: &Channel, fixed: &[usize]) -> Result<Channel, ObliqueConstraint> {
+        let mut forces: BTreeMap<usize, f64> = BTreeMap::new();
+        for &(dof, force) in &channel.forces {
+            for (d, v) in self.row(dof) {
+                *forces.entry(d).or_default() += v * force;
+            }
+        }
+        let mut prescribed: BTreeMap<usize, f64> = BTreeMap::new();
+        for &(dof, value) in &channel.prescribed {
+            match self.of(dof) {
+                None => *prescribed.entry(dof).or_default() += value,
+                Some((jump, c)) => {
+                    for k in self.held(jump, c, fixed)? {
+                        *prescribed.entry(jump.plus + k).or_default() += jump.frame[k][c] * value;
+                    }
+                }
+            }
+            // The jump is the difference to the minus node.
+            for jump in self.list.iter().filter(|j| (j.minus..j.minus + C).contains(&dof)) {
+                let c = dof - jump.minus;
+                if fixed.binary_search(&(jump.plus + c)).is_ok() {
+                    for k in self.held(jump, c, fixed)? {
+                        *prescribed.entry(jump.plus + k).or_default() -= jump.frame[k][c] * value;
+                    }
+                }
+            }
+        }
+        Ok(Channel {
+            prescribed: prescribed.into_iter().collect(),
+            forces: forces.into_iter().filter(|(_, f)| *f != 0.0).collect(),
+            amplitude: channel.amplitude.clone(),
+        })
+    }
+
+    /// Prescribed degrees of freedom in the transformed unknowns, sorted.
+    ///
+    /// # Errors
+    /// [`ObliqueConstraint`].
+    pub fn fixed(&self, fixed: &[usize]) -> Result<Vec<usize>, ObliqueConstraint> {
+        let mut result = Vec::with_capacity(fixed.len());
+        for &dof in fixed {
+            match self.of(dof) {
+                None => result.push(dof),
+                Some((jump, c)) => result.extend(self.held(jump, c, fixed)?.into_iter().map(|k| jump.plus + k)),
+            }
+        }
+        result.sort_unstable();
+        result.dedup();
+        Ok(result)
+    }
+
+    /// Components of a jump that are held where component `c` of its plus node is.
+    fn held(&self, jump: &Jump<C>, c: usize, fixed: &[usize]) -> Result<Vec<usize>, ObliqueConstraint> {
+        let both = |c: usize| {
+            fixed.binary_search(&(jump.plus + c)).is_ok() && fixed.binary_search(&(jump.minus + c)).is_ok()
+        };
+        let oblique = ObliqueConstraint { plus: jump.plus + c };
+        if (0..C).all(both) {
+            return Ok((0..C).filter(|&k| jump.frame[k][c] != 0.0).collect());
+        }
+        let along = (0..C).find(|&k| jump.frame[k][c].abs() == 1.0);
+        along.filter(|_| both(c)).map(|k| vec![k]).ok_or(oblique)
+    }
+
+    /// Displacements of the body from the transformed unknowns, in place.
+    pub fn displacement(&self, unknowns: &mut [f64]) {
+        for jump in &self.list {
+            let s: [f64; C] = std::array::from_fn(|k| unknowns[jump.plus + k]);
+            for c in 0..C {
+                let slip: f64 = s.iter().zip(&jump.frame).map(|(s, e)| s * e[c]).sum();
+                unknowns[jump.plus + c] = unknowns[jump.minus + c] + slip;
+            }
+        }
+    }
+}
