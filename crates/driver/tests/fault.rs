@@ -1,7 +1,7 @@
 //! Faults with condensed bodies: the community's benchmark BP1 on a coarse mesh.
 #![allow(clippy::unwrap_used)]
 
-use asperity_driver::fault::{Dense, Fault, Layout, Loading, Moment, Settings, Thresholds, run};
+use asperity_driver::fault::{Dense, Event, Fault, Loading, Moment, Settings, Thresholds, run};
 use asperity_driver::ode::{Control, Method};
 use asperity_fem::block::LinearBlock;
 use asperity_fem::condense::{Condensed, Reduction, Stiffness};
@@ -39,15 +39,16 @@ struct Bp1 {
 
 fn bp1(size: f64, far: f64) -> Bp1 {
     let (length, b, f0) = (0.008, 0.015, 0.6);
-    let spacing = if let Ok(t) = std::env::var("TAB") { Spacing::Graded(t.split(';').map(|p| { let v: Vec<f64> = p.split(',').map(|x| x.parse().unwrap()).collect(); [v[0], v[1]] }).collect()) } else { Spacing::Graded(vec![
+    // Where a changes its slope the slip has a kink in its curvature: corners of cells lie there, by the vertices of the trace.
+    let spacing = Spacing::Graded(vec![
         [0.0, size],
-        [18.5 * KM, size],
-        [22.0 * KM, 600.0],
-        [39.0 * KM, 600.0],
+        [18.0 * KM, size],
+        [22.9 * KM, 600.0],
+        [38.0 * KM, 600.0],
         [40.0 * KM, size],
         [60.0 * KM, 3.0 * KM],
         [far, 0.2 * far],
-    ]) };
+    ]);
     let made = FaultMesh {
         trace: vec![[0.0, 0.0], [0.0, -15.0 * KM], [0.0, -18.0 * KM], [0.0, -40.0 * KM], [0.0, -far]],
         spacing,
@@ -74,8 +75,7 @@ fn bp1(size: f64, far: f64) -> Bp1 {
     let body = jumps.stiffness(&split);
     let depth = |k: usize| -made.mesh.nodes[pairs[k].minus][1];
     let sliding: Vec<usize> = (0..pairs.len()).filter(|&k| depth(k) < 40.0 * KM - 1e-3).collect();
-    let sides =
-        |name: &str| asperity_fem::mesh::nodes_of_sides(&made.mesh, &made.mesh.side_sets[name]);
+    let sides = |name: &str| asperity_fem::mesh::nodes_of_sides(&made.mesh, &made.mesh.side_sets[name]);
     let creeping: Vec<(usize, f64)> =
         (0..pairs.len()).filter(|k| !sliding.contains(k)).map(|k| (pairs[k].plus, 1.0)).collect();
     let mut prescribed: Vec<(usize, f64)> = creeping;
@@ -117,8 +117,8 @@ fn bp1(size: f64, far: f64) -> Bp1 {
         let a = law.scale(p);
         start[p] = tau / (a * NORMAL);
         // μ = a m at the plate's rate gives the state.
-        let theta = length / V0
-            * ((a / b) * (2.0 * V0 / PLATE * (tau / (a * NORMAL)).sinh()).ln() - f0 / b).exp();
+        let theta =
+            length / V0 * ((a / b) * (2.0 * V0 / PLATE * (tau / (a * NORMAL)).sinh()).ln() - f0 / b).exp();
         start[n + p] = (V0 * theta / length).ln();
     }
     let fault = Fault {
@@ -130,27 +130,41 @@ fn bp1(size: f64, far: f64) -> Bp1 {
     Bp1 { fault, loading, start }
 }
 
+/// Onsets of the first events \[yr\], the first event, and the steps taken.
+fn first_events(size: f64, method: Method, tolerance: f64, events: usize) -> (Vec<f64>, Event, u64) {
+    let problem = bp1(size, 2000.0 * KM);
+    let settings = Settings {
+        method,
+        tolerance,
+        end: 3000.0 * YEAR,
+        thresholds: Thresholds { on: 1e-3, off: 5e-4 },
+        most_events: Some(events),
+        most_steps: 1_000_000,
+    };
+    let mut go = |_: &Moment<'_>| Control::Go;
+    let out = run(&problem.fault, &problem.loading, problem.start.clone(), &settings, &mut go);
+    let onsets = out.catalogue.events().iter().map(|e| e.onset.seconds() / YEAR).collect();
+    (onsets, out.catalogue.events()[0].clone(), out.counts.steps)
+}
+
 #[test]
-fn the_first_events_of_bp1_come_when_converged_codes_say() {
-    for (method, tolerance, size) in if std::env::var("TAB").is_ok() { vec![(Method::Tsit5, 1e-4, 156.25)] } else { vec![(Method::Tsit5, 1e-4, 156.25), (Method::Tsit5, 1e-5, 156.25), (Method::Dop853, 1e-4, 156.25), (Method::Tsit5, 1e-5, 78.125)] } {
-        let clock = std::time::Instant::now();
-        let problem = bp1(size, 2000.0 * KM);
-        let setup = clock.elapsed().as_secs_f64();
-        let settings = Settings {
-            method,
-            tolerance,
-            end: 3000.0 * YEAR,
-            thresholds: Thresholds { on: 1e-3, off: 5e-4 },
-            most_events: Some(1),
-            most_steps: 1_000_000,
-        };
-        let clock = std::time::Instant::now();
-        let out = run(&problem.fault, &problem.loading, problem.start.clone(), &settings, &mut |_: &Moment<'_>| Control::Go);
-        let onset: Vec<f64> = out.catalogue.events().iter().map(|e| e.onset.seconds() / YEAR).collect();
-        let peak: Vec<f64> = out.catalogue.events().iter().map(|e| e.peak).collect();
-        println!("{method:?} {tolerance:e} {size} n {} setup {setup:.2} {:?} {onset:?} {peak:?} {:?} wall {:.2}", problem.fault.law.points(), out.outcome, out.counts, clock.elapsed().as_secs_f64());
-        let first = out.catalogue.events().first().unwrap();
-        let layout = Layout::of(&problem.fault);
-        println!("duration {} slip {:?} {:?}", first.end.since(&first.onset), &first.slip.iter().copied().fold(0.0, f64::max), layout.size());
-    }
+fn the_first_event_of_bp1_comes_when_converged_codes_say() {
+    let (onsets, event, _) = first_events(156.25, Method::Tsit5, 1e-4, 1);
+    // Boundary elements of 19.5 to 25 m, two codes: 196.36 to 196.37 yr. Cells of 156 m are 2.2 to the process zone; the bound is
+    // the error that boundary elements of 78 m, with as many unknowns, have (QDYN: 196.509 yr).
+    assert!((onsets[0] - 196.365).abs() < 0.15, "{onsets:?}");
+    // No place slips more than the plates have moved since the start, and the later events, with 78 yr between them, slip 2.45 m.
+    let slip = event.slip.iter().copied().fold(0.0, f64::max);
+    assert!(slip > 2.45 && slip < 197.0 * YEAR * PLATE, "{slip}");
+}
+
+#[test]
+fn onsets_converge_with_the_tolerance_and_agree_between_methods() {
+    let fine = first_events(312.5, Method::Dop853, 1e-7, 1).0[0];
+    let error = |method, tolerance| (first_events(312.5, method, tolerance, 1).0[0] - fine).abs();
+    let (coarse, medium) = (error(Method::Tsit5, 1e-3), error(Method::Tsit5, 1e-5));
+    // Errors of steps add up over thousands of steps of an event that forgets most of them: a hundred tolerances of a year.
+    assert!(medium < 1e-3, "{medium}");
+    assert!(coarse > medium, "{coarse} {medium}");
+    assert!(error(Method::Dop853, 1e-5) < 1e-3);
 }

@@ -43,15 +43,17 @@ pub struct Jumps<const C: usize> {
 }
 
 impl<const C: usize> Jumps<C> {
-    /// The jumps at these places; a plus node belongs to one of them only.
+    /// The jumps at these places; a plus node belongs to one of them only. Tips, where both sides are one node, have none and are
+    /// left out.
     #[must_use]
-    pub fn new(list: Vec<Jump<C>>) -> Self {
+    pub fn new(mut list: Vec<Jump<C>>) -> Self {
+        list.retain(|jump| jump.minus != jump.plus);
         let by_plus: BTreeMap<usize, usize> = list.iter().enumerate().map(|(k, j)| (j.plus, k)).collect();
         debug_assert!(by_plus.len() == list.len(), "a plus node appears twice");
         Self { list, by_plus }
     }
 
-    /// The jumps in the order given.
+    /// The jumps in the order given, without tips.
     #[must_use]
     pub fn list(&self) -> &[Jump<C>] {
         &self.list
@@ -67,7 +69,11 @@ impl<const C: usize> Jumps<C> {
     #[must_use]
     pub fn stiffness(&self, body: &Stiffness) -> Stiffness {
         let mut result = Stiffness {
-            pattern: Pattern { dofs: Vec::with_capacity(body.pattern.dofs.len()), starts: vec![0], version: 0 },
+            pattern: Pattern {
+                dofs: Vec::with_capacity(body.pattern.dofs.len()),
+                starts: vec![0],
+                version: 0,
+            },
             values: Vec::with_capacity(body.values.len()),
             dofs: body.dofs,
         };
@@ -178,7 +184,9 @@ impl<const C: usize> Jumps<C> {
         for &dof in fixed {
             match self.of(dof) {
                 None => result.push(dof),
-                Some((jump, c)) => result.extend(self.held(jump, c, fixed)?.into_iter().map(|k| jump.plus + k)),
+                Some((jump, c)) => {
+                    result.extend(self.held(jump, c, fixed)?.into_iter().map(|k| jump.plus + k))
+                }
             }
         }
         result.sort_unstable();

@@ -34,7 +34,15 @@ pub trait FaultLaw: Send + Sync + std::fmt::Debug {
     fn slip_rates(&self, first: usize, m: &[f64], states: &[f64], rate: &mut [f64]);
 
     /// Rates of change of m and of the states \[1/s\].
-    fn rates(&self, first: usize, drive: Drive<'_>, m: &[f64], states: &[f64], dm: &mut [f64], ds: &mut [f64]);
+    fn rates(
+        &self,
+        first: usize,
+        drive: Drive<'_>,
+        m: &[f64],
+        states: &[f64],
+        dm: &mut [f64],
+        ds: &mut [f64],
+    );
 
     /// a of a point \[-\]: μ = a m.
     fn scale(&self, point: usize) -> f64;
@@ -92,7 +100,15 @@ impl<L: Sliding> FaultLaw for Points<L> {
         }
     }
 
-    fn rates(&self, first: usize, drive: Drive<'_>, m: &[f64], states: &[f64], dm: &mut [f64], ds: &mut [f64]) {
+    fn rates(
+        &self,
+        first: usize,
+        drive: Drive<'_>,
+        m: &[f64],
+        states: &[f64],
+        dm: &mut [f64],
+        ds: &mut [f64],
+    ) {
         let n = self.states();
         let (mut y, mut dy) = ([0.0; MOST], [0.0; MOST]);
         for (k, (law, dm)) in self.laws[first..].iter().zip(dm).enumerate() {

@@ -84,7 +84,8 @@ impl Catalogue {
         match self.open.take() {
             None => {
                 let (slip, shear) = (slip.to_vec(), shear.to_vec());
-                self.open = Some(Open { onset: at, peak: self.thresholds.on, hypocentre: fastest, slip, shear });
+                self.open =
+                    Some(Open { onset: at, peak: self.thresholds.on, hypocentre: fastest, slip, shear });
             }
             Some(open) => self.events.push(Event {
                 onset: open.onset,

@@ -100,8 +100,11 @@ impl<'a> Equations<'a> {
     pub fn new(fault: &'a Fault, shear_load: Vec<f64>, normal_load: Vec<f64>) -> Self {
         let layout = Layout::of(fault);
         let n = layout.points;
-        let scratch =
-            Scratch { rate: vec![0.0; n], shear_rate: vec![0.0; n], normal_rate: vec![0.0; layout.normal().len()] };
+        let scratch = Scratch {
+            rate: vec![0.0; n],
+            shear_rate: vec![0.0; n],
+            normal_rate: vec![0.0; layout.normal().len()],
+        };
         Self { fault, layout, shear_load, normal_load, scratch: RefCell::new(scratch) }
     }
 

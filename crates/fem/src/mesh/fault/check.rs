@@ -57,8 +57,13 @@ fn values(input: &FaultMesh) -> Result<(), FaultMeshError> {
             if table.is_empty() {
                 return Err(FaultMeshError::Value { name: "spacing", value: 0.0, admissible: ascending });
             }
-            if let Some(w) = table.windows(2).find(|w| w[0][0].partial_cmp(&w[1][0]) != Some(Ordering::Less)) {
-                return Err(FaultMeshError::Value { name: "distance", value: w[1][0], admissible: ascending });
+            if let Some(w) = table.windows(2).find(|w| w[0][0].partial_cmp(&w[1][0]) != Some(Ordering::Less))
+            {
+                return Err(FaultMeshError::Value {
+                    name: "distance",
+                    value: w[1][0],
+                    admissible: ascending,
+                });
             }
         }
         &Spacing::Zone { size, ratio, .. } => {
