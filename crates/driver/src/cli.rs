@@ -2,6 +2,7 @@
 // The command line is where printing belongs.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+use crate::fault;
 use crate::observe::{FieldSchedule, Files, Multi, Observer, Progress, Recorder, plots};
 use crate::plan::{self, AnyPlan};
 use crate::report::{Outcome, RunReport};
@@ -60,6 +61,7 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
             match planned(scene)?.plan {
                 Planned::Bodies(plan) => print!("{}", plan.summary()),
                 Planned::Sliders(plan) => print!("{}", plan.summary()),
+                Planned::Faults(plan) => print!("{}", plan.summary()),
             }
             Ok(End::Done)
         }
@@ -69,6 +71,7 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
             match &ready.plan {
                 Planned::Bodies(plan) => run_bodies(plan, &ready, &out),
                 Planned::Sliders(plan) => run_sliders(plan, &ready, &out),
+                Planned::Faults(plan) => run_faults(plan, &ready, &out),
             }
         }
     }
@@ -80,6 +83,8 @@ enum Planned {
     Bodies(Box<AnyPlan>),
     /// Spring-sliders.
     Sliders(Box<slider::Plan>),
+    /// Faults through cycles.
+    Faults(Box<fault::Plan>),
 }
 
 /// A plan with where it came from.
@@ -108,8 +113,12 @@ fn planned(path: &Path) -> miette::Result<Ready> {
     } else {
         let folder = path.parent().unwrap_or(Path::new(""));
         let parsed = scene::read_in(&text, folder).map_err(|errors| told(&errors))?;
-        let plan = plan::plan(&parsed).map_err(|error| told(&scene::SceneErrors::from(error)))?;
-        Planned::Bodies(Box::new(plan))
+        let refused = |error| told(&scene::SceneErrors::from(error));
+        if parsed.faults.is_empty() {
+            Planned::Bodies(Box::new(plan::plan(&parsed).map_err(refused)?))
+        } else {
+            Planned::Faults(Box::new(fault::plan(&parsed).map_err(refused)?))
+        }
     };
     let hash = Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect();
     Ok(Ready { plan, hash, seconds: clock.elapsed().as_secs_f64() })
@@ -157,6 +166,25 @@ fn run_sliders(plan: &slider::Plan, ready: &Ready, out: &Path) -> miette::Result
     Ok(match report.outcome {
         slider::End::Stopped { reason } => End::Stopped(format!("at {:.6e} s: {reason}", report.end)),
         slider::End::Completed | slider::End::EnoughEvents => End::Done,
+    })
+}
+
+fn run_faults(plan: &fault::Plan, ready: &Ready, out: &Path) -> miette::Result<End> {
+    print!("{}", plan.summary());
+    let mut files = fault::Files::create(out, plan).into_diagnostic()?;
+    let clock = Instant::now();
+    let run = fault::run(&plan.fault, &plan.loading, plan.start.clone(), &plan.settings, &mut files);
+    files.finish().into_diagnostic()?;
+    let mut report = fault::Report::new(plan, &run);
+    report.scene_sha256.clone_from(&ready.hash);
+    (report.run.set_up_seconds, report.run.seconds) = (ready.seconds, clock.elapsed().as_secs_f64());
+    write_report(out, &report)?;
+    crate::observe::atomic::write(&out.join("events.csv"), report.csv().as_bytes()).into_diagnostic()?;
+    print!("{}", report.text());
+    println!("  written to {}", out.display());
+    Ok(match &report.stopped {
+        Some(reason) => End::Stopped(format!("at {:.6e} s: {reason}", report.end)),
+        None => End::Done,
     })
 }
 

@@ -8,6 +8,7 @@ use asperity_friction::evolution::{
     self, ageing::Ageing, flash::Flash, flash::Weakening, nagata::Nagata, prz::Prz, slip::Slip,
     stateless::Stateless,
 };
+use asperity_friction::fault::{FaultLaw, Points};
 use asperity_friction::law::Law;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::Sliding;
@@ -25,7 +26,7 @@ use std::sync::Arc;
 pub fn build(choice: &LawChoice) -> Result<Arc<dyn Law>, Failure> {
     Ok(match parts(choice) {
         Parts::Elastic(law) => law?,
-        Parts::Sliding(strength, history) => with_form(strength, &history)?,
+        Parts::Sliding(strength, history) => single(strength, history)?,
     })
 }
 
@@ -36,8 +37,21 @@ pub fn build(choice: &LawChoice) -> Result<Arc<dyn Law>, Failure> {
 pub fn build_sliding(choice: &LawChoice) -> Result<Option<Arc<dyn Sliding>>, Failure> {
     match parts(choice) {
         Parts::Elastic(law) => law.map(|_| None),
-        Parts::Sliding(strength, history) => with_form(strength, &history).map(Some),
+        Parts::Sliding(strength, history) => single(strength, history).map(Some),
     }
+}
+
+/// Builds the laws of the points of a fault, choices of one kind; none where the law has an elastic domain.
+///
+/// # Errors
+/// [`Failure::Parameter`] with the admissible range.
+pub fn build_fault(first: &LawChoice, rest: &[LawChoice]) -> Result<Option<Box<dyn FaultLaw>>, Failure> {
+    let sliding = |choice| match parts(choice) {
+        Parts::Elastic(_) => None,
+        Parts::Sliding(strength, history) => Some((strength, history)),
+    };
+    let Some(first) = sliding(first) else { return Ok(None) };
+    with_form(&List { first, rest: rest.iter().filter_map(sliding).collect() }, EachPoint).map(Some)
 }
 
 /// What laws consist of.
@@ -98,49 +112,107 @@ fn parts(choice: &LawChoice) -> Parts<'_> {
     }
 }
 
-/// A rate-dependent law.
-type Made = Result<Arc<dyn Sliding>, Failure>;
+/// What is made of laws of one kind, whichever it is.
+trait Finish {
+    type Made;
 
-fn with_form(s: &Strength, history: &History<'_>) -> Made {
-    let parameters = Parameters::new(s.mu0, s.a, s.v_ref)?;
-    match s.form {
-        Form::Regularised => with_heat(Regularised(parameters), s, history),
-        Form::Bare => with_heat(Bare(parameters), s, history),
-        Form::CutOff { v_cut } => with_heat(CutOff::new(parameters, v_cut)?, s, history),
+    fn finish<L: Sliding + 'static>(self, first: L, rest: Vec<L>) -> Self::Made;
+}
+
+/// The one law of an interface or slider.
+struct Single;
+
+impl Finish for Single {
+    type Made = Arc<dyn Sliding>;
+
+    fn finish<L: Sliding + 'static>(self, first: L, _: Vec<L>) -> Self::Made {
+        Arc::new(first)
     }
 }
 
-fn with_heat<F: strength::Form + 'static>(form: F, s: &Strength, history: &History<'_>) -> Made {
-    match &s.heat {
-        None => with_evolution(form, s, history),
-        Some(h) => with_evolution(Arrhenius::new(form, h.activation, h.t_ref, h.temperature)?, s, history),
+/// The laws of the points of a fault.
+struct EachPoint;
+
+impl Finish for EachPoint {
+    type Made = Box<dyn FaultLaw>;
+
+    fn finish<L: Sliding + 'static>(self, first: L, rest: Vec<L>) -> Self::Made {
+        Box::new(Points::new(std::iter::once(first).chain(rest).collect()))
     }
 }
 
-fn with_evolution<F: strength::Form + 'static>(form: F, s: &Strength, history: &History<'_>) -> Made {
-    let v_ref = s.v_ref;
-    match history.evolution {
-        None => assemble(form, history, |_| Ok(Stateless)),
-        Some(Evolution::Ageing { v_cut }) => assemble(form, history, |p| {
-            let ageing = Ageing::new(p.b, p.l, v_ref)?;
+/// A law in parts: strength and history.
+type Part<'a> = (&'a Strength, History<'a>);
+
+/// Laws of one kind that differ in parameters.
+struct List<'a> {
+    first: Part<'a>,
+    rest: Vec<Part<'a>>,
+}
+
+fn single(strength: &Strength, history: History<'_>) -> Result<Arc<dyn Sliding>, Failure> {
+    with_form(&List { first: (strength, history), rest: Vec::new() }, Single)
+}
+
+fn with_form<M: Finish>(list: &List<'_>, made: M) -> Result<M::Made, Failure> {
+    let parameters = |s: &Strength| Parameters::new(s.mu0, s.a, s.v_ref);
+    match list.first.0.form {
+        Form::Bare => with_heat(list, made, |s| Ok(Bare(parameters(s)?))),
+        Form::CutOff { v_cut } => with_heat(list, made, |s| CutOff::new(parameters(s)?, v_cut)),
+        Form::Regularised => with_heat(list, made, |s| Ok(Regularised(parameters(s)?))),
+    }
+}
+
+fn with_heat<M: Finish, F: strength::Form + 'static>(
+    list: &List<'_>,
+    made: M,
+    form: impl Fn(&Strength) -> Result<F, Failure>,
+) -> Result<M::Made, Failure> {
+    match list.first.0.heat {
+        None => with_evolution(list, made, form),
+        Some(h) => {
+            with_evolution(list, made, |s| Arrhenius::new(form(s)?, h.activation, h.t_ref, h.temperature))
+        }
+    }
+}
+
+fn with_evolution<M: Finish, F: strength::Form + 'static>(
+    list: &List<'_>,
+    made: M,
+    form: impl Fn(&Strength) -> Result<F, Failure>,
+) -> Result<M::Made, Failure> {
+    match list.first.1.evolution {
+        None => assemble(list, made, form, |_, _| Ok(Stateless)),
+        Some(Evolution::Ageing { v_cut }) => assemble(list, made, form, |s, p| {
+            let ageing = Ageing::new(p.b, p.l, s.v_ref)?;
             v_cut.map_or(Ok(ageing), |v| ageing.with_cut_off(v))
         }),
-        Some(Evolution::Slip) => assemble(form, history, |p| Slip::new(p.b, p.l, v_ref)),
-        Some(Evolution::Prz) => assemble(form, history, |p| Prz::new(p.b, p.l, v_ref)),
-        Some(Evolution::Nagata { c }) => assemble(form, history, |p| Nagata::new(p.b, p.l, v_ref, c)),
-        Some(Evolution::Flash { mu_w, v_w }) => assemble(form, history, |p| {
-            Flash::new(Weakening { mu0: s.mu0, a: s.a, b: p.b, v_ref, mu_w, v_w }, p.l)
+        Some(Evolution::Slip) => assemble(list, made, form, |s, p| Slip::new(p.b, p.l, s.v_ref)),
+        Some(Evolution::Prz) => assemble(list, made, form, |s, p| Prz::new(p.b, p.l, s.v_ref)),
+        Some(Evolution::Nagata { c }) => assemble(list, made, form, |s, p| Nagata::new(p.b, p.l, s.v_ref, c)),
+        Some(Evolution::Flash { mu_w, v_w }) => assemble(list, made, form, |s, p| {
+            Flash::new(Weakening { mu0: s.mu0, a: s.a, b: p.b, v_ref: s.v_ref, mu_w, v_w }, p.l)
         }),
     }
 }
 
-fn assemble<F: strength::Form + 'static, E: evolution::Evolution + 'static>(
-    form: F,
-    history: &History<'_>,
-    evolution: impl Fn(&State) -> Result<E, Failure>,
-) -> Made {
-    let parts = history.states.iter().map(|p| Component::new(evolution(p)?, p.alpha));
-    let parts = parts.collect::<Result<Vec<_>, _>>()?;
-    let law = RateLaw::with_parts(form, parts, history.v_initial, history.normal_initial, history.f_limit)?;
-    Ok(Arc::new(law))
+fn assemble<M: Finish, F: strength::Form + 'static, E: evolution::Evolution + 'static>(
+    list: &List<'_>,
+    made: M,
+    form: impl Fn(&Strength) -> Result<F, Failure>,
+    evolution: impl Fn(&Strength, &State) -> Result<E, Failure>,
+) -> Result<M::Made, Failure> {
+    let law = |(strength, history): &Part<'_>| {
+        let parts = history.states.iter().map(|p| Component::new(evolution(strength, p)?, p.alpha));
+        let parts = parts.collect::<Result<Vec<_>, _>>()?;
+        RateLaw::with_parts(
+            form(strength)?,
+            parts,
+            history.v_initial,
+            history.normal_initial,
+            history.f_limit,
+        )
+    };
+    let rest = list.rest.iter().map(law).collect::<Result<Vec<_>, _>>()?;
+    Ok(made.finish(law(&list.first)?, rest))
 }

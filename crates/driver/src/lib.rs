@@ -4,8 +4,8 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod cli;
-mod free;
 pub mod fault;
+mod free;
 pub mod laws;
 pub mod loading;
 pub mod model;

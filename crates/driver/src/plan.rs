@@ -255,7 +255,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
         .map(|(name, spec)| interface(scene, &model, name, spec))
         .collect::<Result<Vec<_>, _>>()?;
     let path = choose_path(scene, &model, &interfaces)?;
-    let stepping = stepping(scene);
+    let stepping = stepping(scene)?;
     let control = control(scene, &stages);
     let remarks = rigid::check(&model, &stages, &interfaces)?;
     let solver = solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
@@ -461,9 +461,9 @@ fn not_linear<const D: usize>(model: &Model<D>) -> Option<String> {
     model.bodies.iter().find_map(|b| b.nonlinear.map(|why| format!("in body `{}` {why}", b.name)))
 }
 
-fn stepping(scene: &Scene) -> Stepping {
+fn stepping(scene: &Scene) -> Result<Stepping, PlanError> {
     let time = &scene.time;
-    match time.stepper.get_ref() {
+    Ok(match time.stepper.get_ref() {
         Stepper::Implicit => {
             Stepping::Implicit { rule: time.rule.as_ref().map(|r| *r.get_ref()).unwrap_or_default() }
         }
@@ -472,7 +472,12 @@ fn stepping(scene: &Scene) -> Stepping {
             rate_change: time.rate_change.as_ref().map_or(RATE_CHANGE, |r| *r.get_ref()),
             zeta: time.zeta.as_ref().map_or(ZETA, |z| *z.get_ref()),
         },
-    }
+        Stepper::FaultOde => {
+            let help = "add `[faults.NAME]`, or use \"implicit\" or \"static-explicit\"".into();
+            let message = "the stepper \"fault-ode\" integrates faults, and the scene has none".into();
+            return Err(PlanError::at(time.stepper.span(), message, help));
+        }
+    })
 }
 
 fn control(scene: &Scene, stages: &[Stage]) -> Control {

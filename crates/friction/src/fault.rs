@@ -56,6 +56,12 @@ pub trait FaultLaw: Send + Sync + std::fmt::Debug {
     /// Writes the states of a point that are steady at ln V.
     fn steady(&self, point: usize, log_rate: f64, states: &mut [f64]);
 
+    /// Changes the state of a point so that its friction coefficient at this slip rate \[m/s\] is `mu`.
+    ///
+    /// # Errors
+    /// Those of [`Sliding::states_for`], naming the point.
+    fn states_for(&self, point: usize, rate: f64, mu: f64, states: &mut [f64]) -> Result<(), Failure>;
+
     /// m of a point at a slip rate \[m/s\] of either sign.
     ///
     /// # Errors
@@ -142,6 +148,10 @@ impl<L: Sliding> FaultLaw for Points<L> {
 
     fn steady(&self, point: usize, log_rate: f64, states: &mut [f64]) {
         self.laws[point].steady(log_rate, states);
+    }
+
+    fn states_for(&self, point: usize, rate: f64, mu: f64, states: &mut [f64]) -> Result<(), Failure> {
+        self.laws[point].states_for(rate, mu, states).map_err(|f| f.at(point))
     }
 
     fn at_rate(&self, point: usize, rate: f64, states: &[f64]) -> Result<f64, Failure> {

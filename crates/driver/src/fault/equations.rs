@@ -75,6 +75,14 @@ impl Layout {
     }
 }
 
+impl Layout {
+    /// f_n of a point \[Pa\].
+    #[must_use]
+    pub fn normal_of(&self, fault: &Fault, unknowns: &[f64], point: usize) -> f64 {
+        if self.couples_normal { unknowns[self.normal().start + point] } else { fault.normal[point] }
+    }
+}
+
 /// Working memory of an evaluation.
 #[derive(Debug)]
 struct Scratch {

@@ -53,6 +53,12 @@ impl Moment<'_> {
     pub fn states(&self) -> &[f64] {
         &self.unknowns[self.layout.states()]
     }
+
+    /// f_n of a point \[Pa\].
+    #[must_use]
+    pub fn normal(&self, fault: &Fault, point: usize) -> f64 {
+        self.layout.normal_of(fault, self.unknowns, point)
+    }
 }
 
 /// Watches a run.
@@ -209,11 +215,7 @@ impl Follow<'_> {
         let at = step.start.later(after * step.length());
         let layout = self.equations.layout();
         for (p, shear) in self.shear.iter_mut().enumerate() {
-            let normal = if layout.normal().is_empty() {
-                self.fault.normal[p]
-            } else {
-                self.between[layout.normal().start + p]
-            };
+            let normal = layout.normal_of(self.fault, &self.between, p);
             *shear = normal * self.fault.law.scale(p) * self.between[p];
         }
         self.catalogue.pass(at, fastest(&self.rate).0, &self.between[layout.slip()], &self.shear);

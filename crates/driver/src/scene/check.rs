@@ -3,6 +3,7 @@
 mod bodies;
 mod conditions;
 pub(crate) mod course;
+mod faults;
 mod interfaces;
 mod materials;
 mod meshes;
@@ -23,6 +24,7 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     checker.materials();
     checker.bodies();
     checker.interfaces();
+    checker.faults();
     checker.stages();
     checker.time();
     checker.solver();

@@ -4,11 +4,14 @@
 //! uses the empty span (see [`here`]), and its errors name the key instead.
 
 mod body;
+mod fault;
 mod solver;
 
 use super::law::Several;
+use super::slider::EventSpec;
 use super::units::{Length, Penalty, Pressure, Time, Velocity};
 pub use body::*;
+pub use fault::*;
 use serde::Deserialize;
 pub use serde_spanned::Spanned;
 pub use solver::*;
@@ -37,6 +40,11 @@ pub struct Scene {
     /// Interfaces by name.
     #[serde(default)]
     pub interfaces: BTreeMap<String, Interface>,
+    /// Faults by name, for the stepper "fault-ode".
+    #[serde(default)]
+    pub faults: BTreeMap<String, Fault>,
+    /// Events of faults.
+    pub events: Option<EventSpec>,
     /// Stages in sequence.
     pub stages: Vec<Stage>,
     /// Time integration.
@@ -260,6 +268,10 @@ pub struct TimeControl {
     pub max_step: Option<Spanned<Time>>,
     /// Smallest step \[s\]: below it the run stops with an outcome.
     pub min_step: Option<Spanned<Time>>,
+    /// Fault-ode: method of integration.
+    pub method: Option<Spanned<String>>,
+    /// Fault-ode: error of ln V allowed in a step \[-\].
+    pub log_rate_tolerance: Option<Spanned<f64>>,
     /// Static-explicit: carry the residual into the next step (default true).
     pub carry: Option<Spanned<bool>>,
     /// Static-explicit, r8: bound on |Δ ln max(V, V_floor)| per step (default 0.5).
@@ -279,6 +291,8 @@ pub enum Stepper {
     Implicit,
     /// Forward steps limited by the R-minimum rule.
     StaticExplicit,
+    /// Faults whose bodies are condensed onto them, through earthquake cycles.
+    FaultOde,
 }
 
 /// Rules of the implicit stepper for the slip rate.
@@ -316,4 +330,7 @@ pub struct Output {
     pub fields: Option<Spanned<usize>>,
     /// Profiles are written at this many equal intervals of each stage (default 10).
     pub profiles: Option<Spanned<usize>>,
+    /// Fault-ode: stations per fault, at these distances along it from its upper end \[m\].
+    #[serde(default)]
+    pub stations: BTreeMap<String, Spanned<Vec<Length>>>,
 }

@@ -69,6 +69,12 @@ pub trait Sliding: Rated {
     /// State variables that are steady at ln V.
     fn steady(&self, log_rate: f64, states: &mut [f64]);
 
+    /// Changes the one state variable so that the friction coefficient at this slip rate \[m/s\] is `mu`.
+    ///
+    /// # Errors
+    /// [`Failure::Parameter`] without a state or with several; [`Failure::NotConverged`] where no state gives this coefficient.
+    fn states_for(&self, rate: f64, mu: f64, states: &mut [f64]) -> Result<(), Failure>;
+
     /// Carries the unknowns over a jump of f_n from `old` to `new`. Without inertia the traction of the springs is what it was
     /// and V jumps; with inertia V is what it was.
     ///
@@ -162,6 +168,11 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
 /// More unknowns than this a slider may not have; several times what any law in use needs.
 pub(super) const MOST_UNKNOWNS: usize = 16;
 
+/// Corrections of a state in search of a coefficient: one is exact where both are logarithms.
+const MOST_CORRECTIONS: usize = 60;
+/// Share of ln V that rounding may leave there.
+const SMALLEST_OFF: f64 = 1e-13;
+
 impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
     fn equations(&self, forcing: &Forcing, unknowns: &[f64], rates: &mut [f64]) {
         self.generic(forcing, forcing.pull, unknowns, rates);
@@ -216,6 +227,31 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
         for (part, state) in self.parts().iter().zip(states) {
             *state = part.evolution.steady(log_rate);
         }
+    }
+
+    fn states_for(&self, rate: f64, mu: f64, states: &mut [f64]) -> Result<(), Failure> {
+        let ([part], [state]) = (self.parts(), &mut *states) else {
+            let value = self.parts().len() as f64;
+            let admissible = "one: an initial shear traction determines no more";
+            return Err(Failure::Parameter { name: "states", value, admissible });
+        };
+        let log_rate = crate::positive("rate", rate)?.ln();
+        crate::positive("mu", mu)?;
+        // ln V at μ falls by 1/a for each unit of φ, exactly where the strength is a logarithm or its asinh.
+        let mut off = f64::INFINITY;
+        for _ in 0..MOST_CORRECTIONS {
+            let e = &part.evolution;
+            off = self.form().log_rate(mu, e.phi(*state)) - log_rate;
+            let step = off * self.form().scale() / e.phi_slopes(*state).0;
+            *state += step;
+            if step.abs() <= f64::EPSILON * state.abs() || off == 0.0 {
+                return Ok(());
+            }
+        }
+        if off.abs() <= SMALLEST_OFF * log_rate.abs() {
+            return Ok(());
+        }
+        Err(Failure::NotConverged { point: 0, normal: 1.0, trial: mu, residual: off })
     }
 
     fn jump(

@@ -87,29 +87,27 @@ impl Checker<'_> {
         }
     }
 
+    /// Keys that belong to other steppers.
     fn foreign_keys(&mut self, stepper: Stepper) {
+        use Stepper::{FaultOde, Implicit, StaticExplicit};
         let time = &self.scene.time;
-        let place = |p: Option<Range<usize>>, key: &'static str| p.map(|p| (key, p));
-        let (keys, own, other) = match stepper {
-            Stepper::Implicit => (
-                vec![
-                    place(time.carry.as_ref().map(Spanned::span), "carry"),
-                    place(time.rate_change.as_ref().map(Spanned::span), "rate_change"),
-                    place(time.zeta.as_ref().map(Spanned::span), "zeta"),
-                ],
-                "implicit",
-                "static-explicit",
-            ),
-            Stepper::StaticExplicit => (
-                vec![
-                    place(time.rule.as_ref().map(Spanned::span), "rule"),
-                    place(time.tolerance.as_ref().map(Spanned::span), "tolerance"),
-                ],
-                "static-explicit",
-                "implicit",
-            ),
-        };
-        for (key, place) in keys.into_iter().flatten() {
+        let place =
+            |p: Option<Range<usize>>, key: &'static str, of: &'static [Stepper]| p.map(|p| (key, p, of));
+        let keys = [
+            place(time.carry.as_ref().map(Spanned::span), "carry", &[StaticExplicit]),
+            place(time.rate_change.as_ref().map(Spanned::span), "rate_change", &[StaticExplicit]),
+            place(time.zeta.as_ref().map(Spanned::span), "zeta", &[StaticExplicit]),
+            place(time.rule.as_ref().map(Spanned::span), "rule", &[Implicit]),
+            place(time.tolerance.as_ref().map(Spanned::span), "tolerance", &[Implicit]),
+            place(time.first_step.as_ref().map(Spanned::span), "first_step", &[Implicit, StaticExplicit]),
+            place(time.max_step.as_ref().map(Spanned::span), "max_step", &[Implicit, StaticExplicit]),
+            place(time.min_step.as_ref().map(Spanned::span), "min_step", &[Implicit, StaticExplicit]),
+            place(time.method.as_ref().map(Spanned::span), "method", &[FaultOde]),
+            place(time.log_rate_tolerance.as_ref().map(Spanned::span), "log_rate_tolerance", &[FaultOde]),
+        ];
+        let own = stepper_name(stepper);
+        for (key, place, of) in keys.into_iter().flatten().filter(|(_, _, of)| !of.contains(&stepper)) {
+            let other = stepper_name(of[0]);
             self.conflict(
                 &place,
                 format!("`{key}` belongs to the stepper \"{other}\", but the stepper is \"{own}\""),
@@ -117,5 +115,13 @@ impl Checker<'_> {
                 (&self.scene.time.stepper.span(), "the stepper"),
             );
         }
+    }
+}
+
+fn stepper_name(stepper: Stepper) -> &'static str {
+    match stepper {
+        Stepper::Implicit => "implicit",
+        Stepper::StaticExplicit => "static-explicit",
+        Stepper::FaultOde => "fault-ode",
     }
 }

@@ -1,0 +1,148 @@
+//! The points of a fault: pairs of nodes, one on each side, at one place.
+
+use crate::model::Model;
+use crate::plan::PlanError;
+use crate::rigid;
+use crate::scene::model::Fault as Spec;
+use asperity_fem::kinematics::Idealisation;
+use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
+use asperity_fem::surface;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Distance of two nodes at one place over the size of the model: rounding of generated and of written coordinates.
+const TOGETHER: f64 = 1e-9;
+
+/// A point of a fault.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place<const D: usize> {
+    /// Node on the minus side.
+    pub minus: usize,
+    /// Node on the plus side.
+    pub plus: usize,
+    /// Position \[m\].
+    pub at: [f64; D],
+    /// Tributary area \[m², or m per metre of thickness\].
+    pub area: f64,
+    /// Unit normal from minus to plus.
+    pub normal: [f64; D],
+    /// Distance along a plane fault from its upper end \[m\]; 0 in space.
+    pub along: f64,
+}
+
+/// The points of a fault, along a plane one from its upper end.
+///
+/// # Errors
+/// [`PlanError`] where the sides do not lie on each other node by node, or a point has no area.
+pub fn places<const D: usize>(model: &Model<D>, name: &str, spec: &Spec) -> Result<Vec<Place<D>>, PlanError> {
+    let (minus, plus) = (model.sides(&spec.minus)?, model.sides(&spec.plus)?);
+    let pairs = pairs(model, name, spec, minus, plus)?;
+    let areas = surface::areas(&model.mesh, minus, model.idealisation);
+    let normals = normals(model, minus);
+    let along = if D == 2 { distances(model, minus) } else { BTreeMap::new() };
+    let mut places = Vec::with_capacity(pairs.len());
+    for (minus, plus) in pairs {
+        let area = areas.get(&minus).copied().unwrap_or(0.0);
+        if area <= 0.0 {
+            return Err(PlanError::at(
+                spec.minus.span(),
+                format!("a node of fault `{name}` at {} has no positive area", rigid::place(&model.mesh.nodes[minus])),
+                "use an element whose faces have positive nodal areas: quad4, quad8, quad9, tri3, tri6; hex8, hex27, tet4".into(),
+            ));
+        }
+        let sum = normals[&minus];
+        let length = surface::length(&sum);
+        places.push(Place {
+            minus,
+            plus,
+            at: model.mesh.nodes[minus],
+            area,
+            normal: sum.map(|c| c / length),
+            along: along.get(&minus).copied().unwrap_or(0.0),
+        });
+    }
+    places.sort_by(|a, b| a.along.total_cmp(&b.along).then(a.minus.cmp(&b.minus)));
+    Ok(places)
+}
+
+/// Nodes of both sides at one place; tips, where both sides are one node, are left out.
+fn pairs<const D: usize>(
+    model: &Model<D>,
+    name: &str,
+    spec: &Spec,
+    minus: &[Side],
+    plus: &[Side],
+) -> Result<Vec<(usize, usize)>, PlanError> {
+    let close = TOGETHER * model.scale;
+    let nodes = |sides: &[Side]| nodes_of_sides(&model.mesh, sides);
+    let (minus, mut plus) = (nodes(minus), nodes(plus));
+    let x = |n: &usize| model.mesh.nodes[*n];
+    // Sorted by the first coordinate: candidates lie in a narrow band.
+    plus.sort_by(|a, b| x(a)[0].total_cmp(&x(b)[0]));
+    let mut pairs = Vec::with_capacity(minus.len());
+    let mut taken = BTreeSet::new();
+    for m in &minus {
+        let from = plus.partition_point(|p| x(p)[0] < x(m)[0] - close);
+        let candidates = plus[from..].iter().take_while(|p| x(p)[0] <= x(m)[0] + close);
+        let near = candidates.filter(|p| (0..D).all(|c| (x(p)[c] - x(m)[c]).abs() <= close));
+        // A node of both sides goes with itself.
+        let found = near.copied().min_by_key(|p| (p != m, taken.contains(p)));
+        let Some(p) = found.filter(|p| taken.insert(*p)) else {
+            return Err(PlanError::at(
+                spec.plus.span(),
+                format!(
+                    "the sides of fault `{name}` do not lie on each other: the node of the minus side at {} has none on the plus side",
+                    rigid::place(&x(m))
+                ),
+                "both sides need the same nodes, as splitting a mesh along a surface makes them".into(),
+            ));
+        };
+        if p != *m {
+            pairs.push((*m, p));
+        }
+    }
+    Ok(pairs)
+}
+
+/// Integral of the outward normal of the minus side with the shape function of each node.
+fn normals<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<usize, [f64; D]> {
+    // One force for each axis of space.
+    let idealisation = Idealisation::of_dimension(D);
+    let forces = surface::integrate(&model.mesh, sides, idealisation, |point, out| {
+        out[..D].copy_from_slice(&point.normal);
+    });
+    let mut normals: BTreeMap<usize, [f64; D]> = BTreeMap::new();
+    for (dof, value) in forces {
+        normals.entry(dof / D).or_insert([0.0; D])[dof % D] = value;
+    }
+    normals
+}
+
+/// Distance of each node along the faces of a plane side from its upper end.
+fn distances<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<usize, f64> {
+    // Corners first, middle nodes last: in order along the face.
+    let ordered = |side: &Side| {
+        let mut nodes = face_nodes(&model.mesh, side);
+        nodes[1..].rotate_left(1);
+        nodes
+    };
+    let mut links: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for side in sides {
+        for w in ordered(side).windows(2) {
+            links.entry(w[0]).or_default().push(w[1]);
+            links.entry(w[1]).or_default().push(w[0]);
+        }
+    }
+    let height = |n: &usize| model.mesh.nodes[*n][D - 1];
+    let ends = links.iter().filter(|(_, next)| next.len() == 1).map(|(n, _)| *n);
+    let mut result = BTreeMap::new();
+    let Some(mut node) = ends.max_by(|a, b| height(a).total_cmp(&height(b))) else { return result };
+    let mut along = 0.0;
+    result.insert(node, along);
+    while let Some(&next) = links[&node].iter().find(|n| !result.contains_key(*n)) {
+        let step: [f64; D] = std::array::from_fn(|c| model.mesh.nodes[next][c] - model.mesh.nodes[node][c]);
+        along += surface::length(&step);
+        result.insert(next, along);
+        node = next;
+    }
+    result
+}

@@ -1,0 +1,408 @@
+//! What of a scene with faults is integrated, and how.
+
+use super::catalogue::Thresholds;
+use super::condense::{Point, condense};
+use super::equations::{Fault, Layout};
+use super::loading::Loading;
+use super::place::{Place, places};
+use super::run::Settings;
+use crate::laws;
+use crate::loading;
+use crate::model::Model;
+use crate::ode::Method;
+use crate::plan::PlanError;
+use crate::scene::law::{self, Evolution, LawChoice};
+use crate::scene::model::{Along, DampingSpec, Fault as Spec, Profile, Scene};
+use asperity_friction::Failure;
+use asperity_friction::fault::FaultLaw;
+use std::fmt::Write as _;
+
+/// Method of scenes that name none: of the explicit ones it takes the fewest evaluations for an error of 1e-5 of the recurrence
+/// in the first events of BP1.
+const DEFAULT_METHOD: Method = Method::Tsit5;
+/// Error of ln V in a step, where the scene gives none: the onsets of BP1's first events then have errors of some 1e-5 of the
+/// recurrence, below what a mesh of practical size leaves.
+const DEFAULT_TOLERANCE: f64 = 1e-4;
+/// Steps after which a run is given up: a hundred times those of BP1 at full length.
+const MOST_STEPS: usize = 20_000_000;
+/// An event begins where nothing is said \[m/s\]: radiation damping begins to matter there for rock under crustal stress.
+const EVENT: f64 = 1e-3;
+/// Share of the slip rate that begins an event at which it ends, where nothing is said.
+const EVENT_ENDS: f64 = 0.1;
+
+/// A point of a fault as outputs see it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointView {
+    /// Position in space \[m\].
+    pub at: [f64; 3],
+    /// Distance along a plane fault from its upper end \[m\].
+    pub along: f64,
+    /// Tributary area \[m²; m per metre of thickness\].
+    pub area: f64,
+    /// Where the law has one state of that meaning: θ = time exp(per s), in s.
+    pub theta: Option<(f64, f64)>,
+}
+
+/// A fault as outputs see it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FaultView {
+    /// Name in the scene.
+    pub name: String,
+    /// Its points among those of all faults.
+    pub points: std::ops::Range<usize>,
+    /// Stations: distance asked for \[m\] and the nearest point.
+    pub stations: Vec<(f64, usize)>,
+}
+
+/// What is to be integrated.
+#[derive(Debug)]
+pub struct Plan {
+    /// Title.
+    pub title: String,
+    /// Faults.
+    pub faults: Vec<FaultView>,
+    /// Their points, fault by fault, along a plane one from its upper end.
+    pub points: Vec<PointView>,
+    /// Friction and bodies.
+    pub fault: Fault,
+    /// Loads.
+    pub loading: Loading,
+    /// Unknowns at the start.
+    pub start: Vec<f64>,
+    /// Integration.
+    pub settings: Settings,
+    /// Shear modulus G for moments \[Pa\].
+    pub shear_modulus: f64,
+    /// Degrees of freedom of the bodies.
+    pub dofs: usize,
+    /// Points whose slip rate is prescribed.
+    pub creeping: usize,
+    /// Memory of condensation at its worst \[bytes\].
+    pub condensation_bytes: usize,
+    /// Idealisation in words.
+    pub kinematics: &'static str,
+}
+
+impl Plan {
+    /// What a person should see before the run.
+    #[must_use]
+    pub fn summary(&self) -> String {
+        let mut text = String::from("plan\n");
+        let mut line = |name: &str, value: String| {
+            let _ = writeln!(text, "  {name:<9} {value}");
+        };
+        line(
+            "physics",
+            format!("linear elasticity, small strain, {}, condensed onto the faults", self.kinematics),
+        );
+        for fault in &self.faults {
+            let law = &self.fault.law;
+            line(
+                "physics",
+                format!(
+                    "fault `{}`: {} points that slide without opening, {} state variables a point",
+                    fault.name,
+                    fault.points.len(),
+                    law.states()
+                ),
+            );
+        }
+        if self.creeping > 0 {
+            line("physics", format!("{} points creep at a prescribed rate", self.creeping));
+        }
+        let coupled = Layout::of(&self.fault).normal().is_empty();
+        line(
+            "physics",
+            if coupled {
+                "slip leaves normal tractions as they are"
+            } else {
+                "slip changes normal tractions"
+            }
+            .into(),
+        );
+        line("physics", format!("radiation damping {:.6e} Pa s/m", self.fault.damping));
+        let s = &self.settings;
+        line("stepper", format!("fault-ode: {} with tolerance {:e} in ln V", s.method.name(), s.tolerance));
+        line(
+            "size",
+            format!(
+                "{} degrees of freedom condensed in about {:.0} MB, {} unknowns, operator of {:.1} MB",
+                self.dofs,
+                (self.condensation_bytes as f64 / 1e6).max(1.0),
+                self.start.len(),
+                self.fault.operator.bytes() as f64 / 1e6
+            ),
+        );
+        text
+    }
+}
+
+/// Plans a scene whose stepper is "fault-ode".
+///
+/// # Errors
+/// [`PlanError`] with the place in the scene.
+pub fn plan(scene: &Scene) -> Result<Plan, PlanError> {
+    match scene.kinematics.get_ref().idealisation().dimension() {
+        2 => plan_in::<2>(scene),
+        _ => Err(PlanError::at(
+            scene.kinematics.span(),
+            "faults in three dimensions are not integrated yet".into(),
+            "\"antiplane\" and \"plane-strain\" are".into(),
+        )),
+    }
+}
+
+/// A point with its fault and law.
+struct Placed<const D: usize> {
+    point: Point<D>,
+    fault: usize,
+    normal: f64,
+    law: LawChoice,
+}
+
+fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan, PlanError> {
+    let model = Model::<D>::new(scene)?;
+    if let Some(body) = model.bodies.iter().find(|b| b.nonlinear.is_some()) {
+        return Err(PlanError::plain(format!(
+            "body `{}` is not linear: faults need linear bodies",
+            body.name
+        )));
+    }
+    let stages = loading::stages(scene, &model)?;
+    let [stage] = stages.as_slice() else {
+        return Err(PlanError::plain(format!("a scene with faults has one stage, found {}", stages.len())));
+    };
+    let constraints = stage.constraints(&vec![0.0; model.dofs()]);
+    let mut placed: Vec<Placed<D>> = Vec::new();
+    for (k, (name, spec)) in scene.faults.iter().enumerate() {
+        placed.extend(points_of(&model, name, spec, k)?);
+    }
+    let points: Vec<Point<D>> = placed.iter().map(|p| p.point.clone()).collect();
+    let surroundings = condense(&model, &constraints, &points, stage.end).map_err(PlanError::plain)?;
+    placed.retain(|p| p.point.creep.is_none());
+    let Some((first, rest)) = placed.split_first() else {
+        return Err(PlanError::plain("no point of the faults is free to slide".into()));
+    };
+    let choices: Vec<LawChoice> = rest.iter().map(|p| p.law.clone()).collect();
+    let specs: Vec<&Spec> = scene.faults.values().collect();
+    let place = specs[first.fault].law.span();
+    let at_law = |e: Failure| {
+        PlanError::at(place.clone(), e.to_string(), "see the admissible range in the message".into())
+    };
+    let law = laws::build_fault(&first.law, &choices).map_err(&at_law)?.ok_or_else(|| {
+        PlanError::plain("a fault through cycles needs a law that depends on the slip rate: \"rate\" or \"rate-and-state\"".into())
+    })?;
+    let fault = Fault {
+        operator: Box::new(surroundings.operator),
+        law,
+        damping: damping(scene, &model)?,
+        normal: placed.iter().map(|p| p.normal).collect(),
+    };
+    let start = start(scene, &placed, &fault).map_err(at_law)?;
+    let (faults, views) = views(scene, &placed);
+    Ok(Plan {
+        title: scene.title.clone(),
+        faults,
+        points: views,
+        loading: surroundings.loading,
+        start,
+        settings: settings(scene, stage.end)?,
+        shear_modulus: model.bodies[0].elastic[0].shear(),
+        dofs: model.dofs(),
+        creeping: points.len() - placed.len(),
+        condensation_bytes: surroundings.bytes,
+        kinematics: scene.kinematics.get_ref().words(),
+        fault,
+    })
+}
+
+fn points_of<const D: usize>(
+    model: &Model<D>,
+    name: &str,
+    spec: &Spec,
+    fault: usize,
+) -> Result<Vec<Placed<D>>, PlanError> {
+    let base = law::choose(&spec.law).map_err(|errors| {
+        let first = errors.into_iter().next();
+        first.map_or_else(|| PlanError::plain("the law is not complete".into()), PlanError::from)
+    })?;
+    let mut placed = Vec::new();
+    for place in places(model, name, spec)? {
+        let value = |profile: &Option<Profile>| profile.as_ref().map(|p| at(p, &place));
+        let creep = spec.creep.as_ref().filter(|c| place.along >= c.beyond.get_ref().0 - CLOSE * model.scale);
+        placed.push(Placed {
+            fault,
+            normal: value(&spec.profiles.normal).unwrap_or(spec.normal.get_ref().0),
+            law: varied(&base, value(&spec.profiles.a), value(&spec.profiles.b), value(&spec.profiles.l)),
+            point: Point { place, creep: creep.map(|c| c.rate.get_ref().0) },
+        });
+    }
+    Ok(placed)
+}
+
+/// Distance over the size of the model within which a point lies on the border of the creeping part: rounding.
+const CLOSE: f64 = 1e-12;
+
+/// Value of a profile at a place: linear between its points, constant beyond.
+fn at<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
+    let x = match profile.along.get_ref() {
+        Along::X => place.at[0],
+        Along::Y => place.at[1],
+        Along::Distance => place.along,
+    };
+    let points = profile.points.get_ref();
+    let k = points.partition_point(|p| p.0.0 <= x);
+    if k == 0 || k == points.len() {
+        return points[k.min(points.len() - 1)].1;
+    }
+    let (a, b) = (&points[k - 1], &points[k]);
+    let s = (x - a.0.0) / (b.0.0 - a.0.0);
+    (1.0 - s) * a.1 + s * b.1
+}
+
+/// A law with other parameters.
+fn varied(base: &LawChoice, a: Option<f64>, b: Option<f64>, l: Option<f64>) -> LawChoice {
+    let mut law = base.clone();
+    match &mut law {
+        LawChoice::Rate { strength, .. } => strength.a = a.unwrap_or(strength.a),
+        LawChoice::RateAndState { strength, states, .. } => {
+            strength.a = a.unwrap_or(strength.a);
+            for state in states {
+                state.b = b.unwrap_or(state.b);
+                state.l = l.unwrap_or(state.l);
+            }
+        }
+        _ => {}
+    }
+    law
+}
+
+/// η of all faults.
+fn damping<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<f64, PlanError> {
+    let mut common: Option<f64> = None;
+    for fault in scene.faults.values() {
+        let value = match fault.damping.as_ref() {
+            None => 0.0,
+            Some(spec) => match spec.get_ref() {
+                DampingSpec::Value(value) => *value,
+                DampingSpec::Radiation => {
+                    let density = scene.materials.values().find_map(|m| m.density.as_ref());
+                    let Some(density) = density else {
+                        return Err(PlanError::at(
+                            spec.span(),
+                            "radiation damping needs the density of the material".into(),
+                            "add `density = \"2670 kg/m^3\"` to it, or give the damping in Pa s/m".into(),
+                        ));
+                    };
+                    0.5 * (model.bodies[0].elastic[0].shear() * density.get_ref().0).sqrt()
+                }
+            },
+        };
+        if common.is_some_and(|c| c != value) {
+            return Err(PlanError::at(
+                fault.damping.as_ref().map(|d| d.span()).unwrap_or_default(),
+                "the faults have different dampings".into(),
+                "one damping for all faults of a scene".into(),
+            ));
+        }
+        common = Some(value);
+    }
+    Ok(common.unwrap_or(0.0))
+}
+
+/// Unknowns at the start: every point slides at the rate of its fault.
+fn start<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>, Failure> {
+    let layout = Layout::of(fault);
+    let n = fault.law.states();
+    let mut y = vec![0.0; layout.size()];
+    let specs: Vec<&Spec> = scene.faults.values().collect();
+    for (p, point) in placed.iter().enumerate() {
+        let spec = specs[point.fault];
+        let rate = spec.rate.get_ref().0;
+        let states = layout.states().start + p * n..layout.states().start + (p + 1) * n;
+        let initial = match &point.law {
+            LawChoice::RateAndState { v_initial, .. } => *v_initial,
+            _ => rate,
+        };
+        let law: &dyn FaultLaw = fault.law.as_ref();
+        law.steady(p, initial.ln(), &mut y[states.clone()]);
+        if let Some(shear) = &spec.shear {
+            let mu = (shear.get_ref().0 - fault.damping * rate) / point.normal;
+            law.states_for(p, rate, mu, &mut y[states.clone()])?;
+            y[p] = mu / law.scale(p);
+        } else {
+            y[p] = law.at_rate(p, rate, &y[states])?;
+        }
+        if !layout.normal().is_empty() {
+            y[layout.normal().start + p] = point.normal;
+        }
+    }
+    Ok(y)
+}
+
+fn settings(scene: &Scene, end: f64) -> Result<Settings, PlanError> {
+    let time = &scene.time;
+    let method = match &time.method {
+        None => DEFAULT_METHOD,
+        Some(name) => match name.get_ref().parse::<Method>() {
+            Ok(method @ (Method::Tsit5 | Method::Dop853)) => method,
+            _ => {
+                return Err(PlanError::at(
+                    name.span(),
+                    format!("the method \"{}\" does not integrate faults", name.get_ref()),
+                    "\"tsit5\" and \"dop853\" do".into(),
+                ));
+            }
+        },
+    };
+    let events = scene.events.as_ref();
+    let on = events.map_or(EVENT, |e| e.above.get_ref().0);
+    let off = events.and_then(|e| e.below.as_ref()).map_or(EVENT_ENDS * on, |b| b.get_ref().0);
+    Ok(Settings {
+        method,
+        tolerance: time.log_rate_tolerance.as_ref().map_or(DEFAULT_TOLERANCE, |t| *t.get_ref()),
+        end,
+        thresholds: Thresholds { on, off },
+        most_events: events.and_then(|e| e.stop_after.as_ref()).map(|n| *n.get_ref()),
+        most_steps: MOST_STEPS,
+    })
+}
+
+/// How θ follows from the state variable of a law with one state.
+fn theta(law: &LawChoice) -> Option<(f64, f64)> {
+    let LawChoice::RateAndState { strength, evolution, states, .. } = law else { return None };
+    let [state] = states.as_slice() else { return None };
+    let time = state.l / strength.v_ref;
+    match evolution {
+        Evolution::Slip if state.b > 0.0 => Some((time, 1.0 / state.b)),
+        Evolution::Ageing { .. } | Evolution::Prz | Evolution::Nagata { .. } => Some((time, 1.0)),
+        Evolution::Slip | Evolution::Flash { .. } => None,
+    }
+}
+
+/// Faults and points as outputs see them.
+fn views<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> (Vec<FaultView>, Vec<PointView>) {
+    let points: Vec<PointView> = placed
+        .iter()
+        .map(|p| {
+            let place = &p.point.place;
+            let at = std::array::from_fn(|c| if c < D { place.at[c] } else { 0.0 });
+            PointView { at, along: place.along, area: place.area, theta: theta(&p.law) }
+        })
+        .collect();
+    let mut faults = Vec::new();
+    for (k, name) in scene.faults.keys().enumerate() {
+        let first = placed.partition_point(|p| p.fault < k);
+        let last = placed.partition_point(|p| p.fault <= k);
+        let asked = scene.output.stations.get(name);
+        let off = |p: &usize, s: f64| (points[*p].along - s).abs();
+        let nearest = |s: f64| (first..last).min_by(|a, b| off(a, s).total_cmp(&off(b, s)));
+        let stations = asked.map(|a| a.get_ref().iter().filter_map(|s| Some((s.0, nearest(s.0)?))).collect());
+        faults.push(FaultView {
+            name: name.clone(),
+            points: first..last,
+            stations: stations.unwrap_or_default(),
+        });
+    }
+    (faults, points)
+}

@@ -1,0 +1,217 @@
+//! `report.json` of a fault through cycles, and its events as CSV.
+
+use super::catalogue::Event;
+use super::plan::Plan;
+use super::run::Run;
+use crate::ode::Outcome;
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// An event in the catalogue.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Entry {
+    /// When it began \[s\].
+    pub onset: f64,
+    /// Time since the onset of the one before \[s\].
+    pub interval: Option<f64>,
+    /// How long it lasted \[s\].
+    pub duration: f64,
+    /// Largest slip rate \[m/s\].
+    pub peak_rate: f64,
+    /// Fault of the hypocentre.
+    pub fault: String,
+    /// Distance of the hypocentre along it \[m\].
+    pub hypocentre_along: f64,
+    /// Hypocentre in space \[m\].
+    pub hypocentre: [f64; 3],
+    /// Largest slip \[m\].
+    pub largest_slip: f64,
+    /// Mean slip over what slipped more than a hundredth of that \[m\].
+    pub mean_slip: f64,
+    /// Area of what did \[m²; m per metre of thickness\].
+    pub area: f64,
+    /// Moment G ∫ slip dA \[N m; N per metre of thickness\].
+    pub moment: f64,
+    /// Mean fall of shear traction there, weighted with slip \[Pa\].
+    pub stress_drop: f64,
+}
+
+/// Share of the largest slip above which a point counts as slipped.
+const SLIPPED: f64 = 0.01;
+
+impl Entry {
+    fn new(plan: &Plan, event: &Event, before: Option<&Event>) -> Self {
+        let slip = |p: usize| event.slip[p].abs();
+        let largest_slip = (0..event.slip.len()).map(slip).fold(0.0, f64::max);
+        let slipped: Vec<usize> =
+            (0..event.slip.len()).filter(|&p| slip(p) > SLIPPED * largest_slip).collect();
+        let over = |value: &dyn Fn(usize) -> f64| {
+            slipped.iter().map(|&p| value(p) * plan.points[p].area).sum::<f64>()
+        };
+        let (area, potency) = (over(&|_| 1.0), over(&slip));
+        let place = &plan.points[event.hypocentre];
+        let fault = plan.faults.iter().find(|f| f.points.contains(&event.hypocentre));
+        Self {
+            onset: event.onset.seconds(),
+            interval: before.map(|b| event.onset.since(&b.onset)),
+            duration: event.end.since(&event.onset),
+            peak_rate: event.peak,
+            fault: fault.map(|f| f.name.clone()).unwrap_or_default(),
+            hypocentre_along: place.along,
+            hypocentre: place.at,
+            largest_slip,
+            mean_slip: potency / area,
+            area,
+            moment: plan.shear_modulus * potency,
+            stress_drop: over(&|p| slip(p) * event.drop[p]) / potency,
+        }
+    }
+}
+
+/// Work, in operations that do not depend on the machine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Work {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps tried and not accepted.
+    pub rejected: u64,
+    /// Right-hand sides; each applies the operator once.
+    pub right_hand_sides: u64,
+    /// Points.
+    pub points: usize,
+}
+
+/// What may differ from machine to machine and from run to run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Provenance {
+    /// Wall time of reading and condensing \[s\].
+    pub set_up_seconds: f64,
+    /// Wall time of the integration, its outputs included \[s\].
+    pub seconds: f64,
+    /// Commit of the program.
+    pub commit: String,
+}
+
+/// The report of a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// Title of the scene.
+    pub title: String,
+    /// Version of the program.
+    pub version: String,
+    /// SHA-256 of the scene file.
+    pub scene_sha256: String,
+    /// Method of integration.
+    pub method: String,
+    /// Error of ln V allowed in a step.
+    pub tolerance: f64,
+    /// Why the run ended before its time, where it did.
+    pub stopped: Option<String>,
+    /// When \[s\].
+    pub end: f64,
+    /// Events.
+    pub events: Vec<Entry>,
+    /// Work.
+    pub counts: Work,
+    /// Machine-dependent.
+    pub run: Provenance,
+}
+
+/// A year \[s\].
+const YEAR: f64 = 365.25 * 86_400.0;
+
+impl Report {
+    /// The report of a run of a plan.
+    #[must_use]
+    pub fn new(plan: &Plan, run: &Run) -> Self {
+        let stopped = match &run.outcome {
+            Outcome::Completed | Outcome::Stopped => None,
+            Outcome::Failed { reason } => Some(reason.to_string()),
+        };
+        let events = run.catalogue.events();
+        let entry =
+            |(k, event): (usize, &Event)| Entry::new(plan, event, k.checked_sub(1).map(|b| &events[b]));
+        Self {
+            title: plan.title.clone(),
+            version: env!("CARGO_PKG_VERSION").to_string(),
+            scene_sha256: String::new(),
+            method: plan.settings.method.name().to_string(),
+            tolerance: plan.settings.tolerance,
+            stopped,
+            end: run.at.seconds(),
+            events: events.iter().enumerate().map(entry).collect(),
+            counts: Work {
+                steps: run.counts.steps,
+                rejected: run.counts.rejected,
+                right_hand_sides: run.counts.rates,
+                points: plan.points.len(),
+            },
+            run: Provenance { commit: crate::report::commit().to_string(), ..Provenance::default() },
+        }
+    }
+
+    /// The catalogue as CSV.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut text = String::from(
+            "onset [s],duration [s],peak_rate [m/s],fault,hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],stress_drop [Pa]\n",
+        );
+        for e in &self.events {
+            let _ = writeln!(
+                text,
+                "{:.14e},{},{},{},{},{},{},{},{},{},{},{:e},{}",
+                e.onset,
+                e.duration,
+                e.peak_rate,
+                e.fault,
+                e.hypocentre_along,
+                e.hypocentre[0],
+                e.hypocentre[1],
+                e.hypocentre[2],
+                e.largest_slip,
+                e.mean_slip,
+                e.area,
+                e.moment,
+                e.stress_drop
+            );
+        }
+        text
+    }
+
+    /// What a person should read at the end.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut text = String::from("results\n");
+        for (k, e) in self.events.iter().enumerate() {
+            let interval =
+                e.interval.map_or(String::new(), |i| format!(", {} after the one before", time(i)));
+            let _ = writeln!(
+                text,
+                "  event {} at {}{interval}: {} long, peak {:.4} m/s, slip up to {:.4} m, stress drop {:.3} MPa, begins {:.3} km along `{}`",
+                k + 1,
+                time(e.onset),
+                time(e.duration),
+                e.peak_rate,
+                e.largest_slip,
+                e.stress_drop / 1e6,
+                e.hypocentre_along / 1e3,
+                e.fault
+            );
+        }
+        let _ = writeln!(text, "  end at {}", time(self.end));
+        let c = &self.counts;
+        let _ = writeln!(
+            text,
+            "  {} steps ({} rejected), {} right-hand sides of {} points",
+            c.steps, c.rejected, c.right_hand_sides, c.points
+        );
+        let r = &self.run;
+        let _ = writeln!(text, "  seconds: set-up {:.2}, integration {:.2}", r.set_up_seconds, r.seconds);
+        text
+    }
+}
+
+/// A time in words.
+fn time(seconds: f64) -> String {
+    if seconds.abs() >= 0.1 * YEAR { format!("{:.5} yr", seconds / YEAR) } else { format!("{seconds:.5} s") }
+}

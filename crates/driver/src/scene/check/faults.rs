@@ -1,0 +1,185 @@
+//! Faults through earthquake cycles.
+
+use super::Checker;
+use crate::scene::law;
+use crate::scene::model::{DampingSpec, Fault, Profile, Stepper};
+use crate::scene::near::suggest;
+
+/// Kinds of law whose slip rate does not follow from the traction.
+const WITHOUT_RATE: [&str; 3] = ["coulomb", "static-kinetic", "slip-weakening"];
+
+impl Checker<'_> {
+    pub(super) fn faults(&mut self) {
+        let scene = self.scene;
+        self.stepper_of_faults();
+        for (name, fault) in &scene.faults {
+            self.name("a fault", name, fault.minus.span());
+            for set in [&fault.minus, &fault.plus] {
+                self.set(set);
+            }
+            self.friction(fault);
+            self.start_of(fault);
+            for (name, profile) in [
+                ("a", &fault.profiles.a),
+                ("b", &fault.profiles.b),
+                ("l", &fault.profiles.l),
+                ("normal", &fault.profiles.normal),
+            ] {
+                if let Some(profile) = profile {
+                    self.profile(name, profile);
+                }
+            }
+        }
+        self.stations();
+        self.events();
+    }
+
+    /// Faults and the stepper "fault-ode" go together, without interfaces, in one stage.
+    fn stepper_of_faults(&mut self) {
+        let (scene, stepper) = (self.scene, &self.scene.time.stepper);
+        let ode = *stepper.get_ref() == Stepper::FaultOde;
+        match scene.faults.values().next() {
+            None if ode => self.error(
+                stepper.span(),
+                "the stepper \"fault-ode\" integrates faults, and the scene has none",
+                "add `[faults.NAME]`, or use \"implicit\" or \"static-explicit\"",
+            ),
+            Some(fault) if !ode => self.conflict(
+                &stepper.span(),
+                "faults are integrated by the stepper \"fault-ode\"",
+                "use `stepper = \"fault-ode\"`, or interfaces instead of faults",
+                (&fault.minus.span(), "a fault"),
+            ),
+            Some(fault) => {
+                if let Some((name, interface)) = scene.interfaces.iter().next() {
+                    self.conflict(
+                        &interface.slave.span(),
+                        format!("interface `{name}` stands beside faults"),
+                        "a scene has interfaces or faults",
+                        (&fault.minus.span(), "a fault"),
+                    );
+                }
+                if let Some(second) = scene.stages.get(1) {
+                    self.error(
+                        second.duration.span(),
+                        format!("a scene with faults has one stage, found {}", scene.stages.len()),
+                        "motions that change with time are tables",
+                    );
+                }
+            }
+            None => {}
+        }
+        if let Some(events) = scene.events.as_ref().filter(|_| scene.faults.is_empty()) {
+            self.error(
+                events.above.span(),
+                "events are those of faults, and the scene has none",
+                "remove `[events]`",
+            );
+        }
+    }
+
+    fn friction(&mut self, fault: &Fault) {
+        self.errors.extend(law::choose(&fault.law).err().unwrap_or_default());
+        let kind = fault.law.get_ref().kind.as_ref();
+        if let Some(kind) = kind.filter(|k| WITHOUT_RATE.contains(&k.get_ref().as_str())) {
+            self.error(
+                kind.span(),
+                format!("the slip rate of a fault does not follow from a law of kind \"{}\"", kind.get_ref()),
+                "\"rate-and-state\", or \"rate\"",
+            );
+        }
+    }
+
+    fn start_of(&mut self, fault: &Fault) {
+        let positive = |v: f64| v > 0.0 && v.is_finite();
+        if !positive(fault.normal.get_ref().0) {
+            self.error(fault.normal.span(), "`normal` must be positive", "such as `normal = \"50 MPa\"`");
+        }
+        if !positive(fault.rate.get_ref().0) {
+            self.error(fault.rate.span(), "`rate` must be positive", "such as `rate = \"1e-9 m/s\"`");
+        }
+        if let Some(shear) = fault.shear.as_ref().filter(|s| !positive(s.get_ref().0)) {
+            self.error(shear.span(), "`shear` must be positive", "such as `shear = \"26.5 MPa\"`");
+        }
+        if let Some(creep) = &fault.creep
+            && !creep.rate.get_ref().0.is_finite()
+        {
+            self.error(
+                creep.rate.span(),
+                "the rate of creep must be finite",
+                "such as `rate = \"1e-9 m/s\"`",
+            );
+        }
+        if let Some(damping) = &fault.damping
+            && let DampingSpec::Value(value) = *damping.get_ref()
+            && !(value >= 0.0 && value.is_finite())
+        {
+            self.error(
+                damping.span(),
+                "`damping` must not be negative",
+                "such as `damping = \"radiation\"` or `damping = \"4.6 MPa s/m\"`",
+            );
+        }
+    }
+
+    fn profile(&mut self, name: &str, profile: &Profile) {
+        let points = profile.points.get_ref();
+        let example = format!(
+            "such as `profiles.{name} = {{ along = \"distance\", points = [[\"15 km\", 0.01], ..] }}`"
+        );
+        if points.is_empty() {
+            self.error(profile.points.span(), format!("the profile of `{name}` has no points"), example);
+        } else if !points.windows(2).all(|w| w[0].0.0 < w[1].0.0) {
+            self.error(
+                profile.points.span(),
+                format!("the places of the profile of `{name}` must ascend"),
+                example,
+            );
+        } else if let Some(p) = points.iter().find(|p| !(p.1 > 0.0 && p.1.is_finite())) {
+            let message = format!("the profile of `{name}` must be positive, found {:?}", p.1);
+            self.error(profile.points.span(), message, "values are numbers in SI");
+        }
+    }
+
+    fn stations(&mut self) {
+        let scene = self.scene;
+        for (name, stations) in &scene.output.stations {
+            if !scene.faults.contains_key(name) {
+                self.error(
+                    stations.span(),
+                    format!("stations on `{name}`, but there is no such fault"),
+                    suggest(name, "faults", scene.faults.keys().map(String::as_str)),
+                );
+            }
+        }
+    }
+
+    fn events(&mut self) {
+        let scene = self.scene;
+        let tolerance = scene.time.log_rate_tolerance.as_ref();
+        if let Some(t) = tolerance.filter(|t| !(*t.get_ref() > 0.0 && *t.get_ref() < 1.0)) {
+            self.error(
+                t.span(),
+                "`log_rate_tolerance` must lie between 0 and 1",
+                "such as `log_rate_tolerance = 1e-5`",
+            );
+        }
+        let Some(events) = &scene.events else { return };
+        let above = events.above.get_ref().0;
+        if !(above > 0.0 && above.is_finite()) {
+            self.error(events.above.span(), "`above` must be positive", "such as `above = \"1 mm/s\"`");
+        }
+        if let Some(below) = events.below.as_ref().filter(|b| !(b.get_ref().0 > 0.0 && b.get_ref().0 < above))
+        {
+            self.conflict(
+                &below.span(),
+                "`below` must be positive and less than `above`",
+                "an event ends at a lower rate than it begins, so that it is not counted twice",
+                (&events.above.span(), "`above`"),
+            );
+        }
+        if let Some(n) = events.stop_after.as_ref().filter(|n| *n.get_ref() == 0) {
+            self.error(n.span(), "`stop_after` must be at least 1", "or leave the line out");
+        }
+    }
+}
