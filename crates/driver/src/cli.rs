@@ -4,7 +4,7 @@
 
 use crate::fault;
 use crate::observe::{FieldSchedule, Files, Multi, Observer, Progress, Recorder, plots};
-use crate::plan::{self, AnyPlan};
+use crate::plan::{self, AnyPlan, ScenePlan};
 use crate::report::{Outcome, RunReport};
 use crate::run;
 use crate::scene;
@@ -113,11 +113,9 @@ fn planned(path: &Path) -> miette::Result<Ready> {
     } else {
         let folder = path.parent().unwrap_or(Path::new(""));
         let parsed = scene::read_in(&text, folder).map_err(|errors| told(&errors))?;
-        let refused = |error| told(&scene::SceneErrors::from(error));
-        if parsed.faults.is_empty() {
-            Planned::Bodies(Box::new(plan::plan(&parsed).map_err(refused)?))
-        } else {
-            Planned::Faults(Box::new(fault::plan(&parsed).map_err(refused)?))
+        match plan::plan_scene(&parsed).map_err(|error| told(&scene::SceneErrors::from(error)))? {
+            ScenePlan::Bodies(plan) => Planned::Bodies(plan),
+            ScenePlan::Faults(plan) => Planned::Faults(plan),
         }
     };
     let hash = Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect();

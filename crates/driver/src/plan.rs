@@ -1,5 +1,6 @@
 //! Scene -> Plan: the one place where it is decided what is modelled and how. Below it nothing asks what was declared.
 
+use crate::fault;
 use crate::loading::{self, Stage};
 use crate::model::{CellBlock, Model};
 use crate::rigid;
@@ -235,7 +236,28 @@ const ZETA: f64 = 0.1;
 /// Share of the largest tributary area of an interface below which one is zero but for rounding.
 const NO_AREA: f64 = 1e-12;
 
-/// Plans a scene.
+/// What a scene with bodies asks for.
+#[derive(Debug)]
+pub enum ScenePlan {
+    /// Stages of bodies and interfaces.
+    Bodies(Box<AnyPlan>),
+    /// Faults through earthquake cycles.
+    Faults(Box<fault::Plan>),
+}
+
+/// Plans a scene of either kind.
+///
+/// # Errors
+/// [`PlanError`] with the place in the scene.
+pub fn plan_scene(scene: &Scene) -> Result<ScenePlan, PlanError> {
+    Ok(if scene.faults.is_empty() {
+        ScenePlan::Bodies(Box::new(plan(scene)?))
+    } else {
+        ScenePlan::Faults(Box::new(fault::plan(scene)?))
+    })
+}
+
+/// Plans a scene of bodies and interfaces.
 ///
 /// # Errors
 /// [`PlanError`] with the place in the scene.

@@ -26,7 +26,7 @@ fn errors(text: &str) -> Option<SceneErrors> {
     let meshes = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
     match scene::read_in(text, &meshes) {
         Err(errors) => Some(errors),
-        Ok(scene) => asperity_driver::plan::plan(&scene).err().map(SceneErrors::from),
+        Ok(scene) => asperity_driver::plan::plan_scene(&scene).err().map(SceneErrors::from),
     }
 }
 

@@ -167,9 +167,12 @@ fn plane(ledger: &mut Ledger, slave: usize, master: usize, factor: f64) -> Resul
         .claim(format!("bulk stress error of node-to-point, {what}"))
         .unit("%")
         .value(100.0 * error)
-        .at_least(5.0)
+        .at_least(1.0)
         .evidence(Evidence::Exact, "the stress is uniform; one-pass node-to-segment contact is known not to pass")
-        .because("a pressure that acts at slave nodes only does not load the master with the integrals of its shape functions")
+        .because(
+            "a pressure that acts at slave nodes only does not load the master with the integrals of its shape functions; a \
+             per cent is what a reader of stresses would notice",
+        )
         .why_not_tighter("the claim is that the failure is far above rounding on every mesh; its size is in the table")
         .covers(&[Capability::PenaltyContact2d])
         .cost(&fails.cost)
