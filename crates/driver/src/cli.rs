@@ -207,6 +207,25 @@ fn print_results(out: &Path, report: &RunReport) {
             r.friction[1],
         );
     }
+    for p in &report.points {
+        println!(
+            "  point {} after `{}`: displacement {} m, Mises stress {}",
+            p.point.name,
+            p.stage,
+            triple(&p.values.displacement),
+            pressure(p.values.mises)
+        );
+    }
+    for f in &report.forces {
+        println!(
+            "  force {} on `{}` after `{}`: {} {}",
+            f.force.name,
+            f.force.set,
+            f.stage,
+            triple(&f.value),
+            f.unit
+        );
+    }
     let c = &report.counts;
     println!(
         "  {} steps ({} rejected), {} iterations, {} factorisations, {} body solves",
@@ -218,4 +237,50 @@ fn print_results(out: &Path, report: &RunReport) {
         s.plan, s.set_up, s.steps, s.output
     );
     println!("  written to {}", out.display());
+}
+
+/// A vector to seven digits of its largest component.
+fn triple(v: &[f64; 3]) -> String {
+    let largest = v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    let exponent = if largest > 0.0 && largest.is_finite() { largest.log10().floor() as i32 } else { 0 };
+    // Few zeros before or behind the digits: plain; otherwise a common power of ten.
+    let power = if (-3..7).contains(&exponent) { 0 } else { exponent };
+    let digits = (6 - (exponent - power)).max(0);
+    let fine = 10f64.powi(digits);
+    // Adding zero turns -0 into 0.
+    let part = |c: f64| (c / 10f64.powi(power) * fine).round() / fine + 0.0;
+    let parts = v.map(|c| format!("{:.*}", digits as usize, part(c)));
+    let tail = if power == 0 { String::new() } else { format!("e{power}") };
+    format!("({}){tail}", parts.join(", "))
+}
+
+/// A pressure in the largest unit of which it is one or more.
+fn pressure(p: f64) -> String {
+    let units = [("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3)];
+    let (name, unit) = units.into_iter().find(|(_, unit)| p.abs() >= *unit).unwrap_or(("Pa", 1.0));
+    format!("{:.6} {name}", p / unit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vectors_are_printed_to_seven_digits_of_the_largest_component() {
+        assert_eq!(
+            triple(&[-10.685076051273779, 23.949409855767414, -1e-20]),
+            "(-10.685076, 23.949410, 0.000000)"
+        );
+        assert_eq!(triple(&[1.5405133884581246e-4, 0.0, 0.0]), "(1.540513, 0.000000, 0.000000)e-4");
+        assert_eq!(triple(&[0.0; 3]), "(0.000000, 0.000000, 0.000000)");
+        assert_eq!(triple(&[-2.0, 3530199.85, 0.0]), "(-2, 3530200, 0)");
+        assert!(triple(&[f64::NAN, 0.0, 0.0]).contains("NaN"));
+    }
+
+    #[test]
+    fn pressures_are_printed_in_the_unit_that_fits() {
+        assert_eq!(pressure(0.25), "0.250000 Pa");
+        assert_eq!(pressure(240e6), "240.000000 MPa");
+        assert_eq!(pressure(-1.5e9), "-1.500000 GPa");
+    }
 }

@@ -15,6 +15,7 @@ pub mod plan;
 pub mod report;
 pub mod rigid;
 pub mod run;
+pub mod samples;
 pub mod scene;
 pub mod slider;
 pub mod solver;

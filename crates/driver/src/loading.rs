@@ -29,7 +29,8 @@ pub struct Stage {
     /// Names of interfaces without friction.
     pub frictionless: Vec<String>,
     motions: Vec<(Vec<usize>, Motion)>,
-    loads: Vec<Channel>,
+    /// Loads, with the set they act on, where it is one.
+    loads: Vec<(Option<String>, Channel)>,
     /// Fixed degrees of freedom, sorted.
     pub fixed: Vec<usize>,
 }
@@ -38,12 +39,17 @@ impl Stage {
     /// Constraints of the stage, given the displacement `u0` at its start \[m\].
     #[must_use]
     pub fn constraints(&self, u0: &[f64]) -> Constraints {
-        let mut channels = self.loads.clone();
+        let mut channels: Vec<Channel> = self.loads.iter().map(|(_, channel)| channel.clone()).collect();
         for (dofs, motion) in &self.motions {
             self.motion_channels(dofs, motion, u0, &mut channels);
         }
         channels.retain(|c| !c.prescribed.is_empty() || !c.forces.is_empty());
         Constraints { fixed: self.fixed.clone(), channels }
+    }
+
+    /// Loads that do not act on this set.
+    pub fn loads_beside(&self, set: &str) -> impl Iterator<Item = &Channel> {
+        self.loads.iter().filter(move |(on, _)| on.as_deref() != Some(set)).map(|(_, channel)| channel)
     }
 
     /// Largest prescribed rate of displacement in the stage \[m/s\].
@@ -117,10 +123,11 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
         let motions = motions::<D>(model, &held)?;
         let mut fixed: Vec<usize> = motions.iter().flat_map(|(dofs, _)| dofs.iter().copied()).collect();
         fixed.sort_unstable();
-        let mut channels = body_loads.clone();
+        let mut channels: Vec<_> = body_loads.iter().map(|channel| (None, channel.clone())).collect();
         for (key, loading) in &loads {
             let from = present.get(key).copied().unwrap_or(0.0);
-            channels.push(load_channel(model, key, loading, (from, start, end)));
+            let channel = load_channel(model, key, loading, (from, start, end));
+            channels.push((Some(key.0.clone()), channel));
         }
         stages.push(Stage {
             name: spec.name.clone(),

@@ -4,6 +4,7 @@ use crate::fault;
 use crate::loading::{self, Stage};
 use crate::model::{CellBlock, Model};
 use crate::rigid;
+use crate::samples::Wanted;
 use crate::scene::law;
 use crate::scene::model::{
     Formulation, Interface as InterfaceSpec, Kinematics, Measure, Method, Path as PathChoice, Rule, Scene,
@@ -143,6 +144,8 @@ pub struct Plan<const D: usize> {
     pub stepping: Stepping,
     /// Step control.
     pub control: Control,
+    /// Points and sets of bodies that are looked at in every step.
+    pub samples: Wanted,
     /// Field outputs per stage.
     pub field_outputs: usize,
     /// Profile outputs per stage.
@@ -197,8 +200,8 @@ pub struct Summary {
     pub dofs: usize,
     /// Degrees of freedom of the system a step solves.
     pub system_dofs: usize,
-    /// State variables of friction, in bytes.
-    pub state_bytes: usize,
+    /// State variables of friction, in bytes; absent without interfaces.
+    pub state_bytes: Option<usize>,
     /// Estimated memory \[bytes\].
     pub memory_bytes: usize,
 }
@@ -217,10 +220,10 @@ impl std::fmt::Display for Summary {
         }
         writeln!(
             f,
-            "  size      {} degrees of freedom, {} in each step's system, {} bytes of friction state, about {:.0} MB",
+            "  size      {} degrees of freedom, {} in each step's system, {}about {:.0} MB",
             self.dofs,
             self.system_dofs,
-            self.state_bytes,
+            self.state_bytes.map_or_else(String::new, |bytes| format!("{bytes} bytes of friction state, ")),
             (self.memory_bytes as f64 / 1e6).max(1.0)
         )
     }
@@ -284,6 +287,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
     let summary = summary(scene, &model, &interfaces, path, &stepping, &solver, remarks);
     let initial_stress =
         model.bodies.iter().map(|b| loading::initial_stress(&scene.bodies[&b.name])).collect();
+    let samples = Wanted::new(scene, &model)?;
     Ok(Plan {
         title: scene.title.clone(),
         model,
@@ -294,6 +298,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
         solver,
         stepping,
         control,
+        samples,
         field_outputs: scene.output.fields.as_ref().map_or(1, |f| *f.get_ref()),
         profile_outputs: scene.output.profiles.as_ref().map_or(10, |f| *f.get_ref()),
         summary,
@@ -565,7 +570,7 @@ fn summary<const D: usize>(
         remarks,
         dofs: model.dofs(),
         system_dofs,
-        state_bytes,
+        state_bytes: (!interfaces.is_empty()).then_some(state_bytes),
         memory_bytes: cells * size_of::<f64>() + solver.bytes,
     }
 }

@@ -1,8 +1,9 @@
 //! `report.json`: what a run found, what it cost and where it came from.
 
 use crate::loading::Stage;
-use crate::observe::view::{Counts, InterfaceFields, StepRecord};
+use crate::observe::view::{Counts, ForceMark, InterfaceFields, PointMark, PointValues, Samples, StepRecord};
 use crate::plan::{Plan, Summary};
+use crate::views;
 use serde::Serialize;
 
 /// How a run ended.
@@ -74,6 +75,33 @@ pub struct InterfaceResult {
     pub status: [usize; 3],
 }
 
+/// Values at a point of a body at the end of a stage.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct PointResult {
+    /// The point.
+    #[serde(flatten)]
+    pub point: PointMark,
+    /// Stage.
+    pub stage: String,
+    /// Values.
+    #[serde(flatten)]
+    pub values: PointValues,
+}
+
+/// Force on a set at the end of a stage.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ForceResult {
+    /// The set.
+    #[serde(flatten)]
+    pub force: ForceMark,
+    /// Stage.
+    pub stage: String,
+    /// What acts on the body through the nodes of the set.
+    pub value: [f64; 3],
+    /// Its unit: N, or N/m of thickness.
+    pub unit: &'static str,
+}
+
 /// What may differ from machine to machine and from run to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Provenance {
@@ -100,6 +128,10 @@ pub struct RunReport {
     pub outcome: Outcome,
     /// Results per interface and stage.
     pub results: Vec<InterfaceResult>,
+    /// Values at the points of bodies per stage.
+    pub points: Vec<PointResult>,
+    /// Forces on sets per stage.
+    pub forces: Vec<ForceResult>,
     /// Balance of contact forces at the end.
     pub balance: Vec<InterfaceBalance>,
     /// Work.
@@ -141,6 +173,19 @@ impl RunReport {
                 friction: range(&f.friction),
                 status: [0, 1, 2].map(|s| f.status.iter().filter(|&&x| x == s).count()),
             });
+        }
+    }
+
+    /// Adds the points and forces at the end of a stage.
+    pub fn samples<const D: usize>(&mut self, plan: &Plan<D>, stage: &Stage, samples: &Samples) {
+        let name = || stage.name.clone();
+        for (point, values) in plan.samples.points.iter().zip(&samples.points) {
+            let (point, values) = (views::point_mark(point), values.clone());
+            self.points.push(PointResult { point, stage: name(), values });
+        }
+        for (force, value) in plan.samples.forces.iter().zip(&samples.forces) {
+            let (force, unit) = (views::force_mark(force), views::force_unit(plan));
+            self.forces.push(ForceResult { force, stage: name(), value: *value, unit });
         }
     }
 

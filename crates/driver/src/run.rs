@@ -49,6 +49,7 @@ fn run_in<const D: usize>(plan: &Plan<D>, observer: &mut dyn Observer) -> Result
     for index in 0..plan.stages.len() {
         let outcome = run.stage(index, &mut system, observer)?;
         report.end_of_stage(&plan.stages[index], &system.interface_fields(), system.areas());
+        report.samples(plan, &plan.stages[index], &system.samples());
         if let Some(failure) = outcome {
             report.outcome = failure;
             break;
@@ -163,6 +164,7 @@ impl<const D: usize> Running<'_, D> {
             ends_stage: record.time >= stage.end,
             end_time,
             interfaces: &system.interface_fields(),
+            samples: &system.samples(),
             fields: &|| system.body_fields(),
         })?;
         self.phases.output += clock.elapsed().as_secs_f64();

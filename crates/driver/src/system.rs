@@ -3,10 +3,11 @@
 use crate::free;
 use crate::loading::Stage;
 use crate::model::CellBlock;
-use crate::observe::view::{BodyFields, Counts, InterfaceFields, Setup};
+use crate::observe::view::{BodyFields, Counts, InterfaceFields, Samples, Setup};
 use crate::plan::{Path, Plan, PlannedInterface, Stepping, interface_nodes};
 use crate::report::InterfaceBalance;
 use crate::scene::model::{Measure, Rule, Sliding};
+use crate::samples::Beside;
 use crate::solver::{self, Method, Prepared};
 use crate::step::implicit::Implicit;
 use crate::step::static_explicit::StaticExplicit;
@@ -56,6 +57,8 @@ pub struct Assembled<'a, const D: usize> {
     stepper: Option<ActiveStepper>,
     state: State,
     areas: Vec<(String, Vec<f64>)>,
+    /// Loads of the present stage beside those of each set whose force is wanted.
+    beside: Vec<Beside>,
     body_factorisations: usize,
     body_solves: usize,
 }
@@ -104,6 +107,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
             stepper: None,
             state: State { u: vec![0.0; dofs], time: 0.0 },
             areas,
+            beside: Vec::new(),
             body_factorisations: 0,
             body_solves: 0,
         })
@@ -125,6 +129,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
             self.stepper = Some(self.new_stepper()?);
             self.fixed = Some(stage.fixed.clone());
         }
+        self.beside = self.plan.samples.beside(&self.plan.model, stage);
         // Bodies with a history do not go on as before when their loads turn: a stepper with the rate of the stage before would
         // begin far off.
         match &mut self.stepper {
@@ -370,11 +375,26 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// Present fields of the bodies.
     #[must_use]
     pub fn body_fields(&self) -> BodyFields {
-        let blocks = match &self.bodies {
+        views::body_fields(self.plan, self.blocks(), &self.displacement())
+    }
+
+    /// Present values at the points and sets of the scene; costs a solve on the condensed path.
+    #[must_use]
+    pub fn samples(&self) -> Samples {
+        let (plan, wanted) = (self.plan, &self.plan.samples);
+        if wanted.is_empty() {
+            return Samples::default();
+        }
+        let now = (self.displacement(), self.state.time);
+        wanted.values(&plan.model, (self.blocks(), &plan.initial_stress), (&now.0, now.1), &self.beside)
+    }
+
+    /// Blocks of the mesh in their present state.
+    fn blocks(&self) -> &[CellBlock<D>] {
+        match &self.bodies {
             Bodies::Full { blocks, .. } => blocks,
             Bodies::Condensed(_) => &self.plan.model.blocks,
-        };
-        views::body_fields(self.plan, blocks, &self.displacement())
+        }
     }
 
     /// Balance of contact forces.

@@ -1,11 +1,15 @@
 //! The model and its state as observers see them.
 
 use crate::model::CellBlock;
-use crate::observe::view::{BodyFields, InterfaceFields, InterfaceMesh, MeshView, Setup};
+use crate::observe::view::{
+    BodyFields, ForceMark, InterfaceFields, InterfaceMesh, MeshView, PointMark, Setup,
+};
 use crate::plan::{Plan, PlannedInterface};
 use crate::report::InterfaceBalance;
+use crate::samples::{ForceSet, Point};
 use asperity_contact::{Interface, Status};
 use asperity_fem::block::von_mises;
+use asperity_fem::kinematics::Idealisation;
 use std::collections::BTreeMap;
 
 /// Pads a vector to three components.
@@ -43,6 +47,32 @@ pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[(String, Vec<f64>)]) -> Se
             .map(|(i, (_, areas))| interface_mesh(plan, i, areas))
             .collect(),
         stages: plan.stages.iter().map(|s| (s.name.clone(), s.end)).collect(),
+        points: plan.samples.points.iter().map(point_mark).collect(),
+        forces: plan.samples.forces.iter().map(force_mark).collect(),
+        force_unit: force_unit(plan),
+    }
+}
+
+/// A point as observers know it.
+#[must_use]
+pub fn point_mark(point: &Point) -> PointMark {
+    let mut position = [0.0; 3];
+    position.iter_mut().zip(&point.position).for_each(|(p, x)| *p = *x);
+    PointMark { name: point.name.clone(), body: point.body.clone(), position }
+}
+
+/// A set as observers know it.
+#[must_use]
+pub fn force_mark(force: &ForceSet) -> ForceMark {
+    ForceMark { name: force.name.clone(), set: force.set.clone() }
+}
+
+/// Unit of forces: those of bodies in plane strain and antiplane motion are per metre of thickness.
+#[must_use]
+pub fn force_unit<const D: usize>(plan: &Plan<D>) -> &'static str {
+    match plan.model.idealisation {
+        Idealisation::PlaneStrain | Idealisation::Antiplane => "N/m",
+        Idealisation::PlaneStress | Idealisation::Axisymmetric | Idealisation::ThreeD => "N",
     }
 }
 

@@ -121,7 +121,7 @@ fn a_plan_models_only_what_its_scene_declares() {
     let plan_of = |text: &str| plan::plan(&scene::read(text).unwrap()).unwrap();
     let law = r#"law = { kind = "rate", form = "regularised", mu0 = 0.6, a = 0.01, v_ref = "1e-3 mm/s" }"#;
     assert!(text.contains(law));
-    let bytes = |plan: &AnyPlan| plan.summary().state_bytes;
+    let bytes = |plan: &AnyPlan| plan.summary().state_bytes.unwrap();
     let AnyPlan::Two(velocity) = plan_of(text) else { panic!("the sandwich is plane") };
     assert!(velocity.interfaces[0].law.is_some());
     assert_eq!(bytes(&AnyPlan::Two(velocity)), 0);

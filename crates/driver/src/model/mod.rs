@@ -53,6 +53,21 @@ impl<const D: usize> CellBlock<D> {
         }
     }
 
+    /// Forces of a cell on its nodes, in the order of its degrees of freedom \[N, or N/m of thickness\], for displacements `u`
+    /// of the common mesh; a block that is not linear knows its state itself.
+    #[must_use]
+    pub fn forces_of_cell(&self, cell: usize, u: &[f64]) -> Vec<f64> {
+        let block = match self {
+            Self::Nonlinear(block) => return block.forces_of_cell(cell),
+            Self::Linear(block) => block,
+        };
+        let pattern = block.pattern();
+        let dofs = &pattern.dofs[pattern.starts[cell]..pattern.starts[cell + 1]];
+        let size = dofs.len();
+        let rows = block.stiffness()[cell * size * size..(cell + 1) * size * size].chunks_exact(size);
+        rows.map(|row| row.iter().zip(dofs).map(|(k, &dof)| k * u[dof]).sum()).collect()
+    }
+
     /// Its degrees of freedom, cell by cell.
     #[must_use]
     pub fn pattern(&self) -> &Pattern {

@@ -1,10 +1,11 @@
 //! Files written during the run, so that nothing computed is lost if it stops: fields for ParaView, profiles and probes.
 //!
 //! ```text
-//! fields.pvd  fields/bodies_00001.vtu  fields/fault_00001.vtu  profiles/fault_001.csv  probes/fault.csv
+//! fields.pvd  fields/bodies_00001.vtu  fields/fault_00001.vtu  profiles/fault_001.csv  probes/fault.csv  points/tip.csv
+//! forces/left.csv
 //! ```
 
-use super::record::{check_interfaces, check_probes};
+use super::record::{check_interfaces, check_probes, check_samples};
 use super::schedule::{Due, FieldSchedule};
 use super::view::{BodyFields, InterfaceFields, InterfaceMesh, MeshView, Observer, Setup, StepView};
 use super::vtu::{Array, Grid, PvdEntry, Values, pvd};
@@ -22,6 +23,8 @@ pub struct Files {
     profiles_due: Due,
     bodies: Option<Bodies>,
     interfaces: Vec<Part>,
+    points: Vec<Growing>,
+    forces: Vec<Growing>,
     collection: Vec<PvdEntry>,
     field_number: usize,
     profile_number: usize,
@@ -42,7 +45,29 @@ struct Part {
     /// Name of its files.
     stem: String,
     grid: Grid,
-    probes: Option<fs::File>,
+    probes: Option<Growing>,
+}
+
+/// A table that grows by whole rows.
+#[derive(Debug)]
+struct Growing {
+    path: PathBuf,
+    file: fs::File,
+}
+
+impl Growing {
+    fn create(path: PathBuf, header: &[u8]) -> Result<Self, ObserveError> {
+        atomic::write(&path, header)?;
+        match fs::OpenOptions::new().append(true).open(&path) {
+            Ok(file) => Ok(Self { path, file }),
+            Err(source) => Err(ObserveError::write(&path, source)),
+        }
+    }
+
+    /// One write per row: a run that is killed leaves whole rows.
+    fn push(&mut self, row: &[u8]) -> Result<(), ObserveError> {
+        self.file.write_all(row).map_err(|source| ObserveError::write(&self.path, source))
+    }
 }
 
 impl Files {
@@ -59,6 +84,8 @@ impl Files {
             profiles_due: Due::default(),
             bodies: None,
             interfaces: Vec::new(),
+            points: Vec::new(),
+            forces: Vec::new(),
             collection: Vec::new(),
             field_number: 0,
             profile_number: 0,
@@ -113,12 +140,45 @@ impl Files {
             self.interfaces.iter_mut().zip(&self.setup.interfaces).zip(view.interfaces)
         {
             let Some(file) = &mut part.probes else { continue };
-            let row = table::probe_row(view.record.time, view.record.stage, view.record.step, mesh, fields);
-            // One write per row: a run that is killed leaves whole rows.
-            file.write_all(&row).map_err(|source| {
-                ObserveError::write(&self.out.join(format!("probes/{}.csv", part.stem)), source)
-            })?;
+            file.push(&table::probe_row(
+                view.record.time,
+                view.record.stage,
+                view.record.step,
+                mesh,
+                fields,
+            ))?;
         }
+        Ok(())
+    }
+
+    fn write_samples(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        let row = |values: &[f64]| {
+            table::history_row(view.record.time, view.record.stage, view.record.step, values)
+        };
+        for (file, point) in self.points.iter_mut().zip(&view.samples.points) {
+            file.push(&row(&table::point_values(point)))?;
+        }
+        for (file, force) in self.forces.iter_mut().zip(&view.samples.forces) {
+            file.push(&row(force))?;
+        }
+        Ok(())
+    }
+
+    /// Begins the tables of points and forces.
+    fn begin_samples(&mut self, setup: &Setup) -> Result<(), ObserveError> {
+        let begin = |folder: &str, names: Vec<&str>, header: &[u8]| -> Result<Vec<Growing>, ObserveError> {
+            if names.is_empty() {
+                return Ok(Vec::new());
+            }
+            atomic::create_dir(&self.out.join(folder))?;
+            let file = |stem: String| Growing::create(self.out.join(format!("{folder}/{stem}.csv")), header);
+            stems(names.into_iter()).into_iter().map(file).collect()
+        };
+        let points = setup.points.iter().map(|p| p.name.as_str()).collect();
+        let forces = setup.forces.iter().map(|f| f.name.as_str()).collect();
+        let points = begin("points", points, &table::point_header())?;
+        let forces = begin("forces", forces, &table::force_header(setup.force_unit))?;
+        (self.points, self.forces) = (points, forces);
         Ok(())
     }
 
@@ -163,17 +223,17 @@ impl Observer for Files {
         for (part, mesh) in self.interfaces.iter_mut().zip(&setup.interfaces) {
             if !mesh.probes.is_empty() {
                 let path = self.out.join(format!("probes/{}.csv", part.stem));
-                atomic::write(&path, &table::probe_header(mesh))?;
-                let file = fs::OpenOptions::new().append(true).open(&path);
-                part.probes = Some(file.map_err(|source| ObserveError::write(&path, source))?);
+                part.probes = Some(Growing::create(path, &table::probe_header(mesh))?);
             }
         }
-        Ok(())
+        self.begin_samples(setup)
     }
 
     fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
         check_interfaces(&self.setup, view.interfaces)?;
+        check_samples(&self.setup, view.samples)?;
         self.write_probes(view)?;
+        self.write_samples(view)?;
         let (stage, time) = (view.record.stage, view.record.time);
         if self.profiles_due.take(stage, time, view.ends_stage) {
             self.write_profiles(view)?;

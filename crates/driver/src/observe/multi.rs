@@ -38,6 +38,7 @@ impl Observer for Multi<'_> {
             ends_stage: view.ends_stage,
             end_time: view.end_time,
             interfaces: view.interfaces,
+            samples: view.samples,
             fields: &once,
         };
         self.observers.iter_mut().try_for_each(|observer| observer.step(&shared))

@@ -1,6 +1,6 @@
 //! A run kept in memory: the records of all steps, histories at points of the interfaces, and states at stage ends.
 
-use super::view::{BodyFields, InterfaceFields, Observer, Setup, StepRecord, StepView};
+use super::view::{BodyFields, InterfaceFields, Observer, Samples, Setup, StepRecord, StepView};
 use super::{ObserveError, expect_length};
 
 /// Histories at one slave node, one value a step (see [`InterfaceFields`] for signs).
@@ -56,6 +56,7 @@ pub struct Recorder {
     setup: Setup,
     records: Vec<StepRecord>,
     times: Vec<f64>,
+    samples: Vec<Samples>,
     histories: Vec<InterfaceHistory>,
     stage_ends: Vec<StageEnd>,
 }
@@ -97,6 +98,12 @@ impl Recorder {
     #[must_use]
     pub fn times(&self) -> &[f64] {
         &self.times
+    }
+
+    /// Values at the points and sets of the scene after each accepted step.
+    #[must_use]
+    pub fn samples(&self) -> &[Samples] {
+        &self.samples
     }
 
     /// Histories, one entry an interface in the order of [`Setup::interfaces`].
@@ -155,8 +162,10 @@ impl Observer for Recorder {
 
     fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
         check_interfaces(&self.setup, view.interfaces)?;
+        check_samples(&self.setup, view.samples)?;
         self.times.push(view.record.time);
         self.records.push(view.record.clone());
+        self.samples.push(view.samples.clone());
         for (history, fields) in self.histories.iter_mut().zip(view.interfaces) {
             for point in &mut history.points {
                 point.push(fields);
@@ -198,6 +207,12 @@ pub(super) fn check_probes(setup: &Setup) -> Result<(), ObserveError> {
         }
     }
     Ok(())
+}
+
+/// Refuses samples that do not fit the announced points and sets.
+pub(super) fn check_samples(setup: &Setup, samples: &Samples) -> Result<(), ObserveError> {
+    expect_length("points of the step", setup.points.len(), samples.points.len())?;
+    expect_length("forces of the step", setup.forces.len(), samples.forces.len())
 }
 
 /// Refuses interface fields that do not fit the announced slave nodes, so that no observer indexes out of range.

@@ -1,6 +1,6 @@
 //! Tables as CSV: profiles along an interface at one time, and histories at its probes.
 
-use super::view::{InterfaceFields, InterfaceMesh};
+use super::view::{InterfaceFields, InterfaceMesh, PointValues};
 
 /// One column of an interface's table: its name with unit, and how to read it.
 type Column = (&'static str, fn(&InterfaceFields, usize) -> f64);
@@ -54,7 +54,7 @@ pub(super) fn probe_header(mesh: &InterfaceMesh) -> Vec<u8> {
     let labels = super::plots::position_labels(mesh.probes.iter().map(|&node| mesh.positions[node]));
     let columns =
         labels.iter().flat_map(|label| PROBE.iter().map(move |(name, _)| format!("{name} at {label}")));
-    rows.push(["time [s]", "stage", "step"].iter().map(ToString::to_string).chain(columns));
+    rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
     rows.bytes()
 }
 
@@ -66,11 +66,54 @@ pub(super) fn probe_row(
     mesh: &InterfaceMesh,
     fields: &InterfaceFields,
 ) -> Vec<u8> {
+    let values = mesh.probes.iter().flat_map(|&i| PROBE.iter().map(move |(_, read)| read(fields, i)));
+    history_row(time, stage, step, &values.collect::<Vec<f64>>())
+}
+
+/// Columns of a point of a body.
+const POINT: [&str; 10] = [
+    "displacement_x [m]",
+    "displacement_y [m]",
+    "displacement_z [m]",
+    "stress_xx [Pa]",
+    "stress_yy [Pa]",
+    "stress_zz [Pa]",
+    "stress_xy [Pa]",
+    "stress_yz [Pa]",
+    "stress_zx [Pa]",
+    "mises [Pa]",
+];
+
+/// The header of a history at a point of a body.
+pub(super) fn point_header() -> Vec<u8> {
     let mut rows = Rows::default();
-    let values = mesh.probes.iter().flat_map(|&i| PROBE.iter().map(move |(_, read)| number(read(fields, i))));
-    rows.push([number(time), stage.to_string(), step.to_string()].into_iter().chain(values));
+    rows.push(WHEN.iter().chain(&POINT).map(ToString::to_string));
     rows.bytes()
 }
+
+/// The header of a history of a force in this unit.
+pub(super) fn force_header(unit: &str) -> Vec<u8> {
+    let mut rows = Rows::default();
+    let columns = ["x", "y", "z"].iter().map(|axis| format!("force_{axis} [{unit}]"));
+    rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
+    rows.bytes()
+}
+
+/// One row of a history: time, stage, step, values.
+pub(super) fn history_row(time: f64, stage: usize, step: usize, values: &[f64]) -> Vec<u8> {
+    let mut rows = Rows::default();
+    let when = [number(time), stage.to_string(), step.to_string()];
+    rows.push(when.into_iter().chain(values.iter().map(|&v| number(v))));
+    rows.bytes()
+}
+
+/// The values of a point in the order of its columns.
+pub(super) fn point_values(point: &PointValues) -> Vec<f64> {
+    point.displacement.iter().chain(&point.stress).copied().chain([point.mises]).collect()
+}
+
+/// First columns of a history.
+const WHEN: [&str; 3] = ["time [s]", "stage", "step"];
 
 /// Rows in memory.
 struct Rows(csv::Writer<Vec<u8>>);

@@ -72,6 +72,47 @@ pub struct BodyFields {
     pub node_mises: Vec<f64>,
 }
 
+/// A point of a body that is looked at in every step.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct PointMark {
+    /// Name in the scene.
+    pub name: String,
+    /// Its body.
+    pub body: String,
+    /// Reference position \[m\].
+    pub position: [f64; 3],
+}
+
+/// A set whose force is looked at in every step.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ForceMark {
+    /// Name in the scene.
+    pub name: String,
+    /// The set, `body.set`.
+    pub set: String,
+}
+
+/// Values at a point of a body.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct PointValues {
+    /// Displacement \[m\].
+    pub displacement: [f64; 3],
+    /// Cauchy stress xx, yy, zz, xy, yz, zx \[Pa\]: the linear polynomial through the quadrature points of the cell.
+    pub stress: [f64; 6],
+    /// Mises stress \[Pa\].
+    pub mises: f64,
+}
+
+/// Values at the points and sets of [`Setup::points`] and [`Setup::forces`] after a step.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Samples {
+    /// One entry a point.
+    pub points: Vec<PointValues>,
+    /// Force that acts on the body through the nodes of each set \[N, or N/m of thickness in the plane\]: what holds them, what is
+    /// in contact with them, and the loads on the set.
+    pub forces: Vec<[f64; 3]>,
+}
+
 /// What the report keeps of one step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct StepRecord {
@@ -142,6 +183,8 @@ pub struct StepView<'a> {
     pub end_time: f64,
     /// Interfaces, in the order of [`Setup::interfaces`].
     pub interfaces: &'a [InterfaceFields],
+    /// Points and forces, in the order of [`Setup::points`] and [`Setup::forces`].
+    pub samples: &'a Samples,
     /// Recovers the fields of the bodies (costs a solve on the condensed path).
     pub fields: &'a dyn Fn() -> BodyFields,
 }
@@ -157,6 +200,12 @@ pub struct Setup {
     pub interfaces: Vec<InterfaceMesh>,
     /// Stage names and end times \[s\].
     pub stages: Vec<(String, f64)>,
+    /// Points of bodies that are looked at in every step.
+    pub points: Vec<PointMark>,
+    /// Sets whose forces are looked at in every step.
+    pub forces: Vec<ForceMark>,
+    /// Unit of forces: N, or N/m where they are per metre of thickness.
+    pub force_unit: &'static str,
 }
 
 /// Watches a run.

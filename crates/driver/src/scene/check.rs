@@ -7,6 +7,7 @@ mod faults;
 mod interfaces;
 mod materials;
 mod meshes;
+mod output;
 mod solver;
 mod time;
 
@@ -33,9 +34,6 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     errors.sort_by_key(|e| (e.span.is_empty(), e.span.start));
     errors
 }
-
-/// More probes of an interface, or outputs of a stage, than this are a slip of the keyboard: each output is a file.
-const MOST_OUTPUTS: usize = 100_000;
 
 /// Axes by name.
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -150,43 +148,6 @@ impl Checker<'_> {
         } else {
             let help = suggest(body, "bodies", self.scene.bodies.keys().map(String::as_str));
             self.error(set.span(), format!("there is no body `{body}` in `{name}`"), help);
-        }
-    }
-
-    fn output(&mut self) {
-        for (name, probes) in &self.scene.output.probes {
-            if !self.scene.interfaces.contains_key(name) {
-                let known = self.scene.interfaces.keys().map(String::as_str);
-                self.error(
-                    probes.span(),
-                    format!("probes on `{name}`, but there is no such interface"),
-                    suggest(name, "interfaces", known),
-                );
-            }
-            if *probes.get_ref() > MOST_OUTPUTS {
-                self.too_many(probes, "probes", MOST_OUTPUTS);
-            }
-            if *probes.get_ref() == 0 {
-                self.error(
-                    probes.span(),
-                    format!("no probes on `{name}`"),
-                    "at least 1, or leave the line out",
-                );
-            }
-        }
-        for (name, count) in
-            [("fields", &self.scene.output.fields), ("profiles", &self.scene.output.profiles)]
-        {
-            if let Some(count) = count.as_ref().filter(|c| *c.get_ref() > MOST_OUTPUTS) {
-                self.too_many(count, name, MOST_OUTPUTS);
-            }
-            if let Some(count) = count.as_ref().filter(|c| *c.get_ref() == 0) {
-                self.error(
-                    count.span(),
-                    format!("`{name}` must be at least 1: the end of each stage"),
-                    format!("such as `{name} = 1`"),
-                );
-            }
         }
     }
 }

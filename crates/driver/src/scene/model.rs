@@ -326,6 +326,12 @@ pub struct Output {
     /// Probes per interface: this many positions, equally spaced along the slave side, at the nearest nodes.
     #[serde(default)]
     pub probes: BTreeMap<String, Spanned<usize>>,
+    /// Points of bodies whose displacement and stress are written at every step.
+    #[serde(default)]
+    pub points: BTreeMap<String, Spanned<PointSpec>>,
+    /// Sets whose total force is written at every step.
+    #[serde(default)]
+    pub forces: BTreeMap<String, Spanned<ForceSpec>>,
     /// Fields are written at this many equal intervals of each stage (default 1: the end of each stage).
     pub fields: Option<Spanned<usize>>,
     /// Profiles are written at this many equal intervals of each stage (default 10).
@@ -333,4 +339,22 @@ pub struct Output {
     /// Fault-ode: stations per fault, at these distances along it from its upper end \[m\].
     #[serde(default)]
     pub stations: BTreeMap<String, Spanned<Vec<Length>>>,
+}
+
+/// A point of a body.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PointSpec {
+    /// The body.
+    pub body: Spanned<String>,
+    /// Its place in the reference configuration \[m\].
+    pub at: Spanned<Vec<Length>>,
+}
+
+/// A set whose force is wanted.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ForceSpec {
+    /// The set, `body.set`.
+    pub set: Spanned<String>,
 }

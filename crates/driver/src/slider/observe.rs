@@ -3,7 +3,9 @@
 
 use super::plan::Plan;
 use super::run::{Now, Watcher};
-use crate::observe::view::{BodyFields, InterfaceFields, InterfaceMesh, Setup, StepRecord, StepView};
+use crate::observe::view::{
+    BodyFields, InterfaceFields, InterfaceMesh, Samples, Setup, StepRecord, StepView,
+};
 use crate::observe::{ObserveError, Observer};
 
 /// The stage there is.
@@ -70,6 +72,7 @@ impl Watcher for Show<'_> {
             ends_stage: false,
             end_time: plan.end,
             interfaces: &[fields],
+            samples: &Samples::default(),
             fields: &BodyFields::default,
         };
         self.observers.iter_mut().try_for_each(|o| o.step(&view))

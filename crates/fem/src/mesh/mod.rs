@@ -7,10 +7,12 @@ pub mod extrude;
 pub mod fault;
 pub mod generate;
 pub mod gmsh;
+mod locate;
 mod raw;
 pub mod split;
 
 pub use error::{GroupName, Holder, MeshError, Part, Place};
+pub use locate::{Location, locate};
 pub use raw::{GroupTag, Options, RawBlock, RawGroup, RawMesh, RawNode, RawSide, Shape};
 
 use crate::element::ElementKind;

@@ -1,7 +1,7 @@
 //! Fields of the committed state.
 
 use super::block::Block;
-use super::cell::Scratch;
+use super::cell::{Inverted, Scratch};
 use super::model::{Material, with_material};
 use crate::material::constitutive::{Constitutive, Voigt};
 
@@ -54,39 +54,82 @@ impl<const D: usize> Block<D> {
         kept.then(|| self.state.committed.chunks_exact(layout.stride).map(|s| s[layout.stride - 1]).collect())
     }
 
+    /// Cauchy stress at the quadrature points of a cell \[Pa\].
+    #[must_use]
+    pub fn stress_of_cell(&self, cell: usize) -> Vec<Voigt> {
+        let mut scratch = Scratch::new(&self.body.frame);
+        with_material!(&self.body.model.material, m => self.cell_points(m, cell, &mut scratch))
+            .into_iter()
+            .map(|(s, _)| s)
+            .collect()
+    }
+
+    /// Forces of the stresses of a cell on its nodes, in the order of its degrees of freedom \[N, or N/m of thickness\].
+    #[must_use]
+    pub fn forces_of_cell(&self, cell: usize) -> Vec<f64> {
+        let (body, frame) = (&self.body, &self.body.frame);
+        let mut scratch = Scratch::new(frame);
+        let mut forces = vec![f64::NAN; frame.width()];
+        with_material!(&body.model.material, m => {
+            if self.cell_stresses(m, cell, &mut scratch).is_ok() {
+                scratch.forces(frame, body.cell_volumes(cell), &mut forces);
+            }
+        });
+        forces
+    }
+
     /// Stress of every point and its present volume. Under finite deformation σ = τ/J; with averaged dilatation J is that
     /// of the cell, as the dilatation the stress answers to.
     fn stresses<M: Constitutive>(&self, material: &M) -> Vec<(Voigt, f64)> {
+        let mut scratch = Scratch::new(&self.body.frame);
+        (0..self.body.cells.len()).flat_map(|cell| self.cell_points(material, cell, &mut scratch)).collect()
+    }
+
+    /// The same of one cell.
+    fn cell_points<M: Constitutive>(
+        &self,
+        material: &M,
+        cell: usize,
+        scratch: &mut Scratch<D>,
+    ) -> Vec<(Voigt, f64)> {
         let (body, frame) = (&self.body, &self.body.frame);
-        let mut scratch = Scratch::new(frame);
-        let mut kept = vec![0.0; body.state_size()];
-        let mut out = Vec::with_capacity(body.volumes.len());
-        for cell in 0..body.cells.len() {
-            let volumes = body.cell_volumes(cell);
-            let start = if self.none.is_empty() { &self.u.committed } else { &self.none };
-            body.gather(cell, start, &self.u.committed, &mut scratch);
-            if scratch.motion(frame, volumes).is_err() {
-                // A committed state was evaluated, so it has a volume; a restored one may be anything.
-                out.extend(volumes.iter().map(|_| ([f64::NAN; 6], f64::NAN)));
-                continue;
-            }
-            let old = body.cell_state(cell, &self.state.committed);
-            if self.none.is_empty() {
-                scratch.forward(frame, material, 0.0, old);
-            } else {
-                scratch.stresses(frame, material, 0.0, old, &mut kept, false);
-            }
-            let mean = scratch.volume.iter().sum::<f64>() / volumes.iter().sum::<f64>();
-            for (point, (stress, v)) in scratch.stress.iter().zip(&scratch.volume).enumerate() {
-                let thickness = match (frame.thickness_of(old, point), frame.finite) {
-                    (Some(strain), true) => strain.exp(),
-                    _ => 1.0,
-                };
-                let j = if frame.modes > 0 { mean } else { v / volumes[point] * thickness };
-                let stress = if frame.finite { stress.map(|s| s / j) } else { *stress };
-                out.push((stress, v * thickness));
-            }
+        let volumes = body.cell_volumes(cell);
+        if self.cell_stresses(material, cell, scratch).is_err() {
+            return volumes.iter().map(|_| ([f64::NAN; 6], f64::NAN)).collect();
         }
-        out
+        let old = body.cell_state(cell, &self.state.committed);
+        let mean = scratch.volume.iter().sum::<f64>() / volumes.iter().sum::<f64>();
+        let point = |(point, (stress, v)): (usize, (&Voigt, &f64))| {
+            let thickness = match (frame.thickness_of(old, point), frame.finite) {
+                (Some(strain), true) => strain.exp(),
+                _ => 1.0,
+            };
+            let j = if frame.modes > 0 { mean } else { v / volumes[point] * thickness };
+            let stress = if frame.finite { stress.map(|s| s / j) } else { *stress };
+            (stress, v * thickness)
+        };
+        scratch.stress.iter().zip(&scratch.volume).enumerate().map(point).collect()
+    }
+
+    /// Stresses of a cell in the committed state as the cell's kernels take them. A committed state was evaluated, so it has a
+    /// volume; a restored one may be anything.
+    fn cell_stresses<M: Constitutive>(
+        &self,
+        material: &M,
+        cell: usize,
+        scratch: &mut Scratch<D>,
+    ) -> Result<(), Inverted> {
+        let (body, frame) = (&self.body, &self.body.frame);
+        let start = if self.none.is_empty() { &self.u.committed } else { &self.none };
+        body.gather(cell, start, &self.u.committed, scratch);
+        scratch.motion(frame, body.cell_volumes(cell))?;
+        let old = body.cell_state(cell, &self.state.committed);
+        if self.none.is_empty() {
+            scratch.forward(frame, material, 0.0, old);
+        } else {
+            let mut kept = vec![0.0; body.state_size()];
+            scratch.stresses(frame, material, 0.0, old, &mut kept, false);
+        }
+        Ok(())
     }
 }

@@ -62,7 +62,14 @@ pub(crate) fn setup(layers: usize) -> Setup {
         probes: (0..8).map(|i| (i as f64 * 20.0 / 7.0).round() as usize).collect(),
     };
     let stages = STAGES.iter().map(|(name, end)| ((*name).to_string(), *end)).collect();
-    Setup { title: "sandwich/v1".into(), mesh, interfaces: vec![fault], stages }
+    Setup {
+        title: "sandwich/v1".into(),
+        mesh,
+        interfaces: vec![fault],
+        stages,
+        force_unit: "N/m",
+        ..Setup::default()
+    }
 }
 
 fn fields_at(setup: &Setup, time: f64, spoil: Option<f64>) -> InterfaceFields {
@@ -87,6 +94,19 @@ fn fields_at(setup: &Setup, time: f64, spoil: Option<f64>) -> InterfaceFields {
         slip_rate: per(&v),
         friction: per(&mu),
         status: vec![if since > 0.0 { 2 } else { 1 }; mesh.positions.len()],
+    }
+}
+
+/// Values of points and sets that grow with time.
+pub(crate) fn samples_at(setup: &Setup, time: f64) -> Samples {
+    let point = |k: usize| PointValues {
+        displacement: [1e-3 * time, -1e-4 * k as f64, 0.0],
+        stress: [time * 1e6, 0.0, 0.0, -0.5e6, 0.0, 0.0],
+        mises: 2.5e6,
+    };
+    Samples {
+        points: (0..setup.points.len()).map(point).collect(),
+        forces: (0..setup.forces.len()).map(|k| [1e3 * time, k as f64, 0.0]).collect(),
     }
 }
 
@@ -131,6 +151,7 @@ pub(crate) fn play(
                 ends_stage: k == per_stage,
                 end_time: 59.66,
                 interfaces: &interfaces,
+                samples: &samples_at(setup, time),
                 fields: &|| body_fields(&setup.mesh, time, spoil),
             })?;
         }

@@ -250,6 +250,7 @@ fn several_observers_share_one_recovery_of_the_bodies() {
         ends_stage: true,
         end_time: 1.0,
         interfaces: &[],
+        samples: &view::Samples::default(),
         fields: &fields,
     };
     Multi::new(vec![&mut a, &mut b]).step(&view).unwrap();

@@ -1,0 +1,276 @@
+//! What a scene asks of its bodies beside fields: displacement and stress at points, forces on sets.
+
+use crate::loading::Stage;
+use crate::model::{CellBlock, Model};
+use crate::observe::view::{PointValues, Samples};
+use crate::plan::PlanError;
+use crate::rigid::place;
+use crate::scene::model::{PointSpec, Scene, Spanned};
+use asperity_fem::block::von_mises;
+use asperity_fem::element::ElementKind;
+use asperity_fem::mesh::{locate, nodes_of_sides};
+use asperity_fem::table::Table;
+use nalgebra::{DMatrix, DVector};
+
+/// A point of a body.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// Name in the scene.
+    pub name: String,
+    /// Its body.
+    pub body: String,
+    /// Reference position \[m\].
+    pub position: Vec<f64>,
+    block: usize,
+    cell: usize,
+    /// Nodes of its cell, with the values of their shape functions there.
+    shares: Vec<(usize, f64)>,
+    /// What each quadrature point of its cell contributes to the stress there.
+    weights: Vec<f64>,
+}
+
+/// A set whose force is wanted.
+#[derive(Clone, Debug)]
+pub struct ForceSet {
+    /// Name in the scene.
+    pub name: String,
+    /// The set, `body.set`.
+    pub set: String,
+    /// Its nodes, ascending.
+    nodes: Vec<usize>,
+    /// Cells that have one of them: block and cell.
+    cells: Vec<(usize, usize)>,
+}
+
+/// What is wanted.
+#[derive(Clone, Debug, Default)]
+pub struct Wanted {
+    /// Points, by name.
+    pub points: Vec<Point>,
+    /// Sets, by name.
+    pub forces: Vec<ForceSet>,
+}
+
+/// Loads of a stage on the nodes of a set that are not the set's own: resultant at unit amplitude \[N, or N/m of thickness\],
+/// and amplitude.
+pub type Beside = Vec<([f64; 3], Table)>;
+
+impl Wanted {
+    /// Finds the points and sets of a scene.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a point outside its body and a set that does not exist.
+    pub fn new<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Self, PlanError> {
+        let points = scene.output.points.iter().map(|(name, spec)| point(model, name, spec));
+        let forces = scene.output.forces.iter().map(|(name, spec)| {
+            let set = &spec.get_ref().set;
+            let nodes = nodes_of_sides(&model.mesh, model.sides(set)?);
+            Ok::<_, PlanError>(ForceSet {
+                name: name.clone(),
+                set: set.get_ref().clone(),
+                cells: cells_with(model, &nodes),
+                nodes,
+            })
+        });
+        Ok(Self { points: points.collect::<Result<_, _>>()?, forces: forces.collect::<Result<_, _>>()? })
+    }
+
+    /// Whether nothing is wanted.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty() && self.forces.is_empty()
+    }
+
+    /// Loads of a stage beside those of each set.
+    #[must_use]
+    pub fn beside<const D: usize>(&self, model: &Model<D>, stage: &Stage) -> Vec<Beside> {
+        let components = model.idealisation.components();
+        let one = |wanted: &ForceSet| {
+            let channels = stage.loads_beside(&wanted.set).map(|channel| {
+                let mut sum = [0.0; 3];
+                for &(dof, force) in &channel.forces {
+                    if wanted.nodes.binary_search(&(dof / components)).is_ok() {
+                        sum[model.idealisation.axis(dof % components)] += force;
+                    }
+                }
+                (sum, channel.amplitude.clone())
+            });
+            channels.filter(|(sum, _)| *sum != [0.0; 3]).collect()
+        };
+        self.forces.iter().map(one).collect()
+    }
+
+    /// Present values, for displacements `u` of the common mesh; `blocks` are those of the mesh in their present state, `beside`
+    /// the loads of the present stage.
+    #[must_use]
+    pub fn values<const D: usize>(
+        &self,
+        model: &Model<D>,
+        (blocks, initial): (&[CellBlock<D>], &[Option<[f64; 6]>]),
+        (u, time): (&[f64], f64),
+        beside: &[Beside],
+    ) -> Samples {
+        let point = |p: &Point| {
+            let stress = p.stress(model, (blocks, initial), u);
+            PointValues { displacement: p.displacement(model, u), mises: von_mises(&stress), stress }
+        };
+        let force = |(set, beside): (&ForceSet, &Beside)| {
+            let mut force = set.internal(model, blocks, u);
+            for (sum, amplitude) in beside {
+                let amplitude = amplitude.value(time);
+                force.iter_mut().zip(sum).for_each(|(f, s)| *f -= amplitude * s);
+            }
+            force
+        };
+        Samples {
+            points: self.points.iter().map(point).collect(),
+            forces: self.forces.iter().zip(beside).map(force).collect(),
+        }
+    }
+}
+
+impl Point {
+    fn displacement<const D: usize>(&self, model: &Model<D>, u: &[f64]) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for &(node, share) in &self.shares {
+            let at = model.displacement(node, u);
+            sum.iter_mut().zip(at).for_each(|(s, a)| *s += share * a);
+        }
+        sum
+    }
+
+    fn stress<const D: usize>(
+        &self,
+        model: &Model<D>,
+        (blocks, initial): (&[CellBlock<D>], &[Option<[f64; 6]>]),
+        u: &[f64],
+    ) -> [f64; 6] {
+        let block = &blocks[self.block];
+        let stresses: Vec<[f64; 6]> = match block {
+            CellBlock::Linear(block) => block.cell_state(self.cell, u).map(|s| s.stress).collect(),
+            CellBlock::Nonlinear(block) => block.stress_of_cell(self.cell),
+        };
+        let mut sum = [0.0; 6];
+        for (stress, weight) in stresses.iter().zip(&self.weights) {
+            sum.iter_mut().zip(stress).for_each(|(s, t)| *s += weight * t);
+        }
+        // Blocks that are not linear keep their initial stress themselves.
+        let body = model.bodies.iter().position(|b| b.blocks.contains(&self.block));
+        if let (Some(initial), CellBlock::Linear(_)) = (body.and_then(|b| initial[b]), block) {
+            sum.iter_mut().zip(initial).for_each(|(s, t)| *s += t);
+        }
+        sum
+    }
+}
+
+impl ForceSet {
+    /// Sum of the internal forces of the bodies at the nodes of the set.
+    fn internal<const D: usize>(&self, model: &Model<D>, blocks: &[CellBlock<D>], u: &[f64]) -> [f64; 3] {
+        let components = model.idealisation.components();
+        let mut sum = [0.0; 3];
+        for &(block, cell) in &self.cells {
+            let forces = blocks[block].forces_of_cell(cell, u);
+            let nodes = model.mesh.blocks[block].cell(cell);
+            for (node, forces) in nodes.iter().zip(forces.chunks_exact(components)) {
+                if self.nodes.binary_search(node).is_ok() {
+                    for (c, f) in forces.iter().enumerate() {
+                        sum[model.idealisation.axis(c)] += f;
+                    }
+                }
+            }
+        }
+        sum
+    }
+}
+
+fn cells_with<const D: usize>(model: &Model<D>, nodes: &[usize]) -> Vec<(usize, usize)> {
+    let blocks = model.mesh.blocks.iter().enumerate();
+    let has = |n: &usize| nodes.binary_search(n).is_ok();
+    blocks
+        .flat_map(|(b, cells)| {
+            (0..cells.len()).filter(move |&c| cells.cell(c).iter().any(has)).map(move |c| (b, c))
+        })
+        .collect()
+}
+
+fn point<const D: usize>(
+    model: &Model<D>,
+    name: &str,
+    spec: &Spanned<PointSpec>,
+) -> Result<Point, PlanError> {
+    let (given, at) = (&spec.get_ref().body, &spec.get_ref().at);
+    let refuse =
+        |place: std::ops::Range<usize>, message: String, help: String| PlanError::at(place, message, help);
+    let body = model.bodies.iter().find(|b| b.name == *given.get_ref()).ok_or_else(|| {
+        refuse(
+            given.span(),
+            format!("there is no body `{}`", given.get_ref()),
+            "name a body of the scene".into(),
+        )
+    })?;
+    let position: Vec<f64> = at.get_ref().iter().map(|x| x.0).collect();
+    let x = <[f64; D]>::try_from(position.clone()).map_err(|_| {
+        refuse(at.span(), format!("the point `{name}` is not a place"), format!("give {D} lengths"))
+    })?;
+    let found = locate(&model.mesh, body.blocks.clone(), &x).ok_or_else(|| {
+        let nodes = &model.mesh.nodes[body.nodes.clone()];
+        let (min, max) = crate::model::bounds(nodes);
+        refuse(
+            at.span(),
+            format!("the point `{name}` at {} lies outside body `{}`", place(&x), body.name),
+            format!("the body lies between {} and {}", place(&min), place(&max)),
+        )
+    })?;
+    let cells = &model.mesh.blocks[found.block];
+    let shape = cells.kind.shape(found.xi);
+    let rule: Vec<[f64; 3]> =
+        model.idealisation.quadrature(cells.kind).into_iter().map(|(xi, _)| xi).collect();
+    Ok(Point {
+        name: name.to_string(),
+        body: body.name.clone(),
+        position,
+        block: found.block,
+        cell: found.cell,
+        shares: cells.cell(found.cell).iter().copied().zip(shape.n).collect(),
+        weights: weights(cells.kind, &rule, &found.xi),
+    })
+}
+
+/// Weights of values at the points of a rule that give, at `xi`, the linear polynomial in natural coordinates nearest to them in
+/// the sense of least squares; their mean where the points do not determine one. Stresses are most accurate at these points
+/// (Barlow 1976), and the polynomial carries that to the boundary of the cell.
+fn weights(kind: ElementKind, rule: &[[f64; 3]], xi: &[f64; 3]) -> Vec<f64> {
+    let (n, terms) = (rule.len(), kind.dimension() + 1);
+    let basis = |x: &[f64; 3], k: usize| if k == 0 { 1.0 } else { x[k - 1] };
+    let p = DMatrix::from_fn(n, terms, |q, k| basis(&rule[q], k));
+    let here = DVector::from_fn(terms, |k, _| basis(xi, k));
+    let normal = p.transpose() * &p;
+    match normal.cholesky() {
+        Some(factor) if n >= terms => (p * factor.solve(&here)).iter().copied().collect(),
+        _ => vec![1.0 / n as f64; n],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_fem::kinematics::Idealisation;
+
+    #[test]
+    fn weights_carry_linear_fields_to_any_place_of_any_element() {
+        for kind in ElementKind::ALL {
+            let space = Idealisation::of_dimension(kind.dimension());
+            let rule: Vec<[f64; 3]> = space.quadrature(kind).into_iter().map(|(xi, _)| xi).collect();
+            let f =
+                |x: &[f64; 3]| 2.0 + x[0] - 3.0 * x[1] + if kind.dimension() == 3 { 0.5 * x[2] } else { 0.0 };
+            for xi in kind.node_coordinates() {
+                let w = weights(kind, &rule, xi);
+                let sum: f64 = w.iter().sum();
+                assert!((sum - 1.0).abs() < 1e-13, "{kind:?} {sum}");
+                let value: f64 = w.iter().zip(&rule).map(|(w, x)| w * f(x)).sum();
+                let exact = if rule.len() > kind.dimension() { f(xi) } else { f(&rule[0]) };
+                assert!((value - exact).abs() < 1e-12, "{kind:?} {value} {exact}");
+            }
+        }
+    }
+}
