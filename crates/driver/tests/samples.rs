@@ -202,9 +202,9 @@ fn both_paths_give_the_same_points_and_the_force_of_the_contact() {
     (0..2).for_each(|c| close(a.displacement[c], b.displacement[c], 1e-8));
     [0, 1, 3].iter().for_each(|&c| close(a.stress[c], b.stress[c], 1e-7));
     let slave = &report.balance[0].slave_force;
-    for c in 0..2 {
+    for (c, contact) in slave.iter().enumerate() {
         let [above, joint, below] = ["above", "joint", "below"].map(|name| force(&condensed, name)[c]);
-        close(joint, slave[c], 1e-8);
+        close(joint, *contact, 1e-8);
         close(above, -joint, 1e-8);
         close(below, joint, 1e-8);
         close(above, force(&full, "above")[c], 1e-8);
