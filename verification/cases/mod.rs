@@ -32,6 +32,7 @@
 
 use crate::Case;
 
+mod antiplane;
 pub mod bodies;
 mod bodies_convergence;
 mod bodies_patch;
@@ -67,6 +68,7 @@ mod volumetric_path;
 
 /// Every case, in the order of the report.
 pub const ALL: &[Case] = &[
+    antiplane::CASE,
     bodies_convergence::CASE,
     bodies_patch::CASE,
     contact_patch::CASE,

@@ -12,6 +12,7 @@ use crate::slider;
 use clap::{Parser, Subcommand};
 use miette::{IntoDiagnostic, WrapErr, miette};
 use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -92,6 +93,8 @@ struct Ready {
     plan: Planned,
     /// SHA-256 of the scene file.
     hash: String,
+    /// SHA-256 of the mesh files, by their names in the scene.
+    meshes: BTreeMap<String, String>,
     /// Wall time of reading and planning \[s\].
     seconds: f64,
 }
@@ -108,18 +111,28 @@ fn planned(path: &Path) -> miette::Result<Ready> {
     let clock = Instant::now();
     let name = path.display().to_string();
     let told = |errors: &scene::SceneErrors| scene::diagnostic::report(&name, &text, errors);
+    let mut meshes = BTreeMap::new();
     let plan = if scene::slider::is_slider(&text) {
         Planned::Sliders(Box::new(scene::slider::read(&text).map_err(|errors| told(&errors))?))
     } else {
         let folder = path.parent().unwrap_or(Path::new(""));
         let parsed = scene::read_in(&text, folder).map_err(|errors| told(&errors))?;
+        for file in parsed.mesh_files() {
+            let bytes = std::fs::read(folder.join(file))
+                .into_diagnostic()
+                .wrap_err_with(|| format!("cannot read the mesh file {file}"))?;
+            meshes.insert(file.to_string(), sha256(&bytes));
+        }
         match plan::plan_scene(&parsed).map_err(|error| told(&scene::SceneErrors::from(error)))? {
             ScenePlan::Bodies(plan) => Planned::Bodies(plan),
             ScenePlan::Faults(plan) => Planned::Faults(plan),
         }
     };
-    let hash = Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect();
-    Ok(Ready { plan, hash, seconds: clock.elapsed().as_secs_f64() })
+    Ok(Ready { plan, hash: sha256(text.as_bytes()), meshes, seconds: clock.elapsed().as_secs_f64() })
+}
+
+fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
 }
 
 fn run_bodies(plan: &AnyPlan, ready: &Ready, out: &Path) -> miette::Result<End> {
@@ -131,6 +144,7 @@ fn run_bodies(plan: &AnyPlan, ready: &Ready, out: &Path) -> miette::Result<End> 
     let mut observers = Multi::new(vec![&mut files as &mut dyn Observer, &mut recorder, &mut progress]);
     let mut report = run::run(plan, &mut observers).into_diagnostic()?;
     report.scene_sha256.clone_from(&ready.hash);
+    report.meshes_sha256.clone_from(&ready.meshes);
     report.run.seconds.plan = ready.seconds;
     write_report(out, &report)?;
     plots::draw_all(&out.join("plots"), &recorder).into_diagnostic()?;

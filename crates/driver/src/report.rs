@@ -5,6 +5,7 @@ use crate::observe::view::{Counts, ForceMark, InterfaceFields, PointMark, PointV
 use crate::plan::{Plan, Summary};
 use crate::views;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// How a run ended.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -122,6 +123,8 @@ pub struct RunReport {
     pub version: String,
     /// SHA-256 of the scene file.
     pub scene_sha256: String,
+    /// SHA-256 of the mesh files it reads, by their names in the scene.
+    pub meshes_sha256: BTreeMap<String, String>,
     /// Plan.
     pub plan: Summary,
     /// How it ended.

@@ -48,6 +48,52 @@ fn a_run_leaves_everything_it_promises() {
 }
 
 #[test]
+fn a_scene_of_bodies_prints_its_points_and_forces() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), include_str!("../../../scenes/cook.toml")).unwrap();
+    let output = asperity(folder.path(), &["run", "s.toml"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let printed = text(&output.stdout);
+    for part in [
+        "point tip after `shear`: displacement (-10.68508, 23.94941, 0.00000) m",
+        "force clamp on `panel.left`",
+    ] {
+        assert!(printed.contains(part), "{part} is not in\n{printed}");
+    }
+    assert!(!printed.contains("friction state"), "{printed}");
+    for file in ["points/tip.csv", "forces/clamp.csv"] {
+        assert!(folder.path().join("out/s").join(file).is_file(), "{file} is missing");
+    }
+}
+
+#[test]
+fn a_report_knows_the_mesh_files_by_their_hash() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = |pressure: &str| {
+        format!(
+            "schema = 1\ntitle = \"a file\"\nkinematics = \"plane-strain\"\n[materials.m]\nyoung = 1e9\npoisson = 0.2\n[bodies.B]\n\
+             mesh.gmsh = {{ file = \"m.msh\" }}\nmaterial = \"m\"\n[[stages]]\nname = \"load\"\nduration = 1\nsteps = 1\n\
+             conditions = [{{ set = \"B.bottom\", x = 0, y = 0 }}, {{ set = \"B.top\", pressure = {pressure} }}]\n\
+             [time]\nstepper = \"implicit\"\n"
+        )
+    };
+    let mesh = include_bytes!("meshes/two_layers.msh");
+    let hash = |mesh: &[u8], pressure: &str| {
+        std::fs::write(folder.path().join("m.msh"), mesh).unwrap();
+        std::fs::write(folder.path().join("s.toml"), scene(pressure)).unwrap();
+        let output = asperity(folder.path(), &["run", "s.toml"]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let report = std::fs::read_to_string(folder.path().join("out/s/report.json")).unwrap();
+        let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+        report["meshes_sha256"]["m.msh"].as_str().unwrap().to_string()
+    };
+    let first = hash(mesh, "1e6");
+    assert_eq!(first.len(), 64);
+    assert_eq!(hash(mesh, "2e6"), first);
+    assert_ne!(hash(&[&mesh[..], b"\n"].concat(), "1e6"), first);
+}
+
+#[test]
 fn check_prints_the_plan_and_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("s.toml"), coarse()).unwrap();

@@ -9,7 +9,7 @@ use asperity_fem::mesh::extrude::extrude;
 use asperity_fem::mesh::fault::{FaultMesh, Spacing};
 use asperity_fem::mesh::generate::{Block, Grading, divisions_for};
 use asperity_fem::mesh::split::{Surface, split};
-use asperity_fem::mesh::{Cells, Mesh, MeshError, Options, RawMesh, Side, abaqus, gmsh};
+use asperity_fem::mesh::{Cells, GroupTag, Mesh, MeshError, Options, RawMesh, Side, abaqus, gmsh};
 use scene::Spanned;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -56,7 +56,8 @@ fn source<const D: usize>(
         }
         scene::MeshSource::Fault(spec) => in_dimension(fault(name, spec)?, plane(spec.element.span())),
         scene::MeshSource::Gmsh(spec) => {
-            let tags = spec.tags.iter().map(|(name, tag)| (name.clone(), (*tag.get_ref()).into())).collect();
+            let tag = |spec: &scene::TagSpec| GroupTag { tag: spec.tag, dimension: spec.dimension };
+            let tags = spec.tags.iter().map(|(name, spec)| (name.clone(), tag(spec.get_ref()))).collect();
             let options = Options { length_unit: unit(spec.unit.as_ref())?, tags, ..Options::default() };
             let groups = (spec.groups.as_ref(), "groups of cells");
             read(scene, &spec.file, gmsh::parse, &options, groups, &spec.split)

@@ -60,6 +60,17 @@ pub struct Scene {
     pub folder: PathBuf,
 }
 
+impl Scene {
+    /// Names of the mesh files the scene reads.
+    pub fn mesh_files(&self) -> impl Iterator<Item = &str> {
+        self.bodies.values().filter_map(|body| match &body.mesh {
+            MeshSource::Gmsh(mesh) => Some(mesh.file.get_ref().as_str()),
+            MeshSource::Abaqus(mesh) => Some(mesh.file.get_ref().as_str()),
+            MeshSource::Block(_) | MeshSource::Quadrilateral(_) | MeshSource::Fault(_) => None,
+        })
+    }
+}
+
 /// A contact interface between two side sets.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -147,13 +147,13 @@ impl Frame {
         let ((left, top), (width, height)) = (self.at, self.size);
         let (right, bottom) = (left + width, top + height);
         figure.line(vec![(left, top), (right, top), (right, bottom), (left, bottom), (left, top)], 1.0, INK);
-        for (place, text) in self.x.ticks(X_TICKS) {
+        for (place, text) in self.x.ticks(fitting(width, X_ROOM, X_TICKS)) {
             let x = left + place * width;
             figure.line(vec![(x, bottom), (x, bottom + 5.0)], 1.0, INK);
             figure.text((x, bottom + 16.0), text, TICK_TEXT, Anchor::Middle, INK);
         }
         let mut widest = 0;
-        for (place, text) in self.y.ticks(Y_TICKS) {
+        for (place, text) in self.y.ticks(fitting(height, Y_ROOM, Y_TICKS)) {
             let y = top + (1.0 - place) * height;
             widest = widest.max(text.chars().count());
             figure.line(vec![(left - 5.0, y), (left, y)], 1.0, INK);
@@ -164,6 +164,16 @@ impl Frame {
         let room = 9.0 + 0.64 * TICK_TEXT * widest as f64;
         figure.vertical_text((left - room - 16.0, top + height / 2.0), &self.y.label, LABEL_TEXT, INK);
     }
+}
+
+/// Room a tick label needs along x, and along y.
+const X_ROOM: f64 = 60.0;
+/// See [`X_ROOM`].
+const Y_ROOM: f64 = 26.0;
+
+/// Intervals aimed at along an axis of this length: `most`, and fewer where their labels would overlap.
+fn fitting(length: f64, room: f64, most: usize) -> usize {
+    ((length / room) as usize).clamp(1, most)
 }
 
 /// Intervals aimed at along x.
@@ -204,6 +214,13 @@ mod tests {
                 assert!(axis.ticks(6).iter().all(|(place, _)| place.is_finite()), "{values:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_short_axis_has_fewer_ticks() {
+        assert_eq!(fitting(560.0, X_ROOM, X_TICKS), X_TICKS);
+        assert_eq!(fitting(56.0, Y_ROOM, Y_TICKS), 2);
+        assert_eq!(fitting(5.0, Y_ROOM, Y_TICKS), 1);
     }
 
     #[test]

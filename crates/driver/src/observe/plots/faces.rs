@@ -28,6 +28,9 @@ const TET: [&[usize]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
 const HEX: [&[usize]; 6] =
     [&[0, 3, 2, 1], &[4, 5, 6, 7], &[0, 1, 5, 4], &[1, 2, 6, 5], &[2, 3, 7, 6], &[3, 0, 4, 7]];
 
+/// See [`TET`].
+const WEDGE: [&[usize]; 5] = [&[0, 2, 1], &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]];
+
 /// The visible part of a mesh.
 pub(super) fn visible(mesh: &MeshView) -> Visible {
     let faces = if mesh.dimension == 3 { upper_faces(mesh) } else { flat_cells(mesh) };
@@ -78,6 +81,7 @@ fn upper_faces(mesh: &MeshView) -> Vec<Face> {
         let corners: &[&[usize]] = match kind {
             10 | 24 => &TET,
             12 | 25 | 29 => &HEX,
+            13 | 26 => &WEDGE,
             _ => continue,
         };
         for face in corners {
@@ -169,6 +173,22 @@ mod tests {
         assert!(seen.triangles.iter().flatten().flatten().all(|&node| node >= 8));
         assert_eq!(seen.outline.len(), 1);
         assert_eq!(seen.outline[0].len(), 5);
+    }
+
+    #[test]
+    fn of_two_stacked_wedges_the_upper_triangle_is_seen() {
+        let layer = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
+        let mesh = MeshView {
+            nodes: [0.0, 1.0, 2.0].into_iter().flat_map(layer).collect(),
+            cells: vec![(13, (0..6).collect()), (13, (3..9).collect())],
+            cell_body: vec![0, 0],
+            bodies: vec!["A".into()],
+            dimension: 3,
+        };
+        let seen = visible(&mesh);
+        assert_eq!(seen.triangles.len(), 1);
+        assert!(seen.triangles.iter().flatten().flatten().all(|&node| node >= 6));
+        assert_eq!(seen.outline, [vec![6, 8, 7, 6]]);
     }
 
     #[test]

@@ -11,6 +11,9 @@ use super::units::{LENGTH, STRESS, Unit};
 /// Largest width and height of the map.
 const ROOM: Point = (560.0, 460.0);
 
+/// Least height of the bar of colours: its label and ticks need the room, however flat the body.
+const BAR: f64 = 170.0;
+
 /// Pixels of the map per unit of the figure.
 const FINE: f64 = 2.0;
 
@@ -34,8 +37,8 @@ pub(super) fn mises(scene: &str, mesh: &MeshView, end: &StageEnd, fields: &BodyF
         y: Axis::exact((lo.1 / length.factor, hi.1 / length.factor), format!("y [{}]", length.name)),
     };
     let colours = Colours::of(&seen, &fields.node_mises);
-    let mut figure =
-        Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + frame.size.1 + 62.0);
+    let below = (frame.size.1 + 62.0).max(BAR + 20.0);
+    let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + below);
     let heading = format!("{scene}: end of stage “{}”", end.name);
     figure.text((frame.at.0, 22.0), heading, super::axes::LABEL_TEXT, Anchor::Start, INK);
     figure.image(map(mesh, &seen, &fields.node_mises, &colours, &frame, (lo, hi)));
@@ -153,7 +156,7 @@ const ON_EDGE: f64 = 1e-9;
 /// The bar right of the map, with an arrow where values lie above it.
 fn colour_bar(figure: &mut Figure, frame: &Frame, colours: &Colours) {
     let (left, top) = (frame.at.0 + frame.size.0 + 28.0, frame.at.1);
-    let (width, height) = (18.0, frame.size.1);
+    let (width, height) = (18.0, frame.size.1.max(BAR));
     let unit = colours.unit;
     let (lo, hi) = (colours.lo / unit.factor, colours.hi / unit.factor);
     let axis = Axis::exact((lo, hi), String::new());

@@ -356,10 +356,61 @@ pub struct GmshMesh {
     pub unit: Option<Spanned<String>>,
     /// Names given to groups by their numbers.
     #[serde(default)]
-    pub tags: BTreeMap<String, Spanned<i64>>,
+    pub tags: BTreeMap<String, Spanned<TagSpec>>,
     /// Named internal surfaces along which the mesh is split.
     #[serde(default)]
     pub split: Vec<Spanned<String>>,
+}
+
+/// The number of a group.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TagSpec {
+    /// Number of the physical group, or N of a group named `material-id:N`.
+    pub tag: i64,
+    /// Dimension of its elements; absent: groups of this number on every dimension.
+    pub dimension: Option<usize>,
+}
+
+/// The long form.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TagTable {
+    tag: i64,
+    dimension: Option<usize>,
+}
+
+impl<'de> Deserialize<'de> for TagSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct TagVisitor;
+        impl<'de> Visitor<'de> for TagVisitor {
+            type Value = TagSpec;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "the number of a group such as 7, \"material-id:7\" or { tag = 7, dimension = 1 }",
+                )
+            }
+
+            fn visit_i64<E: de::Error>(self, tag: i64) -> Result<TagSpec, E> {
+                Ok(TagSpec { tag, dimension: None })
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<TagSpec, E> {
+                let number = text.strip_prefix("material-id:").and_then(|n| n.trim().parse().ok());
+                let tag = number.ok_or_else(|| E::invalid_value(de::Unexpected::Str(text), &self))?;
+                Ok(TagSpec { tag, dimension: None })
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TagSpec, A::Error> {
+                let TagTable { tag, dimension } = TagTable::deserialize(MapAccessDeserializer::new(map))?;
+                match dimension.filter(|d| *d > 3) {
+                    Some(d) => Err(de::Error::custom(format!("a group has the dimension 0 to 3, not {d}"))),
+                    None => Ok(TagSpec { tag, dimension }),
+                }
+            }
+        }
+        deserializer.deserialize_any(TagVisitor)
+    }
 }
 
 /// A mesh read from an Abaqus input file.
