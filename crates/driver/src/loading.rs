@@ -1,5 +1,6 @@
 //! Conditions of the stages, turned into fixed degrees of freedom and loading channels.
 
+mod jumps;
 mod shared;
 
 use crate::model::{Model, bounds};
@@ -103,6 +104,7 @@ impl Stage {
 /// # Errors
 /// [`PlanError`] pointing at the condition that cannot be applied.
 pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Stage>, PlanError> {
+    jumps::of_bodies(scene)?;
     let body_loads = body_loads(scene, model)?;
     let mut held: BTreeMap<(String, usize), Motion> = BTreeMap::new();
     let mut loads: BTreeMap<(String, usize), Loading> = BTreeMap::new();
@@ -116,9 +118,11 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
         for (key, loading) in &loads {
             present.insert(key.clone(), end_value(loading));
         }
+        let before = held.clone();
         for condition in &spec.conditions {
             take_up(model, condition, (&mut held, &mut shared), &mut loads)?;
         }
+        jumps::of_stage(scene, spec, (&before, &present), &loads)?;
         shared.stage(model, spec, &held)?;
         let motions = motions::<D>(model, &held)?;
         let mut fixed: Vec<usize> = motions.iter().flat_map(|(dofs, _)| dofs.iter().copied()).collect();
