@@ -56,6 +56,7 @@ mod sandwich_3d;
 mod sandwich_pressed;
 mod sandwich_sheared;
 mod sandwich_steppers;
+mod seas_bp1;
 pub mod slider;
 mod slider_cycles;
 mod slider_normal;
@@ -83,6 +84,7 @@ pub const ALL: &[Case] = &[
     sandwich_pressed::CASE,
     sandwich_sheared::CASE,
     sandwich_steppers::CASE,
+    seas_bp1::CASE,
     slider_cycles::CASE,
     slider_normal::CASE,
     slider_orbit::CASE,

@@ -83,6 +83,8 @@ capabilities! {
     PointSolver => "point solver",
     /// One slider on a spring.
     Slider => "spring-slider",
+    /// Faults through earthquake cycles.
+    FaultCycles => "faults through earthquake cycles",
     /// Sliders with springs between them.
     CoupledSliders => "coupled sliders",
     /// Detection of events and extremes.

@@ -1,0 +1,234 @@
+//! The community's benchmark BP1-QD: its first three events.
+
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use asperity_driver::fault::{Event, Moment, Plan, run as integrate};
+use asperity_driver::ode::{Control, Method};
+use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::scene;
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "seas_bp1",
+    readme: include_str!("README.md"),
+    covers: &[Capability::FaultCycles, Capability::Antiplane, Capability::AgeingLaw, Capability::Events],
+    quick: true,
+    run,
+};
+
+const YEAR: f64 = 365.25 * 86400.0;
+/// Slip rate that begins and ends an event: the duration is that above it, and the rate passes it twice an event.
+const ABOVE: f64 = 1e-3;
+const BELOW: f64 = 0.999e-3;
+/// Events looked at.
+const EVENTS: usize = 3;
+
+fn plan(size: f64) -> Result<Plan, CaseError> {
+    let text = include_str!("../../../scenes/bp1.toml").replace("156.25 m", &format!("{size} m"));
+    let scene = scene::read(&text).map_err(|e| e.to_string())?;
+    match plan_scene(&scene).map_err(|e| e.to_string())? {
+        ScenePlan::Faults(mut plan) => {
+            plan.settings.most_events = Some(EVENTS);
+            (plan.settings.thresholds.on, plan.settings.thresholds.off) = (ABOVE, BELOW);
+            Ok(*plan)
+        }
+        ScenePlan::Bodies(_) => Err("the scene has no fault".into()),
+    }
+}
+
+/// What a run found.
+struct Found {
+    /// \[yr\].
+    onsets: Vec<f64>,
+    events: Vec<Event>,
+    /// Largest imbalance of tractions over f_n.
+    imbalance: f64,
+    cost: Cost,
+    rates: u64,
+}
+
+fn found(plan: &Plan, method: Method, tolerance: f64, watch: bool) -> Result<Found, CaseError> {
+    let mut settings = plan.settings;
+    (settings.method, settings.tolerance) = (method, tolerance);
+    let mut balance = Balance::new(plan);
+    let mut look = |now: &Moment<'_>| {
+        if watch {
+            balance.look(plan, now);
+        }
+        Control::Go
+    };
+    let (out, cost) =
+        Cost::of(|| integrate(&plan.fault, &plan.loading, plan.start.clone(), &settings, &mut look));
+    let events = out.catalogue.events().to_vec();
+    if events.len() < EVENTS {
+        return Err(format!("only {} events: {:?}", events.len(), out.outcome).into());
+    }
+    let cost =
+        cost.count("steps", out.counts.steps as f64).count("right-hand sides", out.counts.rates as f64);
+    Ok(Found {
+        onsets: events.iter().map(|e| e.onset.seconds() / YEAR).collect(),
+        events,
+        imbalance: balance.worst,
+        cost: cost.count("points", plan.points.len() as f64),
+        rates: out.counts.rates,
+    })
+}
+
+/// Follows the difference between the traction the bodies exert and the one friction resists with.
+struct Balance {
+    first: Vec<f64>,
+    load: Vec<f64>,
+    exerted: Vec<f64>,
+    worst: f64,
+}
+
+impl Balance {
+    fn new(plan: &Plan) -> Self {
+        let n = plan.points.len();
+        let rate = 1e-9;
+        let first = (0..n).map(|p| Self::strength(plan, p, plan.start[p]) + plan.fault.damping * rate);
+        Self {
+            first: first.collect(),
+            load: plan.loading.rates(1.0, n, false).0,
+            exerted: vec![0.0; n],
+            worst: 0.0,
+        }
+    }
+
+    fn strength(plan: &Plan, p: usize, m: f64) -> f64 {
+        plan.fault.normal[p] * plan.fault.law.scale(p) * m
+    }
+
+    fn look(&mut self, plan: &Plan, now: &Moment<'_>) {
+        plan.fault.operator.shear(now.slip(), &mut self.exerted);
+        for p in 0..self.first.len() {
+            let driving = self.first[p] + self.exerted[p] + self.load[p] * now.at.seconds();
+            let resisting = Self::strength(plan, p, now.unknowns[p]) + plan.fault.damping * now.rate[p];
+            self.worst = self.worst.max((driving - resisting).abs() / plan.fault.normal[p]);
+        }
+    }
+}
+
+const CONVERGED: &str = "boundary elements of 19.5 to 25 m, two codes that agree";
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let coarse = plan(156.25)?;
+    let tolerance = coarse.settings.tolerance;
+    let at_coarse = found(&coarse, coarse.settings.method, tolerance, true)?;
+    first_event(
+        ledger,
+        &at_coarse,
+        "156 m",
+        0.15,
+        "the error of boundary elements with as many unknowns (QDYN, 78 m)",
+    );
+    let fine = plan(78.125)?;
+    let at_fine = found(&fine, fine.settings.method, tolerance, false)?;
+    first_event(ledger, &at_fine, "78 m", 0.098, "0.05 %, four cells to the process zone of 340 m");
+    later_events(ledger, &at_fine);
+    ledger
+        .claim("imbalance of tractions over f_n, largest of all points and steps")
+        .value(at_coarse.imbalance)
+        .at_most(20.0 * tolerance * 0.01)
+        .evidence(Evidence::Exact, "tractions from slip by the operator against those the integrator carries")
+        .because("a step's error of ln V is the tolerance, which moves friction by a = 0.01 times as much; twenty steps go to an e-fold")
+        .covers(&[Capability::FaultCycles])
+        .cost(&at_coarse.cost)
+        .record();
+    methods(ledger, &coarse)
+}
+
+fn first_event(ledger: &mut Ledger, found: &Found, size: &str, bound: f64, because: &str) {
+    ledger
+        .claim(format!("onset of the first event, cells of {size}"))
+        .unit("yr")
+        .value(found.onsets[0])
+        .equals(196.365)
+        .absolute(bound)
+        .uncertainty(0.005)
+        .evidence(Evidence::OtherCode, CONVERGED)
+        .because(because)
+        .why_not_tighter("errors of this size change sign with the size of cells")
+        .covers(&[Capability::FaultCycles, Capability::Antiplane])
+        .cost(&found.cost)
+        .record();
+}
+
+fn later_events(ledger: &mut Ledger, found: &Found) {
+    let intervals: Vec<f64> = found.onsets.windows(2).map(|w| w[1] - w[0]).collect();
+    ledger
+        .claim("first two intervals, cells of 78 m")
+        .unit("yr")
+        .values(&intervals)
+        .equals_each(&[75.62, 77.82])
+        .absolute(0.15)
+        .uncertainty(0.01)
+        .evidence(Evidence::OtherCode, CONVERGED)
+        .because("what boundary elements of 156 m, as many to the process zone as corners of cells here, leave (QDYN: 75.48 yr)")
+        .why_not_tighter("intervals do not converge monotonically")
+        .covers(&[Capability::FaultCycles, Capability::Events])
+        .cost(&found.cost)
+        .record();
+    let peaks: Vec<f64> = found.events[1..].iter().map(|e| e.peak).collect();
+    ledger
+        .claim("peak slip rate of the second and third event, cells of 78 m")
+        .unit("m/s")
+        .values(&peaks)
+        .equals_each(&[4.19, 4.19])
+        .relative(0.02)
+        .uncertainty(0.01)
+        .evidence(Evidence::OtherCode, CONVERGED)
+        .because("the peak is a few steps and cells wide; QDYN is 1.3 % low with cells of 78 m")
+        .covers(&[Capability::FaultCycles])
+        .cost(&found.cost)
+        .record();
+    let last = &found.events[EVENTS - 1];
+    ledger
+        .claim("duration of the third event (V > 1 mm/s), cells of 78 m")
+        .unit("s")
+        .value(last.end.since(&last.onset))
+        .equals(131.0)
+        .relative(0.03)
+        .uncertainty(0.5)
+        .evidence(Evidence::OtherCode, CONVERGED)
+        .because("the reference is that of later events, whose interval is 0.7 % longer; an event ends in afterslip that decays slowly")
+        .covers(&[Capability::Events])
+        .cost(&found.cost)
+        .record();
+}
+
+/// Methods and tolerances: cost and error of the third onset.
+fn methods(ledger: &mut Ledger, plan: &Plan) -> Result<(), CaseError> {
+    let reference = found(plan, Method::Dop853, 1e-8, false)?;
+    let exact = reference.onsets[EVENTS - 1];
+    let mut rows = Vec::new();
+    for method in [Method::Tsit5, Method::Dop853] {
+        for tolerance in [1e-3, 1e-4, 1e-5, 1e-6] {
+            let run = found(plan, method, tolerance, false)?;
+            let error = (run.onsets[EVENTS - 1] - exact).abs();
+            rows.push([
+                method.name().to_string(),
+                format!("{tolerance:e}"),
+                run.rates.to_string(),
+                format!("{error:.1e}"),
+            ]);
+            if method == plan.settings.method && tolerance == plan.settings.tolerance {
+                ledger
+                    .claim("onset of the third event by the default method and tolerance, error")
+                    .unit("yr")
+                    .value(error)
+                    .at_most(0.05)
+                    .evidence(Evidence::ConvergedSelf, "dop853 with a tolerance of 1e-8 on the same cells")
+                    .because("below the 0.1 yr that cells of 78 m leave")
+                    .covers(&[Capability::FaultCycles, Capability::Integrators])
+                    .cost(&run.cost)
+                    .record();
+            }
+        }
+    }
+    ledger.table(
+        "third onset, cells of 156 m: error against the same cells in the limit of small steps",
+        &["method", "tolerance", "right-hand sides", "error [yr]"],
+        rows,
+    );
+    Ok(())
+}
