@@ -114,13 +114,20 @@ fn tractions<const C: usize>(condensed: &Condensed, rows: &[usize], areas: &[f64
     };
     let shear = part(0);
     let largest = |m: &[f64]| m.iter().fold(0.0, |l: f64, v| l.max(v.abs()));
+    let over_area = |forces: &[f64], shift: usize| -> Vec<f64> {
+        rows.iter().zip(areas).map(|(&r, a)| -forces[r + shift] / a).collect()
+    };
+    // Loads may change normal tractions where slip does not.
+    let loads_normal = |shear_load: f64| {
+        C > 1 && condensed.channels().any(|(_, f)| largest(&over_area(f, C - 1)) > UNCOUPLED * shear_load)
+    };
+    let shear_load = condensed.channels().map(|(_, f)| largest(&over_area(f, 0))).fold(0.0, f64::max);
     let normal = if C == 1 { None } else { Some(part(C - 1)) };
-    let normal = normal.filter(|m| largest(m) > UNCOUPLED * largest(&shear));
+    let normal = normal.filter(|m| largest(m) > UNCOUPLED * largest(&shear) || loads_normal(shear_load));
     let mut loading = Loading::default();
     for (amplitude, forces) in condensed.channels() {
-        let over_area = |shift: usize| rows.iter().zip(areas).map(|(&r, a)| -forces[r + shift] / a).collect();
-        let change: Vec<f64> = if C == 1 { Vec::new() } else { over_area(C - 1) };
-        loading.add(amplitude.clone(), over_area(0), change);
+        let change = if C == 1 { Vec::new() } else { over_area(forces, C - 1) };
+        loading.add(amplitude.clone(), over_area(forces, 0), change);
     }
     Surroundings { operator: Dense::new(n, shear, normal), loading, bytes: 0 }
 }

@@ -7,7 +7,7 @@ use super::run::{Moment, Watcher};
 use crate::observe::{ObserveError, atomic};
 use crate::ode::Control;
 use std::fs;
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// A year \[s\], as the benchmarks count it.
@@ -16,30 +16,27 @@ const YEAR: f64 = 365.25 * 86_400.0;
 const STATION_INTERVALS: [f64; 2] = [0.1 * YEAR, 0.1];
 /// Time between profiles of slip while nothing is fast, and in an event \[s\].
 const PROFILE_INTERVALS: [f64; 2] = [5.0 * YEAR, 1.0];
-/// A row is written where ln of the largest slip rate has changed by so much: an eighth of a decade is seen on no plot.
+/// A row is written where ln of the largest slip rate has changed by so much: an eighth of a decade.
 const CHANGE: f64 = 0.3;
 
 /// A file that grows by whole rows.
 #[derive(Debug)]
 struct Rows {
     path: PathBuf,
-    file: BufWriter<fs::File>,
+    file: fs::File,
 }
 
 impl Rows {
     fn create(path: PathBuf, head: &str) -> Result<Self, ObserveError> {
         atomic::write(&path, head.as_bytes())?;
         let file = fs::OpenOptions::new().append(true).open(&path);
-        let file = BufWriter::new(file.map_err(|source| ObserveError::write(&path, source))?);
+        let file = file.map_err(|source| ObserveError::write(&path, source))?;
         Ok(Self { path, file })
     }
 
+    /// One write for a row: a run that is killed leaves whole rows.
     fn push(&mut self, row: &str) -> Result<(), ObserveError> {
         self.file.write_all(row.as_bytes()).map_err(|source| ObserveError::write(&self.path, source))
-    }
-
-    fn flush(&mut self) -> Result<(), ObserveError> {
-        self.file.flush().map_err(|source| ObserveError::write(&self.path, source))
     }
 }
 
@@ -73,9 +70,15 @@ impl<'a> Files<'a> {
         atomic::create_dir(&folder)?;
         let mut stations = Vec::new();
         for fault in &plan.faults {
-            for &(asked, point) in &fault.stations {
-                // Tenths of a kilometre in three digits, as the benchmarks name their stations.
-                let name = format!("{}_dp{:03}", fault.name, (asked / 100.0).round());
+            // Tenths of a kilometre in three digits, as the benchmarks name their stations, where that tells them apart.
+            let tenths = |asked: f64| (asked / 100.0).round();
+            let apart = fault.stations.windows(2).all(|w| tenths(w[0].0) < tenths(w[1].0));
+            for (k, &(asked, point)) in fault.stations.iter().enumerate() {
+                let name = if apart {
+                    format!("{}_dp{:03}", fault.name, tenths(asked))
+                } else {
+                    format!("{}_{k:03}", fault.name)
+                };
                 let head = station_head(plan, &fault.name, asked, point);
                 stations.push((point, Rows::create(folder.join(name), &head)?));
             }
@@ -96,17 +99,12 @@ impl<'a> Files<'a> {
         })
     }
 
-    /// Completes the files.
+    /// Ends the files.
     ///
     /// # Errors
-    /// The first thing that could not be written, then or now.
-    pub fn finish(mut self) -> Result<(), ObserveError> {
-        if let Some(failure) = self.failure {
-            return Err(failure);
-        }
-        self.largest.flush()?;
-        self.profiles.flush()?;
-        self.stations.iter_mut().try_for_each(|(_, rows)| rows.flush())
+    /// The first thing that could not be written.
+    pub fn finish(self) -> Result<(), ObserveError> {
+        self.failure.map_or(Ok(()), Err)
     }
 
     fn write(&mut self, now: &Moment<'_>) -> Result<(), ObserveError> {
@@ -160,7 +158,7 @@ fn station_head(plan: &Plan, fault: &str, asked: f64, point: usize) -> String {
         "Column #6 = Normal stress (MPa)",
     ];
     let mut head = format!(
-        "# problem={}\n# code=asperity\n# code_version={}\n# element_size={:.6e} m\n# location= {asked} m along fault {fault}, point at {:.6} m\n",
+        "# problem={}\n# code=asperity\n# code_version={}\n# tributary_area={:.6e} m per m\n# location= {asked} m along fault {fault}, point at {:.6} m\n",
         plan.title,
         env!("CARGO_PKG_VERSION"),
         view.area,

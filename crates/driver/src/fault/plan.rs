@@ -12,7 +12,7 @@ use crate::model::Model;
 use crate::ode::Method;
 use crate::plan::PlanError;
 use crate::scene::law::{self, Evolution, LawChoice};
-use crate::scene::model::{Along, DampingSpec, Fault as Spec, Profile, Scene};
+use crate::scene::model::{Along, DampingSpec, Fault as Spec, Kinematics, Profile, Scene};
 use asperity_friction::Failure;
 use asperity_friction::fault::FaultLaw;
 use std::fmt::Write as _;
@@ -110,17 +110,14 @@ impl Plan {
         if self.creeping > 0 {
             line("physics", format!("{} points creep at a prescribed rate", self.creeping));
         }
-        let coupled = Layout::of(&self.fault).normal().is_empty();
+        let uncoupled = Layout::of(&self.fault).normal().is_empty();
         line(
             "physics",
-            if coupled {
-                "slip leaves normal tractions as they are"
-            } else {
-                "slip changes normal tractions"
-            }
-            .into(),
+            if uncoupled { "normal tractions stay as they are" } else { "normal tractions change" }.into(),
         );
-        line("physics", format!("radiation damping {:.6e} Pa s/m", self.fault.damping));
+        if self.fault.damping > 0.0 {
+            line("physics", format!("radiation damping {:.6e} Pa s/m", self.fault.damping));
+        }
         let s = &self.settings;
         line("stepper", format!("fault-ode: {} with tolerance {:e} in ln V", s.method.name(), s.tolerance));
         line(
@@ -142,11 +139,11 @@ impl Plan {
 /// # Errors
 /// [`PlanError`] with the place in the scene.
 pub fn plan(scene: &Scene) -> Result<Plan, PlanError> {
-    match scene.kinematics.get_ref().idealisation().dimension() {
-        2 => plan_in::<2>(scene),
-        _ => Err(PlanError::at(
+    match scene.kinematics.get_ref() {
+        Kinematics::Antiplane | Kinematics::PlaneStrain => plan_in::<2>(scene),
+        other => Err(PlanError::at(
             scene.kinematics.span(),
-            "faults in three dimensions are not integrated yet".into(),
+            format!("faults in {} are not integrated yet", other.words()),
             "\"antiplane\" and \"plane-strain\" are".into(),
         )),
     }
@@ -162,6 +159,11 @@ struct Placed<const D: usize> {
 
 fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan, PlanError> {
     let model = Model::<D>::new(scene)?;
+    if scene.materials.len() > 1 {
+        return Err(PlanError::plain(
+            "bodies of several materials have no one shear modulus for the moments of events: one material in a scene with faults".into(),
+        ));
+    }
     if let Some(body) = model.bodies.iter().find(|b| b.nonlinear.is_some()) {
         return Err(PlanError::plain(format!(
             "body `{}` is not linear: faults need linear bodies",
@@ -185,6 +187,14 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan, PlanError> {
     };
     let choices: Vec<LawChoice> = rest.iter().map(|p| p.law.clone()).collect();
     let specs: Vec<&Spec> = scene.faults.values().collect();
+    if let Some(other) = rest.iter().find(|p| !first.law.same_kind(&p.law)) {
+        return Err(PlanError::at(
+            specs[other.fault].law.span(),
+            "the faults have laws of different kinds".into(),
+            "one form, one evolution and as many states for all faults of a scene; parameters may differ"
+                .into(),
+        ));
+    }
     let place = specs[first.fault].law.span();
     let at_law = |e: Failure| {
         PlanError::at(place.clone(), e.to_string(), "see the admissible range in the message".into())

@@ -149,7 +149,8 @@ fn leg(
         between: run.unknowns.clone(),
         largest: 0.0,
     };
-    if follow.begin(run.at, &run.unknowns) == Control::Stop {
+    let first = run.at == Clock::new(0.0, 0.0);
+    if first && follow.begin(run.at, &run.unknowns) == Control::Stop {
         run.outcome = Outcome::Stopped;
         return;
     }

@@ -141,6 +141,23 @@ pub enum LawChoice {
     },
 }
 
+impl LawChoice {
+    /// Whether two laws differ in parameters of their points only: a, b, L and the start.
+    #[must_use]
+    pub fn same_kind(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Rate { strength: s, .. }, Self::Rate { strength: o, .. }) => {
+                s.form == o.form && s.heat == o.heat
+            }
+            (
+                Self::RateAndState { strength: s, evolution: e, states, .. },
+                Self::RateAndState { strength: o, evolution: f, states: others, .. },
+            ) => s.form == o.form && s.heat == o.heat && e == f && states.len() == others.len(),
+            _ => false,
+        }
+    }
+}
+
 /// Kinds of law with the parameters of each.
 const KINDS: [(&str, &[&str]); 5] = [
     ("coulomb", &["mu", "f_limit"]),
