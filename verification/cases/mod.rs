@@ -47,6 +47,7 @@ mod forward_drift;
 mod friction_hard_numerics;
 mod friction_steady_state;
 mod friction_velocity_steps;
+mod frictional_crack;
 mod jaumann_shear;
 mod lame_cylinder;
 mod large_rotation;
@@ -79,6 +80,7 @@ pub const ALL: &[Case] = &[
     friction_hard_numerics::CASE,
     friction_steady_state::CASE,
     friction_velocity_steps::CASE,
+    frictional_crack::CASE,
     lame_cylinder::CASE,
     sandwich_3d::CASE,
     sandwich_pressed::CASE,
