@@ -520,3 +520,51 @@ fn forward_increments_are_the_derivatives_of_the_measured_ones() {
         }
     }
 }
+
+/// Residual, tangent and counts of two steps on so many threads.
+fn on_threads<const D: usize>(
+    threads: usize,
+    make: impl Fn() -> InterfaceSpec<D> + Sync,
+) -> (Vec<f64>, Vec<f64>, Vec<usize>, asperity_contact::Work) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| {
+        let spec = make();
+        let mut noise = Noise::new(9);
+        let mut u: Vec<f64> = noise.vector(D * spec.nodes.len()).into_iter().map(|v| 1e-3 * v).collect();
+        let mut interface = Interface::new(spec).unwrap();
+        for _ in 0..2 {
+            interface.prepare(&u).unwrap();
+            residual(&mut interface, &u);
+            interface.accept();
+            u.iter_mut().for_each(|v| *v *= 1.7);
+        }
+        interface.prepare(&u).unwrap();
+        let r = residual(&mut interface, &u);
+        let mut values = vec![0.0; interface.pattern().values()];
+        interface.tangent(&mut values);
+        (r, values, interface.pattern().dofs.clone(), interface.work())
+    })
+}
+
+#[test]
+fn results_have_the_same_bits_for_any_number_of_threads() {
+    for sliding in [Sliding::Small, Sliding::Finite] {
+        let line = || {
+            let slave = line_side(0.0, 1.0, 0.0, 200, 1, false, 3);
+            interface_spec(&slave, &line_side(0.0, 1.0, 0.0, 250, 1, true, 4), sliding, coulomb(), false)
+        };
+        let square = || {
+            let slave = square_side(SegmentKind::Quad4, 12, 0.0, false, 0.3, 3);
+            let master = square_side(SegmentKind::Quad4, 13, 0.0, true, 0.3, 4);
+            interface_spec(&slave, &master, sliding, coulomb(), false)
+        };
+        let (one, plane) = (on_threads(1, line), on_threads(1, square));
+        for result in [&one, &plane] {
+            assert!(result.0.iter().any(|r| *r != 0.0) && result.1.iter().any(|v| *v != 0.0));
+        }
+        for threads in [2, 3, 7] {
+            assert!(on_threads(threads, line) == one, "line, {sliding:?}, {threads} threads");
+            assert!(on_threads(threads, square) == plane, "square, {sliding:?}, {threads} threads");
+        }
+    }
+}

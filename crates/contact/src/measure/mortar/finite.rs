@@ -9,11 +9,16 @@
 //! The tangent differentiates the overlap forward, number by number (`scalar::Dual`), and the rest in closed form; corners
 //! of the polygons that are corners of both facets at once have one-sided derivatives there.
 //!
+//! Cells and points are worked on in pieces on any number of threads. Each point adds up its cells in one order, so that results
+//! do not depend on the number.
+//!
 //! Puso, M. A. and Laursen, T. A. (2004b), A mortar segment-to-segment frictional contact method for large deformations,
 //! Computer Methods in Applied Mechanics and Engineering 193, 4891-4913.
 
 use super::cell::{Sums, integrate};
 use super::local::{Change, Local, Traction};
+use super::order::WorkOrder;
+use super::pairing::Found;
 use super::scalar::Dual;
 use super::sides::{Beside, Sides, node_at};
 use super::small::FACED;
@@ -23,58 +28,86 @@ use crate::shape::shape;
 use crate::spec::{Segment, SlavePoint, SurfaceNode};
 use crate::vector::{add, axpy, cross, dot, norm, perpendicular, scaled, solve_tangential};
 use asperity_fem::term::Pattern;
+use rayon::prelude::*;
+
+/// Cells, facets or points worked on together on one thread: a microsecond each, and more.
+pub(super) const CHUNK: usize = 64;
 
 /// Most nodes of a facet of first order.
 const NODES: usize = 4;
 
 #[derive(Clone, Debug, Default)]
-struct Point {
+pub(super) struct Point {
     /// Nodes of its block: those of the slave facets beside it, then those of the masters near it.
-    nodes: Vec<usize>,
+    pub nodes: Vec<usize>,
     /// How many of them are slaves.
-    slaves: usize,
+    pub slaves: usize,
     /// Rows of D and -M on these nodes.
-    weights: Vec<f64>,
+    pub weights: Vec<f64>,
     /// s_k of the last commit.
-    then: Vec<f64>,
+    pub then: Vec<f64>,
     area: f64,
     /// About its area when all of its facets face the master.
     whole: f64,
     /// Whether `then` exists: the point faced the master at the last commit, or has met it since.
-    anchored: bool,
+    pub anchored: bool,
     /// Met it since.
     fresh: bool,
     /// Start of its block among the values.
-    at: usize,
+    pub at: usize,
     /// The frame's material vector in the base vectors of the first facet beside the point.
     along: [f64; 2],
 }
 
 /// A slave facet with a master facet that may overlap it.
 #[derive(Clone, Copy, Debug)]
-struct Cell {
-    facet: usize,
-    master: usize,
+pub(super) struct Cell {
+    pub facet: usize,
+    pub master: usize,
     /// Start of its table in `places`: for each point of the facet the places of slave and master nodes in its block.
-    table: usize,
+    pub table: usize,
+}
+
+/// Blocks of one piece of the work order.
+struct Blocks<'a> {
+    piece: usize,
+    /// Start of the first of them among all values.
+    start: usize,
+    values: &'a mut [f64],
+}
+
+impl Blocks<'_> {
+    /// The block of a point of the piece, `size` unknowns wide.
+    #[inline]
+    fn of(&mut self, point: &Point, size: usize) -> &mut [f64] {
+        let at = point.at - self.start;
+        &mut self.values[at..at + size * size]
+    }
 }
 
 /// The measure; `M` numbers of a cell vary.
 #[derive(Clone, Debug)]
-struct Finite<const D: usize, const M: usize> {
-    sides: Sides<D>,
+pub(super) struct Finite<const D: usize, const M: usize> {
+    pub(super) sides: Sides<D>,
     reference: Vec<[f64; D]>,
-    dofs: Vec<usize>,
-    points: Vec<Point>,
+    pub(super) dofs: Vec<usize>,
+    pub(super) points: Vec<Point>,
     locals: Vec<Local<D>>,
-    x: Vec<[f64; D]>,
-    cells: Vec<Cell>,
-    places: Vec<usize>,
-    pattern: Pattern,
+    pub(super) x: Vec<[f64; D]>,
+    /// In the order of their facets.
+    pub(super) cells: Vec<Cell>,
+    /// First cell of each facet, and the end.
+    pub(super) first: Vec<usize>,
+    pub(super) places: Vec<usize>,
+    /// Integrals of the cells, laid out as `places`.
+    pub(super) integrals: Vec<f64>,
+    /// Points in the order of their blocks.
+    pub(super) order: WorkOrder,
+    pub(super) pattern: Pattern,
     /// The committed weights must be found from the configuration measured next.
     restored: bool,
-    /// Buffers of the search: pairs of facets, candidates of one facet.
-    found: (Vec<(usize, usize)>, Vec<usize>),
+    /// What the search finds, facet by facet in pieces.
+    pub(super) found: Vec<Found>,
 }
 
 /// Builds the measure in the reference configuration. Returns it with the number of pairs of facets examined.
@@ -105,6 +138,7 @@ impl<const D: usize, const M: usize> Finite<D, M> {
         let points = (0..n)
             .map(|p| Point { whole: whole[p], along: along(&sides, p, &reference), ..Point::default() })
             .collect();
+        let order = WorkOrder::new(&sides, &reference);
         let mut measure = Self {
             sides,
             x: reference.clone(),
@@ -113,10 +147,13 @@ impl<const D: usize, const M: usize> Finite<D, M> {
             points,
             locals: Vec::new(),
             cells: Vec::new(),
+            first: Vec::new(),
             places: Vec::new(),
+            integrals: Vec::new(),
+            order,
             pattern: Pattern::default(),
             restored: false,
-            found: Default::default(),
+            found: Vec::new(),
         };
         let mut examined = 0;
         measure.pair(&mut examined);
@@ -132,84 +169,6 @@ impl<const D: usize, const M: usize> Finite<D, M> {
         }
     }
 
-    /// Finds the cells anew; blocks change when they do.
-    fn pair(&mut self, examined: &mut u64) {
-        self.sides.refit(&self.x);
-        let (mut pairs, mut candidates) = std::mem::take(&mut self.found);
-        pairs.clear();
-        for f in 0..self.sides.facets.len() {
-            self.sides.candidates(f, &self.x, &mut candidates, examined);
-            pairs.extend(candidates.iter().map(|&m| (f, m)));
-        }
-        if !pairs.iter().copied().eq(self.cells.iter().map(|c| (c.facet, c.master))) {
-            self.rebuild(&pairs);
-        }
-        self.found = (pairs, candidates);
-    }
-
-    fn rebuild(&mut self, pairs: &[(usize, usize)]) {
-        for p in 0..self.points.len() {
-            let mut slaves: Vec<usize> =
-                self.sides.beside[p].iter().flat_map(|b| self.sides.facets[b.facet].nodes.clone()).collect();
-            slaves.sort_unstable();
-            slaves.dedup();
-            let point = &mut self.points[p];
-            let kept = point.nodes.iter().zip(&point.then).filter(|(_, w)| **w != 0.0 && point.anchored);
-            let kept: Vec<(usize, f64)> = kept.map(|(&n, &w)| (n, w)).collect();
-            let beside = &self.sides.beside[p];
-            let from = beside.iter().flat_map(|b| {
-                let first = pairs.partition_point(|c| c.0 < b.facet);
-                pairs[first..].iter().take_while(|c| c.0 == b.facet).map(|c| c.1)
-            });
-            let mut masters: Vec<usize> =
-                from.flat_map(|m| self.sides.master[m].nodes.iter().copied()).collect();
-            masters.extend(kept.iter().map(|k| k.0));
-            masters.sort_unstable();
-            masters.dedup();
-            masters.retain(|n| slaves.binary_search(n).is_err());
-            point.slaves = slaves.len();
-            point.nodes = slaves;
-            point.nodes.extend(masters);
-            point.weights = vec![0.0; point.nodes.len()];
-            point.then = vec![0.0; point.nodes.len()];
-            for (n, w) in kept {
-                if let Some(k) = point.nodes.iter().position(|&m| m == n) {
-                    point.then[k] = w;
-                }
-            }
-        }
-        self.tabulate(pairs);
-    }
-
-    /// Places of the cells' nodes in the blocks, and the pattern.
-    fn tabulate(&mut self, pairs: &[(usize, usize)]) {
-        self.cells.clear();
-        self.places.clear();
-        for &(facet, master) in pairs {
-            self.cells.push(Cell { facet, master, table: self.places.len() });
-            let (own, other) = (&self.sides.facets[facet], &self.sides.master[master]);
-            for &p in &own.weighting.points {
-                let block = &self.points[p].nodes;
-                for n in own.nodes.iter().chain(&other.nodes) {
-                    // Every node of a cell is in the blocks of its points by construction.
-                    self.places.extend(block.iter().position(|m| m == n));
-                }
-            }
-        }
-        let mut at = 0;
-        for point in &mut self.points {
-            point.at = at;
-            at += (point.nodes.len() * D).pow(2);
-        }
-        let dofs = &self.dofs;
-        let blocks: Vec<Vec<usize>> = self
-            .points
-            .iter()
-            .map(|p| p.nodes.iter().flat_map(|&n| dofs[n]..dofs[n] + D).collect())
-            .collect();
-        self.pattern = Pattern::of_blocks(self.pattern.version + 1, blocks.iter().map(Vec::as_slice));
-    }
-
     /// Positions of a cell's nodes, slave then master.
     #[inline]
     fn gather(&self, c: &Cell) -> ([[f64; D]; NODES], [[f64; D]; NODES]) {
@@ -219,32 +178,69 @@ impl<const D: usize, const M: usize> Finite<D, M> {
         (own, other)
     }
 
-    /// Rows of D and M at the present positions.
+    /// Rows of D and M at the present positions: cells are integrated one by one, then each point adds up its own.
     fn weigh(&mut self) {
-        for point in &mut self.points {
-            point.weights.fill(0.0);
-            point.area = 0.0;
+        let mut integrals = std::mem::take(&mut self.integrals);
+        self.integrate_cells((0, self.cells.len()), &mut integrals);
+        let mut points = std::mem::take(&mut self.points);
+        let indexed = points.par_iter_mut().enumerate().with_min_len(CHUNK);
+        indexed.for_each(|(p, point)| self.add_up(p, point, &integrals));
+        self.points = points;
+        self.integrals = integrals;
+    }
+
+    /// Integrals of the cells `from..to`.
+    fn integrate_cells(&self, (from, to): (usize, usize), out: &mut [f64]) {
+        if to - from > CHUNK {
+            let middle = from + (to - from).div_ceil(2);
+            let (left, right) = out.split_at_mut(self.cells[middle].table - self.cells[from].table);
+            rayon::join(
+                || self.integrate_cells((from, middle), left),
+                || self.integrate_cells((middle, to), right),
+            );
+            return;
         }
         let mut sums = Sums::<f64, NODES>::zero();
-        for c in &self.cells {
+        let mut rest = out;
+        for c in &self.cells[from..to] {
             let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
             let (own, other) = self.gather(c);
             let (s, m) = (facet.nodes.len(), master.nodes.len());
+            let (mine, tail) = rest.split_at_mut(facet.weighting.points.len() * (s + m));
+            rest = tail;
             let rule = self.sides.rule(c.facet, c.master);
             let frozen = self.sides.frozen(c.facet);
             if !integrate(frozen, &own[..s], master.kind, &other[..m], rule, &mut sums) {
+                mine.fill(0.0);
                 continue;
             }
-            for (a, &p) in facet.weighting.points.iter().enumerate() {
-                let places = &self.places[c.table + a * (s + m)..];
-                let point = &mut self.points[p];
-                for (k, &at) in places[..s].iter().enumerate() {
-                    point.weights[at] += sums.own[a][k];
-                    point.area += sums.own[a][k];
-                }
-                for (k, &at) in places[s..s + m].iter().enumerate() {
-                    point.weights[at] -= sums.other[a][k];
-                }
+            for (row, (o, m)) in mine.chunks_exact_mut(s + m).zip(sums.own.iter().zip(&sums.other)) {
+                let (left, right) = row.split_at_mut(s);
+                left.copy_from_slice(&o[..s]);
+                right.iter_mut().zip(m).for_each(|(r, v)| *r = -v);
+            }
+        }
+    }
+
+    /// Cells of a facet.
+    pub(super) fn cells_of(&self, facet: usize) -> &[Cell] {
+        &self.cells[self.first[facet]..self.first[facet + 1]]
+    }
+
+    /// Weights and area of point `p` from the integrals of the cells beside it.
+    fn add_up(&self, p: usize, point: &mut Point, integrals: &[f64]) {
+        point.weights.fill(0.0);
+        point.area = 0.0;
+        for b in &self.sides.beside[p] {
+            let facet = &self.sides.facets[b.facet];
+            let s = facet.nodes.len();
+            let Some(a) = facet.weighting.points.iter().position(|&q| q == p) else { continue };
+            for c in self.cells_of(b.facet) {
+                let n = s + self.sides.master[c.master].nodes.len();
+                let from = c.table + a * n;
+                let row = &integrals[from..from + n];
+                self.places[from..from + n].iter().zip(row).for_each(|(&at, w)| point.weights[at] += w);
+                row[..s].iter().for_each(|w| point.area += w);
             }
         }
     }
@@ -298,8 +294,36 @@ impl<const D: usize, const M: usize> Finite<D, M> {
         self.locals[p].turn(&normals, &material, out);
     }
 
-    /// What the changing overlap of a cell adds to the blocks of its points.
-    fn overlap_tangent(&self, c: &Cell, tractions: &Tractions<'_>, values: &mut [f64]) {
+    /// Blocks of the pieces `from..to` of the work order.
+    fn blocks(&self, (from, to): (usize, usize), tractions: &Tractions<'_>, values: &mut [f64]) {
+        let start = |piece: usize| self.order.points(piece).first().map_or(0, |&p| self.points[p].at);
+        if to - from > 1 {
+            let middle = from + (to - from) / 2;
+            let (left, right) = values.split_at_mut(start(middle) - start(from));
+            rayon::join(
+                || self.blocks((from, middle), tractions, left),
+                || self.blocks((middle, to), tractions, right),
+            );
+            return;
+        }
+        values.fill(0.0);
+        let closed = |p: usize| tractions.normal[p].closed;
+        let mut blocks = Blocks { piece: from, start: start(from), values };
+        for &f in self.order.facets(from) {
+            let points = &self.sides.facets[f].weighting.points;
+            if points.iter().any(|&p| self.order.piece(p) == from && closed(p)) {
+                self.cells_of(f).iter().for_each(|c| self.overlap_tangent(c, tractions, &mut blocks));
+            }
+        }
+        for &p in self.order.points(from) {
+            if closed(p) {
+                self.point_tangent(p, &traction_of(tractions, p), &mut blocks);
+            }
+        }
+    }
+
+    /// What the changing overlap of a cell adds to the blocks of its points that belong to the piece.
+    fn overlap_tangent(&self, c: &Cell, tractions: &Tractions<'_>, blocks: &mut Blocks<'_>) {
         let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
         let (s, m) = (facet.nodes.len(), master.nodes.len());
         let (own, other) = self.gather(c);
@@ -311,13 +335,13 @@ impl<const D: usize, const M: usize> Finite<D, M> {
         }
         for (a, &p) in facet.weighting.points.iter().enumerate() {
             let traction = traction_of(tractions, p);
-            if !traction.normal.closed {
+            if !traction.normal.closed || self.order.piece(p) != blocks.piece {
                 continue;
             }
             let (point, local) = (&self.points[p], &self.locals[p]);
             let places = &self.places[c.table + a * (s + m)..][..s + m];
             let size = point.nodes.len() * D;
-            let block = &mut values[point.at..point.at + size * size];
+            let block = blocks.of(point, size);
             let force = local.force(&traction);
             for q in 0..(s + m) * D {
                 let column = places[q / D] * D + q % D;
@@ -341,10 +365,10 @@ impl<const D: usize, const M: usize> Finite<D, M> {
     }
 
     /// What the motion of a point's nodes at fixed weights adds to its block.
-    fn point_tangent(&self, p: usize, traction: &Traction<'_>, values: &mut [f64]) {
+    fn point_tangent(&self, p: usize, traction: &Traction<'_>, blocks: &mut Blocks<'_>) {
         let (point, local) = (&self.points[p], &self.locals[p]);
         let size = point.nodes.len() * D;
-        let block = &mut values[point.at..point.at + size * size];
+        let block = blocks.of(point, size);
         for (k, &node) in point.nodes.iter().enumerate() {
             let now = point.weights[k] / point.area;
             for i in 0..D {
@@ -478,9 +502,11 @@ impl<const D: usize, const M: usize> Measure<D> for Finite<D, M> {
         if std::mem::take(&mut self.restored) {
             self.points.iter_mut().filter(|p| p.anchored).for_each(Point::keep);
         }
-        for p in 0..self.points.len() {
-            self.locals[p] = self.local(p);
-            let (point, local) = (&self.points[p], &self.locals[p]);
+        let mut locals = std::mem::take(&mut self.locals);
+        let indexed = locals.par_iter_mut().enumerate().with_min_len(CHUNK);
+        indexed.for_each(|(p, local)| *local = self.local(p));
+        self.locals = locals;
+        for (p, (point, local)) in self.points.iter().zip(&self.locals).enumerate() {
             // An area that is not a number must not pass for a point without partner.
             out.paired[p] = point.anchored && (point.faces() || point.area.is_nan());
             out.gap[p] = if out.paired[p] { local.gap() } else { f64::INFINITY };
@@ -501,16 +527,7 @@ impl<const D: usize, const M: usize> Measure<D> for Finite<D, M> {
     }
 
     fn tangent(&self, _geometry: &Geometry<D>, tractions: Tractions<'_>, values: &mut [f64]) {
-        values.fill(0.0);
-        for c in &self.cells {
-            self.overlap_tangent(c, &tractions, values);
-        }
-        for p in 0..self.points.len() {
-            let traction = traction_of(&tractions, p);
-            if traction.normal.closed {
-                self.point_tangent(p, &traction, values);
-            }
-        }
+        self.blocks((0, self.order.pieces()), &tractions, values);
     }
 
     fn slides(&self, _geometry: &Geometry<D>, du: &[[f64; D]], out: &mut Slides) {

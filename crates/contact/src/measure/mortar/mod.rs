@@ -20,6 +20,8 @@ mod cell;
 mod clip;
 mod finite;
 mod local;
+mod order;
+mod pairing;
 mod rule;
 mod scalar;
 mod sides;

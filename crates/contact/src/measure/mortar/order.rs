@@ -1,0 +1,104 @@
+//! Points in pieces that lie together, so that few cells are needed by two of them.
+
+use super::finite::CHUNK;
+use super::sides::Sides;
+
+/// An order of the slave points, cut into pieces of [`CHUNK`].
+#[derive(Clone, Debug)]
+pub(super) struct WorkOrder {
+    points: Vec<usize>,
+    piece: Vec<usize>,
+    /// Facets beside the points of each piece, ascending.
+    facets: Vec<Vec<usize>>,
+}
+
+impl WorkOrder {
+    /// Bisects the points at positions `x` of the interface's nodes, again and again across their largest extent.
+    pub(super) fn new<const D: usize>(sides: &Sides<D>, x: &[[f64; D]]) -> Self {
+        let place: Vec<[f64; D]> =
+            sides.beside.iter().map(|b| x[sides.facets[b[0].facet].nodes[b[0].local]]).collect();
+        let mut points: Vec<usize> = (0..place.len()).collect();
+        bisect(&mut points, &place);
+        let mut piece = vec![0; points.len()];
+        points.iter().enumerate().for_each(|(k, &p)| piece[p] = k / CHUNK);
+        let beside = |points: &[usize]| {
+            let mut facets: Vec<usize> =
+                points.iter().flat_map(|&p| sides.beside[p].iter().map(|b| b.facet)).collect();
+            facets.sort_unstable();
+            facets.dedup();
+            facets
+        };
+        let facets = points.chunks(CHUNK).map(beside).collect();
+        Self { points, piece, facets }
+    }
+
+    /// All points in this order.
+    pub(super) fn all(&self) -> &[usize] {
+        &self.points
+    }
+
+    /// Number of pieces.
+    pub(super) fn pieces(&self) -> usize {
+        self.facets.len()
+    }
+
+    /// Points of a piece.
+    pub(super) fn points(&self, piece: usize) -> &[usize] {
+        &self.points[piece * CHUNK..((piece + 1) * CHUNK).min(self.points.len())]
+    }
+
+    /// Facets beside the points of a piece.
+    pub(super) fn facets(&self, piece: usize) -> &[usize] {
+        &self.facets[piece]
+    }
+
+    /// The piece of a point.
+    #[inline]
+    pub(super) fn piece(&self, point: usize) -> usize {
+        self.piece[point]
+    }
+}
+
+/// Sorts points so that every piece lies together; ties by number, so that the order is one for all machines.
+fn bisect<const D: usize>(points: &mut [usize], x: &[[f64; D]]) {
+    if points.len() <= CHUNK {
+        points.sort_unstable();
+        return;
+    }
+    let extent = |axis: usize| {
+        let (low, high) = points
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &p| (l.min(x[p][axis]), h.max(x[p][axis])));
+        high - low
+    };
+    let axis = (1..D).fold(0, |best, axis| if extent(axis) > extent(best) { axis } else { best });
+    let middle = (points.len() / 2).next_multiple_of(CHUNK);
+    points.select_nth_unstable_by(middle, |&a, &b| x[a][axis].total_cmp(&x[b][axis]).then(a.cmp(&b)));
+    let (left, right) = points.split_at_mut(middle);
+    bisect(left, x);
+    bisect(right, x);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pieces_are_full_and_lie_together() {
+        // A grid of 40 x 40, numbered at random.
+        let mut x: Vec<[f64; 2]> = (0..1600).map(|k| [f64::from(k % 40), f64::from(k / 40)]).collect();
+        (0..1600).for_each(|k| x.swap(k, (k * 7919 + 13) % 1600));
+        let mut points: Vec<usize> = (0..1600).collect();
+        bisect(&mut points, &x);
+        let mut all = points.clone();
+        all.sort_unstable();
+        assert!(all.iter().copied().eq(0..1600));
+        for piece in points.chunks(CHUNK) {
+            let span = |axis: usize| {
+                let v: Vec<f64> = piece.iter().map(|&p| x[p][axis]).collect();
+                v.iter().copied().fold(f64::MIN, f64::max) - v.iter().copied().fold(f64::MAX, f64::min)
+            };
+            assert!(span(0) * span(1) < 3.0 * CHUNK as f64, "{} x {}", span(0), span(1));
+        }
+    }
+}
