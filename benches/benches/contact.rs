@@ -1,7 +1,7 @@
 //! Contact assembly: search and pairing, force, tangent, in time per slave node.
 #![allow(missing_docs)]
 
-use asperity_benches::{flat_2d, flat_3d, pressed};
+use asperity_benches::{flat_2d, flat_3d, mortar_2d, mortar_3d, pressed};
 use asperity_contact::Sliding;
 use asperity_fem::term::{Instant, Linearized};
 use asperity_friction::coulomb::Coulomb;
@@ -42,6 +42,13 @@ fn contact(c: &mut Criterion) {
             let mut interface = flat_3d(m, sliding, None, coulomb());
             let u = pressed::<3>(m * m, m * m + (m + 1) * (m + 1));
             assembly(c, &format!("contact 3d {sliding:?}"), m * m, &mut interface, &u);
+            let mut interface = mortar_2d(n, sliding, coulomb());
+            assembly(c, &format!("mortar 2d {sliding:?}"), n, &mut interface, &pressed::<2>(n, 2 * n + 1));
+            // Blocks of 75 unknowns in finite sliding take 45 kB a node.
+            if n <= 10_000 {
+                let mut interface = mortar_3d(m, sliding, coulomb());
+                assembly(c, &format!("mortar 3d {sliding:?}"), m * m, &mut interface, &u);
+            }
         }
         let mut group = c.benchmark_group("contact search and pairing");
         group.sample_size(10).throughput(Throughput::Elements(n as u64));

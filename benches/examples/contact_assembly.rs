@@ -1,9 +1,10 @@
 //! Times the assembly of contact: search, projection, force, tangent, scatter, in ns per slave node, beside the time the
-//! memory needs for the bytes that have to move. `contact_assembly [THREADS [LARGEST]]`.
+//! memory needs for the bytes that have to move. `contact_assembly [THREADS [LARGEST]]`; sizes that do not fit into
+//! [`MEMORY`] are left out.
 // A program for the terminal.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
-use asperity_benches::{flat_2d, flat_3d, pressed};
+use asperity_benches::{flat_2d, flat_3d, mortar_2d, mortar_3d, pressed};
 use asperity_contact::{Interface, Sliding, Smoothing};
 use asperity_fem::dof::Constraints;
 use asperity_fem::sparse::{Part, ScatterMap};
@@ -17,6 +18,9 @@ use std::time::Instant;
 
 const AT: At = At { time: 1.0, dt: 1.0 };
 
+/// Bytes of a tangent's values beyond which only the search is measured: the scatter into the matrix takes as much again.
+const MEMORY: usize = 3 << 30;
+
 fn main() -> ExitCode {
     let arguments: Vec<usize> = std::env::args().skip(1).filter_map(|a| a.parse().ok()).collect();
     let threads = arguments.first().copied().unwrap_or(1);
@@ -28,7 +32,7 @@ fn main() -> ExitCode {
     pool.install(|| {
         println!("{threads} threads; ns per slave node, least of several runs");
         println!(
-            "{:14} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>8}",
+            "{:17} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>8}",
             "", "slaves", "build", "search", "skipped", "force", "tangent", "f + t", "bound f+t", "scatter"
         );
         for n in [1_000, 10_000, 100_000, 1_000_000].into_iter().filter(|n| *n <= largest) {
@@ -56,6 +60,16 @@ fn all(n: usize) {
     kernels("2D small", n, &u, || flat_2d(n, Sliding::Small, None, law()));
     let u = pressed::<3>(m * m, m * m + (m + 1) * (m + 1));
     kernels("3D small", m * m, &u, || flat_3d(m, Sliding::Small, None, law()));
+    for sliding in [Sliding::Small, Sliding::Finite] {
+        let u = pressed::<2>(n, 2 * n + 1);
+        let name = format!("mortar {sliding:?}").to_lowercase();
+        kernels(&format!("2D {name}"), n, &u, || mortar_2d(n, sliding, law()));
+        // Blocks of 75 unknowns take 45 kB a node.
+        if sliding == Sliding::Small || n <= 10_000 {
+            let u = pressed::<3>(m * m, m * m + (m + 1) * (m + 1));
+            kernels(&format!("3D {name}"), m * m, &u, || mortar_3d(m, sliding, law()));
+        }
+    }
 }
 
 /// Least time of several runs \[ns per node\].
@@ -85,6 +99,14 @@ fn kernels<const D: usize>(name: &str, slaves: usize, u: &[f64], make: impl Fn()
     let skipped = least(slaves, || {
         black_box(interface.prepare(black_box(u)).is_ok());
     });
+    let size = interface.pattern().values();
+    if 8 * size > MEMORY {
+        println!(
+            "{name:17} {slaves:>9} {build:>8.0} {search:>8.0} {skipped:>8.1}   blocks of {} MB left out",
+            size >> 17
+        );
+        return;
+    }
     let mut r = vec![0.0; u.len()];
     let force = least(slaves, || {
         black_box(interface.residual(black_box(u), AT, &mut r).is_ok());
@@ -95,7 +117,7 @@ fn kernels<const D: usize>(name: &str, slaves: usize, u: &[f64], make: impl Fn()
     let bound = bytes as f64 / bandwidth(bytes) / slaves as f64 * 1e9;
     let scatter = scatter(slaves, u.len(), &interface, &values);
     println!(
-        "{name:14} {slaves:>9} {build:>8.0} {search:>8.0} {skipped:>8.1} {force:>8.0} {tangent:>8.0} {:>8.0} {bound:>9.0} {scatter:>8.0}",
+        "{name:17} {slaves:>9} {build:>8.0} {search:>8.0} {skipped:>8.1} {force:>8.0} {tangent:>8.0} {:>8.0} {bound:>9.0} {scatter:>8.0}",
         force + tangent
     );
 }

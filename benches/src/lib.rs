@@ -19,6 +19,15 @@ pub fn flat_2d(
     smoothing: Option<Smoothing>,
     law: Option<Arc<dyn Law>>,
 ) -> Interface<2> {
+    Interface::new(line(n, sliding, smoothing, law)).expect("an admissible interface")
+}
+
+fn line(
+    n: usize,
+    sliding: Sliding,
+    smoothing: Option<Smoothing>,
+    law: Option<Arc<dyn Law>>,
+) -> InterfaceSpec<2> {
     let mut nodes = Vec::new();
     for k in 0..n {
         nodes.push(SurfaceNode { position: [k as f64 + 0.5, 0.0], dof: 2 * k, label: k });
@@ -29,7 +38,19 @@ pub fn flat_2d(
     }
     let master = (0..n).map(|k| Segment { kind: SegmentKind::Seg2, nodes: vec![n + k + 1, n + k] }).collect();
     let slave = (0..n).map(|k| SlavePoint { node: k, area: 1.0 }).collect();
-    Interface::new(spec(nodes, slave, master, (sliding, smoothing), law)).expect("an admissible interface")
+    spec(nodes, slave, master, (sliding, smoothing), law)
+}
+
+/// As [`flat_2d`], by mortar: facets between the slave nodes.
+///
+/// # Panics
+/// Never: the specification is admissible.
+#[must_use]
+pub fn mortar_2d(n: usize, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Interface<2> {
+    let mut spec = line(n, sliding, None, law);
+    let faces = (1..n).map(|k| Segment { kind: SegmentKind::Seg2, nodes: vec![k - 1, k] }).collect();
+    spec.measure = MeasureKind::Mortar { faces, axisymmetric: false };
+    Interface::new(spec).expect("an admissible interface")
 }
 
 /// A flat interface in space: `m * m` slave nodes over `m * m` square master facets of 1 m.
@@ -43,6 +64,31 @@ pub fn flat_3d(
     smoothing: Option<Smoothing>,
     law: Option<Arc<dyn Law>>,
 ) -> Interface<3> {
+    Interface::new(square(m, sliding, smoothing, law)).expect("an admissible interface")
+}
+
+/// As [`flat_3d`], by mortar: facets between the slave nodes, each over four of the master's.
+///
+/// # Panics
+/// Never: the specification is admissible.
+#[must_use]
+pub fn mortar_3d(m: usize, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Interface<3> {
+    let mut spec = square(m, sliding, None, law);
+    let facet = |k: usize| {
+        let at = k / (m - 1) * m + k % (m - 1);
+        Segment { kind: SegmentKind::Quad4, nodes: vec![at, at + m, at + m + 1, at + 1] }
+    };
+    let faces = (0..(m - 1) * (m - 1)).map(facet).collect();
+    spec.measure = MeasureKind::Mortar { faces, axisymmetric: false };
+    Interface::new(spec).expect("an admissible interface")
+}
+
+fn square(
+    m: usize,
+    sliding: Sliding,
+    smoothing: Option<Smoothing>,
+    law: Option<Arc<dyn Law>>,
+) -> InterfaceSpec<3> {
     let mut nodes = Vec::new();
     let mut add = |position: [f64; 3]| {
         let k = nodes.len();
@@ -68,7 +114,7 @@ pub fn flat_3d(
     };
     let slave = (0..m * m).map(|k| SlavePoint { node: k, area: 1.0 }).collect();
     let master = (0..m * m).map(facet).collect();
-    Interface::new(spec(nodes, slave, master, (sliding, smoothing), law)).expect("an admissible interface")
+    spec(nodes, slave, master, (sliding, smoothing), law)
 }
 
 fn spec<const D: usize>(

@@ -65,6 +65,7 @@ mod slider_orbit;
 mod slider_stability;
 mod slider_states;
 mod slider_work_precision;
+mod two_rings;
 mod uniaxial_hardening;
 mod volumetric_path;
 
@@ -93,6 +94,7 @@ pub const ALL: &[Case] = &[
     slider_stability::CASE,
     slider_states::CASE,
     slider_work_precision::CASE,
+    two_rings::CASE,
     // Nonlinear bodies.
     cantilever_rotation::CASE,
     elastic_plastic_cylinder::CASE,
