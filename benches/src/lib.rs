@@ -3,7 +3,8 @@
 pub mod direct;
 
 use asperity_contact::{
-    Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, Smoothing, SurfaceNode,
+    Enforcement, Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, Smoothing,
+    SurfaceNode,
 };
 use asperity_friction::law::{Law, RateBounds};
 use std::sync::Arc;
@@ -133,6 +134,7 @@ fn spec<const D: usize>(
         sliding,
         smoothing,
         fixed_normal: None,
+        enforcement: Enforcement::Penalty,
         normal_penalty: 1e12,
         tangential_penalty: 1e12,
         law,

@@ -225,8 +225,11 @@ impl<const D: usize> Interface<D> {
         self.measure.slides(&self.geometry, &self.du, &mut self.slides);
     }
 
-    /// r4 and r5 over all points.
+    /// r4 and r5 over all points, unless they are bonded.
     fn normal_limit(&self) -> Option<(f64, &'static str, usize)> {
+        if self.tied.is_some() {
+            return None;
+        }
         let mut best: Option<(f64, &'static str, usize)> = None;
         let rest = self.penalty.stiffness * self.penalty.closure;
         for (p, c) in self.contact.committed.iter().enumerate() {
@@ -292,6 +295,10 @@ impl<const D: usize> Interface<D> {
             let (gap, dg) = (self.geometry.gap[p], self.slides.gap[p]);
             let df = -old.stiffness * dg;
             let traction = old.traction + df;
+            if self.tied.is_some() {
+                self.contact.trial[p] = NormalPoint { traction, ..old };
+                continue;
+            }
             let closed = if old.closed {
                 df >= 0.0 || traction > rest.max(BAND * old.traction)
             } else {
@@ -369,6 +376,9 @@ fn advance_law(shear: &mut Shear, step: Increments<'_>, options: PresentOptions)
 
 impl<const D: usize> Limited for Interface<D> {
     fn rate(&mut self, at: Instant, values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal> {
+        if self.unknowns.is_some() {
+            return Err(self.refuse("multipliers that are unknowns have no rate form".to_owned()));
+        }
         self.work.tangents += 1;
         let options = self.options(at.dt);
         self.measure.measure(&self.u.committed, &mut self.geometry);

@@ -28,10 +28,15 @@ impl<'a> Reader<'a> {
 }
 
 impl<const D: usize> Interface<D> {
+    /// Unknowns beside the displacements.
+    fn unknown(&self) -> usize {
+        self.unknowns.as_ref().map_or(0, |u| u.committed.len())
+    }
+
     fn saved_length(&self) -> usize {
         let n = self.slave.len();
         let shear = self.shear.as_ref().map_or(0, |s| n * (4 + s.states()));
-        1 + self.nodes.len() * D + 2 * n + 6 * n + shear + self.measure.saved()
+        1 + self.nodes.len() * D + 2 * n + 6 * n + shear + self.unknown() + self.measure.saved()
     }
 }
 
@@ -53,6 +58,9 @@ impl<const D: usize> Saved for Interface<D> {
             out.extend_from_slice(&c.rate);
             out.extend(c.regime.iter().map(|r| f64::from(u8::from(*r == Regime::Slip))));
             out.extend_from_slice(&c.states);
+        }
+        if let Some(unknowns) = &self.unknowns {
+            out.extend_from_slice(&unknowns.committed);
         }
         self.measure.save(&mut out);
         out
@@ -85,6 +93,10 @@ impl<const D: usize> Saved for Interface<D> {
             }
             let states = c.states.len();
             c.states.copy_from_slice(r.take(states));
+        }
+        if let Some(unknowns) = &mut self.unknowns {
+            let n = unknowns.committed.len();
+            unknowns.committed.copy_from_slice(r.take(n));
         }
         self.measure.restore(r.from);
         asperity_fem::term::Term::reject(self);

@@ -1,20 +1,15 @@
 //! The interface: measure x enforcement x law, as a term of the system.
 
-use crate::enforce::Penalty;
+use crate::build::{build_measure, check};
+use crate::enforce::{Enforcement, Multipliers, Penalty, Unknowns, tangential};
 use crate::error::ContactError;
-use crate::measure::mortar;
-use crate::measure::node_to_point::finite::Finite;
-use crate::measure::node_to_point::small::small;
 use crate::measure::{Attachment, Geometry, Measure, NormalPoint, Slides, Tractions};
 use crate::observe::{Balance, PointFields, Work};
-use crate::search::surface::Surface;
 use crate::shear::{Shear, TwoStep};
-use crate::spec::{
-    InterfaceSpec, MeasureKind, Segment, SlavePoint, Sliding, Smoothing, SurfaceNode, TimeRule,
-};
+use crate::spec::{InterfaceSpec, SlavePoint, SurfaceNode, TimeRule};
 use crate::status::{Status, label};
 use crate::vector::{add, axpy, dot, moment, norm, scaled, sub};
-use asperity_fem::term::{Instant, Linearized, Pattern, Refusal, Term};
+use asperity_fem::term::{Augmented, Instant, Linearized, Pattern, Refusal, Term};
 use asperity_friction::Failure;
 use asperity_friction::law::{Law, RateBounds};
 use std::sync::Arc;
@@ -67,6 +62,10 @@ pub struct Interface<const D: usize> {
     pub(crate) slave: Vec<SlavePoint>,
     pub(crate) penalty: Penalty,
     pub(crate) tangential_penalty: f64,
+    pub(crate) multipliers: Option<Multipliers>,
+    pub(crate) unknowns: Option<Box<Unknowns>>,
+    /// Gaps at which bonded points were tied \[m\]; absent where points may part.
+    pub(crate) tied: Option<Vec<f64>>,
     pub(crate) rate_floor: f64,
     pub(crate) rate_bounds: RateBounds,
     pub(crate) carry: bool,
@@ -99,9 +98,13 @@ impl<const D: usize> Interface<D> {
         check(&spec)?;
         let n = spec.slave.len();
         let (measure, projections) = build_measure(&spec)?;
+        let (enforcement, each) = (spec.enforcement, if spec.law.is_some() { D } else { 1 });
         let mut interface = Self {
             penalty: Penalty { stiffness: spec.normal_penalty, closure: CLOSURE * spec.scale },
             tangential_penalty: spec.tangential_penalty,
+            multipliers: Multipliers::of(&spec.enforcement, n),
+            unknowns: None,
+            tied: None,
             rate_floor: spec.rate_floor,
             rate_bounds: spec.rate_bounds,
             carry: spec.carry,
@@ -126,6 +129,11 @@ impl<const D: usize> Interface<D> {
             slave: spec.slave,
         };
         interface.begin()?;
+        if let Enforcement::AugmentedLagrangian { first, unit } = enforcement {
+            let mut unknowns = Unknowns::new(first, each, unit, &interface.fields.area);
+            unknowns.renew(interface.measure.as_ref(), true);
+            interface.unknowns = Some(Box::new(unknowns));
+        }
         Ok(interface)
     }
 
@@ -137,8 +145,10 @@ impl<const D: usize> Interface<D> {
             return Err(ContactError::NothingPairs { name: self.name.clone(), slaves: self.slave.len() });
         }
         self.unpaired = self.slave.len() - paired;
-        self.penalty.enforce(&self.geometry.gap, &mut self.contact.committed);
-        self.contact.trial.copy_from_slice(&self.contact.committed);
+        self.tie();
+        self.enforce();
+        self.contact.committed.copy_from_slice(&self.contact.trial);
+        self.renew_multipliers();
         self.refresh();
         Ok(())
     }
@@ -167,7 +177,42 @@ impl<const D: usize> Interface<D> {
         self.shear = law.map(|law| Shear::new(law, self.tangential_penalty, n));
         self.motion = Kept::new(Motion::new(n));
         self.previous_dt = None;
+        self.tie();
+        self.renew_multipliers();
         self.refresh();
+    }
+
+    /// Bonds the points at their present gaps where the law asks for it, and parts them where it does not.
+    fn tie(&mut self) {
+        let bonded = self.shear.as_ref().is_some_and(|s| s.law.bonded());
+        self.tied = bonded.then(|| self.geometry.gap.clone());
+    }
+
+    /// Trial normal tractions at the geometry last measured.
+    fn enforce(&mut self) {
+        let (gap, out) = (&self.geometry.gap, &mut self.contact.trial);
+        let multiplier = self.multipliers.as_ref().map(|m| m.normal.as_slice());
+        match (&self.tied, multiplier) {
+            (Some(tied), _) => self.penalty.bonded(gap, tied, multiplier, out),
+            (None, Some(multiplier)) => self.penalty.augmented(gap, multiplier, out),
+            (None, None) => self.penalty.enforce(gap, out),
+        }
+    }
+
+    /// Blocks of the unknowns follow those of the measure.
+    fn follow_pattern(&mut self) {
+        if let Some(unknowns) = &mut self.unknowns {
+            unknowns.renew(self.measure.as_ref(), false);
+        }
+    }
+
+    /// Refuses a bonded point that lost its partner.
+    fn check_bonds(&self) -> Result<(), Refusal> {
+        let Some(tied) = &self.tied else { return Ok(()) };
+        match tied.iter().zip(&self.geometry.gap).position(|(g0, g)| g0.is_finite() && *g == f64::INFINITY) {
+            None => Ok(()),
+            Some(p) => Err(self.refuse(format!("node {} is tied and left the master side", self.label(p)))),
+        }
     }
 
     /// Whether a law acts.
@@ -186,6 +231,7 @@ impl<const D: usize> Interface<D> {
         }
         shear.committed.traction.copy_from_slice(traction);
         shear.committed.states.copy_from_slice(states);
+        self.renew_multipliers();
         self.refresh();
         true
     }
@@ -252,7 +298,8 @@ impl<const D: usize> Interface<D> {
 
     /// Trial response at the geometry last measured.
     fn respond(&mut self, dt: f64) -> Result<(), Refusal> {
-        self.penalty.enforce(&self.geometry.gap, &mut self.contact.trial);
+        self.check_bonds()?;
+        self.enforce();
         let two_step = match (self.rule, self.previous_dt) {
             (TimeRule::Bdf2, Some(previous)) => Some(TwoStep::new(dt, previous)),
             _ => None,
@@ -261,8 +308,9 @@ impl<const D: usize> Interface<D> {
             let (previous, step) = (&self.motion.committed.step, &mut self.motion.trial.step);
             self.work.law_calls += 1;
             let increment = &self.geometry.increment;
-            if let Err(failure) = shear.respond(&self.contact.trial, increment, dt, two_step, previous, step)
-            {
+            let from = tangential(self.multipliers.as_ref());
+            let answer = shear.respond(from, &self.contact.trial, increment, dt, two_step, previous, step);
+            if let Err(failure) = answer {
                 return Err(self.law_refusal(failure));
             }
         } else {
@@ -286,13 +334,18 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// Force per area on the slave at each point from the trial tractions.
+    /// Force per area on the slave at each point from the trial tractions, or from the multipliers where they are unknowns.
     pub(crate) fn forces(&mut self) {
-        let shear = self.shear.as_ref();
+        let unknown = self.multipliers.as_ref().filter(|_| self.unknowns.is_some());
+        let shear = self.shear.as_ref().map(|s| match unknown {
+            Some(multipliers) => &multipliers.shear,
+            None => &s.trial.traction,
+        });
         for (p, c) in self.contact.trial.iter().enumerate() {
-            let mut f = scaled(&self.geometry.normal[p], c.traction);
+            let normal = unknown.map_or(c.traction, |m| m.normal[p]);
+            let mut f = scaled(&self.geometry.normal[p], normal);
             if let Some(shear) = shear {
-                axpy(&mut f, -1.0, &self.geometry.tangential(p, &shear.trial.traction[p]));
+                axpy(&mut f, -1.0, &self.geometry.tangential(p, &shear[p]));
             }
             self.force[p] = f;
         }
@@ -321,6 +374,7 @@ impl<const D: usize> Interface<D> {
             }
         });
         self.measure.measure(&self.u.committed, &mut self.geometry);
+        self.renew_multipliers();
         self.previous_dt = (self.trial_dt > 0.0).then_some(self.trial_dt);
     }
 
@@ -328,6 +382,9 @@ impl<const D: usize> Interface<D> {
     pub(crate) fn refresh(&mut self) {
         let (g, f) = (&self.geometry, &mut self.fields);
         f.gap.copy_from_slice(&g.gap);
+        if let Some(tied) = &self.tied {
+            f.gap.iter_mut().zip(tied).filter(|(_, g0)| g0.is_finite()).for_each(|(g, g0)| *g -= g0);
+        }
         f.normal.copy_from_slice(&g.normal);
         self.measure.areas(&mut f.area);
         let motion = &self.motion.committed;
@@ -372,7 +429,8 @@ impl<const D: usize> Interface<D> {
             let size = norm(t);
             f.shear[p] = g.tangential(p, t);
             f.shear_measure[p] = if D == 2 { t[0] } else { size };
-            f.friction[p] = if contact.traction > 0.0 { size / contact.traction } else { 0.0 };
+            f.friction[p] =
+                if contact.traction > 0.0 && self.tied.is_none() { size / contact.traction } else { 0.0 };
             let rate = shear.committed.rate[p];
             // Slip runs along the traction (without normal traction there is none, and the slip itself tells).
             let along = if t[0] == 0.0 { step[p][0] } else { t[0] };
@@ -425,122 +483,6 @@ impl<const D: usize> Interface<D> {
     }
 }
 
-fn check<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactError> {
-    let name = || spec.name.clone();
-    for (side, empty) in [("slave", spec.slave.is_empty()), ("master", spec.master.is_empty())] {
-        if empty {
-            return Err(ContactError::EmptySide { name: name(), side });
-        }
-    }
-    let nodes = spec.nodes.len();
-    for s in &spec.slave {
-        if s.node >= nodes {
-            return Err(ContactError::BadNode { name: name(), side: "slave", index: s.node, nodes });
-        }
-        if s.area.is_nan() || s.area <= 0.0 {
-            return Err(ContactError::BadArea {
-                name: name(),
-                label: spec.nodes[s.node].label,
-                area: s.area,
-            });
-        }
-    }
-    check_segments(spec, "master", &spec.master)?;
-    if let MeasureKind::Mortar { faces, .. } = &spec.measure {
-        check_segments(spec, "slave", faces)?;
-        let mut faced = vec![false; nodes];
-        faces.iter().flat_map(|f| &f.nodes).for_each(|&n| faced[n] = true);
-        if let Some(s) = spec.slave.iter().find(|s| !faced[s.node]) {
-            return Err(ContactError::NoFace { name: name(), label: spec.nodes[s.node].label });
-        }
-    }
-    check_numbers(spec)
-}
-
-fn check_segments<const D: usize>(
-    spec: &InterfaceSpec<D>,
-    side: &'static str,
-    segments: &[Segment],
-) -> Result<(), ContactError> {
-    let name = || spec.name.clone();
-    for (segment, s) in segments.iter().enumerate() {
-        if s.kind.space() != D || s.kind.nodes() != s.nodes.len() {
-            let (kind, nodes) = (s.kind, s.nodes.len());
-            return Err(ContactError::BadSegment { name: name(), side, segment, kind, nodes, dimension: D });
-        }
-        let nodes = spec.nodes.len();
-        if let Some(&index) = s.nodes.iter().find(|n| **n >= nodes) {
-            return Err(ContactError::BadNode { name: name(), side, index, nodes });
-        }
-        if s.kind.first_order() {
-            continue;
-        }
-        if spec.smoothing.is_some() {
-            return Err(ContactError::SmoothingOnSecondOrder { name: name(), kind: s.kind });
-        }
-        if spec.sliding == Sliding::Finite && spec.measure != MeasureKind::NodeToPoint {
-            return Err(ContactError::FiniteOnSecondOrder { name: name(), kind: s.kind });
-        }
-    }
-    Ok(())
-}
-
-fn check_numbers<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactError> {
-    let mut quantities = vec![("the normal penalty", spec.normal_penalty), ("the scene size", spec.scale)];
-    if spec.law.is_some() {
-        quantities.push(("the tangential penalty", spec.tangential_penalty));
-    }
-    for (what, value) in quantities {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(ContactError::NotPositive { name: spec.name.clone(), what, value });
-        }
-    }
-    if let Some(Smoothing { crease: angle }) = spec.smoothing {
-        let name = spec.name.clone();
-        if spec.measure != MeasureKind::NodeToPoint {
-            return Err(ContactError::SmoothingOfMortar { name });
-        }
-        if !(angle > 0.0 && angle < std::f64::consts::PI) {
-            return Err(ContactError::BadCrease { name, angle });
-        }
-    }
-    match spec.fixed_normal {
-        Some(n) if spec.sliding == Sliding::Finite || !norm(&n).is_normal() => {
-            Err(ContactError::BadNormal { name: spec.name.clone() })
-        }
-        _ => Ok(()),
-    }
-}
-
-fn build_measure<const D: usize>(
-    spec: &InterfaceSpec<D>,
-) -> Result<(Box<dyn Measure<D>>, u64), ContactError> {
-    let positions: Vec<[f64; D]> = spec.nodes.iter().map(|n| n.position).collect();
-    let surface = match spec.smoothing {
-        Some(smoothing) => Surface::smoothed(&spec.name, spec.master.clone(), &positions, smoothing)?,
-        None => Surface::new(spec.master.clone(), &positions),
-    };
-    Ok(match (&spec.measure, spec.sliding) {
-        (MeasureKind::Mortar { faces, axisymmetric }, Sliding::Small) => {
-            let master = spec.master.clone();
-            let (measure, examined) =
-                mortar::small(&spec.nodes, &spec.slave, faces, master, *axisymmetric, spec.fixed_normal);
-            (Box::new(measure), examined)
-        }
-        (MeasureKind::Mortar { faces, axisymmetric }, Sliding::Finite) => {
-            mortar::finite(&spec.nodes, &spec.slave, faces, spec.master.clone(), *axisymmetric)
-        }
-        (MeasureKind::NodeToPoint, Sliding::Small) => {
-            let (measure, projections) = small(&spec.nodes, &spec.slave, &surface, spec.fixed_normal);
-            (Box::new(measure), projections)
-        }
-        (MeasureKind::NodeToPoint, Sliding::Finite) => {
-            let (measure, projections) = Finite::new(&spec.nodes, &spec.slave, surface);
-            (Box::new(measure), projections)
-        }
-    })
-}
-
 impl<const D: usize> Term for Interface<D> {
     fn name(&self) -> &str {
         &self.name
@@ -551,8 +493,10 @@ impl<const D: usize> Term for Interface<D> {
         self.trial_dt = at.dt;
         Self::gather(&self.nodes, u, &mut self.u.trial);
         self.measure.measure(&self.u.trial, &mut self.geometry);
+        self.read_multipliers(u);
         self.respond(at.dt)?;
         self.forces();
+        self.returns(r);
         if let Some(p) = self.geometry.gap.iter().position(|g| g.is_nan()) {
             return Err(self.refuse(format!("gap at node {} is not a number", self.label(p))));
         }
@@ -574,10 +518,12 @@ impl<const D: usize> Term for Interface<D> {
         } else if self.measure.follows() {
             self.work.searches_skipped += 1;
         }
+        self.follow_pattern();
         Ok(())
     }
 
     fn accept(&mut self) {
+        self.adopt_multipliers();
         self.commit();
         self.refresh();
     }
@@ -591,16 +537,29 @@ impl<const D: usize> Term for Interface<D> {
         }
         self.measure.revert();
         self.measure.measure(&self.u.committed, &mut self.geometry);
+        self.renew_multipliers();
+        self.follow_pattern();
     }
 }
 
 impl<const D: usize> Linearized for Interface<D> {
     fn pattern(&self) -> &Pattern {
-        self.measure.pattern()
+        match &self.unknowns {
+            Some(unknowns) => &unknowns.pattern,
+            None => self.measure.pattern(),
+        }
     }
 
     fn tangent(&mut self, values: &mut [f64]) {
         self.work.tangents += 1;
-        self.measure.tangent(&self.geometry, self.tractions(), values);
+        if self.unknowns.is_some() {
+            self.mixed_tangent(values);
+        } else {
+            self.measure.tangent(&self.geometry, self.tractions(), values);
+        }
+    }
+
+    fn augmented(&mut self) -> Option<&mut dyn Augmented> {
+        if self.multipliers.as_ref().is_some_and(|m| m.moved.is_some()) { Some(self) } else { None }
     }
 }

@@ -7,6 +7,7 @@
 //! relative to the master along the master surface; the force on the slave is `A (f_n n - t)`, so friction opposes slip;
 //! the first tangent in two dimensions is `e_1 = (-n_y, n_x)`.
 
+mod build;
 pub mod enforce;
 mod error;
 mod forward;
@@ -21,6 +22,7 @@ mod spec;
 mod status;
 mod vector;
 
+pub use enforce::Enforcement;
 pub use error::ContactError;
 pub use interface::Interface;
 pub use observe::{Balance, PointFields, Work};

@@ -5,13 +5,14 @@ use crate::status::Status;
 /// Committed fields, one value a slave point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointFields<const D: usize> {
-    /// Gap g_n \[m\], negative when penetrating; infinite where the point has no partner.
+    /// Gap g_n \[m\], negative when penetrating; infinite where the point has no partner. That of bonded points is counted from
+    /// where they were tied.
     pub gap: Vec<f64>,
     /// Outward unit normal n of the master.
     pub normal: Vec<[f64; D]>,
     /// First tangent e_1: `(-n_y, n_x)` in two dimensions.
     pub tangent: Vec<[f64; D]>,
-    /// Normal traction f_n ≥ 0 \[Pa\].
+    /// Normal traction f_n \[Pa\]: never negative but where points are bonded.
     pub normal_traction: Vec<f64>,
     /// Tangential traction t \[Pa\]; the force on the slave is `A (f_n n - t)`.
     pub shear: Vec<[f64; D]>,
@@ -118,6 +119,8 @@ pub struct Work {
     pub projections: u64,
     /// Calls of the friction law (each on a slice of points).
     pub law_calls: u64,
+    /// Augmentations of the multipliers.
+    pub augmentations: u64,
     /// Residuals.
     pub residuals: u64,
     /// Tangents.

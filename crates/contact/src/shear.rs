@@ -150,10 +150,16 @@ impl Shear {
         self.law.states()
     }
 
-    /// Implicit response of the law to the tangential increments; writes the trial history, the points of the tangent and
-    /// the slip increments `step`. `previous` holds the slip increments of the last step.
+    /// Implicit response of the law to the tangential increments from the tractions `from` (the committed ones, where none are
+    /// given); writes the trial history, the points of the tangent and the slip increments `step`. `previous` holds the slip
+    /// increments of the last step.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "slices of one call, none of which belong together elsewhere"
+    )]
     pub(crate) fn respond(
         &mut self,
+        from: Option<&[[f64; 2]]>,
         normal: &[NormalPoint],
         increment: &[[f64; 2]],
         dt: f64,
@@ -161,7 +167,7 @@ impl Shear {
         previous: &[[f64; 2]],
         step: &mut [[f64; 2]],
     ) -> Result<(), Failure> {
-        self.gather(normal, increment, two_step, previous);
+        self.gather(from, normal, increment, two_step, previous);
         let s = &mut self.slices;
         s.size_answers(self.law.states());
         if !s.index.is_empty() {
@@ -187,19 +193,21 @@ impl Shear {
 
     fn gather(
         &mut self,
+        from: Option<&[[f64; 2]]>,
         normal: &[NormalPoint],
         increment: &[[f64; 2]],
         two_step: Option<TwoStep>,
         previous: &[[f64; 2]],
     ) {
         let k = self.law.states();
+        let from = from.unwrap_or(&self.committed.traction);
         let s = &mut self.slices;
         s.clear();
         for (p, contact) in normal.iter().enumerate() {
             if !contact.closed {
                 continue;
             }
-            let mut trial = self.committed.traction[p];
+            let mut trial = from[p];
             axpy(&mut trial, self.stiffness, &increment[p]);
             let size = norm(&trial);
             let direction = if size > 0.0 { scaled(&trial, size.recip()) } else { [0.0; 2] };

@@ -1,5 +1,6 @@
 //! The declaration of an interface, as values.
 
+use crate::enforce::Enforcement;
 use asperity_friction::law::{Law, RateBounds};
 use std::fmt;
 use std::sync::Arc;
@@ -164,6 +165,8 @@ pub struct InterfaceSpec<const D: usize> {
     pub smoothing: Option<Smoothing>,
     /// Normal of every pair instead of the segments' own (small sliding only): outward of the master; any length.
     pub fixed_normal: Option<[f64; D]>,
+    /// How the constraints are enforced.
+    pub enforcement: Enforcement,
     /// Normal penalty E_n \[Pa/m\].
     pub normal_penalty: f64,
     /// Tangential penalty E_t \[Pa/m\]; unused without a law.

@@ -242,8 +242,13 @@ fn print_results(out: &Path, report: &RunReport) {
     }
     let c = &report.counts;
     println!(
-        "  {} steps ({} rejected), {} iterations, {} factorisations, {} body solves",
-        c.steps, c.rejected, c.iterations, c.factorisations, c.body_solves
+        "  {} steps ({} rejected), {} iterations{}, {} factorisations, {} body solves",
+        c.steps,
+        c.rejected,
+        c.iterations,
+        if c.augmentations > 0 { format!(", {} augmentations", c.augmentations) } else { String::new() },
+        c.factorisations,
+        c.body_solves
     );
     let s = &report.run.seconds;
     println!(

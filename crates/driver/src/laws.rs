@@ -17,6 +17,7 @@ use asperity_friction::static_kinetic::StaticKinetic;
 use asperity_friction::strength::{
     self, Parameters, arrhenius::Arrhenius, bare::Bare, cut_off::CutOff, regularised::Regularised,
 };
+use asperity_friction::tied::Tied;
 use std::sync::Arc;
 
 /// Builds the law a scene chose.
@@ -78,6 +79,7 @@ fn elastic(law: Result<impl Law + 'static, Failure>) -> Parts<'static> {
 
 fn parts(choice: &LawChoice) -> Parts<'_> {
     match choice {
+        LawChoice::Tied => elastic(Ok(Tied)),
         LawChoice::Coulomb { mu, f_limit } => elastic(Coulomb::new(*mu, *f_limit)),
         LawChoice::StaticKinetic { mu_s, mu_k, f_limit } => {
             elastic(StaticKinetic::new(*mu_s, *mu_k, *f_limit))

@@ -1,5 +1,6 @@
 //! Scene -> Plan: the one place where it is decided what is modelled and how. Below it nothing asks what was declared.
 
+use crate::enforcement::{Enforced, in_pascal_per_metre, in_words};
 use crate::fault;
 use crate::loading::{self, Stage};
 use crate::model::{CellBlock, Model};
@@ -10,7 +11,6 @@ use crate::scene::model::{
     Formulation, Interface as InterfaceSpec, Kinematics, Measure, Method, Path as PathChoice, Rule, Scene,
     Sliding, Spanned, Stepper,
 };
-use crate::scene::units::Penalty;
 use crate::solver::{self, Solver};
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
 use asperity_fem::nonlinear::Material;
@@ -73,7 +73,11 @@ pub struct PlannedInterface {
     pub normal_penalty: f64,
     /// E_t \[Pa/m\]; 0 without friction.
     pub tangential_penalty: f64,
-    /// Friction, absent where the scene declares none.
+    /// How the constraints are enforced.
+    pub enforced: Enforced,
+    /// Multipliers that are unknowns of the system.
+    pub unknowns: usize,
+    /// Friction or bond, absent where the scene declares none.
     pub law: Option<Arc<dyn Law>>,
     /// Probe positions.
     pub probes: usize,
@@ -334,24 +338,25 @@ fn interface<const D: usize>(
             "an interface lies between two sides that can part; `split` in a mesh makes them".into(),
         ));
     }
-    let in_pascal_per_metre = |penalty: &Spanned<Penalty>| match *penalty.get_ref() {
-        Penalty::Value(value) => value,
-        Penalty::YoungPerSize(factor) => factor * model.young_per_size(body, slave_sides),
-    };
     let law = match &spec.law {
         Some(law) => Some(build_law(law)?),
         None => None,
     };
+    let young_per_size = model.young_per_size(body, slave_sides);
+    let enforced = Enforced::new(&spec.enforcement, young_per_size, model.element_size(body, slave_sides));
     Ok(PlannedInterface {
         name: name.to_string(),
+        enforced,
+        unknowns: enforced.unknowns(slave.len(), if law.is_some() { D } else { 1 }),
         slave,
         slave_faces: slave_sides.iter().map(|s| face_nodes(&model.mesh, s)).collect(),
         master_faces: master_sides.iter().map(|s| face_nodes(&model.mesh, s)).collect(),
         measure: *spec.measure.get_ref(),
         sliding: *spec.sliding.get_ref(),
         smoothed: spec.smoothing.is_some(),
-        normal_penalty: in_pascal_per_metre(&spec.enforcement.normal),
-        tangential_penalty: spec.enforcement.tangential.as_ref().map_or(0.0, in_pascal_per_metre),
+        normal_penalty: in_pascal_per_metre(&spec.enforcement.normal, young_per_size),
+        tangential_penalty: (spec.enforcement.tangential.as_ref())
+            .map_or(0.0, |t| in_pascal_per_metre(t, young_per_size)),
         law,
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),
     })
@@ -532,23 +537,25 @@ fn summary<const D: usize>(
 ) -> Summary {
     let mut physics = bodies_in_words(scene, model);
     let mut state_bytes = 0;
-    let mut retained = 0;
+    let (mut retained, mut unknowns) = (0, 0);
     for i in interfaces {
-        let friction = i.law.as_ref().map_or("no friction".to_string(), |l| {
+        let friction = i.law.as_ref().filter(|l| !l.bonded()).map_or("no friction".to_string(), |l| {
             state_bytes += 2 * l.states() * i.slave.len() * size_of::<f64>();
             format!("{} friction with {} state variables a point", l.name(), l.states())
         });
         physics.push(format!(
-            "interface `{}`: {} penalty contact, {} slave nodes against {} master faces, {friction}",
+            "interface `{}`: {} {}, {} slave nodes against {} master faces, {friction}",
             i.name,
             match i.measure {
                 Measure::NodeToPoint => "node-to-point",
                 Measure::Mortar => "mortar",
             },
+            in_words(i),
             i.slave.len(),
             i.master_faces.len()
         ));
         retained += interface_nodes(i).len() * D;
+        unknowns += i.unknowns;
     }
     let (path_text, system_dofs) = match (path, scene.time.path) {
         (Path::Condensed, _) => {
@@ -569,7 +576,7 @@ fn summary<const D: usize>(
         stepper: describe(stepping, !model.is_linear(), !interfaces.is_empty()),
         remarks,
         dofs: model.dofs(),
-        system_dofs,
+        system_dofs: system_dofs + unknowns,
         state_bytes: (!interfaces.is_empty()).then_some(state_bytes),
         memory_bytes: cells * size_of::<f64>() + solver.bytes,
     }

@@ -5,7 +5,7 @@ use crate::observe::ObserveError;
 use crate::observe::view::{Counts, Observer, StepRecord, StepView};
 use crate::plan::{AnyPlan, Plan, Stepping};
 use crate::report::{Outcome, Phases, RunReport};
-use crate::step::{Accepted, Failure};
+use crate::step::Accepted;
 use crate::system::Assembled;
 use crate::timing::StepLength;
 use std::time::Instant as Clock;
@@ -105,7 +105,7 @@ impl<const D: usize> Running<'_, D> {
                     if free.is_none() && failure.is_singular() {
                         free = system.free_motion();
                     }
-                    let always = matches!(failure, Failure::Unsolved { always: true, .. });
+                    let always = failure.always();
                     if always || !length.halve(dt) {
                         let mut reason = system.in_words(&failure);
                         if !always {
@@ -139,6 +139,7 @@ impl<const D: usize> Running<'_, D> {
             time: system.time(),
             dt: accepted.dt,
             iterations: accepted.iterations,
+            augmentations: accepted.augmentations,
             rejected,
             residual_ratio: accepted.residual_ratio,
             drift: system.drift(),

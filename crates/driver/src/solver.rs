@@ -63,8 +63,9 @@ pub enum Prepared {
 }
 
 /// What is known of the tangents in a stage. This is the one place where it is decided: bodies say whether their tangent is
-/// symmetric, and contact without a law is; friction couples shear traction to normal traction in one direction only. Mortar
-/// contact that follows the motion is not: its forces are the averages of the pressure, not the gradient of an energy of gaps.
+/// symmetric, and contact without a law or tied is; friction couples shear traction to normal traction in one direction only.
+/// Mortar contact that follows the motion is not: its forces are the averages of the pressure, not the gradient of an energy of
+/// gaps. Multipliers that are unknowns have zeros on the diagonal, for which Cholesky would be tried in vain.
 #[must_use]
 pub fn symmetry<const D: usize>(
     model: &Model<D>,
@@ -78,8 +79,11 @@ pub fn symmetry<const D: usize>(
         CellBlock::Nonlinear(b) if forward => b.model().symmetric_rate(),
         CellBlock::Nonlinear(b) => b.model().symmetric_tangent(),
     };
-    let friction = |i: &PlannedInterface| i.law.is_some() && !stage.frictionless.contains(&i.name);
-    if !model.blocks.iter().all(of_block) || interfaces.iter().any(|i| friction(i) || moving_mortar(i)) {
+    let friction = |i: &PlannedInterface| {
+        i.law.as_ref().is_some_and(|l| !l.bonded()) && !stage.frictionless.contains(&i.name)
+    };
+    let general = |i: &PlannedInterface| friction(i) || moving_mortar(i) || i.unknowns > 0;
+    if !model.blocks.iter().all(of_block) || interfaces.iter().any(general) {
         Symmetry::General
     } else if interfaces.is_empty() && model.is_linear() {
         Symmetry::Positive
@@ -168,6 +172,7 @@ impl<const D: usize> Choice<'_, D> {
             );
             analyses.push(analysis.map_err(|e| PlanError::body(&body.name, 0..0, e.to_string()))?);
         }
+        kept += self.interfaces.iter().map(|i| i.unknowns).sum::<usize>();
         // The interface's matrix, its factor, and the copy a term hands over.
         let dense = 3 * kept * kept * size_of::<f64>();
         let bytes = analyses.iter().map(condense::Analysis::bytes).sum::<usize>() + dense;
@@ -248,7 +253,9 @@ impl<const D: usize> Choice<'_, D> {
     fn iterative(&self, matrix: usize, why: String) -> Result<Solver, PlanError> {
         let solver = &self.scene.solver;
         if let Some(stage) = self.unsymmetric() {
-            let reason = if self.interfaces.iter().any(|i| i.law.is_some()) {
+            let reason = if self.interfaces.iter().any(|i| i.unknowns > 0) {
+                "multipliers that are unknowns (\"augmented-lagrangian\") make it indefinite".into()
+            } else if self.interfaces.iter().any(|i| i.law.as_ref().is_some_and(|l| !l.bonded())) {
                 format!("friction in stage `{}` makes its matrix unsymmetric", stage.name)
             } else if self.interfaces.iter().any(moving_mortar) {
                 "a mortar interface with finite sliding makes its matrix unsymmetric".into()

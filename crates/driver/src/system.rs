@@ -76,11 +76,12 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let number = system_numbers(plan, &retained);
         let dofs = number.iter().filter(|&&n| n != usize::MAX).count();
         let largest_rate = plan.stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
-        let mut interfaces = plan
-            .interfaces
-            .iter()
-            .map(|i| Interface::new(spec(plan, i, &number, largest_rate)).map_err(|e| e.to_string()))
-            .collect::<Result<Vec<_>, String>>()?;
+        let (mut interfaces, mut unknowns) = (Vec::new(), dofs);
+        for i in &plan.interfaces {
+            let spec = spec(plan, i, &number, largest_rate, unknowns);
+            interfaces.push(Interface::new(spec).map_err(|e| e.to_string())?);
+            unknowns += i.unknowns;
+        }
         let areas = plan
             .interfaces
             .iter()
@@ -105,7 +106,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
             constraints: Constraints::default(),
             fixed: None,
             stepper: None,
-            state: State { u: vec![0.0; dofs], time: 0.0 },
+            state: State { u: vec![0.0; unknowns], time: 0.0 },
             areas,
             beside: Vec::new(),
             body_factorisations: 0,
@@ -260,15 +261,37 @@ impl<'a, const D: usize> Assembled<'a, D> {
     #[must_use]
     pub fn in_words(&self, failure: &Failure) -> String {
         match failure {
-            Failure::Refused(why) => why.clone(),
+            Failure::Refused(why) | Failure::Violated(why) => why.clone(),
             Failure::Unsolved { error, .. } => {
                 let nodes = self.nodes();
+                if let Some(pivot) = error.pivot()
+                    && let Some(words) = self.multiplier_in_words(pivot.equation, &nodes)
+                {
+                    return words;
+                }
                 free::unsolved(&self.plan.model, error, |dof| {
                     let components = self.plan.model.idealisation.components();
                     (nodes[dof / components], dof % components)
                 })
             }
         }
+    }
+
+    /// What an unknown is about, where it is a multiplier.
+    fn multiplier_in_words(&self, unknown: usize, nodes: &[usize]) -> Option<String> {
+        let mut first = nodes.len() * self.plan.model.idealisation.components();
+        for (planned, interface) in self.plan.interfaces.iter().zip(&self.interfaces) {
+            if (first..first + planned.unknowns).contains(&unknown) {
+                let point = (unknown - first) / (planned.unknowns / planned.slave.len());
+                return Some(format!(
+                    "the system is singular: interface `{}` does not determine the traction at node {}",
+                    planned.name,
+                    interface.label(point)
+                ));
+            }
+            first += planned.unknowns;
+        }
+        None
     }
 
     /// The motion that the system assembled last does not resist, in words, where there is one.
@@ -353,7 +376,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     #[must_use]
     pub fn displacement(&self) -> Vec<f64> {
         match &self.bodies {
-            Bodies::Full { .. } => self.state.u.clone(),
+            Bodies::Full { .. } => self.state.u[..self.plan.model.dofs()].to_vec(),
             Bodies::Condensed(bodies) => {
                 bodies.iter().flat_map(|b| b.recover(&self.state.u, self.state.time)).collect()
             }
@@ -525,12 +548,13 @@ fn local_channels(constraints: &Constraints, dofs: std::ops::Range<usize>) -> Ve
         .collect()
 }
 
-/// Declares an interface to the contact crate.
+/// Declares an interface to the contact crate; its multipliers that are unknowns are numbered from `unknowns`.
 fn spec<const D: usize>(
     plan: &Plan<D>,
     planned: &PlannedInterface,
     number: &[usize],
     largest_rate: f64,
+    unknowns: usize,
 ) -> InterfaceSpec<D> {
     let labels = interface_nodes(planned);
     let local = |node: usize| labels.partition_point(|&n| n < node);
@@ -569,6 +593,7 @@ fn spec<const D: usize>(
         },
         smoothing: planned.smoothed.then(asperity_contact::Smoothing::default),
         fixed_normal: None,
+        enforcement: planned.enforced.declared(unknowns),
         normal_penalty: planned.normal_penalty,
         tangential_penalty: planned.tangential_penalty,
         law: planned.law.clone(),

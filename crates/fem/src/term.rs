@@ -101,6 +101,27 @@ pub trait Linearized: Term {
     fn constant_tangent(&self) -> Option<&[f64]> {
         None
     }
+
+    /// The term as one whose constraints a stepper enforces by augmentation, where it is one.
+    fn augmented(&mut self) -> Option<&mut dyn Augmented> {
+        None
+    }
+}
+
+/// Constraints enforced by multipliers that move between solutions of the balance of forces (Uzawa's method): within a
+/// solution the term acts like springs about the forces reached before.
+pub trait Augmented {
+    /// Largest violation of the constraints at the state of the last residual, over the tolerance \[-\].
+    fn violation(&self) -> f64;
+
+    /// Augmentations a step may take.
+    fn most(&self) -> usize;
+
+    /// Makes the forces of the last residual the multipliers of the next; [`Term::reject`] takes that back.
+    fn augment(&mut self);
+
+    /// The largest violation in words, for a step that gives up.
+    fn violated(&self) -> Refusal;
 }
 
 /// The largest admissible fraction of a forward step (the R-minimum rule).

@@ -182,6 +182,11 @@ pub trait Law: Send + Sync + std::fmt::Debug {
         false
     }
 
+    /// Whether the points are bonded: they neither slip nor part, and carry normal tension.
+    fn bonded(&self) -> bool {
+        false
+    }
+
     /// Writes the initial states of `n` points, point-major (slice of length `n * states()`).
     fn initial(&self, states: &mut [f64]);
 

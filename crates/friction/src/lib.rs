@@ -16,6 +16,7 @@ pub mod slider;
 pub mod slip_weakening;
 pub mod static_kinetic;
 pub mod strength;
+pub mod tied;
 mod yielding;
 
 /// What can go wrong in a law.

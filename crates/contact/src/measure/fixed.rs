@@ -161,6 +161,10 @@ impl<const D: usize> Measure<D> for Fixed<D> {
         &self.pattern
     }
 
+    fn block_points(&self, out: &mut Vec<usize>) {
+        out.extend(self.pairs.iter().map(|pair| pair.point));
+    }
+
     fn search(&mut self, _u: &[[f64; D]], _projections: &mut u64) -> bool {
         false
     }

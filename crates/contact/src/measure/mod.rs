@@ -121,6 +121,9 @@ pub trait Measure<const D: usize>: Send + Sync + fmt::Debug {
     /// Blocks of degrees of freedom, one block for each point that has one.
     fn pattern(&self) -> &Pattern;
 
+    /// Adds the slave point of each block of the pattern to `out`.
+    fn block_points(&self, out: &mut Vec<usize>);
+
     /// Updates the pairing at `u`; the only place where pairing and pattern change. Counts projections in `projections`
     /// and returns whether a search was made.
     fn search(&mut self, u: &[[f64; D]], projections: &mut u64) -> bool;

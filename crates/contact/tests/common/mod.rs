@@ -4,7 +4,8 @@
 pub mod curved;
 
 use asperity_contact::{
-    Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, SurfaceNode,
+    Enforcement, Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding,
+    SurfaceNode,
 };
 use asperity_fem::term::{Instant, Limited, Linearized, Term};
 use asperity_friction::Failure;
@@ -257,6 +258,7 @@ pub fn spec<const D: usize>(
         sliding,
         smoothing: None,
         fixed_normal: None,
+        enforcement: Enforcement::Penalty,
         normal_penalty: 1000.0,
         tangential_penalty: 700.0,
         law,

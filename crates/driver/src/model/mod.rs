@@ -309,11 +309,16 @@ impl<const D: usize> Model<D> {
     pub fn young_per_size(&self, body: &Body<D>, sides: &[Side]) -> f64 {
         let first = sides.first().map_or(body.blocks.start, |s| s.block);
         let young = body.elastic[first - body.blocks.start].young();
-        let size = body.size.unwrap_or_else(|| {
-            sides.iter().map(|s| cell_size(&self.mesh, s.block, s.cell)).sum::<f64>()
-                / sides.len().max(1) as f64
-        });
-        young / size
+        young / self.element_size(body, sides)
+    }
+
+    /// The declared element size of a body, or the mean size of the cells behind `sides` \[m\].
+    #[must_use]
+    pub fn element_size(&self, body: &Body<D>, sides: &[Side]) -> f64 {
+        body.size.unwrap_or_else(|| {
+            let sizes = sides.iter().map(|s| cell_size(&self.mesh, s.block, s.cell));
+            sizes.sum::<f64>() / sides.len().max(1) as f64
+        })
     }
 }
 

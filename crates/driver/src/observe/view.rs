@@ -126,6 +126,8 @@ pub struct StepRecord {
     pub dt: f64,
     /// Newton iterations, or re-solves of the R-minimum rule.
     pub iterations: usize,
+    /// Augmentations of multipliers (Uzawa's method).
+    pub augmentations: usize,
     /// Trials thrown away before this step was accepted.
     pub rejected: usize,
     /// Residual over the largest force in the system \[-\].
@@ -147,6 +149,8 @@ pub struct Counts {
     pub rejected: usize,
     /// Newton iterations, or forward solves.
     pub iterations: usize,
+    /// Augmentations of multipliers (Uzawa's method).
+    pub augmentations: usize,
     /// Residual evaluations.
     pub residuals: usize,
     /// Tangent evaluations.

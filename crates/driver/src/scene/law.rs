@@ -90,6 +90,8 @@ pub struct State {
 /// A friction law with exactly the parameters it needs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LawChoice {
+    /// No slip and no parting.
+    Tied,
     /// A constant coefficient.
     Coulomb {
         /// Friction coefficient \[-\].
@@ -159,7 +161,8 @@ impl LawChoice {
 }
 
 /// Kinds of law with the parameters of each.
-const KINDS: [(&str, &[&str]); 5] = [
+const KINDS: [(&str, &[&str]); 6] = [
+    ("tied", &[]),
     ("coulomb", &["mu", "f_limit"]),
     ("static-kinetic", &["mu_s", "mu_k", "f_limit"]),
     ("slip-weakening", &["mu_s", "mu_k", "d_c", "f_limit"]),
@@ -257,7 +260,10 @@ fn foreign(law: &LawSpec, kind: &str, parameters: &[&str]) -> Vec<SceneError> {
                     "`{name}` is not a parameter of the law \"{kind}\"; it belongs to {}",
                     owners.join(" and ")
                 ),
-                format!("remove it; \"{kind}\" has {}", parameters.join(", ")),
+                match parameters {
+                    [] => format!("remove it; \"{kind}\" has no parameters"),
+                    _ => format!("remove it; \"{kind}\" has {}", parameters.join(", ")),
+                },
             )
         })
         .collect()

@@ -9,7 +9,7 @@ mod solver;
 
 use super::law::Several;
 use super::slider::EventSpec;
-use super::units::{Length, Penalty, Pressure, Time, Velocity};
+use super::units::{Length, Penalty, Penetration, Pressure, Time, Velocity};
 pub use body::*;
 pub use fault::*;
 use serde::Deserialize;
@@ -129,6 +129,10 @@ pub struct Enforcement {
     pub normal: Spanned<Penalty>,
     /// Tangential penalty E_t \[Pa/m\]; needed with friction.
     pub tangential: Option<Spanned<Penalty>>,
+    /// Uzawa: largest penetration, and largest tangential motion without slip in a step.
+    pub penetration: Option<Spanned<Penetration>>,
+    /// Uzawa: augmentations a step may take.
+    pub augmentations: Option<Spanned<usize>>,
 }
 
 /// Enforcements that exist.
@@ -137,13 +141,17 @@ pub struct Enforcement {
 pub enum EnforcementKind {
     /// Traction proportional to penetration.
     Penalty,
+    /// The same about multipliers that move between solutions.
+    Uzawa,
+    /// Multipliers as unknowns of the system.
+    AugmentedLagrangian,
 }
 
 /// A friction law as written in a scene. Which parameters belong to which kind is checked by the plan.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LawSpec {
-    /// coulomb, static-kinetic, slip-weakening, rate, rate-and-state.
+    /// coulomb, static-kinetic, slip-weakening, rate, rate-and-state, tied.
     pub kind: Option<Spanned<String>>,
     /// Coulomb: friction coefficient \[-\].
     pub mu: Option<Spanned<f64>>,

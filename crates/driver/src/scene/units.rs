@@ -339,3 +339,44 @@ impl<'de> Deserialize<'de> for Penalty {
         deserializer.deserialize_any(PenaltyVisitor)
     }
 }
+
+/// A penetration that may remain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Penetration {
+    /// As such \[m\].
+    Value(f64),
+    /// This factor times the element size of the slave body.
+    Sizes(f64),
+}
+
+impl<'de> Deserialize<'de> for Penetration {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct PenetrationVisitor;
+        impl Visitor<'_> for PenetrationVisitor {
+            type Value = Penetration;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a length such as \"1 nm\" or \"1e-6 h\" (element sizes) or a number in m")
+            }
+
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Penetration, E> {
+                finite(value, Dimension::Length).map(Penetration::Value)
+            }
+
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Penetration, E> {
+                Ok(Penetration::Value(value as f64))
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Penetration, E> {
+                let (number, name) = split(text);
+                match shifted(number, 0) {
+                    Some(factor) if name.trim() == "h" && factor.is_finite() => {
+                        Ok(Penetration::Sizes(factor))
+                    }
+                    _ => parse(text, Dimension::Length).map(Penetration::Value).map_err(E::custom),
+                }
+            }
+        }
+        deserializer.deserialize_any(PenetrationVisitor)
+    }
+}

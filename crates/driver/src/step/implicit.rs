@@ -1,6 +1,6 @@
 //! The implicit stepper: Newton's method with a line search on the balance of forces at the end of the step.
 
-use super::{Accepted, Balance, Before, Failure, State};
+use super::{Accepted, Balance, Before, Failure, Solved, State};
 use crate::observe::view::Counts;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
@@ -79,8 +79,8 @@ impl Implicit {
         let at = Instant { time: state.time + dt, dt };
         let mut u = self.predict(state, dt);
         constraints.impose(at.time, &mut u);
-        match self.iterate(terms, &mut u, at, counts) {
-            Ok((iterations, residual_ratio)) => {
+        match self.augmented(terms, &mut u, at, counts) {
+            Ok(Solved { iterations, residual_ratio, augmentations }) => {
                 for term in terms.iter_mut() {
                     term.accept();
                 }
@@ -88,7 +88,7 @@ impl Implicit {
                 self.last = Some((increment, dt));
                 state.u = u;
                 state.time = at.time;
-                Ok(Accepted { dt, iterations, residual_ratio, limited_by: None })
+                Ok(Accepted { dt, iterations, augmentations, residual_ratio, limited_by: None })
             }
             Err(why) => {
                 for term in terms.iter_mut() {
@@ -110,7 +110,8 @@ impl Implicit {
         }
     }
 
-    fn iterate(
+    /// Newton's method from `u`; returns the iterations and the residual over the largest force.
+    pub(super) fn iterate(
         &mut self,
         terms: &mut [&mut dyn Linearized],
         u: &mut Vec<f64>,

@@ -1,5 +1,6 @@
 //! Steppers: what they share.
 
+mod augmented;
 pub mod implicit;
 pub mod static_explicit;
 
@@ -22,6 +23,9 @@ pub struct State {
 pub enum Failure {
     /// The state was refused, or the iteration did not converge: a shorter step may do.
     Refused(String),
+    /// Constraints were not met within the augmentations allowed. What is left shrinks with the step only in proportion, so that
+    /// shorter ones would go on for ever.
+    Violated(String),
     /// A linear system could not be solved.
     Unsolved {
         /// Why.
@@ -32,6 +36,12 @@ pub enum Failure {
 }
 
 impl Failure {
+    /// Whether shorter steps fail as well.
+    #[must_use]
+    pub fn always(&self) -> bool {
+        matches!(self, Self::Unsolved { always: true, .. } | Self::Violated(_))
+    }
+
     /// Whether a motion was found free.
     #[must_use]
     pub fn is_singular(&self) -> bool {
@@ -75,6 +85,14 @@ impl Before {
     }
 }
 
+/// Figures of a solution.
+#[derive(Clone, Copy, Debug)]
+struct Solved {
+    iterations: usize,
+    residual_ratio: f64,
+    augmentations: usize,
+}
+
 /// Figures of an accepted step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Accepted {
@@ -82,6 +100,8 @@ pub struct Accepted {
     pub dt: f64,
     /// Newton iterations, or forward solves.
     pub iterations: usize,
+    /// Augmentations of multipliers.
+    pub augmentations: usize,
     /// Residual over the largest force \[-\].
     pub residual_ratio: f64,
     /// What set the length, where the stepper itself did.

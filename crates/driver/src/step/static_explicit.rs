@@ -91,7 +91,7 @@ impl StaticExplicit {
                 _ => {
                     commit(terms, state, &du, at)?;
                     let limited_by = cause.map(|c| c.cause);
-                    return Ok(Accepted { dt, iterations: solve, residual_ratio: 0.0, limited_by });
+                    return Ok(Accepted { dt, iterations: solve, limited_by, ..Accepted::default() });
                 }
             }
         }

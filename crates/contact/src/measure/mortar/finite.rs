@@ -484,6 +484,10 @@ impl<const D: usize, const M: usize> Measure<D> for Finite<D, M> {
         &self.pattern
     }
 
+    fn block_points(&self, out: &mut Vec<usize>) {
+        out.extend(0..self.points.len());
+    }
+
     fn search(&mut self, u: &[[f64; D]], projections: &mut u64) -> bool {
         self.configure(u);
         self.pair(projections);

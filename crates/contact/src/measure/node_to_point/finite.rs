@@ -319,6 +319,10 @@ impl<const D: usize> Measure<D> for Finite<D> {
         &self.pattern
     }
 
+    fn block_points(&self, out: &mut Vec<usize>) {
+        out.extend((0..self.points.len()).filter(|&p| self.points[p].key.is_some()));
+    }
+
     fn search(&mut self, u: &[[f64; D]], projections: &mut u64) -> bool {
         self.configure(u);
         if self.bound.holds(&self.x) {

@@ -1,6 +1,7 @@
 //! Stages and their conditions: what they refer to, and whether two of them say different things about the same nodes.
 
 use super::course::Course;
+use super::interfaces::is_tied;
 use super::{AXES, Checker};
 use crate::scene::SceneError;
 use crate::scene::model::{Condition, Loading, Motion, Spanned, Stage};
@@ -131,6 +132,15 @@ impl Checker<'_> {
                     interface.span(),
                     format!("there is no interface `{}`", interface.get_ref()),
                     suggest(interface.get_ref(), "interfaces", known),
+                );
+            }
+            let law = self.scene.interfaces.get(interface.get_ref()).and_then(|i| i.law.as_ref());
+            if let Some(law) = law.filter(|law| is_tied(law)) {
+                self.conflict(
+                    &interface.span(),
+                    format!("interface `{}` is tied and has no friction to leave out", interface.get_ref()),
+                    "remove it from `frictionless`",
+                    (&law.span(), "the law"),
                 );
             }
         }

@@ -2,9 +2,14 @@
 
 use super::Checker;
 use crate::scene::law;
-use crate::scene::model::{Interface, Spanned};
-use crate::scene::units::Penalty;
+use crate::scene::model::{Enforcement, EnforcementKind, Interface, LawSpec, Spanned, Stepper};
+use crate::scene::units::{Penalty, Penetration};
 use asperity_fem::mesh::generate::SIDES;
+
+/// Whether a law bonds its interface.
+pub(super) fn is_tied(law: &Spanned<LawSpec>) -> bool {
+    law.get_ref().kind.as_ref().is_some_and(|k| k.get_ref() == "tied")
+}
 
 /// Body, axis and end of a side.
 type Side = (String, usize, usize);
@@ -18,10 +23,14 @@ impl Checker<'_> {
             if let Some(tangential) = &interface.enforcement.tangential {
                 self.penalty(tangential, "tangential");
             }
+            self.enforcement(name, &interface.enforcement);
             match (&interface.law, &interface.enforcement.tangential) {
-                (Some(_), None) => self.error(
+                (Some(law), None) => self.error(
                     interface.enforcement.normal.span(),
-                    format!("interface `{name}` has friction, but its enforcement has no tangential penalty"),
+                    format!(
+                        "interface `{name}` {}, but its enforcement has no tangential penalty",
+                        if is_tied(law) { "is tied" } else { "has friction" }
+                    ),
                     "add `tangential = \"100 E/h\"` to the enforcement",
                 ),
                 (None, Some(tangential)) => self.error(
@@ -39,6 +48,54 @@ impl Checker<'_> {
                     self.at_rest(form);
                 }
             }
+        }
+    }
+
+    /// Keys of an enforcement that it needs, and those of others.
+    fn enforcement(&mut self, name: &str, enforcement: &Enforcement) {
+        let kind = &enforcement.kind;
+        let uzawa = *kind.get_ref() == EnforcementKind::Uzawa;
+        let keys = [
+            ("penetration", enforcement.penetration.as_ref().map(Spanned::span)),
+            ("augmentations", enforcement.augmentations.as_ref().map(Spanned::span)),
+        ];
+        if !uzawa {
+            for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
+                self.conflict(
+                    &place,
+                    format!("`{key}` belongs to the enforcement \"uzawa\""),
+                    format!("remove `{key}`: what penetrates follows from the penalty, or is nothing with \"augmented-lagrangian\""),
+                    (&kind.span(), "the kind"),
+                );
+            }
+        } else if enforcement.penetration.is_none() {
+            self.error(
+                kind.span(),
+                format!("the enforcement \"uzawa\" of interface `{name}` needs `penetration`, where to end"),
+                "such as `penetration = \"1e-6 h\"`, a share of the element size, or a length",
+            );
+        }
+        if let Some(penetration) = &enforcement.penetration {
+            let (Penetration::Value(value) | Penetration::Sizes(value)) = *penetration.get_ref();
+            if value <= 0.0 {
+                self.error(
+                    penetration.span(),
+                    "`penetration` must be positive",
+                    "such as `penetration = \"1e-6 h\"`; \"augmented-lagrangian\" leaves none",
+                );
+            }
+        }
+        if let Some(most) = enforcement.augmentations.as_ref().filter(|m| *m.get_ref() == 0) {
+            self.error(most.span(), "`augmentations` must be at least 1", "or use `kind = \"penalty\"`");
+        }
+        let stepper = &self.scene.time.stepper;
+        if *kind.get_ref() != EnforcementKind::Penalty && *stepper.get_ref() == Stepper::StaticExplicit {
+            self.conflict(
+                &kind.span(),
+                "the static-explicit stepper follows rates and has no iteration that could move multipliers",
+                "use `kind = \"penalty\"`, or the stepper \"implicit\"",
+                (&stepper.span(), "the stepper"),
+            );
         }
     }
 

@@ -55,6 +55,7 @@ impl Reader {
     pub fn choice(&mut self, law: &LawSpec) -> Option<LawChoice> {
         let f_limit = self.optional("f_limit", law.f_limit.as_ref(), "\"100 MPa\"", Positive);
         match self.kind {
+            "tied" => Some(LawChoice::Tied),
             "coulomb" => {
                 let mu = self.value("mu", law.mu.as_ref(), "0.6", NotNegative);
                 Some(LawChoice::Coulomb { mu: mu?, f_limit: f_limit? })

@@ -1,0 +1,128 @@
+//! Checks of a specification, and the measure it asks for.
+
+use crate::error::ContactError;
+use crate::measure::Measure;
+use crate::measure::mortar;
+use crate::measure::node_to_point::finite::Finite;
+use crate::measure::node_to_point::small::small;
+use crate::search::surface::Surface;
+use crate::spec::{InterfaceSpec, MeasureKind, Segment, Sliding, Smoothing};
+use crate::vector::norm;
+
+/// Whether a specification fits together.
+pub(crate) fn check<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactError> {
+    let name = || spec.name.clone();
+    for (side, empty) in [("slave", spec.slave.is_empty()), ("master", spec.master.is_empty())] {
+        if empty {
+            return Err(ContactError::EmptySide { name: name(), side });
+        }
+    }
+    let nodes = spec.nodes.len();
+    for s in &spec.slave {
+        if s.node >= nodes {
+            return Err(ContactError::BadNode { name: name(), side: "slave", index: s.node, nodes });
+        }
+        if s.area.is_nan() || s.area <= 0.0 {
+            return Err(ContactError::BadArea {
+                name: name(),
+                label: spec.nodes[s.node].label,
+                area: s.area,
+            });
+        }
+    }
+    check_segments(spec, "master", &spec.master)?;
+    if let MeasureKind::Mortar { faces, .. } = &spec.measure {
+        check_segments(spec, "slave", faces)?;
+        let mut faced = vec![false; nodes];
+        faces.iter().flat_map(|f| &f.nodes).for_each(|&n| faced[n] = true);
+        if let Some(s) = spec.slave.iter().find(|s| !faced[s.node]) {
+            return Err(ContactError::NoFace { name: name(), label: spec.nodes[s.node].label });
+        }
+    }
+    check_numbers(spec)
+}
+
+fn check_segments<const D: usize>(
+    spec: &InterfaceSpec<D>,
+    side: &'static str,
+    segments: &[Segment],
+) -> Result<(), ContactError> {
+    let name = || spec.name.clone();
+    for (segment, s) in segments.iter().enumerate() {
+        if s.kind.space() != D || s.kind.nodes() != s.nodes.len() {
+            let (kind, nodes) = (s.kind, s.nodes.len());
+            return Err(ContactError::BadSegment { name: name(), side, segment, kind, nodes, dimension: D });
+        }
+        let nodes = spec.nodes.len();
+        if let Some(&index) = s.nodes.iter().find(|n| **n >= nodes) {
+            return Err(ContactError::BadNode { name: name(), side, index, nodes });
+        }
+        if s.kind.first_order() {
+            continue;
+        }
+        if spec.smoothing.is_some() {
+            return Err(ContactError::SmoothingOnSecondOrder { name: name(), kind: s.kind });
+        }
+        if spec.sliding == Sliding::Finite && spec.measure != MeasureKind::NodeToPoint {
+            return Err(ContactError::FiniteOnSecondOrder { name: name(), kind: s.kind });
+        }
+    }
+    Ok(())
+}
+
+fn check_numbers<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactError> {
+    let mut quantities = vec![("the normal penalty", spec.normal_penalty), ("the scene size", spec.scale)];
+    if spec.law.is_some() {
+        quantities.push(("the tangential penalty", spec.tangential_penalty));
+    }
+    for (what, value) in quantities {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(ContactError::NotPositive { name: spec.name.clone(), what, value });
+        }
+    }
+    if let Some(Smoothing { crease: angle }) = spec.smoothing {
+        let name = spec.name.clone();
+        if spec.measure != MeasureKind::NodeToPoint {
+            return Err(ContactError::SmoothingOfMortar { name });
+        }
+        if !(angle > 0.0 && angle < std::f64::consts::PI) {
+            return Err(ContactError::BadCrease { name, angle });
+        }
+    }
+    match spec.fixed_normal {
+        Some(n) if spec.sliding == Sliding::Finite || !norm(&n).is_normal() => {
+            Err(ContactError::BadNormal { name: spec.name.clone() })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The measure of a specification and the projections made to pair it.
+pub(crate) fn build_measure<const D: usize>(
+    spec: &InterfaceSpec<D>,
+) -> Result<(Box<dyn Measure<D>>, u64), ContactError> {
+    let positions: Vec<[f64; D]> = spec.nodes.iter().map(|n| n.position).collect();
+    let surface = match spec.smoothing {
+        Some(smoothing) => Surface::smoothed(&spec.name, spec.master.clone(), &positions, smoothing)?,
+        None => Surface::new(spec.master.clone(), &positions),
+    };
+    Ok(match (&spec.measure, spec.sliding) {
+        (MeasureKind::Mortar { faces, axisymmetric }, Sliding::Small) => {
+            let master = spec.master.clone();
+            let (measure, examined) =
+                mortar::small(&spec.nodes, &spec.slave, faces, master, *axisymmetric, spec.fixed_normal);
+            (Box::new(measure), examined)
+        }
+        (MeasureKind::Mortar { faces, axisymmetric }, Sliding::Finite) => {
+            mortar::finite(&spec.nodes, &spec.slave, faces, spec.master.clone(), *axisymmetric)
+        }
+        (MeasureKind::NodeToPoint, Sliding::Small) => {
+            let (measure, projections) = small(&spec.nodes, &spec.slave, &surface, spec.fixed_normal);
+            (Box::new(measure), projections)
+        }
+        (MeasureKind::NodeToPoint, Sliding::Finite) => {
+            let (measure, projections) = Finite::new(&spec.nodes, &spec.slave, surface);
+            (Box::new(measure), projections)
+        }
+    })
+}
