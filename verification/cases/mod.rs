@@ -38,7 +38,6 @@ mod bodies_convergence;
 mod bodies_patch;
 pub mod body;
 mod cantilever_rotation;
-mod contact_enforcement;
 mod contact_patch;
 mod contact_patch_mortar;
 mod cook_membrane;
@@ -75,7 +74,6 @@ pub const ALL: &[Case] = &[
     antiplane::CASE,
     bodies_convergence::CASE,
     bodies_patch::CASE,
-    contact_enforcement::CASE,
     contact_patch::CASE,
     contact_patch_mortar::CASE,
     cook_membrane::CASE,

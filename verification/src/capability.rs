@@ -63,8 +63,6 @@ capabilities! {
     PenaltyContact3d => "penalty contact, 3D",
     /// Mortar contact: gaps averaged over the overlap of facets.
     Mortar => "mortar contact",
-    /// Contact by multipliers: Uzawa's method and augmented Lagrangian.
-    Multipliers => "contact by multipliers",
     /// Pairing that follows large sliding.
     FiniteSliding => "finite sliding on flat segments",
     /// Coulomb friction.

@@ -302,6 +302,58 @@ fn a_bar_in_tension_passes_the_patch_test_through_tied_mortar_interfaces() {
     }
 }
 
+/// Cubes in uniaxial stress on faces that do not match, pressed without friction or pulled through a bond.
+#[test]
+fn cubes_pass_the_patch_test_with_multipliers_in_small_and_finite_sliding() {
+    let text = |sliding: &str, enforcement: &str, law: &str, top: f64| {
+        let tangential = if law.is_empty() { "" } else { r#", tangential = "1 E/h""# };
+        format!(
+            r#"
+schema = 1
+title = "two cubes"
+kinematics = "3d"
+[materials.m]
+young = 1000
+poisson = 0.3
+[bodies.lower]
+mesh.block = {{ min = [0, 0, 0], max = [1, 1, 1], divisions = [3, 2, 3], element = "hex8" }}
+material = "m"
+[bodies.upper]
+mesh.block = {{ min = [0, 1, 0], max = [1, 2, 1], divisions = [2, 2, 2], element = "hex8" }}
+material = "m"
+[interfaces.joint]
+slave = "upper.bottom"
+master = "lower.top"
+measure = "mortar"
+sliding = "{sliding}"
+enforcement = {{ {enforcement}{tangential} }}
+{law}
+[[stages]]
+name = "load"
+duration = 1
+steps = 1
+conditions = [
+    {{ set = "lower.bottom", y = 0 }}, {{ set = "upper.top", y = {{ to = {top} }} }},
+    {{ set = "lower.left", x = 0 }}, {{ set = "upper.left", x = 0 }},
+    {{ set = "lower.back", z = 0 }}, {{ set = "upper.back", z = 0 }},
+]
+[time]
+stepper = "implicit"
+"#
+        )
+    };
+    for sliding in ["small", "finite"] {
+        for (law, top) in [("", -0.01), (r#"law = { kind = "tied" }"#, 0.01)] {
+            for (enforcement, tolerance) in [(MIXED, 1e-10), (UZAWA, 1e-7)] {
+                let (report, record) = simulate(&text(sliding, enforcement, law, top));
+                normal(&record).iter().for_each(|p| close(*p, -top * 500.0, tolerance));
+                fields(&record).cell_stress.iter().for_each(|s| close(s[1], top * 500.0, tolerance));
+                assert!(report.balance[0].force_residual < 1e-12);
+            }
+        }
+    }
+}
+
 #[test]
 fn a_tied_interface_keeps_the_gap_it_was_tied_at() {
     // The blocks stand 1e-3 apart.
