@@ -48,10 +48,15 @@ mod friction_hard_numerics;
 mod friction_steady_state;
 mod friction_velocity_steps;
 mod frictional_crack;
+pub mod hertz;
+mod hertz_line;
+mod hertz_sphere;
 mod jaumann_shear;
 mod lame_cylinder;
 mod large_rotation;
 mod maxwell_relaxation;
+mod nafems_roller;
+mod partial_slip;
 pub mod sandwich;
 mod sandwich_3d;
 mod sandwich_pressed;
@@ -82,7 +87,11 @@ pub const ALL: &[Case] = &[
     friction_steady_state::CASE,
     friction_velocity_steps::CASE,
     frictional_crack::CASE,
+    hertz_line::CASE,
+    hertz_sphere::CASE,
     lame_cylinder::CASE,
+    nafems_roller::CASE,
+    partial_slip::CASE,
     sandwich_3d::CASE,
     sandwich_pressed::CASE,
     sandwich_sheared::CASE,

@@ -63,6 +63,8 @@ capabilities! {
     PenaltyContact3d => "penalty contact, 3D",
     /// Mortar contact: gaps averaged over the overlap of facets.
     Mortar => "mortar contact",
+    /// Contacts whose size follows from the load, on curved sides.
+    Hertz => "contact of curved bodies (Hertz, partial slip)",
     /// Pairing that follows large sliding.
     FiniteSliding => "finite sliding on flat segments",
     /// Coulomb friction.

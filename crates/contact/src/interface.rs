@@ -2,6 +2,7 @@
 
 use crate::build::{build_measure, check};
 use crate::enforce::{Enforcement, Multipliers, Penalty, Unknowns, tangential};
+use crate::average::Averaging;
 use crate::error::ContactError;
 use crate::measure::{Attachment, Geometry, Measure, NormalPoint, Slides, Tractions};
 use crate::observe::{Balance, PointFields, Work};
@@ -85,6 +86,7 @@ pub struct Interface<const D: usize> {
     pub(crate) du: Vec<[f64; D]>,
     pub(crate) slides: Slides,
     pub(crate) fields: PointFields<D>,
+    averaging: Averaging,
     pub(crate) work: Work,
     unpaired: usize,
 }
@@ -122,6 +124,7 @@ impl<const D: usize> Interface<D> {
             du: vec![[0.0; D]; spec.nodes.len()],
             slides: Slides { gap: vec![0.0; n], increment: vec![[0.0; 2]; n] },
             fields: PointFields::new(n),
+            averaging: Averaging::new(&spec.measure, &spec.slave, spec.nodes.len()),
             work: Work { searches: 1, projections, ..Work::default() },
             unpaired: 0,
             name: spec.name,
@@ -403,6 +406,12 @@ impl<const D: usize> Interface<D> {
             f.status[p] = if contact.closed { Status::Slip } else { Status::Open };
         }
         self.refresh_shear();
+        let f = &mut self.fields;
+        self.averaging.apply(
+            self.measure.as_ref(),
+            (&f.normal_traction, &f.shear),
+            (&mut f.mean_normal, &mut f.mean_shear),
+        );
     }
 
     /// The part of the fields that friction decides.

@@ -8,6 +8,7 @@
 //! the first tangent in two dimensions is `e_1 = (-n_y, n_x)`.
 
 mod build;
+mod average;
 pub mod enforce;
 mod error;
 mod forward;

@@ -18,6 +18,11 @@ pub struct PointFields<const D: usize> {
     pub shear: Vec<[f64; D]>,
     /// t·e_1 in two dimensions, |t| in three \[Pa\].
     pub shear_measure: Vec<f64>,
+    /// Normal traction averaged with the function of the point, `∫ψ_A p/∫ψ_A` with p the field of the tractions \[Pa\]: what is
+    /// transmitted around it. The traction itself where points stand for themselves (node-to-point).
+    pub mean_normal: Vec<f64>,
+    /// Tangential traction averaged in the same way \[Pa\].
+    pub mean_shear: Vec<[f64; D]>,
     /// Slip of the slave relative to the master along the surface since the law began to act \[m\].
     pub slip: Vec<[f64; D]>,
     /// Slip along e_1 \[m\].
@@ -55,6 +60,8 @@ impl<const D: usize> PointFields<D> {
             normal_traction: scalars(),
             shear: vectors(),
             shear_measure: scalars(),
+            mean_normal: scalars(),
+            mean_shear: vectors(),
             slip: vectors(),
             slip_measure: scalars(),
             relative: vectors(),

@@ -568,3 +568,62 @@ fn results_have_the_same_bits_for_any_number_of_threads() {
         }
     }
 }
+
+/// Presses and shears a flat slave unevenly, so that some of it opens.
+fn uneven<const D: usize>(slave: &Side<D>, master: &Side<D>) -> (Interface<D>, Vec<f64>) {
+    let mut interface =
+        Interface::new(interface_spec(slave, master, Sliding::Small, coulomb(), false)).unwrap();
+    let mut u = vec![0.0; D * (slave.x.len() + master.x.len())];
+    for (k, x) in slave.x.iter().enumerate() {
+        u[D * k] = 1e-3 * x[0];
+        u[D * k + D - 1] = 0.02 * (x[0] * x[0] - 0.4);
+    }
+    let r = residual(&mut interface, &u);
+    interface.accept();
+    (interface, r)
+}
+
+#[test]
+fn averaged_tractions_are_forces_on_slave_nodes_over_their_areas() {
+    fn check<const D: usize>(slave: &Side<D>, master: &Side<D>) {
+        let (interface, r) = uneven(slave, master);
+        let f = interface.points();
+        assert!(f.normal_traction.contains(&0.0) && f.shear.iter().any(|t| t[0] != 0.0));
+        let largest = f.normal_traction.iter().fold(0.0f64, |m, t| m.max(*t));
+        for p in 0..f.gap.len() {
+            for i in 0..D {
+                // The residual is minus the force.
+                let force = f.area[p] * (f.mean_normal[p] * f.normal[p][i] - f.mean_shear[p][i]);
+                let error = (r[D * p + i] + force).abs();
+                assert!(error < 1e-13 * largest, "node {p}: {error:e}");
+            }
+        }
+        let different =
+            f.mean_normal.iter().zip(&f.normal_traction).any(|(m, t)| (m - t).abs() > 1e-3 * largest);
+        assert!(different, "the pressure is not linear, so that averages differ from coefficients");
+    }
+    check(&line_side(0.0, 1.0, 0.0, 7, 1, false, 3), &line_side(0.0, 1.0, 0.0, 5, 1, true, 4));
+    for kind in [SegmentKind::Tri3, SegmentKind::Quad4] {
+        let (slave, master) =
+            (square_side(kind, 4, 0.0, false, 0.2, 3), square_side(kind, 3, 0.0, true, 0.2, 4));
+        check(&slave, &master);
+    }
+}
+
+#[test]
+fn averaging_keeps_the_total_and_never_pulls() {
+    fn check<const D: usize>(slave: &Side<D>, master: &Side<D>) {
+        let (interface, _) = uneven(slave, master);
+        let f = interface.points();
+        let total = |t: &[f64]| t.iter().zip(&f.area).map(|(t, a)| t * a).sum::<f64>();
+        let (sum, mean) = (total(&f.normal_traction), total(&f.mean_normal));
+        assert!((sum - mean).abs() < 1e-13 * sum, "{sum} {mean}");
+        assert!(f.mean_normal.iter().all(|t| *t > -1e-13 * sum), "{:?}", f.mean_normal);
+    }
+    for order in [1, 2] {
+        check(&line_side(0.0, 1.0, 0.0, 7, order, false, 3), &line_side(0.0, 1.0, 0.0, 5, 1, true, 4));
+    }
+    for kind in [SegmentKind::Tri3, SegmentKind::Quad4, SegmentKind::Tri6, SegmentKind::Quad9] {
+        check(&square_side(kind, 4, 0.0, false, 0.0, 3), &square_side(kind, 3, 0.0, true, 0.0, 4));
+    }
+}

@@ -7,7 +7,7 @@ use crate::observe::view::{
 use crate::plan::{Plan, PlannedInterface};
 use crate::report::InterfaceBalance;
 use crate::samples::{ForceSet, Point};
-use asperity_contact::{Interface, Status};
+use asperity_contact::{Interface, PointFields, Status};
 use asperity_fem::block::von_mises;
 use asperity_fem::kinematics::Idealisation;
 use std::collections::BTreeMap;
@@ -121,6 +121,13 @@ fn nearest(positions: &[[f64; 3]], target: [f64; 3]) -> usize {
         .unwrap_or_default()
 }
 
+/// Averaged shear traction with the sign of the measure of [`interface_fields`].
+fn mean_shear<const D: usize>(p: &PointFields<D>) -> Vec<f64> {
+    let inner = |a: &[f64; D], b: &[f64; D]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let each = p.mean_shear.iter().zip(&p.tangent);
+    each.map(|(t, e)| if D == 2 { -inner(t, e) } else { inner(t, t).sqrt() }).collect()
+}
+
 /// State of an interface. In two dimensions tangential quantities are measured along (n_y, -n_x), n the outward normal of
 /// the master: the direction in which the slave side is walked with its body to the left. That is minus the first tangent of
 /// the contact crate, which walks along the master side.
@@ -133,6 +140,8 @@ pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFi
         gap: p.gap.clone(),
         normal_traction: p.normal_traction.clone(),
         shear_traction: measure(&p.shear_measure),
+        mean_normal_traction: p.mean_normal.clone(),
+        mean_shear_traction: mean_shear(p),
         relative_displacement: measure(&p.relative_measure),
         slip: measure(&p.slip_measure),
         slip_rate: measure(&p.slip_rate),

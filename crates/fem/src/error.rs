@@ -107,6 +107,24 @@ pub enum FemError {
     /// A ratio of sizes that is not positive.
     #[error("the grading ratio {0} is not a positive number")]
     Grading(f64),
+    /// A line of a grid that does not ascend.
+    #[error(
+        "grid line {index} along axis {axis} is not above the one before it, or there are fewer than two"
+    )]
+    GridLine {
+        /// Axis.
+        axis: usize,
+        /// Number of the line, from 0.
+        index: usize,
+    },
+    /// A side that cannot be curved so.
+    #[error("curved side `{side}`: {reason}")]
+    Curve {
+        /// Side.
+        side: &'static str,
+        /// Why not.
+        reason: String,
+    },
     /// A matrix that could not be factored.
     #[error("{0}")]
     Factorisation(String),

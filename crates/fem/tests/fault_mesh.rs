@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use asperity_fem::element::ElementKind;
-use asperity_fem::mesh::fault::{FaultMesh, FaultMeshError, Faulted, Spacing, quality, scaled_jacobian};
+use asperity_fem::mesh::fault::{
+    FaultMesh, FaultMeshError, Faulted, Spacing, SpacingError, quality, scaled_jacobian,
+};
 use asperity_fem::mesh::split::Pair;
 use asperity_fem::mesh::{Mesh, Side, face_nodes, nodes_of_sides};
 use proptest::prelude::*;
@@ -411,7 +413,7 @@ fn wrong_input_is_refused_with_what_would_be_right() {
     assert!(matches!(overturned, FaultMeshError::Dip { segment: 1, .. }), "{overturned}");
     let doubled = refused(&with(vec![[0.0, 0.0], [0.0, -10.0], [0.0, -10.0]]));
     assert!(matches!(doubled, FaultMeshError::Dip { segment: 1, .. }), "{doubled}");
-    let FaultMeshError::Size { coarser, finer, .. } =
+    let FaultMeshError::Spacing(SpacingError::Size { coarser, finer, .. }) =
         refused(&FaultMesh { spacing: Spacing::Constant(8.0), ..good.clone() })
     else {
         panic!("8 m do not divide 20 m");
@@ -423,7 +425,7 @@ fn wrong_input_is_refused_with_what_would_be_right() {
     let zone = |from, to| Spacing::Zone { from, to, size: 1.0, ratio: 1.1 };
     for (from, to) in [(-1.0, 5.0), (5.0, 5.0), (0.0, 20.5), (f64::NAN, 5.0)] {
         let error = refused(&FaultMesh { spacing: zone(from, to), ..good.clone() });
-        assert!(matches!(error, FaultMeshError::Zone { .. }), "{error}");
+        assert!(matches!(error, FaultMeshError::Spacing(SpacingError::Zone { .. })), "{error}");
     }
     let values = [
         ("growth", FaultMesh { growth: 0.9, ..good.clone() }),
@@ -438,12 +440,23 @@ fn wrong_input_is_refused_with_what_would_be_right() {
         ),
     ];
     for (expected, input) in values {
-        assert!(matches!(refused(&input), FaultMeshError::Value { name, .. } if name == expected));
+        assert!(matches!(
+            refused(&input),
+            FaultMeshError::Value { name, .. } | FaultMeshError::Spacing(SpacingError::Value { name, .. })
+            if name == expected
+        ));
     }
     let buried = with(trace([0.0, -0.2], &[(20.0, 60.0)]));
-    assert!(matches!(refused(&buried), FaultMeshError::Gap { place: "above the upper tip", .. }));
+    assert!(matches!(
+        refused(&buried),
+        FaultMeshError::Spacing(SpacingError::Gap { place: "above the upper tip", .. })
+    ));
     let thick = FaultMesh { thickness: Some(190.0), ..good.clone() };
-    assert!(matches!(refused(&thick), FaultMeshError::Gap { .. }), "{}", refused(&thick));
+    assert!(
+        matches!(refused(&thick), FaultMeshError::Spacing(SpacingError::Gap { .. })),
+        "{}",
+        refused(&thick)
+    );
     assert!(matches!(
         refused(&FaultMesh { max: [-200.0, 0.0], ..good.clone() }),
         FaultMeshError::EmptyBox { axis: 0, .. }
@@ -451,9 +464,9 @@ fn wrong_input_is_refused_with_what_would_be_right() {
     let tri = FaultMesh { kind: ElementKind::Tri3, ..good.clone() };
     assert_eq!(refused(&tri), FaultMeshError::Element("tri3"));
     let huge = FaultMesh { spacing: Spacing::Constant(1e-7), ..good.clone() };
-    assert!(matches!(refused(&huge), FaultMeshError::TooMany { .. }));
+    assert!(matches!(refused(&huge), FaultMeshError::Spacing(SpacingError::TooMany { .. })));
     let many = FaultMesh { growth: 1.0, spacing: Spacing::Constant(0.01), ..good };
-    assert!(matches!(refused(&many), FaultMeshError::TooMany { .. }));
+    assert!(matches!(refused(&many), FaultMeshError::Spacing(SpacingError::TooMany { .. })));
 }
 
 #[test]
@@ -499,7 +512,7 @@ proptest! {
         match input.mesh() {
             Ok(made) => check(&input, &made),
             // Short segments may not fit the size, a tip may lie just below the surface, and bends may be too sharp.
-            Err(FaultMeshError::Size { .. } | FaultMeshError::Gap { .. }) => {}
+            Err(FaultMeshError::Spacing(SpacingError::Size { .. } | SpacingError::Gap { .. })) => {}
             Err(FaultMeshError::Inverted { .. }) => {
                 let sharpest = segments.windows(2).map(|w| (w[1].1 - w[0].1).abs()).fold(0.0, f64::max);
                 prop_assert!(sharpest > 60.0, "bends of up to 60 degrees do not fold: {segments:?}");

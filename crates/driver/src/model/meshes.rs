@@ -5,9 +5,10 @@ use crate::scene::model as scene;
 use crate::scene::near::suggest;
 use crate::scene::units::{self, Dimension, Length};
 use asperity_fem::element::ElementKind;
+use asperity_fem::mesh::curve::{Curve, Profile, bend};
 use asperity_fem::mesh::extrude::extrude;
 use asperity_fem::mesh::fault::{FaultMesh, Spacing};
-use asperity_fem::mesh::generate::{Block, Grading, divisions_for};
+use asperity_fem::mesh::generate::{Block, Grading, Grid, SIDES, divisions_for};
 use asperity_fem::mesh::split::{Surface, split};
 use asperity_fem::mesh::{Cells, GroupTag, Mesh, MeshError, Options, RawMesh, Side, abaqus, gmsh};
 use scene::Spanned;
@@ -101,6 +102,76 @@ fn block<const D: usize>(name: &str, spec: &scene::BlockMesh) -> Result<Mesh<D>,
             .map_err(|c| PlanError::at(v.span(), format!("{} coordinates", c.len()), format!("give {D}")))
     };
     let (min, max) = (corner(&spec.min)?, corner(&spec.max)?);
+    let mut mesh = match &spec.spacing {
+        Some(spacing) => spaced(name, kind, (&min, &max), spacing)?,
+        None => divided(name, kind, (&min, &max), spec)?,
+    };
+    let mut curves = Vec::new();
+    for (side, curve) in &spec.curves {
+        curves.push(self::curve(side, curve)?);
+        bend(&mut mesh.nodes.clone(), &min, &max, &curves)
+            .map_err(|e| PlanError::body(name, curve.span(), e.to_string()))?;
+    }
+    let place = spec.element.span();
+    bend(&mut mesh.nodes, &min, &max, &curves).map_err(|e| PlanError::body(name, place, e.to_string()))?;
+    Ok(mesh)
+}
+
+/// A block with sizes of cells along its axes.
+fn spaced<const D: usize>(
+    name: &str,
+    kind: ElementKind,
+    (min, max): (&[f64; D], &[f64; D]),
+    spacing: &Spanned<Vec<Spanned<scene::SpacingSpec>>>,
+) -> Result<Mesh<D>, PlanError> {
+    let mut lines = [const { Vec::new() }; D];
+    for (axis, line) in lines.iter_mut().enumerate() {
+        let given = spacing.get_ref().get(axis).ok_or_else(|| {
+            PlanError::at(
+                spacing.span(),
+                format!("`spacing` has {} entries", spacing.get_ref().len()),
+                format!("give {D}, one an axis"),
+            )
+        })?;
+        *line = self::spacing(given.get_ref())
+            .line(min[axis], max[axis])
+            .map_err(|e| PlanError::body(name, given.span(), e.to_string()))?;
+    }
+    Grid { lines, kind }.mesh().map_err(|e| PlanError::body(name, spacing.span(), e.to_string()))
+}
+
+fn curve<const D: usize>(side: &str, spec: &Spanned<scene::CurveSpec>) -> Result<Curve<D>, PlanError> {
+    let axis = SIDES.iter().take(D).position(|ends| ends.contains(&side)).ok_or_else(|| {
+        let known = SIDES.iter().take(D).flatten().copied();
+        PlanError::at(spec.span(), format!("a block has no side `{side}`"), suggest(side, "sides", known))
+    })?;
+    let curve = spec.get_ref();
+    let apex = *curve.apex.get_ref();
+    if (D..3).any(|c| apex.along(c).is_some()) {
+        return Err(PlanError::at(
+            curve.apex.span(),
+            "the apex has a coordinate `z` in a plane scene".into(),
+            "give those along the side that it bends over, such as `apex = { x = 0 }`".into(),
+        ));
+    }
+    Ok(Curve {
+        side: [axis, usize::from(SIDES[axis][1] == side)],
+        profile: match curve.kind.get_ref() {
+            scene::CurveKind::Parabola => Profile::Parabola,
+            scene::CurveKind::Circle => Profile::Circle,
+        },
+        radius: curve.radius.get_ref().0,
+        apex: std::array::from_fn(|c| apex.along(c).map(|x| x.0)),
+    })
+}
+
+/// A block of equal or steadily growing cells.
+fn divided<const D: usize>(
+    name: &str,
+    kind: ElementKind,
+    (min, max): (&[f64; D], &[f64; D]),
+    spec: &scene::BlockMesh,
+) -> Result<Mesh<D>, PlanError> {
     let mut divisions = [1; D];
     let mut gradings = [Grading::Uniform; D];
     for axis in 0..D {
@@ -109,7 +180,7 @@ fn block<const D: usize>(name: &str, spec: &scene::BlockMesh) -> Result<Mesh<D>,
             gradings[axis] = g.get_ref().get(axis).map_or(Grading::Uniform, |&ratio| grading(ratio));
         }
     }
-    Block { min, max, divisions, grading: gradings, kind }
+    Block { min: *min, max: *max, divisions, grading: gradings, kind }
         .mesh()
         .map_err(|e| PlanError::body(name, spec.element.span(), e.to_string()))
 }
@@ -155,16 +226,9 @@ fn quadrilateral(name: &str, spec: &scene::QuadrilateralMesh) -> Result<Mesh<2>,
 /// A box around a fault. Lengths along the fault count from the first vertex of its trace.
 fn fault(name: &str, spec: &scene::FaultMesh) -> Result<Mesh<2>, PlanError> {
     let point = |x: &[Length; 2]| x.map(|c| c.0);
-    let spacing = match spec.spacing.get_ref() {
-        scene::SpacingSpec::Constant(size) => Spacing::Constant(size.0),
-        scene::SpacingSpec::Graded(table) => Spacing::Graded(table.iter().map(point).collect()),
-        scene::SpacingSpec::Zone(zone) => {
-            Spacing::Zone { from: zone.from.0, to: zone.to.0, size: zone.size.0, ratio: zone.ratio }
-        }
-    };
     let generated = FaultMesh {
         trace: spec.trace.get_ref().iter().map(point).collect(),
-        spacing,
+        spacing: spacing(spec.spacing.get_ref()),
         thickness: spec.thickness.as_ref().map(|t| t.get_ref().0),
         min: point(spec.min.get_ref()),
         max: point(spec.max.get_ref()),
@@ -173,6 +237,17 @@ fn fault(name: &str, spec: &scene::FaultMesh) -> Result<Mesh<2>, PlanError> {
     }
     .mesh();
     Ok(generated.map_err(|e| PlanError::body(name, spec.trace.span(), e.to_string()))?.mesh)
+}
+
+/// Sizes along a line.
+fn spacing(spec: &scene::SpacingSpec) -> Spacing {
+    match spec {
+        scene::SpacingSpec::Constant(size) => Spacing::Constant(size.0),
+        scene::SpacingSpec::Graded(table) => Spacing::Graded(table.iter().map(|e| e.map(|x| x.0)).collect()),
+        scene::SpacingSpec::Zone(zone) => {
+            Spacing::Zone { from: zone.from.0, to: zone.to.0, size: zone.size.0, ratio: zone.ratio }
+        }
+    }
 }
 
 /// Metres in the unit of a file.

@@ -89,7 +89,7 @@ pub struct Body<const D: usize> {
     pub blocks: Range<usize>,
     /// Elastic constants of each of its blocks.
     pub elastic: Vec<Elastic>,
-    /// Element size h of a generated rectangular block: the largest edge of the bounding box of its first cell \[m\].
+    /// Element size h of a generated block of equal or steadily growing cells: the largest edge of the bounding box of its first cell \[m\].
     size: Option<f64>,
     /// Nodes of each connected part, ascending; a body that is split right through has several.
     pub parts: Vec<Vec<usize>>,
@@ -128,8 +128,8 @@ impl<const D: usize> Model<D> {
         let mut parts = Vec::new();
         for (name, body) in &scene.bodies {
             let part = meshes::of_body::<D>(scene, name, body)?;
-            let generated = matches!(body.mesh, scene::MeshSource::Block(_));
-            let size = generated.then(|| cell_size(&part, 0, 0));
+            let even = matches!(&body.mesh, scene::MeshSource::Block(b) if b.spacing.is_none());
+            let size = even.then(|| cell_size(&part, 0, 0));
             let (nodes, blocks) = (mesh.nodes.len(), mesh.blocks.len());
             mesh.append(part, name);
             parts.push((name, body, (nodes..mesh.nodes.len(), blocks..mesh.blocks.len()), size));

@@ -282,6 +282,8 @@ impl Part {
             f64s("slip_rate", &fields.slip_rate),
             f64s("normal_traction", &fields.normal_traction),
             f64s("shear_traction", &fields.shear_traction),
+            f64s("mean_normal_traction", &fields.mean_normal_traction),
+            f64s("mean_shear_traction", &fields.mean_shear_traction),
             f64s("friction", &fields.friction),
             Array::scalar("status", Values::U8(&fields.status)),
             f64s("area", &mesh.areas),

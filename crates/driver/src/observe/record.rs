@@ -225,6 +225,8 @@ pub(super) fn check_interfaces(setup: &Setup, interfaces: &[InterfaceFields]) ->
         check("gap", fields.gap.len())?;
         check("normal traction", fields.normal_traction.len())?;
         check("shear traction", fields.shear_traction.len())?;
+        check("mean normal traction", fields.mean_normal_traction.len())?;
+        check("mean shear traction", fields.mean_shear_traction.len())?;
         check("relative displacement", fields.relative_displacement.len())?;
         check("slip", fields.slip.len())?;
         check("slip rate", fields.slip_rate.len())?;

@@ -6,7 +6,7 @@ use super::view::{InterfaceFields, InterfaceMesh, PointValues};
 type Column = (&'static str, fn(&InterfaceFields, usize) -> f64);
 
 /// Columns of a profile.
-const PROFILE: [Column; 8] = [
+const PROFILE: [Column; 10] = [
     ("gap [m]", |f, i| f.gap[i]),
     ("normal_traction [Pa]", |f, i| f.normal_traction[i]),
     ("shear_traction [Pa]", |f, i| f.shear_traction[i]),
@@ -14,6 +14,8 @@ const PROFILE: [Column; 8] = [
     ("slip [m]", |f, i| f.slip[i]),
     ("slip_rate [m/s]", |f, i| f.slip_rate[i]),
     ("friction [-]", |f, i| f.friction[i]),
+    ("mean_normal_traction [Pa]", |f, i| f.mean_normal_traction[i]),
+    ("mean_shear_traction [Pa]", |f, i| f.mean_shear_traction[i]),
     ("status [0 open 1 stick 2 slip]", |f, i| f64::from(f.status[i])),
 ];
 

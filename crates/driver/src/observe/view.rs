@@ -44,6 +44,11 @@ pub struct InterfaceFields {
     pub normal_traction: Vec<f64>,
     /// Shear traction \[Pa\]: signed along (n_y, -n_x), n the outward normal of the master, in two dimensions, magnitude in three.
     pub shear_traction: Vec<f64>,
+    /// Normal traction averaged around the node, with the weights of a mortar interface; of node-to-point contact, the traction
+    /// itself \[Pa\].
+    pub mean_normal_traction: Vec<f64>,
+    /// Shear traction averaged in the same way, with the sign of the shear traction \[Pa\].
+    pub mean_shear_traction: Vec<f64>,
     /// Relative tangential displacement (slave relative to master) \[m\]: elastic part and slip together, with the sign of
     /// the shear traction's measure, since the law began to act.
     pub relative_displacement: Vec<f64>,

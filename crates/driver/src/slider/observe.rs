@@ -60,6 +60,8 @@ impl Watcher for Show<'_> {
             gap: vec![0.0; n],
             normal_traction: each(|c| c.normal),
             shear_traction: each(|c| c.traction),
+            mean_normal_traction: each(|c| c.normal),
+            mean_shear_traction: each(|c| c.traction),
             relative_displacement: now.slip.to_vec(),
             slip: now.slip.to_vec(),
             slip_rate: each(|c| c.rate),

@@ -1,4 +1,6 @@
 //! Structured, graded meshes of rectangular blocks.
+//!
+//! [`super::curve`] bends their sides.
 
 use super::{Cells, Mesh, Side};
 use crate::element::ElementKind;
@@ -57,12 +59,71 @@ impl<const D: usize> Block<D> {
     /// When the block is empty, a ratio is not positive, or the element has another dimension.
     pub fn mesh(&self) -> Result<Mesh<D>, FemError> {
         self.check()?;
+        Grid { lines: std::array::from_fn(|axis| self.line(axis)), kind: self.kind }.mesh()
+    }
+
+    fn check(&self) -> Result<(), FemError> {
+        for axis in 0..D {
+            let (min, max, divisions) = (self.min[axis], self.max[axis], self.divisions[axis]);
+            if divisions == 0 || !(max - min).is_finite() || max <= min {
+                return Err(FemError::Block { axis, min, max, divisions });
+            }
+            if let Grading::Geometric { ratio } = self.grading[axis]
+                && !(ratio > 0.0 && ratio.is_finite())
+            {
+                return Err(FemError::Grading(ratio));
+            }
+        }
+        Ok(())
+    }
+
+    /// Positions of the grid lines along an axis.
+    fn line(&self, axis: usize) -> Vec<f64> {
+        let (n, min, max) = (self.divisions[axis], self.min[axis], self.max[axis]);
+        let ratio = match self.grading[axis] {
+            Grading::Uniform => 1.0,
+            Grading::Geometric { ratio } => ratio,
+        };
+        let q = if n > 1 { ratio.powf(1.0 / (n as f64 - 1.0)) } else { 1.0 };
+        let part = |k: usize| {
+            if q == 1.0 { k as f64 / n as f64 } else { (q.powi(k as i32) - 1.0) / (q.powi(n as i32) - 1.0) }
+        };
+        // (1-s) min + s max is exact at both ends.
+        (0..=n).map(|k| (1.0 - part(k)) * min + part(k) * max).collect()
+    }
+}
+
+/// A block between given grid lines, which cells lie between. Its side sets are those of [`Block`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid<const D: usize> {
+    /// Positions along each axis, ascending, both ends included \[m\].
+    pub lines: [Vec<f64>; D],
+    /// Element; nodes of second order lie midway.
+    pub kind: ElementKind,
+}
+
+impl<const D: usize> Grid<D> {
+    /// Generates the mesh; x runs fastest.
+    ///
+    /// # Errors
+    /// When lines do not ascend or the element has another dimension.
+    pub fn mesh(&self) -> Result<Mesh<D>, FemError> {
+        if self.kind.dimension() != D {
+            return Err(FemError::Dimension { element: self.kind.name(), dimension: D });
+        }
+        for (axis, line) in self.lines.iter().enumerate() {
+            let ascends = |k: usize| line[k].is_finite() && line[k] > line[k - 1];
+            let bad = (1..line.len()).find(|&k| !ascends(k)).or_else(|| (line.len() < 2).then_some(0));
+            if let Some(index) = bad {
+                return Err(FemError::GridLine { axis, index });
+            }
+        }
         let order = self.kind.order();
-        let lines: Vec<Vec<f64>> = (0..D).map(|axis| self.line(axis, order)).collect();
+        let lines: Vec<Vec<f64>> = self.lines.iter().map(|line| with_middles(line, order)).collect();
         let counts: Vec<usize> = lines.iter().map(Vec::len).collect();
         let parts = self.parts();
         let mut connectivity = Vec::new();
-        let cells = self.divisions;
+        let cells: [usize; D] = std::array::from_fn(|axis| self.lines[axis].len() - 1);
         for k in 0..if D > 2 { cells[D - 1] } else { 1 } {
             for j in 0..cells[1] {
                 for i in 0..cells[0] {
@@ -80,45 +141,6 @@ impl<const D: usize> Block<D> {
         mesh.blocks.push(Cells { kind: self.kind, connectivity });
         self.name_sides(&mut mesh);
         Ok(mesh)
-    }
-
-    fn check(&self) -> Result<(), FemError> {
-        if self.kind.dimension() != D {
-            return Err(FemError::Dimension { element: self.kind.name(), dimension: D });
-        }
-        for axis in 0..D {
-            let (min, max, divisions) = (self.min[axis], self.max[axis], self.divisions[axis]);
-            if divisions == 0 || !(max - min).is_finite() || max <= min {
-                return Err(FemError::Block { axis, min, max, divisions });
-            }
-            if let Grading::Geometric { ratio } = self.grading[axis]
-                && !(ratio > 0.0 && ratio.is_finite())
-            {
-                return Err(FemError::Grading(ratio));
-            }
-        }
-        Ok(())
-    }
-
-    /// Node positions along an axis, mid-nodes included for elements of second order.
-    fn line(&self, axis: usize, order: usize) -> Vec<f64> {
-        let (n, min, max) = (self.divisions[axis], self.min[axis], self.max[axis]);
-        let ratio = match self.grading[axis] {
-            Grading::Uniform => 1.0,
-            Grading::Geometric { ratio } => ratio,
-        };
-        let q = if n > 1 { ratio.powf(1.0 / (n as f64 - 1.0)) } else { 1.0 };
-        let part = |k: usize| {
-            if q == 1.0 { k as f64 / n as f64 } else { (q.powi(k as i32) - 1.0) / (q.powi(n as i32) - 1.0) }
-        };
-        // (1-s) min + s max is exact at both ends.
-        let at = |s: f64| (1.0 - s) * min + s * max;
-        (0..=n * order)
-            .map(|k| {
-                let (cell, within) = (k / order, k % order);
-                if within == 0 { at(part(cell)) } else { at(0.5 * (part(cell) + part(cell + 1))) }
-            })
-            .collect()
     }
 
     /// The cells of one grid position, each as the grid steps of its nodes from the lower corner: one quadrilateral or two
@@ -156,7 +178,8 @@ impl<const D: usize> Block<D> {
         let mut sets: Vec<(String, Vec<Side>)> = Vec::new();
         for (axis, names) in SIDES.iter().enumerate().take(D) {
             for (end, name) in names.iter().enumerate() {
-                let value = if end == 0 { self.min[axis] } else { self.max[axis] };
+                let line = &self.lines[axis];
+                let value = line[if end == 0 { 0 } else { line.len() - 1 }];
                 let mut sides = Vec::new();
                 for cell in 0..block.len() {
                     let nodes = block.cell(cell);
@@ -177,6 +200,15 @@ impl<const D: usize> Block<D> {
 /// Corners of a hexahedron in the order of the element.
 const HEX: [[usize; 3]; 8] =
     [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
+
+/// Grid lines, for elements of second order with those midway.
+fn with_middles(line: &[f64], order: usize) -> Vec<f64> {
+    if order == 1 {
+        return line.to_vec();
+    }
+    let pairs = line.windows(2).flat_map(|w| [w[0], 0.5 * (w[0] + w[1])]);
+    pairs.chain(line.last().copied()).collect()
+}
 
 /// Keeps the nodes that cells use, in their order, and renumbers the cells: serendipity elements leave centres out.
 fn used<const D: usize>(nodes: Vec<[f64; D]>, connectivity: &mut [usize]) -> Vec<[f64; D]> {

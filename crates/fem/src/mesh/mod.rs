@@ -2,6 +2,7 @@
 
 pub mod abaqus;
 mod check;
+pub mod curve;
 mod error;
 pub mod extrude;
 pub mod fault;
@@ -9,6 +10,7 @@ pub mod generate;
 pub mod gmsh;
 mod locate;
 mod raw;
+pub mod spacing;
 pub mod split;
 
 pub use error::{GroupName, Holder, MeshError, Part, Place};

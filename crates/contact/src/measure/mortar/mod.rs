@@ -30,3 +30,4 @@ mod weighting;
 
 pub use finite::finite;
 pub use small::small;
+pub(crate) use weighting::node_values;

@@ -9,7 +9,7 @@
 //! makes tensile tractions impossible between the nodes too.
 
 use crate::shape::{MOST_NODES, Shape};
-use crate::spec::SegmentKind;
+use crate::spec::{Segment, SegmentKind, SlavePoint};
 
 /// ψ_a = Σ_B c_aB N_B on one facet, one row for each of its points.
 #[derive(Clone, Debug)]
@@ -53,6 +53,27 @@ impl Weighting {
     pub(super) fn slopes(&self, row: usize, nodes: usize, s: &Shape) -> (f64, [f64; 2]) {
         (self.at(row, nodes, &s.value), [self.at(row, nodes, &s.first[0]), self.at(row, nodes, &s.first[1])])
     }
+}
+
+/// For each node of an interface the points whose functions do not vanish there, with their values: `Σ_A ψ_A f_A` at the node is the
+/// sum of these values times f_A. Empty for nodes of no facet.
+pub(crate) fn node_values(faces: &[Segment], slave: &[SlavePoint], nodes: usize) -> Vec<Vec<(usize, f64)>> {
+    let mut point_of = vec![None; nodes];
+    for (p, s) in slave.iter().enumerate() {
+        point_of[s.node] = Some(p);
+    }
+    let mut out = vec![Vec::new(); nodes];
+    for face in faces.iter().filter(|f| f.nodes.iter().any(|&n| point_of[n].is_some())) {
+        let weighting = Weighting::new(face.kind, |k| point_of[face.nodes[k]]);
+        for (k, &node) in face.nodes.iter().enumerate() {
+            // The functions are continuous: any facet of the node tells its values.
+            if out[node].is_empty() {
+                let rows = weighting.points.iter().zip(&weighting.rows);
+                out[node] = rows.map(|(&p, row)| (p, row[k])).filter(|(_, c)| *c != 0.0).collect();
+            }
+        }
+    }
+    out
 }
 
 fn add(a: &mut [f64; MOST_NODES], c: f64, b: &[f64; MOST_NODES]) {

@@ -72,7 +72,7 @@ fn curves(mesh: &InterfaceMesh, places: &[f64], interface: usize, ends: &[StageE
         let Some(fields) = end.interfaces.get(interface) else { continue };
         let colour = viridis(0.25 + 0.5 * i as f64 / (ends.len().max(2) - 1) as f64);
         for (name, values, dashed) in
-            [("normal", &fields.normal_traction, false), ("shear", &fields.shear_traction, true)]
+            [("normal", &fields.mean_normal_traction, false), ("shear", &fields.mean_shear_traction, true)]
         {
             let entry = Entry { name: format!("{name}, end of “{}”", end.name), colour, dashed };
             curves.push(Curve { entry, points: averaged(places, &mesh.areas, values) });

@@ -89,6 +89,8 @@ fn fields_at(setup: &Setup, time: f64, spoil: Option<f64>) -> InterfaceFields {
         gap: per(&|s| -sigma(s) / 3.6e15),
         normal_traction: per(&sigma),
         shear_traction: per(&|s| sigma(s) * mu(s)),
+        mean_normal_traction: per(&sigma),
+        mean_shear_traction: per(&|s| sigma(s) * mu(s)),
         relative_displacement: per(&|s| slip(s) + 1e-9 * mu(s)),
         slip: per(&slip),
         slip_rate: per(&v),

@@ -199,10 +199,12 @@ impl Checker<'_> {
         let corners = [self.count(&block.min, "min", &axes), self.count(&block.max, "max", &axes)];
         self.radius(block.min.span(), block.min.get_ref().first().map(|x| x.0).into_iter());
         let edges = corners.iter().all(|&c| c).then(|| self.edges(name, block)).flatten();
+        self.spacing(name, block, &axes);
         match (&block.size, &block.divisions) {
+            _ if block.spacing.is_some() => {}
             (None, None) => self.error(
                 block.element.span(),
-                format!("the block of body `{name}` has neither `size` nor `divisions`"),
+                format!("the block of body `{name}` has none of `size`, `divisions` and `spacing`"),
                 "give one, such as `size = \"1 mm\"`",
             ),
             (Some(size), Some(divisions)) => self.conflict(
@@ -230,6 +232,21 @@ impl Checker<'_> {
             if grading.get_ref().iter().any(|g| !positive(*g)) {
                 self.bad_grading(grading.span());
             }
+        }
+    }
+
+    /// Sizes along the axes of a block instead of `size`, `divisions` and `grading`.
+    fn spacing(&mut self, name: &str, block: &BlockMesh, axes: &[usize]) {
+        let Some(spacing) = &block.spacing else { return };
+        self.count(spacing, "spacing", axes);
+        let others = [
+            ("size", block.size.as_ref().map(Spanned::span)),
+            ("divisions", block.divisions.as_ref().map(Spanned::span)),
+            ("grading", block.grading.as_ref().map(Spanned::span)),
+        ];
+        for (key, place) in others.iter().filter_map(|(key, place)| Some((key, place.as_ref()?))) {
+            let message = format!("the block of body `{name}` has both `spacing` and `{key}`");
+            self.conflict(place, message, "give one of them", (&spacing.span(), "and here"));
         }
     }
 

@@ -241,14 +241,61 @@ pub struct BlockMesh {
     pub min: Spanned<Vec<Length>>,
     /// Upper corner \[m\].
     pub max: Spanned<Vec<Length>>,
-    /// Element size h \[m\]; must divide each edge. Either this or `divisions`.
+    /// Element size h \[m\]; must divide each edge. One of this, `divisions` and `spacing`.
     pub size: Option<Spanned<Length>>,
-    /// Elements along each axis. Either this or `size`.
+    /// Elements along each axis.
     pub divisions: Option<Spanned<Vec<usize>>>,
+    /// Sizes of cells along each axis, by coordinates.
+    pub spacing: Option<Spanned<Vec<Spanned<SpacingSpec>>>>,
     /// Ratio of the last to the first element along each axis (1 = uniform).
     pub grading: Option<Spanned<Vec<f64>>>,
+    /// Curved sides by their names.
+    #[serde(default)]
+    pub curves: BTreeMap<String, Spanned<CurveSpec>>,
     /// Element name.
     pub element: Spanned<String>,
+}
+
+/// A curved side of a block.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CurveSpec {
+    /// Shape.
+    pub kind: Spanned<CurveKind>,
+    /// Radius of curvature at the apex \[m\], positive where the body is convex.
+    pub radius: Spanned<Length>,
+    /// Where the side touches that of the block.
+    pub apex: Spanned<Apex>,
+}
+
+/// Shapes of curved sides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CurveKind {
+    /// r²/(2R).
+    Parabola,
+    /// R - √(R² - r²).
+    Circle,
+}
+
+/// Coordinates of an apex along the axes a side bends over.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Apex {
+    /// \[m\].
+    pub x: Option<Length>,
+    /// \[m\].
+    pub y: Option<Length>,
+    /// \[m\].
+    pub z: Option<Length>,
+}
+
+impl Apex {
+    /// By axis.
+    #[must_use]
+    pub fn along(&self, axis: usize) -> Option<Length> {
+        [self.x, self.y, self.z][axis]
+    }
 }
 
 /// A patch with four straight sides: the unit square mapped bilinearly.

@@ -1,8 +1,7 @@
 //! What a fault mesh asks of its input.
 
-use super::{FaultMesh, FaultMeshError, Spacing};
+use super::{FaultMesh, FaultMeshError};
 use crate::element::ElementKind;
-use std::cmp::Ordering;
 
 /// Part of the box within which a tip counts as lying on its bottom or top, and of the fault within which a node counts as
 /// lying on a vertex: rounding of decimal input.
@@ -49,28 +48,7 @@ fn values(input: &FaultMesh) -> Result<(), FaultMeshError> {
     let positive = "a positive number of metres";
     let least_one = "at least 1 (1.05 to 1.5 are usual)";
     let mut asked = vec![("growth", input.growth, 1.0, least_one)];
-    match &input.spacing {
-        &Spacing::Constant(size) => asked.push(("size", size, f64::MIN_POSITIVE, positive)),
-        Spacing::Graded(table) => {
-            asked.extend(table.iter().map(|&[_, size]| ("size", size, f64::MIN_POSITIVE, positive)));
-            let ascending = "distances along the fault that ascend, at least one";
-            if table.is_empty() {
-                return Err(FaultMeshError::Value { name: "spacing", value: 0.0, admissible: ascending });
-            }
-            if let Some(w) = table.windows(2).find(|w| w[0][0].partial_cmp(&w[1][0]) != Some(Ordering::Less))
-            {
-                return Err(FaultMeshError::Value {
-                    name: "distance",
-                    value: w[1][0],
-                    admissible: ascending,
-                });
-            }
-        }
-        &Spacing::Zone { size, ratio, .. } => {
-            asked.push(("size", size, f64::MIN_POSITIVE, positive));
-            asked.push(("ratio", ratio, 1.0, least_one));
-        }
-    }
+    input.spacing.check()?;
     asked.extend(input.thickness.map(|t| ("thickness", t, f64::MIN_POSITIVE, positive)));
     for (name, value, least, admissible) in asked {
         if !(value.is_finite() && value >= least) {

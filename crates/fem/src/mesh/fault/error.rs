@@ -1,5 +1,6 @@
 //! Why a fault mesh cannot be made.
 
+use crate::mesh::spacing::SpacingError;
 use crate::mesh::split::SplitError;
 
 /// Why a mesh around a fault cannot be made. Vertices and segments are numbered from 0 in the order of the trace.
@@ -71,54 +72,9 @@ pub enum FaultMeshError {
         /// What would be right.
         admissible: &'static str,
     },
-    /// A zone of fine cells that is not on the fault.
-    #[error("the zone from {from} m to {to} m does not lie on the fault, which runs from 0 m to {length} m")]
-    Zone {
-        /// Begin \[m\].
-        from: f64,
-        /// End \[m\].
-        to: f64,
-        /// Length of the fault \[m\].
-        length: f64,
-    },
-    /// Equal cells that do not fit between two fixed points.
-    #[error(
-        "cells of {size} m do not fit the piece of the fault from {from} m to {to} m (between bends and ends of zones); \
-         {coarser} m and {finer} m do"
-    )]
-    Size {
-        /// Given size \[m\].
-        size: f64,
-        /// Begin of the piece along the fault \[m\].
-        from: f64,
-        /// Its end \[m\].
-        to: f64,
-        /// Next larger size that fits \[m\].
-        coarser: f64,
-        /// Next smaller size that fits \[m\].
-        finer: f64,
-    },
-    /// A distance too short for the cells beside it.
-    #[error(
-        "{place} there are {length} m, less than half of the neighbouring cell of {size} m: give at least {size} m, finer \
-         cells, or (for a tip) let the fault reach the boundary"
-    )]
-    Gap {
-        /// Where.
-        place: &'static str,
-        /// Distance \[m\].
-        length: f64,
-        /// Size of the neighbouring cell \[m\].
-        size: f64,
-    },
-    /// More cells than anybody means.
-    #[error(
-        "the mesh would have more than {most} cells: a coarser size, a larger growth ratio or a smaller box is needed"
-    )]
-    TooMany {
-        /// Limit.
-        most: usize,
-    },
+    /// Sizes that do not fit.
+    #[error(transparent)]
+    Spacing(#[from] SpacingError),
     /// An element other than a quadrilateral.
     #[error("element {0} is no quadrilateral; quad4, quad8 and quad9 are")]
     Element(&'static str),

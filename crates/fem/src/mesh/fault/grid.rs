@@ -3,7 +3,7 @@
 use super::map::Map;
 use super::quality::{Quality, quality};
 use super::spine::Spine;
-use super::{FaultMesh, FaultMeshError, MOST_CELLS};
+use super::{FaultMesh, FaultMeshError, MOST_CELLS, SpacingError};
 use crate::mesh::{Cells, Mesh, Side};
 
 /// Corners of the cells, row by row from the bottom, each from left to right.
@@ -32,7 +32,7 @@ impl<'a> Grid<'a> {
     ) -> Result<Self, FaultMeshError> {
         let (width, height) = (columns.len(), rows.len());
         if (width - 1) * (height - 1) > MOST_CELLS {
-            return Err(FaultMeshError::TooMany { most: MOST_CELLS });
+            return Err(SpacingError::TooMany { most: MOST_CELLS }.into());
         }
         let first = rows.iter().position(|&y| y == places[0][1]).unwrap_or(0);
         let column = columns.iter().position(|&xi| xi == 0.0).unwrap_or(0);

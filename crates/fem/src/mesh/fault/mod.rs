@@ -9,41 +9,17 @@ mod error;
 mod grid;
 mod map;
 mod quality;
-mod spacing;
 mod spine;
 
+pub use super::spacing::{MOST_CELLS, Spacing, SpacingError};
 pub use error::FaultMeshError;
 pub use quality::{Quality, quality, scaled_jacobian};
 
-use super::Mesh;
 use super::split::{Fault, Surface, split};
+use super::{Mesh, spacing};
 use crate::element::ElementKind;
 use map::Map;
 use spine::Spine;
-
-/// Most cells of a fault mesh: more do not fit a factorisation on any machine this crate is meant for.
-pub const MOST_CELLS: usize = 10_000_000;
-
-/// Sizes of cells along the fault.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Spacing {
-    /// One size \[m\]; on each segment the nearest one that divides it, at most 5 % off.
-    Constant(f64),
-    /// One size within a zone, growing beyond it.
-    Zone {
-        /// Begin of the zone, along the fault from its first vertex \[m\].
-        from: f64,
-        /// End of the zone \[m\].
-        to: f64,
-        /// Size within \[m\].
-        size: f64,
-        /// Largest ratio of neighbouring sizes beyond, at least 1 \[-\].
-        ratio: f64,
-    },
-    /// Sizes at distances along the fault from its first vertex, both \[m\] and the distances ascending: linear between, constant
-    /// beyond. Cells are at most so large.
-    Graded(Vec<[f64; 2]>),
-}
 
 /// A body with one fault.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,155 @@
 //! Positions of grid lines: equal cells between fixed points, geometric sequences beyond.
 
-use super::{FaultMeshError, MOST_CELLS, Spacing};
+use std::cmp::Ordering;
+
+/// Most cells of a mesh that is generated with given sizes: more do not fit a factorisation on any machine this crate is meant
+/// for.
+pub const MOST_CELLS: usize = 10_000_000;
+
+/// Sizes of cells along a line.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Spacing {
+    /// One size \[m\]; between fixed points the nearest one that divides the distance, at most 5 % off.
+    Constant(f64),
+    /// One size within a zone, growing beyond it.
+    Zone {
+        /// Begin of the zone, along the line from its begin \[m\].
+        from: f64,
+        /// End of the zone \[m\].
+        to: f64,
+        /// Size within \[m\].
+        size: f64,
+        /// Largest ratio of neighbouring sizes beyond, at least 1 \[-\].
+        ratio: f64,
+    },
+    /// Sizes at distances along the line from its begin, both \[m\] and the distances ascending: linear between, constant
+    /// beyond. Cells are at most so large.
+    Graded(Vec<[f64; 2]>),
+}
+
+/// Why a line cannot be divided. Distances are along the line, from its begin.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SpacingError {
+    /// A number out of its range.
+    #[error("{name} = {value} is not admissible: {admissible}")]
+    Value {
+        /// Which.
+        name: &'static str,
+        /// Given.
+        value: f64,
+        /// What would be right.
+        admissible: &'static str,
+    },
+    /// A zone that is not on the line.
+    #[error("the zone from {from} m to {to} m does not lie on the line, which runs from 0 m to {length} m")]
+    Zone {
+        /// Begin \[m\].
+        from: f64,
+        /// End \[m\].
+        to: f64,
+        /// Length of the line \[m\].
+        length: f64,
+    },
+    /// Equal cells that do not fit between two fixed points.
+    #[error(
+        "cells of {size} m do not fit the piece from {from} m to {to} m (between bends and ends of zones); {coarser} m and \
+         {finer} m do"
+    )]
+    Size {
+        /// Given size \[m\].
+        size: f64,
+        /// Begin of the piece \[m\].
+        from: f64,
+        /// Its end \[m\].
+        to: f64,
+        /// Next larger size that fits \[m\].
+        coarser: f64,
+        /// Next smaller size that fits \[m\].
+        finer: f64,
+    },
+    /// A distance too short for the cells beside it.
+    #[error(
+        "{place} there are {length} m, less than half of the neighbouring cell of {size} m: give at least {size} m, or finer \
+         cells, or let what ends there reach the boundary"
+    )]
+    Gap {
+        /// Where.
+        place: &'static str,
+        /// Distance \[m\].
+        length: f64,
+        /// Size of the neighbouring cell \[m\].
+        size: f64,
+    },
+    /// More cells than anybody means.
+    #[error(
+        "the mesh would have more than {most} cells: a coarser size, a larger growth ratio or a smaller box is needed"
+    )]
+    TooMany {
+        /// Limit.
+        most: usize,
+    },
+}
+
+impl Spacing {
+    /// Whether the numbers are in their ranges, whatever the line.
+    ///
+    /// # Errors
+    /// [`SpacingError::Value`].
+    pub fn check(&self) -> Result<(), SpacingError> {
+        let least = |name, value: f64, least: f64, admissible| {
+            if value.is_finite() && value >= least {
+                Ok(())
+            } else {
+                Err(SpacingError::Value { name, value, admissible })
+            }
+        };
+        let size = |value| least("size", value, f64::MIN_POSITIVE, "a positive number of metres");
+        match self {
+            &Self::Constant(value) => size(value),
+            &Self::Zone { size: value, ratio, .. } => {
+                size(value)?;
+                least("ratio", ratio, 1.0, "at least 1 (1.05 to 1.5 are usual)")
+            }
+            Self::Graded(table) => {
+                let admissible = "distances that ascend, at least one";
+                if table.is_empty() {
+                    return Err(SpacingError::Value { name: "spacing", value: 0.0, admissible });
+                }
+                let falls = |w: &&[[f64; 2]]| w[0][0].partial_cmp(&w[1][0]) != Some(Ordering::Less);
+                if let Some(w) = table.windows(2).find(falls) {
+                    return Err(SpacingError::Value { name: "distance", value: w[1][0], admissible });
+                }
+                table.iter().try_for_each(|e| size(e[1]))
+            }
+        }
+    }
+
+    /// Positions of the grid lines of an axis from `min` to `max`, both included exactly \[m\]. Places in zones and tables are
+    /// coordinates along the axis.
+    ///
+    /// # Errors
+    /// See [`SpacingError`]; distances there count from `min`.
+    pub fn line(&self, min: f64, max: f64) -> Result<Vec<f64>, SpacingError> {
+        self.check()?;
+        let length = max - min;
+        if !(length > 0.0 && length.is_finite()) {
+            return Err(SpacingError::Value { name: "length", value: length, admissible: "positive" });
+        }
+        let shifted = match self {
+            Self::Constant(size) => Self::Constant(*size),
+            &Self::Zone { from, to, size, ratio } => {
+                Self::Zone { from: from - min, to: to - min, size, ratio }
+            }
+            Self::Graded(table) => Self::Graded(table.iter().map(|e| [e[0] - min, e[1]]).collect()),
+        };
+        let mut at = along(&[0.0, length], &shifted)?;
+        at.iter_mut().for_each(|x| *x += min);
+        // The ends are exact, so that bodies meet and sides are found.
+        let last = at.len() - 1;
+        at[last] = max;
+        Ok(at)
+    }
+}
 
 /// Relative deviation from the asked size that equal cells may have so as to end at a bend: not noticed by any quantity
 /// that depends on the size.
@@ -16,9 +165,9 @@ pub(super) fn geometric(
     length: f64,
     growth: f64,
     place: &'static str,
-) -> Result<Vec<f64>, FaultMeshError> {
+) -> Result<Vec<f64>, SpacingError> {
     if length < 0.5 * before {
-        return Err(FaultMeshError::Gap { place, length, size: before });
+        return Err(SpacingError::Gap { place, length, size: before });
     }
     let sum = |r: f64, n: usize| {
         let (mut total, mut size) = (0.0, before);
@@ -36,7 +185,7 @@ pub(super) fn geometric(
         total += size;
         n += 1;
         if n > MOST_CELLS {
-            return Err(FaultMeshError::TooMany { most: MOST_CELLS });
+            return Err(SpacingError::TooMany { most: MOST_CELLS });
         }
     }
     // A single cell may have half the size of the one before; the sum grows with r.
@@ -58,14 +207,14 @@ pub(super) fn geometric(
 
 /// Distances along the fault of its nodes; the fixed points are among them. `vertices`: distances of the vertices, ascending
 /// from 0 to the length.
-pub(super) fn along(vertices: &[f64], spacing: &Spacing) -> Result<Vec<f64>, FaultMeshError> {
+pub(super) fn along(vertices: &[f64], spacing: &Spacing) -> Result<Vec<f64>, SpacingError> {
     let length = vertices[vertices.len() - 1];
     match spacing {
         &Spacing::Constant(size) => uniform(vertices, size),
         Spacing::Graded(table) => graded(vertices, table),
         &Spacing::Zone { from, to, size, ratio } => {
             if !(0.0 <= from && from < to && to <= length) {
-                return Err(FaultMeshError::Zone { from, to, length });
+                return Err(SpacingError::Zone { from, to, length });
             }
             let inner = || vertices.iter().copied().filter(|&v| from < v && v < to);
             let zone: Vec<f64> = [from].into_iter().chain(inner()).chain([to]).collect();
@@ -87,18 +236,18 @@ pub(super) fn along(vertices: &[f64], spacing: &Spacing) -> Result<Vec<f64>, Fau
 }
 
 /// Equal cells from fixed point to fixed point.
-fn uniform(fixed: &[f64], size: f64) -> Result<Vec<f64>, FaultMeshError> {
+fn uniform(fixed: &[f64], size: f64) -> Result<Vec<f64>, SpacingError> {
     let mut at = vec![fixed[0]];
     for w in fixed.windows(2) {
         let (from, to) = (w[0], w[1]);
         let n = ((to - from) / size).round();
         if n > MOST_CELLS as f64 {
-            return Err(FaultMeshError::TooMany { most: MOST_CELLS });
+            return Err(SpacingError::TooMany { most: MOST_CELLS });
         }
         if n < 1.0 || ((to - from) / n - size).abs() > FIT * size {
             let coarse = ((to - from) / size).floor().max(1.0);
             let [coarser, finer] = [coarse, coarse + 1.0].map(|n| (to - from) / n);
-            return Err(FaultMeshError::Size { size, from, to, coarser, finer });
+            return Err(SpacingError::Size { size, from, to, coarser, finer });
         }
         let n = n as usize;
         at.extend((1..n).map(|k| from + (to - from) * (k as f64 / n as f64)));
@@ -108,7 +257,7 @@ fn uniform(fixed: &[f64], size: f64) -> Result<Vec<f64>, FaultMeshError> {
 }
 
 /// Cells whose sizes follow a table of (distance, size), linear between its entries: equal shares of `n(z) = ∫ dz/size`.
-fn graded(fixed: &[f64], table: &[[f64; 2]]) -> Result<Vec<f64>, FaultMeshError> {
+fn graded(fixed: &[f64], table: &[[f64; 2]]) -> Result<Vec<f64>, SpacingError> {
     let mut at = vec![fixed[0]];
     for w in fixed.windows(2) {
         let (from, to) = (w[0], w[1]);
@@ -123,7 +272,7 @@ fn graded(fixed: &[f64], table: &[[f64; 2]]) -> Result<Vec<f64>, FaultMeshError>
         // Rounding of a whole number of cells must not cost one more.
         let n = (total * (1.0 - f64::EPSILON.sqrt())).ceil().max(1.0);
         if n > MOST_CELLS as f64 {
-            return Err(FaultMeshError::TooMany { most: MOST_CELLS });
+            return Err(SpacingError::TooMany { most: MOST_CELLS });
         }
         let (mut piece, mut before) = (0, 0.0);
         for k in 1..n as usize {
@@ -179,15 +328,11 @@ fn size_at(table: &[[f64; 2]], z: f64) -> f64 {
 }
 
 /// Distances from the zone, growing from fixed point to fixed point.
-fn beyond(before: f64, fixed: impl Iterator<Item = f64>, ratio: f64) -> Result<Vec<f64>, FaultMeshError> {
+fn beyond(before: f64, fixed: impl Iterator<Item = f64>, ratio: f64) -> Result<Vec<f64>, SpacingError> {
     let (mut size, mut reached, mut all) = (before, 0.0, Vec::new());
     for next in fixed {
-        let piece = geometric(
-            size,
-            next - reached,
-            ratio,
-            "between a zone or bend of the fault and the next bend or tip",
-        )?;
+        let piece =
+            geometric(size, next - reached, ratio, "between a zone or bend and the next bend or end")?;
         let n = piece.len();
         size = piece[n - 1] - piece[n - 2];
         all.extend(piece[1..].iter().map(|d| reached + d));

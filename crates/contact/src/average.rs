@@ -1,0 +1,58 @@
+//! Tractions averaged to slave points.
+//!
+//! The tractions f_A that answer the averaged gaps of a mortar interface are coefficients of the field `p = Σ_A ψ_A f_A`, and a
+//! field that is a root at the edge of contact makes coefficients oscillate there, as a projection onto continuous functions does.
+//! What is transmitted around a point is `p_A = ∫ψ_A p / ∫ψ_A`; on facets of first order it is the force on the slave node
+//! over its area, the traction of a method with dual multipliers. With the shares `D_AC/a_A` of the slave nodes C in the averaged gap,
+//! `p_A = Σ_C (D_AC/a_A) p(x_C)`, so the averages of tractions and of gaps are the same operation. For the root at the edge of a
+//! Hertz contact they lie on the curve within (h/d)²/48 at the distance d from the edge.
+
+use crate::measure::mortar::node_values;
+use crate::measure::{Attachment, Measure};
+use crate::spec::{MeasureKind, SlavePoint};
+use crate::vector::axpy;
+
+/// How nodal values of the traction field follow from those of the points.
+#[derive(Clone, Debug)]
+pub(crate) struct Averaging {
+    /// For each node of the interface, points and coefficients; `None` where tractions are point values and stay so.
+    values: Option<Vec<Vec<(usize, f64)>>>,
+    attachments: Vec<Attachment>,
+}
+
+impl Averaging {
+    pub(crate) fn new(kind: &MeasureKind, slave: &[SlavePoint], nodes: usize) -> Self {
+        let values = match kind {
+            MeasureKind::NodeToPoint => None,
+            MeasureKind::Mortar { faces, .. } => Some(node_values(faces, slave, nodes)),
+        };
+        Self { values, attachments: Vec::new() }
+    }
+
+    /// Averages of the normal and tangential tractions of all points.
+    pub(crate) fn apply<const D: usize>(
+        &mut self,
+        measure: &dyn Measure<D>,
+        (normal, shear): (&[f64], &[[f64; D]]),
+        (mean_normal, mean_shear): (&mut [f64], &mut [[f64; D]]),
+    ) {
+        mean_normal.copy_from_slice(normal);
+        mean_shear.copy_from_slice(shear);
+        let Some(values) = &self.values else { return };
+        for p in 0..normal.len() {
+            measure.attachments(p, &mut self.attachments);
+            if self.attachments.is_empty() {
+                continue;
+            }
+            let (mut f, mut t) = (0.0, [0.0; D]);
+            for a in self.attachments.iter().filter(|a| a.slave) {
+                for &(q, c) in &values[a.node] {
+                    f += a.weight * c * normal[q];
+                    axpy(&mut t, a.weight * c, &shear[q]);
+                }
+            }
+            mean_normal[p] = f;
+            mean_shear[p] = t;
+        }
+    }
+}
