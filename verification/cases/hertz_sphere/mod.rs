@@ -32,7 +32,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             let fit = at.ellipse(exact.a);
             let l2 = at.l2(&at.p, exact.a, |x| exact.pressure(x));
             let [radius, peak] = [fit.a / exact.a - 1.0, fit.p0 / exact.p0 - 1.0];
-            levels.push((size, peak.abs()));
+            levels.push((size, (at.peak() / exact.p0 - 1.0).abs()));
             let percent = |e: f64| format!("{:.2}", 100.0 * e);
             rows.push([
                 name.to_string(),
@@ -62,28 +62,36 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
                 .cost(&done.cost)
                 .record();
             ledger
+                .claim(format!("peak of the nearest ellipse, {name}, cells of a/38"))
+                .unit("MPa")
+                .value(fit.p0 * 1e-6)
+                .equals(exact.p0 * 1e-6)
+                .relative(4e-3)
+                .evidence(Evidence::Exact, "Hertz at the load of the run")
+                .because("(h/a)^(3/2) = 0.43 %, the order of stresses of bilinear elements next to a root")
+                .why_not_tighter("the place of the edge between nodes changes it")
+                .covers(&covers)
+                .record();
+            ledger
                 .claim(format!("pressure in L2 over the area, r <= 1.2 a, {name}, cells of a/38"))
                 .value(l2)
-                .at_most(0.025)
+                .at_most(0.01)
                 .evidence(Evidence::Exact, "Hertz at the load of the run")
-                .because("the end ring, wrong by the root of h/a of the peak over its width h: 1.0 h/a")
+                .because("the end ring, wrong by the root of h/a of the peak over its width h, of which the area is small: 0.4 h/a")
                 .why_not_tighter("it changes with the place of the edge between nodes")
                 .covers(&covers)
                 .record();
         }
         ledger
-            .order(format!("peak of the nearest ellipse over the cell size, {name}"))
+            .order(format!("largest pressure over the cell size, {name}"))
             .levels(&levels)
-            .expected(1.5)
-            .within(0.5)
+            .expected(1.0)
+            .within(0.35)
             .or_better()
             .because("three meshes decide, and the place of the edge between nodes differs from one to the next")
-            .finest(2e-3, "(h/a)^(3/2) with h = a/38 is 0.4 %: half of it")
-            .why_not_tighter("the circle and the finite ball are worth 0.1 %")
-            .evidence(
-                Evidence::Exact,
-                "Hertz at the load of the run; stresses of bilinear elements next to a root have order 3/2",
-            )
+            .finest(5e-3, "the function of the node on the axis has its centre of mass half a cell off: a sixth of h/a = 1/38 is 0.44 %")
+            .why_not_tighter("the estimate is one of size")
+            .evidence(Evidence::Exact, "Hertz at the load of the run")
             .covers(&[Capability::Hertz, Capability::Axisymmetric])
             .record();
     }

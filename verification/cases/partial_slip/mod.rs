@@ -202,7 +202,9 @@ fn reversal(ledger: &mut Ledger) -> Result<(), CaseError> {
         };
         let error = at.l2(&at.q, exact.a, shear) * norm(&shear) / norm(&|x| exact.shear(x, MU, c));
         ledger
-            .claim(format!("shear traction in L2 after the reversal, over the norm before it, {name}, n = 20"))
+            .claim(format!(
+                "shear traction in L2 after the reversal, over the norm before it, {name}, n = 20"
+            ))
             .value(error)
             .at_most(0.1)
             .evidence(Evidence::Exact, "Mindlin and Deresiewicz at the loads of the run")
