@@ -1,8 +1,8 @@
 //! The interface: measure x enforcement x law, as a term of the system.
 
+use crate::average::Averaging;
 use crate::build::{build_measure, check};
 use crate::enforce::{Enforcement, Multipliers, Penalty, Unknowns, tangential};
-use crate::average::Averaging;
 use crate::error::ContactError;
 use crate::measure::{Attachment, Geometry, Measure, NormalPoint, Slides, Tractions};
 use crate::observe::{Balance, PointFields, Work};

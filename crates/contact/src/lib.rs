@@ -7,8 +7,8 @@
 //! relative to the master along the master surface; the force on the slave is `A (f_n n - t)`, so friction opposes slip;
 //! the first tangent in two dimensions is `e_1 = (-n_y, n_x)`.
 
-mod build;
 mod average;
+mod build;
 pub mod enforce;
 mod error;
 mod forward;
