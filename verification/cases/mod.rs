@@ -42,6 +42,7 @@ mod contact_patch;
 mod contact_patch_mortar;
 mod cook_membrane;
 mod elastic_plastic_cylinder;
+mod fault_operator;
 mod flamant_boussinesq;
 mod forward_drift;
 mod friction_hard_numerics;
@@ -62,7 +63,9 @@ mod sandwich_3d;
 mod sandwich_pressed;
 mod sandwich_sheared;
 mod sandwich_steppers;
+pub mod seas;
 mod seas_bp1;
+mod seas_bp3;
 pub mod slider;
 mod slider_cycles;
 mod slider_normal;
@@ -82,6 +85,7 @@ pub const ALL: &[Case] = &[
     contact_patch::CASE,
     contact_patch_mortar::CASE,
     cook_membrane::CASE,
+    fault_operator::CASE,
     flamant_boussinesq::CASE,
     friction_hard_numerics::CASE,
     friction_steady_state::CASE,
@@ -97,6 +101,7 @@ pub const ALL: &[Case] = &[
     sandwich_sheared::CASE,
     sandwich_steppers::CASE,
     seas_bp1::CASE,
+    seas_bp3::CASE,
     slider_cycles::CASE,
     slider_normal::CASE,
     slider_orbit::CASE,

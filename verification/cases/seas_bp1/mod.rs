@@ -1,10 +1,9 @@
 //! The community's benchmark BP1-QD: its first three events.
 
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::{Event, Moment, Plan, run as integrate};
-use asperity_driver::ode::{Control, Method};
-use asperity_driver::plan::{ScenePlan, plan_scene};
-use asperity_driver::scene;
+use crate::cases::seas::{self, CONVERGED, Found};
+use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use asperity_driver::fault::{Moment, Plan};
+use asperity_driver::ode::Method;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -15,7 +14,6 @@ pub const CASE: Case = Case {
     run,
 };
 
-const YEAR: f64 = 365.25 * 86400.0;
 /// Slip rate that begins and ends an event: the duration is that above it, and the rate passes it twice an event.
 const ABOVE: f64 = 1e-3;
 const BELOW: f64 = 0.999e-3;
@@ -27,55 +25,21 @@ fn plan(size: f64) -> Result<Plan, CaseError> {
     let text = include_str!("../../../scenes/bp1.toml")
         .replace("156.25 m", &format!("{size} m"))
         .replace("\"600 m\"", &format!("\"{} m\"", 600.0 / 156.25 * size));
-    let scene = scene::read(&text).map_err(|e| e.to_string())?;
-    match plan_scene(&scene).map_err(|e| e.to_string())? {
-        ScenePlan::Faults(mut plan) => {
-            plan.settings.most_events = Some(EVENTS);
-            (plan.settings.thresholds.on, plan.settings.thresholds.off) = (ABOVE, BELOW);
-            Ok(*plan)
-        }
-        ScenePlan::Bodies(_) => Err("the scene has no fault".into()),
-    }
+    let mut plan = seas::plan(&text)?;
+    plan.settings.most_events = Some(EVENTS);
+    (plan.settings.thresholds.on, plan.settings.thresholds.off) = (ABOVE, BELOW);
+    Ok(plan)
 }
 
-/// What a run found.
-struct Found {
-    /// \[yr\].
-    onsets: Vec<f64>,
-    events: Vec<Event>,
-    /// Largest imbalance of tractions over f_n.
-    imbalance: f64,
-    cost: Cost,
-    rates: u64,
-    steps: u64,
-}
-
-fn found(plan: &Plan, method: Method, tolerance: f64, watch: bool) -> Result<Found, CaseError> {
+fn found(
+    plan: &Plan,
+    method: Method,
+    tolerance: f64,
+    look: impl FnMut(&Moment<'_>),
+) -> Result<Found, CaseError> {
     let mut settings = plan.settings;
     (settings.method, settings.tolerance) = (method, tolerance);
-    let mut balance = Balance::new(plan);
-    let mut look = |now: &Moment<'_>| {
-        if watch {
-            balance.look(plan, now);
-        }
-        Control::Go
-    };
-    let (out, cost) =
-        Cost::of(|| integrate(&plan.fault, &plan.loading, plan.start.clone(), &settings, &mut look));
-    let events = out.catalogue.events().to_vec();
-    if events.len() < EVENTS {
-        return Err(format!("only {} events: {:?}", events.len(), out.outcome).into());
-    }
-    let cost =
-        cost.count("steps", out.counts.steps as f64).count("right-hand sides", out.counts.rates as f64);
-    Ok(Found {
-        onsets: events.iter().map(|e| e.onset.seconds() / YEAR).collect(),
-        events,
-        imbalance: balance.worst,
-        cost: cost.count("points", plan.points.len() as f64),
-        rates: out.counts.rates,
-        steps: out.counts.steps,
-    })
+    seas::found(plan, &settings, look)
 }
 
 /// Follows the difference between the traction the bodies exert and the one friction resists with.
@@ -113,12 +77,11 @@ impl Balance {
     }
 }
 
-const CONVERGED: &str = "boundary elements of 19.5 to 25 m, two codes that agree";
-
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let coarse = plan(156.25)?;
     let tolerance = coarse.settings.tolerance;
-    let at_coarse = found(&coarse, coarse.settings.method, tolerance, true)?;
+    let mut balance = Balance::new(&coarse);
+    let at_coarse = found(&coarse, coarse.settings.method, tolerance, |now| balance.look(&coarse, now))?;
     first_event(
         ledger,
         &at_coarse,
@@ -127,12 +90,12 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         "the error of boundary elements with as many unknowns (QDYN, 78 m)",
     );
     let fine = plan(78.125)?;
-    let at_fine = found(&fine, fine.settings.method, tolerance, false)?;
+    let at_fine = found(&fine, fine.settings.method, tolerance, |_| {})?;
     first_event(ledger, &at_fine, "78 m", 0.098, "0.05 %, four cells to the process zone of 340 m");
     later_events(ledger, &at_fine);
     ledger
         .claim("imbalance of tractions over f_n, largest of all points and steps")
-        .value(at_coarse.imbalance)
+        .value(balance.worst)
         .at_most(drift(&coarse, at_coarse.steps))
         .evidence(Evidence::Exact, "tractions from slip by the operator against those the integrator carries")
         .because(
@@ -214,12 +177,12 @@ fn later_events(ledger: &mut Ledger, found: &Found) {
 
 /// Methods and tolerances: cost and error of the third onset.
 fn methods(ledger: &mut Ledger, plan: &Plan) -> Result<(), CaseError> {
-    let reference = found(plan, Method::Dop853, 1e-8, false)?;
+    let reference = found(plan, Method::Dop853, 1e-8, |_| {})?;
     let exact = reference.onsets[EVENTS - 1];
     let mut rows = Vec::new();
     for method in [Method::Tsit5, Method::Dop853] {
         for tolerance in [1e-3, 1e-4, 1e-5, 1e-6] {
-            let run = found(plan, method, tolerance, false)?;
+            let run = found(plan, method, tolerance, |_| {})?;
             let error = (run.onsets[EVENTS - 1] - exact).abs();
             rows.push([
                 method.name().to_string(),

@@ -101,21 +101,25 @@ fn with_components<const D: usize, const C: usize>(
     Ok(Surroundings { bytes, ..tractions::<C>(&condensed, &rows, &areas) })
 }
 
-/// Tractions from the condensed forces; `rows` are those of the slip of each point, its opening stands `C - 1` further on.
+/// Tractions from the condensed forces; `rows` are those of the slip of each point, its opening stands `C - 1` further on. A force
+/// is what must act on a jump to hold it there: the bodies drive slip with its opposite, and where it holds the sides apart they
+/// press on each other, in compression.
 fn tractions<const C: usize>(condensed: &Condensed, rows: &[usize], areas: &[f64]) -> Surroundings {
     let (schur, width, n) =
         (condensed.reduction().schur(), condensed.reduction().retained().len(), rows.len());
+    let sign = |shift: usize| if shift == 0 { -1.0 } else { 1.0 };
     let part = |shift: usize| -> Vec<f64> {
         let mut matrix = Vec::with_capacity(n * n);
         for (&row, area) in rows.iter().zip(areas) {
-            matrix.extend(rows.iter().map(|&column| -schur[(row + shift) * width + column] / area));
+            let per_area = sign(shift) / area;
+            matrix.extend(rows.iter().map(|&column| per_area * schur[(row + shift) * width + column]));
         }
         matrix
     };
     let shear = part(0);
     let largest = |m: &[f64]| m.iter().fold(0.0, |l: f64, v| l.max(v.abs()));
     let over_area = |forces: &[f64], shift: usize| -> Vec<f64> {
-        rows.iter().zip(areas).map(|(&r, a)| -forces[r + shift] / a).collect()
+        rows.iter().zip(areas).map(|(&r, a)| sign(shift) * forces[r + shift] / a).collect()
     };
     // Loads may change normal tractions where slip does not.
     let loads_normal = |shear_load: f64| {

@@ -332,14 +332,15 @@ fn start<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> 
         let states = layout.states().start + p * n..layout.states().start + (p + 1) * n;
         let initial = match &point.law {
             LawChoice::RateAndState { v_initial, .. } => *v_initial,
-            _ => rate,
+            _ => rate.abs(),
         };
         let law: &dyn FaultLaw = fault.law.as_ref();
         law.steady(p, initial.ln(), &mut y[states.clone()]);
         if let Some(shear) = &spec.shear {
-            let mu = (shear.get_ref().0 - fault.damping * rate) / point.normal;
-            law.states_for(p, rate, mu, &mut y[states.clone()])?;
-            y[p] = mu / law.scale(p);
+            // Friction is odd in the rate: its size is found for a positive one.
+            let mu = (shear.get_ref().0 - fault.damping * rate) * rate.signum() / point.normal;
+            law.states_for(p, rate.abs(), mu, &mut y[states.clone()])?;
+            y[p] = mu * rate.signum() / law.scale(p);
         } else {
             y[p] = law.at_rate(p, rate, &y[states])?;
         }

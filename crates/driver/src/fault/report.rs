@@ -49,6 +49,8 @@ impl Entry {
             slipped.iter().map(|&p| value(p) * plan.points[p].area).sum::<f64>()
         };
         let (area, potency) = (over(&|_| 1.0), over(&slip));
+        // A fall is positive where traction that drives the slip becomes less.
+        let work = |p: usize| event.slip[p] * event.drop[p];
         let place = &plan.points[event.hypocentre];
         let fault = plan.faults.iter().find(|f| f.points.contains(&event.hypocentre));
         Self {
@@ -63,7 +65,7 @@ impl Entry {
             mean_slip: potency / area,
             area,
             moment: plan.shear_modulus * potency,
-            stress_drop: over(&|p| slip(p) * event.drop[p]) / potency,
+            stress_drop: over(&work) / potency,
         }
     }
 }

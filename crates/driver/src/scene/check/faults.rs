@@ -95,11 +95,23 @@ impl Checker<'_> {
         if !positive(fault.normal.get_ref().0) {
             self.error(fault.normal.span(), "`normal` must be positive", "such as `normal = \"50 MPa\"`");
         }
-        if !positive(fault.rate.get_ref().0) {
-            self.error(fault.rate.span(), "`rate` must be positive", "such as `rate = \"1e-9 m/s\"`");
+        let rate = fault.rate.get_ref().0;
+        if rate == 0.0 || !rate.is_finite() {
+            self.error(
+                fault.rate.span(),
+                "`rate` must not be zero",
+                "such as `rate = \"1e-9 m/s\"`, negative where plus slides towards the upper end of the trace less than minus",
+            );
         }
-        if let Some(shear) = fault.shear.as_ref().filter(|s| !positive(s.get_ref().0)) {
-            self.error(shear.span(), "`shear` must be positive", "such as `shear = \"26.5 MPa\"`");
+        if let Some(shear) = fault.shear.as_ref()
+            && !(shear.get_ref().0 * rate.signum() > 0.0 && shear.get_ref().0.is_finite())
+        {
+            self.conflict(
+                &shear.span(),
+                "`shear` must have the sign of `rate`",
+                "friction resists the motion",
+                (&fault.rate.span(), "`rate`"),
+            );
         }
         if let Some(creep) = &fault.creep
             && !creep.rate.get_ref().0.is_finite()

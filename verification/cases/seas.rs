@@ -1,0 +1,72 @@
+//! What the cases of earthquake cycles share: a scene's plan, and its events with what they cost.
+
+use crate::{CaseError, Cost};
+use asperity_driver::fault::{Event, Moment, Plan, Settings, run as integrate};
+use asperity_driver::ode::{Control, Outcome};
+use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::scene;
+
+/// A year \[s\], as the benchmarks count it.
+pub const YEAR: f64 = 365.25 * 86400.0;
+
+/// Boundary elements in the half-space that the first events of BP1 are compared with.
+pub const CONVERGED: &str = "boundary elements of 19.5 to 25 m, two codes that agree";
+
+/// The plan of a scene with faults.
+///
+/// # Errors
+/// What the reader or the plan refuse.
+pub fn plan(text: &str) -> Result<Plan, CaseError> {
+    let scene = scene::read(text).map_err(|e| e.to_string())?;
+    match plan_scene(&scene).map_err(|e| e.to_string())? {
+        ScenePlan::Faults(plan) => Ok(*plan),
+        ScenePlan::Bodies(_) => Err("the scene has no fault".into()),
+    }
+}
+
+/// What a run found.
+pub struct Found {
+    /// \[yr\].
+    pub onsets: Vec<f64>,
+    /// The events.
+    pub events: Vec<Event>,
+    /// Time and counts.
+    pub cost: Cost,
+    /// Right-hand sides.
+    pub rates: u64,
+    /// Accepted steps.
+    pub steps: u64,
+}
+
+/// Integrates until the events `settings` asks for have ended; `look` sees each step.
+///
+/// # Errors
+/// Where fewer events come.
+pub fn found(
+    plan: &Plan,
+    settings: &Settings,
+    mut look: impl FnMut(&Moment<'_>),
+) -> Result<Found, CaseError> {
+    let mut watch = |now: &Moment<'_>| {
+        look(now);
+        Control::Go
+    };
+    let (out, cost) =
+        Cost::of(|| integrate(&plan.fault, &plan.loading, plan.start.clone(), settings, &mut watch));
+    let events = out.catalogue.events().to_vec();
+    if let Outcome::Failed { reason } = &out.outcome {
+        return Err(reason.to_string().into());
+    }
+    if settings.most_events.is_some_and(|most| events.len() < most) {
+        return Err(format!("only {} events: {:?}", events.len(), out.outcome).into());
+    }
+    let cost =
+        cost.count("steps", out.counts.steps as f64).count("right-hand sides", out.counts.rates as f64);
+    Ok(Found {
+        onsets: events.iter().map(|e| e.onset.seconds() / YEAR).collect(),
+        events,
+        cost: cost.count("points", plan.points.len() as f64),
+        rates: out.counts.rates,
+        steps: out.counts.steps,
+    })
+}
