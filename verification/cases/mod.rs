@@ -62,6 +62,7 @@ pub mod sandwich;
 mod sandwich_3d;
 mod sandwich_pressed;
 mod sandwich_sheared;
+mod sandwich_state;
 mod sandwich_steppers;
 pub mod seas;
 mod seas_bp1;
@@ -99,6 +100,7 @@ pub const ALL: &[Case] = &[
     sandwich_3d::CASE,
     sandwich_pressed::CASE,
     sandwich_sheared::CASE,
+    sandwich_state::CASE,
     sandwich_steppers::CASE,
     seas_bp1::CASE,
     seas_bp3::CASE,

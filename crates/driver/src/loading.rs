@@ -34,6 +34,19 @@ pub struct Stage {
     loads: Vec<(Option<String>, Channel)>,
     /// Fixed degrees of freedom, sorted.
     pub fixed: Vec<usize>,
+    /// Sets that a spring moves as one.
+    pub springs: Vec<Spring>,
+}
+
+/// Degrees of freedom that move as one, drawn by a spring.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spring {
+    /// The degrees of freedom.
+    pub dofs: Vec<usize>,
+    /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
+    pub stiffness: f64,
+    /// Rate of its other end \[m/s\].
+    pub rate: f64,
 }
 
 impl Stage {
@@ -65,7 +78,7 @@ impl Stage {
                     .windows(2)
                     .map(|w| ((w[1].1 - w[0].1) / (w[1].0 - w[0].0)).abs())
                     .fold(0.0, f64::max),
-                Motion::Fixed(_) | Motion::Hold | Motion::Free => 0.0,
+                Motion::Fixed(_) | Motion::Hold | Motion::Free | Motion::Spring { .. } => 0.0,
             })
         })
     }
@@ -94,7 +107,7 @@ impl Stage {
                 points.iter().map(|p| p.1).collect(),
             ))),
             Motion::Hold => channels.push(present(constant(1.0))),
-            Motion::Fixed(_) | Motion::Free => {}
+            Motion::Fixed(_) | Motion::Free | Motion::Spring { .. } => {}
         }
     }
 }
@@ -124,7 +137,13 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
         }
         jumps::of_stage(scene, spec, (&before, &present), &loads)?;
         shared.stage(model, spec, &held)?;
-        let motions = motions::<D>(model, &held)?;
+        let (springs, motions): (Vec<_>, Vec<_>) = motions::<D>(model, &held)?
+            .into_iter()
+            .partition(|(_, motion)| matches!(motion, Motion::Spring { .. }));
+        let springs = springs.into_iter().filter_map(|(dofs, motion)| match motion {
+            Motion::Spring { stiffness, rate } => Some(Spring { dofs, stiffness, rate }),
+            _ => None,
+        });
         let mut fixed: Vec<usize> = motions.iter().flat_map(|(dofs, _)| dofs.iter().copied()).collect();
         fixed.sort_unstable();
         let mut channels: Vec<_> = body_loads.iter().map(|channel| (None, channel.clone())).collect();
@@ -142,6 +161,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
             motions,
             loads: channels,
             fixed,
+            springs: springs.collect(),
         });
         start = end;
     }

@@ -146,7 +146,7 @@ struct Choice<'a, const D: usize> {
 
 impl<const D: usize> Choice<'_, D> {
     fn memory(&self) -> usize {
-        self.scene.solver.memory.as_ref().map_or(MEMORY, |m| m.get_ref().0) as usize
+        memory(self.scene)
     }
 
     /// The first stage with an unsymmetric tangent.
@@ -311,4 +311,10 @@ pub fn size(bytes: usize) -> String {
     } else {
         format!("{:.1} KiB", unit(1))
     }
+}
+
+/// What factorisations of a scene may take \[bytes\].
+#[must_use]
+pub fn memory(scene: &Scene) -> usize {
+    scene.solver.memory.as_ref().map_or(MEMORY, |m| m.get_ref().0) as usize
 }

@@ -5,7 +5,8 @@
 //! the body becomes `Tᵀ K T`, cell by cell, with the numbers of the plus node's degrees of freedom standing for the jump.
 //! No penalty is needed, and a jump that is fixed at zero joins the two sides again: where nothing opens, the opening is such
 //! a jump. The forces that belong to jumps are those that hold them, `f = ∂E/∂s`; the traction that drives slip is `-f` over the
-//! tributary area, and so is the compressive normal traction for the opening, whose axis points from minus to plus.
+//! tributary area. For the opening, whose axis points from minus to plus, `f` over the area is the compressive normal traction: what
+//! must hold the sides apart.
 
 use crate::condense::Stiffness;
 use crate::dof::Channel;

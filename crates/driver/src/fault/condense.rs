@@ -1,11 +1,15 @@
 //! Bodies condensed onto the jumps of their faults: what slip and loads do to tractions.
 
 use super::loading::Loading;
+use super::machine::Machine;
 use super::operator::Dense;
 use super::place::Place;
+use crate::loading::Stage;
 use crate::model::Model;
+use crate::rigid;
+use asperity_fem::FemError;
 use asperity_fem::condense::{Condensation, Condensed, Stiffness};
-use asperity_fem::dof::{Channel, Constraints};
+use asperity_fem::dof::Channel;
 use asperity_fem::jump::{Jump, Jumps};
 use asperity_fem::table::Table;
 use asperity_fem::term::Pattern;
@@ -38,37 +42,44 @@ const UNCOUPLED: f64 = 1e-9;
 /// interface mass is lumped.
 ///
 /// # Errors
-/// A message where the bodies are not held, or a support does not agree with the fault.
+/// A message where the bodies need more than `memory` bytes, are not held, or a support does not agree with the fault.
 pub fn condense<const D: usize>(
     model: &Model<D>,
-    constraints: &Constraints,
+    stage: &Stage,
     points: &[Point<D>],
-    end: f64,
+    memory: usize,
 ) -> Result<Surroundings, String> {
     match model.idealisation.components() {
-        1 => with_components::<D, 1>(model, constraints, points, end, |_| [[1.0]]),
-        2 => with_components::<D, 2>(model, constraints, points, end, |n| [[-n[1], n[0]], [n[0], n[1]]]),
+        1 => with_components::<D, 1>(model, stage, points, memory, |_| [[1.0]]),
+        2 => with_components::<D, 2>(model, stage, points, memory, |n| [[-n[1], n[0]], [n[0], n[1]]]),
         _ => Err("faults in three dimensions are not condensed yet".into()),
     }
 }
 
 fn with_components<const D: usize, const C: usize>(
     model: &Model<D>,
-    constraints: &Constraints,
+    stage: &Stage,
     points: &[Point<D>],
-    end: f64,
+    memory: usize,
     frame: impl Fn(&[f64; D]) -> [[f64; C]; C],
 ) -> Result<Surroundings, String> {
-    let of = |p: &Point<D>| Jump {
-        minus: C * p.place.minus,
-        plus: C * p.place.plus,
-        frame: frame(&p.place.normal),
+    let constraints = stage.constraints(&vec![0.0; model.dofs()]);
+    let machine = Machine::new(stage);
+    let jump = |p: &Point<D>| {
+        let frame = frame(&p.place.normal);
+        let (minus, plus) = (C * p.place.minus, C * p.place.plus);
+        // The node whose displacement gives way to the jump must not be tied to others.
+        if (plus..plus + C).any(|d| machine.draws(d)) {
+            return Jump { minus: plus, plus: minus, frame: frame.map(|axis| axis.map(|c| -c)) };
+        }
+        Jump { minus, plus, frame }
     };
-    let jumps = Jumps::new(points.iter().map(of).collect());
-    let body = jumps.stiffness(&stiffness(model));
-    let oblique = |e: asperity_fem::jump::ObliqueConstraint| e.to_string();
+    let list: Vec<Jump<C>> = points.iter().map(jump).collect();
     // The opening is the last component; where it may change normal tractions it is retained, at zero.
-    let slip: Vec<usize> = points.iter().map(|p| C * p.place.plus).collect();
+    let slip: Vec<usize> = list.iter().map(|j| j.plus).collect();
+    let jumps = Jumps::new(list);
+    let body = machine.stiffness(&jumps.stiffness(&stiffness(model)));
+    let oblique = |e: asperity_fem::jump::ObliqueConstraint| e.to_string();
     let free: Vec<usize> = (0..points.len()).filter(|&k| points[k].creep.is_none()).collect();
     let mut retained: Vec<usize> = free.iter().flat_map(|&k| slip[k]..slip[k] + C).collect();
     retained.sort_unstable();
@@ -78,27 +89,46 @@ fn with_components<const D: usize, const C: usize>(
             fixed.extend(dof..dof + C);
         }
     }
+    fixed.extend(machine.tied());
     fixed.sort_unstable();
     fixed.dedup();
     let mut channels = Vec::new();
     for channel in &constraints.channels {
-        channels.push(jumps.channel(channel, &constraints.fixed).map_err(oblique)?);
+        channels.push(machine.channel(&jumps.channel(channel, &constraints.fixed).map_err(oblique)?)?);
     }
     let creeping = points.iter().zip(&slip).filter_map(|(p, &d)| p.creep.map(|rate| (d, rate)));
     let prescribed: Vec<(usize, f64)> = creeping.collect();
     if !prescribed.is_empty() {
-        let amplitude = Table::new(vec![0.0, end], vec![0.0, end]);
+        let amplitude = Table::new(vec![0.0, stage.end], vec![0.0, stage.end]);
         channels.push(Channel { prescribed, forces: Vec::new(), amplitude });
     }
+    channels.extend(machine.pulls(stage.end));
     let analysis = Condensation::analyse(&body, &retained, &fixed).map_err(|e| e.to_string())?;
     let bytes = analysis.bytes();
-    let reduction = analysis.factor(usize::MAX).map_err(|e| e.to_string())?;
+    let reduction = analysis.factor(memory).map_err(|e| in_words(model, &jumps, e))?;
     let system: Vec<usize> = (0..retained.len()).collect();
     let mut condensed = Condensed::new("bodies".into(), reduction, &system);
     condensed.set_channels(channels);
     let rows: Vec<usize> = free.iter().map(|&k| retained.partition_point(|&d| d < slip[k])).collect();
     let areas: Vec<f64> = free.iter().map(|&k| points[k].place.area).collect();
     Ok(Surroundings { bytes, ..tractions::<C>(&condensed, &rows, &areas) })
+}
+
+/// An error of the condensation with the place in the bodies.
+fn in_words<const D: usize, const C: usize>(model: &Model<D>, jumps: &Jumps<C>, error: FemError) -> String {
+    let Some(pivot) = error.pivot() else { return error.to_string() };
+    // A jump stands at the degrees of freedom of one of its nodes.
+    let node = pivot.equation / C;
+    let component = match jumps.list().iter().any(|j| j.plus / C == node) {
+        true => "slips or opens there",
+        false => "can move there",
+    };
+    let body = model.bodies.iter().find(|b| b.dofs.contains(&pivot.equation)).map_or("", |b| b.name.as_str());
+    format!(
+        "the bodies around the faults are not held: body `{body}` {component} without resistance, found at {}; prescribe motions of sides that hold \
+         each side of a fault",
+        rigid::place(&model.mesh.nodes[node])
+    )
 }
 
 /// Tractions from the condensed forces; `rows` are those of the slip of each point, its opening stands `C - 1` further on. A force

@@ -7,7 +7,7 @@
 use super::operator::Operator;
 use crate::ode::{Clock, Problem};
 use asperity_friction::fault::{Drive, FaultLaw};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::ops::Range;
 
 /// A fault with its surroundings.
@@ -100,6 +100,8 @@ pub struct Equations<'a> {
     shear_load: Vec<f64>,
     normal_load: Vec<f64>,
     scratch: RefCell<Scratch>,
+    /// The point whose normal traction was found not to be positive since the last call of [`Equations::opened`].
+    opened: Cell<Option<usize>>,
 }
 
 impl<'a> Equations<'a> {
@@ -113,13 +115,25 @@ impl<'a> Equations<'a> {
             shear_rate: vec![0.0; n],
             normal_rate: vec![0.0; layout.normal().len()],
         };
-        Self { fault, layout, shear_load, normal_load, scratch: RefCell::new(scratch) }
+        Self {
+            fault,
+            layout,
+            shear_load,
+            normal_load,
+            scratch: RefCell::new(scratch),
+            opened: Cell::new(None),
+        }
     }
 
     /// Where the unknowns stand.
     #[must_use]
     pub fn layout(&self) -> Layout {
         self.layout
+    }
+
+    /// A point whose normal traction was not positive in a stage since the last call, which made the step to be rejected.
+    pub fn opened(&self) -> Option<usize> {
+        self.opened.take()
     }
 
     /// Slip rates of all points \[m/s\].
@@ -164,7 +178,8 @@ impl Problem for Equations<'_> {
         } else {
             &fault.normal
         };
-        if normal.iter().any(|&f| f <= 0.0) {
+        if let Some(point) = normal.iter().position(|&f| f <= 0.0) {
+            self.opened.set(Some(point));
             // An open point has no friction: the step was too long, or the fault opens.
             dy.fill(f64::NAN);
             return;

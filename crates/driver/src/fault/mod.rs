@@ -6,6 +6,7 @@ mod condense;
 mod equations;
 mod files;
 mod loading;
+mod machine;
 mod operator;
 mod place;
 mod plan;

@@ -13,6 +13,7 @@ use crate::ode::Method;
 use crate::plan::PlanError;
 use crate::scene::law::{self, Evolution, LawChoice};
 use crate::scene::model::{Along, DampingSpec, Fault as Spec, Kinematics, Profile, Scene};
+use crate::solver;
 use asperity_friction::Failure;
 use asperity_friction::fault::FaultLaw;
 use std::fmt::Write as _;
@@ -174,13 +175,12 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan, PlanError> {
     let [stage] = stages.as_slice() else {
         return Err(PlanError::plain(format!("a scene with faults has one stage, found {}", stages.len())));
     };
-    let constraints = stage.constraints(&vec![0.0; model.dofs()]);
     let mut placed: Vec<Placed<D>> = Vec::new();
     for (k, (name, spec)) in scene.faults.iter().enumerate() {
         placed.extend(points_of(&model, name, spec, k)?);
     }
     let points: Vec<Point<D>> = placed.iter().map(|p| p.point.clone()).collect();
-    let surroundings = condense(&model, &constraints, &points, stage.end).map_err(PlanError::plain)?;
+    let surroundings = condense(&model, stage, &points, solver::memory(scene)).map_err(PlanError::plain)?;
     placed.retain(|p| p.point.creep.is_none());
     let Some((first, rest)) = placed.split_first() else {
         return Err(PlanError::plain("no point of the faults is free to slide".into()));

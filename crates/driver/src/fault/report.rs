@@ -119,6 +119,25 @@ pub struct Report {
     pub run: Provenance,
 }
 
+/// Why an integration failed, as far as the fault tells.
+fn why(plan: &Plan, run: &Run, reason: &str) -> String {
+    if let Some(point) = run.opens {
+        let view = &plan.points[point];
+        let fault = plan.faults.iter().find(|f| f.points.contains(&point)).map_or("", |f| f.name.as_str());
+        return format!(
+            "{reason}: the normal traction of fault `{fault}` falls to zero at x = {:e} m, y = {:e} m, {:e} m along it; faults of a scene \
+             do not open: raise `normal` there, or use coarser cells where a corner concentrates stress",
+            view.at[0], view.at[1], view.along
+        );
+    }
+    if plan.fault.damping == 0.0 {
+        return format!(
+            "{reason}: in an instability slip rates grow without bound where nothing is radiated; add `damping = \"radiation\"` to the fault"
+        );
+    }
+    reason.to_string()
+}
+
 /// A year \[s\].
 const YEAR: f64 = 365.25 * 86_400.0;
 
@@ -128,7 +147,7 @@ impl Report {
     pub fn new(plan: &Plan, run: &Run) -> Self {
         let stopped = match &run.outcome {
             Outcome::Completed | Outcome::Stopped => None,
-            Outcome::Failed { reason } => Some(reason.to_string()),
+            Outcome::Failed { reason } => Some(why(plan, run, &reason.to_string())),
         };
         let events = run.catalogue.events();
         let entry =

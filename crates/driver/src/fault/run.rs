@@ -86,6 +86,8 @@ pub struct Run {
     pub catalogue: Catalogue,
     /// Work.
     pub counts: Counts,
+    /// Where the integration failed: the point whose normal traction falls to zero there.
+    pub opens: Option<usize>,
 }
 
 /// Rounding of m, of states and of f_n over their size, beside the tolerance.
@@ -105,6 +107,7 @@ pub fn run(
         unknowns,
         catalogue: Catalogue::new(settings.thresholds),
         counts: Counts::default(),
+        opens: None,
     };
     let mut breaks = loading.breaks(0.0, settings.end);
     breaks.push(settings.end);
@@ -158,6 +161,9 @@ fn leg(
     let Finished { outcome, at, state, counts } =
         ode::integrate(equations, run.at, &run.unknowns, duration, &options, &mut follow);
     (run.outcome, run.at, run.unknowns) = (outcome, at, state);
+    if matches!(run.outcome, Outcome::Failed { .. }) {
+        run.opens = equations.opened();
+    }
     run.counts.steps += counts.steps;
     run.counts.rejected += counts.rejected;
     run.counts.rates += counts.rates;
@@ -236,6 +242,8 @@ fn fastest(rate: &[f64]) -> (usize, f64) {
 
 impl Sink for Follow<'_> {
     fn accepted(&mut self, step: &Step<'_>) -> Control {
+        // What was rejected before this step was a step too long.
+        self.equations.opened();
         let layout = self.equations.layout();
         let rates = step.rates.map(|dy| &dy[layout.slip()]);
         let largest = match rates {

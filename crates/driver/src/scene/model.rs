@@ -250,6 +250,13 @@ pub enum Motion {
     Rate(f64),
     /// Piecewise linear: (time since the stage began \[s\], displacement \[m\]).
     Table(Vec<(f64, f64)>),
+    /// Moved as one by a spring whose other end moves at a rate.
+    Spring {
+        /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
+        stiffness: f64,
+        /// Rate of the other end \[m/s\].
+        rate: f64,
+    },
     /// Held at the value it has.
     Hold,
     /// Released.

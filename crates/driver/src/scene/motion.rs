@@ -11,6 +11,7 @@ use std::fmt;
 struct MotionTable {
     to: Option<Length>,
     rate: Option<Velocity>,
+    spring: Option<f64>,
     table: Option<Vec<Entry<Length>>>,
 }
 
@@ -22,8 +23,8 @@ impl<'de> Deserialize<'de> for Motion {
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str(
-                    "a motion: a displacement such as \"1 mm\" or 0, \"hold\", \"free\", { to = .. }, { rate = .. } or \
-                     { table = [[time, displacement], ..] }",
+                    "a motion: a displacement such as \"1 mm\" or 0, \"hold\", \"free\", { to = .. }, { rate = .. }, \
+                     { spring = .., rate = .. } or { table = [[time, displacement], ..] }",
                 )
             }
 
@@ -48,13 +49,18 @@ impl<'de> Deserialize<'de> for Motion {
 
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Motion, A::Error> {
                 let t = MotionTable::deserialize(MapAccessDeserializer::new(map))?;
-                match (t.to, t.rate, t.table) {
-                    (Some(to), None, None) => Ok(Motion::To(to.0)),
-                    (None, Some(rate), None) => Ok(Motion::Rate(rate.0)),
-                    (None, None, Some(points)) => {
+                match (t.to, t.rate, t.table, t.spring) {
+                    (Some(to), None, None, None) => Ok(Motion::To(to.0)),
+                    (None, Some(rate), None, None) => Ok(Motion::Rate(rate.0)),
+                    (None, Some(rate), None, Some(stiffness)) => {
+                        Ok(Motion::Spring { stiffness, rate: rate.0 })
+                    }
+                    (None, None, Some(points), None) => {
                         Ok(Motion::Table(points.into_iter().map(|p| (p.time.0, p.value.0)).collect()))
                     }
-                    _ => Err(de::Error::custom("a motion has exactly one of the keys `to`, `rate`, `table`")),
+                    _ => Err(de::Error::custom(
+                        "a motion has exactly one of the keys `to`, `rate`, `table`, or `spring` beside `rate`",
+                    )),
                 }
             }
         }

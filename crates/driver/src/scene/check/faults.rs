@@ -2,7 +2,7 @@
 
 use super::Checker;
 use crate::scene::law;
-use crate::scene::model::{DampingSpec, Fault, Profile, Stepper};
+use crate::scene::model::{DampingSpec, Fault, Motion, Path, Profile, Spanned, Stepper};
 use crate::scene::near::suggest;
 
 /// Kinds of law whose slip rate does not follow from the traction.
@@ -32,6 +32,63 @@ impl Checker<'_> {
         }
         self.stations();
         self.events();
+        self.springs();
+        self.left_out();
+    }
+
+    /// Keys that mean nothing to faults, which would be left out without a word.
+    fn left_out(&mut self) {
+        let scene = self.scene;
+        let Some(fault) = scene.faults.values().next() else { return };
+        let (output, solver) = (&scene.output, &scene.solver);
+        let mut keys = vec![
+            ("fields", output.fields.as_ref().map(Spanned::span)),
+            ("profiles", output.profiles.as_ref().map(Spanned::span)),
+            ("path", (scene.time.path != Path::Auto).then(|| scene.time.stepper.span())),
+            ("method", solver.method.as_ref().map(Spanned::span)),
+            ("tolerance", solver.tolerance.as_ref().map(Spanned::span)),
+            ("most_iterations", solver.most_iterations.as_ref().map(Spanned::span)),
+        ];
+        keys.extend(output.probes.values().map(|p| ("probes", Some(p.span()))));
+        keys.extend(output.points.values().map(|p| ("points", Some(p.span()))));
+        keys.extend(output.forces.values().map(|p| ("forces", Some(p.span()))));
+        for stage in &scene.stages {
+            keys.push(("steps", stage.steps.as_ref().map(Spanned::span)));
+            keys.extend(stage.frictionless.iter().map(|f| ("frictionless", Some(f.span()))));
+        }
+        for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
+            self.conflict(
+                &place,
+                format!("`{key}` has no meaning in a scene with faults"),
+                "remove it; outputs of faults are `stations` in `[output]`, the catalogue and profiles of slip",
+                (&fault.minus.span(), "a fault"),
+            );
+        }
+    }
+
+    /// Springs draw sides of bodies around faults only.
+    fn springs(&mut self) {
+        let scene = self.scene;
+        for condition in scene.stages.iter().flat_map(|s| &s.conditions) {
+            let c = condition.get_ref();
+            for motion in [&c.x, &c.y, &c.z].into_iter().flatten() {
+                let Motion::Spring { stiffness, rate } = *motion.get_ref() else { continue };
+                if scene.faults.is_empty() {
+                    self.error(
+                        motion.span(),
+                        "a spring draws sides in scenes with faults only",
+                        "prescribe the motion itself, such as `{ rate = \"1 um/s\" }`",
+                    );
+                }
+                if !(stiffness > 0.0 && stiffness.is_finite() && rate.is_finite()) {
+                    self.error(
+                        motion.span(),
+                        "`spring` must be positive",
+                        "a stiffness in N/m, in the plane per metre of thickness, such as `{ spring = 1.4e10, rate = \"1 um/s\" }`",
+                    );
+                }
+            }
+        }
     }
 
     /// Faults and the stepper "fault-ode" go together, without interfaces, in one stage.
