@@ -296,8 +296,11 @@ const PIECE: f64 = 25.0;
 /// the reference is not.
 const BELOW: f64 = 2000.0;
 
+/// A name and slip \[m\] over the distance from the surface \[m\].
+type Slips = (&'static str, fn(f64) -> f64);
+
 /// Slip that reaches the surface, and slip that does not.
-fn slips() -> [(&'static str, fn(f64) -> f64); 2] {
+fn slips() -> [Slips; 2] {
     [
         ("to the surface", |x| (1.0 - (x / DEEPEST).powi(2)).max(0.0).powi(3)),
         ("at depth", |x| (1.0 - ((x - 18e3) / 12e3).powi(2)).max(0.0).powi(3)),
