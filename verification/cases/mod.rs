@@ -33,6 +33,7 @@
 use crate::Case;
 
 mod antiplane;
+mod block_dragged;
 pub mod bodies;
 mod bodies_convergence;
 mod bodies_patch;
@@ -40,7 +41,10 @@ pub mod body;
 mod cantilever_rotation;
 mod contact_patch;
 mod contact_patch_mortar;
+mod contact_rotation;
+mod contact_sliding;
 mod cook_membrane;
+mod coulomb_strip;
 mod elastic_plastic_cylinder;
 mod fault_operator;
 mod flamant_boussinesq;
@@ -48,6 +52,7 @@ mod forward_drift;
 mod friction_hard_numerics;
 mod friction_steady_state;
 mod friction_velocity_steps;
+mod frictional_bar;
 mod frictional_crack;
 pub mod hertz;
 mod hertz_line;
@@ -74,6 +79,7 @@ mod slider_orbit;
 mod slider_stability;
 mod slider_states;
 mod slider_work_precision;
+pub mod texts;
 mod two_rings;
 mod uniaxial_hardening;
 mod volumetric_path;
@@ -81,16 +87,21 @@ mod volumetric_path;
 /// Every case, in the order of the report.
 pub const ALL: &[Case] = &[
     antiplane::CASE,
+    block_dragged::CASE,
     bodies_convergence::CASE,
     bodies_patch::CASE,
     contact_patch::CASE,
     contact_patch_mortar::CASE,
+    contact_rotation::CASE,
+    contact_sliding::CASE,
     cook_membrane::CASE,
+    coulomb_strip::CASE,
     fault_operator::CASE,
     flamant_boussinesq::CASE,
     friction_hard_numerics::CASE,
     friction_steady_state::CASE,
     friction_velocity_steps::CASE,
+    frictional_bar::CASE,
     frictional_crack::CASE,
     hertz_line::CASE,
     hertz_sphere::CASE,

@@ -19,6 +19,10 @@ const BAND: f64 = 1e-9;
 /// of the slopes of magnitude and chord, seldom below 1/3), so 1e-9 takes about 50 at worst.
 const REFINEMENTS: usize = 60;
 
+/// How often a point may change between stick and slip before a step. Each change can turn its neighbours; more than a few are a point on
+/// the edge of slip, for which both answers are the same to rounding.
+const MOST_SWITCHES: u8 = 6;
+
 /// Increments of tractions over a forward step, in the frame.
 struct Step<'a> {
     normal: &'a [NormalPoint],
@@ -110,9 +114,15 @@ impl Shear {
         dt
     }
 
-    /// Asks the law for the smallest limit of `entries` over the part `from..1` of the step, with tractions at `from`.
-    /// The point of the answer indexes the slices.
-    fn limit_from(&self, step: &Step<'_>, entries: &[usize], from: f64, bounds: RateBounds) -> Option<Limit> {
+    /// Asks the law for the smallest limit of `entries` over the part `from..to` of the step, with tractions at `from`.
+    /// The point of the answer indexes the slices, its fraction is that of the part.
+    fn limit_within(
+        &self,
+        step: &Step<'_>,
+        entries: &[usize],
+        (from, to): (f64, f64),
+        bounds: RateBounds,
+    ) -> Option<Limit> {
         let k = self.states();
         let s = &self.slices;
         let mut part = Slices::default();
@@ -127,10 +137,10 @@ impl Shear {
             part.rate.push(s.rate[i]);
             part.regime.push(s.regime[i]);
             part.old.extend_from_slice(&s.old[i * k..(i + 1) * k]);
-            normal.push((1.0 - from) * df);
-            traction.push(magnitude_increment(&t, &scaled(&dt, 1.0 - from)));
+            normal.push((to - from) * df);
+            traction.push(magnitude_increment(&t, &scaled(&dt, to - from)));
             let slid = slip_increment(s.regime[i], &self.points[p], &step.increment[p], &dt, self.stiffness);
-            slip.push((1.0 - from) * slid);
+            slip.push((to - from) * slid);
         }
         if entries.is_empty() {
             return None;
@@ -143,36 +153,99 @@ impl Shear {
     /// The smallest limit of the law: r8 of the moving points, r6 of the resting ones.
     fn limit(&self, step: &Step<'_>, bounds: RateBounds) -> Option<Limit> {
         let floor = step.present.rate_floor;
+        let elastic = self.law.has_elastic_domain();
+        let rests =
+            |i: usize| self.slices.rate[i] < floor || elastic && self.slices.regime[i] == Regime::Stick;
         let (resting, moving): (Vec<usize>, Vec<usize>) =
-            (0..self.slices.index.len()).partition(|&i| self.slices.rate[i] < floor);
-        let moving = self.limit_from(step, &moving, 0.0, bounds);
-        let resting = self.leave_cone(step, &resting, bounds);
-        match (moving, resting) {
-            (Some(a), Some(b)) => Some(if b.fraction < a.fraction { b } else { a }),
-            (a, b) => a.or(b),
-        }
+            (0..self.slices.index.len()).partition(|&i| rests(i));
+        let (turning, straight): (Vec<usize>, Vec<usize>) =
+            resting.into_iter().partition(|&i| self.nearest(i, step) > 0.0);
+        let found = [
+            self.limit_within(step, &moving, (0.0, 1.0), bounds),
+            self.leave_cone(step, &straight, (0.0, 1.0), bounds),
+        ];
+        let turned = turning.into_iter().map(|i| {
+            let nearest = self.nearest(i, step);
+            let before = self.leave_cone(step, &[i], (0.0, nearest), bounds);
+            before.or_else(|| self.leave_cone(step, &[i], (nearest, 1.0), bounds))
+        });
+        found.into_iter().chain(turned).flatten().reduce(|a, b| if b.fraction < a.fraction { b } else { a })
     }
 
-    /// r6 in vector form. A law sees magnitudes, that is the chord from |t| to |t + Δt|, and |t + r Δt| is convex in r, so
-    /// the chord's root is never late. Starting again from there, as long as the true magnitude lies below the chord,
+    /// The fraction of the step at which the traction of entry `i` is smallest. Up to there it falls and then it grows: a law, which sees
+    /// magnitudes at both ends, would take a traction on its strength that turns for one that leaves it at once.
+    fn nearest(&self, i: usize, step: &Step<'_>) -> f64 {
+        let (t, dt) = (&self.committed.traction[self.slices.index[i]], self.traction_increment(i, step));
+        let square = dot(&dt, &dt);
+        if square > 0.0 { (-dot(t, &dt) / square).clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    /// r6 in vector form over the part `from..to` of the step. A law sees magnitudes, that is the chord between the ends, and |t + r Δt|
+    /// is convex in r, so the chord's root is never late. Starting again from there, as long as the true magnitude lies below the chord,
     /// converges from below to the first root, where the traction leaves the cone outwards; for a traction that does not
     /// turn the first answer is the root.
-    fn leave_cone(&self, step: &Step<'_>, resting: &[usize], bounds: RateBounds) -> Option<Limit> {
-        let mut from = 0.0;
+    fn leave_cone(
+        &self,
+        step: &Step<'_>,
+        resting: &[usize],
+        (mut from, to): (f64, f64),
+        bounds: RateBounds,
+    ) -> Option<Limit> {
         for _ in 0..REFINEMENTS {
-            let found = self.limit_from(step, resting, from, bounds)?;
-            let root = from + found.fraction * (1.0 - from);
+            let found = self.limit_within(step, resting, (from, to), bounds)?;
+            let root = from + found.fraction * (to - from);
             let dt = self.traction_increment(found.point, step);
             let size =
                 |r: f64| norm(&along_path(&self.committed.traction[self.slices.index[found.point]], &dt, r));
-            let chord = size(from) + found.fraction * (size(1.0) - size(from));
-            if chord - size(root) <= 0.5 * BAND * chord {
+            let chord = size(from) + found.fraction * (size(to) - size(from));
+            // A law takes what is this near to its strength for being there already, and says no more.
+            if chord - size(root) <= BAND * (1.0 + BAND) * chord {
                 return Some(Limit { fraction: root, ..found });
             }
             from = root;
         }
         // Not converged from below: where the search stands is admissible.
         Some(Limit { fraction: from, point: *resting.first()?, kind: LimitKind::StickToSlip })
+    }
+
+    /// Switches points whose increment contradicts their regime: slip backwards sticks, and what sticks at its strength and is
+    /// drawn further slips. Returns whether any did.
+    fn switch(&mut self, step: &Step<'_>) -> Result<bool, Failure> {
+        let mut any = false;
+        for (i, at_strength) in self.at_strength(step)?.into_iter().enumerate() {
+            let p = self.slices.index[i];
+            let (du, dt) = (&step.increment[p], self.traction_increment(i, step));
+            let forth = match self.slices.regime[i] {
+                Regime::Slip => {
+                    slip_increment(Regime::Slip, &self.points[p], du, &dt, self.stiffness) >= -BAND * norm(du)
+                }
+                Regime::Stick => at_strength && dot(&self.slices.direction[i], &dt) > 0.0,
+            };
+            let regime = if forth { Regime::Slip } else { Regime::Stick };
+            // The last switch is one to slip: a point that sticks at its strength would leave it.
+            let most = if forth { MOST_SWITCHES + 1 } else { MOST_SWITCHES };
+            if regime != self.slices.regime[i] && self.switches[p] < most {
+                self.switches[p] += 1;
+                self.committed.regime[p] = regime;
+                any = true;
+            }
+        }
+        Ok(any)
+    }
+
+    /// Whether each entry is at its strength: whether the law lets it slip after an increment of nothing.
+    fn at_strength(&mut self, step: &Step<'_>) -> Result<Vec<bool>, Failure> {
+        let n = self.slices.index.len();
+        let nothing = vec![0.0; n];
+        let increments = Increments { normal: &nothing, traction: &nothing, slip: &nothing };
+        let s = &self.slices;
+        let sticking = vec![Regime::Stick; n];
+        let present = Present { regime: &sticking, ..s.present(self.stiffness, step.present) };
+        let (mut regime, mut rate, mut states) = (sticking.clone(), s.rate.clone(), s.old.clone());
+        if n > 0 {
+            self.law.advance(present, increments, &mut regime, &mut rate, &mut states)?;
+        }
+        Ok(regime.into_iter().map(|r| r == Regime::Slip).collect())
     }
 }
 
@@ -398,6 +471,18 @@ impl<const D: usize> Limited for Interface<D> {
         }
         self.measure.tangent(&self.geometry, self.tractions(), values);
         Ok(())
+    }
+
+    fn switch(&mut self, du: &[f64], at: Instant) -> bool {
+        let present = self.options(at.dt);
+        self.measure.measure(&self.u.committed, &mut self.geometry);
+        self.slide(du);
+        let Some(shear) = self.shear.as_mut().filter(|s| s.law.has_elastic_domain()) else { return false };
+        self.work.law_calls += 2;
+        let normal = &self.contact.committed;
+        let step = Step { normal, gap: &self.slides.gap, increment: &self.slides.increment, present };
+        // What the law cannot answer here it refuses when the step is taken.
+        shear.linearise(normal, present).and_then(|()| shear.switch(&step)).unwrap_or(false)
     }
 
     fn limit(&mut self, du: &[f64], at: Instant) -> Option<Fraction> {

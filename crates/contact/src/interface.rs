@@ -361,6 +361,7 @@ impl<const D: usize> Interface<D> {
         self.motion.committed.copy_from(&self.motion.trial);
         if let Some(shear) = &mut self.shear {
             shear.committed.copy_from(&shear.trial);
+            shear.switches.fill(0);
         }
         let (motion, shear) = (&mut self.motion.committed, &mut self.shear);
         let geometry = &self.geometry;
@@ -543,6 +544,7 @@ impl<const D: usize> Term for Interface<D> {
         self.motion.trial.copy_from(&self.motion.committed);
         if let Some(shear) = &mut self.shear {
             shear.trial.copy_from(&shear.committed);
+            shear.switches.fill(0);
         }
         self.measure.revert();
         self.measure.measure(&self.u.committed, &mut self.geometry);

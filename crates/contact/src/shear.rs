@@ -129,6 +129,8 @@ pub(crate) struct Shear {
     pub trial: History,
     /// What the tangent needs, per point.
     pub points: Vec<ShearPoint>,
+    /// How often the regime of each point was switched before the present forward step.
+    pub switches: Vec<u8>,
     pub slices: Slices,
 }
 
@@ -140,6 +142,7 @@ impl Shear {
             trial: committed.clone(),
             committed,
             points: vec![ShearPoint::default(); points],
+            switches: vec![0; points],
             slices: Slices::with_capacity(points, law.states()),
             law,
         }

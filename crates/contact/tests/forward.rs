@@ -224,3 +224,27 @@ fn a_reversing_traction_is_limited_on_the_far_side_of_the_cone() {
     assert_eq!(r6.limit, "r6");
     assert_relative_eq!(r6.value, 170.0 / 350.0, max_relative = 1e-9);
 }
+
+#[test]
+fn a_traction_on_its_strength_that_turns_is_limited_on_the_far_side_of_the_cone() {
+    let mut interface = Interface::new(flat(Sliding::Small, cone())).unwrap();
+    advance(&mut interface, &du([0.1, -0.2], [0.0, 0.0]));
+    let r6 = interface.limit(&du([0.5, 0.0], [0.0, 0.0]), AT).unwrap();
+    advance(&mut interface, &du([0.5 * r6.value, 0.0], [0.0, 0.0]));
+    // It slips by now; drawn back it sticks, from one side of the cone, 100, to the other.
+    advance(&mut interface, &du([0.01, 0.0], [0.0, 0.0]));
+    let back = du([-0.5, 0.0], [0.0, 0.0]);
+    let strength = interface.points().shear_measure[0].abs();
+    let mut values = vec![0.0; interface.pattern().values()];
+    let mut constant = vec![0.0; back.len()];
+    interface.rate(AT, &mut values, &mut constant).unwrap();
+    assert!(interface.switch(&back, AT), "slip backwards sticks");
+    interface.rate(AT, &mut values, &mut constant).unwrap();
+    assert!(!interface.switch(&back, AT), "and stays so");
+    let r6 = interface.limit(&back, AT).unwrap();
+    assert_eq!(r6.limit, "r6");
+    assert_relative_eq!(r6.value, 2.0 * strength / 350.0, max_relative = 1e-9);
+    // Drawn on, it slips.
+    let on = du([0.5, 0.0], [0.0, 0.0]);
+    assert!(interface.switch(&on, AT), "what sticks at its strength and is drawn on slips");
+}

@@ -1,6 +1,7 @@
 //! Conditions of the stages, turned into fixed degrees of freedom and loading channels.
 
 mod jumps;
+mod rotation;
 mod shared;
 
 use crate::model::{Model, bounds};
@@ -12,6 +13,7 @@ use asperity_fem::kinematics::Formulation;
 use asperity_fem::mesh::nodes_of_sides;
 use asperity_fem::surface;
 use asperity_fem::table::Table;
+use rotation::Turning;
 use shared::Shared;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -30,6 +32,8 @@ pub struct Stage {
     /// Names of interfaces without friction.
     pub frictionless: Vec<String>,
     motions: Vec<(Vec<usize>, Motion)>,
+    /// Components that turn with their sets.
+    turning: Vec<Turning>,
     /// Loads, with the set they act on, where it is one.
     loads: Vec<(Option<String>, Channel)>,
     /// Fixed degrees of freedom, sorted.
@@ -57,6 +61,7 @@ impl Stage {
         for (dofs, motion) in &self.motions {
             self.motion_channels(dofs, motion, u0, &mut channels);
         }
+        channels.extend(self.turning.iter().flat_map(|t| t.channels((self.start, self.end), u0)));
         channels.retain(|c| !c.prescribed.is_empty() || !c.forces.is_empty());
         Constraints { fixed: self.fixed.clone(), channels }
     }
@@ -70,7 +75,9 @@ impl Stage {
     #[must_use]
     pub fn largest_rate(&self) -> f64 {
         let duration = self.end - self.start;
-        self.motions.iter().fold(0.0, |largest, (_, motion)| {
+        let turning = self.turning.iter().map(|t| t.radius() * t.rotation.angle.abs() / duration);
+        let turning = turning.fold(0.0, f64::max);
+        self.motions.iter().fold(turning, |largest, (_, motion)| {
             largest.max(match motion {
                 Motion::Rate(rate) => rate.abs(),
                 Motion::To(value) => value.abs() / duration,
@@ -78,7 +85,11 @@ impl Stage {
                     .windows(2)
                     .map(|w| ((w[1].1 - w[0].1) / (w[1].0 - w[0].0)).abs())
                     .fold(0.0, f64::max),
-                Motion::Fixed(_) | Motion::Hold | Motion::Free | Motion::Spring { .. } => 0.0,
+                Motion::Fixed(_)
+                | Motion::Hold
+                | Motion::Free
+                | Motion::Rotate(_)
+                | Motion::Spring { .. } => 0.0,
             })
         })
     }
@@ -106,7 +117,8 @@ impl Stage {
                 points.iter().map(|p| self.start + p.0).collect(),
                 points.iter().map(|p| p.1).collect(),
             ))),
-            Motion::Hold => channels.push(present(constant(1.0))),
+            // What a rotation adds to the place at its start is told by `turning`.
+            Motion::Hold | Motion::Rotate(_) => channels.push(present(constant(1.0))),
             Motion::Fixed(_) | Motion::Free | Motion::Spring { .. } => {}
         }
     }
@@ -158,6 +170,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
             end,
             steps: spec.steps.as_ref().map(|s| *s.get_ref()),
             frictionless: spec.frictionless.iter().map(|s| s.get_ref().clone()).collect(),
+            turning: turning(model, &motions),
             motions,
             loads: channels,
             fixed,
@@ -171,7 +184,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
 /// What an earlier stage's conditions become in the next one: targets reached are held.
 fn settle(held: &mut BTreeMap<(String, usize), Motion>, loads: &mut BTreeMap<(String, usize), Loading>) {
     for motion in held.values_mut() {
-        if matches!(motion, Motion::To(_) | Motion::Table(_)) {
+        if matches!(motion, Motion::To(_) | Motion::Table(_) | Motion::Rotate(_)) {
             *motion = Motion::Hold;
         }
     }
@@ -212,6 +225,12 @@ fn take_up<const D: usize>(
         if let Some(motion) = motion {
             held.insert((set.get_ref().clone(), axis), motion.get_ref().clone());
             shared.places.insert((set.get_ref().clone(), axis), motion.span());
+        }
+    }
+    if let Some(rotate) = &c.rotate {
+        for axis in 0..D {
+            held.insert((set.get_ref().clone(), axis), rotate.get_ref().motion());
+            shared.places.insert((set.get_ref().clone(), axis), rotate.span());
         }
     }
     if let Some(symmetry) = c.symmetry.as_ref().filter(|s| *s.get_ref()) {
@@ -292,6 +311,25 @@ fn motions<const D: usize>(
         result.push((dofs, motion.clone()));
     }
     Ok(result)
+}
+
+/// The components that turn, with the places of their nodes.
+fn turning<const D: usize>(model: &Model<D>, motions: &[(Vec<usize>, Motion)]) -> Vec<Turning> {
+    let components = model.idealisation.components();
+    let place = |dof: &usize| {
+        let x = &model.mesh.nodes[dof / components];
+        std::array::from_fn(|c| x.get(c).copied().unwrap_or(0.0))
+    };
+    let turned = |(dofs, motion): &(Vec<usize>, Motion)| match motion {
+        Motion::Rotate(rotation) => Some(Turning {
+            places: dofs.iter().map(place).collect(),
+            dofs: dofs.clone(),
+            components,
+            rotation: *rotation,
+        }),
+        _ => None,
+    };
+    motions.iter().filter_map(turned).collect()
 }
 
 fn load_channel<const D: usize>(

@@ -157,20 +157,20 @@ impl RunReport {
         }
     }
 
-    /// Adds the results at the end of a stage. `interfaces` gives name and areas of each.
+    /// Adds the results at the end of a stage. `interfaces` gives the name of each.
     pub fn end_of_stage(
         &mut self,
         stage: &Stage,
         fields: &[InterfaceFields],
-        interfaces: Vec<(&str, &[f64])>,
+        interfaces: impl Iterator<Item = String>,
     ) {
-        for (f, (name, areas)) in fields.iter().zip(interfaces) {
+        for (f, interface) in fields.iter().zip(interfaces) {
             self.results.push(InterfaceResult {
-                interface: name.to_string(),
+                interface,
                 stage: stage.name.clone(),
-                mean_normal_traction: mean(&f.normal_traction, areas),
-                mean_shear_traction: mean(&f.shear_traction, areas),
-                mid_normal_traction: f.normal_traction.get(areas.len() / 2).copied().unwrap_or(0.0),
+                mean_normal_traction: mean(&f.normal_traction, &f.area),
+                mean_shear_traction: mean(&f.shear_traction, &f.area),
+                mid_normal_traction: f.normal_traction.get(f.area.len() / 2).copied().unwrap_or(0.0),
                 slip: range(&f.slip),
                 slip_rate: range(&f.slip_rate),
                 friction: range(&f.friction),
@@ -202,10 +202,13 @@ impl RunReport {
     }
 }
 
-/// Area-weighted mean.
+/// Area-weighted mean; 0 of no area.
 #[must_use]
 pub fn mean(values: &[f64], areas: &[f64]) -> f64 {
     let total: f64 = areas.iter().sum();
+    if total == 0.0 {
+        return 0.0;
+    }
     values.iter().zip(areas).map(|(v, a)| v * a).sum::<f64>() / total
 }
 

@@ -48,7 +48,7 @@ fn run_in<const D: usize>(plan: &Plan<D>, observer: &mut dyn Observer) -> Result
     let mut report = RunReport::new(plan);
     for index in 0..plan.stages.len() {
         let outcome = run.stage(index, &mut system, observer)?;
-        report.end_of_stage(&plan.stages[index], &system.interface_fields(), system.areas());
+        report.end_of_stage(&plan.stages[index], &system.interface_fields(), interface_names(plan));
         report.samples(plan, &plan.stages[index], &system.samples());
         if let Some(failure) = outcome {
             report.outcome = failure;
@@ -171,6 +171,11 @@ impl<const D: usize> Running<'_, D> {
         self.phases.output += clock.elapsed().as_secs_f64();
         Ok(())
     }
+}
+
+/// Names of the interfaces.
+fn interface_names<const D: usize>(plan: &Plan<D>) -> impl Iterator<Item = String> + '_ {
+    plan.interfaces.iter().map(|i| i.name.clone())
 }
 
 /// Implicit steps are adapted to the error of slip; forward steps have the R-minimum rule.

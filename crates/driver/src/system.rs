@@ -366,12 +366,6 @@ impl<'a, const D: usize> Assembled<'a, D> {
         self.interfaces.iter().map(|i| i.points().largest_penetration()).fold(0.0, f64::max)
     }
 
-    /// Name and tributary areas of each interface.
-    #[must_use]
-    pub fn areas(&self) -> Vec<(&str, &[f64])> {
-        self.areas.iter().map(|(name, areas)| (name.as_str(), areas.as_slice())).collect()
-    }
-
     /// Displacement of all degrees of freedom of the common mesh \[m\].
     #[must_use]
     pub fn displacement(&self) -> Vec<f64> {

@@ -155,6 +155,7 @@ pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFi
                 Status::Slip => 2,
             })
             .collect(),
+        area: p.area.clone(),
     }
 }
 

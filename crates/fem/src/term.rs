@@ -144,6 +144,13 @@ pub trait Limited: Linearized {
     /// [`Refusal`] when the linearisation does not exist (for a rate law: E_t + H ≤ 0).
     fn rate(&mut self, at: Instant, values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal>;
 
+    /// Switches what answers the increment `du` otherwise than the rate tangent assumed: what was to slip and would slip backwards,
+    /// or was to stick and is at its strength already. Returns whether anything switched: the increment must then be found anew.
+    /// Nothing switches for ever within one step.
+    fn switch(&mut self, _du: &[f64], _at: Instant) -> bool {
+        false
+    }
+
     /// The largest fraction of the increment `du` over `dt` this term admits, or `None` when it sets no limit.
     fn limit(&mut self, du: &[f64], at: Instant) -> Option<Fraction>;
 

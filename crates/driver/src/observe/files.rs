@@ -118,7 +118,7 @@ impl Files {
         for (i, (part, fields)) in self.interfaces.iter().zip(view.interfaces).enumerate() {
             let mesh = &self.setup.interfaces[i];
             let file = format!("fields/{}_{number:05}.vtu", part.stem);
-            atomic::write(&self.out.join(&file), &part.file(time, mesh, fields))?;
+            atomic::write(&self.out.join(&file), &part.file(time, fields))?;
             entries.push(PvdEntry { time, part: i + 1, name: mesh.name.clone(), file });
         }
         self.collection.extend(entries);
@@ -271,7 +271,7 @@ impl Bodies {
 }
 
 impl Part {
-    fn file(&self, time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields) -> Vec<u8> {
+    fn file(&self, time: f64, fields: &InterfaceFields) -> Vec<u8> {
         fn f64s(name: &'static str, values: &[f64]) -> Array<'static> {
             Array::scalar(name, Values::F64(values))
         }
@@ -286,7 +286,7 @@ impl Part {
             f64s("mean_shear_traction", &fields.mean_shear_traction),
             f64s("friction", &fields.friction),
             Array::scalar("status", Values::U8(&fields.status)),
-            f64s("area", &mesh.areas),
+            f64s("area", &fields.area),
         ];
         self.grid.file(time, &points, &[])
     }

@@ -22,6 +22,8 @@ pub struct PointHistory {
     pub normal_traction: Vec<f64>,
     /// Shear traction \[Pa\].
     pub shear_traction: Vec<f64>,
+    /// Area the node stands for \[m², m\].
+    pub area: Vec<f64>,
 }
 
 /// Histories at the recorded points of one interface.
@@ -193,6 +195,7 @@ impl PointHistory {
         self.friction.push(fields.friction[node]);
         self.normal_traction.push(fields.normal_traction[node]);
         self.shear_traction.push(fields.shear_traction[node]);
+        self.area.push(fields.area[node]);
     }
 }
 
@@ -232,6 +235,7 @@ pub(super) fn check_interfaces(setup: &Setup, interfaces: &[InterfaceFields]) ->
         check("slip rate", fields.slip_rate.len())?;
         check("friction", fields.friction.len())?;
         check("status", fields.status.len())?;
+        check("area", fields.area.len())?;
     }
     Ok(())
 }

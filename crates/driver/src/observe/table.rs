@@ -44,7 +44,7 @@ pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields)
     );
     for (i, position) in mesh.positions.iter().enumerate() {
         let place = [number(time), i.to_string()].into_iter().chain(position.iter().map(|&x| number(x)));
-        let area = number(mesh.areas.get(i).copied().unwrap_or(f64::NAN));
+        let area = number(fields.area[i]);
         rows.push(place.chain([area]).chain(PROFILE.iter().map(|(_, read)| number(read(fields, i)))));
     }
     rows.bytes()

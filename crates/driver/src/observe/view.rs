@@ -27,7 +27,7 @@ pub struct InterfaceMesh {
     pub positions: Vec<[f64; 3]>,
     /// Names of the points where they have names; otherwise their positions tell them apart.
     pub labels: Vec<String>,
-    /// Tributary areas \[m², or m of thickness-unit in two dimensions\].
+    /// Tributary areas at the start \[m², or m per metre of thickness\].
     pub areas: Vec<f64>,
     /// Faces of the slave side as polylines (2 nodes) or polygons (3, 4 nodes), numbering `positions`.
     pub faces: Vec<Vec<usize>>,
@@ -60,6 +60,9 @@ pub struct InterfaceFields {
     pub friction: Vec<f64>,
     /// 0 open, 1 stick, 2 slip.
     pub status: Vec<u8>,
+    /// Areas the nodes stand for \[m², or m per metre of thickness\]: under finite sliding those of a mortar interface follow the
+    /// overlap of the two sides.
+    pub area: Vec<f64>,
 }
 
 /// Nodal fields of the bodies, recovered only when asked for.

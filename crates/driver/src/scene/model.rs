@@ -9,7 +9,7 @@ mod solver;
 
 use super::law::Several;
 use super::slider::EventSpec;
-use super::units::{Length, Penalty, Penetration, Pressure, Time, Velocity};
+use super::units::{Angle, Length, Penalty, Penetration, Pressure, Time, Velocity};
 pub use body::*;
 pub use fault::*;
 use serde::Deserialize;
@@ -231,6 +231,8 @@ pub struct Condition {
     pub y: Option<Spanned<Motion>>,
     /// Motion in z.
     pub z: Option<Spanned<Motion>>,
+    /// Rotation of the whole set as a rigid body.
+    pub rotate: Option<Spanned<RotationSpec>>,
     /// Symmetry plane: no displacement along the (axis-parallel) normal of the set.
     pub symmetry: Option<Spanned<bool>>,
     /// Traction vector \[Pa\], one entry per component of the displacement.
@@ -257,10 +259,50 @@ pub enum Motion {
         /// Rate of the other end \[m/s\].
         rate: f64,
     },
+    /// One component of a rotation that begins and ends with the stage.
+    Rotate(Rotation),
     /// Held at the value it has.
     Hold,
     /// Released.
     Free,
+}
+
+/// A rotation as a scene says it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RotationSpec {
+    /// Angle by which the set has turned at the end of the stage, from its place at the start \[rad\].
+    pub by: Spanned<Angle>,
+    /// A point of the axis \[m\].
+    pub about: Spanned<Vec<Length>>,
+    /// Direction of the axis, of any length; in two dimensions it is z and not given.
+    pub axis: Option<Spanned<[f64; 3]>>,
+}
+
+impl RotationSpec {
+    /// As a motion; a third coordinate that is not given is zero.
+    #[must_use]
+    pub fn motion(&self) -> Motion {
+        let axis = self.axis.as_ref().map_or([0.0, 0.0, 1.0], |a| *a.get_ref());
+        let size = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
+        let about = self.about.get_ref();
+        Motion::Rotate(Rotation {
+            angle: self.by.get_ref().0,
+            about: std::array::from_fn(|c| about.get(c).map_or(0.0, |l| l.0)),
+            axis: axis.map(|a| a / size),
+        })
+    }
+}
+
+/// A rotation at constant rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotation {
+    /// Angle over the whole stage \[rad\].
+    pub angle: f64,
+    /// A point of the axis \[m\].
+    pub about: [f64; 3],
+    /// Unit vector along the axis.
+    pub axis: [f64; 3],
 }
 
 /// How a traction component or pressure develops during a stage.

@@ -30,6 +30,8 @@ pub enum Dimension {
     Viscosity,
     /// \[bytes\].
     Memory,
+    /// \[rad\].
+    Angle,
 }
 
 impl Dimension {
@@ -48,6 +50,7 @@ impl Dimension {
             Self::Mass => "a mass per area",
             Self::Viscosity => "a viscosity",
             Self::Memory => "an amount of memory",
+            Self::Angle => "an angle",
         }
     }
 
@@ -63,6 +66,7 @@ impl Dimension {
             Self::Damping => "a damping such as \"5 MPa s/m\" or a number in Pa s/m",
             Self::Mass => "a mass per area such as \"3000 kg/m^2\" or a number in kg/m^2",
             Self::Viscosity => "a viscosity such as \"1e19 Pa s\" or a number in Pa s",
+            Self::Angle => "an angle such as \"30 deg\" or a number in rad",
             Self::Memory => "an amount of memory such as \"8 GiB\" or a number of bytes",
         }
     }
@@ -79,6 +83,7 @@ impl Dimension {
             Self::Damping => "Pa s/m, MPa s/m and other pressures times s/m",
             Self::Mass => "kg/m^2",
             Self::Viscosity => "Pa s, GPa yr and other pressures times times",
+            Self::Angle => "rad, deg",
             Self::Memory => "B, kB, MB, GB, KiB, MiB, GiB",
         }
     }
@@ -92,6 +97,8 @@ struct Unit {
     factor: f64,
 }
 
+/// Degrees in radians.
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
 const KIBIBYTE: f64 = 1024.0;
 const MINUTE: f64 = 60.0;
 const HOUR: f64 = 3600.0;
@@ -100,7 +107,7 @@ const DAY: f64 = 86400.0;
 const YEAR: f64 = 365.25 * DAY;
 
 fn simple(name: &str) -> Option<Unit> {
-    use Dimension::{Length, Memory, Pressure, Time};
+    use Dimension::{Angle, Length, Memory, Pressure, Time};
     let (dimension, power, factor) = match name {
         "nm" => (Length, -9, 1.0),
         "um" | "µm" | "μm" => (Length, -6, 1.0),
@@ -119,6 +126,8 @@ fn simple(name: &str) -> Option<Unit> {
         "kPa" => (Pressure, 3, 1.0),
         "MPa" => (Pressure, 6, 1.0),
         "GPa" => (Pressure, 9, 1.0),
+        "rad" => (Angle, 0, 1.0),
+        "deg" => (Angle, 0, DEGREE),
         "B" => (Memory, 0, 1.0),
         "kB" => (Memory, 3, 1.0),
         "MB" => (Memory, 6, 1.0),
@@ -298,6 +307,8 @@ quantity! {
     Viscosity: Viscosity,
     /// An amount of memory \[bytes\].
     Memory: Memory,
+    /// An angle \[rad\].
+    Angle: Angle,
 }
 
 /// A contact penalty.

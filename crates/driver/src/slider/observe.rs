@@ -67,6 +67,7 @@ impl Watcher for Show<'_> {
             slip_rate: each(|c| c.rate),
             friction: each(|c| c.friction),
             status: vec![2; n],
+            area: vec![1.0; n],
         };
         let view = StepView {
             record: &record,

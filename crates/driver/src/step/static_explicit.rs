@@ -12,7 +12,8 @@ use asperity_fem::term::{Fraction, Instant, Limited, Pattern};
 
 /// A fraction this close to 1 does not bind: events within 1e-9 of the step's end switch with it.
 const WHOLE: f64 = 1.0 - 1e-9;
-/// Solves within one step. The fraction settles in two or three; a step that needs more is a failure to report.
+/// Solves within one step. The fraction settles in two or three, and points that switch between stick and slip settle in as many; a
+/// step that needs more is a failure to report.
 const MOST_SOLVES: usize = 40;
 /// Limits on the change of the slip rate and the slip increment are bounds on accuracy, not events: a step that keeps them
 /// to this share of the bound is taken as it is.
@@ -78,6 +79,13 @@ impl StaticExplicit {
         for solve in 1..=MOST_SOLVES {
             let at = Instant { time: state.time + dt, dt };
             let du = self.solve(terms, constraints, state, at, counts)?;
+            let mut switched = false;
+            for term in terms.iter_mut() {
+                switched |= term.switch(&du, at);
+            }
+            if switched {
+                continue;
+            }
             let limit = smallest(terms, &du, at);
             match limit {
                 Some(limit) if limit.value < WHOLE => {

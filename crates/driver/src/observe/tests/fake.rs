@@ -96,6 +96,7 @@ fn fields_at(setup: &Setup, time: f64, spoil: Option<f64>) -> InterfaceFields {
         slip_rate: per(&v),
         friction: per(&mu),
         status: vec![if since > 0.0 { 2 } else { 1 }; mesh.positions.len()],
+        area: mesh.areas.clone(),
     }
 }
 

@@ -4,7 +4,7 @@ use super::course::Course;
 use super::interfaces::is_tied;
 use super::{AXES, Checker};
 use crate::scene::SceneError;
-use crate::scene::model::{Condition, Loading, Motion, Spanned, Stage};
+use crate::scene::model::{Condition, Kinematics, Loading, Motion, RotationSpec, Spanned, Stage};
 use crate::scene::near::suggest;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -57,7 +57,7 @@ impl Held {
             .collect();
         self.present.extend(ends);
         for entry in self.entries.values_mut() {
-            if matches!(entry.motion, Motion::To(_) | Motion::Table(_)) {
+            if matches!(entry.motion, Motion::To(_) | Motion::Table(_) | Motion::Rotate(_)) {
                 entry.motion = Motion::Hold;
             }
         }
@@ -159,7 +159,8 @@ impl Checker<'_> {
         let side = self.set(set);
         let symmetric = c.symmetry.as_ref().is_some_and(|s| *s.get_ref());
         let motions = [&c.x, &c.y, &c.z];
-        if motions.iter().all(|m| m.is_none()) && !symmetric && c.traction.is_none() && c.pressure.is_none() {
+        let moved = motions.iter().any(|m| m.is_some()) || symmetric || c.rotate.is_some();
+        if !moved && c.traction.is_none() && c.pressure.is_none() {
             self.error(
                 condition.span(),
                 format!("the condition on `{}` prescribes nothing", set.get_ref()),
@@ -178,6 +179,9 @@ impl Checker<'_> {
             let (motion, place) = (motion.get_ref().clone(), motion.span());
             fresh.push(Entry { set: set.get_ref().clone(), axis, motion, place, symmetry: false });
         }
+        if let Some(rotate) = &c.rotate {
+            self.rotation(set, rotate, fresh);
+        }
         if self.is_antiplane() {
             self.in_plane(c);
         } else if let (true, Some((_, axis, _)), Some(symmetry)) = (symmetric, side, &c.symmetry) {
@@ -185,6 +189,55 @@ impl Checker<'_> {
             fresh.push(Entry { set: set.get_ref().clone(), axis, motion, place, symmetry: true });
         }
         self.load_values(stage, c);
+    }
+
+    /// A rotation, which only bodies with large deformation can follow.
+    fn rotation(&mut self, set: &Spanned<String>, rotate: &Spanned<RotationSpec>, fresh: &mut Vec<Entry>) {
+        let spec = rotate.get_ref();
+        let plane = self.dimension() == 2;
+        if !matches!(*self.scene.kinematics.get_ref(), Kinematics::PlaneStrain | Kinematics::PlaneStress)
+            && plane
+        {
+            self.error(
+                rotate.span(),
+                format!("sets cannot turn in {}", self.idealisation()),
+                "rotations exist with \"plane-strain\", \"plane-stress\" and \"3d\"",
+            );
+            return;
+        }
+        self.count(&spec.about, "about", &(0..self.dimension()).collect::<Vec<_>>());
+        match (&spec.axis, plane) {
+            (Some(axis), true) => self.error(
+                axis.span(),
+                "`axis` of a rotation in a scene of two dimensions, where it is z",
+                "remove it, or use `kinematics = \"3d\"`",
+            ),
+            (Some(axis), false) if !axis.get_ref().iter().map(|a| a * a).sum::<f64>().is_normal() => {
+                self.error(
+                    axis.span(),
+                    "the axis of the rotation has no direction",
+                    "such as `axis = [0, 0, 1]`",
+                );
+            }
+            (None, false) => self.error(
+                rotate.span(),
+                "a rotation in three dimensions needs an axis",
+                "add its direction, such as `axis = [0, 0, 1]`",
+            ),
+            _ => {}
+        }
+        let body = set.get_ref().split('.').next().and_then(|b| Some((b, self.scene.bodies.get(b)?)));
+        if let Some((name, _)) = body.filter(|(_, b)| !b.is_finite()) {
+            self.error(
+                rotate.span(),
+                format!("body `{name}` has small strain, which takes a rotation for deformation"),
+                format!("add `strain = \"finite\"` to body `{name}`"),
+            );
+        }
+        for axis in 0..self.dimension() {
+            let (set, motion, place) = (set.get_ref().clone(), spec.motion(), rotate.span());
+            fresh.push(Entry { set, axis, motion, place, symmetry: false });
+        }
     }
 
     fn no_motion(&mut self, place: Range<usize>, axis: &str) {

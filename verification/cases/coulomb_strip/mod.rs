@@ -1,0 +1,194 @@
+//! Two blocks sheared to and fro under Coulomb friction: force, loop, dissipated work.
+
+use super::texts::{Done, simulate, vary, work};
+use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "coulomb_strip",
+    readme: include_str!("README.md"),
+    covers: &[Capability::Coulomb, Capability::Stages],
+    quick: true,
+    run,
+};
+
+const SCENE: &str = include_str!("scene.toml");
+/// G of E = 1 kPa, nu = 0 \[Pa\].
+const SHEAR: f64 = 500.0;
+/// E_t \[Pa/m\].
+const PENALTY: f64 = 1e4;
+/// mu p \[Pa\].
+const STRENGTH: f64 = 1.0;
+/// Largest displacement \[m\].
+const REACH: f64 = 8.2e-3;
+
+/// Force per displacement while everything sticks, blocks of 1 m: 1/(2H/G + 1/E_t) \[Pa/m\].
+fn slope() -> f64 {
+    1.0 / (2.0 / SHEAR + 1.0 / PENALTY)
+}
+
+const SOLID: [(&str, &str); 7] = [
+    ("\"plane-strain\"", "\"3d\""),
+    ("\"quad4\"", "\"hex8\""),
+    (
+        "min = [0, 0], max = [\"1 m\", \"1 m\"], divisions = [4, 4]",
+        "min = [0, 0, 0], max = [\"1 m\", \"1 m\", \"1 m\"], divisions = [2, 2, 2]",
+    ),
+    (
+        "min = [0, \"1 m\"], max = [\"1 m\", \"2 m\"], divisions = [4, 4]",
+        "min = [0, \"1 m\", 0], max = [\"1 m\", \"2 m\", \"1 m\"], divisions = [2, 2, 2]",
+    ),
+    ("x = 0, y = 0 }", "x = 0, y = 0, z = 0 }"),
+    ("x = 0, y = { to", "x = 0, z = 0, y = { to"),
+    ("probes.contact = 5", "probes.contact = 3"),
+];
+
+/// A variant: its name, what is changed in the scene, and what it covers.
+type Variant<'a> = (&'a str, Vec<(&'a str, &'a str)>, &'a [Capability]);
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let forward = ("\"implicit\"", "\"static-explicit\"");
+    let mortar = ("\"node-to-point\"", "\"mortar\"");
+    let apart =
+        ("max = [\"1 m\", \"2 m\"], divisions = [4, 4]", "max = [\"1 m\", \"2 m\"], divisions = [3, 4]");
+    let variants: [Variant<'_>; 5] = [
+        ("node-to-point, implicit", vec![], &[Capability::PenaltyContact2d, Capability::Implicit]),
+        (
+            "node-to-point, static-explicit",
+            vec![forward],
+            &[Capability::PenaltyContact2d, Capability::StaticExplicit],
+        ),
+        ("mortar, 3 on 4 facets, implicit", vec![mortar, apart], &[Capability::Mortar, Capability::Implicit]),
+        (
+            "mortar, 3 on 4 facets, static-explicit",
+            vec![mortar, apart, forward],
+            &[Capability::Mortar, Capability::StaticExplicit],
+        ),
+        (
+            "node-to-point, in space, implicit",
+            SOLID.to_vec(),
+            &[Capability::PenaltyContact3d, Capability::Implicit],
+        ),
+    ];
+    let mut rows = Vec::new();
+    for (name, changes, covers) in variants {
+        let done = simulate(&vary(SCENE, &changes)?)?;
+        let run = Loop::of(&done)?;
+        run.force(ledger, name, covers, &done);
+        // In space the records hold sizes only.
+        if !covers.contains(&Capability::PenaltyContact3d) {
+            run.energy(ledger, name, covers, &done)?;
+        }
+        rows.push([
+            name.to_owned(),
+            done.report.counts.steps.to_string(),
+            done.report.counts.iterations.to_string(),
+            done.report.counts.rejected.to_string(),
+            done.cost.wall.map_or_else(String::new, |w| format!("{w:.3}")),
+        ]);
+        if name == "node-to-point, implicit" {
+            let points: Vec<(f64, f64)> =
+                run.way.iter().map(|u| u * 1e3).zip(run.force.iter().copied()).collect();
+            let plot = Plot::xy("loop of force over displacement", "displacement [mm]", "shear force [N/m]");
+            ledger.plot(plot.series(Series::marked("two cycles", &points)));
+        }
+    }
+    ledger.table("two and a half reversals", &["run", "steps", "iterations", "rejected", "seconds"], rows);
+    Ok(())
+}
+
+/// Force over displacement, from the end of pressing on.
+struct Loop {
+    way: Vec<f64>,
+    force: Vec<f64>,
+    dissipated: Vec<f64>,
+    times: Vec<f64>,
+}
+
+impl Loop {
+    fn of(done: &Done) -> Result<Loop, CaseError> {
+        let from = done.steps_until("press")? - 1;
+        let times = done.record.times()[from..].to_vec();
+        let way = |t: &f64| match t - 1.0 {
+            s if s <= 1.0 => s * REACH,
+            s => REACH * (2.0 * ((s - 1.0).rem_euclid(2.0) - 1.0).abs() - 1.0),
+        };
+        Ok(Loop {
+            way: times.iter().map(way).collect(),
+            force: done.force("top")?[from..].iter().map(|f| f[0]).collect(),
+            dissipated: done.dissipated()[from..].to_vec(),
+            times,
+        })
+    }
+
+    /// The exact force: an elastic, perfectly plastic spring.
+    fn exact(&self) -> Vec<f64> {
+        let (mut f, mut u) = (0.0, 0.0);
+        self.way
+            .iter()
+            .map(|&w| {
+                f = f64::clamp(f + slope() * (w - u), -STRENGTH, STRENGTH);
+                u = w;
+                f
+            })
+            .collect()
+    }
+
+    fn force(&self, ledger: &mut Ledger, name: &str, covers: &[Capability], done: &Done) {
+        ledger
+            .claim(format!("shear force through two cycles, {name}"))
+            .unit("N")
+            .values(&self.force)
+            .equals_each(&self.exact())
+            .absolute(1e-10)
+            .evidence(Evidence::Exact, "tau = min(k u, mu p) with k = 1/(2H/G + 1/E_t), and the same from every reversal")
+            .because("uniform fields are solutions of the discrete problem: rounding, times E_t over k and 40 steps")
+            .why_not_tighter("rounding of dense factors varies with the variant")
+            .covers(covers)
+            .cost(&done.cost)
+            .record();
+    }
+
+    /// Work of each part of the path against stored and dissipated energy.
+    fn energy(
+        &self,
+        ledger: &mut Ledger,
+        name: &str,
+        covers: &[Capability],
+        done: &Done,
+    ) -> Result<(), CaseError> {
+        let put = work(&self.force, &self.way);
+        let until = |stage: f64| self.times.iter().take_while(|&&t| t <= stage + 1e-9).count();
+        let sum = |v: &[f64], from: usize, to: usize| v[from..to].iter().sum::<f64>();
+        let yielding = STRENGTH / slope();
+        let cycle = 4.0 * STRENGTH * (REACH - yielding);
+        // Of `put`, entry k is the step that ends at k + 1.
+        let (first, second, third) = (until(2.0), until(4.0), until(6.0));
+        let losses = [sum(&self.dissipated, first, second), sum(&self.dissipated, second, third)];
+        ledger
+            .claim(format!("work dissipated in each of two cycles, {name}"))
+            .unit("J")
+            .values(&losses)
+            .equals_each(&[cycle; 2])
+            .relative(1e-10)
+            .evidence(Evidence::Exact, "4 mu p (U - mu p/k)")
+            .because("tractions are constant while a node slips, and every turning point of the path ends a step: rounding")
+            .why_not_tighter("rounding of dense factors varies with the variant")
+            .covers(covers)
+            .cost(&done.cost)
+            .record();
+        let (work, lost) = (sum(&put, 0, third - 1), sum(&self.dissipated, 1, third));
+        let stored = 0.5 * STRENGTH * STRENGTH / slope();
+        ledger
+            .claim(format!("work put in less work dissipated and energy stored, over the first, {name}"))
+            .value(((work - lost - stored) / work).abs())
+            .at_most(1e-10)
+            .evidence(Evidence::Exact, "energy is put in, stored as tau^2/(2k), or dissipated")
+            .because("the force is linear within every step: the trapezoidal rule is exact; rounding")
+            .why_not_tighter("rounding of dense factors varies with the variant")
+            .covers(covers)
+            .cost(&done.cost)
+            .record();
+        Ok(())
+    }
+}

@@ -1,0 +1,136 @@
+//! Scenes of cases as texts: one file a user could run, varied by replacing parts of it, read by the public reader.
+
+use crate::{CaseError, Cost};
+use asperity_driver::observe::Recorder;
+use asperity_driver::observe::view::InterfaceFields;
+use asperity_driver::report::{Outcome, RunReport};
+use asperity_driver::{plan, run, scene};
+use std::path::Path;
+
+/// The text with each first string of a pair, which must occur, replaced by the second.
+///
+/// # Errors
+/// When there is nothing to replace: the variant would be the scene itself.
+pub fn vary(text: &str, changes: &[(&str, &str)]) -> Result<String, CaseError> {
+    let mut text = text.to_owned();
+    for (from, to) in changes {
+        if !text.contains(from) {
+            return Err(format!("the scene does not contain `{from}`").into());
+        }
+        text = text.replace(from, to);
+    }
+    Ok(text)
+}
+
+/// A run that may have ended early.
+pub struct Done {
+    /// Report.
+    pub report: RunReport,
+    /// Histories at all slave nodes, fields of the bodies at the ends of stages.
+    pub record: Recorder,
+    /// Wall time and counts.
+    pub cost: Cost,
+}
+
+/// Runs a scene to wherever it ends.
+///
+/// # Errors
+/// When it is refused or cannot be set up.
+pub fn attempt(text: &str) -> Result<Done, CaseError> {
+    attempt_in(text, "")
+}
+
+/// Runs a scene whose mesh files lie in this folder of `cases` to wherever it ends.
+///
+/// # Errors
+/// When it is refused or cannot be set up.
+pub fn attempt_in(text: &str, folder: &str) -> Result<Done, CaseError> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(folder);
+    let scene = scene::read_in(text, &folder).map_err(|e| format!("{e}\nin\n{text}"))?;
+    let plan = plan::plan(&scene).map_err(|e| e.to_string())?;
+    let mut record = Recorder::new().at_all_nodes().with_bodies();
+    let (report, cost) = Cost::of(|| run::run(&plan, &mut record));
+    let report = report?;
+    let cost = cost.counts(&report.counts);
+    Ok(Done { report, record, cost })
+}
+
+/// Runs a scene to its end.
+///
+/// # Errors
+/// When it is refused or stops.
+pub fn simulate(text: &str) -> Result<Done, CaseError> {
+    simulate_in(text, "")
+}
+
+/// Runs a scene whose mesh files lie in this folder of `cases` to its end.
+///
+/// # Errors
+/// When it is refused or stops.
+pub fn simulate_in(text: &str, folder: &str) -> Result<Done, CaseError> {
+    let done = attempt_in(text, folder)?;
+    match &done.report.outcome {
+        Outcome::Completed => Ok(done),
+        Outcome::Stopped { stage, time, reason } => {
+            Err(format!("stopped in stage `{stage}` at {time} s: {reason}").into())
+        }
+    }
+}
+
+impl Done {
+    /// Force on a set of the scene after each step \[N, N/m in the plane\].
+    pub fn force(&self, name: &str) -> Result<Vec<[f64; 3]>, CaseError> {
+        let marks = &self.record.setup().forces;
+        let k = marks.iter().position(|m| m.name == name).ok_or_else(|| format!("no force `{name}`"))?;
+        Ok(self.record.samples().iter().map(|s| s.forces[k]).collect())
+    }
+
+    /// Displacement of a point of the scene at the end of the run \[m\].
+    pub fn displacement(&self, name: &str) -> Result<[f64; 3], CaseError> {
+        let marks = &self.record.setup().points;
+        let k = marks.iter().position(|m| m.name == name).ok_or_else(|| format!("no point `{name}`"))?;
+        let last = self.record.samples().last().ok_or("no step was taken")?;
+        Ok(last.points[k].displacement)
+    }
+
+    /// Friction on the slave side after each step, along the measure of shear tractions, of a plane scene \[N, N/m\].
+    pub fn friction(&self) -> Vec<f64> {
+        let points = &self.record.histories()[0].points;
+        let at = |k: usize| points.iter().map(|p| p.area[k] * p.shear_traction[k]).sum();
+        (0..self.record.times().len()).map(at).collect()
+    }
+
+    /// Number of steps until the end of stages up to `name`: the index of its last step, plus one.
+    pub fn steps_until(&self, name: &str) -> Result<usize, CaseError> {
+        let end = self.record.stage_end(name).ok_or_else(|| format!("stage {name} was not reached"))?.time;
+        Ok(self.record.times().iter().take_while(|&&t| t <= end).count())
+    }
+
+    /// Fields of the first interface at the end of a stage.
+    pub fn contact(&self, stage: &str) -> Result<&InterfaceFields, CaseError> {
+        let end = self.record.stage_end(stage).ok_or_else(|| format!("stage {stage} was not reached"))?;
+        Ok(&end.interfaces[0])
+    }
+
+    /// Work dissipated in each step on the first interface of a plane scene: mean of the friction forces at both ends times slip \[J, J/m\].
+    /// In space slip and traction are recorded by their sizes, from which it cannot be told.
+    pub fn dissipated(&self) -> Vec<f64> {
+        let points = &self.record.histories()[0].points;
+        let steps = self.record.times().len();
+        let mut work = vec![0.0; steps];
+        for point in points {
+            let (mut force, mut slip) = (0.0, 0.0);
+            for (k, w) in work.iter_mut().enumerate() {
+                let (f, s) = (point.area[k] * point.shear_traction[k], point.slip[k]);
+                *w += 0.5 * (force + f) * (s - slip);
+                (force, slip) = (f, s);
+            }
+        }
+        work
+    }
+}
+
+/// Work of a force over a displacement in each step but the first, by the trapezoidal rule.
+pub fn work(force: &[f64], displacement: &[f64]) -> Vec<f64> {
+    force.windows(2).zip(displacement.windows(2)).map(|(f, u)| 0.5 * (f[0] + f[1]) * (u[1] - u[0])).collect()
+}
