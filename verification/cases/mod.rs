@@ -39,6 +39,7 @@ mod bodies_convergence;
 mod bodies_patch;
 pub mod body;
 mod cantilever_rotation;
+mod contact_enforcement;
 mod contact_patch;
 mod contact_patch_mortar;
 mod contact_rotation;
@@ -90,6 +91,7 @@ pub const ALL: &[Case] = &[
     block_dragged::CASE,
     bodies_convergence::CASE,
     bodies_patch::CASE,
+    contact_enforcement::CASE,
     contact_patch::CASE,
     contact_patch_mortar::CASE,
     contact_rotation::CASE,

@@ -65,6 +65,8 @@ capabilities! {
     Mortar => "mortar contact",
     /// Contacts whose size follows from the load, on curved sides.
     Hertz => "contact of curved bodies (Hertz, partial slip)",
+    /// Contact by multipliers: Uzawa's method and augmented Lagrangian.
+    Multipliers => "contact by multipliers",
     /// Pairing that follows large sliding.
     FiniteSliding => "finite sliding on flat segments",
     /// Coulomb friction.

@@ -4,12 +4,13 @@
 //! λ_0 and χ_0 those of the last commit and s a stiffness that makes χ a length of the size of displacements. The bodies feel λ,
 //! and the equation of a point is the return of its traction,
 //!
-//! `w (s/E_n) (f_n - λ_n) = 0`, `f_n = <λ_n - E_n g_n>`, and `w (s/E_t) (t - λ_t) = 0`, t the answer of the law to
-//! `λ_t + E_t Δu`
+//! `w c_n (f_n - λ_n) = 0`, `f_n = <λ_n - E_n g_n>`, and `w c_t (t - λ_t) = 0`, t the answer of the law to `λ_t + E_t Δu`
 //!
 //! (Alart and Curnier 1991): `g_n = 0` where the point is closed, `λ = 0` where it is open, `Δu = 0` in stick, the law in slip.
-//! The penalties do not enter the solution, and where a point is closed and sticks not even the tangent: they only tell on which
-//! side of a kink an iterate is. Newton's method is semi-smooth and ends quadratically.
+//! The scales c give every branch its natural size: s/E where a motion must vanish (closed, stick, laws without an elastic
+//! domain), 1 where a traction must (open, slip on a yield surface). The penalties do not enter the solution, and where a point is
+//! closed and sticks not even the tangent: they only tell on which side of a kink an iterate is. Newton's method is semi-smooth and
+//! ends quadratically.
 //!
 //! With a the area, s_k the weights of the nodes, a_m the tangents, `∂t = Y (s δχ_t + E_t ∇Δu δu) + η t_n δf_n`,
 //! `Y = ratio (I - η⊗η) + d_trial η⊗η`, the block of a point in (u, χ_n, χ_t) is
@@ -17,10 +18,10 @@
 //! ```text
 //! | G                                   -a s_k s n       a s_k s a_m      |
 //! | -w s ∇g                             0                0                |   closed
-//! | w s Y ∇Δu - w s (E_n/E_t) t_n η ∇g  w (s²/E_t) t_n η  w (s²/E_t) (Y-I) |
+//! | w c_t (E_t Y ∇Δu - E_n t_n η ∇g)    w c_t s t_n η    w c_t s (Y - I)  |
 //! ```
 //!
-//! and `-w s²/E` on the diagonal of an open point. G is what the motion of forces with the geometry adds: nothing in small
+//! and `-w s` on the diagonal of an open point. G is what the motion of forces with the geometry adds: nothing in small
 //! sliding. The gradients ∇g and ∇Δu are read off the tangent of the measure for unit stiffness without traction, which has
 //! `a s_k (n⊗∇g + a_m⊗∇Δu_m)` in the rows of node k.
 //!
@@ -34,8 +35,10 @@
 use super::Multipliers;
 use crate::interface::Interface;
 use crate::measure::{Attachment, Measure, NormalPoint, ShearPoint, Tractions};
+use crate::shear::Shear;
 use crate::spec::SurfaceNode;
 use asperity_fem::term::Pattern;
+use asperity_friction::law::Regime;
 use std::ops::Range;
 
 /// Diagonal of a held point over w s. The square root of rounding: an iteration is off by 1e-8 of the correction before, and a
@@ -189,8 +192,8 @@ impl<const D: usize> Interface<D> {
     /// Adds the equations of the points.
     pub(crate) fn returns(&self, r: &mut [f64]) {
         let (Some(unknowns), Some(multipliers)) = (&self.unknowns, &self.multipliers) else { return };
-        let (normal, tangential) = self.shares(unknowns.unit);
         for (p, w) in unknowns.weights.iter().enumerate() {
+            let (normal, tangential) = self.scales(p, unknowns.unit);
             let at = unknowns.first + p * unknowns.each;
             r[at] += w * normal * (self.contact.trial[p].traction - multipliers.normal[p]);
             for m in 0..unknowns.each - 1 {
@@ -200,9 +203,14 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// s/E_n and s/E_t.
-    fn shares(&self, unit: f64) -> (f64, f64) {
-        (unit / self.penalty.stiffness, unit / self.tangential_penalty)
+    /// c_n and c_t of point `p`.
+    fn scales(&self, p: usize, unit: f64) -> (f64, f64) {
+        if !self.contact.trial[p].closed {
+            return (1.0, 1.0);
+        }
+        let slides = |s: &Shear| s.law.has_elastic_domain() && s.trial.regime[p] == Regime::Slip;
+        let held = self.shear.as_ref().is_some_and(|s| !slides(s));
+        (unit / self.penalty.stiffness, if held { unit / self.tangential_penalty } else { 1.0 })
     }
 
     /// Writes the tangent of forces and equations.
@@ -285,10 +293,8 @@ impl<const D: usize> Interface<D> {
             self.read_gradients(p, &inner, n, buffers);
             self.closed_rows(unknowns, p, n, &buffers.rows, block);
         } else {
-            let (normal, tangential) = self.shares(unknowns.unit);
-            let w = -unknowns.weights[p] * unknowns.unit;
-            for m in 0..each {
-                block[(n + m) * size + n + m] = w * if m == 0 { normal } else { tangential };
+            for m in n..n + each {
+                block[m * size + m] = -unknowns.weights[p] * unknowns.unit;
             }
         }
     }
@@ -332,7 +338,8 @@ impl<const D: usize> Interface<D> {
     fn closed_rows(&self, unknowns: &Unknowns, p: usize, n: usize, gradients: &[f64], block: &mut [f64]) {
         let size = n + unknowns.each;
         let (e_n, e_t, s) = (self.penalty.stiffness, self.tangential_penalty, unknowns.unit);
-        let ws = unknowns.weights[p] * s;
+        let (w, ws) = (unknowns.weights[p], unknowns.weights[p] * s);
+        let c = w * self.scales(p, s).1;
         let (gap, slides) = gradients.split_at(n);
         for (to, g) in block[n * size..].iter_mut().zip(gap) {
             *to = -ws * g;
@@ -342,7 +349,7 @@ impl<const D: usize> Interface<D> {
         for m in 0..tangents {
             let row = &mut block[(n + 1 + m) * size..][..size];
             let Some(point) = self.shear.as_ref().map(|s| &s.points[p]) else {
-                row[n + 1 + m] = -ws * s / e_t;
+                row[n + 1 + m] = -c * s;
                 continue;
             };
             let eta = &point.direction;
@@ -350,11 +357,11 @@ impl<const D: usize> Interface<D> {
                 let same = f64::from(u8::from(l == m));
                 let y = point.ratio * same + (point.d_trial - point.ratio) * eta[m] * eta[l];
                 for (to, d) in row.iter_mut().zip(&slides[l * n..(l + 1) * n]) {
-                    *to += ws * y * d;
+                    *to += c * e_t * y * d;
                 }
-                row[n + 1 + l] = ws * (s / e_t * (y - same) - REGULAR * same);
+                row[n + 1 + l] = c * s * (y - same) - REGULAR * ws * same;
             }
-            let coupling = ws * point.d_normal * eta[m] / e_t;
+            let coupling = c * point.d_normal * eta[m];
             for (to, g) in row.iter_mut().zip(gap) {
                 *to -= coupling * e_n * g;
             }
