@@ -40,6 +40,8 @@ mod bodies_patch;
 pub mod body;
 mod cantilever_rotation;
 mod contact_enforcement;
+mod contact_extremes;
+mod contact_hard;
 mod contact_patch;
 mod contact_patch_mortar;
 mod contact_rotation;
@@ -92,6 +94,8 @@ pub const ALL: &[Case] = &[
     bodies_convergence::CASE,
     bodies_patch::CASE,
     contact_enforcement::CASE,
+    contact_extremes::CASE,
+    contact_hard::CASE,
     contact_patch::CASE,
     contact_patch_mortar::CASE,
     contact_rotation::CASE,

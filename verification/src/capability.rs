@@ -67,6 +67,10 @@ capabilities! {
     Hertz => "contact of curved bodies (Hertz, partial slip)",
     /// Contact by multipliers: Uzawa's method and augmented Lagrangian.
     Multipliers => "contact by multipliers",
+    /// Contact on the edge: limit of friction, gaps, overlaps, bodies held by contact alone, corners.
+    HardContact => "contact on the edge of solvability",
+    /// Contact under changes of units, numbering, order and extreme meshes.
+    ContactInvariance => "contact: units, numbering, order, extreme meshes",
     /// Pairing that follows large sliding.
     FiniteSliding => "finite sliding on flat segments",
     /// Coulomb friction.

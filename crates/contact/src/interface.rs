@@ -19,6 +19,9 @@ use std::sync::Arc;
 /// rounding of positions (1e-16 of the size) and far below any elastic displacement that matters.
 const CLOSURE: f64 = 1e-12;
 
+/// Rounding of relative positions over the scene's size: a gap or slip is a difference of averages over some tens of positions.
+const TOUCH: f64 = 1e-14;
+
 /// Tangential motion of all points, components in the carried frame.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Motion {
@@ -67,6 +70,8 @@ pub struct Interface<const D: usize> {
     pub(crate) unknowns: Option<Box<Unknowns>>,
     /// Gaps at which bonded points were tied \[m\]; absent where points may part.
     pub(crate) tied: Option<Vec<f64>>,
+    /// See [`Shear::touch`].
+    touch: [f64; 2],
     pub(crate) rate_floor: f64,
     pub(crate) rate_bounds: RateBounds,
     pub(crate) carry: bool,
@@ -101,6 +106,7 @@ impl<const D: usize> Interface<D> {
         let n = spec.slave.len();
         let (measure, projections) = build_measure(&spec)?;
         let (enforcement, each) = (spec.enforcement, if spec.law.is_some() { D } else { 1 });
+        let touch = [spec.normal_penalty, spec.tangential_penalty].map(|e| TOUCH * spec.scale * e);
         let mut interface = Self {
             penalty: Penalty { stiffness: spec.normal_penalty, closure: CLOSURE * spec.scale },
             tangential_penalty: spec.tangential_penalty,
@@ -119,7 +125,8 @@ impl<const D: usize> Interface<D> {
             geometry: Geometry::new(n),
             contact: Kept::new(vec![NormalPoint::default(); n]),
             motion: Kept::new(Motion::new(n)),
-            shear: spec.law.map(|law| Shear::new(law, spec.tangential_penalty, n)),
+            touch,
+            shear: spec.law.map(|law| Shear::new(law, spec.tangential_penalty, touch, n)),
             force: vec![[0.0; D]; n],
             du: vec![[0.0; D]; spec.nodes.len()],
             slides: Slides { gap: vec![0.0; n], increment: vec![[0.0; 2]; n] },
@@ -177,7 +184,7 @@ impl<const D: usize> Interface<D> {
     /// between steps.
     pub fn set_law(&mut self, law: Option<Arc<dyn Law>>) {
         let n = self.slave.len();
-        self.shear = law.map(|law| Shear::new(law, self.tangential_penalty, n));
+        self.shear = law.map(|law| Shear::new(law, self.tangential_penalty, self.touch, n));
         self.motion = Kept::new(Motion::new(n));
         self.previous_dt = None;
         self.tie();

@@ -125,6 +125,9 @@ pub(crate) struct Shear {
     pub law: Arc<dyn Law>,
     /// Tangential penalty E_t \[Pa/m\].
     pub stiffness: f64,
+    /// Normal traction and trial traction up to which both are rounding of positions \[Pa\]. A point that only just touches has no
+    /// strength, and would slip in whichever direction rounding points; it sticks instead, and its tangent holds it.
+    pub touch: [f64; 2],
     pub committed: History,
     pub trial: History,
     /// What the tangent needs, per point.
@@ -135,10 +138,11 @@ pub(crate) struct Shear {
 }
 
 impl Shear {
-    pub(crate) fn new(law: Arc<dyn Law>, stiffness: f64, points: usize) -> Self {
+    pub(crate) fn new(law: Arc<dyn Law>, stiffness: f64, touch: [f64; 2], points: usize) -> Self {
         let committed = History::new(points, law.as_ref());
         Self {
             stiffness,
+            touch,
             trial: committed.clone(),
             committed,
             points: vec![ShearPoint::default(); points],
@@ -212,7 +216,8 @@ impl Shear {
             }
             let mut trial = from[p];
             axpy(&mut trial, self.stiffness, &increment[p]);
-            let size = norm(&trial);
+            let touches = contact.traction <= self.touch[0] && norm(&trial) <= self.touch[1];
+            let size = if touches { 0.0 } else { norm(&trial) };
             let direction = if size > 0.0 { scaled(&trial, size.recip()) } else { [0.0; 2] };
             s.index.push(p);
             s.normal.push(contact.traction);

@@ -28,6 +28,17 @@ pub(crate) fn unsolved<const D: usize>(
     )
 }
 
+/// A motion out of the model that contact and friction do not stop.
+pub(crate) fn adrift<const D: usize>(model: &Model<D>, (node, component): (usize, usize)) -> String {
+    let axis = AXES[model.idealisation.axis(component)];
+    let body = model.bodies.iter().find(|b| b.nodes.contains(&node));
+    let body = body.map_or(String::new(), |b| format!(" of body `{}`", b.name));
+    format!(
+        "nothing resists the motion in {axis} of the node at {}{body}: contact and friction do not hold it against the loads",
+        place(&model.mesh.nodes[node])
+    )
+}
+
 /// A motion that nothing resists; `nodes` gives the mesh node of each node of the system.
 pub(crate) fn motion<const D: usize>(model: &Model<D>, mode: &FreeMode<D>, nodes: &[usize]) -> String {
     let moving: Vec<usize> = mode.nodes.iter().map(|&n| nodes[n]).collect();

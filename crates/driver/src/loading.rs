@@ -94,6 +94,14 @@ impl Stage {
         })
     }
 
+    /// Largest displacement the stage prescribes beyond those before it \[m\].
+    #[must_use]
+    pub fn travel(&self) -> f64 {
+        let held =
+            self.motions.iter().map(|(_, motion)| if let Motion::Fixed(u) = motion { u.abs() } else { 0.0 });
+        held.fold(self.largest_rate() * (self.end - self.start), f64::max)
+    }
+
     fn motion_channels(&self, dofs: &[usize], motion: &Motion, u0: &[f64], channels: &mut Vec<Channel>) {
         let present = |table: Table| Channel {
             prescribed: dofs.iter().filter(|&&d| u0[d] != 0.0).map(|&d| (d, u0[d])).collect(),

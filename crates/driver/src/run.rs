@@ -51,6 +51,7 @@ fn run_in<const D: usize>(plan: &Plan<D>, observer: &mut dyn Observer) -> Result
         report.end_of_stage(&plan.stages[index], &system.interface_fields(), interface_names(plan));
         report.samples(plan, &plan.stages[index], &system.samples());
         if let Some(failure) = outcome {
+            run.show(index, &plan.stages[index], &system, observer, true)?;
             report.outcome = failure;
             break;
         }
@@ -94,9 +95,9 @@ impl<const D: usize> Running<'_, D> {
                 Ok(accepted) => {
                     system.set_time(length.snap(system.time()));
                     let error = system.slip_error(&before, accepted.dt);
-                    length.accepted(accepted.dt, dt, error);
+                    length.accepted(accepted.dt, dt, error, accepted.iterations);
                     self.record(index, stage, system, &accepted, (rejected, length.reason()));
-                    self.show(index, stage, system, observer)?;
+                    self.show(index, stage, system, observer, false)?;
                     (rejected, free) = (0, None);
                 }
                 Err(failure) => {
@@ -148,26 +149,29 @@ impl<const D: usize> Running<'_, D> {
         });
     }
 
+    /// Shows the last step of a stage, or, where the run stopped, that it is the last.
     fn show(
         &mut self,
         index: usize,
         stage: &Stage,
         system: &Assembled<'_, D>,
         observer: &mut dyn Observer,
+        stopped: bool,
     ) -> Result<(), RunError> {
         let clock = Clock::now();
-        let Some(record) = self.steps.last() else { return Ok(()) };
+        let Some(record) = self.steps.last().filter(|record| record.stage == index) else { return Ok(()) };
         let end_time = self.plan.stages.last().map_or(stage.end, |s| s.end);
-        debug_assert_eq!(record.stage, index);
-        observer.step(&StepView {
+        let (interfaces, samples) = (system.interface_fields(), system.samples());
+        let view = StepView {
             record,
             stage: &stage.name,
             ends_stage: record.time >= stage.end,
             end_time,
-            interfaces: &system.interface_fields(),
-            samples: &system.samples(),
+            interfaces: &interfaces,
+            samples: &samples,
             fields: &|| system.body_fields(),
-        })?;
+        };
+        if stopped { observer.stopped(&view) } else { observer.step(&view) }?;
         self.phases.output += clock.elapsed().as_secs_f64();
         Ok(())
     }

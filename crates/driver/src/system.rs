@@ -156,6 +156,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
                 system,
                 self.position(),
                 self.plan.model.scale,
+                self.plan.stages.iter().map(Stage::travel).sum(),
             ))),
             Stepping::StaticExplicit { .. } => {
                 ActiveStepper::StaticExplicit(Box::new(StaticExplicit::new(system)))
@@ -269,11 +270,11 @@ impl<'a, const D: usize> Assembled<'a, D> {
                 {
                     return words;
                 }
-                free::unsolved(&self.plan.model, error, |dof| {
-                    let components = self.plan.model.idealisation.components();
-                    (nodes[dof / components], dof % components)
-                })
+                free::unsolved(&self.plan.model, error, |dof| self.node_of(dof))
             }
+            Failure::Adrift { dof } => self
+                .multiplier_in_words(*dof, &self.nodes())
+                .unwrap_or_else(|| free::adrift(&self.plan.model, self.node_of(*dof))),
         }
     }
 
@@ -292,6 +293,12 @@ impl<'a, const D: usize> Assembled<'a, D> {
             first += planned.unknowns;
         }
         None
+    }
+
+    /// Mesh node and component of a degree of freedom of the system.
+    fn node_of(&self, dof: usize) -> (usize, usize) {
+        let components = self.plan.model.idealisation.components();
+        (self.nodes()[dof / components], dof % components)
     }
 
     /// The motion that the system assembled last does not resist, in words, where there is one.

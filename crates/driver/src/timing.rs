@@ -15,6 +15,10 @@ const FIRST: f64 = 1e-3;
 const SMALLEST: f64 = 1e-13;
 /// Largest step as a share of the stage, where the scene gives none.
 const LARGEST: f64 = 0.05;
+/// Newton iterations up to which a step may grow: a contact that changes takes three to six.
+const EASY: usize = 8;
+/// Newton iterations beyond which the next step is halved: half of those after which it would fail.
+const HARD: usize = 15;
 /// A remainder below this share of the step is not worth a step of its own.
 const REMAINDER: f64 = 1e-9;
 
@@ -30,6 +34,8 @@ pub struct StepLength {
     tolerance: Option<f64>,
     /// Ends of imposed steps still to come, last first.
     imposed: Option<Vec<f64>>,
+    /// Whether the last trial failed: the next step does not grow, since it would fail again.
+    failed: bool,
     reason: &'static str,
 }
 
@@ -53,6 +59,7 @@ impl StepLength {
             largest: if imposed.is_some() { f64::INFINITY } else { largest },
             tolerance: (adaptive && imposed.is_none()).then_some(control.tolerance),
             imposed,
+            failed: false,
             reason: "first step",
         }
     }
@@ -83,21 +90,32 @@ impl StepLength {
         if (time - target).abs() <= 4.0 * f64::EPSILON * target.abs() { target } else { time }
     }
 
-    /// Takes note of an accepted step of length `taken`, where `wanted` was asked for, with its estimated error of slip.
-    pub fn accepted(&mut self, taken: f64, wanted: f64, error: f64) {
-        let factor = match self.tolerance {
+    /// Takes note of an accepted step of length `taken`, where `wanted` was asked for, with its estimated error of slip and the
+    /// iterations it took.
+    pub fn accepted(&mut self, taken: f64, wanted: f64, error: f64, iterations: usize) {
+        let by_error = match self.tolerance {
             // The error of a backward-Euler step falls with the square of its length.
             Some(tolerance) if error > 0.0 => (SAFETY * (tolerance / error).sqrt()).clamp(SHRINK, GROWTH),
             _ => GROWTH,
         };
+        let by_iterations = if std::mem::take(&mut self.failed) || (EASY + 1..=HARD).contains(&iterations) {
+            1.0
+        } else if iterations <= EASY {
+            GROWTH
+        } else {
+            0.5
+        };
+        let factor = by_error.min(by_iterations);
         // A step cut short by the end of an interval says nothing against the length that was wanted.
         let basis = if taken < wanted { taken } else { self.dt.min(self.largest).max(taken) };
         self.reason = if self.imposed.is_some() {
             "imposed"
         } else if basis * factor >= self.largest {
             "largest step"
-        } else if factor < GROWTH {
+        } else if by_error < by_iterations {
             "error of slip"
+        } else if factor < GROWTH {
+            "iterations"
         } else {
             "growth"
         };
@@ -114,6 +132,7 @@ impl StepLength {
     pub fn halve(&mut self, dt: f64) -> bool {
         self.dt = 0.5 * dt;
         self.reason = "halved";
+        self.failed = true;
         self.dt >= self.smallest && self.dt > f64::EPSILON * self.start.abs()
     }
 }

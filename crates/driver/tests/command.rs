@@ -189,6 +189,26 @@ fn a_bad_output_directory_of_a_spring_slider_is_named_before_anything_is_compute
 }
 
 #[test]
+fn a_block_that_friction_cannot_hold_stops_at_its_limit_with_that_state_in_the_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = include_str!("../../../verification/cases/contact_hard/scene.toml");
+    std::fs::write(folder.path().join("s.toml"), scene.replace("0.5 MPa", "0.55 MPa")).unwrap();
+    let output = asperity(folder.path(), &["run", "s.toml"]);
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+    let told = text(&output.stderr);
+    for part in ["stage `shear`", "body `upper`", "motion in x"] {
+        assert!(told.contains(part), "{part} is not in\n{told}");
+    }
+    let report = std::fs::read_to_string(folder.path().join("out/s/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    let time = report["outcome"]["stopped"]["time"].as_f64().unwrap();
+    // The load that friction bears is reached after 1/1.1 of the second stage.
+    assert!((time - (1.0 + 1.0 / 1.1)).abs() < 1e-9, "{time}");
+    let fields = std::fs::read_to_string(folder.path().join("out/s/fields.pvd")).unwrap();
+    assert!(fields.contains(&format!("timestep=\"{time}\"")), "{time} is not in\n{fields}");
+}
+
+#[test]
 fn a_slider_that_runs_away_keeps_its_last_good_state_and_is_told_what_it_needs() {
     let folder = tempfile::tempdir().unwrap();
     let undamped: Vec<&str> = SLIDER.lines().filter(|l| !l.starts_with("damping")).collect();

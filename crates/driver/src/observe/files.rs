@@ -27,6 +27,8 @@ pub struct Files {
     forces: Vec<Growing>,
     collection: Vec<PvdEntry>,
     field_number: usize,
+    /// Times of the profiles and fields written last \[s\].
+    written: [Option<f64>; 2],
     profile_number: usize,
     setup: Setup,
 }
@@ -88,6 +90,7 @@ impl Files {
             forces: Vec::new(),
             collection: Vec::new(),
             field_number: 0,
+            written: [None; 2],
             profile_number: 0,
             setup: Setup::default(),
         })
@@ -108,6 +111,7 @@ impl Files {
     fn write_fields(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
         let Some(bodies) = &self.bodies else { return Ok(()) };
         self.field_number += 1;
+        self.written[1] = Some(view.record.time);
         let (number, time) = (self.field_number, view.record.time);
         let mut entries = Vec::with_capacity(1 + self.interfaces.len());
         let file = format!("fields/bodies_{number:05}.vtu");
@@ -127,6 +131,7 @@ impl Files {
 
     fn write_profiles(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
         self.profile_number += 1;
+        self.written[0] = Some(view.record.time);
         for ((part, mesh), fields) in self.interfaces.iter().zip(&self.setup.interfaces).zip(view.interfaces)
         {
             let path = self.out.join(format!("profiles/{}_{:03}.csv", part.stem, self.profile_number));
@@ -204,6 +209,7 @@ impl Observer for Files {
         self.bodies = (!setup.mesh.cells.is_empty()).then(|| Bodies::new(&setup.mesh));
         self.collection.clear();
         (self.field_number, self.profile_number) = (0, 0);
+        self.written = [None; 2];
         let stems = stems(setup.interfaces.iter().map(|mesh| mesh.name.as_str()));
         let dimension = setup.mesh.dimension;
         self.interfaces = stems
@@ -239,6 +245,18 @@ impl Observer for Files {
             self.write_profiles(view)?;
         }
         if self.fields_due.take(stage, time, view.ends_stage) {
+            self.write_fields(view)?;
+        }
+        Ok(())
+    }
+
+    /// The last good state is written whether or not it was due.
+    fn stopped(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        let now = Some(view.record.time);
+        if self.schedule.profiles > 0 && self.written[0] != now {
+            self.write_profiles(view)?;
+        }
+        if self.schedule.fields > 0 && self.written[1] != now {
             self.write_fields(view)?;
         }
         Ok(())

@@ -30,17 +30,29 @@ impl Observer for Multi<'_> {
     }
 
     fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
-        let recovered: OnceCell<BodyFields> = OnceCell::new();
+        let recovered = OnceCell::new();
         let once = || recovered.get_or_init(|| (view.fields)()).clone();
-        let shared = StepView {
-            record: view.record,
-            stage: view.stage,
-            ends_stage: view.ends_stage,
-            end_time: view.end_time,
-            interfaces: view.interfaces,
-            samples: view.samples,
-            fields: &once,
-        };
+        let shared = sharing(view, &once);
         self.observers.iter_mut().try_for_each(|observer| observer.step(&shared))
+    }
+
+    fn stopped(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        let recovered = OnceCell::new();
+        let once = || recovered.get_or_init(|| (view.fields)()).clone();
+        let shared = sharing(view, &once);
+        self.observers.iter_mut().try_for_each(|observer| observer.stopped(&shared))
+    }
+}
+
+/// The view with fields that are recovered once.
+fn sharing<'a>(view: &StepView<'a>, fields: &'a dyn Fn() -> BodyFields) -> StepView<'a> {
+    StepView {
+        record: view.record,
+        stage: view.stage,
+        ends_stage: view.ends_stage,
+        end_time: view.end_time,
+        interfaces: view.interfaces,
+        samples: view.samples,
+        fields,
     }
 }

@@ -233,4 +233,12 @@ pub trait Observer {
     /// # Errors
     /// When something cannot be written.
     fn step(&mut self, view: &StepView<'_>) -> Result<(), super::ObserveError>;
+
+    /// After the last accepted step of a run that cannot go on, the last good state; [`Observer::step`] has seen it.
+    ///
+    /// # Errors
+    /// When something cannot be written.
+    fn stopped(&mut self, _view: &StepView<'_>) -> Result<(), super::ObserveError> {
+        Ok(())
+    }
 }

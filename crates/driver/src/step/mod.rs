@@ -1,7 +1,9 @@
 //! Steppers: what they share.
 
+mod anchor;
 mod augmented;
 pub mod implicit;
+mod line;
 pub mod static_explicit;
 
 use crate::observe::view::Counts;
@@ -32,6 +34,11 @@ pub enum Failure {
         error: FemError,
         /// Whether it is the same in steps of any length, so that a shorter one does not help.
         always: bool,
+    },
+    /// The iteration leaves the model: next to nothing resists the motion that has its largest part in a degree of freedom.
+    Adrift {
+        /// The degree of freedom.
+        dof: usize,
     },
 }
 

@@ -1,0 +1,149 @@
+//! Two bodies with one interface, as scenes a user could write.
+
+use crate::{CaseError, Cost};
+use asperity_driver::observe::Recorder;
+use asperity_driver::observe::view::InterfaceFields;
+use asperity_driver::report::{Outcome, RunReport};
+use asperity_driver::{plan, run, scene};
+
+/// A scene of two bodies; every string is a piece of its file.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// Kinematics.
+    pub kinematics: &'static str,
+    /// Mesh of the lower and of the upper body.
+    pub meshes: [String; 2],
+    /// Young's modulus \[Pa\] and Poisson's ratio.
+    pub elastic: (f64, f64),
+    /// Acceleration on the upper body.
+    pub gravity: String,
+    /// Slave and master sets.
+    pub sets: [&'static str; 2],
+    /// Measure.
+    pub measure: &'static str,
+    /// Sliding.
+    pub sliding: &'static str,
+    /// Both penalties.
+    pub penalty: String,
+    /// Coefficient of friction, where there is any.
+    pub mu: Option<f64>,
+    /// Conditions of the stages, each of one second.
+    pub stages: Vec<String>,
+    /// Steps per stage; adaptive where none.
+    pub steps: Option<usize>,
+}
+
+/// A block of quad4 or hex8.
+pub fn block(min: &[f64], max: &[f64], divisions: &[usize]) -> String {
+    let element = if min.len() == 2 { "quad4" } else { "hex8" };
+    format!(
+        "mesh.block = {{ min = {min:?}, max = {max:?}, divisions = {divisions:?}, element = \"{element}\" }}"
+    )
+}
+
+impl Pair {
+    /// Two blocks of E = 1 GPa, node-to-point, finite sliding, without friction, in one step a stage.
+    pub fn new(lower: String, upper: String, stages: &[&str]) -> Self {
+        Self {
+            kinematics: "plane-strain",
+            meshes: [lower, upper],
+            elastic: (1e9, 0.3),
+            gravity: String::new(),
+            sets: ["upper.bottom", "lower.top"],
+            measure: "node-to-point",
+            sliding: "finite",
+            penalty: "\"100 E/h\"".into(),
+            mu: None,
+            stages: stages.iter().map(ToString::to_string).collect(),
+            steps: Some(1),
+        }
+    }
+
+    /// The file.
+    pub fn text(&self) -> String {
+        let (young, poisson) = self.elastic;
+        let [lower, upper] = &self.meshes;
+        let gravity = match self.gravity.as_str() {
+            "" => String::new(),
+            g => format!("gravity = {g}\n"),
+        };
+        let (tangential, law) = match self.mu {
+            Some(mu) => (
+                format!(", tangential = {}", self.penalty),
+                format!("law = {{ kind = \"coulomb\", mu = {mu:?} }}\n"),
+            ),
+            None => (String::new(), String::new()),
+        };
+        let [slave, master] = self.sets;
+        let mut text = format!(
+            "schema = 1\ntitle = \"hard contact\"\nkinematics = \"{}\"\n[materials.m]\nyoung = {young:?}\npoisson = {poisson:?}\n\
+             density = 2000.0\n[bodies.lower]\n{lower}\nmaterial = \"m\"\n[bodies.upper]\n{upper}\nmaterial = \"m\"\n{gravity}\
+             [interfaces.contact]\nslave = \"{slave}\"\nmaster = \"{master}\"\nmeasure = \"{}\"\nsliding = \"{}\"\n\
+             enforcement = {{ kind = \"penalty\", normal = {}{tangential} }}\n{law}",
+            self.kinematics, self.measure, self.sliding, self.penalty
+        );
+        for (k, conditions) in self.stages.iter().enumerate() {
+            let steps = self.steps.map_or(String::new(), |n| format!("steps = {n}\n"));
+            text += &format!(
+                "[[stages]]\nname = \"{}\"\nduration = 1\n{steps}conditions = [{conditions}]\n",
+                k + 1
+            );
+        }
+        text + "[time]\nstepper = \"implicit\"\n"
+    }
+
+    /// Runs it.
+    pub fn run(&self) -> Result<Done, CaseError> {
+        Done::of(&self.text())
+    }
+}
+
+/// A run, completed or not.
+#[derive(Debug)]
+pub struct Done {
+    /// Report.
+    pub report: RunReport,
+    /// What was recorded.
+    pub record: Recorder,
+    /// Cost.
+    pub cost: Cost,
+}
+
+impl Done {
+    /// Runs the scene in a file.
+    pub fn of(text: &str) -> Result<Self, CaseError> {
+        let scene = scene::read(text).map_err(|e| format!("{e}\n{text}"))?;
+        let plan = plan::plan(&scene).map_err(|e| e.to_string())?;
+        let mut record = Recorder::new().with_bodies().at_all_nodes();
+        let (report, cost) = Cost::of(|| run::run(&plan, &mut record));
+        let report = report?;
+        let cost = cost.counts(&report.counts);
+        Ok(Self { report, record, cost })
+    }
+
+    /// Fields at the end of the last stage.
+    pub fn end(&self) -> Result<&InterfaceFields, CaseError> {
+        if let Outcome::Stopped { reason, .. } = &self.report.outcome {
+            return Err(format!("stopped: {reason}").into());
+        }
+        Ok(&self.record.stage_ends().last().ok_or("no stage was completed")?.interfaces[0])
+    }
+
+    /// Time of the last good state and why the run stopped there.
+    pub fn stopped(&self) -> Result<(f64, &str), CaseError> {
+        match &self.report.outcome {
+            Outcome::Completed => Err("the run was completed".into()),
+            Outcome::Stopped { time, reason, .. } => Ok((*time, reason)),
+        }
+    }
+
+    /// Sum of a field times the areas \[N/m\].
+    pub fn total(&self, field: &[f64]) -> f64 {
+        field.iter().zip(self.record.areas(0)).map(|(f, a)| f * a).sum()
+    }
+
+    /// Most iterations of a step, those of trials that failed not counted.
+    pub fn most_iterations(&self) -> f64 {
+        self.record.records().iter().map(|s| s.iterations).max().unwrap_or(0) as f64
+    }
+}
