@@ -51,6 +51,7 @@ mod coulomb_strip;
 mod elastic_plastic_cylinder;
 mod fault_operator;
 mod flamant_boussinesq;
+mod flat_punch;
 mod forward_drift;
 mod friction_hard_numerics;
 mod friction_steady_state;
@@ -104,6 +105,7 @@ pub const ALL: &[Case] = &[
     coulomb_strip::CASE,
     fault_operator::CASE,
     flamant_boussinesq::CASE,
+    flat_punch::CASE,
     friction_hard_numerics::CASE,
     friction_steady_state::CASE,
     friction_velocity_steps::CASE,

@@ -1,0 +1,94 @@
+//! A rigid flat punch on a half-plane: pressure away from its edges.
+
+use super::hertz::{self, Tractions};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use asperity_driver::scene::model::{Measure, Scene, Sliding};
+use std::f64::consts::PI;
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "flat_punch",
+    readme: include_str!("README.md"),
+    covers: &[Capability::Mortar, Capability::PenaltyContact2d],
+    quick: true,
+    run,
+};
+
+/// Half-width \[m\].
+const A: f64 = 1e-3;
+/// Share of the half-width over which pressures are compared.
+const INNER: f64 = 0.8;
+/// Cells on the half-width of the scene.
+const N: f64 = 20.0;
+const EXACT: &str = "P/(pi sqrt(a^2 - x^2)), a rigid punch on a half-plane (Sadowsky)";
+
+const MEASURES: [(&str, Measure, Capability); 2] = [
+    ("mortar", Measure::Mortar, Capability::Mortar),
+    ("node-to-point", Measure::NodeToPoint, Capability::PenaltyContact2d),
+];
+
+fn scene(text: &str, measure: Measure, n: f64) -> Result<Scene, CaseError> {
+    Ok(hertz::refined(hertz::measured(hertz::read(text)?, measure, Sliding::Small), n / N))
+}
+
+/// Error in L2 of the averaged pressure within the inner part, relative, at the load of the run.
+fn error(at: &Tractions) -> f64 {
+    // The scene is half of the punch.
+    let load = 2.0 * at.load[1];
+    let (mut error, mut norm) = (0.0, 0.0);
+    for ((x, area), p) in at.x.iter().zip(&at.area).zip(&at.p).filter(|((x, _), _)| **x <= INNER * A) {
+        let exact = load / (PI * (A * A - x * x).sqrt());
+        error += area * (p - exact).powi(2);
+        norm += area * exact * exact;
+    }
+    (error / norm).sqrt()
+}
+
+fn solve(scene: &Scene) -> Result<(f64, Cost), CaseError> {
+    let done = hertz::simulate(scene)?;
+    Ok((error(&done.tractions("press")?), done.cost))
+}
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let uniform = include_str!("scene.toml");
+    // Cells eight times as fine where the edge is.
+    let graded = uniform
+        .replace("{ size = \"0.05 mm\", from = \"0 mm\", to = \"2 mm\"", "{ size = \"0.00625 mm\", from = \"0.9 mm\", to = \"1.1 mm\"")
+        .replace("{ size = \"0.05 mm\", from = \"-2 mm\"", "{ size = \"0.00625 mm\", from = \"-0.1 mm\"")
+        .replace(
+            "{ size = \"0.05 mm\", from = \"0 mm\", to = \"1 mm\", ratio = 1.2 },\n    { size = \"0.05 mm\", from = \"0 mm\", to = \"1 mm\"",
+            "{ size = \"0.00625 mm\", from = \"0.9 mm\", to = \"1 mm\", ratio = 1.2 },\n    { size = \"0.00625 mm\", from = \"0 mm\", to = \"0.1 mm\"",
+        );
+    for (name, measure, capability) in MEASURES {
+        let mut levels = Vec::new();
+        let mut last = None;
+        for n in [10.0, 20.0, 40.0] {
+            let (error, cost) = solve(&scene(uniform, measure, n)?)?;
+            levels.push((A / n, error));
+            last = Some(cost);
+        }
+        let cost = last.ok_or("no level")?;
+        ledger
+            .order(format!("pressure in L2 over |x| <= 0.8 a, {name}, uniform cells"))
+            .levels(&levels)
+            .expected(1.0)
+            .within(0.15)
+            .evidence(Evidence::Exact, EXACT)
+            .because("the square root at the edge, which moves the edge by a part of a cell")
+            .finest(0.5 / 40.0, "half a cell over the half-width")
+            .covers(&[capability])
+            .cost(&cost)
+            .record();
+        let (error, cost) = solve(&scene(&graded, measure, N)?)?;
+        ledger
+            .claim(format!("pressure in L2 over |x| <= 0.8 a, relative error, {name}, cells of a/160 at the edge"))
+            .value(error)
+            .at_most(0.5 / 160.0)
+            .evidence(Evidence::Exact, EXACT)
+            .because("half a cell at the edge over the half-width; the penalty of 100 E/h moves the ground by a hundredth of a cell")
+            .covers(&[capability])
+            .cost(&cost)
+            .record();
+    }
+    Ok(())
+}
