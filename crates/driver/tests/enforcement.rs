@@ -291,7 +291,10 @@ fn a_bar_in_tension_passes_the_patch_test_through_tied_mortar_interfaces() {
                 let tolerance = if enforcement == UZAWA { 1e-8 } else { 1e-10 };
                 normal(&record).iter().for_each(|p| close(*p, -exact, tolerance));
                 fields(&record).cell_stress.iter().for_each(|s| close(s[1], exact, tolerance));
-                assert!(shear(&record).iter().all(|t| t.abs() < tolerance * exact));
+                // Newton ends at 1e-11 of the largest force; where the slave side is finer its multipliers have weak modes that
+                // magnify what is left some fifty times.
+                let weak = if enforcement == MIXED { 10.0 } else { 1.0 };
+                assert!(shear(&record).iter().all(|t| t.abs() < weak * tolerance * exact));
                 assert!(
                     report.steps[0].iterations <= 2 || enforcement == UZAWA,
                     "{}",
