@@ -59,7 +59,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
                 .unit(unit)
                 .value(value * scale)
                 .equals(reference * scale)
-                .uncertainty(0.01 * reference * scale)
+                .uncertainty(0.0077 * reference * scale)
                 .relative(0.01)
                 .evidence(Evidence::Exact, "Hertz at the load of the run")
                 .because("(a/R)^2 = 1.5 % scales what the theory leaves out, of which the largest part is a quarter to a half")
