@@ -11,13 +11,11 @@ time of the whole process, one thread.
 import argparse
 import csv
 import math
-import os
 import re
-import resource
-import subprocess
 import tempfile
-import time
 from pathlib import Path
+
+from timed import run
 
 YOUNG, POISSON, COMPRESSION, HALF, GROWTH = 25e9, 0.25, 100e6, 20.0, 1.1
 SIN, COS = math.sin(math.pi / 9), math.cos(math.pi / 9)
@@ -25,17 +23,6 @@ FRICTION = math.tan(math.pi / 6)
 SLIP = 4 * (1 - POISSON**2) / YOUNG * COMPRESSION * SIN * (COS - SIN * FRICTION)
 # Contact, its law, its stiffness over E/h.
 METHODS = {"surface": ("SURFACE TO SURFACE", "LINEAR", 100.0), "node": ("NODE TO SURFACE", "LINEAR", 10.0), "mortar": ("MORTAR", "HARD", 100.0)}
-
-
-def run(command, folder, limit):
-    before, start = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime, time.time()
-    environment = dict(os.environ, OMP_NUM_THREADS="1", CCX_NPROC_EQUATION_SOLVER="1", RAYON_NUM_THREADS="1")
-    try:
-        done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=limit)
-        text = done.stdout + done.stderr
-    except subprocess.TimeoutExpired:
-        text = "stopped"
-    return text, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, time.time() - start
 
 
 def ours(program, text, n, folder):

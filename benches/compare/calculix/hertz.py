@@ -12,18 +12,16 @@ Q, against Cattaneo and Mindlin at its own P and Q; iterations; user and wall ti
 import argparse
 import base64
 import csv
-import os
 import re
-import resource
 import struct
-import subprocess
 import tempfile
-import time
 import xml.etree.ElementTree as ElementTree
 import zlib
 from pathlib import Path
 
 import numpy as np
+
+from timed import run
 
 YOUNG, POISSON, RADIUS, FRICTION = 210e3, 0.3, 100.0, 0.3  # N, mm
 
@@ -52,17 +50,6 @@ def errors(x, p, q, normal, shear):
     near = abs(x) <= 1.2 * a
     l2 = lambda v, e: np.sqrt(np.sum(area[near] * (v[near] - e[near]) ** 2) / np.sum(area[near] * e[near] ** 2))
     return p.max() / peak - 1, l2(p, p_exact), l2(abs(q), q_exact) if shear > 0 else np.nan
-
-
-def run(command, folder, limit):
-    before, start = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime, time.time()
-    environment = dict(os.environ, OMP_NUM_THREADS="1", CCX_NPROC_EQUATION_SOLVER="1", RAYON_NUM_THREADS="1")
-    try:
-        done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=limit)
-        text = done.stdout + done.stderr
-    except subprocess.TimeoutExpired:
-        text = "stopped"
-    return text, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, time.time() - start
 
 
 def arrays(path):

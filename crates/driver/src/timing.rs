@@ -34,13 +34,15 @@ pub struct StepLength {
     tolerance: Option<f64>,
     /// Ends of imposed steps still to come, last first.
     imposed: Option<Vec<f64>>,
+    /// Whether steps are found by Newton's method: solves of a forward step say nothing about its length.
+    newton: bool,
     /// Whether the last trial failed: the next step does not grow, since it would fail again.
     failed: bool,
     reason: &'static str,
 }
 
 impl StepLength {
-    /// Lengths for `stage`. Without `adaptive` the length only grows back towards the largest.
+    /// Lengths for `stage`; `adaptive` for those found by Newton's method. Others only grow back towards the largest.
     #[must_use]
     pub fn new(control: &Control, stage: &Stage, adaptive: bool) -> Self {
         let duration = stage.end - stage.start;
@@ -59,6 +61,7 @@ impl StepLength {
             largest: if imposed.is_some() { f64::INFINITY } else { largest },
             tolerance: (adaptive && imposed.is_none()).then_some(control.tolerance),
             imposed,
+            newton: adaptive,
             failed: false,
             reason: "first step",
         }
@@ -98,12 +101,12 @@ impl StepLength {
             Some(tolerance) if error > 0.0 => (SAFETY * (tolerance / error).sqrt()).clamp(SHRINK, GROWTH),
             _ => GROWTH,
         };
-        let by_iterations = if std::mem::take(&mut self.failed) || (EASY + 1..=HARD).contains(&iterations) {
-            1.0
-        } else if iterations <= EASY {
-            GROWTH
-        } else {
-            0.5
+        let iterations = if self.newton { iterations } else { 0 };
+        let by_iterations = match iterations {
+            _ if std::mem::take(&mut self.failed) => 1.0,
+            ..=EASY => GROWTH,
+            ..=HARD => 1.0,
+            _ => 0.5,
         };
         let factor = by_error.min(by_iterations);
         // A step cut short by the end of an interval says nothing against the length that was wanted.

@@ -422,6 +422,12 @@ fn wrong_input_is_refused_with_what_would_be_right() {
     assert!(FaultMesh { spacing: Spacing::Constant(finer), ..good.clone() }.mesh().is_ok());
     let one = FaultMesh { spacing: Spacing::Constant(20.0), ..with(trace([0.0, -50.0], &[(20.0, 60.0)])) };
     assert!(matches!(refused(&one), FaultMeshError::Split(_)), "one cell between two tips cannot open");
+}
+
+#[test]
+fn values_without_a_mesh_are_refused_by_name() {
+    let good = input(trace([0.0, 0.0], &[(20.0, 60.0)]));
+    let with = |trace: Vec<[f64; 2]>| FaultMesh { trace, ..good.clone() };
     let zone = |from, to| Spacing::Zone { from, to, size: 1.0, ratio: 1.1 };
     for (from, to) in [(-1.0, 5.0), (5.0, 5.0), (0.0, 20.5), (f64::NAN, 5.0)] {
         let error = refused(&FaultMesh { spacing: zone(from, to), ..good.clone() });

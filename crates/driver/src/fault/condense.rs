@@ -65,11 +65,18 @@ fn with_components<const D: usize, const C: usize>(
 ) -> Result<Surroundings, String> {
     let constraints = stage.constraints(&vec![0.0; model.dofs()]);
     let machine = Machine::new(stage);
+    let drawn = |node: usize| (C * node..C * (node + 1)).any(|d| machine.draws(d));
+    if let Some(p) = points.iter().find(|p| drawn(p.place.minus) && drawn(p.place.plus)) {
+        return Err(format!(
+            "a spring draws both sides of a fault as one at {}, which could not slip there: let it draw a side that ends at the fault",
+            rigid::place(&p.place.at)
+        ));
+    }
     let jump = |p: &Point<D>| {
         let frame = frame(&p.place.normal);
         let (minus, plus) = (C * p.place.minus, C * p.place.plus);
         // The node whose displacement gives way to the jump must not be tied to others.
-        if (plus..plus + C).any(|d| machine.draws(d)) {
+        if drawn(p.place.plus) {
             return Jump { minus: plus, plus: minus, frame: frame.map(|axis| axis.map(|c| -c)) };
         }
         Jump { minus, plus, frame }

@@ -208,14 +208,14 @@ impl Report {
                 e.interval.map_or(String::new(), |i| format!(", {} after the one before", time(i)));
             let _ = writeln!(
                 text,
-                "  event {} at {}{interval}: {} long, peak {:.4} m/s, slip up to {:.4} m, stress drop {:.3} MPa, begins {:.3} km along `{}`",
+                "  event {} at {}{interval}: {} long, peak {:.4} m/s, slip up to {}, stress drop {:.3} MPa, begins {} along `{}`",
                 k + 1,
                 time(e.onset),
                 time(e.duration),
                 e.peak_rate,
-                e.largest_slip,
+                length(e.largest_slip),
                 e.stress_drop / 1e6,
-                e.hypocentre_along / 1e3,
+                length(e.hypocentre_along),
                 e.fault
             );
         }
@@ -230,6 +230,17 @@ impl Report {
         let _ = writeln!(text, "  seconds: set-up {:.2}, integration {:.2}", r.set_up_seconds, r.seconds);
         text
     }
+}
+
+/// A length in words, in a unit that leaves digits before the point.
+fn length(metres: f64) -> String {
+    let (scale, unit) = match metres.abs() {
+        m if m >= 1e3 => (1e-3, "km"),
+        m if m >= 1.0 || m == 0.0 => (1.0, "m"),
+        m if m >= 1e-3 => (1e3, "mm"),
+        _ => (1e6, "um"),
+    };
+    format!("{:.4} {unit}", metres * scale)
 }
 
 /// A time in words.

@@ -157,7 +157,7 @@ impl Checker<'_> {
             self.error(
                 fault.rate.span(),
                 "`rate` must not be zero",
-                "such as `rate = \"1e-9 m/s\"`, negative where plus slides towards the upper end of the trace less than minus",
+                "such as `rate = \"1e-9 m/s\"`; its sign is the sense of slip",
             );
         }
         if let Some(shear) = fault.shear.as_ref()
