@@ -102,11 +102,14 @@ impl StepLength {
             _ => GROWTH,
         };
         let iterations = if self.newton { iterations } else { 0 };
-        let by_iterations = match iterations {
-            _ if std::mem::take(&mut self.failed) => 1.0,
-            ..=EASY => GROWTH,
-            ..=HARD => 1.0,
-            _ => 0.5,
+        let by_iterations = if std::mem::take(&mut self.failed) {
+            1.0
+        } else if iterations <= EASY {
+            GROWTH
+        } else if iterations <= HARD {
+            1.0
+        } else {
+            0.5
         };
         let factor = by_error.min(by_iterations);
         // A step cut short by the end of an interval says nothing against the length that was wanted.
