@@ -4,6 +4,7 @@
 //! components in an orthonormal frame that is carried along with the master surface, so that the frame, and nothing else,
 //! knows about rotation.
 
+mod bound;
 pub mod fixed;
 pub mod mortar;
 pub mod node_to_point;

@@ -22,6 +22,7 @@ use super::pairing::Found;
 use super::scalar::Dual;
 use super::sides::{Beside, Sides, node_at};
 use super::small::FACED;
+use crate::measure::bound::Bound;
 use crate::measure::fixed::fixed_frame;
 use crate::measure::{Attachment, Exit, Geometry, Measure, Slides, Tractions};
 use crate::shape::shape;
@@ -108,6 +109,8 @@ pub(super) struct Finite<const D: usize, const M: usize> {
     restored: bool,
     /// What the search finds, facet by facet in pieces.
     pub(super) found: Vec<Found>,
+    /// How long it holds.
+    pub(super) bound: Bound<D>,
 }
 
 /// Builds the measure in the reference configuration. Returns it with the number of pairs of facets examined.
@@ -132,7 +135,7 @@ pub fn finite<const D: usize>(
 }
 
 impl<const D: usize, const M: usize> Finite<D, M> {
-    fn new(sides: Sides<D>, dofs: Vec<usize>, reference: Vec<[f64; D]>) -> (Self, u64) {
+    pub(super) fn new(sides: Sides<D>, dofs: Vec<usize>, reference: Vec<[f64; D]>) -> (Self, u64) {
         let n = sides.beside.len();
         let whole = sides.whole_areas(n);
         let points = (0..n)
@@ -154,6 +157,7 @@ impl<const D: usize, const M: usize> Finite<D, M> {
             pattern: Pattern::default(),
             restored: false,
             found: Vec::new(),
+            bound: Bound::default(),
         };
         let mut examined = 0;
         measure.pair(&mut examined);
@@ -490,11 +494,14 @@ impl<const D: usize, const M: usize> Measure<D> for Finite<D, M> {
 
     fn search(&mut self, u: &[[f64; D]], projections: &mut u64) -> bool {
         self.configure(u);
-        self.pair(projections);
+        let due = !self.bound.holds(&self.x);
+        if due {
+            self.pair(projections);
+        }
         if self.points.iter().any(|p| !p.anchored) {
             self.anchor();
         }
-        true
+        due
     }
 
     fn measure(&mut self, u: &[[f64; D]], out: &mut Geometry<D>) {

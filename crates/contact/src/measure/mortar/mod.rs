@@ -1,7 +1,7 @@
 //! Segment to segment: the gap averaged to slave nodes over the overlap of the facets (mortar).
 //!
-//! With ψ_A the weighting of slave point A (a partition of unity, nowhere negative, see `weighting`), N_B and N_γ the shape
-//! functions of slave and master facets, and integrals over the part of the slave surface that faces the master,
+//! With ψ_A the weighting of slave point A (a partition of unity, see `weighting` and, for small sliding, `dual`), N_B and N_γ the
+//! shape functions of slave and master facets, and integrals over the part of the slave surface that faces the master,
 //!
 //! `a_A = ∫ψ_A`, `D_AB = ∫ψ_A N_B`, `M_Aγ = ∫ψ_A N_γ`, `d_A = (Σ_B D_AB x_B - Σ_γ M_Aγ x_γ)/a_A`, `g_A = n_A·d_A`,
 //!
@@ -18,6 +18,7 @@
 
 mod cell;
 mod clip;
+mod dual;
 mod finite;
 mod local;
 mod order;

@@ -13,6 +13,8 @@ pub(super) struct Found {
     candidates: Vec<usize>,
     /// Pairs looked at.
     examined: u64,
+    /// How far nodes may move before there are other pairs \[m\].
+    free: f64,
 }
 
 impl<const D: usize, const M: usize> Finite<D, M> {
@@ -25,13 +27,15 @@ impl<const D: usize, const M: usize> Finite<D, M> {
         found.par_iter_mut().enumerate().for_each(|(k, found)| {
             found.pairs.clear();
             found.examined = 0;
+            found.free = f64::INFINITY;
             for f in k * CHUNK..((k + 1) * CHUNK).min(facets) {
-                let Found { pairs, candidates, examined } = &mut *found;
-                self.sides.candidates(f, &self.x, candidates, examined);
+                let Found { pairs, candidates, examined, free } = &mut *found;
+                *free = free.min(self.sides.candidates(f, &self.x, candidates, examined));
                 pairs.extend(candidates.iter().map(|&m| (f, m)));
             }
         });
         *examined += found.iter().map(|f| f.examined).sum::<u64>();
+        self.bound.prove(&self.x, found.iter().fold(f64::INFINITY, |least, f| least.min(f.free)));
         let pairs = || found.iter().flat_map(|f| f.pairs.iter().copied());
         if !pairs().eq(self.cells.iter().map(|c| (c.facet, c.master))) {
             self.rebuild(&pairs().collect::<Vec<_>>());
@@ -106,5 +110,92 @@ impl<const D: usize, const M: usize> Finite<D, M> {
             .map(|p| p.nodes.iter().flat_map(|&n| dofs[n]..dofs[n] + D).collect())
             .collect();
         self.pattern = Pattern::of_blocks(self.pattern.version + 1, blocks.iter().map(Vec::as_slice));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::mortar::cell::{Sums, integrate};
+    use crate::measure::mortar::sides::Sides;
+    use crate::shape::MOST_NODES;
+    use crate::spec::{Segment, SegmentKind, SlavePoint};
+    use proptest::prelude::*;
+    use proptest::test_runner::TestRng;
+
+    fn noise(rng: &mut TestRng) -> f64 {
+        rng.random_range(-1.0..1.0)
+    }
+
+    /// Two wavy layers of `n` and `n + 1` quadrilaterals a side (lines in the plane), the slave above, its facets turned down.
+    fn layers<const D: usize>(n: usize, rng: &mut TestRng) -> (Vec<[f64; D]>, [Vec<Segment>; 2]) {
+        let mut x = Vec::new();
+        let mut sides = [Vec::new(), Vec::new()];
+        for (side, cells) in [n, n + 1].into_iter().enumerate() {
+            let (first, h, above) = (x.len(), 1.0 / cells as f64, side == 0);
+            for j in 0..=if D == 2 { 0 } else { cells } {
+                for i in 0..=cells {
+                    let mut p = [0.0; D];
+                    p[0] = h * (i as f64 + 0.2 * noise(rng));
+                    p[1] = h * (j as f64 + 0.2 * noise(rng));
+                    p[D - 1] = 0.3 * h * noise(rng) + if above { 0.4 * h } else { 0.0 };
+                    x.push(p);
+                }
+            }
+            let at = |i: usize, j: usize| first + i + j * (cells + 1);
+            for j in 0..if D == 2 { 1 } else { cells } {
+                for i in 0..cells {
+                    let mut nodes = if D == 2 {
+                        vec![at(i + 1, 0), at(i, 0)]
+                    } else {
+                        vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]
+                    };
+                    if above {
+                        nodes.reverse();
+                    }
+                    let kind = if D == 2 { SegmentKind::Seg2 } else { SegmentKind::Quad4 };
+                    sides[side].push(Segment { kind, nodes });
+                }
+            }
+        }
+        (x, sides)
+    }
+
+    fn what_was_proved_holds<const D: usize, const M: usize>(n: usize, rng: &mut TestRng) {
+        let (reference, [slave, master]) = layers::<D>(n, rng);
+        let mut nodes: Vec<usize> = slave.iter().flat_map(|s| s.nodes.clone()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let points: Vec<SlavePoint> = nodes.iter().map(|&node| SlavePoint { node, area: 1.0 }).collect();
+        let sides = Sides::new(&slave, &points, master, &reference, false);
+        let dofs = (0..reference.len()).map(|k| D * k).collect();
+        let (mut measure, _) = Finite::<D, M>::new(sides, dofs, reference.clone());
+        let radius = measure.found.iter().fold(f64::INFINITY, |least, f| least.min(f.free));
+        assert!(radius > 0.0 && radius.is_finite(), "{radius}");
+        let known: Vec<(usize, usize)> = measure.cells.iter().map(|c| (c.facet, c.master)).collect();
+        assert!(!known.is_empty());
+        // Every node to the surface of its cube.
+        let by = 0.999 * radius / (D as f64).sqrt();
+        measure.x =
+            reference.iter().map(|p| p.map(|v| v + if noise(rng) > 0.0 { by } else { -by })).collect();
+        assert!(measure.bound.holds(&measure.x));
+        measure.pair(&mut 0);
+        for c in &measure.cells {
+            let at = |nodes: &[usize]| nodes.iter().map(|&k| measure.x[k]).collect::<Vec<_>>();
+            let (own, master) = (at(&measure.sides.facets[c.facet].nodes), &measure.sides.master[c.master]);
+            let mut sums = Sums::<f64, MOST_NODES>::zero();
+            let (frozen, rule) = (measure.sides.frozen(c.facet), measure.sides.rule(c.facet, c.master));
+            let overlap = integrate(frozen, &own, master.kind, &at(&master.nodes), rule, &mut sums);
+            assert!(!overlap || known.contains(&(c.facet, c.master)), "{:?}", (c.facet, c.master));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn no_facets_begin_to_overlap_within_the_bound_of_a_search(n in 1usize..6, seed in any::<[u8; 32]>()) {
+            let mut rng = TestRng::from_seed(prop::test_runner::RngAlgorithm::ChaCha, &seed);
+            what_was_proved_holds::<2, 8>(n, &mut rng);
+            what_was_proved_holds::<3, 24>(n, &mut rng);
+        }
     }
 }

@@ -157,7 +157,12 @@ impl<const D: usize> Sides<D> {
 
     /// Master facets that may overlap slave facet `f` at `x`, ascending. They face it, and lie along its normal no farther
     /// than the nearest master node does from its middle, plus its own size: of several layers of a master the nearest counts.
-    pub(super) fn candidates(&self, f: usize, x: &[[f64; D]], out: &mut Vec<usize>, count: &mut u64) {
+    ///
+    /// Returns how far δ all nodes may move before a facet may overlap that is not among them. The box of the slave facet, drawn out
+    /// by the reach R along its normal n, and those of the masters grow by δ each; R is a distance between nodes (2 δ) and a
+    /// diagonal (2 √D δ), and `|Δ(R n)| <= ΔR + R |Δn|`. The boxes were met with a margin. A master begins to face when the
+    /// product of the normals has changed by what it lacks, `|Δn|` of either facet.
+    pub(super) fn candidates(&self, f: usize, x: &[[f64; D]], out: &mut Vec<usize>, count: &mut u64) -> f64 {
         out.clear();
         let facet = &self.facets[f];
         let n = facet_normal(facet.kind, &facet.nodes, x);
@@ -174,22 +179,30 @@ impl<const D: usize> Sides<D> {
             });
             Some(squares.fold(f64::INFINITY, f64::min))
         });
-        let Some((_, squared)) = nearest else { return };
-        let reach = scaled(&n, squared.sqrt() + size);
+        let Some((_, squared)) = nearest else { return f64::INFINITY };
+        let length = squared.sqrt() + size;
+        let reach = scaled(&n, length);
         let mut grown = own;
         for &k in &facet.nodes {
             grown.include(&std::array::from_fn(|i| x[k][i] + reach[i]));
             grown.include(&std::array::from_fn(|i| x[k][i] - reach[i]));
         }
         own = grown.inflated(MARGIN * size);
+        let turn = turning(facet.kind, &facet.nodes, x);
+        #[expect(clippy::cast_precision_loss, reason = "two or three")]
+        let diagonal = (D as f64).sqrt();
+        let mut free = MARGIN * size / (4.0 + 2.0 * diagonal + length * turn);
         self.tree.overlapping(&own, &self.boxes, |m| {
             *count += 1;
             let s = &self.master[m];
-            if dot(&facet_normal(s.kind, &s.nodes, x), &n) < -FACING {
+            let product = dot(&facet_normal(s.kind, &s.nodes, x), &n);
+            free = free.min((product + FACING).abs() / (turn + turning(s.kind, &s.nodes, x)));
+            if product < -FACING {
                 out.push(m);
             }
         });
         out.sort_unstable();
+        free
     }
 }
 
@@ -201,10 +214,23 @@ fn box_of<const D: usize>(nodes: &[usize], x: &[[f64; D]]) -> Aabb<D> {
 
 /// Outward unit normal in the middle of a facet.
 fn facet_normal<const D: usize>(kind: SegmentKind, nodes: &[usize], x: &[[f64; D]]) -> [f64; D] {
-    let middle =
-        if matches!(kind, SegmentKind::Tri3 | SegmentKind::Tri6) { [1.0 / 3.0; 2] } else { [0.0; 2] };
-    let n = perpendicular(&bases(kind, nodes, x, middle));
+    let n = perpendicular(&bases(kind, nodes, x, middle(kind)));
     scaled(&n, norm(&n).recip())
+}
+
+/// `|Δn|/δ` at most, of the normal in the middle of a facet of first order whose nodes move by δ, while δ is below the length of its
+/// base vectors e: they change by 2 δ at most (differences of two positions or of two means), their product by
+/// 2 δ (|e_1| + |e_2|) + 4 δ² <= 4 δ (|e_1| + |e_2|), and a unit vector by twice the change over the length.
+fn turning<const D: usize>(kind: SegmentKind, nodes: &[usize], x: &[[f64; D]]) -> f64 {
+    let e = bases(kind, nodes, x, middle(kind));
+    if D == 2 {
+        return 4.0 / norm(&e[0]);
+    }
+    8.0 * (norm(&e[0]) + norm(&e[1])) / norm(&perpendicular(&e))
+}
+
+fn middle(kind: SegmentKind) -> [f64; 2] {
+    if matches!(kind, SegmentKind::Tri3 | SegmentKind::Tri6) { [1.0 / 3.0; 2] } else { [0.0; 2] }
 }
 
 /// Base vectors at natural coordinates.

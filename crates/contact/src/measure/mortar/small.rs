@@ -1,9 +1,9 @@
 //! Small sliding: the overlap of the reference configuration.
 
 use super::cell::{Sums, integrate};
+use super::dual::{Part, dualise};
 use super::sides::Sides;
 use crate::measure::fixed::Fixed;
-use crate::shape::MOST_NODES;
 use crate::spec::{Segment, SlavePoint, SurfaceNode};
 use crate::vector::{axpy, scaled, unit};
 use std::collections::BTreeMap;
@@ -60,23 +60,29 @@ pub fn small<const D: usize>(
 fn rows<const D: usize>(sides: &Sides<D>, points: usize, x: &[[f64; D]], examined: &mut u64) -> Vec<Row> {
     let mut rows = vec![Row::default(); points];
     let mut candidates = Vec::new();
-    let mut sums = Sums::<f64, MOST_NODES>::zero();
+    let mut parts: Vec<Part> = Vec::new();
     for (f, facet) in sides.facets.iter().enumerate() {
         let own: Vec<[f64; D]> = facet.nodes.iter().map(|&n| x[n]).collect();
         sides.candidates(f, x, &mut candidates, examined);
+        parts.clear();
         for &m in &candidates {
             let s = &sides.master[m];
             let other: Vec<[f64; D]> = s.nodes.iter().map(|&n| x[n]).collect();
-            if !integrate(sides.frozen(f), &own, s.kind, &other, sides.rule(f, m), &mut sums) {
-                continue;
+            let mut sums = Sums::zero();
+            if integrate(sides.frozen(f), &own, s.kind, &other, sides.rule(f, m), &mut sums) {
+                parts.push((m, sums));
             }
+        }
+        let Some(&(m, _)) = parts.first() else { continue };
+        dualise(sides.frozen(f), &own, sides.rule(f, m), &mut parts);
+        for (m, sums) in &parts {
             for (a, &p) in facet.weighting.points.iter().enumerate() {
                 let row = &mut rows[p];
                 for (&n, w) in facet.nodes.iter().zip(&sums.own[a]) {
                     row.area += w;
                     *row.slave.entry(n).or_default() += w;
                 }
-                for (&n, w) in s.nodes.iter().zip(&sums.other[a]) {
+                for (&n, w) in sides.master[*m].nodes.iter().zip(&sums.other[a]) {
                     *row.master.entry(n).or_default() += w;
                 }
             }

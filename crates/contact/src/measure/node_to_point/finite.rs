@@ -21,7 +21,8 @@
 
 use super::kernel::{Columns, Friction, Kernel};
 use super::local::Local;
-use super::track::{Bound, Place, Point};
+use super::track::{Place, Point};
+use crate::measure::bound::Bound;
 use crate::measure::{Attachment, Exit, Geometry, Measure, Slides, Tractions};
 use crate::search::project::{BORDER, depth, margins};
 use crate::search::smooth::MOST_SUPPORT;

@@ -64,25 +64,6 @@ impl Point {
     }
 }
 
-/// What a search proved: no point changes its segment while no node moves by as much as `radius` from `x`.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Bound<const D: usize> {
-    x: Vec<[f64; D]>,
-    radius: f64,
-}
-
-impl<const D: usize> Bound<D> {
-    /// Whether the pairing is certain at positions `x`.
-    pub(super) fn holds(&self, x: &[[f64; D]]) -> bool {
-        let limit = self.radius * self.radius;
-        self.radius > 0.0
-            && x.iter().zip(&self.x).all(|(a, b)| {
-                let d = sub(a, b);
-                dot(&d, &d) < limit
-            })
-    }
-}
-
 /// What tracking a range of points gives.
 #[derive(Clone, Copy)]
 struct Tracked {
@@ -96,9 +77,7 @@ impl<const D: usize> Finite<D> {
         self.surface.refit(&self.x);
         let found = track_range(&self.surface, &self.x, &mut self.points);
         *projections += found.projections;
-        self.bound.x.clear();
-        self.bound.x.extend_from_slice(&self.x);
-        self.bound.radius = found.radius;
+        self.bound.prove(&self.x, found.radius);
     }
 }
 
