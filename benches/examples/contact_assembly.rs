@@ -1,6 +1,6 @@
 //! Times the assembly of contact: search, projection, force, tangent, scatter, in ns per slave node, beside the time the
-//! memory needs for the bytes that have to move. `contact_assembly [THREADS [LARGEST]]`; sizes that do not fit into
-//! [`MEMORY`] are left out.
+//! memory needs for the bytes that have to move. `contact_assembly [THREADS [LARGEST [NAMES]]]`; sizes that do not fit into
+//! [`MEMORY`] are left out; NAMES, parts of names with commas between, limit the interfaces ("2D finite,3D finite").
 // A program for the terminal.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
@@ -25,6 +25,7 @@ fn main() -> ExitCode {
     let arguments: Vec<usize> = std::env::args().skip(1).filter_map(|a| a.parse().ok()).collect();
     let threads = arguments.first().copied().unwrap_or(1);
     let largest = arguments.get(1).copied().unwrap_or(1_000_000);
+    let names = std::env::args().nth(3).unwrap_or_default();
     let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build() else {
         eprintln!("no pool of {threads} threads");
         return ExitCode::FAILURE;
@@ -36,13 +37,13 @@ fn main() -> ExitCode {
             "", "slaves", "build", "search", "skipped", "force", "tangent", "f + t", "bound f+t", "scatter"
         );
         for n in [1_000, 10_000, 100_000, 1_000_000].into_iter().filter(|n| *n <= largest) {
-            all(n);
+            all(n, &|name| names.split(',').any(|part| name.contains(part)));
         }
     });
     ExitCode::SUCCESS
 }
 
-fn all(n: usize) {
+fn all(n: usize, wanted: &dyn Fn(&str) -> bool) {
     let m = (n as f64).sqrt() as usize;
     let law =
         || -> Option<Arc<dyn Law>> { Coulomb::new(0.3, None).ok().map(|l| Arc::new(l) as Arc<dyn Law>) };
@@ -51,21 +52,31 @@ fn all(n: usize) {
         if smoothing.is_some() && n > 10_000 {
             continue;
         }
-        let u = pressed::<2>(n, 2 * n + 1);
-        kernels(&format!("2D {name}"), n, &u, || flat_2d(n, Sliding::Finite, smoothing, law()));
-        let u = pressed::<3>(m * m, m * m + (m + 1) * (m + 1));
-        kernels(&format!("3D {name}"), m * m, &u, || flat_3d(m, Sliding::Finite, smoothing, law()));
+        if wanted(&format!("2D {name}")) {
+            let u = pressed::<2>(n, 2 * n + 1);
+            kernels(&format!("2D {name}"), n, &u, || flat_2d(n, Sliding::Finite, smoothing, law()));
+        }
+        if wanted(&format!("3D {name}")) {
+            let u = pressed::<3>(m * m, m * m + (m + 1) * (m + 1));
+            kernels(&format!("3D {name}"), m * m, &u, || flat_3d(m, Sliding::Finite, smoothing, law()));
+        }
     }
-    let u = pressed::<2>(n, 2 * n + 1);
-    kernels("2D small", n, &u, || flat_2d(n, Sliding::Small, None, law()));
-    let u = pressed::<3>(m * m, m * m + (m + 1) * (m + 1));
-    kernels("3D small", m * m, &u, || flat_3d(m, Sliding::Small, None, law()));
-    for sliding in [Sliding::Small, Sliding::Finite] {
+    if wanted("2D small") {
         let u = pressed::<2>(n, 2 * n + 1);
+        kernels("2D small", n, &u, || flat_2d(n, Sliding::Small, None, law()));
+    }
+    if wanted("3D small") {
+        let u = pressed::<3>(m * m, m * m + (m + 1) * (m + 1));
+        kernels("3D small", m * m, &u, || flat_3d(m, Sliding::Small, None, law()));
+    }
+    for sliding in [Sliding::Small, Sliding::Finite] {
         let name = format!("mortar {sliding:?}").to_lowercase();
-        kernels(&format!("2D {name}"), n, &u, || mortar_2d(n, sliding, law()));
+        if wanted(&format!("2D {name}")) {
+            let u = pressed::<2>(n, 2 * n + 1);
+            kernels(&format!("2D {name}"), n, &u, || mortar_2d(n, sliding, law()));
+        }
         // Blocks of 75 unknowns take 45 kB a node.
-        if sliding == Sliding::Small || n <= 10_000 {
+        if wanted(&format!("3D {name}")) && (sliding == Sliding::Small || n <= 10_000) {
             let u = pressed::<3>(m * m, m * m + (m + 1) * (m + 1));
             kernels(&format!("3D {name}"), m * m, &u, || mortar_3d(m, sliding, law()));
         }
