@@ -49,6 +49,7 @@ mod contact_sliding;
 mod cook_membrane;
 mod coulomb_strip;
 mod elastic_plastic_cylinder;
+mod fault_balance;
 mod fault_operator;
 mod flamant_boussinesq;
 mod flat_punch;
@@ -103,6 +104,7 @@ pub const ALL: &[Case] = &[
     contact_sliding::CASE,
     cook_membrane::CASE,
     coulomb_strip::CASE,
+    fault_balance::CASE,
     fault_operator::CASE,
     flamant_boussinesq::CASE,
     flat_punch::CASE,

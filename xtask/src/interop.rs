@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 /// The meshes whose reading is compared.
 const MESHES: &str = "crates/fem/tests/meshes";
 
-/// Makes the environment, installs the pinned requirements and runs the checks on the sandwich's output and on the sample meshes.
+/// Makes the environment, installs the pinned requirements and runs the checks on the sandwich's output, on catalogues of
+/// events and on the sample meshes.
 pub fn run(root: &Path) -> Result<(), Failure> {
     let python = ["python3", "python"].into_iter().find(|program| stage::exists(program));
     let Some(python) = python else {
@@ -30,6 +31,13 @@ pub fn run(root: &Path) -> Result<(), Failure> {
         ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r", "interop/requirements.txt"];
     Stage::new("requirements", &inside).args(install).run(root)?;
     Stage::new("interop", &inside).args(["interop/check_vtu.py", "out/sandwich"]).run(root)?;
+    for name in ["strike_slip", "thrust"] {
+        let (scene, out) = (format!("interop/{name}.toml"), format!("out/{name}"));
+        let binary = ["run", "--release", "--quiet", "-p", "asperity-driver", "--", "run"];
+        Stage::new("cycles", "cargo").args(binary).args([scene.as_str(), "--out", &out]).run(root)?;
+        let check = ["interop/check_catalogue.py", out.as_str()];
+        Stage::new("interop of catalogues", &inside).args(check).run(root)?;
+    }
     let summary = "target/meshes.json";
     let example = ["run", "--release", "--quiet", "-p", "asperity-driver", "--example", "mesh_summary", "--"];
     let files = meshes(root)?;

@@ -8,13 +8,19 @@ use crate::plan::{self, AnyPlan, ScenePlan};
 use crate::report::{Outcome, RunReport};
 use crate::run;
 use crate::scene;
+use crate::scene::units::Time;
 use crate::slider;
-use clap::{Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use miette::{IntoDiagnostic, WrapErr, miette};
+use serde::Deserialize;
+use serde::de::value::StrDeserializer;
 use sha2::{Digest, Sha256};
+use signal_hook::consts::{SIGINT, SIGTERM};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
 
 /// Faults and rock friction by finite elements.
 #[derive(Debug, Parser)]
@@ -35,12 +41,36 @@ pub enum Command {
         /// Output directory; `out/<scene name>` when not given.
         #[arg(long)]
         out: Option<PathBuf>,
+        /// When to break off and how to go on.
+        #[command(flatten)]
+        pauses: Pausing,
     },
     /// Print what would be run, without running.
     Check {
         /// Scene file (TOML).
         scene: PathBuf,
     },
+}
+
+/// When a run of faults is broken off, and how it goes on.
+#[derive(Clone, Debug, Default, Args)]
+pub struct Pausing {
+    /// Go on from the checkpoint in the output directory (runs of faults); from the start where there is none.
+    #[arg(long)]
+    pub resume: bool,
+    /// Wall time after which to break off with a checkpoint (runs of faults), such as "2 h".
+    #[arg(long, value_parser = duration)]
+    pub wall_time: Option<Duration>,
+    /// Wall time between checkpoints (runs of faults).
+    #[arg(long, value_parser = duration, default_value = "10 s")]
+    pub checkpoint_every: Duration,
+}
+
+/// A time as scenes write it.
+fn duration(text: &str) -> Result<Duration, String> {
+    let time = Time::deserialize(StrDeserializer::<serde::de::value::Error>::new(text));
+    let seconds = time.map_err(|e| e.to_string())?.0;
+    Duration::try_from_secs_f64(seconds).map_err(|e| e.to_string())
 }
 
 /// How a command ended.
@@ -50,6 +80,8 @@ pub enum End {
     Done,
     /// The stepper stopped early; everything until then was written.
     Stopped(String),
+    /// Broken off; it can be gone on with.
+    Interrupted(String),
 }
 
 /// Executes a command.
@@ -66,13 +98,18 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
             }
             Ok(End::Done)
         }
-        Command::Run { scene, out } => {
+        Command::Run { scene, out, pauses } => {
             let out = out.clone().unwrap_or_else(|| default_output(scene));
             let ready = planned(scene)?;
+            if (pauses.resume || pauses.wall_time.is_some()) && !matches!(ready.plan, Planned::Faults(_)) {
+                return Err(miette!(
+                    "only runs of faults have checkpoints: leave out --resume and --wall-time"
+                ));
+            }
             match &ready.plan {
                 Planned::Bodies(plan) => run_bodies(plan, &ready, &out),
                 Planned::Sliders(plan) => run_sliders(plan, &ready, &out),
-                Planned::Faults(plan) => run_faults(plan, &ready, &out),
+                Planned::Faults(plan) => run_faults(plan, &ready, &out, pauses),
             }
         }
     }
@@ -181,23 +218,81 @@ fn run_sliders(plan: &slider::Plan, ready: &Ready, out: &Path) -> miette::Result
     })
 }
 
-fn run_faults(plan: &fault::Plan, ready: &Ready, out: &Path) -> miette::Result<End> {
+/// A flag that SIGINT and SIGTERM set; the second of them ends the program at once.
+fn signals() -> miette::Result<Arc<AtomicBool>> {
+    let flag = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        signal_hook::flag::register_conditional_default(signal, Arc::clone(&flag)).into_diagnostic()?;
+        signal_hook::flag::register(signal, Arc::clone(&flag)).into_diagnostic()?;
+    }
+    Ok(flag)
+}
+
+fn run_faults(plan: &fault::Plan, ready: &Ready, out: &Path, pausing: &Pausing) -> miette::Result<End> {
     print!("{}", plan.summary());
-    let mut files = fault::Files::create(out, plan).into_diagnostic()?;
+    let pauses = fault::Pauses { every: pausing.checkpoint_every, wall: pausing.wall_time, stop: signals()? };
+    // A mesh file that changed makes another scene.
+    let files: String = ready.meshes.values().map(String::as_str).collect();
+    let scene = sha256(format!("{}{files}", ready.hash).as_bytes());
+    let mut resumed = None;
+    if pausing.resume {
+        resumed = fault::Keeper::resume(out, plan, &scene, pauses.clone()).into_diagnostic()?;
+        match &resumed {
+            Some((_, run)) => println!("resumed at {:.6e} s, step {}", run.at.seconds(), run.counts.steps),
+            None => println!("no checkpoint in {}: begins at the start", out.display()),
+        }
+    }
+    let (mut keeper, start) = match resumed {
+        Some(resumed) => resumed,
+        None => fault::Keeper::begin(out, plan, &scene, pauses).into_diagnostic()?,
+    };
     let clock = Instant::now();
-    let run = fault::run(&plan.fault, &plan.loading, plan.start.clone(), &plan.settings, &mut files);
-    files.finish().into_diagnostic()?;
-    let mut report = fault::Report::new(plan, &run);
+    let run = fault::resume(&plan.fault, &plan.loading, start, &plan.settings, &mut keeper);
+    let (mut balance, interrupted) = keeper.finish(&run).into_diagnostic()?;
+    let mut report = fault::Report::new(plan, &run, &mut balance);
     report.scene_sha256.clone_from(&ready.hash);
     (report.run.set_up_seconds, report.run.seconds) = (ready.seconds, clock.elapsed().as_secs_f64());
+    if let Some(why) = interrupted {
+        report.stopped = Some(format!("broken off: {why}"));
+    }
     write_report(out, &report)?;
     crate::observe::atomic::write(&out.join("events.csv"), report.csv().as_bytes()).into_diagnostic()?;
+    let events = serde_json::to_string_pretty(&report.events).into_diagnostic()?;
+    crate::observe::atomic::write(&out.join("events.json"), events.as_bytes()).into_diagnostic()?;
+    write_located(out, plan, &report, &ready.hash)?;
+    fault::draw(out, plan, &run).into_diagnostic()?;
     print!("{}", report.text());
     println!("  written to {}", out.display());
+    if interrupted.is_some() {
+        let (step, time) = (report.counts.steps, report.end);
+        return Ok(End::Interrupted(format!(
+            "{} at {time:.6e} s, step {step}; the same command with --resume goes on from there",
+            report.stopped.unwrap_or_default()
+        )));
+    }
     Ok(match &report.stopped {
         Some(reason) => End::Stopped(format!("at {:.6e} s: {reason}", report.end)),
         None => End::Done,
     })
+}
+
+/// The catalogue as seismologists exchange it, where the scene has a place.
+fn write_located(out: &Path, plan: &fault::Plan, report: &fault::Report, hash: &str) -> miette::Result<()> {
+    if plan.frame.is_none() {
+        return Ok(());
+    }
+    let events: Vec<_> = report.events.iter().filter_map(|e| e.located.clone()).collect();
+    let document = fault::located::quakeml(&plan.title, hash, &events).into_diagnostic()?;
+    crate::observe::atomic::write(&out.join("events.quakeml"), &document).into_diagnostic()?;
+    match fault::located::cmtsolution(&plan.title, &events) {
+        Some(text) => {
+            crate::observe::atomic::write(&out.join("CMTSOLUTION"), text.as_bytes()).into_diagnostic()
+        }
+        None => {
+            println!("  no CMTSOLUTION: moments need `length` in `[place]`, the length out of the plane");
+            Ok(())
+        }
+    }
 }
 
 fn write_report(out: &Path, report: &impl serde::Serialize) -> miette::Result<()> {

@@ -14,6 +14,10 @@ fn main() -> ExitCode {
             eprintln!("stopped: {why}");
             ExitCode::from(2)
         }
+        Ok(cli::End::Interrupted(why)) => {
+            eprintln!("{why}");
+            ExitCode::from(3)
+        }
         Err(error) => {
             eprintln!("{error:?}");
             ExitCode::FAILURE

@@ -1,10 +1,11 @@
 //! Events: from the time the fastest point passes a slip rate until all have fallen below a lower one.
 
 use crate::ode::Clock;
+use serde::{Deserialize, Serialize};
 
 /// Slip rates that begin and end an event. The fastest place hops from point to point, so that one rate for both would cut an
 /// event into several.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Thresholds {
     /// Begin \[m/s\].
     pub on: f64,
@@ -13,7 +14,7 @@ pub struct Thresholds {
 }
 
 /// An event.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Event {
     /// When it began.
     pub onset: Clock,
@@ -30,7 +31,7 @@ pub struct Event {
 }
 
 /// An event that goes on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Open {
     onset: Clock,
     peak: f64,
@@ -40,7 +41,7 @@ struct Open {
 }
 
 /// The events of a run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Catalogue {
     thresholds: Thresholds,
     events: Vec<Event>,

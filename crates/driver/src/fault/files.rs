@@ -1,11 +1,14 @@
-//! Output files of a run: stations in the format of the SEAS community, the largest slip rate, and profiles of slip.
+//! Output files of a run: stations in the format of the SEAS community, the largest slip rate, and profiles of slip and of
+//! slip rates.
 //!
 //! Rows come by change and by simulated time, not by step, so that files grow with what happens.
 
+use super::checkpoint::{Checkpoint, ResumeError};
 use super::plan::Plan;
 use super::run::{Moment, Watcher};
 use crate::observe::{ObserveError, atomic};
 use crate::ode::Control;
+use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -16,14 +19,20 @@ const YEAR: f64 = 365.25 * 86_400.0;
 const STATION_INTERVALS: [f64; 2] = [0.1 * YEAR, 0.1];
 /// Time between profiles of slip while nothing is fast, and in an event \[s\].
 const PROFILE_INTERVALS: [f64; 2] = [5.0 * YEAR, 1.0];
+/// A profile of rates is written where ln of the largest slip rate has changed by so much: half a decade.
+const RATE_CHANGE: f64 = 1.15;
 /// A row is written where ln of the largest slip rate has changed by so much: an eighth of a decade.
 const CHANGE: f64 = 0.3;
+
+/// Columns of the largest slip rate; means are weighted with areas.
+const LARGEST_HEAD: &str = "time [s],log10 slip_rate [m/s],point,mean shear_traction [Pa],mean slip [m]\n";
 
 /// A file that grows by whole rows.
 #[derive(Debug)]
 struct Rows {
     path: PathBuf,
     file: fs::File,
+    length: u64,
 }
 
 impl Rows {
@@ -31,33 +40,67 @@ impl Rows {
         atomic::write(&path, head.as_bytes())?;
         let file = fs::OpenOptions::new().append(true).open(&path);
         let file = file.map_err(|source| ObserveError::write(&path, source))?;
-        Ok(Self { path, file })
+        Ok(Self { path, file, length: head.len() as u64 })
+    }
+
+    /// Goes on with a file that had so many bytes; later ones are cut off.
+    fn reopen(path: PathBuf, expected: u64) -> Result<Self, ResumeError> {
+        let file = fs::OpenOptions::new().append(true).open(&path);
+        let found = file.and_then(|file| Ok((file.metadata()?.len(), file)));
+        let (found, file) = found.map_err(|source| ResumeError::Read { path: path.clone(), source })?;
+        if found < expected {
+            return Err(ResumeError::Shorter { path, found, expected });
+        }
+        file.set_len(expected).map_err(|source| ObserveError::write(&path, source))?;
+        Ok(Self { path, file, length: expected })
     }
 
     /// One write for a row: a run that is killed leaves whole rows.
     fn push(&mut self, row: &str) -> Result<(), ObserveError> {
+        self.length += row.len() as u64;
         self.file.write_all(row.as_bytes()).map_err(|source| ObserveError::write(&self.path, source))
+    }
+
+    /// Waits until the rows are on the disc.
+    fn settle(&self) -> Result<(), ObserveError> {
+        self.file.sync_data().map_err(|source| ObserveError::write(&self.path, source))
     }
 }
 
 /// When something was written last.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Last {
     time: f64,
-    log_largest: f64,
+    /// Largest slip rate then \[m/s\].
+    largest: f64,
 }
 
-/// Writes `stations/`, `largest_rate.csv` and `slip_profiles.csv`.
+/// Where the files of a run stand.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Position {
+    /// Bytes of the files, in their order.
+    lengths: Vec<u64>,
+    row: Option<Last>,
+    profile: Option<f64>,
+    rates: Option<Last>,
+}
+
+/// Writes `stations/`, `largest_rate.csv`, `slip_profiles.csv` and `rate_profiles.csv` (log10 of m/s).
 #[derive(Debug)]
 pub struct Files<'a> {
     plan: &'a Plan,
-    largest: Rows,
-    stations: Vec<(usize, Rows)>,
-    profiles: Rows,
+    /// The largest slip rate, profiles of slip and of slip rates, then stations.
+    rows: Vec<Rows>,
+    /// Points of the stations.
+    stations: Vec<usize>,
     row: Option<Last>,
     profile: Option<f64>,
+    rates: Option<Last>,
     failure: Option<ObserveError>,
 }
+
+/// Files before those of the stations.
+const GENERAL: usize = 3;
 
 impl<'a> Files<'a> {
     /// Makes the files with their headers in `out`.
@@ -66,9 +109,61 @@ impl<'a> Files<'a> {
     /// When a file cannot be written.
     pub fn create(out: &Path, plan: &'a Plan) -> Result<Self, ObserveError> {
         atomic::writable_dir(out)?;
+        atomic::create_dir(&out.join("stations"))?;
+        let mut rows = Vec::new();
+        for (path, head) in Self::heads(out, plan) {
+            rows.push(Rows::create(path, &head)?);
+        }
+        Ok(Self {
+            plan,
+            rows,
+            stations: stations(plan),
+            row: None,
+            profile: None,
+            rates: None,
+            failure: None,
+        })
+    }
+
+    /// Goes on with the files in `out` from where they stood; what was written after that is cut off.
+    ///
+    /// # Errors
+    /// When a file is missing, shorter than it was, or cannot be written.
+    pub fn resume(out: &Path, plan: &'a Plan, from: &Position) -> Result<Self, ResumeError> {
+        let (mut rows, heads) = (Vec::new(), Self::heads(out, plan));
+        if heads.len() != from.lengths.len() {
+            return Err(Checkpoint::foreign(out, "it has not the output files of this scene"));
+        }
+        for ((path, _), &length) in heads.into_iter().zip(&from.lengths) {
+            rows.push(Rows::reopen(path, length)?);
+        }
+        let Position { row, profile, rates, .. } = *from;
+        Ok(Self { plan, rows, stations: stations(plan), row, profile, rates, failure: None })
+    }
+
+    /// Where the files stand, once all of that is on the disc.
+    ///
+    /// # Errors
+    /// When something could not be written.
+    pub fn position(&self) -> Result<Position, ObserveError> {
+        self.rows.iter().try_for_each(Rows::settle)?;
+        let lengths = self.rows.iter().map(|r| r.length).collect();
+        Ok(Position { lengths, row: self.row, profile: self.profile, rates: self.rates })
+    }
+
+    /// All files with their headers.
+    fn heads(out: &Path, plan: &Plan) -> Vec<(PathBuf, String)> {
+        let mut profile_head = String::from("time [s]");
+        for p in &plan.points {
+            profile_head.push_str(&format!(",{}", p.along));
+        }
+        profile_head.push('\n');
+        let mut heads = vec![
+            (out.join("largest_rate.csv"), LARGEST_HEAD.to_string()),
+            (out.join("slip_profiles.csv"), profile_head.clone()),
+            (out.join("rate_profiles.csv"), profile_head),
+        ];
         let folder = out.join("stations");
-        atomic::create_dir(&folder)?;
-        let mut stations = Vec::new();
         for fault in &plan.faults {
             // Tenths of a kilometre in three digits, as the benchmarks name their stations, where that tells them apart.
             let tenths = |asked: f64| (asked / 100.0).round();
@@ -80,45 +175,31 @@ impl<'a> Files<'a> {
                     format!("{}_{k:03}", fault.name)
                 };
                 let head = station_head(plan, &fault.name, asked, point);
-                stations.push((point, Rows::create(folder.join(name), &head)?));
+                heads.push((folder.join(name), head));
             }
         }
-        let mut profile_head = String::from("time [s]");
-        for p in &plan.points {
-            profile_head.push_str(&format!(",{}", p.along));
-        }
-        profile_head.push('\n');
-        Ok(Self {
-            plan,
-            largest: Rows::create(out.join("largest_rate.csv"), "time [s],log10 slip_rate [m/s],point\n")?,
-            stations,
-            profiles: Rows::create(out.join("slip_profiles.csv"), &profile_head)?,
-            row: None,
-            profile: None,
-            failure: None,
-        })
+        heads
     }
 
-    /// Ends the files.
-    ///
-    /// # Errors
     /// The first thing that could not be written.
-    pub fn finish(self) -> Result<(), ObserveError> {
-        self.failure.map_or(Ok(()), Err)
+    pub fn failure(&mut self) -> Option<ObserveError> {
+        self.failure.take()
     }
 
     fn write(&mut self, now: &Moment<'_>) -> Result<(), ObserveError> {
         let time = now.at.seconds();
         let fast = usize::from(now.largest >= self.plan.settings.thresholds.on);
-        let log_largest = now.largest.ln();
         let due = self.row.is_none_or(|last| {
-            time - last.time >= STATION_INTERVALS[fast] || (log_largest - last.log_largest).abs() >= CHANGE
+            let change = (now.largest / last.largest).ln().abs();
+            time - last.time >= STATION_INTERVALS[fast] || change >= CHANGE
         });
         if due {
-            self.row = Some(Last { time, log_largest });
+            self.row = Some(Last { time, largest: now.largest });
             let point = now.rate.iter().position(|v| v.abs() == now.largest).unwrap_or(0);
-            self.largest.push(&format!("{time:.14e},{:.6},{point}\n", now.largest.log10()))?;
-            for (point, rows) in &mut self.stations {
+            let (shear, slip) = means(self.plan, now);
+            self.rows[0]
+                .push(&format!("{time:.14e},{:.6},{point},{shear:.6e},{slip:.9e}\n", now.largest.log10()))?;
+            for (point, rows) in self.stations.iter().zip(&mut self.rows[GENERAL..]) {
                 rows.push(&station_row(self.plan, now, *point))?;
             }
         }
@@ -129,7 +210,20 @@ impl<'a> Files<'a> {
                 row.push_str(&format!(",{slip:.6e}"));
             }
             row.push('\n');
-            self.profiles.push(&row)?;
+            self.rows[1].push(&row)?;
+        }
+        let due = self.rates.is_none_or(|last| {
+            let change = (now.largest / last.largest).ln().abs();
+            time - last.time >= PROFILE_INTERVALS[fast] || change >= RATE_CHANGE
+        });
+        if due {
+            self.rates = Some(Last { time, largest: now.largest });
+            let mut row = format!("{time:.14e}");
+            for rate in now.rate {
+                row.push_str(&format!(",{:.3}", rate.abs().log10()));
+            }
+            row.push('\n');
+            self.rows[2].push(&row)?;
         }
         Ok(())
     }
@@ -145,6 +239,22 @@ impl Watcher for Files<'_> {
             }
         }
     }
+}
+
+/// Means of shear traction \[Pa\] and slip \[m\] over the area.
+fn means(plan: &Plan, now: &Moment<'_>) -> (f64, f64) {
+    let (mut area, mut shear, mut slip) = (0.0, 0.0, 0.0);
+    for (p, point) in plan.points.iter().enumerate() {
+        area += point.area;
+        shear += point.area * now.normal(&plan.fault, p) * plan.fault.law.scale(p) * now.unknowns[p];
+        slip += point.area * now.slip()[p];
+    }
+    (shear / area, slip / area)
+}
+
+/// Points of all stations.
+fn stations(plan: &Plan) -> Vec<usize> {
+    plan.faults.iter().flat_map(|f| f.stations.iter().map(|s| s.1)).collect()
 }
 
 fn station_head(plan: &Plan, fault: &str, asked: f64, point: usize) -> String {

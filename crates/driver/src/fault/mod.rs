@@ -1,11 +1,16 @@
 //! Faults whose linear bodies are condensed onto them: slip, states and tractions of the fault's points as a system of ordinary
 //! differential equations, through many earthquake cycles.
 
+mod balance;
 mod catalogue;
+mod checkpoint;
 mod condense;
 mod equations;
+mod figures;
 mod files;
+mod keeper;
 mod loading;
+pub mod located;
 mod machine;
 mod operator;
 mod place;
@@ -13,13 +18,17 @@ mod plan;
 mod report;
 mod run;
 
+pub use balance::{Balance, Energy, Mark, Sums, steady};
 pub use catalogue::{Catalogue, Event, Thresholds};
+pub use checkpoint::{Checkpoint, ResumeError};
 pub use condense::{Point, Surroundings, condense};
 pub use equations::{Equations, Fault, Layout};
-pub use files::Files;
+pub use figures::draw;
+pub use files::{Files, Position};
+pub use keeper::{Keeper, Pauses};
 pub use loading::Loading;
 pub use operator::{Dense, Operator};
 pub use place::{Place, places};
 pub use plan::{FaultView, Plan, PointView, plan};
 pub use report::Report;
-pub use run::{Moment, Run, Settings, Watcher, run};
+pub use run::{Moment, RESTART, Run, Settings, Watcher, resume, run};

@@ -4,6 +4,7 @@ use super::catalogue::Thresholds;
 use super::condense::{Point, condense};
 use super::equations::{Fault, Layout};
 use super::loading::Loading;
+use super::located::Frame;
 use super::place::{Place, places};
 use super::run::Settings;
 use crate::laws;
@@ -38,6 +39,10 @@ pub struct PointView {
     pub at: [f64; 3],
     /// Distance along a plane fault from its upper end \[m\].
     pub along: f64,
+    /// Unit normal from minus to plus.
+    pub normal: [f64; 3],
+    /// Direction in which plus moves where slip is positive.
+    pub slides: [f64; 3],
     /// Tributary area \[m²; m per metre of thickness\].
     pub area: f64,
     /// Where the law has one state of that meaning: θ = time exp(per s), in s.
@@ -80,11 +85,19 @@ pub struct Plan {
     pub creeping: usize,
     /// Memory of condensation at its worst \[bytes\].
     pub condensation_bytes: usize,
+    /// Where and when it lies on Earth.
+    pub frame: Option<Frame>,
     /// Idealisation in words.
     pub kinematics: &'static str,
 }
 
 impl Plan {
+    /// Whether the faults are surfaces in space, not lines in the plane.
+    #[must_use]
+    pub fn in_space(&self) -> bool {
+        self.kinematics == Kinematics::ThreeD.words()
+    }
+
     /// What a person should see before the run.
     #[must_use]
     pub fn summary(&self) -> String {
@@ -210,6 +223,12 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan, PlanError> {
     };
     let start = start(scene, &placed, &fault).map_err(at_law)?;
     let (faults, views) = views(scene, &placed);
+    let frame = match &scene.place {
+        None => None,
+        Some(place) => Some(Frame::new(place, D == 3).map_err(|e| {
+            PlanError::at(place.epoch.span(), e.to_string(), "such as \"2000-01-01T00:00:00Z\"".into())
+        })?),
+    };
     Ok(Plan {
         title: scene.title.clone(),
         faults,
@@ -221,6 +240,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan, PlanError> {
         dofs: model.dofs(),
         creeping: points.len() - placed.len(),
         condensation_bytes: surroundings.bytes,
+        frame,
         kinematics: scene.kinematics.get_ref().words(),
         fault,
     })
@@ -397,8 +417,16 @@ fn views<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> (Vec<FaultView>
         .iter()
         .map(|p| {
             let place = &p.point.place;
-            let at = std::array::from_fn(|c| if c < D { place.at[c] } else { 0.0 });
-            PointView { at, along: place.along, area: place.area, theta: theta(&p.law) }
+            let in_space = |v: &[f64; D]| std::array::from_fn(|c| if c < D { v[c] } else { 0.0 });
+            let (at, normal): ([f64; 3], [f64; 3]) = (in_space(&place.at), in_space(&place.normal));
+            // Out of the plane, or along the fault in it.
+            let slides = if scene.kinematics.get_ref().idealisation().components() == 1 {
+                [0.0, 0.0, 1.0]
+            } else {
+                [-normal[1], normal[0], 0.0]
+            };
+            let (along, area, theta) = (place.along, place.area, theta(&p.law));
+            PointView { at, along, normal, slides, area, theta }
         })
         .collect();
     let mut faults = Vec::new();

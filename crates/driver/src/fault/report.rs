@@ -1,6 +1,8 @@
 //! `report.json` of a fault through cycles, and its events as CSV.
 
+use super::balance::{Balance, Energy, Mark, steady};
 use super::catalogue::Event;
+use super::located::Located;
 use super::plan::Plan;
 use super::run::Run;
 use crate::ode::Outcome;
@@ -34,6 +36,9 @@ pub struct Entry {
     pub moment: f64,
     /// Mean fall of shear traction there, weighted with slip \[Pa\].
     pub stress_drop: f64,
+    /// What seismologists tell of it, where the scene has a place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub located: Option<Located>,
 }
 
 /// Share of the largest slip above which a point counts as slipped.
@@ -66,7 +71,67 @@ impl Entry {
             area,
             moment: plan.shear_modulus * potency,
             stress_drop: over(&work) / potency,
+            // The reader has made sure that the calendar reaches to the end of the run.
+            located: plan.frame.as_ref().and_then(|frame| Located::new(plan, frame, event).ok()),
         }
+    }
+}
+
+/// Works with what their balance lacks.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EnergyBalance {
+    /// Works \[J; J per metre of thickness in the plane\].
+    #[serde(flatten)]
+    pub parts: Energy,
+    /// |loads - elastic - friction - radiated| over the largest of them \[-\].
+    pub imbalance: f64,
+}
+
+impl From<Energy> for EnergyBalance {
+    fn from(parts: Energy) -> Self {
+        Self { parts, imbalance: parts.imbalance() }
+    }
+}
+
+/// A cycle: from the end of an event to that of the next.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Cycle {
+    /// How long it was \[s\].
+    pub duration: f64,
+    /// Slip over the area in its event \[m³; m²\].
+    pub seismic: f64,
+    /// Slip over the area before its event.
+    pub aseismic: f64,
+    /// What slip at the rates that keep tractions constant under the loads would have been, where they are constant.
+    pub driven: Option<f64>,
+    /// Works in it.
+    pub energy: EnergyBalance,
+}
+
+impl Cycle {
+    fn new(marks: &[Mark], event: &Event, plan: &Plan, driven: Option<f64>) -> Self {
+        let (a, b) = (&marks[0], &marks[1]);
+        let seismic: f64 = event.slip.iter().zip(&plan.points).map(|(s, p)| s * p.area).sum();
+        let energy = Energy {
+            loads: b.energy.loads - a.energy.loads,
+            elastic: b.energy.elastic - a.energy.elastic,
+            friction: b.energy.friction - a.energy.friction,
+            radiated: b.energy.radiated - a.energy.radiated,
+        };
+        let duration = b.time - a.time;
+        Self {
+            duration,
+            seismic,
+            aseismic: b.potency - a.potency - seismic,
+            driven: driven.map(|rate| rate * duration),
+            energy: energy.into(),
+        }
+    }
+
+    /// Slip over the area of the whole cycle over what the loads drive.
+    #[must_use]
+    pub fn closure(&self) -> Option<f64> {
+        self.driven.map(|driven| (self.seismic + self.aseismic) / driven)
     }
 }
 
@@ -113,6 +178,14 @@ pub struct Report {
     pub end: f64,
     /// Events.
     pub events: Vec<Entry>,
+    /// Onset of an event that goes on at the end \[s\].
+    pub under_way: Option<f64>,
+    /// Unit of works.
+    pub unit: &'static str,
+    /// Works until the end.
+    pub energy: EnergyBalance,
+    /// From the end of each event to that of the next.
+    pub cycles: Vec<Cycle>,
     /// Work.
     pub counts: Work,
     /// Machine-dependent.
@@ -144,12 +217,19 @@ const YEAR: f64 = 365.25 * 86_400.0;
 impl Report {
     /// The report of a run of a plan.
     #[must_use]
-    pub fn new(plan: &Plan, run: &Run) -> Self {
+    pub fn new(plan: &Plan, run: &Run, balance: &mut Balance<'_>) -> Self {
         let stopped = match &run.outcome {
             Outcome::Completed | Outcome::Stopped => None,
             Outcome::Failed { reason } => Some(why(plan, run, &reason.to_string())),
         };
         let events = run.catalogue.events();
+        let slip = &run.unknowns[super::Layout::of(&plan.fault).slip()];
+        let energy = balance.energy(slip).into();
+        let marks = balance.marks();
+        let driven = if marks.len() > 1 { steady(plan) } else { None };
+        let driven = driven.map(|rate| rate.iter().zip(&plan.points).map(|(v, p)| v * p.area).sum());
+        let cycle = |(pair, event): (&[Mark], &Event)| Cycle::new(pair, event, plan, driven);
+        let cycles = marks.windows(2).zip(events.iter().skip(1)).map(cycle).collect();
         let entry =
             |(k, event): (usize, &Event)| Entry::new(plan, event, k.checked_sub(1).map(|b| &events[b]));
         Self {
@@ -161,6 +241,10 @@ impl Report {
             stopped,
             end: run.at.seconds(),
             events: events.iter().enumerate().map(entry).collect(),
+            under_way: run.catalogue.under_way().map(|at| at.seconds()),
+            unit: if plan.in_space() { "J" } else { "J/m" },
+            energy,
+            cycles,
             counts: Work {
                 steps: run.counts.steps,
                 rejected: run.counts.rejected,
@@ -219,6 +303,23 @@ impl Report {
                 e.fault
             );
         }
+        for (k, cycle) in self.cycles.iter().enumerate() {
+            let Some(closure) = cycle.closure() else { continue };
+            let share = cycle.seismic / (cycle.seismic + cycle.aseismic);
+            let _ = writeln!(
+                text,
+                "  cycle to event {}: {:.2} % of the slip in events, slip {:.4} of what the loads drive",
+                k + 2,
+                100.0 * share,
+                closure
+            );
+        }
+        let e = &self.energy.parts;
+        let _ = writeln!(
+            text,
+            "  energy: loads {:.6e}, elastic {:.6e}, friction {:.6e}, radiated {:.6e} {}; lacks {:.1e} of the largest",
+            e.loads, e.elastic, e.friction, e.radiated, self.unit, self.energy.imbalance
+        );
         let _ = writeln!(text, "  end at {}", time(self.end));
         let c = &self.counts;
         let _ = writeln!(
@@ -244,6 +345,6 @@ fn length(metres: f64) -> String {
 }
 
 /// A time in words.
-fn time(seconds: f64) -> String {
+pub(super) fn time(seconds: f64) -> String {
     if seconds.abs() >= 0.1 * YEAR { format!("{:.5} yr", seconds / YEAR) } else { format!("{seconds:.5} s") }
 }

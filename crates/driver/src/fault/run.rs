@@ -1,9 +1,15 @@
 //! Integration of a fault from change to change of its loading.
+//!
+//! The integration restarts after each event and after every [`RESTART`] accepted steps, whether or not somebody keeps what it
+//! restarts from: a run that goes on from such a point takes the same steps, bit for bit, as one that was never broken off.
 
 use super::catalogue::{Catalogue, Thresholds};
 use super::equations::{Equations, Fault, Layout};
 use super::loading::Loading;
-use crate::ode::{self, Clock, Control, Counts, Finished, Method, Occurrence, Options, Outcome, Sink, Step};
+use crate::ode::{
+    self, Clock, Control, Counts, Failure, Finished, Method, Occurrence, Options, Outcome, Sink, Step,
+};
+use serde::{Deserialize, Serialize};
 
 /// How to integrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +45,19 @@ pub struct Moment<'a> {
     pub largest: f64,
     /// Events until now.
     pub catalogue: &'a Catalogue,
+    /// The step, where the method knows the rates at its ends; none at the start.
+    pub step: Option<Ends<'a>>,
+}
+
+/// The ends of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Ends<'a> {
+    /// Unknowns at its start.
+    pub start: &'a [f64],
+    /// Their rates.
+    pub start_rates: &'a [f64],
+    /// Rates at its end.
+    pub end_rates: &'a [f64],
 }
 
 impl Moment<'_> {
@@ -65,6 +84,11 @@ impl Moment<'_> {
 pub trait Watcher {
     /// At the start and after each step.
     fn now(&mut self, moment: &Moment<'_>) -> Control;
+
+    /// Where the integration restarts, after the step there was shown: [`resume`] goes on from this.
+    fn pause(&mut self, _run: &Run) -> Control {
+        Control::Go
+    }
 }
 
 impl<F: FnMut(&Moment<'_>) -> Control> Watcher for F {
@@ -73,22 +97,49 @@ impl<F: FnMut(&Moment<'_>) -> Control> Watcher for F {
     }
 }
 
-/// What a run found.
-#[derive(Clone, Debug)]
+/// What a run found, or has found so far: where it restarts this is all there is to know to go on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// How it ended.
+    #[serde(skip, default = "completed")]
     pub outcome: Outcome,
     /// When.
     pub at: Clock,
     /// Unknowns then.
     pub unknowns: Vec<f64>,
+    /// Length of the step to try next \[s\]; chosen from the rates where absent.
+    pub next_step: Option<f64>,
     /// Events.
     pub catalogue: Catalogue,
     /// Work.
     pub counts: Counts,
     /// Where the integration failed: the point whose normal traction falls to zero there.
+    #[serde(skip)]
     pub opens: Option<usize>,
 }
+
+impl Run {
+    /// A run that begins at time 0.
+    #[must_use]
+    pub fn new(unknowns: Vec<f64>, thresholds: Thresholds) -> Self {
+        Self {
+            outcome: completed(),
+            at: Clock::new(0.0, 0.0),
+            unknowns,
+            next_step: None,
+            catalogue: Catalogue::new(thresholds),
+            counts: Counts::default(),
+            opens: None,
+        }
+    }
+}
+
+fn completed() -> Outcome {
+    Outcome::Completed
+}
+
+/// Accepted steps after which the integration restarts: one evaluation of the rates more in about 1500.
+pub const RESTART: u64 = 256;
 
 /// Rounding of m, of states and of f_n over their size, beside the tolerance.
 const ROUNDING: f64 = 1e-15;
@@ -101,29 +152,41 @@ pub fn run(
     settings: &Settings,
     watcher: &mut dyn Watcher,
 ) -> Run {
-    let mut run = Run {
-        outcome: Outcome::Completed,
-        at: Clock::new(0.0, 0.0),
-        unknowns,
-        catalogue: Catalogue::new(settings.thresholds),
-        counts: Counts::default(),
-        opens: None,
-    };
+    resume(fault, loading, Run::new(unknowns, settings.thresholds), settings, watcher)
+}
+
+/// Goes on with a run, see [`Watcher::pause`]. One that had ended is returned as it is.
+pub fn resume(
+    fault: &Fault,
+    loading: &Loading,
+    mut run: Run,
+    settings: &Settings,
+    watcher: &mut dyn Watcher,
+) -> Run {
+    run.outcome = if enough(&run, settings) { Outcome::Stopped } else { Outcome::Completed };
     let mut breaks = loading.breaks(0.0, settings.end);
     breaks.push(settings.end);
     for end in breaks {
+        if run.outcome != Outcome::Completed {
+            break;
+        }
+        if Clock::new(end, 0.0).since(&run.at) <= 0.0 {
+            continue;
+        }
         let within = 0.5 * (run.at.seconds() + end);
         let (shear, normal) = loading.rates(within, fault.law.points(), fault.operator.couples_normal());
         let equations = Equations::new(fault, shear, normal);
         leg(&equations, fault, end, settings, watcher, &mut run);
-        if run.outcome != Outcome::Completed {
-            break;
-        }
     }
     run
 }
 
-/// Integrates between two changes of the loading.
+/// Whether all events asked for have ended.
+fn enough(run: &Run, settings: &Settings) -> bool {
+    settings.most_events.is_some_and(|most| run.catalogue.events().len() >= most)
+}
+
+/// Integrates between two changes of the loading, from restart to restart.
 fn leg(
     equations: &Equations<'_>,
     fault: &Fault,
@@ -132,7 +195,7 @@ fn leg(
     watcher: &mut dyn Watcher,
     run: &mut Run,
 ) {
-    let options = Options {
+    let mut options = Options {
         method: settings.method,
         rtol: ROUNDING,
         atol: equations.tolerances(settings.tolerance),
@@ -140,33 +203,68 @@ fn leg(
         largest_step: None,
         most_steps: settings.most_steps,
     };
+    loop {
+        let taken = usize::try_from(run.counts.steps).unwrap_or(usize::MAX);
+        (options.first_step, options.most_steps) = (run.next_step, settings.most_steps.saturating_sub(taken));
+        if !piece(equations, fault, end, (settings, &options), watcher, run) {
+            return;
+        }
+        run.outcome = Outcome::Completed;
+        if watcher.pause(run) == Control::Stop {
+            run.outcome = Outcome::Stopped;
+            return;
+        }
+    }
+}
+
+/// Integrates until the next restart, or as far as it goes; whether it is to go on.
+fn piece(
+    equations: &Equations<'_>,
+    fault: &Fault,
+    end: f64,
+    (settings, options): (&Settings, &Options),
+    watcher: &mut dyn Watcher,
+    run: &mut Run,
+) -> bool {
     let n = fault.law.points();
     let mut follow = Follow {
         equations,
         fault,
         watcher,
         catalogue: &mut run.catalogue,
-        most_events: settings.most_events,
+        steps: 0,
+        next_step: None,
+        paused: false,
         rate: vec![0.0; n],
         shear: vec![0.0; n],
         between: run.unknowns.clone(),
         largest: 0.0,
     };
-    let first = run.at == Clock::new(0.0, 0.0);
-    if first && follow.begin(run.at, &run.unknowns) == Control::Stop {
+    if run.counts.steps == 0 && follow.begin(run.at, &run.unknowns) == Control::Stop {
         run.outcome = Outcome::Stopped;
-        return;
+        return false;
     }
     let duration = Clock::new(end, 0.0).since(&run.at);
     let Finished { outcome, at, state, counts } =
-        ode::integrate(equations, run.at, &run.unknowns, duration, &options, &mut follow);
+        ode::integrate(equations, run.at, &run.unknowns, duration, options, &mut follow);
+    let paused = follow.paused;
+    run.next_step = follow.next_step;
     (run.outcome, run.at, run.unknowns) = (outcome, at, state);
-    if matches!(run.outcome, Outcome::Failed { .. }) {
-        run.opens = equations.opened();
-    }
     run.counts.steps += counts.steps;
     run.counts.rejected += counts.rejected;
     run.counts.rates += counts.rates;
+    match &mut run.outcome {
+        // To the end exactly, so that nothing is left of it for another step.
+        Outcome::Completed => (run.at, run.next_step) = (Clock::new(end, 0.0), None),
+        Outcome::Failed { reason } => {
+            run.opens = equations.opened();
+            if let Failure::TooManySteps { most } = reason {
+                *most = settings.most_steps;
+            }
+        }
+        Outcome::Stopped => return paused && !enough(run, settings),
+    }
+    false
 }
 
 /// Follows the largest slip rate through the steps.
@@ -175,7 +273,12 @@ struct Follow<'a> {
     fault: &'a Fault,
     watcher: &'a mut dyn Watcher,
     catalogue: &'a mut Catalogue,
-    most_events: Option<usize>,
+    /// Accepted steps since the last restart.
+    steps: u64,
+    /// Length to try after the next one \[s\].
+    next_step: Option<f64>,
+    /// Whether it was ended for a restart.
+    paused: bool,
     rate: Vec<f64>,
     shear: Vec<f64>,
     /// Unknowns within a step.
@@ -191,13 +294,13 @@ impl Follow<'_> {
     fn begin(&mut self, at: Clock, y: &[f64]) -> Control {
         self.equations.slip_rates(y, &mut self.rate);
         self.largest = fastest(&self.rate).1;
-        self.tell(at, 0.0, y)
+        self.tell(at, 0.0, y, None)
     }
 
-    fn tell(&mut self, at: Clock, dt: f64, unknowns: &[f64]) -> Control {
+    fn tell(&mut self, at: Clock, dt: f64, unknowns: &[f64], step: Option<Ends<'_>>) -> Control {
         let layout = self.equations.layout();
         let (rate, catalogue) = (self.rate.as_slice(), &*self.catalogue);
-        self.watcher.now(&Moment { at, dt, unknowns, layout, rate, largest: self.largest, catalogue })
+        self.watcher.now(&Moment { at, dt, unknowns, layout, rate, largest: self.largest, catalogue, step })
     }
 
     /// Notes the passing of a threshold within the step, at the time the fastest point has it: by halving, since the fastest
@@ -253,6 +356,7 @@ impl Sink for Follow<'_> {
                 fastest(&self.rate).1
             }
         };
+        let events = self.catalogue.events().len();
         let (threshold, upwards) = self.catalogue.next();
         self.catalogue.rate(largest);
         if (largest >= threshold) == upwards {
@@ -264,11 +368,19 @@ impl Sink for Follow<'_> {
             None => self.equations.slip_rates(step.state, &mut self.rate),
         }
         self.largest = largest;
-        let control = self.tell(step.end, step.length(), step.state);
-        if self.most_events.is_some_and(|most| self.catalogue.events().len() >= most) {
+        let ends = step.start_rates().zip(step.rates);
+        let ends =
+            ends.map(|(start_rates, end_rates)| Ends { start: step.start_state(), start_rates, end_rates });
+        if self.tell(step.end, step.length(), step.state, ends) == Control::Stop {
             return Control::Stop;
         }
-        control
+        self.steps += 1;
+        if self.catalogue.events().len() > events || self.steps == RESTART {
+            self.paused = true;
+            self.next_step = step.next_length();
+            return Control::Stop;
+        }
+        Control::Go
     }
 
     fn occurred(&mut self, _: &Occurrence) -> Control {

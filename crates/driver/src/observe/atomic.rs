@@ -2,6 +2,7 @@
 
 use super::ObserveError;
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Creates a directory and its parents.
@@ -20,6 +21,23 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ObserveError> {
     let temporary = temporary_name(path);
     fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path)).map_err(|source| {
         // The first error is the one to report; a leftover that cannot be removed either adds nothing to it.
+        let _ = fs::remove_file(&temporary);
+        ObserveError::write(path, source)
+    })
+}
+
+/// Like [`write`], and on the disc before it returns: a machine that fails leaves the old file or the new one.
+///
+/// # Errors
+/// See [`write`].
+pub fn write_durably(path: &Path, bytes: &[u8]) -> Result<(), ObserveError> {
+    let temporary = temporary_name(path);
+    let written = fs::File::create(&temporary).and_then(|mut file| {
+        file.write_all(bytes)?;
+        file.sync_all()
+    });
+    written.and_then(|()| fs::rename(&temporary, path)).map_err(|source| {
+        // See `write`.
         let _ = fs::remove_file(&temporary);
         ObserveError::write(path, source)
     })

@@ -5,10 +5,13 @@ use super::ObserveError;
 use super::view::{Observer, Setup, StepView};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Lines per run where there is no terminal: one every 5 % of the simulated time.
 const LINES: f64 = 20.0;
+
+/// Wall time between two changes of the bar.
+const REFRESH: Duration = Duration::from_millis(100);
 
 /// Resolution of the bar: thousandths of the simulated time.
 const TICKS: f64 = 1000.0;
@@ -19,7 +22,7 @@ pub struct Progress {
 }
 
 enum Sink {
-    Bar(ProgressBar),
+    Bar { bar: ProgressBar, shown: Option<Instant> },
     Lines { started: Instant, shown: usize },
 }
 
@@ -28,16 +31,39 @@ impl Progress {
     #[must_use]
     pub fn new() -> Self {
         let sink = if std::io::stderr().is_terminal() {
-            Sink::Bar(bar())
+            Sink::Bar { bar: bar(), shown: None }
         } else {
             Sink::Lines { started: Instant::now(), shown: 0 }
         };
         Self { sink }
     }
 
+    /// Shows that this part of the simulated time is done, with a line about the present step.
+    #[allow(clippy::print_stderr)] // This is the run's voice on standard error.
+    pub fn show(&mut self, part: f64, status: impl FnOnce() -> String) {
+        let part = part.clamp(0.0, 1.0);
+        match &mut self.sink {
+            Sink::Bar { bar, shown } => {
+                // A person does not read faster; steps may.
+                if shown.is_none_or(|at| at.elapsed() >= REFRESH) {
+                    *shown = Some(Instant::now());
+                    bar.set_position((part * TICKS) as u64);
+                    bar.set_message(status());
+                }
+            }
+            Sink::Lines { started, shown } => {
+                if let Some(now) = passed(part, *shown) {
+                    *shown = now;
+                    let wall = started.elapsed().as_secs_f64();
+                    eprintln!("{:3.0} %  {}  [{wall:.1} s]", 100.0 * part, status());
+                }
+            }
+        }
+    }
+
     /// Takes the bar off the screen, so that what follows stands below clean output.
     pub fn finish(&self) {
-        if let Sink::Bar(bar) = &self.sink {
+        if let Sink::Bar { bar, .. } = &self.sink {
             bar.finish_and_clear();
         }
     }
@@ -67,28 +93,14 @@ impl Drop for Progress {
 impl Observer for Progress {
     fn begin(&mut self, _: &Setup) -> Result<(), ObserveError> {
         match &mut self.sink {
-            Sink::Bar(bar) => bar.reset(),
+            Sink::Bar { bar, .. } => bar.reset(),
             Sink::Lines { started, shown } => (*started, *shown) = (Instant::now(), 0),
         }
         Ok(())
     }
 
-    #[allow(clippy::print_stderr)] // This observer is the run's voice on standard error.
     fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
-        let part = (view.record.time / view.end_time).clamp(0.0, 1.0);
-        match &mut self.sink {
-            Sink::Bar(bar) => {
-                bar.set_position((part * TICKS) as u64);
-                bar.set_message(status(view));
-            }
-            Sink::Lines { started, shown } => {
-                if let Some(now) = passed(part, *shown) {
-                    *shown = now;
-                    let wall = started.elapsed().as_secs_f64();
-                    eprintln!("{:3.0} %  {}  [{wall:.1} s]", 100.0 * part, status(view));
-                }
-            }
-        }
+        self.show(view.record.time / view.end_time, || status(view));
         Ok(())
     }
 }

@@ -1,10 +1,12 @@
 //! Time that resolves 1e-9 s at 1e9 s.
 
+use serde::{Deserialize, Serialize};
+
 /// A time: a base \[s\] of twice the usual precision, and a local part \[s\] counted from the last restart.
 ///
 /// A double at 1e9 s has a resolution of 1e-7 s. The local part is small where steps are short, so that steps and differences
 /// of times keep the precision of the local part.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Clock {
     /// Leading part of the base \[s\].
     pub base: f64,

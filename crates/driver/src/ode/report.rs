@@ -3,6 +3,7 @@
 use super::clock::Clock;
 use super::problem::System;
 use super::stepper::Stepper;
+use serde::{Deserialize, Serialize};
 
 /// A change of sign of an event function.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +59,24 @@ impl Step<'_> {
         self.end.since(&self.start)
     }
 
+    /// The unknowns at its start.
+    #[must_use]
+    pub fn start_state(&self) -> &[f64] {
+        self.stepper.start()
+    }
+
+    /// The rates at its start, where the method has them.
+    #[must_use]
+    pub fn start_rates(&self) -> Option<&[f64]> {
+        self.stepper.rates().map(|(start, _)| start)
+    }
+
+    /// Length the method would take next \[s\], where it is worth something after a restart.
+    #[must_use]
+    pub fn next_length(&self) -> Option<f64> {
+        self.stepper.next_length()
+    }
+
     /// Writes the unknowns at `fraction` of the step, from 0 to 1, into `y`.
     ///
     /// The polynomial is the method's own: of degree 7 for dop853, for which the first call in a step evaluates the rates
@@ -70,7 +89,7 @@ impl Step<'_> {
 }
 
 /// What an integration took.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
     /// Accepted steps.
     pub steps: u64,

@@ -8,6 +8,7 @@ mod interfaces;
 mod materials;
 mod meshes;
 mod output;
+mod place;
 mod solver;
 mod time;
 
@@ -26,6 +27,7 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     checker.bodies();
     checker.interfaces();
     checker.faults();
+    checker.place();
     checker.stages();
     checker.time();
     checker.solver();

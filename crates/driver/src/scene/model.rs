@@ -5,6 +5,7 @@
 
 mod body;
 mod fault;
+mod place;
 mod solver;
 
 use super::law::Several;
@@ -12,6 +13,7 @@ use super::slider::EventSpec;
 use super::units::{Angle, Length, Penalty, Penetration, Pressure, Time, Velocity};
 pub use body::*;
 pub use fault::*;
+pub use place::Place;
 use serde::Deserialize;
 pub use serde_spanned::Spanned;
 pub use solver::*;
@@ -45,6 +47,8 @@ pub struct Scene {
     pub faults: BTreeMap<String, Fault>,
     /// Events of faults.
     pub events: Option<EventSpec>,
+    /// Where and when they are said to happen.
+    pub place: Option<Place>,
     /// Stages in sequence.
     pub stages: Vec<Stage>,
     /// Time integration.

@@ -58,6 +58,11 @@ impl Axis {
     /// Ticks: place along the axis and text.
     pub(super) fn ticks(&self, about: usize) -> Vec<(f64, String)> {
         let (lo, hi) = self.range;
+        if hi < lo {
+            // An axis that falls, such as one of depth.
+            let back = Self { range: (hi, lo), ..self.clone() };
+            return back.ticks(about).into_iter().map(|(place, text)| (1.0 - place, text)).collect();
+        }
         let span = hi - lo;
         if self.log {
             let stride = ((span / about as f64).ceil() as usize).max(1);
@@ -214,6 +219,15 @@ mod tests {
                 assert!(axis.ticks(6).iter().all(|(place, _)| place.is_finite()), "{values:?}");
             }
         }
+    }
+
+    #[test]
+    fn an_axis_that_falls_has_the_ticks_of_one_that_rises_at_the_other_end() {
+        let falling = Axis::exact((40.0, 0.0), String::new());
+        let ticks = falling.ticks(4);
+        assert_eq!(ticks.iter().map(|t| t.1.as_str()).collect::<Vec<_>>(), ["0", "10", "20", "30", "40"]);
+        assert_eq!((ticks[0].0, ticks[4].0), (1.0, 0.0));
+        assert_eq!((falling.place(0.0), falling.place(30.0)), (1.0, 0.25));
     }
 
     #[test]

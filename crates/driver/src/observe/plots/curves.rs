@@ -50,7 +50,7 @@ pub(super) const QUANTITIES: [Quantity; 3] = [
 const SPIKES: f64 = 1e3;
 
 /// Decades a logarithmic axis shows at most: from plate rates to seismic slip is about twelve.
-const DECADES: f64 = 14.0;
+pub(super) const DECADES: f64 = 14.0;
 
 /// Columns into which a curve is thinned, keeping the extremes of each: twice what a screen resolves.
 const COLUMNS: usize = 2000;
@@ -195,7 +195,7 @@ fn pieces(times: &[f64], values: &[f64]) -> Vec<Vec<Point>> {
 }
 
 /// Thins a curve to the first, lowest, highest and last point of each column of its width.
-fn thin(points: Vec<Point>) -> Vec<Point> {
+pub(super) fn thin(points: Vec<Point>) -> Vec<Point> {
     if points.len() <= 2 * COLUMNS {
         return points;
     }

@@ -50,7 +50,13 @@ pub(super) fn mises(scene: &str, mesh: &MeshView, end: &StageEnd, fields: &BodyF
         figure.line(line.iter().map(at).collect(), 1.0, INK);
     }
     frame.draw(&mut figure);
-    colour_bar(&mut figure, &frame, &colours);
+    let unit = colours.unit;
+    let bar = Bar {
+        range: (colours.lo / unit.factor, colours.hi / unit.factor),
+        above: colours.above.map(|above| format!("max {:.1}", above / unit.factor)),
+        label: format!("Mises stress [{}]", unit.name),
+    };
+    bar.draw(&mut figure, &frame);
     Some(figure)
 }
 
@@ -153,39 +159,46 @@ fn fill(rgb: &mut [Rgb], columns: usize, [a, b, c]: [(f64, f64, f64); 3], colour
 /// Slack of the inside test, so that a pixel on a shared edge is filled by one of its triangles in spite of rounding.
 const ON_EDGE: f64 = 1e-9;
 
-/// The bar right of the map, with an arrow where values lie above it.
-fn colour_bar(figure: &mut Figure, frame: &Frame, colours: &Colours) {
-    let (left, top) = (frame.at.0 + frame.size.0 + 28.0, frame.at.1);
-    let (width, height) = (18.0, frame.size.1.max(BAR));
-    let unit = colours.unit;
-    let (lo, hi) = (colours.lo / unit.factor, colours.hi / unit.factor);
-    let axis = Axis::exact((lo, hi), String::new());
-    let head = if colours.above.is_some() { 16.0 } else { 0.0 };
-    let body = height - head;
-    let rgb = (0..256).rev().map(|i| viridis(f64::from(i) / 255.0)).collect();
-    figure.image(Image { at: (left, top + head), size: (width, body), columns: 1, rgb });
-    let (bottom, right) = (top + height, left + width);
-    let mut ring = vec![(left, top + head), (left, bottom), (right, bottom), (right, top + head)];
-    if let Some(above) = colours.above {
-        let tip = (left + width / 2.0, top);
-        figure.area(vec![(left, top + head), tip, (right, top + head)], viridis(1.0));
-        ring.push(tip);
-        let text = format!("max {:.1}", above / unit.factor);
-        figure.text((right + 9.0, top + 3.0), text, 12.0, Anchor::Start, INK);
-    }
-    ring.push(ring[0]);
-    figure.line(ring, 1.0, INK);
-    let mut widest = 0;
-    for (place, text) in axis.ticks(super::axes::Y_TICKS) {
-        let y = bottom - place * body;
-        widest = widest.max(text.chars().count());
-        figure.line(vec![(right, y), (right + 5.0, y)], 1.0, INK);
-        // The note on the maximum needs the room above.
-        if colours.above.is_none() || y > top + 20.0 {
-            figure.text((right + 9.0, y), text, 13.0, Anchor::Start, INK);
+/// The bar of colours right of a map.
+pub(super) struct Bar {
+    /// Values at its ends.
+    pub range: (f64, f64),
+    /// A word on values above it, which it then shows with an arrow.
+    pub above: Option<String>,
+    /// Quantity and unit.
+    pub label: String,
+}
+
+impl Bar {
+    pub(super) fn draw(&self, figure: &mut Figure, frame: &Frame) {
+        let (left, top) = (frame.at.0 + frame.size.0 + 28.0, frame.at.1);
+        let (width, height) = (18.0, frame.size.1.max(BAR));
+        let axis = Axis::exact(self.range, String::new());
+        let head = if self.above.is_some() { 16.0 } else { 0.0 };
+        let body = height - head;
+        let rgb = (0..256).rev().map(|i| viridis(f64::from(i) / 255.0)).collect();
+        figure.image(Image { at: (left, top + head), size: (width, body), columns: 1, rgb });
+        let (bottom, right) = (top + height, left + width);
+        let mut ring = vec![(left, top + head), (left, bottom), (right, bottom), (right, top + head)];
+        if let Some(text) = &self.above {
+            let tip = (left + width / 2.0, top);
+            figure.area(vec![(left, top + head), tip, (right, top + head)], viridis(1.0));
+            ring.push(tip);
+            figure.text((right + 9.0, top + 3.0), text, 12.0, Anchor::Start, INK);
         }
+        ring.push(ring[0]);
+        figure.line(ring, 1.0, INK);
+        let mut widest = 0;
+        for (place, text) in axis.ticks(super::axes::Y_TICKS) {
+            let y = bottom - place * body;
+            widest = widest.max(text.chars().count());
+            figure.line(vec![(right, y), (right + 5.0, y)], 1.0, INK);
+            // The note on the maximum needs the room above.
+            if self.above.is_none() || y > top + 20.0 {
+                figure.text((right + 9.0, y), text, 13.0, Anchor::Start, INK);
+            }
+        }
+        let x = right + 9.0 + 8.3 * widest as f64 + 16.0;
+        figure.vertical_text((x, top + height / 2.0), &self.label, super::axes::LABEL_TEXT, INK);
     }
-    let label = format!("Mises stress [{}]", unit.name);
-    let x = right + 9.0 + 8.3 * widest as f64 + 16.0;
-    figure.vertical_text((x, top + height / 2.0), label, super::axes::LABEL_TEXT, INK);
 }

@@ -6,6 +6,7 @@
 mod axes;
 mod colour;
 mod curves;
+mod cycles;
 mod faces;
 mod field;
 mod figure;
@@ -13,6 +14,8 @@ mod png;
 mod profile;
 mod svg;
 mod units;
+
+pub use cycles::{Cycles, Line};
 
 use super::files::stems;
 use super::{ObserveError, Recorder, atomic};
@@ -26,9 +29,21 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// When a file cannot be written or a drawing fails.
 pub fn draw_all(folder: &Path, recorder: &Recorder) -> Result<Vec<PathBuf>, ObserveError> {
+    write_all(folder, figures(recorder))
+}
+
+/// Draws the plots of faults through cycles into `folder` and returns the files, in the order written.
+///
+/// # Errors
+/// See [`draw_all`].
+pub fn draw_cycles(folder: &Path, cycles: &Cycles) -> Result<Vec<PathBuf>, ObserveError> {
+    write_all(folder, cycles.figures())
+}
+
+fn write_all(folder: &Path, figures: Vec<(String, Figure)>) -> Result<Vec<PathBuf>, ObserveError> {
     atomic::create_dir(folder)?;
     let mut written = Vec::new();
-    for (name, figure) in figures(recorder) {
+    for (name, figure) in figures {
         let (svg, png) = (folder.join(format!("{name}.svg")), folder.join(format!("{name}.png")));
         atomic::write(&svg, svg::paint(&figure).as_bytes())?;
         let bytes = png::paint(&figure).map_err(|reason| ObserveError::Draw { path: png.clone(), reason })?;

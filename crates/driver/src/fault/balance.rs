@@ -1,0 +1,290 @@
+//! Works along a run: what becomes of the work that loads do on slip.
+//!
+//! With areas A, slip s, friction f, the initial tractions and those of the loads together τ_l, and the stiffness S of the bodies at the
+//! jumps, `f + η V = τ_l - S s/A` times V, summed over points and integrated over time, is
+//!
+//! ```text
+//! ∫ Σ A τ_l V dt  =  s·S s/2  +  ∫ Σ A f V dt  +  ∫ Σ A η V² dt
+//!     loads           elastic         friction         radiated
+//! ```
+//!
+//! The integrals run over cubic polynomials with the values and rates of both ends of each step, for slip as for tractions; the elastic
+//! energy comes from slip through the operator. The integrator knows none of them, and what the balance lacks is an error of its own
+//! kind: of slip, against the friction that was carried along.
+
+use super::operator::Operator;
+use super::plan::Plan;
+use super::run::Moment;
+use serde::{Deserialize, Serialize};
+
+/// Works and energies \[J; J per metre of thickness in the plane\].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Energy {
+    /// Work of the initial tractions and of the loads on slip.
+    pub loads: f64,
+    /// Energy that slip stores in the bodies.
+    pub elastic: f64,
+    /// Work against friction.
+    pub friction: f64,
+    /// Work against radiation damping.
+    pub radiated: f64,
+}
+
+impl Energy {
+    /// What the balance lacks over the largest of its parts \[-\].
+    #[must_use]
+    pub fn imbalance(&self) -> f64 {
+        let parts = [self.loads, self.elastic, self.friction, self.radiated];
+        let largest = parts.iter().fold(0.0_f64, |l, v| l.max(v.abs()));
+        if largest == 0.0 {
+            return 0.0;
+        }
+        (self.loads - self.elastic - self.friction - self.radiated).abs() / largest
+    }
+}
+
+/// The run when an event had just ended.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mark {
+    /// When \[s\].
+    pub time: f64,
+    /// Slip over the area since the start \[m³; m²\].
+    pub potency: f64,
+    /// Works until then.
+    pub energy: Energy,
+}
+
+/// What is summed along a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Sums {
+    /// Works until now; the elastic energy is not among them.
+    works: Energy,
+    /// One for each event.
+    marks: Vec<Mark>,
+    /// Changes of the loads passed.
+    leg: usize,
+    /// When the last of them was \[s\].
+    since: f64,
+    /// Initial tractions and those of the loads then \[Pa\].
+    traction: Vec<f64>,
+}
+
+/// Sums works along a run.
+#[derive(Debug)]
+pub struct Balance<'a> {
+    plan: &'a Plan,
+    sums: Sums,
+    /// Times at which loads change, and the end \[s\].
+    breaks: Vec<f64>,
+    /// Rates of the loads' tractions now \[Pa/s\].
+    rate: Vec<f64>,
+    /// a of all points.
+    scale: Vec<f64>,
+    scratch: Vec<f64>,
+}
+
+impl<'a> Balance<'a> {
+    /// From the start of a run.
+    #[must_use]
+    pub fn new(plan: &'a Plan) -> Self {
+        let fault = &plan.fault;
+        let (n, layout) = (plan.points.len(), super::Layout::of(fault));
+        let mut rate = vec![0.0; n];
+        fault.law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rate);
+        let first = |p: usize| {
+            layout.normal_of(fault, &plan.start, p) * fault.law.scale(p) * plan.start[p]
+                + fault.damping * rate[p]
+        };
+        let traction = (0..n).map(first).collect();
+        Self::resume(plan, Sums { traction, ..Sums::default() })
+    }
+
+    /// Goes on with sums.
+    #[must_use]
+    pub fn resume(plan: &'a Plan, sums: Sums) -> Self {
+        let mut breaks = plan.loading.breaks(0.0, plan.settings.end);
+        breaks.push(plan.settings.end);
+        let n = plan.points.len();
+        let scale = (0..n).map(|p| plan.fault.law.scale(p)).collect();
+        let mut balance = Self { plan, sums, breaks, rate: Vec::new(), scale, scratch: vec![0.0; n] };
+        balance.load();
+        balance
+    }
+
+    /// The sums until now.
+    #[must_use]
+    pub fn sums(&self) -> &Sums {
+        &self.sums
+    }
+
+    /// The run when each of its events had just ended.
+    #[must_use]
+    pub fn marks(&self) -> &[Mark] {
+        &self.sums.marks
+    }
+
+    /// Rates of the tractions of the present loads.
+    fn load(&mut self) {
+        let end = self.breaks.get(self.sums.leg).copied().unwrap_or(self.plan.settings.end);
+        let within = 0.5 * (self.sums.since + end);
+        let (n, couples) = (self.plan.points.len(), self.plan.fault.operator.couples_normal());
+        self.rate = self.plan.loading.rates(within, n, couples).0;
+    }
+
+    /// Works at the end of a step, with the energy that `slip` stores.
+    pub fn energy(&mut self, slip: &[f64]) -> Energy {
+        Energy { elastic: elastic(self.plan, slip, &mut self.scratch), ..self.sums.works }
+    }
+
+    /// Takes note of a step.
+    pub fn step(&mut self, moment: &Moment<'_>) {
+        if moment.step.is_some() {
+            self.add(moment);
+        }
+        if moment.catalogue.events().len() > self.sums.marks.len() {
+            let energy = self.energy(moment.slip());
+            let potency = moment.slip().iter().zip(&self.plan.points).map(|(s, p)| s * p.area).sum();
+            self.sums.marks.push(Mark { time: moment.at.seconds(), potency, energy });
+        }
+    }
+
+    fn add(&mut self, moment: &Moment<'_>) {
+        let Some(step) = &moment.step else { return };
+        let (h, end) = (moment.dt, moment.at.seconds());
+        while self.breaks.get(self.sums.leg).is_some_and(|&b| end - 0.5 * h > b) {
+            let until = self.breaks[self.sums.leg];
+            let span = until - self.sums.since;
+            self.sums.traction.iter_mut().zip(&self.rate).for_each(|(t, r)| *t += span * r);
+            (self.sums.since, self.sums.leg) = (until, self.sums.leg + 1);
+            self.load();
+        }
+        let (fault, layout) = (&self.plan.fault, moment.layout);
+        let (slips, normals) = (layout.slip().start, layout.normal());
+        let after = end - self.sums.since;
+        let mut works = self.sums.works;
+        for (p, point) in self.plan.points.iter().enumerate() {
+            // Friction a m f_n and its rate.
+            let friction = |y: &[f64], dy: &[f64]| {
+                let (normal, change) = if normals.is_empty() {
+                    (fault.normal[p], 0.0)
+                } else {
+                    (y[normals.start + p], dy[normals.start + p])
+                };
+                [self.scale[p] * normal * y[p], self.scale[p] * h * (normal * dy[p] + change * y[p])]
+            };
+            let way = Way {
+                by: moment.unknowns[slips + p] - step.start[slips + p],
+                rates: [h * step.start_rates[slips + p], h * step.end_rates[slips + p]],
+            };
+            let (first, last) =
+                (friction(step.start, step.start_rates), friction(moment.unknowns, step.end_rates));
+            let (traction, rate) = (self.sums.traction[p], self.rate[p]);
+            let load = |t: f64| [traction + t * rate, h * rate];
+            works.friction += point.area * way.work(first, last);
+            works.loads += point.area * way.work(load(after - h), load(after));
+            works.radiated += point.area * fault.damping * way.square() / h;
+        }
+        self.sums.works = works;
+    }
+}
+
+/// Energy that `slip` stores in the bodies.
+fn elastic(plan: &Plan, slip: &[f64], traction: &mut [f64]) -> f64 {
+    plan.fault.operator.shear(slip, traction);
+    let work = slip.iter().zip(&*traction).zip(&plan.points).map(|((s, t), p)| -0.5 * p.area * s * t);
+    work.sum()
+}
+
+/// Slip over a step of length 1: a cubic polynomial by its ends.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    /// Slip over the step.
+    by: f64,
+    /// Rates at its ends.
+    rates: [f64; 2],
+}
+
+impl Way {
+    /// `∫ τ ds` for the cubic polynomial τ with these values and rates at the ends.
+    #[inline]
+    fn work(&self, [t0, d0]: [f64; 2], [t1, d1]: [f64; 2]) -> f64 {
+        let (by, [v0, v1]) = (self.by, self.rates);
+        0.5 * (t0 + t1) * by + 0.1 * ((d0 - d1) * by + (t0 - t1) * (v0 - v1)) + (d1 * v0 - d0 * v1) / 60.0
+    }
+
+    /// `∫ (ds/dx)² dx`.
+    #[inline]
+    fn square(&self) -> f64 {
+        let (by, [v0, v1]) = (self.by, self.rates);
+        1.2 * by * by - 0.2 * by * (v0 + v1) + (2.0 * (v0 * v0 + v1 * v1) - v0 * v1) / 15.0
+    }
+}
+
+/// Most iterations of [`steady`], in numbers of points.
+const MOST_ITERATIONS: usize = 10;
+/// Residual over that of the start at which [`steady`] ends: rounding of a few hundred sums.
+const SMALL: f64 = 1e-12;
+
+/// Slip rates under which the loads change no traction, where loads pull at constant rates and slip changes no normal
+/// traction: those of whole cycles in the mean \[m/s\]. By conjugate gradients, since the operator times areas is symmetric and negative
+/// definite.
+#[must_use]
+pub fn steady(plan: &Plan) -> Option<Vec<f64>> {
+    let operator: &dyn Operator = plan.fault.operator.as_ref();
+    let n = plan.points.len();
+    let (end, couples) = (plan.settings.end, operator.couples_normal());
+    if couples || !plan.loading.breaks(0.0, end).is_empty() {
+        return None;
+    }
+    let areas: Vec<f64> = plan.points.iter().map(|p| p.area).collect();
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let load = plan.loading.rates(0.5 * end, n, couples).0;
+    let mut residual: Vec<f64> = load.iter().zip(&areas).map(|(l, a)| l * a).collect();
+    let (mut rate, mut direction, mut image) = (vec![0.0; n], residual.clone(), vec![0.0; n]);
+    let first = dot(&residual, &residual);
+    let mut square = first;
+    for _ in 0..MOST_ITERATIONS * n {
+        if square <= SMALL * SMALL * first {
+            return Some(rate);
+        }
+        operator.shear(&direction, &mut image);
+        image.iter_mut().zip(&areas).for_each(|(i, a)| *i *= -a);
+        let share = square / dot(&direction, &image);
+        for p in 0..n {
+            rate[p] += share * direction[p];
+            residual[p] -= share * image[p];
+        }
+        let next = dot(&residual, &residual);
+        direction.iter_mut().zip(&residual).for_each(|(d, r)| *d = r + next / square * *d);
+        square = next;
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn works_of_cubic_polynomials_are_exact() {
+        // s = 2 x - 3 x² + 5 x³, τ = 7 - x + 4 x² - 2 x³: ∫ τ s' dx by the powers of x.
+        let way = Way { by: 4.0, rates: [2.0, 11.0] };
+        let slope = [2.0, -6.0, 15.0];
+        let traction = [7.0, -1.0, 4.0, -2.0];
+        let mut work = 0.0;
+        for (i, t) in traction.iter().enumerate() {
+            for (j, s) in slope.iter().enumerate() {
+                work += t * s / (i + j + 1) as f64;
+            }
+        }
+        let found = way.work([7.0, -1.0], [8.0, 1.0]);
+        assert!((found - work).abs() < 1e-13, "{found} {work}");
+        let mut square = 0.0;
+        for (i, a) in slope.iter().enumerate() {
+            for (j, b) in slope.iter().enumerate() {
+                square += a * b / (i + j + 1) as f64;
+            }
+        }
+        assert!((way.square() - square).abs() < 1e-13, "{} {square}", way.square());
+    }
+}

@@ -1,0 +1,81 @@
+//! The catalogue in the format CMTSOLUTION of global centroid solutions, event after event.
+//!
+//! Units are dyn cm, degrees, km and s. The first line is the hypocentre; the centroid's place is the mean place of slip, its time the
+//! onset (shift zero), and the half duration half the time above the thresholds.
+
+use super::Located;
+use jiff::tz::TimeZone;
+use std::fmt::Write as _;
+
+/// Dyne centimetres in a newton metre.
+const DYNE_CM: f64 = 1e7;
+
+/// The file; none where the moment is unknown, since the length out of the plane is not declared.
+#[must_use]
+pub fn cmtsolution(title: &str, events: &[Located]) -> Option<String> {
+    let mut text = String::new();
+    for (k, event) in events.iter().enumerate() {
+        let (spot, centroid, magnitude) = (&event.hypocentre, &event.centroid, event.magnitude?);
+        let time = event.onset.to_zoned(TimeZone::UTC);
+        // Readers take the place from fixed columns, which leave the seconds two decimals: the shift has the rest.
+        let hundredths = time.subsec_nanosecond() / HUNDREDTH;
+        let shift = f64::from(time.subsec_nanosecond() % HUNDREDTH) / 1e9;
+        let _ = writeln!(
+            text,
+            " SIM {:04} {:02} {:02} {:02} {:02} {:02}.{hundredths:02} {:9.4} {:9.4} {:5.1} {magnitude:.1} {magnitude:.1} SIMULATED",
+            time.year(),
+            time.month(),
+            time.day(),
+            time.hour(),
+            time.minute(),
+            time.second(),
+            spot.latitude,
+            spot.longitude,
+            spot.depth / 1e3,
+        );
+        let mut line = |name: &str, value: &str| {
+            let _ = writeln!(text, "{name}{value:>width$}", width = WIDTH - name.len());
+        };
+        line("event name:", &format!("{}-{}", word(title), k + 1));
+        line("time shift:", &format!("{shift:.6}"));
+        line("half duration:", &format!("{:.4}", 0.5 * event.duration));
+        line("latitude:", &format!("{:.4}", centroid.latitude));
+        line("longitude:", &format!("{:.4}", centroid.longitude));
+        line("depth:", &format!("{:.4}", centroid.depth / 1e3));
+        for (name, value) in ["rr", "tt", "pp", "rt", "rp", "tp"].iter().zip(event.tensor.0) {
+            line(&format!("M{name}:"), &exponential(value * DYNE_CM));
+        }
+        text.push('\n');
+    }
+    Some(text)
+}
+
+/// Nanoseconds.
+const HUNDREDTH: i32 = 10_000_000;
+/// Columns of a line.
+const WIDTH: usize = 28;
+
+/// With six decimals and an exponent of a sign and two digits, as Fortran writes it.
+fn exponential(value: f64) -> String {
+    let text = format!("{value:.6E}");
+    let Some((digits, exponent)) = text.split_once('E') else { return text };
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    format!("{digits}E{}{:02}", if exponent < 0 { '-' } else { '+' }, exponent.abs())
+}
+
+/// One word of the format's letters.
+fn word(text: &str) -> String {
+    text.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_a_signed_exponent_of_two_digits() {
+        assert_eq!(exponential(1.0e27), "1.000000E+27");
+        assert_eq!(exponential(-3.5e-7), "-3.500000E-07");
+        assert_eq!(exponential(0.0), "0.000000E+00");
+    }
+}

@@ -1,0 +1,165 @@
+//! Catalogues of simulated events as those of real ones, for scenes that say where and when they lie.
+
+mod cmtsolution;
+mod quakeml;
+mod tensor;
+
+pub use cmtsolution::cmtsolution;
+pub use quakeml::quakeml;
+pub use tensor::{Plane, Tensor};
+
+use super::catalogue::Event;
+use super::plan::Plan;
+use crate::scene::model::Place;
+use jiff::{SignedDuration, Timestamp};
+use nalgebra::{Matrix3, Vector3};
+use serde::Serialize;
+
+/// Mean radius of the Earth \[m\] (IUGG): places lie on a sphere, which is enough over the extent of a fault.
+const EARTH: f64 = 6_371_008.8;
+
+/// Where and when the origin of a scene lies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Time zero.
+    pub epoch: Timestamp,
+    /// Degrees north.
+    latitude: f64,
+    /// Degrees east.
+    longitude: f64,
+    /// Depth of the origin of coordinates \[m\].
+    depth: f64,
+    /// Axes of the scene in east, north, up, as columns.
+    axes: Matrix3<f64>,
+    /// Length out of the plane \[m\]; 1 in space.
+    length: Option<f64>,
+}
+
+impl Frame {
+    /// Of a scene in the plane, seen along the strike: x to the right of it, y up; or in space: x to the right, y along the strike, z
+    /// up.
+    ///
+    /// # Errors
+    /// What is wrong with the time.
+    pub fn new(place: &Place, in_space: bool) -> Result<Self, jiff::Error> {
+        let (sine, cosine) = place.strike.get_ref().0.sin_cos();
+        let (right, along, up) =
+            (Vector3::new(cosine, -sine, 0.0), Vector3::new(sine, cosine, 0.0), Vector3::z());
+        let axes = if in_space { [right, along, up] } else { [right, up, -along] };
+        Ok(Self {
+            epoch: place.epoch.get_ref().parse()?,
+            latitude: place.latitude.get_ref().0.to_degrees(),
+            longitude: place.longitude.get_ref().0.to_degrees(),
+            depth: place.depth.as_ref().map_or(0.0, |d| d.get_ref().0),
+            axes: Matrix3::from_columns(&axes),
+            length: if in_space { Some(1.0) } else { place.length.as_ref().map(|l| l.get_ref().0) },
+        })
+    }
+
+    /// The time of so many seconds after the epoch, to the microsecond.
+    ///
+    /// # Errors
+    /// Where the calendar does not reach so far.
+    pub fn time(&self, seconds: f64) -> Result<Timestamp, jiff::Error> {
+        let span = SignedDuration::try_from_secs_f64(seconds)?;
+        self.epoch.checked_add(span)?.round(jiff::Unit::Microsecond)
+    }
+
+    /// A place of the scene.
+    fn spot(&self, at: &[f64; 3]) -> Spot {
+        let offset = self.axes * Vector3::from(*at);
+        let latitude = self.latitude + (offset.y / EARTH).to_degrees();
+        let shrink = self.latitude.to_radians().cos().max(f64::EPSILON);
+        let longitude = self.longitude + (offset.x / (EARTH * shrink)).to_degrees();
+        Spot {
+            latitude,
+            longitude: (longitude + 180.0).rem_euclid(360.0) - 180.0,
+            depth: self.depth - offset.z,
+        }
+    }
+}
+
+/// A place on Earth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spot {
+    /// Degrees north.
+    pub latitude: f64,
+    /// Degrees east.
+    pub longitude: f64,
+    /// Downwards \[m\].
+    pub depth: f64,
+}
+
+/// What seismologists tell of an event.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Located {
+    /// Onset, UTC.
+    pub time: String,
+    /// Where it began.
+    pub hypocentre: Spot,
+    /// Mean place of its slip.
+    pub centroid: Spot,
+    /// Moment tensor \[N m\]; per metre of length out of the plane where none is declared.
+    pub tensor: Tensor,
+    /// Nodal planes.
+    pub planes: [Plane; 2],
+    /// Scalar moment \[N m\], where the length out of the plane is known.
+    pub moment: Option<f64>,
+    /// Moment magnitude, where the moment is known.
+    pub magnitude: Option<f64>,
+    /// Onset \[s\].
+    #[serde(skip)]
+    pub onset: Timestamp,
+    /// From onset to end \[s\].
+    #[serde(skip)]
+    pub duration: f64,
+}
+
+/// Moment magnitude of a moment \[N m\]: IASPEI (2013), Mw = (2/3) (log10 M0 - 9.1).
+fn magnitude(moment: f64) -> f64 {
+    (moment.log10() - 9.1) / 1.5
+}
+
+impl Located {
+    /// Of an event of a plan.
+    ///
+    /// # Errors
+    /// Where the calendar does not reach the event.
+    pub fn new(plan: &Plan, frame: &Frame, event: &Event) -> Result<Self, jiff::Error> {
+        let length = frame.length.unwrap_or(1.0);
+        let (mut sum, mut centre, mut weight) = (Matrix3::zeros(), Vector3::zeros(), 0.0);
+        for (point, slip) in plan.points.iter().zip(&event.slip) {
+            let (normal, way) = (Vector3::from(point.normal), Vector3::from(point.slides));
+            let couple = normal * way.transpose();
+            sum += (couple + couple.transpose()) * (plan.shear_modulus * point.area * slip * length);
+            centre += Vector3::from(point.at) * (point.area * slip.abs());
+            weight += point.area * slip.abs();
+        }
+        let tensor = Tensor::of_east_north_up(&(frame.axes * sum * frame.axes.transpose()));
+        let moment = frame.length.map(|_| tensor.moment());
+        let onset = frame.time(event.onset.seconds())?;
+        Ok(Self {
+            time: onset.to_string(),
+            hypocentre: frame.spot(&plan.points[event.hypocentre].at),
+            centroid: frame.spot(&(centre / weight).into()),
+            planes: tensor.planes(),
+            tensor,
+            moment,
+            magnitude: moment.map(magnitude),
+            onset,
+            duration: event.end.since(&event.onset),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn magnitudes_are_those_of_the_standard() {
+        // M0 = 1.1e21 N m is Mw 7.96 and 1.26e9 N m is Mw 0.
+        assert!((magnitude(1.1e21) - 7.9609).abs() < 1e-4);
+        assert!((magnitude(10f64.powf(9.1))).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,23 @@
+//! Where and when the events of a scene are said to happen.
+
+use crate::scene::units::{Angle, Length};
+use serde::Deserialize;
+use serde_spanned::Spanned;
+
+/// Place and time, with which catalogues are written as those of real events.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    /// Time zero, with its offset from UTC, such as "2000-01-01T00:00:00Z".
+    pub epoch: Spanned<String>,
+    /// Of the origin of coordinates, north \[rad\].
+    pub latitude: Spanned<Angle>,
+    /// Of the origin of coordinates, east \[rad\].
+    pub longitude: Spanned<Angle>,
+    /// Of the origin of coordinates \[m\]; 0 where absent.
+    pub depth: Option<Spanned<Length>>,
+    /// Clockwise from north: in the plane, of the direction into the plane, with x to its right and y up; in space, of y, with z up \[rad\].
+    pub strike: Spanned<Angle>,
+    /// In the plane: length out of it, for moments and magnitudes \[m\].
+    pub length: Option<Spanned<Length>>,
+}

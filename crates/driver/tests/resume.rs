@@ -1,0 +1,213 @@
+//! Runs of faults that are killed, broken off and gone on with: their files are those of a run that was left alone.
+#![allow(clippy::unwrap_used, clippy::disallowed_methods)]
+#![cfg(unix)]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+/// A vertical strike-slip fault through twelve events, on coarse cells.
+const SCENE: &str = r#"schema = 1
+title = "cycles"
+kinematics = "antiplane"
+[materials.rock]
+young = "80 GPa"
+poisson = 0.25
+density = 2670
+[bodies.crust]
+material = "rock"
+mesh.fault = { trace = [["0 km", "0 km"], ["0 km", "-15 km"], ["0 km", "-18 km"], ["0 km", "-24 km"], ["0 km", "-80 km"]], spacing = [["0 km", "750 m"], ["24 km", "1 km"], ["80 km", "20 km"]], min = ["-80 km", "-80 km"], max = ["80 km", "0 km"], growth = 1.5, element = "quad4" }
+[faults.main]
+minus = "crust.fault.minus"
+plus = "crust.fault.plus"
+law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.010, b = 0.015, l = "40 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }
+profiles.a = { along = "distance", points = [["15 km", 0.010], ["18 km", 0.025]] }
+normal = "50 MPa"
+rate = "1e-9 m/s"
+damping = "radiation"
+creep = { beyond = "24 km", rate = "1e-9 m/s" }
+[[stages]]
+name = "cycles"
+duration = "3000 yr"
+conditions = [{ set = "crust.left", z = { rate = "-0.5e-9 m/s" } }, { set = "crust.right", z = { rate = "0.5e-9 m/s" } }]
+[time]
+stepper = "fault-ode"
+log_rate_tolerance = 1e-6
+[events]
+above = "1e-3 m/s"
+stop_after = 12
+[output]
+stations.main = ["0 km", "7.5 km", "15 km"]
+"#;
+
+/// Begins a run of `s.toml` in `folder` with outputs in `out`.
+fn start(folder: &Path, out: &str, arguments: &[&str]) -> Child {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
+    command.current_dir(folder).args(["run", "s.toml", "--out", out]).args(arguments);
+    command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+fn run(folder: &Path, out: &str, arguments: &[&str]) -> Output {
+    start(folder, out, arguments).wait_with_output().unwrap()
+}
+
+fn folder(scene: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("s.toml"), scene).unwrap();
+    folder
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// All files below `out` by their paths in it; of the report what does not depend on the machine.
+fn files(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![out.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let mut bytes = fs::read(&path).unwrap();
+            if path.ends_with("report.json") {
+                let mut report: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+                assert!(report.as_object_mut().unwrap().remove("run").is_some());
+                bytes = report.to_string().into_bytes();
+            }
+            found.insert(path.strip_prefix(out).unwrap().to_path_buf(), bytes);
+        }
+    }
+    found
+}
+
+fn assert_same(folder: &Path, out: &str) {
+    let (expected, found) = (files(&folder.join("whole")), files(&folder.join(out)));
+    assert_eq!(found.keys().collect::<Vec<_>>(), expected.keys().collect::<Vec<_>>());
+    for (path, bytes) in &expected {
+        assert!(found[path] == *bytes, "{} of `{out}` differs", path.display());
+    }
+}
+
+/// Waits until the file has grown to `size`, or says that the run ended before.
+fn grown(child: &mut Child, file: &Path, size: u64) -> bool {
+    let begin = Instant::now();
+    while fs::metadata(file).map_or(0, |m| m.len()) < size {
+        if child.try_wait().unwrap().is_some() {
+            return false;
+        }
+        assert!(begin.elapsed() < Duration::from_secs(120), "the run does not get on");
+    }
+    true
+}
+
+#[test]
+fn a_run_killed_again_and_again_leaves_the_files_of_one_left_alone() {
+    let folder = folder(SCENE);
+    let folder = folder.path();
+    let whole = run(folder, "whole", &[]);
+    assert!(whole.status.success(), "{}", text(&whole.stderr));
+    let rows = fs::metadata(folder.join("whole/largest_rate.csv")).unwrap().len();
+    let arguments = ["--resume", "--checkpoint-every", "0 s"];
+    let mut kills = 0;
+    // From before the first checkpoint to shortly before the end, the same output directory through.
+    for percent in [0, 2, 11, 23, 37, 52, 68, 81, 93, 99] {
+        let mut child = start(folder, "killed", &arguments);
+        if grown(&mut child, &folder.join("killed/largest_rate.csv"), rows * percent / 100 + 1) {
+            child.kill().unwrap();
+            kills += i32::from(!child.wait().unwrap().success());
+        }
+    }
+    assert!(kills >= 7, "only {kills} kills came in time");
+    let last = run(folder, "killed", &arguments);
+    assert!(last.status.success(), "{}", text(&last.stderr));
+    assert!(text(&last.stdout).contains("resumed at"), "{}", text(&last.stdout));
+    assert_same(folder, "killed");
+    // A run that had ended is no other when it is resumed.
+    assert!(run(folder, "killed", &arguments).status.success());
+    assert_same(folder, "killed");
+}
+
+#[test]
+fn a_run_broken_off_at_every_restart_leaves_the_same_files_and_says_how_to_go_on() {
+    let scene = SCENE.replace("stop_after = 12", "stop_after = 2");
+    let folder = folder(&scene);
+    let folder = folder.path();
+    assert!(run(folder, "whole", &[]).status.success());
+    let mut breaks = 0;
+    loop {
+        let output = run(folder, "broken", &["--resume", "--wall-time", "0 s"]);
+        if output.status.success() {
+            break;
+        }
+        assert_eq!(output.status.code(), Some(3), "{}", text(&output.stderr));
+        let told = text(&output.stderr);
+        assert!(told.contains("wall time is over") && told.contains("--resume"), "{told}");
+        breaks += 1;
+    }
+    assert!(breaks > 3, "{breaks}");
+    assert_same(folder, "broken");
+}
+
+#[test]
+fn a_signal_ends_a_run_with_a_checkpoint_and_its_own_exit_code() {
+    let folder = folder(SCENE);
+    let folder = folder.path();
+    for signal in ["-TERM", "-INT"] {
+        let mut child = start(folder, signal, &[]);
+        assert!(grown(&mut child, &folder.join(signal).join("largest_rate.csv"), 4000));
+        assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(3), "{}", text(&output.stderr));
+        assert!(text(&output.stderr).contains("a signal asked for it"), "{}", text(&output.stderr));
+        assert!(folder.join(signal).join("checkpoint").is_file());
+        assert!(folder.join(signal).join("report.json").is_file());
+    }
+}
+
+#[test]
+fn what_does_not_fit_the_checkpoint_is_refused() {
+    let scene = SCENE.replace("stop_after = 12", "stop_after = 1");
+    let folder = folder(&scene);
+    let folder = folder.path();
+    let broken = run(folder, "out", &["--wall-time", "0 s"]);
+    assert_eq!(broken.status.code(), Some(3), "{}", text(&broken.stderr));
+    let refused = |part: &str| {
+        let output = run(folder, "out", &["--resume"]);
+        // The renderer breaks lines.
+        let told = text(&output.stderr).replace(['\n', '│', '×'], " ");
+        let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(output.status.code(), Some(1), "{told}");
+        assert!(told.contains(part), "{part} is not in\n{told}");
+    };
+    fs::write(folder.join("s.toml"), scene.replace("normal = \"50 MPa\"", "normal = \"51 MPa\"")).unwrap();
+    refused("of another scene");
+    fs::write(folder.join("s.toml"), &scene).unwrap();
+    let path = folder.join("out/checkpoint");
+    let good = fs::read_to_string(&path).unwrap();
+    fs::write(&path, &good[..good.len() / 2]).unwrap();
+    refused("is damaged");
+    fs::write(&path, good.replacen("version 1", "version 2", 1)).unwrap();
+    refused("has version 2");
+    fs::write(&path, good).unwrap();
+    let rows = folder.join("out/stations/main_dp075");
+    let full = fs::read(&rows).unwrap();
+    fs::write(&rows, &full[..full.len() - 1]).unwrap();
+    refused("main_dp075 has");
+    fs::write(&rows, full).unwrap();
+    let output = run(folder, "out", &["--resume"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+}
+
+#[test]
+fn runs_without_faults_say_that_they_have_no_checkpoints() {
+    let folder = folder(include_str!("../../../scenes/spring-slider.toml"));
+    let output = run(folder.path(), "out", &["--resume"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("only runs of faults"), "{}", text(&output.stderr));
+}
