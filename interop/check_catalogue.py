@@ -8,6 +8,7 @@ are broken on purpose must fail.
 """
 
 import json
+import re
 import shutil
 import sys
 import tempfile
@@ -120,6 +121,11 @@ def changed(text, name, by):
     return text[:start] + f"<{name}><value>{by(value)!r}</value>" + text[end:]
 
 
+def flip(found):
+    """The other sign before a number of a fixed width."""
+    return found[1] if found[2] else found[1][:-1] + "-"
+
+
 def breaks(truth):
     """Ways to break a file: its name, what to do."""
     largest = max(range(6), key=lambda k: abs(truth["tensor"][k]))
@@ -129,7 +135,7 @@ def breaks(truth):
     yield "events.quakeml", "half of the file", lambda t: t[: len(t) // 2]
     if truth["moment"] is not None:
         yield "events.quakeml", f"{name} of the other sign", lambda t: changed(t, name, lambda v: -v)
-        yield "CMTSOLUTION", f"{name} ten times as large", lambda t: t.replace("E+", "E+1", 1)
+        yield "CMTSOLUTION", f"{name} of the other sign", lambda t: re.sub(f"({name}: *)(-?)", flip, t, count=1)
         yield "CMTSOLUTION", "another year", lambda t: t.replace(" SIM 2", " SIM 3", 1)
 
 

@@ -159,14 +159,15 @@ fn a_signal_ends_a_run_with_a_checkpoint_and_its_own_exit_code() {
     let folder = folder(SCENE);
     let folder = folder.path();
     for signal in ["-TERM", "-INT"] {
-        let mut child = start(folder, signal, &[]);
-        assert!(grown(&mut child, &folder.join(signal).join("largest_rate.csv"), 4000));
+        let out = &signal[1..];
+        let mut child = start(folder, out, &[]);
+        assert!(grown(&mut child, &folder.join(out).join("largest_rate.csv"), 4000));
         assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(3), "{}", text(&output.stderr));
         assert!(text(&output.stderr).contains("a signal asked for it"), "{}", text(&output.stderr));
-        assert!(folder.join(signal).join("checkpoint").is_file());
-        assert!(folder.join(signal).join("report.json").is_file());
+        assert!(folder.join(out).join("checkpoint").is_file());
+        assert!(folder.join(out).join("report.json").is_file());
     }
 }
 
