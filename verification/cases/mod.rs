@@ -50,6 +50,7 @@ mod cook_membrane;
 mod coulomb_strip;
 mod elastic_plastic_cylinder;
 mod fault_balance;
+mod fault_compression;
 mod fault_operator;
 mod flamant_boussinesq;
 mod flat_punch;
@@ -76,6 +77,8 @@ mod sandwich_state;
 mod sandwich_steppers;
 pub mod seas;
 mod seas_bp1;
+mod seas_bp1_full;
+mod seas_bp1_methods;
 mod seas_bp3;
 pub mod slider;
 mod slider_cycles;
@@ -105,6 +108,7 @@ pub const ALL: &[Case] = &[
     cook_membrane::CASE,
     coulomb_strip::CASE,
     fault_balance::CASE,
+    fault_compression::CASE,
     fault_operator::CASE,
     flamant_boussinesq::CASE,
     flat_punch::CASE,
@@ -124,6 +128,8 @@ pub const ALL: &[Case] = &[
     sandwich_state::CASE,
     sandwich_steppers::CASE,
     seas_bp1::CASE,
+    seas_bp1_full::CASE,
+    seas_bp1_methods::CASE,
     seas_bp3::CASE,
     slider_cycles::CASE,
     slider_normal::CASE,

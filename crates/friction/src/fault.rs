@@ -6,6 +6,7 @@
 //! exerts on the point.
 
 use crate::Failure;
+use crate::sheet::{Line, Sheet};
 use crate::slider::{Forcing, Sliding};
 
 /// What acts on a slice of points at an instant.
@@ -19,6 +20,20 @@ pub struct Drive<'a> {
     pub shear_rate: &'a [f64],
     /// η ≥ 0 \[Pa s/m\].
     pub damping: f64,
+}
+
+impl Drive<'_> {
+    /// What acts on a point.
+    fn forcing(&self, point: usize) -> Forcing {
+        Forcing {
+            normal: self.normal[point],
+            normal_rate: self.normal_rate.map_or(0.0, |r| r[point]),
+            pull: self.shear_rate[point],
+            stiffness: 0.0,
+            damping: self.damping,
+            mass: None,
+        }
+    }
 }
 
 /// The laws of the points of a fault. Slices hold one entry for each point, states are point-major; `first` is the number of
@@ -73,6 +88,8 @@ pub trait FaultLaw: Send + Sync + std::fmt::Debug {
 #[derive(Clone, Debug)]
 pub struct Points<L> {
     laws: Vec<L>,
+    /// Where all laws are of the kind that is evaluated for many points at once.
+    sheet: Option<Sheet>,
 }
 
 impl<L: Sliding> Points<L> {
@@ -80,7 +97,20 @@ impl<L: Sliding> Points<L> {
     #[must_use]
     pub fn new(laws: Vec<L>) -> Self {
         debug_assert!(laws.windows(2).all(|w| w[0].states() == w[1].states()));
-        Self { laws }
+        let lines: Option<Vec<Line>> = laws.iter().map(Sliding::line).collect();
+        let sheet = lines.filter(|l| !l.is_empty()).map(|lines| Sheet::new(&lines));
+        Self { laws, sheet }
+    }
+
+    /// The same laws, evaluated one by one.
+    #[must_use]
+    pub fn one_by_one(laws: Vec<L>) -> Self {
+        Self { sheet: None, ..Self::new(laws) }
+    }
+
+    /// The sheet, for slices that hold all points.
+    fn sheet(&self, first: usize, count: usize) -> Option<&Sheet> {
+        self.sheet.as_ref().filter(|_| first == 0 && count == self.laws.len())
     }
 }
 
@@ -97,6 +127,10 @@ impl<L: Sliding> FaultLaw for Points<L> {
     }
 
     fn slip_rates(&self, first: usize, m: &[f64], states: &[f64], rate: &mut [f64]) {
+        if let Some(sheet) = self.sheet(first, m.len()) {
+            sheet.slip_rates(m, states, rate, |k| self.laws[k].slip(&[m[k], states[k]]).0.rate);
+            return;
+        }
         let n = self.states();
         let mut y = [0.0; MOST];
         for (k, (law, rate)) in self.laws[first..].iter().zip(rate).enumerate() {
@@ -115,20 +149,20 @@ impl<L: Sliding> FaultLaw for Points<L> {
         dm: &mut [f64],
         ds: &mut [f64],
     ) {
+        if let Some(sheet) = self.sheet(first, m.len()) {
+            sheet.rates(&drive, m, states, dm, ds, |k, dm, ds| {
+                let mut dy = [0.0; 2];
+                self.laws[k].equations(&drive.forcing(k), &[m[k], states[k]], &mut dy);
+                [*dm, *ds] = dy;
+            });
+            return;
+        }
         let n = self.states();
         let (mut y, mut dy) = ([0.0; MOST], [0.0; MOST]);
         for (k, (law, dm)) in self.laws[first..].iter().zip(dm).enumerate() {
             y[0] = m[k];
             y[1..=n].copy_from_slice(&states[k * n..(k + 1) * n]);
-            let forcing = Forcing {
-                normal: drive.normal[k],
-                normal_rate: drive.normal_rate.map_or(0.0, |r| r[k]),
-                pull: drive.shear_rate[k],
-                stiffness: 0.0,
-                damping: drive.damping,
-                mass: None,
-            };
-            law.equations(&forcing, &y[..=n], &mut dy[..=n]);
+            law.equations(&drive.forcing(k), &y[..=n], &mut dy[..=n]);
             *dm = dy[0];
             ds[k * n..(k + 1) * n].copy_from_slice(&dy[1..=n]);
         }
@@ -156,5 +190,53 @@ impl<L: Sliding> FaultLaw for Points<L> {
 
     fn at_rate(&self, point: usize, rate: f64, states: &[f64]) -> Result<f64, Failure> {
         self.laws[point].at_rate(rate, states).map_err(|f| f.at(point))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::{Drive, FaultLaw, Points};
+    use crate::evolution::ageing::Ageing;
+    use crate::rate::RateLaw;
+    use crate::strength::Parameters;
+    use crate::strength::regularised::Regularised;
+
+    type Law = RateLaw<Regularised, Ageing>;
+
+    fn laws(n: usize) -> Vec<Law> {
+        let law = |k: usize| {
+            let a = 0.008 + 0.002 * (k % 9) as f64;
+            let form = Regularised(Parameters::new(0.6, a, 1e-6).unwrap());
+            RateLaw::new(form, Ageing::new(0.015, 0.008, 1e-6).unwrap(), 1e-9, None).unwrap()
+        };
+        (0..n).map(law).collect()
+    }
+
+    #[test]
+    fn many_points_at_once_have_the_rates_of_each_by_itself() {
+        // A number that leaves a part of a group, coefficients of both signs down to nothing, states around the steady one.
+        let n = 43;
+        let (many, each) = (Points::new(laws(n)), Points::one_by_one(laws(n)));
+        let m: Vec<f64> = (0..n).map(|k| (k as f64 - 10.0) * 2.3).collect();
+        let states: Vec<f64> = (0..n).map(|k| 6.0 + (k % 7) as f64 - 0.02 * k as f64).collect();
+        let normal: Vec<f64> = (0..n).map(|k| 5e7 + 1e5 * k as f64).collect();
+        let pull: Vec<f64> = (0..n).map(|k| 1e-2 * (k as f64 - 20.0)).collect();
+        let change = vec![-3e-3; n];
+        for (normal_rate, damping) in [(None, 0.0), (Some(change.as_slice()), 4.6e6)] {
+            let drive = Drive { normal: &normal, normal_rate, shear_rate: &pull, damping };
+            let found = [&many as &dyn FaultLaw, &each].map(|law| {
+                let (mut v, mut dm, mut ds) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+                law.slip_rates(0, &m, &states, &mut v);
+                law.rates(0, drive, &m, &states, &mut dm, &mut ds);
+                [v, dm, ds]
+            });
+            for (a, b) in found[0].iter().zip(&found[1]) {
+                for (k, (a, b)) in a.iter().zip(b).enumerate() {
+                    // Rounding of ln V, and of differences in the rates.
+                    assert!((a - b).abs() <= 1e-12 * b.abs() + 1e-25, "{k}: {a} is not {b}");
+                }
+            }
+        }
     }
 }

@@ -12,6 +12,7 @@ pub mod law;
 mod line;
 pub mod point;
 pub mod rate;
+pub mod sheet;
 pub mod slider;
 pub mod slip_weakening;
 pub mod static_kinetic;

@@ -205,8 +205,8 @@ fn crack(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A fault of this dip \[degrees\] with cells of this size \[m\], through the box from the surface, that creeps below 40 km.
-fn through(dip: f64, size: f64) -> Result<Plan, CaseError> {
+/// A scene with a fault of this dip \[degrees\] with cells of this size \[m\], through the box from the surface, that creeps below 40 km.
+pub(crate) fn through(dip: f64, size: f64) -> String {
     let (s, c) = dip.to_radians().sin_cos();
     let (deep, wide) = (1e6, 1e6);
     let bottom = deep * c / s;
@@ -227,13 +227,13 @@ fn through(dip: f64, size: f64) -> Result<Plan, CaseError> {
         "{{ set = \"crust.left\", x = {{ rate = {} }}, y = {{ rate = {} }} }}, {{ set = \"crust.right\", x = {{ rate = {x} }}, y = {{ rate = {y} }} }}",
         -x, -y
     );
-    seas::plan(&scene(&mesh, "creep = { beyond = \"40 km\", rate = \"1e-9 m/s\" }", &sides))
+    scene(&mesh, "creep = { beyond = \"40 km\", rate = \"1e-9 m/s\" }", &sides)
 }
 
 /// Plates that move rigidly along a fault that slips as fast everywhere are without stress.
 fn plates(ledger: &mut Ledger) -> Result<(), CaseError> {
     for dip in [90.0, 60.0, 30.0] {
-        let (plan, cost) = Cost::of(|| through(dip, SIZE));
+        let (plan, cost) = Cost::of(|| seas::plan(&through(dip, SIZE)));
         let plan = plan?;
         let n = plan.points.len();
         let couples = plan.fault.operator.couples_normal();
@@ -328,7 +328,7 @@ const REFERENCE: &str = "edge dislocations below a free surface by complex poten
 /// Dipping faults below a free surface against dislocations.
 fn surface(ledger: &mut Ledger) -> Result<(), CaseError> {
     for dip in [90.0, 60.0, 30.0] {
-        let (plan, cost) = Cost::of(|| through(dip, SIZE));
+        let (plan, cost) = Cost::of(|| seas::plan(&through(dip, SIZE)));
         let plan = plan?;
         for (name, slip) in slips() {
             for (kind, error) in ["shear", "normal"].into_iter().zip(errors(&plan, dip, slip)) {
@@ -353,7 +353,7 @@ fn surface(ledger: &mut Ledger) -> Result<(), CaseError> {
         let mut levels = Vec::new();
         let mut total = None;
         for size in [2000.0, 1000.0, SIZE] {
-            let (plan, cost) = Cost::of(|| through(dip, size));
+            let (plan, cost) = Cost::of(|| seas::plan(&through(dip, size)));
             levels.push((size, errors(&plan?, dip, slip)[0]));
             total = Some(cost);
         }

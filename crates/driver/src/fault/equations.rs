@@ -197,6 +197,21 @@ impl Problem for Equations<'_> {
         rest[l.points..].copy_from_slice(&scratch.normal_rate);
     }
 
+    /// Slip of a point loads those around it by no more than [`Operator::stiffness`], and friction gives way with the slope
+    /// f_n a/V + η: in the norm of the columns weighted with that slope a bound of the relaxation by elasticity, beside which states
+    /// relax with V/L.
+    fn spectral_radius(&self, _at: Clock, y: &[f64]) -> Option<f64> {
+        let (l, fault) = (self.layout, self.fault);
+        let rate = &mut self.scratch.borrow_mut().rate;
+        fault.law.slip_rates(0, &y[l.m()], &y[l.states()], rate);
+        let of = |(p, (v, k)): (usize, (&f64, &f64))| {
+            let strength = l.normal_of(fault, y, p) * fault.law.scale(p);
+            let states = fault.law.length(p).map_or(0.0, f64::recip);
+            v.abs() * (k / (strength + fault.damping * v.abs()) + states)
+        };
+        Some(rate.iter().zip(fault.operator.stiffness()).enumerate().map(of).fold(0.0, f64::max))
+    }
+
     /// The methods a fault is integrated with do not ask for it.
     fn jacobian(&self, _at: Clock, _y: &[f64], jac: &mut [f64]) {
         jac.fill(f64::NAN);

@@ -16,8 +16,38 @@ pub trait Operator: Send + Sync + std::fmt::Debug {
     /// Writes the normal tractions, compression positive, where they change.
     fn normal(&self, slip: &[f64], normal: &mut [f64]);
 
+    /// Sum of the sizes of the tractions, shear and normal, that slip of each point causes anywhere \[Pa/m\]: with the slope of friction a
+    /// bound of how fast a fault relaxes.
+    fn stiffness(&self) -> &[f64];
+
     /// Memory \[bytes\].
     fn bytes(&self) -> usize;
+
+    /// The form in words, for the plan.
+    fn words(&self) -> String;
+}
+
+/// How an operator is kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    /// As fits the number of points.
+    Fitting,
+    /// All entries.
+    Dense,
+    /// Blocks of low rank; error of forces over their largest entry.
+    Compressed {
+        /// That error.
+        tolerance: f64,
+    },
+}
+
+/// Sums of the sizes of the columns of matrices of `points` rows.
+pub(super) fn columns(points: usize, matrices: &[&[f64]]) -> Vec<f64> {
+    let mut sums = vec![0.0; points];
+    for row in matrices.iter().flat_map(|m| m.chunks_exact(points)) {
+        sums.iter_mut().zip(row).for_each(|(sum, v)| *sum += v.abs());
+    }
+    sums
 }
 
 /// Dense matrices, row by row.
@@ -26,6 +56,7 @@ pub struct Dense {
     points: usize,
     shear: Vec<f64>,
     normal: Option<Vec<f64>>,
+    stiffness: Vec<f64>,
 }
 
 /// Partial sums of a row: independent, so that several are under way at once, and always as many, so that sums are the same on
@@ -41,13 +72,21 @@ impl Dense {
     #[must_use]
     pub fn new(points: usize, shear: Vec<f64>, normal: Option<Vec<f64>>) -> Self {
         debug_assert_eq!(shear.len(), points * points);
-        Self { points, shear, normal }
+        let matrices: Vec<&[f64]> = std::iter::once(&shear).chain(&normal).map(Vec::as_slice).collect();
+        let stiffness = columns(points, &matrices);
+        Self { points, shear, normal, stiffness }
     }
 
     /// Shear tractions per slip \[Pa/m\], row by row.
     #[must_use]
     pub fn matrix(&self) -> &[f64] {
         &self.shear
+    }
+
+    /// Normal tractions per slip \[Pa/m\], row by row, where slip changes them.
+    #[must_use]
+    pub fn normal_matrix(&self) -> Option<&[f64]> {
+        self.normal.as_deref()
     }
 
     fn product(&self, matrix: &[f64], x: &[f64], y: &mut [f64]) {
@@ -101,5 +140,13 @@ impl Operator for Dense {
 
     fn bytes(&self) -> usize {
         (self.shear.len() + self.normal.as_ref().map_or(0, Vec::len)) * size_of::<f64>()
+    }
+
+    fn stiffness(&self) -> &[f64] {
+        &self.stiffness
+    }
+
+    fn words(&self) -> String {
+        format!("dense operator of {:.1} kB", self.bytes() as f64 / 1e3)
     }
 }

@@ -3,8 +3,10 @@
 use super::catalogue::Thresholds;
 use super::condense::{Point, condense};
 use super::equations::{Fault, Layout};
+use super::hierarchical::{Geometry, Hierarchical};
 use super::loading::Loading;
 use super::located::Frame;
+use super::operator::{Dense, Form, Operator};
 use super::place::{Place, places};
 use super::run::Settings;
 use crate::laws;
@@ -137,13 +139,13 @@ impl Plan {
         line(
             "size",
             format!(
-                "{} degrees of freedom condensed in about {:.0} MB, {} unknowns, operator of {:.1} MB",
+                "{} degrees of freedom condensed in about {:.0} MB, {} unknowns",
                 self.dofs,
                 (self.condensation_bytes as f64 / 1e6).max(1.0),
-                self.start.len(),
-                self.fault.operator.bytes() as f64 / 1e6
+                self.start.len()
             ),
         );
+        line("operator", self.fault.operator.words());
         text
     }
 }
@@ -153,8 +155,16 @@ impl Plan {
 /// # Errors
 /// [`PlanError`] with the place in the scene.
 pub fn plan(scene: &Scene) -> Result<Plan, PlanError> {
+    plan_with(scene, Form::Fitting)
+}
+
+/// Plans such a scene with the operator in a given form.
+///
+/// # Errors
+/// [`PlanError`] with the place in the scene.
+pub fn plan_with(scene: &Scene, form: Form) -> Result<Plan, PlanError> {
     match scene.kinematics.get_ref() {
-        Kinematics::Antiplane | Kinematics::PlaneStrain => plan_in::<2>(scene),
+        Kinematics::Antiplane | Kinematics::PlaneStrain => plan_in::<2>(scene, form),
         other => Err(PlanError::at(
             scene.kinematics.span(),
             format!("faults in {} are not integrated yet", other.words()),
@@ -171,7 +181,7 @@ struct Placed<const D: usize> {
     law: LawChoice,
 }
 
-fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan, PlanError> {
+fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError> {
     let model = Model::<D>::new(scene)?;
     if scene.materials.len() > 1 {
         return Err(PlanError::plain(
@@ -216,7 +226,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan, PlanError> {
         PlanError::plain("a fault through cycles needs a law that depends on the slip rate: \"rate\" or \"rate-and-state\"".into())
     })?;
     let fault = Fault {
-        operator: Box::new(surroundings.operator),
+        operator: operator(surroundings.operator, &placed, form),
         law,
         damping: damping(scene, &model)?,
         normal: placed.iter().map(|p| p.normal).collect(),
@@ -244,6 +254,33 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan, PlanError> {
         kinematics: scene.kinematics.get_ref().words(),
         fault,
     })
+}
+
+/// Points from which the operator is compressed: below, a product with the dense one takes as long (2 us).
+const COMPRESSED_FROM: usize = 128;
+/// Error of the compressed operator's forces over its largest entry: tractions of slip over 10 km then have errors of some 1e-9, far
+/// below those of the integration, and ten times more would save a tenth of the values.
+const COMPRESSION: f64 = 1e-10;
+
+/// The operator in its form.
+fn operator<const D: usize>(dense: Dense, placed: &[Placed<D>], form: Form) -> Box<dyn Operator> {
+    let tolerance = match form {
+        Form::Dense => return Box::new(dense),
+        Form::Fitting if dense.points() < COMPRESSED_FROM => return Box::new(dense),
+        Form::Fitting => COMPRESSION,
+        Form::Compressed { tolerance } => tolerance,
+    };
+    let places: Vec<[f64; 3]> = placed.iter().map(|p| in_space(&p.point.place.at)).collect();
+    let areas: Vec<f64> = placed.iter().map(|p| p.point.place.area).collect();
+    let last = placed.last().map_or(0, |p| p.fault);
+    let first = |fault: usize| placed.partition_point(|p| p.fault < fault);
+    let faults: Vec<_> = (0..=last).map(|f| first(f)..first(f + 1)).filter(|r| !r.is_empty()).collect();
+    let geometry = Geometry { places: &places, faults: &faults, areas: &areas };
+    Box::new(Hierarchical::new(dense.matrix(), dense.normal_matrix(), &geometry, tolerance))
+}
+
+fn in_space<const D: usize>(at: &[f64; D]) -> [f64; 3] {
+    std::array::from_fn(|c| if c < D { at[c] } else { 0.0 })
 }
 
 fn points_of<const D: usize>(
@@ -376,12 +413,13 @@ fn settings(scene: &Scene, end: f64) -> Result<Settings, PlanError> {
     let method = match &time.method {
         None => DEFAULT_METHOD,
         Some(name) => match name.get_ref().parse::<Method>() {
-            Ok(method @ (Method::Tsit5 | Method::Dop853)) => method,
+            Ok(method) if Method::EXPLICIT.contains(&method) => method,
             _ => {
+                let those = Method::EXPLICIT.map(|m| format!("\"{}\"", m.name())).join(", ");
                 return Err(PlanError::at(
                     name.span(),
                     format!("the method \"{}\" does not integrate faults", name.get_ref()),
-                    "\"tsit5\" and \"dop853\" do".into(),
+                    format!("those without a Jacobian do: {those}"),
                 ));
             }
         },
@@ -417,7 +455,6 @@ fn views<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> (Vec<FaultView>
         .iter()
         .map(|p| {
             let place = &p.point.place;
-            let in_space = |v: &[f64; D]| std::array::from_fn(|c| if c < D { v[c] } else { 0.0 });
             let (at, normal): ([f64; 3], [f64; 3]) = (in_space(&place.at), in_space(&place.normal));
             // Out of the plane, or along the fault in it.
             let slides = if scene.kinematics.get_ref().idealisation().components() == 1 {

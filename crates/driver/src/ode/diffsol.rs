@@ -64,7 +64,8 @@ pub(super) fn with_stepper(
     run: &mut dyn FnMut(&mut dyn Stepper) -> Finished,
 ) -> Result<Finished, Failure> {
     let n = system.size;
-    let remembered = RefCell::new(Remembered { at: None, y: vec![0.0; n], jacobian: vec![0.0; n * n] });
+    let entries = if method.implicit() { n * n } else { 0 };
+    let remembered = RefCell::new(Remembered { at: None, y: vec![0.0; n], jacobian: vec![0.0; entries] });
     let mut problem = OdeBuilder::<Matrix>::new()
         .rtol(system.rtol)
         .atol(system.atol.iter().copied())

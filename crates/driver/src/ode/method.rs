@@ -21,10 +21,14 @@ pub enum Method {
     Radau5,
     /// Dormand-Prince 8(5,3) and, where stability limits its steps, Radau IIA.
     Switching,
+    /// Runge-Kutta-Chebyshev of order 2, explicit with long steps in stiff problems whose eigenvalues are real and negative.
+    Rkc2,
+    /// Tsitouras 5(4) and, where stability limits its steps, Runge-Kutta-Chebyshev.
+    Stabilised,
 }
 
 impl Method {
-    /// All methods.
+    /// The methods for small systems of any kind.
     pub const ALL: [Self; 8] = [
         Self::Bdf,
         Self::TrBdf2,
@@ -35,6 +39,9 @@ impl Method {
         Self::Radau5,
         Self::Switching,
     ];
+
+    /// The methods that need no Jacobian, for systems of many unknowns.
+    pub const EXPLICIT: [Self; 5] = [Self::Stabilised, Self::Tsit5, Self::Dop853, Self::Rkc2, Self::Tsit45];
 
     /// The name, as in scenes.
     #[must_use]
@@ -48,6 +55,8 @@ impl Method {
             Self::Tsit5 => "tsit5",
             Self::Radau5 => "radau5",
             Self::Switching => "switching",
+            Self::Rkc2 => "rkc2",
+            Self::Stabilised => "stabilised",
         }
     }
 
@@ -67,7 +76,11 @@ impl FromStr for Method {
     type Err = UnknownMethod;
 
     fn from_str(name: &str) -> Result<Self, Self::Err> {
-        Self::ALL.into_iter().find(|m| m.name() == name).ok_or_else(|| UnknownMethod(name.to_owned()))
+        Self::ALL
+            .into_iter()
+            .chain(Self::EXPLICIT)
+            .find(|m| m.name() == name)
+            .ok_or_else(|| UnknownMethod(name.to_owned()))
     }
 }
 

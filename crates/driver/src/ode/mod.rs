@@ -1,4 +1,4 @@
-//! Integration of small systems of ordinary differential equations, with events and with time resolved to 1e-9 s at 1e9 s.
+//! Integration of systems of ordinary differential equations, with events and with time resolved to 1e-9 s at 1e9 s.
 //!
 //! All methods run in one loop (`drive`), which keeps the time, finds the events and counts; a method only takes steps. Those of
 //! the library diffsol are behind the module of that name, and nothing else names it.
@@ -22,7 +22,9 @@ mod problem;
 mod radau5;
 mod radau5_table;
 mod report;
+mod rkc;
 mod root;
+mod stabilised;
 mod stepper;
 mod switching;
 mod tsit5;
@@ -73,6 +75,8 @@ pub fn integrate(
         Method::Dop853 => run(&mut OneStep::new(dop853::Dop853::new(size), size, largest)),
         Method::Tsit5 => run(&mut OneStep::new(tsit5::Tsit5::new(size), size, largest)),
         Method::Radau5 => run(&mut OneStep::new(radau5::Radau5::new(size), size, largest)),
+        Method::Rkc2 => run(&mut OneStep::new(rkc::Rkc2::new(size), size, largest)),
+        Method::Stabilised => run(&mut OneStep::new(stabilised::Stabilised::new(size), size, largest)),
         Method::Switching => run(&mut OneStep::new(switching::Switching::new(size), size, largest)),
         Method::Bdf | Method::TrBdf2 | Method::Esdirk34 | Method::Tsit45 => {
             match diffsol::with_stepper(options.method, &system, state, largest, &mut run) {

@@ -14,6 +14,12 @@ pub trait Problem {
     /// Writes the derivatives of the rates by the unknowns \[1/s\] into `jac`, column by column.
     fn jacobian(&self, at: Clock, y: &[f64], jac: &mut [f64]);
 
+    /// A bound of the spectral radius of the Jacobian \[1/s\], for methods that choose their stages by it; where there is none at
+    /// hand it is found from the Jacobian.
+    fn spectral_radius(&self, _at: Clock, _y: &[f64]) -> Option<f64> {
+        None
+    }
+
     /// Number of event functions.
     fn events(&self) -> usize {
         0
@@ -52,6 +58,20 @@ impl System<'_> {
     pub fn jacobian(&self, t: f64, y: &[f64], jac: &mut [f64]) {
         self.jacobians.set(self.jacobians.get() + 1);
         self.problem.jacobian(self.clock(t), y, jac);
+    }
+
+    /// A bound of the spectral radius at local time `t` \[1/s\].
+    pub fn spectral_radius(&self, t: f64, y: &[f64]) -> f64 {
+        self.problem.spectral_radius(self.clock(t), y).unwrap_or_else(|| {
+            let mut jacobian = vec![0.0; self.size * self.size];
+            self.jacobian(t, y, &mut jacobian);
+            // Columns of unknowns in units of their tolerances: no eigenvalue exceeds the largest sum.
+            let column = |(j, column): (usize, &[f64])| {
+                let sum: f64 = column.iter().zip(self.atol).map(|(entry, atol)| entry.abs() / atol).sum();
+                sum * self.atol[j]
+            };
+            jacobian.chunks_exact(self.size).enumerate().map(column).fold(0.0, larger)
+        })
     }
 
     /// Root mean square of `error` over the tolerance at the larger of two states.

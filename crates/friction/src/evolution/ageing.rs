@@ -154,4 +154,8 @@ impl Evolution for Ageing {
     fn length(&self) -> Option<f64> {
         Some(self.length)
     }
+
+    fn ageing(&self) -> Option<(f64, f64)> {
+        self.cut_off.is_none().then_some((self.b, self.v_ref / self.length))
+    }
 }

@@ -100,6 +100,11 @@ pub trait Evolution: Send + Sync + Clone + std::fmt::Debug {
     /// Characteristic slip L \[m\], where there is one.
     fn length(&self) -> Option<f64>;
 
+    /// b and Vref/L \[1/s\] of laws with `φ = b s` and `ds/dt = Vref/L exp(-s) - V/L`.
+    fn ageing(&self) -> Option<(f64, f64)> {
+        None
+    }
+
     /// c of the memory of shear traction, by which `φ + c μ` and not φ is continuous where V jumps \[-\].
     fn shear_memory(&self) -> f64 {
         0.0

@@ -18,6 +18,7 @@ use crate::Failure;
 use crate::evolution::{Evolution, Speed};
 use crate::law::{Drives, Rated};
 use crate::rate::RateLaw;
+use crate::sheet::Line;
 use crate::strength::{Form, SlipRate};
 
 /// What acts on a slider at an instant.
@@ -97,6 +98,9 @@ pub trait Sliding: Rated {
 
     /// Shortest characteristic slip L \[m\], where there is one.
     fn length(&self) -> Option<f64>;
+
+    /// What many such sliders at once need, where the form is an exponential and the law the ageing law without memories.
+    fn line(&self) -> Option<Line>;
 }
 
 impl<F: Form, E: Evolution> RateLaw<F, E> {
@@ -310,5 +314,15 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
 
     fn length(&self) -> Option<f64> {
         self.parts().iter().filter_map(|p| p.evolution.length()).reduce(f64::min)
+    }
+
+    fn line(&self) -> Option<Line> {
+        let [part] = self.parts() else { return None };
+        if part.normal_memory != 0.0 || part.shear_memory != 0.0 {
+            return None;
+        }
+        let ((offset, from), (b, healing)) = (self.form().exponential()?, part.evolution.ageing()?);
+        let length = part.evolution.length()?;
+        Some(Line { from, offset, a: self.form().scale(), b, healing, length })
     }
 }

@@ -61,6 +61,12 @@ pub trait Form: Send + Sync + Clone + std::fmt::Debug {
         None
     }
 
+    /// F and m such that `ln |V| = |m| - F - φ/a` to rounding wherever `|m|` is above the second, for forms that are exponentials
+    /// there.
+    fn exponential(&self) -> Option<(f64, f64)> {
+        None
+    }
+
     /// V at which the coefficient is `a m`, of either sign where the form is odd.
     fn slip_rate(&self, m: f64, phi: f64) -> SlipRate;
 

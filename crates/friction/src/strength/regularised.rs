@@ -47,6 +47,10 @@ impl Form for Regularised {
         Some((self.log_factor(phi) + LN_2, LARGE + LN_2))
     }
 
+    fn exponential(&self) -> Option<(f64, f64)> {
+        Some((self.log_factor(0.0) + LN_2, LARGE))
+    }
+
     fn log_rate(&self, mu: f64, phi: f64) -> f64 {
         let p = &self.0;
         let y = mu / p.a;

@@ -1,0 +1,53 @@
+//! What slip does to tractions, dense and compressed, and a right-hand side of a fault; with the bytes an operator holds.
+#![allow(missing_docs)]
+
+use asperity_driver::fault::{Equations, Form, Plan, plan_with};
+use asperity_driver::ode::{Clock, Problem};
+use asperity_driver::scene;
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+
+/// BP1 with cells of this size \[m\] where the fault is locked.
+fn plan(size: f64, form: Form) -> Plan {
+    let text = include_str!("../../scenes/bp1.toml")
+        .replace("156.25 m", &format!("{size} m"))
+        .replace("\"600 m\"", &format!("\"{} m\"", 600.0 / 156.25 * size));
+    let scene = scene::read(&text).expect("the scene is complete");
+    plan_with(&scene, form).expect("the scene has a fault")
+}
+
+const SIZES: [f64; 4] = [625.0, 312.5, 156.25, 78.125];
+
+fn products(c: &mut Criterion) {
+    let mut group = c.benchmark_group("fault/product");
+    for (name, form) in [("dense", Form::Dense), ("compressed", Form::Compressed { tolerance: 1e-10 })] {
+        for size in SIZES {
+            let plan = plan(size, form);
+            let n = plan.points.len();
+            let slip: Vec<f64> = (0..n).map(|k| (k as f64).sin()).collect();
+            let mut shear = vec![0.0; n];
+            group.throughput(Throughput::Bytes(plan.fault.operator.bytes() as u64));
+            group.bench_function(BenchmarkId::new(name, n), |b| {
+                b.iter(|| plan.fault.operator.shear(&slip, &mut shear));
+            });
+        }
+    }
+    group.finish();
+}
+
+fn rates(c: &mut Criterion) {
+    let mut group = c.benchmark_group("fault/right-hand side");
+    for size in SIZES {
+        let plan = plan(size, Form::Fitting);
+        let (shear, normal) = plan.loading.rates(1.0, plan.points.len(), false);
+        let equations = Equations::new(&plan.fault, shear, normal);
+        let mut dy = vec![0.0; plan.start.len()];
+        group.throughput(Throughput::Elements(plan.points.len() as u64));
+        group.bench_function(BenchmarkId::from_parameter(plan.points.len()), |b| {
+            b.iter(|| equations.rates(Clock::new(0.0, 0.0), &plan.start, &mut dy));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, products, rates);
+criterion_main!(benches);

@@ -1,0 +1,104 @@
+//! A binary tree over the points of faults, by place.
+
+use std::ops::Range;
+
+/// Most points of a leaf: below, a dense block is as small as two of low rank and faster.
+const LEAF: usize = 32;
+
+/// Points near each other.
+#[derive(Clone, Debug)]
+pub(super) struct Cluster {
+    /// Its points, as positions in [`Tree::order`].
+    pub range: Range<usize>,
+    /// Its parts, as positions in [`Tree::clusters`].
+    pub parts: Option<[usize; 2]>,
+    /// Smallest box around its points \[m\].
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+impl Cluster {
+    /// Diagonal of its box \[m\].
+    fn size(&self) -> f64 {
+        (0..3).map(|c| (self.high[c] - self.low[c]).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// Whether the boxes lie at least as far apart as the smaller one is long: what slip in one does in the other is smooth.
+    pub fn far_from(&self, other: &Self) -> bool {
+        let gap = |c: usize| (self.low[c] - other.high[c]).max(other.low[c] - self.high[c]).max(0.0);
+        let distance = (0..3).map(|c| gap(c).powi(2)).sum::<f64>().sqrt();
+        distance > 0.0 && distance >= self.size().min(other.size())
+    }
+}
+
+/// The tree.
+#[derive(Clone, Debug)]
+pub(super) struct Tree {
+    /// The points in the order of the leaves.
+    pub order: Vec<usize>,
+    /// The root first.
+    pub clusters: Vec<Cluster>,
+}
+
+impl Tree {
+    /// Of points at these places \[m\]; `faults` are the points of each fault, which are parted first: what slip does may jump
+    /// from one fault to the next.
+    pub fn new(places: &[[f64; 3]], faults: &[Range<usize>]) -> Self {
+        let mut tree = Self { order: (0..places.len()).collect(), clusters: Vec::new() };
+        tree.grow(places, faults, 0..places.len());
+        tree
+    }
+
+    /// Adds the cluster of `range`, which holds whole faults or a part of one, and its parts; its position.
+    fn grow(&mut self, places: &[[f64; 3]], faults: &[Range<usize>], range: Range<usize>) -> usize {
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for &p in &self.order[range.clone()] {
+            for c in 0..3 {
+                low[c] = low[c].min(places[p][c]);
+                high[c] = high[c].max(places[p][c]);
+            }
+        }
+        let own = self.clusters.len();
+        self.clusters.push(Cluster { range: range.clone(), parts: None, low, high });
+        let parted = if let [_, _, ..] = faults {
+            let (left, right) = faults.split_at(faults.len() / 2);
+            Some((left[left.len() - 1].end, left, right))
+        } else if range.len() > LEAF {
+            let along = (0..3).fold(0, |b, c| if high[c] - low[c] > high[b] - low[b] { c } else { b });
+            let by = |p: &usize, q: &usize| places[*p][along].total_cmp(&places[*q][along]).then(p.cmp(q));
+            self.order[range.clone()].sort_by(by);
+            Some((range.start + range.len() / 2, faults, faults))
+        } else {
+            None
+        };
+        if let Some((middle, left, right)) = parted {
+            let first = self.grow(places, left, range.start..middle);
+            let second = self.grow(places, right, middle..range.end);
+            self.clusters[own].parts = Some([first, second]);
+        }
+        own
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LEAF, Tree};
+
+    #[test]
+    fn every_point_stands_in_one_leaf_and_faults_are_not_mixed() {
+        let places: Vec<[f64; 3]> = (0..300).map(|k| [f64::from(k % 100), f64::from(k / 100), 0.0]).collect();
+        let faults = [0..100, 100..130, 130..300];
+        let tree = Tree::new(&places, &faults);
+        let mut sorted = tree.order.clone();
+        sorted.sort_unstable();
+        assert!(sorted.iter().copied().eq(0..300));
+        let mut seen = 0;
+        for leaf in tree.clusters.iter().filter(|c| c.parts.is_none()) {
+            assert!(!leaf.range.is_empty() && leaf.range.len() <= LEAF);
+            seen += leaf.range.len();
+            let points = &tree.order[leaf.range.clone()];
+            assert!(faults.iter().any(|f| points.iter().all(|p| f.contains(p))));
+        }
+        assert_eq!(seen, 300);
+    }
+}

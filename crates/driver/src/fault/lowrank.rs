@@ -1,0 +1,121 @@
+//! Blocks of low rank.
+
+use nalgebra::DMatrix;
+
+/// Columns of a block of low rank come in groups of so many: a product treats them together.
+pub(super) const GROUP: usize = 4;
+
+/// Share of the error that the crosses may leave; the rest is for what is cut off after them.
+const CROSSES: f64 = 0.1;
+
+/// `left right'` with a multiple of [`GROUP`] columns, which may be zero.
+#[derive(Clone, Debug)]
+pub(super) struct LowRank {
+    pub left: DMatrix<f64>,
+    pub right: DMatrix<f64>,
+}
+
+/// `block` as a product of fewest columns with an error of at most `error` in Frobenius' norm; none where it would take more
+/// than `most` columns.
+///
+/// Crosses of the largest entry of what is left (M. Bebendorf, Numer. Math. 86 (2000) 565, with full pivoting, so that the error is known
+/// and not estimated), then the singular values of their sum.
+pub(super) fn low_rank(block: DMatrix<f64>, error: f64, most: usize) -> Option<LowRank> {
+    let (m, n) = (block.nrows(), block.ncols());
+    let mut rest = block;
+    let (mut left, mut right): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
+    let mut crosses = 0;
+    // Crosses are not yet the best columns.
+    let room = (most + GROUP).min(m).min(n);
+    loop {
+        let (mut sum, mut largest, mut at) = (0.0, 0.0, (0, 0));
+        for j in 0..n {
+            for i in 0..m {
+                let value: f64 = rest[(i, j)];
+                sum += value * value;
+                if value.abs() > largest {
+                    (largest, at) = (value.abs(), (i, j));
+                }
+            }
+        }
+        if sum.sqrt() <= CROSSES * error {
+            break;
+        }
+        if crosses == room {
+            return None;
+        }
+        let pivot = rest[at];
+        let column: Vec<f64> = (0..m).map(|i| rest[(i, at.1)] / pivot).collect();
+        let row: Vec<f64> = (0..n).map(|j| rest[(at.0, j)]).collect();
+        for (j, r) in row.iter().enumerate() {
+            for (i, c) in column.iter().enumerate() {
+                rest[(i, j)] -= c * r;
+            }
+        }
+        left.extend(column);
+        right.extend(row);
+        crosses += 1;
+    }
+    let found = recompressed(
+        DMatrix::from_vec(m, crosses, left),
+        DMatrix::from_vec(n, crosses, right),
+        (1.0 - CROSSES) * error,
+    )?;
+    (found.left.ncols() <= most).then_some(found)
+}
+
+/// Iterations after which singular values are not found: some hundred times what they take.
+const MOST_ITERATIONS: usize = 10_000;
+
+/// The fewest columns for `left right'` to `error`; none where its singular values are not found. All of it runs on one thread, for
+/// results that do not depend on their number.
+fn recompressed(left: DMatrix<f64>, right: DMatrix<f64>, error: f64) -> Option<LowRank> {
+    if left.ncols() == 0 {
+        return Some(LowRank { left, right });
+    }
+    let (left, right) = (left.qr(), right.qr());
+    let core = left.r() * right.r().transpose();
+    let svd = core.try_svd(true, true, f64::EPSILON, MOST_ITERATIONS)?;
+    let (sizes, u, v) = (svd.singular_values, svd.u?, svd.v_t?);
+    let (mut rank, mut cut) = (sizes.len(), 0.0);
+    while rank > 0 && cut + sizes[rank - 1] * sizes[rank - 1] <= error * error {
+        rank -= 1;
+        cut += sizes[rank] * sizes[rank];
+    }
+    // Columns that fill the last group cost nothing.
+    let (columns, kept) = (rank.next_multiple_of(GROUP), rank.next_multiple_of(GROUP).min(sizes.len()));
+    let (u, v) = (left.q() * u, right.q() * v.transpose());
+    let fill = |all: &DMatrix<f64>, weight: &dyn Fn(usize) -> f64| {
+        DMatrix::from_fn(all.nrows(), columns, |i, k| if k < kept { all[(i, k)] * weight(k) } else { 0.0 })
+    };
+    Some(LowRank { left: fill(&u, &|k| sizes[k]), right: fill(&v, &|_| 1.0) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::low_rank;
+    use nalgebra::DMatrix;
+
+    /// 1/(x - y)² between two intervals that touch.
+    fn block() -> DMatrix<f64> {
+        DMatrix::from_fn(80, 60, |i, j| 1.0 / (i as f64 + j as f64 + 1.0).powi(2))
+    }
+
+    #[test]
+    fn the_error_is_at_most_what_was_asked_for() {
+        let block = block();
+        let mut before = 0;
+        for error in [1e-2, 1e-5, 1e-10] {
+            let low = low_rank(block.clone(), error, 60).unwrap();
+            let left = &low.left * low.right.transpose() - &block;
+            assert!(left.norm() <= error, "{} above {error}", left.norm());
+            assert!(low.left.ncols() > before && low.left.ncols() <= 24, "{}", low.left.ncols());
+            before = low.left.ncols();
+        }
+    }
+
+    #[test]
+    fn a_block_that_needs_more_columns_than_allowed_is_none() {
+        assert!(low_rank(block(), 1e-10, 4).is_none());
+    }
+}

@@ -1,0 +1,248 @@
+//! Many points with the regularised form and the ageing law at once.
+//!
+//! While μ/a is large the form is its logarithm and V one exponential; healing is another. Both are taken for several points
+//! together, by a polynomial the compiler spreads over the lanes of the processor. Elsewhere the equations of
+//! [`crate::slider`] hold, of which these are a case.
+
+use crate::fault::Drive;
+use pulp::Arch;
+
+/// Points treated together.
+const LANES: usize = 8;
+
+/// What a law needs for this: while |m| is above `from`, `ln V = |m| - offset - b s/a`; `ds/dt = healing exp(-s) - V/L`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Smallest |m|.
+    pub from: f64,
+    /// See the struct.
+    pub offset: f64,
+    /// a \[-\].
+    pub a: f64,
+    /// b \[-\].
+    pub b: f64,
+    /// Vref/L \[1/s\].
+    pub healing: f64,
+    /// L \[m\].
+    pub length: f64,
+}
+
+/// Lines of [`LANES`] points.
+#[derive(Clone, Copy, Debug)]
+struct Lines {
+    from: f64,
+    offset: [f64; LANES],
+    per_a: [f64; LANES],
+    a: [f64; LANES],
+    b: [f64; LANES],
+    healing: [f64; LANES],
+    per_length: [f64; LANES],
+}
+
+/// Points in groups.
+#[derive(Clone, Debug)]
+pub(crate) struct Sheet {
+    lines: Vec<Lines>,
+    arch: Arch,
+}
+
+/// What happens at a group of points.
+struct Group {
+    m: [f64; LANES],
+    s: [f64; LANES],
+}
+
+impl Group {
+    #[inline(always)]
+    fn new(m: &[f64], s: &[f64]) -> Self {
+        Self { m: load(m), s: load(s) }
+    }
+
+    /// |V|.
+    #[inline(always)]
+    fn speed(&self, lines: &Lines) -> [f64; LANES] {
+        std::array::from_fn(|k| {
+            let log = self.m[k].abs() - lines.offset[k] - lines.b[k] * self.s[k] * lines.per_a[k];
+            exp(log)
+        })
+    }
+}
+
+impl Sheet {
+    /// Of points that have a line each; the last group is filled with the last of them.
+    pub fn new(points: &[Line]) -> Self {
+        let group = |lines: &[Line]| {
+            let of =
+                |value: &dyn Fn(&Line) -> f64| std::array::from_fn(|k| value(&lines[k.min(lines.len() - 1)]));
+            Lines {
+                from: lines.iter().map(|l| l.from).fold(0.0, f64::max),
+                offset: of(&|l| l.offset),
+                per_a: of(&|l| 1.0 / l.a),
+                a: of(&|l| l.a),
+                b: of(&|l| l.b),
+                healing: of(&|l| l.healing),
+                per_length: of(&|l| 1.0 / l.length),
+            }
+        };
+        Self { lines: points.chunks(LANES).map(group).collect(), arch: Arch::new() }
+    }
+
+    /// Slip rates of all points \[m/s\]; `other` gives that of a point where the line does not hold.
+    pub fn slip_rates(&self, m: &[f64], s: &[f64], rate: &mut [f64], other: impl Fn(usize) -> f64) {
+        self.arch.dispatch(
+            #[inline(always)]
+            || {
+                let points = m.chunks(LANES).zip(s.chunks(LANES)).zip(rate.chunks_mut(LANES));
+                for (lines, ((m, s), rate)) in self.lines.iter().zip(points) {
+                    let speed = Group::new(m, s).speed(lines);
+                    for ((rate, speed), m) in rate.iter_mut().zip(speed).zip(m) {
+                        *rate = speed.copysign(*m);
+                    }
+                }
+            },
+        );
+        self.elsewhere(m, |k| rate[k] = other(k));
+    }
+
+    /// Rates of m and of the states \[1/s\]; `other` writes those of a point where the line does not hold.
+    pub fn rates(
+        &self,
+        drive: &Drive<'_>,
+        m: &[f64],
+        s: &[f64],
+        dm: &mut [f64],
+        ds: &mut [f64],
+        mut other: impl FnMut(usize, &mut f64, &mut f64),
+    ) {
+        self.arch.dispatch(
+            #[inline(always)]
+            || {
+                let unknowns = m.chunks(LANES).zip(s.chunks(LANES));
+                let forcing = drive.normal.chunks(LANES).zip(drive.shear_rate.chunks(LANES));
+                let rates = dm.chunks_mut(LANES).zip(ds.chunks_mut(LANES));
+                let points = unknowns.zip(forcing).zip(rates).enumerate();
+                for (lines, (g, (((m, s), (normal, pull)), (dm, ds)))) in self.lines.iter().zip(points) {
+                    let group = Group::new(m, s);
+                    let normal_rate = match drive.normal_rate {
+                        Some(rates) => load(&rates[g * LANES..][..m.len()]),
+                        None => [0.0; LANES],
+                    };
+                    let (m_rate, s_rate) =
+                        group.rates(lines, &load(normal), &normal_rate, &load(pull), drive.damping);
+                    dm.copy_from_slice(&m_rate[..dm.len()]);
+                    ds.copy_from_slice(&s_rate[..ds.len()]);
+                }
+            },
+        );
+        self.elsewhere(m, |k| other(k, &mut dm[k], &mut ds[k]));
+    }
+
+    /// Does `what` for the points where the line does not hold, those whose m is not a number among them.
+    fn elsewhere(&self, m: &[f64], mut what: impl FnMut(usize)) {
+        for (g, (lines, m)) in self.lines.iter().zip(m.chunks(LANES)).enumerate() {
+            for (k, m) in m.iter().enumerate() {
+                let holds = m.abs() > lines.from;
+                if !holds {
+                    what(g * LANES + k);
+                }
+            }
+        }
+    }
+}
+
+impl Group {
+    /// Rates of m and s: the equations of [`crate::slider`] without springs, with P = |V| and Q = -V b/a ds/dt.
+    #[inline(always)]
+    fn rates(
+        &self,
+        lines: &Lines,
+        normal: &[f64; LANES],
+        normal_rate: &[f64; LANES],
+        pull: &[f64; LANES],
+        damping: f64,
+    ) -> ([f64; LANES], [f64; LANES]) {
+        let speed = self.speed(lines);
+        let (mut dm, mut ds) = ([0.0; LANES], [0.0; LANES]);
+        for k in 0..LANES {
+            ds[k] = lines.healing[k] * exp(-self.s[k]) - speed[k] * lines.per_length[k];
+            let drift = -speed[k].copysign(self.m[k]) * lines.per_a[k] * lines.b[k] * ds[k];
+            let gained = pull[k] - self.m[k] * (normal_rate[k] * lines.a[k]) - damping * drift;
+            dm[k] = gained / (normal[k] * lines.a[k] + damping * speed[k]);
+        }
+        (dm, ds)
+    }
+}
+
+/// The values, then the last again.
+#[inline(always)]
+fn load(values: &[f64]) -> [f64; LANES] {
+    match values.first_chunk::<LANES>() {
+        Some(all) => *all,
+        None => std::array::from_fn(|k| values[k.min(values.len() - 1)]),
+    }
+}
+
+/// Arguments between which the result is a normal number.
+const LEAST: f64 = -708.0;
+const MOST: f64 = 709.0;
+/// Adding it rounds to an integer, which then stands in the last bits.
+const ROUND: f64 = 6_755_399_441_055_744.0;
+/// ln 2 in two parts: multiples of the first are exact.
+const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
+const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
+/// Inverse factorials from 1/13! on: on |r| <= ln 2/2 the next term is 4e-18 of the sum.
+const TERMS: [f64; 14] = [
+    1.605_904_383_682_161_3e-10,
+    2.087_675_698_786_81e-9,
+    2.505_210_838_544_172e-8,
+    2.755_731_922_398_589e-7,
+    2.755_731_922_398_589_3e-6,
+    2.480_158_730_158_73e-5,
+    1.984_126_984_126_984e-4,
+    1.388_888_888_888_889e-3,
+    8.333_333_333_333_333e-3,
+    4.166_666_666_666_666_4e-2,
+    1.666_666_666_666_666_6e-1,
+    0.5,
+    1.0,
+    1.0,
+];
+
+/// e^x to about an ulp, without branches; below [`LEAST`] and above [`MOST`] the value there, NaN where x is.
+#[inline(always)]
+fn exp(x: f64) -> f64 {
+    // Comparisons with NaN are false: it stays.
+    let x = if x < LEAST { LEAST } else { x };
+    let x = if x > MOST { MOST } else { x };
+    let shifted = x * std::f64::consts::LOG2_E + ROUND;
+    let n = shifted - ROUND;
+    let r = (x - n * LN_2_HIGH) - n * LN_2_LOW;
+    let mut sum = TERMS[0];
+    for term in &TERMS[1..] {
+        sum = sum * r + term;
+    }
+    f64::from_bits(sum.to_bits().wrapping_add(shifted.to_bits() << 52))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::exp;
+
+    #[test]
+    fn the_exponential_has_an_error_of_two_units_in_the_last_place() {
+        let mut worst = 0.0_f64;
+        for k in -70_000..=70_000 {
+            let x = f64::from(k) * 0.010_1;
+            worst = worst.max((exp(x) / x.exp() - 1.0).abs());
+        }
+        assert!(worst <= 2.0 * f64::EPSILON, "{worst}");
+        assert_eq!(exp(0.0), 1.0);
+    }
+
+    #[test]
+    fn what_is_no_number_stays_none_and_what_overflows_is_huge() {
+        assert!(exp(f64::NAN).is_nan());
+        assert!(exp(f64::INFINITY) > 1e307 && exp(1e300) > 1e307);
+        assert!(exp(-1e300) < 1e-307 && exp(-1e300) >= 0.0);
+    }
+}
