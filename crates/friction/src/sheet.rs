@@ -187,8 +187,9 @@ const LEAST: f64 = -708.0;
 const MOST: f64 = 709.0;
 /// Adding it rounds to an integer, which then stands in the last bits.
 const ROUND: f64 = 6_755_399_441_055_744.0;
-/// ln 2 in two parts: multiples of the first are exact.
+/// ln 2 in two parts, of which this has so few digits that its multiples are exact.
 const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
+/// What the first part leaves of ln 2.
 const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 /// Inverse factorials from 1/13! on: on |r| <= ln 2/2 the next term is 4e-18 of the sum.
 const TERMS: [f64; 14] = [

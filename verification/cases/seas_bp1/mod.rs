@@ -110,6 +110,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             "slip has an error of tolerance times L in each step, which G over the smallest nodal area turns into traction at the \
              shortest wavelength; errors of steps add up like a random walk",
         )
+        .why_not_tighter("a random walk is as often shorter as longer than its root mean square, and most steps err by less than the tolerance")
         .covers(&[Capability::FaultCycles])
         .cost(&at_coarse.cost)
         .record();
