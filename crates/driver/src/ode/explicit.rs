@@ -9,14 +9,14 @@ pub(super) fn combine<const S: usize>(y: &mut [f64], y0: &[f64], h: f64, weights
         3 => combine_fixed::<3, S>(y, y0, h, weights, k),
         4 => combine_fixed::<4, S>(y, y0, h, weights, k),
         n => {
-            y.fill(0.0);
-            for (w, rates) in weights.iter().zip(k.chunks_exact(n)) {
-                for (sum, rate) in y.iter_mut().zip(rates) {
-                    *sum += w * rate;
+            // One pass: many unknowns do not stay in the nearest cache from one rate to the next.
+            let rates: [&[f64]; S] = std::array::from_fn(|j| &k[j * n..(j + 1) * n]);
+            for (i, (value, start)) in y.iter_mut().zip(y0).enumerate() {
+                let mut sum = 0.0;
+                for (w, rates) in weights.iter().zip(&rates) {
+                    sum += w * rates[i];
                 }
-            }
-            for (value, start) in y.iter_mut().zip(y0) {
-                *value = start + h * *value;
+                *value = start + h * sum;
             }
         }
     }
