@@ -80,7 +80,8 @@ impl Plane {
         let along = d.x * cosine + d.y * sine;
         let up_dip = (d.x * sine - d.y * cosine) * dip.cos() - d.z * dip.sin();
         Self {
-            strike: strike.to_degrees().rem_euclid(360.0),
+            // What is below zero by rounding alone comes out as 360.
+            strike: strike.to_degrees().rem_euclid(360.0) % 360.0,
             dip: dip.to_degrees(),
             rake: up_dip.atan2(along).to_degrees(),
         }
