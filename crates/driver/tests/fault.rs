@@ -66,13 +66,13 @@ fn friction_balances_what_the_bodies_exert() {
     (settings.tolerance, settings.most_events) = (1e-6, Some(1));
     let law = &plan.fault.law;
     let strength = |p: usize, m: f64| plan.fault.normal[p] * law.scale(p) * m;
-    let first: Vec<f64> = (0..n).map(|p| strength(p, plan.start[p]) + plan.fault.damping * PLATE).collect();
+    let first: Vec<f64> = (0..n).map(|p| strength(p, plan.start[p]) + plan.fault.damping[p] * PLATE).collect();
     let mut look = |now: &Moment<'_>| {
         let mut exerted = vec![0.0; n];
         plan.fault.operator.shear(now.slip(), &mut exerted);
         for p in 0..n {
             let driving = first[p] + exerted[p] + shear_rate[p] * now.at.seconds();
-            let resisting = strength(p, now.unknowns[p]) + plan.fault.damping * now.rate[p];
+            let resisting = strength(p, now.unknowns[p]) + plan.fault.damping[p] * now.rate[p];
             worst = worst.max((driving - resisting).abs() / plan.fault.normal[p]);
         }
         Control::Go

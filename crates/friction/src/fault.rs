@@ -19,7 +19,7 @@ pub struct Drive<'a> {
     /// dτ/dt of the driving shear traction \[Pa/s\].
     pub shear_rate: &'a [f64],
     /// η ≥ 0 \[Pa s/m\].
-    pub damping: f64,
+    pub damping: &'a [f64],
 }
 
 impl Drive<'_> {
@@ -30,7 +30,7 @@ impl Drive<'_> {
             normal_rate: self.normal_rate.map_or(0.0, |r| r[point]),
             pull: self.shear_rate[point],
             stiffness: 0.0,
-            damping: self.damping,
+            damping: self.damping[point],
             mass: None,
         }
     }

@@ -62,7 +62,7 @@ impl Balance {
     fn new(plan: &Plan) -> Self {
         let n = plan.points.len();
         let rate = 1e-9;
-        let first = (0..n).map(|p| Self::strength(plan, p, plan.start[p]) + plan.fault.damping * rate);
+        let first = (0..n).map(|p| Self::strength(plan, p, plan.start[p]) + plan.fault.damping[p] * rate);
         Self {
             first: first.collect(),
             load: plan.loading.rates(1.0, n, false).0,
@@ -79,7 +79,7 @@ impl Balance {
         plan.fault.operator.shear(now.slip(), &mut self.exerted);
         for p in 0..self.first.len() {
             let driving = self.first[p] + self.exerted[p] + self.load[p] * now.at.seconds();
-            let resisting = Self::strength(plan, p, now.unknowns[p]) + plan.fault.damping * now.rate[p];
+            let resisting = Self::strength(plan, p, now.unknowns[p]) + plan.fault.damping[p] * now.rate[p];
             self.worst = self.worst.max((driving - resisting).abs() / plan.fault.normal[p]);
         }
     }
@@ -122,7 +122,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn drift(plan: &Plan, steps: u64) -> f64 {
     let smallest = plan.points.iter().map(|p| p.area).fold(f64::INFINITY, f64::min);
     let length = plan.fault.law.length(0).unwrap_or(f64::NAN);
-    (steps as f64).sqrt() * plan.settings.tolerance * length * plan.shear_modulus
+    (steps as f64).sqrt() * plan.settings.tolerance * length * plan.points[0].shear_modulus
         / (smallest * plan.fault.normal[0])
 }
 

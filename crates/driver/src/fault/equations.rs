@@ -17,8 +17,8 @@ pub struct Fault {
     pub operator: Box<dyn Operator>,
     /// Friction.
     pub law: Box<dyn FaultLaw>,
-    /// Radiation damping η ≥ 0 \[Pa s/m\].
-    pub damping: f64,
+    /// Radiation damping η ≥ 0 of each point \[Pa s/m\].
+    pub damping: Vec<f64>,
     /// f_n of each point at the start \[Pa\].
     pub normal: Vec<f64>,
 }
@@ -188,7 +188,7 @@ impl Problem for Equations<'_> {
             normal,
             normal_rate: l.couples_normal.then_some(&scratch.normal_rate),
             shear_rate: &scratch.shear_rate,
-            damping: fault.damping,
+            damping: &fault.damping,
         };
         let (dm, rest) = dy.split_at_mut(l.points);
         let (ds, rest) = rest.split_at_mut(l.points * l.states);

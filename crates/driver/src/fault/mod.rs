@@ -15,6 +15,7 @@ mod loading;
 pub mod located;
 mod lowrank;
 mod machine;
+mod medium;
 mod operator;
 mod place;
 mod plan;

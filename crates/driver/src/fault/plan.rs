@@ -6,6 +6,7 @@ use super::equations::{Fault, Layout};
 use super::hierarchical::{Geometry, Hierarchical};
 use super::loading::Loading;
 use super::located::Frame;
+use super::medium::{Media, Medium};
 use super::operator::{Dense, Form, Operator};
 use super::place::{Place, places};
 use super::run::Settings;
@@ -47,6 +48,8 @@ pub struct PointView {
     pub slides: [f64; 3],
     /// Tributary area \[m²; m per metre of thickness\].
     pub area: f64,
+    /// Shear modulus G for moments: the harmonic mean of those of the two sides \[Pa\].
+    pub shear_modulus: f64,
     /// Where the law has one state of that meaning: θ = time exp(per s), in s.
     pub theta: Option<(f64, f64)>,
 }
@@ -79,8 +82,6 @@ pub struct Plan {
     pub start: Vec<f64>,
     /// Integration.
     pub settings: Settings,
-    /// Shear modulus G for moments \[Pa\].
-    pub shear_modulus: f64,
     /// Degrees of freedom of the bodies.
     pub dofs: usize,
     /// Points whose slip rate is prescribed.
@@ -131,8 +132,10 @@ impl Plan {
             "physics",
             if uncoupled { "normal tractions stay as they are" } else { "normal tractions change" }.into(),
         );
-        if self.fault.damping > 0.0 {
-            line("physics", format!("radiation damping {:.6e} Pa s/m", self.fault.damping));
+        for fault in &self.faults {
+            if let Some(damping) = range(&self.fault.damping[fault.points.clone()]) {
+                line("physics", format!("fault `{}`: radiation damping {damping} Pa s/m", fault.name));
+            }
         }
         let s = &self.settings;
         line("stepper", format!("fault-ode: {} with tolerance {:e} in ln V", s.method.name(), s.tolerance));
@@ -147,6 +150,17 @@ impl Plan {
         );
         line("operator", self.fault.operator.words());
         text
+    }
+}
+
+/// Smallest and largest value in words; none where all are 0.
+fn range(values: &[f64]) -> Option<String> {
+    let (least, most) =
+        values.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(*v), high.max(*v)));
+    match (most > 0.0, least == most) {
+        (false, _) => None,
+        (true, true) => Some(format!("{most:.6e}")),
+        (true, false) => Some(format!("{least:.6e} to {most:.6e}")),
     }
 }
 
@@ -178,16 +192,13 @@ struct Placed<const D: usize> {
     point: Point<D>,
     fault: usize,
     normal: f64,
+    medium: Medium,
+    damping: f64,
     law: LawChoice,
 }
 
 fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError> {
     let model = Model::<D>::new(scene)?;
-    if scene.materials.len() > 1 {
-        return Err(PlanError::plain(
-            "bodies of several materials have no one shear modulus for the moments of events: one material in a scene with faults".into(),
-        ));
-    }
     if let Some(body) = model.bodies.iter().find(|b| b.nonlinear.is_some()) {
         return Err(PlanError::plain(format!(
             "body `{}` is not linear: faults need linear bodies",
@@ -200,7 +211,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
     };
     let mut placed: Vec<Placed<D>> = Vec::new();
     for (k, (name, spec)) in scene.faults.iter().enumerate() {
-        placed.extend(points_of(&model, name, spec, k)?);
+        placed.extend(points_of(scene, &model, (name, spec), k)?);
     }
     let points: Vec<Point<D>> = placed.iter().map(|p| p.point.clone()).collect();
     let surroundings = condense(&model, stage, &points, solver::memory(scene)).map_err(PlanError::plain)?;
@@ -228,7 +239,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
     let fault = Fault {
         operator: operator(surroundings.operator, &placed, form),
         law,
-        damping: damping(scene, &model)?,
+        damping: placed.iter().map(|p| p.damping).collect(),
         normal: placed.iter().map(|p| p.normal).collect(),
     };
     let start = start(scene, &placed, &fault).map_err(at_law)?;
@@ -246,7 +257,6 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         loading: surroundings.loading,
         start,
         settings: settings(scene, stage.end)?,
-        shear_modulus: model.bodies[0].elastic[0].shear(),
         dofs: model.dofs(),
         creeping: points.len() - placed.len(),
         condensation_bytes: surroundings.bytes,
@@ -284,9 +294,9 @@ fn in_space<const D: usize>(at: &[f64; D]) -> [f64; 3] {
 }
 
 fn points_of<const D: usize>(
+    scene: &Scene,
     model: &Model<D>,
-    name: &str,
-    spec: &Spec,
+    (name, spec): (&str, &Spec),
     fault: usize,
 ) -> Result<Vec<Placed<D>>, PlanError> {
     let base = law::choose(&spec.law).map_err(|errors| {
@@ -294,11 +304,15 @@ fn points_of<const D: usize>(
         first.map_or_else(|| PlanError::plain("the law is not complete".into()), PlanError::from)
     })?;
     let mut placed = Vec::new();
+    let media = Media::new(scene, model, spec)?;
     for place in places(model, name, spec)? {
         let value = |profile: &Option<Profile>| profile.as_ref().map(|p| at(p, &place));
         let creep = spec.creep.as_ref().filter(|c| place.along >= c.beyond.get_ref().0 - CLOSE * model.scale);
+        let medium = media.at(&place);
         placed.push(Placed {
             fault,
+            medium,
+            damping: damping(spec, &medium)?,
             normal: value(&spec.profiles.normal).unwrap_or(spec.normal.get_ref().0),
             law: varied(&base, value(&spec.profiles.a), value(&spec.profiles.b), value(&spec.profiles.l)),
             point: Point { place, creep: creep.map(|c| c.rate.get_ref().0) },
@@ -344,37 +358,19 @@ fn varied(base: &LawChoice, a: Option<f64>, b: Option<f64>, l: Option<f64>) -> L
     law
 }
 
-/// η of all faults.
-fn damping<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<f64, PlanError> {
-    let mut common: Option<f64> = None;
-    for fault in scene.faults.values() {
-        let value = match fault.damping.as_ref() {
-            None => 0.0,
-            Some(spec) => match spec.get_ref() {
-                DampingSpec::Value(value) => *value,
-                DampingSpec::Radiation => {
-                    let density = scene.materials.values().find_map(|m| m.density.as_ref());
-                    let Some(density) = density else {
-                        return Err(PlanError::at(
-                            spec.span(),
-                            "radiation damping needs the density of the material".into(),
-                            "add `density = \"2670 kg/m^3\"` to it, or give the damping in Pa s/m".into(),
-                        ));
-                    };
-                    0.5 * (model.bodies[0].elastic[0].shear() * density.get_ref().0).sqrt()
-                }
-            },
-        };
-        if common.is_some_and(|c| c != value) {
-            return Err(PlanError::at(
-                fault.damping.as_ref().map(|d| d.span()).unwrap_or_default(),
-                "the faults have different dampings".into(),
-                "one damping for all faults of a scene".into(),
-            ));
-        }
-        common = Some(value);
+/// η at a point \[Pa s/m\].
+fn damping(spec: &Spec, medium: &Medium) -> Result<f64, PlanError> {
+    let Some(given) = &spec.damping else { return Ok(0.0) };
+    match given.get_ref() {
+        DampingSpec::Value(value) => Ok(*value),
+        DampingSpec::Radiation => medium.radiation.ok_or_else(|| {
+            PlanError::at(
+                given.span(),
+                "radiation damping needs the density of the materials at the fault".into(),
+                "add `density = \"2670 kg/m^3\"` to them, or give the damping in Pa s/m".into(),
+            )
+        }),
     }
-    Ok(common.unwrap_or(0.0))
 }
 
 /// Unknowns at the start: every point slides at the rate of its fault.
@@ -395,7 +391,7 @@ fn start<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> 
         law.steady(p, initial.ln(), &mut y[states.clone()]);
         if let Some(shear) = &spec.shear {
             // Friction is odd in the rate: its size is found for a positive one.
-            let mu = (shear.get_ref().0 - fault.damping * rate) * rate.signum() / point.normal;
+            let mu = (shear.get_ref().0 - fault.damping[p] * rate) * rate.signum() / point.normal;
             law.states_for(p, rate.abs(), mu, &mut y[states.clone()])?;
             y[p] = mu * rate.signum() / law.scale(p);
         } else {
@@ -463,7 +459,8 @@ fn views<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> (Vec<FaultView>
                 [-normal[1], normal[0], 0.0]
             };
             let (along, area, theta) = (place.along, place.area, theta(&p.law));
-            PointView { at, along, normal, slides, area, theta }
+            let shear_modulus = p.medium.shear_modulus;
+            PointView { at, along, normal, slides, area, shear_modulus, theta }
         })
         .collect();
     let mut faults = Vec::new();

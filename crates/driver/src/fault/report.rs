@@ -32,7 +32,7 @@ pub struct Entry {
     pub mean_slip: f64,
     /// Area of what did \[m²; m per metre of thickness\].
     pub area: f64,
-    /// Moment G ∫ slip dA \[N m; N per metre of thickness\].
+    /// Moment ∫ G slip dA \[N m; N per metre of thickness\].
     pub moment: f64,
     /// Mean fall of shear traction there, weighted with slip \[Pa\].
     pub stress_drop: f64,
@@ -54,6 +54,7 @@ impl Entry {
             slipped.iter().map(|&p| value(p) * plan.points[p].area).sum::<f64>()
         };
         let (area, potency) = (over(&|_| 1.0), over(&slip));
+        let moment = over(&|p| plan.points[p].shear_modulus * slip(p));
         // A fall is positive where traction that drives the slip becomes less.
         let work = |p: usize| event.slip[p] * event.drop[p];
         let place = &plan.points[event.hypocentre];
@@ -69,7 +70,7 @@ impl Entry {
             largest_slip,
             mean_slip: potency / area,
             area,
-            moment: plan.shear_modulus * potency,
+            moment,
             stress_drop: over(&work) / potency,
             // The reader has made sure that the calendar reaches to the end of the run.
             located: plan.frame.as_ref().and_then(|frame| Located::new(plan, frame, event).ok()),
@@ -203,7 +204,7 @@ fn why(plan: &Plan, run: &Run, reason: &str) -> String {
             view.at[0], view.at[1], view.along
         );
     }
-    if plan.fault.damping == 0.0 {
+    if plan.fault.damping.contains(&0.0) {
         return format!(
             "{reason}: in an instability slip rates grow without bound where nothing is radiated; add `damping = \"radiation\"` to the fault"
         );
