@@ -50,8 +50,10 @@ mod cook_membrane;
 mod coulomb_strip;
 mod elastic_plastic_cylinder;
 mod fault_balance;
+mod fault_bodies;
 mod fault_compression;
-mod fault_operator;
+pub(crate) mod fault_operator;
+mod fault_space;
 mod flamant_boussinesq;
 mod flat_punch;
 mod forward_drift;
@@ -108,8 +110,10 @@ pub const ALL: &[Case] = &[
     cook_membrane::CASE,
     coulomb_strip::CASE,
     fault_balance::CASE,
+    fault_bodies::CASE,
     fault_compression::CASE,
     fault_operator::CASE,
+    fault_space::CASE,
     flamant_boussinesq::CASE,
     flat_punch::CASE,
     friction_hard_numerics::CASE,

@@ -261,6 +261,7 @@ fn run_faults(plan: &fault::Plan, ready: &Ready, out: &Path, pausing: &Pausing) 
     crate::observe::atomic::write(&out.join("events.json"), events.as_bytes()).into_diagnostic()?;
     write_located(out, plan, &report, &ready.hash)?;
     fault::draw(out, plan, &run).into_diagnostic()?;
+    fault::write_fields(out, plan, &run).into_diagnostic()?;
     print!("{}", report.text());
     println!("  written to {}", out.display());
     if interrupted.is_some() {

@@ -66,7 +66,8 @@ fn friction_balances_what_the_bodies_exert() {
     (settings.tolerance, settings.most_events) = (1e-6, Some(1));
     let law = &plan.fault.law;
     let strength = |p: usize, m: f64| plan.fault.normal[p] * law.scale(p) * m;
-    let first: Vec<f64> = (0..n).map(|p| strength(p, plan.start[p]) + plan.fault.damping[p] * PLATE).collect();
+    let first: Vec<f64> =
+        (0..n).map(|p| strength(p, plan.start[p]) + plan.fault.damping[p] * PLATE).collect();
     let mut look = |now: &Moment<'_>| {
         let mut exerted = vec![0.0; n];
         plan.fault.operator.shear(now.slip(), &mut exerted);

@@ -6,7 +6,7 @@ use asperity_driver::fault::Plan;
 use dislocation::Stress;
 use nalgebra::{Complex, DMatrix, DVector};
 
-mod dislocation;
+pub(crate) mod dislocation;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -67,7 +67,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Matrix of the operator, column by column, of shear or of normal tractions.
-fn matrix(plan: &Plan, normal: bool) -> DMatrix<f64> {
+pub(crate) fn matrix(plan: &Plan, normal: bool) -> DMatrix<f64> {
     let n = plan.points.len();
     let (mut unit, mut column) = (vec![0.0; n], vec![0.0; n]);
     let mut all = DMatrix::zeros(n, n);

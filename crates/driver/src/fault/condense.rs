@@ -51,9 +51,35 @@ pub fn condense<const D: usize>(
 ) -> Result<Surroundings, String> {
     match model.idealisation.components() {
         1 => with_components::<D, 1>(model, stage, points, memory, |_| [[1.0]]),
-        2 => with_components::<D, 2>(model, stage, points, memory, |n| [[-n[1], n[0]], [n[0], n[1]]]),
-        _ => Err("faults in three dimensions are not condensed yet".into()),
+        2 => with_components::<D, 2>(model, stage, points, memory, |p| {
+            let n = &p.normal;
+            [[-n[1], n[0]], [n[0], n[1]]]
+        }),
+        _ => with_components::<D, 3>(model, stage, points, memory, |p| {
+            let (s, n) = (in_space(&p.rake), in_space(&p.normal));
+            let cross = |c: usize| {
+                let (i, j) = ((c + 1) % 3, (c + 2) % 3);
+                n[i] * s[j] - n[j] * s[i]
+            };
+            [s, [cross(0), cross(1), cross(2)], n]
+        }),
     }
+}
+
+/// Components x, y, z.
+fn in_space<const D: usize>(v: &[f64; D]) -> [f64; 3] {
+    std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0))
+}
+
+/// Components of a jump that are retained, from the first of a point on: slip, and the opening, which is the last. In space slip
+/// across the rake stands between them, held at zero.
+fn kept<const C: usize>() -> impl Iterator<Item = usize> {
+    (0..C).filter(|&c| c == 0 || c == C - 1)
+}
+
+/// Components that are held at zero.
+fn held<const C: usize>() -> impl Iterator<Item = usize> {
+    1..C.saturating_sub(1).max(1)
 }
 
 fn with_components<const D: usize, const C: usize>(
@@ -61,7 +87,7 @@ fn with_components<const D: usize, const C: usize>(
     stage: &Stage,
     points: &[Point<D>],
     memory: usize,
-    frame: impl Fn(&[f64; D]) -> [[f64; C]; C],
+    frame: impl Fn(&Place<D>) -> [[f64; C]; C],
 ) -> Result<Surroundings, String> {
     let constraints = stage.constraints(&vec![0.0; model.dofs()]);
     let machine = Machine::new(stage);
@@ -73,7 +99,7 @@ fn with_components<const D: usize, const C: usize>(
         ));
     }
     let jump = |p: &Point<D>| {
-        let frame = frame(&p.place.normal);
+        let frame = frame(&p.place);
         let (minus, plus) = (C * p.place.minus, C * p.place.plus);
         // The node whose displacement gives way to the jump must not be tied to others.
         if drawn(p.place.plus) {
@@ -88,12 +114,15 @@ fn with_components<const D: usize, const C: usize>(
     let body = machine.stiffness(&jumps.stiffness(&stiffness(model)));
     let oblique = |e: asperity_fem::jump::ObliqueConstraint| e.to_string();
     let free: Vec<usize> = (0..points.len()).filter(|&k| points[k].creep.is_none()).collect();
-    let mut retained: Vec<usize> = free.iter().flat_map(|&k| slip[k]..slip[k] + C).collect();
+    let mut retained: Vec<usize> =
+        free.iter().flat_map(|&k| kept::<C>().map(move |c| (k, c))).map(|(k, c)| slip[k] + c).collect();
     retained.sort_unstable();
     let mut fixed = jumps.fixed(&constraints.fixed).map_err(oblique)?;
     for (point, &dof) in points.iter().zip(&slip) {
         if point.creep.is_some() {
             fixed.extend(dof..dof + C);
+        } else {
+            fixed.extend(held::<C>().map(|c| dof + c));
         }
     }
     fixed.extend(machine.tied());
@@ -138,7 +167,7 @@ fn in_words<const D: usize, const C: usize>(model: &Model<D>, jumps: &Jumps<C>, 
     )
 }
 
-/// Tractions from the condensed forces; `rows` are those of the slip of each point, its opening stands `C - 1` further on. A force
+/// Tractions from the condensed forces; `rows` are those of the slip of each point, in motion of more than one component its opening stands next to it. A force
 /// is what must act on a jump to hold it there: the bodies drive slip with its opposite, and where it holds the sides apart they
 /// press on each other, in compression.
 fn tractions<const C: usize>(condensed: &Condensed, rows: &[usize], areas: &[f64]) -> Surroundings {
@@ -160,14 +189,14 @@ fn tractions<const C: usize>(condensed: &Condensed, rows: &[usize], areas: &[f64
     };
     // Loads may change normal tractions where slip does not.
     let loads_normal = |shear_load: f64| {
-        C > 1 && condensed.channels().any(|(_, f)| largest(&over_area(f, C - 1)) > UNCOUPLED * shear_load)
+        C > 1 && condensed.channels().any(|(_, f)| largest(&over_area(f, 1)) > UNCOUPLED * shear_load)
     };
     let shear_load = condensed.channels().map(|(_, f)| largest(&over_area(f, 0))).fold(0.0, f64::max);
-    let normal = if C == 1 { None } else { Some(part(C - 1)) };
+    let normal = if C == 1 { None } else { Some(part(1)) };
     let normal = normal.filter(|m| largest(m) > UNCOUPLED * largest(&shear) || loads_normal(shear_load));
     let mut loading = Loading::default();
     for (amplitude, forces) in condensed.channels() {
-        let change = if C == 1 { Vec::new() } else { over_area(forces, C - 1) };
+        let change = if C == 1 { Vec::new() } else { over_area(forces, 1) };
         loading.add(amplitude.clone(), over_area(forces, 0), change);
     }
     Surroundings { operator: Dense::new(n, shear, normal), loading, bytes: 0 }

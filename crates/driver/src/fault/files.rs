@@ -9,6 +9,7 @@ use super::run::{Moment, Watcher};
 use crate::observe::{ObserveError, atomic};
 use crate::ode::Control;
 use serde::{Deserialize, Serialize};
+use crate::scene::model::Station;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -166,14 +167,19 @@ impl<'a> Files<'a> {
         let folder = out.join("stations");
         for fault in &plan.faults {
             // Tenths of a kilometre in three digits, as the benchmarks name their stations, where that tells them apart.
-            let tenths = |asked: f64| (asked / 100.0).round();
-            let apart = fault.stations.windows(2).all(|w| tenths(w[0].0) < tenths(w[1].0));
-            for (k, &(asked, point)) in fault.stations.iter().enumerate() {
-                let name = if apart {
-                    format!("{}_dp{:03}", fault.name, tenths(asked))
+            let tenths = |asked: &Station| match asked {
+                Station::Along(s) => (s / 100.0).round(),
+                Station::At(_) => f64::NAN,
+            };
+            let apart = fault.stations.windows(2).all(|w| tenths(&w[0].0) < tenths(&w[1].0));
+            for (k, (asked, point)) in fault.stations.iter().enumerate() {
+                let tenths = tenths(asked);
+                let name = if apart && !tenths.is_nan() {
+                    format!("{}_dp{tenths:03}", fault.name)
                 } else {
                     format!("{}_{k:03}", fault.name)
                 };
+                let point = *point;
                 let head = station_head(plan, &fault.name, asked, point);
                 heads.push((folder.join(name), head));
             }
@@ -257,8 +263,12 @@ fn stations(plan: &Plan) -> Vec<usize> {
     plan.faults.iter().flat_map(|f| f.stations.iter().map(|s| s.1)).collect()
 }
 
-fn station_head(plan: &Plan, fault: &str, asked: f64, point: usize) -> String {
+fn station_head(plan: &Plan, fault: &str, asked: &Station, point: usize) -> String {
     let view = &plan.points[point];
+    let location = match asked {
+        Station::Along(s) => format!("{s} m along fault {fault}, point at {:.6} m", view.along),
+        Station::At(at) => format!("{at:?} m on fault {fault}, point at {:?} m", view.at),
+    };
     let columns = [
         "Column #1 = Time (s)",
         "Column #2 = Slip (m)",
@@ -268,11 +278,11 @@ fn station_head(plan: &Plan, fault: &str, asked: f64, point: usize) -> String {
         "Column #6 = Normal stress (MPa)",
     ];
     let mut head = format!(
-        "# problem={}\n# code=asperity\n# code_version={}\n# tributary_area={:.6e} m per m\n# location= {asked} m along fault {fault}, point at {:.6} m\n",
+        "# problem={}\n# code=asperity\n# code_version={}\n# tributary_area={:.6e} {}\n# location= {location}\n",
         plan.title,
         env!("CARGO_PKG_VERSION"),
         view.area,
-        view.along
+        if plan.in_space { "m2" } else { "m per m" }
     );
     for column in columns {
         head.push_str(&format!("# {column}\n"));

@@ -4,6 +4,7 @@ use crate::model::Model;
 use crate::plan::PlanError;
 use crate::rigid;
 use crate::scene::model::Fault as Spec;
+use asperity_fem::FemError;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
 use asperity_fem::surface;
@@ -25,6 +26,8 @@ pub struct Place<const D: usize> {
     pub area: f64,
     /// Unit normal from minus to plus.
     pub normal: [f64; D],
+    /// In space: unit direction of slip, in the fault; elsewhere zero.
+    pub rake: [f64; D],
     /// Distance along a plane fault from its upper end \[m\]; 0 in space.
     pub along: f64,
 }
@@ -36,7 +39,9 @@ pub struct Place<const D: usize> {
 pub fn places<const D: usize>(model: &Model<D>, name: &str, spec: &Spec) -> Result<Vec<Place<D>>, PlanError> {
     let (minus, plus) = (model.sides(&spec.minus)?, model.sides(&spec.plus)?);
     let pairs = pairs(model, name, spec, minus, plus)?;
-    let areas = surface::areas(&model.mesh, minus, model.idealisation);
+    let no_areas =
+        |e: FemError| PlanError::at(spec.minus.span(), format!("fault `{name}`: {e}"), WITH_AREAS.into());
+    let areas = model.tributary_areas(minus).map_err(no_areas)?;
     let normals = normals(model, minus);
     let along = if D == 2 { distances(model, minus) } else { BTreeMap::new() };
     let mut places = Vec::with_capacity(pairs.len());
@@ -45,23 +50,60 @@ pub fn places<const D: usize>(model: &Model<D>, name: &str, spec: &Spec) -> Resu
         if area <= 0.0 {
             return Err(PlanError::at(
                 spec.minus.span(),
-                format!("a node of fault `{name}` at {} has no positive area", rigid::place(&model.mesh.nodes[minus])),
-                "use an element whose faces have positive nodal areas: quad4, quad8, quad9, tri3, tri6; hex8, hex27, tet4".into(),
+                format!(
+                    "a node of fault `{name}` at {} has no positive area",
+                    rigid::place(&model.mesh.nodes[minus])
+                ),
+                WITH_AREAS.into(),
             ));
         }
-        let sum = normals[&minus];
-        let length = surface::length(&sum);
+        let normal = unit(normals[&minus]);
+        let at = model.mesh.nodes[minus];
+        let rake = spec.rake.as_ref().map_or(Ok([0.0; D]), |rake| {
+            along_rake(rake.get_ref(), &normal).ok_or_else(|| {
+                PlanError::at(
+                    rake.span(),
+                    format!("`rake` is normal to fault `{name}` at {}", rigid::place(&at)),
+                    "a direction along the fault".into(),
+                )
+            })
+        })?;
         places.push(Place {
             minus,
             plus,
-            at: model.mesh.nodes[minus],
+            at,
             area,
-            normal: sum.map(|c| c / length),
+            normal,
+            rake,
             along: along.get(&minus).copied().unwrap_or(0.0),
         });
     }
     places.sort_by(|a, b| a.along.total_cmp(&b.along).then(a.minus.cmp(&b.minus)));
     Ok(places)
+}
+
+/// Elements with which every node of a fault has an area.
+const WITH_AREAS: &str = "use an element whose faces have positive nodal areas: quad4, quad8, quad9, tri3, tri6; hex8, hex27, wedge6, tet4";
+/// Components of a direction below which they are rounding of coordinates: directions along an axis are exact then, as supports
+/// along it need them.
+const ROUNDING: f64 = 1e-12;
+/// Sine of the angle between rake and normal below which there is no direction in the fault: a hundredth of a degree.
+const NORMAL_RAKE: f64 = 2e-4;
+
+/// A vector divided by its length, without rounding in the components of one along an axis.
+fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
+    let length = surface::length(&v);
+    let v = v.map(|c| if c.abs() <= ROUNDING * length { 0.0 } else { c });
+    let length = surface::length(&v);
+    v.map(|c| c / length)
+}
+
+/// What of a direction lies in the plane of a normal, as a unit vector; none where that is next to nothing.
+fn along_rake<const D: usize>(rake: &[f64; 3], normal: &[f64; D]) -> Option<[f64; D]> {
+    let rake: [f64; D] = std::array::from_fn(|c| rake[c]);
+    let across: f64 = rake.iter().zip(normal).map(|(r, n)| r * n).sum();
+    let within: [f64; D] = std::array::from_fn(|c| rake[c] - across * normal[c]);
+    (surface::length(&within) > NORMAL_RAKE * surface::length(&rake)).then(|| unit(within))
 }
 
 /// Nodes of both sides at one place; tips, where both sides are one node, are left out.

@@ -16,10 +16,14 @@ use crate::model::Model;
 use crate::ode::Method;
 use crate::plan::PlanError;
 use crate::scene::law::{self, Evolution, LawChoice};
-use crate::scene::model::{Along, DampingSpec, Fault as Spec, Kinematics, Profile, Scene};
+use crate::scene::model::{
+    Along, Creep, DampingSpec, Fault as Spec, Kinematics, Profile, Profiled, Scene, Station,
+};
 use crate::solver;
+use asperity_fem::mesh::{Side, face_nodes};
 use asperity_friction::Failure;
 use asperity_friction::fault::FaultLaw;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// Method of scenes that name none: of the explicit ones it takes the fewest evaluations for an error of 1e-5 of the recurrence
@@ -61,8 +65,10 @@ pub struct FaultView {
     pub name: String,
     /// Its points among those of all faults.
     pub points: std::ops::Range<usize>,
-    /// Stations: distance asked for \[m\] and the nearest point.
-    pub stations: Vec<(f64, usize)>,
+    /// Stations: what is asked for and the nearest point.
+    pub stations: Vec<(Station, usize)>,
+    /// Faces all of whose nodes slide freely, by their points within the fault.
+    pub faces: Vec<Vec<usize>>,
 }
 
 /// What is to be integrated.
@@ -90,6 +96,8 @@ pub struct Plan {
     pub condensation_bytes: usize,
     /// Where and when it lies on Earth.
     pub frame: Option<Frame>,
+    /// Whether faults are surfaces in space: there is no distance along them then.
+    pub in_space: bool,
     /// Idealisation in words.
     pub kinematics: &'static str,
 }
@@ -179,10 +187,11 @@ pub fn plan(scene: &Scene) -> Result<Plan, PlanError> {
 pub fn plan_with(scene: &Scene, form: Form) -> Result<Plan, PlanError> {
     match scene.kinematics.get_ref() {
         Kinematics::Antiplane | Kinematics::PlaneStrain => plan_in::<2>(scene, form),
+        Kinematics::ThreeD => plan_in::<3>(scene, form),
         other => Err(PlanError::at(
             scene.kinematics.span(),
             format!("faults in {} are not integrated yet", other.words()),
-            "\"antiplane\" and \"plane-strain\" are".into(),
+            "\"antiplane\", \"plane-strain\" and \"3d\" are".into(),
         )),
     }
 }
@@ -243,7 +252,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         normal: placed.iter().map(|p| p.normal).collect(),
     };
     let start = start(scene, &placed, &fault).map_err(at_law)?;
-    let (faults, views) = views(scene, &placed);
+    let (faults, views) = views(scene, &model, &placed)?;
     let frame = match &scene.place {
         None => None,
         Some(place) => Some(Frame::new(place, D == 3).map_err(|e| {
@@ -261,6 +270,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         creeping: points.len() - placed.len(),
         condensation_bytes: surroundings.bytes,
         frame,
+        in_space: D == 3,
         kinematics: scene.kinematics.get_ref().words(),
         fault,
     })
@@ -306,8 +316,8 @@ fn points_of<const D: usize>(
     let mut placed = Vec::new();
     let media = Media::new(scene, model, spec)?;
     for place in places(model, name, spec)? {
-        let value = |profile: &Option<Profile>| profile.as_ref().map(|p| at(p, &place));
-        let creep = spec.creep.as_ref().filter(|c| place.along >= c.beyond.get_ref().0 - CLOSE * model.scale);
+        let value = |profile: &Option<Profiled>| profile.as_ref().map(|p| largest(p, &place));
+        let creep = spec.creep.as_ref().filter(|c| creeps(c, &place, CLOSE * model.scale));
         let medium = media.at(&place);
         placed.push(Placed {
             fault,
@@ -324,11 +334,30 @@ fn points_of<const D: usize>(
 /// Distance over the size of the model within which a point lies on the border of the creeping part: rounding.
 const CLOSE: f64 = 1e-12;
 
+/// Whether slip is prescribed at a place; at the border, to within `close` \[m\], it is.
+fn creeps<const D: usize>(creep: &Creep, place: &Place<D>, close: f64) -> bool {
+    if let Some(beyond) = &creep.beyond {
+        return place.along >= beyond.get_ref().0 - close;
+    }
+    let ranges = creep.outside.as_ref().map(|o| o.get_ref().ranges()).unwrap_or_default();
+    place.at.iter().zip(ranges).any(|(x, range)| {
+        let (from, to) = range.map_or((None, None), |r| (r.from, r.to));
+        from.is_some_and(|l| *x <= l.0 + close) || to.is_some_and(|l| *x >= l.0 - close)
+    })
+}
+
+/// Largest value of some profiles at a place.
+fn largest<const D: usize>(profiles: &Profiled, place: &Place<D>) -> f64 {
+    profiles.0.iter().map(|p| at(p, place)).fold(f64::NEG_INFINITY, f64::max)
+}
+
 /// Value of a profile at a place: linear between its points, constant beyond.
 fn at<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
     let x = match profile.along.get_ref() {
         Along::X => place.at[0],
         Along::Y => place.at[1],
+        // The check refuses it in the plane.
+        Along::Z => place.at[D - 1],
         Along::Distance => place.along,
     };
     let points = profile.points.get_ref();
@@ -445,8 +474,26 @@ fn theta(law: &LawChoice) -> Option<(f64, f64)> {
     }
 }
 
+/// Faces of the minus side between these points, by their numbers.
+fn faces<const D: usize>(
+    model: &Model<D>,
+    spec: &Spec,
+    placed: &[Placed<D>],
+) -> Result<Vec<Vec<usize>>, PlanError> {
+    let points = placed.iter().enumerate().map(|(p, placed)| (placed.point.place.minus, p));
+    let points: BTreeMap<usize, usize> = points.collect();
+    let of = |side: &Side| {
+        face_nodes(&model.mesh, side).iter().map(|n| points.get(n).copied()).collect::<Option<Vec<usize>>>()
+    };
+    Ok(model.sides(&spec.minus)?.iter().filter_map(of).collect())
+}
+
 /// Faults and points as outputs see them.
-fn views<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> (Vec<FaultView>, Vec<PointView>) {
+fn views<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    placed: &[Placed<D>],
+) -> Result<(Vec<FaultView>, Vec<PointView>), PlanError> {
     let points: Vec<PointView> = placed
         .iter()
         .map(|p| {
@@ -464,18 +511,23 @@ fn views<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> (Vec<FaultView>
         })
         .collect();
     let mut faults = Vec::new();
-    for (k, name) in scene.faults.keys().enumerate() {
+    for (k, (name, spec)) in scene.faults.iter().enumerate() {
         let first = placed.partition_point(|p| p.fault < k);
         let last = placed.partition_point(|p| p.fault <= k);
         let asked = scene.output.stations.get(name);
-        let off = |p: &usize, s: f64| (points[*p].along - s).abs();
-        let nearest = |s: f64| (first..last).min_by(|a, b| off(a, s).total_cmp(&off(b, s)));
-        let stations = asked.map(|a| a.get_ref().iter().filter_map(|s| Some((s.0, nearest(s.0)?))).collect());
+        let off = |p: usize, s: &Station| match s {
+            Station::Along(s) => (points[p].along - s).abs(),
+            Station::At(at) => at.iter().zip(&points[p].at).map(|(a, b)| (a - b).powi(2)).sum(),
+        };
+        let nearest = |s: &Station| (first..last).min_by(|&a, &b| off(a, s).total_cmp(&off(b, s)));
+        let station = |s: &Station| Some((s.clone(), nearest(s)?));
+        let stations = asked.map(|a| a.get_ref().iter().filter_map(|s| station(s.get_ref())).collect());
         faults.push(FaultView {
             name: name.clone(),
             points: first..last,
             stations: stations.unwrap_or_default(),
+            faces: faces(model, spec, &placed[first..last])?,
         });
     }
-    (faults, points)
+    Ok((faults, points))
 }

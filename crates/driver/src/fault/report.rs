@@ -22,8 +22,8 @@ pub struct Entry {
     pub peak_rate: f64,
     /// Fault of the hypocentre.
     pub fault: String,
-    /// Distance of the hypocentre along it \[m\].
-    pub hypocentre_along: f64,
+    /// Distance of the hypocentre along it \[m\]; none in space.
+    pub hypocentre_along: Option<f64>,
     /// Hypocentre in space \[m\].
     pub hypocentre: [f64; 3],
     /// Largest slip \[m\].
@@ -65,7 +65,7 @@ impl Entry {
             duration: event.end.since(&event.onset),
             peak_rate: event.peak,
             fault: fault.map(|f| f.name.clone()).unwrap_or_default(),
-            hypocentre_along: place.along,
+            hypocentre_along: (!plan.in_space).then_some(place.along),
             hypocentre: place.at,
             largest_slip,
             mean_slip: potency / area,
@@ -198,10 +198,15 @@ fn why(plan: &Plan, run: &Run, reason: &str) -> String {
     if let Some(point) = run.opens {
         let view = &plan.points[point];
         let fault = plan.faults.iter().find(|f| f.points.contains(&point)).map_or("", |f| f.name.as_str());
+        let place = if plan.in_space {
+            format!("z = {:e} m", view.at[2])
+        } else {
+            format!("{:e} m along it", view.along)
+        };
         return format!(
-            "{reason}: the normal traction of fault `{fault}` falls to zero at x = {:e} m, y = {:e} m, {:e} m along it; faults of a scene \
+            "{reason}: the normal traction of fault `{fault}` falls to zero at x = {:e} m, y = {:e} m, {place}; faults of a scene \
              do not open: raise `normal` there, or use coarser cells where a corner concentrates stress",
-            view.at[0], view.at[1], view.along
+            view.at[0], view.at[1]
         );
     }
     if plan.fault.damping.contains(&0.0) {
@@ -270,7 +275,7 @@ impl Report {
                 e.duration,
                 e.peak_rate,
                 e.fault,
-                e.hypocentre_along,
+                e.hypocentre_along.map(|s| s.to_string()).unwrap_or_default(),
                 e.hypocentre[0],
                 e.hypocentre[1],
                 e.hypocentre[2],
@@ -289,18 +294,25 @@ impl Report {
     pub fn text(&self) -> String {
         let mut text = String::from("results\n");
         for (k, e) in self.events.iter().enumerate() {
+            let begin = match e.hypocentre_along {
+                Some(along) => format!("{} along", length(along)),
+                None => {
+                    let [x, y, z] = e.hypocentre.map(length);
+                    format!("at ({x}, {y}, {z}) on")
+                }
+            };
             let interval =
                 e.interval.map_or(String::new(), |i| format!(", {} after the one before", time(i)));
             let _ = writeln!(
                 text,
-                "  event {} at {}{interval}: {} long, peak {:.4} m/s, slip up to {}, stress drop {:.3} MPa, begins {} along `{}`",
+                "  event {} at {}{interval}: {} long, peak {:.4} m/s, slip up to {}, stress drop {:.3} MPa, begins {} `{}`",
                 k + 1,
                 time(e.onset),
                 time(e.duration),
                 e.peak_rate,
                 length(e.largest_slip),
                 e.stress_drop / 1e6,
-                length(e.hypocentre_along),
+                begin,
                 e.fault
             );
         }

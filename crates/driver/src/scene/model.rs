@@ -408,9 +408,9 @@ pub struct Output {
     pub fields: Option<Spanned<usize>>,
     /// Profiles are written at this many equal intervals of each stage (default 10).
     pub profiles: Option<Spanned<usize>>,
-    /// Fault-ode: stations per fault, at these distances along it from its upper end \[m\].
+    /// Fault-ode: stations per fault.
     #[serde(default)]
-    pub stations: BTreeMap<String, Spanned<Vec<Length>>>,
+    pub stations: BTreeMap<String, Spanned<Vec<Spanned<Station>>>>,
 }
 
 /// A point of a body.

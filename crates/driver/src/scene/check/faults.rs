@@ -2,7 +2,9 @@
 
 use super::Checker;
 use crate::scene::law;
-use crate::scene::model::{DampingSpec, Fault, Motion, Path, Profile, Spanned, Stepper};
+use crate::scene::model::{
+    Along, Creep, DampingSpec, Fault, Kinematics, Motion, Path, Profile, Profiled, Spanned, Station, Stepper,
+};
 use crate::scene::near::suggest;
 
 /// Kinds of law whose slip rate does not follow from the traction.
@@ -25,9 +27,13 @@ impl Checker<'_> {
                 ("l", &fault.profiles.l),
                 ("normal", &fault.profiles.normal),
             ] {
-                if let Some(profile) = profile {
+                for profile in profile.iter().flat_map(|Profiled(list)| list) {
                     self.profile(name, profile);
                 }
+            }
+            self.rake(fault);
+            if let Some(creep) = &fault.creep {
+                self.creep(fault, creep);
             }
         }
         self.stations();
@@ -170,15 +176,6 @@ impl Checker<'_> {
                 (&fault.rate.span(), "`rate`"),
             );
         }
-        if let Some(creep) = &fault.creep
-            && !creep.rate.get_ref().0.is_finite()
-        {
-            self.error(
-                creep.rate.span(),
-                "the rate of creep must be finite",
-                "such as `rate = \"1e-9 m/s\"`",
-            );
-        }
         if let Some(damping) = &fault.damping
             && let DampingSpec::Value(value) = *damping.get_ref()
             && !(value >= 0.0 && value.is_finite())
@@ -191,7 +188,108 @@ impl Checker<'_> {
         }
     }
 
+    fn in_space(&self) -> bool {
+        *self.scene.kinematics.get_ref() == Kinematics::ThreeD
+    }
+
+    /// In space the direction of slip is declared, in the plane there is one only.
+    fn rake(&mut self, fault: &Fault) {
+        match (&fault.rake, self.in_space()) {
+            (None, true) => self.error(
+                fault.minus.span(),
+                "a fault in three dimensions has no `rake`",
+                "the direction in which plus slips past minus, such as `rake = [0, 0, 1]`; slip across it is held at zero",
+            ),
+            (Some(rake), false) => self.error(
+                rake.span(),
+                "`rake` is for three dimensions",
+                "remove it: in the plane there is one direction of slip",
+            ),
+            (Some(rake), true) => {
+                let size = rake.get_ref().iter().map(|c| c * c).sum::<f64>();
+                if !(size > 0.0 && size.is_finite()) {
+                    self.error(rake.span(), "`rake` has no direction", "such as `rake = [0, 0, 1]`");
+                }
+            }
+            (None, false) => {}
+        }
+    }
+
+    fn creep(&mut self, fault: &Fault, creep: &Creep) {
+        if !creep.rate.get_ref().0.is_finite() {
+            self.error(
+                creep.rate.span(),
+                "the rate of creep must be finite",
+                "such as `rate = \"1e-9 m/s\"`",
+            );
+        }
+        match (&creep.beyond, &creep.outside) {
+            (Some(beyond), Some(outside)) => self.conflict(
+                &outside.span(),
+                "`outside` stands beside `beyond`",
+                "one of them says where the fault creeps",
+                (&beyond.span(), "`beyond`"),
+            ),
+            (None, None) => self.error(
+                creep.rate.span(),
+                "the creep of a fault says nowhere",
+                format!("add `beyond = \"40 km\"`{}", ", or `outside = { y = { from = \"-40 km\" } }`"),
+            ),
+            (Some(beyond), None) if self.in_space() => self.error(
+                beyond.span(),
+                "there is no distance along a fault in three dimensions",
+                "use `outside = { y = { from = \"-40 km\" }, z = { from = \"-50 km\", to = \"50 km\" } }`",
+            ),
+            (Some(_), None) => {}
+            (None, Some(outside)) => {
+                let ranges = outside.get_ref().ranges();
+                if ranges.iter().all(Option::is_none) {
+                    self.error(
+                        outside.span(),
+                        "`outside` has no range",
+                        "such as `outside = { y = { from = \"-40 km\" } }`",
+                    );
+                }
+                if !self.in_space() && ranges[2].is_some() {
+                    self.error(
+                        outside.span(),
+                        "there is no coordinate z in the plane",
+                        "give ranges of x and y",
+                    );
+                }
+                for (axis, range) in ["x", "y", "z"].into_iter().zip(ranges) {
+                    let Some(range) = range else { continue };
+                    let (from, to) = (range.from.map(|l| l.0), range.to.map(|l| l.0));
+                    let ordered = from.zip(to).is_none_or(|(a, b)| a < b);
+                    if !ordered || (from.is_none() && to.is_none()) {
+                        self.conflict(
+                            &outside.span(),
+                            format!("the range of {axis} is empty or has no end"),
+                            format!(
+                                "such as `outside = {{ {axis} = {{ from = \"-40 km\", to = \"40 km\" }} }}`"
+                            ),
+                            (&fault.minus.span(), "the fault"),
+                        );
+                    }
+                }
+            }
+        }
+    }
+
     fn profile(&mut self, name: &str, profile: &Profile) {
+        match (*profile.along.get_ref(), self.in_space()) {
+            (Along::Distance, true) => self.error(
+                profile.along.span(),
+                "there is no distance along a fault in three dimensions",
+                "use \"x\", \"y\" or \"z\"; of a list of profiles the largest value holds",
+            ),
+            (Along::Z, false) => self.error(
+                profile.along.span(),
+                "there is no coordinate z in the plane",
+                "use \"x\", \"y\" or \"distance\"",
+            ),
+            _ => {}
+        }
         let points = profile.points.get_ref();
         let example = format!(
             "such as `profiles.{name} = {{ along = \"distance\", points = [[\"15 km\", 0.01], ..] }}`"
@@ -219,6 +317,22 @@ impl Checker<'_> {
                     format!("stations on `{name}`, but there is no such fault"),
                     suggest(name, "faults", scene.faults.keys().map(String::as_str)),
                 );
+            }
+            let dimension = if self.in_space() { 3 } else { 2 };
+            for station in stations.get_ref() {
+                match station.get_ref() {
+                    Station::Along(_) if dimension == 3 => self.error(
+                        station.span(),
+                        "there is no distance along a fault in three dimensions",
+                        "stations are coordinates, such as [\"0 km\", \"-10 km\", \"24 km\"]",
+                    ),
+                    Station::At(at) if at.len() != dimension => self.error(
+                        station.span(),
+                        format!("a station has {dimension} coordinates here, found {}", at.len()),
+                        "such as [\"0 km\", \"-10 km\"], in three dimensions with z",
+                    ),
+                    _ => {}
+                }
             }
         }
     }

@@ -3,7 +3,8 @@
 use super::LawSpec;
 use crate::scene::units::{Damping, Length, Pressure, Velocity};
 use serde::Deserialize;
-use serde::de::{self, Deserializer, Visitor};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_spanned::Spanned;
 use std::fmt;
 
@@ -30,6 +31,8 @@ pub struct Fault {
     pub damping: Option<Spanned<DampingSpec>>,
     /// Where slip is prescribed.
     pub creep: Option<Creep>,
+    /// In space: the direction of slip of plus relative to minus, of any length; what of it lies in the fault counts.
+    pub rake: Option<Spanned<[f64; 3]>>,
 }
 
 /// Parameters that vary along a fault; their value in the law, or beside it, is not used then.
@@ -37,13 +40,39 @@ pub struct Fault {
 #[serde(deny_unknown_fields)]
 pub struct Profiles {
     /// Direct effect a \[-\].
-    pub a: Option<Profile>,
+    pub a: Option<Profiled>,
     /// Evolution effect b \[-\]; laws with one state variable.
-    pub b: Option<Profile>,
+    pub b: Option<Profiled>,
     /// Characteristic slip L \[m\]; laws with one state variable.
-    pub l: Option<Profile>,
+    pub l: Option<Profiled>,
     /// Normal traction at the start \[Pa\].
-    pub normal: Option<Profile>,
+    pub normal: Option<Profiled>,
+}
+
+/// A parameter as one profile or the largest of several.
+#[derive(Clone, Debug)]
+pub struct Profiled(pub Vec<Profile>);
+
+impl<'de> Deserialize<'de> for Profiled {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct ProfiledVisitor;
+        impl<'de> Visitor<'de> for ProfiledVisitor {
+            type Value = Profiled;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("{ along = .., points = .. }, or a list of such profiles of which the largest value holds")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Profiled, A::Error> {
+                Profile::deserialize(MapAccessDeserializer::new(map)).map(|p| Profiled(vec![p]))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Profiled, A::Error> {
+                Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(Profiled)
+            }
+        }
+        deserializer.deserialize_any(ProfiledVisitor)
+    }
 }
 
 /// A parameter along a fault.
@@ -64,6 +93,8 @@ pub enum Along {
     X,
     /// The coordinate y.
     Y,
+    /// The coordinate z.
+    Z,
     /// Distance along a plane fault from its upper end.
     Distance,
 }
@@ -72,10 +103,84 @@ pub enum Along {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Creep {
-    /// Distance along the fault from its upper end beyond which it does \[m\].
-    pub beyond: Spanned<Length>,
+    /// Distance along a plane fault from its upper end beyond which it does \[m\].
+    pub beyond: Option<Spanned<Length>>,
+    /// The part outside which it does.
+    pub outside: Option<Spanned<Outside>>,
     /// Slip rate \[m/s\].
     pub rate: Spanned<Velocity>,
+}
+
+/// Ranges of coordinates within which, in all of them, a fault slides freely.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Outside {
+    /// Of x.
+    pub x: Option<Extent>,
+    /// Of y.
+    pub y: Option<Extent>,
+    /// Of z.
+    pub z: Option<Extent>,
+}
+
+impl Outside {
+    /// By axis.
+    #[must_use]
+    pub fn ranges(&self) -> [Option<Extent>; 3] {
+        [self.x, self.y, self.z]
+    }
+}
+
+/// A range of a coordinate; its ends do not belong to it, and an end that is not given does not bound it.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Extent {
+    /// Lower end \[m\].
+    pub from: Option<Length>,
+    /// Upper end \[m\].
+    pub to: Option<Length>,
+}
+
+/// Where a station is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Station {
+    /// Distance along a plane fault from its upper end \[m\].
+    Along(f64),
+    /// Coordinates \[m\].
+    At(Vec<f64>),
+}
+
+impl<'de> Deserialize<'de> for Station {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct StationVisitor;
+        impl<'de> Visitor<'de> for StationVisitor {
+            type Value = Station;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "a distance such as \"5 km\", or coordinates such as [\"0 km\", \"-10 km\", \"24 km\"]",
+                )
+            }
+
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Station, E> {
+                Ok(Station::Along(value))
+            }
+
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Station, E> {
+                Ok(Station::Along(value as f64))
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Station, E> {
+                Length::deserialize(de::value::StrDeserializer::new(text)).map(|l| Station::Along(l.0))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Station, A::Error> {
+                let at: Vec<Length> = Deserialize::deserialize(SeqAccessDeserializer::new(list))?;
+                Ok(Station::At(at.iter().map(|x| x.0).collect()))
+            }
+        }
+        deserializer.deserialize_any(StationVisitor)
+    }
 }
 
 /// Radiation damping: a number, or from the material.

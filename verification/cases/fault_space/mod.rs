@@ -1,0 +1,346 @@
+//! Faults in three dimensions: slip along a rake, slip across it held at zero, and the opening.
+
+use crate::cases::fault_operator::matrix;
+use crate::cases::seas;
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use asperity_driver::fault::Plan;
+use nalgebra::{DMatrix, DVector};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::fmt::Write as _;
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "fault_space",
+    readme: include_str!("README.md"),
+    covers: &[Capability::FaultCycles],
+    quick: true,
+    run,
+};
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    slab(ledger)?;
+    gaussian(ledger)?;
+    penny(ledger)?;
+    blocks(ledger)
+}
+
+const POISSON: f64 = 0.25;
+/// Shear modulus \[Pa\].
+const ROCK: f64 = 32e9;
+
+/// Two blocks with a fault between them.
+struct Blocks<'a> {
+    kinematics: &'a str,
+    /// Shear moduli of the left and the right block \[Pa\].
+    moduli: [f64; 2],
+    /// Extent along x of the left block, mirrored in the right one \[m\].
+    wide: f64,
+    /// `min` and `max` along the other axes.
+    ends: &'a [[f64; 2]],
+    /// What says the sizes of cells: of the left and of the right block.
+    cells: [&'a str; 2],
+    /// More keys of the fault.
+    fault: &'a str,
+    conditions: &'a str,
+    /// After `[time]`.
+    rest: &'a str,
+    duration: &'a str,
+}
+
+impl Blocks<'_> {
+    fn plan(&self) -> Result<Plan, CaseError> {
+        let element = if self.ends.len() == 2 { "hex8" } else { "quad4" };
+        let mut text = format!("schema = 1\ntitle = \"blocks\"\nkinematics = \"{}\"\n", self.kinematics);
+        let xs = [[-self.wide, 0.0], [0.0, self.wide]];
+        for (((name, modulus), x), cells) in ["L", "R"].iter().zip(self.moduli).zip(xs).zip(self.cells) {
+            let end = |k: usize| {
+                let others = self.ends.iter().map(|e| format!(", {:?}", e[k]));
+                format!("[{:?}{}]", x[k], others.collect::<String>())
+            };
+            let _ = write!(
+                text,
+                "[materials.{name}]\nyoung = {:?}\npoisson = {POISSON}\ndensity = 2670\n[bodies.{name}]\nmaterial = \"{name}\"\n\
+                 mesh.block = {{ min = {}, max = {}, {cells}, element = \"{element}\" }}\n",
+                2.0 * (1.0 + POISSON) * modulus,
+                end(0),
+                end(1)
+            );
+        }
+        let _ = write!(
+            text,
+            r#"
+[faults.main]
+minus = "L.right"
+plus = "R.left"
+law = {{ kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.01, b = 0.015, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }}
+normal = "50 MPa"
+rate = "1.1e-9 m/s"
+{}
+[[stages]]
+name = "all"
+duration = "{}"
+conditions = [{}]
+[time]
+stepper = "fault-ode"
+{}"#,
+            self.fault, self.duration, self.conditions, self.rest
+        );
+        seas::plan(&text)
+    }
+}
+
+/// A condition on these sides of both blocks.
+fn on(sides: &[&str], motion: &str) -> String {
+    let of = |name: &str| {
+        sides.iter().map(|s| format!("{{ set = \"{name}.{s}\", {motion} }}, ")).collect::<String>()
+    };
+    of("L") + &of("R")
+}
+
+/// A slab one layer of cells thick against the plane, by the way it is held at its faces.
+fn slab(ledger: &mut Ledger) -> Result<(), CaseError> {
+    for (kinematics, rake, faces, ends) in [
+        ("plane-strain", "[0, 1, 0]", "z = 0", "x = 0, y = 0"),
+        ("antiplane", "[0, 0, 1]", "x = 0, y = 0", "z = 0"),
+    ] {
+        let far =
+            |motion: &str| format!("{{ set = \"L.left\", {motion} }}, {{ set = \"R.right\", {motion} }}, ");
+        let creep = r#"creep = { outside = { y = { from = "-6 km" } }, rate = 0.0 }"#;
+        let plane = Blocks {
+            kinematics,
+            moduli: [10e9, 40e9],
+            wide: 6e3,
+            ends: &[[-8e3, 0.0]],
+            cells: ["divisions = [6, 8]"; 2],
+            fault: creep,
+            conditions: &far(ends),
+            rest: "",
+            duration: "1 yr",
+        };
+        let solid = Blocks {
+            kinematics: "3d",
+            ends: &[[-8e3, 0.0], [0.0, 1e3]],
+            cells: ["divisions = [6, 8, 1]"; 2],
+            fault: &format!("{creep}\nrake = {rake}"),
+            conditions: &(far("x = 0, y = 0, z = 0") + &on(&["back", "front"], faces)),
+            ..plane
+        };
+        let (plans, cost) = Cost::of(|| Ok::<_, CaseError>((plane.plan()?, solid.plan()?)));
+        let (plane, solid) = plans?;
+        for normal in [false, true] {
+            let (flat, full) = (matrix(&plane, normal), matrix(&solid, normal));
+            let same = |p: usize, q: usize| (plane.points[p].at[1] - solid.points[q].at[1]).abs() < 1.0;
+            let uniform =
+                DMatrix::from_fn(full.nrows(), flat.ncols(), |q, p| f64::from(u8::from(same(p, q))));
+            let expected = if plane.fault.operator.couples_normal() || !normal {
+                flat
+            } else {
+                0.0 * matrix(&plane, false)
+            };
+            let off = (&full * &uniform - &uniform * &expected).amax() / matrix(&plane, false).amax();
+            let kind = if normal { "normal" } else { "shear" };
+            ledger
+                .claim(format!("{kind} tractions of slip that is uniform across a slab held in {kinematics} motion, between two media, against the plane, over the largest"))
+                .value(off)
+                .at_most(1e-11)
+                .evidence(Evidence::Exact, "displacements of the plane, uniform across the slab, lie in its finite-element space")
+                .because("rounding")
+                .covers(&[Capability::FaultCycles])
+                .cost(&cost)
+                .record();
+        }
+    }
+    Ok(())
+}
+
+/// A quarter of an infinite body around a patch of this size \[m\] that may slip along z, with cells of `size`; the planes y = 0 and
+/// z = 0 are those of symmetry and antisymmetry.
+fn quarter(patch: f64, size: f64, wide: f64) -> Result<Plan, CaseError> {
+    let zone =
+        |from: f64, to: f64| format!("{{ size = {size:?}, from = {from:?}, to = {to:?}, ratio = 1.6 }}");
+    let near = 2.0 * size;
+    let cells = |from: f64, to: f64| {
+        format!("spacing = [{}, {}, {}]", zone(from, to), zone(0.0, patch), zone(0.0, patch))
+    };
+    let (left, right) = (cells(-near, 0.0), cells(0.0, near));
+    let far = "{ set = \"L.left\", x = 0, y = 0, z = 0 }, { set = \"R.right\", x = 0, y = 0, z = 0 }, ";
+    Blocks {
+        kinematics: "3d",
+        moduli: [ROCK; 2],
+        wide,
+        ends: &[[0.0, wide]; 2],
+        cells: [&left, &right],
+        fault: &format!(
+            "rake = [0, 0, 1]\ncreep = {{ outside = {{ y = {{ to = {patch:?} }}, z = {{ to = {patch:?} }} }}, rate = 0.0 }}"
+        ),
+        conditions: &(far.to_string() + &on(&["bottom"], "y = 0") + &on(&["back"], "x = 0, y = 0")),
+        rest: "",
+        duration: "1 yr",
+    }
+    .plan()
+}
+
+/// Width of the Gaussian \[m\]: slip exp(-r²/2s²).
+const WIDTH: f64 = 1000.0;
+
+/// Traction at a place of the Gaussian, from the stiffness of each wave vector \[Pa/m\].
+fn waves(y: f64, z: f64) -> f64 {
+    // Even and smooth in k, periodic in the angle: equal steps converge faster than any power.
+    let (steps, angles, most) = (300, 128, 9.0);
+    let dk = most / f64::from(steps);
+    let mut sum = 0.0;
+    for i in 1..steps {
+        let k = f64::from(i) * dk;
+        let shell = k * k * (-0.5 * k * k).exp();
+        for j in 0..angles {
+            let (s, c) = (TAU * f64::from(j) / f64::from(angles)).sin_cos();
+            sum += shell * (s * s + c * c / (1.0 - POISSON)) * (k / WIDTH * (y * s + z * c)).cos();
+        }
+    }
+    -ROCK / (2.0 * WIDTH) * sum * dk / f64::from(angles)
+}
+
+/// Tractions of a Gaussian of slip.
+fn gaussian(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let middle = -ROCK / (4.0 * WIDTH) * (1.0 + 1.0 / (1.0 - POISSON)) * FRAC_PI_2.sqrt();
+    let mut levels = Vec::new();
+    let (mut last, mut normal) = (None, 0.0);
+    for part in [1.0, 2.0, 4.0] {
+        let (plan, cost) = Cost::of(|| quarter(4.0 * WIDTH, WIDTH / part, 14.0 * WIDTH));
+        let plan = plan?;
+        let slip: Vec<f64> = plan
+            .points
+            .iter()
+            .map(|p| (-0.5 * (p.at[1].powi(2) + p.at[2].powi(2)) / WIDTH.powi(2)).exp())
+            .collect();
+        let mut found = vec![0.0; slip.len()];
+        plan.fault.operator.shear(&slip, &mut found);
+        let near = plan.points.iter().zip(&found).filter(|(p, _)| p.at[1].hypot(p.at[2]) < 2.5 * WIDTH);
+        let errors = near.map(|(p, t)| (t - waves(p.at[1], p.at[2])).abs());
+        levels.push((WIDTH / part, errors.fold(0.0, f64::max) / middle.abs()));
+        found.fill(0.0);
+        plan.fault.operator.normal(&slip, &mut found);
+        normal = found.iter().fold(0.0_f64, |m, f| m.max(f.abs())) / middle.abs();
+        last = Some(cost.count("points", slip.len() as f64));
+    }
+    let cost = last.ok_or("no level")?;
+    ledger
+        .claim("traction in the middle of a Gaussian by wave vectors against its closed form, relative difference")
+        .value((waves(0.0, 0.0) / middle - 1.0).abs())
+        .at_most(1e-12)
+        .evidence(Evidence::Exact, "-G/(4 s) (1 + 1/(1 - nu)) sqrt(pi/2)")
+        .because("equal steps on a smooth even function that has ended: rounding")
+        .covers(&[Capability::FaultCycles])
+        .cost(&cost)
+        .record();
+    ledger
+        .order("shear tractions of a Gaussian of slip on a plane in space, largest error over that in the middle")
+        .levels(&levels)
+        .expected(2.0)
+        .within(0.3)
+        .or_better()
+        .evidence(Evidence::SemiAnalytic, "stiffness of a plane against harmonic slip, G k/2 across and G k/2(1 - nu) along it")
+        .because("trilinear cells, and areas of nodes: tractions are averages over the cells around a node")
+        .finest(3e-2, "3 (h/s)^2/12 = 1.6 % for averages over cells of s/4, as much for the cells themselves")
+        .covers(&[Capability::FaultCycles])
+        .cost(&cost)
+        .record();
+    ledger
+        .claim("normal tractions of a Gaussian of slip over the largest shear traction")
+        .value(normal)
+        .at_most(1e-9)
+        .evidence(Evidence::Exact, "mirrored bodies: slip on a plane changes no normal traction there")
+        .because("rounding of the condensation")
+        .covers(&[Capability::FaultCycles])
+        .cost(&cost)
+        .record();
+    Ok(())
+}
+
+/// Potency of a circular crack under uniform stress on cells of this size over its radius, relative error.
+fn crack(size: f64) -> Result<f64, CaseError> {
+    let plan = quarter(1.25, size, 12.0)?;
+    let all = matrix(&plan, false);
+    let inside: Vec<usize> =
+        (0..plan.points.len()).filter(|&p| plan.points[p].at[1].hypot(plan.points[p].at[2]) < 1.0).collect();
+    let n = inside.len();
+    let part = DMatrix::from_fn(n, n, |i, j| all[(inside[i], inside[j])]);
+    let slip = part.lu().solve(&DVector::repeat(n, -1.0)).ok_or("the operator is singular")?;
+    let potency: f64 = inside.iter().zip(slip.iter()).map(|(&p, s)| plan.points[p].area * s).sum();
+    let exact = 8.0 * (1.0 - POISSON) / (PI * (2.0 - POISSON)) / ROCK * TAU / 3.0;
+    Ok((4.0 * potency / exact - 1.0).abs())
+}
+
+/// The circular shear crack.
+fn penny(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let (levels, cost) = Cost::of(|| {
+        let level = |parts: f64| crack(1.0 / parts).map(|error| (1.0 / parts, error));
+        [4.0, 8.0, 16.0].into_iter().map(level).collect::<Result<Vec<_>, _>>()
+    });
+    ledger
+        .order("potency of a circular shear crack under uniform stress, relative error, over cells of its radius")
+        .levels(&levels?)
+        .expected(1.0)
+        .within(0.4)
+        .or_better()
+        .evidence(Evidence::Exact, "Eshelby: slip 8 (1 - nu)/(pi (2 - nu)) dtau/G sqrt(a^2 - r^2), all along the stress")
+        .because("the square root at the tip, and a circle that cells follow in steps: both of first order")
+        .finest(0.1, "three times h/a for a part of a cell at the rim, of 1/16 of the radius, half of that missed")
+        .covers(&[Capability::FaultCycles])
+        .cost(&cost)
+        .record();
+    Ok(())
+}
+
+/// Two blocks in space through a cycle against antiplane motion.
+fn blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let rest = "log_rate_tolerance = 1e-7\n[events]\nabove = \"1e-4 m/s\"\nstop_after = 1\n";
+    let drawn = |more: &str| {
+        format!(
+            "{{ set = \"L.left\", z = {{ rate = -0.5e-9 }}{more} }}, {{ set = \"R.right\", z = {{ rate = 0.5e-9 }}{more} }}, "
+        )
+    };
+    let plane = Blocks {
+        kinematics: "antiplane",
+        moduli: [ROCK; 2],
+        wide: 1e3,
+        ends: &[[0.0, 1e3]],
+        cells: ["divisions = [1, 1]"; 2],
+        fault: "damping = \"radiation\"",
+        conditions: &drawn(""),
+        rest,
+        duration: "1000 yr",
+    };
+    let solid = Blocks {
+        kinematics: "3d",
+        ends: &[[0.0, 1e3], [0.0, 2e3]],
+        cells: ["divisions = [1, 1, 2]"; 2],
+        // What of the rake points out of the fault, and its length, do not count.
+        fault: "damping = \"radiation\"\nrake = [0.3, 0, 2]",
+        conditions: &(drawn(", x = 0, y = 0") + &on(&["back", "front"], "x = 0, y = 0")),
+        ..plane
+    };
+    let (plane, solid) = (plane.plan()?, solid.plan()?);
+    let first = |plan: &Plan| seas::found(plan, &plan.settings, |_| {});
+    let (a, b) = (first(&plane)?, first(&solid)?);
+    let moment = |plan: &Plan, slip: &[f64]| -> f64 {
+        slip.iter().zip(&plan.points).map(|(s, p)| s * p.area * p.shear_modulus).sum()
+    };
+    let moments = (moment(&plane, &a.events[0].slip), moment(&solid, &b.events[0].slip));
+    for (name, value, bound) in [
+        ("onset", b.onsets[0] / a.onsets[0], 1e-6),
+        ("slip", b.events[0].slip[0] / a.events[0].slip[0], 1e-4),
+        ("moment over that per metre times 2 km", moments.1 / (2e3 * moments.0), 1e-4),
+    ] {
+        ledger
+            .claim(format!("first event of two blocks in space against antiplane motion: {name}, relative difference"))
+            .value((value - 1.0).abs())
+            .at_most(bound)
+            .evidence(Evidence::Exact, "simple shear, the same in both")
+            .because("the tolerance 1e-7 of ln V gathered over a cycle; slip between the thresholds follows within a step")
+            .covers(&[Capability::FaultCycles, Capability::Events])
+            .cost(&b.cost)
+            .record();
+    }
+    Ok(())
+}
