@@ -127,38 +127,77 @@ fn slab(ledger: &mut Ledger) -> Result<(), CaseError> {
         };
         let (plans, cost) = Cost::of(|| Ok::<_, CaseError>((plane.plan()?, solid.plan()?)));
         let (plane, solid) = plans?;
-        for normal in [false, true] {
-            let (flat, full) = (matrix(&plane, normal), matrix(&solid, normal));
-            let same = |p: usize, q: usize| (plane.points[p].at[1] - solid.points[q].at[1]).abs() < 1.0;
-            let uniform =
-                DMatrix::from_fn(full.nrows(), flat.ncols(), |q, p| f64::from(u8::from(same(p, q))));
-            let expected = if plane.fault.operator.couples_normal() || !normal {
-                flat
-            } else {
-                0.0 * matrix(&plane, false)
-            };
-            let off = (&full * &uniform - &uniform * &expected).amax() / matrix(&plane, false).amax();
-            let kind = if normal { "normal" } else { "shear" };
-            ledger
-                .claim(format!("{kind} tractions of slip that is uniform across a slab held in {kinematics} motion, between two media, against the plane, over the largest"))
-                .value(off)
-                .at_most(1e-11)
-                .evidence(Evidence::Exact, "displacements of the plane, uniform across the slab, lie in its finite-element space")
-                .because("rounding")
-                .covers(&[Capability::FaultCycles])
-                .cost(&cost)
-                .record();
-        }
+        let motion = format!("{kinematics} motion between two media");
+        against_plane(ledger, &motion, (&plane, &solid), &cost);
     }
+    let (plans, cost) = Cost::of(|| Ok::<_, CaseError>((dipping(false)?, dipping(true)?)));
+    let (plane, solid) = plans?;
+    against_plane(ledger, "plane-strain motion, dip 60", (&plane, &solid), &cost);
     Ok(())
 }
 
-/// A quarter of an infinite body around a patch of this size \[m\] that may slip along z, with cells of `size`; the planes y = 0 and
+/// Tractions of slip that is uniform across a slab against those of the plane.
+fn against_plane(ledger: &mut Ledger, motion: &str, (plane, solid): (&Plan, &Plan), cost: &Cost) {
+    let largest = matrix(plane, false).amax();
+    for normal in [false, true] {
+        let (flat, full) = (matrix(plane, normal), matrix(solid, normal));
+        let same = |p: usize, q: usize| (plane.points[p].at[1] - solid.points[q].at[1]).abs() < 1.0;
+        let uniform = DMatrix::from_fn(full.nrows(), flat.ncols(), |q, p| f64::from(u8::from(same(p, q))));
+        let couples = plane.fault.operator.couples_normal() || !normal;
+        let expected = if couples { flat } else { 0.0 * flat };
+        let kind = if normal { "normal" } else { "shear" };
+        ledger
+            .claim(format!("{kind} tractions of slip that is uniform across a slab held in {motion}, against the plane, over the largest"))
+            .value((&full * &uniform - &uniform * &expected).amax() / largest)
+            .at_most(1e-11)
+            .evidence(Evidence::Exact, "displacements of the plane, uniform across the slab, lie in its finite-element space")
+            .because("rounding")
+            .covers(&[Capability::FaultCycles])
+            .cost(cost)
+            .record();
+    }
+}
+
+/// A fault of dip 60 degrees in one medium, in plane strain or drawn out to a slab held so.
+fn dipping(solid: bool) -> Result<Plan, CaseError> {
+    let (kinematics, extrude) = if solid { ("3d", "extrude = [0, 1000]") } else { ("plane-strain", "") };
+    let rake = if solid { "rake = [-0.5, 0.75, 0]" } else { "" };
+    let faces = if solid { r#", { set = "crust.back", z = 0 }, { set = "crust.front", z = 0 }"# } else { "" };
+    let far = if solid { "x = 0, y = 0, z = 0" } else { "x = 0, y = 0" };
+    seas::plan(&format!(
+        r#"
+schema = 1
+title = "a dipping fault"
+kinematics = "{kinematics}"
+[materials.rock]
+young = 80e9
+poisson = {POISSON}
+[bodies.crust]
+material = "rock"
+mesh.fault = {{ trace = [[0.0, 0.0], [5e3, -8660.254037844386]], spacing = "1 km", min = [-20e3, -20e3], max = [25e3, 0.0], growth = 1.5, element = "quad4" }}
+{extrude}
+[faults.main]
+minus = "crust.fault.minus"
+plus = "crust.fault.plus"
+law = {{ kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.01, b = 0.015, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }}
+normal = "50 MPa"
+rate = "1e-9 m/s"
+{rake}
+[[stages]]
+name = "still"
+duration = "1 yr"
+conditions = [{{ set = "crust.left", {far} }}, {{ set = "crust.right", {far} }}{faces}]
+[time]
+stepper = "fault-ode"
+"#
+    ))
+}
+
+/// A quarter of an infinite body around a patch of this size \[m\] that may slip along z, with cells of `size` at most `near` from it; the planes y = 0 and
 /// z = 0 are those of symmetry and antisymmetry.
-fn quarter(patch: f64, size: f64, wide: f64) -> Result<Plan, CaseError> {
+fn quarter(patch: f64, size: f64, near: f64, wide: f64) -> Result<Plan, CaseError> {
     let zone =
-        |from: f64, to: f64| format!("{{ size = {size:?}, from = {from:?}, to = {to:?}, ratio = 1.6 }}");
-    let near = 2.0 * size;
+        |from: f64, to: f64| format!("{{ size = {size:?}, from = {from:?}, to = {to:?}, ratio = 1.5 }}");
     let cells = |from: f64, to: f64| {
         format!("spacing = [{}, {}, {}]", zone(from, to), zone(0.0, patch), zone(0.0, patch))
     };
@@ -206,7 +245,7 @@ fn gaussian(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut levels = Vec::new();
     let (mut last, mut normal) = (None, 0.0);
     for part in [1.0, 2.0, 4.0] {
-        let (plan, cost) = Cost::of(|| quarter(4.0 * WIDTH, WIDTH / part, 14.0 * WIDTH));
+        let (plan, cost) = Cost::of(|| quarter(4.0 * WIDTH, WIDTH / part, WIDTH, 20.0 * WIDTH));
         let plan = plan?;
         let slip: Vec<f64> = plan
             .points
@@ -259,7 +298,7 @@ fn gaussian(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Potency of a circular crack under uniform stress on cells of this size over its radius, relative error.
 fn crack(size: f64) -> Result<f64, CaseError> {
-    let plan = quarter(1.25, size, 12.0)?;
+    let plan = quarter(1.25, size, 0.5, 12.0)?;
     let all = matrix(&plan, false);
     let inside: Vec<usize> =
         (0..plan.points.len()).filter(|&p| plan.points[p].at[1].hypot(plan.points[p].at[2]) < 1.0).collect();
@@ -273,22 +312,27 @@ fn crack(size: f64) -> Result<f64, CaseError> {
 
 /// The circular shear crack.
 fn penny(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (levels, cost) = Cost::of(|| {
-        let level = |parts: f64| crack(1.0 / parts).map(|error| (1.0 / parts, error));
-        [4.0, 8.0, 16.0].into_iter().map(level).collect::<Result<Vec<_>, _>>()
+    let (errors, cost) = Cost::of(|| {
+        [4.0, 8.0, 16.0].into_iter().map(|parts| crack(1.0 / parts)).collect::<Result<Vec<_>, _>>()
     });
-    ledger
-        .order("potency of a circular shear crack under uniform stress, relative error, over cells of its radius")
-        .levels(&levels?)
-        .expected(1.0)
-        .within(0.4)
-        .or_better()
-        .evidence(Evidence::Exact, "Eshelby: slip 8 (1 - nu)/(pi (2 - nu)) dtau/G sqrt(a^2 - r^2), all along the stress")
-        .because("the square root at the tip, and a circle that cells follow in steps: both of first order")
-        .finest(0.1, "three times h/a for a part of a cell at the rim, of 1/16 of the radius, half of that missed")
-        .covers(&[Capability::FaultCycles])
-        .cost(&cost)
-        .record();
+    let errors = errors?;
+    let exact = "Eshelby: slip 8 (1 - nu)/(pi (2 - nu)) dtau/G sqrt(a^2 - r^2), all along the stress";
+    let over_size = errors.iter().zip([4.0, 8.0, 16.0]).map(|(e, parts)| e * parts).fold(0.0, f64::max);
+    for (name, value, bound) in [
+        ("relative error over h/a, the largest of h/a = 1/4, 1/8, 1/16", over_size, 0.3),
+        ("relative error at h/a = 1/16", errors[2], 0.02),
+    ] {
+        ledger
+            .claim(format!("potency of a circular shear crack under uniform stress: {name}"))
+            .value(value)
+            .at_most(bound)
+            .evidence(Evidence::Exact, exact)
+            .because("potency goes with the cube of the radius, which cells that follow the circle in steps know to a tenth of their size")
+            .why_not_tighter("the steps of a circle come and go with the size of cells: the error is of first order and not monotonic")
+            .covers(&[Capability::FaultCycles])
+            .cost(&cost)
+            .record();
+    }
     Ok(())
 }
 

@@ -118,6 +118,15 @@ fn with_components<const D: usize, const C: usize>(
         free.iter().flat_map(|&k| kept::<C>().map(move |c| (k, c))).map(|(k, c)| slip[k] + c).collect();
     retained.sort_unstable();
     let mut fixed = jumps.fixed(&constraints.fixed).map_err(oblique)?;
+    let is_fixed = |dof: usize| fixed.binary_search(&dof).is_ok();
+    if let Some(&k) = free.iter().find(|&&k| is_fixed(slip[k])) {
+        return Err(format!(
+            "conditions prescribe the motion of both sides of a fault along its slip at {}, where it is to slide: let it creep there, or leave \
+             that component of the conditions out",
+            rigid::place(&points[k].place.at)
+        ));
+    }
+    let supported: Vec<bool> = free.iter().map(|&k| C > 1 && is_fixed(slip[k] + C - 1)).collect();
     for (point, &dof) in points.iter().zip(&slip) {
         if point.creep.is_some() {
             fixed.extend(dof..dof + C);
@@ -146,8 +155,29 @@ fn with_components<const D: usize, const C: usize>(
     let mut condensed = Condensed::new("bodies".into(), reduction, &system);
     condensed.set_channels(channels);
     let rows: Vec<usize> = free.iter().map(|&k| retained.partition_point(|&d| d < slip[k])).collect();
-    let areas: Vec<f64> = free.iter().map(|&k| points[k].place.area).collect();
-    Ok(Surroundings { bytes, ..tractions::<C>(&condensed, &rows, &areas) })
+    let area = |(&k, &supported): (&usize, &bool)| Bearing { area: points[k].place.area, supported };
+    let bearings: Vec<Bearing> = free.iter().zip(&supported).map(area).collect();
+    Ok(Surroundings { bytes, ..tractions::<C>(&condensed, &rows, &bearings) })
+}
+
+/// What forces of a point act on.
+#[derive(Clone, Copy, Debug)]
+struct Bearing {
+    /// Tributary area \[m²; m per metre of thickness\].
+    area: f64,
+    /// Whether supports hold both sides against the opening: they take what changes of its force then, not the contact.
+    supported: bool,
+}
+
+impl Bearing {
+    /// Traction per force: of the slip (0), which the bodies drive with the opposite of what holds it, and of the opening (1).
+    fn per_force(&self, shift: usize) -> f64 {
+        match (shift, self.supported) {
+            (0, _) => -1.0 / self.area,
+            (_, true) => 0.0,
+            (_, false) => 1.0 / self.area,
+        }
+    }
 }
 
 /// An error of the condensation with the place in the bodies.
@@ -170,14 +200,13 @@ fn in_words<const D: usize, const C: usize>(model: &Model<D>, jumps: &Jumps<C>, 
 /// Tractions from the condensed forces; `rows` are those of the slip of each point, in motion of more than one component its opening stands next to it. A force
 /// is what must act on a jump to hold it there: the bodies drive slip with its opposite, and where it holds the sides apart they
 /// press on each other, in compression.
-fn tractions<const C: usize>(condensed: &Condensed, rows: &[usize], areas: &[f64]) -> Surroundings {
+fn tractions<const C: usize>(condensed: &Condensed, rows: &[usize], bearings: &[Bearing]) -> Surroundings {
     let (schur, width, n) =
         (condensed.reduction().schur(), condensed.reduction().retained().len(), rows.len());
-    let sign = |shift: usize| if shift == 0 { -1.0 } else { 1.0 };
     let part = |shift: usize| -> Vec<f64> {
         let mut matrix = Vec::with_capacity(n * n);
-        for (&row, area) in rows.iter().zip(areas) {
-            let per_area = sign(shift) / area;
+        for (&row, bearing) in rows.iter().zip(bearings) {
+            let per_area = bearing.per_force(shift);
             matrix.extend(rows.iter().map(|&column| per_area * schur[(row + shift) * width + column]));
         }
         matrix
@@ -185,7 +214,7 @@ fn tractions<const C: usize>(condensed: &Condensed, rows: &[usize], areas: &[f64
     let shear = part(0);
     let largest = |m: &[f64]| m.iter().fold(0.0, |l: f64, v| l.max(v.abs()));
     let over_area = |forces: &[f64], shift: usize| -> Vec<f64> {
-        rows.iter().zip(areas).map(|(&r, a)| sign(shift) * forces[r + shift] / a).collect()
+        rows.iter().zip(bearings).map(|(&r, b)| b.per_force(shift) * forces[r + shift]).collect()
     };
     // Loads may change normal tractions where slip does not.
     let loads_normal = |shear_load: f64| {

@@ -165,11 +165,8 @@ impl Plan {
 fn range(values: &[f64]) -> Option<String> {
     let (least, most) =
         values.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(*v), high.max(*v)));
-    match (most > 0.0, least == most) {
-        (false, _) => None,
-        (true, true) => Some(format!("{most:.6e}")),
-        (true, false) => Some(format!("{least:.6e} to {most:.6e}")),
-    }
+    let (least, most, any) = (format!("{least:.6e}"), format!("{most:.6e}"), most > 0.0);
+    any.then(|| if least == most { most } else { format!("{least} to {most}") })
 }
 
 /// Plans a scene whose stepper is "fault-ode".
