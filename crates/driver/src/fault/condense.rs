@@ -3,7 +3,7 @@
 use super::loading::Loading;
 use super::machine::Machine;
 use super::operator::Dense;
-use super::place::Place;
+use super::place::{Place, unit};
 use crate::loading::Stage;
 use crate::model::Model;
 use crate::rigid;
@@ -61,7 +61,7 @@ pub fn condense<const D: usize>(
                 let (i, j) = ((c + 1) % 3, (c + 2) % 3);
                 n[i] * s[j] - n[j] * s[i]
             };
-            [s, [cross(0), cross(1), cross(2)], n]
+            [s, unit([cross(0), cross(1), cross(2)]), n]
         }),
     }
 }

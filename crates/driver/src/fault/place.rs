@@ -91,7 +91,7 @@ const ROUNDING: f64 = 1e-12;
 const NORMAL_RAKE: f64 = 2e-4;
 
 /// A vector divided by its length, without rounding in the components of one along an axis.
-fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
+pub(super) fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
     let length = surface::length(&v);
     let v = v.map(|c| if c.abs() <= ROUNDING * length { 0.0 } else { c });
     let length = surface::length(&v);
