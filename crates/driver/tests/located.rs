@@ -127,7 +127,7 @@ fn uniform(text: &str, slip: f64) -> Located {
     let located = Located::new(&plan, plan.frame.as_ref().unwrap(), &event).unwrap();
     let area: f64 = plan.points.iter().map(|p| p.area).sum();
     let length = if text.contains("60 km\"\n") { 60e3 } else { 80e3 };
-    let moment = plan.shear_modulus * area * length * slip.abs();
+    let moment = plan.points[0].shear_modulus * area * length * slip.abs();
     assert!((located.moment.unwrap() / moment - 1.0).abs() < 1e-12);
     assert!((located.tensor.moment() / moment - 1.0).abs() < 1e-12);
     located

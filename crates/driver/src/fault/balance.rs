@@ -93,7 +93,7 @@ impl<'a> Balance<'a> {
         fault.law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rate);
         let first = |p: usize| {
             layout.normal_of(fault, &plan.start, p) * fault.law.scale(p) * plan.start[p]
-                + fault.damping * rate[p]
+                + fault.damping[p] * rate[p]
         };
         let traction = (0..n).map(first).collect();
         Self::resume(plan, Sums { traction, ..Sums::default() })
@@ -182,7 +182,7 @@ impl<'a> Balance<'a> {
             let load = |t: f64| [traction + t * rate, h * rate];
             works.friction += point.area * way.work(first, last);
             works.loads += point.area * way.work(load(after - h), load(after));
-            works.radiated += point.area * fault.damping * way.square() / h;
+            works.radiated += point.area * fault.damping[p] * way.square() / h;
         }
         self.sums.works = works;
     }

@@ -497,10 +497,10 @@ fn views<const D: usize>(
             let place = &p.point.place;
             let (at, normal): ([f64; 3], [f64; 3]) = (in_space(&place.at), in_space(&place.normal));
             // Out of the plane, or along the fault in it.
-            let slides = if scene.kinematics.get_ref().idealisation().components() == 1 {
-                [0.0, 0.0, 1.0]
-            } else {
-                [-normal[1], normal[0], 0.0]
+            let slides = match scene.kinematics.get_ref().idealisation().components() {
+                1 => [0.0, 0.0, 1.0],
+                2 => [-normal[1], normal[0], 0.0],
+                _ => in_space(&place.rake),
             };
             let (along, area, theta) = (place.along, place.area, theta(&p.law));
             let shear_modulus = p.medium.shear_modulus;

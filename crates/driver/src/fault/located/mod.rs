@@ -131,7 +131,7 @@ impl Located {
         for (point, slip) in plan.points.iter().zip(&event.slip) {
             let (normal, way) = (Vector3::from(point.normal), Vector3::from(point.slides));
             let couple = normal * way.transpose();
-            sum += (couple + couple.transpose()) * (plan.shear_modulus * point.area * slip * length);
+            sum += (couple + couple.transpose()) * (point.shear_modulus * point.area * slip * length);
             centre += Vector3::from(point.at) * (point.area * slip.abs());
             weight += point.area * slip.abs();
         }
