@@ -224,7 +224,8 @@ mod tests {
         let pull: Vec<f64> = (0..n).map(|k| 1e-2 * (k as f64 - 20.0)).collect();
         let change = vec![-3e-3; n];
         for (normal_rate, damping) in [(None, 0.0), (Some(change.as_slice()), 4.6e6)] {
-            let drive = Drive { normal: &normal, normal_rate, shear_rate: &pull, damping };
+            let damping: Vec<f64> = (0..n).map(|k| damping * (1.0 + 0.01 * k as f64)).collect();
+            let drive = Drive { normal: &normal, normal_rate, shear_rate: &pull, damping: &damping };
             let found = [&many as &dyn FaultLaw, &each].map(|law| {
                 let (mut v, mut dm, mut ds) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
                 law.slip_rates(0, &m, &states, &mut v);

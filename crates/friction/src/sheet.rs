@@ -118,17 +118,23 @@ impl Sheet {
             #[inline(always)]
             || {
                 let unknowns = m.chunks(LANES).zip(s.chunks(LANES));
-                let forcing = drive.normal.chunks(LANES).zip(drive.shear_rate.chunks(LANES));
+                let forcing = drive
+                    .normal
+                    .chunks(LANES)
+                    .zip(drive.shear_rate.chunks(LANES))
+                    .zip(drive.damping.chunks(LANES));
                 let rates = dm.chunks_mut(LANES).zip(ds.chunks_mut(LANES));
                 let points = unknowns.zip(forcing).zip(rates).enumerate();
-                for (lines, (g, (((m, s), (normal, pull)), (dm, ds)))) in self.lines.iter().zip(points) {
+                for (lines, (g, (((m, s), ((normal, pull), damping)), (dm, ds)))) in
+                    self.lines.iter().zip(points)
+                {
                     let group = Group::new(m, s);
                     let normal_rate = match drive.normal_rate {
                         Some(rates) => load(&rates[g * LANES..][..m.len()]),
                         None => [0.0; LANES],
                     };
                     let (m_rate, s_rate) =
-                        group.rates(lines, &load(normal), &normal_rate, &load(pull), drive.damping);
+                        group.rates(lines, &load(normal), &normal_rate, &load(pull), &load(damping));
                     dm.copy_from_slice(&m_rate[..dm.len()]);
                     ds.copy_from_slice(&s_rate[..ds.len()]);
                 }
@@ -159,15 +165,15 @@ impl Group {
         normal: &[f64; LANES],
         normal_rate: &[f64; LANES],
         pull: &[f64; LANES],
-        damping: f64,
+        damping: &[f64; LANES],
     ) -> ([f64; LANES], [f64; LANES]) {
         let speed = self.speed(lines);
         let (mut dm, mut ds) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES {
             ds[k] = lines.healing[k] * exp(-self.s[k]) - speed[k] * lines.per_length[k];
             let drift = -speed[k].copysign(self.m[k]) * lines.per_a[k] * lines.b[k] * ds[k];
-            let gained = pull[k] - self.m[k] * (normal_rate[k] * lines.a[k]) - damping * drift;
-            dm[k] = gained / (normal[k] * lines.a[k] + damping * speed[k]);
+            let gained = pull[k] - self.m[k] * (normal_rate[k] * lines.a[k]) - damping[k] * drift;
+            dm[k] = gained / (normal[k] * lines.a[k] + damping[k] * speed[k]);
         }
         (dm, ds)
     }

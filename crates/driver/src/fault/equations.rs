@@ -207,7 +207,7 @@ impl Problem for Equations<'_> {
         let of = |(p, (v, k)): (usize, (&f64, &f64))| {
             let strength = l.normal_of(fault, y, p) * fault.law.scale(p);
             let states = fault.law.length(p).map_or(0.0, f64::recip);
-            v.abs() * (k / (strength + fault.damping * v.abs()) + states)
+            v.abs() * (k / (strength + fault.damping[p] * v.abs()) + states)
         };
         Some(rate.iter().zip(fault.operator.stiffness()).enumerate().map(of).fold(0.0, f64::max))
     }
