@@ -48,12 +48,15 @@ mod contact_rotation;
 mod contact_sliding;
 mod cook_membrane;
 mod coulomb_strip;
+mod dislocation;
 mod elastic_plastic_cylinder;
 mod fault_balance;
+mod fault_bend;
 mod fault_bodies;
 mod fault_compression;
-pub(crate) mod fault_operator;
+mod fault_operator;
 mod fault_space;
+mod fault_stability;
 mod flamant_boussinesq;
 mod flat_punch;
 mod forward_drift;
@@ -79,9 +82,12 @@ mod sandwich_state;
 mod sandwich_steppers;
 pub mod seas;
 mod seas_bp1;
+mod seas_bp1_16mm;
 mod seas_bp1_full;
 mod seas_bp1_methods;
+mod seas_bp2;
 mod seas_bp3;
+mod seas_bp6;
 pub mod slider;
 mod slider_cycles;
 mod slider_normal;
@@ -112,8 +118,10 @@ pub const ALL: &[Case] = &[
     fault_balance::CASE,
     fault_bodies::CASE,
     fault_compression::CASE,
+    fault_bend::CASE,
     fault_operator::CASE,
     fault_space::CASE,
+    fault_stability::CASE,
     flamant_boussinesq::CASE,
     flat_punch::CASE,
     friction_hard_numerics::CASE,
@@ -134,7 +142,10 @@ pub const ALL: &[Case] = &[
     seas_bp1::CASE,
     seas_bp1_full::CASE,
     seas_bp1_methods::CASE,
+    seas_bp1_16mm::CASE,
+    seas_bp2::CASE,
     seas_bp3::CASE,
+    seas_bp6::CASE,
     slider_cycles::CASE,
     slider_normal::CASE,
     slider_orbit::CASE,

@@ -70,3 +70,12 @@ pub fn found(
         steps: out.counts.steps,
     })
 }
+
+/// Imbalance that errors of slip leave after so many steps, over f_n.
+#[must_use]
+pub fn drift(plan: &Plan, steps: u64) -> f64 {
+    let smallest = plan.points.iter().map(|p| p.area).fold(f64::INFINITY, f64::min);
+    let length = plan.fault.law.length(0).unwrap_or(f64::NAN);
+    (steps as f64).sqrt() * plan.settings.tolerance * length * plan.points[0].shear_modulus
+        / (smallest * plan.fault.normal[0])
+}

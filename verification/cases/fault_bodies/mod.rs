@@ -1,6 +1,7 @@
 //! Several faults, several materials, curved faults.
 
-use crate::cases::fault_operator::{dislocation, matrix};
+use crate::cases::dislocation;
+use crate::cases::fault_operator::matrix;
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::fault::Plan;

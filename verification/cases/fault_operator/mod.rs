@@ -1,12 +1,10 @@
 //! Tractions that slip causes in plane strain: a crack, a surface that slips as a whole, and the free surface.
 
-use crate::cases::seas;
+use crate::cases::{dislocation, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::fault::Plan;
 use dislocation::Stress;
 use nalgebra::{Complex, DMatrix, DVector};
-
-pub(crate) mod dislocation;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -283,9 +281,7 @@ fn tractions(dip: f64, slip: impl Fn(f64) -> f64, piece: f64, deepest: f64, at: 
         }
         dislocation::add(&mut stress, z, point(bottom), -b, SHEAR_MODULUS, POISSON);
     }
-    let (n, t) = ([s, c], [-c, s]);
-    let on = [stress.xx * n[0] + stress.xy * n[1], stress.xy * n[0] + stress.yy * n[1]];
-    (t[0] * on[0] + t[1] * on[1], -(n[0] * on[0] + n[1] * on[1]))
+    stress.on([-c, s], [s, c])
 }
 
 /// Depth down the dip to which the fault slips \[m\].

@@ -104,7 +104,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     ledger
         .claim("imbalance of tractions over f_n, largest of all points and steps")
         .value(balance.worst)
-        .at_most(drift(&coarse, at_coarse.steps))
+        .at_most(seas::drift(&coarse, at_coarse.steps))
         .evidence(Evidence::Exact, "tractions from slip by the operator against those the integrator carries")
         .because(
             "slip has an error of tolerance times L in each step, which G over the smallest nodal area turns into traction at the \
@@ -116,14 +116,6 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         .record();
     methods(ledger, &coarse, &at_coarse)?;
     far_field(ledger)
-}
-
-/// Imbalance that errors of slip leave after so many steps, over f_n.
-fn drift(plan: &Plan, steps: u64) -> f64 {
-    let smallest = plan.points.iter().map(|p| p.area).fold(f64::INFINITY, f64::min);
-    let length = plan.fault.law.length(0).unwrap_or(f64::NAN);
-    (steps as f64).sqrt() * plan.settings.tolerance * length * plan.points[0].shear_modulus
-        / (smallest * plan.fault.normal[0])
 }
 
 fn first_event(ledger: &mut Ledger, found: &Found, size: &str, bound: f64, because: &str) {

@@ -15,7 +15,11 @@
 use super::operator::Operator;
 use super::plan::Plan;
 use super::run::Moment;
+use crate::ode::Clock;
 use serde::{Deserialize, Serialize};
+
+/// Share of a step by which its end may lie beyond the end of an injection: rounding of times.
+const ROUNDING: f64 = 1e-9;
 
 /// Works and energies \[J; J per metre of thickness in the plane\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -92,7 +96,7 @@ impl<'a> Balance<'a> {
         let mut rate = vec![0.0; n];
         fault.law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rate);
         let first = |p: usize| {
-            layout.normal_of(fault, &plan.start, p) * fault.law.scale(p) * plan.start[p]
+            layout.normal_of(fault, Clock::new(0.0, 0.0), &plan.start, p) * fault.law.scale(p) * plan.start[p]
                 + fault.damping[p] * rate[p]
         };
         let traction = (0..n).map(first).collect();
@@ -164,20 +168,25 @@ impl<'a> Balance<'a> {
         let mut works = self.sums.works;
         for (p, point) in self.plan.points.iter().enumerate() {
             // Friction a m f_n and its rate.
-            let friction = |y: &[f64], dy: &[f64]| {
-                let (normal, change) = if normals.is_empty() {
+            let friction = |y: &[f64], dy: &[f64], time: f64| {
+                let (total, growth) = if normals.is_empty() {
                     (fault.normal[p], 0.0)
                 } else {
                     (y[normals.start + p], dy[normals.start + p])
                 };
+                let (pressure, rise) =
+                    fault.pressure.as_ref().map_or((0.0, 0.0), |f| f.felt(p, time, end - ROUNDING * h));
+                let (normal, change) = (total - pressure, growth - rise);
                 [self.scale[p] * normal * y[p], self.scale[p] * h * (normal * dy[p] + change * y[p])]
             };
             let way = Way {
                 by: moment.unknowns[slips + p] - step.start[slips + p],
                 rates: [h * step.start_rates[slips + p], h * step.end_rates[slips + p]],
             };
-            let (first, last) =
-                (friction(step.start, step.start_rates), friction(moment.unknowns, step.end_rates));
+            let (first, last) = (
+                friction(step.start, step.start_rates, end - h),
+                friction(moment.unknowns, step.end_rates, end),
+            );
             let (traction, rate) = (self.sums.traction[p], self.rate[p]);
             let load = |t: f64| [traction + t * rate, h * rate];
             works.friction += point.area * way.work(first, last);

@@ -2,9 +2,11 @@
 //!
 //! With `τ̇ = A V + τ̇_load` and, where slip changes normal tractions, `ḟ_n = B V + ḟ_load`, each point is a slider without
 //! springs that feels the rate τ̇: [`asperity_friction::fault`]. Unknowns: m = μ/a of all points, their states (point-major), their
-//! slip, and f_n where it changes. The tractions never stand as differences of large numbers, since m carries them.
+//! slip, and f_n where slip changes it. The tractions never stand as differences of large numbers, since m carries them. Pore pressure
+//! is a given function of time: it is taken off f_n, and its rate off df_n/dt, at the time of each stage.
 
 use super::operator::Operator;
+use super::pressure::Pressure;
 use crate::ode::{Clock, Problem};
 use asperity_friction::fault::{Drive, FaultLaw};
 use std::cell::{Cell, RefCell};
@@ -21,6 +23,8 @@ pub struct Fault {
     pub damping: Vec<f64>,
     /// f_n of each point at the start \[Pa\].
     pub normal: Vec<f64>,
+    /// Pressure of injected fluid, where there is any.
+    pub pressure: Option<Pressure>,
 }
 
 /// Where the unknowns stand.
@@ -76,10 +80,12 @@ impl Layout {
 }
 
 impl Layout {
-    /// f_n of a point \[Pa\].
+    /// f_n of a point \[Pa\], less the pressure of fluid.
     #[must_use]
-    pub fn normal_of(&self, fault: &Fault, unknowns: &[f64], point: usize) -> f64 {
-        if self.couples_normal { unknowns[self.normal().start + point] } else { fault.normal[point] }
+    pub fn normal_of(&self, fault: &Fault, at: Clock, unknowns: &[f64], point: usize) -> f64 {
+        let total =
+            if self.couples_normal { unknowns[self.normal().start + point] } else { fault.normal[point] };
+        total - fault.pressure.as_ref().map_or(0.0, |p| p.at(point, at.seconds()))
     }
 }
 
@@ -88,7 +94,10 @@ impl Layout {
 struct Scratch {
     rate: Vec<f64>,
     shear_rate: Vec<f64>,
+    /// df_n/dt, where it changes.
     normal_rate: Vec<f64>,
+    /// f_n less the pressure of fluid, where there is any.
+    normal: Vec<f64>,
 }
 
 /// The equations between two changes of the loading.
@@ -99,6 +108,8 @@ pub struct Equations<'a> {
     /// Rates of the tractions of the loads \[Pa/s\].
     shear_load: Vec<f64>,
     normal_load: Vec<f64>,
+    /// When the next change of loading or pressure comes \[s\].
+    until: f64,
     scratch: RefCell<Scratch>,
     /// The point whose normal traction was found not to be positive since the last call of [`Equations::opened`].
     opened: Cell<Option<usize>>,
@@ -110,19 +121,29 @@ impl<'a> Equations<'a> {
     pub fn new(fault: &'a Fault, shear_load: Vec<f64>, normal_load: Vec<f64>) -> Self {
         let layout = Layout::of(fault);
         let n = layout.points;
+        let (fluid, changes) = (fault.pressure.is_some(), fault.pressure.is_some() || layout.couples_normal);
+        let zeros = |needed: bool| vec![0.0; if needed { n } else { 0 }];
         let scratch = Scratch {
             rate: vec![0.0; n],
             shear_rate: vec![0.0; n],
-            normal_rate: vec![0.0; layout.normal().len()],
+            normal_rate: zeros(changes),
+            normal: zeros(fluid),
         };
         Self {
             fault,
             layout,
             shear_load,
             normal_load,
+            until: f64::INFINITY,
             scratch: RefCell::new(scratch),
             opened: Cell::new(None),
         }
+    }
+
+    /// The same up to the next change of loading or pressure \[s\], which stages at that time do not feel.
+    #[must_use]
+    pub fn until(self, end: f64) -> Self {
+        Self { until: end, ..self }
     }
 
     /// Where the unknowns stand.
@@ -159,25 +180,92 @@ impl<'a> Equations<'a> {
     }
 }
 
-impl Problem for Equations<'_> {
-    fn size(&self) -> usize {
-        self.layout.size()
+/// Share of its tolerance by which an unknown may drift in the first instants of an injection.
+const DRIFT: f64 = 0.01;
+/// Largest change of f_n over f_n in these instants: the square of it, which is left out, changes m ~ 100 by less than a hundredth of any
+/// tolerance of use.
+const GENTLE: f64 = 1e-5;
+/// Largest share of a leg that the first instants may take.
+const FIRST: f64 = 1e-3;
+/// Quarterings in search of instants in which f_n changes gently; it changes with the root of time.
+const QUARTERINGS: usize = 60;
+
+impl Equations<'_> {
+    /// The first instants of an injection or of its end at `at`, when the rate of pressure is infinite: writes what friction makes
+    /// of the pressure into `y` and returns for how long all else can be held, out of `most` seconds.
+    ///
+    /// Over so short a time m and the states follow f_n alone, `dm = (∂ṁ/∂ḟ_n) Δf_n`: rates are linear in ḟ_n. All else drifts
+    /// by a hundredth of its tolerance at most.
+    pub fn first_instants(&self, at: Clock, y: &mut [f64], tolerances: &[f64], most: f64) -> Option<f64> {
+        let pressure = self.fault.pressure.as_ref()?;
+        if !pressure.breaks().any(|t| t == at.seconds()) {
+            return None;
+        }
+        let (l, mut dy) = (self.layout, vec![0.0; y.len()]);
+        self.evaluate(at, y, &mut dy, false);
+        let mut time = FIRST * most;
+        for (rate, tolerance) in dy.iter().zip(tolerances) {
+            time = time.min(DRIFT * tolerance / rate.abs());
+        }
+        let normal: Vec<f64> = (0..l.points).map(|p| l.normal_of(self.fault, at, y, p)).collect();
+        let change = |time: f64| -> Vec<f64> {
+            let later = at.later(time);
+            (0..l.points).map(|p| l.normal_of(self.fault, later, y, p) - normal[p]).collect()
+        };
+        let mut changes = change(time);
+        for _ in 0..QUARTERINGS {
+            if changes.iter().zip(&normal).all(|(c, f)| c.abs() <= GENTLE * f) {
+                break;
+            }
+            time *= 0.25;
+            changes = change(time);
+        }
+        let (m, states) = (l.m(), l.states());
+        let zeros = vec![0.0; l.points];
+        let mut moved = vec![0.0; states.end];
+        let mut still = vec![0.0; states.end];
+        for (rate, out) in [(&changes, &mut moved), (&zeros, &mut still)] {
+            let drive = Drive {
+                normal: &normal,
+                normal_rate: Some(rate),
+                shear_rate: &zeros,
+                damping: &self.fault.damping,
+            };
+            let (dm, ds) = out.split_at_mut(l.points);
+            self.fault.law.rates(0, drive, &y[m.clone()], &y[states.clone()], dm, ds);
+        }
+        for ((y, moved), still) in y.iter_mut().zip(&moved).zip(&still) {
+            *y += moved - still;
+        }
+        Some(time)
     }
 
-    fn rates(&self, _at: Clock, y: &[f64], dy: &mut [f64]) {
+    /// The rates, with or without those of pressure.
+    fn evaluate(&self, at: Clock, y: &[f64], dy: &mut [f64], pressurised: bool) {
         let (l, fault) = (self.layout, self.fault);
         let scratch = &mut *self.scratch.borrow_mut();
         let (m, states) = (&y[l.m()], &y[l.states()]);
         fault.law.slip_rates(0, m, states, &mut scratch.rate);
         fault.operator.shear(&scratch.rate, &mut scratch.shear_rate);
         add(&mut scratch.shear_rate, &self.shear_load);
-        let normal = if l.couples_normal {
+        dy[l.slip()].copy_from_slice(&scratch.rate);
+        if l.couples_normal {
             fault.operator.normal(&scratch.rate, &mut scratch.normal_rate);
             add(&mut scratch.normal_rate, &self.normal_load);
-            &y[l.normal()]
-        } else {
-            &fault.normal
-        };
+            dy[l.normal()].copy_from_slice(&scratch.normal_rate);
+        }
+        let mut normal = if l.couples_normal { &y[l.normal()] } else { &fault.normal };
+        if let Some(pressure) = &fault.pressure {
+            scratch.normal.copy_from_slice(normal);
+            if !l.couples_normal {
+                scratch.normal_rate.fill(0.0);
+            }
+            if pressurised {
+                let (time, until) = (at.seconds(), self.until);
+                pressure.take_off(time, until, &mut scratch.normal, &mut scratch.normal_rate);
+            }
+            normal = &scratch.normal;
+        }
         if let Some(point) = normal.iter().position(|&f| f <= 0.0) {
             self.opened.set(Some(point));
             // An open point has no friction: the step was too long, or the fault opens.
@@ -186,26 +274,33 @@ impl Problem for Equations<'_> {
         }
         let drive = Drive {
             normal,
-            normal_rate: l.couples_normal.then_some(&scratch.normal_rate),
+            normal_rate: (!scratch.normal_rate.is_empty()).then_some(&scratch.normal_rate),
             shear_rate: &scratch.shear_rate,
             damping: &fault.damping,
         };
         let (dm, rest) = dy.split_at_mut(l.points);
-        let (ds, rest) = rest.split_at_mut(l.points * l.states);
-        fault.law.rates(0, drive, m, states, dm, ds);
-        rest[..l.points].copy_from_slice(&scratch.rate);
-        rest[l.points..].copy_from_slice(&scratch.normal_rate);
+        fault.law.rates(0, drive, m, states, dm, &mut rest[..l.points * l.states]);
+    }
+}
+
+impl Problem for Equations<'_> {
+    fn size(&self) -> usize {
+        self.layout.size()
+    }
+
+    fn rates(&self, at: Clock, y: &[f64], dy: &mut [f64]) {
+        self.evaluate(at, y, dy, true);
     }
 
     /// Slip of a point loads those around it by no more than [`Operator::stiffness`], and friction gives way with the slope
     /// f_n a/V + η: in the norm of the columns weighted with that slope a bound of the relaxation by elasticity, beside which states
     /// relax with V/L.
-    fn spectral_radius(&self, _at: Clock, y: &[f64]) -> Option<f64> {
+    fn spectral_radius(&self, at: Clock, y: &[f64]) -> Option<f64> {
         let (l, fault) = (self.layout, self.fault);
         let rate = &mut self.scratch.borrow_mut().rate;
         fault.law.slip_rates(0, &y[l.m()], &y[l.states()], rate);
         let of = |(p, (v, k)): (usize, (&f64, &f64))| {
-            let strength = l.normal_of(fault, y, p) * fault.law.scale(p);
+            let strength = l.normal_of(fault, at, y, p) * fault.law.scale(p);
             let states = fault.law.length(p).map_or(0.0, f64::recip);
             v.abs() * (k / (strength + fault.damping[p] * v.abs()) + states)
         };

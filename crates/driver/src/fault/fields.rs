@@ -44,7 +44,7 @@ fn at_end(plan: &Plan, fault: &FaultView, run: &Run) -> Vec<(&'static str, Vec<f
     let mut rate = vec![0.0; law.points()];
     law.slip_rates(0, &y[layout.m()], &y[layout.states()], &mut rate);
     let each = |value: &dyn Fn(usize) -> f64| fault.points.clone().map(value).collect::<Vec<f64>>();
-    let normal = |p: usize| layout.normal_of(&plan.fault, y, p);
+    let normal = |p: usize| layout.normal_of(&plan.fault, run.at, y, p);
     vec![
         ("slip", each(&|p| y[layout.slip().start + p])),
         ("log10_slip_rate", each(&|p| rate[p].abs().log10())),

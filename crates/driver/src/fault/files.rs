@@ -22,6 +22,9 @@ const STATION_INTERVALS: [f64; 2] = [0.1 * YEAR, 0.1];
 const PROFILE_INTERVALS: [f64; 2] = [5.0 * YEAR, 1.0];
 /// A profile of rates is written where ln of the largest slip rate has changed by so much: half a decade.
 const RATE_CHANGE: f64 = 1.15;
+/// Rows and profiles of a run at least, where those intervals are long beside it.
+const LEAST_ROWS: f64 = 500.0;
+const LEAST_PROFILES: f64 = 100.0;
 /// A row is written where ln of the largest slip rate has changed by so much: an eighth of a decade.
 const CHANGE: f64 = 0.3;
 
@@ -195,9 +198,11 @@ impl<'a> Files<'a> {
     fn write(&mut self, now: &Moment<'_>) -> Result<(), ObserveError> {
         let time = now.at.seconds();
         let fast = usize::from(now.largest >= self.plan.settings.thresholds.on);
+        let end = self.plan.settings.end;
+        let interval = STATION_INTERVALS[fast].min(end / LEAST_ROWS);
         let due = self.row.is_none_or(|last| {
             let change = (now.largest / last.largest).ln().abs();
-            time - last.time >= STATION_INTERVALS[fast] || change >= CHANGE
+            time - last.time >= interval || change >= CHANGE
         });
         if due {
             self.row = Some(Last { time, largest: now.largest });
@@ -209,7 +214,8 @@ impl<'a> Files<'a> {
                 rows.push(&station_row(self.plan, now, *point))?;
             }
         }
-        if self.profile.is_none_or(|last| time - last >= PROFILE_INTERVALS[fast]) {
+        let interval = PROFILE_INTERVALS[fast].min(end / LEAST_PROFILES);
+        if self.profile.is_none_or(|last| time - last >= interval) {
             self.profile = Some(time);
             let mut row = format!("{time:.14e}");
             for slip in now.slip() {

@@ -20,6 +20,7 @@ mod medium;
 mod operator;
 mod place;
 mod plan;
+mod pressure;
 mod report;
 mod run;
 
@@ -37,5 +38,6 @@ pub use loading::Loading;
 pub use operator::{Dense, Form, Operator};
 pub use place::{Place, places};
 pub use plan::{FaultView, Plan, PointView, plan, plan_with};
+pub use pressure::{Injection, Pressure};
 pub use report::Report;
 pub use run::{Moment, RESTART, Run, Settings, Watcher, resume, run};

@@ -9,6 +9,7 @@ use super::located::Frame;
 use super::medium::{Media, Medium};
 use super::operator::{Dense, Form, Operator};
 use super::place::{Place, places};
+use super::pressure::{Injection, Pressure};
 use super::run::Settings;
 use crate::laws;
 use crate::loading;
@@ -138,8 +139,15 @@ impl Plan {
         let uncoupled = Layout::of(&self.fault).normal().is_empty();
         line(
             "physics",
-            if uncoupled { "normal tractions stay as they are" } else { "normal tractions change" }.into(),
+            if uncoupled { "slip leaves normal tractions as they are" } else { "normal tractions change" }
+                .into(),
         );
+        if self.fault.pressure.is_some() {
+            line(
+                "physics",
+                "fluid is injected and diffuses along the fault; its pressure is known at all times".into(),
+            );
+        }
         for fault in &self.faults {
             if let Some(damping) = range(&self.fault.damping[fault.points.clone()]) {
                 line("physics", format!("fault `{}`: radiation damping {damping} Pa s/m", fault.name));
@@ -200,6 +208,8 @@ struct Placed<const D: usize> {
     normal: f64,
     medium: Medium,
     damping: f64,
+    /// Shear traction at the start, where it is given \[Pa\].
+    shear: Option<f64>,
     law: LawChoice,
 }
 
@@ -247,6 +257,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         law,
         damping: placed.iter().map(|p| p.damping).collect(),
         normal: placed.iter().map(|p| p.normal).collect(),
+        pressure: pressure(scene, &placed)?,
     };
     let start = start(scene, &placed, &fault).map_err(at_law)?;
     let (faults, views) = views(scene, &model, &placed)?;
@@ -321,6 +332,7 @@ fn points_of<const D: usize>(
             medium,
             damping: damping(spec, &medium)?,
             normal: value(&spec.profiles.normal).unwrap_or(spec.normal.get_ref().0),
+            shear: value(&spec.profiles.shear).or(spec.shear.as_ref().map(|s| s.get_ref().0)),
             law: varied(&base, value(&spec.profiles.a), value(&spec.profiles.b), value(&spec.profiles.l)),
             point: Point { place, creep: creep.map(|c| c.rate.get_ref().0) },
         });
@@ -399,6 +411,37 @@ fn damping(spec: &Spec, medium: &Medium) -> Result<f64, PlanError> {
     }
 }
 
+/// Pressure of the fluid that is injected.
+fn pressure<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Option<Pressure>, PlanError> {
+    let mut pressure: Option<Pressure> = None;
+    for (fault, (name, spec)) in scene.faults.iter().enumerate() {
+        let Some(injection) = &spec.injection else { continue };
+        let points = placed.iter().filter(|p| p.fault == fault);
+        let at = injection.at.get_ref().0;
+        let along: Vec<f64> = points.map(|p| p.point.place.along).collect();
+        let (least, most) = along.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), s| (l.min(*s), m.max(*s)));
+        if !(least <= at && at <= most) {
+            return Err(PlanError::at(
+                injection.at.span(),
+                format!("fault `{name}` does not slide at {at} m along it, where fluid is injected"),
+                format!("it slides from {least} to {most} m"),
+            ));
+        }
+        let until = injection.until.as_ref().map_or(f64::INFINITY, |t| t.get_ref().0);
+        let injected = Injection {
+            flux: injection.flux.get_ref().0,
+            diffusivity: *injection.diffusivity.get_ref(),
+            porosity: *injection.porosity.get_ref(),
+            compressibility: *injection.compressibility.get_ref(),
+            during: [0.0, until],
+        };
+        let first = placed.partition_point(|p| p.fault < fault);
+        let distances = along.iter().map(|s| s - at).collect();
+        pressure.get_or_insert_default().add(injected, first, distances);
+    }
+    Ok(pressure)
+}
+
 /// Unknowns at the start: every point slides at the rate of its fault.
 fn start<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>, Failure> {
     let layout = Layout::of(fault);
@@ -415,9 +458,9 @@ fn start<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> 
         };
         let law: &dyn FaultLaw = fault.law.as_ref();
         law.steady(p, initial.ln(), &mut y[states.clone()]);
-        if let Some(shear) = &spec.shear {
+        if let Some(shear) = point.shear {
             // Friction is odd in the rate: its size is found for a positive one.
-            let mu = (shear.get_ref().0 - fault.damping[p] * rate) * rate.signum() / point.normal;
+            let mu = (shear - fault.damping[p] * rate) * rate.signum() / point.normal;
             law.states_for(p, rate.abs(), mu, &mut y[states.clone()])?;
             y[p] = mu * rate.signum() / law.scale(p);
         } else {

@@ -76,7 +76,7 @@ impl Moment<'_> {
     /// f_n of a point \[Pa\].
     #[must_use]
     pub fn normal(&self, fault: &Fault, point: usize) -> f64 {
-        self.layout.normal_of(fault, self.unknowns, point)
+        self.layout.normal_of(fault, self.at, self.unknowns, point)
     }
 }
 
@@ -164,8 +164,7 @@ pub fn resume(
     watcher: &mut dyn Watcher,
 ) -> Run {
     run.outcome = if enough(&run, settings) { Outcome::Stopped } else { Outcome::Completed };
-    let mut breaks = loading.breaks(0.0, settings.end);
-    breaks.push(settings.end);
+    let breaks = breaks(fault, loading, settings.end);
     for end in breaks {
         if run.outcome != Outcome::Completed {
             break;
@@ -175,7 +174,7 @@ pub fn resume(
         }
         let within = 0.5 * (run.at.seconds() + end);
         let (shear, normal) = loading.rates(within, fault.law.points(), fault.operator.couples_normal());
-        let equations = Equations::new(fault, shear, normal);
+        let equations = Equations::new(fault, shear, normal).until(end);
         leg(&equations, fault, end, settings, watcher, &mut run);
     }
     run
@@ -184,6 +183,16 @@ pub fn resume(
 /// Whether all events asked for have ended.
 fn enough(run: &Run, settings: &Settings) -> bool {
     settings.most_events.is_some_and(|most| run.catalogue.events().len() >= most)
+}
+
+/// Times at which the rate of a load or of a pressure jumps, and the end \[s\].
+fn breaks(fault: &Fault, loading: &Loading, end: f64) -> Vec<f64> {
+    let mut times = loading.breaks(0.0, end);
+    times.extend(fault.pressure.iter().flat_map(|p| p.breaks()).filter(|&t| t > 0.0 && t < end));
+    times.push(end);
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
 }
 
 /// Integrates between two changes of the loading, from restart to restart.
@@ -245,6 +254,10 @@ fn piece(
         return false;
     }
     let duration = Clock::new(end, 0.0).since(&run.at);
+    if let Some(time) = equations.first_instants(run.at, &mut run.unknowns, &options.atol, duration) {
+        run.at = run.at.later(time).rebased();
+    }
+    let duration = Clock::new(end, 0.0).since(&run.at);
     let Finished { outcome, at, state, counts } =
         ode::integrate(equations, run.at, &run.unknowns, duration, options, &mut follow);
     let paused = follow.paused;
@@ -257,14 +270,26 @@ fn piece(
         // To the end exactly, so that nothing is left of it for another step.
         Outcome::Completed => (run.at, run.next_step) = (Clock::new(end, 0.0), None),
         Outcome::Failed { reason } => {
-            run.opens = equations.opened();
             if let Failure::TooManySteps { most } = reason {
                 *most = settings.most_steps;
             }
+            run.opens = equations.opened().or_else(|| nearly_open(fault, run));
         }
         Outcome::Stopped => return paused && !enough(run, settings),
     }
     false
+}
+
+/// Share of f_n at the start below which a point is about to open: the rate of friction there grows as 1/f_n and steps vanish before a
+/// stage has no pressure at all.
+const NEARLY_OPEN: f64 = 1e-3;
+
+/// The point that is about to open, where one is.
+fn nearly_open(fault: &Fault, run: &Run) -> Option<usize> {
+    let layout = Layout::of(fault);
+    let share = |p: usize| layout.normal_of(fault, run.at, &run.unknowns, p) / fault.normal[p];
+    let least = (0..fault.normal.len()).min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
+    (share(least) < NEARLY_OPEN).then_some(least)
 }
 
 /// Follows the largest slip rate through the steps.
@@ -325,7 +350,7 @@ impl Follow<'_> {
         let at = step.start.later(after * step.length());
         let layout = self.equations.layout();
         for (p, shear) in self.shear.iter_mut().enumerate() {
-            let normal = layout.normal_of(self.fault, &self.between, p);
+            let normal = layout.normal_of(self.fault, at, &self.between, p);
             *shear = normal * self.fault.law.scale(p) * self.between[p];
         }
         self.catalogue.pass(at, fastest(&self.rate).0, &self.between[layout.slip()], &self.shear);

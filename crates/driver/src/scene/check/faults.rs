@@ -21,6 +21,7 @@ impl Checker<'_> {
             }
             self.friction(fault);
             self.start_of(fault);
+            self.injection(fault);
             for (name, profile) in [
                 ("a", &fault.profiles.a),
                 ("b", &fault.profiles.b),
@@ -28,8 +29,11 @@ impl Checker<'_> {
                 ("normal", &fault.profiles.normal),
             ] {
                 for profile in profile.iter().flat_map(|Profiled(list)| list) {
-                    self.profile(name, profile);
+                    self.profile(name, profile, 1.0);
                 }
+            }
+            for profile in fault.profiles.shear.iter().flat_map(|Profiled(list)| list) {
+                self.profile("shear", profile, fault.rate.get_ref().0.signum());
             }
             self.rake(fault);
             if let Some(creep) = &fault.creep {
@@ -188,6 +192,49 @@ impl Checker<'_> {
         }
     }
 
+    fn injection(&mut self, fault: &Fault) {
+        let Some(injection) = &fault.injection else { return };
+        let positive = |v: f64| v > 0.0 && v.is_finite();
+        if !injection.flux.get_ref().0.is_finite() || injection.flux.get_ref().0 == 0.0 {
+            self.error(
+                injection.flux.span(),
+                "`flux` must not be zero",
+                "such as `flux = \"1.25e-6 m/s\"`; negative where fluid is drawn off",
+            );
+        }
+        for (name, value, example) in [
+            ("diffusivity", &injection.diffusivity, "in m²/s, such as `diffusivity = 0.1`"),
+            ("compressibility", &injection.compressibility, "in 1/Pa, such as `compressibility = 1e-8`"),
+        ] {
+            if !positive(*value.get_ref()) {
+                self.error(value.span(), format!("`{name}` must be positive"), example);
+            }
+        }
+        let porosity = *injection.porosity.get_ref();
+        if !(positive(porosity) && porosity <= 1.0) {
+            self.error(
+                injection.porosity.span(),
+                "`porosity` must lie between 0 and 1",
+                "such as `porosity = 0.1`",
+            );
+        }
+        if let Some(until) = injection.until.as_ref().filter(|t| !positive(t.get_ref().0)) {
+            self.error(
+                until.span(),
+                "`until` must be positive",
+                "such as `until = \"100 d\"`, or leave it out",
+            );
+        }
+        if *self.scene.kinematics.get_ref() == Kinematics::ThreeD {
+            self.conflict(
+                &injection.at.span(),
+                "fluid is injected into faults in the plane only",
+                "its pressure is that of diffusion along one line",
+                (&self.scene.kinematics.span(), "the kinematics"),
+            );
+        }
+    }
+
     fn in_space(&self) -> bool {
         *self.scene.kinematics.get_ref() == Kinematics::ThreeD
     }
@@ -276,7 +323,7 @@ impl Checker<'_> {
         }
     }
 
-    fn profile(&mut self, name: &str, profile: &Profile) {
+    fn profile(&mut self, name: &str, profile: &Profile, sign: f64) {
         match (*profile.along.get_ref(), self.in_space()) {
             (Along::Distance, true) => self.error(
                 profile.along.span(),
@@ -302,8 +349,9 @@ impl Checker<'_> {
                 format!("the places of the profile of `{name}` must ascend"),
                 example,
             );
-        } else if let Some(p) = points.iter().find(|p| !(p.1 > 0.0 && p.1.is_finite())) {
-            let message = format!("the profile of `{name}` must be positive, found {:?}", p.1);
+        } else if let Some(p) = points.iter().find(|p| !(sign * p.1 > 0.0 && p.1.is_finite())) {
+            let what = if name == "shear" { "have the sign of `rate`" } else { "be positive" };
+            let message = format!("the profile of `{name}` must {what}, found {:?}", p.1);
             self.error(profile.points.span(), message, "values are numbers in SI");
         }
     }

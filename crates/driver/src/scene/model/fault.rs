@@ -1,7 +1,7 @@
 //! Faults through earthquake cycles as a scene declares them.
 
 use super::LawSpec;
-use crate::scene::units::{Damping, Length, Pressure, Velocity};
+use crate::scene::units::{Damping, Length, Pressure, Time, Velocity};
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
@@ -33,6 +33,8 @@ pub struct Fault {
     pub creep: Option<Creep>,
     /// In space: the direction of slip of plus relative to minus, of any length; what of it lies in the fault counts.
     pub rake: Option<Spanned<[f64; 3]>>,
+    /// Fluid that is injected and diffuses along the fault.
+    pub injection: Option<Injection>,
 }
 
 /// Parameters that vary along a fault; their value in the law, or beside it, is not used then.
@@ -47,6 +49,8 @@ pub struct Profiles {
     pub l: Option<Profiled>,
     /// Normal traction at the start \[Pa\].
     pub normal: Option<Profiled>,
+    /// Shear traction at the start \[Pa\].
+    pub shear: Option<Profiled>,
 }
 
 /// A parameter as one profile or the largest of several.
@@ -181,6 +185,24 @@ impl<'de> Deserialize<'de> for Station {
         }
         deserializer.deserialize_any(StationVisitor)
     }
+}
+
+/// Fluid injected at one place of a fault at a steady flux.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Injection {
+    /// Distance along the fault from its upper end \[m\].
+    pub at: Spanned<Length>,
+    /// Volume of fluid per area of the fault's cross section and time \[m/s\].
+    pub flux: Spanned<Velocity>,
+    /// Hydraulic diffusivity \[m²/s\].
+    pub diffusivity: Spanned<f64>,
+    /// Porosity \[-\].
+    pub porosity: Spanned<f64>,
+    /// Compressibility of fluid and pores \[1/Pa\].
+    pub compressibility: Spanned<f64>,
+    /// When it ends \[s\]; absent: not at all.
+    pub until: Option<Spanned<Time>>,
 }
 
 /// Radiation damping: a number, or from the material.

@@ -1,0 +1,284 @@
+//! A fault with a restraining bend: tractions of slip across it, and events that stop there.
+
+use crate::cases::dislocation::{self, Stress};
+use crate::cases::seas;
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use asperity_driver::fault::{Event, Plan};
+use nalgebra::Complex;
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "fault_bend",
+    readme: include_str!("README.md"),
+    covers: &[Capability::FaultCycles, Capability::PlaneStrain, Capability::Events],
+    quick: true,
+    run,
+};
+
+const SCENE: &str = include_str!("../../../scenes/fault-bend.toml");
+/// Distance of the bend along the fault, and length of the fault \[m\].
+const BEND: f64 = 15e3;
+const LENGTH: f64 = 30e3;
+/// Turn of the lower half \[rad\].
+const TURN: f64 = std::f64::consts::FRAC_PI_6;
+const SHEAR_MODULUS: f64 = 80.0953008e9 / 2.5;
+const POISSON: f64 = 0.25;
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    statics(ledger)?;
+    events(ledger)
+}
+
+/// The scene with cells of this size \[m\].
+fn bent(size: f64) -> String {
+    SCENE.replace("\"250 m\"", &format!("\"{size} m\""))
+}
+
+/// The same without the bend, under the stress of the upper half.
+fn straight(size: f64) -> String {
+    bent(size)
+        .replace("[\"-7.5 km\", \"-12.990381 km\"]", "[\"0 km\", \"-15 km\"]")
+        .replace("72.516660e6", "50e6")
+        .replace("13e6", "26e6")
+}
+
+/// The same in a box ten times as large, for the comparison with the whole plane; its cells differ away from the fault only.
+fn far(size: f64) -> Result<Plan, CaseError> {
+    seas::plan(&bent(size).replace("100 km", "1000 km"))
+}
+
+/// Slip across the bend \[m\] over the distance along the fault \[m\].
+fn slip(along: f64) -> f64 {
+    (1.0 - ((along - BEND) / 10e3).powi(2)).max(0.0).powi(3)
+}
+
+/// Direction up the half of the fault at this distance.
+fn tangent(along: f64) -> [f64; 2] {
+    if along < BEND { [0.0, 1.0] } else { [TURN.sin(), TURN.cos()] }
+}
+
+/// Place at this distance, from the bend.
+fn place(along: f64) -> Complex<f64> {
+    let [x, y] = tangent(along);
+    Complex::new(x, y) * (BEND - along)
+}
+
+/// Length of the pieces of the reference \[m\].
+const PIECE: f64 = 25.0;
+
+/// Shear and normal tractions at `at` of [`slip`], by pieces of constant slip and the dislocations at their ends.
+fn tractions(at: f64) -> (f64, f64) {
+    // Seen from a piece, dislocations at its ends lie half a piece away on either side; a piece ends at the bend.
+    let mut ends: Vec<f64> = (0..=(LENGTH / PIECE) as usize + 1)
+        .map(|k| (k as f64 - 0.5) * PIECE + at % PIECE)
+        .filter(|&s| (BEND - s).abs() > 0.01 * PIECE)
+        .collect();
+    ends.push(BEND);
+    ends.sort_by(f64::total_cmp);
+    let mut stress = Stress::default();
+    let z = place(at);
+    for w in ends.windows(2) {
+        let middle = 0.5 * (w[0] + w[1]);
+        let [x, y] = tangent(middle);
+        // A circuit about the upper end leads from plus to minus, one about the lower end back.
+        let b = Complex::new(x, y) * slip(middle);
+        // Ends lie on the half of their piece, the bend on both.
+        let on = |s: f64| Complex::new(x, y) * (BEND - s);
+        dislocation::add_in_plane(&mut stress, z, on(w[0]), -b, SHEAR_MODULUS, POISSON);
+        dislocation::add_in_plane(&mut stress, z, on(w[1]), b, SHEAR_MODULUS, POISSON);
+    }
+    let t = tangent(at);
+    stress.on(t, [t[1], -t[0]])
+}
+
+/// Distance from the bend within which tractions are not compared \[m\]: they grow as 1/r.
+const NEAR: f64 = 2000.0;
+
+/// Tractions of [`slip`] over the distance along the fault.
+struct Tractions {
+    along: Vec<f64>,
+    shear: Vec<f64>,
+    normal: Vec<f64>,
+}
+
+fn found(plan: &Plan) -> Tractions {
+    let n = plan.points.len();
+    let along: Vec<f64> = plan.points.iter().map(|p| p.along).collect();
+    let values: Vec<f64> = along.iter().map(|&s| slip(s)).collect();
+    let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
+    plan.fault.operator.shear(&values, &mut shear);
+    plan.fault.operator.normal(&values, &mut normal);
+    Tractions { along, shear, normal }
+}
+
+/// Largest errors of shear and normal tractions over the largest shear traction, away from the bend.
+fn errors(t: &Tractions) -> [f64; 2] {
+    let (mut worst, mut scale) = ([0.0_f64; 2], 0.0_f64);
+    for (k, &s) in t.along.iter().enumerate().filter(|(_, s)| (*s - BEND).abs() > NEAR) {
+        let (shear, normal) = tractions(s);
+        scale = scale.max(shear.abs());
+        worst = [worst[0].max((t.shear[k] - shear).abs()), worst[1].max((t.normal[k] - normal).abs())];
+    }
+    worst.map(|w| w / scale)
+}
+
+const REFERENCE: &str =
+    "edge dislocations in the plane by complex potentials, pieces of 25 m along both halves";
+
+fn statics(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let mut levels = [Vec::new(), Vec::new()];
+    let mut last = None;
+    for size in [1000.0, 500.0, 250.0] {
+        let (result, cost) = Cost::of(|| far(size).map(|plan| found(&plan)));
+        let tractions = result?;
+        for (levels, error) in levels.iter_mut().zip(errors(&tractions)) {
+            levels.push((size, error));
+        }
+        last = Some((tractions, cost));
+    }
+    let (tractions, cost) = last.ok_or("no level")?;
+    for (kind, levels) in ["shear", "normal"].into_iter().zip(&levels) {
+        ledger
+            .order(format!("{kind} tractions of slip across the bend, farther than 2 km from it"))
+            .norm("largest error over the largest shear traction")
+            .levels(levels)
+            .expected(1.0)
+            .within(0.25)
+            .or_better()
+            .evidence(Evidence::SemiAnalytic, REFERENCE)
+            .because("the point of the bend slides along the mean of both directions, which turns slip within a cell on either side: a dipole of the length of a cell. All else is of second order")
+            .finest(5e-3, "turn times cell over 2 pi times the distance, 0.52 250 m/(2 pi 2 km) = 1 %, of which the dipole has a part, its stress falling off as 1/r^2")
+            .covers(&[Capability::FaultCycles, Capability::PlaneStrain])
+            .cost(&cost)
+            .record();
+    }
+    signs(ledger, &tractions, &cost)
+}
+
+/// Normal tractions on both sides of the bend, where the dislocation there rules.
+fn signs(ledger: &mut Ledger, t: &Tractions, cost: &Cost) -> Result<(), CaseError> {
+    let at = |s: f64| {
+        let k = (0..t.along.len()).min_by(|&i, &j| (t.along[i] - s).abs().total_cmp(&(t.along[j] - s).abs()));
+        k.map(|k| (t.normal[k], tractions(t.along[k]).1)).ok_or("no points")
+    };
+    let (above, below) = (at(BEND - NEAR)?, at(BEND + NEAR)?);
+    ledger
+        .claim("normal tractions of 1 m of slip 2 km above and below the bend")
+        .unit("MPa")
+        .values(&[above.0 / 1e6, below.0 / 1e6])
+        .equals_each(&[above.1 / 1e6, below.1 / 1e6])
+        .relative(0.01)
+        .evidence(Evidence::SemiAnalytic, REFERENCE)
+        .because("(250 m/2 km)^2 = 1.6 %, of which the smeared dislocation leaves a part")
+        .covers(&[Capability::FaultCycles, Capability::PlaneStrain])
+        .cost(cost)
+        .record();
+    ledger.table(
+        "normal tractions of 1 m of slip across the bend",
+        &["distance from the bend [m]", "here [MPa]", "dislocations [MPa]"],
+        t.along.iter().zip(&t.normal).filter(|(s, _)| (*s - BEND).abs() < 6e3).step_by(4).map(|(s, f)| {
+            [format!("{:.0}", s - BEND), format!("{:.4}", f / 1e6), format!("{:.4}", tractions(*s).1 / 1e6)]
+        }),
+    );
+    Ok(())
+}
+
+/// Mean slip of an event on the part of the fault from `from` to `to` \[m\].
+fn mean(plan: &Plan, event: &Event, from: f64, to: f64) -> f64 {
+    let part = plan.points.iter().zip(&event.slip).filter(|(p, _)| p.along >= from && p.along <= to);
+    let (slip, area) = part.fold((0.0, 0.0), |(s, a), (p, slip)| (s + p.area * slip, a + p.area));
+    slip / area
+}
+
+fn events(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let plan = seas::plan(&bent(250.0))?;
+    let mut normal = Vec::new();
+    let run = seas::found(&plan, &plan.settings, |now| {
+        normal = (0..plan.points.len()).map(|p| now.normal(&plan.fault, p)).collect();
+    })?;
+    let straight = seas::plan(&straight(250.0))?;
+    let beside = seas::found(&straight, &straight.settings, |_| {})?;
+    // Half of each half: neither the tips nor the cells at the bend.
+    let (upper, lower) = ([4e3, 13e3], [17e3, 26e3]);
+    let ratio =
+        |plan: &Plan, e: &Event| mean(plan, e, lower[0], lower[1]) / mean(plan, e, upper[0], upper[1]);
+    let largest = run.events.iter().map(|e| ratio(&plan, e)).fold(0.0, f64::max);
+    let least = beside.events.iter().map(|e| ratio(&straight, e)).fold(f64::INFINITY, f64::min);
+    ledger.table(
+        "events",
+        &[
+            "fault",
+            "onset [yr]",
+            "mean slip of the upper half [m]",
+            "of the lower half [m]",
+            "hypocentre [km]",
+        ],
+        [("bent", &plan, &run), ("straight", &straight, &beside)].into_iter().flat_map(
+            |(name, plan, found)| {
+                found.events.iter().zip(&found.onsets).map(move |(e, t)| {
+                    [
+                        name.to_string(),
+                        format!("{t:.2}"),
+                        format!("{:.3}", mean(plan, e, upper[0], upper[1])),
+                        format!("{:.3}", mean(plan, e, lower[0], lower[1])),
+                        format!("{:.1}", plan.points[e.hypocentre].along / 1e3),
+                    ]
+                })
+            },
+        ),
+    );
+    ledger
+        .claim("slip of the lower half over that of the upper half, largest of the events of the bent fault")
+        .norm("means over 9 km of each half, 2 km from the bend")
+        .value(largest)
+        .at_most(0.05)
+        .evidence(Evidence::Exact, "motion of the sides shears the lower half by cos(60) = 0.5 and presses it by sin(60) = 0.87 of the shear stress, of which 0.6 is strength: it is never loaded")
+        .because("what enters beyond 2 km is the end of a crack, which friction there does not drive")
+        .why_not_tighter("that the lower half does not slip at all is a matter of how far the crack enters")
+        .covers(&[Capability::FaultCycles, Capability::Events])
+        .cost(&run.cost)
+        .record();
+    ledger
+        .claim("the same on the straight fault, least of the events")
+        .value(least)
+        .at_least(0.5)
+        .evidence(Evidence::Exact, "both halves of a straight fault are alike")
+        .because("an event that stopped half way would leave less")
+        .covers(&[Capability::FaultCycles, Capability::Events])
+        .cost(&beside.cost)
+        .record();
+    clamped(ledger, &plan, &normal, &run.cost);
+    Ok(())
+}
+
+/// Mean over the points from `from` to `to` \[m\].
+fn average(plan: &Plan, values: &[f64], from: f64, to: f64) -> f64 {
+    let part = plan.points.iter().zip(values).filter(|(p, _)| p.along >= from && p.along <= to);
+    let (sum, area) = part.fold((0.0, 0.0), |(s, a), (p, v)| (s + p.area * v, a + p.area));
+    sum / area
+}
+
+/// The motion of the sides presses the lower half together, and the run leaves it so.
+fn clamped(ledger: &mut Ledger, plan: &Plan, normal: &[f64], cost: &Cost) {
+    let (shear, pressing) = plan.loading.rates(1.0, plan.points.len(), true);
+    ledger
+        .claim("rate of normal traction of the lower half over that of shear traction of the upper one, by the motion of the sides")
+        .value(average(plan, &pressing, 16e3, 29e3) / average(plan, &shear, 1e3, 14e3))
+        .equals((2.0 * TURN).sin())
+        .relative(0.05)
+        .evidence(Evidence::Exact, "a plate in uniform shear: sin 2 beta")
+        .because("the sides are 200 km apart; stress varies over that length, to second order, by (30/200)^2 = 2 %")
+        .covers(&[Capability::PlaneStrain])
+        .cost(cost)
+        .record();
+    let start = average(plan, &plan.fault.normal, 17e3, 26e3);
+    ledger
+        .claim("normal traction of the lower half at the end over that at the start")
+        .value(average(plan, normal, 17e3, 26e3) / start)
+        .at_least(1.01)
+        .evidence(Evidence::Exact, "the sign: a restraining bend is pressed together")
+        .because("sin(60) of the stress that the motion of the sides has built up, some MPa of 73 MPa")
+        .covers(&[Capability::PlaneStrain])
+        .cost(cost)
+        .record();
+}
