@@ -131,7 +131,8 @@ mod tests {
     #[test]
     fn rate_is_the_derivative_of_pressure() {
         for (z, t) in [(0.0, 1e5), (500.0, 1e6), (100.0, 9e6), (3000.0, 3e7)] {
-            let step = 1e-4 * t;
+            // Of the time since the injection began or ended, with the square of which the difference errs.
+            let step = 1e-4 * if t > BP6.during[1] { t - BP6.during[1] } else { t };
             let difference = (BP6.pressure(z, t + step).0 - BP6.pressure(z, t - step).0) / (2.0 * step);
             let rate = BP6.pressure(z, t).1;
             assert!(
@@ -151,7 +152,8 @@ mod tests {
     #[test]
     fn pressure_obeys_the_equation_of_diffusion() {
         for t in [2e6, 9.5e6] {
-            let (z, h) = (700.0, 5.0);
+            // Lengths are 586 m and more, and what begin and end give differs by a tenth: errors of 1e-5.
+            let (z, h) = (700.0, 1.0);
             let p = |z: f64| BP6.pressure(z, t).0;
             let laplacian = (p(z + h) - 2.0 * p(z) + p(z - h)) / (h * h);
             let rate = BP6.pressure(z, t).1;
