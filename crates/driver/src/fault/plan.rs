@@ -230,6 +230,9 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         placed.extend(points_of(scene, &model, (name, spec), k)?);
     }
     let points: Vec<Point<D>> = placed.iter().map(|p| p.point.clone()).collect();
+    if points.iter().all(|p| p.creep.is_some()) {
+        return Err(PlanError::plain("no point of the faults is free to slide".into()));
+    }
     let surroundings = condense(&model, stage, &points, solver::memory(scene)).map_err(PlanError::plain)?;
     placed.retain(|p| p.point.creep.is_none());
     let Some((first, rest)) = placed.split_first() else {
