@@ -141,11 +141,11 @@ pub fn simulate(scene: &Scene) -> Result<Done, CaseError> {
     Ok(Done { report, record, cost })
 }
 
-/// Tractions along the slave side at the end of a stage, ascending in x; SI units.
+/// Tractions along the slave side at the end of a stage, ascending in a coordinate, as a rule x; SI units.
 pub struct Tractions {
     /// Loads on the first set of the scene's forces: along x, and the size of that along y.
     pub load: [f64; 2],
-    /// Positions.
+    /// Coordinates.
     pub x: Vec<f64>,
     /// Tributary areas.
     pub area: Vec<f64>,
@@ -162,14 +162,23 @@ pub struct Tractions {
 impl Done {
     /// Tractions at the end of a stage.
     pub fn tractions(&self, stage: &str) -> Result<Tractions, CaseError> {
+        self.tractions_by(stage, |x| x[0])
+    }
+
+    /// Tractions at the end of a stage over some coordinate of the points.
+    pub fn tractions_by(
+        &self,
+        stage: &str,
+        coordinate: impl Fn([f64; 3]) -> f64,
+    ) -> Result<Tractions, CaseError> {
         let end = self.record.stage_end(stage).ok_or_else(|| format!("stage {stage} was not reached"))?;
         let at = self.record.times().iter().position(|t| *t == end.time).ok_or("no step ends the stage")?;
         let force = self.record.samples()[at].forces.first().ok_or("the scene has no forces")?;
         let (mesh, f) = (&self.record.setup().interfaces[0], &end.interfaces[0]);
-        let mut order: Vec<usize> = (0..mesh.positions.len()).collect();
-        order.sort_by(|&a, &b| mesh.positions[a][0].total_cmp(&mesh.positions[b][0]));
+        let x: Vec<f64> = mesh.positions.iter().map(|&x| coordinate(x)).collect();
+        let mut order: Vec<usize> = (0..x.len()).collect();
+        order.sort_by(|&a, &b| x[a].total_cmp(&x[b]));
         let pick = |v: &[f64]| -> Vec<f64> { order.iter().map(|&k| v[k]).collect() };
-        let x: Vec<f64> = mesh.positions.iter().map(|x| x[0]).collect();
         Ok(Tractions {
             load: [force[0], force[1].abs()],
             x: pick(&x),

@@ -66,6 +66,7 @@ mod friction_velocity_steps;
 mod frictional_bar;
 mod frictional_crack;
 pub mod hertz;
+mod hertz_ball;
 mod hertz_line;
 mod hertz_sphere;
 mod jaumann_shear;
@@ -131,6 +132,7 @@ pub const ALL: &[Case] = &[
     frictional_crack::CASE,
     hertz_line::CASE,
     hertz_sphere::CASE,
+    hertz_ball::CASE,
     lame_cylinder::CASE,
     nafems_roller::CASE,
     partial_slip::CASE,

@@ -162,6 +162,138 @@ fn a_factor_is_reused_while_patterns_keep_their_versions_and_made_anew_when_one_
     assert!((with[last] - expected).abs() < 1e-12 * expected);
 }
 
+/// Pairs of degrees of freedom, of which the closed ones are coupled without symmetry, as friction couples.
+struct Pairs {
+    pattern: Pattern,
+    closed: Vec<bool>,
+}
+
+impl Pairs {
+    fn new(pairs: &[[usize; 2]]) -> Self {
+        let pattern = Pattern::of_blocks(0, pairs.iter().map(<[usize; 2]>::as_slice));
+        Self { pattern, closed: vec![false; pairs.len()] }
+    }
+}
+
+impl Term for Pairs {
+    fn name(&self) -> &str {
+        "pairs"
+    }
+
+    fn residual(&mut self, _u: &[f64], _at: Instant, _r: &mut [f64]) -> Result<(), Refusal> {
+        Ok(())
+    }
+
+    fn accept(&mut self) {}
+
+    fn reject(&mut self) {}
+}
+
+impl Linearized for Pairs {
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    fn tangent(&mut self, values: &mut [f64]) {
+        for (block, closed) in values.chunks_exact_mut(4).zip(&self.closed) {
+            let coupling = if *closed { [3e11, -3e11, -2.1e11, 3e11] } else { [0.0; 4] };
+            block.copy_from_slice(&coupling);
+        }
+    }
+}
+
+#[test]
+fn a_dense_system_solves_as_a_sparse_one_whichever_pairs_close_and_open() {
+    let mesh = mesh(6);
+    let mut block = block(&mesh);
+    let last = 2 * mesh.nodes.len();
+    // Along the right and the upper side and a bit of both, over and over: few pairs, more, all, none, others, all that there are.
+    let pairs: Vec<[usize; 2]> = (0..60).map(|k| [last - 1 - k, last - 2 - k]).collect();
+    let mut contact = Pairs::new(&pairs);
+    let n = clamped(&mesh).free.len();
+    let load: Vec<f64> = (0..n).map(|k| ((k * 31) % 17) as f64 - 8.0).collect();
+    let mut dense = System::new(clamped(&mesh), Storage::Dense);
+    for closed in [0..0, 0..3, 0..9, 0..2, 0..60, 30..33, 0..0, 20..60] {
+        for (k, is) in contact.closed.iter_mut().enumerate() {
+            *is = closed.contains(&k);
+        }
+        let mut solve = |system: &mut System| {
+            assert!(system.factor_tangent(&mut [&mut block, &mut contact]).unwrap());
+            let mut x = load.clone();
+            system.solve(&mut x).unwrap();
+            x
+        };
+        let found = solve(&mut dense);
+        let expected = solve(&mut System::new(clamped(&mesh), Storage::Sparse));
+        let size = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let error = found.iter().zip(&expected).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        // Rounding times the condition of the block, 1e4, and the stiffness of the pairs over its own, 100.
+        assert!(error < 1e-9 * size, "{closed:?}: {:e}", error / size);
+    }
+}
+
+#[test]
+fn what_nothing_but_a_closed_pair_holds_is_held_by_it_and_named_when_it_opens() {
+    // A chain of springs between six degrees of freedom floats; a pair that couples its end to a held one holds it.
+    let chain: Vec<[usize; 2]> = (1..6).map(|k| [k, k + 1]).collect();
+    let pattern = Pattern::of_blocks(0, chain.iter().map(<[usize; 2]>::as_slice));
+    let mut links = Chain { pattern, values: [1e12, -1e12, -1e12, 1e12].repeat(chain.len()) };
+    let mut contact = Pairs::new(&[[0, 1]]);
+    let equations = || Constraints { fixed: vec![0], channels: Vec::new() }.equations(7);
+    for symmetry in [Symmetry::General, Symmetry::Symmetric] {
+        let mut system = System::new(equations(), Storage::Dense).with_symmetry(symmetry);
+        for _ in 0..2 {
+            contact.closed[0] = true;
+            system.factor_tangent(&mut [&mut links, &mut contact]).unwrap();
+            let mut x = [0.0, 0.0, 0.0, 0.0, 0.0, 3e11];
+            system.solve(&mut x).unwrap();
+            // The force passes the whole chain: 1 at the pair, 0.3 more in each link.
+            let exact = [1.0, 1.3, 1.6, 1.9, 2.2, 2.5];
+            assert!(x.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-12), "{x:?}");
+            contact.closed[0] = false;
+            let error = system
+                .factor_tangent(&mut [&mut links, &mut contact])
+                .and_then(|_| system.solve(&mut [0.0, 0.0, 0.0, 0.0, 0.0, 3e11]))
+                .unwrap_err();
+            assert!(error.is_singular(), "{error}");
+        }
+    }
+}
+
+/// Links of 1e12 between pairs of degrees of freedom.
+struct Chain {
+    pattern: Pattern,
+    values: Vec<f64>,
+}
+
+impl Term for Chain {
+    fn name(&self) -> &str {
+        "chain"
+    }
+
+    fn residual(&mut self, _u: &[f64], _at: Instant, _r: &mut [f64]) -> Result<(), Refusal> {
+        Ok(())
+    }
+
+    fn accept(&mut self) {}
+
+    fn reject(&mut self) {}
+}
+
+impl Linearized for Chain {
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    fn tangent(&mut self, values: &mut [f64]) {
+        values.copy_from_slice(&self.values);
+    }
+
+    fn constant_tangent(&self) -> Option<&[f64]> {
+        Some(&self.values)
+    }
+}
+
 #[test]
 fn what_nothing_holds_is_named_by_its_degree_of_freedom() {
     let equations = || Constraints { fixed: vec![0], channels: Vec::new() }.equations(3);

@@ -1,7 +1,11 @@
 //! A dense system, for condensed bodies.
+//!
+//! The sum of the constant terms is kept. Of the equations that no other term touches most are eliminated once ([`Eliminated`]);
+//! what is factored anew in each iteration is the rest.
 
-use super::Symmetry;
+use super::eliminated::{Eliminated, Entry};
 use super::held::SymmetricPart;
+use super::{Symmetry, Version};
 use crate::dof::Equations;
 use crate::error::FemError;
 use crate::multifrontal::{DirectError, Pivot};
@@ -11,12 +15,46 @@ use faer::{Conj, Mat, MatMut, Side};
 
 /// Rounding of a pivot relative to its diagonal entry, times the square root of the number of pivots, as in the sparse
 /// factorisation.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+pub(super) const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Difference of mirrored entries, over the largest entry, that is rounding of the sums they are.
+const MIRRORED: f64 = 1e-12;
+/// Share of equations that must be left over for their elimination to pay.
+const WORTHWHILE: f64 = 0.125;
+/// Rings of neighbours of what is touched that are kept as well: zones of contact grow by a point or two before anything has to be
+/// eliminated anew.
+const RINGS: usize = 1;
 
 #[derive(Debug)]
 pub(super) struct DenseStore {
-    pub matrix: Mat<f64>,
-    factor: Option<DenseFactor>,
+    /// Sum of the constant terms.
+    constant: Mat<f64>,
+    /// The constant terms it is made of, by place among all terms.
+    made_of: Option<Vec<Option<Version>>>,
+    /// Whether they are to be added again.
+    renewing: bool,
+    /// Whether it is symmetric to rounding; found when first needed.
+    symmetric: Option<bool>,
+    changing: Changing,
+    eliminated: Option<Eliminated>,
+    factor: Option<Factor>,
+}
+
+/// Terms that are not constant.
+#[derive(Debug, Default)]
+struct Changing {
+    /// Entries of blocks that are not zero, in the order of the terms.
+    entries: Vec<Entry>,
+    /// Equations of all blocks, and the end of each block.
+    equations: Vec<usize>,
+    ends: Vec<usize>,
+    /// Whether a block that is not zero has this equation.
+    touched: Vec<bool>,
+}
+
+#[derive(Debug)]
+enum Factor {
+    Whole(DenseFactor),
+    Rest(DenseFactor),
 }
 
 #[derive(Debug)]
@@ -27,100 +65,258 @@ enum DenseFactor {
 
 impl DenseStore {
     pub fn new(n: usize) -> Self {
-        Self { matrix: Mat::zeros(n, n), factor: None }
+        Self {
+            constant: Mat::zeros(n, n),
+            made_of: None,
+            renewing: true,
+            symmetric: None,
+            changing: Changing { touched: vec![false; n], ..Changing::default() },
+            eliminated: None,
+            factor: None,
+        }
     }
 
-    pub fn clear(&mut self) {
-        self.matrix.fill(0.0);
+    /// Prepares an assembly of terms of which these are constant.
+    pub fn begin(&mut self, constant: Vec<Option<Version>>) {
         self.factor = None;
+        self.changing.clear();
+        self.renewing = self.made_of.as_ref() != Some(&constant);
+        if self.renewing {
+            self.made_of = Some(constant);
+            self.constant.fill(0.0);
+            self.symmetric = None;
+            self.eliminated = None;
+        }
     }
 
     /// Adds blocks on the free equations.
-    pub fn add(&mut self, equations: &Equations, pattern: &Pattern, values: &[f64]) {
+    pub fn add(&mut self, equations: &Equations, pattern: &Pattern, values: &[f64], constant: bool) {
+        if constant && !self.renewing {
+            return;
+        }
         let mut offset = 0;
+        let mut numbers = Vec::new();
         for block in pattern.blocks() {
             let n = block.len();
-            for (j, &c) in block.iter().enumerate() {
-                let col = equations.number[c];
-                if col == Equations::FIXED {
-                    continue;
-                }
-                let column = self.matrix.col_as_slice_mut(col);
-                for (i, &r) in block.iter().enumerate() {
-                    let row = equations.number[r];
-                    if row != Equations::FIXED {
-                        column[row] += values[offset + i * n + j];
-                    }
-                }
+            let own = &values[offset..offset + n * n];
+            numbers.clear();
+            numbers.extend(block.iter().map(|&dof| equations.number[dof]));
+            if constant {
+                add_block(&mut self.constant, &numbers, own);
+            } else {
+                self.changing.add(&numbers, own);
             }
             offset += n * n;
         }
     }
 
+    /// The matrix.
+    pub fn matrix(&self) -> Mat<f64> {
+        let mut matrix = self.constant.clone();
+        for &(row, col, value) in &self.changing.entries {
+            matrix[(row, col)] += value;
+        }
+        matrix
+    }
+
     /// The diagonal, by equation.
     pub fn diagonal(&self) -> Vec<f64> {
-        (0..self.matrix.nrows()).map(|k| self.matrix[(k, k)]).collect()
+        let mut diagonal: Vec<f64> = (0..self.constant.nrows()).map(|k| self.constant[(k, k)]).collect();
+        for &(row, _, value) in self.changing.entries.iter().filter(|(row, col, _)| row == col) {
+            diagonal[row] += value;
+        }
+        diagonal
     }
 
     /// The first column all of whose entries are zero.
     pub fn empty_column(&self) -> Option<usize> {
-        let empty = |k: usize| self.matrix.col_as_slice(k).iter().all(|&v| v == 0.0);
-        (0..self.matrix.ncols()).position(empty)
+        let empty = |k: usize| self.constant.col_as_slice(k).iter().all(|&v| v == 0.0);
+        let mut candidates: Vec<usize> = (0..self.constant.ncols()).filter(|&k| empty(k)).collect();
+        for &(_, col, value) in &self.changing.entries {
+            if value != 0.0 {
+                candidates.retain(|&k| k != col);
+            }
+        }
+        candidates.first().copied()
     }
 
     /// Whether LU had to stand in for Cholesky.
     pub fn factor(&mut self, symmetry: Symmetry) -> Result<bool, FemError> {
-        let general = |matrix: &Mat<f64>| Some(DenseFactor::Lu(matrix.partial_piv_lu()));
-        if symmetry == Symmetry::General {
-            self.factor = general(&self.matrix);
+        if self.eliminate()
+            && let Some(factor) = self.factor_rest(symmetry)
+        {
+            self.factor = Some(Factor::Rest(factor));
             return Ok(false);
         }
-        match self.cholesky() {
-            Ok(factor) => {
-                self.factor = Some(DenseFactor::Cholesky(factor));
-                Ok(false)
-            }
-            Err(DirectError::NotPositive(_)) if symmetry == Symmetry::Symmetric => {
-                self.factor = general(&self.matrix);
-                Ok(true)
-            }
-            Err(error) => Err(error.into()),
-        }
+        let (factor, indefinite) = factor_whole(&self.matrix(), symmetry)?;
+        self.factor = Some(Factor::Whole(factor));
+        Ok(indefinite)
     }
 
-    /// Cholesky, and where that fails the reason from the factorisation that tells a singular matrix from one with negative
-    /// modes.
-    fn cholesky(&self) -> Result<Llt<f64>, DirectError> {
-        let n = self.matrix.nrows();
-        let smallest = ROUNDING * (n as f64).sqrt();
-        let factor = self.matrix.llt(Side::Lower);
-        let failed = match &factor {
-            Err(LltError::NonPositivePivot { index }) => Some((*index, f64::NAN)),
-            Ok(factor) => {
-                let l = factor.L();
-                (0..n).map(|k| (k, l[(k, k)].powi(2))).find(|&(k, p)| p <= smallest * self.matrix[(k, k)])
-            }
+    /// Sees to it that what is untouched is eliminated; false where that does not pay or cannot be done.
+    fn eliminate(&mut self) -> bool {
+        let n = self.constant.nrows();
+        let pays = |kept: &[bool]| {
+            let gone = kept.iter().filter(|&&k| !k).count();
+            gone as f64 >= WORTHWHILE * n as f64
         };
-        match (failed, factor) {
-            (None, Ok(factor)) => Ok(factor),
-            (failed, _) => {
-                SymmetricPart::of_dense(&self.matrix).factor()?;
-                let (equation, pivot) = failed.unwrap_or((0, f64::NAN));
-                let diagonal = self.matrix[(equation, equation)];
-                Err(DirectError::NotPositive(Pivot { equation, pivot, diagonal }))
+        if !pays(&self.changing.touched) || !self.is_symmetric() {
+            return false;
+        }
+        let touched = &self.changing.touched;
+        if self.eliminated.as_ref().is_some_and(|e| e.leaves((0..n).filter(|&k| touched[k]))) {
+            return true;
+        }
+        let mut kept = self.changing.with_neighbours(RINGS);
+        if let Some(before) = &self.eliminated {
+            let mut both = kept.clone();
+            before.rest().iter().for_each(|&k| both[k] = true);
+            // What was touched long ago is forgotten where hardly anything would be left to eliminate.
+            if pays(&both) {
+                kept = both;
             }
         }
+        self.eliminated = if pays(&kept) { Eliminated::new(&self.constant, &kept) } else { None };
+        self.eliminated.is_some()
+    }
+
+    fn is_symmetric(&mut self) -> bool {
+        let constant = &self.constant;
+        *self.symmetric.get_or_insert_with(|| mirrored(constant))
+    }
+
+    /// None where the rest is not positive definite although it should be: the whole matrix then tells why.
+    fn factor_rest(&self, symmetry: Symmetry) -> Option<DenseFactor> {
+        let eliminated = self.eliminated.as_ref()?;
+        let matrix = eliminated.with(&self.changing.entries);
+        if symmetry == Symmetry::General {
+            return Some(DenseFactor::Lu(matrix.partial_piv_lu()));
+        }
+        let diagonal = self.diagonal();
+        let smallest = ROUNDING * (diagonal.len() as f64).sqrt();
+        let factor = lower(&matrix, |k| smallest * diagonal[eliminated.rest()[k]]);
+        factor.ok().map(DenseFactor::Cholesky)
     }
 
     /// Solves in place; false without a factor.
     pub fn solve(&self, rhs: &mut [f64]) -> bool {
-        let n = rhs.len();
-        let columns = MatMut::from_column_major_slice_mut(rhs, n, 1);
-        match &self.factor {
-            Some(DenseFactor::Lu(f)) => f.solve_in_place_with_conj(Conj::No, columns),
-            Some(DenseFactor::Cholesky(f)) => f.solve_in_place_with_conj(Conj::No, columns),
-            None => return false,
+        match (&self.factor, &self.eliminated) {
+            (Some(Factor::Whole(factor)), _) => factor.solve(rhs),
+            (Some(Factor::Rest(factor)), Some(eliminated)) => {
+                eliminated.solve(rhs, |rest| factor.solve(rest));
+            }
+            _ => return false,
         }
         true
+    }
+}
+
+impl Changing {
+    fn clear(&mut self) {
+        self.entries.clear();
+        self.equations.clear();
+        self.ends.clear();
+        self.touched.fill(false);
+    }
+
+    fn add(&mut self, numbers: &[usize], values: &[f64]) {
+        let n = numbers.len();
+        let free = numbers.iter().copied().filter(|&k| k != Equations::FIXED);
+        self.equations.extend(free.clone());
+        self.ends.push(self.equations.len());
+        // An open point has a block of zeros.
+        if values.iter().all(|&v| v == 0.0) {
+            return;
+        }
+        free.for_each(|k| self.touched[k] = true);
+        for (i, &row) in numbers.iter().enumerate().filter(|(_, k)| **k != Equations::FIXED) {
+            let columns = numbers.iter().enumerate().filter(|(_, k)| **k != Equations::FIXED);
+            self.entries.extend(columns.map(|(j, &col)| (row, col, values[i * n + j])));
+        }
+    }
+
+    /// What is touched and the blocks that have an equation in common with it, and so on for some rings.
+    fn with_neighbours(&self, rings: usize) -> Vec<bool> {
+        let mut kept = self.touched.clone();
+        for _ in 0..rings {
+            let before = kept.clone();
+            let mut start = 0;
+            for &end in &self.ends {
+                let block = &self.equations[start..end];
+                if block.iter().any(|&k| before[k]) {
+                    block.iter().for_each(|&k| kept[k] = true);
+                }
+                start = end;
+            }
+        }
+        kept
+    }
+}
+
+impl DenseFactor {
+    fn solve(&self, rhs: &mut [f64]) {
+        let n = rhs.len();
+        let columns = MatMut::from_column_major_slice_mut(rhs, n, 1);
+        match self {
+            DenseFactor::Lu(f) => f.solve_in_place_with_conj(Conj::No, columns),
+            DenseFactor::Cholesky(f) => f.solve_in_place_with_conj(Conj::No, columns),
+        }
+    }
+}
+
+fn add_block(matrix: &mut Mat<f64>, numbers: &[usize], values: &[f64]) {
+    let n = numbers.len();
+    for (j, &col) in numbers.iter().enumerate().filter(|(_, k)| **k != Equations::FIXED) {
+        let column = matrix.col_as_slice_mut(col);
+        for (i, &row) in numbers.iter().enumerate().filter(|(_, k)| **k != Equations::FIXED) {
+            column[row] += values[i * n + j];
+        }
+    }
+}
+
+fn mirrored(matrix: &Mat<f64>) -> bool {
+    let columns = || (0..matrix.ncols()).map(|j| matrix.col_as_slice(j));
+    let largest = columns().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let agree = |(j, column): (usize, &[f64])| {
+        column[..j].iter().enumerate().all(|(i, v)| (v - matrix[(j, i)]).abs() <= MIRRORED * largest)
+    };
+    columns().enumerate().all(agree)
+}
+
+/// Factors a whole matrix; the second says whether LU had to stand in for Cholesky.
+fn factor_whole(matrix: &Mat<f64>, symmetry: Symmetry) -> Result<(DenseFactor, bool), FemError> {
+    let general = || DenseFactor::Lu(matrix.partial_piv_lu());
+    if symmetry == Symmetry::General {
+        return Ok((general(), false));
+    }
+    match cholesky(matrix) {
+        Ok(factor) => Ok((DenseFactor::Cholesky(factor), false)),
+        Err(DirectError::NotPositive(_)) if symmetry == Symmetry::Symmetric => Ok((general(), true)),
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// Cholesky of the lower triangle with pivots above a bound each, or the pivot that is not and its value.
+pub(super) fn lower(matrix: &Mat<f64>, bound: impl Fn(usize) -> f64) -> Result<Llt<f64>, (usize, f64)> {
+    let factor = matrix.llt(Side::Lower).map_err(|e| match e {
+        LltError::NonPositivePivot { index } => (index, f64::NAN),
+    })?;
+    let l = factor.L();
+    match (0..matrix.nrows()).map(|k| (k, l[(k, k)].powi(2))).find(|&(k, p)| p <= bound(k)) {
+        Some(failed) => Err(failed),
+        None => Ok(factor),
+    }
+}
+
+/// Cholesky, and where that fails the reason from the factorisation that tells a singular matrix from one with negative modes.
+fn cholesky(matrix: &Mat<f64>) -> Result<Llt<f64>, DirectError> {
+    let smallest = ROUNDING * (matrix.nrows() as f64).sqrt();
+    match lower(matrix, |k| smallest * matrix[(k, k)]) {
+        Ok(factor) => Ok(factor),
+        Err((equation, pivot)) => {
+            SymmetricPart::of_dense(matrix).factor()?;
+            let diagonal = matrix[(equation, equation)];
+            Err(DirectError::NotPositive(Pivot { equation, pivot, diagonal }))
+        }
     }
 }

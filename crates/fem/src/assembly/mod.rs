@@ -3,6 +3,7 @@
 
 mod dense;
 mod direct;
+mod eliminated;
 mod held;
 mod iterative;
 
@@ -69,7 +70,7 @@ type Version = (u64, usize);
 
 #[derive(Debug)]
 enum Store {
-    Dense(DenseStore),
+    Dense(Box<DenseStore>),
     Sparse(Box<SparseStore>),
     Iterative(Box<IterativeStore>),
 }
@@ -79,7 +80,7 @@ impl System {
     #[must_use]
     pub fn new(equations: Equations, storage: Storage) -> Self {
         let store = match storage {
-            Storage::Dense => Store::Dense(DenseStore::new(equations.free.len())),
+            Storage::Dense => Store::Dense(Box::new(DenseStore::new(equations.free.len()))),
             Storage::Sparse => Store::Sparse(Box::default()),
         };
         Self::with_store(equations, Symmetry::General, store)
@@ -234,8 +235,12 @@ impl System {
     ) -> Result<Result<bool, FemError>, E> {
         let keep =
             terms.iter().all(|t| constant_of(t).is_some()) && self.is_factored(terms.iter().map(&pattern_of));
-        if !keep && let Err(error) = self.begin(&terms.iter().map(&pattern_of).collect::<Vec<_>>()) {
-            return Ok(Err(error));
+        if !keep {
+            let patterns: Vec<&Pattern> = terms.iter().map(&pattern_of).collect();
+            let constant = terms.iter().map(|t| constant_of(t).map(|_| version(pattern_of(t))));
+            if let Err(error) = self.begin(&patterns, constant.collect()) {
+                return Ok(Err(error));
+            }
         }
         let mut own: Vec<Option<Vec<f64>>> = Vec::new();
         let mut offset = 0;
@@ -253,7 +258,9 @@ impl System {
             let tangent = constant.unwrap_or(&self.buffer);
             self.largest_entry = self.largest_entry.max(largest(tangent));
             match &mut self.store {
-                Store::Dense(store) => store.add(&self.equations, pattern_of(term), tangent),
+                Store::Dense(store) => {
+                    store.add(&self.equations, pattern_of(term), tangent, constant.is_some());
+                }
                 Store::Sparse(store) => offset = store.add(offset, tangent),
                 Store::Iterative(_) => own.push(match constant {
                     Some(_) => None,
@@ -283,12 +290,12 @@ impl System {
         Ok(outcome.map(|()| true))
     }
 
-    /// Prepares an assembly of these patterns.
-    fn begin(&mut self, patterns: &[&Pattern]) -> Result<(), FemError> {
+    /// Prepares an assembly of these patterns; `constant` has the versions of those whose terms are.
+    fn begin(&mut self, patterns: &[&Pattern], constant: Vec<Option<Version>>) -> Result<(), FemError> {
         self.factored = None;
         self.largest_entry = 0.0;
         match &mut self.store {
-            Store::Dense(store) => store.clear(),
+            Store::Dense(store) => store.begin(constant),
             Store::Sparse(store) => {
                 store.renew(patterns, &self.equations, self.symmetry)?;
                 store.clear();

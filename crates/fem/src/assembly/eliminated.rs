@@ -1,0 +1,88 @@
+//! Equations of a dense system that only constant terms know, eliminated once for many factorisations of the others.
+//!
+//! With g for those gone and r for the rest, `K_gg = L Lᵀ` and `X = L⁻¹ K_gr`, the rest is left with `S = K_rr - Xᵀ X`, to which the
+//! terms that change are added. Contact changes the rows of closed points only, in most models a small part of an interface.
+
+use super::dense::{ROUNDING, lower};
+use crate::dof::Equations;
+use faer::linalg::matmul::matmul;
+use faer::linalg::solvers::Llt;
+use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
+use faer::{Accum, Mat, MatMut, Par};
+
+/// An entry of a changing term: row, column, value.
+pub(super) type Entry = (usize, usize, f64);
+
+#[derive(Debug)]
+pub(super) struct Eliminated {
+    gone: Vec<usize>,
+    rest: Vec<usize>,
+    /// Place of each equation in `rest`, or [`Equations::FIXED`].
+    place: Vec<usize>,
+    factor: Llt<f64>,
+    /// X.
+    coupling: Mat<f64>,
+    /// S.
+    schur: Mat<f64>,
+}
+
+impl Eliminated {
+    /// Keeps the equations of `kept` and eliminates the others. None where they are not positive definite alone.
+    pub fn new(constant: &Mat<f64>, kept: &[bool]) -> Option<Self> {
+        let (rest, gone): (Vec<usize>, Vec<usize>) = (0..kept.len()).partition(|&k| kept[k]);
+        let mut place = vec![Equations::FIXED; kept.len()];
+        for (k, &equation) in rest.iter().enumerate() {
+            place[equation] = k;
+        }
+        let part = |rows: &[usize], cols: &[usize]| {
+            Mat::from_fn(rows.len(), cols.len(), |i, j| constant[(rows[i], cols[j])])
+        };
+        let own = part(&gone, &gone);
+        let smallest = ROUNDING * (gone.len() as f64).sqrt();
+        let factor = lower(&own, |k| smallest * own[(k, k)]).ok()?;
+        drop(own);
+        let mut coupling = part(&gone, &rest);
+        solve_lower_triangular_in_place(factor.L(), coupling.as_mut(), Par::Seq);
+        let mut schur = part(&rest, &rest);
+        matmul(schur.as_mut(), Accum::Add, coupling.transpose(), coupling.as_ref(), -1.0, Par::Seq);
+        Some(Self { gone, rest, place, factor, coupling, schur })
+    }
+
+    /// Equations that are left.
+    pub fn rest(&self) -> &[usize] {
+        &self.rest
+    }
+
+    /// Whether all these are left.
+    pub fn leaves(&self, mut equations: impl Iterator<Item = usize>) -> bool {
+        equations.all(|e| self.place[e] != Equations::FIXED)
+    }
+
+    /// The matrix of the rest with what changes, all of which is in its rows and columns.
+    pub fn with(&self, changing: &[Entry]) -> Mat<f64> {
+        let mut matrix = self.schur.clone();
+        for &(row, col, value) in changing {
+            matrix[(self.place[row], self.place[col])] += value;
+        }
+        matrix
+    }
+
+    /// Solves in place; `solve` solves for the rest.
+    pub fn solve(&self, rhs: &mut [f64], solve: impl FnOnce(&mut [f64])) {
+        let mut own: Vec<f64> = self.gone.iter().map(|&k| rhs[k]).collect();
+        let mut rest: Vec<f64> = self.rest.iter().map(|&k| rhs[k]).collect();
+        solve_lower_triangular_in_place(self.factor.L(), column(&mut own), Par::Seq);
+        matmul(column(&mut rest), Accum::Add, self.coupling.transpose(), column(&mut own), -1.0, Par::Seq);
+        solve(&mut rest);
+        matmul(column(&mut own), Accum::Add, self.coupling.as_ref(), column(&mut rest), -1.0, Par::Seq);
+        solve_upper_triangular_in_place(self.factor.L().transpose(), column(&mut own), Par::Seq);
+        for (list, values) in [(&self.gone, own), (&self.rest, rest)] {
+            list.iter().zip(values).for_each(|(&k, value)| rhs[k] = value);
+        }
+    }
+}
+
+fn column(values: &mut [f64]) -> MatMut<'_, f64> {
+    let n = values.len();
+    MatMut::from_column_major_slice_mut(values, n, 1)
+}
