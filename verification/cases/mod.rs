@@ -84,10 +84,13 @@ mod sandwich_steppers;
 pub mod seas;
 mod seas_bp1;
 mod seas_bp1_16mm;
+mod seas_bp1_16mm_limit;
+mod seas_bp1_25m;
 mod seas_bp1_full;
 mod seas_bp1_methods;
 mod seas_bp2;
 mod seas_bp3;
+mod seas_bp3_full;
 mod seas_bp6;
 pub mod slider;
 mod slider_cycles;
@@ -145,8 +148,11 @@ pub const ALL: &[Case] = &[
     seas_bp1_full::CASE,
     seas_bp1_methods::CASE,
     seas_bp1_16mm::CASE,
+    seas_bp1_16mm_limit::CASE,
+    seas_bp1_25m::CASE,
     seas_bp2::CASE,
     seas_bp3::CASE,
+    seas_bp3_full::CASE,
     seas_bp6::CASE,
     slider_cycles::CASE,
     slider_normal::CASE,

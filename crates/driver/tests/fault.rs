@@ -100,10 +100,10 @@ fn injected(flux: f64) -> Plan {
     }
 }
 
-#[test]
-fn friction_balances_under_the_pressure_of_fluid_that_comes_and_goes() {
+/// Largest imbalance of tractions over f_n, and the lowest f_n \[Pa\], with a tolerance.
+fn under_fluid(tolerance: f64) -> (f64, f64) {
     let mut plan = injected(1.25e-6);
-    plan.settings.tolerance = 1e-8;
+    plan.settings.tolerance = tolerance;
     let n = plan.points.len();
     let (mut worst, mut lowest) = (0.0_f64, f64::INFINITY);
     let mut exerted = vec![0.0; n];
@@ -120,13 +120,20 @@ fn friction_balances_under_the_pressure_of_fluid_that_comes_and_goes() {
     };
     let out = run(&plan.fault, &plan.loading, plan.start.clone(), &plan.settings, &mut look);
     assert_eq!(out.outcome, Outcome::Completed);
-    // The norm is a mean over 180 unknowns, so that the one point where fluid enters may have 13 tolerances of ln V a step, a times that in
-    // friction, and errors of a hundred steps that follow the root of time add up. The first step after the end of the injection errs by
-    // more than it estimates, since rates there are not smooth (1.8e-6 with a tolerance of 1e-6, 1.3e-7 with 1e-7).
-    assert!(worst < 3e-8, "{worst:e}");
-    // q/(beta phi) sqrt(t/(pi alpha)) at 100 d.
-    let pressure = 1.25e-6 / 1e-9 * (8.64e6 / (std::f64::consts::PI * 0.1)).sqrt();
-    assert!((lowest - (50e6 - pressure)).abs() < 1e-6 * pressure, "{lowest} {pressure}");
+    (worst, lowest)
+}
+
+#[test]
+fn friction_balances_under_the_pressure_of_fluid_that_comes_and_goes() {
+    // The norm is a mean over 180 unknowns, so that the one point where fluid enters may have 13 tolerances of ln V a step, a = 0.007 times that
+    // in friction, and errors of a hundred steps that follow the root of time add up like a random walk: 0.9 tolerances; rounding at 1e-8.
+    for (tolerance, bound) in [(1e-6, 9e-7), (1e-8, 3e-8)] {
+        let (worst, lowest) = under_fluid(tolerance);
+        assert!(worst < bound, "{tolerance:e}: {worst:e}");
+        // q/(beta phi) sqrt(t/(pi alpha)) at 100 d.
+        let pressure = 1.25e-6 / 1e-9 * (8.64e6 / (std::f64::consts::PI * 0.1)).sqrt();
+        assert!((lowest - (50e6 - pressure)).abs() < 1e-6 * pressure, "{lowest} {pressure}");
+    }
 }
 
 #[test]

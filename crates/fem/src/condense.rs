@@ -6,6 +6,8 @@
 //! for any column of it. Loads are linear in the channel amplitudes, so `h = Σ_c α_c(t) h_c` with half a solve per channel.
 //! A stepper cannot tell a [`Condensed`] body from any other term; interior displacements are recovered only when asked for.
 
+mod loaded;
+
 use crate::dof::{Channel, Constraints, Equations};
 use crate::error::FemError;
 use crate::multifrontal::{Cholesky, DirectError, Symbolic};
@@ -14,6 +16,7 @@ use crate::sparse::{Part, ScatterMap, lower_pattern};
 use crate::table::Table;
 use crate::term::{Fraction, Instant, Limited, Linearized, Pattern, Refusal, Term};
 use faer::MatMut;
+pub use loaded::{Loaded, Remainder};
 use std::sync::Arc;
 
 /// A linear body before condensation: its stiffness as dense cell blocks.
@@ -60,8 +63,7 @@ impl Analysis {
         retained: &[usize],
         fixed: &[usize],
     ) -> Result<Self, FemError> {
-        let fixed: Vec<usize> =
-            fixed.iter().copied().filter(|d| retained.binary_search(d).is_err()).collect();
+        let fixed = not_retained(fixed, retained);
         let active = Constraints { fixed: fixed.clone(), channels: Vec::new() }.equations(dofs);
         let last: Vec<usize> = retained.iter().map(|&d| active.number[d]).collect();
         let lower = lower_pattern(patterns, &active);
@@ -170,31 +172,10 @@ impl Reduction {
         self.solves
     }
 
-    /// Values at unit amplitude of the fixed degrees of freedom that are not retained.
-    fn fixed_values(&self, channel: &Channel) -> Vec<f64> {
-        let mut values = vec![0.0; self.fixed.len()];
-        for &(dof, value) in &channel.prescribed {
-            if let Ok(k) = self.fixed.binary_search(&dof) {
-                values[k] += value;
-            }
-        }
-        values
-    }
-
     /// A channel at unit amplitude in the active equations: `f - K_·d u_d`, its interior part forwards through the factor
     /// (`L⁻¹ (f_b - K_bd u_d)`), its retained part `-h_c`.
     fn reduced(&mut self, channel: &Channel) -> Vec<f64> {
-        let mut load = vec![0.0; self.active.free.len()];
-        for &(dof, force) in &channel.forces {
-            let row = self.active.number[dof];
-            if row != Equations::FIXED {
-                load[row] += force;
-            }
-        }
-        let fixed = self.fixed_values(channel);
-        for &(row, col, value) in &self.fixed_columns {
-            load[row] -= value * fixed[col];
-        }
+        let mut load = load(channel, &self.active, &self.fixed, &self.fixed_columns);
         let n = load.len();
         self.factor.reduce(MatMut::from_column_major_slice_mut(&mut load, n, 1));
         self.solves += 1;
@@ -241,7 +222,7 @@ impl Condensed {
             let reduced = self.reduction.reduced(&channel);
             let r = &self.reduction;
             let retained = r.retained.iter().map(|&d| -reduced[r.active.number[d]]).collect();
-            Load { fixed: r.fixed_values(&channel), amplitude: channel.amplitude, reduced, retained }
+            Load { fixed: fixed_values(&channel, &r.fixed), amplitude: channel.amplitude, reduced, retained }
         };
         self.loads = channels.into_iter().map(&mut load).collect();
     }
@@ -343,6 +324,38 @@ impl Limited for Condensed {
     fn advance(&mut self, _du: &[f64], _at: Instant) -> Result<(), Refusal> {
         Ok(())
     }
+}
+
+/// Prescribed degrees of freedom that are not retained.
+fn not_retained(fixed: &[usize], retained: &[usize]) -> Vec<usize> {
+    fixed.iter().copied().filter(|d| retained.binary_search(d).is_err()).collect()
+}
+
+/// Values of a channel at unit amplitude of the degrees of freedom `fixed`.
+fn fixed_values(channel: &Channel, fixed: &[usize]) -> Vec<f64> {
+    let mut values = vec![0.0; fixed.len()];
+    for &(dof, value) in &channel.prescribed {
+        if let Ok(k) = fixed.binary_search(&dof) {
+            values[k] += value;
+        }
+    }
+    values
+}
+
+/// A channel at unit amplitude in the active equations: `f - K_·d u_d`.
+fn load(channel: &Channel, active: &Equations, fixed: &[usize], columns: &Coupling) -> Vec<f64> {
+    let mut load = vec![0.0; active.free.len()];
+    for &(dof, force) in &channel.forces {
+        let row = active.number[dof];
+        if row != Equations::FIXED {
+            load[row] += force;
+        }
+    }
+    let fixed = fixed_values(channel, fixed);
+    for &(row, col, value) in columns {
+        load[row] -= value * fixed[col];
+    }
+    load
 }
 
 /// Position of each degree of freedom in a sorted group, or [`Equations::FIXED`].

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use asperity_fem::block::LinearBlock;
-use asperity_fem::condense::{Condensation, Condensed, Reduction, Stiffness};
+use asperity_fem::condense::{Condensation, Condensed, Loaded, Reduction, Stiffness};
 use asperity_fem::dof::Channel;
 use asperity_fem::element::ElementKind;
 use asperity_fem::error::FemError;
@@ -193,4 +193,55 @@ fn everything_retained_leaves_the_stiffness_itself() {
     let k = body.dense();
     let found = DMatrix::from_row_slice(all.len(), all.len(), reduction.schur());
     assert!((&found - &k).amax() < 1e-15 * k.amax());
+}
+
+#[test]
+fn condensed_with_its_loads_a_body_is_what_its_factor_makes_of_it() {
+    let body = body();
+    let s = split(&body);
+    // One of the retained is prescribed as well, which leaves it as it is.
+    let mut fixed = s.fixed.clone();
+    fixed.push(s.retained[2]);
+    fixed.sort_unstable();
+    let table = |slope: f64| Table::new(vec![0.0, 1.0], vec![0.0, slope]);
+    let channels = vec![
+        Channel {
+            prescribed: fixed.iter().map(|&d| (d, (d as f64).sin())).collect(),
+            forces: Vec::new(),
+            amplitude: table(1.0),
+        },
+        Channel {
+            prescribed: Vec::new(),
+            forces: vec![(s.interior[3], 0.2), (s.interior[20], -0.1), (s.retained[1], 0.3)],
+            amplitude: table(-2.0),
+        },
+    ];
+    let reduction = Reduction::new(&body.stiffness, &s.retained, &fixed).unwrap();
+    let mut factored = Condensed::new("body".into(), reduction, &s.retained);
+    factored.set_channels(channels.clone());
+    let loaded = Loaded::analyse(body.stiffness.clone(), &s.retained, &fixed, channels).unwrap();
+    let left = loaded.eliminate(usize::MAX).unwrap();
+    let m = s.retained.len();
+    let close = |a: &[f64], b: &[f64]| {
+        let scale = b.iter().fold(0.0_f64, |l, v| l.max(v.abs()));
+        assert_eq!(a.len(), b.len());
+        assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-13 * scale), "{a:?}\n{b:?}");
+    };
+    for k in 0..m {
+        close(left.row(k), &factored.reduction().schur()[k * m..(k + 1) * m]);
+    }
+    assert_eq!(left.channels().count(), 2);
+    for ((a, h), (b, expected)) in left.channels().zip(factored.channels()) {
+        assert_eq!(a, b);
+        close(h, expected);
+    }
+}
+
+#[test]
+fn condensed_with_its_loads_a_body_that_nothing_holds_names_the_degree_of_freedom() {
+    let body = body();
+    let loaded = Loaded::analyse(body.stiffness.clone(), &[], &[0, 1], Vec::new()).unwrap();
+    let error = loaded.eliminate(usize::MAX).unwrap_err();
+    assert!(matches!(error, FemError::Direct(DirectError::Singular(_))), "{error}");
+    assert!(error.pivot().unwrap().equation < body.stiffness.dofs);
 }

@@ -4,6 +4,12 @@
 
 mod counting;
 
+use asperity_fem::block::LinearBlock;
+use asperity_fem::condense::{Condensation, Loaded, Stiffness};
+use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::{Formulation, Idealisation};
+use asperity_fem::material::elastic::Elastic;
+use asperity_fem::mesh::generate::{Block, Grading};
 use asperity_fem::mesh::{MeshError, Options, RawMesh, abaqus, gmsh};
 use counting::{Counting, peak_of};
 use std::fmt::Write;
@@ -263,4 +269,36 @@ fn own_groups(n: usize) -> String {
     );
     (0..n).for_each(|e| writeln!(text, "{0} 1 1 {0} 1 2", e + 2).unwrap());
     text + "$EndElements\n"
+}
+
+/// A square of n x n quadratic cells, antiplane.
+fn square(n: usize) -> (Stiffness, usize) {
+    let grading = [Grading::Uniform; 2];
+    let block = Block { min: [0.0; 2], max: [1.0; 2], divisions: [n; 2], grading, kind: ElementKind::Quad9 };
+    let mesh = block.mesh().unwrap();
+    let material = Elastic::new(1.0, 0.25).unwrap();
+    let cells =
+        LinearBlock::new(&mesh, 0, &material, Idealisation::Antiplane, Formulation::Standard).unwrap();
+    let (pattern, values) = cells.into_stiffness();
+    (Stiffness { pattern, values, dofs: mesh.nodes.len() }, mesh.nodes.len())
+}
+
+#[test]
+fn condensation_with_loads_holds_what_it_foretells_and_less_than_the_factor() {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    pool.install(|| {
+        let (body, dofs) = square(60);
+        let (retained, fixed) = ((0..61).collect::<Vec<_>>(), (dofs - 61..dofs).collect::<Vec<_>>());
+        let loaded = |body: &Stiffness| Loaded::analyse(body.clone(), &retained, &fixed, Vec::new()).unwrap();
+        // Dense kernels keep their memory from the first use on.
+        loaded(&body).eliminate(usize::MAX).unwrap();
+        let loaded = loaded(&body);
+        let told = loaded.bytes();
+        let (left, held) = peak_of(|| loaded.eliminate(usize::MAX).unwrap());
+        assert_eq!(left.row(0).len(), 61);
+        assert!(held <= told, "{held} of {told}");
+        let factored = Condensation::analyse(&body, &retained, &fixed).unwrap();
+        let whole = factored.bytes();
+        assert!(3 * told < 2 * whole, "{told} and {whole}");
+    });
 }

@@ -12,47 +12,52 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// A law and what it gave once with finer cells and a smaller tolerance.
-struct Law {
-    name: &'static str,
+/// A law and the limit of its events in cells and tolerance, which the case `seas_bp1_16mm_limit` finds.
+pub struct Law {
+    /// Name of the evolution.
+    pub name: &'static str,
     scene: &'static str,
     /// Onsets \[yr\].
-    onsets: [f64; 2],
+    pub onsets: [f64; 2],
     /// Largest slip rates \[m/s\].
     peaks: [f64; 2],
-    /// How that was found.
-    limit: &'static str,
     /// What that leaves \[yr\].
-    uncertainty: f64,
+    pub uncertainty: f64,
 }
 
-const LAWS: [Law; 2] = [
+/// How the limit is found.
+const LIMIT: &str =
+    "cells of 156, 78 and 39 m by dop853 with a tolerance of 1e-6, extrapolated (case `seas_bp1_16mm_limit`)";
+
+/// Both laws.
+pub const LAWS: [Law; 2] = [
     Law {
         name: "ageing",
         scene: include_str!("../../../scenes/bp1.toml"),
-        onsets: [271.17607, 413.62427],
-        peaks: [4.4569, 4.3403],
-        limit: "the same by dop853 with a tolerance of 1e-6 and cells of 39 m, found once",
+        onsets: [271.219, 413.675],
+        peaks: [4.4570, 4.3531],
         uncertainty: 0.02,
     },
     Law {
         name: "slip",
         scene: include_str!("../../../scenes/bp1-slip.toml"),
-        onsets: [255.33527, 378.54862],
-        peaks: [3.9831, 3.8746],
-        limit: "the same by dop853 with a tolerance of 1e-6 and cells of 39 m, found once",
+        onsets: [255.382, 378.602],
+        peaks: [3.9884, 3.8792],
         uncertainty: 0.04,
     },
 ];
 
-/// The first two events with cells of this size \[m\].
-fn found(law: &Law, size: f64) -> Result<Found, CaseError> {
-    let text = law
-        .scene
+/// The scene of a law with this L and cells of `size` \[m\].
+pub fn text(law: &Law, size: f64) -> String {
+    law.scene
         .replace("l = \"8 mm\"", "l = \"16 mm\"")
         .replace("156.25 m", &format!("{size} m"))
-        .replace("\"600 m\"", &format!("\"{} m\"", 600.0 / 156.25 * size));
-    let plan = seas::plan(&text)?;
+        .replace("\"600 m\"", &format!("\"{} m\"", 600.0 / 156.25 * size))
+}
+
+/// The first two events with cells of this size \[m\].
+fn found(law: &Law, size: f64) -> Result<Found, CaseError> {
+    let plan = seas::plan(&text(law, size))?;
     let mut settings = plan.settings;
     settings.most_events = Some(2);
     seas::found(&plan, &settings, |_| {})
@@ -78,7 +83,7 @@ fn events(ledger: &mut Ledger, law: &Law, found: &Found) {
         .equals_each(&law.onsets)
         .absolute(0.3)
         .uncertainty(law.uncertainty)
-        .evidence(Evidence::ConvergedSelf, law.limit)
+        .evidence(Evidence::ConvergedSelf, LIMIT)
         .because("0.1 % of the first onset: 4.4 cells to the process zone; BP1 has 0.04 % with four cells to its own (78 m)")
         .cost(&found.cost)
         .record();
@@ -90,7 +95,7 @@ fn events(ledger: &mut Ledger, law: &Law, found: &Found) {
         .equals_each(&law.peaks)
         .relative(0.02)
         .uncertainty(0.02)
-        .evidence(Evidence::ConvergedSelf, law.limit)
+        .evidence(Evidence::ConvergedSelf, LIMIT)
         .because("the peak is a few steps and cells wide; it changes by 0.2 % from 78 to 39 m")
         .cost(&found.cost)
         .record();
@@ -104,7 +109,7 @@ fn falls(ledger: &mut Ledger, law: &Law, fine: &Found) -> Result<(), CaseError> 
         .claim("error of the first onset with cells of 312 m over that with 156 m, ageing law")
         .value(off(&coarse) / off(fine))
         .at_least(4.0)
-        .evidence(Evidence::ConvergedSelf, law.limit)
+        .evidence(Evidence::ConvergedSelf, LIMIT)
         .because("second order; boundary elements have 2.5 between 156 and 78 m in BP1, at half these sizes to the process zone")
         .cost(&coarse.cost)
         .record();

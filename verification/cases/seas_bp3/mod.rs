@@ -13,51 +13,98 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// The scene of dip 60 degrees, with another dip; `size` of cells \[m\].
-fn text(dip: f64, size: f64) -> Result<String, CaseError> {
+/// Which way the fault slips.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sense {
+    /// The upper side moves up.
+    Thrust,
+    /// It moves down.
+    Normal,
+}
+
+impl Sense {
+    /// In words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Thrust => "thrust",
+            Self::Normal => "normal",
+        }
+    }
+
+    /// Of slip, of tractions and of the motion of the plates, where those of a thrust are positive.
+    fn sign(self) -> f64 {
+        match self {
+            Self::Thrust => 1.0,
+            Self::Normal => -1.0,
+        }
+    }
+}
+
+/// A dip in degrees and a sense of slip.
+pub type Faulting = (f64, Sense);
+
+/// Depth of the bottom and distance of the sides \[km\] in the quick case.
+const NEAR: f64 = 1000.0;
+
+/// The scene of a thrust of dip 60 degrees, with another dip and sense; `size` of cells \[m\], borders at `far` \[km\].
+fn text((dip, sense): Faulting, size: f64, far: f64) -> Result<String, CaseError> {
     let scene = include_str!("../../../scenes/bp3.toml");
     let (s, c) = dip.to_radians().sin_cos();
     let point = |along: f64| format!("[\"{:.9} km\", \"{:.9} km\"]", along * c, -along * s);
-    let deep = 1000.0;
     let trace = [0.0, 15.0, 18.0, 40.0].map(point).join(", ");
-    let bottom = deep * c / s;
+    let bottom = far * c / s;
     let mesh = format!(
-        "mesh.fault = {{ trace = [{trace}, [\"{bottom:.9} km\", \"-{deep} km\"]], spacing = [[\"0 km\", \"{size} m\"], [\"18 km\", \"{size} m\"], [\"40 km\", \"{} m\"], [\"60 km\", \"3 km\"], [\"{:.0} km\", \"200 km\"]], thickness = \"{size} m\", min = [\"-1000 km\", \"-{deep} km\"], max = [\"{:.0} km\", \"0 km\"], growth = 1.25, element = \"quad9\" }}",
+        "mesh.fault = {{ trace = [{trace}, [\"{bottom:.9} km\", \"-{far} km\"]], spacing = [[\"0 km\", \"{size} m\"], [\"18 km\", \"{size} m\"], [\"40 km\", \"{} m\"], [\"60 km\", \"3 km\"], [\"{:.0} km\", \"{} km\"]], thickness = \"{size} m\", min = [\"-{far} km\", \"-{far} km\"], max = [\"{:.0} km\", \"0 km\"], growth = 1.25, element = \"quad9\" }}",
         600.0 / 156.25 * size,
-        deep / s,
-        1000.0 + bottom
+        far / s,
+        far / 5.0,
+        far + bottom
     );
-    let half = 0.5e-9;
-    let motion = |sign: f64| {
+    let half = 0.5e-9 * sense.sign();
+    let motion = |side: f64| {
         format!(
             "x = {{ rate = \"{:.12e} m/s\" }}, y = {{ rate = \"{:.12e} m/s\" }} }}",
-            -sign * half * c,
-            sign * half * s
+            -side * half * c,
+            side * half * s
         )
     };
     let left = format!("    {{ set = \"crust.left\", {},", motion(-1.0));
     let right = format!("    {{ set = \"crust.right\", {},", motion(1.0));
+    let minus = if sense == Sense::Normal { "-" } else { "" };
+    let shear = format!("shear = \"{minus}26.5461223651 MPa\"");
+    let rate = format!("rate = \"{minus}1e-9 m/s\"");
+    let creep = format!("creep = {{ beyond = \"40 km\", rate = \"{minus}1e-9 m/s\" }}");
+    let replacements = [
+        ("mesh.fault", mesh.as_str()),
+        ("{ set = \"crust.left\"", &left),
+        ("{ set = \"crust.right\"", &right),
+        ("shear =", &shear),
+        ("rate =", &rate),
+        ("creep =", &creep),
+    ];
     let mut replaced = 0;
     let lines: Vec<&str> = scene
         .lines()
         .map(|line| {
-            let start = line.trim_start();
-            let new = [
-                ("mesh.fault", mesh.as_str()),
-                ("{ set = \"crust.left\"", &left),
-                ("{ set = \"crust.right\"", &right),
-            ]
-            .into_iter()
-            .find(|(old, _)| start.starts_with(old));
+            let new = replacements.into_iter().find(|(old, _)| line.trim_start().starts_with(old));
             replaced += usize::from(new.is_some());
             new.map_or(line, |(_, new)| new)
         })
         .collect();
-    if replaced == 3 { Ok(lines.join("\n")) } else { Err("the scene of BP3 has changed".into()) }
+    if replaced == replacements.len() {
+        Ok(lines.join("\n"))
+    } else {
+        Err("the scene of BP3 has changed".into())
+    }
 }
 
-fn plan(dip: f64, size: f64) -> Result<Plan, CaseError> {
-    seas::plan(&text(dip, size)?)
+/// The plan of a dip and sense, cells of `size` \[m\] and borders at `far` \[km\].
+///
+/// # Errors
+/// What the reader or the plan refuse.
+pub fn plan(faulting: Faulting, size: f64, far: f64) -> Result<Plan, CaseError> {
+    seas::plan(&text(faulting, size, far)?)
 }
 
 fn found(plan: &Plan, events: usize, look: impl FnMut(&Moment<'_>)) -> Result<Found, CaseError> {
@@ -66,7 +113,8 @@ fn found(plan: &Plan, events: usize, look: impl FnMut(&Moment<'_>)) -> Result<Fo
     seas::found(plan, &settings, look)
 }
 
-const CODES: &str = "boundary-element codes of the benchmark, cells of 25 m";
+/// What dips are compared with.
+pub const CODES: &str = "boundary-element codes of the benchmark, cells of 25 m";
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     vertical(ledger)?;
@@ -78,13 +126,9 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Dip 90: one period after a few events, and normal tractions that do not change.
 fn vertical(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let plan = plan(90.0, 156.25)?;
+    let plan = plan((90.0, Sense::Thrust), 156.25, NEAR)?;
     let mut change = 0.0_f64;
-    let run = found(&plan, 7, |now| {
-        for p in 0..plan.points.len() {
-            change = change.max((now.normal(&plan.fault, p) / plan.fault.normal[p] - 1.0).abs());
-        }
-    })?;
+    let run = found(&plan, 7, |now| change = change.max(normal_change(&plan, now)))?;
     let intervals: Vec<f64> = run.onsets.windows(2).map(|w| w[1] - w[0]).collect();
     ledger
         .claim("interval between the sixth and the seventh event, dip 90")
@@ -110,8 +154,14 @@ fn vertical(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
+/// Largest relative change of normal traction.
+pub fn normal_change(plan: &Plan, now: &Moment<'_>) -> f64 {
+    let of = |p: usize| (now.normal(&plan.fault, p) / plan.fault.normal[p] - 1.0).abs();
+    (0..plan.points.len()).map(of).fold(0.0, f64::max)
+}
+
 fn dipping(ledger: &mut Ledger, dip: f64, onset: f64, spread: f64) -> Result<(), CaseError> {
-    let plan = plan(dip, 156.25)?;
+    let plan = plan((dip, Sense::Thrust), 156.25, NEAR)?;
     let run = found(&plan, 1, |_| {})?;
     ledger
         .claim(format!("onset of the first event, dip {dip}, thrust"))

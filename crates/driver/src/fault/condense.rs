@@ -8,11 +8,10 @@ use crate::loading::Stage;
 use crate::model::Model;
 use crate::rigid;
 use asperity_fem::FemError;
-use asperity_fem::condense::{Condensation, Condensed, Stiffness};
+use asperity_fem::condense::{Loaded, Remainder, Stiffness};
 use asperity_fem::dof::Channel;
 use asperity_fem::jump::{Jump, Jumps};
 use asperity_fem::table::Table;
-use asperity_fem::term::Pattern;
 
 /// A point of a fault with what happens there.
 #[derive(Clone, Debug)]
@@ -38,24 +37,25 @@ pub struct Surroundings {
 /// condensation, far above 1e-16 and far below any effect of geometry.
 const UNCOUPLED: f64 = 1e-9;
 
-/// Condenses the bodies of `model` onto the points that slide freely. Tractions are nodal forces over tributary areas: the
+/// Condenses the bodies of `model`, whose stiffness `bodies` is, onto the points that slide freely. Tractions are nodal forces over tributary areas: the
 /// interface mass is lumped.
 ///
 /// # Errors
 /// A message where the bodies need more than `memory` bytes, are not held, or a support does not agree with the fault.
 pub fn condense<const D: usize>(
     model: &Model<D>,
+    bodies: Stiffness,
     stage: &Stage,
     points: &[Point<D>],
     memory: usize,
 ) -> Result<Surroundings, String> {
     match model.idealisation.components() {
-        1 => with_components::<D, 1>(model, stage, points, memory, |_| [[1.0]]),
-        2 => with_components::<D, 2>(model, stage, points, memory, |p| {
+        1 => with_components::<D, 1>(model, bodies, stage, points, memory, |_| [[1.0]]),
+        2 => with_components::<D, 2>(model, bodies, stage, points, memory, |p| {
             let n = &p.normal;
             [[-n[1], n[0]], [n[0], n[1]]]
         }),
-        _ => with_components::<D, 3>(model, stage, points, memory, |p| {
+        _ => with_components::<D, 3>(model, bodies, stage, points, memory, |p| {
             let (s, n) = (in_space(&p.rake), in_space(&p.normal));
             let cross = |c: usize| {
                 let (i, j) = ((c + 1) % 3, (c + 2) % 3);
@@ -84,6 +84,7 @@ fn held<const C: usize>() -> impl Iterator<Item = usize> {
 
 fn with_components<const D: usize, const C: usize>(
     model: &Model<D>,
+    bodies: Stiffness,
     stage: &Stage,
     points: &[Point<D>],
     memory: usize,
@@ -111,7 +112,9 @@ fn with_components<const D: usize, const C: usize>(
     // The opening is the last component; where it may change normal tractions it is retained, at zero.
     let slip: Vec<usize> = list.iter().map(|j| j.plus).collect();
     let jumps = Jumps::new(list);
-    let body = machine.stiffness(&jumps.stiffness(&stiffness(model)));
+    let across = jumps.stiffness(&bodies);
+    drop(bodies);
+    let body = machine.stiffness(across);
     let oblique = |e: asperity_fem::jump::ObliqueConstraint| e.to_string();
     let free: Vec<usize> = (0..points.len()).filter(|&k| points[k].creep.is_none()).collect();
     let mut retained: Vec<usize> =
@@ -148,16 +151,13 @@ fn with_components<const D: usize, const C: usize>(
         channels.push(Channel { prescribed, forces: Vec::new(), amplitude });
     }
     channels.extend(machine.pulls(stage.end));
-    let analysis = Condensation::analyse(&body, &retained, &fixed).map_err(|e| e.to_string())?;
+    let analysis = Loaded::analyse(body, &retained, &fixed, channels).map_err(|e| e.to_string())?;
     let bytes = analysis.bytes();
-    let reduction = analysis.factor(memory).map_err(|e| in_words(model, &jumps, e))?;
-    let system: Vec<usize> = (0..retained.len()).collect();
-    let mut condensed = Condensed::new("bodies".into(), reduction, &system);
-    condensed.set_channels(channels);
+    let left = analysis.eliminate(memory).map_err(|e| in_words(model, &jumps, e))?;
     let rows: Vec<usize> = free.iter().map(|&k| retained.partition_point(|&d| d < slip[k])).collect();
     let area = |(&k, &supported): (&usize, &bool)| Bearing { area: points[k].place.area, supported };
     let bearings: Vec<Bearing> = free.iter().zip(&supported).map(area).collect();
-    Ok(Surroundings { bytes, ..tractions::<C>(&condensed, &rows, &bearings) })
+    Ok(Surroundings { bytes, ..tractions::<C>(&left, &rows, &bearings) })
 }
 
 /// What forces of a point act on.
@@ -200,14 +200,13 @@ fn in_words<const D: usize, const C: usize>(model: &Model<D>, jumps: &Jumps<C>, 
 /// Tractions from the condensed forces; `rows` are those of the slip of each point, in motion of more than one component its opening stands next to it. A force
 /// is what must act on a jump to hold it there: the bodies drive slip with its opposite, and where it holds the sides apart they
 /// press on each other, in compression.
-fn tractions<const C: usize>(condensed: &Condensed, rows: &[usize], bearings: &[Bearing]) -> Surroundings {
-    let (schur, width, n) =
-        (condensed.reduction().schur(), condensed.reduction().retained().len(), rows.len());
+fn tractions<const C: usize>(left: &Remainder, rows: &[usize], bearings: &[Bearing]) -> Surroundings {
+    let n = rows.len();
     let part = |shift: usize| -> Vec<f64> {
         let mut matrix = Vec::with_capacity(n * n);
         for (&row, bearing) in rows.iter().zip(bearings) {
-            let per_area = bearing.per_force(shift);
-            matrix.extend(rows.iter().map(|&column| per_area * schur[(row + shift) * width + column]));
+            let (per_area, forces) = (bearing.per_force(shift), left.row(row + shift));
+            matrix.extend(rows.iter().map(|&column| per_area * forces[column]));
         }
         matrix
     };
@@ -218,32 +217,15 @@ fn tractions<const C: usize>(condensed: &Condensed, rows: &[usize], bearings: &[
     };
     // Loads may change normal tractions where slip does not.
     let loads_normal = |shear_load: f64| {
-        C > 1 && condensed.channels().any(|(_, f)| largest(&over_area(f, 1)) > UNCOUPLED * shear_load)
+        C > 1 && left.channels().any(|(_, f)| largest(&over_area(f, 1)) > UNCOUPLED * shear_load)
     };
-    let shear_load = condensed.channels().map(|(_, f)| largest(&over_area(f, 0))).fold(0.0, f64::max);
+    let shear_load = left.channels().map(|(_, f)| largest(&over_area(f, 0))).fold(0.0, f64::max);
     let normal = if C == 1 { None } else { Some(part(1)) };
     let normal = normal.filter(|m| largest(m) > UNCOUPLED * largest(&shear) || loads_normal(shear_load));
     let mut loading = Loading::default();
-    for (amplitude, forces) in condensed.channels() {
+    for (amplitude, forces) in left.channels() {
         let change = if C == 1 { Vec::new() } else { over_area(forces, 1) };
         loading.add(amplitude.clone(), over_area(forces, 0), change);
     }
     Surroundings { operator: Dense::new(n, shear, normal), loading, bytes: 0 }
-}
-
-/// Stiffness of all bodies in the numbering of the model.
-fn stiffness<const D: usize>(model: &Model<D>) -> Stiffness {
-    let mut all = Stiffness {
-        pattern: Pattern { dofs: Vec::new(), starts: vec![0], version: 0 },
-        values: Vec::new(),
-        dofs: model.dofs(),
-    };
-    for body in &model.bodies {
-        let own = model.stiffness(body);
-        let (first, offset) = (body.dofs.start, all.pattern.dofs.len());
-        all.pattern.dofs.extend(own.pattern.dofs.iter().map(|d| d + first));
-        all.pattern.starts.extend(own.pattern.starts[1..].iter().map(|s| s + offset));
-        all.values.extend_from_slice(&own.values);
-    }
-    all
 }

@@ -31,8 +31,8 @@ impl<'a> Machine<'a> {
     }
 
     /// Stiffness with the sides moving as one, and that of the springs.
-    pub fn stiffness(&self, body: &Stiffness) -> Stiffness {
-        let mut all = self.ties.stiffness(body);
+    pub fn stiffness(&self, body: Stiffness) -> Stiffness {
+        let mut all = if self.ties.list().is_empty() { body } else { self.ties.stiffness(&body) };
         for spring in self.springs {
             if let Some(&first) = spring.dofs.first() {
                 all.pattern.dofs.push(first);

@@ -109,6 +109,10 @@ pub struct Cycle {
     pub energy: EnergyBalance,
 }
 
+/// Share of the slip since the event before that the loads drive where that slip is still part of what the event began: events that
+/// alternate in size drive between half of it and twice as much.
+const AFTERSHOCK: f64 = 0.1;
+
 impl Cycle {
     fn new(marks: &[Mark], event: &Event, plan: &Plan, driven: Option<f64>) -> Self {
         let (a, b) = (&marks[0], &marks[1]);
@@ -129,10 +133,11 @@ impl Cycle {
         }
     }
 
-    /// Slip over the area of the whole cycle over what the loads drive.
+    /// Slip over the area of the whole cycle over what the loads drive; none of an aftershock, which the event before it drives.
     #[must_use]
     pub fn closure(&self) -> Option<f64> {
-        self.driven.map(|driven| (self.seismic + self.aseismic) / driven)
+        let slip = self.seismic + self.aseismic;
+        self.driven.filter(|driven| driven.abs() > AFTERSHOCK * slip.abs()).map(|driven| slip / driven)
     }
 }
 

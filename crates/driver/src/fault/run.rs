@@ -254,12 +254,15 @@ fn piece(
         return false;
     }
     let duration = Clock::new(end, 0.0).since(&run.at);
+    let mut options = options.clone();
     if let Some(time) = equations.first_instants(run.at, &mut run.unknowns, &options.atol, duration) {
         run.at = run.at.later(time).rebased();
+        // Rates go as the root of the time since then: there is no longer scale in which they are smooth.
+        options.first_step = Some(time);
     }
     let duration = Clock::new(end, 0.0).since(&run.at);
     let Finished { outcome, at, state, counts } =
-        ode::integrate(equations, run.at, &run.unknowns, duration, options, &mut follow);
+        ode::integrate(equations, run.at, &run.unknowns, duration, &options, &mut follow);
     let paused = follow.paused;
     run.next_step = follow.next_step;
     (run.outcome, run.at, run.unknowns) = (outcome, at, state);

@@ -267,6 +267,36 @@ impl<const D: usize> Model<D> {
         Stiffness { pattern: self.pattern(body), values, dofs: body.dofs.len() }
     }
 
+    /// The stiffness of all bodies, which are linear, in the numbering of the model. The blocks of cells are gone then: where nothing else is
+    /// asked of them, their memory serves what follows.
+    pub fn take_stiffness(&mut self) -> Stiffness {
+        let dofs = self.dofs();
+        let blocks: Vec<LinearBlock<D>> = std::mem::take(&mut self.blocks)
+            .into_iter()
+            .filter_map(|block| match block {
+                CellBlock::Linear(block) => Some(*block),
+                CellBlock::Nonlinear(_) => None,
+            })
+            .collect();
+        let mut all = Stiffness {
+            pattern: Pattern { dofs: Vec::new(), starts: vec![0], version: 0 },
+            values: Vec::new(),
+            dofs,
+        };
+        for block in blocks {
+            let (pattern, values) = block.into_stiffness();
+            let offset = all.pattern.dofs.len();
+            all.pattern.starts.extend(pattern.starts[1..].iter().map(|s| s + offset));
+            if all.values.is_empty() {
+                (all.pattern.dofs, all.values) = (pattern.dofs, values);
+            } else {
+                all.pattern.dofs.extend(pattern.dofs);
+                all.values.extend(values);
+            }
+        }
+        all
+    }
+
     /// The faces of a set.
     ///
     /// # Errors

@@ -8,7 +8,6 @@ use super::dop853_table::{DENSE, ERROR_FIFTH, ERROR_THIRD, EXTENDED, NODES, STAG
 use super::explicit::{Control, combine};
 use super::own::{Formula, Span, Trial};
 use super::problem::System;
-use super::report::Counts;
 use std::cell::{Cell, RefCell};
 
 /// Coefficients of the dense output: those of Hermite's cubic and four above.
@@ -163,8 +162,6 @@ impl Formula for Dop853 {
             *value += start;
         }
     }
-
-    fn tally(&self, _counts: &mut Counts) {}
 }
 
 #[cfg(test)]

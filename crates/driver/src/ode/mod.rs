@@ -18,6 +18,7 @@ mod explicit;
 mod lu;
 mod method;
 mod own;
+mod pair;
 mod problem;
 mod radau5;
 mod radau5_table;

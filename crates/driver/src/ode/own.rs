@@ -34,8 +34,8 @@ pub(super) trait Formula {
     /// Tries the step `span`: writes its end, and the rates there where the error is at most 1.
     fn attempt(&mut self, system: &System<'_>, span: &mut Span) -> Trial;
 
-    /// Completes the rates at the end of a step whose error is not asked for.
-    fn complete(&mut self, system: &System<'_>, span: &mut Span);
+    /// Completes the rates at the end of a step whose error is not asked for; methods whose last stage is there have them.
+    fn complete(&mut self, _system: &System<'_>, _span: &mut Span) {}
 
     /// Share of the length to take next after a step of length `h` with `error`.
     fn share(&mut self, h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64;
@@ -52,8 +52,8 @@ pub(super) trait Formula {
     /// The state at `fraction` of the step last tried.
     fn interpolate(&self, system: &System<'_>, span: &Span, fraction: f64, y: &mut [f64]);
 
-    /// Adds what was counted.
-    fn tally(&self, counts: &mut Counts);
+    /// Adds what was counted beside steps and rates.
+    fn tally(&self, _counts: &mut Counts) {}
 }
 
 /// A stepper for a formula.

@@ -7,7 +7,6 @@
 use super::explicit::Control;
 use super::own::{Formula, Span, Trial};
 use super::problem::System;
-use super::report::Counts;
 
 /// ε: how far stability is damped along the axis.
 const DAMPING: f64 = 2.0 / 13.0;
@@ -160,8 +159,6 @@ impl Formula for Rkc2 {
         Trial::Error(self.error(system, span))
     }
 
-    fn complete(&mut self, _system: &System<'_>, _span: &mut Span) {}
-
     fn share(&mut self, h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64 {
         self.control.share(h, error, accepted, rejected_before)
     }
@@ -173,8 +170,6 @@ impl Formula for Rkc2 {
     fn interpolate(&self, _system: &System<'_>, span: &Span, fraction: f64, y: &mut [f64]) {
         hermite(span, fraction, y);
     }
-
-    fn tally(&self, _counts: &mut Counts) {}
 }
 
 /// Hermite's cubic through both ends of a step.

@@ -6,7 +6,6 @@
 use super::explicit::{Control, combine};
 use super::own::{Formula, Span, Trial};
 use super::problem::System;
-use super::report::Counts;
 
 /// Stages; the last is the rate at the end of the step.
 const STAGES: usize = 7;
@@ -111,8 +110,6 @@ impl Formula for Tsit5 {
         Trial::Error(system.norm(&self.error, &span.y0, &span.y1))
     }
 
-    fn complete(&mut self, _system: &System<'_>, _span: &mut Span) {}
-
     fn share(&mut self, h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64 {
         self.control.share(h, error, accepted, rejected_before)
     }
@@ -126,8 +123,6 @@ impl Formula for Tsit5 {
         weights[0] += fraction;
         combine(y, &span.y0, span.h, &weights, &self.k);
     }
-
-    fn tally(&self, _counts: &mut Counts) {}
 }
 
 #[cfg(test)]

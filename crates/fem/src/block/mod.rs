@@ -137,6 +137,12 @@ impl<const D: usize> LinearBlock<D> {
         self.formulation
     }
 
+    /// Degrees of freedom and stiffness of its cells; all else is given back.
+    #[must_use]
+    pub fn into_stiffness(self) -> (Pattern, Vec<f64>) {
+        (self.pattern, self.stiffness)
+    }
+
     /// Cell stiffness matrices one after another, each row by row \[N/m, or N/m² in the plane\]; symmetric to the last bit.
     #[must_use]
     pub fn stiffness(&self) -> &[f64] {

@@ -84,8 +84,10 @@ struct Run<'a> {
     /// Smallest pivot relative to its diagonal entry.
     smallest: f64,
     pool: Pool,
-    /// Values of each task's fronts.
+    /// Values of each task's fronts; where the factor is not kept, of the last one only.
     values: Vec<Mutex<Vec<f64>>>,
+    /// Whether the factor is kept.
+    keep: bool,
     /// Smallest pivot relative to its diagonal entry, and its position.
     least: Mutex<(f64, usize)>,
     /// What each task passes on.
@@ -108,38 +110,36 @@ impl Cholesky {
     /// As [`Cholesky::new`]; the factor is gone then.
     pub fn refactor(self, matrix: &[f64]) -> Result<Self, DirectError> {
         let Self { symbolic, values, arch } = self;
-        let eliminated = (symbolic.equations() - symbolic.retained()) as f64;
-        let run = Run {
-            matrix,
-            arch,
-            smallest: ROUNDING * eliminated.sqrt(),
-            pool: Pool::default(),
-            values: values.into_iter().map(Mutex::new).collect(),
-            least: Mutex::new((f64::INFINITY, 0)),
-            passed: slots(symbolic.tasks.len()),
-            symbolic: &symbolic,
-        };
-        tasks::upwards(&symbolic, &|t| {
-            let result = run.task(t);
-            *open(&run.passed[t]) = Some(result);
-        });
-        for &root in &symbolic.roots {
-            if let Some(Err(error)) = open(&run.passed[root]).take() {
-                return Err(error);
-            }
-        }
-        let (ratio, position) = *open(&run.least);
-        let diagonal: Vec<f64> = if ratio < SUSPECT {
-            (0..symbolic.equations()).map(|k| run.diagonal(k)).collect()
-        } else {
-            Vec::new()
+        let run = Run::new(&symbolic, matrix, arch, values);
+        run.all()?;
+        let suspect = run.suspect();
+        let diagonal: Vec<f64> = match suspect {
+            Some(_) => (0..symbolic.equations()).map(|k| run.diagonal(k)).collect(),
+            None => Vec::new(),
         };
         let values = run.values.into_iter().map(|v| v.into_inner().unwrap_or_default()).collect();
         let factor = Self { symbolic, values, arch };
-        if ratio < SUSPECT {
+        if let Some((ratio, position)) = suspect {
             factor.examine(ratio, position, &diagonal)?;
         }
         Ok(factor)
+    }
+
+    /// The Schur complement of the retained equations, as [`Cholesky::take_schur`] has it, without the factor: the values of a
+    /// front are dropped when it has been eliminated.
+    ///
+    /// # Errors
+    /// As [`Cholesky::new`].
+    pub fn schur(symbolic: &Arc<Symbolic>, matrix: &[f64]) -> Result<Vec<f64>, DirectError> {
+        let values = vec![Vec::new(); symbolic.tasks.len()];
+        let run = Run { keep: false, ..Run::new(symbolic, matrix, Arch::new(), values) };
+        run.all()?;
+        if run.suspect().is_some() {
+            // Whether a mode is soft or free only the factor tells.
+            return Ok(Self::new(Arc::clone(symbolic), matrix)?.take_schur());
+        }
+        let schur = run.values.into_iter().next_back().and_then(|v| v.into_inner().ok());
+        Ok(whole(schur.unwrap_or_default(), symbolic.retained()))
     }
 
     /// Tells a soft mode from a free one: `v = L⁻ᵀ e_j` has `v'Kv = 1`, so its stiffness relative to the diagonal D is
@@ -169,38 +169,119 @@ impl Cholesky {
     /// The Schur complement of the retained equations, column by column and symmetric. Empties its place.
     #[must_use]
     pub fn take_schur(&mut self) -> Vec<f64> {
-        let m = self.symbolic.retained();
-        if m == 0 {
+        if self.symbolic.retained() == 0 {
             return Vec::new();
         }
-        let mut schur = self.values.pop().unwrap_or_default();
+        let schur = self.values.pop().unwrap_or_default();
         self.values.push(Vec::new());
-        for col in 0..m {
-            for row in 0..col {
-                schur[col * m + row] = schur[row * m + col];
-            }
-        }
-        schur
+        whole(schur, self.symbolic.retained())
     }
 }
 
-impl Run<'_> {
+/// A symmetric matrix of order `m` of which the lower triangle is given, column by column.
+fn whole(mut lower: Vec<f64>, m: usize) -> Vec<f64> {
+    for col in 0..m {
+        for row in 0..col {
+            lower[col * m + row] = lower[row * m + col];
+        }
+    }
+    lower
+}
+
+/// Where the columns of a task's fronts stand while they are eliminated.
+enum Panels {
+    /// Each at its own place: they are the factor.
+    Kept(Vec<f64>),
+    /// All at the same place.
+    Passing(Vec<f64>),
+}
+
+impl Panels {
+    /// Room for the columns of a front, zero.
+    fn of(&mut self, front: &Front) -> &mut [f64] {
+        let size = front.width * front.height;
+        match self {
+            Self::Kept(values) => &mut values[front.offset..][..size],
+            Self::Passing(values) => {
+                values[..size].fill(0.0);
+                &mut values[..size]
+            }
+        }
+    }
+}
+
+impl<'a> Run<'a> {
+    fn new(symbolic: &'a Symbolic, matrix: &'a [f64], arch: Arch, values: Vec<Vec<f64>>) -> Self {
+        let eliminated = (symbolic.equations() - symbolic.retained()) as f64;
+        Self {
+            matrix,
+            arch,
+            smallest: ROUNDING * eliminated.sqrt(),
+            pool: Pool::default(),
+            values: values.into_iter().map(Mutex::new).collect(),
+            keep: true,
+            least: Mutex::new((f64::INFINITY, 0)),
+            passed: slots(symbolic.tasks.len()),
+            symbolic,
+        }
+    }
+
+    /// Eliminates all fronts.
+    fn all(&self) -> Result<(), DirectError> {
+        tasks::upwards(self.symbolic, &|t| {
+            let result = self.task(t);
+            *open(&self.passed[t]) = Some(result);
+        });
+        for &root in &self.symbolic.roots {
+            if let Some(Err(error)) = open(&self.passed[root]).take() {
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// The smallest relative pivot and its position, where it is worth a look.
+    fn suspect(&self) -> Option<(f64, usize)> {
+        let least = *open(&self.least);
+        Some(least).filter(|(ratio, _)| *ratio < SUSPECT)
+    }
+
     /// Eliminates the fronts of a task and returns what the last of them passes on.
     fn task(&self, t: usize) -> Result<Vec<f64>, DirectError> {
         let task = &self.symbolic.tasks[t];
-        let mut values = std::mem::take(&mut *open(&self.values[t]));
-        if values.len() == task.values {
-            values.fill(0.0);
+        let mut panels = if self.keep || self.stops_at(task.fronts.end - 1) {
+            let mut values = std::mem::take(&mut *open(&self.values[t]));
+            if values.len() == task.values {
+                values.fill(0.0);
+            } else {
+                values = zeros(task.values)?;
+            }
+            Panels::Kept(values)
         } else {
-            values = zeros(task.values)?;
+            Panels::Passing(self.pool.take(task.largest)?)
+        };
+        let result = if task.subtree { self.subtree(t, &mut panels) } else { self.single(t, &mut panels) };
+        match panels {
+            Panels::Kept(values) => *open(&self.values[t]) = values,
+            Panels::Passing(values) => self.give(values),
         }
-        let result = if task.subtree { self.subtree(t, &mut values) } else { self.single(t, &mut values) };
-        *open(&self.values[t]) = values;
         result
     }
 
+    /// Whether elimination stops at a front: it is the Schur complement.
+    fn stops_at(&self, s: usize) -> bool {
+        self.symbolic.retained > 0 && s + 1 == self.symbolic.fronts.len()
+    }
+
+    /// A buffer that is needed no more. Where memory matters more than the time to ask for it, it goes back to the system.
+    fn give(&self, buffer: Vec<f64>) {
+        if self.keep {
+            self.pool.give(buffer);
+        }
+    }
+
     /// One front near the root, whose children are tasks.
-    fn single(&self, t: usize, values: &mut [f64]) -> Result<Vec<f64>, DirectError> {
+    fn single(&self, t: usize, panels: &mut Panels) -> Result<Vec<f64>, DirectError> {
         let task = &self.symbolic.tasks[t];
         let s = task.fronts.start;
         let mut children = Vec::with_capacity(task.children.len());
@@ -211,13 +292,13 @@ impl Run<'_> {
         let front = self.symbolic.fronts[s];
         let mut own = self.pool.take(front.rest().pow(2))?;
         let borrowed: Vec<&[f64]> = children.iter().map(Vec::as_slice).collect();
-        self.front(s, values, &borrowed, &mut own)?;
-        children.into_iter().for_each(|c| self.pool.give(c));
+        self.front(s, panels.of(&front), &borrowed, &mut own)?;
+        children.into_iter().for_each(|c| self.give(c));
         Ok(own)
     }
 
     /// A subtree, its contributions on two stacks.
-    fn subtree(&self, t: usize, values: &mut [f64]) -> Result<Vec<f64>, DirectError> {
+    fn subtree(&self, t: usize, panels: &mut Panels) -> Result<Vec<f64>, DirectError> {
         let task = &self.symbolic.tasks[t];
         let mut stacks = [self.pool.take(task.stacks[0])?, self.pool.take(task.stacks[1])?];
         let root = task.fronts.end - 1;
@@ -234,26 +315,25 @@ impl Run<'_> {
                 let child = self.symbolic.fronts[c as usize];
                 &theirs[child.stack.1..child.stack.1 + child.rest().pow(2)]
             }));
-            self.front(s, values, &list, own)?;
+            self.front(s, panels.of(&front), &list, own)?;
             borrowed = recycle(list);
         }
         let [even, odd] = stacks;
-        self.pool.give(even);
-        self.pool.give(odd);
+        self.give(even);
+        self.give(odd);
         Ok(last)
     }
 
-    /// Computes the values of a front in its task's `values`, zero so far, and writes what it passes on to `own`.
+    /// Computes the values of a front in `panel`, zero so far, and writes what it passes on to `own`.
     fn front(
         &self,
         s: usize,
-        values: &mut [f64],
+        panel: &mut [f64],
         children: &[&[f64]],
         own: &mut [f64],
     ) -> Result<(), DirectError> {
         let symbolic = self.symbolic;
         let front = symbolic.fronts[s];
-        let panel = &mut values[front.offset..][..front.width * front.height];
         for (k, column) in panel.chunks_exact_mut(front.height).enumerate() {
             let col = front.first + k;
             for entry in &symbolic.entries[symbolic.entry_start[col]..symbolic.entry_start[col + 1]] {
@@ -266,7 +346,7 @@ impl Run<'_> {
         let passed: Vec<Passed<'_>> =
             passed.map(|(&child, from)| Passed::new(symbolic.places(child as usize), from)).collect();
         extend(&passed, panel, front.height, 0);
-        if symbolic.retained > 0 && s + 1 == symbolic.fronts.len() {
+        if self.stops_at(s) {
             return Ok(());
         }
         dense::eliminate(self.arch, panel, front.height, front.height, &smallest)

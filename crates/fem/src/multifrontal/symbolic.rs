@@ -67,6 +67,8 @@ pub(super) struct Task {
     pub children: Vec<usize>,
     /// Values of its factor.
     pub values: usize,
+    /// Values of its largest front.
+    pub largest: usize,
     /// Sizes of its two stacks.
     pub stacks: [usize; 2],
 }
@@ -314,7 +316,8 @@ impl Symbolic {
                 self.roots.push(self.tasks.len());
             }
             let (values, stacks) = self.place_values(fronts.clone());
-            self.tasks.push(Task { fronts, subtree, lowest, children, values, stacks });
+            let largest = self.fronts[fronts.clone()].iter().map(|f| f.width * f.height).max().unwrap_or(0);
+            self.tasks.push(Task { fronts, subtree, lowest, children, values, largest, stacks });
         }
         self.bytes = self.peak();
     }
@@ -349,19 +352,47 @@ impl Symbolic {
         (values, most)
     }
 
-    /// Bytes in use at the worst moment if all tasks that can run together do.
-    fn peak(&self) -> usize {
-        let passed = |t: usize| self.fronts[self.tasks[t].fronts.end - 1].rest().pow(2);
+    /// Values that a task passes on.
+    fn passed(&self, t: usize) -> usize {
+        self.fronts[self.tasks[t].fronts.end - 1].rest().pow(2)
+    }
+
+    /// Values in use beside the factor at the worst moment if all tasks that can run together do.
+    fn temporary(&self) -> usize {
         let mut peak = vec![0_usize; self.tasks.len()];
         for (t, task) in self.tasks.iter().enumerate() {
             let below: usize = task.children.iter().map(|&c| peak[c]).sum();
-            let waiting: usize = task.children.iter().map(|&c| passed(c)).sum();
-            peak[t] = below.max(waiting + passed(t) + task.stacks[0] + task.stacks[1]);
+            let waiting: usize = task.children.iter().map(|&c| self.passed(c)).sum();
+            peak[t] = below.max(waiting + self.passed(t) + task.stacks[0] + task.stacks[1]);
         }
-        let temporary: usize = self.roots.iter().map(|&t| peak[t]).sum();
+        self.roots.iter().map(|&t| peak[t]).sum()
+    }
+
+    /// Bytes of the analysis that a factorisation reads.
+    fn own(&self) -> usize {
+        size_of_val(self.relative.as_slice()) + size_of_val(self.entries.as_slice())
+    }
+
+    /// Bytes in use at the worst moment if all tasks that can run together do.
+    fn peak(&self) -> usize {
         let values: usize = self.tasks.iter().map(|t| t.values).sum();
-        let own = size_of_val(self.relative.as_slice()) + size_of_val(self.entries.as_slice());
-        (values + temporary) * size_of::<f64>() + own
+        (values + self.temporary()) * size_of::<f64>() + self.own()
+    }
+
+    /// Memory of [`Cholesky::schur`](super::Cholesky::schur) \[bytes\] by so many threads: what waits for parents, at most, and what as many
+    /// tasks hold while they run, the largest ones.
+    #[must_use]
+    pub fn bytes_of_schur(&self, threads: usize) -> usize {
+        let mut waiting = vec![0_usize; self.tasks.len()];
+        let mut running = Vec::with_capacity(self.tasks.len());
+        for (t, task) in self.tasks.iter().enumerate() {
+            let below: usize = task.children.iter().map(|&c| waiting[c]).sum();
+            waiting[t] = below.max(self.passed(t));
+            running.push(self.passed(t) + task.stacks[0] + task.stacks[1] + task.largest);
+        }
+        running.sort_unstable_by(|a, b| b.cmp(a));
+        let waiting: usize = self.roots.iter().map(|&t| waiting[t]).sum();
+        (waiting + running.iter().take(threads).sum::<usize>()) * size_of::<f64>() + self.own()
     }
 
     /// Equations.

@@ -6,4 +6,4 @@ mod scatter;
 
 pub use factor::Factor;
 pub use mirror::Mirror;
-pub use scatter::{Part, ScatterMap, lower_pattern};
+pub use scatter::{Part, ScatterMap, lower_matrix, lower_pattern};

@@ -122,15 +122,63 @@ pub fn lower_pattern(patterns: &[&Pattern], equations: &Equations) -> SymbolicSp
     SymbolicSparseColMat::new_checked(n, n, starts, None, rows)
 }
 
+/// The lower triangle of a sum of dense blocks, `number` giving the equation of each of their degrees of freedom, bordered by rows
+/// `-border`: those of loads f in `[K -f; -fᵀ 0]`. Assembled once, where a [`ScatterMap`] would take as much memory again for its lists.
+#[must_use]
+pub fn lower_matrix(
+    pattern: &Pattern,
+    blocks: &[f64],
+    number: &[usize],
+    equations: usize,
+    border: &[Vec<f64>],
+) -> (SymbolicSparseColMat<usize>, Vec<f64>) {
+    let n = equations + border.len();
+    let wanted = |row: usize, col: usize| row != Equations::FIXED && col != Equations::FIXED && row >= col;
+    let loaded = |f: &mut dyn FnMut(usize, usize, f64)| {
+        for (k, load) in border.iter().enumerate() {
+            let parts = load.iter().enumerate().filter(|(_, v)| **v != 0.0);
+            parts.for_each(|(col, value)| f(equations + k, col, -value));
+        }
+    };
+    let visit = |f: &mut dyn FnMut(usize, usize)| {
+        visit_numbered(pattern, number, f);
+        loaded(&mut |row, col, _| f(row, col));
+    };
+    let (starts, rows) = compress_columns(n, &wanted, &visit);
+    let mut values = vec![0.0; rows.len()];
+    let mut add = |row: usize, col: usize, value: f64| {
+        // The row is in its column by construction of `rows`.
+        if let Ok(k) = rows[starts[col]..starts[col + 1]].binary_search(&row) {
+            values[starts[col] + k] += value;
+        }
+    };
+    let mut next = blocks.iter();
+    visit_numbered(pattern, number, &mut |row, col| {
+        let value = next.next();
+        if wanted(row, col)
+            && let Some(value) = value
+        {
+            add(row, col, *value);
+        }
+    });
+    loaded(&mut add);
+    (SymbolicSparseColMat::new_checked(n, n, starts, None, rows), values)
+}
+
 /// Calls `f` with (row, column) of every entry of every block, in order.
-fn visit_blocks(patterns: &[&Pattern], equations: &Equations, f: &mut dyn FnMut(usize, usize)) {
-    for block in patterns.iter().flat_map(|p| p.blocks()) {
+fn visit_numbered(pattern: &Pattern, number: &[usize], f: &mut dyn FnMut(usize, usize)) {
+    for block in pattern.blocks() {
         for &r in block {
             for &c in block {
-                f(equations.number[r], equations.number[c]);
+                f(number[r], number[c]);
             }
         }
     }
+}
+
+/// Calls `f` with (row, column) of every entry of every block of some patterns, in order.
+fn visit_blocks(patterns: &[&Pattern], equations: &Equations, f: &mut dyn FnMut(usize, usize)) {
+    patterns.iter().for_each(|pattern| visit_numbered(pattern, &equations.number, f));
 }
 
 /// Calls its argument with (row, column) of every entry of every block, in order.
@@ -159,17 +207,21 @@ fn compress_columns(
             next[col] += 1;
         }
     });
+    // Sorted and without repetition in place.
     let mut starts = vec![0_usize; n + 1];
-    let mut rows = Vec::with_capacity(raw.len() / 2);
+    let mut kept = 0;
     for col in 0..n {
-        let column = &mut raw[count[col]..count[col + 1]];
-        column.sort_unstable();
-        for (k, &row) in column.iter().enumerate() {
-            if k == 0 || column[k - 1] != row {
-                rows.push(row);
+        raw[count[col]..count[col + 1]].sort_unstable();
+        let first = kept;
+        for k in count[col]..count[col + 1] {
+            if kept == first || raw[kept - 1] != raw[k] {
+                raw[kept] = raw[k];
+                kept += 1;
             }
         }
-        starts[col + 1] = rows.len();
+        starts[col + 1] = kept;
     }
-    (starts, rows)
+    raw.truncate(kept);
+    raw.shrink_to_fit();
+    (starts, raw)
 }

@@ -1,0 +1,101 @@
+//! Two methods of which one takes the steps: a usual one where accuracy limits them, one for stiff equations where stability does.
+//! What tells which is a [`Criterion`]; a method that takes over begins anew.
+
+use super::own::{Formula, Span, Trial};
+use super::problem::System;
+use super::report::Counts;
+
+/// Which of two methods is to go on.
+pub(super) trait Criterion {
+    /// Where accuracy limits steps.
+    type Usual: Formula;
+    /// Where stability does.
+    type Stiff: Formula;
+    /// Steps against the usual and against the stiff method after which the other goes on.
+    const ENOUGH: [u32; 2];
+
+    /// Steps that speak against the method at work after the step just accepted, of which there were `before`; `stiff` says which it is.
+    fn against(
+        methods: (&mut Self::Usual, &mut Self::Stiff),
+        stiff: bool,
+        before: u32,
+        system: &System<'_>,
+        span: &Span,
+    ) -> u32;
+}
+
+/// See the module.
+#[derive(Debug)]
+pub(super) struct Pair<C: Criterion> {
+    usual: C::Usual,
+    other: C::Stiff,
+    /// Whether the step last tried is of the stiff method, and whether the next is.
+    stiff: bool,
+    next_stiff: bool,
+    /// Steps that speak against it.
+    against: u32,
+}
+
+impl<C: Criterion> Pair<C> {
+    pub fn of(usual: C::Usual, other: C::Stiff) -> Self {
+        Self { usual, other, stiff: false, next_stiff: false, against: 0 }
+    }
+
+    fn active(&mut self) -> &mut dyn Formula {
+        if self.stiff { &mut self.other } else { &mut self.usual }
+    }
+}
+
+impl<C: Criterion> Formula for Pair<C> {
+    fn order(&self) -> i32 {
+        self.usual.order()
+    }
+
+    fn attempt(&mut self, system: &System<'_>, span: &mut Span) -> Trial {
+        if self.stiff != self.next_stiff {
+            self.stiff = self.next_stiff;
+            self.against = 0;
+            self.active().forget();
+        }
+        self.active().attempt(system, span)
+    }
+
+    fn complete(&mut self, system: &System<'_>, span: &mut Span) {
+        self.active().complete(system, span);
+    }
+
+    fn share(&mut self, h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64 {
+        self.active().share(h, error, accepted, rejected_before)
+    }
+
+    fn accept(&mut self, system: &System<'_>, span: &Span, error: f64) {
+        self.active().accept(system, span, error);
+        let methods = (&mut self.usual, &mut self.other);
+        self.against = C::against(methods, self.stiff, self.against, system, span);
+        self.next_stiff = self.stiff != (self.against >= C::ENOUGH[usize::from(self.stiff)]);
+    }
+
+    fn again(&mut self) {
+        self.next_stiff = self.stiff;
+        self.active().again();
+    }
+
+    fn forget(&mut self) {
+        // What was learnt of stiffness holds beyond an event; a jump of the forcing shows within a few steps.
+        self.usual.forget();
+        self.other.forget();
+    }
+
+    fn interpolate(&self, system: &System<'_>, span: &Span, fraction: f64, y: &mut [f64]) {
+        if self.stiff {
+            self.other.interpolate(system, span, fraction, y);
+        } else {
+            self.usual.interpolate(system, span, fraction, y);
+        }
+    }
+
+    fn tally(&self, counts: &mut Counts) {
+        self.usual.tally(counts);
+        self.other.tally(counts);
+    }
+}

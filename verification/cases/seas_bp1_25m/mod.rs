@@ -1,0 +1,26 @@
+//! The community's benchmark BP1-QD at full length with the cells it suggests.
+
+use crate::cases::{seas, seas_bp1_full};
+use crate::{Capability, Case, CaseError, Ledger};
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "seas_bp1_25m",
+    readme: include_str!("README.md"),
+    covers: &[Capability::FaultCycles, Capability::Antiplane, Capability::AgeingLaw, Capability::Events],
+    quick: false,
+    run,
+};
+
+/// Size of cells \[m\].
+const SIZE: f64 = 25.0;
+/// Share of the first onset within which it is to be.
+const SHARE: f64 = 1e-4;
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let plan = seas_bp1_full::plan(SIZE)?;
+    let found = seas::found(&plan, &plan.settings, |_| {})?;
+    seas_bp1_full::cycle(ledger, SIZE, SHARE, &found);
+    ledger.table("3000 years", &seas_bp1_full::HEAD, [seas_bp1_full::row(SIZE, &plan, &found)]);
+    Ok(())
+}
