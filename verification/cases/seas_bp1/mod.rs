@@ -186,9 +186,9 @@ fn methods(ledger: &mut Ledger, plan: &Plan, default: &Found) -> Result<(), Case
         .claim("onset of the third event by the default method and tolerance, error")
         .unit("yr")
         .value(error(default))
-        .at_most(0.05)
+        .at_most(0.01)
         .evidence(Evidence::ConvergedSelf, "dop853 with a tolerance of 1e-8 on the same cells")
-        .because("below the 0.1 yr that cells of 78 m leave")
+        .because("a tenth of what cells of 78 m leave")
         .covers(&[Capability::FaultCycles, Capability::Integrators])
         .cost(&default.cost)
         .record();
