@@ -41,6 +41,9 @@ pub enum Command {
         /// Output directory; `out/<scene name>` when not given.
         #[arg(long)]
         out: Option<PathBuf>,
+        /// Draw nothing under `plots/`; plots of an earlier run stay as they are.
+        #[arg(long)]
+        no_plots: bool,
         /// When to break off and how to go on.
         #[command(flatten)]
         pauses: Pausing,
@@ -98,7 +101,7 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
             }
             Ok(End::Done)
         }
-        Command::Run { scene, out, pauses } => {
+        Command::Run { scene, out, no_plots, pauses } => {
             let out = out.clone().unwrap_or_else(|| default_output(scene));
             let ready = planned(scene)?;
             if (pauses.resume || pauses.wall_time.is_some()) && !matches!(ready.plan, Planned::Faults(_)) {
@@ -107,9 +110,9 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
                 ));
             }
             match &ready.plan {
-                Planned::Bodies(plan) => run_bodies(plan, &ready, &out),
-                Planned::Sliders(plan) => run_sliders(plan, &ready, &out),
-                Planned::Faults(plan) => run_faults(plan, &ready, &out, pauses),
+                Planned::Bodies(plan) => run_bodies(plan, &ready, &out, !no_plots),
+                Planned::Sliders(plan) => run_sliders(plan, &ready, &out, !no_plots),
+                Planned::Faults(plan) => run_faults(plan, &ready, &out, !no_plots, pauses),
             }
         }
     }
@@ -172,19 +175,21 @@ fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
 }
 
-fn run_bodies(plan: &AnyPlan, ready: &Ready, out: &Path) -> miette::Result<End> {
+fn run_bodies(plan: &AnyPlan, ready: &Ready, out: &Path, drawn: bool) -> miette::Result<End> {
     print!("{}", plan.summary());
     let (fields, profiles) = plan.outputs();
     let mut files = Files::create(out, FieldSchedule { fields, profiles }).into_diagnostic()?;
-    let mut recorder = Recorder::new().with_bodies();
+    let mut recorder = drawn.then(|| Recorder::new().with_bodies());
     let mut progress = Progress::new();
-    let mut observers = Multi::new(vec![&mut files as &mut dyn Observer, &mut recorder, &mut progress]);
+    let mut all = vec![&mut files as &mut dyn Observer, &mut progress];
+    all.extend(recorder.as_mut().map(|r| r as &mut dyn Observer));
+    let mut observers = Multi::new(all);
     let mut report = run::run(plan, &mut observers).into_diagnostic()?;
     report.scene_sha256.clone_from(&ready.hash);
     report.meshes_sha256.clone_from(&ready.meshes);
     report.run.seconds.plan = ready.seconds;
     write_report(out, &report)?;
-    plots::draw_all(&out.join("plots"), &recorder).into_diagnostic()?;
+    draw(out, recorder.as_ref())?;
     print_results(out, &report);
     Ok(match report.outcome {
         Outcome::Completed => End::Done,
@@ -194,13 +199,22 @@ fn run_bodies(plan: &AnyPlan, ready: &Ready, out: &Path) -> miette::Result<End> 
     })
 }
 
-fn run_sliders(plan: &slider::Plan, ready: &Ready, out: &Path) -> miette::Result<End> {
+fn draw(out: &Path, recorder: Option<&Recorder>) -> miette::Result<()> {
+    if let Some(recorder) = recorder {
+        plots::draw_all(&out.join("plots"), recorder).into_diagnostic()?;
+    }
+    Ok(())
+}
+
+fn run_sliders(plan: &slider::Plan, ready: &Ready, out: &Path, drawn: bool) -> miette::Result<End> {
     print!("{}", plan.summary());
     let mut histories = slider::Histories::create(out, plan).into_diagnostic()?;
-    let (mut recorder, mut progress) = (Recorder::new(), Progress::new());
+    let (mut recorder, mut progress) = (drawn.then(Recorder::new), Progress::new());
     let clock = Instant::now();
     let ended = {
-        let mut show = slider::Show::to(vec![&mut recorder as &mut dyn Observer, &mut progress]);
+        let mut shown = vec![&mut progress as &mut dyn Observer];
+        shown.extend(recorder.as_mut().map(|r| r as &mut dyn Observer));
+        let mut show = slider::Show::to(shown);
         let mut both = slider::Both(&mut histories, &mut show);
         slider::run(plan, &mut both).into_diagnostic()?
     };
@@ -209,7 +223,7 @@ fn run_sliders(plan: &slider::Plan, ready: &Ready, out: &Path) -> miette::Result
     report.scene_sha256.clone_from(&ready.hash);
     report.run.seconds = clock.elapsed().as_secs_f64();
     write_report(out, &report)?;
-    plots::draw_all(&out.join("plots"), &recorder).into_diagnostic()?;
+    draw(out, recorder.as_ref())?;
     print!("{}", report.text());
     println!("  written to {}", out.display());
     Ok(match report.outcome {
@@ -228,7 +242,13 @@ fn signals() -> miette::Result<Arc<AtomicBool>> {
     Ok(flag)
 }
 
-fn run_faults(plan: &fault::Plan, ready: &Ready, out: &Path, pausing: &Pausing) -> miette::Result<End> {
+fn run_faults(
+    plan: &fault::Plan,
+    ready: &Ready,
+    out: &Path,
+    drawn: bool,
+    pausing: &Pausing,
+) -> miette::Result<End> {
     print!("{}", plan.summary());
     let pauses = fault::Pauses { every: pausing.checkpoint_every, wall: pausing.wall_time, stop: signals()? };
     // A mesh file that changed makes another scene.
@@ -260,7 +280,9 @@ fn run_faults(plan: &fault::Plan, ready: &Ready, out: &Path, pausing: &Pausing) 
     let events = serde_json::to_string_pretty(&report.events).into_diagnostic()?;
     crate::observe::atomic::write(&out.join("events.json"), events.as_bytes()).into_diagnostic()?;
     write_located(out, plan, &report, &ready.hash)?;
-    fault::draw(out, plan, &run).into_diagnostic()?;
+    if drawn {
+        fault::draw(out, plan, &run).into_diagnostic()?;
+    }
     fault::write_fields(out, plan, &run).into_diagnostic()?;
     print!("{}", report.text());
     println!("  written to {}", out.display());

@@ -473,20 +473,34 @@ fn choose_path<const D: usize>(
         let help = "use `path = \"auto\"` or `path = \"full\"`".into();
         Err(PlanError::at(scene.time.stepper.span(), message, help))
     };
-    let small = !interfaces.is_empty() && interfaces.iter().all(|i| i.sliding == Sliding::Small);
-    match (scene.time.path, small, not_linear(model)) {
+    match (scene.time.path, not_linear(model)) {
         _ if scene.solver.method() == Method::Iterative => Ok(Path::Full),
-        (PathChoice::Full, ..) => Ok(Path::Full),
-        (_, true, None) => Ok(Path::Condensed),
-        (PathChoice::Auto, ..) => Ok(Path::Full),
-        (PathChoice::Condensed, false, _) => {
-            refuse("the condensed path needs an interface, and `sliding = \"small\"` on every one".into())
+        (PathChoice::Full, _) => Ok(Path::Full),
+        (PathChoice::Condensed, _) if interfaces.is_empty() => {
+            refuse("the condensed path needs an interface".into())
         }
-        (PathChoice::Condensed, true, Some(why)) => {
+        (PathChoice::Condensed, Some(why)) => {
             refuse(format!("the condensed path needs linear bodies, but {why}"))
         }
+        (PathChoice::Auto, Some(_)) => Ok(Path::Full),
+        (PathChoice::Auto, None) if interfaces.is_empty() || too_wide(model, interfaces) => Ok(Path::Full),
+        (_, None) => Ok(Path::Condensed),
     }
 }
+
+/// Whether all bodies together are the better system under finite sliding, whose masters may be much larger than what is in contact.
+fn too_wide<const D: usize>(model: &Model<D>, interfaces: &[PlannedInterface]) -> bool {
+    let kept: usize = solver::retained(model, interfaces).iter().map(Vec::len).sum();
+    finite(interfaces) && kept > WIDEST
+}
+
+fn finite(interfaces: &[PlannedInterface]) -> bool {
+    interfaces.iter().any(|i| i.sliding == Sliding::Finite)
+}
+
+/// Degrees of freedom of an interface up to which its dense factors, some seconds for this many, cost less in each iteration than sparse
+/// factors of bodies that have them on their surfaces: half a million unknowns in the plane, a hundred thousand in space.
+const WIDEST: usize = 3000;
 
 /// The first body that is not linear, and why.
 fn not_linear<const D: usize>(model: &Model<D>) -> Option<String> {
@@ -559,7 +573,13 @@ fn summary<const D: usize>(
     }
     let (path_text, system_dofs) = match (path, scene.time.path) {
         (Path::Condensed, _) => {
-            ("condensed: bodies are linear and sliding is small, so each is factored once and only the interface is solved".to_string(), retained)
+            let small = if finite(interfaces) { "" } else { " and sliding is small" };
+            (
+                format!(
+                    "condensed: bodies are linear{small}, so each is factored once and only the interface is solved"
+                ),
+                retained,
+            )
         }
         (Path::Full, _) => (full_because(scene, model, interfaces), model.dofs()),
     };
@@ -589,7 +609,7 @@ fn full_because<const D: usize>(scene: &Scene, model: &Model<D>, interfaces: &[P
         (_, Some(why)) => why,
         _ if interfaces.is_empty() => "there is no interface to condense onto".into(),
         _ if scene.solver.method() == Method::Iterative => "the iterative method does not condense".into(),
-        _ => "finite sliding changes the pairing during the run".into(),
+        _ => format!("the sides of finite sliding have more than {WIDEST} degrees of freedom"),
     };
     format!("full: {why}")
 }

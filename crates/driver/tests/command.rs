@@ -60,6 +60,24 @@ fn every_scene_of_the_product_is_sound() {
 }
 
 #[test]
+fn without_plots_a_run_leaves_everything_else_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("s.toml"), coarse()).unwrap();
+    for arguments in
+        [&["run", "s.toml", "--out", "drawn"][..], &["run", "s.toml", "--out", "bare", "--no-plots"]]
+    {
+        let output = asperity(folder.path(), arguments);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+    }
+    let read = |out: &str, file: &str| std::fs::read(folder.path().join(out).join(file)).unwrap();
+    for file in ["fields/bodies_00001.vtu", "fields.pvd", "probes/fault.csv", "profiles/fault_001.csv"] {
+        assert_eq!(read("drawn", file), read("bare", file), "{file}");
+    }
+    assert!(folder.path().join("drawn/plots").is_dir());
+    assert!(!folder.path().join("bare/plots").exists());
+}
+
+#[test]
 fn a_scene_of_bodies_prints_its_points_and_forces() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("s.toml"), include_str!("../../../scenes/cook.toml")).unwrap();

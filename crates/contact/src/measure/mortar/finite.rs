@@ -6,8 +6,8 @@
 //! in a common rigid motion). The frame is laid along a material vector of the slave surface, so that history needs no
 //! turning.
 //!
-//! The tangent differentiates the overlap forward, number by number (`scalar::Dual`), and the rest in closed form; corners
-//! of the polygons that are corners of both facets at once have one-sided derivatives there.
+//! The tangent (`blocks`) has the derivatives of the overlap: in space those of `overlap`, in the plane number by number
+//! (`scalar::Dual`). Corners of the polygons that are corners of both facets at once have one-sided derivatives there.
 //!
 //! Cells and points are worked on in pieces on any number of threads. Each point adds up its cells in one order, so that results
 //! do not depend on the number.
@@ -15,9 +15,11 @@
 //! Puso, M. A. and Laursen, T. A. (2004b), A mortar segment-to-segment frictional contact method for large deformations,
 //! Computer Methods in Applied Mechanics and Engineering 193, 4891-4913.
 
+use super::blocks::Scratch;
 use super::cell::{Sums, integrate};
-use super::local::{Change, Local, Traction};
+use super::local::{Change, Local};
 use super::order::WorkOrder;
+use super::overlap::{self, NODES};
 use super::pairing::Found;
 use super::scalar::Dual;
 use super::sides::{Beside, Sides, node_at};
@@ -34,9 +36,6 @@ use rayon::prelude::*;
 /// Cells, facets or points worked on together on one thread: a microsecond each, and more.
 pub(super) const CHUNK: usize = 64;
 
-/// Most nodes of a facet of first order.
-const NODES: usize = 4;
-
 #[derive(Clone, Debug, Default)]
 pub(super) struct Point {
     /// Nodes of its block: those of the slave facets beside it, then those of the masters near it.
@@ -47,7 +46,7 @@ pub(super) struct Point {
     pub weights: Vec<f64>,
     /// s_k of the last commit.
     pub then: Vec<f64>,
-    area: f64,
+    pub(super) area: f64,
     /// About its area when all of its facets face the master.
     whole: f64,
     /// Whether `then` exists: the point faced the master at the last commit, or has met it since.
@@ -56,6 +55,8 @@ pub(super) struct Point {
     fresh: bool,
     /// Start of its block among the values.
     pub at: usize,
+    /// Start of its columns among those of its piece.
+    pub column: usize,
     /// The frame's material vector in the base vectors of the first facet beside the point.
     along: [f64; 2],
 }
@@ -69,31 +70,14 @@ pub(super) struct Cell {
     pub table: usize,
 }
 
-/// Blocks of one piece of the work order.
-struct Blocks<'a> {
-    piece: usize,
-    /// Start of the first of them among all values.
-    start: usize,
-    values: &'a mut [f64],
-}
-
-impl Blocks<'_> {
-    /// The block of a point of the piece, `size` unknowns wide.
-    #[inline]
-    fn of(&mut self, point: &Point, size: usize) -> &mut [f64] {
-        let at = point.at - self.start;
-        &mut self.values[at..at + size * size]
-    }
-}
-
-/// The measure; `M` numbers of a cell vary.
+/// The measure.
 #[derive(Clone, Debug)]
-pub(super) struct Finite<const D: usize, const M: usize> {
+pub(super) struct Finite<const D: usize> {
     pub(super) sides: Sides<D>,
     reference: Vec<[f64; D]>,
     pub(super) dofs: Vec<usize>,
     pub(super) points: Vec<Point>,
-    locals: Vec<Local<D>>,
+    pub(super) locals: Vec<Local<D>>,
     pub(super) x: Vec<[f64; D]>,
     /// In the order of their facets.
     pub(super) cells: Vec<Cell>,
@@ -105,6 +89,8 @@ pub(super) struct Finite<const D: usize, const M: usize> {
     /// Points in the order of their blocks.
     pub(super) order: WorkOrder,
     pub(super) pattern: Pattern,
+    /// What the tangent adds up, by piece.
+    pub(super) scratch: Vec<Scratch<D>>,
     /// The committed weights must be found from the configuration measured next.
     restored: bool,
     /// What the search finds, facet by facet in pieces.
@@ -125,16 +111,11 @@ pub fn finite<const D: usize>(
     let x: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
     let sides = Sides::new(faces, slave, master, &x, axisymmetric);
     let dofs = nodes.iter().map(|n| n.dof).collect();
-    if D == 2 {
-        let (measure, examined) = Finite::<D, 8>::new(sides, dofs, x);
-        (Box::new(measure), examined)
-    } else {
-        let (measure, examined) = Finite::<D, 24>::new(sides, dofs, x);
-        (Box::new(measure), examined)
-    }
+    let (measure, examined) = Finite::<D>::new(sides, dofs, x);
+    (Box::new(measure), examined)
 }
 
-impl<const D: usize, const M: usize> Finite<D, M> {
+impl<const D: usize> Finite<D> {
     pub(super) fn new(sides: Sides<D>, dofs: Vec<usize>, reference: Vec<[f64; D]>) -> (Self, u64) {
         let n = sides.beside.len();
         let whole = sides.whole_areas(n);
@@ -155,6 +136,7 @@ impl<const D: usize, const M: usize> Finite<D, M> {
             integrals: Vec::new(),
             order,
             pattern: Pattern::default(),
+            scratch: Vec::new(),
             restored: false,
             found: Vec::new(),
             bound: Bound::default(),
@@ -175,7 +157,7 @@ impl<const D: usize, const M: usize> Finite<D, M> {
 
     /// Positions of a cell's nodes, slave then master.
     #[inline]
-    fn gather(&self, c: &Cell) -> ([[f64; D]; NODES], [[f64; D]; NODES]) {
+    pub(super) fn gather(&self, c: &Cell) -> ([[f64; D]; NODES], [[f64; D]; NODES]) {
         let (mut own, mut other) = ([[0.0; D]; NODES], [[0.0; D]; NODES]);
         own.iter_mut().zip(&self.sides.facets[c.facet].nodes).for_each(|(x, &n)| *x = self.x[n]);
         other.iter_mut().zip(&self.sides.master[c.master].nodes).for_each(|(x, &n)| *x = self.x[n]);
@@ -204,26 +186,65 @@ impl<const D: usize, const M: usize> Finite<D, M> {
             );
             return;
         }
-        let mut sums = Sums::<f64, NODES>::zero();
         let mut rest = out;
         for c in &self.cells[from..to] {
-            let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
-            let (own, other) = self.gather(c);
-            let (s, m) = (facet.nodes.len(), master.nodes.len());
-            let (mine, tail) = rest.split_at_mut(facet.weighting.points.len() * (s + m));
+            let facet = &self.sides.facets[c.facet];
+            let n = facet.nodes.len() + self.sides.master[c.master].nodes.len();
+            let (mine, tail) = rest.split_at_mut(facet.weighting.points.len() * n);
             rest = tail;
-            let rule = self.sides.rule(c.facet, c.master);
-            let frozen = self.sides.frozen(c.facet);
-            if !integrate(frozen, &own[..s], master.kind, &other[..m], rule, &mut sums) {
-                mine.fill(0.0);
-                continue;
-            }
-            for (row, (o, m)) in mine.chunks_exact_mut(s + m).zip(sums.own.iter().zip(&sums.other)) {
-                let (left, right) = row.split_at_mut(s);
-                left.copy_from_slice(&o[..s]);
-                right.iter_mut().zip(m).for_each(|(r, v)| *r = -v);
+            if D == 2 { self.integrate_lines(c, mine) } else { self.integrate_faces(c, mine) }
+        }
+    }
+
+    /// Rows of a cell: those of the slave's nodes, then those of the master's with the opposite sign.
+    fn integrate_lines(&self, c: &Cell, mine: &mut [f64]) {
+        let (own, other) = self.gather(c);
+        let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
+        let (s, m) = (facet.nodes.len(), master.nodes.len());
+        let (rule, frozen) = (self.sides.rule(c.facet, c.master), self.sides.frozen(c.facet));
+        let mut sums = Sums::<f64, NODES>::zero();
+        if !integrate(frozen, &own[..s], master.kind, &other[..m], rule, &mut sums) {
+            mine.fill(0.0);
+            return;
+        }
+        for (row, (o, m)) in mine.chunks_exact_mut(s + m).zip(sums.own.iter().zip(&sums.other)) {
+            let (left, right) = row.split_at_mut(s);
+            left.copy_from_slice(&o[..s]);
+            right.iter_mut().zip(m).for_each(|(r, v)| *r = -v);
+        }
+    }
+
+    /// See [`Finite::integrate_lines`].
+    fn integrate_faces(&self, c: &Cell, mine: &mut [f64]) {
+        mine.fill(0.0);
+        let facet = &self.sides.facets[c.facet];
+        let (s, n) = (facet.nodes.len(), facet.nodes.len() + self.sides.master[c.master].nodes.len());
+        let Some(values) = self.in_space(c, overlap::integrals) else { return };
+        for (a, row) in mine.chunks_exact_mut(n).enumerate() {
+            let (left, right) = row.split_at_mut(s);
+            for (b, v) in values.iter().enumerate() {
+                let share = facet.weighting.coefficient(a, b);
+                left.iter_mut().zip(v).for_each(|(l, v)| *l += share * v);
+                right.iter_mut().zip(&v[NODES..]).for_each(|(r, v)| *r -= share * v);
             }
         }
+    }
+
+    /// Does something with the overlap of a cell in space.
+    pub(super) fn in_space<R>(&self, c: &Cell, work: impl Fn(&overlap::Facets<'_>) -> R) -> R {
+        let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
+        let (own, other) = self.gather(c);
+        let mut reference = [[0.0; D]; NODES];
+        let frozen = self.sides.frozen(c.facet);
+        reference.iter_mut().zip(frozen.reference).for_each(|(to, x)| *to = *x);
+        let [own, other, reference] = [own, other, reference].map(|x| x.map(three));
+        let (s, m) = (facet.nodes.len(), master.nodes.len());
+        work(&overlap::Facets {
+            slave: overlap::Side { kind: facet.kind, x: &own[..s] },
+            reference: &reference[..s],
+            master: overlap::Side { kind: master.kind, x: &other[..m] },
+            gauss: self.sides.rule(c.facet, c.master),
+        })
     }
 
     /// Cells of a facet.
@@ -275,7 +296,7 @@ impl<const D: usize, const M: usize> Finite<D, M> {
     }
 
     /// δn and δframe for a unit displacement along axis `i` of `node`, one of the slaves of point `p`.
-    fn turn(&self, p: usize, node: usize, i: usize, out: &mut Change<D>) {
+    pub(super) fn turn(&self, p: usize, node: usize, i: usize, out: &mut Change<D>) {
         let (mut normals, mut material) = ([0.0; D], [0.0; D]);
         for (k, b) in self.sides.beside[p].iter().enumerate() {
             let facet = &self.sides.facets[b.facet];
@@ -296,95 +317,6 @@ impl<const D: usize, const M: usize> Finite<D, M> {
             }
         }
         self.locals[p].turn(&normals, &material, out);
-    }
-
-    /// Blocks of the pieces `from..to` of the work order.
-    fn blocks(&self, (from, to): (usize, usize), tractions: &Tractions<'_>, values: &mut [f64]) {
-        let start = |piece: usize| self.order.points(piece).first().map_or(0, |&p| self.points[p].at);
-        if to - from > 1 {
-            let middle = from + (to - from) / 2;
-            let (left, right) = values.split_at_mut(start(middle) - start(from));
-            rayon::join(
-                || self.blocks((from, middle), tractions, left),
-                || self.blocks((middle, to), tractions, right),
-            );
-            return;
-        }
-        values.fill(0.0);
-        let closed = |p: usize| tractions.normal[p].closed;
-        let mut blocks = Blocks { piece: from, start: start(from), values };
-        for &f in self.order.facets(from) {
-            let points = &self.sides.facets[f].weighting.points;
-            if points.iter().any(|&p| self.order.piece(p) == from && closed(p)) {
-                self.cells_of(f).iter().for_each(|c| self.overlap_tangent(c, tractions, &mut blocks));
-            }
-        }
-        for &p in self.order.points(from) {
-            if closed(p) {
-                self.point_tangent(p, &traction_of(tractions, p), &mut blocks);
-            }
-        }
-    }
-
-    /// What the changing overlap of a cell adds to the blocks of its points that belong to the piece.
-    fn overlap_tangent(&self, c: &Cell, tractions: &Tractions<'_>, blocks: &mut Blocks<'_>) {
-        let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
-        let (s, m) = (facet.nodes.len(), master.nodes.len());
-        let (own, other) = self.gather(c);
-        let mut sums = Sums::<Dual<M>, NODES>::zero();
-        let (x, y) = (seeded::<D, M>(&own, 0), seeded::<D, M>(&other, s * D));
-        let rule = self.sides.rule(c.facet, c.master);
-        if !integrate(self.sides.frozen(c.facet), &x[..s], master.kind, &y[..m], rule, &mut sums) {
-            return;
-        }
-        for (a, &p) in facet.weighting.points.iter().enumerate() {
-            let traction = traction_of(tractions, p);
-            if !traction.normal.closed || self.order.piece(p) != blocks.piece {
-                continue;
-            }
-            let (point, local) = (&self.points[p], &self.locals[p]);
-            let places = &self.places[c.table + a * (s + m)..][..s + m];
-            let size = point.nodes.len() * D;
-            let block = blocks.of(point, size);
-            let force = local.force(&traction);
-            for q in 0..(s + m) * D {
-                let column = places[q / D] * D + q % D;
-                let (mut dp, mut da) = ([0.0; D], 0.0);
-                for (k, &place) in places.iter().enumerate() {
-                    let dw = if k < s { sums.own[a][k].d[q] } else { -sums.other[a][k - s].d[q] };
-                    if k < s {
-                        da += dw;
-                    }
-                    axpy(&mut dp, dw, if k < s { &own[k] } else { &other[k - s] });
-                    for (i, f) in force.iter().enumerate() {
-                        block[(place * D + i) * size + column] -= dw * f;
-                    }
-                }
-                axpy(&mut dp, -da, &local.d);
-                let dd = scaled(&dp, point.area.recip());
-                let change = Change { d: dd, v: scaled(&dd, -1.0), ..Change::none() };
-                point.subtract(block, size, column, &local.force_change(&traction, &change));
-            }
-        }
-    }
-
-    /// What the motion of a point's nodes at fixed weights adds to its block.
-    fn point_tangent(&self, p: usize, traction: &Traction<'_>, blocks: &mut Blocks<'_>) {
-        let (point, local) = (&self.points[p], &self.locals[p]);
-        let size = point.nodes.len() * D;
-        let block = blocks.of(point, size);
-        for (k, &node) in point.nodes.iter().enumerate() {
-            let now = point.weights[k] / point.area;
-            for i in 0..D {
-                let mut change = Change::none();
-                if k < point.slaves {
-                    self.turn(p, node, i, &mut change);
-                }
-                change.d[i] = now;
-                change.v[i] = point.then[k] - now;
-                point.subtract(block, size, k * D + i, &local.force_change(traction, &change));
-            }
-        }
     }
 
     /// Adds the part of `slides` that comes from the changing overlap of a cell.
@@ -439,38 +371,11 @@ impl Point {
         }
         self.anchored = true;
     }
-
-    /// Subtracts `weight δf` of every node from a column of the block.
-    #[inline]
-    fn subtract<const D: usize>(&self, block: &mut [f64], size: usize, column: usize, df: &[f64; D]) {
-        for (k, w) in self.weights.iter().enumerate().filter(|(_, w)| **w != 0.0) {
-            for (i, f) in df.iter().enumerate() {
-                block[(k * D + i) * size + column] -= w * f;
-            }
-        }
-    }
 }
 
-fn traction_of<'a>(tractions: &Tractions<'a>, p: usize) -> Traction<'a> {
-    Traction {
-        normal: &tractions.normal[p],
-        shear: tractions.shear.map(|s| &s[p]),
-        stiffness: tractions.stiffness,
-    }
-}
-
-/// Positions whose coordinates are the variables from `first` on.
-fn seeded<const D: usize, const M: usize>(x: &[[f64; D]; NODES], first: usize) -> [[Dual<M>; D]; NODES] {
-    std::array::from_fn(|k| {
-        std::array::from_fn(|i| {
-            let mut d = [0.0; M];
-            // Nodes a triangle does not have are not used.
-            if let Some(one) = d.get_mut(first + k * D + i) {
-                *one = 1.0;
-            }
-            Dual { v: x[k][i], d }
-        })
-    })
+/// A place as three coordinates.
+fn three<const D: usize>(x: [f64; D]) -> [f64; 3] {
+    std::array::from_fn(|i| x.get(i).copied().unwrap_or(0.0))
 }
 
 /// Components of the small-sliding frame's first vector in the base vectors of the first facet beside point `p`.
@@ -483,7 +388,7 @@ fn along<const D: usize>(sides: &Sides<D>, p: usize, x: &[[f64; D]]) -> [f64; 2]
     solve_tangential(D - 1, &metric, &[dot(&e[0], &frame[0]), dot(&e[1], &frame[0])])
 }
 
-impl<const D: usize, const M: usize> Measure<D> for Finite<D, M> {
+impl<const D: usize> Measure<D> for Finite<D> {
     fn pattern(&self) -> &Pattern {
         &self.pattern
     }

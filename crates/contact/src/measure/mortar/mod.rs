@@ -16,13 +16,16 @@
 //! Puso, M. A. and Laursen, T. A. (2004), A mortar segment-to-segment contact method for large deformation solid mechanics,
 //! Computer Methods in Applied Mechanics and Engineering 193, 601-629.
 
+mod blocks;
 mod cell;
 mod clip;
 mod dual;
 mod finite;
 mod local;
 mod order;
+mod overlap;
 mod pairing;
+mod polygon;
 mod rule;
 mod scalar;
 mod sides;

@@ -42,6 +42,12 @@ impl Weighting {
         out
     }
 
+    /// c_aB.
+    #[inline]
+    pub(super) fn coefficient(&self, row: usize, node: usize) -> f64 {
+        self.rows[row][node]
+    }
+
     /// ψ_a at a point, from the values of the shape functions there, and derivatives likewise from derivatives.
     #[inline]
     pub(super) fn at(&self, row: usize, nodes: usize, values: &[f64; MOST_NODES]) -> f64 {

@@ -1,5 +1,7 @@
 //! Colours: a perceptually uniform map and the greys of frames.
 
+use std::sync::OnceLock;
+
 /// Red, green, blue.
 pub(super) type Rgb = [u8; 3];
 
@@ -33,12 +35,19 @@ const VIRIDIS: [Rgb; 17] = [
     [253, 231, 37],
 ];
 
-/// The colour of `value` in 0..=1; what lies outside takes the end's, what is no number light grey.
+/// The colour of `value` in 0..=1, one of 256; what lies outside takes the end's, what is no number light grey.
 pub(super) fn viridis(value: f64) -> Rgb {
+    static COLOURS: OnceLock<[Rgb; 256]> = OnceLock::new();
     if value.is_nan() {
         return [200, 200, 200];
     }
-    let place = value.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f64;
+    let colours = COLOURS.get_or_init(|| std::array::from_fn(|k| between(k as f64 / 255.0)));
+    colours[(value.clamp(0.0, 1.0) * 255.0 + 0.5) as usize]
+}
+
+/// The colour at a place between the given ones.
+fn between(value: f64) -> Rgb {
+    let place = value * (VIRIDIS.len() - 1) as f64;
     let below = (place as usize).min(VIRIDIS.len() - 2);
     let part = place - below as f64;
     std::array::from_fn(|c| {

@@ -144,16 +144,37 @@ fn fill(rgb: &mut [Rgb], columns: usize, [a, b, c]: [(f64, f64, f64); 3], colour
     };
     let (left, right) = span(a.0, b.0, c.0, columns);
     let (top, bottom) = span(a.1, b.1, c.1, rows);
+    // Barycentric coordinates and value grow by the same amounts from one column to the next.
+    let (du, dv) = ((c.1 - a.1) / twice, -(b.1 - a.1) / twice);
+    let dw = du * (b.2 - a.2) + dv * (c.2 - a.2);
     for row in top..bottom {
-        for column in left..right {
-            let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
-            let u = ((x - a.0) * (c.1 - a.1) - (c.0 - a.0) * (y - a.1)) / twice;
-            let v = ((b.0 - a.0) * (y - a.1) - (x - a.0) * (b.1 - a.1)) / twice;
-            if u >= -ON_EDGE && v >= -ON_EDGE && u + v <= 1.0 + ON_EDGE {
-                rgb[row * columns + column] = colours.colour(a.2 + u * (b.2 - a.2) + v * (c.2 - a.2));
-            }
+        let (x, y) = (left as f64 + 0.5, row as f64 + 0.5);
+        let u = ((x - a.0) * (c.1 - a.1) - (c.0 - a.0) * (y - a.1)) / twice;
+        let v = ((b.0 - a.0) * (y - a.1) - (x - a.0) * (b.1 - a.1)) / twice;
+        let value = a.2 + u * (b.2 - a.2) + v * (c.2 - a.2);
+        let sides = [(u, du), (v, dv), (1.0 - u - v, -du - dv)];
+        let Some((from, to)) = inside(sides, right.saturating_sub(left)) else { continue };
+        let pixels = &mut rgb[row * columns + left + from..=row * columns + left + to];
+        for (k, pixel) in pixels.iter_mut().enumerate() {
+            *pixel = colours.colour(value + (from + k) as f64 * dw);
         }
     }
+}
+
+/// First and last of `n` steps k for which all `start + k growth` are above zero, but for [`ON_EDGE`].
+fn inside(sides: [(f64, f64); 3], n: usize) -> Option<(usize, usize)> {
+    let (mut lo, mut hi) = (0.0_f64, n as f64 - 1.0);
+    for (start, growth) in sides {
+        let at = -(start + ON_EDGE) / growth;
+        if growth > 0.0 {
+            lo = lo.max(at.ceil());
+        } else if growth < 0.0 {
+            hi = hi.min(at.floor());
+        } else if start < -ON_EDGE {
+            return None;
+        }
+    }
+    (lo <= hi).then_some((lo as usize, hi as usize))
 }
 
 /// Slack of the inside test, so that a pixel on a shared edge is filled by one of its triangles in spite of rounding.

@@ -30,9 +30,10 @@ pub(super) fn paint(figure: &Figure) -> Result<Vec<u8>, String> {
     font_ready()?;
     let (columns, rows) = ((figure.width * SCALE).ceil() as usize, (figure.height * SCALE).ceil() as usize);
     let mut pixels: Vec<Rgb> = vec![PAPER; columns * rows];
+    let mut pen = Pen::new(columns, columns * rows);
     for shape in &figure.shapes {
         match shape {
-            Shape::Line { points, width, colour } => stroke(&mut pixels, columns, points, *width, *colour),
+            Shape::Line { points, width, colour } => pen.stroke(&mut pixels, points, *width, *colour),
             Shape::Image(image) => blit(&mut pixels, columns, image),
             Shape::Area { .. } | Shape::Text(_) => {
                 let bytes = pixels.as_flattened_mut();
@@ -96,40 +97,72 @@ fn pixel((x, y): Point) -> (i32, i32) {
     ((x * SCALE).round() as i32, (y * SCALE).round() as i32)
 }
 
-/// Draws a polyline: each pixel is covered by how far its centre lies inside half the width from the nearest segment.
-fn stroke(pixels: &mut [Rgb], columns: usize, points: &[Point], width: f64, colour: Rgb) {
-    let rows = pixels.len() / columns;
-    let half = width * SCALE / 2.0;
-    let reach = half + 1.0;
-    let scaled: Vec<Point> = points.iter().map(|&(x, y)| (x * SCALE, y * SCALE)).collect();
-    let span = |values: &mut dyn Iterator<Item = f64>, most: usize| {
-        let (lo, hi) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
-        ((lo - reach).max(0.0) as usize, ((hi + reach).max(0.0) as usize).min(most - 1))
-    };
-    let (left, right) = span(&mut scaled.iter().map(|p| p.0), columns);
-    let (top, bottom) = span(&mut scaled.iter().map(|p| p.1), rows);
-    if left > right || top > bottom {
-        return;
+/// Draws polylines: each pixel is covered by how far its centre lies inside half the width from the nearest segment.
+struct Pen {
+    columns: usize,
+    /// How much of each pixel the line covers; zero between lines.
+    cover: Vec<f64>,
+    /// Where it is not zero.
+    inked: Vec<usize>,
+}
+
+impl Pen {
+    fn new(columns: usize, pixels: usize) -> Self {
+        Self { columns, cover: vec![0.0; pixels], inked: Vec::new() }
     }
-    let across = right - left + 1;
-    let mut cover = vec![0.0_f64; across * (bottom - top + 1)];
-    for pair in scaled.windows(2) {
-        let (x0, x1) = span(&mut pair.iter().map(|p| p.0), columns);
-        let (y0, y1) = span(&mut pair.iter().map(|p| p.1), rows);
-        for y in y0..=y1 {
-            for x in x0..=x1 {
-                let inside = half + 0.5 - distance((x as f64 + 0.5, y as f64 + 0.5), pair[0], pair[1]);
-                let cell = &mut cover[(y - top) * across + x - left];
-                *cell = cell.max(inside.clamp(0.0, 1.0).min(2.0 * half));
+
+    fn stroke(&mut self, pixels: &mut [Rgb], points: &[Point], width: f64, colour: Rgb) {
+        let scaled = |&(x, y): &Point| (x * SCALE, y * SCALE);
+        for pair in points.windows(2) {
+            self.segment(scaled(&pair[0]), scaled(&pair[1]), width * SCALE / 2.0);
+        }
+        for i in self.inked.drain(..) {
+            let alpha = std::mem::take(&mut self.cover[i]);
+            let mix = |c: usize| f64::from(pixels[i][c]) * (1.0 - alpha) + f64::from(colour[c]) * alpha;
+            // Rounds: what is mixed is not negative.
+            pixels[i] = std::array::from_fn(|c| (mix(c) + 0.5) as u8);
+        }
+    }
+
+    /// Covers what one segment covers.
+    fn segment(&mut self, a: Point, b: Point, half: f64) {
+        let rows = self.cover.len() / self.columns;
+        let reach = half + 1.0;
+        let (ux, uy) = (b.0 - a.0, b.1 - a.1);
+        let length = ux.hypot(uy);
+        let Some((top, bottom)) = span(a.1.min(b.1) - reach, a.1.max(b.1) + reach, rows) else { return };
+        for y in top..=bottom {
+            let middle = y as f64 + 0.5;
+            let (mut lo, mut hi) = (a.0.min(b.0) - reach, a.0.max(b.0) + reach);
+            // A row meets the strip of this reach about the line through both ends in an interval.
+            let (centre, side) = (a.0 + ux * (middle - a.1) / uy, reach * length / uy.abs());
+            if (centre - side).is_finite() && (centre + side).is_finite() {
+                (lo, hi) = (lo.max(centre - side), hi.min(centre + side));
+            }
+            let Some((left, right)) = span(lo, hi, self.columns) else { continue };
+            for x in left..=right {
+                let inside = half + 0.5 - distance((x as f64 + 0.5, middle), a, b);
+                self.ink(y * self.columns + x, inside.clamp(0.0, 1.0).min(2.0 * half));
             }
         }
     }
-    for (i, &alpha) in cover.iter().enumerate().filter(|(_, alpha)| **alpha > 0.0) {
-        let target = &mut pixels[(top + i / across) * columns + left + i % across];
-        *target = std::array::from_fn(|c| {
-            (f64::from(target[c]) * (1.0 - alpha) + f64::from(colour[c]) * alpha).round() as u8
-        });
+
+    #[inline]
+    fn ink(&mut self, at: usize, cover: f64) {
+        let cell = &mut self.cover[at];
+        if cover > *cell {
+            if *cell == 0.0 {
+                self.inked.push(at);
+            }
+            *cell = cover;
+        }
     }
+}
+
+/// Pixels between two places along one axis; `None` where there are none among `most`.
+fn span(lo: f64, hi: f64, most: usize) -> Option<(usize, usize)> {
+    let (from, to) = (lo.max(0.0) as usize, (hi.max(0.0) as usize).min(most.saturating_sub(1)));
+    (from <= to && hi >= 0.0).then_some((from, to))
 }
 
 /// Distance of a point from a segment.
@@ -138,7 +171,8 @@ fn distance(p: Point, a: Point, b: Point) -> f64 {
     let (vx, vy) = (p.0 - a.0, p.1 - a.1);
     let square = ux * ux + uy * uy;
     let s = if square > 0.0 { ((ux * vx + uy * vy) / square).clamp(0.0, 1.0) } else { 0.0 };
-    (vx - s * ux).hypot(vy - s * uy)
+    let (dx, dy) = (vx - s * ux, vy - s * uy);
+    (dx * dx + dy * dy).sqrt()
 }
 
 /// Copies an image, nearest pixel.
@@ -150,27 +184,20 @@ fn blit(pixels: &mut [Rgb], columns: usize, image: &Image) {
     let source = |i: i32, from: i32, to: i32, n: usize| {
         ((f64::from(i - from) + 0.5) / f64::from(to - from) * n as f64).clamp(0.0, n as f64 - 1.0) as usize
     };
+    let across = left.max(0)..right.min(columns as i32);
+    let from: Vec<usize> = across.clone().map(|x| source(x, left, right, image.columns)).collect();
     for y in top.max(0)..bottom.min(rows as i32) {
-        for x in left.max(0)..right.min(columns as i32) {
-            let (sx, sy) = (source(x, left, right, image.columns), source(y, top, bottom, image_rows));
-            pixels[y as usize * columns + x as usize] = image.rgb[sy * image.columns + sx];
-        }
+        let row = &image.rgb[source(y, top, bottom, image_rows) * image.columns..][..image.columns];
+        let start = y as usize * columns + across.start as usize;
+        pixels[start..start + from.len()].iter_mut().zip(&from).for_each(|(p, &x)| *p = row[x]);
     }
 }
 
-/// A PNG file of 8-bit colours, after the PNG specification (W3C, second edition): each row is filtered with `Sub` and
-/// all rows form one zlib stream.
+/// A PNG file of 8-bit colours, after the PNG specification (W3C, second edition). Of the filters `Sub` and `Up` each row gets
+/// the one that leaves more zeros: figures are mostly paper, and where they are not, rows repeat each other.
 pub(super) fn encode(columns: usize, rgb: &[Rgb]) -> Vec<u8> {
+    let width = 3 * columns;
     let rows = rgb.len() / columns.max(1);
-    let mut raw = Vec::with_capacity(rgb.len() * 3 + rows);
-    for row in rgb.chunks(columns.max(1)) {
-        raw.push(1);
-        let mut before = [0_u8; 3];
-        for &now in row {
-            raw.extend((0..3).map(|c| now[c].wrapping_sub(before[c])));
-            before = now;
-        }
-    }
     let mut header = Vec::new();
     header.extend((columns as u32).to_be_bytes());
     header.extend((rows as u32).to_be_bytes());
@@ -178,9 +205,47 @@ pub(super) fn encode(columns: usize, rgb: &[Rgb]) -> Vec<u8> {
     header.extend([8, 2, 0, 0, 0]);
     let mut out = b"\x89PNG\r\n\x1a\n".to_vec();
     chunk(&mut out, *b"IHDR", &header);
-    chunk(&mut out, *b"IDAT", &deflate(&raw));
+    chunk(&mut out, *b"IDAT", &deflate(&filtered(width, rgb.as_flattened())));
     chunk(&mut out, *b"IEND", &[]);
     out
+}
+
+/// Rows of `width` bytes with their filters.
+fn filtered(width: usize, bytes: &[u8]) -> Vec<u8> {
+    let mut out = vec![0; bytes.len() + bytes.len() / width.max(1)];
+    let paper = vec![0; width];
+    let mut above = paper.as_slice();
+    for (row, to) in bytes.chunks_exact(width.max(1)).zip(out.chunks_exact_mut(width + 1)) {
+        let (kind, to) = to.split_at_mut(1);
+        if row == above {
+            kind[0] = UP;
+            continue;
+        }
+        to[..3].copy_from_slice(&row[..3]);
+        subtract(&mut to[3..], &row[3..], &row[..width - 3]);
+        kind[0] = SUB;
+        if changes(&row[3..], &above[3..]) < changes(&row[3..], row) {
+            subtract(to, row, above);
+            kind[0] = UP;
+        }
+        above = row;
+    }
+    out
+}
+
+/// Numbers of the filters.
+const SUB: u8 = 1;
+/// See [`SUB`].
+const UP: u8 = 2;
+
+/// How many of the bytes of `row` differ from those of `other`; counted in bytes, which processors do many at once.
+fn changes(row: &[u8], other: &[u8]) -> usize {
+    let some = |a: &[u8], b: &[u8]| a.iter().zip(b).map(|(a, b)| u8::from(a != b)).sum::<u8>();
+    row.chunks(255).zip(other.chunks(255)).map(|(a, b)| usize::from(some(a, b))).sum()
+}
+
+fn subtract(out: &mut [u8], a: &[u8], b: &[u8]) {
+    out.iter_mut().zip(a.iter().zip(b)).for_each(|(o, (a, b))| *o = a.wrapping_sub(*b));
 }
 
 fn chunk(out: &mut Vec<u8>, kind: [u8; 4], data: &[u8]) {
@@ -200,20 +265,30 @@ mod tests {
 
     #[test]
     fn an_encoded_image_decodes_to_its_pixels() {
-        let rgb: Vec<Rgb> = (0..12_u8).map(|i| [i.wrapping_mul(40), 255 - i, 7]).collect();
+        // A second row like the first, a third that differs in one pixel, a fourth of its own.
+        let mut rgb: Vec<Rgb> = (0..16_u8).map(|i| [i.wrapping_mul(40), 255 - i, 7]).collect();
+        rgb.copy_within(0..4, 4);
+        rgb.copy_within(0..4, 8);
+        rgb[10] = [1, 2, 3];
         let bytes = encode(4, &rgb);
         assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
-        assert_eq!(&bytes[16..24], [0, 0, 0, 4, 0, 0, 0, 3]);
+        assert_eq!(&bytes[16..24], [0, 0, 0, 4, 0, 0, 0, 4]);
         let length = u32::from_be_bytes(bytes[33..37].try_into().unwrap()) as usize;
         let mut raw = Vec::new();
         flate2::read::ZlibDecoder::new(&bytes[41..41 + length]).read_to_end(&mut raw).unwrap();
-        let mut found = Vec::new();
+        let kinds: Vec<u8> = raw.chunks(13).map(|row| row[0]).collect();
+        assert_eq!(kinds[1..3], [UP, UP]);
+        let mut found: Vec<Rgb> = Vec::new();
         for row in raw.chunks(13) {
-            assert_eq!(row[0], 1);
-            let mut before = [0_u8; 3];
-            for delta in row[1..].chunks(3) {
-                before = std::array::from_fn(|c| before[c].wrapping_add(delta[c]));
-                found.push(before);
+            let start = found.len();
+            for (k, delta) in row[1..].chunks(3).enumerate() {
+                let before = match row[0] {
+                    SUB if k > 0 => found[start + k - 1],
+                    UP if start > 0 => found[start - 4 + k],
+                    SUB | UP => [0; 3],
+                    other => panic!("filter {other}"),
+                };
+                found.push(std::array::from_fn(|c| before[c].wrapping_add(delta[c])));
             }
         }
         assert_eq!(found, rgb);
@@ -222,11 +297,27 @@ mod tests {
     #[test]
     fn a_stroke_covers_its_width_and_nothing_else() {
         let mut pixels = vec![PAPER; 20 * 20];
-        stroke(&mut pixels, 20, &[(2.0, 5.0), (8.0, 5.0)], 1.0, [0, 0, 0]);
+        Pen::new(20, 400).stroke(&mut pixels, &[(2.0, 5.0), (8.0, 5.0)], 1.0, [0, 0, 0]);
         // At two pixels a unit the line covers rows 9 and 10 of columns 4 to 15.
         assert_eq!(pixels[9 * 20 + 10], [0, 0, 0]);
         assert_eq!(pixels[10 * 20 + 10], [0, 0, 0]);
         assert_eq!(pixels[7 * 20 + 10], PAPER);
         assert_eq!(pixels[12 * 20 + 10], PAPER);
+    }
+
+    #[test]
+    fn a_stroke_covers_what_lies_within_its_width_at_any_slope() {
+        let ends = [(2.0, 3.0), (37.0, 5.0), (30.0, 38.0), (12.0, 9.5), (12.0, 45.0), (-4.0, 20.0)];
+        let (columns, rows, width) = (80, 80, 1.5);
+        let mut pixels = vec![PAPER; columns * rows];
+        Pen::new(columns, columns * rows).stroke(&mut pixels, &ends, width, [0, 0, 0]);
+        for (i, found) in pixels.iter().enumerate() {
+            let centre = ((i % columns) as f64 + 0.5, (i / columns) as f64 + 0.5);
+            let scaled = |p: Point| (SCALE * p.0, SCALE * p.1);
+            let near = ends.windows(2).map(|e| distance(centre, scaled(e[0]), scaled(e[1])));
+            let inside = width + 0.5 - near.fold(f64::INFINITY, f64::min);
+            let expected = (255.0 * (1.0 - inside.clamp(0.0, 1.0)) + 0.5) as u8;
+            assert_eq!(*found, [expected; 3], "{centre:?}");
+        }
     }
 }

@@ -1,0 +1,210 @@
+//! Intersection of convex polygons whose corners know on which nodes they depend (`clip` has the same for numbers that carry
+//! derivatives).
+
+use super::clip::twice_area;
+use crate::vector::{dot, sub};
+
+/// Two nodes: an edge of a facet, and the line through them.
+type Line = [usize; 2];
+
+/// How a corner follows from nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Crossing {
+    /// It is one.
+    None(usize),
+    /// Two lines meet there.
+    Of([Line; 2]),
+}
+
+/// A corner, and the line its leaving edge lies on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    pub at: [f64; 2],
+    pub of: Crossing,
+    line: Line,
+}
+
+/// A convex polygon, counter-clockwise.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Polygon {
+    pub corners: usize,
+    pub at: [Corner; Polygon::MOST],
+}
+
+/// Sine of the angle between two edges below which the place where they cross is rounding: it takes half of the digits.
+const PARALLEL: f64 = 1e-8;
+
+impl Polygon {
+    /// Corners of an intersection of two quadrilaterals are 8 at most, since each cut adds one; two are spare for rounding.
+    pub(super) const MOST: usize = 10;
+
+    fn empty() -> Self {
+        let nowhere = Corner { at: [0.0; 2], of: Crossing::None(0), line: [0; 2] };
+        Self { corners: 0, at: [nowhere; Self::MOST] }
+    }
+
+    /// From places and nodes, in order.
+    pub(super) fn of(nodes: impl Iterator<Item = ([f64; 2], usize)>) -> Self {
+        let mut out = Self::empty();
+        nodes.for_each(|(at, v)| out.push(Corner { at, of: Crossing::None(v), line: [v; 2] }));
+        for k in 0..out.corners {
+            if let Crossing::None(next) = out.at[(k + 1) % out.corners].of {
+                out.at[k].line[1] = next;
+            }
+        }
+        out
+    }
+
+    fn push(&mut self, corner: Corner) {
+        if self.corners < Self::MOST {
+            self.at[self.corners] = corner;
+            self.corners += 1;
+        }
+    }
+
+    /// Twice its area.
+    pub(super) fn twice_area(&self) -> f64 {
+        (2..self.corners).map(|k| twice_area(&self.at[0].at, &self.at[k - 1].at, &self.at[k].at)).sum()
+    }
+
+    /// Whether the boxes of two polygons are apart.
+    pub(super) fn apart(&self, other: &Self) -> bool {
+        let range = |p: &Self, i: usize| {
+            let values = p.at[..p.corners].iter().map(|c| c.at[i]);
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)))
+        };
+        (0..2).any(|i| {
+            let ((al, ah), (bl, bh)) = (range(self, i), range(other, i));
+            ah <= bl || bh <= al
+        })
+    }
+
+    /// The part inside a convex polygon of nodes (Sutherland and Hodgman 1974).
+    pub(super) fn clipped(&self, other: &Self, nodes: &[[f64; 2]]) -> Self {
+        let mut out = *self;
+        for k in 0..other.corners {
+            out = out.left_of(other.at[k].line, nodes);
+            if out.corners < 3 {
+                return Self::empty();
+            }
+        }
+        out
+    }
+
+    fn left_of(&self, line: Line, nodes: &[[f64; 2]]) -> Self {
+        let mut out = Self::empty();
+        let side = |c: &Corner| twice_area(&nodes[line[0]], &nodes[line[1]], &c.at);
+        let mut from = &self.at[self.corners - 1];
+        let mut s = side(from);
+        for to in &self.at[..self.corners] {
+            let t = side(to);
+            if (s < 0.0) != (t < 0.0) {
+                let c = s / (s - t);
+                let at = std::array::from_fn(|i| from.at[i] + c * (to.at[i] - from.at[i]));
+                let leaving = if s < 0.0 { from.line } else { line };
+                out.push(Corner { at, of: Crossing::Of([from.line, line]), line: leaving });
+            }
+            if t >= 0.0 {
+                out.push(*to);
+            }
+            (from, s) = (to, t);
+        }
+        out
+    }
+}
+
+impl Corner {
+    /// The nodes the crossing of two lines follows, with `δ(corner)_i = Σ c[i][m] δ(node)_m`. It stays on both lines: across each it
+    /// moves as their nodes do in the mean. Along lines that all but coincide it is material of the first.
+    pub(super) fn slopes(&self, lines: &[Line; 2], nodes: &[[f64; 2]]) -> [(usize, [[f64; 2]; 2]); 4] {
+        let ends = lines.map(|l| l.map(|v| nodes[v]));
+        let along = ends.map(|[a, b]| sub(&b, &a));
+        let share: [f64; 2] =
+            std::array::from_fn(|l| dot(&sub(&self.at, &ends[l][0]), &along[l]) / dot(&along[l], &along[l]));
+        let [d, e] = along;
+        let product = d[0] * e[1] - d[1] * e[0];
+        let square = dot(&d, &d) * dot(&e, &e);
+        if product * product <= PARALLEL * PARALLEL * square {
+            let unit = |c: f64| [[c, 0.0], [0.0, c]];
+            let [v, w] = lines[0];
+            return [(v, unit(1.0 - share[0])), (w, unit(share[0])), (v, unit(0.0)), (w, unit(0.0))];
+        }
+        // (direction moved along, normal of the line that moves), over the product of the lines.
+        let block = |t: [f64; 2], of: [f64; 2], c: f64| -> [[f64; 2]; 2] {
+            let normal = [-of[1], of[0]];
+            std::array::from_fn(|i| std::array::from_fn(|m| c * t[i] * normal[m] / product))
+        };
+        let [[p, q], [r, s]] = *lines;
+        [
+            (p, block(e, d, 1.0 - share[0])),
+            (q, block(e, d, share[0])),
+            (r, block(d, e, share[1] - 1.0)),
+            (s, block(d, e, -share[1])),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NODES: [[f64; 2]; 8] = [
+        [-1.0, -1.0],
+        [1.1, -0.9],
+        [1.0, 1.0],
+        [-0.9, 1.2],
+        [0.0, -1.4],
+        [1.5, 0.1],
+        [0.1, 1.3],
+        [-1.3, 0.0],
+    ];
+
+    fn common(nodes: &[[f64; 2]; 8]) -> Polygon {
+        let part = |range: std::ops::Range<usize>| Polygon::of(range.map(|v| (nodes[v], v)));
+        part(0..4).clipped(&part(4..8), nodes)
+    }
+
+    #[test]
+    fn two_quadrilaterals_across_each_other_meet_in_an_octagon_of_crossings() {
+        let found = common(&NODES);
+        assert_eq!(found.corners, 8);
+        assert!(found.at[..8].iter().all(|c| matches!(c.of, Crossing::Of([a, b]) if a[0] < 4 && b[0] >= 4)));
+    }
+
+    #[test]
+    fn a_polygon_inside_keeps_its_nodes_and_one_apart_is_empty() {
+        let mut nodes = NODES;
+        nodes[..4].iter_mut().flatten().for_each(|v| *v *= 0.1);
+        let found = common(&nodes);
+        assert_eq!(found.corners, 4);
+        assert!((0..4).all(|k| found.at[k].of == Crossing::None(k)));
+        nodes[..4].iter_mut().for_each(|p| p[0] += 9.0);
+        assert_eq!(common(&nodes).corners, 0);
+    }
+
+    #[test]
+    fn corners_move_as_their_slopes_say() {
+        let (before, h) = (common(&NODES), 1e-6);
+        for v in 0..8 {
+            for m in 0..2 {
+                let moved = |by: f64| {
+                    let mut nodes = NODES;
+                    nodes[v][m] += by;
+                    common(&nodes)
+                };
+                let (plus, minus) = (moved(h), moved(-h));
+                for k in 0..before.corners {
+                    let Crossing::Of(lines) = before.at[k].of else { panic!("a node") };
+                    let mut expected = [0.0; 2];
+                    for (w, c) in before.at[k].slopes(&lines, &NODES) {
+                        (0..2).for_each(|i| expected[i] += if w == v { c[i][m] } else { 0.0 });
+                    }
+                    for (i, e) in expected.iter().enumerate() {
+                        let found = (plus.at[k].at[i] - minus.at[k].at[i]) / (2.0 * h);
+                        assert!((found - e).abs() < 1e-8, "{k} {v} {m}: {found} {e}");
+                    }
+                }
+            }
+        }
+    }
+}
