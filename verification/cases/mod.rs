@@ -54,9 +54,11 @@ mod fault_balance;
 mod fault_bend;
 mod fault_bodies;
 mod fault_compression;
+mod fault_free_surface;
 mod fault_operator;
 mod fault_space;
 mod fault_stability;
+mod fault_turning;
 mod flamant_boussinesq;
 mod flat_punch;
 mod forward_drift;
@@ -74,6 +76,7 @@ mod lame_cylinder;
 mod large_rotation;
 mod maxwell_relaxation;
 mod nafems_roller;
+mod okada;
 mod partial_slip;
 pub mod sandwich;
 mod sandwich_3d;
@@ -123,9 +126,11 @@ pub const ALL: &[Case] = &[
     fault_bodies::CASE,
     fault_compression::CASE,
     fault_bend::CASE,
+    fault_free_surface::CASE,
     fault_operator::CASE,
     fault_space::CASE,
     fault_stability::CASE,
+    fault_turning::CASE,
     flamant_boussinesq::CASE,
     flat_punch::CASE,
     friction_hard_numerics::CASE,

@@ -284,6 +284,7 @@ fn run_faults(
         fault::draw(out, plan, &run).into_diagnostic()?;
     }
     fault::write_fields(out, plan, &run).into_diagnostic()?;
+    fault::write_bodies(out, plan, &run).into_diagnostic()?;
     print!("{}", report.text());
     println!("  written to {}", out.display());
     if interrupted.is_some() {

@@ -1,7 +1,7 @@
 //! Faults through cycles: the community's benchmark BP1 on coarse meshes.
 #![allow(clippy::unwrap_used)]
 
-use asperity_driver::fault::{Balance, Event, Moment, Plan, Report, run};
+use asperity_driver::fault::{Balance, Both, Dense, Event, Moment, Operator, Plan, Report, run};
 use asperity_driver::ode::{Control, Method, Outcome};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
@@ -149,4 +149,34 @@ fn a_fault_that_fluid_opens_ends_at_its_last_good_state_and_names_the_point() {
     assert!((out.at.seconds() / expected - 1.0).abs() < 0.01, "{} {expected}", out.at.seconds());
     let report = Report::new(&plan, &out, &mut Balance::new(&plan));
     assert!(report.stopped.is_some_and(|s| s.contains("falls to zero")));
+}
+
+/// An entry that no other has.
+fn entry(i: usize, j: usize) -> f64 {
+    ((7 * i + 13 * j) % 11) as f64 - 4.5 + 0.1 * i as f64
+}
+
+#[test]
+fn parts_of_an_operator_of_two_components_make_the_product_with_the_whole_matrix() {
+    let n = 5;
+    let part = |row: usize, column: usize, normal: bool| -> Box<dyn Operator> {
+        let matrix = |row: usize| -> Vec<f64> {
+            let at = |k: usize| entry(row * n + k / n, column * n + k % n);
+            (0..n * n).map(at).collect()
+        };
+        Box::new(Dense::new(n, matrix(row), normal.then(|| matrix(2))))
+    };
+    let slip: Vec<f64> = (0..2 * n).map(|k| (k as f64).sin()).collect();
+    let row = |i: usize| (0..2 * n).map(|j| entry(i, j) * slip[j]).sum::<f64>();
+    let both = Both::new([part(0, 0, true), part(1, 1, true)], Some([part(0, 1, false), part(1, 0, false)]));
+    let (mut shear, mut normal) = (vec![0.0; 2 * n], vec![0.0; n]);
+    both.shear(&slip, &mut shear);
+    both.normal(&slip, &mut normal);
+    for (i, found) in shear.iter().chain(&normal).enumerate() {
+        assert!((found - row(i)).abs() < 1e-13, "{i}: {found} {}", row(i));
+    }
+    for (j, found) in both.stiffness().iter().enumerate() {
+        let sum: f64 = (0..3 * n).map(|i| entry(i, j).abs()).sum();
+        assert!((found - sum).abs() < 1e-12, "{j}");
+    }
 }

@@ -108,6 +108,11 @@ fn quakeml_says_that_events_are_simulated_and_gives_no_magnitude_without_a_lengt
 
 /// The plan of a scene with an event in which all points slip by as much, with the sign of `slip`.
 fn uniform(text: &str, slip: f64) -> Located {
+    slipped(text, &[slip])
+}
+
+/// The same with all components of slip.
+fn slipped(text: &str, components: &[f64]) -> Located {
     use asperity_driver::fault::Event;
     use asperity_driver::ode::Clock;
     use asperity_driver::plan::{ScenePlan, plan_scene};
@@ -121,13 +126,20 @@ fn uniform(text: &str, slip: f64) -> Located {
         end: Clock::new(86_400.0, 10.5),
         peak: 1.0,
         hypocentre: n - 1,
-        slip: vec![slip; n],
-        drop: vec![0.0; n],
+        slip: components.iter().flat_map(|&slip| vec![slip; n]).collect(),
+        drop: vec![0.0; n * components.len()],
     };
     let located = Located::new(&plan, plan.frame.as_ref().unwrap(), &event).unwrap();
     let area: f64 = plan.points.iter().map(|p| p.area).sum();
-    let length = if text.contains("60 km\"\n") { 60e3 } else { 80e3 };
-    let moment = plan.points[0].shear_modulus * area * length * slip.abs();
+    let length = if text.contains("\"3d\"") {
+        1.0
+    } else if text.contains("60 km\"\n") {
+        60e3
+    } else {
+        80e3
+    };
+    let slip = components.iter().map(|c| c * c).sum::<f64>().sqrt();
+    let moment = plan.points[0].shear_modulus * area * length * slip;
     assert!((located.moment.unwrap() / moment - 1.0).abs() < 1e-12);
     assert!((located.tensor.moment() / moment - 1.0).abs() < 1e-12);
     located
@@ -163,4 +175,72 @@ fn mechanisms_are_those_of_the_scene_seen_along_its_strike() {
     let east = (spot.longitude + 180.1) * degree * 33.5f64.to_radians().cos();
     assert!((south - across * 20f64.to_radians().sin()).abs() < 1e-3, "{spot:?}");
     assert!((east - across * 20f64.to_radians().cos()).abs() < 1e-3, "{spot:?}");
+}
+
+/// Two blocks with a fault between them, y up and the fault along z.
+const UPRIGHT: &str = r#"
+schema = 1
+title = "two blocks"
+kinematics = "3d"
+[materials.rock]
+young = "80 GPa"
+poisson = 0.25
+[bodies.A]
+material = "rock"
+mesh.block = { min = ["-2 km", "-2 km", 0], max = [0, 0, "2 km"], divisions = [1, 2, 2], element = "hex8" }
+[bodies.B]
+material = "rock"
+mesh.block = { min = [0, "-2 km", 0], max = ["2 km", 0, "2 km"], divisions = [1, 2, 2], element = "hex8" }
+[faults.main]
+minus = "A.right"
+plus = "B.left"
+rake = [0, 0, 1]
+law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.010, b = 0.015, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }
+normal = "50 MPa"
+rate = 1e-9
+damping = 5e6
+[[stages]]
+name = "cycles"
+duration = "100 yr"
+conditions = [{ set = "A.left", x = 0, y = 0, z = { rate = -0.5e-9 } }, { set = "B.right", x = 0, y = 0, z = { rate = 0.5e-9 } }]
+[time]
+stepper = "fault-ode"
+[place]
+epoch = "1987-03-05T06:07:08Z"
+latitude = "35.9 deg"
+longitude = "-120.5 deg"
+strike = "317 deg"
+up = [0, 2, 0]
+along = [0, 0, 1]
+"#;
+
+#[test]
+fn mechanisms_in_space_follow_the_directions_the_scene_gives() {
+    // Who looks along z with y up has x to the left: plus, to the left, moves away, as in a right-lateral event.
+    let located = uniform(UPRIGHT, 2.0);
+    assert_plane(&located, Plane { strike: 317.0, dip: 90.0, rake: 180.0 });
+    // The last point is the highest or lowest; all lie on the fault below the origin, 2 km along N43W at most.
+    let spot = located.hypocentre;
+    let degree = 6_371_008.8 * std::f64::consts::PI / 180.0;
+    let (north, east) =
+        ((spot.latitude - 35.9) * degree, (spot.longitude + 120.5) * degree * 35.9f64.to_radians().cos());
+    let along = north.hypot(east);
+    assert!((0.0..=2e3 + 1e-3).contains(&along) && (-1e-6..=2e3 + 1e-6).contains(&spot.depth), "{spot:?}");
+    assert!(
+        (north - along * 43f64.to_radians().cos()).abs() < 1e-3
+            && (east + along * 43f64.to_radians().sin()).abs() < 1e-3
+    );
+    // Plus, the left side, goes up.
+    let thrust = uniform(&UPRIGHT.replace("rake = [0, 0, 1]", "rake = [0, 1, 0]"), 1.0);
+    assert_plane(&thrust, Plane { strike: 317.0, dip: 90.0, rake: -90.0 });
+    // Free slip: along z, and across it down, normal x rake.
+    let free = UPRIGHT.replace("rake = [0, 0, 1]", "rake = [0, 0, 1]\nslip = \"free\"");
+    let (sine, cosine) = 30f64.to_radians().sin_cos();
+    assert_plane(
+        &slipped(&free, &[2.0 * cosine, 2.0 * sine]),
+        Plane { strike: 317.0, dip: 90.0, rake: 150.0 },
+    );
+    // Without its directions z is up and y along the strike: then slip along z is up the dip, and plus lies to the right.
+    let usual = UPRIGHT.replace("up = [0, 2, 0]\nalong = [0, 0, 1]\n", "");
+    assert_plane(&uniform(&usual, 1.0), Plane { strike: 317.0, dip: 90.0, rake: 90.0 });
 }

@@ -133,10 +133,9 @@ fn a_run_killed_again_and_again_leaves_the_files_of_one_left_alone() {
     assert_same(folder, "killed");
 }
 
-#[test]
-fn a_run_broken_off_at_every_restart_leaves_the_same_files_and_says_how_to_go_on() {
-    let scene = SCENE.replace("stop_after = 12", "stop_after = 2");
-    let folder = folder(&scene);
+/// Runs a scene, and again broken off at every restart: the files must be the same. How often it was broken off.
+fn broken_off_at_every_restart(scene: &str) -> u32 {
+    let folder = folder(scene);
     let folder = folder.path();
     assert!(run(folder, "whole", &[]).status.success());
     let mut breaks = 0;
@@ -150,8 +149,22 @@ fn a_run_broken_off_at_every_restart_leaves_the_same_files_and_says_how_to_go_on
         assert!(told.contains("wall time is over") && told.contains("--resume"), "{told}");
         breaks += 1;
     }
-    assert!(breaks > 3, "{breaks}");
     assert_same(folder, "broken");
+    breaks
+}
+
+#[test]
+fn a_run_broken_off_at_every_restart_leaves_the_same_files_and_says_how_to_go_on() {
+    let breaks = broken_off_at_every_restart(&SCENE.replace("stop_after = 12", "stop_after = 2"));
+    assert!(breaks > 3, "{breaks}");
+}
+
+#[test]
+fn a_fault_in_space_whose_slip_turns_is_gone_on_with_as_well() {
+    let scene = include_str!("../../../verification/cases/fault_turning/scene.toml");
+    let output = "\n[output]\nbodies = true\nstations.main = [[0, \"0.5 km\", \"0.5 km\"]]\n";
+    let breaks = broken_off_at_every_restart(&(scene.to_string() + output));
+    assert!(breaks > 3, "{breaks}");
 }
 
 #[test]

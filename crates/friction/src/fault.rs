@@ -16,7 +16,7 @@ pub struct Drive<'a> {
     pub normal: &'a [f64],
     /// df_n/dt \[Pa/s\]; none where f_n does not change.
     pub normal_rate: Option<&'a [f64]>,
-    /// dτ/dt of the driving shear traction \[Pa/s\].
+    /// dτ/dt of the driving shear traction \[Pa/s\], component by component.
     pub shear_rate: &'a [f64],
     /// η ≥ 0 \[Pa s/m\].
     pub damping: &'a [f64],
@@ -37,10 +37,16 @@ impl Drive<'_> {
 }
 
 /// The laws of the points of a fault. Slices hold one entry for each point, states are point-major; `first` is the number of
-/// the first point of the slices.
+/// the first point of the slices. Where slip has more than one component, those of m, of slip rates and of shear tractions hold the first
+/// components of all points, then the second.
 pub trait FaultLaw: Send + Sync + std::fmt::Debug {
     /// Number of points.
     fn points(&self) -> usize;
+
+    /// Components of slip.
+    fn components(&self) -> usize {
+        1
+    }
 
     /// State variables of a point.
     fn states(&self) -> usize;

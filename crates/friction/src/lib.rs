@@ -18,6 +18,7 @@ pub mod slip_weakening;
 pub mod static_kinetic;
 pub mod strength;
 pub mod tied;
+pub mod turning;
 mod yielding;
 
 /// What can go wrong in a law.

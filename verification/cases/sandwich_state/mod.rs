@@ -241,7 +241,7 @@ fn slider(plan: &mut Plan) -> Result<Vec<f64>, CaseError> {
     let operator = Dense::new(n, means(&shear), Some(means(&normal)));
     let (pull, press) = plan.loading.rates(1.0, n, true);
     let end = plan.settings.end;
-    let mut loading = Loading::default();
+    let mut loading = Loading::new(1);
     loading.add(
         Table::new(vec![0.0, end], vec![0.0, end]),
         vec![mean(plan, &pull); n],

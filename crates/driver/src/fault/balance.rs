@@ -1,6 +1,6 @@
 //! Works along a run: what becomes of the work that loads do on slip.
 //!
-//! With areas A, slip s, friction f, the initial tractions and those of the loads together τ_l, and the stiffness S of the bodies at the
+//! Where slip turns, products of slip and tractions are those of vectors. With areas A, slip s, friction f, the initial tractions and those of the loads together τ_l, and the stiffness S of the bodies at the
 //! jumps, `f + η V = τ_l - S s/A` times V, summed over points and integrated over time, is
 //!
 //! ```text
@@ -52,7 +52,7 @@ impl Energy {
 pub struct Mark {
     /// When \[s\].
     pub time: f64,
-    /// Slip over the area since the start \[m³; m²\].
+    /// Slip, where it may turn along the rake, over the area since the start \[m³; m²\].
     pub potency: f64,
     /// Works until then.
     pub energy: Energy,
@@ -69,7 +69,7 @@ pub struct Sums {
     leg: usize,
     /// When the last of them was \[s\].
     since: f64,
-    /// Initial tractions and those of the loads then \[Pa\].
+    /// Initial tractions and those of the loads then, component by component \[Pa\].
     traction: Vec<f64>,
 }
 
@@ -93,13 +93,14 @@ impl<'a> Balance<'a> {
     pub fn new(plan: &'a Plan) -> Self {
         let fault = &plan.fault;
         let (n, layout) = (plan.points.len(), super::Layout::of(fault));
-        let mut rate = vec![0.0; n];
+        let mut rate = vec![0.0; layout.m().end];
         fault.law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rate);
-        let first = |p: usize| {
-            layout.normal_of(fault, Clock::new(0.0, 0.0), &plan.start, p) * fault.law.scale(p) * plan.start[p]
-                + fault.damping[p] * rate[p]
+        let first = |i: usize| {
+            let p = i % n;
+            layout.normal_of(fault, Clock::new(0.0, 0.0), &plan.start, p) * fault.law.scale(p) * plan.start[i]
+                + fault.damping[p] * rate[i]
         };
-        let traction = (0..n).map(first).collect();
+        let traction = layout.m().map(first).collect();
         Self::resume(plan, Sums { traction, ..Sums::default() })
     }
 
@@ -110,7 +111,14 @@ impl<'a> Balance<'a> {
         breaks.push(plan.settings.end);
         let n = plan.points.len();
         let scale = (0..n).map(|p| plan.fault.law.scale(p)).collect();
-        let mut balance = Self { plan, sums, breaks, rate: Vec::new(), scale, scratch: vec![0.0; n] };
+        let mut balance = Self {
+            plan,
+            sums,
+            breaks,
+            rate: Vec::new(),
+            scale,
+            scratch: vec![0.0; super::Layout::of(&plan.fault).m().end],
+        };
         balance.load();
         balance
     }
@@ -147,6 +155,7 @@ impl<'a> Balance<'a> {
         }
         if moment.catalogue.events().len() > self.sums.marks.len() {
             let energy = self.energy(moment.slip());
+            // The first components come first.
             let potency = moment.slip().iter().zip(&self.plan.points).map(|(s, p)| s * p.area).sum();
             self.sums.marks.push(Mark { time: moment.at.seconds(), potency, energy });
         }
@@ -166,7 +175,9 @@ impl<'a> Balance<'a> {
         let (slips, normals) = (layout.slip().start, layout.normal());
         let after = end - self.sums.since;
         let mut works = self.sums.works;
-        for (p, point) in self.plan.points.iter().enumerate() {
+        let points =
+            layout.m().zip(self.plan.points.iter().cycle()).map(|(i, point)| (i, i % layout.points(), point));
+        for (i, p, point) in points {
             // Friction a m f_n and its rate.
             let friction = |y: &[f64], dy: &[f64], time: f64| {
                 let (total, growth) = if normals.is_empty() {
@@ -177,17 +188,17 @@ impl<'a> Balance<'a> {
                 let (pressure, rise) =
                     fault.pressure.as_ref().map_or((0.0, 0.0), |f| f.felt(p, time, end - ROUNDING * h));
                 let (normal, change) = (total - pressure, growth - rise);
-                [self.scale[p] * normal * y[p], self.scale[p] * h * (normal * dy[p] + change * y[p])]
+                [self.scale[p] * normal * y[i], self.scale[p] * h * (normal * dy[i] + change * y[i])]
             };
             let way = Way {
-                by: moment.unknowns[slips + p] - step.start[slips + p],
-                rates: [h * step.start_rates[slips + p], h * step.end_rates[slips + p]],
+                by: moment.unknowns[slips + i] - step.start[slips + i],
+                rates: [h * step.start_rates[slips + i], h * step.end_rates[slips + i]],
             };
             let (first, last) = (
                 friction(step.start, step.start_rates, end - h),
                 friction(moment.unknowns, step.end_rates, end),
             );
-            let (traction, rate) = (self.sums.traction[p], self.rate[p]);
+            let (traction, rate) = (self.sums.traction[i], self.rate[i]);
             let load = |t: f64| [traction + t * rate, h * rate];
             works.friction += point.area * way.work(first, last);
             works.loads += point.area * way.work(load(after - h), load(after));
@@ -200,7 +211,8 @@ impl<'a> Balance<'a> {
 /// Energy that `slip` stores in the bodies.
 fn elastic(plan: &Plan, slip: &[f64], traction: &mut [f64]) -> f64 {
     plan.fault.operator.shear(slip, traction);
-    let work = slip.iter().zip(&*traction).zip(&plan.points).map(|((s, t), p)| -0.5 * p.area * s * t);
+    let points = plan.points.iter().cycle();
+    let work = slip.iter().zip(&*traction).zip(points).map(|((s, t), p)| -0.5 * p.area * s * t);
     work.sum()
 }
 
@@ -234,20 +246,20 @@ const MOST_ITERATIONS: usize = 10;
 /// Residual over that of the start at which [`steady`] ends: rounding of a few hundred sums.
 const SMALL: f64 = 1e-12;
 
-/// Slip rates under which the loads change no traction, where loads pull at constant rates and slip changes no normal
+/// Slip rates, component by component, under which the loads change no traction, where loads pull at constant rates and slip changes no normal
 /// traction: those of whole cycles in the mean \[m/s\]. By conjugate gradients, since the operator times areas is symmetric and negative
 /// definite.
 #[must_use]
 pub fn steady(plan: &Plan) -> Option<Vec<f64>> {
     let operator: &dyn Operator = plan.fault.operator.as_ref();
-    let n = plan.points.len();
+    let n = plan.points.len() * operator.components();
     let (end, couples) = (plan.settings.end, operator.couples_normal());
     if couples || !plan.loading.breaks(0.0, end).is_empty() {
         return None;
     }
-    let areas: Vec<f64> = plan.points.iter().map(|p| p.area).collect();
+    let areas: Vec<f64> = plan.points.iter().cycle().take(n).map(|p| p.area).collect();
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let load = plan.loading.rates(0.5 * end, n, couples).0;
+    let load = plan.loading.rates(0.5 * end, plan.points.len(), couples).0;
     let mut residual: Vec<f64> = load.iter().zip(&areas).map(|(l, a)| l * a).collect();
     let (mut rate, mut direction, mut image) = (vec![0.0; n], residual.clone(), vec![0.0; n]);
     let first = dot(&residual, &residual);

@@ -24,9 +24,9 @@ pub struct Event {
     pub peak: f64,
     /// The fastest point at the onset: the hypocentre.
     pub hypocentre: usize,
-    /// Slip of all points over the event \[m\].
+    /// Slip of all points over the event, component by component \[m\].
     pub slip: Vec<f64>,
-    /// Fall of the shear traction of all points over the event \[Pa\].
+    /// Fall of the shear traction of all points over the event, component by component \[Pa\].
     pub drop: Vec<f64>,
 }
 

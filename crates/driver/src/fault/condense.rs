@@ -1,14 +1,15 @@
 //! Bodies condensed onto the jumps of their faults: what slip and loads do to tractions.
 
+use super::bodies::Bodies;
 use super::loading::Loading;
 use super::machine::Machine;
 use super::operator::Dense;
-use super::place::{Place, unit};
+use super::place::{Place, across};
 use crate::loading::Stage;
 use crate::model::Model;
 use crate::rigid;
 use asperity_fem::FemError;
-use asperity_fem::condense::{Loaded, Remainder, Stiffness};
+use asperity_fem::condense::{Condensation, Condensed, Loaded, Remainder, Stiffness};
 use asperity_fem::dof::Channel;
 use asperity_fem::jump::{Jump, Jumps};
 use asperity_fem::table::Table;
@@ -18,24 +19,52 @@ use asperity_fem::table::Table;
 pub struct Point<const D: usize> {
     /// Where.
     pub place: Place<D>,
-    /// Slip rate, where it is prescribed \[m/s\].
-    pub creep: Option<f64>,
+    /// Slip rate along both tangents, where it is prescribed \[m/s\].
+    pub creep: Option<[f64; 2]>,
+}
+
+/// What slip does, component by component.
+#[derive(Debug)]
+pub enum Tractions {
+    /// Slip along one direction.
+    One(Dense),
+    /// Slip along two: of each component along itself, and of the second along the first and of the first along the second,
+    /// where they load across.
+    Two {
+        /// With normal tractions.
+        along: Box<[Dense; 2]>,
+        /// Without.
+        across: Option<Box<[Dense; 2]>>,
+    },
 }
 
 /// Bodies, condensed.
 #[derive(Debug)]
 pub struct Surroundings {
     /// Tractions that slip causes.
-    pub operator: Dense,
+    pub operator: Tractions,
     /// Tractions that loads and creep cause.
     pub loading: Loading,
     /// Memory of the condensation at its worst \[bytes\].
     pub bytes: usize,
+    /// The bodies, where they are kept.
+    pub bodies: Option<Bodies>,
 }
 
-/// Change of normal traction over that of shear traction below which slip does not change normal tractions: rounding of the
+/// Change of normal traction, or of shear traction across slip, over that along slip below which there is none: rounding of the
 /// condensation, far above 1e-16 and far below any effect of geometry.
 const UNCOUPLED: f64 = 1e-9;
+
+/// How to condense.
+#[derive(Clone, Copy, Debug)]
+pub struct Conditions {
+    /// Directions along which points slide freely.
+    pub tangents: usize,
+    /// Memory it may take \[bytes\].
+    pub memory: usize,
+    /// Whether to keep the bodies, for their displacements.
+    pub keep: bool,
+}
 
 /// Condenses the bodies of `model`, whose stiffness `bodies` is, onto the points that slide freely. Tractions are nodal forces over tributary areas: the
 /// interface mass is lumped.
@@ -47,21 +76,17 @@ pub fn condense<const D: usize>(
     bodies: Stiffness,
     stage: &Stage,
     points: &[Point<D>],
-    memory: usize,
+    conditions: Conditions,
 ) -> Result<Surroundings, String> {
     match model.idealisation.components() {
-        1 => with_components::<D, 1>(model, bodies, stage, points, memory, |_| [[1.0]]),
-        2 => with_components::<D, 2>(model, bodies, stage, points, memory, |p| {
+        1 => with_components::<D, 1>(model, bodies, stage, points, conditions, |_| [[1.0]]),
+        2 => with_components::<D, 2>(model, bodies, stage, points, conditions, |p| {
             let n = &p.normal;
             [[-n[1], n[0]], [n[0], n[1]]]
         }),
-        _ => with_components::<D, 3>(model, bodies, stage, points, memory, |p| {
+        _ => with_components::<D, 3>(model, bodies, stage, points, conditions, |p| {
             let (s, n) = (in_space(&p.rake), in_space(&p.normal));
-            let cross = |c: usize| {
-                let (i, j) = ((c + 1) % 3, (c + 2) % 3);
-                n[i] * s[j] - n[j] * s[i]
-            };
-            [s, unit([cross(0), cross(1), cross(2)]), n]
+            [s, across(&n, &s), n]
         }),
     }
 }
@@ -71,15 +96,14 @@ fn in_space<const D: usize>(v: &[f64; D]) -> [f64; 3] {
     std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0))
 }
 
-/// Components of a jump that are retained, from the first of a point on: slip, and the opening, which is the last. In space slip
-/// across the rake stands between them, held at zero.
-fn kept<const C: usize>() -> impl Iterator<Item = usize> {
-    (0..C).filter(|&c| c == 0 || c == C - 1)
+/// Components of a jump that are retained, from the first of a point on: slip along the tangents, and the opening, which is the last.
+fn kept<const C: usize>(tangents: usize) -> impl Iterator<Item = usize> {
+    (0..C).filter(move |&c| c < tangents || c == C - 1)
 }
 
-/// Components that are held at zero.
-fn held<const C: usize>() -> impl Iterator<Item = usize> {
-    1..C.saturating_sub(1).max(1)
+/// Components that are held at zero: in space slip across the rake, where it may not turn.
+fn held<const C: usize>(tangents: usize) -> impl Iterator<Item = usize> {
+    tangents..C.saturating_sub(1).max(tangents)
 }
 
 fn with_components<const D: usize, const C: usize>(
@@ -87,7 +111,7 @@ fn with_components<const D: usize, const C: usize>(
     bodies: Stiffness,
     stage: &Stage,
     points: &[Point<D>],
-    memory: usize,
+    Conditions { tangents, memory, keep }: Conditions,
     frame: impl Fn(&Place<D>) -> [[f64; C]; C],
 ) -> Result<Surroundings, String> {
     let constraints = stage.constraints(&vec![0.0; model.dofs()]);
@@ -117,12 +141,15 @@ fn with_components<const D: usize, const C: usize>(
     let body = machine.stiffness(across);
     let oblique = |e: asperity_fem::jump::ObliqueConstraint| e.to_string();
     let free: Vec<usize> = (0..points.len()).filter(|&k| points[k].creep.is_none()).collect();
-    let mut retained: Vec<usize> =
-        free.iter().flat_map(|&k| kept::<C>().map(move |c| (k, c))).map(|(k, c)| slip[k] + c).collect();
+    let mut retained: Vec<usize> = free
+        .iter()
+        .flat_map(|&k| kept::<C>(tangents).map(move |c| (k, c)))
+        .map(|(k, c)| slip[k] + c)
+        .collect();
     retained.sort_unstable();
     let mut fixed = jumps.fixed(&constraints.fixed).map_err(oblique)?;
     let is_fixed = |dof: usize| fixed.binary_search(&dof).is_ok();
-    if let Some(&k) = free.iter().find(|&&k| is_fixed(slip[k])) {
+    if let Some(&k) = free.iter().find(|&&k| (0..tangents).any(|c| is_fixed(slip[k] + c))) {
         return Err(format!(
             "conditions prescribe the motion of both sides of a fault along its slip at {}, where it is to slide: let it creep there, or leave \
              that component of the conditions out",
@@ -134,7 +161,7 @@ fn with_components<const D: usize, const C: usize>(
         if point.creep.is_some() {
             fixed.extend(dof..dof + C);
         } else {
-            fixed.extend(held::<C>().map(|c| dof + c));
+            fixed.extend(held::<C>(tangents).map(|c| dof + c));
         }
     }
     fixed.extend(machine.tied());
@@ -145,19 +172,83 @@ fn with_components<const D: usize, const C: usize>(
         channels.push(machine.channel(&jumps.channel(channel, &constraints.fixed).map_err(oblique)?)?);
     }
     let creeping = points.iter().zip(&slip).filter_map(|(p, &d)| p.creep.map(|rate| (d, rate)));
-    let prescribed: Vec<(usize, f64)> = creeping.collect();
+    let components =
+        creeping.flat_map(|(d, rate)| rate.into_iter().enumerate().map(move |(c, v)| (d + c, v)));
+    // At rate zero it is held, as all that is fixed and not prescribed.
+    let prescribed: Vec<(usize, f64)> = components.filter(|(_, v)| *v != 0.0).collect();
     if !prescribed.is_empty() {
         let amplitude = Table::new(vec![0.0, stage.end], vec![0.0, stage.end]);
         channels.push(Channel { prescribed, forces: Vec::new(), amplitude });
     }
     channels.extend(machine.pulls(stage.end));
-    let analysis = Loaded::analyse(body, &retained, &fixed, channels).map_err(|e| e.to_string())?;
-    let bytes = analysis.bytes();
-    let left = analysis.eliminate(memory).map_err(|e| in_words(model, &jumps, e))?;
+    let (left, bytes) = Left::of(body, (&retained, &fixed), channels, memory, keep)
+        .map_err(|e| in_words(model, &jumps, e))?;
     let rows: Vec<usize> = free.iter().map(|&k| retained.partition_point(|&d| d < slip[k])).collect();
     let area = |(&k, &supported): (&usize, &bool)| Bearing { area: points[k].place.area, supported };
     let bearings: Vec<Bearing> = free.iter().zip(&supported).map(area).collect();
-    Ok(Surroundings { bytes, ..tractions::<C>(&left, &rows, &bearings) })
+    let found = tractions::<C>(&left, tangents, &rows, &bearings);
+    let ties = machine.ties().clone();
+    let bodies = left.kept().map(|condensed| Bodies::new(condensed, jumps, ties, rows));
+    Ok(Surroundings { bytes, bodies, ..found })
+}
+
+/// What elimination leaves of the bodies.
+enum Left {
+    /// Condensed forces only.
+    Alone(Remainder),
+    /// With the factor, for displacements.
+    Kept(Box<Condensed>),
+}
+
+impl Left {
+    /// Of a body, onto `retained` degrees of freedom where others are `fixed`, and the memory it takes \[bytes\].
+    fn of(
+        body: Stiffness,
+        (retained, fixed): (&[usize], &[usize]),
+        channels: Vec<Channel>,
+        memory: usize,
+        keep: bool,
+    ) -> Result<(Self, usize), FemError> {
+        if !keep {
+            let analysis = Loaded::analyse(body, retained, fixed, channels)?;
+            let bytes = analysis.bytes();
+            return Ok((Self::Alone(analysis.eliminate(memory)?), bytes));
+        }
+        let analysis = Condensation::analyse(&body, retained, fixed)?;
+        let bytes = analysis.bytes();
+        let system: Vec<usize> = (0..retained.len()).collect();
+        let mut condensed = Condensed::new("bodies".into(), analysis.factor(memory)?, &system);
+        condensed.set_channels(channels);
+        Ok((Self::Kept(Box::new(condensed)), bytes))
+    }
+
+    /// Forces on the retained degrees of freedom by displacement k, which are those on k: symmetric.
+    fn row(&self, k: usize) -> &[f64] {
+        match self {
+            Self::Alone(remainder) => remainder.row(k),
+            Self::Kept(condensed) => {
+                let reduction = condensed.reduction();
+                let width = reduction.retained().len();
+                &reduction.schur()[k * width..][..width]
+            }
+        }
+    }
+
+    /// Amplitude of each load, and the forces it causes.
+    fn channels(&self) -> Vec<(&Table, &[f64])> {
+        match self {
+            Self::Alone(remainder) => remainder.channels().collect(),
+            Self::Kept(condensed) => condensed.channels().collect(),
+        }
+    }
+
+    /// The bodies, where they are kept.
+    fn kept(self) -> Option<Condensed> {
+        match self {
+            Self::Alone(_) => None,
+            Self::Kept(condensed) => Some(*condensed),
+        }
+    }
 }
 
 /// What forces of a point act on.
@@ -170,12 +261,12 @@ struct Bearing {
 }
 
 impl Bearing {
-    /// Traction per force: of the slip (0), which the bodies drive with the opposite of what holds it, and of the opening (1).
-    fn per_force(&self, shift: usize) -> f64 {
-        match (shift, self.supported) {
-            (0, _) => -1.0 / self.area,
-            (_, true) => 0.0,
-            (_, false) => 1.0 / self.area,
+    /// Traction per force: of slip, which the bodies drive with the opposite of what holds it, and of the opening.
+    fn per_force(&self, opening: bool) -> f64 {
+        match (opening, self.supported) {
+            (false, _) => -1.0 / self.area,
+            (true, true) => 0.0,
+            (true, false) => 1.0 / self.area,
         }
     }
 }
@@ -200,32 +291,55 @@ fn in_words<const D: usize, const C: usize>(model: &Model<D>, jumps: &Jumps<C>, 
 /// Tractions from the condensed forces; `rows` are those of the slip of each point, in motion of more than one component its opening stands next to it. A force
 /// is what must act on a jump to hold it there: the bodies drive slip with its opposite, and where it holds the sides apart they
 /// press on each other, in compression.
-fn tractions<const C: usize>(left: &Remainder, rows: &[usize], bearings: &[Bearing]) -> Surroundings {
+fn tractions<const C: usize>(
+    left: &Left,
+    tangents: usize,
+    rows: &[usize],
+    bearings: &[Bearing],
+) -> Surroundings {
     let n = rows.len();
-    let part = |shift: usize| -> Vec<f64> {
+    // Traction of a component, the opening after the tangents, that slip of a component causes.
+    let part = |component: usize, slip: usize| -> Vec<f64> {
         let mut matrix = Vec::with_capacity(n * n);
         for (&row, bearing) in rows.iter().zip(bearings) {
-            let (per_area, forces) = (bearing.per_force(shift), left.row(row + shift));
-            matrix.extend(rows.iter().map(|&column| per_area * forces[column]));
+            let (per_area, forces) = (bearing.per_force(component == tangents), left.row(row + component));
+            matrix.extend(rows.iter().map(|&c| per_area * forces[c + slip]));
         }
         matrix
     };
-    let shear = part(0);
     let largest = |m: &[f64]| m.iter().fold(0.0, |l: f64, v| l.max(v.abs()));
-    let over_area = |forces: &[f64], shift: usize| -> Vec<f64> {
-        rows.iter().zip(bearings).map(|(&r, b)| b.per_force(shift) * forces[r + shift]).collect()
+    let over_area = |forces: &[f64], component: usize| -> Vec<f64> {
+        let per_force = |b: &Bearing| b.per_force(component == tangents);
+        rows.iter().zip(bearings).map(|(&r, b)| per_force(b) * forces[r + component]).collect()
     };
+    let shear_of = |forces: &[f64]| (0..tangents).flat_map(|c| over_area(forces, c)).collect::<Vec<f64>>();
     // Loads may change normal tractions where slip does not.
-    let loads_normal = |shear_load: f64| {
-        C > 1 && left.channels().any(|(_, f)| largest(&over_area(f, 1)) > UNCOUPLED * shear_load)
+    let channels = left.channels();
+    let shear_load = channels.iter().map(|(_, f)| largest(&shear_of(f))).fold(0.0, f64::max);
+    let loaded =
+        C > 1 && channels.iter().any(|(_, f)| largest(&over_area(f, tangents)) > UNCOUPLED * shear_load);
+    let along = |c: usize| {
+        let shear = part(c, c);
+        let normal = if C == 1 { None } else { Some(part(tangents, c)) };
+        let normal = normal.filter(|m| loaded || largest(m) > UNCOUPLED * largest(&shear));
+        Dense::new(n, shear, normal)
     };
-    let shear_load = left.channels().map(|(_, f)| largest(&over_area(f, 0))).fold(0.0, f64::max);
-    let normal = if C == 1 { None } else { Some(part(1)) };
-    let normal = normal.filter(|m| largest(m) > UNCOUPLED * largest(&shear) || loads_normal(shear_load));
-    let mut loading = Loading::default();
-    for (amplitude, forces) in left.channels() {
-        let change = if C == 1 { Vec::new() } else { over_area(forces, 1) };
-        loading.add(amplitude.clone(), over_area(forces, 0), change);
+    let operator = if tangents == 1 {
+        Tractions::One(along(0))
+    } else {
+        let along = Box::new([along(0), along(1)]);
+        let least = UNCOUPLED * largest(along[0].matrix());
+        let across = [part(0, 1), part(1, 0)];
+        let loads = across.iter().any(|m| largest(m) > least);
+        Tractions::Two {
+            along,
+            across: loads.then(|| Box::new(across.map(|shear| Dense::new(n, shear, None)))),
+        }
+    };
+    let mut loading = Loading::new(tangents);
+    for (amplitude, forces) in channels {
+        let change = if C == 1 { Vec::new() } else { over_area(forces, tangents) };
+        loading.add(Table::clone(amplitude), shear_of(forces), change);
     }
-    Surroundings { operator: Dense::new(n, shear, normal), loading, bytes: 0 }
+    Surroundings { operator, loading, bytes: 0, bodies: None }
 }

@@ -1,8 +1,8 @@
 //! The equations of a fault between two changes of its loading.
 //!
 //! With `τ̇ = A V + τ̇_load` and, where slip changes normal tractions, `ḟ_n = B V + ḟ_load`, each point is a slider without
-//! springs that feels the rate τ̇: [`asperity_friction::fault`]. Unknowns: m = μ/a of all points, their states (point-major), their
-//! slip, and f_n where slip changes it. The tractions never stand as differences of large numbers, since m carries them. Pore pressure
+//! springs that feels the rate τ̇: [`asperity_friction::fault`], and [`asperity_friction::turning`] where slip has two directions. Unknowns:
+//! m = μ/a of all points, their states (point-major), their slip, and f_n where slip changes it. The tractions never stand as differences of large numbers, since m carries them. Pore pressure
 //! is a given function of time: it is taken off f_n, and its rate off df_n/dt, at the time of each stage.
 
 use super::operator::Operator;
@@ -31,6 +31,8 @@ pub struct Fault {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
     points: usize,
+    /// Of slip.
+    components: usize,
     states: usize,
     couples_normal: bool,
 }
@@ -41,6 +43,7 @@ impl Layout {
     pub fn of(fault: &Fault) -> Self {
         Self {
             points: fault.law.points(),
+            components: fault.law.components(),
             states: fault.law.states(),
             couples_normal: fault.operator.couples_normal(),
         }
@@ -52,23 +55,36 @@ impl Layout {
         self.normal().end
     }
 
-    /// m of all points.
+    /// Number of points.
+    #[must_use]
+    pub fn points(&self) -> usize {
+        self.points
+    }
+
+    /// Components of slip.
+    #[must_use]
+    pub fn components(&self) -> usize {
+        self.components
+    }
+
+    /// m of all points, component by component.
     #[must_use]
     pub fn m(&self) -> Range<usize> {
-        0..self.points
+        0..self.points * self.components
     }
 
     /// States, point-major.
     #[must_use]
     pub fn states(&self) -> Range<usize> {
-        self.points..self.points * (1 + self.states)
+        let first = self.m().end;
+        first..first + self.points * self.states
     }
 
-    /// Slip \[m\].
+    /// Slip \[m\], component by component.
     #[must_use]
     pub fn slip(&self) -> Range<usize> {
         let first = self.states().end;
-        first..first + self.points
+        first..first + self.points * self.components
     }
 
     /// f_n \[Pa\]; empty where it does not change.
@@ -86,6 +102,17 @@ impl Layout {
         let total =
             if self.couples_normal { unknowns[self.normal().start + point] } else { fault.normal[point] };
         total - fault.pressure.as_ref().map_or(0.0, |p| p.at(point, at.seconds()))
+    }
+}
+
+/// Size of the vector at a point of a list that stands component by component; of one component its absolute value.
+#[must_use]
+pub fn size(values: &[f64], points: usize, point: usize) -> f64 {
+    let mut components = values.iter().skip(point).step_by(points.max(1));
+    match (components.next(), components.next()) {
+        (Some(x), Some(y)) => (x * x + y * y).sqrt(),
+        (Some(x), None) => x.abs(),
+        _ => 0.0,
     }
 }
 
@@ -120,12 +147,12 @@ impl<'a> Equations<'a> {
     #[must_use]
     pub fn new(fault: &'a Fault, shear_load: Vec<f64>, normal_load: Vec<f64>) -> Self {
         let layout = Layout::of(fault);
-        let n = layout.points;
+        let (n, vectors) = (layout.points, layout.m().end);
         let (fluid, changes) = (fault.pressure.is_some(), fault.pressure.is_some() || layout.couples_normal);
         let zeros = |needed: bool| vec![0.0; if needed { n } else { 0 }];
         let scratch = Scratch {
-            rate: vec![0.0; n],
-            shear_rate: vec![0.0; n],
+            rate: vec![0.0; vectors],
+            shear_rate: vec![0.0; vectors],
             normal_rate: zeros(changes),
             normal: zeros(fluid),
         };
@@ -171,7 +198,9 @@ impl<'a> Equations<'a> {
         for p in 0..l.points {
             let states = l.states().start + p * l.states;
             all[states..states + l.states].fill(tolerance * law.state_scale(p));
-            all[l.slip().start + p] = tolerance * law.length(p).unwrap_or(1.0);
+            for slip in l.slip().skip(p).step_by(l.points) {
+                all[slip] = tolerance * law.length(p).unwrap_or(1.0);
+            }
             if l.couples_normal {
                 all[l.normal().start + p] = tolerance * law.scale(p) * self.fault.normal[p];
             }
@@ -221,17 +250,17 @@ impl Equations<'_> {
             changes = change(time);
         }
         let (m, states) = (l.m(), l.states());
-        let zeros = vec![0.0; l.points];
+        let (zeros, still_shear) = (vec![0.0; l.points], vec![0.0; m.end]);
         let mut moved = vec![0.0; states.end];
         let mut still = vec![0.0; states.end];
         for (rate, out) in [(&changes, &mut moved), (&zeros, &mut still)] {
             let drive = Drive {
                 normal: &normal,
                 normal_rate: Some(rate),
-                shear_rate: &zeros,
+                shear_rate: &still_shear,
                 damping: &self.fault.damping,
             };
-            let (dm, ds) = out.split_at_mut(l.points);
+            let (dm, ds) = out.split_at_mut(m.end);
             self.fault.law.rates(0, drive, &y[m.clone()], &y[states.clone()], dm, ds);
         }
         for ((y, moved), still) in y.iter_mut().zip(&moved).zip(&still) {
@@ -278,7 +307,7 @@ impl Equations<'_> {
             shear_rate: &scratch.shear_rate,
             damping: &fault.damping,
         };
-        let (dm, rest) = dy.split_at_mut(l.points);
+        let (dm, rest) = dy.split_at_mut(l.m().end);
         fault.law.rates(0, drive, m, states, dm, &mut rest[..l.points * l.states]);
     }
 }
@@ -293,18 +322,22 @@ impl Problem for Equations<'_> {
     }
 
     /// Slip of a point loads those around it by no more than [`Operator::stiffness`], and friction gives way with the slope
-    /// f_n a/V + η: in the norm of the columns weighted with that slope a bound of the relaxation by elasticity, beside which states
+    /// f_n a/V + η along slip, and with more across it: in the norm of the columns weighted with that slope a bound of the relaxation by elasticity, beside which states
     /// relax with V/L.
     fn spectral_radius(&self, at: Clock, y: &[f64]) -> Option<f64> {
         let (l, fault) = (self.layout, self.fault);
         let rate = &mut self.scratch.borrow_mut().rate;
         fault.law.slip_rates(0, &y[l.m()], &y[l.states()], rate);
-        let of = |(p, (v, k)): (usize, (&f64, &f64))| {
+        // The norm of what gives way, one matrix a point with its eigenvalues along and across slip.
+        let norm = (l.components as f64).sqrt();
+        let of = |(i, k): (usize, &f64)| {
+            let p = i % l.points;
+            let v = size(rate, l.points, p);
             let strength = l.normal_of(fault, at, y, p) * fault.law.scale(p);
             let states = fault.law.length(p).map_or(0.0, f64::recip);
-            v.abs() * (k / (strength + fault.damping[p] * v.abs()) + states)
+            v * (norm * k / (strength + fault.damping[p] * v) + states)
         };
-        Some(rate.iter().zip(fault.operator.stiffness()).enumerate().map(of).fold(0.0, f64::max))
+        Some(fault.operator.stiffness().iter().enumerate().map(of).fold(0.0, f64::max))
     }
 
     /// The methods a fault is integrated with do not ask for it.

@@ -1,56 +1,105 @@
-//! Fields on faults in space as VTU: the state at the end of a run, and slip and fall of traction of each event.
+//! Fields on faults in space as VTU: states in the course of a run and at its end, and slip and fall of traction of each event.
 
-use super::equations::Layout;
+use super::equations::{Layout, size};
+use super::figures::table;
 use super::plan::{FaultView, Plan};
 use super::run::Run;
+use super::snapshots;
 use crate::observe::vtu::{Array, Grid, PvdEntry, Values, pvd};
 use crate::observe::{ObserveError, atomic};
+use crate::ode::Clock;
 use std::path::Path;
 
-/// Writes `fields/FAULT_event_000.vtu` of each event, `fields/FAULT_end.vtu` and a collection of all, at the times of their onsets.
-/// Faults in the plane have profiles instead.
+/// Writes `fields/FAULT_event_000.vtu` of each event, `fields/FAULT_end.vtu` and the collections `fields.pvd` of the states in the
+/// course of the run and `events.pvd` of the events, at the times of their onsets. Faults in the plane have profiles instead.
 ///
 /// # Errors
-/// When a file cannot be written.
+/// When a file cannot be read or written.
 pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), ObserveError> {
     if !plan.in_space {
         return Ok(());
     }
-    let folder = out.join("fields");
-    atomic::create_dir(&folder)?;
-    let mut entries = Vec::new();
+    let taken = table(&out.join(snapshots::LIST))?;
+    let (mut states, mut events) = (Vec::new(), Vec::new());
     for (part, fault) in plan.faults.iter().enumerate() {
         let grid = grid(plan, fault);
-        let of = |values: &[f64]| values[fault.points.clone()].to_vec();
-        let mut put = |file: String, time: f64, fields: &[(&str, Vec<f64>)]| {
-            let arrays: Vec<Array<'_>> =
-                fields.iter().map(|(name, v)| Array::scalar(name, Values::F64(v))).collect();
-            entries.push(PvdEntry { time, part, name: fault.name.clone(), file: format!("fields/{file}") });
-            atomic::write(&folder.join(&file), &grid.file(time, &arrays, &[]))
+        let folder = out.join("fields");
+        let entry = |file: &str, time: f64| PvdEntry {
+            time,
+            part,
+            name: fault.name.clone(),
+            file: format!("fields/{file}"),
         };
+        states
+            .extend(taken.iter().enumerate().map(|(k, row)| entry(&snapshots::name(&fault.name, k), row[1])));
         for (k, event) in run.catalogue.events().iter().enumerate() {
-            let fields = [("slip", of(&event.slip)), ("stress_drop", of(&event.drop))];
-            put(format!("{}_event_{k:03}.vtu", fault.name), event.onset.seconds(), &fields)?;
+            let mut fields = along(plan, fault, "slip", &event.slip);
+            fields.extend(along(plan, fault, "stress_drop", &event.drop));
+            let (file, onset) = (format!("{}_event_{k:03}.vtu", fault.name), event.onset.seconds());
+            put(&folder.join(&file), &grid, onset, &fields)?;
+            events.push(entry(&file, onset));
         }
-        put(format!("{}_end.vtu", fault.name), run.at.seconds(), &at_end(plan, fault, run))?;
+        let (file, time) = (format!("{}_end.vtu", fault.name), run.at.seconds());
+        put(&folder.join(&file), &grid, time, &state(plan, fault, run.at, &run.unknowns))?;
+        states.push(entry(&file, time));
     }
-    atomic::write(&out.join("fields.pvd"), &pvd(&entries))
+    atomic::write(&out.join("events.pvd"), &pvd(&events))?;
+    atomic::write(&out.join("fields.pvd"), &pvd(&states))
+}
+
+/// Writes fields on a fault.
+///
+/// # Errors
+/// When the file cannot be written.
+pub(super) fn put(path: &Path, grid: &Grid, time: f64, fields: &[Field]) -> Result<(), ObserveError> {
+    let arrays: Vec<Array<'_>> = fields.iter().map(Field::array).collect();
+    atomic::write(path, &grid.file(time, &arrays, &[]))
+}
+
+/// A field on a fault.
+pub(super) enum Field {
+    Scalar(&'static str, Vec<f64>),
+    Vector(String, Vec<[f64; 3]>),
+}
+
+impl Field {
+    fn array(&self) -> Array<'_> {
+        match self {
+            Self::Scalar(name, values) => Array::scalar(name, Values::F64(values)),
+            Self::Vector(name, values) => Array::vector(name, values),
+        }
+    }
+}
+
+/// Values along slip; where slip may turn their size, and the vector in space as `NAME_vector`.
+fn along(plan: &Plan, fault: &FaultView, name: &'static str, values: &[f64]) -> Vec<Field> {
+    let points = || fault.points.clone();
+    if plan.fault.law.components() == 1 {
+        return vec![Field::Scalar(name, values[points()].to_vec())];
+    }
+    let sizes = points().map(|p| size(values, plan.points.len(), p)).collect();
+    let vectors = points().map(|p| plan.vector(values, p)).collect();
+    vec![Field::Scalar(name, sizes), Field::Vector(format!("{name}_vector"), vectors)]
 }
 
 /// Slip \[m\], log10 of the slip rate \[m/s\], friction and normal traction \[Pa\].
-fn at_end(plan: &Plan, fault: &FaultView, run: &Run) -> Vec<(&'static str, Vec<f64>)> {
+pub(super) fn state(plan: &Plan, fault: &FaultView, at: Clock, y: &[f64]) -> Vec<Field> {
     let layout = Layout::of(&plan.fault);
-    let (law, y) = (&plan.fault.law, &run.unknowns);
-    let mut rate = vec![0.0; law.points()];
+    let (law, n) = (&plan.fault.law, plan.points.len());
+    let mut rate = vec![0.0; layout.m().end];
     law.slip_rates(0, &y[layout.m()], &y[layout.states()], &mut rate);
-    let each = |value: &dyn Fn(usize) -> f64| fault.points.clone().map(value).collect::<Vec<f64>>();
-    let normal = |p: usize| layout.normal_of(&plan.fault, run.at, y, p);
-    vec![
-        ("slip", each(&|p| y[layout.slip().start + p])),
-        ("log10_slip_rate", each(&|p| rate[p].abs().log10())),
-        ("shear_traction", each(&|p| normal(p) * law.scale(p) * y[p])),
-        ("normal_traction", each(&normal)),
-    ]
+    let normal = |p: usize| layout.normal_of(&plan.fault, at, y, p);
+    let shear: Vec<f64> = layout.m().map(|i| normal(i % n) * law.scale(i % n) * y[i]).collect();
+    let speeds = fault.points.clone().map(|p| size(&rate, n, p).log10()).collect();
+    let mut fields = along(plan, fault, "slip", &y[layout.slip()]);
+    fields.push(Field::Scalar("log10_slip_rate", speeds));
+    if law.components() > 1 {
+        let vectors = fault.points.clone().map(|p| plan.vector(&rate, p)).collect();
+        fields.push(Field::Vector("slip_rate_vector".into(), vectors));
+    }
+    fields.extend(along(plan, fault, "shear_traction", &shear));
+    fields.push(Field::Scalar("normal_traction", fault.points.clone().map(normal).collect()));
+    fields
 }
 
 /// VTK's type of a face with so many nodes; their order is the elements' own.
@@ -62,7 +111,8 @@ fn face_type(nodes: usize) -> u8 {
     }
 }
 
-fn grid(plan: &Plan, fault: &FaultView) -> Grid {
+/// Faces of a fault.
+pub(super) fn grid(plan: &Plan, fault: &FaultView) -> Grid {
     let places: Vec<[f64; 3]> = plan.points[fault.points.clone()].iter().map(|p| p.at).collect();
     let cells: Vec<(u8, Vec<usize>)> = fault.faces.iter().map(|f| (face_type(f.len()), f.clone())).collect();
     Grid::new(&places, &cells)

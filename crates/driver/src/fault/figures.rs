@@ -13,6 +13,9 @@ use std::path::{Path, PathBuf};
 pub fn draw(out: &Path, plan: &Plan, run: &Run) -> Result<Vec<PathBuf>, ObserveError> {
     let rows = |name: &str| table(&out.join(name));
     let profiles = |name: &str| -> Result<Vec<(f64, Vec<f64>)>, ObserveError> {
+        if plan.in_space {
+            return Ok(Vec::new());
+        }
         Ok(rows(name)?.into_iter().map(|row| (row[0], row[1..].to_vec())).collect())
     };
     let line = |fault: &super::FaultView| {
@@ -35,7 +38,7 @@ pub fn draw(out: &Path, plan: &Plan, run: &Run) -> Result<Vec<PathBuf>, ObserveE
 }
 
 /// The rows of a table of numbers; a row that lacks columns is left out.
-fn table(path: &Path) -> Result<Vec<Vec<f64>>, ObserveError> {
+pub(super) fn table(path: &Path) -> Result<Vec<Vec<f64>>, ObserveError> {
     let failed = |e: csv::Error| ObserveError::Draw { path: path.to_path_buf(), reason: e.to_string() };
     let mut reader = csv::ReaderBuilder::new().flexible(true).from_path(path).map_err(failed)?;
     let width = reader.headers().map_err(failed)?.len();

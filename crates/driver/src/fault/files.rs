@@ -1,34 +1,34 @@
-//! Output files of a run: stations in the format of the SEAS community, the largest slip rate, and profiles of slip and of
-//! slip rates.
+//! Output files of a run: stations, the largest slip rate, and profiles of slip and of slip rates, or in space snapshots.
 //!
 //! Rows come by change and by simulated time, not by step, so that files grow with what happens.
 
 use super::checkpoint::{Checkpoint, ResumeError};
 use super::plan::Plan;
 use super::run::{Moment, Watcher};
+use super::snapshots::{self, Snapshots, Taken};
+use super::stations;
 use crate::observe::{ObserveError, atomic};
 use crate::ode::Control;
-use crate::scene::model::Station;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// A year \[s\], as the benchmarks count it.
-const YEAR: f64 = 365.25 * 86_400.0;
+pub(super) const YEAR: f64 = 365.25 * 86_400.0;
 /// Time between rows of stations while nothing is fast, and in an event \[s\]: the cadence the benchmarks ask for.
 const STATION_INTERVALS: [f64; 2] = [0.1 * YEAR, 0.1];
 /// Time between profiles of slip while nothing is fast, and in an event \[s\].
-const PROFILE_INTERVALS: [f64; 2] = [5.0 * YEAR, 1.0];
+pub(super) const PROFILE_INTERVALS: [f64; 2] = [5.0 * YEAR, 1.0];
 /// A profile of rates is written where ln of the largest slip rate has changed by so much: half a decade.
-const RATE_CHANGE: f64 = 1.15;
+pub(super) const RATE_CHANGE: f64 = 1.15;
 /// Rows and profiles of a run at least, where those intervals are long beside it.
 const LEAST_ROWS: f64 = 500.0;
-const LEAST_PROFILES: f64 = 100.0;
+pub(super) const LEAST_PROFILES: f64 = 100.0;
 /// A row is written where ln of the largest slip rate has changed by so much: an eighth of a decade.
 const CHANGE: f64 = 0.3;
 
-/// Columns of the largest slip rate; means are weighted with areas.
+/// Columns of the largest slip rate; means are weighted with areas, and along the rake where slip may turn.
 const LARGEST_HEAD: &str = "time [s],log10 slip_rate [m/s],point,mean shear_traction [Pa],mean slip [m]\n";
 
 /// A file that grows by whole rows.
@@ -73,10 +73,10 @@ impl Rows {
 
 /// When something was written last.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct Last {
-    time: f64,
+pub(super) struct Last {
+    pub time: f64,
     /// Largest slip rate then \[m/s\].
-    largest: f64,
+    pub largest: f64,
 }
 
 /// Where the files of a run stand.
@@ -87,24 +87,26 @@ pub struct Position {
     row: Option<Last>,
     profile: Option<f64>,
     rates: Option<Last>,
+    /// In space.
+    #[serde(default)]
+    snapshots: Option<Taken>,
 }
 
-/// Writes `stations/`, `largest_rate.csv`, `slip_profiles.csv` and `rate_profiles.csv` (log10 of m/s).
+/// Writes `stations/`, `largest_rate.csv` and, in the plane, `slip_profiles.csv` and `rate_profiles.csv` (log10 of m/s), in space
+/// snapshots.
 #[derive(Debug)]
 pub struct Files<'a> {
     plan: &'a Plan,
-    /// The largest slip rate, profiles of slip and of slip rates, then stations.
+    /// The largest slip rate, profiles of slip and of slip rates or the list of snapshots, then stations.
     rows: Vec<Rows>,
     /// Points of the stations.
     stations: Vec<usize>,
     row: Option<Last>,
     profile: Option<f64>,
     rates: Option<Last>,
+    snapshots: Option<Snapshots>,
     failure: Option<ObserveError>,
 }
-
-/// Files before those of the stations.
-const GENERAL: usize = 3;
 
 impl<'a> Files<'a> {
     /// Makes the files with their headers in `out`.
@@ -121,10 +123,11 @@ impl<'a> Files<'a> {
         Ok(Self {
             plan,
             rows,
-            stations: stations(plan),
+            stations: stations::points(plan),
             row: None,
             profile: None,
             rates: None,
+            snapshots: Snapshots::begin(out, plan)?,
             failure: None,
         })
     }
@@ -141,8 +144,18 @@ impl<'a> Files<'a> {
         for ((path, _), &length) in heads.into_iter().zip(&from.lengths) {
             rows.push(Rows::reopen(path, length)?);
         }
-        let Position { row, profile, rates, .. } = *from;
-        Ok(Self { plan, rows, stations: stations(plan), row, profile, rates, failure: None })
+        let Position { row, profile, rates, snapshots, .. } = *from;
+        let snapshots = Snapshots::begin(out, plan)?.map(|s| s.from(snapshots.unwrap_or_default()));
+        Ok(Self {
+            plan,
+            rows,
+            stations: stations::points(plan),
+            row,
+            profile,
+            rates,
+            snapshots,
+            failure: None,
+        })
     }
 
     /// Where the files stand, once all of that is on the disc.
@@ -152,41 +165,23 @@ impl<'a> Files<'a> {
     pub fn position(&self) -> Result<Position, ObserveError> {
         self.rows.iter().try_for_each(Rows::settle)?;
         let lengths = self.rows.iter().map(|r| r.length).collect();
-        Ok(Position { lengths, row: self.row, profile: self.profile, rates: self.rates })
+        let snapshots = self.snapshots.as_ref().map(Snapshots::taken);
+        Ok(Position { lengths, row: self.row, profile: self.profile, rates: self.rates, snapshots })
     }
 
     /// All files with their headers.
     fn heads(out: &Path, plan: &Plan) -> Vec<(PathBuf, String)> {
-        let mut profile_head = String::from("time [s]");
-        for p in &plan.points {
-            profile_head.push_str(&format!(",{}", p.along));
+        let mut heads = vec![(out.join("largest_rate.csv"), LARGEST_HEAD.to_string())];
+        if plan.in_space {
+            heads.push((out.join(snapshots::LIST), snapshots::HEAD.to_string()));
+        } else {
+            let along: String = plan.points.iter().map(|p| format!(",{}", p.along)).collect();
+            let head = format!("time [s]{along}\n");
+            heads.push((out.join("slip_profiles.csv"), head.clone()));
+            heads.push((out.join("rate_profiles.csv"), head));
         }
-        profile_head.push('\n');
-        let mut heads = vec![
-            (out.join("largest_rate.csv"), LARGEST_HEAD.to_string()),
-            (out.join("slip_profiles.csv"), profile_head.clone()),
-            (out.join("rate_profiles.csv"), profile_head),
-        ];
         let folder = out.join("stations");
-        for fault in &plan.faults {
-            // Tenths of a kilometre in three digits, as the benchmarks name their stations, where that tells them apart.
-            let tenths = |asked: &Station| match asked {
-                Station::Along(s) => (s / 100.0).round(),
-                Station::At(_) => f64::NAN,
-            };
-            let apart = fault.stations.windows(2).all(|w| tenths(&w[0].0) < tenths(&w[1].0));
-            for (k, (asked, point)) in fault.stations.iter().enumerate() {
-                let tenths = tenths(asked);
-                let name = if apart && !tenths.is_nan() {
-                    format!("{}_dp{tenths:03}", fault.name)
-                } else {
-                    format!("{}_{k:03}", fault.name)
-                };
-                let point = *point;
-                let head = station_head(plan, &fault.name, asked, point);
-                heads.push((folder.join(name), head));
-            }
-        }
+        heads.extend(stations::heads(plan).into_iter().map(|(name, head)| (folder.join(name), head)));
         heads
     }
 
@@ -206,14 +201,28 @@ impl<'a> Files<'a> {
         });
         if due {
             self.row = Some(Last { time, largest: now.largest });
-            let point = now.rate.iter().position(|v| v.abs() == now.largest).unwrap_or(0);
+            let points = self.plan.points.len();
+            let point = (0..points).find(|&p| now.speed(p) == now.largest).unwrap_or(0);
             let (shear, slip) = means(self.plan, now);
             self.rows[0]
                 .push(&format!("{time:.14e},{:.6},{point},{shear:.6e},{slip:.9e}\n", now.largest.log10()))?;
-            for (point, rows) in self.stations.iter().zip(&mut self.rows[GENERAL..]) {
-                rows.push(&station_row(self.plan, now, *point))?;
+            let general = self.rows.len() - self.stations.len();
+            for (point, rows) in self.stations.iter().zip(&mut self.rows[general..]) {
+                rows.push(&stations::row(self.plan, now, *point))?;
             }
         }
+        match &mut self.snapshots {
+            Some(snapshots) => match snapshots.take(self.plan, now)? {
+                Some(row) => self.rows[1].push(&row),
+                None => Ok(()),
+            },
+            None => self.profiles(now, fast),
+        }
+    }
+
+    /// Profiles of slip and of slip rates along lines.
+    fn profiles(&mut self, now: &Moment<'_>, fast: usize) -> Result<(), ObserveError> {
+        let (time, end) = (now.at.seconds(), self.plan.settings.end);
         let interval = PROFILE_INTERVALS[fast].min(end / LEAST_PROFILES);
         if self.profile.is_none_or(|last| time - last >= interval) {
             self.profile = Some(time);
@@ -253,7 +262,7 @@ impl Watcher for Files<'_> {
     }
 }
 
-/// Means of shear traction \[Pa\] and slip \[m\] over the area.
+/// Means of shear traction \[Pa\] and slip \[m\] over the area, along the rake where slip may turn.
 fn means(plan: &Plan, now: &Moment<'_>) -> (f64, f64) {
     let (mut area, mut shear, mut slip) = (0.0, 0.0, 0.0);
     for (p, point) in plan.points.iter().enumerate() {
@@ -262,57 +271,4 @@ fn means(plan: &Plan, now: &Moment<'_>) -> (f64, f64) {
         slip += point.area * now.slip()[p];
     }
     (shear / area, slip / area)
-}
-
-/// Points of all stations.
-fn stations(plan: &Plan) -> Vec<usize> {
-    plan.faults.iter().flat_map(|f| f.stations.iter().map(|s| s.1)).collect()
-}
-
-fn station_head(plan: &Plan, fault: &str, asked: &Station, point: usize) -> String {
-    let view = &plan.points[point];
-    let location = match asked {
-        Station::Along(s) => format!("{s} m along fault {fault}, point at {:.6} m", view.along),
-        Station::At(at) => format!("{at:?} m on fault {fault}, point at {:?} m", view.at),
-    };
-    let columns = [
-        "Column #1 = Time (s)",
-        "Column #2 = Slip (m)",
-        "Column #3 = Slip rate (log10 m/s)",
-        "Column #4 = Shear stress (MPa)",
-        "Column #5 = State (log10 s)",
-        "Column #6 = Normal stress (MPa)",
-    ];
-    let mut head = format!(
-        "# problem={}\n# code=asperity\n# code_version={}\n# tributary_area={:.6e} {}\n# location= {location}\n",
-        plan.title,
-        env!("CARGO_PKG_VERSION"),
-        view.area,
-        if plan.in_space { "m2" } else { "m per m" }
-    );
-    for column in columns {
-        head.push_str(&format!("# {column}\n"));
-    }
-    head.push_str("t slip slip_rate shear_stress state normal_stress\n");
-    head
-}
-
-fn station_row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
-    let states = plan.fault.law.states();
-    let normal = now.normal(&plan.fault, point);
-    // The traction that friction resists with: what drives less the damping.
-    let shear = normal * plan.fault.law.scale(point) * now.unknowns[point];
-    let theta = plan.points[point]
-        .theta
-        .filter(|_| states == 1)
-        .map_or(f64::NAN, |(time, per)| (time.ln() + now.states()[point] * per) / std::f64::consts::LN_10);
-    format!(
-        "{:.14e} {:.9e} {:.9} {:.9e} {:.9} {:.9e}\n",
-        now.at.seconds(),
-        now.slip()[point],
-        now.rate[point].abs().log10(),
-        shear / 1e6,
-        theta,
-        normal / 1e6
-    )
 }

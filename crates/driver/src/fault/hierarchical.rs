@@ -361,12 +361,23 @@ impl Hierarchical {
     /// `tolerance` times the largest entry of the matrix of shear forces, which is below its spectral norm.
     #[must_use]
     pub fn new(shear: &[f64], normal: Option<&[f64]>, geometry: &Geometry<'_>, tolerance: f64) -> Self {
+        let rows = shear.chunks_exact(geometry.places.len()).zip(geometry.areas);
+        let forces = rows.flat_map(|(row, a)| row.iter().map(move |v| (v * a).abs()));
+        Self::of_scale(shear, normal, geometry, tolerance, forces.fold(0.0, f64::max))
+    }
+
+    /// The same with an error of at most `tolerance` times the force `largest`.
+    #[must_use]
+    pub fn of_scale(
+        shear: &[f64],
+        normal: Option<&[f64]>,
+        geometry: &Geometry<'_>,
+        tolerance: f64,
+        largest: f64,
+    ) -> Self {
         let n = geometry.places.len();
         let tree = Tree::new(geometry.places, geometry.faults);
         let rows = geometry.areas;
-        let largest =
-            shear.chunks_exact(n).zip(rows).flat_map(|(row, a)| row.iter().map(move |v| (v * a).abs()));
-        let largest = largest.fold(0.0, f64::max);
         let error = tolerance * largest / n as f64;
         let off = |i: usize, j: usize| (shear[i * n + j] * rows[i] - shear[j * n + i] * rows[j]).abs();
         let symmetric = (0..n).all(|i| (0..i).all(|j| off(i, j) <= SYMMETRIC * largest));

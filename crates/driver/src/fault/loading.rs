@@ -6,20 +6,28 @@ use asperity_fem::table::Table;
 #[derive(Clone, Debug, PartialEq)]
 struct Part {
     amplitude: Table,
-    /// \[Pa\].
+    /// Component by component \[Pa\].
     shear: Vec<f64>,
     /// Compression positive \[Pa\]; empty where normal tractions do not change.
     normal: Vec<f64>,
 }
 
 /// Loads of a fault; piecewise linear in time.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Loading {
+    /// Components of slip.
+    components: usize,
     parts: Vec<Part>,
 }
 
 impl Loading {
-    /// Adds a load: shear and normal tractions of all points at unit amplitude \[Pa\]; `normal` is empty where normal tractions do
+    /// No loads yet, on slip of so many components.
+    #[must_use]
+    pub fn new(components: usize) -> Self {
+        Self { components, parts: Vec::new() }
+    }
+
+    /// Adds a load: shear tractions, component by component, and normal tractions of all points at unit amplitude \[Pa\]; `normal` is empty where normal tractions do
     /// not change.
     pub fn add(&mut self, amplitude: Table, shear: Vec<f64>, normal: Vec<f64>) {
         self.parts.push(Part { amplitude, shear, normal });
@@ -40,7 +48,8 @@ impl Loading {
     /// tractions do not change.
     #[must_use]
     pub fn rates(&self, within: f64, points: usize, couples_normal: bool) -> (Vec<f64>, Vec<f64>) {
-        let (mut shear, mut normal) = (vec![0.0; points], vec![0.0; if couples_normal { points } else { 0 }]);
+        let mut shear = vec![0.0; points * self.components];
+        let mut normal = vec![0.0; if couples_normal { points } else { 0 }];
         for part in &self.parts {
             let slope = part.amplitude.slope(within);
             shear.iter_mut().zip(&part.shear).for_each(|(sum, t)| *sum += slope * t);

@@ -43,6 +43,11 @@ impl<'a> Machine<'a> {
         all
     }
 
+    /// The sides that move as one.
+    pub fn ties(&self) -> &Jumps<1> {
+        &self.ties
+    }
+
     /// Degrees of freedom that do not move beside the first of their side.
     pub fn tied(&self) -> impl Iterator<Item = usize> {
         self.ties.list().iter().map(|tie| tie.plus)

@@ -2,6 +2,8 @@
 //! differential equations, through many earthquake cycles.
 
 mod balance;
+mod bodies;
+mod both;
 mod catalogue;
 mod checkpoint;
 mod cluster;
@@ -23,12 +25,16 @@ mod plan;
 mod pressure;
 mod report;
 mod run;
+mod snapshots;
+mod stations;
 
 pub use balance::{Balance, Energy, Mark, Sums, steady};
+pub use bodies::{Bodies, BodiesView, write as write_bodies};
+pub use both::Both;
 pub use catalogue::{Catalogue, Event, Thresholds};
 pub use checkpoint::{Checkpoint, ResumeError};
-pub use condense::{Point, Surroundings, condense};
-pub use equations::{Equations, Fault, Layout};
+pub use condense::{Point, Surroundings, Tractions, condense};
+pub use equations::{Equations, Fault, Layout, size};
 pub use fields::write as write_fields;
 pub use figures::draw;
 pub use files::{Files, Position};

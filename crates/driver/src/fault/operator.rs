@@ -2,10 +2,16 @@
 
 use rayon::prelude::*;
 
-/// What slip does to the tractions of all points of a fault; linear.
+/// What slip does to the tractions of all points of a fault; linear. Slip of several components and shear tractions stand component by
+/// component.
 pub trait Operator: Send + Sync + std::fmt::Debug {
     /// Number of points.
     fn points(&self) -> usize;
+
+    /// Components of slip.
+    fn components(&self) -> usize {
+        1
+    }
 
     /// Whether slip changes normal tractions.
     fn couples_normal(&self) -> bool;
@@ -16,7 +22,7 @@ pub trait Operator: Send + Sync + std::fmt::Debug {
     /// Writes the normal tractions, compression positive, where they change.
     fn normal(&self, slip: &[f64], normal: &mut [f64]);
 
-    /// Sum of the sizes of the tractions, shear and normal, that slip of each point causes anywhere \[Pa/m\]: with the slope of friction a
+    /// Sum of the sizes of the tractions, shear and normal, that slip of each point, component by component, causes anywhere \[Pa/m\]: with the slope of friction a
     /// bound of how fast a fault relaxes.
     fn stiffness(&self) -> &[f64];
 

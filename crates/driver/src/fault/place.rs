@@ -3,7 +3,7 @@
 use crate::model::Model;
 use crate::plan::PlanError;
 use crate::rigid;
-use crate::scene::model::Fault as Spec;
+use crate::scene::model::{Fault as Spec, Spanned};
 use asperity_fem::FemError;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
@@ -28,6 +28,8 @@ pub struct Place<const D: usize> {
     pub normal: [f64; D],
     /// In space: unit direction of slip, in the fault; elsewhere zero.
     pub rake: [f64; D],
+    /// In space: unit direction of creep, in the fault; elsewhere zero.
+    pub creeps: [f64; D],
     /// Distance along a plane fault from its upper end \[m\]; 0 in space.
     pub along: f64,
 }
@@ -59,7 +61,7 @@ pub fn places<const D: usize>(model: &Model<D>, name: &str, spec: &Spec) -> Resu
         }
         let normal = unit(normals[&minus]);
         let at = model.mesh.nodes[minus];
-        let rake = spec.rake.as_ref().map_or(Ok([0.0; D]), |rake| {
+        let within = |rake: &Spanned<[f64; 3]>| {
             along_rake(rake.get_ref(), &normal).ok_or_else(|| {
                 PlanError::at(
                     rake.span(),
@@ -67,7 +69,9 @@ pub fn places<const D: usize>(model: &Model<D>, name: &str, spec: &Spec) -> Resu
                     "a direction along the fault".into(),
                 )
             })
-        })?;
+        };
+        let rake = spec.rake.as_ref().map_or(Ok([0.0; D]), &within)?;
+        let creeps = spec.creep.as_ref().and_then(|c| c.rake.as_ref()).map_or(Ok(rake), &within)?;
         places.push(Place {
             minus,
             plus,
@@ -75,6 +79,7 @@ pub fn places<const D: usize>(model: &Model<D>, name: &str, spec: &Spec) -> Resu
             area,
             normal,
             rake,
+            creeps,
             along: along.get(&minus).copied().unwrap_or(0.0),
         });
     }
@@ -91,11 +96,20 @@ const ROUNDING: f64 = 1e-12;
 const NORMAL_RAKE: f64 = 2e-4;
 
 /// A vector divided by its length, without rounding in the components of one along an axis.
-pub(super) fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
+fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
     let length = surface::length(&v);
     let v = v.map(|c| if c.abs() <= ROUNDING * length { 0.0 } else { c });
     let length = surface::length(&v);
     v.map(|c| c / length)
+}
+
+/// The unit vector across a direction `s` in a fault of normal `n`: n x s.
+pub(super) fn across(n: &[f64; 3], s: &[f64; 3]) -> [f64; 3] {
+    let cross = |c: usize| {
+        let (i, j) = ((c + 1) % 3, (c + 2) % 3);
+        n[i] * s[j] - n[j] * s[i]
+    };
+    unit([cross(0), cross(1), cross(2)])
 }
 
 /// What of a direction lies in the plane of a normal, as a unit vector; none where that is next to nothing.

@@ -1,14 +1,16 @@
 //! What of a scene with faults is integrated, and how.
 
+use super::bodies::BodiesView;
+use super::both::Both;
 use super::catalogue::Thresholds;
-use super::condense::{Point, condense};
+use super::condense::{Conditions, Point, Tractions, condense};
 use super::equations::{Fault, Layout};
 use super::hierarchical::{Geometry, Hierarchical};
 use super::loading::Loading;
 use super::located::Frame;
 use super::medium::{Media, Medium};
 use super::operator::{Dense, Form, Operator};
-use super::place::{Place, places};
+use super::place::{Place, across, places};
 use super::pressure::{Injection, Pressure};
 use super::run::Settings;
 use crate::laws;
@@ -18,12 +20,13 @@ use crate::ode::Method;
 use crate::plan::PlanError;
 use crate::scene::law::{self, Evolution, LawChoice};
 use crate::scene::model::{
-    Along, Creep, DampingSpec, Fault as Spec, Kinematics, Profile, Profiled, Scene, Station,
+    Along, Creep, DampingSpec, Fault as Spec, Kinematics, Profile, Profiled, Scene, SlipSpec, Station,
 };
 use crate::solver;
 use asperity_fem::mesh::{Side, face_nodes};
 use asperity_friction::Failure;
 use asperity_friction::fault::FaultLaw;
+use asperity_friction::turning::Turning;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -50,8 +53,10 @@ pub struct PointView {
     pub along: f64,
     /// Unit normal from minus to plus.
     pub normal: [f64; 3],
-    /// Direction in which plus moves where slip is positive.
+    /// Direction in which plus moves where slip, or its first component, is positive.
     pub slides: [f64; 3],
+    /// Where slip may turn: direction of its second component, normal x `slides`.
+    pub across: Option<[f64; 3]>,
     /// Tributary area \[m²; m per metre of thickness\].
     pub area: f64,
     /// Shear modulus G for moments: the harmonic mean of those of the two sides \[Pa\].
@@ -96,6 +101,8 @@ pub struct Plan {
     pub creeping: usize,
     /// Memory of condensation at its worst \[bytes\].
     pub condensation_bytes: usize,
+    /// The bodies, where their displacements are asked for.
+    pub bodies: Option<BodiesView>,
     /// Where and when it lies on Earth.
     pub frame: Option<Frame>,
     /// Whether faults are surfaces in space: there is no distance along them then.
@@ -109,6 +116,16 @@ impl Plan {
     #[must_use]
     pub fn in_space(&self) -> bool {
         self.kinematics == Kinematics::ThreeD.words()
+    }
+
+    /// The vector in space \[m; m/s; Pa\] of components at a point that stand component by component, as slip does.
+    #[must_use]
+    pub fn vector(&self, values: &[f64], point: usize) -> [f64; 3] {
+        let view = &self.points[point];
+        let first = view.slides.map(|e| values[point] * e);
+        let Some(across) = &view.across else { return first };
+        let second = values[self.points.len() + point];
+        std::array::from_fn(|c| first[c] + second * across[c])
     }
 
     /// What a person should see before the run.
@@ -127,9 +144,10 @@ impl Plan {
             line(
                 "physics",
                 format!(
-                    "fault `{}`: {} points that slide without opening, {} state variables a point",
+                    "fault `{}`: {} points that slide {}without opening, {} state variables a point",
                     fault.name,
                     fault.points.len(),
+                    if law.components() > 1 { "in any direction " } else { "" },
                     law.states()
                 ),
             );
@@ -214,6 +232,15 @@ struct Placed<const D: usize> {
     law: LawChoice,
 }
 
+/// How the bodies of a scene are condensed.
+fn conditions(scene: &Scene) -> Conditions {
+    // All faults of a scene have the same, which the check has seen to.
+    let free = |s: &Spec| s.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
+    let turns = scene.faults.values().any(free);
+    let keep = scene.output.bodies.as_ref().is_some_and(|b| *b.get_ref());
+    Conditions { tangents: if turns { 2 } else { 1 }, memory: solver::memory(scene), keep }
+}
+
 fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError> {
     let mut model = Model::<D>::new(scene)?;
     if let Some(body) = model.bodies.iter().find(|b| b.nonlinear.is_some()) {
@@ -235,8 +262,9 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         return Err(PlanError::plain("no point of the faults is free to slide".into()));
     }
     let bodies = model.take_stiffness();
-    let surroundings =
-        condense(&model, bodies, stage, &points, solver::memory(scene)).map_err(PlanError::plain)?;
+    let conditions = conditions(scene);
+    let turns = conditions.tangents > 1;
+    let surroundings = condense(&model, bodies, stage, &points, conditions).map_err(PlanError::plain)?;
     placed.retain(|p| p.point.creep.is_none());
     let Some((first, rest)) = placed.split_first() else {
         return Err(PlanError::plain("no point of the faults is free to slide".into()));
@@ -258,6 +286,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
     let law = laws::build_fault(&first.law, &choices).map_err(&at_law)?.ok_or_else(|| {
         PlanError::plain("a fault through cycles needs a law that depends on the slip rate: \"rate\" or \"rate-and-state\"".into())
     })?;
+    let law = if turns { Box::new(Turning::new(law)) } else { law };
     let fault = Fault {
         operator: operator(surroundings.operator, &placed, form),
         law,
@@ -266,13 +295,15 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         pressure: pressure(scene, &placed)?,
     };
     let start = start(scene, &placed, &fault).map_err(at_law)?;
-    let (faults, views) = views(scene, &model, &placed)?;
+    let (faults, views) = views(scene, &model, &placed, turns)?;
     let frame = match &scene.place {
         None => None,
         Some(place) => Some(Frame::new(place, D == 3).map_err(|e| {
             PlanError::at(place.epoch.span(), e.to_string(), "such as \"2000-01-01T00:00:00Z\"".into())
         })?),
     };
+    let sides = || placed.iter().map(|p| [p.point.place.minus, p.point.place.plus]).collect();
+    let bodies = surroundings.bodies.map(|bodies| BodiesView::new(bodies, &model, sides()));
     Ok(Plan {
         title: scene.title.clone(),
         faults,
@@ -283,6 +314,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         dofs: model.dofs(),
         creeping: points.len() - placed.len(),
         condensation_bytes: surroundings.bytes,
+        bodies,
         frame,
         in_space: D == 3,
         kinematics: scene.kinematics.get_ref().words(),
@@ -297,7 +329,29 @@ const COMPRESSED_FROM: usize = 128;
 const COMPRESSION: f64 = 1e-10;
 
 /// The operator in its form.
-fn operator<const D: usize>(dense: Dense, placed: &[Placed<D>], form: Form) -> Box<dyn Operator> {
+fn operator<const D: usize>(tractions: Tractions, placed: &[Placed<D>], form: Form) -> Box<dyn Operator> {
+    match tractions {
+        Tractions::One(dense) => {
+            let scale = largest_force(&dense, placed);
+            one(dense, placed, form, scale)
+        }
+        Tractions::Two { along, across } => {
+            let scale = largest_force(&along[0], placed);
+            let in_form = |dense| one(dense, placed, form, scale);
+            Box::new(Both::new((*along).map(in_form), across.map(|pair| (*pair).map(in_form))))
+        }
+    }
+}
+
+/// Largest force that slip of a point causes \[N/m; N/m²\].
+fn largest_force<const D: usize>(dense: &Dense, placed: &[Placed<D>]) -> f64 {
+    let rows = dense.matrix().chunks_exact(placed.len()).zip(placed);
+    let forces = rows.flat_map(|(row, p)| row.iter().map(|v| (v * p.point.place.area).abs()));
+    forces.fold(0.0, f64::max)
+}
+
+/// The operator of one component in its form; `scale` is the force that errors are measured by.
+fn one<const D: usize>(dense: Dense, placed: &[Placed<D>], form: Form, scale: f64) -> Box<dyn Operator> {
     let tolerance = match form {
         Form::Dense => return Box::new(dense),
         Form::Fitting if dense.points() < COMPRESSED_FROM => return Box::new(dense),
@@ -310,7 +364,8 @@ fn operator<const D: usize>(dense: Dense, placed: &[Placed<D>], form: Form) -> B
     let first = |fault: usize| placed.partition_point(|p| p.fault < fault);
     let faults: Vec<_> = (0..=last).map(|f| first(f)..first(f + 1)).filter(|r| !r.is_empty()).collect();
     let geometry = Geometry { places: &places, faults: &faults, areas: &areas };
-    Box::new(Hierarchical::new(dense.matrix(), dense.normal_matrix(), &geometry, tolerance))
+    let (shear, normal) = (dense.matrix(), dense.normal_matrix());
+    Box::new(Hierarchical::of_scale(shear, normal, &geometry, tolerance, scale))
 }
 
 fn in_space<const D: usize>(at: &[f64; D]) -> [f64; 3] {
@@ -340,10 +395,20 @@ fn points_of<const D: usize>(
             normal: value(&spec.profiles.normal).unwrap_or(spec.normal.get_ref().0),
             shear: value(&spec.profiles.shear).or(spec.shear.as_ref().map(|s| s.get_ref().0)),
             law: varied(&base, value(&spec.profiles.a), value(&spec.profiles.b), value(&spec.profiles.l)),
-            point: Point { place, creep: creep.map(|c| c.rate.get_ref().0) },
+            point: Point { creep: creep.map(|c| components(&place, c.rate.get_ref().0)), place },
         });
     }
     Ok(placed)
+}
+
+/// A rate of creep along the rake and across it.
+fn components<const D: usize>(place: &Place<D>, rate: f64) -> [f64; 2] {
+    if place.creeps == place.rake {
+        return [rate, 0.0];
+    }
+    let (rake, creeps) = (in_space(&place.rake), in_space(&place.creeps));
+    let axes = [rake, across(&in_space(&place.normal), &rake)];
+    axes.map(|axis| rate * axis.iter().zip(&creeps).map(|(a, b)| a * b).sum::<f64>())
 }
 
 /// Distance over the size of the model within which a point lies on the border of the creeping part: rounding.
@@ -539,6 +604,7 @@ fn views<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     placed: &[Placed<D>],
+    turns: bool,
 ) -> Result<(Vec<FaultView>, Vec<PointView>), PlanError> {
     let points: Vec<PointView> = placed
         .iter()
@@ -553,7 +619,16 @@ fn views<const D: usize>(
             };
             let (along, area, theta) = (place.along, place.area, theta(&p.law));
             let shear_modulus = p.medium.shear_modulus;
-            PointView { at, along, normal, slides, area, shear_modulus, theta }
+            PointView {
+                at,
+                along,
+                normal,
+                slides,
+                across: turns.then(|| across(&normal, &slides)),
+                area,
+                shear_modulus,
+                theta,
+            }
         })
         .collect();
     let mut faults = Vec::new();

@@ -2,10 +2,12 @@
 
 use super::balance::{Balance, Energy, Mark, steady};
 use super::catalogue::Event;
+use super::equations::size;
 use super::located::Located;
 use super::plan::Plan;
 use super::run::Run;
 use crate::ode::Outcome;
+use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -32,10 +34,16 @@ pub struct Entry {
     pub mean_slip: f64,
     /// Area of what did \[m²; m per metre of thickness\].
     pub area: f64,
-    /// Moment ∫ G slip dA \[N m; N per metre of thickness\].
+    /// Moment ∫ G slip dA \[N m; N per metre of thickness\]; where slip may turn, that of the sum of its moment tensors.
     pub moment: f64,
     /// Mean fall of shear traction there, weighted with slip \[Pa\].
     pub stress_drop: f64,
+    /// Where slip may turn: unit vector of ∫ G slip dA.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction: Option<[f64; 3]>,
+    /// Where slip may turn: angle from `rake` to mean slip, positive towards the normal x `rake` \[degrees\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turned: Option<f64>,
     /// What seismologists tell of it, where the scene has a place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub located: Option<Located>,
@@ -46,17 +54,19 @@ const SLIPPED: f64 = 0.01;
 
 impl Entry {
     fn new(plan: &Plan, event: &Event, before: Option<&Event>) -> Self {
-        let slip = |p: usize| event.slip[p].abs();
-        let largest_slip = (0..event.slip.len()).map(slip).fold(0.0, f64::max);
-        let slipped: Vec<usize> =
-            (0..event.slip.len()).filter(|&p| slip(p) > SLIPPED * largest_slip).collect();
+        let n = plan.points.len();
+        let slip = |p: usize| size(&event.slip, n, p);
+        let largest_slip = (0..n).map(slip).fold(0.0, f64::max);
+        let slipped: Vec<usize> = (0..n).filter(|&p| slip(p) > SLIPPED * largest_slip).collect();
         let over = |value: &dyn Fn(usize) -> f64| {
             slipped.iter().map(|&p| value(p) * plan.points[p].area).sum::<f64>()
         };
         let (area, potency) = (over(&|_| 1.0), over(&slip));
-        let moment = over(&|p| plan.points[p].shear_modulus * slip(p));
+        let turning = (plan.fault.law.components() > 1).then(|| Turned::new(plan, &event.slip, &slipped));
+        let moment =
+            turning.as_ref().map_or_else(|| over(&|p| plan.points[p].shear_modulus * slip(p)), |t| t.moment);
         // A fall is positive where traction that drives the slip becomes less.
-        let work = |p: usize| event.slip[p] * event.drop[p];
+        let work = |p: usize| (p..event.slip.len()).step_by(n).map(|i| event.slip[i] * event.drop[i]).sum();
         let place = &plan.points[event.hypocentre];
         let fault = plan.faults.iter().find(|f| f.points.contains(&event.hypocentre));
         Self {
@@ -72,8 +82,37 @@ impl Entry {
             area,
             moment,
             stress_drop: over(&work) / potency,
+            direction: turning.as_ref().map(|t| t.direction),
+            turned: turning.as_ref().map(|t| t.angle),
             // The reader has made sure that the calendar reaches to the end of the run.
             located: plan.frame.as_ref().and_then(|frame| Located::new(plan, frame, event).ok()),
+        }
+    }
+}
+
+/// Slip of an event that may turn.
+struct Turned {
+    moment: f64,
+    direction: [f64; 3],
+    angle: f64,
+}
+
+impl Turned {
+    fn new(plan: &Plan, slip: &[f64], slipped: &[usize]) -> Self {
+        let (mut tensor, mut mean, mut parts) = (Matrix3::zeros(), Vector3::zeros(), [0.0; 2]);
+        for &p in slipped {
+            let point = &plan.points[p];
+            let weight = point.shear_modulus * point.area;
+            let way = Vector3::from(plan.vector(slip, p)) * weight;
+            let couple = Vector3::from(point.normal) * way.transpose();
+            tensor += couple + couple.transpose();
+            mean += way;
+            parts = [parts[0] + weight * slip[p], parts[1] + weight * slip[plan.points.len() + p]];
+        }
+        Self {
+            moment: tensor.norm() / std::f64::consts::SQRT_2,
+            direction: (mean / mean.norm()).into(),
+            angle: parts[1].atan2(parts[0]).to_degrees(),
         }
     }
 }
@@ -99,7 +138,7 @@ impl From<Energy> for EnergyBalance {
 pub struct Cycle {
     /// How long it was \[s\].
     pub duration: f64,
-    /// Slip over the area in its event \[m³; m²\].
+    /// Slip, where it may turn along the rake, over the area in its event \[m³; m²\].
     pub seismic: f64,
     /// Slip over the area before its event.
     pub aseismic: f64,
@@ -269,11 +308,13 @@ impl Report {
     /// The catalogue as CSV.
     #[must_use]
     pub fn csv(&self) -> String {
+        let turning = self.events.iter().any(|e| e.turned.is_some());
         let mut text = String::from(
-            "onset [s],duration [s],peak_rate [m/s],fault,hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],stress_drop [Pa]\n",
+            "onset [s],duration [s],peak_rate [m/s],fault,hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],stress_drop [Pa]",
         );
+        text.push_str(if turning { ",direction_x,direction_y,direction_z,turned [deg]\n" } else { "\n" });
         for e in &self.events {
-            let _ = writeln!(
+            let _ = write!(
                 text,
                 "{:.14e},{},{},{},{},{},{},{},{},{},{},{:e},{}",
                 e.onset,
@@ -290,6 +331,10 @@ impl Report {
                 e.moment,
                 e.stress_drop
             );
+            if let Some(([x, y, z], turned)) = e.direction.zip(e.turned) {
+                let _ = write!(text, ",{x},{y},{z},{turned}");
+            }
+            text.push('\n');
         }
         text
     }

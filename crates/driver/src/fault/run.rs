@@ -4,7 +4,7 @@
 //! restarts from: a run that goes on from such a point takes the same steps, bit for bit, as one that was never broken off.
 
 use super::catalogue::{Catalogue, Thresholds};
-use super::equations::{Equations, Fault, Layout};
+use super::equations::{Equations, Fault, Layout, size};
 use super::loading::Loading;
 use crate::ode::{
     self, Clock, Control, Counts, Failure, Finished, Method, Occurrence, Options, Outcome, Sink, Step,
@@ -39,7 +39,7 @@ pub struct Moment<'a> {
     pub unknowns: &'a [f64],
     /// Where they stand.
     pub layout: Layout,
-    /// Slip rates of all points \[m/s\].
+    /// Slip rates of all points, component by component \[m/s\].
     pub rate: &'a [f64],
     /// Largest slip rate \[m/s\].
     pub largest: f64,
@@ -61,7 +61,13 @@ pub struct Ends<'a> {
 }
 
 impl Moment<'_> {
-    /// Slip \[m\].
+    /// |V| of a point \[m/s\].
+    #[must_use]
+    pub fn speed(&self, point: usize) -> f64 {
+        size(self.rate, self.layout.points(), point)
+    }
+
+    /// Slip, component by component \[m\].
     #[must_use]
     pub fn slip(&self) -> &[f64] {
         &self.unknowns[self.layout.slip()]
@@ -235,7 +241,7 @@ fn piece(
     watcher: &mut dyn Watcher,
     run: &mut Run,
 ) -> bool {
-    let n = fault.law.points();
+    let vectors = equations.layout().m().end;
     let mut follow = Follow {
         equations,
         fault,
@@ -244,8 +250,8 @@ fn piece(
         steps: 0,
         next_step: None,
         paused: false,
-        rate: vec![0.0; n],
-        shear: vec![0.0; n],
+        rate: vec![0.0; vectors],
+        shear: vec![0.0; vectors],
         between: run.unknowns.clone(),
         largest: 0.0,
     };
@@ -321,8 +327,21 @@ const MOST_HALVINGS: usize = 60;
 impl Follow<'_> {
     fn begin(&mut self, at: Clock, y: &[f64]) -> Control {
         self.equations.slip_rates(y, &mut self.rate);
-        self.largest = fastest(&self.rate).1;
+        self.largest = self.fastest(&self.rate).1;
         self.tell(at, 0.0, y, None)
+    }
+
+    /// The fastest point and its |V| \[m/s\].
+    fn fastest(&self, rate: &[f64]) -> (usize, f64) {
+        let points = self.equations.layout().points();
+        let mut best = (0, 0.0);
+        for p in 0..points {
+            let speed = size(rate, points, p);
+            if speed > best.1 {
+                best = (p, speed);
+            }
+        }
+        best
     }
 
     fn tell(&mut self, at: Clock, dt: f64, unknowns: &[f64], step: Option<Ends<'_>>) -> Control {
@@ -342,7 +361,7 @@ impl Follow<'_> {
             }
             step.at(middle, &mut self.between);
             self.equations.slip_rates(&self.between, &mut self.rate);
-            if (fastest(&self.rate).1 >= threshold) == upwards {
+            if (self.fastest(&self.rate).1 >= threshold) == upwards {
                 after = middle;
             } else {
                 before = middle;
@@ -352,23 +371,14 @@ impl Follow<'_> {
         self.equations.slip_rates(&self.between, &mut self.rate);
         let at = step.start.later(after * step.length());
         let layout = self.equations.layout();
-        for (p, shear) in self.shear.iter_mut().enumerate() {
+        for (i, shear) in self.shear.iter_mut().enumerate() {
+            let p = i % layout.points();
             let normal = layout.normal_of(self.fault, at, &self.between, p);
-            *shear = normal * self.fault.law.scale(p) * self.between[p];
+            *shear = normal * self.fault.law.scale(p) * self.between[i];
         }
-        self.catalogue.pass(at, fastest(&self.rate).0, &self.between[layout.slip()], &self.shear);
+        let fastest = self.fastest(&self.rate).0;
+        self.catalogue.pass(at, fastest, &self.between[layout.slip()], &self.shear);
     }
-}
-
-/// The fastest point and its slip rate \[m/s\].
-fn fastest(rate: &[f64]) -> (usize, f64) {
-    let mut best = (0, 0.0);
-    for (k, v) in rate.iter().enumerate() {
-        if v.abs() > best.1 {
-            best = (k, v.abs());
-        }
-    }
-    best
 }
 
 impl Sink for Follow<'_> {
@@ -378,10 +388,10 @@ impl Sink for Follow<'_> {
         let layout = self.equations.layout();
         let rates = step.rates.map(|dy| &dy[layout.slip()]);
         let largest = match rates {
-            Some(rates) => fastest(rates).1,
+            Some(rates) => self.fastest(rates).1,
             None => {
                 self.equations.slip_rates(step.state, &mut self.rate);
-                fastest(&self.rate).1
+                self.fastest(&self.rate).1
             }
         };
         let events = self.catalogue.events().len();

@@ -408,6 +408,8 @@ pub struct Output {
     pub fields: Option<Spanned<usize>>,
     /// Profiles are written at this many equal intervals of each stage (default 10).
     pub profiles: Option<Spanned<usize>>,
+    /// Fault-ode: whether displacements of the bodies are written, over each event and at the end.
+    pub bodies: Option<Spanned<bool>>,
     /// Fault-ode: stations per fault.
     #[serde(default)]
     pub stations: BTreeMap<String, Spanned<Vec<Spanned<Station>>>>,

@@ -9,6 +9,7 @@ pub use quakeml::quakeml;
 pub use tensor::{Plane, Tensor};
 
 use super::catalogue::Event;
+use super::equations::size;
 use super::plan::Plan;
 use crate::scene::model::Place;
 use jiff::{SignedDuration, Timestamp};
@@ -36,8 +37,8 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Of a scene in the plane, seen along the strike: x to the right of it, y up; or in space: x to the right, y along the strike, z
-    /// up.
+    /// Of a scene in the plane, seen along the strike: x to the right of it, y up; or in space, with the directions up and along the strike
+    /// that the place gives.
     ///
     /// # Errors
     /// What is wrong with the time.
@@ -45,13 +46,21 @@ impl Frame {
         let (sine, cosine) = place.strike.get_ref().0.sin_cos();
         let (right, along, up) =
             (Vector3::new(cosine, -sine, 0.0), Vector3::new(sine, cosine, 0.0), Vector3::z());
-        let axes = if in_space { [right, along, up] } else { [right, up, -along] };
+        let axes = if in_space {
+            let (vertical, level) = place.axes();
+            let (vertical, level) = (Vector3::from(vertical).normalize(), Vector3::from(level).normalize());
+            // What of a vector points to the right, along and up.
+            let parts = Matrix3::from_columns(&[level.cross(&vertical), level, vertical]);
+            Matrix3::from_columns(&[right, along, up]) * parts.transpose()
+        } else {
+            Matrix3::from_columns(&[right, up, -along])
+        };
         Ok(Self {
             epoch: place.epoch.get_ref().parse()?,
             latitude: place.latitude.get_ref().0.to_degrees(),
             longitude: place.longitude.get_ref().0.to_degrees(),
             depth: place.depth.as_ref().map_or(0.0, |d| d.get_ref().0),
-            axes: Matrix3::from_columns(&axes),
+            axes,
             length: if in_space { Some(1.0) } else { place.length.as_ref().map(|l| l.get_ref().0) },
         })
     }
@@ -128,12 +137,13 @@ impl Located {
     pub fn new(plan: &Plan, frame: &Frame, event: &Event) -> Result<Self, jiff::Error> {
         let length = frame.length.unwrap_or(1.0);
         let (mut sum, mut centre, mut weight) = (Matrix3::zeros(), Vector3::zeros(), 0.0);
-        for (point, slip) in plan.points.iter().zip(&event.slip) {
-            let (normal, way) = (Vector3::from(point.normal), Vector3::from(point.slides));
+        for (p, point) in plan.points.iter().enumerate() {
+            let (normal, way) = (Vector3::from(point.normal), Vector3::from(plan.vector(&event.slip, p)));
             let couple = normal * way.transpose();
-            sum += (couple + couple.transpose()) * (point.shear_modulus * point.area * slip * length);
-            centre += Vector3::from(point.at) * (point.area * slip.abs());
-            weight += point.area * slip.abs();
+            let slip = size(&event.slip, plan.points.len(), p);
+            sum += (couple + couple.transpose()) * (point.shear_modulus * point.area * length);
+            centre += Vector3::from(point.at) * (point.area * slip);
+            weight += point.area * slip;
         }
         let tensor = Tensor::of_east_north_up(&(frame.axes * sum * frame.axes.transpose()));
         let moment = frame.length.map(|_| tensor.moment());

@@ -3,7 +3,8 @@
 use super::Checker;
 use crate::scene::law;
 use crate::scene::model::{
-    Along, Creep, DampingSpec, Fault, Kinematics, Motion, Path, Profile, Profiled, Spanned, Station, Stepper,
+    Along, Creep, DampingSpec, Fault, Kinematics, Motion, Path, Profile, Profiled, SlipSpec, Spanned,
+    Station, Stepper,
 };
 use crate::scene::near::suggest;
 
@@ -40,6 +41,7 @@ impl Checker<'_> {
                 self.creep(fault, creep);
             }
         }
+        self.directions_of_slip();
         self.stations();
         self.events();
         self.springs();
@@ -49,7 +51,16 @@ impl Checker<'_> {
     /// Keys that mean nothing to faults, which would be left out without a word.
     fn left_out(&mut self) {
         let scene = self.scene;
-        let Some(fault) = scene.faults.values().next() else { return };
+        let Some(fault) = scene.faults.values().next() else {
+            if let Some(bodies) = &scene.output.bodies {
+                self.error(
+                    bodies.span(),
+                    "`bodies` is for scenes with faults",
+                    "remove it; displacements of bodies are `fields`",
+                );
+            }
+            return;
+        };
         let (output, solver) = (&scene.output, &scene.solver);
         let mut keys = vec![
             ("fields", output.fields.as_ref().map(Spanned::span)),
@@ -241,24 +252,61 @@ impl Checker<'_> {
 
     /// In space the direction of slip is declared, in the plane there is one only.
     fn rake(&mut self, fault: &Fault) {
+        let free = fault.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
         match (&fault.rake, self.in_space()) {
             (None, true) => self.error(
                 fault.minus.span(),
                 "a fault in three dimensions has no `rake`",
-                "the direction in which plus slips past minus, such as `rake = [0, 0, 1]`; slip across it is held at zero",
+                "the direction in which plus slips past minus, such as `rake = [0, 0, 1]`; slip across it is held at zero, or with `slip = \"free\"` turns from there",
             ),
             (Some(rake), false) => self.error(
                 rake.span(),
                 "`rake` is for three dimensions",
                 "remove it: in the plane there is one direction of slip",
             ),
-            (Some(rake), true) => {
-                let size = rake.get_ref().iter().map(|c| c * c).sum::<f64>();
-                if !(size > 0.0 && size.is_finite()) {
-                    self.error(rake.span(), "`rake` has no direction", "such as `rake = [0, 0, 1]`");
-                }
-            }
+            (Some(rake), true) => self.direction(rake),
             (None, false) => {}
+        }
+        if let Some(slip) = fault.slip.as_ref().filter(|_| !self.in_space()) {
+            self.error(
+                slip.span(),
+                "`slip` is for three dimensions",
+                "remove it: in the plane there is one direction of slip",
+            );
+        }
+        if let Some(rake) = fault.creep.as_ref().and_then(|c| c.rake.as_ref()) {
+            self.direction(rake);
+            if !free {
+                self.conflict(
+                    &rake.span(),
+                    "creep has a direction of its own where slip may not turn",
+                    "add `slip = \"free\"` to the fault, or leave the `rake` of the creep out",
+                    (&fault.minus.span(), "the fault"),
+                );
+            }
+        }
+    }
+
+    fn direction(&mut self, rake: &Spanned<[f64; 3]>) {
+        let size = rake.get_ref().iter().map(|c| c * c).sum::<f64>();
+        if !(size > 0.0 && size.is_finite()) {
+            self.error(rake.span(), "`rake` has no direction", "such as `rake = [0, 0, 1]`");
+        }
+    }
+
+    /// All faults slip along their rakes, or all may turn.
+    fn directions_of_slip(&mut self) {
+        let scene = self.scene;
+        let kind = |f: &Fault| f.slip.as_ref().map_or(SlipSpec::AlongRake, |s| *s.get_ref());
+        let Some(first) = scene.faults.values().next() else { return };
+        if let Some(other) = scene.faults.values().find(|f| kind(f) != kind(first)) {
+            let place = |f: &Fault| f.slip.as_ref().map_or(f.minus.span(), Spanned::span);
+            self.conflict(
+                &place(other),
+                "slip of one fault may turn and that of another may not",
+                "`slip = \"free\"` for all faults of a scene, or for none",
+                (&place(first), "another fault"),
+            );
         }
     }
 

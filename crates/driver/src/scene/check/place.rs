@@ -1,7 +1,7 @@
 //! Where and when the events of a scene are said to happen.
 
 use super::Checker;
-use crate::scene::model::{Kinematics, Spanned};
+use crate::scene::model::{Kinematics, Place, Spanned};
 use crate::scene::units::Angle;
 use jiff::{SignedDuration, Timestamp};
 
@@ -33,7 +33,37 @@ impl Checker<'_> {
                 self.error(length.span(), "`length` must be positive", "such as `length = \"100 km\"`");
             }
         }
+        self.axes(place);
         self.epoch(&place.epoch);
+    }
+
+    /// Directions of space: up, and across it the one that `strike` is of.
+    fn axes(&mut self, place: &Place) {
+        let in_space = *self.scene.kinematics.get_ref() == Kinematics::ThreeD;
+        for (name, given) in [("up", &place.up), ("along", &place.along)] {
+            let Some(given) = given else { continue };
+            let size = given.get_ref().iter().map(|c| c * c).sum::<f64>();
+            if !in_space {
+                self.error(
+                    given.span(),
+                    format!("`{name}` is for three dimensions"),
+                    "remove it: in the plane y is up, and `strike` is the direction into the plane",
+                );
+            } else if !(size > 0.0 && size.is_finite()) {
+                self.error(given.span(), format!("`{name}` has no direction"), "such as `[0, 1, 0]`");
+            }
+        }
+        let (up, along) = place.axes();
+        let dot: f64 = up.iter().zip(&along).map(|(a, b)| a * b).sum();
+        let sizes = [up, along].map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt());
+        let given = place.along.as_ref().or(place.up.as_ref()).filter(|_| in_space);
+        if let Some(given) = given.filter(|_| dot.abs() > LEVEL * sizes[0] * sizes[1]) {
+            self.error(
+                given.span(),
+                "`along` is not horizontal: it must be normal to `up`",
+                "with y up and the fault along z: `up = [0, 1, 0]` and `along = [0, 0, 1]`",
+            );
+        }
     }
 
     fn angle(&mut self, name: &str, angle: &Spanned<Angle>, (least, most): (f64, f64)) {
@@ -73,5 +103,7 @@ impl Checker<'_> {
     }
 }
 
+/// Sine of the angle by which `along` may differ from the horizontal: rounding of components written with seven digits.
+const LEVEL: f64 = 1e-6;
 /// Rounding of degrees.
 const ROUNDING: f64 = 1e-9;

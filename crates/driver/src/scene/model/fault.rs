@@ -33,8 +33,20 @@ pub struct Fault {
     pub creep: Option<Creep>,
     /// In space: the direction of slip of plus relative to minus, of any length; what of it lies in the fault counts.
     pub rake: Option<Spanned<[f64; 3]>>,
+    /// In space: whether slip may turn away from `rake`; absent: it may not.
+    pub slip: Option<Spanned<SlipSpec>>,
     /// Fluid that is injected and diffuses along the fault.
     pub injection: Option<Injection>,
+}
+
+/// Directions in which a fault in space slips.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SlipSpec {
+    /// Along `rake`; slip across it is held at zero.
+    AlongRake,
+    /// Along the shear traction, wherever it points in the fault; along `rake` at the start.
+    Free,
 }
 
 /// Parameters that vary along a fault; their value in the law, or beside it, is not used then.
@@ -113,6 +125,8 @@ pub struct Creep {
     pub outside: Option<Spanned<Outside>>,
     /// Slip rate \[m/s\].
     pub rate: Spanned<Velocity>,
+    /// Where slip may turn: direction of the slip rate, of any length; absent: that of the fault.
+    pub rake: Option<Spanned<[f64; 3]>>,
 }
 
 /// Ranges of coordinates within which, in all of them, a fault slides freely.

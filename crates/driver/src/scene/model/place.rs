@@ -16,8 +16,21 @@ pub struct Place {
     pub longitude: Spanned<Angle>,
     /// Of the origin of coordinates \[m\]; 0 where absent.
     pub depth: Option<Spanned<Length>>,
-    /// Clockwise from north: in the plane, of the direction into the plane, with x to its right and y up; in space, of y, with z up \[rad\].
+    /// Clockwise from north: in the plane, of the direction into the plane, with x to its right and y up; in space, of `along` \[rad\].
     pub strike: Spanned<Angle>,
+    /// In space: the direction up, of any length; z where absent.
+    pub up: Option<Spanned<[f64; 3]>>,
+    /// In space: the horizontal direction whose azimuth `strike` is, of any length; y where absent.
+    pub along: Option<Spanned<[f64; 3]>>,
     /// In the plane: length out of it, for moments and magnitudes \[m\].
     pub length: Option<Spanned<Length>>,
+}
+
+impl Place {
+    /// In space: the directions up and along the strike, of any length.
+    #[must_use]
+    pub fn axes(&self) -> ([f64; 3], [f64; 3]) {
+        let of = |given: &Option<Spanned<[f64; 3]>>, other| given.as_ref().map_or(other, |v| *v.get_ref());
+        (of(&self.up, [0.0, 0.0, 1.0]), of(&self.along, [0.0, 1.0, 0.0]))
+    }
 }

@@ -1,0 +1,89 @@
+//! The state of faults in space in the course of a run, as VTU.
+
+use super::fields;
+use super::files::{LEAST_PROFILES, Last, PROFILE_INTERVALS, RATE_CHANGE};
+use super::plan::Plan;
+use super::run::Moment;
+use crate::observe::vtu::Grid;
+use crate::observe::{ObserveError, atomic};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// The file that lists them.
+pub(super) const LIST: &str = "snapshots.csv";
+/// Its header.
+pub(super) const HEAD: &str = "snapshot,time [s],log10 slip_rate [m/s]\n";
+/// Time between two in an event \[s\]: rupture crosses a few kilometres in it.
+const IN_EVENTS: f64 = 2.0;
+
+/// How many have been taken, and when the last one was.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Taken {
+    count: usize,
+    last: Option<Last>,
+}
+
+/// Writes `fields/FAULT_00000.vtu` and so on.
+#[derive(Debug)]
+pub(super) struct Snapshots {
+    folder: PathBuf,
+    /// By fault.
+    grids: Vec<Grid>,
+    taken: Taken,
+}
+
+/// The name of a file.
+pub(super) fn name(fault: &str, number: usize) -> String {
+    format!("{fault}_{number:05}.vtu")
+}
+
+impl Snapshots {
+    /// Where faults are surfaces.
+    ///
+    /// # Errors
+    /// When the folder cannot be made.
+    pub fn begin(out: &Path, plan: &Plan) -> Result<Option<Self>, ObserveError> {
+        if !plan.in_space {
+            return Ok(None);
+        }
+        let folder = out.join("fields");
+        atomic::create_dir(&folder)?;
+        let grids = plan.faults.iter().map(|fault| fields::grid(plan, fault)).collect();
+        Ok(Some(Self { folder, grids, taken: Taken::default() }))
+    }
+
+    /// Goes on after those.
+    pub fn from(self, taken: Taken) -> Self {
+        Self { taken, ..self }
+    }
+
+    /// How many have been taken.
+    pub fn taken(&self) -> Taken {
+        self.taken
+    }
+
+    /// Takes one where it is due, and returns its row of the list.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn take(&mut self, plan: &Plan, now: &Moment<'_>) -> Result<Option<String>, ObserveError> {
+        let time = now.at.seconds();
+        let fast = now.largest >= plan.settings.thresholds.on;
+        let interval = if fast { IN_EVENTS } else { PROFILE_INTERVALS[0] };
+        let interval = interval.min(plan.settings.end / LEAST_PROFILES);
+        let due = self.taken.last.is_none_or(|last| {
+            let change = (now.largest / last.largest).ln().abs();
+            time - last.time >= interval || change >= RATE_CHANGE
+        });
+        if !due {
+            return Ok(None);
+        }
+        let number = self.taken.count;
+        for (fault, grid) in plan.faults.iter().zip(&self.grids) {
+            let state = fields::state(plan, fault, now.at, now.unknowns);
+            fields::put(&self.folder.join(name(&fault.name, number)), grid, time, &state)?;
+        }
+        self.taken = Taken { count: number + 1, last: Some(Last { time, largest: now.largest }) };
+        Ok(Some(format!("{number},{time:.14e},{:.6}\n", now.largest.log10())))
+    }
+}

@@ -1,0 +1,317 @@
+//! Slip in two directions: friction of a plane on which the slip vector may turn.
+//!
+//! Friction acts along slip, and its size is that of the law with V = |V|. With the unit direction d, `V = V d`, the unknown of a point
+//! is the vector `m d`, m = |μ|/a, and what drives is `t = f_n a m d + η V d`. Its rate, along d and along e normal to it,
+//!
+//! ```text
+//! t'·d = f_n a m' + f_n' a m + η V',        t'·e = (f_n a m + η V) ω,        d' = ω e,
+//! ```
+//!
+//! is the equation of a slider that does not turn, and the rate ω at which slip turns. Vectors stand component by component: the first
+//! components of all points, then the second. Where m is nothing there is no direction, and each component obeys the equation of
+//! the slider by itself, since V(m) is odd and smooth there.
+
+use crate::Failure;
+use crate::fault::{Drive, FaultLaw};
+use std::sync::{Mutex, PoisonError};
+
+/// Components of slip.
+const COMPONENTS: usize = 2;
+
+/// A law of points whose slip may turn; see the module.
+#[derive(Debug)]
+pub struct Turning {
+    law: Box<dyn FaultLaw>,
+    scratch: Mutex<Scratch>,
+}
+
+/// Working memory of an evaluation.
+#[derive(Debug)]
+struct Scratch {
+    /// m = |μ|/a.
+    size: Vec<f64>,
+    /// |V| \[m/s\].
+    speed: Vec<f64>,
+    /// Rate of the driving traction along slip \[Pa/s\].
+    along: Vec<f64>,
+    /// States that are not asked for.
+    spare: Vec<f64>,
+}
+
+impl Turning {
+    /// Slip that turns, with the friction of a law of slip along a line.
+    #[must_use]
+    pub fn new(law: Box<dyn FaultLaw>) -> Self {
+        let zeros = |n: usize| vec![0.0; n];
+        let (n, states) = (law.points(), law.states());
+        let scratch = Scratch { size: zeros(n), speed: zeros(n), along: zeros(n), spare: zeros(states) };
+        Self { law, scratch: Mutex::new(scratch) }
+    }
+}
+
+/// Size of a vector of two components. Of one along an axis it is exact.
+#[inline]
+fn size(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
+impl FaultLaw for Turning {
+    fn points(&self) -> usize {
+        self.law.points()
+    }
+
+    fn components(&self) -> usize {
+        COMPONENTS
+    }
+
+    fn states(&self) -> usize {
+        self.law.states()
+    }
+
+    fn slip_rates(&self, first: usize, m: &[f64], states: &[f64], rate: &mut [f64]) {
+        let mut scratch = self.scratch.lock().unwrap_or_else(PoisonError::into_inner);
+        let Scratch { size: sizes, speed, .. } = &mut *scratch;
+        let n = m.len() / COMPONENTS;
+        let (x, y) = m.split_at(n);
+        sizes.iter_mut().zip(x).zip(y).for_each(|((s, x), y)| *s = size(*x, *y));
+        self.law.slip_rates(first, &sizes[..n], states, &mut speed[..n]);
+        let (along, across) = rate.split_at_mut(n);
+        for k in 0..n {
+            let (s, v) = (sizes[k], speed[k]);
+            (along[k], across[k]) = if s > 0.0 { (x[k] / s * v, y[k] / s * v) } else { (0.0, 0.0) };
+        }
+    }
+
+    fn rates(
+        &self,
+        first: usize,
+        drive: Drive<'_>,
+        m: &[f64],
+        states: &[f64],
+        dm: &mut [f64],
+        ds: &mut [f64],
+    ) {
+        let mut scratch = self.scratch.lock().unwrap_or_else(PoisonError::into_inner);
+        let Scratch { size: sizes, speed, along, spare } = &mut *scratch;
+        let n = m.len() / COMPONENTS;
+        let (x, y) = m.split_at(n);
+        let (pull_x, pull_y) = drive.shear_rate.split_at(n);
+        for k in 0..n {
+            let s = size(x[k], y[k]);
+            sizes[k] = s;
+            // Where nothing slides the first axis is as good as any direction.
+            along[k] = if s > 0.0 { (x[k] * pull_x[k] + y[k] * pull_y[k]) / s } else { pull_x[k] };
+        }
+        let (dx, dy) = dm.split_at_mut(n);
+        self.law.rates(first, Drive { shear_rate: &along[..n], ..drive }, &sizes[..n], states, dx, ds);
+        self.law.slip_rates(first, &sizes[..n], states, &mut speed[..n]);
+        let count = self.law.states();
+        for k in 0..n {
+            let s = sizes[k];
+            if s > 0.0 {
+                let (c, d) = (x[k] / s, y[k] / s);
+                let across = c * pull_y[k] - d * pull_x[k];
+                // m ω, with V/m, which has a limit where both vanish.
+                let scale = drive.normal[k] * self.law.scale(first + k);
+                let turned = across / (scale + drive.damping[k] * speed[k] / s);
+                let grown = dx[k];
+                (dx[k], dy[k]) = (grown * c - turned * d, grown * d + turned * c);
+            } else {
+                let one = Drive {
+                    normal: &drive.normal[k..=k],
+                    normal_rate: drive.normal_rate.map(|r| &r[k..=k]),
+                    shear_rate: &pull_y[k..=k],
+                    damping: &drive.damping[k..=k],
+                };
+                let states = &states[k * count..(k + 1) * count];
+                self.law.rates(first + k, one, &[0.0], states, &mut dy[k..=k], spare);
+            }
+        }
+    }
+
+    fn scale(&self, point: usize) -> f64 {
+        self.law.scale(point)
+    }
+
+    fn state_scale(&self, point: usize) -> f64 {
+        self.law.state_scale(point)
+    }
+
+    fn length(&self, point: usize) -> Option<f64> {
+        self.law.length(point)
+    }
+
+    fn steady(&self, point: usize, log_rate: f64, states: &mut [f64]) {
+        self.law.steady(point, log_rate, states);
+    }
+
+    fn states_for(&self, point: usize, rate: f64, mu: f64, states: &mut [f64]) -> Result<(), Failure> {
+        self.law.states_for(point, rate, mu, states)
+    }
+
+    fn at_rate(&self, point: usize, rate: f64, states: &[f64]) -> Result<f64, Failure> {
+        self.law.at_rate(point, rate, states)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::Turning;
+    use crate::evolution::ageing::Ageing;
+    use crate::fault::{Drive, FaultLaw, Points};
+    use crate::rate::RateLaw;
+    use crate::strength::Parameters;
+    use crate::strength::regularised::Regularised;
+
+    const N: usize = 11;
+
+    fn line() -> Box<dyn FaultLaw> {
+        let law = |k: usize| {
+            let a = 0.008 + 0.002 * (k % 5) as f64;
+            let form = Regularised(Parameters::new(0.6, a, 1e-6).unwrap());
+            RateLaw::new(form, Ageing::new(0.015, 0.008, 1e-6).unwrap(), 1e-9, None).unwrap()
+        };
+        Box::new(Points::new((0..N).map(law).collect()))
+    }
+
+    /// Unknowns, states, f_n, its rate and damping.
+    struct Case {
+        m: Vec<f64>,
+        states: Vec<f64>,
+        normal: Vec<f64>,
+        change: Vec<f64>,
+        damping: Vec<f64>,
+        pull: Vec<f64>,
+    }
+
+    impl Case {
+        fn new() -> Self {
+            let of = |f: &dyn Fn(f64) -> f64| (0..N).map(|k| f(k as f64)).collect::<Vec<f64>>();
+            let both = |f: &dyn Fn(f64) -> f64| (0..2 * N).map(|k| f(k as f64)).collect::<Vec<f64>>();
+            Self {
+                m: both(&|k| 31.0 * (0.7 * k + 0.3).sin()),
+                states: of(&|k| 7.0 - 0.4 * k),
+                normal: of(&|k| 5e7 + 1e6 * k),
+                change: of(&|k| 3e-3 * (k - 4.0)),
+                damping: of(&|k| 4.6e6 + 1e5 * k),
+                pull: both(&|k| 1e-2 * (1.3 * k).cos()),
+            }
+        }
+
+        fn drive(&self) -> Drive<'_> {
+            Drive {
+                normal: &self.normal,
+                normal_rate: Some(&self.change),
+                shear_rate: &self.pull,
+                damping: &self.damping,
+            }
+        }
+
+        /// Rates of m and of the states, and V.
+        fn rates(&self, law: &dyn FaultLaw) -> [Vec<f64>; 3] {
+            let (mut dm, mut ds, mut v) = (self.m.clone(), vec![0.0; N], self.m.clone());
+            law.rates(0, self.drive(), &self.m, &self.states, &mut dm, &mut ds);
+            law.slip_rates(0, &self.m, &self.states, &mut v);
+            [dm, ds, v]
+        }
+    }
+
+    #[test]
+    fn slip_along_an_axis_is_that_of_the_law_of_a_line() {
+        let (law, turning) = (line(), Turning::new(line()));
+        for axis in [0, 1] {
+            let mut case = Case::new();
+            case.m[(1 - axis) * N..(2 - axis) * N].fill(0.0);
+            case.pull[(1 - axis) * N..(2 - axis) * N].fill(0.0);
+            let own = axis * N..(axis + 1) * N;
+            let flat = Case {
+                m: case.m[own.clone()].to_vec(),
+                pull: case.pull[own.clone()].to_vec(),
+                ..Case::new()
+            };
+            let ([dm, ds, v], [flat_dm, flat_ds, flat_v]) = (case.rates(&turning), flat.rates(&*law));
+            for k in 0..N {
+                assert!((v[own.start + k] / flat_v[k] - 1.0).abs() < 1e-15, "{k}");
+                assert!((dm[own.start + k] - flat_dm[k]).abs() <= 1e-14 * flat_dm[k].abs(), "{k}");
+                assert!((ds[k] - flat_ds[k]).abs() <= 1e-14 * flat_ds[k].abs(), "{k}");
+                assert!(dm[(1 - axis) * N + k] == 0.0 && v[(1 - axis) * N + k] == 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn turned_axes_turn_the_rates() {
+        let turning = Turning::new(line());
+        let case = Case::new();
+        let (sine, cosine) = 30f64.to_radians().sin_cos();
+        let turned = |v: &[f64]| -> Vec<f64> {
+            let (x, y) = v.split_at(N);
+            let first = x.iter().zip(y).map(|(x, y)| cosine * x - sine * y);
+            first.chain(x.iter().zip(y).map(|(x, y)| sine * x + cosine * y)).collect()
+        };
+        let other = Case { m: turned(&case.m), pull: turned(&case.pull), ..Case::new() };
+        let ([dm, ds, v], [other_dm, other_ds, other_v]) = (case.rates(&turning), other.rates(&turning));
+        // Rounding of m ~ 30 in ln V, and in rates with it.
+        let close = |a: &[f64], b: &[f64]| {
+            let largest = a.iter().fold(0.0_f64, |l, v| l.max(v.abs()));
+            a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-13 * largest)
+        };
+        assert!(close(&turned(&dm), &other_dm) && close(&ds, &other_ds) && close(&turned(&v), &other_v));
+    }
+
+    /// The equations say that `f_n a m + η V` grows as the traction that drives does: by differences along the rates themselves.
+    #[test]
+    fn friction_and_damping_follow_the_traction_that_drives_in_both_components() {
+        let turning = Turning::new(line());
+        let case = Case::new();
+        let [dm, ds, v] = case.rates(&turning);
+        let resisting = |time: f64| -> Vec<f64> {
+            let m: Vec<f64> = case.m.iter().zip(&dm).map(|(m, d)| m + time * d).collect();
+            let states: Vec<f64> = case.states.iter().zip(&ds).map(|(s, d)| s + time * d).collect();
+            let mut v = vec![0.0; 2 * N];
+            turning.slip_rates(0, &m, &states, &mut v);
+            let each = |i: usize| {
+                let p = i % N;
+                let normal = case.normal[p] + time * case.change[p];
+                normal * turning.scale(p) * m[i] + case.damping[p] * v[i]
+            };
+            (0..2 * N).map(each).collect()
+        };
+        for p in 0..N {
+            // So short that ln V of this point changes by a millionth.
+            let fastest = dm[p].abs().max(dm[N + p].abs()).max(2.0 * ds[p].abs());
+            let step = 1e-6 / fastest;
+            let (before, after) = (resisting(-step), resisting(step));
+            for i in [p, N + p] {
+                let rate = (after[i] - before[i]) / (2.0 * step);
+                // Rounding of tractions of some 1e7 Pa over the change in a step.
+                let rounding = 1e-16 * 5e7 / step;
+                assert!(
+                    (rate - case.pull[i]).abs() < 1e-6 * case.pull[i].abs().max(1e-3) + 10.0 * rounding,
+                    "{i}: {rate} {} {}",
+                    case.pull[i],
+                    v[i]
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_without_friction_takes_up_any_direction() {
+        let turning = Turning::new(line());
+        let rates = |m: f64| {
+            let mut case = Case::new();
+            // An exact zero, and next to nothing in an oblique direction.
+            case.m[3] = 0.6 * m;
+            case.m[N + 3] = 0.8 * m;
+            let [dm, ds, _] = case.rates(&turning);
+            [dm[3], dm[N + 3], ds[3]]
+        };
+        let (at, near) = (rates(0.0), rates(1e-9));
+        for (a, b) in at.iter().zip(near) {
+            assert!((a - b).abs() < 1e-7 * a.abs(), "{at:?} {near:?}");
+        }
+        assert!(at[0] != 0.0 && at[1] != 0.0);
+    }
+}
