@@ -26,7 +26,7 @@ const FAULTS: [Faulting; 5] = [
     (30.0, Sense::Normal),
 ];
 /// Events that count as early: what comes later is as sensitive to cells as codes are to each other.
-const EARLY: usize = 3;
+const EARLY: usize = 2;
 /// Events from which on intervals are steady.
 const STEADY: usize = 5;
 
@@ -93,7 +93,7 @@ fn row(fault: Faulting, size: f64, cycles: &Cycles) -> [String; 9] {
         name(fault),
         format!("{size:.0}"),
         cycles.points.to_string(),
-        list(&found.onsets[..EARLY.min(found.onsets.len())]),
+        list(&found.onsets[..3.min(found.onsets.len())]),
         found.onsets.len().to_string(),
         list(&later[later.len().saturating_sub(4)..]),
         found.steps.to_string(),
@@ -105,7 +105,7 @@ fn row(fault: Faulting, size: f64, cycles: &Cycles) -> [String; 9] {
 /// The first events on cells of half the size.
 fn early(ledger: &mut Ledger, fault: Faulting, coarse: &Cycles, fine: &Cycles) {
     ledger
-        .claim(format!("first three onsets, cells of 156 m against 78 m, {}", name(fault)))
+        .claim(format!("first two onsets, cells of 156 m against 78 m, {}", name(fault)))
         .unit("yr")
         .values(&coarse.found.onsets[..EARLY])
         .equals_each(&fine.found.onsets[..EARLY])
@@ -180,9 +180,9 @@ fn mirrored(ledger: &mut Ledger) -> Result<(), CaseError> {
         .claim("first onset of a vertical fault that slips the other way, difference")
         .unit("yr")
         .value((onsets[0] - onsets[1]).abs())
-        .at_most(1e-3)
+        .at_most(1e-5)
         .evidence(Evidence::Exact, "mirror symmetry")
-        .because("the mesh is not its own mirror image to the last bit, and steps at the default tolerance leave some 1e-3 yr")
+        .because("steps are the same but for rounding, a share of 1e-9 of tractions at most, of which the first 184 yr make some 1e-6 yr")
         .covers(&[Capability::FaultCycles, Capability::PlaneStrain])
         .record();
     Ok(())
