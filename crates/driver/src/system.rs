@@ -22,7 +22,6 @@ use asperity_fem::condense::{Analysis, Condensation, Condensed};
 use asperity_fem::dof::{Channel, Constraints};
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::loads::ExternalForces;
-use asperity_fem::nonlinear::Kinematics;
 use asperity_fem::term::{Limited, Linearized};
 use asperity_friction::law::RateBounds;
 
@@ -188,13 +187,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
 
     /// Size of the positions forces are computed from: that of the scene in finite sliding and large deformation, none otherwise.
     fn position(&self) -> f64 {
-        let deformed = |b: &CellBlock<D>| match b {
-            CellBlock::Linear(_) => false,
-            CellBlock::Nonlinear(b) => b.model().kinematics == Kinematics::UpdatedLagrangian,
-        };
-        let finite = self.plan.interfaces.iter().any(|i| i.sliding == Sliding::Finite)
-            || self.plan.model.blocks.iter().any(deformed);
-        if finite { self.plan.model.scale } else { 0.0 }
+        if views::moves(self.plan) { self.plan.model.scale } else { 0.0 }
     }
 
     /// Hands the channels to the bodies, condensing them anew where asked.

@@ -7,9 +7,11 @@ use crate::observe::view::{
 use crate::plan::{Plan, PlannedInterface};
 use crate::report::InterfaceBalance;
 use crate::samples::{ForceSet, Point};
+use crate::scene::model::Sliding;
 use asperity_contact::{Interface, PointFields, Status};
 use asperity_fem::block::von_mises;
 use asperity_fem::kinematics::Idealisation;
+use asperity_fem::nonlinear::Kinematics;
 use std::collections::BTreeMap;
 
 /// Pads a vector to three components.
@@ -39,6 +41,7 @@ pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[(String, Vec<f64>)]) -> Se
             cell_body,
             bodies: plan.model.bodies.iter().map(|b| b.name.clone()).collect(),
             dimension: D,
+            moves: moves(plan),
         },
         interfaces: plan
             .interfaces
@@ -157,6 +160,15 @@ pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFi
             .collect(),
         area: p.area.clone(),
     }
+}
+
+/// Whether forces depend on where the bodies are by now: finite sliding or large deformation.
+pub fn moves<const D: usize>(plan: &Plan<D>) -> bool {
+    let deformed = |b: &CellBlock<D>| match b {
+        CellBlock::Linear(_) => false,
+        CellBlock::Nonlinear(b) => b.model().kinematics == Kinematics::UpdatedLagrangian,
+    };
+    plan.interfaces.iter().any(|i| i.sliding == Sliding::Finite) || plan.model.blocks.iter().any(deformed)
 }
 
 /// Fields of the bodies for the displacement `u` of the common mesh; `blocks` are those of the mesh in their present state.

@@ -16,6 +16,8 @@ pub struct MeshView {
     pub bodies: Vec<String>,
     /// 2 or 3.
     pub dimension: usize,
+    /// Whether equations hold where the bodies are by then (finite sliding, large deformation), not where they were.
+    pub moves: bool,
 }
 
 /// An interface's fixed part. Written once.

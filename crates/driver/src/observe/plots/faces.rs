@@ -167,6 +167,7 @@ mod tests {
             cell_body: vec![0, 0],
             bodies: vec!["A".into()],
             dimension: 3,
+            ..MeshView::default()
         };
         let seen = visible(&mesh);
         assert_eq!(seen.triangles.len(), 4);
@@ -184,6 +185,7 @@ mod tests {
             cell_body: vec![0, 0],
             bodies: vec!["A".into()],
             dimension: 3,
+            ..MeshView::default()
         };
         let seen = visible(&mesh);
         assert_eq!(seen.triangles.len(), 1);
@@ -219,6 +221,7 @@ mod tests {
                 cell_body: vec![0],
                 bodies: vec!["A".into()],
                 dimension: 2,
+                ..MeshView::default()
             };
             let mean = |c: &Corner, k: usize| c.iter().map(|&n| nodes[n][k]).sum::<f64>() / c.len() as f64;
             let area = |[a, b, c]: &[Corner; 3]| {

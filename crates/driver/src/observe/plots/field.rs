@@ -1,4 +1,5 @@
-//! The Mises field at the end of a stage, over the undeformed bodies, interpolated from the nodes.
+//! The Mises field at the end of a stage, interpolated from the nodes, over the bodies where their equations hold: where they are by then under
+//! finite sliding and large deformation, otherwise where they were at the start.
 
 use super::super::record::StageEnd;
 use super::super::view::{BodyFields, MeshView};
@@ -26,7 +27,8 @@ const FAR_ABOVE: f64 = 1.15;
 /// Draws the field; `None` when there is no face to draw or no finite position.
 pub(super) fn mises(scene: &str, mesh: &MeshView, end: &StageEnd, fields: &BodyFields) -> Option<Figure> {
     let seen = visible(mesh);
-    let (lo, hi) = extent(mesh, &seen)?;
+    let places = places(mesh, fields);
+    let (lo, hi) = extent(&places, &seen)?;
     let (width, height) = (hi.0 - lo.0, hi.1 - lo.1);
     let scale = (ROOM.0 / width).min(ROOM.1 / height);
     let length = LENGTH.of([lo.0, lo.1, hi.0, hi.1].iter().fold(0.0, |most, v| most.max(v.abs())));
@@ -41,10 +43,10 @@ pub(super) fn mises(scene: &str, mesh: &MeshView, end: &StageEnd, fields: &BodyF
     let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + below);
     let heading = format!("{scene}: end of stage “{}”", end.name);
     figure.text((frame.at.0, 22.0), heading, super::axes::LABEL_TEXT, Anchor::Start, INK);
-    figure.image(map(mesh, &seen, &fields.node_mises, &colours, &frame, (lo, hi)));
+    figure.image(map(&places, &seen, &fields.node_mises, &colours, &frame, (lo, hi)));
     for line in &seen.outline {
         let at = |&node: &usize| {
-            let [x, y, _] = mesh.nodes[node];
+            let [x, y, _] = places[node];
             frame.point(x / length.factor, y / length.factor)
         };
         figure.line(line.iter().map(at).collect(), 1.0, INK);
@@ -58,6 +60,15 @@ pub(super) fn mises(scene: &str, mesh: &MeshView, end: &StageEnd, fields: &BodyF
     };
     bar.draw(&mut figure, &frame);
     Some(figure)
+}
+
+/// Where the nodes are \[m\].
+fn places(mesh: &MeshView, fields: &BodyFields) -> Vec<[f64; 3]> {
+    if !mesh.moves {
+        return mesh.nodes.clone();
+    }
+    let moved = |(x, u): (&[f64; 3], &[f64; 3])| [x[0] + u[0], x[1] + u[1], x[2] + u[2]];
+    mesh.nodes.iter().zip(&fields.displacement).map(moved).collect()
 }
 
 /// Which stresses the colours cover.
@@ -96,11 +107,11 @@ impl Colours {
 const FLAT: f64 = 1e-6;
 
 /// Lower left and upper right corner of what is seen.
-fn extent(mesh: &MeshView, seen: &Visible) -> Option<(Point, Point)> {
+fn extent(places: &[[f64; 3]], seen: &Visible) -> Option<(Point, Point)> {
     let start = ((f64::INFINITY, f64::INFINITY), (f64::NEG_INFINITY, f64::NEG_INFINITY));
     let nodes = seen.triangles.iter().flatten().flatten();
     let (lo, hi) = nodes.fold(start, |(lo, hi), &n| {
-        let [x, y, _] = mesh.nodes[n];
+        let [x, y, _] = places[n];
         ((lo.0.min(x), lo.1.min(y)), (hi.0.max(x), hi.1.max(y)))
     });
     let fine = |a: f64, b: f64| a.is_finite() && b.is_finite() && b > a;
@@ -109,7 +120,7 @@ fn extent(mesh: &MeshView, seen: &Visible) -> Option<(Point, Point)> {
 
 /// Fills the triangles into an image that covers the frame.
 fn map(
-    mesh: &MeshView,
+    places: &[[f64; 3]],
     seen: &Visible,
     values: &[f64],
     colours: &Colours,
@@ -122,8 +133,8 @@ fn map(
     let corner = |nodes: &Corner| {
         let mean =
             |read: &dyn Fn(usize) -> f64| nodes.iter().map(|&n| read(n)).sum::<f64>() / nodes.len() as f64;
-        let x = (mean(&|n| mesh.nodes[n][0]) - lo.0) / (hi.0 - lo.0) * columns as f64;
-        let y = (hi.1 - mean(&|n| mesh.nodes[n][1])) / (hi.1 - lo.1) * rows as f64;
+        let x = (mean(&|n| places[n][0]) - lo.0) / (hi.0 - lo.0) * columns as f64;
+        let y = (hi.1 - mean(&|n| places[n][1])) / (hi.1 - lo.1) * rows as f64;
         (x, y, mean(&|n| values[n]))
     };
     for triangle in &seen.triangles {
@@ -221,5 +232,19 @@ impl Bar {
         }
         let x = right + 9.0 + 8.3 * widest as f64 + 16.0;
         figure.vertical_text((x, top + height / 2.0), &self.label, super::axes::LABEL_TEXT, INK);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bodies_are_drawn_where_their_equations_hold() {
+        let fields = BodyFields { displacement: vec![[0.5, -0.25, 0.0]; 2], ..BodyFields::default() };
+        let mut mesh = MeshView { nodes: vec![[1.0, 2.0, 0.0], [3.0, 4.0, 0.0]], ..MeshView::default() };
+        assert_eq!(places(&mesh, &fields), mesh.nodes);
+        mesh.moves = true;
+        assert_eq!(places(&mesh, &fields), [[1.5, 1.75, 0.0], [3.5, 3.75, 0.0]]);
     }
 }
