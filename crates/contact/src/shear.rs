@@ -233,17 +233,22 @@ impl Shear {
         }
     }
 
+    /// Writes each point once, the open ones at rest: on large interfaces a sweep costs what it moves.
     fn scatter(&mut self, step: &mut [[f64; 2]]) {
         let k = self.law.states();
         let s = &self.slices;
         let trial = &mut self.trial;
-        trial.traction.fill([0.0; 2]);
-        trial.rate.fill(0.0);
-        trial.regime.fill(Regime::Stick);
         trial.states.copy_from_slice(&self.committed.states);
-        self.points.fill(ShearPoint::default());
-        step.fill([0.0; 2]);
-        for (i, &p) in s.index.iter().enumerate() {
+        let mut closed = s.index.iter().enumerate().peekable();
+        for (p, (point, step)) in self.points.iter_mut().zip(step).enumerate() {
+            let Some((i, _)) = closed.next_if(|(_, q)| **q == p) else {
+                trial.traction[p] = [0.0; 2];
+                trial.rate[p] = 0.0;
+                trial.regime[p] = Regime::Stick;
+                *point = ShearPoint::default();
+                *step = [0.0; 2];
+                continue;
+            };
             let direction = s.direction[i];
             let traction = scaled(&direction, s.traction[i]);
             trial.traction[p] = traction;
@@ -251,8 +256,8 @@ impl Shear {
             trial.rate[p] = if s.traction[i] < 0.0 { -s.rate[i] } else { s.rate[i] };
             trial.regime[p] = s.regime[i];
             trial.states[p * k..(p + 1) * k].copy_from_slice(&s.states[i * k..(i + 1) * k]);
-            step[p] = scaled(&direction, s.slip[i]);
-            self.points[p] = ShearPoint {
+            *step = scaled(&direction, s.slip[i]);
+            *point = ShearPoint {
                 traction,
                 direction,
                 // The limit of τ/|t^e| at |t^e| = 0 is the derivative.
