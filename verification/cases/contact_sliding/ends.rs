@@ -7,6 +7,14 @@ use crate::{Capability, CaseError, Evidence, Ledger};
 const SCENE: &str = include_str!("ends.toml");
 /// Travel \[m\].
 const TRAVEL: f64 = 2.2;
+/// Other surfaces of the body below: name, and a change of the scene.
+const SURFACES: [(&str, (&str, &str)); 2] = [
+    (
+        "node-to-point on smoothed facets",
+        ("sliding = \"finite\"", "sliding = \"finite\"\nsmoothing = \"cubic\""),
+    ),
+    ("node-to-point on cells of second order", ("\"quad4\"", "\"quad9\"")),
+];
 
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut rows = Vec::new();
@@ -50,6 +58,11 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             smooth.report.counts.iterations.to_string(),
             smooth.report.counts.rejected.to_string(),
         ]);
+    }
+    for (name, change) in SURFACES {
+        let smooth = simulate(&vary(&with_friction(SCENE, 0.0)?, &[change])?)?;
+        let rough = simulate(&vary(SCENE, &[change])?)?;
+        returns(ledger, name, &smooth, &rough, Capability::PenaltyContact2d)?;
     }
     ledger.table(
         "a cycle past the end and back; node-to-point loses and finds single nodes at the end with the energy of their springs",
