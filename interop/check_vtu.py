@@ -21,7 +21,7 @@ BODY_POINTS = {"displacement": 3, "mises": 1}
 BODY_CELLS = {"stress": 6, "mises": 1, "body": 1}
 INTERFACE_POINTS = dict.fromkeys(
     ["gap", "slip", "relative_displacement", "slip_rate", "normal_traction", "shear_traction", "friction", "status"], 1
-) | {"area": 1}
+) | {"area": 1, "mean_normal_traction": 1, "mean_shear_traction": 1}
 PROFILE = {
     "gap [m]": "gap",
     "slip [m]": "slip",
@@ -30,6 +30,8 @@ PROFILE = {
     "normal_traction [Pa]": "normal_traction",
     "shear_traction [Pa]": "shear_traction",
     "friction [-]": "friction",
+    "mean_normal_traction [Pa]": "mean_normal_traction",
+    "mean_shear_traction [Pa]": "mean_shear_traction",
 }
 
 problems: list[str] = []
