@@ -171,6 +171,7 @@ fn steady(ledger: &mut Ledger, size: f64, found: &Found) {
         .uncertainty(0.04)
         .evidence(Evidence::OtherCode, CONVERGED)
         .because("the spread of the reference, and half as much for cells")
+        .why_not_tighter("the spread is the uncertainty of the reference")
         .covers(&[Capability::FaultCycles, Capability::Events])
         .cost(&found.cost)
         .record();
