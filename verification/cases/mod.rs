@@ -61,6 +61,7 @@ mod fault_stability;
 mod fault_turning;
 mod flamant_boussinesq;
 mod flat_punch;
+mod followed;
 mod forward_drift;
 mod friction_hard_numerics;
 mod friction_steady_state;
@@ -93,6 +94,7 @@ mod seas_bp1_full;
 mod seas_bp1_methods;
 mod seas_bp2;
 mod seas_bp3;
+mod seas_bp3_25m;
 mod seas_bp3_full;
 mod seas_bp6;
 pub mod slider;
@@ -157,6 +159,7 @@ pub const ALL: &[Case] = &[
     seas_bp1_25m::CASE,
     seas_bp2::CASE,
     seas_bp3::CASE,
+    seas_bp3_25m::CASE,
     seas_bp3_full::CASE,
     seas_bp6::CASE,
     slider_cycles::CASE,

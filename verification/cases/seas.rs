@@ -12,6 +12,25 @@ pub const YEAR: f64 = 365.25 * 86400.0;
 /// Boundary elements in the half-space that the first events of BP1 are compared with.
 pub const CONVERGED: &str = "boundary elements of 19.5 to 25 m, two codes that agree";
 
+/// The second implementation of BP1 and BP3 in `verification/independent`.
+pub const INDEPENDENT: &str = "cycles.py: boundary elements of constant slip, ln V and ln theta integrated";
+
+/// Onsets \[yr\] that the second implementation found for a problem with cells of `size` \[m\].
+///
+/// # Errors
+/// Where it has no such run.
+pub fn independent(problem: &str, size: f64) -> Result<Vec<f64>, CaseError> {
+    let all: serde_json::Value = serde_json::from_str(include_str!("../independent/cycles.json"))?;
+    let same = |run: &&serde_json::Value| {
+        run["problem"] == problem && run["cell [m]"].as_f64().is_some_and(|h| (h - size).abs() < 1e-6 * size)
+    };
+    let run = all.as_array().and_then(|a| a.iter().find(same));
+    let onsets = run.and_then(|r| r["onsets [yr]"].as_array());
+    let onsets =
+        onsets.ok_or_else(|| format!("cycles.json has no run of {problem} with cells of {size} m"))?;
+    Ok(onsets.iter().filter_map(serde_json::Value::as_f64).collect())
+}
+
 /// The plan of a scene with faults.
 ///
 /// # Errors

@@ -24,11 +24,11 @@ pub struct Jump<const C: usize> {
     pub frame: [[f64; C]; C],
 }
 
-/// A prescribed displacement that jumps cannot express: it holds one component of the plus node in an oblique frame.
+/// A prescribed displacement that jumps cannot express: components of the plus node are held, but no axes of its frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "degree of freedom {plus} on the plus side of a fault is prescribed, which neither all components on both sides nor an axis \
-     of the fault are"
+    "degree of freedom {plus} on the plus side of a fault is prescribed, and what is prescribed there on both sides are neither all \
+     components nor axes of the fault"
 )]
 pub struct ObliqueConstraint {
     /// The degree of freedom.
@@ -197,15 +197,17 @@ impl<const C: usize> Jumps<C> {
 
     /// Components of a jump that are held where component `c` of its plus node is.
     fn held(&self, jump: &Jump<C>, c: usize, fixed: &[usize]) -> Result<Vec<usize>, ObliqueConstraint> {
-        let both = |c: usize| {
+        let held: [bool; C] = std::array::from_fn(|c| {
             fixed.binary_search(&(jump.plus + c)).is_ok() && fixed.binary_search(&(jump.minus + c)).is_ok()
-        };
-        let oblique = ObliqueConstraint { plus: jump.plus + c };
-        if (0..C).all(both) {
-            return Ok((0..C).filter(|&k| jump.frame[k][c] != 0.0).collect());
+        });
+        // Axes that lie in what is held; rounding in the other components is not seen in their length.
+        let outside = |k: usize| (0..C).filter(|&c| !held[c]).map(|c| jump.frame[k][c].powi(2)).sum::<f64>();
+        let axes: Vec<usize> = (0..C).filter(|&k| outside(k) <= f64::EPSILON).collect();
+        if held[c] && axes.len() == held.iter().filter(|h| **h).count() {
+            Ok(axes.into_iter().filter(|&k| jump.frame[k][c] != 0.0).collect())
+        } else {
+            Err(ObliqueConstraint { plus: jump.plus + c })
         }
-        let along = (0..C).find(|&k| jump.frame[k][c].abs() == 1.0);
-        along.filter(|_| both(c)).map(|k| vec![k]).ok_or(oblique)
     }
 
     /// Displacements of the body from the transformed unknowns, in place.

@@ -167,3 +167,16 @@ fn supports_that_no_jump_can_express_are_refused() {
     let all = sorted(vec![minus, minus + 1, plus, plus + 1]);
     assert_eq!(oblique.fixed(&all).unwrap(), all);
 }
+
+#[test]
+fn components_that_span_axes_of_an_oblique_surface_in_space_hold_its_jump() {
+    let (s, c) = 0.7f64.sin_cos();
+    let frame = [[s, c, 0.0], [c, -s, 0.0], [0.0, 0.0, 1.0]];
+    let jumps = Jumps::<3>::new(vec![Jump { minus: 0, plus: 3, frame }]);
+    // x and y on both sides hold opening and slip along the dip; the jump along z stays free.
+    assert_eq!(jumps.fixed(&[0, 1, 3, 4]).unwrap(), [0, 1, 3, 4]);
+    assert_eq!(jumps.fixed(&[2, 5]).unwrap(), [2, 5]);
+    assert_eq!(jumps.fixed(&[0, 3]).unwrap_err(), ObliqueConstraint { plus: 3 });
+    // Here one component of what is held lies across the axes.
+    assert_eq!(jumps.fixed(&[0, 2, 3, 5]).unwrap_err(), ObliqueConstraint { plus: 3 });
+}

@@ -5,7 +5,7 @@
 //! [`crate::slider`] hold, of which these are a case.
 
 use crate::fault::Drive;
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 
 /// Points treated together.
 const LANES: usize = 8;
@@ -61,10 +61,11 @@ impl Group {
     /// |V|.
     #[inline(always)]
     fn speed(&self, lines: &Lines) -> [f64; LANES] {
-        std::array::from_fn(|k| {
-            let log = self.m[k].abs() - lines.offset[k] - lines.b[k] * self.s[k] * lines.per_a[k];
-            exp(log)
-        })
+        let mut speed = [0.0; LANES];
+        for (k, speed) in speed.iter_mut().enumerate() {
+            *speed = exp(self.m[k].abs() - lines.offset[k] - lines.b[k] * self.s[k] * lines.per_a[k]);
+        }
+        speed
     }
 }
 
@@ -89,18 +90,7 @@ impl Sheet {
 
     /// Slip rates of all points \[m/s\]; `other` gives that of a point where the line does not hold.
     pub fn slip_rates(&self, m: &[f64], s: &[f64], rate: &mut [f64], other: impl Fn(usize) -> f64) {
-        self.arch.dispatch(
-            #[inline(always)]
-            || {
-                let points = m.chunks(LANES).zip(s.chunks(LANES)).zip(rate.chunks_mut(LANES));
-                for (lines, ((m, s), rate)) in self.lines.iter().zip(points) {
-                    let speed = Group::new(m, s).speed(lines);
-                    for ((rate, speed), m) in rate.iter_mut().zip(speed).zip(m) {
-                        *rate = speed.copysign(*m);
-                    }
-                }
-            },
-        );
+        self.arch.dispatch(SlipRates { lines: &self.lines, m, s, rate });
         self.elsewhere(m, |k| rate[k] = other(k));
     }
 
@@ -114,32 +104,7 @@ impl Sheet {
         ds: &mut [f64],
         mut other: impl FnMut(usize, &mut f64, &mut f64),
     ) {
-        self.arch.dispatch(
-            #[inline(always)]
-            || {
-                let unknowns = m.chunks(LANES).zip(s.chunks(LANES));
-                let forcing = drive
-                    .normal
-                    .chunks(LANES)
-                    .zip(drive.shear_rate.chunks(LANES))
-                    .zip(drive.damping.chunks(LANES));
-                let rates = dm.chunks_mut(LANES).zip(ds.chunks_mut(LANES));
-                let points = unknowns.zip(forcing).zip(rates).enumerate();
-                for (lines, (g, (((m, s), ((normal, pull), damping)), (dm, ds)))) in
-                    self.lines.iter().zip(points)
-                {
-                    let group = Group::new(m, s);
-                    let normal_rate = match drive.normal_rate {
-                        Some(rates) => load(&rates[g * LANES..][..m.len()]),
-                        None => [0.0; LANES],
-                    };
-                    let (m_rate, s_rate) =
-                        group.rates(lines, &load(normal), &normal_rate, &load(pull), &load(damping));
-                    dm.copy_from_slice(&m_rate[..dm.len()]);
-                    ds.copy_from_slice(&s_rate[..ds.len()]);
-                }
-            },
-        );
+        self.arch.dispatch(Rates { lines: &self.lines, drive, m, s, dm, ds });
         self.elsewhere(m, |k| other(k, &mut dm[k], &mut ds[k]));
     }
 
@@ -152,6 +117,63 @@ impl Sheet {
                     what(g * LANES + k);
                 }
             }
+        }
+    }
+}
+
+/// What is done for all points with the vector units of the processor: not closures, which pulp calls through a function of its own that
+/// is compiled without those units.
+struct SlipRates<'a> {
+    lines: &'a [Lines],
+    m: &'a [f64],
+    s: &'a [f64],
+    rate: &'a mut [f64],
+}
+
+impl WithSimd for SlipRates<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let points = self.m.chunks(LANES).zip(self.s.chunks(LANES)).zip(self.rate.chunks_mut(LANES));
+        for (lines, ((m, s), rate)) in self.lines.iter().zip(points) {
+            let speed = Group::new(m, s).speed(lines);
+            for ((rate, speed), m) in rate.iter_mut().zip(speed).zip(m) {
+                *rate = speed.copysign(*m);
+            }
+        }
+    }
+}
+
+/// The same for rates of m and of the states.
+struct Rates<'a> {
+    lines: &'a [Lines],
+    drive: &'a Drive<'a>,
+    m: &'a [f64],
+    s: &'a [f64],
+    dm: &'a mut [f64],
+    ds: &'a mut [f64],
+}
+
+impl WithSimd for Rates<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Drive { normal, shear_rate, damping, normal_rate, .. } = *self.drive;
+        let unknowns = self.m.chunks(LANES).zip(self.s.chunks(LANES));
+        let forcing = normal.chunks(LANES).zip(shear_rate.chunks(LANES)).zip(damping.chunks(LANES));
+        let rates = self.dm.chunks_mut(LANES).zip(self.ds.chunks_mut(LANES));
+        let points = unknowns.zip(forcing).zip(rates).enumerate();
+        for (lines, (g, (((m, s), ((normal, pull), damping)), (dm, ds)))) in self.lines.iter().zip(points) {
+            let normal_rate = match normal_rate {
+                Some(rates) => load(&rates[g * LANES..][..m.len()]),
+                None => [0.0; LANES],
+            };
+            let (m_rate, s_rate) =
+                Group::new(m, s).rates(lines, &load(normal), &normal_rate, &load(pull), &load(damping));
+            dm.copy_from_slice(&m_rate[..dm.len()]);
+            ds.copy_from_slice(&s_rate[..ds.len()]);
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::fault::Plan;
 use dislocation::Stress;
-use nalgebra::{Complex, DVector};
+use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 use std::fmt::Write as _;
 
@@ -23,7 +23,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     interface(ledger)?;
     parallel(ledger)?;
     pairs(ledger)?;
-    arc(ledger)
+    arc(ledger)?;
+    arc_in_space(ledger)
 }
 
 /// Friction of faults whose operator alone is asked for.
@@ -316,8 +317,22 @@ fn on_arc(along: f64) -> f64 {
     (1.0 - ((along - 8e3) / 6e3).powi(2)).max(0.0).powi(3)
 }
 
-/// A fault that is an arc from upright at the surface to a dip of 45 degrees, of as many straight cells.
+/// How far the sides are from the arc \[m\].
+const FAR: f64 = 1e6;
+
+/// A fault that is an arc from upright at the surface to a dip of 45 degrees, of as many straight cells, in plane strain.
 fn curved(cells: usize) -> Result<Plan, CaseError> {
+    let sides = r#"{ set = "crust.left", x = 0, y = 0 }, { set = "crust.right", x = 0, y = 0 }"#;
+    bent("plane-strain", &arc_parts(cells, "", ""), sides)
+}
+
+/// The scene of the arc.
+fn bent(kinematics: &str, parts: &str, conditions: &str) -> Result<Plan, CaseError> {
+    seas::plan(&scene(kinematics, parts, conditions))
+}
+
+/// Body and fault of the arc, with more keys of each.
+fn arc_parts(cells: usize, body: &str, fault: &str) -> String {
     let angle = |k: usize| FRAC_PI_4 * k as f64 / cells as f64;
     let vertex = |k: usize| {
         let (s, c) = angle(k).sin_cos();
@@ -325,17 +340,14 @@ fn curved(cells: usize) -> Result<Plan, CaseError> {
     };
     let trace: Vec<String> = (0..=cells).map(vertex).collect();
     let size = RADIUS * FRAC_PI_4 / cells as f64;
-    let far = 1e6;
-    let parts = format!(
-        "{}[bodies.crust]\nmaterial = \"rock\"\nmesh.fault = {{ trace = [{}], spacing = [[0, {size}]], min = [{}, {}], max = [{far}, 0], growth = 1.25, element = \"quad9\" }}\n\
-         [faults.main]\nminus = \"crust.fault.minus\"\nplus = \"crust.fault.plus\"\n{LAW}\n",
+    format!(
+        "{}[bodies.crust]\nmaterial = \"rock\"\nmesh.fault = {{ trace = [{}], spacing = [[0, {size}]], min = [{}, {}], max = [{FAR}, 0], growth = 1.25, element = \"quad9\" }}\n{body}\n\
+         [faults.main]\nminus = \"crust.fault.minus\"\nplus = \"crust.fault.plus\"\n{LAW}\n{fault}\n",
         material("rock", ROCK),
         trace.join(", "),
-        -far,
-        -far
-    );
-    let sides = r#"{ set = "crust.left", x = 0, y = 0 }, { set = "crust.right", x = 0, y = 0 }"#;
-    seas::plan(&scene("plane-strain", &parts, sides))
+        -FAR,
+        -FAR
+    )
 }
 
 /// Shear and normal tractions of slip on the arc at an angle along it.
@@ -413,4 +425,51 @@ fn arc(ledger: &mut Ledger) -> Result<(), CaseError> {
             .record();
     }
     Ok(())
+}
+
+/// Cells of the arc that is drawn through a slab.
+const DRAWN: usize = 8;
+
+/// The arc drawn through a slab of space, one layer of cells thick and held so that it moves as the plane does, against the plane.
+fn arc_in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
+    for (kinematics, rake, faces, held) in [
+        ("plane-strain", "[0, 1, 0]", "z = 0", "x = 0, y = 0"),
+        ("antiplane", "[0, 0, 1]", "x = 0, y = 0", "z = 0"),
+    ] {
+        let on = |sides: &[&str], what: &str| {
+            sides.iter().map(|s| format!("{{ set = \"crust.{s}\", {what} }}, ")).collect::<String>()
+        };
+        let far = ["left", "right"];
+        let plane = bent(kinematics, &arc_parts(DRAWN, "", ""), &on(&far, held))?;
+        let parts = arc_parts(DRAWN, "extrude = [0, 1e3]", &format!("rake = {rake}"));
+        let conditions = on(&far, "x = 0, y = 0, z = 0") + &on(&["back", "front"], faces);
+        let (solid, cost) = Cost::of(|| bent("3d", &parts, &conditions));
+        drawn(ledger, kinematics, (&plane, &solid?), &cost);
+    }
+    Ok(())
+}
+
+/// Tractions of slip that is uniform across the slab against those of the plane.
+fn drawn(ledger: &mut Ledger, kinematics: &str, (plane, solid): (&Plan, &Plan), cost: &Cost) {
+    let near =
+        |p: usize, q: usize| (0..2).all(|c| (plane.points[p].at[c] - solid.points[q].at[c]).abs() < 1e-3);
+    let across =
+        DMatrix::from_fn(solid.points.len(), plane.points.len(), |q, p| f64::from(u8::from(near(p, q))));
+    let largest = matrix(plane, false).amax();
+    let kinds: &[bool] = if kinematics == "antiplane" { &[false] } else { &[false, true] };
+    for &normal in kinds {
+        let error = matrix(solid, normal) * &across - &across * matrix(plane, normal);
+        ledger
+            .claim(format!(
+                "{} tractions of slip on an arc drawn through a slab that moves in {kinematics}, against the plane, over the largest",
+                if normal { "normal" } else { "shear" }
+            ))
+            .value(error.amax() / largest)
+            .at_most(1e-11)
+            .evidence(Evidence::Exact, "displacements of the plane, uniform across the slab, lie in its finite-element space")
+            .because("rounding")
+            .covers(&[Capability::FaultCycles])
+            .cost(cost)
+            .record();
+    }
 }

@@ -3,11 +3,11 @@
 mod reference;
 mod surface;
 
+use crate::cases::followed::Followed;
 use crate::cases::seas;
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::{Balance, Event, Moment, Plan, Report, Run, Watcher, resume};
-use asperity_driver::ode::{Control, Outcome};
-use reference::{Slid, Slider};
+use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use asperity_driver::fault::Plan;
+use reference::{Fault, Slid};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -27,6 +27,7 @@ const TOLERANCE: f64 = 1e-7;
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     lines(ledger)?;
     turning(ledger)?;
+    varied(ledger)?;
     surface::gaussian(ledger)
 }
 
@@ -43,58 +44,6 @@ fn scene(drawn: [f64; 2], rake: [f64; 2], slip: &str, events: usize) -> String {
         .replace("stop_after = 5", &format!("stop_after = {events}"))
 }
 
-/// Sums works, and keeps one of the places where the run restarts.
-struct Look<'a> {
-    balance: Balance<'a>,
-    wait: usize,
-    kept: Option<Run>,
-}
-
-impl Watcher for Look<'_> {
-    fn now(&mut self, moment: &Moment<'_>) -> Control {
-        self.balance.step(moment);
-        Control::Go
-    }
-
-    fn pause(&mut self, run: &Run) -> Control {
-        if self.wait == 0 && self.kept.is_none() {
-            self.kept = Some(run.clone());
-        }
-        self.wait = self.wait.saturating_sub(1);
-        Control::Go
-    }
-}
-
-struct Followed {
-    run: Run,
-    report: Report,
-    kept: Option<Run>,
-    cost: Cost,
-}
-
-impl Followed {
-    fn new(plan: &Plan, start: Option<Run>) -> Result<Self, CaseError> {
-        let settings = plan.settings;
-        let start = start.unwrap_or_else(|| Run::new(plan.start.clone(), settings.thresholds));
-        let mut look = Look { balance: Balance::new(plan), wait: 3, kept: None };
-        let (run, cost) = Cost::of(|| resume(&plan.fault, &plan.loading, start, &settings, &mut look));
-        if run.outcome != Outcome::Stopped {
-            return Err(format!("the run did not end with its events: {:?}", run.outcome).into());
-        }
-        let report = Report::new(plan, &run, &mut look.balance);
-        let cost = cost.count("steps", run.counts.steps as f64);
-        Ok(Self { report, kept: look.kept, cost, run })
-    }
-
-    fn events(&self) -> &[Event] {
-        self.run.catalogue.events()
-    }
-
-    fn onsets(&self) -> Vec<f64> {
-        self.events().iter().map(|e| e.onset.seconds()).collect()
-    }
-}
-
 /// Largest relative difference.
 fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
@@ -104,10 +53,10 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
 fn lines(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (sine, cosine) = 30f64.to_radians().sin_cos();
     let (axis, turned) = ([0.0, 1.0], [sine, cosine]);
-    let held = Followed::new(&seas::plan(&scene(axis, axis, "", 2))?, None)?;
+    let held = Followed::new(&seas::plan(&scene(axis, axis, "", 2))?)?;
     for (name, direction) in [("along z", axis), ("at 30 degrees from z", turned)] {
         let plan = seas::plan(&scene(direction, direction, "slip = \"free\"", 2))?;
-        let free = Followed::new(&plan, None)?;
+        let free = Followed::new(&plan)?;
         let n = plan.points.len();
         let event = &free.events()[1].slip;
         let across = event[n..].iter().fold(0.0_f64, |l, v| l.max(v.abs())) / event[0].abs();
@@ -139,8 +88,8 @@ const INDEPENDENT: &str =
 /// Blocks drawn at 60 degrees from the traction at the start.
 fn turning(ledger: &mut Ledger) -> Result<(), CaseError> {
     let plan = seas::plan(SCENE)?;
-    let found = Followed::new(&plan, None)?;
-    let expected = Slider::of(&plan, 60f64.to_radians(), 2.0 * HALF).events(found.events().len())?;
+    let found = Followed::new(&plan)?;
+    let expected = Fault::slider(&plan, 60f64.to_radians(), 2.0 * HALF).events(found.events().len())?;
     let onsets: Vec<f64> = expected.iter().map(|e| e.onset).collect();
     ledger
         .claim("onsets of five events while slip turns: largest relative difference")
@@ -253,22 +202,79 @@ fn balances(ledger: &mut Ledger, plan: &Plan, found: &Followed) -> Result<(), Ca
         .covers(&[Capability::Events])
         .cost(&found.cost)
         .record();
-    let kept = found.kept.clone().ok_or("the run never restarted")?;
-    let again = Followed::new(plan, Some(kept))?;
-    let bits = |run: &Run| -> Vec<u64> {
-        let events = run.catalogue.events().iter();
-        let events = events.flat_map(|e| e.slip.iter().chain(&e.drop).chain([&e.peak]));
-        run.unknowns.iter().chain(events).map(|v| v.to_bits()).collect()
-    };
-    let (a, b) = (bits(&found.run), bits(&again.run));
-    let differ = a.iter().zip(&b).filter(|(a, b)| a != b).count() + a.len().abs_diff(b.len());
+    found.restarted(ledger, plan, TOLERANCE)
+}
+
+/// Events of blocks whose friction varies.
+const VARIED: usize = 2;
+
+/// The blocks with a that grows along y, so that slip turns at different times in different places.
+fn varied(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let text = SCENE
+        .replace("divisions = [1, 2, 2]", "divisions = [1, 4, 1]")
+        .replace(
+            "[[stages]]",
+            "profiles.a = { along = \"y\", points = [[0, 0.008], [1e3, 0.012]] }\n\n[[stages]]",
+        )
+        .replace("stop_after = 5", &format!("stop_after = {VARIED}"));
+    let plan = seas::plan(&text)?;
+    let found = Followed::new(&plan)?;
+    let a = |p: usize| 0.008 + 4e-6 * plan.points[p].at[1];
+    let expected = Fault::of(&plan, a).events(VARIED)?;
+    let onsets: Vec<f64> = expected.iter().map(|e| e.onset).collect();
+    let n = plan.points.len();
+    let (mut slips, mut least, mut most) = (0.0_f64, f64::INFINITY, 0.0_f64);
+    for (event, expected) in found.events().iter().zip(&expected) {
+        let size = event.slip.iter().fold(0.0_f64, |l, v| l.max(v.abs()));
+        for p in 0..n {
+            let off = |c: usize| event.slip[c * n + p] - expected.slip[c * n + p];
+            slips = slips.max(off(0).hypot(off(1)) / size);
+            let angle = event.slip[n + p].atan2(event.slip[p]).to_degrees();
+            (least, most) = (least.min(angle), most.max(angle));
+        }
+    }
     ledger
-        .claim("numbers that differ in a run that goes on from its fourth restart")
-        .count(differ as u64, 0)
-        .evidence(Evidence::Exact, "the run that was not broken off")
-        .because("an unbroken run restarts there as well")
-        .covers(&[Capability::FaultCycles, Capability::Determinism])
-        .cost(&again.cost)
+        .claim("angles of slip from the rake over the points of two events where a varies: range")
+        .value(most - least)
+        .unit("degrees")
+        .at_least(1.0)
+        .evidence(Evidence::Exact, "friction turns slip where it is weaker first")
+        .because("a case in which all points slip along one line would show nothing")
+        .covers(&[Capability::FaultCycles])
+        .cost(&found.cost)
+        .record();
+    for (name, value, bound, because) in [
+        (
+            "onsets, largest relative difference",
+            apart(&found.onsets(), &onsets),
+            10.0 * TOLERANCE,
+            "ten tolerances of ln V, of some 10 e-folds a cycle",
+        ),
+        (
+            "slip vectors of all points, largest difference over the largest slip",
+            slips,
+            3e-5,
+            "three hundred tolerances: as where friction is uniform",
+        ),
+    ] {
+        ledger
+            .claim(format!("two events where a varies and slip turns, {name}"))
+            .value(value)
+            .at_most(bound)
+            .evidence(Evidence::SemiAnalytic, INDEPENDENT)
+            .because(because)
+            .covers(&[Capability::FaultCycles, Capability::Events])
+            .cost(&found.cost)
+            .record();
+    }
+    ledger
+        .claim("imbalance of energy over its largest part, two events where a varies and slip turns")
+        .value(found.report.energy.imbalance)
+        .at_most(TOLERANCE)
+        .evidence(Evidence::Exact, "work of loads on slip = elastic energy + work of friction + radiated energy, as products of vectors")
+        .because("one tolerance of ln V: it moves friction by a/f of it in a step, and steps add up like a random walk")
+        .covers(&[Capability::FaultCycles])
+        .cost(&found.cost)
         .record();
     Ok(())
 }

@@ -1,7 +1,7 @@
-//! A slider on a spring that is as stiff in both directions, by slip and state.
+//! A fault whose slip may turn, by slip and state: a slider on a spring that is as stiff in both directions, or points with an operator.
 
 use crate::CaseError;
-use asperity_driver::fault::Plan;
+use asperity_driver::fault::{Operator, Plan};
 use asperity_driver::ode::{
     Clock, Control, Method, Occurrence, Options, Outcome, Problem, Sink, Step, integrate,
 };
@@ -26,12 +26,21 @@ const EXACT: f64 = 1e-11;
 /// Newton's steps at most; from the last rate a few suffice.
 const MOST: usize = 100;
 
-/// Unknowns: slip along the traction at the start and across \[m\], and ln(V0 theta/L).
-pub struct Slider {
-    /// Rate at which the spring is drawn, both components \[m/s\].
-    drawn: [f64; 2],
-    /// Traction at the start, along the first axis \[Pa\].
-    first: f64,
+/// What slip does to tractions.
+enum Elastic<'a> {
+    /// A spring of stiffness G/W in both directions, drawn at these rates \[m/s\].
+    Spring([f64; 2]),
+    /// The operator of a plan, and rates of tractions of its loads, component by component \[Pa/s\].
+    Body(&'a dyn Operator, Vec<f64>),
+}
+
+/// Unknowns: slip of all points along the traction at the start, then across \[m\], then ln(V0 theta/L).
+pub struct Fault<'a> {
+    elastic: Elastic<'a>,
+    /// a of each point.
+    a: Vec<f64>,
+    /// Traction of each point at the start, along the first axis \[Pa\].
+    first: Vec<f64>,
     /// \[Pa s/m\].
     damping: f64,
     /// That begin and end an event \[m/s\].
@@ -42,39 +51,65 @@ pub struct Slider {
 pub struct Slid {
     /// \[s\].
     pub onset: f64,
-    /// \[m\].
-    pub slip: [f64; 2],
+    /// Of all points, along the first axis and then across \[m\].
+    pub slip: Vec<f64>,
 }
 
-/// f at ln V and the state, and its derivative by ln V.
-fn friction(log: f64, psi: f64) -> (f64, f64) {
+/// f at a, ln V and the state, and its derivative by ln V.
+fn friction(a: f64, log: f64, psi: f64) -> (f64, f64) {
     // asinh(x) with ln x, for x that may be large or small.
-    let x = (log - (2.0 * V0).ln() + (F0 + B * psi) / A).exp();
-    (A * x.asinh(), A * x / x.hypot(1.0))
+    let x = (log - (2.0 * V0).ln() + (F0 + B * psi) / a).exp();
+    (a * x.asinh(), a * x / x.hypot(1.0))
 }
 
-impl Slider {
-    /// Drawn at this angle from slip at the start \[rad\], at this rate \[m/s\], with the thresholds of a plan.
-    pub fn of(plan: &Plan, angle: f64, rate: f64) -> Self {
+impl<'a> Fault<'a> {
+    /// One point on a spring, drawn at this angle from slip at the start \[rad\], at this rate \[m/s\], with the thresholds of a plan.
+    pub fn slider(plan: &Plan, angle: f64, rate: f64) -> Self {
         let (sine, cosine) = angle.sin_cos();
-        let damping = 0.5 * (MODULUS * DENSITY).sqrt();
-        // The state is steady where V0 theta/L = V0/V.
-        let first = NORMAL * friction(START.ln(), (V0 / STEADY).ln()).0 + damping * START;
-        let thresholds = [plan.settings.thresholds.on, plan.settings.thresholds.off];
-        Self { drawn: [rate * cosine, rate * sine], first, damping, thresholds }
+        Self::new(plan, Elastic::Spring([rate * cosine, rate * sine]), vec![A])
     }
 
-    /// ln V and the unit vector of slip.
-    fn rate(&self, time: f64, y: &[f64]) -> (f64, [f64; 2]) {
-        let stiffness = MODULUS / WIDE;
-        let x = self.first + stiffness * (self.drawn[0] * time - y[0]);
-        let across = stiffness * (self.drawn[1] * time - y[1]);
-        let size = x.hypot(across);
+    /// The points of a plan, with its operator, loads and thresholds, and with a of each point.
+    pub fn of(plan: &'a Plan, a: impl Fn(usize) -> f64) -> Self {
+        let n = plan.points.len();
+        let pull = plan.loading.rates(1.0, n, false).0;
+        Self::new(plan, Elastic::Body(plan.fault.operator.as_ref(), pull), (0..n).map(a).collect())
+    }
+
+    fn new(plan: &Plan, elastic: Elastic<'a>, a: Vec<f64>) -> Self {
+        let damping = 0.5 * (MODULUS * DENSITY).sqrt();
+        // The state is steady where V0 theta/L = V0/V.
+        let first = |a: &f64| NORMAL * friction(*a, START.ln(), (V0 / STEADY).ln()).0 + damping * START;
+        let thresholds = [plan.settings.thresholds.on, plan.settings.thresholds.off];
+        Self { elastic, first: a.iter().map(first).collect(), a, damping, thresholds }
+    }
+
+    /// Tractions of all points, along the first axis and then across \[Pa\].
+    fn tractions(&self, time: f64, slip: &[f64]) -> Vec<f64> {
+        let n = self.a.len();
+        let mut tractions = vec![0.0; 2 * n];
+        match &self.elastic {
+            Elastic::Spring(drawn) => {
+                for ((t, slip), drawn) in tractions.iter_mut().zip(slip).zip(drawn) {
+                    *t = MODULUS / WIDE * (drawn * time - slip);
+                }
+            }
+            Elastic::Body(operator, pull) => {
+                operator.shear(slip, &mut tractions);
+                tractions.iter_mut().zip(pull).for_each(|(t, pull)| *t += pull * time);
+            }
+        }
+        tractions.iter_mut().zip(&self.first).for_each(|(t, first)| *t += first);
+        tractions
+    }
+
+    /// ln V of a point whose traction has this size.
+    fn log_rate(&self, point: usize, size: f64, psi: f64) -> f64 {
         // |t| - f_n f - eta V falls with ln V: bracketed, Newton's step where it stays within.
         let (mut low, mut high) = (-80.0, 5.0);
         let mut log = START.ln();
         for _ in 0..MOST {
-            let (f, slope) = friction(log, y[2]);
+            let (f, slope) = friction(self.a[point], log, psi);
             let off = size - NORMAL * f - self.damping * log.exp();
             if off > 0.0 {
                 low = log
@@ -85,12 +120,11 @@ impl Slider {
             let next = log + step;
             let next = if next > low && next < high { next } else { 0.5 * (low + high) };
             if (next - log).abs() <= 2.0 * f64::EPSILON * log.abs() {
-                log = next;
-                break;
+                return next;
             }
             log = next;
         }
-        (log, [x / size, across / size])
+        log
     }
 
     /// So many events from the start on.
@@ -98,17 +132,18 @@ impl Slider {
     /// # Errors
     /// Where they do not come.
     pub fn events(&self, most: usize) -> Result<Vec<Slid>, CaseError> {
+        let n = self.a.len();
         let options = Options {
             method: Method::Dop853,
             rtol: EXACT,
             // Slip of L and a state of one.
-            atol: vec![EXACT * L, EXACT * L, EXACT],
+            atol: [vec![EXACT * L; 2 * n], vec![EXACT; n]].concat(),
             first_step: None,
             largest_step: None,
             most_steps: 10_000_000,
         };
-        let mut found = Found { most, open: None, events: Vec::new() };
-        let start = [0.0, 0.0, (V0 / STEADY).ln()];
+        let mut found = Found { most, points: n, open: None, events: Vec::new() };
+        let start = [vec![0.0; 2 * n], vec![(V0 / STEADY).ln(); n]].concat();
         let end = 1e4 * crate::cases::seas::YEAR;
         let out = integrate(self, Clock::new(0.0, 0.0), &start, end, &options, &mut found);
         if out.outcome != Outcome::Stopped {
@@ -120,18 +155,22 @@ impl Slider {
     }
 }
 
-impl Problem for Slider {
+impl Problem for Fault<'_> {
     fn size(&self) -> usize {
-        3
+        3 * self.a.len()
     }
 
     fn rates(&self, at: Clock, y: &[f64], dy: &mut [f64]) {
-        let (log, direction) = self.rate(at.seconds(), y);
-        let v = log.exp();
-        dy[0] = v * direction[0];
-        dy[1] = v * direction[1];
-        // theta' = 1 - V theta/L.
-        dy[2] = V0 / L * (-y[2]).exp() - v / L;
+        let n = self.a.len();
+        let t = self.tractions(at.seconds(), &y[..2 * n]);
+        for p in 0..n {
+            let size = t[p].hypot(t[n + p]);
+            let v = self.log_rate(p, size, y[2 * n + p]).exp();
+            dy[p] = v * t[p] / size;
+            dy[n + p] = v * t[n + p] / size;
+            // theta' = 1 - V theta/L.
+            dy[2 * n + p] = V0 / L * (-y[2 * n + p]).exp() - v / L;
+        }
     }
 
     fn jacobian(&self, _at: Clock, _y: &[f64], jac: &mut [f64]) {
@@ -143,15 +182,19 @@ impl Problem for Slider {
     }
 
     fn event(&self, at: Clock, y: &[f64], g: &mut [f64]) {
-        let log = self.rate(at.seconds(), y).0;
-        g.iter_mut().zip(&self.thresholds).for_each(|(g, threshold)| *g = log - threshold.ln());
+        let n = self.a.len();
+        let t = self.tractions(at.seconds(), &y[..2 * n]);
+        let log = |p: usize| self.log_rate(p, t[p].hypot(t[n + p]), y[2 * n + p]);
+        let fastest = (0..n).map(log).fold(f64::NEG_INFINITY, f64::max);
+        g.iter_mut().zip(&self.thresholds).for_each(|(g, threshold)| *g = fastest - threshold.ln());
     }
 }
 
 struct Found {
     most: usize,
+    points: usize,
     /// Onset \[s\] and slip then \[m\].
-    open: Option<(f64, [f64; 2])>,
+    open: Option<(f64, Vec<f64>)>,
     events: Vec<Slid>,
 }
 
@@ -161,14 +204,13 @@ impl Sink for Found {
     }
 
     fn occurred(&mut self, occurrence: &Occurrence) -> Control {
-        let (time, slip) = (occurrence.at.seconds(), [occurrence.state[0], occurrence.state[1]]);
-        match (occurrence.event, occurrence.rising, self.open) {
-            (0, true, None) => self.open = Some((time, slip)),
+        let slip = occurrence.state[..2 * self.points].to_vec();
+        match (occurrence.event, occurrence.rising, self.open.take()) {
+            (0, true, None) => self.open = Some((occurrence.at.seconds(), slip)),
             (1, false, Some((onset, before))) => {
-                self.open = None;
-                self.events.push(Slid { onset, slip: [slip[0] - before[0], slip[1] - before[1]] });
+                self.events.push(Slid { onset, slip: slip.iter().zip(before).map(|(s, b)| s - b).collect() });
             }
-            _ => {}
+            (_, _, open) => self.open = open,
         }
         if self.events.len() >= self.most { Control::Stop } else { Control::Go }
     }

@@ -72,6 +72,21 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         .because("0.01 %: what extrapolation by a factor of two in the error leaves of 0.0106 %, and the reference's own 0.003 %")
         .covers(&[Capability::FaultCycles])
         .record();
+    let there = [19.53125, 9.765625].map(|size| seas::independent("bp1", size));
+    let [coarse, fine] = there;
+    let (coarse, fine) = (coarse?[0], fine?[0]);
+    let change = (fine - coarse).abs();
+    ledger
+        .claim("onset of the first event, extrapolated, against boundary elements of 19.5 and 9.8 m extrapolated at first order")
+        .unit("yr")
+        .value(c + (c - b).powi(2) / ((b - a) - (c - b)))
+        .equals(2.0 * fine - coarse)
+        .absolute(3.0 * change)
+        .uncertainty(change)
+        .evidence(Evidence::OtherCode, seas::INDEPENDENT)
+        .because("their change from 19.5 to 9.8 m once for what extrapolation leaves there, once for what it leaves here, once for the borders at 8000 km (0.001 yr) and the cells of the body (0.0003 yr)")
+        .covers(&[Capability::FaultCycles])
+        .record();
     Ok(())
 }
 

@@ -5,6 +5,9 @@ use std::ops::Range;
 /// Most points of a leaf: below, a dense block is as small as two of low rank and faster.
 const LEAF: usize = 32;
 
+/// Clusters have a multiple of so many points, but for the last ones: products take as many at once.
+const EVEN: usize = 8;
+
 /// Points near each other.
 #[derive(Clone, Debug)]
 pub(super) struct Cluster {
@@ -67,7 +70,7 @@ impl Tree {
             let along = (0..3).fold(0, |b, c| if high[c] - low[c] > high[b] - low[b] { c } else { b });
             let by = |p: &usize, q: &usize| places[*p][along].total_cmp(&places[*q][along]).then(p.cmp(q));
             self.order[range.clone()].sort_by(by);
-            Some((range.start + range.len() / 2, faults, faults))
+            Some((range.start + (range.len() / 2).next_multiple_of(EVEN), faults, faults))
         } else {
             None
         };

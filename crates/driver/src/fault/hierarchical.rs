@@ -7,7 +7,7 @@ use super::cluster::{Cluster, Tree};
 use super::lowrank::{GROUP, LowRank, low_rank};
 use super::operator::{Operator, columns};
 use nalgebra::DMatrix;
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -206,14 +206,12 @@ impl Compressed {
         let work = |task: &Task| {
             let mut sums = task.sums.lock().unwrap_or_else(PoisonError::into_inner);
             sums.fill(0.0);
-            arch.dispatch(
-                #[inline(always)]
-                || {
-                    for block in &self.blocks[task.blocks.clone()] {
-                        block.add(&self.values[block.values.clone()], x, &mut sums);
-                    }
-                },
-            );
+            arch.dispatch(Product {
+                blocks: &self.blocks[task.blocks.clone()],
+                values: &self.values,
+                x,
+                sums: &mut sums,
+            });
         };
         match self.tasks.as_slice() {
             [one] => work(one),
@@ -223,6 +221,26 @@ impl Compressed {
         for task in &self.tasks {
             let sums = task.sums.lock().unwrap_or_else(PoisonError::into_inner);
             y.iter_mut().zip(sums.iter()).for_each(|(y, s)| *y += s);
+        }
+    }
+}
+
+/// Products of blocks with a vector: not a closure, which pulp calls through a function of its own that is compiled without the
+/// vector units asked for.
+struct Product<'a> {
+    blocks: &'a [Block],
+    values: &'a [f64],
+    x: &'a [f64],
+    sums: &'a mut [f64],
+}
+
+impl WithSimd for Product<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for block in self.blocks {
+            block.add(&self.values[block.values.clone()], self.x, self.sums);
         }
     }
 }
@@ -267,31 +285,21 @@ fn dot(a: &[f64], x: &[f64]) -> f64 {
             sums[k] += a[k] * x[k];
         }
     }
-    let rest: f64 = a_rest.iter().zip(x_rest).map(|(a, x)| a * x).sum();
-    sums.iter().sum::<f64>() + rest
+    for ((sum, a), x) in sums.iter_mut().zip(a_rest).zip(x_rest) {
+        *sum += a * x;
+    }
+    let [a, b, c, d, e, f, g, h] = sums;
+    ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
 
-/// Scalar products of the columns of a group with `x`.
+/// Scalar products of the columns of a group with `x`: one after the other, since compilers mix the columns where they may, to no good, and
+/// leave `array::from_fn` without vector units.
 #[inline(always)]
 fn dots(group: &[f64], x: &[f64]) -> [f64; GROUP] {
     let n = x.len();
     let (a, b) = group.split_at(2 * n);
     let ((a, b), (c, d)) = (a.split_at(n), b.split_at(n));
-    let (x_lanes, x_rest) = x.as_chunks::<LANES>();
-    let columns = [a, b, c, d].map(|c| c.as_chunks::<LANES>());
-    let mut sums = [[0.0; LANES]; GROUP];
-    for (l, x) in x_lanes.iter().enumerate() {
-        for g in 0..GROUP {
-            let column = &columns[g].0[l];
-            for k in 0..LANES {
-                sums[g][k] += column[k] * x[k];
-            }
-        }
-    }
-    std::array::from_fn(|g| {
-        let rest: f64 = columns[g].1.iter().zip(x_rest).map(|(a, x)| a * x).sum();
-        sums[g].iter().sum::<f64>() + rest
-    })
+    [dot(a, x), dot(b, x), dot(c, x), dot(d, x)]
 }
 
 #[inline(always)]

@@ -1,0 +1,107 @@
+//! What the cases of balances share: a run of a fault with its report, and with one of the places where it restarts.
+
+use crate::{Capability, CaseError, Cost, Evidence, Ledger};
+use asperity_driver::fault::{Balance, Event, Moment, Plan, Report, Run, Settings, Watcher, resume};
+use asperity_driver::ode::{Control, Outcome};
+
+/// Sums works, and keeps one of the places where the run restarts.
+struct Look<'a> {
+    balance: Balance<'a>,
+    /// Restarts until the one to keep.
+    wait: usize,
+    kept: Option<Run>,
+}
+
+impl Watcher for Look<'_> {
+    fn now(&mut self, moment: &Moment<'_>) -> Control {
+        self.balance.step(moment);
+        Control::Go
+    }
+
+    fn pause(&mut self, run: &Run) -> Control {
+        if self.wait == 0 && self.kept.is_none() {
+            self.kept = Some(run.clone());
+        }
+        self.wait = self.wait.saturating_sub(1);
+        Control::Go
+    }
+}
+
+/// A run with its report.
+pub struct Followed {
+    /// The run.
+    pub run: Run,
+    /// Its balances and events.
+    pub report: Report,
+    /// Time and steps.
+    pub cost: Cost,
+    kept: Option<Run>,
+}
+
+impl Followed {
+    /// From the start of a plan until the events it asks for have ended.
+    ///
+    /// # Errors
+    /// Where they do not come.
+    pub fn new(plan: &Plan) -> Result<Self, CaseError> {
+        Self::with(plan, plan.settings.tolerance)
+    }
+
+    /// The same with another tolerance of ln V.
+    ///
+    /// # Errors
+    /// As [`Followed::new`].
+    pub fn with(plan: &Plan, tolerance: f64) -> Result<Self, CaseError> {
+        let settings = Settings { tolerance, ..plan.settings };
+        Self::from(plan, settings, Run::new(plan.start.clone(), settings.thresholds))
+    }
+
+    fn from(plan: &Plan, settings: Settings, start: Run) -> Result<Self, CaseError> {
+        let mut look = Look { balance: Balance::new(plan), wait: 3, kept: None };
+        let (run, cost) = Cost::of(|| resume(&plan.fault, &plan.loading, start, &settings, &mut look));
+        if run.outcome != Outcome::Stopped {
+            return Err(format!("the run did not end with its events: {:?}", run.outcome).into());
+        }
+        let report = Report::new(plan, &run, &mut look.balance);
+        let cost = cost.count("steps", run.counts.steps as f64);
+        Ok(Self { report, kept: look.kept, cost, run })
+    }
+
+    /// The events.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        self.run.catalogue.events()
+    }
+
+    /// \[s\].
+    #[must_use]
+    pub fn onsets(&self) -> Vec<f64> {
+        self.events().iter().map(|e| e.onset.seconds()).collect()
+    }
+
+    /// Claims that a run from the restart that was kept ends with the same bits.
+    ///
+    /// # Errors
+    /// Where the run never restarted.
+    pub fn restarted(&self, ledger: &mut Ledger, plan: &Plan, tolerance: f64) -> Result<(), CaseError> {
+        let kept = self.kept.clone().ok_or("the run never restarted")?;
+        let again = Self::from(plan, Settings { tolerance, ..plan.settings }, kept)?;
+        let (a, b) = (self.bits(), again.bits());
+        let differ = a.iter().zip(&b).filter(|(a, b)| a != b).count() + a.len().abs_diff(b.len());
+        ledger
+            .claim("numbers that differ in a run that goes on from its fourth restart")
+            .count(differ as u64, 0)
+            .evidence(Evidence::Exact, "the run that was not broken off")
+            .because("an unbroken run restarts there as well")
+            .covers(&[Capability::FaultCycles, Capability::Determinism])
+            .cost(&again.cost)
+            .record();
+        Ok(())
+    }
+
+    /// Of unknowns and of events.
+    fn bits(&self) -> Vec<u64> {
+        let events = self.events().iter().flat_map(|e| e.slip.iter().chain(&e.drop).chain([&e.peak]));
+        self.run.unknowns.iter().chain(events).map(|v| v.to_bits()).collect()
+    }
+}
