@@ -1,7 +1,7 @@
 //! The community's benchmark BP3-QD at full length: three dips, thrusts and normal faults.
 
 use crate::cases::seas::{self, Found};
-use crate::cases::seas_bp3::{self, CODES, Faulting, PERIOD, Sense, THEIRS, normal_change, plan};
+use crate::cases::seas_bp3::{self, CODES, FAR, Faulting, PERIOD, Sense, THEIRS, normal_change, plan};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 
 /// See the README.
@@ -15,8 +15,6 @@ pub const CASE: Case = Case {
 
 /// Sizes of cells \[m\].
 const SIZES: [f64; 2] = [156.25, 78.125];
-/// Distance of the borders \[km\].
-const FAR: f64 = 4000.0;
 /// What is integrated.
 const FAULTS: [Faulting; 5] = [
     (90.0, Sense::Thrust),
