@@ -181,15 +181,7 @@ fn vectors(ledger: &mut Ledger, plan: &Plan, found: &Followed, expected: &[Slid]
 
 /// Energy, moment, and a run that goes on from a restart.
 fn balances(ledger: &mut Ledger, plan: &Plan, found: &Followed) -> Result<(), CaseError> {
-    ledger
-        .claim("imbalance of energy over its largest part, five events while slip turns")
-        .value(found.report.energy.imbalance)
-        .at_most(TOLERANCE)
-        .evidence(Evidence::Exact, "work of loads on slip = elastic energy + work of friction + radiated energy, as products of vectors")
-        .because("one tolerance of ln V: it moves friction by a/f of it in a step, and steps add up like a random walk")
-        .covers(&[Capability::FaultCycles])
-        .cost(&found.cost)
-        .record();
+    energy(ledger, "five events while slip turns", found);
     let last = found.report.events.last().ok_or("no event")?;
     let area: f64 = plan.points.iter().map(|p| p.area).sum();
     ledger
@@ -267,8 +259,14 @@ fn varied(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&found.cost)
             .record();
     }
+    energy(ledger, "two events where a varies and slip turns", &found);
+    Ok(())
+}
+
+/// The balance of energy.
+fn energy(ledger: &mut Ledger, name: &str, found: &Followed) {
     ledger
-        .claim("imbalance of energy over its largest part, two events where a varies and slip turns")
+        .claim(format!("imbalance of energy over its largest part, {name}"))
         .value(found.report.energy.imbalance)
         .at_most(TOLERANCE)
         .evidence(Evidence::Exact, "work of loads on slip = elastic energy + work of friction + radiated energy, as products of vectors")
@@ -276,5 +274,4 @@ fn varied(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::FaultCycles])
         .cost(&found.cost)
         .record();
-    Ok(())
 }
