@@ -444,17 +444,26 @@ fn arc_in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
         let parts = arc_parts(DRAWN, "extrude = [0, 1e3]", &format!("rake = {rake}"));
         let conditions = on(&far, "x = 0, y = 0, z = 0") + &on(&["back", "front"], faces);
         let (solid, cost) = Cost::of(|| bent("3d", &parts, &conditions));
-        drawn(ledger, kinematics, (&plane, &solid?), &cost);
+        drawn(ledger, kinematics, (&plane, &solid?), &cost)?;
     }
     Ok(())
 }
 
 /// Tractions of slip that is uniform across the slab against those of the plane.
-fn drawn(ledger: &mut Ledger, kinematics: &str, (plane, solid): (&Plan, &Plan), cost: &Cost) {
+fn drawn(
+    ledger: &mut Ledger,
+    kinematics: &str,
+    (plane, solid): (&Plan, &Plan),
+    cost: &Cost,
+) -> Result<(), CaseError> {
     let near =
         |p: usize, q: usize| (0..2).all(|c| (plane.points[p].at[c] - solid.points[q].at[c]).abs() < 1e-3);
     let across =
         DMatrix::from_fn(solid.points.len(), plane.points.len(), |q, p| f64::from(u8::from(near(p, q))));
+    // Without partners both sides of the comparison would be zero.
+    if across.row_iter().any(|row| row.sum() != 1.0) {
+        return Err("a point of the slab has no partner in the plane".into());
+    }
     let largest = matrix(plane, false).amax();
     let kinds: &[bool] = if kinematics == "antiplane" { &[false] } else { &[false, true] };
     for &normal in kinds {
@@ -472,4 +481,5 @@ fn drawn(ledger: &mut Ledger, kinematics: &str, (plane, solid): (&Plan, &Plan), 
             .cost(cost)
             .record();
     }
+    Ok(())
 }
