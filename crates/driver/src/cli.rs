@@ -10,6 +10,7 @@ use crate::run;
 use crate::scene;
 use crate::scene::units::Time;
 use crate::slider;
+use crate::warning::Warning;
 use clap::{Args, Parser, Subcommand};
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde::Deserialize;
@@ -128,6 +129,16 @@ enum Planned {
     Faults(Box<fault::Plan>),
 }
 
+impl Planned {
+    fn warnings_mut(&mut self) -> &mut [Warning] {
+        match self {
+            Self::Bodies(plan) => plan.warnings_mut(),
+            Self::Sliders(plan) => &mut plan.warnings,
+            Self::Faults(plan) => &mut plan.warnings,
+        }
+    }
+}
+
 /// A plan with where it came from.
 struct Ready {
     plan: Planned,
@@ -152,7 +163,7 @@ fn planned(path: &Path) -> miette::Result<Ready> {
     let name = path.display().to_string();
     let told = |errors: &scene::SceneErrors| scene::diagnostic::report(&name, &text, errors);
     let mut meshes = BTreeMap::new();
-    let plan = if scene::slider::is_slider(&text) {
+    let mut plan = if scene::slider::is_slider(&text) {
         Planned::Sliders(Box::new(scene::slider::read(&text).map_err(|errors| told(&errors))?))
     } else {
         let folder = path.parent().unwrap_or(Path::new(""));
@@ -168,6 +179,9 @@ fn planned(path: &Path) -> miette::Result<Ready> {
             ScenePlan::Faults(plan) => Planned::Faults(plan),
         }
     };
+    for warning in plan.warnings_mut() {
+        warning.locate(&text);
+    }
     Ok(Ready { plan, hash: sha256(text.as_bytes()), meshes, seconds: clock.elapsed().as_secs_f64() })
 }
 

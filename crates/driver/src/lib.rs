@@ -24,3 +24,4 @@ pub mod step;
 pub mod system;
 pub mod timing;
 mod views;
+pub mod warning;

@@ -12,6 +12,7 @@ use crate::scene::model::{
     Sliding, Spanned, Stepper,
 };
 use crate::solver::{self, Solver};
+use crate::warning::Warning;
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
 use asperity_fem::nonlinear::Material;
 use asperity_friction::law::Law;
@@ -177,6 +178,14 @@ impl AnyPlan {
         }
     }
 
+    /// Warnings, to be given their places.
+    pub fn warnings_mut(&mut self) -> &mut [Warning] {
+        match self {
+            Self::Two(p) => &mut p.summary.warnings,
+            Self::Three(p) => &mut p.summary.warnings,
+        }
+    }
+
     /// Field and profile outputs per stage.
     #[must_use]
     pub fn outputs(&self) -> (usize, usize) {
@@ -200,6 +209,8 @@ pub struct Summary {
     pub stepper: String,
     /// Remarks: bodies held by contact alone, unpaired nodes.
     pub remarks: Vec<String>,
+    /// What probably does not mean what the author of the scene wants.
+    pub warnings: Vec<Warning>,
     /// Degrees of freedom of the bodies.
     pub dofs: usize,
     /// Degrees of freedom of the system a step solves.
@@ -221,6 +232,9 @@ impl std::fmt::Display for Summary {
         writeln!(f, "  stepper   {}", self.stepper)?;
         for line in &self.remarks {
             writeln!(f, "  note      {line}")?;
+        }
+        for warning in &self.warnings {
+            writeln!(f, "  warning   {warning}")?;
         }
         writeln!(
             f,
@@ -595,6 +609,7 @@ fn summary<const D: usize>(
         ),
         stepper: describe(stepping, !model.is_linear(), !interfaces.is_empty()),
         remarks,
+        warnings: scene.warnings.clone(),
         dofs: model.dofs(),
         system_dofs: system_dofs + unknowns,
         state_bytes: (!interfaces.is_empty()).then_some(state_bytes),

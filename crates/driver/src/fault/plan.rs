@@ -23,6 +23,7 @@ use crate::scene::model::{
     Along, Creep, DampingSpec, Fault as Spec, Kinematics, Profile, Profiled, Scene, SlipSpec, Station,
 };
 use crate::solver;
+use crate::warning::Warning;
 use asperity_fem::mesh::{Side, face_nodes};
 use asperity_friction::Failure;
 use asperity_friction::fault::FaultLaw;
@@ -109,6 +110,8 @@ pub struct Plan {
     pub in_space: bool,
     /// Idealisation in words.
     pub kinematics: &'static str,
+    /// What probably does not mean what the author of the scene wants.
+    pub warnings: Vec<Warning>,
 }
 
 impl Plan {
@@ -184,6 +187,9 @@ impl Plan {
             ),
         );
         line("operator", self.fault.operator.words());
+        for warning in &self.warnings {
+            line("warning", warning.to_string());
+        }
         text
     }
 }
@@ -318,6 +324,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         frame,
         in_space: D == 3,
         kinematics: scene.kinematics.get_ref().words(),
+        warnings: scene.warnings.clone(),
         fault,
     })
 }

@@ -7,6 +7,7 @@ use super::located::Located;
 use super::plan::Plan;
 use super::run::Run;
 use crate::ode::Outcome;
+use crate::warning::Warning;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -213,6 +214,8 @@ pub struct Report {
     pub version: String,
     /// SHA-256 of the scene file.
     pub scene_sha256: String,
+    /// Warnings of the plan.
+    pub warnings: Vec<Warning>,
     /// Method of integration.
     pub method: String,
     /// Error of ln V allowed in a step.
@@ -286,6 +289,7 @@ impl Report {
             title: plan.title.clone(),
             version: env!("CARGO_PKG_VERSION").to_string(),
             scene_sha256: String::new(),
+            warnings: plan.warnings.clone(),
             method: plan.settings.method.name().to_string(),
             tolerance: plan.settings.tolerance,
             stopped,

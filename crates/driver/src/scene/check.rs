@@ -15,13 +15,14 @@ mod time;
 use super::SceneError;
 use super::model::{Body, Kinematics, MeshSource, Scene, Spanned};
 use super::near::suggest;
+use crate::warning::Warning;
 use asperity_fem::mesh::generate::SIDES;
 use std::ops::Range;
 
-/// Everything wrong in a scene, in the order of the file.
+/// Everything wrong in a scene, and everything doubtful, in the order of the file.
 #[must_use]
-pub fn check(scene: &Scene) -> Vec<SceneError> {
-    let mut checker = Checker { scene, errors: Vec::new() };
+pub fn check(scene: &Scene) -> (Vec<SceneError>, Vec<Warning>) {
+    let mut checker = Checker { scene, errors: Vec::new(), warnings: Vec::new() };
     checker.schema();
     checker.materials();
     checker.bodies();
@@ -32,9 +33,10 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     checker.time();
     checker.solver();
     checker.output();
-    let mut errors = checker.errors;
+    let (mut errors, mut warnings) = (checker.errors, checker.warnings);
     errors.sort_by_key(|e| (e.span.is_empty(), e.span.start));
-    errors
+    warnings.sort_by_key(|w| (w.span.is_empty(), w.span.start));
+    (errors, warnings)
 }
 
 /// Axes by name.
@@ -43,11 +45,18 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 struct Checker<'a> {
     scene: &'a Scene,
     errors: Vec<SceneError>,
+    warnings: Vec<Warning>,
 }
 
 impl Checker<'_> {
     fn error(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
         self.errors.push(SceneError::at(span, message, help));
+    }
+
+    /// Something that runs, and probably is not meant so.
+    #[expect(dead_code, reason = "checks that warn come one by one")]
+    fn warn(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
+        self.warnings.push(Warning::at(span, message, help));
     }
 
     /// An error about one place that another takes part in.

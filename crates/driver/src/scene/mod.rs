@@ -96,6 +96,7 @@ pub fn read(text: &str) -> Result<Scene, SceneErrors> {
 pub fn read_in(text: &str, folder: &Path) -> Result<Scene, SceneErrors> {
     let mut scene: Scene = toml::from_str(text).map_err(|e| SceneErrors(vec![explain::explain(&e, text)]))?;
     scene.folder = folder.to_path_buf();
-    let errors = check::check(&scene);
+    let (errors, warnings) = check::check(&scene);
+    scene.warnings = warnings;
     if errors.is_empty() { Ok(scene) } else { Err(SceneErrors(errors)) }
 }

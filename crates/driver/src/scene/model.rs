@@ -11,6 +11,7 @@ mod solver;
 use super::law::Several;
 use super::slider::EventSpec;
 use super::units::{Angle, Length, Penalty, Penetration, Pressure, Time, Velocity};
+use crate::warning::Warning;
 pub use body::*;
 pub use fault::*;
 pub use place::Place;
@@ -62,6 +63,9 @@ pub struct Scene {
     /// Folder of the scene file, which the paths of mesh files are relative to; empty: the present one.
     #[serde(skip)]
     pub folder: PathBuf,
+    /// What the check found doubtful.
+    #[serde(skip)]
+    pub warnings: Vec<Warning>,
 }
 
 impl Scene {

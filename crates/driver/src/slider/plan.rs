@@ -1,6 +1,7 @@
 //! What is integrated and how.
 
 use crate::ode::{Method, Options};
+use crate::warning::Warning;
 use asperity_friction::slider::System;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -59,6 +60,8 @@ pub struct Plan {
     pub most_events: Option<usize>,
     /// Whether extremes of the slip rate are found.
     pub peaks: bool,
+    /// What probably does not mean what the author of the scene wants.
+    pub warnings: Vec<Warning>,
 }
 
 impl Plan {
@@ -79,6 +82,7 @@ impl Plan {
             events: None,
             most_events: None,
             peaks: false,
+            warnings: Vec::new(),
         }
     }
 
@@ -131,6 +135,9 @@ impl Plan {
         line("unknowns", format!("{}: friction over a, states{}", self.start.len(), self.inertial_words()));
         line("method", format!("{} with tolerance {:e}", self.method.name(), self.tolerance));
         line("end", self.end_words());
+        for warning in &self.warnings {
+            line("warning", warning.to_string());
+        }
         text
     }
 

@@ -4,6 +4,7 @@ use super::catalogue::Event;
 use super::plan::{Plan, Thresholds};
 use super::run::Run;
 use crate::ode::{Counts, Outcome};
+use crate::warning::Warning;
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -90,6 +91,8 @@ pub struct Report {
     pub dynamics: String,
     /// Sliders by name.
     pub sliders: Vec<String>,
+    /// Warnings of the plan.
+    pub warnings: Vec<Warning>,
     /// Method of integration.
     pub method: String,
     /// Tolerance per step \[-\].
@@ -137,6 +140,7 @@ impl Report {
             scene_sha256: String::new(),
             dynamics: plan.dynamics().to_string(),
             sliders: plan.names.clone(),
+            warnings: plan.warnings.clone(),
             method: plan.method.name().to_string(),
             tolerance: plan.tolerance,
             thresholds: plan.events,
