@@ -168,16 +168,18 @@ fn planned(path: &Path) -> miette::Result<Ready> {
     } else {
         let folder = path.parent().unwrap_or(Path::new(""));
         let parsed = scene::read_in(&text, folder).map_err(|errors| told(&errors))?;
+        // A mesh file that cannot be read is an error of the plan, which knows the place in the scene.
+        let plan = match plan::plan_scene(&parsed).map_err(|error| told(&scene::SceneErrors::from(error)))? {
+            ScenePlan::Bodies(plan) => Planned::Bodies(plan),
+            ScenePlan::Faults(plan) => Planned::Faults(plan),
+        };
         for file in parsed.mesh_files() {
             let bytes = std::fs::read(folder.join(file))
                 .into_diagnostic()
                 .wrap_err_with(|| format!("cannot read the mesh file {file}"))?;
             meshes.insert(file.to_string(), sha256(&bytes));
         }
-        match plan::plan_scene(&parsed).map_err(|error| told(&scene::SceneErrors::from(error)))? {
-            ScenePlan::Bodies(plan) => Planned::Bodies(plan),
-            ScenePlan::Faults(plan) => Planned::Faults(plan),
-        }
+        plan
     };
     for warning in plan.warnings_mut() {
         warning.locate(&text);
@@ -205,6 +207,9 @@ fn run_bodies(plan: &AnyPlan, ready: &Ready, out: &Path, drawn: bool) -> miette:
     write_report(out, &report)?;
     draw(out, recorder.as_ref())?;
     print_results(out, &report);
+    for warning in &report.warnings {
+        eprintln!("warning: {warning}");
+    }
     Ok(match report.outcome {
         Outcome::Completed => End::Done,
         Outcome::Stopped { stage, time, reason } => {

@@ -102,6 +102,12 @@ impl Stage {
         held.fold(self.largest_rate() * (self.end - self.start), f64::max)
     }
 
+    /// Whether anything but prescribed motions acts: loads, weight, initial stress or springs.
+    #[must_use]
+    pub fn is_loaded(&self) -> bool {
+        !self.springs.is_empty() || self.loads.iter().any(|(_, channel)| !channel.forces.is_empty())
+    }
+
     fn motion_channels(&self, dofs: &[usize], motion: &Motion, u0: &[f64], channels: &mut Vec<Channel>) {
         let present = |table: Table| Channel {
             prescribed: dofs.iter().filter(|&&d| u0[d] != 0.0).map(|&d| (d, u0[d])).collect(),

@@ -1,9 +1,9 @@
 //! Scene -> Plan: the one place where it is decided what is modelled and how. Below it nothing asks what was declared.
 
-use crate::enforcement::{Enforced, in_pascal_per_metre, in_words};
+use crate::enforcement::{self, Enforced, in_pascal_per_metre, in_words};
 use crate::fault;
 use crate::loading::{self, Stage};
-use crate::model::{CellBlock, Model};
+use crate::model::{CellBlock, Model, sizes};
 use crate::rigid;
 use crate::samples::Wanted;
 use crate::scene::law;
@@ -12,6 +12,7 @@ use crate::scene::model::{
     Sliding, Spanned, Stepper,
 };
 use crate::solver::{self, Solver};
+use crate::start_gaps::{self, StartGap};
 use crate::warning::Warning;
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
 use asperity_fem::nonlinear::Material;
@@ -211,6 +212,8 @@ pub struct Summary {
     pub remarks: Vec<String>,
     /// What probably does not mean what the author of the scene wants.
     pub warnings: Vec<Warning>,
+    /// Where the sides of the interfaces are before the first step.
+    pub start_gaps: Vec<StartGap>,
     /// Degrees of freedom of the bodies.
     pub dofs: usize,
     /// Degrees of freedom of the system a step solves.
@@ -230,6 +233,9 @@ impl std::fmt::Display for Summary {
         writeln!(f, "  path      {}", self.path)?;
         writeln!(f, "  solver    {}", self.solver)?;
         writeln!(f, "  stepper   {}", self.stepper)?;
+        for start in &self.start_gaps {
+            writeln!(f, "  start     {start}")?;
+        }
         for line in &self.remarks {
             writeln!(f, "  note      {line}")?;
         }
@@ -300,9 +306,13 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
     let path = choose_path(scene, &model, &interfaces)?;
     let stepping = stepping(scene)?;
     let control = control(scene, &stages);
-    let remarks = rigid::check(&model, &stages, &interfaces)?;
+    let mut remarks = rigid::check(scene, &model, &stages, &interfaces)?;
+    remarks.extend(sizes::of_files(scene, &model));
+    let (start_gaps, doubts) = at_the_start(scene, &model, (&interfaces, &stages), &stepping)?;
     let solver = solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
-    let summary = summary(scene, &model, &interfaces, path, &stepping, &solver, remarks);
+    let mut summary = summary(scene, &model, &interfaces, path, &stepping, &solver, remarks);
+    summary.start_gaps = start_gaps;
+    summary.warnings.extend(doubts);
     let initial_stress =
         model.bodies.iter().map(|b| loading::initial_stress(&scene.bodies[&b.name])).collect();
     let samples = Wanted::new(scene, &model)?;
@@ -321,6 +331,29 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
         profile_outputs: scene.output.profiles.as_ref().map_or(10, |f| *f.get_ref()),
         summary,
     })
+}
+
+/// Where the sides of the interfaces are, and what is doubtful before the first step.
+fn at_the_start<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    (interfaces, stages): (&[PlannedInterface], &[Stage]),
+    stepping: &Stepping,
+) -> Result<(Vec<StartGap>, Vec<Warning>), PlanError> {
+    let (mut starts, mut doubts) = (Vec::new(), sizes::doubts(scene, model, stages));
+    for planned in interfaces {
+        let spec = &scene.interfaces[&planned.name];
+        let sides = model.sides(&spec.slave)?;
+        let start = start_gaps::measure(model, stepping, planned, (spec, sides))?;
+        if let Some(body) = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]) {
+            let (stiffness, h) = (model.young_per_size(body, sides), model.element_size(body, sides));
+            doubts.extend(enforcement::doubts(&planned.name, &spec.enforcement, stiffness, h));
+            let bonded = planned.law.as_ref().is_some_and(|l| l.bonded());
+            doubts.extend(start_gaps::doubts(&start, (spec, bonded), stages, h));
+        }
+        starts.push(start);
+    }
+    Ok((starts, doubts))
 }
 
 fn interface<const D: usize>(
@@ -473,9 +506,7 @@ fn build_law(spec: &Spanned<crate::scene::model::LawSpec>) -> Result<Arc<dyn Law
         let first = errors.into_iter().next();
         first.map_or_else(|| PlanError::plain("the law is not complete".into()), PlanError::from)
     })?;
-    crate::laws::build(&choice).map_err(|e| {
-        PlanError::at(spec.span(), e.to_string(), "see the admissible range in the message".into())
-    })
+    crate::laws::build(&choice).map_err(|e| law::refused(spec, &e).into())
 }
 
 fn choose_path<const D: usize>(
@@ -610,6 +641,7 @@ fn summary<const D: usize>(
         stepper: describe(stepping, !model.is_linear(), !interfaces.is_empty()),
         remarks,
         warnings: scene.warnings.clone(),
+        start_gaps: Vec::new(),
         dofs: model.dofs(),
         system_dofs: system_dofs + unknowns,
         state_bytes: (!interfaces.is_empty()).then_some(state_bytes),

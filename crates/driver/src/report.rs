@@ -4,6 +4,7 @@ use crate::loading::Stage;
 use crate::observe::view::{Counts, ForceMark, InterfaceFields, PointMark, PointValues, Samples, StepRecord};
 use crate::plan::{Plan, Summary};
 use crate::views;
+use crate::warning::Warning;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -129,6 +130,8 @@ pub struct RunReport {
     pub plan: Summary,
     /// How it ended.
     pub outcome: Outcome,
+    /// What the run found that its model does not describe; what is doubtful in the scene stands in the plan.
+    pub warnings: Vec<Warning>,
     /// Results per interface and stage.
     pub results: Vec<InterfaceResult>,
     /// Values at the points of bodies per stage.

@@ -6,7 +6,9 @@
 use crate::loading::Stage;
 use crate::model::Model;
 use crate::plan::{PlanError, PlannedInterface};
+use crate::scene::model::Scene;
 use asperity_fem::kinematics::Idealisation;
+use asperity_fem::mesh::face_nodes;
 use nalgebra::DMatrix;
 use std::ops::Range;
 
@@ -19,6 +21,7 @@ const FREE: f64 = 1e-9;
 /// # Errors
 /// [`PlanError`] naming the body, the motion and the stage.
 pub fn check<const D: usize>(
+    scene: &Scene,
     model: &Model<D>,
     stages: &[Stage],
     interfaces: &[PlannedInterface],
@@ -38,22 +41,51 @@ pub fn check<const D: usize>(
             let Some(motion) = free_motion::<D>(&rows, model.idealisation) else { continue };
             rows.extend(contact_rows(model, nodes, stage, interfaces));
             if let Some(loose) = free_motion::<D>(&rows, model.idealisation) {
-                return Err(PlanError {
-                    message: format!(
-                        "{what} is free to move in stage `{}`: nothing holds its {loose}",
-                        stage.name
-                    ),
-                    help: Some(format!(
-                        "add a condition on one of its sets that prevents the {loose}, or an interface that can"
-                    )),
-                    span: 0..0,
-                });
+                return Err(PlanError::at(
+                    scene.bodies[&body.name].material.span(),
+                    format!("{what} is free to move in stage `{}`: nothing holds its {loose}", stage.name),
+                    remedy(model, &body.name, &loose),
+                ));
             }
             remarks.push(format!("stage `{}`: contact alone holds the {motion} of {what}", stage.name));
         }
     }
     Ok(remarks)
 }
+
+/// Sets of a body that are named in a remedy; more would hide it.
+const MOST_NAMED: usize = 8;
+
+/// What would hold a body.
+fn remedy<const D: usize>(model: &Model<D>, body: &str, loose: &str) -> String {
+    let own = |set: &&String| set.strip_prefix(body).is_some_and(|rest| rest.starts_with('.'));
+    let sets: Vec<&String> = model.mesh.side_sets.keys().filter(own).collect();
+    let axis = ["x", "y", "z"].iter().position(|axis| loose == format!("translation in {axis}"));
+    let across = sets.iter().find(|set| axis.is_some_and(|axis| is_across(model, set, axis)));
+    let Some(first) = across.or(sets.first()) else {
+        return "the body has no sets: a condition needs one, such as a physical group of faces in its mesh"
+            .into();
+    };
+    let example = match loose.strip_prefix("translation in ") {
+        Some(axis) => format!("such as `{{ set = \"{first}\", {axis} = 0 }}`"),
+        None => format!("such as one on `{first}` that holds both ends of the set"),
+    };
+    let named: Vec<String> = sets.iter().take(MOST_NAMED).map(|s| format!("`{s}`")).collect();
+    let more = if sets.len() > MOST_NAMED { ", .." } else { "" };
+    format!(
+        "add a condition that prevents the {loose}, {example}, or an interface that can; its sets are {}{more}",
+        named.join(", ")
+    )
+}
+
+/// Whether the faces of a set are turned along an axis.
+fn is_across<const D: usize>(model: &Model<D>, set: &str, axis: usize) -> bool {
+    let mut faces = model.mesh.side_sets[set].iter().map(|side| face_nodes(&model.mesh, side));
+    faces.all(|face| axis < D && face_normal(model, &face)[axis].abs() > ACROSS)
+}
+
+/// Part of a normal along an axis from which a face lies across it: within 25 degrees.
+const ACROSS: f64 = 0.9;
 
 /// A position in words.
 pub(crate) fn place<const D: usize>(x: &[f64; D]) -> String {
@@ -148,7 +180,8 @@ fn project(components: &[Row], normal: &[f64]) -> Row {
     sum
 }
 
-fn face_normal<const D: usize>(model: &Model<D>, face: &[usize]) -> Vec<f64> {
+/// Unit normal of a face, outward of its body.
+pub(crate) fn face_normal<const D: usize>(model: &Model<D>, face: &[usize]) -> Vec<f64> {
     let edge = |a: usize, b: usize| -> Vec<f64> {
         (0..D).map(|c| model.mesh.nodes[face[b]][c] - model.mesh.nodes[face[a]][c]).collect()
     };

@@ -5,6 +5,7 @@ use crate::observe::ObserveError;
 use crate::observe::view::{Counts, Observer, StepRecord, StepView};
 use crate::plan::{AnyPlan, Plan, Stepping};
 use crate::report::{Outcome, Phases, RunReport};
+use crate::run_doubts;
 use crate::step::Accepted;
 use crate::system::Assembled;
 use crate::timing::StepLength;
@@ -50,6 +51,9 @@ fn run_in<const D: usize>(plan: &Plan<D>, observer: &mut dyn Observer) -> Result
         let outcome = run.stage(index, &mut system, observer)?;
         report.end_of_stage(&plan.stages[index], &system.interface_fields(), interface_names(plan));
         report.samples(plan, &plan.stages[index], &system.samples());
+        let name = &plan.stages[index].name;
+        let found = run_doubts::after_stage(plan, name, &system.displacement(), &system.interface_fields());
+        report.warnings.extend(found);
         if let Some(failure) = outcome {
             run.show(index, &plan.stages[index], &system, observer, true)?;
             report.outcome = failure;
@@ -58,6 +62,7 @@ fn run_in<const D: usize>(plan: &Plan<D>, observer: &mut dyn Observer) -> Result
     }
     system.add_counts(&mut run.counts);
     report.balance = system.balances();
+    report.warnings.extend(run_doubts::never_closed(&report.results));
     report.complete(run.counts, run.phases, run.steps);
     Ok(report)
 }

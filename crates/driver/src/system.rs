@@ -2,7 +2,7 @@
 
 use crate::free;
 use crate::loading::Stage;
-use crate::model::CellBlock;
+use crate::model::{CellBlock, Model};
 use crate::observe::view::{BodyFields, Counts, InterfaceFields, Samples, Setup};
 use crate::plan::{Path, Plan, PlannedInterface, Stepping, interface_nodes};
 use crate::report::InterfaceBalance;
@@ -77,7 +77,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let largest_rate = plan.stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
         let (mut interfaces, mut unknowns) = (Vec::new(), dofs);
         for i in &plan.interfaces {
-            let spec = spec(plan, i, &number, largest_rate, unknowns);
+            let spec = spec(&plan.model, &plan.stepping, i, &number, largest_rate, unknowns);
             interfaces.push(Interface::new(spec).map_err(|e| e.to_string())?);
             unknowns += i.unknowns;
         }
@@ -543,8 +543,9 @@ fn local_channels(constraints: &Constraints, dofs: std::ops::Range<usize>) -> Ve
 }
 
 /// Declares an interface to the contact crate; its multipliers that are unknowns are numbered from `unknowns`.
-fn spec<const D: usize>(
-    plan: &Plan<D>,
+pub(crate) fn spec<const D: usize>(
+    model: &Model<D>,
+    stepping: &Stepping,
     planned: &PlannedInterface,
     number: &[usize],
     largest_rate: f64,
@@ -554,7 +555,7 @@ fn spec<const D: usize>(
     let local = |node: usize| labels.partition_point(|&n| n < node);
     let nodes = labels
         .iter()
-        .map(|&n| SurfaceNode { position: plan.model.mesh.nodes[n], dof: number[n * D], label: n })
+        .map(|&n| SurfaceNode { position: model.mesh.nodes[n], dof: number[n * D], label: n })
         .collect();
     let segments = |faces: &[Vec<usize>]| -> Vec<Segment> {
         let segment = |face: &Vec<usize>| Segment {
@@ -563,7 +564,7 @@ fn spec<const D: usize>(
         };
         faces.iter().map(segment).collect()
     };
-    let (carry, rate_bounds) = match plan.stepping {
+    let (carry, rate_bounds) = match *stepping {
         Stepping::StaticExplicit { carry, rate_change, zeta } => {
             (carry, RateBounds { zeta, log_rate: rate_change })
         }
@@ -578,7 +579,7 @@ fn spec<const D: usize>(
             Measure::NodeToPoint => MeasureKind::NodeToPoint,
             Measure::Mortar => MeasureKind::Mortar {
                 faces: segments(&planned.slave_faces),
-                axisymmetric: plan.model.idealisation == Idealisation::Axisymmetric,
+                axisymmetric: model.idealisation == Idealisation::Axisymmetric,
             },
         },
         sliding: match planned.sliding {
@@ -591,7 +592,7 @@ fn spec<const D: usize>(
         normal_penalty: planned.normal_penalty,
         tangential_penalty: planned.tangential_penalty,
         law: planned.law.clone(),
-        scale: plan.model.scale,
+        scale: model.scale,
         rate_floor: RATE_FLOOR * largest_rate,
         rate_bounds,
         carry,

@@ -38,8 +38,13 @@ fn complaint(text: &str) -> Option<String> {
     let error = &errors.0[0];
     let (line, column) = diagnostic::line_column(text, error.span.start);
     let found = if error.span.is_empty() { "-".to_string() } else { format!("{line}:{column}") };
-    (found != place || !error.message.contains(part))
-        .then(|| format!("expected {place} {part}\n   found {found} {}", error.message))
+    if found != place || !error.message.contains(part) {
+        return Some(format!("expected {place} {part}\n   found {found} {}", error.message));
+    }
+    // A second line may ask for the remedy.
+    let remedy = text.lines().nth(1).and_then(|line| line.strip_prefix("# help: "))?;
+    let help = error.help.clone().unwrap_or_default();
+    (!help.contains(remedy)).then(|| format!("expected the help {remedy}\n   found {help}"))
 }
 
 #[test]

@@ -285,10 +285,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
                 .into(),
         ));
     }
-    let place = specs[first.fault].law.span();
-    let at_law = |e: Failure| {
-        PlanError::at(place.clone(), e.to_string(), "see the admissible range in the message".into())
-    };
+    let at_law = |e: Failure| PlanError::from(law::refused(&specs[first.fault].law, &e));
     let law = laws::build_fault(&first.law, &choices).map_err(&at_law)?.ok_or_else(|| {
         PlanError::plain("a fault through cycles needs a law that depends on the slip rate: \"rate\" or \"rate-and-state\"".into())
     })?;

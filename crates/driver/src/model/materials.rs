@@ -42,7 +42,9 @@ pub fn elastic(spec: &scene::Material) -> Result<Elastic, PlanError> {
 pub fn behaviour(spec: &scene::Material) -> Result<Material, PlanError> {
     let elastic = elastic(spec)?;
     if let Some(plasticity) = &spec.plasticity {
-        let hardening = hardening(plasticity.get_ref()).map_err(|e| refused(plasticity.span(), &e))?;
+        let spec = plasticity.get_ref();
+        let hardening = hardening(spec)
+            .map_err(|e| refused(place_in(spec, &e).unwrap_or_else(|| plasticity.span()), &e))?;
         return Ok(Material::J2(J2::new(elastic, hardening)));
     }
     let (viscous, place) = match (&spec.maxwell, &spec.viscosity) {
@@ -59,7 +61,46 @@ pub fn behaviour(spec: &scene::Material) -> Result<Material, PlanError> {
 }
 
 fn refused(place: Range<usize>, error: &FemError) -> PlanError {
-    PlanError::at(place, error.to_string(), "see the admissible range in the message".into())
+    PlanError::at(place, error.to_string(), remedy(error).into())
+}
+
+/// What would be right instead of a parameter that is not admissible.
+fn remedy(error: &FemError) -> &'static str {
+    let FemError::Material { name, .. } = error else { return "give other parameters" };
+    match *name {
+        "yield stress" => "a positive stress, such as `yield = \"250 MPa\"`",
+        "hardening modulus" => {
+            "0 or more, such as `modulus = \"1 GPa\"`; `hardening = \"perfect\"` is that of modulus 0"
+        }
+        "reference plastic strain" => "a positive number, such as `strain = 0.002`",
+        "hardening exponent" => "a number from 0 to 1, such as `exponent = 0.2`",
+        "viscosity" => {
+            "a positive viscosity, such as `viscosity = \"1e19 Pa s\"`; leave it out where nothing relaxes"
+        }
+        "share of a branch" => {
+            "each branch has a share of the shear modulus above 0 and up to 1, such as `share = 0.5`"
+        }
+        "sum of the shares" => "make shares smaller: what they leave of 1 is a spring that does not relax",
+        "number of springs and branches" => {
+            "leave out branches; what the shares leave of 1 counts as a spring"
+        }
+        _ => {
+            "entries are [plastic strain, yield stress]: begin at strain 0, strains ascend and stresses do not fall"
+        }
+    }
+}
+
+/// Place of the parameter of a hardening that was refused.
+fn place_in(spec: &scene::Plasticity, error: &FemError) -> Option<Range<usize>> {
+    let FemError::Material { name, .. } = error else { return None };
+    match *name {
+        "yield stress" => spec.initial.as_ref().map(scene::Spanned::span),
+        "hardening modulus" => spec.modulus.as_ref().map(scene::Spanned::span),
+        "reference plastic strain" => spec.strain.as_ref().map(scene::Spanned::span),
+        "hardening exponent" => spec.exponent.as_ref().map(scene::Spanned::span),
+        _ => None,
+    }
+    .or_else(|| spec.table.as_ref().map(scene::Spanned::span))
 }
 
 /// Hardening with the parameters of its kind; which belong to it is checked with the scene, and those missing read as 0, which

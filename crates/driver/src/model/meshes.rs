@@ -13,6 +13,7 @@ use asperity_fem::mesh::split::{Surface, split};
 use asperity_fem::mesh::{Cells, GroupTag, Mesh, MeshError, Options, RawMesh, Side, abaqus, gmsh};
 use scene::Spanned;
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 /// The mesh of a body, with its sets by their own names.
 ///
@@ -276,12 +277,9 @@ fn read<const D: usize>(
 ) -> Result<Mesh<D>, PlanError> {
     let name = file.get_ref();
     let at = |message: String, help: &str| PlanError::at(file.span(), message, help.to_string());
-    let bytes = std::fs::read(scene.folder.join(name)).map_err(|e| {
-        at(
-            format!("the mesh file `{name}` cannot be read: {e}"),
-            "paths are relative to the folder of the scene",
-        )
-    })?;
+    let path = scene.folder.join(name);
+    let bytes = std::fs::read(&path)
+        .map_err(|e| at(format!("the mesh file `{name}` cannot be read: {e}"), &looked_for(&path)))?;
     let mesh = parse(&bytes)
         .and_then(|raw| raw.into_mesh::<D>(options))
         .map_err(|e| at(format!("mesh file `{name}`: {e}"), "the error is in the file, not in the scene"))?;
@@ -310,6 +308,29 @@ fn read<const D: usize>(
     }
     Ok(mesh)
 }
+
+/// Where a mesh file was looked for, and what stands there instead.
+fn looked_for(path: &Path) -> String {
+    let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    let told = format!("looked for {}; paths are relative to the folder of the scene", whole.display());
+    let name = whole.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let Some(entries) = whole.parent().and_then(|folder| std::fs::read_dir(folder).ok()) else {
+        return format!("{told}, and that folder cannot be read");
+    };
+    let mut there: Vec<String> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|p| p.is_file() && p.extension().is_some_and(|e| MESHES.iter().any(|m| e == *m)))
+        .filter_map(|p| Some(p.file_name()?.to_string_lossy().into_owned()))
+        .collect();
+    there.sort();
+    if there.is_empty() {
+        return format!("{told}, where no mesh file is");
+    }
+    format!("{told}; {}", suggest(&name, "mesh files there", there.iter().map(String::as_str)))
+}
+
+/// Endings of mesh files.
+const MESHES: [&str; 2] = ["msh", "inp"];
 
 fn cut<const D: usize>(mesh: &mut Mesh<D>, file: &str, name: &Spanned<String>) -> Result<(), PlanError> {
     let known = || suggest(name.get_ref(), "sets", mesh.side_sets.keys().map(String::as_str));

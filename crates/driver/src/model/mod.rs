@@ -2,6 +2,7 @@
 
 pub mod materials;
 pub mod meshes;
+pub mod sizes;
 
 use crate::plan::PlanError;
 use crate::scene::model as scene;
@@ -384,8 +385,9 @@ fn cell_block<const D: usize>(
         limits: Limits::default(),
         carry,
     };
-    let mut term =
-        nonlinear::Block::new(mesh, block, model).map_err(|e| PlanError::body(name, place, e.to_string()))?;
+    let mut term = nonlinear::Block::new(mesh, block, model)
+        .map_err(|e| PlanError::body(name, place, e.to_string()))?
+        .named(format!("body `{name}`, cells {block}"));
     if let (Some(stress), Some(given)) = (crate::loading::initial_stress(body), &body.initial_stress) {
         admissible(&stress, &term.model().material)
             .and_then(|()| term.prestress(|_, _| stress).map_err(|e| e.to_string()))

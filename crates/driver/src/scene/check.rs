@@ -11,6 +11,7 @@ mod output;
 mod place;
 mod solver;
 mod time;
+mod unused;
 
 use super::SceneError;
 use super::model::{Body, Kinematics, MeshSource, Scene, Spanned};
@@ -33,6 +34,7 @@ pub fn check(scene: &Scene) -> (Vec<SceneError>, Vec<Warning>) {
     checker.time();
     checker.solver();
     checker.output();
+    checker.unused();
     let (mut errors, mut warnings) = (checker.errors, checker.warnings);
     errors.sort_by_key(|e| (e.span.is_empty(), e.span.start));
     warnings.sort_by_key(|w| (w.span.is_empty(), w.span.start));
@@ -54,7 +56,6 @@ impl Checker<'_> {
     }
 
     /// Something that runs, and probably is not meant so.
-    #[expect(dead_code, reason = "checks that warn come one by one")]
     fn warn(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
         self.warnings.push(Warning::at(span, message, help));
     }
@@ -173,7 +174,7 @@ fn split(set: &str, dimension: usize) -> Option<(&str, usize, usize)> {
 }
 
 /// A length in the unit that shows it shortest.
-fn show(length: f64) -> String {
+pub(crate) fn show(length: f64) -> String {
     let (factor, unit) = match length.abs() {
         0.0 => (1.0, "m"),
         l if l >= 1e3 => (1e-3, "km"),

@@ -1,8 +1,10 @@
 //! Which friction law a scene means, complete and in range.
 
 mod reader;
+mod refused;
 mod several;
 
+pub use refused::refused;
 pub use several::Several;
 
 use super::model::{LawSpec, Spanned};

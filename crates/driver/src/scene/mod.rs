@@ -3,6 +3,7 @@
 pub mod check;
 pub mod diagnostic;
 mod entry;
+mod exact;
 mod explain;
 pub mod law;
 pub mod model;

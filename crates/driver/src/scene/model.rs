@@ -284,6 +284,7 @@ pub struct RotationSpec {
     /// A point of the axis \[m\].
     pub about: Spanned<Vec<Length>>,
     /// Direction of the axis, of any length; in two dimensions it is z and not given.
+    #[serde(default, deserialize_with = "crate::scene::exact::optional")]
     pub axis: Option<Spanned<[f64; 3]>>,
 }
 

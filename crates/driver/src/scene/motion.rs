@@ -11,7 +11,7 @@ use std::fmt;
 struct MotionTable {
     to: Option<Length>,
     rate: Option<Velocity>,
-    spring: Option<f64>,
+    spring: Option<SideSpring>,
     table: Option<Vec<Entry<Length>>>,
 }
 
@@ -53,7 +53,7 @@ impl<'de> Deserialize<'de> for Motion {
                     (Some(to), None, None, None) => Ok(Motion::To(to.0)),
                     (None, Some(rate), None, None) => Ok(Motion::Rate(rate.0)),
                     (None, Some(rate), None, Some(stiffness)) => {
-                        Ok(Motion::Spring { stiffness, rate: rate.0 })
+                        Ok(Motion::Spring { stiffness: stiffness.0, rate: rate.0 })
                     }
                     (None, None, Some(points), None) => {
                         Ok(Motion::Table(points.into_iter().map(|p| (p.time.0, p.value.0)).collect()))
@@ -65,6 +65,58 @@ impl<'de> Deserialize<'de> for Motion {
             }
         }
         deserializer.deserialize_any(MotionVisitor)
+    }
+}
+
+/// Stiffness of a spring that draws a whole side \[N/m; N/m per metre of thickness in the plane\].
+struct SideSpring(f64);
+
+impl<'de> Deserialize<'de> for SideSpring {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct SpringVisitor;
+        impl Visitor<'_> for SpringVisitor {
+            type Value = SideSpring;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "the stiffness of a spring that draws the whole side, a number in N/m without quotes (in the plane per metre \
+                     of thickness, which is Pa)",
+                )
+            }
+
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<SideSpring, E> {
+                if value.is_finite() {
+                    Ok(SideSpring(value))
+                } else {
+                    Err(E::invalid_value(de::Unexpected::Float(value), &self))
+                }
+            }
+
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<SideSpring, E> {
+                Ok(SideSpring(value as f64))
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<SideSpring, E> {
+                let instead = if let Ok(modulus) = units::parse(text, Dimension::Pressure) {
+                    format!("in the plane that is `spring = {modulus:e}`")
+                } else if units::parse(text, Dimension::Spring).is_ok() {
+                    "a stiffness per area times the area of the side gives N/m".into()
+                } else {
+                    "such as `spring = 5e9`".into()
+                };
+                Err(E::custom(format!("expected {}, found \"{text}\": {instead}", Expected(&self))))
+            }
+        }
+        deserializer.deserialize_any(SpringVisitor)
+    }
+}
+
+/// What a visitor expects, in words.
+struct Expected<'a, V>(&'a V);
+
+impl<'de, V: Visitor<'de>> fmt::Display for Expected<'_, V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.expecting(f)
     }
 }
 

@@ -227,7 +227,12 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, String> {
     let same =
         unit.dimension == wanted || (unit.dimension == Dimension::Stiffness && wanted == Dimension::Spring);
     if !same {
-        return refuse(unit.dimension.name());
+        return match (wanted, unit.dimension) {
+            (Dimension::Spring | Dimension::Stiffness, Dimension::Pressure) => refuse(
+                "a pressure; a stiffness is one per length: a modulus over the length that it strains, such as \"30 GPa/km\"",
+            ),
+            (_, found) => refuse(found.name()),
+        };
     }
     match shifted(number, unit.power).map(|v| v * unit.factor) {
         Some(value) if value.is_finite() => Ok(value),

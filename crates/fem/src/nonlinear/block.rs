@@ -69,6 +69,13 @@ impl<const D: usize> Block<D> {
         })
     }
 
+    /// The same block, called so in what it refuses.
+    #[must_use]
+    pub fn named(mut self, name: String) -> Self {
+        self.name = name;
+        self
+    }
+
     /// Sets the Kirchhoff stress at the start \[Pa\] as a function of cell and quadrature point.
     ///
     /// # Errors
@@ -165,9 +172,12 @@ impl<const D: usize> Block<D> {
         let body = &self.body;
         body.gather(cell, self.start(), &self.u.trial, scratch);
         scratch.motion(&body.frame, body.cell_volumes(cell)).map_err(|bad| {
+            let at: Vec<String> = body.middle(cell).iter().map(|x| format!("{x:.4e}")).collect();
             format!(
-                "cell {cell} turns inside out: Jacobian determinant {:e} at its point {}",
-                bad.determinant, bad.point
+                "cell {cell}, about ({}) m, turns inside out: Jacobian determinant {:e} at its point {}",
+                at.join(", "),
+                bad.determinant,
+                bad.point
             )
         })?;
         if !body.frame.finite {

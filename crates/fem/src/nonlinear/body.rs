@@ -135,6 +135,12 @@ impl<const D: usize> Body<D> {
         }
     }
 
+    /// Mean place of the nodes of a cell in the reference configuration \[m\].
+    pub fn middle(&self, cell: usize) -> [f64; D] {
+        let nodes = self.cells.cell(cell);
+        std::array::from_fn(|c| nodes.iter().map(|&n| self.reference[n][c]).sum::<f64>() / nodes.len() as f64)
+    }
+
     /// Reference volumes of the points of a cell.
     pub fn cell_volumes(&self, cell: usize) -> &[f64] {
         let n = self.frame.points();

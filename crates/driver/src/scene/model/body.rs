@@ -1,5 +1,6 @@
 //! Materials, bodies and meshes as a scene declares them.
 
+use crate::scene::exact::{self, Exactly};
 use crate::scene::units::{Density, Length, Pressure, Viscosity};
 use asperity_fem::kinematics::Idealisation;
 use serde::Deserialize;
@@ -99,6 +100,7 @@ pub struct Plasticity {
     /// Power: exponent n \[-\].
     pub exponent: Option<Spanned<f64>>,
     /// Table: (plastic strain \[-\], yield stress \[Pa\]).
+    #[serde(default, deserialize_with = "exact::optional_pairs")]
     pub table: Option<Spanned<Vec<(f64, Pressure)>>>,
 }
 
@@ -303,10 +305,13 @@ impl Apex {
 #[serde(deny_unknown_fields)]
 pub struct QuadrilateralMesh {
     /// Corners anticlockwise \[m\]: the first side is the bottom.
+    #[serde(deserialize_with = "exact::lists")]
     pub corners: Spanned<[[Length; 2]; 4]>,
     /// Elements from left to right and from bottom to top.
+    #[serde(deserialize_with = "exact::list")]
     pub divisions: Spanned<[usize; 2]>,
     /// Ratio of the last to the first element in both directions (1 = uniform).
+    #[serde(default, deserialize_with = "exact::optional")]
     pub grading: Option<Spanned<[f64; 2]>>,
     /// Element name.
     pub element: Spanned<String>,
@@ -317,14 +322,17 @@ pub struct QuadrilateralMesh {
 #[serde(deny_unknown_fields)]
 pub struct FaultMesh {
     /// Vertices of the fault, from one tip to the other \[m\]; y points up.
+    #[serde(deserialize_with = "exact::many")]
     pub trace: Spanned<Vec<[Length; 2]>>,
     /// Sizes of cells along the fault.
     pub spacing: Spanned<SpacingSpec>,
     /// Thickness of the first cells across the fault \[m\]; absent: the smallest size along it.
     pub thickness: Option<Spanned<Length>>,
     /// Lower corner of the box \[m\].
+    #[serde(deserialize_with = "exact::list")]
     pub min: Spanned<[Length; 2]>,
     /// Upper corner of the box \[m\].
+    #[serde(deserialize_with = "exact::list")]
     pub max: Spanned<[Length; 2]>,
     /// Largest ratio of neighbouring sizes away from the fault \[-\].
     pub growth: Spanned<f64>,
@@ -384,7 +392,8 @@ impl<'de> Deserialize<'de> for SpacingSpec {
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<SpacingSpec, A::Error> {
-                Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(SpacingSpec::Graded)
+                let pairs = Vec::<Exactly<Length, 2>>::deserialize(SeqAccessDeserializer::new(list))?;
+                Ok(SpacingSpec::Graded(pairs.into_iter().map(|pair| pair.0).collect()))
             }
         }
         deserializer.deserialize_any(SpacingVisitor)

@@ -32,6 +32,7 @@ pub struct Fault {
     /// Where slip is prescribed.
     pub creep: Option<Creep>,
     /// In space: the direction of slip of plus relative to minus, of any length; what of it lies in the fault counts.
+    #[serde(default, deserialize_with = "crate::scene::exact::optional")]
     pub rake: Option<Spanned<[f64; 3]>>,
     /// In space: whether slip may turn away from `rake`; absent: it may not.
     pub slip: Option<Spanned<SlipSpec>>,
@@ -98,6 +99,7 @@ pub struct Profile {
     /// What it depends on.
     pub along: Spanned<Along>,
     /// Pairs of place \[m\] and value in SI, the places ascending: linear between, constant beyond.
+    #[serde(deserialize_with = "crate::scene::exact::pairs")]
     pub points: Spanned<Vec<(Length, f64)>>,
 }
 
@@ -126,6 +128,7 @@ pub struct Creep {
     /// Slip rate \[m/s\].
     pub rate: Spanned<Velocity>,
     /// Where slip may turn: direction of the slip rate, of any length; absent: that of the fault.
+    #[serde(default, deserialize_with = "crate::scene::exact::optional")]
     pub rake: Option<Spanned<[f64; 3]>>,
 }
 

@@ -19,8 +19,10 @@ pub struct Place {
     /// Clockwise from north: in the plane, of the direction into the plane, with x to its right and y up; in space, of `along` \[rad\].
     pub strike: Spanned<Angle>,
     /// In space: the direction up, of any length; z where absent.
+    #[serde(default, deserialize_with = "crate::scene::exact::optional")]
     pub up: Option<Spanned<[f64; 3]>>,
     /// In space: the horizontal direction whose azimuth `strike` is, of any length; y where absent.
+    #[serde(default, deserialize_with = "crate::scene::exact::optional")]
     pub along: Option<Spanned<[f64; 3]>>,
     /// In the plane: length out of it, for moments and magnitudes \[m\].
     pub length: Option<Spanned<Length>>,

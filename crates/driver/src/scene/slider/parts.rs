@@ -45,7 +45,10 @@ impl Planner {
                 "a spring-slider needs a law with a slip rate: this one sticks until it slips",
                 "kinds `rate` and `rate-and-state` have one",
             ),
-            Err(failure) => self.error(spec.span(), failure.to_string(), "change that value"),
+            Err(failure) => {
+                self.errors.push(law::refused(spec, &failure));
+                None
+            }
         }
     }
 

@@ -1,0 +1,57 @@
+//! Sizes of bodies whose meshes come from files, where a unit that was not said makes them a thousand times too large.
+
+use super::{Body, Model, bounds};
+use crate::loading::Stage;
+use crate::scene::check::show;
+use crate::scene::model::{MeshSource, Scene, Spanned};
+use crate::warning::Warning;
+use std::ops::Range;
+
+/// Motion over the size of a body that nobody prescribes: it strains by a millionth, tens of kilopascals in rock, while bodies a thousand times
+/// too large make that of a strain of a thousandth, which is usual.
+const NO_MOTION: f64 = 1e-6;
+
+/// Extents of the bodies that are read from files.
+pub fn of_files<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<String> {
+    let line = |body: &Body<D>| {
+        let (_, unit) = file(&scene.bodies[&body.name].mesh)?;
+        let (min, max) = bounds(&model.mesh.nodes[body.nodes.clone()]);
+        let edges: Vec<String> = (0..D).map(|c| show(max[c] - min[c])).collect();
+        let said = unit.map_or("no `unit` is given, so that numbers are taken as m".to_string(), |unit| {
+            format!("numbers are in {}", unit.get_ref())
+        });
+        Some(format!("body `{}` of a mesh file measures {}: {said}", body.name, edges.join(" x ")))
+    };
+    model.bodies.iter().filter_map(line).collect()
+}
+
+/// Bodies of files without unit that are next to not moved for their size.
+pub fn doubts<const D: usize>(scene: &Scene, model: &Model<D>, stages: &[Stage]) -> Vec<Warning> {
+    let travel: f64 = stages.iter().map(Stage::travel).sum();
+    if travel <= 0.0 || stages.iter().any(Stage::is_loaded) {
+        return Vec::new();
+    }
+    let doubt = |body: &Body<D>| {
+        let (place, unit) = file(&scene.bodies[&body.name].mesh)?;
+        let (min, max) = bounds(&model.mesh.nodes[body.nodes.clone()]);
+        let size = (0..D).map(|c| max[c] - min[c]).fold(0.0, f64::max);
+        (unit.is_none() && travel < NO_MOTION * size).then(|| {
+            let (moved, size) = (show(travel), show(size));
+            let message = format!(
+                "body `{}` is {size} large and moved by {moved} at most: its mesh file is read in m, since no `unit` is given",
+                body.name
+            );
+            Warning::at(place, message, "add the unit of length of the file, such as `unit = \"mm\"`, or `unit = \"m\"`")
+        })
+    };
+    model.bodies.iter().filter_map(doubt).collect()
+}
+
+/// Place and unit of a mesh file.
+fn file(mesh: &MeshSource) -> Option<(Range<usize>, Option<&Spanned<String>>)> {
+    match mesh {
+        MeshSource::Gmsh(file) => Some((file.file.span(), file.unit.as_ref())),
+        MeshSource::Abaqus(file) => Some((file.file.span(), file.unit.as_ref())),
+        MeshSource::Block(_) | MeshSource::Quadrilateral(_) | MeshSource::Fault(_) => None,
+    }
+}

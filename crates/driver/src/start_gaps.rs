@@ -1,0 +1,203 @@
+//! Where the sides of the interfaces are before the first step: gaps, overlaps and what faces what, measured as the contact will measure.
+
+use crate::loading::Stage;
+use crate::model::{Model, bounds};
+use crate::plan::{PlanError, PlannedInterface, Stepping};
+use crate::rigid::face_normal;
+use crate::scene::check::show;
+use crate::scene::model::Interface as Spec;
+use crate::system;
+use crate::warning::Warning;
+use asperity_contact::{Enforcement, Interface, PointFields};
+use asperity_fem::mesh::Side;
+use asperity_fem::surface;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// Share of the element size from which an overlap or an opening at the start is told: less comes from facets about a curve, whose sagitta
+/// is h²/8R, a fortieth of h where eight facets span a radian.
+const SHARE: f64 = 0.1;
+
+/// How far sides can come together, over what the conditions prescribe: both sides may move, and a body that is squeezed bulges by
+/// less than it is squeezed.
+const REACH: f64 = 3.0;
+
+/// The start of an interface.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct StartGap {
+    /// Interface.
+    pub interface: String,
+    /// Slave points.
+    pub points: usize,
+    /// Those that face the master: they have a partner, and it looks at them.
+    pub facing: usize,
+    /// Those without partner.
+    pub unpaired: usize,
+    /// Least and largest gap of those that face the master \[m\], negative where the bodies overlap.
+    pub gap: [f64; 2],
+    /// Area that faces the master \[m², m per metre of thickness\].
+    pub facing_area: f64,
+    /// Area of the slave side \[m², m per metre of thickness\].
+    pub slave_area: f64,
+    /// Unit of the areas.
+    pub area_unit: &'static str,
+}
+
+impl fmt::Display for StartGap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { interface, points, facing, unpaired, gap, facing_area, slave_area, area_unit } = self;
+        write!(f, "interface `{interface}`: ")?;
+        if *facing > 0 {
+            write!(f, "gaps from {} to {} at the ", show(gap[0]), show(gap[1]))?;
+        }
+        write!(f, "{facing} of {points} slave nodes that face the master, {unpaired} without partner; ")?;
+        write!(f, "{facing_area:.4e} of {slave_area:.4e} {area_unit} face it")
+    }
+}
+
+/// Measures the start of an interface.
+///
+/// # Errors
+/// [`PlanError`] at the slave where nothing can ever touch, or where the sides are the wrong ones.
+pub fn measure<const D: usize>(
+    model: &Model<D>,
+    stepping: &Stepping,
+    planned: &PlannedInterface,
+    (spec, sides): (&Spec, &[Side]),
+) -> Result<StartGap, PlanError> {
+    let number: Vec<usize> = (0..model.dofs()).collect();
+    let mut declared = system::spec(model, stepping, planned, &number, 0.0, 0);
+    // Where the sides are depends neither on the law nor on the enforcement.
+    (declared.enforcement, declared.law) = (Enforcement::Penalty, None);
+    let built = Interface::new(declared).map_err(|e| {
+        PlanError::at(
+            spec.slave.span(),
+            e.to_string(),
+            "slave and master are sides that look at each other: are they the right ones, in the right unit of length?".into(),
+        )
+    })?;
+    let points = built.points();
+    let normals = slave_normals(model, planned);
+    let mut start = StartGap {
+        interface: planned.name.clone(),
+        points: planned.slave.len(),
+        unpaired: built.unpaired(),
+        gap: [f64::INFINITY, f64::NEG_INFINITY],
+        slave_area: surface::areas(&model.mesh, sides, model.idealisation).values().sum(),
+        area_unit: if model.idealisation.weight(&[0.0; D]) == 1.0 && D == 2 { "m" } else { "m^2" },
+        ..StartGap::default()
+    };
+    for (p, (node, _)) in planned.slave.iter().enumerate() {
+        if points.gap[p].is_finite() && looks_at(&normals[node], points, p) {
+            start.facing += 1;
+            start.gap = [start.gap[0].min(points.gap[p]), start.gap[1].max(points.gap[p])];
+            start.facing_area += points.area[p];
+        }
+    }
+    if start.facing == 0 {
+        start.gap = [0.0; 2];
+    }
+    refuse(model, planned, spec, &start, points).map_or(Ok(start), Err)
+}
+
+/// Whether the slave side at a point and the master look at each other.
+fn looks_at<const D: usize>(slave: &[f64; D], points: &PointFields<D>, p: usize) -> bool {
+    slave.iter().zip(&points.normal[p]).map(|(a, b)| a * b).sum::<f64>() < 0.0
+}
+
+/// Sums of the outward normals of the slave faces at their nodes.
+fn slave_normals<const D: usize>(model: &Model<D>, planned: &PlannedInterface) -> BTreeMap<usize, [f64; D]> {
+    let mut normals: BTreeMap<usize, [f64; D]> = BTreeMap::new();
+    for face in &planned.slave_faces {
+        let normal = face_normal(model, face);
+        for &node in face {
+            normals.entry(node).or_insert([0.0; D]).iter_mut().zip(&normal).for_each(|(s, n)| *s += n);
+        }
+    }
+    normals
+}
+
+/// Sides that cannot be meant.
+fn refuse<const D: usize>(
+    model: &Model<D>,
+    planned: &PlannedInterface,
+    spec: &Spec,
+    start: &StartGap,
+    points: &PointFields<D>,
+) -> Option<PlanError> {
+    let (slave, master) = (spec.slave.get_ref(), spec.master.get_ref());
+    if start.facing == 0 {
+        return Some(PlanError::at(
+            spec.slave.span(),
+            format!(
+                "`{slave}` and `{master}` of interface `{}` do not face each other: both look the same way",
+                planned.name
+            ),
+            "choose the side of each body that looks at the other".into(),
+        ));
+    }
+    // Bodies that hold each other (a ring around a shaft) do not overlap by more than either is thick.
+    let deepest = -start.gap[1];
+    let p = (0..points.gap.len()).find(|&p| points.gap[p] == start.gap[1])?;
+    let bodies = [slave, master].map(|set| model.body_of(set));
+    let (name, thick) = bodies
+        .into_iter()
+        .flatten()
+        .map(|b| (&model.bodies[b].name, thickness(model, b, &points.normal[p])))
+        .min_by(|a, b| a.1.total_cmp(&b.1))?;
+    (deepest >= thick * (1.0 - SHARE)).then(|| {
+        PlanError::at(
+            spec.slave.span(),
+            format!(
+                "`{slave}` and `{master}` of interface `{}` overlap by {} everywhere, and body `{name}` is {} thick",
+                planned.name,
+                show(deepest),
+                show(thick)
+            ),
+            "these are the far sides of the two bodies: choose the near ones, or put the bodies beside each other".into(),
+        )
+    })
+}
+
+/// Extent of a body along a direction \[m\], of its bounding box.
+fn thickness<const D: usize>(model: &Model<D>, body: usize, n: &[f64; D]) -> f64 {
+    let (min, max) = bounds(&model.mesh.nodes[model.bodies[body].nodes.clone()]);
+    (0..D).map(|c| n[c].abs() * (max[c] - min[c])).sum()
+}
+
+/// What is doubtful about the start of an interface whose slave has cells of size `h`; a bonded one keeps the gaps it has.
+pub fn doubts(start: &StartGap, (spec, bonded): (&Spec, bool), stages: &[Stage], h: f64) -> Option<Warning> {
+    let [least, largest] = start.gap;
+    let name = &start.interface;
+    if bonded {
+        let (farthest, what) = if -least > largest { (-least, "an overlap") } else { (largest, "a gap") };
+        return (farthest > SHARE * h).then(|| {
+            let message = format!("interface `{name}` is tied across {what} of up to {}", show(farthest));
+            let help = "tied points stay as far apart as they start: put the bodies beside each other";
+            Warning::at(spec.slave.span(), message, help)
+        });
+    }
+    if least < -SHARE * h {
+        let message = format!(
+            "the bodies at interface `{name}` overlap by up to {} at the start, {:.2} of the element size {}, and contact presses them apart \
+             in the first step",
+            show(-least),
+            -least / h,
+            show(h)
+        );
+        let help = "move a body so that they touch, unless a press fit is meant";
+        return Some(Warning::at(spec.slave.span(), message, help));
+    }
+    let reach = REACH * stages.iter().map(Stage::travel).sum::<f64>();
+    if least > SHARE * h && least > reach && !stages.iter().any(Stage::is_loaded) {
+        let message = format!(
+            "interface `{name}` starts open by {} or more, and no condition moves a body by more than {}: it cannot close",
+            show(least),
+            show(reach / REACH)
+        );
+        let help = "put the bodies beside each other, or prescribe a motion that closes the gap; is the unit of length right?";
+        return Some(Warning::at(spec.slave.span(), message, help));
+    }
+    None
+}

@@ -1,0 +1,135 @@
+//! Every file of `doubtful_scenes` is planned with one warning, where and as its first line says: `# warn: LINE:COLUMN part of the message`.
+//! Then what runs find that their models do not describe.
+#![allow(clippy::unwrap_used)]
+
+use asperity_driver::observe::Recorder;
+use asperity_driver::plan::{self, ScenePlan};
+use asperity_driver::run;
+use asperity_driver::scene;
+use asperity_driver::warning::{Place, Warning};
+use std::path::{Path, PathBuf};
+
+fn here(folder: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)
+}
+
+fn files(folder: &str) -> Vec<(String, String)> {
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(here(folder)).unwrap().map(|e| e.unwrap().path()).collect();
+    files.retain(|f| f.extension().is_some_and(|e| e == "toml"));
+    files.sort();
+    let name = |f: &PathBuf| f.file_name().unwrap().to_string_lossy().into_owned();
+    files.iter().map(|f| (name(f), std::fs::read_to_string(f).unwrap())).collect()
+}
+
+fn file(name: &str) -> String {
+    std::fs::read_to_string(here("tests/doubtful_scenes").join(name)).unwrap()
+}
+
+fn warnings(text: &str) -> Vec<Warning> {
+    let scene = scene::read_in(text, &here("tests/meshes")).unwrap();
+    let mut warnings = match plan::plan_scene(&scene).unwrap() {
+        ScenePlan::Bodies(plan) => plan.summary().warnings.clone(),
+        ScenePlan::Faults(plan) => plan.warnings.clone(),
+    };
+    warnings.iter_mut().for_each(|w| w.locate(text));
+    warnings
+}
+
+fn complaint(text: &str) -> Option<String> {
+    let first = text.lines().next().unwrap_or_default();
+    let (place, part) = first.strip_prefix("# warn: ").and_then(|e| e.split_once(' ')).unwrap();
+    let found = warnings(text);
+    let told: Vec<String> = found.iter().map(ToString::to_string).collect();
+    let [Warning { place: Some(Place { line, column }), message, .. }] = &found[..] else {
+        return Some(format!("expected one warning with a place, found {told:?}"));
+    };
+    (format!("{line}:{column}") != place || !message.contains(part))
+        .then(|| format!("expected {place} {part}\n   found {told:?}"))
+}
+
+#[test]
+fn every_doubtful_scene_is_warned_of_once_at_its_place() {
+    let files = files("tests/doubtful_scenes");
+    assert!(files.len() >= 9, "only {} files", files.len());
+    let wrong: Vec<String> =
+        files.iter().filter_map(|(name, text)| complaint(text).map(|c| format!("{name}: {c}"))).collect();
+    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), files.len(), wrong.join("\n"));
+}
+
+fn found(text: &str) -> Vec<String> {
+    let plan = plan::plan(&scene::read(text).unwrap()).unwrap();
+    let report = run::run(&plan, &mut Recorder::new()).unwrap();
+    assert_eq!(report.outcome, asperity_driver::report::Outcome::Completed);
+    report.warnings.into_iter().map(|w| w.message).collect()
+}
+
+fn bar(strain: &str, to: &str) -> String {
+    file("tolerance_without_interface.toml")
+        .replace("\"1 mm\"", to)
+        .replace("tolerance = \"1 nm\"", "")
+        .replace("material = \"rock\"", &format!("material = \"rock\"\nstrain = \"{strain}\""))
+}
+
+#[test]
+fn strain_beyond_a_few_per_cent_is_told_where_it_is_taken_as_small() {
+    // A bar of 4 m drawn by 0.4 m is strained by a tenth, by 0.1 m by a fortieth.
+    let told = found(&bar("small", "\"400 mm\""));
+    assert!(told.len() == 1 && told[0].contains("body `A` is strained by 0.100 in stage `pull`"), "{told:?}");
+    assert_eq!(found(&bar("small", "\"100 mm\"")), Vec::<String>::new());
+    assert_eq!(found(&bar("finite", "\"400 mm\"")), Vec::<String>::new());
+}
+
+/// Two blocks with cells of 1 m; the second is driven past the first for 50 s.
+fn driven(sliding: &str, rate: &str) -> String {
+    file("material_of_no_body.toml")
+        .replace("sliding = \"small\"", &format!("sliding = \"{sliding}\""))
+        .replace("\"-1 um/s\"", rate)
+        .replace("tolerance = \"1 nm\"", "")
+}
+
+#[test]
+fn a_side_dragged_off_its_partners_is_told_where_the_pairing_does_not_follow() {
+    let told = found(&driven("small", "\"-30 mm/s\""));
+    assert!(told.len() == 1 && told[0].contains("interface `fault` slides by 1.5"), "{told:?}");
+    assert_eq!(found(&driven("small", "\"-10 mm/s\"")), Vec::<String>::new());
+}
+
+#[test]
+fn an_interface_that_never_closes_is_told() {
+    let told = found(&file("far_apart.toml"));
+    assert!(
+        told.len() == 1 && told[0].contains("interface `fault` was open at the end of every stage"),
+        "{told:?}"
+    );
+}
+
+#[test]
+fn the_start_of_an_interface_is_measured_by_either_measure() {
+    // Bodies 3 mm apart; the master overhangs by 1 m at both ends, and faces 5 nodes over 4 m.
+    for measure in ["node-to-point", "mortar"] {
+        for sliding in ["small", "finite"] {
+            let text = file("material_of_no_body.toml")
+                .replace("node-to-point", measure)
+                .replace("\"small\"", &format!("\"{sliding}\""))
+                .replace("[\"2 m\", \"-1 m\"], max = [\"4 m\"", "[2.003, \"-1 m\"], max = [4.003");
+            let plan = plan::plan(&scene::read(&text).unwrap()).unwrap();
+            let [start] = &plan.summary().start_gaps[..] else { panic!("one interface") };
+            assert_eq!((start.points, start.facing, start.unpaired), (5, 5, 0), "{measure}, {sliding}");
+            for gap in start.gap {
+                assert!((gap - 3e-3).abs() < 1e-12, "{measure}, {sliding}: {gap}");
+            }
+            assert!((start.facing_area - 4.0).abs() < 1e-9 && (start.slave_area - 4.0).abs() < 1e-9);
+            assert_eq!(start.area_unit, "m");
+        }
+    }
+}
+
+#[test]
+fn half_a_side_without_partner_is_counted() {
+    // The master ends in the middle of the slave: nodes at 0 and 1 m have no partner, that at 2 m is at the rim.
+    let text = file("material_of_no_body.toml").replace("[\"2 m\", \"-1 m\"]", "[\"2 m\", \"2 m\"]");
+    let plan = plan::plan(&scene::read(&text).unwrap()).unwrap();
+    let start = &plan.summary().start_gaps[0];
+    assert_eq!((start.facing, start.unpaired), (3, 2));
+}
