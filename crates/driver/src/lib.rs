@@ -13,6 +13,7 @@ pub mod model;
 pub mod observe;
 pub mod ode;
 pub mod plan;
+mod plan_doubts;
 pub mod report;
 pub mod rigid;
 pub mod run;

@@ -1,9 +1,10 @@
 //! Scene -> Plan: the one place where it is decided what is modelled and how. Below it nothing asks what was declared.
 
-use crate::enforcement::{self, Enforced, in_pascal_per_metre, in_words};
+use crate::enforcement::{Enforced, in_pascal_per_metre, in_words};
 use crate::fault;
 use crate::loading::{self, Stage};
 use crate::model::{CellBlock, Model, sizes};
+use crate::plan_doubts;
 use crate::rigid;
 use crate::samples::Wanted;
 use crate::scene::law;
@@ -12,7 +13,7 @@ use crate::scene::model::{
     Sliding, Spanned, Stepper,
 };
 use crate::solver::{self, Solver};
-use crate::start_gaps::{self, StartGap};
+use crate::start_gaps::StartGap;
 use crate::warning::Warning;
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
 use asperity_fem::nonlinear::Material;
@@ -308,7 +309,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
     let control = control(scene, &stages);
     let mut remarks = rigid::check(scene, &model, &stages, &interfaces)?;
     remarks.extend(sizes::of_files(scene, &model));
-    let (start_gaps, doubts) = at_the_start(scene, &model, (&interfaces, &stages), &stepping)?;
+    let (start_gaps, doubts) = plan_doubts::of(scene, &model, (&interfaces, &stages), &stepping)?;
     let solver = solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
     let mut summary = summary(scene, &model, &interfaces, path, &stepping, &solver, remarks);
     summary.start_gaps = start_gaps;
@@ -331,29 +332,6 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
         profile_outputs: scene.output.profiles.as_ref().map_or(10, |f| *f.get_ref()),
         summary,
     })
-}
-
-/// Where the sides of the interfaces are, and what is doubtful before the first step.
-fn at_the_start<const D: usize>(
-    scene: &Scene,
-    model: &Model<D>,
-    (interfaces, stages): (&[PlannedInterface], &[Stage]),
-    stepping: &Stepping,
-) -> Result<(Vec<StartGap>, Vec<Warning>), PlanError> {
-    let (mut starts, mut doubts) = (Vec::new(), sizes::doubts(scene, model, stages));
-    for planned in interfaces {
-        let spec = &scene.interfaces[&planned.name];
-        let sides = model.sides(&spec.slave)?;
-        let start = start_gaps::measure(model, stepping, planned, (spec, sides))?;
-        if let Some(body) = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]) {
-            let (stiffness, h) = (model.young_per_size(body, sides), model.element_size(body, sides));
-            doubts.extend(enforcement::doubts(&planned.name, &spec.enforcement, stiffness, h));
-            let bonded = planned.law.as_ref().is_some_and(|l| l.bonded());
-            doubts.extend(start_gaps::doubts(&start, (spec, bonded), stages, h));
-        }
-        starts.push(start);
-    }
-    Ok((starts, doubts))
 }
 
 fn interface<const D: usize>(

@@ -107,16 +107,19 @@ pub fn many<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
     Ok(at(Spanned::<Vec<Exactly<T, N>>>::deserialize(from)?, |v| v.into_iter().map(|x| x.0).collect()))
 }
 
+/// Pairs at their place.
+type Pairs<A, B> = Spanned<Vec<(A, B)>>;
+
 /// Any number of pairs.
 pub fn pairs<'de, D: Deserializer<'de>, A: Deserialize<'de>, B: Deserialize<'de>>(
     from: D,
-) -> Result<Spanned<Vec<(A, B)>>, D::Error> {
+) -> Result<Pairs<A, B>, D::Error> {
     Ok(at(Spanned::<Vec<Pair<A, B>>>::deserialize(from)?, |v| v.into_iter().map(|p| (p.0, p.1)).collect()))
 }
 
 /// Pairs that may be left out.
 pub fn optional_pairs<'de, D: Deserializer<'de>, A: Deserialize<'de>, B: Deserialize<'de>>(
     from: D,
-) -> Result<Option<Spanned<Vec<(A, B)>>>, D::Error> {
+) -> Result<Option<Pairs<A, B>>, D::Error> {
     pairs(from).map(Some)
 }

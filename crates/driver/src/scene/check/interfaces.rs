@@ -11,6 +11,9 @@ pub(super) fn is_tied(law: &Spanned<LawSpec>) -> bool {
     law.get_ref().kind.as_ref().is_some_and(|k| k.get_ref() == "tied")
 }
 
+/// A larger coefficient of friction is a slip of the keyboard: rock has up to 1, rubber up to 2 or 3.
+const MOST_FRICTION: f64 = 4.0;
+
 /// Body, axis and end of a side.
 type Side = (String, usize, usize);
 
@@ -41,12 +44,25 @@ impl Checker<'_> {
                 _ => {}
             }
             if let Some(spec) = &interface.law {
+                self.coefficients(spec.get_ref());
                 self.errors.extend(law::choose(spec).err().unwrap_or_default());
                 let form = &spec.get_ref().form;
                 let rate = spec.get_ref().kind.as_ref().is_some_and(|k| k.get_ref() == "rate");
                 if let Some(form) = form.as_ref().filter(|_| rate) {
                     self.at_rest(form);
                 }
+            }
+        }
+    }
+
+    /// Coefficients of friction that are percentages, or tractions.
+    fn coefficients(&mut self, law: &LawSpec) {
+        let keys = [("mu", &law.mu), ("mu0", &law.mu0), ("mu_s", &law.mu_s), ("mu_k", &law.mu_k)];
+        for (key, given) in keys.into_iter().filter_map(|(key, given)| Some((key, given.as_ref()?))) {
+            let value = *given.get_ref();
+            if value > MOST_FRICTION {
+                let message = format!("the friction coefficient `{key}` is {value}: rocks have 0.1 to 1");
+                self.warn(given.span(), message, "it is shear over normal traction, not a percentage");
             }
         }
     }

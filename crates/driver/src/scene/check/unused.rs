@@ -11,6 +11,9 @@ const ROUNDING: f64 = 1e-9;
 /// First step as a share of its stage where none is given, as the steps are chosen.
 const FIRST: f64 = 1e-3;
 
+/// Largest step as a share of its stage where none is given, as the steps are chosen.
+const LARGEST: f64 = 0.05;
+
 /// Share of the first step of a stage that the distance of neighbouring times may be: below it increments of motions and of time differ by
 /// as much.
 const RESOLVED: f64 = 0.01;
@@ -36,6 +39,7 @@ impl Checker<'_> {
         self.materials_of_no_body();
         if *self.scene.time.stepper.get_ref() != Stepper::FaultOde {
             self.without_adaption();
+            self.beside_defaults();
             self.without_interface();
             self.without_law();
         }
@@ -117,6 +121,36 @@ impl Checker<'_> {
             let message =
                 format!("`{name}` is about steps that are adapted, and every stage has equal `steps`");
             self.warn(place, message, format!("remove `{name}`, or the `steps` of a stage"));
+        }
+    }
+
+    /// First and smallest steps that defaults of the other bounds would override.
+    fn beside_defaults(&mut self) {
+        let time = &self.scene.time;
+        let adaptive = self.scene.stages.iter().filter(|s| s.steps.is_none());
+        let longest = adaptive.map(|s| s.duration.get_ref().0).fold(0.0, f64::max);
+        if longest <= 0.0 {
+            return;
+        }
+        let largest = LARGEST * longest;
+        if let (Some(first), None) = (&time.first_step, &time.max_step)
+            && first.get_ref().0 > largest * (1.0 + ROUNDING)
+        {
+            let message = format!(
+                "`first_step` is {:?} s, but no step is longer than {largest:?} s, a twentieth of its stage",
+                first.get_ref().0
+            );
+            self.warn(first.span(), message, "give `max_step` as well, or a shorter first step");
+        }
+        if let (Some(least), None) = (&time.min_step, &time.first_step)
+            && least.get_ref().0 > FIRST * longest * (1.0 + ROUNDING)
+        {
+            let message = format!(
+                "`min_step` is {:?} s, but the first step of each stage is a thousandth of it, {:?} s at most",
+                least.get_ref().0,
+                FIRST * longest
+            );
+            self.warn(least.span(), message, "give `first_step` as well, or a smaller `min_step`");
         }
     }
 

@@ -1,0 +1,56 @@
+//! What is doubtful in a scene once its bodies are made and its stages resolved.
+
+use crate::enforcement;
+use crate::loading::Stage;
+use crate::model::{Model, sizes};
+use crate::plan::{PlanError, PlannedInterface, Stepping};
+use crate::scene::check::show;
+use crate::scene::model::Scene;
+use crate::start_gaps::{self, StartGap};
+use crate::warning::Warning;
+
+/// Share of what the conditions move that an error of slip allowed in a single step may be: beyond it nothing bounds the steps.
+const BOUNDS_NOTHING: f64 = 0.1;
+
+/// Where the sides of the interfaces are, and what is doubtful before the first step.
+///
+/// # Errors
+/// [`PlanError`] for sides that cannot be meant.
+pub fn of<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    (interfaces, stages): (&[PlannedInterface], &[Stage]),
+    stepping: &Stepping,
+) -> Result<(Vec<StartGap>, Vec<Warning>), PlanError> {
+    let (mut starts, mut doubts) = (Vec::new(), sizes::doubts(scene, model, stages));
+    doubts.extend(tolerance(scene, stages));
+    for planned in interfaces {
+        let spec = &scene.interfaces[&planned.name];
+        let sides = model.sides(&spec.slave)?;
+        let start = start_gaps::measure(model, stepping, planned, (spec, sides))?;
+        if let Some(body) = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]) {
+            let (stiffness, h) = (model.young_per_size(body, sides), model.element_size(body, sides));
+            let bonded = planned.law.as_ref().is_some_and(|l| l.bonded());
+            doubts.extend(enforcement::doubts(&planned.name, &spec.enforcement, stiffness, h));
+            doubts.extend(start_gaps::doubts(&start, (spec, bonded), stages, h));
+        }
+        starts.push(start);
+    }
+    Ok((starts, doubts))
+}
+
+/// A bound on the error of slip that is as large as the motion.
+fn tolerance(scene: &Scene, stages: &[Stage]) -> Option<Warning> {
+    let given = scene.time.tolerance.as_ref()?;
+    let travel: f64 = stages.iter().map(Stage::travel).sum();
+    let bound = given.get_ref().0;
+    (travel > 0.0 && bound > BOUNDS_NOTHING * travel && !scene.interfaces.is_empty()).then(|| {
+        let message = format!(
+            "`tolerance` allows an error of slip of {} in each step, and the conditions move bodies by {} in all",
+            show(bound),
+            show(travel)
+        );
+        let help = "a small share of the motion is a bound; left out, 2e-5 of the largest travel of a stage is taken";
+        Warning::at(given.span(), message, help)
+    })
+}
