@@ -1,7 +1,7 @@
 //! How interfaces enforce their constraints, in SI, and what that adds to the system.
 
 use crate::plan::PlannedInterface;
-use crate::scene::check::show;
+use crate::scene::check::brief;
 use crate::scene::model::{Enforcement as Spec, EnforcementKind, Spanned};
 use crate::scene::units::{Penalty, Penetration};
 use crate::warning::Warning;
@@ -103,7 +103,7 @@ fn doubt(
         format!(
             "the {key} penalty of interface `{name}` is {value:.3e} Pa/m, {factor:.1e} E/h of its slave body: it yields like a layer of {} of the \
              material",
-            show(size / factor)
+            brief(size / factor)
         )
     } else if factor > STIFF {
         format!(

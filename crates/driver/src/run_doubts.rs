@@ -4,7 +4,7 @@ use crate::model::{CellBlock, Model};
 use crate::observe::view::InterfaceFields;
 use crate::plan::{Plan, PlannedInterface};
 use crate::report::InterfaceResult;
-use crate::scene::check::show;
+use crate::scene::check::brief;
 use crate::scene::model::Sliding;
 use crate::warning::Warning;
 use asperity_fem::kinematics::Idealisation;
@@ -143,9 +143,9 @@ fn dragged<const D: usize>(
                 "interface `{}` slides by {} in stage `{stage}`, {:.1} times the size {} of the faces of its master, and its pairing does not \
                  follow",
                 planned.name,
-                show(slid),
+                brief(slid),
                 slid / size,
-                show(size)
+                brief(size)
             ),
             "use `sliding = \"finite\"`; with \"small\" every node keeps the partner that it has at the start",
         )

@@ -4,7 +4,7 @@ use crate::loading::Stage;
 use crate::model::{Model, bounds};
 use crate::plan::{PlanError, PlannedInterface, Stepping};
 use crate::rigid::face_normal;
-use crate::scene::check::show;
+use crate::scene::check::brief;
 use crate::scene::model::Interface as Spec;
 use crate::system;
 use crate::warning::Warning;
@@ -18,6 +18,9 @@ use std::fmt;
 /// Share of the element size from which an overlap or an opening at the start is told: less comes from facets about a curve, whose sagitta
 /// is h²/8R, a fortieth of h where eight facets span a radian.
 const SHARE: f64 = 0.1;
+
+/// Rounding of a gap over the size of the scene: what the contact takes for closed without traction.
+const ROUNDING: f64 = 1e-12;
 
 /// How far sides can come together, over what the conditions prescribe: both sides may move, and a body that is squeezed bulges by
 /// less than it is squeezed.
@@ -49,7 +52,7 @@ impl fmt::Display for StartGap {
         let Self { interface, points, facing, unpaired, gap, facing_area, slave_area, area_unit } = self;
         write!(f, "interface `{interface}`: ")?;
         if *facing > 0 {
-            write!(f, "gaps from {} to {} at the ", show(gap[0]), show(gap[1]))?;
+            write!(f, "gaps from {} to {} at the ", brief(gap[0]), brief(gap[1]))?;
         }
         write!(f, "{facing} of {points} slave nodes that face the master, {unpaired} without partner; ")?;
         write!(f, "{facing_area:.4e} of {slave_area:.4e} {area_unit} face it")
@@ -95,9 +98,8 @@ pub fn measure<const D: usize>(
             start.facing_area += points.area[p];
         }
     }
-    if start.facing == 0 {
-        start.gap = [0.0; 2];
-    }
+    let rounding = ROUNDING * model.scale;
+    start.gap = start.gap.map(|g| if start.facing == 0 || g.abs() <= rounding { 0.0 } else { g });
     refuse(model, planned, spec, &start, points).map_or(Ok(start), Err)
 }
 
@@ -139,7 +141,7 @@ fn refuse<const D: usize>(
     }
     // Bodies that hold each other (a ring around a shaft) do not overlap by more than either is thick.
     let deepest = -start.gap[1];
-    let p = (0..points.gap.len()).find(|&p| points.gap[p] == start.gap[1])?;
+    let p = (0..points.gap.len()).find(|&p| points.gap[p].is_finite())?;
     let bodies = [slave, master].map(|set| model.body_of(set));
     let (name, thick) = bodies
         .into_iter()
@@ -152,8 +154,8 @@ fn refuse<const D: usize>(
             format!(
                 "`{slave}` and `{master}` of interface `{}` overlap by {} everywhere, and body `{name}` is {} thick",
                 planned.name,
-                show(deepest),
-                show(thick)
+                brief(deepest),
+                brief(thick)
             ),
             "these are the far sides of the two bodies: choose the near ones, or put the bodies beside each other".into(),
         )
@@ -173,7 +175,7 @@ pub fn doubts(start: &StartGap, (spec, bonded): (&Spec, bool), stages: &[Stage],
     if bonded {
         let (farthest, what) = if -least > largest { (-least, "an overlap") } else { (largest, "a gap") };
         return (farthest > SHARE * h).then(|| {
-            let message = format!("interface `{name}` is tied across {what} of up to {}", show(farthest));
+            let message = format!("interface `{name}` is tied across {what} of up to {}", brief(farthest));
             let help = "tied points stay as far apart as they start: put the bodies beside each other";
             Warning::at(spec.slave.span(), message, help)
         });
@@ -182,9 +184,9 @@ pub fn doubts(start: &StartGap, (spec, bonded): (&Spec, bool), stages: &[Stage],
         let message = format!(
             "the bodies at interface `{name}` overlap by up to {} at the start, {:.2} of the element size {}, and contact presses them apart \
              in the first step",
-            show(-least),
+            brief(-least),
             -least / h,
-            show(h)
+            brief(h)
         );
         let help = "move a body so that they touch, unless a press fit is meant";
         return Some(Warning::at(spec.slave.span(), message, help));
@@ -193,8 +195,8 @@ pub fn doubts(start: &StartGap, (spec, bonded): (&Spec, bool), stages: &[Stage],
     if least > SHARE * h && least > reach && !stages.iter().any(Stage::is_loaded) {
         let message = format!(
             "interface `{name}` starts open by {} or more, and no condition moves a body by more than {}: it cannot close",
-            show(least),
-            show(reach / REACH)
+            brief(least),
+            brief(reach / REACH)
         );
         let help = "put the bodies beside each other, or prescribe a motion that closes the gap; is the unit of length right?";
         return Some(Warning::at(spec.slave.span(), message, help));

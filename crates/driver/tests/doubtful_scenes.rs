@@ -91,7 +91,7 @@ fn driven(sliding: &str, rate: &str) -> String {
 #[test]
 fn a_side_dragged_off_its_partners_is_told_where_the_pairing_does_not_follow() {
     let told = found(&driven("small", "\"-30 mm/s\""));
-    assert!(told.len() == 1 && told[0].contains("interface `fault` slides by 1.5"), "{told:?}");
+    assert!(told.len() == 1 && told[0].contains("interface `fault` slides by 1.49"), "{told:?}");
     assert_eq!(found(&driven("small", "\"-10 mm/s\"")), Vec::<String>::new());
 }
 

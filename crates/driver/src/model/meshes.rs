@@ -312,10 +312,11 @@ fn read<const D: usize>(
 /// Where a mesh file was looked for, and what stands there instead.
 fn looked_for(path: &Path) -> String {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-    let told = format!("looked for {}; paths are relative to the folder of the scene", whole.display());
+    let told =
+        format!("looked for {}; paths are relative to the folder of the scene. There", whole.display());
     let name = whole.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     let Some(entries) = whole.parent().and_then(|folder| std::fs::read_dir(folder).ok()) else {
-        return format!("{told}, and that folder cannot be read");
+        return format!("{told} is no folder that can be read");
     };
     let mut there: Vec<String> = entries
         .filter_map(|entry| Some(entry.ok()?.path()))
@@ -324,9 +325,9 @@ fn looked_for(path: &Path) -> String {
         .collect();
     there.sort();
     if there.is_empty() {
-        return format!("{told}, where no mesh file is");
+        return format!("{told} is no mesh file");
     }
-    format!("{told}; {}", suggest(&name, "mesh files there", there.iter().map(String::as_str)))
+    format!("{told}: {}", suggest(&name, "mesh files", there.iter().map(String::as_str)))
 }
 
 /// Endings of mesh files.

@@ -2,7 +2,7 @@
 
 use super::{Body, Model, bounds};
 use crate::loading::Stage;
-use crate::scene::check::show;
+use crate::scene::check::brief;
 use crate::scene::model::{MeshSource, Scene, Spanned};
 use crate::warning::Warning;
 use std::ops::Range;
@@ -16,7 +16,7 @@ pub fn of_files<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<String> 
     let line = |body: &Body<D>| {
         let (_, unit) = file(&scene.bodies[&body.name].mesh)?;
         let (min, max) = bounds(&model.mesh.nodes[body.nodes.clone()]);
-        let edges: Vec<String> = (0..D).map(|c| show(max[c] - min[c])).collect();
+        let edges: Vec<String> = (0..D).map(|c| brief(max[c] - min[c])).collect();
         let said = unit.map_or("no `unit` is given, so that numbers are taken as m".to_string(), |unit| {
             format!("numbers are in {}", unit.get_ref())
         });
@@ -36,7 +36,7 @@ pub fn doubts<const D: usize>(scene: &Scene, model: &Model<D>, stages: &[Stage])
         let (min, max) = bounds(&model.mesh.nodes[body.nodes.clone()]);
         let size = (0..D).map(|c| max[c] - min[c]).fold(0.0, f64::max);
         (unit.is_none() && travel < NO_MOTION * size).then(|| {
-            let (moved, size) = (show(travel), show(size));
+            let (moved, size) = (brief(travel), brief(size));
             let message = format!(
                 "body `{}` is {size} large and moved by {moved} at most: its mesh file is read in m, since no `unit` is given",
                 body.name

@@ -187,6 +187,11 @@ pub(crate) fn show(length: f64) -> String {
     format!("{rounded} {unit}")
 }
 
+/// A measured length: four digits of it.
+pub(crate) fn brief(length: f64) -> String {
+    show(format!("{length:.3e}").parse().unwrap_or(length))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -198,5 +203,7 @@ mod tests {
         assert_eq!(show(2.0 / 1e8), "20 nm");
         assert_eq!(show(-0.001), "-1 mm");
         assert_eq!(show(0.0), "0 m");
+        assert_eq!(brief(2.500_000_1), "2.5 m");
+        assert_eq!(brief(-0.001_234_56), "-1.235 mm");
     }
 }

@@ -81,7 +81,7 @@ impl Checker<'_> {
                 None => first_step.unwrap_or(FIRST * duration).min(duration),
             };
             let apart = f64::EPSILON * start;
-            if index > 0 && duration > 0.0 && apart > RESOLVED * first {
+            if index > 0 && first > 0.0 && apart > RESOLVED * first {
                 let before = &self.scene.stages[index - 1];
                 let message = format!(
                     "stage `{}` begins at {start:e} s, where neighbouring times are {apart:.1e} s apart: its first step of {first:.1e} s is lost in \
