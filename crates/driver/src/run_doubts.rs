@@ -208,7 +208,7 @@ stepper = "implicit"
     /// What is told of the displacement `u` of every place.
     fn told(u: impl Fn(&[f64; 2]) -> [f64; 2]) -> (Largest, Vec<String>) {
         let AnyPlan::Two(plan) = plan(&scene::read(BAR).unwrap()).unwrap() else { panic!("a plane scene") };
-        let u: Vec<f64> = plan.model.mesh.nodes.iter().flat_map(|x| u(x)).collect();
+        let u: Vec<f64> = plan.model.mesh.nodes.iter().flat_map(u).collect();
         let told = after_stage(&plan, "turn", &u, &[]).into_iter().map(|w| w.message).collect();
         (of_block(&plan.model, 0, &u), told)
     }
