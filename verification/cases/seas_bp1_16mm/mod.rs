@@ -17,6 +17,8 @@ pub struct Law {
     /// Name of the evolution.
     pub name: &'static str,
     scene: &'static str,
+    /// Size of the cells of that scene \[m\].
+    cells: f64,
     /// Onsets \[yr\].
     pub onsets: [f64; 2],
     /// Largest slip rates \[m/s\].
@@ -34,6 +36,7 @@ pub const LAWS: [Law; 2] = [
     Law {
         name: "ageing",
         scene: include_str!("../../../scenes/bp1.toml"),
+        cells: 156.25,
         onsets: [271.219, 413.675],
         peaks: [4.4570, 4.3531],
         uncertainty: 0.02,
@@ -41,6 +44,7 @@ pub const LAWS: [Law; 2] = [
     Law {
         name: "slip",
         scene: include_str!("../../../scenes/bp1-slip.toml"),
+        cells: 78.125,
         onsets: [255.382, 378.602],
         peaks: [3.9884, 3.8792],
         uncertainty: 0.04,
@@ -51,8 +55,11 @@ pub const LAWS: [Law; 2] = [
 pub fn text(law: &Law, size: f64) -> String {
     law.scene
         .replace("l = \"8 mm\"", "l = \"16 mm\"")
-        .replace("156.25 m", &format!("{size} m"))
-        .replace("\"600 m\"", &format!("\"{} m\"", 600.0 / 156.25 * size))
+        .replace(&format!("{} m", law.cells), &format!("{size} m"))
+        .replace(
+            &format!("\"{} m\"", 600.0 / 156.25 * law.cells),
+            &format!("\"{} m\"", 600.0 / 156.25 * size),
+        )
 }
 
 /// The first two events with cells of this size \[m\].
