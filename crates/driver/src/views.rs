@@ -99,6 +99,7 @@ fn interface_mesh<const D: usize>(
             .map(|f| f.iter().map(local).collect())
             .collect(),
         probes: probes(&positions, planned.probes),
+        states: planned.law.as_ref().map_or(0, |law| law.states()),
         positions,
     }
 }
@@ -159,6 +160,9 @@ pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFi
             })
             .collect(),
         area: p.area.clone(),
+        states: (0..p.states_per_point)
+            .map(|k| p.states.iter().skip(k).step_by(p.states_per_point).copied().collect())
+            .collect(),
     }
 }
 

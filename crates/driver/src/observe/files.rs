@@ -47,6 +47,8 @@ struct Part {
     /// Name of its files.
     stem: String,
     grid: Grid,
+    /// State variables of its law.
+    states: usize,
     probes: Option<Growing>,
 }
 
@@ -215,7 +217,10 @@ impl Observer for Files {
         self.interfaces = stems
             .into_iter()
             .zip(&setup.interfaces)
-            .map(|(stem, mesh)| Part { stem, grid: interface_grid(mesh, dimension), probes: None })
+            .map(|(stem, mesh)| {
+                let (grid, states) = (interface_grid(mesh, dimension), mesh.states);
+                Part { stem, grid, states, probes: None }
+            })
             .collect();
         self.remove_earlier()?;
         let wanted = [
@@ -293,8 +298,15 @@ impl Part {
         fn f64s(name: &'static str, values: &[f64]) -> Array<'static> {
             Array::scalar(name, Values::F64(values))
         }
-        let points = [
-            f64s("gap", &fields.gap),
+        let nodes = 0..fields.gap.len();
+        let gap: Vec<f64> = nodes.clone().map(|i| fields.written_gap(i)).collect();
+        let paired: Vec<u8> = nodes.clone().map(|i| u8::from(fields.paired(i))).collect();
+        let names: Vec<String> = (1..=self.states).map(|k| format!("state_{k}")).collect();
+        let states: Vec<Vec<f64>> =
+            (0..self.states).map(|k| nodes.clone().map(|i| fields.state(k, i)).collect()).collect();
+        let mut points = vec![
+            f64s("gap", &gap),
+            Array::scalar("paired", Values::U8(&paired)),
             f64s("slip", &fields.slip),
             f64s("relative_displacement", &fields.relative_displacement),
             f64s("slip_rate", &fields.slip_rate),
@@ -306,6 +318,7 @@ impl Part {
             Array::scalar("status", Values::U8(&fields.status)),
             f64s("area", &fields.area),
         ];
+        points.extend(names.iter().zip(&states).map(|(name, v)| Array::scalar(name, Values::F64(v))));
         self.grid.file(time, &points, &[])
     }
 }

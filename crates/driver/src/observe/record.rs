@@ -236,6 +236,7 @@ pub(super) fn check_interfaces(setup: &Setup, interfaces: &[InterfaceFields]) ->
         check("friction", fields.friction.len())?;
         check("status", fields.status.len())?;
         check("area", fields.area.len())?;
+        fields.states.iter().try_for_each(|state| check("a state", state.len()))?;
     }
     Ok(())
 }

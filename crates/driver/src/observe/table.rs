@@ -6,8 +6,8 @@ use super::view::{InterfaceFields, InterfaceMesh, PointValues};
 type Column = (&'static str, fn(&InterfaceFields, usize) -> f64);
 
 /// Columns of a profile.
-const PROFILE: [Column; 10] = [
-    ("gap [m]", |f, i| f.gap[i]),
+const PROFILE: [Column; 11] = [
+    ("gap [m]", InterfaceFields::written_gap),
     ("normal_traction [Pa]", |f, i| f.normal_traction[i]),
     ("shear_traction [Pa]", |f, i| f.shear_traction[i]),
     ("relative_displacement [m]", |f, i| f.relative_displacement[i]),
@@ -17,6 +17,7 @@ const PROFILE: [Column; 10] = [
     ("mean_normal_traction [Pa]", |f, i| f.mean_normal_traction[i]),
     ("mean_shear_traction [Pa]", |f, i| f.mean_shear_traction[i]),
     ("status [0 open 1 stick 2 slip]", |f, i| f64::from(f.status[i])),
+    ("paired [0 no 1 yes]", |f, i| f64::from(u8::from(f.paired(i)))),
 ];
 
 /// Columns of each probe.
@@ -32,7 +33,16 @@ const PROBE: [Column; 6] = [
 /// The shortest decimal that reads back as the same number, with an exponent where that is easier to read.
 fn number(value: f64) -> String {
     // Outside these decades positional notation is mostly zeros.
-    if value == 0.0 || (1e-2..1e6).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
+    if value == 0.0 {
+        // Without the sign of -0.
+        return "0".into();
+    }
+    if (1e-2..1e6).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
+}
+
+/// Names of the columns of the state variables of an interface's law.
+fn states(mesh: &InterfaceMesh) -> impl Iterator<Item = String> {
+    (1..=mesh.states).map(|k| format!("state_{k}"))
 }
 
 /// One row per slave node: time, position, tributary area and all fields.
@@ -40,12 +50,17 @@ pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields)
     let mut rows = Rows::default();
     let head = ["time [s]", "node", "x [m]", "y [m]", "z [m]", "area [m2]"];
     rows.push(
-        head.iter().map(ToString::to_string).chain(PROFILE.iter().map(|(name, _)| (*name).to_string())),
+        head.iter()
+            .map(ToString::to_string)
+            .chain(PROFILE.iter().map(|(name, _)| (*name).to_string()))
+            .chain(states(mesh)),
     );
     for (i, position) in mesh.positions.iter().enumerate() {
         let place = [number(time), i.to_string()].into_iter().chain(position.iter().map(|&x| number(x)));
         let area = number(fields.area[i]);
-        rows.push(place.chain([area]).chain(PROFILE.iter().map(|(_, read)| number(read(fields, i)))));
+        let states = (0..mesh.states).map(|k| number(fields.state(k, i)));
+        let values = PROFILE.iter().map(|(_, read)| number(read(fields, i)));
+        rows.push(place.chain([area]).chain(values).chain(states));
     }
     rows.bytes()
 }
@@ -54,8 +69,8 @@ pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields)
 pub(super) fn probe_header(mesh: &InterfaceMesh) -> Vec<u8> {
     let mut rows = Rows::default();
     let labels = super::plots::position_labels(mesh.probes.iter().map(|&node| mesh.positions[node]));
-    let columns =
-        labels.iter().flat_map(|label| PROBE.iter().map(move |(name, _)| format!("{name} at {label}")));
+    let names: Vec<String> = PROBE.iter().map(|(name, _)| (*name).to_string()).chain(states(mesh)).collect();
+    let columns = labels.iter().flat_map(|label| names.iter().map(move |name| format!("{name} at {label}")));
     rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
     rows.bytes()
 }
@@ -68,7 +83,10 @@ pub(super) fn probe_row(
     mesh: &InterfaceMesh,
     fields: &InterfaceFields,
 ) -> Vec<u8> {
-    let values = mesh.probes.iter().flat_map(|&i| PROBE.iter().map(move |(_, read)| read(fields, i)));
+    let values = mesh.probes.iter().flat_map(|&i| {
+        let states = (0..mesh.states).map(move |k| fields.state(k, i));
+        PROBE.iter().map(move |(_, read)| read(fields, i)).chain(states)
+    });
     history_row(time, stage, step, &values.collect::<Vec<f64>>())
 }
 

@@ -35,12 +35,14 @@ pub struct InterfaceMesh {
     pub faces: Vec<Vec<usize>>,
     /// Probe points: indices into `positions`.
     pub probes: Vec<usize>,
+    /// State variables of its law.
+    pub states: usize,
 }
 
 /// State of an interface after a step, one value a slave node.
 #[derive(Clone, Debug, Default)]
 pub struct InterfaceFields {
-    /// Normal gap g_n \[m\], negative when penetrating.
+    /// Normal gap g_n \[m\], negative when penetrating; infinite where the node has no partner, which files write as NaN beside a mask.
     pub gap: Vec<f64>,
     /// Normal traction f_n \[Pa\].
     pub normal_traction: Vec<f64>,
@@ -65,6 +67,28 @@ pub struct InterfaceFields {
     /// Areas the nodes stand for \[m², or m per metre of thickness\]: under finite sliding those of a mortar interface follow the
     /// overlap of the two sides.
     pub area: Vec<f64>,
+    /// State variables of the law, one after the other with a value a node; none where no law with states acts.
+    pub states: Vec<Vec<f64>>,
+}
+
+impl InterfaceFields {
+    /// Whether a node has a partner.
+    #[must_use]
+    pub fn paired(&self, node: usize) -> bool {
+        self.gap[node].is_finite()
+    }
+
+    /// The gap as files write it: NaN without a partner \[m\].
+    #[must_use]
+    pub fn written_gap(&self, node: usize) -> f64 {
+        if self.paired(node) { self.gap[node] } else { f64::NAN }
+    }
+
+    /// A state variable of a node; NaN where no law with states acts.
+    #[must_use]
+    pub fn state(&self, state: usize, node: usize) -> f64 {
+        self.states.get(state).map_or(f64::NAN, |values| values[node])
+    }
 }
 
 /// Nodal fields of the bodies, recovered only when asked for.

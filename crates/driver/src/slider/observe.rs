@@ -27,6 +27,7 @@ impl<'a> Show<'a> {
     fn setup(plan: &Plan) -> Setup {
         let n = plan.names.len();
         let sliders = InterfaceMesh {
+            states: 0,
             name: "sliders".into(),
             positions: vec![[0.0; 3]; n],
             labels: plan.names.clone(),
@@ -68,6 +69,7 @@ impl Watcher for Show<'_> {
             friction: each(|c| c.friction),
             status: vec![2; n],
             area: vec![1.0; n],
+            states: Vec::new(),
         };
         let view = StepView {
             record: &record,

@@ -60,6 +60,7 @@ pub(crate) fn setup(layers: usize) -> Setup {
         positions,
         faces,
         probes: (0..8).map(|i| (i as f64 * 20.0 / 7.0).round() as usize).collect(),
+        states: 1,
     };
     let stages = STAGES.iter().map(|(name, end)| ((*name).to_string(), *end)).collect();
     Setup {
@@ -85,8 +86,12 @@ fn fields_at(setup: &Setup, time: f64, spoil: Option<f64>) -> InterfaceFields {
     let v = |s: f64| v_load * (1.0 - (-(since / lag(s)).powi(3)).exp());
     let slip = |s: f64| v_load * (since - lag(s) * (1.0 - (-since / lag(s)).exp()) * 0.9).max(0.0);
     let mu = |s: f64| 0.6 * (1.0 - (-(since / lag(s) * 1.5).powi(2)).exp());
+    let mut gap = per(&|s| -sigma(s) / 3.6e15);
+    if let Some(last) = gap.last_mut() {
+        *last = f64::INFINITY;
+    }
     InterfaceFields {
-        gap: per(&|s| -sigma(s) / 3.6e15),
+        gap,
         normal_traction: per(&sigma),
         shear_traction: per(&|s| sigma(s) * mu(s)),
         mean_normal_traction: per(&sigma),
@@ -97,6 +102,7 @@ fn fields_at(setup: &Setup, time: f64, spoil: Option<f64>) -> InterfaceFields {
         friction: per(&mu),
         status: vec![if since > 0.0 { 2 } else { 1 }; mesh.positions.len()],
         area: mesh.areas.clone(),
+        states: vec![per(&mu); mesh.states],
     }
 }
 

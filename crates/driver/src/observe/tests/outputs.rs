@@ -96,13 +96,14 @@ fn probes_hold_one_row_a_step_and_name_place_and_unit() {
     let mut files = Files::create(&out, schedule()).unwrap();
     play(&setup(0), 25, None, &mut Multi::new(vec![&mut files, &mut recorder])).unwrap();
     let (head, rows) = rows(&out.join("probes/fault.csv"));
-    assert_eq!(head.len(), 3 + 6 * 8);
-    assert_eq!(head[3 + 6 + 1], "slip [m] at y = 7.5 mm");
+    assert_eq!(head.len(), 3 + 7 * 8);
+    assert_eq!(head[3 + 7 + 1], "slip [m] at y = 7.5 mm");
+    assert_eq!(head[3 + 7 + 6], "state_1 at y = 7.5 mm");
     assert_eq!(rows.len(), 50);
     let points = &recorder.histories()[0].points;
     for (i, row) in rows.iter().enumerate() {
         assert_eq!(row[0], recorder.times()[i]);
-        assert_eq!(row[3 + 6 * 7 + 2], points[7].slip_rate[i]);
+        assert_eq!(row[3 + 7 * 7 + 2], points[7].slip_rate[i]);
     }
 }
 
@@ -120,7 +121,14 @@ fn a_profile_reads_back_as_the_fields_it_was_written_from() {
         assert_eq!(row[0], 9.66);
         assert_eq!(row[column("y [m]")], recorder.setup().interfaces[0].positions[i][1]);
         assert_eq!(row[column("normal_traction [Pa]")], press.interfaces[0].normal_traction[i]);
-        assert_eq!(row[column("gap [m]")], press.interfaces[0].gap[i]);
+        assert_eq!(row[column("state_1")], press.interfaces[0].states[0][i]);
+        let (gap, paired) = (row[column("gap [m]")], row[column("paired [0 no 1 yes]")]);
+        // The last node has no partner.
+        if i < 20 {
+            assert_eq!((gap, paired), (press.interfaces[0].gap[i], 1.0));
+        } else {
+            assert!(gap.is_nan() && paired == 0.0);
+        }
     }
     assert_eq!(recorder.history("fault").unwrap().points.len(), 21);
 }
