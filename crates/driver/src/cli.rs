@@ -3,7 +3,8 @@
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use crate::fault;
-use crate::observe::{FieldSchedule, Files, Multi, Observer, Progress, Recorder, plots};
+use crate::observe::decimals::fixed;
+use crate::observe::{FieldSchedule, Files, Multi, ObserveError, Observer, Progress, Recorder, plots, stems};
 use crate::plan::{self, AnyPlan, ScenePlan};
 use crate::report::{Outcome, RunReport};
 use crate::run;
@@ -287,15 +288,17 @@ fn run_faults(
     };
     let clock = Instant::now();
     let run = fault::resume(&plan.fault, &plan.loading, start, &plan.settings, &mut keeper);
+    let coarse = keeper.warning();
     let (mut balance, interrupted) = keeper.finish(&run).into_diagnostic()?;
     let mut report = fault::Report::new(plan, &run, &mut balance);
     report.scene_sha256.clone_from(&ready.hash);
     (report.run.set_up_seconds, report.run.seconds) = (ready.seconds, clock.elapsed().as_secs_f64());
+    report.warnings.extend(coarse.clone());
     if let Some(why) = interrupted {
         report.stopped = Some(format!("broken off: {why}"));
     }
     write_report(out, &report)?;
-    crate::observe::atomic::write(&out.join("events.csv"), report.csv().as_bytes()).into_diagnostic()?;
+    write_catalogues(out, &report).into_diagnostic()?;
     let events = serde_json::to_string_pretty(&report.events).into_diagnostic()?;
     crate::observe::atomic::write(&out.join("events.json"), events.as_bytes()).into_diagnostic()?;
     write_located(out, plan, &report, &ready.hash)?;
@@ -305,6 +308,9 @@ fn run_faults(
     fault::write_fields(out, plan, &run).into_diagnostic()?;
     fault::write_bodies(out, plan, &run).into_diagnostic()?;
     print!("{}", report.text());
+    if let Some(warning) = coarse {
+        println!("  warning: {warning}");
+    }
     println!("  written to {}", out.display());
     if interrupted.is_some() {
         let (step, time) = (report.counts.steps, report.end);
@@ -319,12 +325,23 @@ fn run_faults(
     })
 }
 
+/// The catalogue of all faults, and of each where there are several, as tables.
+fn write_catalogues(out: &Path, report: &fault::Report) -> Result<(), ObserveError> {
+    let write = |name: &str, events| {
+        crate::observe::atomic::write(&out.join(name), fault::Report::csv(events).as_bytes())
+    };
+    write("events.csv", &report.events)?;
+    let names = stems(report.faults.iter().map(|f| f.fault.as_str()));
+    let mut each = names.iter().zip(&report.faults);
+    each.try_for_each(|(name, fault)| write(&format!("events_{name}.csv"), &fault.events))
+}
+
 /// The catalogue as seismologists exchange it, where the scene has a place.
 fn write_located(out: &Path, plan: &fault::Plan, report: &fault::Report, hash: &str) -> miette::Result<()> {
     if plan.frame.is_none() {
         return Ok(());
     }
-    let events: Vec<_> = report.events.iter().filter_map(|e| e.located.clone()).collect();
+    let events = report.located();
     let document = fault::located::quakeml(&plan.title, hash, &events).into_diagnostic()?;
     crate::observe::atomic::write(&out.join("events.quakeml"), &document).into_diagnostic()?;
     match fault::located::cmtsolution(&plan.title, &events) {
@@ -348,15 +365,15 @@ fn print_results(out: &Path, report: &RunReport) {
     println!("results");
     for r in &report.results {
         println!(
-            "  {} after `{}`: mean normal traction {:.6} MPa, mean shear traction {:.6} MPa, slip {:.4} to {:.4} um, friction {:.4} to {:.4}",
+            "  {} after `{}`: mean normal traction {} MPa, mean shear traction {} MPa, slip {} to {} um, friction {} to {}",
             r.interface,
             r.stage,
-            r.mean_normal_traction / 1e6,
-            r.mean_shear_traction / 1e6,
-            r.slip[0] * 1e6,
-            r.slip[1] * 1e6,
-            r.friction[0],
-            r.friction[1],
+            fixed(r.mean_normal_traction / 1e6, 6),
+            fixed(r.mean_shear_traction / 1e6, 6),
+            fixed(r.slip[0] * 1e6, 4),
+            fixed(r.slip[1] * 1e6, 4),
+            fixed(r.friction[0], 4),
+            fixed(r.friction[1], 4),
         );
     }
     for p in &report.points {
@@ -415,7 +432,7 @@ fn triple(v: &[f64; 3]) -> String {
 fn pressure(p: f64) -> String {
     let units = [("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3)];
     let (name, unit) = units.into_iter().find(|(_, unit)| p.abs() >= *unit).unwrap_or(("Pa", 1.0));
-    format!("{:.6} {name}", p / unit)
+    format!("{} {name}", fixed(p / unit, 6))
 }
 
 #[cfg(test)]
@@ -437,6 +454,7 @@ mod tests {
     #[test]
     fn pressures_are_printed_in_the_unit_that_fits() {
         assert_eq!(pressure(0.25), "0.250000 Pa");
+        assert_eq!(pressure(-1e-9), "0.000000 Pa");
         assert_eq!(pressure(240e6), "240.000000 MPa");
         assert_eq!(pressure(-1.5e9), "-1.500000 GPa");
     }

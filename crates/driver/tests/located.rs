@@ -124,12 +124,13 @@ fn slipped(text: &str, components: &[f64]) -> Located {
     let event = Event {
         onset: Clock::new(86_400.0, 0.5),
         end: Clock::new(86_400.0, 10.5),
+        above: 8.0,
         peak: 1.0,
         hypocentre: n - 1,
         slip: components.iter().flat_map(|&slip| vec![slip; n]).collect(),
         drop: vec![0.0; n * components.len()],
     };
-    let located = Located::new(&plan, plan.frame.as_ref().unwrap(), &event).unwrap();
+    let located = Located::new(&plan, plan.frame.as_ref().unwrap(), &event, &(0..plan.points.len())).unwrap();
     let area: f64 = plan.points.iter().map(|p| p.area).sum();
     let length = if text.contains("\"3d\"") {
         1.0

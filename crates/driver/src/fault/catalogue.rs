@@ -1,7 +1,9 @@
-//! Events: from the time the fastest point passes a slip rate until all have fallen below a lower one.
+//! Events: from the time the fastest point passes a slip rate until all have fallen below a lower one. Beside that duration stands the
+//! time above the upper rate alone, which is what the community counts.
 
 use crate::ode::Clock;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// Slip rates that begin and end an event. The fastest place hops from point to point, so that one rate for both would cut an
 /// event into several.
@@ -20,6 +22,8 @@ pub struct Event {
     pub onset: Clock,
     /// When it ended.
     pub end: Clock,
+    /// Time between the two in which the fastest point was faster than the rate that begins events \[s\].
+    pub above: f64,
     /// Largest slip rate \[m/s\].
     pub peak: f64,
     /// The fastest point at the onset: the hypocentre.
@@ -34,6 +38,10 @@ pub struct Event {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Open {
     onset: Clock,
+    /// Since when the fastest point has been faster than `on`; none while it is slower.
+    since: Option<Clock>,
+    /// Time above `on` before that \[s\].
+    above: f64,
     peak: f64,
     hypocentre: usize,
     slip: Vec<f64>,
@@ -67,10 +75,26 @@ impl Catalogue {
         self.open.as_ref().map(|o| o.onset)
     }
 
-    /// The slip rate whose passing comes next \[m/s\], and whether it is passed upwards.
+    /// What the largest slip rate after a step \[m/s\] says has happened within it, first things first.
     #[must_use]
-    pub(super) fn next(&self) -> (f64, bool) {
-        if self.open.is_some() { (self.thresholds.off, false) } else { (self.thresholds.on, true) }
+    pub(super) fn crossing(&self, largest: f64) -> Option<Crossing> {
+        let Thresholds { on, off } = self.thresholds;
+        match self.open.as_ref().map(|o| o.since) {
+            None => (largest >= on).then_some(Crossing::Begins),
+            Some(Some(_)) => (largest < on).then_some(Crossing::Falls),
+            Some(None) if largest >= on => Some(Crossing::Rises),
+            Some(None) => (largest < off).then_some(Crossing::Ends),
+        }
+    }
+
+    /// The slip rate that is passed \[m/s\], and whether it is passed upwards.
+    pub(super) fn passed(&self, crossing: Crossing) -> (f64, bool) {
+        let Thresholds { on, off } = self.thresholds;
+        match crossing {
+            Crossing::Begins | Crossing::Rises => (on, true),
+            Crossing::Falls => (on, false),
+            Crossing::Ends => (off, false),
+        }
     }
 
     /// Takes note of the largest slip rate after a step \[m/s\].
@@ -80,22 +104,96 @@ impl Catalogue {
         }
     }
 
-    /// The slip rate of [`Catalogue::next`] is passed at `at`, the point `fastest` being the fastest.
-    pub(super) fn pass(&mut self, at: Clock, fastest: usize, slip: &[f64], shear: &[f64]) {
-        match self.open.take() {
-            None => {
-                let (slip, shear) = (slip.to_vec(), shear.to_vec());
-                self.open =
-                    Some(Open { onset: at, peak: self.thresholds.on, hypocentre: fastest, slip, shear });
+    /// The crossing happens at `at`, the point `fastest` being the fastest.
+    pub(super) fn pass(&mut self, crossing: Crossing, at: Clock, fastest: usize, [slip, shear]: [&[f64]; 2]) {
+        match (crossing, self.open.take()) {
+            (Crossing::Begins, _) => {
+                self.open = Some(Open {
+                    onset: at,
+                    since: Some(at),
+                    above: 0.0,
+                    peak: self.thresholds.on,
+                    hypocentre: fastest,
+                    slip: slip.to_vec(),
+                    shear: shear.to_vec(),
+                });
             }
-            Some(open) => self.events.push(Event {
+            (Crossing::Falls, Some(open)) => {
+                let above = open.above + open.since.map_or(0.0, |since| at.since(&since));
+                self.open = Some(Open { since: None, above, ..open });
+            }
+            (Crossing::Rises, Some(open)) => self.open = Some(Open { since: Some(at), ..open }),
+            (Crossing::Ends, Some(open)) => self.events.push(Event {
                 onset: open.onset,
                 end: at,
+                above: open.above,
                 peak: open.peak,
                 hypocentre: open.hypocentre,
                 slip: slip.iter().zip(&open.slip).map(|(b, a)| b - a).collect(),
                 drop: open.shear.iter().zip(shear).map(|(a, b)| a - b).collect(),
             }),
+            (_, None) => {}
         }
+    }
+}
+
+/// Passing of one of the slip rates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Crossing {
+    /// `on` upwards, with no event.
+    Begins,
+    /// `on` downwards.
+    Falls,
+    /// `on` upwards, within an event.
+    Rises,
+    /// `off` downwards.
+    Ends,
+}
+
+/// The events of one fault of several, by its own fastest point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Part {
+    /// Its points among those of all faults.
+    pub points: Range<usize>,
+    /// Its events.
+    pub catalogue: Catalogue,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn clock(time: f64) -> Clock {
+        Clock::new(0.0, time)
+    }
+
+    #[test]
+    fn time_above_leaves_out_what_lies_between_the_two_rates() {
+        let mut catalogue = Catalogue::new(Thresholds { on: 1.0, off: 0.1 });
+        // Above from 1 to 3 and from 6 to 7; below the lower rate at 11.
+        let history = [(1.0, 2.0), (3.0, 0.5), (6.0, 4.0), (7.0, 0.9), (11.0, 0.05)];
+        for (time, largest) in history {
+            let crossing = catalogue.crossing(largest).unwrap();
+            catalogue.pass(crossing, clock(time), 0, [&[time], &[0.0]]);
+            catalogue.rate(largest);
+            assert!(catalogue.crossing(largest).is_none());
+        }
+        let [event] = catalogue.events() else { panic!("one event") };
+        assert_eq!((event.above, event.end.since(&event.onset), event.peak), (3.0, 10.0, 4.0));
+        assert_eq!(event.slip, [10.0]);
+    }
+
+    #[test]
+    fn a_step_that_falls_below_both_rates_passes_both() {
+        let mut catalogue = Catalogue::new(Thresholds { on: 1.0, off: 0.1 });
+        let mut found = Vec::new();
+        for (time, largest) in [(1.0, 2.0), (2.0, 0.01)] {
+            while let Some(crossing) = catalogue.crossing(largest) {
+                found.push(crossing);
+                catalogue.pass(crossing, clock(time), 0, [&[0.0], &[0.0]]);
+            }
+        }
+        assert_eq!(found, [Crossing::Begins, Crossing::Falls, Crossing::Ends]);
+        assert_eq!(catalogue.events()[0].above, 1.0);
     }
 }

@@ -1,7 +1,7 @@
 //! A run's checkpoint: one file that holds all there is to know to go on.
 //!
 //! ```text
-//! asperity checkpoint of faults, version 1
+//! asperity checkpoint of faults, version 2
 //! <SHA-256 of the rest>
 //! <JSON>
 //! ```
@@ -24,7 +24,7 @@ pub const FILE: &str = "checkpoint";
 /// What the first line begins with.
 const KIND: &str = "asperity checkpoint of faults, version ";
 /// Version of the contents.
-const VERSION: &str = "1";
+const VERSION: &str = "2";
 
 /// All there is to know to go on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -161,14 +161,14 @@ impl Checkpoint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fault::catalogue::Thresholds;
+    use crate::fault::catalogue::{Crossing, Thresholds};
 
     fn sample() -> Checkpoint {
         let mut run = Run::new(vec![0.1 + 0.2, -0.0, 5e-324, 1.797e308], Thresholds { on: 1e-3, off: 1e-4 });
         // A time with a carry, which one number does not hold.
         run.at = crate::ode::Clock::new(6.2e9, 1.0 / 3.0).rebased().later(1e-13);
         run.next_step = Some(1.0 / 7.0);
-        run.catalogue.pass(run.at, 1, &[0.1, 0.2], &[3.0, 4.0]);
+        run.catalogue.pass(Crossing::Begins, run.at, 1, [&[0.1, 0.2], &[3.0, 4.0]]);
         run.catalogue.rate(2.5);
         Checkpoint { scene: "s".into(), run, files: Position::default(), sums: Sums::default() }
     }
@@ -214,7 +214,7 @@ mod tests {
         sample().write(folder.path()).unwrap();
         assert!(matches!(Checkpoint::read(folder.path(), "t"), Err(ResumeError::Scene { .. })));
         let path = folder.path().join(FILE);
-        let text = fs::read_to_string(&path).unwrap().replacen("version 1", "version 99", 1);
+        let text = fs::read_to_string(&path).unwrap().replacen("version 2", "version 99", 1);
         fs::write(&path, text).unwrap();
         let error = Checkpoint::read(folder.path(), "s").unwrap_err();
         assert!(error.to_string().contains("has version 99"), "{error}");

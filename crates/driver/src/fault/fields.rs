@@ -1,7 +1,7 @@
 //! Fields on faults in space as VTU: states in the course of a run and at its end, and slip and fall of traction of each event.
 
 use super::equations::{Layout, size};
-use super::figures::table;
+use super::figures::each;
 use super::plan::{FaultView, Plan};
 use super::run::Run;
 use super::snapshots;
@@ -19,8 +19,8 @@ pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), ObserveError> {
     if !plan.in_space {
         return Ok(());
     }
-    let taken = table(&out.join(snapshots::LIST))?;
-    let (mut states, mut events) = (Vec::new(), Vec::new());
+    let (mut taken, mut states, mut events) = (Vec::new(), Vec::new(), Vec::new());
+    each(&out.join(snapshots::LIST), &mut |row| taken.push(row[1]))?;
     for (part, fault) in plan.faults.iter().enumerate() {
         let grid = grid(plan, fault);
         let folder = out.join("fields");
@@ -31,7 +31,7 @@ pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), ObserveError> {
             file: format!("fields/{file}"),
         };
         states
-            .extend(taken.iter().enumerate().map(|(k, row)| entry(&snapshots::name(&fault.name, k), row[1])));
+            .extend(taken.iter().enumerate().map(|(k, &time)| entry(&snapshots::name(&fault.name, k), time)));
         for (k, event) in run.catalogue.events().iter().enumerate() {
             let mut fields = along(plan, fault, "slip", &event.slip);
             fields.extend(along(plan, fault, "stress_drop", &event.drop));
@@ -47,18 +47,20 @@ pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), ObserveError> {
     atomic::write(&out.join("fields.pvd"), &pvd(&states))
 }
 
-/// Writes fields on a fault.
+/// Writes fields on a fault; the size of the file \[bytes\].
 ///
 /// # Errors
 /// When the file cannot be written.
-pub(super) fn put(path: &Path, grid: &Grid, time: f64, fields: &[Field]) -> Result<(), ObserveError> {
+pub(super) fn put(path: &Path, grid: &Grid, time: f64, fields: &[Field]) -> Result<u64, ObserveError> {
     let arrays: Vec<Array<'_>> = fields.iter().map(Field::array).collect();
-    atomic::write(path, &grid.file(time, &arrays, &[]))
+    let bytes = grid.file(time, &arrays, &[]);
+    atomic::write(path, &bytes)?;
+    Ok(bytes.len() as u64)
 }
 
 /// A field on a fault.
 pub(super) enum Field {
-    Scalar(&'static str, Vec<f64>),
+    Scalar(String, Vec<f64>),
     Vector(String, Vec<[f64; 3]>),
 }
 
@@ -75,14 +77,14 @@ impl Field {
 fn along(plan: &Plan, fault: &FaultView, name: &'static str, values: &[f64]) -> Vec<Field> {
     let points = || fault.points.clone();
     if plan.fault.law.components() == 1 {
-        return vec![Field::Scalar(name, values[points()].to_vec())];
+        return vec![Field::Scalar(name.into(), values[points()].to_vec())];
     }
     let sizes = points().map(|p| size(values, plan.points.len(), p)).collect();
     let vectors = points().map(|p| plan.vector(values, p)).collect();
-    vec![Field::Scalar(name, sizes), Field::Vector(format!("{name}_vector"), vectors)]
+    vec![Field::Scalar(name.into(), sizes), Field::Vector(format!("{name}_vector"), vectors)]
 }
 
-/// Slip \[m\], log10 of the slip rate \[m/s\], friction and normal traction \[Pa\].
+/// Slip \[m\], log10 of the slip rate \[m/s\], friction and normal traction \[Pa\], and the states of the law.
 pub(super) fn state(plan: &Plan, fault: &FaultView, at: Clock, y: &[f64]) -> Vec<Field> {
     let layout = Layout::of(&plan.fault);
     let (law, n) = (&plan.fault.law, plan.points.len());
@@ -92,13 +94,18 @@ pub(super) fn state(plan: &Plan, fault: &FaultView, at: Clock, y: &[f64]) -> Vec
     let shear: Vec<f64> = layout.m().map(|i| normal(i % n) * law.scale(i % n) * y[i]).collect();
     let speeds = fault.points.clone().map(|p| size(&rate, n, p).log10()).collect();
     let mut fields = along(plan, fault, "slip", &y[layout.slip()]);
-    fields.push(Field::Scalar("log10_slip_rate", speeds));
+    fields.push(Field::Scalar("log10_slip_rate".into(), speeds));
     if law.components() > 1 {
         let vectors = fault.points.clone().map(|p| plan.vector(&rate, p)).collect();
         fields.push(Field::Vector("slip_rate_vector".into(), vectors));
     }
     fields.extend(along(plan, fault, "shear_traction", &shear));
-    fields.push(Field::Scalar("normal_traction", fault.points.clone().map(normal).collect()));
+    fields.push(Field::Scalar("normal_traction".into(), fault.points.clone().map(normal).collect()));
+    let (states, count) = (&y[layout.states()], law.states());
+    for k in 0..count {
+        let values = fault.points.clone().map(|p| states[p * count + k]).collect();
+        fields.push(Field::Scalar(format!("state_{}", k + 1), values));
+    }
     fields
 }
 

@@ -2,13 +2,16 @@
 //!
 //! Rows come by change and by simulated time, not by step, so that files grow with what happens.
 
+use super::cadence::{Cadence, Gauge, Reading, warning};
 use super::checkpoint::{Checkpoint, ResumeError};
 use super::plan::Plan;
 use super::run::{Moment, Watcher};
 use super::snapshots::{self, Snapshots, Taken};
 use super::stations;
+use crate::observe::decimals::{fixed, scientific};
 use crate::observe::{ObserveError, atomic};
-use crate::ode::Control;
+use crate::ode::{Clock, Control};
+use crate::warning::Warning;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io::Write;
@@ -16,17 +19,8 @@ use std::path::{Path, PathBuf};
 
 /// A year \[s\], as the benchmarks count it.
 pub(super) const YEAR: f64 = 365.25 * 86_400.0;
-/// Time between rows of stations while nothing is fast, and in an event \[s\]: the cadence the benchmarks ask for.
-const STATION_INTERVALS: [f64; 2] = [0.1 * YEAR, 0.1];
-/// Time between profiles of slip while nothing is fast, and in an event \[s\].
-pub(super) const PROFILE_INTERVALS: [f64; 2] = [5.0 * YEAR, 1.0];
-/// A profile of rates is written where ln of the largest slip rate has changed by so much: half a decade.
-pub(super) const RATE_CHANGE: f64 = 1.15;
-/// Rows and profiles of a run at least, where those intervals are long beside it.
-const LEAST_ROWS: f64 = 500.0;
-pub(super) const LEAST_PROFILES: f64 = 100.0;
-/// A row is written where ln of the largest slip rate has changed by so much: an eighth of a decade.
-const CHANGE: f64 = 0.3;
+/// A profile of rates is written where log10 of the largest slip rate has changed by so much.
+pub(super) const RATE_CHANGE: f64 = 0.5;
 
 /// Columns of the largest slip rate; means are weighted with areas, and along the rake where slip may turn.
 const LARGEST_HEAD: &str = "time [s],log10 slip_rate [m/s],point,mean shear_traction [Pa],mean slip [m]\n";
@@ -36,7 +30,7 @@ const LARGEST_HEAD: &str = "time [s],log10 slip_rate [m/s],point,mean shear_trac
 struct Rows {
     path: PathBuf,
     file: fs::File,
-    length: u64,
+    gauge: Gauge,
 }
 
 impl Rows {
@@ -44,11 +38,12 @@ impl Rows {
         atomic::write(&path, head.as_bytes())?;
         let file = fs::OpenOptions::new().append(true).open(&path);
         let file = file.map_err(|source| ObserveError::write(&path, source))?;
-        Ok(Self { path, file, length: head.len() as u64 })
+        Ok(Self { path, file, gauge: Gauge::of(head.len() as u64) })
     }
 
     /// Goes on with a file that had so many bytes; later ones are cut off.
-    fn reopen(path: PathBuf, expected: u64) -> Result<Self, ResumeError> {
+    fn reopen(path: PathBuf, gauge: Gauge) -> Result<Self, ResumeError> {
+        let expected = gauge.bytes;
         let file = fs::OpenOptions::new().append(true).open(&path);
         let found = file.and_then(|file| Ok((file.metadata()?.len(), file)));
         let (found, file) = found.map_err(|source| ResumeError::Read { path: path.clone(), source })?;
@@ -56,12 +51,12 @@ impl Rows {
             return Err(ResumeError::Shorter { path, found, expected });
         }
         file.set_len(expected).map_err(|source| ObserveError::write(&path, source))?;
-        Ok(Self { path, file, length: expected })
+        Ok(Self { path, file, gauge })
     }
 
-    /// One write for a row: a run that is killed leaves whole rows.
-    fn push(&mut self, row: &str) -> Result<(), ObserveError> {
-        self.length += row.len() as u64;
+    /// One write for a row of this time: a run that is killed leaves whole rows.
+    fn push(&mut self, row: &str, cadence: &Cadence, time: f64) -> Result<(), ObserveError> {
+        self.gauge.spend(row.len() as u64, cadence.largest_file, time);
         self.file.write_all(row.as_bytes()).map_err(|source| ObserveError::write(&self.path, source))
     }
 
@@ -71,22 +66,13 @@ impl Rows {
     }
 }
 
-/// When something was written last.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Last {
-    pub time: f64,
-    /// Largest slip rate then \[m/s\].
-    pub largest: f64,
-}
-
 /// Where the files of a run stand.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Position {
-    /// Bytes of the files, in their order.
-    lengths: Vec<u64>,
-    row: Option<Last>,
-    profile: Option<f64>,
-    rates: Option<Last>,
+    /// Of the files, in their order.
+    gauges: Vec<Gauge>,
+    /// When the last step ended.
+    before: Option<Clock>,
     /// In space.
     #[serde(default)]
     snapshots: Option<Taken>,
@@ -101,9 +87,8 @@ pub struct Files<'a> {
     rows: Vec<Rows>,
     /// Points of the stations.
     stations: Vec<usize>,
-    row: Option<Last>,
-    profile: Option<f64>,
-    rates: Option<Last>,
+    /// When the last step ended.
+    before: Option<Clock>,
     snapshots: Option<Snapshots>,
     failure: Option<ObserveError>,
 }
@@ -124,9 +109,7 @@ impl<'a> Files<'a> {
             plan,
             rows,
             stations: stations::points(plan),
-            row: None,
-            profile: None,
-            rates: None,
+            before: None,
             snapshots: Snapshots::begin(out, plan)?,
             failure: None,
         })
@@ -138,24 +121,15 @@ impl<'a> Files<'a> {
     /// When a file is missing, shorter than it was, or cannot be written.
     pub fn resume(out: &Path, plan: &'a Plan, from: &Position) -> Result<Self, ResumeError> {
         let (mut rows, heads) = (Vec::new(), Self::heads(out, plan));
-        if heads.len() != from.lengths.len() {
+        if heads.len() != from.gauges.len() {
             return Err(Checkpoint::foreign(out, "it has not the output files of this scene"));
         }
-        for ((path, _), &length) in heads.into_iter().zip(&from.lengths) {
-            rows.push(Rows::reopen(path, length)?);
+        for ((path, _), &gauge) in heads.into_iter().zip(&from.gauges) {
+            rows.push(Rows::reopen(path, gauge)?);
         }
-        let Position { row, profile, rates, snapshots, .. } = *from;
+        let Position { before, snapshots, .. } = *from;
         let snapshots = Snapshots::begin(out, plan)?.map(|s| s.from(snapshots.unwrap_or_default()));
-        Ok(Self {
-            plan,
-            rows,
-            stations: stations::points(plan),
-            row,
-            profile,
-            rates,
-            snapshots,
-            failure: None,
-        })
+        Ok(Self { plan, rows, stations: stations::points(plan), before, snapshots, failure: None })
     }
 
     /// Where the files stand, once all of that is on the disc.
@@ -164,9 +138,18 @@ impl<'a> Files<'a> {
     /// When something could not be written.
     pub fn position(&self) -> Result<Position, ObserveError> {
         self.rows.iter().try_for_each(Rows::settle)?;
-        let lengths = self.rows.iter().map(|r| r.length).collect();
+        let gauges = self.rows.iter().map(|r| r.gauge).collect();
         let snapshots = self.snapshots.as_ref().map(Snapshots::taken);
-        Ok(Position { lengths, row: self.row, profile: self.profile, rates: self.rates, snapshots })
+        Ok(Position { gauges, before: self.before, snapshots })
+    }
+
+    /// What is to be said of files that have become coarse.
+    #[must_use]
+    pub fn warning(&self) -> Option<Warning> {
+        let name = |r: &Rows| r.path.file_name().map_or(String::new(), |n| n.to_string_lossy().into_owned());
+        let mut files: Vec<(String, Gauge)> = self.rows.iter().map(|r| (name(r), r.gauge)).collect();
+        files.extend(self.snapshots.as_ref().map(|s| ("fields".to_string(), s.taken().gauge)));
+        warning(&files, self.plan.cadence.largest_file)
     }
 
     /// All files with their headers.
@@ -191,63 +174,87 @@ impl<'a> Files<'a> {
     }
 
     fn write(&mut self, now: &Moment<'_>) -> Result<(), ObserveError> {
-        let time = now.at.seconds();
-        let fast = usize::from(now.largest >= self.plan.settings.thresholds.on);
-        let end = self.plan.settings.end;
-        let interval = STATION_INTERVALS[fast].min(end / LEAST_ROWS);
-        let due = self.row.is_none_or(|last| {
-            let change = (now.largest / last.largest).ln().abs();
-            time - last.time >= interval || change >= CHANGE
-        });
-        if due {
-            self.row = Some(Last { time, largest: now.largest });
-            let points = self.plan.points.len();
-            let point = (0..points).find(|&p| now.speed(p) == now.largest).unwrap_or(0);
-            let (shear, slip) = means(self.plan, now);
-            self.rows[0]
-                .push(&format!("{time:.14e},{:.6},{point},{shear:.6e},{slip:.9e}\n", now.largest.log10()))?;
-            let general = self.rows.len() - self.stations.len();
-            for (point, rows) in self.stations.iter().zip(&mut self.rows[general..]) {
-                rows.push(&stations::row(self.plan, now, *point))?;
-            }
+        let (plan, time) = (self.plan, now.at.seconds());
+        let earlier = self.before.replace(now.at);
+        let then = now.step.as_ref().zip(earlier).map(|(step, at)| now.start_of(step, at));
+        let general = self.rows.len() - self.stations.len();
+        let (tables, stations) = self.rows.split_at_mut(general);
+        let whole = |now: &Moment<'_>| largest_row(plan, now);
+        follow(&mut tables[0], plan, now.largest, (now, then.as_ref()), &whole)?;
+        for (&point, rows) in self.stations.iter().zip(stations) {
+            let row = |now: &Moment<'_>| stations::row(plan, now, point);
+            follow(rows, plan, now.speed(point), (now, then.as_ref()), &row)?;
         }
         match &mut self.snapshots {
-            Some(snapshots) => match snapshots.take(self.plan, now)? {
-                Some(row) => self.rows[1].push(&row),
+            Some(snapshots) => match snapshots.take(plan, now)? {
+                Some(row) => tables[1].push(&row, &plan.cadence, time),
                 None => Ok(()),
             },
-            None => self.profiles(now, fast),
+            None => self.profiles(now),
         }
     }
 
     /// Profiles of slip and of slip rates along lines.
-    fn profiles(&mut self, now: &Moment<'_>, fast: usize) -> Result<(), ObserveError> {
-        let (time, end) = (now.at.seconds(), self.plan.settings.end);
-        let interval = PROFILE_INTERVALS[fast].min(end / LEAST_PROFILES);
-        if self.profile.is_none_or(|last| time - last >= interval) {
-            self.profile = Some(time);
-            let mut row = format!("{time:.14e}");
-            for slip in now.slip() {
-                row.push_str(&format!(",{slip:.6e}"));
-            }
-            row.push('\n');
-            self.rows[1].push(&row)?;
+    fn profiles(&mut self, now: &Moment<'_>) -> Result<(), ObserveError> {
+        let (time, cadence) = (now.at.seconds(), &self.plan.cadence);
+        let fast = usize::from(now.largest >= self.plan.settings.thresholds.on);
+        let (reading, interval) = (Reading { time, rate: now.largest }, cadence.contours[fast]);
+        if self.rows[1].gauge.profile(reading, interval, f64::INFINITY) {
+            let row = profile(time, now.slip(), |slip| scientific(slip, 6));
+            self.rows[1].push(&row, cadence, time)?;
         }
-        let due = self.rates.is_none_or(|last| {
-            let change = (now.largest / last.largest).ln().abs();
-            time - last.time >= PROFILE_INTERVALS[fast] || change >= RATE_CHANGE
-        });
-        if due {
-            self.rates = Some(Last { time, largest: now.largest });
-            let mut row = format!("{time:.14e}");
-            for rate in now.rate {
-                row.push_str(&format!(",{:.3}", rate.abs().log10()));
-            }
-            row.push('\n');
-            self.rows[2].push(&row)?;
+        if self.rows[2].gauge.profile(reading, interval, RATE_CHANGE) {
+            let row = profile(time, now.rate, |rate| fixed(rate.abs().log10(), 3));
+            self.rows[2].push(&row, cadence, time)?;
         }
         Ok(())
     }
+}
+
+/// Writes the rows of a file that follows a slip rate, where they are due: of this step, and of its start where the rate turned there.
+fn follow(
+    rows: &mut Rows,
+    plan: &Plan,
+    rate: f64,
+    (now, then): (&Moment<'_>, Option<&Moment<'_>>),
+    row: &dyn Fn(&Moment<'_>) -> String,
+) -> Result<(), ObserveError> {
+    let time = now.at.seconds();
+    let due = rows.gauge.step(&plan.cadence, Reading { time, rate });
+    let mut at_end = due.now;
+    if due.before {
+        match then {
+            Some(then) => rows.push(&row(then), &plan.cadence, then.at.seconds())?,
+            // A method that does not tell the start of its steps: a step late.
+            None => at_end = true,
+        }
+    }
+    if at_end && !rows.gauge.full { rows.push(&row(now), &plan.cadence, time) } else { Ok(()) }
+}
+
+/// The row of the largest slip rate.
+fn largest_row(plan: &Plan, now: &Moment<'_>) -> String {
+    let (mut point, mut largest) = (0, 0.0);
+    for p in 0..plan.points.len() {
+        let speed = now.speed(p);
+        if speed > largest {
+            (point, largest) = (p, speed);
+        }
+    }
+    let (time, (shear, slip)) = (now.at.seconds(), means(plan, now));
+    let (rate, shear, slip) = (fixed(largest.log10(), 6), scientific(shear, 6), scientific(slip, 9));
+    format!("{time:.14e},{rate},{point},{shear},{slip}\n")
+}
+
+/// A row of a profile.
+fn profile(time: f64, values: &[f64], text: impl Fn(f64) -> String) -> String {
+    let mut row = format!("{time:.14e}");
+    for &value in values {
+        row.push(',');
+        row.push_str(&text(value));
+    }
+    row.push('\n');
+    row
 }
 
 impl Watcher for Files<'_> {

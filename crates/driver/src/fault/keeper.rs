@@ -8,6 +8,7 @@ use super::report;
 use super::run::{Moment, Run, Watcher};
 use crate::observe::{ObserveError, Progress};
 use crate::ode::Control;
+use crate::warning::Warning;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -54,7 +55,9 @@ impl<'a> Keeper<'a> {
     ) -> Result<(Self, Run), ResumeError> {
         Checkpoint::remove(out)?;
         let files = Files::create(out, plan)?;
-        let run = Run::new(plan.start.clone(), plan.settings.thresholds);
+        let faults: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
+        let thresholds = plan.settings.thresholds;
+        let run = Run::new(plan.start.clone(), thresholds).of_faults(&faults, thresholds);
         Ok((Self::new(out, plan, scene, (files, Balance::new(plan)), pauses, 0), run))
     }
 
@@ -117,6 +120,12 @@ impl<'a> Keeper<'a> {
         Checkpoint { scene: self.scene.clone(), run: run.clone(), files, sums }.write(&self.out)?;
         self.written = Instant::now();
         Ok(())
+    }
+
+    /// What is to be said of the files, once the run has ended.
+    #[must_use]
+    pub fn warning(&self) -> Option<Warning> {
+        self.files.warning()
     }
 
     /// Ends the files and, where the run can be gone on with, writes the last checkpoint. Returns the sums, and why the run was

@@ -4,6 +4,7 @@
 mod balance;
 mod bodies;
 mod both;
+mod cadence;
 mod catalogue;
 mod checkpoint;
 mod cluster;
@@ -31,7 +32,8 @@ mod stations;
 pub use balance::{Balance, Energy, Mark, Sums, steady};
 pub use bodies::{Bodies, BodiesView, write as write_bodies};
 pub use both::Both;
-pub use catalogue::{Catalogue, Event, Thresholds};
+pub use cadence::Cadence;
+pub use catalogue::{Catalogue, Event, Part, Thresholds};
 pub use checkpoint::{Checkpoint, ResumeError};
 pub use condense::{Point, Surroundings, Tractions, condense};
 pub use equations::{Equations, Fault, Layout, size};

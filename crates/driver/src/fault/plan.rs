@@ -2,6 +2,7 @@
 
 use super::bodies::BodiesView;
 use super::both::Both;
+use super::cadence::Cadence;
 use super::catalogue::Thresholds;
 use super::condense::{Conditions, Point, Tractions, condense};
 use super::equations::{Fault, Layout};
@@ -96,6 +97,8 @@ pub struct Plan {
     pub start: Vec<f64>,
     /// Integration.
     pub settings: Settings,
+    /// When outputs are due.
+    pub cadence: Cadence,
     /// Degrees of freedom of the bodies.
     pub dofs: usize,
     /// Points whose slip rate is prescribed.
@@ -187,6 +190,7 @@ impl Plan {
             ),
         );
         line("operator", self.fault.operator.words());
+        line("output", self.cadence.words());
         for warning in &self.warnings {
             line("warning", warning.to_string());
         }
@@ -313,6 +317,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         points: views,
         loading: surroundings.loading,
         start,
+        cadence: cadence(scene, &fault, stage.end),
         settings: settings(scene, stage.end)?,
         dofs: model.dofs(),
         creeping: points.len() - placed.len(),
@@ -575,6 +580,13 @@ fn settings(scene: &Scene, end: f64) -> Result<Settings, PlanError> {
         most_events: events.and_then(|e| e.stop_after.as_ref()).map(|n| *n.get_ref()),
         most_steps: MOST_STEPS,
     })
+}
+
+/// When outputs are due.
+fn cadence(scene: &Scene, fault: &Fault, end: f64) -> Cadence {
+    let lengths = (0..fault.law.points()).filter_map(|p| fault.law.length(p));
+    let on = scene.events.as_ref().map_or(EVENT, |e| e.above.get_ref().0);
+    Cadence::new(&scene.output, end, on, lengths.reduce(f64::min))
 }
 
 /// How θ follows from the state variable of a law with one state.

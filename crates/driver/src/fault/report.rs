@@ -1,16 +1,18 @@
 //! `report.json` of a fault through cycles, and its events as CSV.
 
 use super::balance::{Balance, Energy, Mark, steady};
-use super::catalogue::Event;
+use super::catalogue::{Event, Part};
 use super::equations::size;
 use super::located::Located;
-use super::plan::Plan;
+use super::plan::{FaultView, Plan};
 use super::run::Run;
+use crate::observe::decimals::fixed;
 use crate::ode::Outcome;
 use crate::warning::Warning;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 use std::fmt::Write as _;
+use std::ops::Range;
 
 /// An event in the catalogue.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -19,8 +21,10 @@ pub struct Entry {
     pub onset: f64,
     /// Time since the onset of the one before \[s\].
     pub interval: Option<f64>,
-    /// How long it lasted \[s\].
+    /// How long it lasted, until all points were slower than the rate that ends events \[s\].
     pub duration: f64,
+    /// How long of that the fastest point was faster than the rate that begins events \[s\]: what the community counts.
+    pub duration_above: f64,
     /// Largest slip rate \[m/s\].
     pub peak_rate: f64,
     /// Fault of the hypocentre.
@@ -54,11 +58,12 @@ pub struct Entry {
 const SLIPPED: f64 = 0.01;
 
 impl Entry {
-    fn new(plan: &Plan, event: &Event, before: Option<&Event>) -> Self {
+    /// What the event was on these points, of all faults or of one.
+    fn new(plan: &Plan, event: &Event, before: Option<&Event>, points: &Range<usize>) -> Self {
         let n = plan.points.len();
         let slip = |p: usize| size(&event.slip, n, p);
-        let largest_slip = (0..n).map(slip).fold(0.0, f64::max);
-        let slipped: Vec<usize> = (0..n).filter(|&p| slip(p) > SLIPPED * largest_slip).collect();
+        let largest_slip = points.clone().map(slip).fold(0.0, f64::max);
+        let slipped: Vec<usize> = points.clone().filter(|&p| slip(p) > SLIPPED * largest_slip).collect();
         let over = |value: &dyn Fn(usize) -> f64| {
             slipped.iter().map(|&p| value(p) * plan.points[p].area).sum::<f64>()
         };
@@ -74,6 +79,7 @@ impl Entry {
             onset: event.onset.seconds(),
             interval: before.map(|b| event.onset.since(&b.onset)),
             duration: event.end.since(&event.onset),
+            duration_above: event.above,
             peak_rate: event.peak,
             fault: fault.map(|f| f.name.clone()).unwrap_or_default(),
             hypocentre_along: (!plan.in_space).then_some(place.along),
@@ -86,9 +92,28 @@ impl Entry {
             direction: turning.as_ref().map(|t| t.direction),
             turned: turning.as_ref().map(|t| t.angle),
             // The reader has made sure that the calendar reaches to the end of the run.
-            located: plan.frame.as_ref().and_then(|frame| Located::new(plan, frame, event).ok()),
+            located: plan.frame.as_ref().and_then(|frame| Located::new(plan, frame, event, points).ok()),
         }
     }
+}
+
+/// The entries of the events of a catalogue on these points.
+fn entries(plan: &Plan, events: &[Event], points: &Range<usize>) -> Vec<Entry> {
+    let entry = |(k, event): (usize, &Event)| {
+        Entry::new(plan, event, k.checked_sub(1).map(|before| &events[before]), points)
+    };
+    events.iter().enumerate().map(entry).collect()
+}
+
+/// The catalogue of one fault of several: events by its own fastest point, with its own slip.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FaultEvents {
+    /// The fault.
+    pub fault: String,
+    /// Its events.
+    pub events: Vec<Entry>,
+    /// Onset of one that goes on at the end \[s\].
+    pub under_way: Option<f64>,
 }
 
 /// Slip of an event that may turn.
@@ -224,10 +249,13 @@ pub struct Report {
     pub stopped: Option<String>,
     /// When \[s\].
     pub end: f64,
-    /// Events.
+    /// Events of all faults together, by the fastest point of all.
     pub events: Vec<Entry>,
     /// Onset of an event that goes on at the end \[s\].
     pub under_way: Option<f64>,
+    /// The catalogue of each fault, where there are several.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub faults: Vec<FaultEvents>,
     /// Unit of works.
     pub unit: &'static str,
     /// Works until the end.
@@ -283,8 +311,11 @@ impl Report {
         let driven = driven.map(|rate| rate.iter().zip(&plan.points).map(|(v, p)| v * p.area).sum());
         let cycle = |(pair, event): (&[Mark], &Event)| Cycle::new(pair, event, plan, driven);
         let cycles = marks.windows(2).zip(events.iter().skip(1)).map(cycle).collect();
-        let entry =
-            |(k, event): (usize, &Event)| Entry::new(plan, event, k.checked_sub(1).map(|b| &events[b]));
+        let of_fault = |(fault, part): (&FaultView, &Part)| FaultEvents {
+            fault: fault.name.clone(),
+            events: entries(plan, part.catalogue.events(), &part.points),
+            under_way: part.catalogue.under_way().map(|at| at.seconds()),
+        };
         Self {
             title: plan.title.clone(),
             version: env!("CARGO_PKG_VERSION").to_string(),
@@ -294,8 +325,9 @@ impl Report {
             tolerance: plan.settings.tolerance,
             stopped,
             end: run.at.seconds(),
-            events: events.iter().enumerate().map(entry).collect(),
+            events: entries(plan, events, &(0..plan.points.len())),
             under_way: run.catalogue.under_way().map(|at| at.seconds()),
+            faults: plan.faults.iter().zip(&run.parts).map(of_fault).collect(),
             unit: if plan.in_space() { "J" } else { "J/m" },
             energy,
             cycles,
@@ -309,18 +341,27 @@ impl Report {
         }
     }
 
-    /// The catalogue as CSV.
+    /// Events as catalogues of seismologists have them: those of each fault, where there are several, in the order of their onsets.
     #[must_use]
-    pub fn csv(&self) -> String {
-        let turning = self.events.iter().any(|e| e.turned.is_some());
+    pub fn located(&self) -> Vec<Located> {
+        let apart: Vec<&Entry> = self.faults.iter().flat_map(|f| &f.events).collect();
+        let mut all = if self.faults.is_empty() { self.events.iter().collect() } else { apart };
+        all.sort_by(|a, b| a.onset.total_cmp(&b.onset));
+        all.into_iter().filter_map(|e| e.located.clone()).collect()
+    }
+
+    /// A catalogue as CSV.
+    #[must_use]
+    pub fn csv(events: &[Entry]) -> String {
+        let turning = events.iter().any(|e| e.turned.is_some());
         let mut text = String::from(
-            "onset [s],duration [s],peak_rate [m/s],fault,hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],stress_drop [Pa]",
+            "onset [s],duration [s],peak_rate [m/s],fault,hypocentre_along [m],x [m],y [m],z [m],largest_slip [m],mean_slip [m],area [m2 or m],moment [N m or N],stress_drop [Pa],duration_above [s]",
         );
         text.push_str(if turning { ",direction_x,direction_y,direction_z,turned [deg]\n" } else { "\n" });
-        for e in &self.events {
+        for e in events {
             let _ = write!(
                 text,
-                "{:.14e},{},{},{},{},{},{},{},{},{},{},{:e},{}",
+                "{:.14e},{},{},{},{},{},{},{},{},{},{},{:e},{},{}",
                 e.onset,
                 e.duration,
                 e.peak_rate,
@@ -333,7 +374,8 @@ impl Report {
                 e.mean_slip,
                 e.area,
                 e.moment,
-                e.stress_drop
+                e.stress_drop,
+                e.duration_above
             );
             if let Some(([x, y, z], turned)) = e.direction.zip(e.turned) {
                 let _ = write!(text, ",{x},{y},{z},{turned}");
@@ -359,16 +401,27 @@ impl Report {
                 e.interval.map_or(String::new(), |i| format!(", {} after the one before", time(i)));
             let _ = writeln!(
                 text,
-                "  event {} at {}{interval}: {} long, peak {:.4} m/s, slip up to {}, stress drop {:.3} MPa, begins {} `{}`",
+                "  event {} at {}{interval}: {} long, {} of it fast, peak {:.4} m/s, slip up to {}, stress drop {} MPa, begins {} `{}`",
                 k + 1,
                 time(e.onset),
                 time(e.duration),
+                time(e.duration_above),
                 e.peak_rate,
                 length(e.largest_slip),
-                e.stress_drop / 1e6,
+                fixed(e.stress_drop / 1e6, 3),
                 begin,
                 e.fault
             );
+        }
+        for FaultEvents { fault, events, .. } in &self.faults {
+            let intervals: Vec<f64> = events.iter().filter_map(|e| e.interval).collect();
+            let mean = intervals.iter().sum::<f64>() / intervals.len() as f64;
+            let every = if intervals.is_empty() {
+                String::new()
+            } else {
+                format!(", every {} in the mean", time(mean))
+            };
+            let _ = writeln!(text, "  fault `{fault}` by itself: {} events{every}", events.len());
         }
         for (k, cycle) in self.cycles.iter().enumerate() {
             let Some(closure) = cycle.closure() else { continue };
@@ -408,10 +461,14 @@ fn length(metres: f64) -> String {
         m if m >= 1e-3 => (1e3, "mm"),
         _ => (1e6, "um"),
     };
-    format!("{:.4} {unit}", metres * scale)
+    format!("{} {unit}", fixed(metres * scale, 4))
 }
 
 /// A time in words.
 pub(super) fn time(seconds: f64) -> String {
-    if seconds.abs() >= 0.1 * YEAR { format!("{:.5} yr", seconds / YEAR) } else { format!("{seconds:.5} s") }
+    if seconds.abs() >= 0.1 * YEAR {
+        format!("{:.5} yr", seconds / YEAR)
+    } else {
+        format!("{} s", fixed(seconds, 5))
+    }
 }

@@ -3,13 +3,14 @@
 //! The integration restarts after each event and after every [`RESTART`] accepted steps, whether or not somebody keeps what it
 //! restarts from: a run that goes on from such a point takes the same steps, bit for bit, as one that was never broken off.
 
-use super::catalogue::{Catalogue, Thresholds};
+use super::catalogue::{Catalogue, Part, Thresholds};
 use super::equations::{Equations, Fault, Layout, size};
 use super::loading::Loading;
 use crate::ode::{
     self, Clock, Control, Counts, Failure, Finished, Method, Occurrence, Options, Outcome, Sink, Step,
 };
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// How to integrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +59,17 @@ pub struct Ends<'a> {
     pub start_rates: &'a [f64],
     /// Rates at its end.
     pub end_rates: &'a [f64],
+}
+
+impl<'a> Moment<'a> {
+    /// The fault at the start of the step that led here.
+    #[must_use]
+    pub fn start_of(&self, step: &Ends<'a>, at: Clock) -> Moment<'a> {
+        let (unknowns, rate) = (step.start, &step.start_rates[self.layout.slip()]);
+        let points = self.layout.points();
+        let largest = (0..points).map(|p| size(rate, points, p)).fold(0.0, f64::max);
+        Moment { at, dt: 0.0, unknowns, rate, largest, step: None, ..*self }
+    }
 }
 
 impl Moment<'_> {
@@ -115,8 +127,10 @@ pub struct Run {
     pub unknowns: Vec<f64>,
     /// Length of the step to try next \[s\]; chosen from the rates where absent.
     pub next_step: Option<f64>,
-    /// Events.
+    /// Events of all faults together, by the fastest point of all.
     pub catalogue: Catalogue,
+    /// Events of each fault, where there are several.
+    pub parts: Vec<Part>,
     /// Work.
     pub counts: Counts,
     /// Where the integration failed: the point whose normal traction falls to zero there.
@@ -134,9 +148,23 @@ impl Run {
             unknowns,
             next_step: None,
             catalogue: Catalogue::new(thresholds),
+            parts: Vec::new(),
             counts: Counts::default(),
             opens: None,
         }
+    }
+
+    /// With a catalogue of each fault, where these are the points of several.
+    #[must_use]
+    pub fn of_faults(mut self, points: &[Range<usize>], thresholds: Thresholds) -> Self {
+        if points.len() > 1 {
+            let part = |points: &Range<usize>| Part {
+                points: points.clone(),
+                catalogue: Catalogue::new(thresholds),
+            };
+            self.parts = points.iter().map(part).collect();
+        }
+        self
     }
 }
 
@@ -247,6 +275,7 @@ fn piece(
         fault,
         watcher,
         catalogue: &mut run.catalogue,
+        parts: &mut run.parts,
         steps: 0,
         next_step: None,
         paused: false,
@@ -307,6 +336,7 @@ struct Follow<'a> {
     fault: &'a Fault,
     watcher: &'a mut dyn Watcher,
     catalogue: &'a mut Catalogue,
+    parts: &'a mut [Part],
     /// Accepted steps since the last restart.
     steps: u64,
     /// Length to try after the next one \[s\].
@@ -327,15 +357,19 @@ const MOST_HALVINGS: usize = 60;
 impl Follow<'_> {
     fn begin(&mut self, at: Clock, y: &[f64]) -> Control {
         self.equations.slip_rates(y, &mut self.rate);
-        self.largest = self.fastest(&self.rate).1;
+        self.largest = self.fastest(&self.rate, self.all()).1;
         self.tell(at, 0.0, y, None)
     }
 
-    /// The fastest point and its |V| \[m/s\].
-    fn fastest(&self, rate: &[f64]) -> (usize, f64) {
+    fn all(&self) -> Range<usize> {
+        0..self.equations.layout().points()
+    }
+
+    /// The fastest of these points and its |V| \[m/s\].
+    fn fastest(&self, rate: &[f64], among: Range<usize>) -> (usize, f64) {
         let points = self.equations.layout().points();
-        let mut best = (0, 0.0);
-        for p in 0..points {
+        let mut best = (among.start, 0.0);
+        for p in among {
             let speed = size(rate, points, p);
             if speed > best.1 {
                 best = (p, speed);
@@ -350,9 +384,14 @@ impl Follow<'_> {
         self.watcher.now(&Moment { at, dt, unknowns, layout, rate, largest: self.largest, catalogue, step })
     }
 
-    /// Notes the passing of a threshold within the step, at the time the fastest point has it: by halving, since the fastest
-    /// point changes.
-    fn pass(&mut self, step: &Step<'_>, threshold: f64, upwards: bool) {
+    /// When the fastest of these points passes a threshold within the step, and which it is: by halving, since the fastest point
+    /// changes. Leaves the unknowns and the tractions of that time.
+    fn locate(
+        &mut self,
+        step: &Step<'_>,
+        (threshold, upwards): (f64, bool),
+        among: Range<usize>,
+    ) -> (Clock, usize) {
         let (mut before, mut after) = (0.0, 1.0);
         for _ in 0..MOST_HALVINGS {
             let middle = 0.5 * (before + after);
@@ -361,7 +400,7 @@ impl Follow<'_> {
             }
             step.at(middle, &mut self.between);
             self.equations.slip_rates(&self.between, &mut self.rate);
-            if (self.fastest(&self.rate).1 >= threshold) == upwards {
+            if (self.fastest(&self.rate, among.clone()).1 >= threshold) == upwards {
                 after = middle;
             } else {
                 before = middle;
@@ -376,8 +415,29 @@ impl Follow<'_> {
             let normal = layout.normal_of(self.fault, at, &self.between, p);
             *shear = normal * self.fault.law.scale(p) * self.between[i];
         }
-        let fastest = self.fastest(&self.rate).0;
-        self.catalogue.pass(at, fastest, &self.between[layout.slip()], &self.shear);
+        (at, self.fastest(&self.rate, among).0)
+    }
+
+    /// Takes note of the largest slip rates after a step, of all points and of those of each fault.
+    fn note(&mut self, step: &Step<'_>, largest: f64, parts: &[f64]) {
+        let slip = self.equations.layout().slip();
+        self.catalogue.rate(largest);
+        while let Some(crossing) = self.catalogue.crossing(largest) {
+            let (at, fastest) = self.locate(step, self.catalogue.passed(crossing), self.all());
+            self.catalogue.pass(crossing, at, fastest, [&self.between[slip.clone()], &self.shear]);
+            self.catalogue.rate(largest);
+        }
+        for (k, &largest) in parts.iter().enumerate() {
+            self.parts[k].catalogue.rate(largest);
+            while let Some(crossing) = self.parts[k].catalogue.crossing(largest) {
+                let Part { points, catalogue } = &self.parts[k];
+                let (points, passed) = (points.clone(), catalogue.passed(crossing));
+                let (at, fastest) = self.locate(step, passed, points);
+                let values = [&self.between[slip.clone()], self.shear.as_slice()];
+                self.parts[k].catalogue.pass(crossing, at, fastest, values);
+                self.parts[k].catalogue.rate(largest);
+            }
+        }
     }
 }
 
@@ -387,20 +447,14 @@ impl Sink for Follow<'_> {
         self.equations.opened();
         let layout = self.equations.layout();
         let rates = step.rates.map(|dy| &dy[layout.slip()]);
-        let largest = match rates {
-            Some(rates) => self.fastest(rates).1,
-            None => {
-                self.equations.slip_rates(step.state, &mut self.rate);
-                self.fastest(&self.rate).1
-            }
-        };
-        let events = self.catalogue.events().len();
-        let (threshold, upwards) = self.catalogue.next();
-        self.catalogue.rate(largest);
-        if (largest >= threshold) == upwards {
-            self.pass(step, threshold, upwards);
-            self.catalogue.rate(largest);
+        if rates.is_none() {
+            self.equations.slip_rates(step.state, &mut self.rate);
         }
+        let ends = rates.unwrap_or(&self.rate);
+        let largest = self.fastest(ends, self.all()).1;
+        let parts: Vec<f64> = self.parts.iter().map(|p| self.fastest(ends, p.points.clone()).1).collect();
+        let events = self.catalogue.events().len();
+        self.note(step, largest, &parts);
         match rates {
             Some(rates) => self.rate.copy_from_slice(rates),
             None => self.equations.slip_rates(step.state, &mut self.rate),

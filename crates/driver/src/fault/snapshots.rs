@@ -1,9 +1,11 @@
 //! The state of faults in space in the course of a run, as VTU.
 
+use super::cadence::{Gauge, Reading};
 use super::fields;
-use super::files::{LEAST_PROFILES, Last, PROFILE_INTERVALS, RATE_CHANGE};
+use super::files::RATE_CHANGE;
 use super::plan::Plan;
 use super::run::Moment;
+use crate::observe::decimals::fixed;
 use crate::observe::vtu::Grid;
 use crate::observe::{ObserveError, atomic};
 use serde::{Deserialize, Serialize};
@@ -13,14 +15,16 @@ use std::path::{Path, PathBuf};
 pub(super) const LIST: &str = "snapshots.csv";
 /// Its header.
 pub(super) const HEAD: &str = "snapshot,time [s],log10 slip_rate [m/s]\n";
-/// Time between two in an event \[s\]: rupture crosses a few kilometres in it.
+/// Time between two in an event over that between profiles there: rupture crosses a few kilometres in two seconds.
 const IN_EVENTS: f64 = 2.0;
+/// Size of all snapshots together over that of a file that grows.
+const FILES: u64 = 10;
 
 /// How many have been taken, and when the last one was.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Taken {
     count: usize,
-    last: Option<Last>,
+    pub gauge: Gauge,
 }
 
 /// Writes `fields/FAULT_00000.vtu` and so on.
@@ -69,21 +73,18 @@ impl Snapshots {
     pub fn take(&mut self, plan: &Plan, now: &Moment<'_>) -> Result<Option<String>, ObserveError> {
         let time = now.at.seconds();
         let fast = now.largest >= plan.settings.thresholds.on;
-        let interval = if fast { IN_EVENTS } else { PROFILE_INTERVALS[0] };
-        let interval = interval.min(plan.settings.end / LEAST_PROFILES);
-        let due = self.taken.last.is_none_or(|last| {
-            let change = (now.largest / last.largest).ln().abs();
-            time - last.time >= interval || change >= RATE_CHANGE
-        });
-        if !due {
+        let [between, within] = plan.cadence.contours;
+        let interval = if fast { (IN_EVENTS * within).min(between) } else { between };
+        if !self.taken.gauge.profile(Reading { time, rate: now.largest }, interval, RATE_CHANGE) {
             return Ok(None);
         }
         let number = self.taken.count;
         for (fault, grid) in plan.faults.iter().zip(&self.grids) {
             let state = fields::state(plan, fault, now.at, now.unknowns);
-            fields::put(&self.folder.join(name(&fault.name, number)), grid, time, &state)?;
+            let bytes = fields::put(&self.folder.join(name(&fault.name, number)), grid, time, &state)?;
+            self.taken.gauge.spend(bytes, FILES * plan.cadence.largest_file, time);
         }
-        self.taken = Taken { count: number + 1, last: Some(Last { time, largest: now.largest }) };
-        Ok(Some(format!("{number},{time:.14e},{:.6}\n", now.largest.log10())))
+        self.taken.count = number + 1;
+        Ok(Some(format!("{number},{time:.14e},{}\n", fixed(now.largest.log10(), 6))))
     }
 }

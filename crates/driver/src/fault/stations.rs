@@ -1,8 +1,10 @@
 //! Files of stations in the format of the SEAS community, one for each.
 
+use super::cadence::NO_RATE;
 use super::equations::size;
 use super::plan::Plan;
 use super::run::Moment;
+use crate::observe::decimals::{fixed, scientific};
 use crate::scene::model::Station;
 use std::path::PathBuf;
 
@@ -53,8 +55,6 @@ const IN_A_PLANE: (&[&str], &str) = (
     ],
     "t slip_2 slip_3 slip_rate_2 slip_rate_3 shear_stress_2 shear_stress_3 state normal_stress",
 );
-/// Slip rate that stands for less and for none \[m/s\]: what the benchmarks in space take for none.
-const NO_RATE: f64 = 1e-20;
 
 fn head(plan: &Plan, fault: &str, asked: &Station, point: usize) -> String {
     let view = &plan.points[point];
@@ -92,16 +92,17 @@ pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
     let mut row = format!("{:.14e}", now.at.seconds());
     let components = || (point..now.rate.len()).step_by(n);
     for i in components() {
-        row.push_str(&format!(" {:.9e}", now.slip()[i]));
+        row.push_str(&format!(" {}", scientific(now.slip()[i], 9)));
     }
     for i in components() {
         let rate = if now.rate.len() > n { now.rate[i].abs().max(NO_RATE) } else { size(now.rate, n, point) };
-        row.push_str(&format!(" {:.9}", rate.log10()));
+        row.push_str(&format!(" {}", fixed(rate.log10(), 9)));
     }
     for i in components() {
         // The traction that friction resists with: what drives less the damping.
-        row.push_str(&format!(" {:.9e}", normal * plan.fault.law.scale(point) * now.unknowns[i] / 1e6));
+        let shear = normal * plan.fault.law.scale(point) * now.unknowns[i];
+        row.push_str(&format!(" {}", scientific(shear / 1e6, 9)));
     }
-    row.push_str(&format!(" {theta:.9} {:.9e}\n", normal / 1e6));
+    row.push_str(&format!(" {} {}\n", fixed(theta, 9), scientific(normal / 1e6, 9)));
     row
 }

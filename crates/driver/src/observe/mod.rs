@@ -2,6 +2,7 @@
 //! every accepted step and knows nothing of how it was computed.
 
 pub mod atomic;
+pub mod decimals;
 pub mod files;
 mod multi;
 pub mod plots;

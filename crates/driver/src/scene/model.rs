@@ -10,7 +10,7 @@ mod solver;
 
 use super::law::Several;
 use super::slider::EventSpec;
-use super::units::{Angle, Length, Penalty, Penetration, Pressure, Time, Velocity};
+use super::units::{Angle, Length, Memory, Penalty, Penetration, Pressure, Time, Velocity};
 use crate::warning::Warning;
 pub use body::*;
 pub use fault::*;
@@ -418,6 +418,26 @@ pub struct Output {
     /// Fault-ode: stations per fault.
     #[serde(default)]
     pub stations: BTreeMap<String, Spanned<Vec<Spanned<Station>>>>,
+    /// Fault-ode: what makes rows of stations and of the largest slip rate due.
+    pub cadence: Option<Spanned<CadenceSpec>>,
+    /// Fault-ode: times between profiles of slip, between events and in them.
+    pub contours: Option<Spanned<[Time; 2]>>,
+    /// Fault-ode: largest size of an output file that grows.
+    pub largest_file: Option<Spanned<Memory>>,
+}
+
+/// What makes rows due.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CadenceSpec {
+    /// Change of log10 of the slip rate \[-\].
+    pub decades: Option<Spanned<f64>>,
+    /// Slip.
+    pub slip: Option<Spanned<Length>>,
+    /// Longest time between two.
+    pub longest: Option<Spanned<Time>>,
+    /// Least time between two that slip makes due.
+    pub shortest: Option<Spanned<Time>>,
 }
 
 /// A point of a body.

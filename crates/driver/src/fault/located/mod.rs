@@ -15,6 +15,7 @@ use crate::scene::model::Place;
 use jiff::{SignedDuration, Timestamp};
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
+use std::ops::Range;
 
 /// Mean radius of the Earth \[m\] (IUGG): places lie on a sphere, which is enough over the extent of a fault.
 const EARTH: f64 = 6_371_008.8;
@@ -130,14 +131,20 @@ fn magnitude(moment: f64) -> f64 {
 }
 
 impl Located {
-    /// Of an event of a plan.
+    /// Of an event of a plan, or of what it was on these points of one of its faults.
     ///
     /// # Errors
     /// Where the calendar does not reach the event.
-    pub fn new(plan: &Plan, frame: &Frame, event: &Event) -> Result<Self, jiff::Error> {
+    pub fn new(
+        plan: &Plan,
+        frame: &Frame,
+        event: &Event,
+        points: &Range<usize>,
+    ) -> Result<Self, jiff::Error> {
         let length = frame.length.unwrap_or(1.0);
         let (mut sum, mut centre, mut weight) = (Matrix3::zeros(), Vector3::zeros(), 0.0);
-        for (p, point) in plan.points.iter().enumerate() {
+        for p in points.clone() {
+            let point = &plan.points[p];
             let (normal, way) = (Vector3::from(point.normal), Vector3::from(plan.vector(&event.slip, p)));
             let couple = normal * way.transpose();
             let slip = size(&event.slip, plan.points.len(), p);

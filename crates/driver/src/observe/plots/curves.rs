@@ -5,6 +5,7 @@ use super::super::record::PointHistory;
 use super::axes::{Axis, Frame};
 use super::colour::{INK, MARK, Rgb, of_curve};
 use super::figure::{Anchor, Figure, Point};
+use super::title::{title, within};
 use super::units::{self, Unit, Units};
 use super::{position_labels, units::TIME};
 
@@ -103,12 +104,6 @@ pub(super) fn history(recorder: &Recorder, interface: usize, quantity: &Quantity
     Some(figure)
 }
 
-/// Scene and interface, above the frame.
-pub(super) fn title(figure: &mut Figure, frame: &Frame, scene: &str, part: &str) {
-    let y = frame.at.1 - 18.0;
-    figure.text((frame.at.0, y), format!("{scene}: {part}"), super::axes::LABEL_TEXT, Anchor::Start, INK);
-}
-
 /// A curve in a legend.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
@@ -120,7 +115,10 @@ pub(super) struct Entry {
 /// Names of the curves with their colours, right of the frame.
 pub(super) fn legend(figure: &mut Figure, frame: &Frame, entries: impl Iterator<Item = Entry>) {
     let left = frame.at.0 + frame.size.0 + 16.0;
-    for (i, Entry { name, colour, dashed }) in entries.enumerate() {
+    let entries: Vec<Entry> = entries.collect();
+    let room = figure.width - left - 40.0;
+    let size = entries.iter().map(|e| within(&e.name, room, 12.5)).fold(12.5, f64::min);
+    for (i, Entry { name, colour, dashed }) in entries.into_iter().enumerate() {
         let y = frame.at.1 + 12.0 + 22.0 * i as f64;
         let line = [(left, y), (left + 26.0, y)];
         if dashed {
@@ -128,7 +126,7 @@ pub(super) fn legend(figure: &mut Figure, frame: &Frame, entries: impl Iterator<
         } else {
             figure.line(line.to_vec(), 2.2, colour);
         }
-        figure.text((left + 34.0, y), name, 12.5, Anchor::Start, INK);
+        figure.text((left + 34.0, y), name, size, Anchor::Start, INK);
     }
 }
 
@@ -199,20 +197,61 @@ pub(super) fn thin(points: Vec<Point>) -> Vec<Point> {
     if points.len() <= 2 * COLUMNS {
         return points;
     }
-    let (left, right) = (points[0].0, points[points.len() - 1].0);
-    let column = |x: f64| ((x - left) / (right - left) * COLUMNS as f64) as usize;
-    let mut kept = Vec::with_capacity(4 * COLUMNS);
-    for group in points.chunk_by(|a, b| column(a.0) == column(b.0)) {
-        let index = |pick: fn(f64, f64) -> bool| {
-            (0..group.len()).fold(0, |best, i| if pick(group[i].1, group[best].1) { i } else { best })
-        };
-        let mut keep = [0, index(|a, b| a < b), index(|a, b| a > b), group.len() - 1];
-        keep.sort_unstable();
-        kept.extend(
-            keep.iter().enumerate().filter(|(k, i)| *k == 0 || keep[k - 1] != **i).map(|(_, &i)| group[i]),
-        );
+    let mut thinner = Thinner::new(points[0].0, points[points.len() - 1].0);
+    points.into_iter().for_each(|p| thinner.push(p));
+    thinner.finish()
+}
+
+/// Points of a column at most before its extremes are taken.
+const GROUP: usize = 4096;
+
+/// Thins a curve as it comes.
+#[derive(Debug)]
+pub(super) struct Thinner {
+    left: f64,
+    width: f64,
+    group: Vec<Point>,
+    kept: Vec<Point>,
+}
+
+impl Thinner {
+    /// Of a curve from `left` to `right`.
+    pub(super) fn new(left: f64, right: f64) -> Self {
+        Self { left, width: right - left, group: Vec::new(), kept: Vec::new() }
     }
-    kept
+
+    fn column(&self, x: f64) -> usize {
+        ((x - self.left) / self.width * COLUMNS as f64) as usize
+    }
+
+    pub(super) fn push(&mut self, point: Point) {
+        if self.group.last().is_some_and(|last| self.column(last.0) != self.column(point.0)) {
+            self.kept.extend(extremes(&self.group));
+            self.group.clear();
+        } else if self.group.len() >= GROUP {
+            self.group = extremes(&self.group);
+        }
+        self.group.push(point);
+    }
+
+    pub(super) fn finish(mut self) -> Vec<Point> {
+        self.kept.extend(extremes(&self.group));
+        self.kept
+    }
+}
+
+/// First, lowest, highest and last point.
+fn extremes(group: &[Point]) -> Vec<Point> {
+    if group.is_empty() {
+        return Vec::new();
+    }
+    let index = |pick: fn(f64, f64) -> bool| {
+        (0..group.len()).fold(0, |best, i| if pick(group[i].1, group[best].1) { i } else { best })
+    };
+    let mut keep = vec![0, index(|a, b| a < b), index(|a, b| a > b), group.len() - 1];
+    keep.sort_unstable();
+    keep.dedup();
+    keep.into_iter().map(|i| group[i]).collect()
 }
 
 #[cfg(test)]

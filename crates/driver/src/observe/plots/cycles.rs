@@ -1,11 +1,15 @@
 //! Plots of faults through earthquake cycles: largest slip rate, slip contours, slip rate over space and time, phase portrait.
+//!
+//! Each goes through the rows of a table twice, for the ranges of its axes and for what it draws; what it keeps does not grow with the rows.
 
+use super::super::ObserveError;
 use super::super::files::stems;
 use super::axes::{Axis, Frame};
 use super::colour::{Rgb, viridis};
-use super::curves::{DECADES, Entry, legend, thin, title};
+use super::curves::{DECADES, Entry, Thinner, legend};
 use super::field::Bar;
 use super::figure::{Figure, Image, Point};
+use super::title::title;
 use super::units::{LENGTH, STRESS, TIME};
 use std::ops::Range;
 
@@ -20,24 +24,68 @@ pub struct Line {
     pub along: Vec<f64>,
 }
 
+/// A table of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Table {
+    /// Time \[s\], log10 of the largest slip rate \[m/s\], its point, mean shear traction \[Pa\], mean slip \[m\].
+    Largest,
+    /// Time \[s\] and slip of all points \[m\].
+    Slip,
+    /// Time \[s\] and log10 of slip rates of all points \[m/s\].
+    Rate,
+}
+
+/// The tables of a run.
+pub trait Rows {
+    /// Looks at the rows of a table from the first to the last.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    fn each(&self, table: Table, look: &mut dyn FnMut(&[f64])) -> Result<(), ObserveError>;
+}
+
 /// What is drawn.
-#[derive(Clone, Debug, Default)]
-pub struct Cycles {
+pub struct Cycles<'a> {
     /// Title of the scene.
     pub title: String,
     /// Faults along lines.
     pub lines: Vec<Line>,
-    /// Time \[s\], log10 of the largest slip rate \[m/s\], mean shear traction \[Pa\].
-    pub largest: Vec<[f64; 3]>,
-    /// Time \[s\] and slip of all points \[m\].
-    pub slip: Vec<(f64, Vec<f64>)>,
-    /// Time \[s\] and log10 of slip rates of all points \[m/s\].
-    pub rate: Vec<(f64, Vec<f64>)>,
+    /// The tables.
+    pub rows: &'a dyn Rows,
     /// Onsets and ends of events \[s\].
     pub events: Vec<(f64, f64)>,
-    /// Time between slip contours while nothing is fast, and in events, in words.
-    pub intervals: [&'static str; 2],
+    /// Time between slip contours between events, and in events, in words.
+    pub intervals: [String; 2],
 }
+
+/// Smallest and largest finite value of what has been seen.
+#[derive(Clone, Copy, Debug)]
+struct Bounds(f64, f64);
+
+impl Bounds {
+    const NONE: Self = Self(f64::INFINITY, f64::NEG_INFINITY);
+
+    fn see(&mut self, value: f64) {
+        if value.is_finite() {
+            *self = Self(self.0.min(value), self.1.max(value));
+        }
+    }
+
+    /// Whether anything was seen.
+    fn any(self) -> bool {
+        self.0 <= self.1
+    }
+
+    /// Both, in a unit.
+    fn over(self, factor: f64) -> impl Iterator<Item = f64> {
+        [self.0 / factor, self.1 / factor].into_iter()
+    }
+}
+
+/// Points of the phase portrait nearer to each other than this are one: half a pixel of a screen.
+const NEAR: f64 = 0.5;
+/// Points of the phase portrait at most: some hundred cycles, on which later ones lie.
+const MOST_POINTS: usize = 200_000;
 
 /// Slip in events.
 const SEISMIC: Rgb = [205, 92, 38];
@@ -56,59 +104,83 @@ const TOGETHER: f64 = 2e-3;
 /// Decades below the fastest that the image of slip rates shows: what lies lower is locked.
 const SHOWN: f64 = 14.0;
 
-impl Cycles {
+type Drawn = Result<Option<Figure>, ObserveError>;
+
+impl Cycles<'_> {
     /// All figures with the names of their files.
-    pub(super) fn figures(&self) -> Vec<(String, Figure)> {
+    pub(super) fn figures(&self) -> Result<Vec<(String, Figure)>, ObserveError> {
         let mut figures = Vec::new();
         let mut add = |name: String, figure: Option<Figure>| figures.extend(figure.map(|f| (name, f)));
-        add("largest_rate".into(), self.largest_rate());
-        add("phase_portrait".into(), self.portrait());
+        add("largest_rate".into(), self.largest_rate()?);
+        add("phase_portrait".into(), self.portrait()?);
         for (stem, line) in stems(self.lines.iter().map(|l| l.name.as_str())).iter().zip(&self.lines) {
-            add(format!("{stem}_slip"), self.contours(line));
-            add(format!("{stem}_rate"), self.space_time(line));
+            add(format!("{stem}_slip"), self.contours(line)?);
+            add(format!("{stem}_rate"), self.space_time(line)?);
         }
-        figures
+        Ok(figures)
     }
 
     fn frame(x: Axis, y: Axis) -> (Figure, Frame) {
         (Figure::new(AT.0 + SIZE.0 + ROOM, AT.1 + SIZE.1 + 60.0), Frame { at: AT, size: SIZE, x, y })
     }
 
-    fn largest_rate(&self) -> Option<Figure> {
-        let (first, last) = (self.largest.first()?[0], self.largest.last()?[0]);
-        if last <= first {
-            return None;
-        }
-        let time = TIME.of(last);
-        let x = Axis::exact((first / time.factor, last / time.factor), format!("Time [{}]", time.name));
-        let rates = self.largest.iter().map(|row| 10.0_f64.powf(row[1]));
-        let (mut figure, frame) =
-            Self::frame(x, Axis::logarithmic(rates, DECADES, "Largest slip rate [m/s]".into()));
-        title(&mut figure, &frame, &self.title, "largest slip rate");
-        frame.grid(&mut figure);
-        let points = self.largest.iter().map(|r| frame.point(r[0] / time.factor, 10.0_f64.powf(r[1])));
-        figure.line(thin(points.collect()), 1.4, viridis(0.3));
-        frame.draw(&mut figure);
-        Some(figure)
+    /// Ranges of time, largest slip rate and mean shear traction.
+    fn ranges(&self) -> Result<[Bounds; 3], ObserveError> {
+        let mut ranges = [Bounds::NONE; 3];
+        self.rows.each(Table::Largest, &mut |row| {
+            for (range, value) in ranges.iter_mut().zip([row[0], 10.0_f64.powf(row[1]), row[3]]) {
+                range.see(value);
+            }
+        })?;
+        Ok(ranges)
     }
 
-    fn portrait(&self) -> Option<Figure> {
-        let most = self.largest.iter().map(|r| r[2].abs()).reduce(f64::max)?;
-        let unit = STRESS.of(most);
-        let rates = || self.largest.iter().map(|row| 10.0_f64.powf(row[1]));
-        let x = Axis::logarithmic(rates(), DECADES, "Largest slip rate [m/s]".into());
-        let y = Axis::linear(
-            self.largest.iter().map(|r| r[2] / unit.factor),
-            0.05,
-            format!("Mean shear traction [{}]", unit.name),
-        );
+    fn largest_rate(&self) -> Drawn {
+        let [times, rates, _] = self.ranges()?;
+        if times.0 >= times.1 {
+            return Ok(None);
+        }
+        let time = TIME.of(times.1);
+        let label = format!("Time [{}]", time.name);
+        let x = Axis::exact((times.0 / time.factor, times.1 / time.factor), label);
+        let y = Axis::logarithmic(rates.over(1.0), DECADES, "Largest slip rate [m/s]".into());
+        let (mut figure, frame) = Self::frame(x, y);
+        title(&mut figure, &frame, &self.title, "largest slip rate");
+        frame.grid(&mut figure);
+        let mut curve = Thinner::new(AT.0, AT.0 + SIZE.0);
+        self.rows.each(Table::Largest, &mut |row| {
+            let point = frame.point(row[0] / time.factor, 10.0_f64.powf(row[1]));
+            if point.0.is_finite() && point.1.is_finite() {
+                curve.push(point);
+            }
+        })?;
+        figure.line(curve.finish(), 1.4, viridis(0.3));
+        frame.draw(&mut figure);
+        Ok(Some(figure))
+    }
+
+    fn portrait(&self) -> Drawn {
+        let [_, rates, shear] = self.ranges()?;
+        if !shear.any() {
+            return Ok(None);
+        }
+        let unit = STRESS.of(shear.0.abs().max(shear.1.abs()));
+        let x = Axis::logarithmic(rates.over(1.0), DECADES, "Largest slip rate [m/s]".into());
+        let y = Axis::linear(shear.over(unit.factor), 0.05, format!("Mean shear traction [{}]", unit.name));
         let (mut figure, frame) = Self::frame(x, y);
         title(&mut figure, &frame, &self.title, "phase portrait");
         frame.grid(&mut figure);
-        let points = self.largest.iter().zip(rates()).map(|(r, v)| frame.point(v, r[2] / unit.factor));
-        figure.line(points.collect(), 1.2, viridis(0.3));
+        let mut curve: Vec<Point> = Vec::new();
+        self.rows.each(Table::Largest, &mut |row| {
+            let (x, y) = frame.point(10.0_f64.powf(row[1]), row[3] / unit.factor);
+            let apart = curve.last().is_none_or(|last| (x - last.0).hypot(y - last.1) >= NEAR);
+            if apart && x.is_finite() && y.is_finite() && curve.len() < MOST_POINTS {
+                curve.push((x, y));
+            }
+        })?;
+        figure.line(curve, 1.2, viridis(0.3));
         frame.draw(&mut figure);
-        Some(figure)
+        Ok(Some(figure))
     }
 
     fn in_event(&self, time: f64) -> bool {
@@ -125,31 +197,46 @@ impl Cycles {
             .then(|| (Axis::exact(range, format!("Distance along the fault [{}]", unit.name)), unit.factor))
     }
 
-    fn contours(&self, line: &Line) -> Option<Figure> {
-        let (y, scale) = Self::along(line)?;
-        let part = |row: &(f64, Vec<f64>)| row.1.get(line.columns.clone()).map(<[f64]>::to_vec);
-        let rows: Vec<(f64, Vec<f64>)> =
-            self.slip.iter().filter_map(|row| Some((row.0, part(row)?))).collect();
-        let values = || rows.iter().flat_map(|r| r.1.iter().copied());
-        let unit = LENGTH.of(values().fold(0.0, |most: f64, v| most.max(v.abs())));
-        let x = Axis::linear(values().map(|v| v / unit.factor), 0.02, format!("Slip [{}]", unit.name));
+    /// Looks at the times of a table of profiles and their values on a line.
+    fn profiles(
+        &self,
+        table: Table,
+        line: &Line,
+        look: &mut dyn FnMut(f64, &[f64]),
+    ) -> Result<(), ObserveError> {
+        self.rows.each(table, &mut |row| {
+            if let Some(values) = row.get(1..).and_then(|all| all.get(line.columns.clone())) {
+                look(row[0], values);
+            }
+        })
+    }
+
+    fn contours(&self, line: &Line) -> Drawn {
+        let Some((y, scale)) = Self::along(line) else { return Ok(None) };
+        let mut range = Bounds::NONE;
+        self.profiles(Table::Slip, line, &mut |_, slip| slip.iter().for_each(|&s| range.see(s)))?;
+        if !range.any() {
+            return Ok(None);
+        }
+        let unit = LENGTH.of(range.0.abs().max(range.1.abs()));
+        let x = Axis::linear(range.over(unit.factor), 0.02, format!("Slip [{}]", unit.name));
         let (mut figure, frame) = Self::frame(x, y);
         title(&mut figure, &frame, &self.title, &format!("slip of {}", line.name));
         frame.grid(&mut figure);
-        // Slip between events over that in events, which would hide it.
         let least = TOGETHER * unit.factor * (frame.x.range.1 - frame.x.range.0);
-        for (fast, colour, width) in [(true, SEISMIC, 0.5), (false, ASEISMIC, 0.9)] {
-            let mut last: Option<&[f64]> = None;
-            for (_, slip) in rows.iter().filter(|row| self.in_event(row.0) == fast) {
-                let apart = |l: &[f64]| l.iter().zip(slip).any(|(a, b)| (a - b).abs() >= least);
-                if !last.is_none_or(apart) {
-                    continue;
-                }
-                last = Some(slip);
+        let mut kept: [(Vec<Vec<Point>>, Vec<f64>); 2] = Default::default();
+        self.profiles(Table::Slip, line, &mut |time, slip| {
+            let (curves, last) = &mut kept[usize::from(self.in_event(time))];
+            if last.is_empty() || last.iter().zip(slip).any(|(a, b)| (a - b).abs() >= least) {
+                *last = slip.to_vec();
                 let points = slip.iter().zip(&line.along);
-                let line = points.map(|(s, a)| frame.point(s / unit.factor, a / scale));
-                figure.line(line.collect(), width, colour);
+                curves.push(points.map(|(s, a)| frame.point(s / unit.factor, a / scale)).collect());
             }
+        })?;
+        // Slip between events over that in events, which would hide it.
+        let [between, within] = kept.map(|(curves, _)| curves);
+        for (curves, colour, width) in [(within, SEISMIC, 0.5), (between, ASEISMIC, 0.9)] {
+            curves.into_iter().for_each(|curve| figure.line(curve, width, colour));
         }
         frame.draw(&mut figure);
         let entries = [("between events, every", ASEISMIC, 0), ("in events, every", SEISMIC, 1)];
@@ -158,81 +245,125 @@ impl Cycles {
             Entry { name, colour, dashed: false }
         });
         legend(&mut figure, &frame, entries);
-        Some(figure)
+        Ok(Some(figure))
     }
 
     /// Slip rates over distance and output rows, which come by time and by change, so that events take as much room as what lies
     /// between them.
-    fn space_time(&self, line: &Line) -> Option<Figure> {
-        let (y, _) = Self::along(line)?;
-        let rows: Vec<&[f64]> = self.rate.iter().filter_map(|row| row.1.get(line.columns.clone())).collect();
-        let values = || rows.iter().flat_map(|r| r.iter().copied()).filter(|v| v.is_finite());
-        let hi = values().reduce(f64::max)?.ceil();
-        let lo = values().reduce(f64::min)?.floor().max(hi - SHOWN).min(hi - 1.0);
+    fn space_time(&self, line: &Line) -> Drawn {
+        let Some((y, _)) = Self::along(line) else { return Ok(None) };
+        let (mut count, mut range) = (0, Bounds::NONE);
+        self.profiles(Table::Rate, line, &mut |_, rates| {
+            count += 1;
+            rates.iter().for_each(|&r| range.see(r));
+        })?;
+        if !range.any() {
+            return Ok(None);
+        }
+        let hi = range.1.ceil();
+        let lo = range.0.floor().max(hi - SHOWN).min(hi - 1.0);
         let x = Axis::exact(
-            (0.0, rows.len() as f64),
+            (0.0, count as f64),
             "Rows of rate_profiles.csv, by time and by change of slip rate".into(),
         );
         let (mut figure, frame) = Self::frame(x, y);
         title(&mut figure, &frame, &self.title, &format!("slip rate of {}", line.name));
-        let columns = rows.len().clamp(1, PIXELS.0);
-        let (first, last) = (line.along[0], line.along[line.along.len() - 1]);
-        let nearest: Vec<usize> = (0..PIXELS.1)
-            .map(|k| {
-                let at = first + (last - first) * (k as f64 + 0.5) / PIXELS.1 as f64;
-                let k = line.along.partition_point(|&a| a < at).clamp(1, line.along.len() - 1);
-                if at - line.along[k - 1] < line.along[k] - at { k - 1 } else { k }
-            })
-            .collect();
-        let mut rgb = Vec::with_capacity(columns * nearest.len());
-        for &point in &nearest {
-            for column in 0..columns {
-                // The fastest of the rows in a column: what is short is not lost.
-                let (a, b) = (column * rows.len() / columns, (column + 1) * rows.len() / columns);
-                let fastest = rows[a..b.max(a + 1)].iter().map(|r| r[point]).fold(f64::MIN, f64::max);
-                rgb.push(viridis((fastest - lo) / (hi - lo)));
+        let columns = count.clamp(1, PIXELS.0);
+        let nearest = nearest(&line.along);
+        // The fastest of the rows in a column: what is short is not lost.
+        let (mut fastest, mut row) = (vec![f64::MIN; columns * nearest.len()], 0);
+        self.profiles(Table::Rate, line, &mut |_, rates| {
+            row += 1;
+            let column = (row * columns - 1) / count;
+            for (k, &point) in nearest.iter().enumerate() {
+                let shown = &mut fastest[k * columns + column];
+                *shown = shown.max(rates[point]);
             }
-        }
+        })?;
+        let rgb = fastest.into_iter().map(|rate| viridis((rate - lo) / (hi - lo))).collect();
         figure.image(Image { at: frame.at, size: frame.size, columns, rgb });
         frame.draw(&mut figure);
         Bar { range: (lo, hi), above: None, label: "log₁₀ of slip rate [m/s]".into() }
             .draw(&mut figure, &frame);
-        Some(figure)
+        Ok(Some(figure))
     }
+}
+
+/// The point nearest to each row of pixels.
+fn nearest(along: &[f64]) -> Vec<usize> {
+    let (first, last) = (along[0], along[along.len() - 1]);
+    let nearest = |k: usize| {
+        let at = first + (last - first) * (k as f64 + 0.5) / PIXELS.1 as f64;
+        let k = along.partition_point(|&a| a < at).clamp(1, along.len() - 1);
+        if at - along[k - 1] < along[k] - at { k - 1 } else { k }
+    };
+    (0..PIXELS.1).map(nearest).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn sample() -> Cycles {
+    /// Tables in memory.
+    #[derive(Default)]
+    struct Kept {
+        largest: Vec<Vec<f64>>,
+        slip: Vec<Vec<f64>>,
+        rate: Vec<Vec<f64>>,
+    }
+
+    impl Rows for Kept {
+        fn each(&self, table: Table, look: &mut dyn FnMut(&[f64])) -> Result<(), ObserveError> {
+            let rows = match table {
+                Table::Largest => &self.largest,
+                Table::Slip => &self.slip,
+                Table::Rate => &self.rate,
+            };
+            rows.iter().for_each(|row| look(row));
+            Ok(())
+        }
+    }
+
+    fn kept() -> Kept {
+        Kept {
+            largest: vec![
+                vec![0.0, -9.0, 0.0, 3e7, 0.0],
+                vec![1e9, 0.5, 0.0, 2.5e7, 0.0],
+                vec![2e9, -9.0, 0.0, 2.7e7, 0.0],
+            ],
+            slip: vec![vec![0.0, 9.0, 0.0, 0.0, 0.0], vec![1e9, 9.0, 1.0, 2.0, 3.0]],
+            rate: vec![vec![0.0, 0.0, -9.0, -9.0, -9.0], vec![1e9, 0.0, 0.5, -3.0, -9.0]],
+        }
+    }
+
+    fn sample(rows: &Kept) -> Cycles<'_> {
         Cycles {
             title: "t".into(),
             lines: vec![Line { name: "main".into(), columns: 1..4, along: vec![0.0, 1e4, 4e4] }],
-            largest: vec![[0.0, -9.0, 3e7], [1e9, 0.5, 2.5e7], [2e9, -9.0, 2.7e7]],
-            slip: vec![(0.0, vec![9.0, 0.0, 0.0, 0.0]), (1e9, vec![9.0, 1.0, 2.0, 3.0])],
-            rate: vec![(0.0, vec![0.0, -9.0, -9.0, -9.0]), (1e9, vec![0.0, 0.5, -3.0, -9.0])],
+            rows,
             events: vec![(0.9e9, 1.1e9)],
-            intervals: ["5 a", "1 s"],
+            intervals: ["2.5 d".into(), "3 min".into()],
         }
     }
 
     #[test]
     fn every_fault_along_a_line_has_its_figures() {
-        let names: Vec<String> = sample().figures().into_iter().map(|f| f.0).collect();
+        let names: Vec<String> = sample(&kept()).figures().unwrap().into_iter().map(|f| f.0).collect();
         assert_eq!(names, ["largest_rate", "phase_portrait", "main_slip", "main_rate"]);
     }
 
     #[test]
     fn slip_in_an_event_is_told_from_slip_between() {
-        let cycles = sample();
+        let kept = kept();
+        let cycles = sample(&kept);
         assert!(!cycles.in_event(0.0) && cycles.in_event(1e9) && !cycles.in_event(1.2e9));
     }
 
     #[test]
     fn the_image_has_the_colours_of_the_rates_with_the_upper_end_on_top() {
-        let cycles = sample();
-        let figure = cycles.space_time(&cycles.lines[0]).unwrap();
+        let kept = kept();
+        let cycles = sample(&kept);
+        let figure = cycles.space_time(&cycles.lines[0]).unwrap().unwrap();
         let image = figure.shapes.iter().find_map(|s| match s {
             super::super::figure::Shape::Image(image) => Some(image),
             _ => None,
@@ -246,7 +377,26 @@ mod tests {
 
     #[test]
     fn a_run_of_no_length_has_no_curves() {
-        let none = Cycles::default();
-        assert!(none.figures().is_empty());
+        let empty = Kept::default();
+        assert!(sample(&empty).figures().unwrap().is_empty());
+    }
+
+    #[test]
+    fn legends_of_contours_tell_the_intervals_of_the_run() {
+        let kept = kept();
+        let cycles = sample(&kept);
+        let figure = cycles.contours(&cycles.lines[0]).unwrap().unwrap();
+        let texts: Vec<&str> = figure
+            .shapes
+            .iter()
+            .filter_map(|s| match s {
+                super::super::figure::Shape::Text(text) => Some(text.text.as_str()),
+                _ => None,
+            })
+            .collect();
+        assert!(
+            texts.contains(&"between events, every 2.5 d") && texts.contains(&"in events, every 3 min"),
+            "{texts:?}"
+        );
     }
 }

@@ -41,8 +41,7 @@ pub(super) fn mises(scene: &str, mesh: &MeshView, end: &StageEnd, fields: &BodyF
     let colours = Colours::of(&seen, &fields.node_mises);
     let below = (frame.size.1 + 62.0).max(BAR + 20.0);
     let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + below);
-    let heading = format!("{scene}: end of stage “{}”", end.name);
-    figure.text((frame.at.0, 22.0), heading, super::axes::LABEL_TEXT, Anchor::Start, INK);
+    super::title::title(&mut figure, &frame, scene, &format!("end of stage “{}”", end.name));
     figure.image(map(&places, &seen, &fields.node_mises, &colours, &frame, (lo, hi)));
     for line in &seen.outline {
         let at = |&node: &usize| {

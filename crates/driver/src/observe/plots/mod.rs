@@ -13,9 +13,10 @@ mod figure;
 mod png;
 mod profile;
 mod svg;
+mod title;
 mod units;
 
-pub use cycles::{Cycles, Line};
+pub use cycles::{Cycles, Line, Rows, Table};
 
 use super::files::stems;
 use super::{ObserveError, Recorder, atomic};
@@ -37,7 +38,7 @@ pub fn draw_all(folder: &Path, recorder: &Recorder) -> Result<Vec<PathBuf>, Obse
 /// # Errors
 /// See [`draw_all`].
 pub fn draw_cycles(folder: &Path, cycles: &Cycles) -> Result<Vec<PathBuf>, ObserveError> {
-    write_all(folder, cycles.figures())
+    write_all(folder, cycles.figures()?)
 }
 
 fn write_all(folder: &Path, figures: Vec<(String, Figure)>) -> Result<Vec<PathBuf>, ObserveError> {

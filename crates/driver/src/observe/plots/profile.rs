@@ -4,8 +4,9 @@ use super::super::record::StageEnd;
 use super::super::view::InterfaceMesh;
 use super::axes::{Axis, Frame};
 use super::colour::viridis;
-use super::curves::{Entry, legend, title};
+use super::curves::{Entry, legend};
 use super::figure::{Figure, Point};
+use super::title::title;
 use super::units::{LENGTH, STRESS};
 
 /// Two positions closer than this fraction of the interface's extent are one: nodes of one line across it.

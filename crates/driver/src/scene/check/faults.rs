@@ -43,6 +43,7 @@ impl Checker<'_> {
         }
         self.directions_of_slip();
         self.stations();
+        self.cadence();
         self.events();
         self.springs();
         self.left_out();
@@ -59,6 +60,7 @@ impl Checker<'_> {
                     "remove it; displacements of bodies are `fields`",
                 );
             }
+            self.cadence_without_faults();
             return;
         };
         let (output, solver) = (&scene.output, &scene.solver);

@@ -1,10 +1,14 @@
 //! Outputs: how many, of what.
 
 use super::Checker;
+use crate::scene::model::Spanned;
 use crate::scene::near::suggest;
 
 /// More probes of an interface, or outputs of a stage, than this are a slip of the keyboard: each output is a file.
 const MOST_OUTPUTS: usize = 100_000;
+
+/// A growing file that may not have so many bytes has no room for a profile of a fault.
+const LEAST_FILE: f64 = 1e4;
 
 impl Checker<'_> {
     pub(super) fn output(&mut self) {
@@ -64,6 +68,66 @@ impl Checker<'_> {
         for (name, spec) in &self.scene.output.forces {
             self.name("a force", name, spec.span());
             self.set(&spec.get_ref().set);
+        }
+    }
+
+    /// Outputs of faults in a scene that has none.
+    pub(super) fn cadence_without_faults(&mut self) {
+        let output = &self.scene.output;
+        let keys = [
+            ("cadence", output.cadence.as_ref().map(Spanned::span)),
+            ("contours", output.contours.as_ref().map(Spanned::span)),
+            ("largest_file", output.largest_file.as_ref().map(Spanned::span)),
+        ];
+        for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
+            self.error(
+                place,
+                format!("`{key}` is for scenes with faults"),
+                "remove it; how often something is written are `fields` and `profiles`",
+            );
+        }
+    }
+
+    /// When outputs of faults are due.
+    pub(super) fn cadence(&mut self) {
+        let output = &self.scene.output;
+        let mut amounts = Vec::new();
+        if let Some(cadence) = output.cadence.as_ref().map(Spanned::get_ref) {
+            amounts.extend(cadence.decades.as_ref().map(|d| ("decades", d.span(), *d.get_ref())));
+            amounts.extend(cadence.slip.as_ref().map(|s| ("slip", s.span(), s.get_ref().0)));
+            amounts.extend(cadence.longest.as_ref().map(|t| ("longest", t.span(), t.get_ref().0)));
+            amounts.extend(cadence.shortest.as_ref().map(|t| ("shortest", t.span(), t.get_ref().0)));
+        }
+        if let Some(contours) = &output.contours {
+            amounts.extend(contours.get_ref().iter().map(|t| ("contours", contours.span(), t.0)));
+        }
+        for (name, place, amount) in amounts {
+            if !(amount > 0.0 && amount.is_finite()) {
+                self.error(
+                    place,
+                    format!("`{name}` must be positive, found {amount}"),
+                    "leave it out for the default; every step makes a row where `decades` is tiny",
+                );
+            }
+        }
+        if let Some(contours) = &output.contours {
+            let [between, within] = contours.get_ref().map(|t| t.0);
+            if within > between {
+                self.error(
+                    contours.span(),
+                    "profiles in events come more rarely than between them",
+                    "first the time between events, then that in them, such as [\"5 yr\", \"1 s\"]",
+                );
+            }
+        }
+        if let Some(most) =
+            output.largest_file.as_ref().filter(|m| m.get_ref().0.is_nan() || m.get_ref().0 < LEAST_FILE)
+        {
+            self.error(
+                most.span(),
+                format!("files of {} bytes at most have no room", most.get_ref().0),
+                "at least \"10 kB\", such as \"100 MB\"",
+            );
         }
     }
 }

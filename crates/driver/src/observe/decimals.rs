@@ -1,0 +1,34 @@
+//! Decimals for readers: what rounds to zero has no sign.
+
+/// With so many decimals.
+#[must_use]
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_string(),
+        _ => text,
+    }
+}
+
+/// With so many decimals and an exponent.
+#[must_use]
+pub fn scientific(value: f64, decimals: usize) -> String {
+    // Adding zero turns -0 into 0.
+    format!("{:.decimals$e}", value + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_that_rounds_to_zero_has_a_sign() {
+        assert_eq!(fixed(-0.0, 6), "0.000000");
+        assert_eq!(fixed(-4e-7, 6), "0.000000");
+        assert_eq!(fixed(-6e-7, 6), "-0.000001");
+        assert_eq!(fixed(-0.4, 0), "0");
+        assert_eq!(fixed(f64::NEG_INFINITY, 2), "-inf");
+        assert_eq!(scientific(-0.0, 3), "0.000e0");
+        assert_eq!(scientific(-1e-30, 1), "-1.0e-30");
+    }
+}

@@ -1,0 +1,102 @@
+//! Titles that stay on the canvas.
+
+use super::axes::{Frame, LABEL_TEXT};
+use super::colour::INK;
+use super::figure::{Anchor, Figure};
+
+/// Mean width of a character of DejaVu Sans over its em, capitals and digits among them: a little above that of plain text.
+const CHARACTER: f64 = 0.62;
+/// Room kept free at the right end.
+const MARGIN: f64 = 12.0;
+/// Smallest text that is still read easily.
+const SMALLEST: f64 = 10.5;
+/// Smallest text of a legend.
+const LEAST: f64 = 6.0;
+/// From the last line of a title to the frame.
+const ABOVE: f64 = 14.0;
+
+/// Scene and part, above the frame: smaller or in two lines where they are long; what two lines do not hold is cut from the scene.
+pub(super) fn title(figure: &mut Figure, frame: &Frame, scene: &str, part: &str) {
+    let room = figure.width - frame.at.0 - MARGIN;
+    let (lines, size) = shortened(scene, part, room);
+    let bottom = frame.at.1 - if lines.len() > 1 { ABOVE - 2.0 } else { ABOVE + 4.0 };
+    for (k, line) in lines.iter().rev().enumerate() {
+        let y = bottom - k as f64 * 1.25 * size;
+        figure.text((frame.at.0, y), line.as_str(), size, Anchor::Start, INK);
+    }
+}
+
+/// The lines and their size, with as much of the scene as fits beside the part.
+fn shortened(scene: &str, part: &str, room: f64) -> (Vec<String>, f64) {
+    let whole = fit(&format!("{scene}: {part}"), room);
+    if whole.2 {
+        return (whole.0, whole.1);
+    }
+    let characters: Vec<char> = scene.chars().collect();
+    let cut = |kept: usize| {
+        fit(&format!("{}\u{2026}: {part}", characters[..kept].iter().collect::<String>()), room)
+    };
+    let fitting = (0..characters.len()).rev().map(cut).find(|found| found.2);
+    let (lines, size, _) = fitting.unwrap_or(whole);
+    (lines, size)
+}
+
+/// The size of a line of at most `size` that stays within a room of this width, where that can be read at all.
+pub(super) fn within(text: &str, room: f64, size: f64) -> f64 {
+    size.min(room / (CHARACTER * text.chars().count().max(1) as f64)).max(LEAST)
+}
+
+/// The lines of a text and their size, for a room of this width, and whether all of it is there.
+fn fit(text: &str, room: f64) -> (Vec<String>, f64, bool) {
+    let characters = |text: &str| text.chars().count() as f64;
+    let one = room / (CHARACTER * characters(text).max(1.0));
+    if one >= SMALLEST {
+        return (vec![text.to_string()], one.min(LABEL_TEXT), true);
+    }
+    let most = (room / (CHARACTER * SMALLEST)) as usize;
+    let (first, rest) = part(text, most);
+    let (second, left) = part(&rest, most);
+    let whole = left.is_empty();
+    let cut = || second.chars().take(most.saturating_sub(1)).chain(['\u{2026}']).collect();
+    let second = if whole { second.clone() } else { cut() };
+    (vec![first, second], SMALLEST, whole)
+}
+
+/// The words that `most` characters hold, at least one of them or a part of it, and what is left.
+fn part(text: &str, most: usize) -> (String, String) {
+    if text.chars().count() <= most {
+        return (text.to_string(), String::new());
+    }
+    let end = text.char_indices().nth(most).map_or(text.len(), |(byte, _)| byte);
+    let cut = text[..end].rfind(' ').filter(|&at| at > 0).unwrap_or(end);
+    (text[..cut].to_string(), text[cut..].trim_start().to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_of_any_length_stay_on_the_canvas() {
+        let words = "a title whose author had much to say about cycles of faults ".repeat(8);
+        let one = "x".repeat(500);
+        for text in ["short", &words[..80], &words[..130], &words, &one, "äöü ".repeat(90).as_str(), ""] {
+            for room in [250.0, 600.0] {
+                let (lines, size, _) = fit(text, room);
+                assert!(
+                    (1..=2).contains(&lines.len()) && (SMALLEST..=LABEL_TEXT).contains(&size),
+                    "{lines:?}"
+                );
+                for line in &lines {
+                    assert!(
+                        CHARACTER * size * line.chars().count() as f64 <= room + 1e-9,
+                        "{line} at {size}"
+                    );
+                }
+            }
+        }
+        assert_eq!(fit("short", 600.0), (vec!["short".to_string()], LABEL_TEXT, true));
+        let (lines, _) = shortened(&words, "end of stage", 600.0);
+        assert!(lines[1].ends_with("\u{2026}: end of stage"), "{lines:?}");
+    }
+}
