@@ -1,4 +1,4 @@
-//! Records the commit the program is built from, where there is one.
+//! Records the commit the program is built from, where there is one, and whether its sources had changed since.
 
 // A build script speaks to cargo by printing.
 #![allow(clippy::print_stdout, clippy::disallowed_macros)]
@@ -6,23 +6,50 @@
 use std::path::Path;
 use std::process::Command;
 
+/// What the program is built from, relative to this package.
+const SOURCES: [&str; 11] = [
+    "src",
+    "build.rs",
+    "Cargo.toml",
+    "../contact/src",
+    "../contact/Cargo.toml",
+    "../fem/src",
+    "../fem/Cargo.toml",
+    "../friction/src",
+    "../friction/Cargo.toml",
+    "../../Cargo.toml",
+    "../../Cargo.lock",
+];
+
 fn main() {
-    let commit = git(&["describe", "--always", "--dirty", "--abbrev=12"]);
-    if let Some(commit) = commit {
-        println!("cargo:rustc-env=ASPERITY_COMMIT={commit}");
+    if let Some(commit) = git(&["rev-parse", "--short=12", "HEAD"]) {
+        let changes = git(&[&["status", "--porcelain", "--"][..], &SOURCES].concat());
+        let dirty = if changes.is_none_or(|c| c.is_empty()) { "" } else { "-dirty" };
+        println!("cargo:rustc-env=ASPERITY_COMMIT={commit}{dirty}");
     }
-    // A file that does not exist would have the crate compiled anew in every build; in a linked worktree `.git` is a file,
-    // and without a repository there is none.
-    println!("cargo:rerun-if-changed=build.rs");
-    for name in ["HEAD", "logs/HEAD"] {
-        if let Some(path) = git(&["rev-parse", "--git-path", name]).filter(|path| Path::new(path).exists()) {
-            println!("cargo:rerun-if-changed={path}");
+    // What changes a source has the crate compiled anew in any case; what commits or takes back changes a reference or a source.
+    for path in SOURCES {
+        watch(Path::new(path));
+    }
+    let branch = git(&["symbolic-ref", "--quiet", "HEAD"]);
+    for name in ["HEAD", "logs/HEAD"].into_iter().chain(branch.as_deref()) {
+        if let Some(path) = git(&["rev-parse", "--git-path", name]) {
+            watch(Path::new(&path));
         }
     }
 }
 
-/// What git prints, without the end of the line; none where it fails or is not there.
+/// A file that does not exist would have the crate compiled anew in every build; in a linked worktree `.git` is a file, and without a
+/// repository there is none.
+fn watch(path: &Path) {
+    if path.exists() {
+        println!("cargo:rerun-if-changed={}", path.display());
+    }
+}
+
+/// What git prints, without the end of the line; none where it fails or is not there. It takes no lock that another git may want.
 fn git(arguments: &[&str]) -> Option<String> {
-    let output = Command::new("git").args(arguments).output().ok().filter(|o| o.status.success())?;
+    let git = Command::new("git").env("GIT_OPTIONAL_LOCKS", "0").args(arguments).output();
+    let output = git.ok().filter(|o| o.status.success())?;
     Some(String::from_utf8(output.stdout).ok()?.trim().to_string())
 }

@@ -74,6 +74,7 @@ pub fn simulate_in(text: &str, folder: &str) -> Result<Done, CaseError> {
         Outcome::Stopped { stage, time, reason } => {
             Err(format!("stopped in stage `{stage}` at {time} s: {reason}").into())
         }
+        Outcome::Interrupted { .. } => Err("interrupted".into()),
     }
 }
 

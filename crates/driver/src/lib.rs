@@ -14,6 +14,7 @@ pub mod observe;
 pub mod ode;
 pub mod plan;
 mod plan_doubts;
+pub mod printing;
 pub mod report;
 pub mod rigid;
 pub mod run;

@@ -1,9 +1,8 @@
 //! The `asperity` command.
-// The command line is where printing belongs.
-#![allow(clippy::print_stdout, clippy::print_stderr)]
 
-use asperity_driver::cli;
+use asperity_driver::{cli, printing};
 use clap::Parser;
+use std::fmt::Write;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -11,16 +10,22 @@ fn main() -> ExitCode {
     match cli::execute(&cli::Arguments::parse()) {
         Ok(cli::End::Done) => ExitCode::SUCCESS,
         Ok(cli::End::Stopped(why)) => {
-            eprintln!("stopped: {why}");
+            printing::err(format_args!("stopped: {why}\n"));
             ExitCode::from(2)
         }
         Ok(cli::End::Interrupted(why)) => {
-            eprintln!("{why}");
+            printing::err(format_args!("{why}\n"));
             ExitCode::from(3)
         }
         Err(error) => {
-            eprintln!("{error:?}");
+            printing::err(format_args!("{}\n", rendered(&error)));
             ExitCode::FAILURE
         }
     }
+}
+
+/// An error as a person should see it; the bare message where that cannot be drawn.
+fn rendered(error: &miette::Report) -> String {
+    let mut text = String::new();
+    if write!(text, "{error:?}").is_ok() { text } else { error.to_string() }
 }

@@ -5,7 +5,7 @@ use crate::observe::view::{Counts, ForceMark, InterfaceFields, PointMark, PointV
 use crate::plan::{Plan, Summary};
 use crate::views;
 use crate::warning::Warning;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// How a run ended.
@@ -24,6 +24,36 @@ pub enum Outcome {
         /// Why.
         reason: String,
     },
+    /// A signal ended it; everything before `time` stands.
+    Interrupted {
+        /// Stage.
+        stage: String,
+        /// Time of the last state \[s\].
+        time: f64,
+    },
+}
+
+/// How a run stands, in every report under the same key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// It goes on, or was killed.
+    Running,
+    /// It ended as asked.
+    Completed,
+    /// It could not go on.
+    Stopped,
+    /// A signal or its wall time ended it.
+    Interrupted,
+}
+
+/// What a run was begun from.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Origin {
+    /// Path of the scene file.
+    pub scene: String,
+    /// When it was begun, or resumed.
+    pub started: String,
 }
 
 /// Wall time per phase \[s\].
@@ -111,8 +141,11 @@ pub struct Provenance {
     pub seconds: Phases,
     /// Threads.
     pub threads: usize,
-    /// Commit of the program, "unknown" outside a checkout.
+    /// Commit of the program, "unknown" outside a checkout; with `-dirty` where its sources had changed since.
     pub commit: String,
+    /// What it was begun from.
+    #[serde(flatten)]
+    pub origin: Origin,
 }
 
 /// The report of a run.
@@ -192,6 +225,16 @@ impl RunReport {
         for (force, value) in plan.samples.forces.iter().zip(&samples.forces) {
             let (force, unit) = (views::force_mark(force), views::force_unit(plan));
             self.forces.push(ForceResult { force, stage: name(), value: *value, unit });
+        }
+    }
+
+    /// How the run stands.
+    #[must_use]
+    pub fn status(&self) -> Status {
+        match self.outcome {
+            Outcome::Completed => Status::Completed,
+            Outcome::Stopped { .. } => Status::Stopped,
+            Outcome::Interrupted { .. } => Status::Interrupted,
         }
     }
 

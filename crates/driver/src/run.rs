@@ -9,6 +9,7 @@ use crate::run_doubts;
 use crate::step::Accepted;
 use crate::system::Assembled;
 use crate::timing::StepLength;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant as Clock;
 
 /// Why a run could not be completed.
@@ -33,14 +34,31 @@ pub enum RunError {
 /// # Errors
 /// [`RunError`] when the system cannot be set up or an output cannot be written.
 pub fn run(plan: &AnyPlan, observer: &mut dyn Observer) -> Result<RunReport, RunError> {
+    run_until(plan, observer, &AtomicBool::new(false))
+}
+
+/// Runs a plan until its end, or until after the step in which `stop` is set: the outcome is then that it was interrupted.
+///
+/// # Errors
+/// See [`run`].
+pub fn run_until(
+    plan: &AnyPlan,
+    observer: &mut dyn Observer,
+    stop: &AtomicBool,
+) -> Result<RunReport, RunError> {
     match plan {
-        AnyPlan::Two(plan) => run_in(plan, observer),
-        AnyPlan::Three(plan) => run_in(plan, observer),
+        AnyPlan::Two(plan) => run_in(plan, observer, stop),
+        AnyPlan::Three(plan) => run_in(plan, observer, stop),
     }
 }
 
-fn run_in<const D: usize>(plan: &Plan<D>, observer: &mut dyn Observer) -> Result<RunReport, RunError> {
-    let mut run = Running { plan, counts: Counts::default(), phases: Phases::default(), steps: Vec::new() };
+fn run_in<const D: usize>(
+    plan: &Plan<D>,
+    observer: &mut dyn Observer,
+    stop: &AtomicBool,
+) -> Result<RunReport, RunError> {
+    let (counts, phases) = (Counts::default(), Phases::default());
+    let mut run = Running { plan, stop, counts, phases, steps: Vec::new() };
     let clock = Clock::now();
     let mut system = Assembled::new(plan)
         .map_err(|reason| RunError::SetUp { stage: plan.stages[0].name.clone(), reason })?;
@@ -70,6 +88,7 @@ fn run_in<const D: usize>(plan: &Plan<D>, observer: &mut dyn Observer) -> Result
 /// A run in progress.
 struct Running<'a, const D: usize> {
     plan: &'a Plan<D>,
+    stop: &'a AtomicBool,
     counts: Counts,
     phases: Phases,
     steps: Vec<StepRecord>,
@@ -92,6 +111,10 @@ impl<const D: usize> Running<'_, D> {
         let mut free: Option<String> = None;
         loop {
             let Some(dt) = length.next(system.time()) else { return Ok(None) };
+            if self.stop.load(Ordering::Relaxed) {
+                let stage = stage.name.clone();
+                return Ok(Some(Outcome::Interrupted { stage, time: system.time() }));
+            }
             let clock = Clock::now();
             let before = system.slip_rates();
             let trial = system.step(dt, &mut self.counts);

@@ -132,7 +132,7 @@ impl Done {
     /// Time of the last good state and why the run stopped there.
     pub fn stopped(&self) -> Result<(f64, &str), CaseError> {
         match &self.report.outcome {
-            Outcome::Completed => Err("the run was completed".into()),
+            Outcome::Completed | Outcome::Interrupted { .. } => Err("the run did not stop by itself".into()),
             Outcome::Stopped { time, reason, .. } => Ok((*time, reason)),
         }
     }

@@ -26,17 +26,31 @@ const KIND: &str = "asperity checkpoint of faults, version ";
 /// Version of the contents.
 const VERSION: &str = "2";
 
-/// All there is to know to go on.
+/// Where a run stands.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Checkpoint {
-    /// SHA-256 of the scene file and the mesh files it names.
-    pub scene: String,
+pub struct Stand {
     /// State, clock, step length, events and counts.
     pub run: Run,
     /// Where the output files stand.
     pub files: Position,
     /// Works until then.
     pub sums: Sums,
+}
+
+/// All there is to know to go on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    /// Hash of the physics of the scene and of the mesh files it names, see [`super::identity`].
+    pub physics: String,
+    /// When the run was to end \[s\].
+    pub end: f64,
+    /// What the loads did until then, see [`super::identity::loads`].
+    pub loads: Vec<[f64; 3]>,
+    /// Where the run stands.
+    pub last: Stand,
+    /// Where its time is over: where it restarted last. The step to the end is shorter than one that goes on would have been, and a run
+    /// that is extended goes on from here.
+    pub before: Option<Box<Stand>>,
 }
 
 /// Why a run cannot go on.
@@ -70,11 +84,33 @@ pub enum ResumeError {
     },
     /// The scene is not the one that was run.
     #[error(
-        "the checkpoint {path} is of another scene: the scene file or a mesh file has changed since; restore it, or run without --resume to begin again"
+        "the checkpoint {path} is of another scene: the scene file or a mesh file has changed since in more than the duration of the last stage, `stop_after` or `[place]`; restore it, or run without --resume to begin again"
     )]
     Scene {
         /// The file.
         path: PathBuf,
+    },
+    /// The loads until then are not those that acted.
+    #[error(
+        "the checkpoint {path} is of other loads: with another duration of the last stage they are not what they were until {until:e} s; prescribe rates instead of values at its end, or run without --resume to begin again"
+    )]
+    Loads {
+        /// The file.
+        path: PathBuf,
+        /// How far the run has got \[s\].
+        until: f64,
+    },
+    /// The run has got farther than the scene now asks for.
+    #[error(
+        "the checkpoint {path} lies beyond what the scene asks for: it is at {at:e} s with {events} events; ask for more, or run without --resume to begin again"
+    )]
+    Beyond {
+        /// The file.
+        path: PathBuf,
+        /// Its time \[s\].
+        at: f64,
+        /// Its events.
+        events: usize,
     },
     /// An output file lacks rows that were there.
     #[error(
@@ -112,8 +148,8 @@ impl Checkpoint {
     /// Reads that of `out`; none where there is none.
     ///
     /// # Errors
-    /// Where it is damaged, of another version, or of another scene than `scene`.
-    pub fn read(out: &Path, scene: &str) -> Result<Option<Self>, ResumeError> {
+    /// Where it is damaged, of another version, or of another scene than that of `physics`.
+    pub fn read(out: &Path, physics: &str) -> Result<Option<Self>, ResumeError> {
         let path = out.join(FILE);
         let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
@@ -134,7 +170,7 @@ impl Checkpoint {
             return Err(damaged("its contents do not have the sum written beside them"));
         }
         let read: Self = serde_json::from_str(contents).map_err(|e| damaged(&e.to_string()))?;
-        if read.scene != scene {
+        if read.physics != physics {
             return Err(ResumeError::Scene { path });
         }
         Ok(Some(read))
@@ -170,7 +206,9 @@ mod tests {
         run.next_step = Some(1.0 / 7.0);
         run.catalogue.pass(Crossing::Begins, run.at, 1, [&[0.1, 0.2], &[3.0, 4.0]]);
         run.catalogue.rate(2.5);
-        Checkpoint { scene: "s".into(), run, files: Position::default(), sums: Sums::default() }
+        let last = Stand { run, files: Position::default(), sums: Sums::default() };
+        let before = Some(Box::new(last.clone()));
+        Checkpoint { physics: "s".into(), end: 1.0 / 9.0, loads: vec![[0.1, 0.2, 0.3]], last, before }
     }
 
     #[test]
@@ -180,9 +218,9 @@ mod tests {
         written.write(folder.path()).unwrap();
         let read = Checkpoint::read(folder.path(), "s").unwrap().unwrap();
         assert_eq!(read, written);
-        let bits = |c: &Checkpoint| c.run.unknowns.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+        let bits = |c: &Checkpoint| c.last.run.unknowns.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&read), bits(&written));
-        assert_eq!(format!("{:?}", read.run.at), format!("{:?}", written.run.at));
+        assert_eq!(format!("{:?}", read.last.run.at), format!("{:?}", written.last.run.at));
     }
 
     #[test]

@@ -132,15 +132,20 @@ impl<'a> Files<'a> {
         Ok(Self { plan, rows, stations: stations::points(plan), before, snapshots, failure: None })
     }
 
-    /// Where the files stand, once all of that is on the disc.
+    /// Where the files stand.
+    #[must_use]
+    pub fn position(&self) -> Position {
+        let gauges = self.rows.iter().map(|r| r.gauge).collect();
+        let snapshots = self.snapshots.as_ref().map(Snapshots::taken);
+        Position { gauges, before: self.before, snapshots }
+    }
+
+    /// Waits until all of them is on the disc.
     ///
     /// # Errors
     /// When something could not be written.
-    pub fn position(&self) -> Result<Position, ObserveError> {
-        self.rows.iter().try_for_each(Rows::settle)?;
-        let gauges = self.rows.iter().map(|r| r.gauge).collect();
-        let snapshots = self.snapshots.as_ref().map(Snapshots::taken);
-        Ok(Position { gauges, before: self.before, snapshots })
+    pub fn settle(&self) -> Result<(), ObserveError> {
+        self.rows.iter().try_for_each(Rows::settle)
     }
 
     /// What is to be said of files that have become coarse.

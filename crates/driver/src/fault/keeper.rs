@@ -1,8 +1,9 @@
 //! Keeps what a run leaves behind: its files, its sums, what a person waiting sees, and the checkpoints.
 
 use super::balance::Balance;
-use super::checkpoint::{Checkpoint, ResumeError};
+use super::checkpoint::{Checkpoint, FILE, ResumeError, Stand};
 use super::files::Files;
+use super::identity;
 use super::plan::Plan;
 use super::report;
 use super::run::{Moment, Run, Watcher};
@@ -14,21 +15,24 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// When checkpoints are written and when a run is broken off.
+/// When checkpoints are written and when a run is interrupted.
 #[derive(Clone, Debug, Default)]
 pub struct Pauses {
     /// Wall time between two checkpoints.
     pub every: Duration,
-    /// Wall time of the integration after which to break off.
+    /// Wall time of the integration after which to interrupt it.
     pub wall: Option<Duration>,
-    /// Set from outside to break off.
+    /// Set from outside to interrupt it.
     pub stop: Arc<AtomicBool>,
 }
+
+/// Where a run restarted last, if it did.
+type Before = Option<Box<Stand>>;
 
 /// See the module.
 pub struct Keeper<'a> {
     out: PathBuf,
-    scene: String,
+    physics: String,
     plan: &'a Plan,
     files: Files<'a>,
     balance: Balance<'a>,
@@ -38,19 +42,21 @@ pub struct Keeper<'a> {
     /// When the last checkpoint was written.
     written: Instant,
     steps: u64,
+    /// Where the run restarted last.
+    before: Before,
     interrupted: Option<&'static str>,
     failure: Option<ObserveError>,
 }
 
 impl<'a> Keeper<'a> {
-    /// Begins a run in `out`, whose scene with its mesh files has the hash `scene`.
+    /// Begins a run in `out` of a scene whose physics has this hash.
     ///
     /// # Errors
     /// When a file cannot be written.
     pub fn begin(
         out: &Path,
         plan: &'a Plan,
-        scene: &str,
+        physics: &str,
         pauses: Pauses,
     ) -> Result<(Self, Run), ResumeError> {
         Checkpoint::remove(out)?;
@@ -58,33 +64,57 @@ impl<'a> Keeper<'a> {
         let faults: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
         let thresholds = plan.settings.thresholds;
         let run = Run::new(plan.start.clone(), thresholds).of_faults(&faults, thresholds);
-        Ok((Self::new(out, plan, scene, (files, Balance::new(plan)), pauses, 0), run))
+        Ok((Self::new(out, plan, physics, (files, Balance::new(plan)), pauses, 0), run))
     }
 
-    /// Goes on from the checkpoint in `out`; none where there is none.
+    /// Goes on from the checkpoint in `out`, also to a later end or to more events than it was written for; none where there is none,
+    /// or where its run never restarted before its end.
     ///
     /// # Errors
     /// When the checkpoint is damaged or of another scene, or a file cannot be read or written.
     pub fn resume(
         out: &Path,
         plan: &'a Plan,
-        scene: &str,
+        physics: &str,
         pauses: Pauses,
     ) -> Result<Option<(Self, Run)>, ResumeError> {
-        let Some(read) = Checkpoint::read(out, scene)? else { return Ok(None) };
-        if read.run.unknowns.len() != plan.start.len() {
+        let Some(read) = Checkpoint::read(out, physics)? else { return Ok(None) };
+        if read.last.run.unknowns.len() != plan.start.len() {
             return Err(Checkpoint::foreign(out, "it has not the unknowns of this scene"));
         }
-        let files = Files::resume(out, plan, &read.files)?;
-        let balance = Balance::resume(plan, read.sums);
-        let keeper = Self::new(out, plan, scene, (files, balance), pauses, read.run.counts.steps);
-        Ok(Some((keeper, read.run)))
+        let Some((from, before)) = Self::from(out, plan, read)? else { return Ok(None) };
+        let files = Files::resume(out, plan, &from.files)?;
+        let balance = Balance::resume(plan, from.sums);
+        let mut keeper = Self::new(out, plan, physics, (files, balance), pauses, from.run.counts.steps);
+        keeper.before = before;
+        Ok(Some((keeper, from.run)))
+    }
+
+    /// Where to go on from, and where the run restarted last until then.
+    fn from(out: &Path, plan: &Plan, read: Checkpoint) -> Result<Option<(Stand, Before)>, ResumeError> {
+        let (path, end) = (out.join(FILE), plan.settings.end);
+        let run = &read.last.run;
+        let (at, events) = (run.at.seconds(), run.catalogue.events().len());
+        if at > end || plan.settings.most_events.is_some_and(|most| events > most) {
+            return Err(ResumeError::Beyond { path, at, events });
+        }
+        if !identity::same(&read.loads, &identity::loads(plan, at)) {
+            return Err(ResumeError::Loads { path, until: at });
+        }
+        if at < read.end {
+            let before = Some(Box::new(read.last.clone()));
+            return Ok(Some((read.last, before)));
+        }
+        if end > read.end {
+            return Ok(read.before.map(|before| (Stand::clone(&before), Some(before))));
+        }
+        Ok(Some((read.last, read.before)))
     }
 
     fn new(
         out: &Path,
         plan: &'a Plan,
-        scene: &str,
+        physics: &str,
         (files, balance): (Files<'a>, Balance<'a>),
         pauses: Pauses,
         steps: u64,
@@ -92,7 +122,7 @@ impl<'a> Keeper<'a> {
         let now = Instant::now();
         Self {
             out: out.to_path_buf(),
-            scene: scene.to_string(),
+            physics: physics.to_string(),
             plan,
             files,
             balance,
@@ -101,12 +131,13 @@ impl<'a> Keeper<'a> {
             started: now,
             written: now,
             steps,
+            before: None,
             interrupted: None,
             failure: None,
         }
     }
 
-    /// Why the run is to be broken off now.
+    /// Why the run is to be interrupted now.
     fn reason(&self) -> Option<&'static str> {
         if self.pauses.stop.load(Ordering::Relaxed) {
             return Some("a signal asked for it");
@@ -114,10 +145,16 @@ impl<'a> Keeper<'a> {
         self.pauses.wall.is_some_and(|wall| self.started.elapsed() >= wall).then_some("its wall time is over")
     }
 
-    fn save(&mut self, run: &Run) -> Result<(), ObserveError> {
-        let files = self.files.position()?;
-        let sums = self.balance.sums().clone();
-        Checkpoint { scene: self.scene.clone(), run: run.clone(), files, sums }.write(&self.out)?;
+    /// Where a run stands.
+    fn stand(&self, run: &Run) -> Stand {
+        Stand { run: run.clone(), files: self.files.position(), sums: self.balance.sums().clone() }
+    }
+
+    fn save(&mut self, last: Stand, before: Before) -> Result<(), ObserveError> {
+        self.files.settle()?;
+        let loads = identity::loads(self.plan, last.run.at.seconds());
+        let (physics, end) = (self.physics.clone(), self.plan.settings.end);
+        Checkpoint { physics, end, loads, last, before }.write(&self.out)?;
         self.written = Instant::now();
         Ok(())
     }
@@ -129,7 +166,7 @@ impl<'a> Keeper<'a> {
     }
 
     /// Ends the files and, where the run can be gone on with, writes the last checkpoint. Returns the sums, and why the run was
-    /// broken off where it was.
+    /// interrupted where it was.
     ///
     /// # Errors
     /// The first thing that could not be written.
@@ -143,7 +180,9 @@ impl<'a> Keeper<'a> {
         }
         let failed = matches!(run.outcome, crate::ode::Outcome::Failed { .. });
         if !failed && self.interrupted.is_none() {
-            self.save(run)?;
+            let over = run.outcome == crate::ode::Outcome::Completed;
+            let before = self.before.take().filter(|_| over);
+            self.save(self.stand(run), before)?;
         }
         Ok((self.balance, self.interrupted))
     }
@@ -168,10 +207,13 @@ impl Watcher for Keeper<'_> {
 
     fn pause(&mut self, run: &Run) -> Control {
         self.interrupted = self.reason();
+        let now = self.stand(run);
         if self.interrupted.is_none() && self.written.elapsed() < self.pauses.every {
+            self.before = Some(Box::new(now));
             return Control::Go;
         }
-        if let Err(failure) = self.save(run) {
+        self.before = Some(Box::new(now.clone()));
+        if let Err(failure) = self.save(now, None) {
             self.failure = Some(failure);
             return Control::Stop;
         }

@@ -8,6 +8,7 @@ use super::plan::{FaultView, Plan};
 use super::run::Run;
 use crate::observe::decimals::fixed;
 use crate::ode::Outcome;
+use crate::report::Origin;
 use crate::warning::Warning;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
@@ -228,6 +229,9 @@ pub struct Provenance {
     pub seconds: f64,
     /// Commit of the program.
     pub commit: String,
+    /// What it was begun from.
+    #[serde(flatten)]
+    pub origin: Origin,
 }
 
 /// The report of a run.

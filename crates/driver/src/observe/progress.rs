@@ -1,8 +1,9 @@
-//! What a person waiting sees: a bar on a terminal, one line per interval otherwise. The only place here that prints or
-//! reads a clock.
+//! What a person waiting sees: a bar on a terminal, one line per interval otherwise. The only place here that reads a clock.
 
 use super::ObserveError;
+use super::pulse::Pulse;
 use super::view::{Observer, Setup, StepView};
+use crate::printing;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -23,7 +24,7 @@ pub struct Progress {
 
 enum Sink {
     Bar { bar: ProgressBar, shown: Option<Instant> },
-    Lines { started: Instant, shown: usize },
+    Lines { started: Instant, shown: usize, pulse: Pulse },
 }
 
 impl Progress {
@@ -33,13 +34,12 @@ impl Progress {
         let sink = if std::io::stderr().is_terminal() {
             Sink::Bar { bar: bar(), shown: None }
         } else {
-            Sink::Lines { started: Instant::now(), shown: 0 }
+            Sink::Lines { started: Instant::now(), shown: 0, pulse: Pulse::new("setting up") }
         };
         Self { sink }
     }
 
     /// Shows that this part of the simulated time is done, with a line about the present step.
-    #[allow(clippy::print_stderr)] // This is the run's voice on standard error.
     pub fn show(&mut self, part: f64, status: impl FnOnce() -> String) {
         let part = part.clamp(0.0, 1.0);
         match &mut self.sink {
@@ -51,11 +51,15 @@ impl Progress {
                     bar.set_message(status());
                 }
             }
-            Sink::Lines { started, shown } => {
+            Sink::Lines { started, shown, pulse } => {
+                let words = |status: String| format!("{:3.0} %  {status}", 100.0 * part);
                 if let Some(now) = passed(part, *shown) {
                     *shown = now;
-                    let wall = started.elapsed().as_secs_f64();
-                    eprintln!("{:3.0} %  {}  [{wall:.1} s]", 100.0 * part, status());
+                    let (wall, words) = (started.elapsed().as_secs_f64(), words(status()));
+                    printing::err(format_args!("{words}  [{wall:.1} s]\n"));
+                    pulse.said(words);
+                } else if pulse.listens() {
+                    pulse.hears(words(status()));
                 }
             }
         }
@@ -94,7 +98,7 @@ impl Observer for Progress {
     fn begin(&mut self, _: &Setup) -> Result<(), ObserveError> {
         match &mut self.sink {
             Sink::Bar { bar, .. } => bar.reset(),
-            Sink::Lines { started, shown } => (*started, *shown) = (Instant::now(), 0),
+            Sink::Lines { started, shown, .. } => (*started, *shown) = (Instant::now(), 0),
         }
         Ok(())
     }

@@ -240,9 +240,15 @@ impl Writer {
     }
 }
 
+/// Text with a mark for each character that XML does not admit, control characters above all.
+pub(crate) fn admitted(text: &str) -> String {
+    let bad = |c: char| (c.is_control() && !matches!(c, '\t' | '\n')) || matches!(c, '\u{fffe}' | '\u{ffff}');
+    text.replace(bad, "\u{fffd}")
+}
+
 /// Text as the value of an XML attribute, or as its content.
 pub(super) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    admitted(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// One data set of a collection.
@@ -373,5 +379,6 @@ mod tests {
         let entry = PvdEntry { time: 0.5, part: 1, name: "a<\"b\"&c".into(), file: "fields/a.vtu".into() };
         let text = String::from_utf8(pvd(&[entry])).unwrap();
         assert!(text.contains("timestep=\"0.5\" group=\"\" part=\"1\" name=\"a&lt;&quot;b&quot;&amp;c\""));
+        assert_eq!(escape("a\u{7}\u{1b}[1m\u{ffff}µ\tb"), "a\u{fffd}\u{fffd}[1m\u{fffd}µ\tb");
     }
 }

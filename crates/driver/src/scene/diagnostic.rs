@@ -2,7 +2,8 @@
 
 use super::{SceneError, SceneErrors};
 use miette::{
-    Diagnostic, LabeledSpan, MietteError, NamedSource, Report, SourceCode, SourceSpan, SpanContents,
+    Diagnostic, LabeledSpan, MietteError, MietteSpanContents, NamedSource, Report, SourceCode, SourceSpan,
+    SpanContents,
 };
 use std::fmt;
 use std::ops::Range;
@@ -23,10 +24,56 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
 /// Two places further apart than this many lines are shown apart, without what lies between them.
 const FAR: usize = 8;
 
+/// Bytes of the longest line that is shown whole. Nobody finds a caret in a longer one, and the renderer cannot indent by more than 65 535.
+const LONGEST_LINE: usize = 240;
+
+/// Bytes shown on either side of a place in a line longer than that.
+const AROUND: usize = 60;
+
+/// Bytes that are underlined at most; two such places with what lies between them still fit into a cut line.
+const UNDERLINED: usize = 80;
+
 /// The text of a scene, shown in short pieces only: asked for a long one, it refuses, and the renderer, which would put
 /// all places of an error into one piece, shows each with its own surroundings.
 #[derive(Debug)]
 struct Excerpts(NamedSource<String>);
+
+impl Excerpts {
+    fn text(&self) -> &str {
+        self.0.inner()
+    }
+
+    /// These bytes of the text, which begin where `line_column` says.
+    fn contents(&self, bytes: Range<usize>) -> Box<dyn SpanContents<'_> + '_> {
+        let (line, column) = line_column(self.text(), bytes.start);
+        let data = &self.text().as_bytes()[bytes.clone()];
+        let span = (bytes.start, bytes.len()).into();
+        Box::new(MietteSpanContents::new_named(
+            self.0.name().to_string(),
+            data,
+            span,
+            line - 1,
+            column - 1,
+            1,
+        ))
+    }
+
+    /// A place with its surroundings within its line.
+    fn cut(&self, place: Range<usize>) -> Range<usize> {
+        let text = self.text();
+        let line = text[..place.start].rfind('\n').map_or(0, |n| n + 1);
+        let end = text[place.end..].find(['\r', '\n']).map_or(text.len(), |n| place.end + n);
+        let mut start = place.start.saturating_sub(AROUND).max(line);
+        let mut stop = (place.end + AROUND).min(end);
+        while !text.is_char_boundary(start) {
+            start += 1;
+        }
+        while !text.is_char_boundary(stop) {
+            stop -= 1;
+        }
+        start..stop
+    }
+}
 
 impl SourceCode for Excerpts {
     fn read_span<'a>(
@@ -35,11 +82,23 @@ impl SourceCode for Excerpts {
         before: usize,
         after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
-        let text = self.0.inner().get(span.offset()..span.offset() + span.len()).unwrap_or_default();
+        let end = (span.offset() + span.len()).min(self.text().len());
+        let place = span.offset().min(end)..end;
+        let Some(text) = self.text().get(place.clone()) else { return Err(MietteError::OutOfBounds) };
         if text.lines().count() > FAR {
             return Err(MietteError::OutOfBounds);
         }
-        self.0.read_span(span, before, after)
+        if before == 0 && after == 0 {
+            // What the header names line and column of; the source itself would count bytes.
+            return Ok(self.contents(place));
+        }
+        let whole = self.0.read_span(span, before, after)?;
+        let long = whole.data().split(|&byte| byte == b'\n').any(|line| line.len() > LONGEST_LINE);
+        match (long, text.lines().count() > 1 || text.len() > LONGEST_LINE) {
+            (false, _) => Ok(whole),
+            (true, true) => Err(MietteError::OutOfBounds),
+            (true, false) => Ok(self.contents(self.cut(place))),
+        }
     }
 }
 
@@ -84,9 +143,10 @@ impl Diagnostic for Placed {
 impl Placed {
     /// Start and length of the first line of a place: a caret under the first line of a long table says enough.
     fn first_line(&self, span: &Range<usize>) -> (usize, usize) {
-        let text = self.source.0.inner().get(span.clone()).unwrap_or_default();
-        let line = text.lines().next().map_or(span.len(), str::len);
-        (span.start, line.max(1))
+        let text = self.source.text().get(span.clone()).unwrap_or_default();
+        let line = text.lines().next().unwrap_or_default();
+        let short = line.char_indices().map(|(at, c)| at + c.len_utf8()).take_while(|&end| end <= UNDERLINED);
+        (span.start, short.last().unwrap_or(1))
     }
 }
 
@@ -136,5 +196,36 @@ mod tests {
         assert_eq!(line_column("ab\ncd", 4), (2, 2));
         assert_eq!(line_column("µ = 1\n", "µ ".len()), (1, 3));
         assert_eq!(line_column("ab", 99), (1, 3));
+    }
+    fn rendered(text: &str, errors: Vec<SceneError>) -> String {
+        let report = format!("{:?}", report("s.toml", text, &SceneErrors(errors)));
+        assert!(report.lines().all(|line| line.chars().count() < 2 * LONGEST_LINE), "{report}");
+        report
+    }
+
+    #[test]
+    fn a_place_far_along_a_line_is_shown_with_what_stands_around_it() {
+        for column in [100, 1000, 65_534, 65_535, 65_536, 70_000, 200_000] {
+            let text =
+                format!("schema = 1\ntitle = \"{}µ\" wrong # and so on\nnext = 2\n", "x".repeat(column));
+            let at = text.find("wrong").unwrap();
+            let shown = rendered(&text, vec![SceneError::at(at..at + 5, "what is wrong", "what is right")]);
+            let place = line_column(&text, at);
+            // The title, its quotes, the key and the character of two bytes stand before it.
+            assert_eq!(place, (2, column + 9 + 1 + 2 + 1));
+            assert!(shown.contains(&format!("s.toml:2:{}", place.1)), "{shown}");
+            assert!(shown.contains("wrong # and so on"), "{shown}");
+        }
+    }
+
+    #[test]
+    fn long_lines_beside_the_place_are_left_out_and_long_places_are_cut() {
+        let long = "é".repeat(40_000);
+        let text = format!("# {long}\nwrong = 1\n# {long}\nlist = [{long}]\n");
+        let (first, list) = (text.find("wrong").unwrap(), text.find('[').unwrap());
+        let error = SceneError::at(first..first + 5, "first", "").and(list..text.len() - 1, "second");
+        let shown = rendered(&text, vec![error.clone()]);
+        assert!(shown.contains("s.toml:2:1") && shown.contains("list = [éé"), "{shown}");
+        assert!(rendered(&text, vec![error.clone(), error]).contains("2 errors"));
     }
 }

@@ -10,6 +10,7 @@ pub mod model;
 mod motion;
 pub mod near;
 pub mod slider;
+mod title;
 pub mod units;
 
 pub use entry::Entry;

@@ -32,7 +32,8 @@ pub fn here<T>(value: T) -> Spanned<T> {
 pub struct Scene {
     /// Version of the scene format; 1.
     pub schema: Spanned<u32>,
-    /// Title, shown in reports.
+    /// Title, shown in reports: one line of characters that can be seen.
+    #[serde(deserialize_with = "crate::scene::title::read")]
     pub title: String,
     /// Idealisation.
     pub kinematics: Spanned<Kinematics>,

@@ -4,6 +4,7 @@ use super::catalogue::Event;
 use super::plan::{Plan, Thresholds};
 use super::run::Run;
 use crate::ode::{Counts, Outcome};
+use crate::report::{Origin, Status};
 use crate::warning::Warning;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -54,6 +55,8 @@ pub enum End {
         /// Why.
         reason: String,
     },
+    /// A signal ended it; everything until then stands.
+    Interrupted,
 }
 
 /// What may differ from machine to machine and from run to run.
@@ -63,6 +66,9 @@ pub struct Provenance {
     pub seconds: f64,
     /// Commit of the program.
     pub commit: String,
+    /// What it was begun from.
+    #[serde(flatten)]
+    pub origin: Origin,
 }
 
 /// A slider at the end.
@@ -119,6 +125,7 @@ impl Report {
     pub fn new(plan: &Plan, run: &Run) -> Self {
         let outcome = match &run.outcome {
             Outcome::Completed => End::Completed,
+            Outcome::Stopped if run.interrupted => End::Interrupted,
             Outcome::Stopped => End::EnoughEvents,
             Outcome::Failed { reason } => {
                 End::Stopped { reason: run.hint.clone().unwrap_or_else(|| reason.to_string()) }
@@ -149,7 +156,17 @@ impl Report {
             last: last.collect(),
             events: run.catalogue.events.clone(),
             counts: run.counts.into(),
-            run: Provenance { seconds: 0.0, commit: crate::report::commit().to_string() },
+            run: Provenance { commit: crate::report::commit().to_string(), ..Provenance::default() },
+        }
+    }
+
+    /// How the run stands.
+    #[must_use]
+    pub fn status(&self) -> Status {
+        match self.outcome {
+            End::Completed | End::EnoughEvents => Status::Completed,
+            End::Stopped { .. } => Status::Stopped,
+            End::Interrupted => Status::Interrupted,
         }
     }
 

@@ -49,6 +49,11 @@ pub trait Watcher {
     /// When something cannot be written.
     fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), ObserveError>;
 
+    /// Whether the run is to end after the present step, as if interrupted.
+    fn stops(&self) -> bool {
+        false
+    }
+
     /// Whether it looks at all: what nobody looks at is not computed.
     fn watches(&self) -> bool {
         true
@@ -80,6 +85,10 @@ impl Watcher for Both<'_> {
         self.0.now(plan, now)?;
         self.1.now(plan, now)
     }
+
+    fn stops(&self) -> bool {
+        self.0.stops() || self.1.stops()
+    }
 }
 
 /// Change of ln V of which outputs show what lies between: a twentieth of an e-fold is less than a hair on a plot over sixteen
@@ -110,6 +119,8 @@ pub struct Run {
     pub counts: Counts,
     /// Why a run that failed may have failed, in terms of the scene.
     pub hint: Option<String>,
+    /// Whether its watcher ended it.
+    pub interrupted: bool,
 }
 
 /// Runs a plan. An integration that fails is no error: the outcome says so, and all found until then stands.
@@ -151,12 +162,12 @@ pub fn run(plan: &Plan, watcher: &mut dyn Watcher) -> Result<Run, RunError> {
             break;
         }
     }
-    let (catalogue, failure) = (state.catalogue, state.failure);
+    let (catalogue, failure, interrupted) = (state.catalogue, state.failure, state.interrupted);
     if let Some(failure) = failure {
         return Err(failure.into());
     }
     let hint = matches!(outcome, Outcome::Failed { .. }).then(|| hint(plan, &piece, at, &unknowns)).flatten();
-    Ok(Run { outcome, at, unknowns, catalogue, counts, hint })
+    Ok(Run { outcome, at, unknowns, catalogue, counts, hint, interrupted })
 }
 
 fn add(sum: &mut Counts, part: &Counts) {
@@ -245,6 +256,8 @@ struct Following<'a> {
     watcher: &'a mut dyn Watcher,
     catalogue: Catalogue,
     failure: Option<ObserveError>,
+    /// Whether the watcher ended the run.
+    interrupted: bool,
     step: usize,
     /// Steps in a row that time does not resolve.
     unresolved: u32,
@@ -255,7 +268,16 @@ struct Following<'a> {
 impl<'a> Following<'a> {
     fn new(plan: &'a Plan, watcher: &'a mut dyn Watcher) -> Self {
         let catalogue = Catalogue::new(plan.names.len());
-        Self { plan, watcher, catalogue, failure: None, step: 0, unresolved: 0, ran_away: None }
+        Self {
+            plan,
+            watcher,
+            catalogue,
+            failure: None,
+            interrupted: false,
+            step: 0,
+            unresolved: 0,
+            ran_away: None,
+        }
     }
 }
 
@@ -400,7 +422,11 @@ impl Sink for Running<'_, '_> {
         }
         self.show(step.end, step.length(), step.state);
         self.sees(step.state);
-        if self.runs_away(step) || self.state.failure.is_some() { Control::Stop } else { Control::Go }
+        if self.runs_away(step) || self.state.failure.is_some() {
+            return Control::Stop;
+        }
+        self.state.interrupted = self.state.watcher.stops();
+        if self.state.interrupted { Control::Stop } else { Control::Go }
     }
 
     fn occurred(&mut self, o: &Occurrence) -> Control {

@@ -1,6 +1,7 @@
 //! The catalogue as QuakeML 1.2, basic event description: https://quake.ethz.ch/quakeml.
 
 use super::{Located, Plane, Spot, Tensor};
+use crate::observe::vtu::admitted;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io;
@@ -42,7 +43,8 @@ pub fn quakeml(title: &str, id: &str, events: &[Located]) -> io::Result<Vec<u8>>
 }
 
 fn text(xml: &mut Xml, name: &str, value: &str) -> io::Result<()> {
-    xml.create_element(name).write_text_content(quick_xml::events::BytesText::new(value))?;
+    let value = admitted(value);
+    xml.create_element(name).write_text_content(quick_xml::events::BytesText::new(&value))?;
     Ok(())
 }
 

@@ -12,7 +12,8 @@ use std::collections::BTreeMap;
 pub struct SliderScene {
     /// Version of the scene format; 1.
     pub schema: Spanned<u32>,
-    /// Title, shown in reports.
+    /// Title, shown in reports: one line of characters that can be seen.
+    #[serde(deserialize_with = "crate::scene::title::read")]
     pub title: String,
     /// "spring-slider".
     pub kinematics: Spanned<String>,

@@ -1,0 +1,190 @@
+//! What is in an output directory, and whether a run may begin there.
+
+use super::directory::{Begin, LOCK, REPORT};
+use crate::fault;
+use crate::report::Status;
+use miette::{IntoDiagnostic, WrapErr, miette};
+use serde::Deserialize;
+use std::ffi::OsStr;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// Files that runs leave in their directory.
+const FILES: [&str; 17] = [
+    REPORT,
+    LOCK,
+    ".writable",
+    fault::CHECKPOINT,
+    "fields.pvd",
+    "bodies.pvd",
+    "events.pvd",
+    "events.csv",
+    "events.json",
+    "events.quakeml",
+    "CMTSOLUTION",
+    "largest_rate.csv",
+    "slip_profiles.csv",
+    "rate_profiles.csv",
+    "snapshots.csv",
+    // What file managers leave.
+    ".DS_Store",
+    "Thumbs.db",
+];
+
+/// Folders of runs, with the endings of the files in them.
+const FOLDERS: [(&str, &[&str]); 8] = [
+    ("fields", &["vtu"]),
+    ("profiles", &["csv"]),
+    ("probes", &["csv"]),
+    ("points", &["csv"]),
+    ("forces", &["csv"]),
+    ("history", &["csv"]),
+    ("plots", &["svg", "png"]),
+    ("stations", &[""]),
+];
+
+/// The first thing in a directory that no run leaves; none where the directory is not there.
+pub(super) fn foreign(path: &Path) -> std::io::Result<Option<PathBuf>> {
+    foreign_in(path, |name, entry| {
+        if entry.is_dir() {
+            let folder = FOLDERS.iter().find(|(folder, _)| name == *folder);
+            return folder.map_or(Ok(Some(entry.to_path_buf())), |(_, endings)| {
+                foreign_in(entry, |name, file| {
+                    let ending = Path::new(name).extension().unwrap_or_default();
+                    let ours = file.is_file() && endings.iter().any(|e| ending == *e);
+                    Ok((!ours && !temporary(name)).then(|| file.to_path_buf()))
+                })
+            });
+        }
+        let ours = FILES.iter().any(|file| name == *file) || temporary(name);
+        Ok((!ours).then(|| entry.to_path_buf()))
+    })
+}
+
+/// What a run that is killed may leave of a file it was about to write.
+fn temporary(name: &OsStr) -> bool {
+    name.to_str().is_some_and(|name| name.starts_with('.') && name.ends_with(".tmp"))
+}
+
+/// The first entry of a folder, by name, that `judge` finds foreign.
+fn foreign_in(
+    folder: &Path,
+    judge: impl Fn(&OsStr, &Path) -> std::io::Result<Option<PathBuf>>,
+) -> std::io::Result<Option<PathBuf>> {
+    let entries = match fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(e) => return Err(e),
+    };
+    let mut paths = entries.map(|e| Ok(e?.path())).collect::<std::io::Result<Vec<_>>>()?;
+    paths.sort();
+    for path in paths {
+        if path.is_symlink() {
+            return Ok(Some(path));
+        }
+        if let Some(found) = judge(path.file_name().unwrap_or_default(), &path)? {
+            return Ok(Some(found));
+        }
+    }
+    Ok(None)
+}
+
+/// So much of a report as tells whose it is.
+#[derive(Debug, Deserialize)]
+struct Report {
+    title: String,
+    scene_sha256: String,
+    /// Absent in reports of old, which were written at the end.
+    #[serde(default = "completed")]
+    status: Status,
+    run: Run,
+}
+
+#[derive(Debug, Deserialize)]
+struct Run {
+    /// Absent in reports of old.
+    scene: Option<String>,
+}
+
+fn completed() -> Status {
+    Status::Completed
+}
+
+/// What is in an output directory.
+#[derive(Debug)]
+pub(super) struct Contents {
+    foreign: Option<PathBuf>,
+    /// The report, where there is one.
+    report: Option<Report>,
+    /// Whether a run can go on from there.
+    checkpoint: bool,
+    /// Whether there is nothing but a report and a lock.
+    nothing: bool,
+}
+
+impl Contents {
+    /// What is in `path`.
+    pub fn of(path: &Path) -> miette::Result<Self> {
+        if path.exists() && !path.is_dir() {
+            return Err(miette!("{} is a file, not an output directory", path.display()));
+        }
+        let told = || format!("cannot read the output directory {}", path.display());
+        let mut foreign = foreign(path).into_diagnostic().wrap_err_with(told)?;
+        let bytes = fs::read(path.join(REPORT)).ok();
+        let report = bytes.as_ref().and_then(|bytes| serde_json::from_slice::<Report>(bytes).ok());
+        if bytes.is_some() && report.is_none() {
+            foreign = foreign.or_else(|| Some(path.join(REPORT)));
+        }
+        let plain = |name: &OsStr| name == REPORT || name == LOCK;
+        let other = foreign_in(path, |name, entry| Ok((!plain(name)).then(|| entry.to_path_buf())));
+        let nothing = other.into_diagnostic().wrap_err_with(told)?.is_none()
+            && report.as_ref().is_none_or(|r| r.status != Status::Completed);
+        Ok(Self { foreign, report, checkpoint: path.join(fault::CHECKPOINT).exists(), nothing })
+    }
+
+    /// Whether a run can go on from there.
+    pub fn has_checkpoint(&self) -> bool {
+        self.checkpoint
+    }
+
+    /// Whether there is nothing that was computed.
+    pub fn holds_nothing(&self) -> bool {
+        self.nothing
+    }
+
+    /// Refuses a run where something would be lost that may be wanted.
+    pub fn refuse(&self, path: &Path, begin: &Begin) -> miette::Result<()> {
+        let path = path.display();
+        if let Some(foreign) = &self.foreign {
+            return Err(miette!(
+                "{} is not of a run: a run is alone in its output directory; move it away, or choose another directory with --out",
+                foreign.display()
+            ));
+        }
+        if self.nothing || begin.force || begin.resume && self.checkpoint {
+            return Ok(());
+        }
+        let Some(report) = &self.report else {
+            return Err(miette!(
+                "{path} holds files of a run without its report: choose another directory with --out, or move them to {path}.previous with --force"
+            ));
+        };
+        let file = report.run.scene.as_ref();
+        let same = report.scene_sha256 == begin.hash
+            || report.title == begin.title && file.is_none_or(|file| *file == begin.origin.scene);
+        if !same {
+            return Err(miette!(
+                "{path} holds the result of another scene, \"{}\"{}: choose another directory with --out, or move it to {path}.previous with --force",
+                report.title,
+                file.map_or(String::new(), |file| format!(" of {file}"))
+            ));
+        }
+        if self.checkpoint && matches!(report.status, Status::Running | Status::Interrupted) {
+            return Err(miette!(
+                "{path} holds an unfinished run with a checkpoint: go on with it with --resume, or move it to {path}.previous with --force and begin again"
+            ));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,258 @@
+//! The directory of a run: that of one run at a time, with its report from the first moment, and nothing of another run in it.
+
+use super::contents::{self, Contents};
+use crate::fault;
+use crate::observe::atomic;
+use crate::report::{Origin, Status, commit};
+use jiff::Timestamp;
+use miette::{IntoDiagnostic, WrapErr, miette};
+use serde::Serialize;
+use std::fs::{self, File, TryLockError};
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// Name of the report.
+pub(super) const REPORT: &str = "report.json";
+/// File whose lock says that a run writes here.
+pub(super) const LOCK: &str = ".lock";
+
+/// What a run is begun with.
+#[derive(Clone, Debug)]
+pub(super) struct Begin {
+    pub title: String,
+    /// SHA-256 of the scene file.
+    pub hash: String,
+    pub origin: Origin,
+    /// Whether to go on from a checkpoint there.
+    pub resume: bool,
+    /// Whether an unfinished run or the result of another scene may be moved out of the way.
+    pub force: bool,
+}
+
+impl Begin {
+    /// Of a scene file that is read now.
+    pub fn now(scene: &Path, title: &str, hash: &str) -> Self {
+        let path = fs::canonicalize(scene).unwrap_or_else(|_| scene.to_path_buf());
+        let origin = Origin { scene: path.display().to_string(), started: Timestamp::now().to_string() };
+        Self { title: title.into(), hash: hash.into(), origin, resume: false, force: false }
+    }
+}
+
+/// A report with how its run stands.
+#[derive(Serialize)]
+struct Stated<'a, R> {
+    status: Status,
+    #[serde(flatten)]
+    report: &'a R,
+}
+
+/// What is known of a run before it has ended, or where it ended without results.
+#[derive(Serialize)]
+struct Sketch<'a> {
+    title: &'a str,
+    version: &'a str,
+    scene_sha256: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+    run: Provenance<'a>,
+}
+
+#[derive(Serialize)]
+struct Provenance<'a> {
+    commit: &'a str,
+    #[serde(flatten)]
+    origin: &'a Origin,
+}
+
+/// What was done to make room, so that it can be undone until the run begins to compute.
+#[derive(Debug)]
+enum Room {
+    /// The directory is new; the topmost of those made for it.
+    Made(PathBuf),
+    /// It was there, empty or of a run that computed nothing.
+    Found,
+    /// It was moved to the first path, and what was there to the second one.
+    Moved(PathBuf, Option<PathBuf>),
+    /// It is that of the run to be resumed, whose report was this.
+    Kept(Option<Vec<u8>>),
+    /// The run has begun to compute.
+    Used,
+}
+
+/// The directory of a run that is under way.
+#[derive(Debug)]
+pub(super) struct Directory {
+    path: PathBuf,
+    begin: Begin,
+    room: Room,
+    /// Held for as long as the run goes on.
+    _lock: Option<File>,
+}
+
+impl Directory {
+    /// Makes `path` the directory of a run: a result of the same scene is moved to `<path>.previous`; what could be missed is refused.
+    ///
+    /// # Errors
+    /// Says what is in the way, and how to go on.
+    pub fn claim(path: &Path, begin: Begin) -> miette::Result<Self> {
+        Contents::of(path)?.refuse(path, &begin)?;
+        let made = topmost_missing(path);
+        atomic::create_dir(path).into_diagnostic()?;
+        let lock = lock(path)?;
+        // Again, now that nobody else changes it.
+        let contents = Contents::of(path)?;
+        contents.refuse(path, &begin)?;
+        let room = match (contents, made) {
+            (_, Some(made)) => Room::Made(made),
+            (contents, None) if begin.resume && contents.has_checkpoint() => {
+                Room::Kept(fs::read(path.join(REPORT)).ok())
+            }
+            (contents, None) if contents.holds_nothing() => Room::Found,
+            _ => move_away(path)?,
+        };
+        let lock = if matches!(room, Room::Moved(..)) {
+            atomic::create_dir(path).into_diagnostic()?;
+            self::lock(path)?
+        } else {
+            lock
+        };
+        let directory = Self { path: path.to_path_buf(), begin, room, _lock: lock };
+        directory.sketch(Status::Running, None)?;
+        Ok(directory)
+    }
+
+    /// The directory.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What the run was begun from.
+    pub fn origin(&self) -> &Origin {
+        &self.begin.origin
+    }
+
+    /// From now on there is something to lose: what was made room of before the last result is removed.
+    pub fn computes(&mut self) -> miette::Result<()> {
+        match std::mem::replace(&mut self.room, Room::Used) {
+            Room::Moved(_, Some(older)) => fs::remove_dir_all(&older)
+                .into_diagnostic()
+                .wrap_err_with(|| format!("cannot remove {}", older.display())),
+            _ => Ok(()),
+        }
+    }
+
+    /// The last report.
+    pub fn write(&self, status: Status, report: &impl Serialize) -> miette::Result<()> {
+        let text = serde_json::to_string_pretty(&Stated { status, report }).into_diagnostic()?;
+        atomic::write(&self.path.join(REPORT), text.as_bytes())
+            .map_err(|e| miette!("cannot write the report: {e}"))
+    }
+
+    /// After an error: as if nothing had been begun, where nothing was computed; otherwise the report says what happened.
+    pub fn fails(self, error: &miette::Report) {
+        // What cannot be tidied up adds nothing to the error that is reported.
+        let _ = match &self.room {
+            Room::Used => {
+                let resumable = self.path.join(fault::CHECKPOINT).exists();
+                let status = if resumable { Status::Interrupted } else { Status::Stopped };
+                self.sketch(status, Some(error.to_string()))
+            }
+            room => self.undo(room).into_diagnostic(),
+        };
+    }
+
+    fn undo(&self, room: &Room) -> std::io::Result<()> {
+        match room {
+            Room::Kept(Some(report)) => return fs::write(self.path.join(REPORT), report),
+            Room::Kept(None) => return fs::remove_file(self.path.join(REPORT)),
+            Room::Used => return Ok(()),
+            Room::Made(_) | Room::Found | Room::Moved(..) => {}
+        }
+        if contents::foreign(&self.path)?.is_some() {
+            return Ok(());
+        }
+        fs::remove_dir_all(&self.path)?;
+        match room {
+            Room::Made(topmost) => remove_empty(&self.path, topmost),
+            Room::Moved(previous, older) => {
+                fs::rename(previous, &self.path)?;
+                older.as_ref().map_or(Ok(()), |older| fs::rename(older, previous))
+            }
+            _ => fs::create_dir(&self.path),
+        }
+    }
+
+    fn sketch(&self, status: Status, reason: Option<String>) -> miette::Result<()> {
+        let Begin { title, hash, origin, .. } = &self.begin;
+        let version = env!("CARGO_PKG_VERSION");
+        let run = Provenance { commit: commit(), origin };
+        self.write(status, &Sketch { title, version, scene_sha256: hash, reason, run })
+    }
+}
+
+/// The topmost folder that is to be made for this one; none where it is there.
+fn topmost_missing(path: &Path) -> Option<PathBuf> {
+    let missing = path.ancestors().filter(|p| !p.as_os_str().is_empty()).take_while(|p| !p.exists());
+    missing.last().map(Path::to_path_buf)
+}
+
+/// Removes the folders from `path`, which is gone, up to `topmost`, as long as they are empty.
+fn remove_empty(path: &Path, topmost: &Path) -> std::io::Result<()> {
+    let mut made = path.ancestors().skip(1).take_while(|p| p.starts_with(topmost));
+    made.try_for_each(fs::remove_dir)
+}
+
+/// Locks a directory for this process; none where the system has no locks.
+fn lock(path: &Path) -> miette::Result<Option<File>> {
+    let name = path.join(LOCK);
+    let file = File::options().create(true).append(true).open(&name);
+    let file = file.into_diagnostic().wrap_err_with(|| format!("cannot write {}", name.display()))?;
+    match file.try_lock() {
+        Ok(()) => Ok(Some(file)),
+        Err(TryLockError::WouldBlock) => Err(miette!(
+            "another run writes into {}: wait for its end, or choose another directory with --out",
+            path.display()
+        )),
+        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(None),
+        Err(TryLockError::Error(error)) => {
+            Err(error).into_diagnostic().wrap_err_with(|| format!("cannot lock {}", name.display()))
+        }
+    }
+}
+
+/// Moves a directory to `<name>.previous`, and what is there to `<name>.previous.older` for as long as that may be wanted back.
+fn move_away(path: &Path) -> miette::Result<Room> {
+    // A link stays where it is; what it leads to is moved.
+    let path = fs::canonicalize(path).into_diagnostic()?;
+    let Some(name) = path.file_name() else {
+        return Err(miette!("{} cannot be moved: choose another directory with --out", path.display()));
+    };
+    let beside = |end: &str| {
+        let mut name = name.to_os_string();
+        name.push(end);
+        path.with_file_name(name)
+    };
+    let (previous, older) = (beside(".previous"), beside(".previous.older"));
+    for kept in [&previous, &older] {
+        if let Some(foreign) = contents::foreign(kept).into_diagnostic()? {
+            return Err(miette!(
+                "{} is not of a run, and the result before the last one would be replaced there: move it away",
+                foreign.display()
+            ));
+        }
+    }
+    let rename = |from: &Path, to: &Path| {
+        let told = || format!("cannot move {} to {}", from.display(), to.display());
+        fs::rename(from, to).into_diagnostic().wrap_err_with(told)
+    };
+    if older.exists() {
+        // Left by a run that was killed before it computed anything.
+        fs::remove_dir_all(&older).into_diagnostic()?;
+    }
+    let older = previous.exists().then_some(older);
+    if let Some(older) = &older {
+        rename(&previous, older)?;
+    }
+    rename(&path, &previous)?;
+    Ok(Room::Moved(previous, older))
+}

@@ -1,0 +1,114 @@
+//! What the commands print on standard output.
+
+use super::read::Planned;
+use crate::observe::decimals::fixed;
+use crate::printing::out;
+use crate::report::RunReport;
+
+/// The plan.
+pub(super) fn plan(plan: &Planned) {
+    match plan {
+        Planned::Bodies(plan) => out(format_args!("{}", plan.summary())),
+        Planned::Sliders(plan) => out(format_args!("{}", plan.summary())),
+        Planned::Faults(plan) => out(format_args!("{}", plan.summary())),
+    }
+}
+
+/// The results of a run of bodies.
+pub(super) fn results(report: &RunReport) {
+    out(format_args!("results\n"));
+    for r in &report.results {
+        out(format_args!(
+            "  {} after `{}`: mean normal traction {} MPa, mean shear traction {} MPa, slip {} to {} um, friction {} to {}\n",
+            r.interface,
+            r.stage,
+            fixed(r.mean_normal_traction / 1e6, 6),
+            fixed(r.mean_shear_traction / 1e6, 6),
+            fixed(r.slip[0] * 1e6, 4),
+            fixed(r.slip[1] * 1e6, 4),
+            fixed(r.friction[0], 4),
+            fixed(r.friction[1], 4),
+        ));
+    }
+    for p in &report.points {
+        out(format_args!(
+            "  point {} after `{}`: displacement {} m, Mises stress {}\n",
+            p.point.name,
+            p.stage,
+            triple(&p.values.displacement),
+            pressure(p.values.mises)
+        ));
+    }
+    for f in &report.forces {
+        out(format_args!(
+            "  force {} on `{}` after `{}`: {} {}\n",
+            f.force.name,
+            f.force.set,
+            f.stage,
+            triple(&f.value),
+            f.unit
+        ));
+    }
+    let c = &report.counts;
+    out(format_args!(
+        "  {} steps ({} rejected), {} iterations{}, {} factorisations, {} body solves\n",
+        c.steps,
+        c.rejected,
+        c.iterations,
+        if c.augmentations > 0 { format!(", {} augmentations", c.augmentations) } else { String::new() },
+        c.factorisations,
+        c.body_solves
+    ));
+    let s = &report.run.seconds;
+    out(format_args!(
+        "  seconds: plan {:.2}, set-up {:.2}, steps {:.2}, output {:.2}\n",
+        s.plan, s.set_up, s.steps, s.output
+    ));
+}
+
+/// A vector to seven digits of its largest component.
+fn triple(v: &[f64; 3]) -> String {
+    let largest = v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    let exponent = if largest > 0.0 && largest.is_finite() { largest.log10().floor() as i32 } else { 0 };
+    // Few zeros before or behind the digits: plain; otherwise a common power of ten.
+    let power = if (-3..7).contains(&exponent) { 0 } else { exponent };
+    let digits = (6 - (exponent - power)).max(0);
+    let fine = 10f64.powi(digits);
+    // Adding zero turns -0 into 0.
+    let part = |c: f64| (c / 10f64.powi(power) * fine).round() / fine + 0.0;
+    let parts = v.map(|c| format!("{:.*}", digits as usize, part(c)));
+    let tail = if power == 0 { String::new() } else { format!("e{power}") };
+    format!("({}){tail}", parts.join(", "))
+}
+
+/// A pressure in the largest unit of which it is one or more.
+fn pressure(p: f64) -> String {
+    let units = [("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3)];
+    let (name, unit) = units.into_iter().find(|(_, unit)| p.abs() >= *unit).unwrap_or(("Pa", 1.0));
+    format!("{} {name}", fixed(p / unit, 6))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vectors_are_printed_to_seven_digits_of_the_largest_component() {
+        assert_eq!(
+            triple(&[-10.685076051273779, 23.949409855767414, -1e-20]),
+            "(-10.68508, 23.94941, 0.00000)"
+        );
+        assert_eq!(triple(&[1.5405133884581246e-4, 0.0, 0.0]), "(1.540513, 0.000000, 0.000000)e-4");
+        assert_eq!(triple(&[0.0; 3]), "(0.000000, 0.000000, 0.000000)");
+        assert_eq!(triple(&[-2.0, 3530199.85, 0.0]), "(-2, 3530200, 0)");
+        assert!(triple(&[f64::NAN, 0.0, 0.0]).contains("NaN"));
+    }
+
+    #[test]
+    fn pressures_are_printed_in_the_unit_that_fits() {
+        assert_eq!(pressure(0.25), "0.250000 Pa");
+        assert_eq!(pressure(-1e-9), "0.000000 Pa");
+        assert_eq!(pressure(240e6), "240.000000 MPa");
+        assert_eq!(pressure(-1.5e9), "-1.500000 GPa");
+    }
+}

@@ -1,0 +1,133 @@
+//! From a scene file to its plan.
+
+use super::directory::Begin;
+use crate::fault;
+use crate::plan::{self, AnyPlan, ScenePlan};
+use crate::scene::{self, SceneErrors};
+use crate::slider;
+use crate::warning::Warning;
+use miette::{IntoDiagnostic, WrapErr};
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Instant;
+
+/// What a scene asks for.
+pub(super) enum Planned {
+    /// Deformable bodies.
+    Bodies(Box<AnyPlan>),
+    /// Spring-sliders.
+    Sliders(Box<slider::Plan>),
+    /// Faults through cycles.
+    Faults(Box<fault::Plan>),
+}
+
+impl Planned {
+    fn warnings_mut(&mut self) -> &mut [Warning] {
+        match self {
+            Self::Bodies(plan) => plan.warnings_mut(),
+            Self::Sliders(plan) => &mut plan.warnings,
+            Self::Faults(plan) => &mut plan.warnings,
+        }
+    }
+}
+
+/// A plan with where it came from.
+pub(super) struct Ready {
+    pub plan: Planned,
+    /// SHA-256 of the scene file.
+    pub hash: String,
+    /// Hash of what a checkpoint must agree with.
+    pub physics: String,
+    /// SHA-256 of the mesh files, by their names in the scene.
+    pub meshes: BTreeMap<String, String>,
+    /// Wall time of reading and planning \[s\].
+    pub seconds: f64,
+}
+
+/// A scene that has been read and checked, and is not planned yet, which may take long.
+pub(super) struct Source {
+    /// Name of the file.
+    name: String,
+    text: String,
+    parsed: Parsed,
+    clock: Instant,
+}
+
+/// What a scene file says.
+enum Parsed {
+    /// Its plan costs nothing.
+    Sliders(Box<slider::Plan>),
+    /// Bodies, with faults or without.
+    Bodies(Box<scene::model::Scene>),
+}
+
+impl Source {
+    /// Reads and checks a scene file.
+    pub fn read(path: &Path) -> miette::Result<Self> {
+        let text = std::fs::read_to_string(path)
+            .into_diagnostic()
+            .wrap_err_with(|| format!("cannot read the scene {}", path.display()))?;
+        let clock = Instant::now();
+        let name = path.display().to_string();
+        let told = |errors: &SceneErrors| scene::diagnostic::report(&name, &text, errors);
+        let parsed = if scene::slider::is_slider(&text) {
+            Parsed::Sliders(Box::new(scene::slider::read(&text).map_err(|errors| told(&errors))?))
+        } else {
+            let folder = path.parent().unwrap_or(Path::new(""));
+            let parsed = scene::read_in(&text, folder).map_err(|errors| told(&errors))?;
+            Parsed::Bodies(Box::new(parsed))
+        };
+        Ok(Self { name, text, parsed, clock })
+    }
+
+    /// Whether it is a scene of faults.
+    pub fn has_faults(&self) -> bool {
+        matches!(&self.parsed, Parsed::Bodies(scene) if !scene.faults.is_empty())
+    }
+
+    /// What a run of it, read from `path`, is begun with.
+    pub fn begin(&self, path: &Path) -> Begin {
+        let title = match &self.parsed {
+            Parsed::Sliders(plan) => &plan.title,
+            Parsed::Bodies(scene) => &scene.title,
+        };
+        Begin::now(path, title, &sha256(self.text.as_bytes()))
+    }
+
+    /// Plans it.
+    pub fn plan(self) -> miette::Result<Ready> {
+        let Self { name, text, parsed, clock } = self;
+        let mut meshes = BTreeMap::new();
+        let mut plan = match parsed {
+            Parsed::Sliders(plan) => Planned::Sliders(plan),
+            Parsed::Bodies(scene) => {
+                // A mesh file that cannot be read is an error of the plan, which knows the place in the scene.
+                let plan = match plan::plan_scene(&scene) {
+                    Ok(ScenePlan::Bodies(plan)) => Planned::Bodies(plan),
+                    Ok(ScenePlan::Faults(plan)) => Planned::Faults(plan),
+                    Err(error) => {
+                        return Err(scene::diagnostic::report(&name, &text, &SceneErrors::from(error)));
+                    }
+                };
+                for file in scene.mesh_files() {
+                    let bytes = std::fs::read(scene.folder.join(file))
+                        .into_diagnostic()
+                        .wrap_err_with(|| format!("cannot read the mesh file {file}"))?;
+                    meshes.insert(file.to_string(), sha256(&bytes));
+                }
+                plan
+            }
+        };
+        for warning in plan.warnings_mut() {
+            warning.locate(&text);
+        }
+        let physics = fault::physics(&text, meshes.values().map(String::as_str));
+        let hash = sha256(text.as_bytes());
+        Ok(Ready { plan, hash, physics, meshes, seconds: clock.elapsed().as_secs_f64() })
+    }
+}
+
+fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
+}

@@ -1,0 +1,47 @@
+//! Signals that end a run in good order.
+
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::flag;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// A flag that SIGINT, SIGTERM and SIGHUP set; the second of them ends the program at once. A SIGHUP that whoever started the program
+/// has it ignore, as `nohup` does, stays ignored.
+pub(super) fn watched() -> std::io::Result<Arc<AtomicBool>> {
+    let set = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM, SIGHUP] {
+        if signal == SIGHUP && is_ignored(signal) {
+            continue;
+        }
+        flag::register_conditional_default(signal, Arc::clone(&set))?;
+        flag::register(signal, Arc::clone(&set))?;
+    }
+    Ok(set)
+}
+
+/// Whether this process ignores a signal, as far as the system tells in a file.
+fn is_ignored(signal: i32) -> bool {
+    std::fs::read_to_string("/proc/self/status").is_ok_and(|status| ignored_in(&status, signal))
+}
+
+/// The bits of `SigIgn` count signals from 1.
+fn ignored_in(status: &str, signal: i32) -> bool {
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_ignored_signal_is_read_from_its_bit() {
+        let status = |mask: &str| format!("Name:\tasperity\nSigIgn:\t{mask}\nSigCgt:\tffffffffffffffff\n");
+        assert!(ignored_in(&status("0000000000000001"), SIGHUP));
+        assert!(ignored_in(&status("0000000000001001"), SIGHUP));
+        assert!(!ignored_in(&status("0000000000001000"), SIGHUP));
+        assert!(ignored_in(&status("0000000000004000"), SIGTERM));
+        assert!(!ignored_in("", SIGHUP));
+    }
+}

@@ -1,0 +1,241 @@
+//! Runs of plans, and what each leaves in its directory.
+
+use super::directory::Directory;
+use super::read::Ready;
+use super::{End, Pausing, print, signals};
+use crate::fault;
+use crate::observe::{
+    FieldSchedule, Files, Multi, ObserveError, Observer, Progress, Recorder, atomic, plots, stems,
+};
+use crate::plan::AnyPlan;
+use crate::printing::{err, out};
+use crate::report::{Outcome, Status};
+use crate::run;
+use crate::slider;
+use miette::IntoDiagnostic;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// Runs bodies.
+pub(super) fn run_bodies(
+    plan: &AnyPlan,
+    ready: &Ready,
+    directory: &mut Directory,
+    drawn: bool,
+) -> miette::Result<End> {
+    let (fields, profiles) = plan.outputs();
+    let mut files = Files::create(directory.path(), FieldSchedule { fields, profiles }).into_diagnostic()?;
+    let mut recorder = drawn.then(|| Recorder::new().with_bodies());
+    let mut progress = Progress::new();
+    let mut all = vec![&mut files as &mut dyn Observer, &mut progress];
+    all.extend(recorder.as_mut().map(|r| r as &mut dyn Observer));
+    let stop = signals::watched().into_diagnostic()?;
+    directory.computes()?;
+    let mut report = run::run_until(plan, &mut Multi::new(all), &stop).into_diagnostic()?;
+    progress.finish();
+    report.scene_sha256.clone_from(&ready.hash);
+    report.meshes_sha256.clone_from(&ready.meshes);
+    report.run.seconds.plan = ready.seconds;
+    report.run.origin.clone_from(directory.origin());
+    // The report comes last, but comes also where something beside it cannot be written.
+    let drawn = draw(directory.path(), recorder.as_ref());
+    directory.write(report.status(), &report)?;
+    drawn?;
+    print::results(&report);
+    written(directory);
+    for warning in &report.warnings {
+        err(format_args!("warning: {warning}\n"));
+    }
+    Ok(match report.outcome {
+        Outcome::Completed => End::Done,
+        Outcome::Stopped { stage, time, reason } => {
+            End::Stopped(format!("stage `{stage}` at {time:.6e} s: {reason}"))
+        }
+        Outcome::Interrupted { stage, time } => {
+            End::Interrupted(format!("interrupted by a signal in stage `{stage}` at {time:.6e} s"))
+        }
+    })
+}
+
+/// Says where the results are.
+fn written(directory: &Directory) {
+    out(format_args!("  written to {}\n", directory.path().display()));
+}
+
+fn draw(out: &Path, recorder: Option<&Recorder>) -> miette::Result<()> {
+    if let Some(recorder) = recorder {
+        plots::draw_all(&out.join("plots"), recorder).into_diagnostic()?;
+    }
+    Ok(())
+}
+
+/// Ends a run of sliders where a signal asks for it.
+struct Until<'a>(slider::Show<'a>, Arc<AtomicBool>);
+
+impl slider::Watcher for Until<'_> {
+    fn now(&mut self, plan: &slider::Plan, now: &slider::Now<'_>) -> Result<(), ObserveError> {
+        self.0.now(plan, now)
+    }
+
+    fn stops(&self) -> bool {
+        self.1.load(Ordering::Relaxed)
+    }
+}
+
+/// Runs spring-sliders.
+pub(super) fn run_sliders(
+    plan: &slider::Plan,
+    ready: &Ready,
+    directory: &mut Directory,
+    drawn: bool,
+) -> miette::Result<End> {
+    let mut histories = slider::Histories::create(directory.path(), plan).into_diagnostic()?;
+    let (mut recorder, mut progress) = (drawn.then(Recorder::new), Progress::new());
+    let stop = signals::watched().into_diagnostic()?;
+    directory.computes()?;
+    let clock = Instant::now();
+    let ended = {
+        let mut shown = vec![&mut progress as &mut dyn Observer];
+        shown.extend(recorder.as_mut().map(|r| r as &mut dyn Observer));
+        let mut show = Until(slider::Show::to(shown), stop);
+        let mut both = slider::Both(&mut histories, &mut show);
+        slider::run(plan, &mut both).into_diagnostic()?
+    };
+    progress.finish();
+    histories.finish().into_diagnostic()?;
+    let mut report = slider::Report::new(plan, &ended);
+    report.scene_sha256.clone_from(&ready.hash);
+    report.run.seconds = clock.elapsed().as_secs_f64();
+    report.run.origin.clone_from(directory.origin());
+    let drawn = draw(directory.path(), recorder.as_ref());
+    directory.write(report.status(), &report)?;
+    drawn?;
+    out(format_args!("{}", report.text()));
+    written(directory);
+    Ok(match report.outcome {
+        slider::End::Stopped { reason } => End::Stopped(format!("at {:.6e} s: {reason}", report.end)),
+        slider::End::Completed | slider::End::EnoughEvents => End::Done,
+        slider::End::Interrupted => {
+            End::Interrupted(format!("interrupted by a signal at {:.6e} s", report.end))
+        }
+    })
+}
+
+/// Runs faults.
+pub(super) fn run_faults(
+    plan: &fault::Plan,
+    ready: &Ready,
+    directory: &mut Directory,
+    drawn: bool,
+    pausing: &Pausing,
+) -> miette::Result<End> {
+    let stop = signals::watched().into_diagnostic()?;
+    let pauses = fault::Pauses { every: pausing.checkpoint_every, wall: pausing.wall_time, stop };
+    let (mut keeper, start) = keeper(plan, ready, directory, pausing.resume, pauses)?;
+    directory.computes()?;
+    let clock = Instant::now();
+    let run = fault::resume(&plan.fault, &plan.loading, start, &plan.settings, &mut keeper);
+    let coarse = keeper.warning();
+    let (mut balance, interrupted) = keeper.finish(&run).into_diagnostic()?;
+    let mut report = fault::Report::new(plan, &run, &mut balance);
+    report.scene_sha256.clone_from(&ready.hash);
+    (report.run.set_up_seconds, report.run.seconds) = (ready.seconds, clock.elapsed().as_secs_f64());
+    report.run.origin.clone_from(directory.origin());
+    report.warnings.extend(coarse.clone());
+    let status = match (interrupted, &report.stopped) {
+        (Some(why), _) => {
+            report.stopped = Some(format!("interrupted: {why}"));
+            Status::Interrupted
+        }
+        (None, Some(_)) => Status::Stopped,
+        (None, None) => Status::Completed,
+    };
+    let rest = write_faults(directory.path(), (plan, &run, &report), &ready.hash, drawn);
+    directory.write(status, &report)?;
+    rest?;
+    out(format_args!("{}", report.text()));
+    if let Some(warning) = coarse {
+        out(format_args!("  warning: {warning}\n"));
+    }
+    written(directory);
+    let (step, time) = (report.counts.steps, report.end);
+    Ok(match (status, report.stopped) {
+        (Status::Interrupted, why) => End::Interrupted(format!(
+            "{} at {time:.6e} s, step {step}; the same command with --resume goes on from there",
+            why.unwrap_or_default()
+        )),
+        (_, Some(reason)) => End::Stopped(format!("at {time:.6e} s: {reason}")),
+        (_, None) => End::Done,
+    })
+}
+
+/// Begins a run of faults, or goes on with the one in the directory.
+fn keeper<'a>(
+    plan: &'a fault::Plan,
+    ready: &Ready,
+    directory: &Directory,
+    resume: bool,
+    pauses: fault::Pauses,
+) -> miette::Result<(fault::Keeper<'a>, fault::Run)> {
+    let (path, physics) = (directory.path(), &ready.physics);
+    if resume {
+        match fault::Keeper::resume(path, plan, physics, pauses.clone()).into_diagnostic()? {
+            Some((keeper, run)) => {
+                out(format_args!("resumed at {:.6e} s, step {}\n", run.at.seconds(), run.counts.steps));
+                return Ok((keeper, run));
+            }
+            None => {
+                out(format_args!("nothing to go on from in {}: begins at the start\n", path.display()));
+            }
+        }
+    }
+    fault::Keeper::begin(path, plan, physics, pauses).into_diagnostic()
+}
+
+/// What is written of a run of faults at its end, beside the report.
+fn write_faults(
+    path: &Path,
+    (plan, run, report): (&fault::Plan, &fault::Run, &fault::Report),
+    hash: &str,
+    drawn: bool,
+) -> miette::Result<()> {
+    write_catalogues(path, report).into_diagnostic()?;
+    let events = serde_json::to_string_pretty(&report.events).into_diagnostic()?;
+    atomic::write(&path.join("events.json"), events.as_bytes()).into_diagnostic()?;
+    write_located(path, plan, report, hash)?;
+    if drawn {
+        fault::draw(path, plan, run).into_diagnostic()?;
+    }
+    fault::write_fields(path, plan, run).into_diagnostic()?;
+    fault::write_bodies(path, plan, run).into_diagnostic()
+}
+
+/// The catalogue of all faults, and of each where there are several, as tables.
+fn write_catalogues(path: &Path, report: &fault::Report) -> Result<(), ObserveError> {
+    let write =
+        |name: &str, events| atomic::write(&path.join(name), fault::Report::csv(events).as_bytes());
+    write("events.csv", &report.events)?;
+    let names = stems(report.faults.iter().map(|f| f.fault.as_str()));
+    let mut each = names.iter().zip(&report.faults);
+    each.try_for_each(|(name, fault)| write(&format!("events_{name}.csv"), &fault.events))
+}
+
+/// The catalogue as seismologists exchange it, where the scene has a place.
+fn write_located(path: &Path, plan: &fault::Plan, report: &fault::Report, hash: &str) -> miette::Result<()> {
+    if plan.frame.is_none() {
+        return Ok(());
+    }
+    let events = report.located();
+    let document = fault::located::quakeml(&plan.title, hash, &events).into_diagnostic()?;
+    atomic::write(&path.join("events.quakeml"), &document).into_diagnostic()?;
+    match fault::located::cmtsolution(&plan.title, &events) {
+        Some(text) => atomic::write(&path.join("CMTSOLUTION"), text.as_bytes()).into_diagnostic(),
+        None => {
+            let why = "moments need `length` in `[place]`, the length out of the plane";
+            out(format_args!("  no CMTSOLUTION: {why}\n"));
+            Ok(())
+        }
+    }
+}

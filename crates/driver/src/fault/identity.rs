@@ -1,0 +1,110 @@
+//! What makes two runs of faults parts of one: the same physics, whether or not one of them is to go on for longer.
+
+use super::plan::Plan;
+use sha2::{Digest, Sha256};
+
+/// Hash of the physics of the scene `text` and of mesh files with these hashes. Left out is what only decides how far a run goes, or what
+/// is said about its events afterwards: `events.stop_after`, the duration of the last stage and `[place]`; and how the file is laid out.
+/// What the duration does to the loads until then is compared by itself, see [`loads`].
+#[must_use]
+pub fn physics<'a>(text: &str, meshes: impl Iterator<Item = &'a str>) -> String {
+    let mut hash = Sha256::new();
+    let table = toml::from_str::<toml::Table>(text).ok().map(without_extent);
+    // Tables are sorted by their keys. What has been read as a scene can be read as a table; if not, every byte counts.
+    hash.update(table.and_then(|table| serde_json::to_string(&table).ok()).unwrap_or_else(|| text.into()));
+    meshes.for_each(|mesh| hash.update(mesh));
+    hash.finalize().iter().map(|b| format!("{b:02x}")).collect()
+}
+
+fn without_extent(mut scene: toml::Table) -> toml::Table {
+    scene.remove("place");
+    if let Some(events) = scene.get_mut("events").and_then(toml::Value::as_table_mut) {
+        events.remove("stop_after");
+    }
+    let stages = scene.get_mut("stages").and_then(toml::Value::as_array_mut);
+    if let Some(last) = stages.and_then(|stages| stages.last_mut()).and_then(toml::Value::as_table_mut) {
+        last.remove("duration");
+    }
+    scene
+}
+
+/// The loads until `at`, between changes of them: when each part ends (where that is before `at`) and, of the rates of shear and of normal
+/// tractions, sums that tell them from others \[s, Pa/s\].
+#[must_use]
+pub fn loads(plan: &Plan, at: f64) -> Vec<[f64; 3]> {
+    let end = plan.settings.end;
+    let mut ends = plan.loading.breaks(0.0, end);
+    ends.push(end);
+    let mut parts = Vec::new();
+    let mut begin = 0.0;
+    for end in ends {
+        let rates = plan.loading.rates(0.5 * (begin + end), plan.points.len(), true);
+        // Weights that differ from point to point: a load that moves is another.
+        let sum = |rates: &[f64]| rates.iter().enumerate().map(|(i, r)| r * (1.0 + (i as f64).sin())).sum();
+        parts.push([if end < at { end } else { f64::MAX }, sum(&rates.0), sum(&rates.1)]);
+        if end >= at {
+            break;
+        }
+        begin = end;
+    }
+    parts
+}
+
+/// Rounding of a rate that is kept as the value at the end of a stage, over its size.
+const ROUNDING: f64 = 1e-12;
+
+/// Whether loads are the same but for rounding.
+#[must_use]
+pub fn same(a: &[[f64; 3]], b: &[[f64; 3]]) -> bool {
+    let near = |(x, y): (&f64, &f64)| (x - y).abs() <= ROUNDING * x.abs().max(y.abs());
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.iter().zip(b).all(near))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = "title = \"a\"\n[[stages]]\nduration = \"1 s\"\n[[stages]]\nduration = \"2 s\"\n[events]\nabove = 1\nstop_after = 3\n";
+
+    fn hash(text: &str) -> String {
+        physics(text, ["mesh"].into_iter())
+    }
+
+    #[test]
+    fn what_only_extends_a_run_does_not_change_its_physics() {
+        let same = [
+            SCENE.replace("stop_after = 3", "stop_after = 5"),
+            SCENE.replace("stop_after = 3\n", ""),
+            SCENE.replace("2 s", "9 s"),
+            format!("# a comment\n{SCENE}[place]\nlatitude = 1\n"),
+            SCENE.replace(" = ", "="),
+        ];
+        for text in same {
+            assert_eq!(hash(&text), hash(SCENE), "{text}");
+        }
+    }
+
+    #[test]
+    fn whatever_else_changes_makes_another_physics() {
+        let others = [
+            SCENE.replace("\"a\"", "\"b\""),
+            SCENE.replace("1 s", "3 s"),
+            SCENE.replace("above = 1", "above = 2"),
+            format!("{SCENE}[output]\n"),
+            format!("{SCENE}[[stages]]\nduration = \"2 s\"\n"),
+            "not a scene".into(),
+        ];
+        for text in others {
+            assert_ne!(hash(&text), hash(SCENE), "{text}");
+        }
+        assert_ne!(physics(SCENE, std::iter::empty()), hash(SCENE));
+    }
+
+    #[test]
+    fn loads_agree_to_rounding() {
+        let loads = [[1.0, 0.1 + 0.2, -7.0], [f64::MAX, 0.0, 0.0]];
+        assert!(same(&loads, &[[1.0, 0.3, -7.0], [f64::MAX, 0.0, 0.0]]));
+        assert!(!same(&loads, &loads[..1]));
+        assert!(!same(&loads, &[[1.0, 0.3001, -7.0], [f64::MAX, 0.0, 0.0]]));
+    }
+}

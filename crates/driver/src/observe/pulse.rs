@@ -1,0 +1,113 @@
+//! A sign of life at intervals of wall time where there is no terminal: what was done last, also while a step takes long.
+
+use crate::printing;
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex, MutexGuard};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// Wall time without a line after which one is printed.
+const SILENCE: Duration = Duration::from_secs(30);
+
+/// Wall time between two looks at what a run does: writing it in words costs more than a small step.
+const LOOK: Duration = Duration::from_secs(1);
+
+/// What was done last, and when that was printed.
+struct Last {
+    words: String,
+    printed: Instant,
+}
+
+/// See the module. It ends when it is dropped.
+pub struct Pulse {
+    last: Arc<Mutex<Last>>,
+    looked: Instant,
+    beating: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+impl Pulse {
+    /// Begins with these words.
+    #[must_use]
+    pub fn new(words: &str) -> Self {
+        Self::every(SILENCE, words, |words, wall| {
+            printing::err(format_args!("{words}  [{:.1} s]\n", wall.as_secs_f64()));
+        })
+    }
+
+    fn every(silence: Duration, words: &str, print: impl Fn(&str, Duration) + Send + 'static) -> Self {
+        let started = Instant::now();
+        let last = Arc::new(Mutex::new(Last { words: words.to_string(), printed: started }));
+        let (ends, ended) = mpsc::channel::<()>();
+        let shared = Arc::clone(&last);
+        let beat = move || {
+            let mut wait = silence;
+            while ended.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
+                let mut last = held(&shared);
+                if last.printed.elapsed() >= silence {
+                    print(&last.words, started.elapsed());
+                    last.printed = Instant::now();
+                }
+                wait = silence.saturating_sub(last.printed.elapsed());
+            }
+        };
+        // A system that gives no thread gives no sign of life; the run goes on.
+        let thread = std::thread::Builder::new().name("pulse".into()).spawn(beat).ok();
+        Self { last, looked: started, beating: thread.map(|thread| (ends, thread)) }
+    }
+
+    /// Whether it is time to hear what the run does.
+    #[must_use]
+    pub(super) fn listens(&self) -> bool {
+        self.looked.elapsed() >= LOOK
+    }
+
+    /// What is to be printed when nothing else is for long.
+    pub(super) fn hears(&mut self, words: String) {
+        self.looked = Instant::now();
+        held(&self.last).words = words;
+    }
+
+    /// What has been printed just now.
+    pub(super) fn said(&mut self, words: String) {
+        self.hears(words);
+        held(&self.last).printed = self.looked;
+    }
+}
+
+/// What was done last; a thread that ended while it wrote leaves words that can be read all the same.
+fn held(last: &Mutex<Last>) -> MutexGuard<'_, Last> {
+    last.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+impl Drop for Pulse {
+    fn drop(&mut self) {
+        if let Some((ends, thread)) = self.beating.take() {
+            drop(ends);
+            // It does nothing but print; where it failed there is nothing left to do.
+            let _ = thread.join();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn where_nothing_is_said_the_last_words_are_repeated() {
+        let (told, heard) = mpsc::channel();
+        let beat = move |words: &str, _| told.send(words.to_string()).unwrap_or_default();
+        let mut pulse = Pulse::every(Duration::from_millis(1), "begins", beat);
+        assert_eq!(heard.recv().unwrap(), "begins");
+        pulse.hears("goes on".into());
+        assert!(heard.iter().any(|words| words == "goes on"));
+        drop(pulse);
+        // The thread has ended, and with it whoever told something.
+        assert!(heard.iter().all(|words| words == "goes on"));
+    }
+
+    #[test]
+    fn a_pulse_ends_at_once_when_it_is_dropped() {
+        drop(Pulse::every(Duration::from_secs(3600), "", |_, _| {}));
+    }
+}

@@ -1,0 +1,73 @@
+//! Standard output and standard error, which may be closed (`| head -1`) or full: what cannot be printed is left out, and the run goes
+//! on. The only place that prints.
+
+use std::fmt::Arguments;
+use std::io::{ErrorKind, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A stream, and whether something was left out of it.
+struct Stream {
+    lost: AtomicBool,
+}
+
+static OUT: Stream = Stream { lost: AtomicBool::new(false) };
+static ERR: Stream = Stream { lost: AtomicBool::new(false) };
+
+impl Stream {
+    /// Prints, unless something before it was lost: what is read is the beginning of what there was to read. The error, the first time.
+    fn print(&self, to: &mut dyn Write, text: Arguments<'_>) -> Option<std::io::Error> {
+        if self.lost.load(Ordering::Relaxed) {
+            return None;
+        }
+        let error = to.write_fmt(text).and_then(|()| to.flush()).err()?;
+        self.lost.store(true, Ordering::Relaxed);
+        Some(error)
+    }
+}
+
+/// Prints on standard output. Where that fails for another reason than a reader that has enough, standard error says so once.
+pub fn out(text: Arguments<'_>) {
+    let error = OUT.print(&mut std::io::stdout().lock(), text);
+    if let Some(error) = error.filter(|e| e.kind() != ErrorKind::BrokenPipe) {
+        err(format_args!("standard output cannot be written: {error}; the rest is left out\n"));
+    }
+}
+
+/// Prints on standard error.
+pub fn err(text: Arguments<'_>) {
+    ERR.print(&mut std::io::stderr().lock(), text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Takes so many bytes and is full then.
+    struct Full(usize, Vec<u8>);
+
+    impl Write for Full {
+        fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+            let most = bytes.len().min(self.0 - self.1.len());
+            self.1.extend(&bytes[..most]);
+            if most == 0 { Err(ErrorKind::StorageFull.into()) } else { Ok(most) }
+        }
+
+        fn flush(&mut self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_full_stream_has_the_beginning_and_says_so_once() {
+        let stream = Stream { lost: AtomicBool::new(false) };
+        let mut full = Full(5, Vec::new());
+        assert!(stream.print(&mut full, format_args!("abc\n")).is_none());
+        assert_eq!(
+            stream.print(&mut full, format_args!("de\n")).map(|e| e.kind()),
+            Some(ErrorKind::StorageFull)
+        );
+        full.0 = 100;
+        assert!(stream.print(&mut full, format_args!("fg\n")).is_none());
+        assert_eq!(full.1, b"abc\nd");
+    }
+}
