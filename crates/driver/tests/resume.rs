@@ -63,6 +63,12 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
+/// Standard error without the breaks of lines that the renderer makes.
+fn told(output: &Output) -> String {
+    let text = text(&output.stderr).replace(['\n', '│', '×'], " ");
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// All files below `out` by their paths in it; of the report what does not depend on the machine.
 fn files(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = BTreeMap::new();
@@ -179,7 +185,14 @@ fn a_fault_in_space_whose_slip_turns_is_gone_on_with_as_well() {
 fn a_signal_ends_a_run_with_a_checkpoint_and_its_own_exit_code() {
     let folder = folder(SCENE);
     let folder = folder.path();
-    for signal in ["-TERM", "-INT"] {
+    // What starts the tests may have them ignore the end of a terminal, which a run then ignores as well.
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|l| l.strip_prefix("SigIgn:")).unwrap_or("0").trim();
+    let deaf = u64::from_str_radix(mask, 16).unwrap() & 1 == 1;
+    for signal in ["-TERM", "-INT", "-HUP"] {
+        if signal == "-HUP" && deaf {
+            continue;
+        }
         let out = &signal[1..];
         let mut child = start(folder, out, &[]);
         assert!(grown(&mut child, &folder.join(out).join("largest_rate.csv"), 4000));
@@ -188,8 +201,91 @@ fn a_signal_ends_a_run_with_a_checkpoint_and_its_own_exit_code() {
         assert_eq!(output.status.code(), Some(3), "{}", text(&output.stderr));
         assert!(text(&output.stderr).contains("a signal asked for it"), "{}", text(&output.stderr));
         assert!(folder.join(out).join("checkpoint").is_file());
-        assert!(folder.join(out).join("report.json").is_file());
+        let report = fs::read_to_string(folder.join(out).join("report.json")).unwrap();
+        assert!(report.contains("\"status\": \"interrupted\""), "{report}");
     }
+}
+
+#[test]
+fn an_unfinished_run_is_not_overwritten_unless_that_is_asked_for() {
+    let folder = folder(&SCENE.replace("stop_after = 12", "stop_after = 1"));
+    let folder = folder.path();
+    assert_eq!(run(folder, "out", &["--wall-time", "0 s"]).status.code(), Some(3));
+    let checkpoint = fs::read(folder.join("out/checkpoint")).unwrap();
+    let again = run(folder, "out", &[]);
+    assert_eq!(again.status.code(), Some(1));
+    let told = told(&again);
+    assert!(told.contains("--resume") && told.contains("--force"), "{told}");
+    assert_eq!(fs::read(folder.join("out/checkpoint")).unwrap(), checkpoint);
+    assert!(run(folder, "out", &["--force"]).status.success());
+    assert_eq!(fs::read(folder.join("out.previous/checkpoint")).unwrap(), checkpoint);
+}
+
+#[test]
+fn a_run_extended_to_more_events_leaves_the_files_of_one_that_had_them_from_the_start() {
+    let events = |n: usize| SCENE.replace("stop_after = 12", &format!("stop_after = {n}"));
+    let folder = folder(&events(3));
+    let folder = folder.path();
+    assert!(run(folder, "extended", &[]).status.success());
+    fs::write(folder.join("s.toml"), events(5)).unwrap();
+    let output = run(folder, "extended", &["--resume"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("resumed at"), "{}", text(&output.stdout));
+    assert!(run(folder, "whole", &[]).status.success());
+    assert_same(folder, "extended");
+    // Fewer than there are already is no extension.
+    fs::write(folder.join("s.toml"), events(4)).unwrap();
+    let output = run(folder, "extended", &["--resume"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(told(&output).contains("lies beyond"), "{}", told(&output));
+    assert_same(folder, "extended");
+}
+
+#[test]
+fn a_run_extended_in_time_goes_on_from_its_last_restart_before_the_end() {
+    // Powers of two: the rates of the loads have no rounding that depends on the duration.
+    let lasting = |seconds: u64| {
+        let scene = SCENE.replace("3000 yr", &format!("{seconds} s"));
+        scene.replace("stop_after = 12\n", "")
+    };
+    let folder = folder(&lasting(1 << 34));
+    let folder = folder.path();
+    assert!(run(folder, "extended", &[]).status.success());
+    fs::write(folder.join("s.toml"), lasting(1 << 35)).unwrap();
+    let output = run(folder, "extended", &["--resume"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("resumed at"), "{}", text(&output.stdout));
+    assert!(run(folder, "whole", &[]).status.success());
+    assert_same(folder, "extended");
+    // A shorter one is none, and a load that reaches its value at the end is another when the end is another.
+    for (scene, part) in [
+        (lasting(1 << 34), "lies beyond"),
+        (lasting(1 << 36).replace("z = { rate = \"0.5e-9 m/s\" }", "z = \"17 m\""), "of another scene"),
+    ] {
+        fs::write(folder.join("s.toml"), scene).unwrap();
+        let output = run(folder, "extended", &["--resume"]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(told(&output).contains(part), "{}", told(&output));
+    }
+    assert_same(folder, "extended");
+}
+
+#[test]
+fn a_load_that_reaches_its_value_at_the_end_cannot_be_extended() {
+    let lasting = |years: u32| {
+        let scene = SCENE.replace("3000 yr", &format!("{years} yr")).replace("stop_after = 12\n", "");
+        scene
+            .replace("z = { rate = \"-0.5e-9 m/s\" }", "z = \"-1 m\"")
+            .replace("z = { rate = \"0.5e-9 m/s\" }", "z = \"1 m\"")
+    };
+    let folder = folder(&lasting(60));
+    let folder = folder.path();
+    let output = run(folder, "out", &[]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    fs::write(folder.join("s.toml"), lasting(120)).unwrap();
+    let output = run(folder, "out", &["--resume"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(told(&output).contains("other loads"), "{}", told(&output));
 }
 
 #[test]
@@ -201,9 +297,7 @@ fn what_does_not_fit_the_checkpoint_is_refused() {
     assert_eq!(broken.status.code(), Some(3), "{}", text(&broken.stderr));
     let refused = |part: &str| {
         let output = run(folder, "out", &["--resume"]);
-        // The renderer breaks lines.
-        let told = text(&output.stderr).replace(['\n', '│', '×'], " ");
-        let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+        let told = told(&output);
         assert_eq!(output.status.code(), Some(1), "{told}");
         assert!(told.contains(part), "{part} is not in\n{told}");
     };

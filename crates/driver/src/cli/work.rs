@@ -214,8 +214,7 @@ fn write_faults(
 
 /// The catalogue of all faults, and of each where there are several, as tables.
 fn write_catalogues(path: &Path, report: &fault::Report) -> Result<(), ObserveError> {
-    let write =
-        |name: &str, events| atomic::write(&path.join(name), fault::Report::csv(events).as_bytes());
+    let write = |name: &str, events| atomic::write(&path.join(name), fault::Report::csv(events).as_bytes());
     write("events.csv", &report.events)?;
     let names = stems(report.faults.iter().map(|f| f.fault.as_str()));
     let mut each = names.iter().zip(&report.faults);
