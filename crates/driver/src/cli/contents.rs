@@ -57,7 +57,9 @@ pub(super) fn foreign(path: &Path) -> std::io::Result<Option<PathBuf>> {
                 })
             });
         }
-        let ours = FILES.iter().any(|file| name == *file) || temporary(name);
+        // Each of several faults may have its own.
+        let events = name.to_str().is_some_and(|n| n.starts_with("events_") && n.ends_with(".csv"));
+        let ours = FILES.iter().any(|file| name == *file) || events || temporary(name);
         Ok((!ours).then(|| entry.to_path_buf()))
     })
 }
