@@ -260,7 +260,10 @@ fn a_run_extended_in_time_goes_on_from_its_last_restart_before_the_end() {
     // A shorter one is none, and a load that reaches its value at the end is another when the end is another.
     for (scene, part) in [
         (lasting(1 << 34), "lies beyond"),
-        (lasting(1 << 36).replace("z = { rate = \"0.5e-9 m/s\" }", "z = \"17 m\""), "of another scene"),
+        (
+            lasting(1 << 36).replace("z = { rate = \"0.5e-9 m/s\" }", "z = { to = \"17 m\" }"),
+            "of another scene",
+        ),
     ] {
         fs::write(folder.join("s.toml"), scene).unwrap();
         let output = run(folder, "extended", &["--resume"]);
@@ -275,8 +278,8 @@ fn a_load_that_reaches_its_value_at_the_end_cannot_be_extended() {
     let lasting = |years: u32| {
         let scene = SCENE.replace("3000 yr", &format!("{years} yr")).replace("stop_after = 12\n", "");
         scene
-            .replace("z = { rate = \"-0.5e-9 m/s\" }", "z = \"-1 m\"")
-            .replace("z = { rate = \"0.5e-9 m/s\" }", "z = \"1 m\"")
+            .replace("z = { rate = \"-0.5e-9 m/s\" }", "z = { to = \"-1 m\" }")
+            .replace("z = { rate = \"0.5e-9 m/s\" }", "z = { to = \"1 m\" }")
     };
     let folder = folder(&lasting(60));
     let folder = folder.path();
