@@ -3,7 +3,7 @@
 
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::extrude::{ExtrudeError, extrude};
-use asperity_fem::mesh::fault::{FaultMesh, Spacing};
+use asperity_fem::mesh::fault::{FaultMesh, Interpolation, Spacing};
 use asperity_fem::mesh::generate::{Block, Grading};
 use asperity_fem::mesh::split::{Pair, Surface, split};
 use asperity_fem::mesh::{Mesh, Side, face_nodes, nodes_of_sides};
@@ -159,6 +159,7 @@ fn a_split_fault_stays_split_and_its_tip_becomes_a_line() {
         }
         let input = FaultMesh {
             trace: vec![[0.0, 0.0], [3.0, -4.0], [4.0, -7.0]],
+            interpolation: Interpolation::Polyline,
             spacing: Spacing::Zone { from: 0.0, to: 5.0, size: 1.0, ratio: 1.2 },
             thickness: None,
             min: [-20.0, -20.0],

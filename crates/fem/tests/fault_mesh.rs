@@ -3,7 +3,7 @@
 
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::fault::{
-    FaultMesh, FaultMeshError, Faulted, Spacing, SpacingError, quality, scaled_jacobian,
+    FaultMesh, FaultMeshError, Faulted, Interpolation, Spacing, SpacingError, quality, scaled_jacobian,
 };
 use asperity_fem::mesh::split::Pair;
 use asperity_fem::mesh::{Mesh, Side, face_nodes, nodes_of_sides};
@@ -24,6 +24,7 @@ fn trace(start: [f64; 2], segments: &[(f64, f64)]) -> Vec<[f64; 2]> {
 fn input(trace: Vec<[f64; 2]>) -> FaultMesh {
     FaultMesh {
         trace,
+        interpolation: Interpolation::Polyline,
         spacing: Spacing::Constant(1.0),
         thickness: None,
         min: [-200.0, -200.0],
@@ -534,6 +535,7 @@ proptest! {
     ) {
         let input = FaultMesh {
             trace: points.iter().map(|&(x, y)| [x, y]).collect(),
+            interpolation: Interpolation::Polyline,
             spacing: if numbers[0] > 1.0 {
                 Spacing::Constant(numbers[1])
             } else {
@@ -549,4 +551,57 @@ proptest! {
             check(&input, &made);
         }
     }
+}
+
+/// Nodes of the fault in the order of the trace.
+fn fault_nodes(made: &Faulted) -> Vec<[f64; 2]> {
+    made.fault.pairs.iter().map(|p| made.mesh.nodes[p.minus]).collect()
+}
+
+/// A listric trace: the circle of radius 60 about (60, 0), down from the surface over 50 degrees, with `n` segments.
+fn listric(n: usize) -> Vec<[f64; 2]> {
+    let angle = |k: usize| (50.0 * k as f64 / n as f64).to_radians();
+    (0..=n).map(|k| [60.0 - 60.0 * angle(k).cos(), -60.0 * angle(k).sin()]).collect()
+}
+
+#[test]
+fn a_curve_through_few_vertices_lies_where_the_one_through_many_does() {
+    let off = |n: usize| {
+        let input = FaultMesh { interpolation: Interpolation::Spline, ..input(listric(n)) };
+        let made = input.mesh().unwrap();
+        assert!(made.quality.min > 0.4, "{:?}", made.quality);
+        let nodes = fault_nodes(&made);
+        // 60 * 50 degrees = 52.36 m in cells of at most 5 % off 1 m.
+        assert!((50..=55).contains(&nodes.len()), "{}", nodes.len());
+        let turns = nodes.windows(3).map(|w| {
+            let (a, b) = ([w[1][0] - w[0][0], w[1][1] - w[0][1]], [w[2][0] - w[1][0], w[2][1] - w[1][1]]);
+            (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs().to_degrees()
+        });
+        let radii = nodes.iter().map(|x| ((x[0] - 60.0).hypot(x[1]) - 60.0).abs());
+        (radii.fold(0.0, f64::max), turns.fold(0.0, f64::max))
+    };
+    let [few, more] = [5, 10].map(off);
+    // The fourth power of a spacing halved; a chord of 10 m would lie 0.21 m off the circle.
+    assert!(few.0 < 2e-3 && more.0 < few.0 / 10.0, "{few:?} {more:?}");
+    // A cell of 1 m turns by 1/60.
+    assert!((0.9..1.1).contains(&few.1) && (0.9..1.06).contains(&more.1), "{few:?} {more:?}");
+}
+
+#[test]
+fn vertices_on_a_line_give_the_same_mesh_to_the_bit() {
+    for dip in [90.0, 60.0, 123.0] {
+        let polyline = input(trace([0.0, -3.0], &[(10.0, dip), (5.0, dip), (20.0, dip)]));
+        let spline = FaultMesh { interpolation: Interpolation::Spline, ..polyline.clone() };
+        assert_eq!(polyline.mesh().unwrap(), spline.mesh().unwrap());
+        assert_eq!(spline.departure().unwrap(), None);
+    }
+}
+
+#[test]
+fn a_curve_that_overshoots_is_refused_between_its_vertices() {
+    // Flat, steep, flat: the curve swings beyond the vertices.
+    let steps = trace([-60.0, -1.0], &[(60.0, 12.0), (3.0, 90.0), (60.0, 12.0)]);
+    let spacing = Spacing::Graded(vec![[0.0, 1.0]]);
+    let spline = FaultMesh { interpolation: Interpolation::Spline, spacing, ..input(steps) };
+    assert!(matches!(refused(&spline), FaultMeshError::Curve { .. }), "{:?}", refused(&spline));
 }

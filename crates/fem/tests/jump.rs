@@ -8,7 +8,7 @@ use asperity_fem::element::ElementKind;
 use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
 use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
-use asperity_fem::mesh::fault::{FaultMesh, Faulted, Spacing};
+use asperity_fem::mesh::fault::{FaultMesh, Faulted, Interpolation, Spacing};
 use asperity_fem::mesh::nodes_of_sides;
 use asperity_fem::table::Table;
 use asperity_fem::term::Linearized;
@@ -18,6 +18,7 @@ fn body(dip: f64) -> (Faulted, Stiffness) {
     let (s, c) = dip.to_radians().sin_cos();
     let made = FaultMesh {
         trace: vec![[0.0, 0.0], [-2.0 * c, -2.0 * s]],
+        interpolation: Interpolation::Spline,
         spacing: Spacing::Constant(0.5),
         thickness: None,
         min: [-4.0, -3.0],

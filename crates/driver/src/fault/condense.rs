@@ -1,6 +1,7 @@
 //! Bodies condensed onto the jumps of their faults: what slip and loads do to tractions.
 
 use super::bodies::Bodies;
+use super::held::{self, Refusal};
 use super::loading::Loading;
 use super::machine::Machine;
 use super::operator::Dense;
@@ -11,7 +12,7 @@ use crate::rigid;
 use asperity_fem::FemError;
 use asperity_fem::condense::{Condensation, Condensed, Loaded, Remainder, Stiffness};
 use asperity_fem::dof::Channel;
-use asperity_fem::jump::{Jump, Jumps};
+use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
 use asperity_fem::table::Table;
 
 /// A point of a fault with what happens there.
@@ -70,14 +71,14 @@ pub struct Conditions {
 /// interface mass is lumped.
 ///
 /// # Errors
-/// A message where the bodies need more than `memory` bytes, are not held, or a support does not agree with the fault.
+/// A [`Refusal`] where the bodies need more than `memory` bytes, are not held, or a support does not agree with the fault.
 pub fn condense<const D: usize>(
     model: &Model<D>,
     bodies: Stiffness,
     stage: &Stage,
     points: &[Point<D>],
     conditions: Conditions,
-) -> Result<Surroundings, String> {
+) -> Result<Surroundings, Refusal> {
     match model.idealisation.components() {
         1 => with_components::<D, 1>(model, bodies, stage, points, conditions, |_| [[1.0]]),
         2 => with_components::<D, 2>(model, bodies, stage, points, conditions, |p| {
@@ -113,25 +114,17 @@ fn with_components<const D: usize, const C: usize>(
     points: &[Point<D>],
     Conditions { tangents, memory, keep }: Conditions,
     frame: impl Fn(&Place<D>) -> [[f64; C]; C],
-) -> Result<Surroundings, String> {
+) -> Result<Surroundings, Refusal> {
     let constraints = stage.constraints(&vec![0.0; model.dofs()]);
     let machine = Machine::new(stage);
     let drawn = |node: usize| (C * node..C * (node + 1)).any(|d| machine.draws(d));
     if let Some(p) = points.iter().find(|p| drawn(p.place.minus) && drawn(p.place.plus)) {
-        return Err(format!(
+        return Err(Refusal::from(format!(
             "a spring draws both sides of a fault as one at {}, which could not slip there: let it draw a side that ends at the fault",
             rigid::place(&p.place.at)
-        ));
+        )));
     }
-    let jump = |p: &Point<D>| {
-        let frame = frame(&p.place);
-        let (minus, plus) = (C * p.place.minus, C * p.place.plus);
-        // The node whose displacement gives way to the jump must not be tied to others.
-        if drawn(p.place.plus) {
-            return Jump { minus: plus, plus: minus, frame: frame.map(|axis| axis.map(|c| -c)) };
-        }
-        Jump { minus, plus, frame }
-    };
+    let jump = |p: &Point<D>| held::jump(p, frame(&p.place), &constraints.fixed, drawn);
     let list: Vec<Jump<C>> = points.iter().map(jump).collect();
     // The opening is the last component; where it may change normal tractions it is retained, at zero.
     let slip: Vec<usize> = list.iter().map(|j| j.plus).collect();
@@ -139,7 +132,7 @@ fn with_components<const D: usize, const C: usize>(
     let across = jumps.stiffness(&bodies);
     drop(bodies);
     let body = machine.stiffness(across);
-    let oblique = |e: asperity_fem::jump::ObliqueConstraint| e.to_string();
+    let oblique = |e: ObliqueConstraint| held::oblique::<D, C>(model, points, &constraints.fixed, e.plus);
     let free: Vec<usize> = (0..points.len()).filter(|&k| points[k].creep.is_none()).collect();
     let mut retained: Vec<usize> = free
         .iter()
@@ -149,12 +142,9 @@ fn with_components<const D: usize, const C: usize>(
     retained.sort_unstable();
     let mut fixed = jumps.fixed(&constraints.fixed).map_err(oblique)?;
     let is_fixed = |dof: usize| fixed.binary_search(&dof).is_ok();
-    if let Some(&k) = free.iter().find(|&&k| (0..tangents).any(|c| is_fixed(slip[k] + c))) {
-        return Err(format!(
-            "conditions prescribe the motion of both sides of a fault along its slip at {}, where it is to slide: let it creep there, or leave \
-             that component of the conditions out",
-            rigid::place(&points[k].place.at)
-        ));
+    let along_slip = |&k: &usize| (0..tangents).find(|c| is_fixed(slip[k] + c)).map(|c| (k, c));
+    if let Some((k, c)) = free.iter().find_map(along_slip) {
+        return Err(held::along_slip(&points[k].place, &frame(&points[k].place)[c]));
     }
     let supported: Vec<bool> = free.iter().map(|&k| C > 1 && is_fixed(slip[k] + C - 1)).collect();
     for (point, &dof) in points.iter().zip(&slip) {

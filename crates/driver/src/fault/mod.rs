@@ -1,7 +1,9 @@
 //! Faults whose linear bodies are condensed onto them: slip, states and tractions of the fault's points as a system of ordinary
 //! differential equations, through many earthquake cycles.
 
+mod asked;
 mod balance;
+mod bends;
 mod bodies;
 mod both;
 mod cadence;
@@ -9,10 +11,12 @@ mod catalogue;
 mod checkpoint;
 mod cluster;
 mod condense;
+mod cover;
 mod equations;
 mod fields;
 mod figures;
 mod files;
+mod held;
 mod hierarchical;
 mod identity;
 mod keeper;
@@ -21,12 +25,14 @@ pub mod located;
 mod lowrank;
 mod machine;
 mod medium;
+mod meet;
 mod operator;
 mod place;
 mod plan;
 mod pressure;
 mod report;
 mod run;
+mod sense;
 mod snapshots;
 mod stations;
 
@@ -41,6 +47,7 @@ pub use equations::{Equations, Fault, Layout, size};
 pub use fields::write as write_fields;
 pub use figures::draw;
 pub use files::{Files, Position};
+pub use held::Refusal;
 pub use hierarchical::{Geometry, Hierarchical, Sizes};
 pub use identity::physics;
 pub use keeper::{Keeper, Pauses};

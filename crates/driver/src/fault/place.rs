@@ -1,9 +1,11 @@
 //! The points of a fault: pairs of nodes, one on each side, at one place.
 
+use super::cover;
 use crate::model::Model;
 use crate::plan::PlanError;
 use crate::rigid;
 use crate::scene::model::{Fault as Spec, Spanned};
+use crate::warning::Warning;
 use asperity_fem::FemError;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
@@ -11,7 +13,7 @@ use asperity_fem::surface;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Distance of two nodes at one place over the size of the model: rounding of generated and of written coordinates.
-const TOGETHER: f64 = 1e-9;
+pub(super) const TOGETHER: f64 = 1e-9;
 
 /// A point of a fault.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,13 +36,17 @@ pub struct Place<const D: usize> {
     pub along: f64,
 }
 
-/// The points of a fault, along a plane one from its upper end.
+/// The points of a fault, along a plane one from its upper end, and what is doubtful about its sides.
 ///
 /// # Errors
-/// [`PlanError`] where the sides do not lie on each other node by node, or a point has no area.
-pub fn places<const D: usize>(model: &Model<D>, name: &str, spec: &Spec) -> Result<Vec<Place<D>>, PlanError> {
+/// [`PlanError`] where the sides do not lie on each other node by node, where more than two meet, or a point has no area.
+pub fn places<const D: usize>(
+    model: &Model<D>,
+    name: &str,
+    spec: &Spec,
+) -> Result<(Vec<Place<D>>, Option<Warning>), PlanError> {
     let (minus, plus) = (model.sides(&spec.minus)?, model.sides(&spec.plus)?);
-    let pairs = pairs(model, name, spec, minus, plus)?;
+    let (pairs, doubtful) = pairs(model, name, spec, minus, plus)?;
     let no_areas =
         |e: FemError| PlanError::at(spec.minus.span(), format!("fault `{name}`: {e}"), WITH_AREAS.into());
     let areas = model.tributary_areas(minus).map_err(no_areas)?;
@@ -61,17 +67,7 @@ pub fn places<const D: usize>(model: &Model<D>, name: &str, spec: &Spec) -> Resu
         }
         let normal = unit(normals[&minus]);
         let at = model.mesh.nodes[minus];
-        let within = |rake: &Spanned<[f64; 3]>| {
-            along_rake(rake.get_ref(), &normal).ok_or_else(|| {
-                PlanError::at(
-                    rake.span(),
-                    format!("`rake` is normal to fault `{name}` at {}", rigid::place(&at)),
-                    "a direction along the fault".into(),
-                )
-            })
-        };
-        let rake = spec.rake.as_ref().map_or(Ok([0.0; D]), &within)?;
-        let creeps = spec.creep.as_ref().and_then(|c| c.rake.as_ref()).map_or(Ok(rake), &within)?;
+        let [rake, creeps] = directions((name, spec), &at, &normal)?;
         places.push(Place {
             minus,
             plus,
@@ -84,7 +80,30 @@ pub fn places<const D: usize>(model: &Model<D>, name: &str, spec: &Spec) -> Resu
         });
     }
     places.sort_by(|a, b| a.along.total_cmp(&b.along).then(a.minus.cmp(&b.minus)));
-    Ok(places)
+    Ok((places, doubtful))
+}
+
+/// Directions of slip and of creep at a place of a fault.
+///
+/// # Errors
+/// [`PlanError`] at a rake that is normal to the fault.
+pub(super) fn directions<const D: usize>(
+    (name, spec): (&str, &Spec),
+    at: &[f64; D],
+    normal: &[f64; D],
+) -> Result<[[f64; D]; 2], PlanError> {
+    let within = |rake: &Spanned<[f64; 3]>| {
+        along_rake(rake.get_ref(), normal).ok_or_else(|| {
+            PlanError::at(
+                rake.span(),
+                format!("`rake` is normal to fault `{name}` at {}", rigid::place(at)),
+                "a direction along the fault".into(),
+            )
+        })
+    };
+    let rake = spec.rake.as_ref().map_or(Ok([0.0; D]), &within)?;
+    let creeps = spec.creep.as_ref().and_then(|c| c.rake.as_ref()).map_or(Ok(rake), &within)?;
+    Ok([rake, creeps])
 }
 
 /// Elements with which every node of a fault has an area.
@@ -96,7 +115,7 @@ const ROUNDING: f64 = 1e-12;
 const NORMAL_RAKE: f64 = 2e-4;
 
 /// A vector divided by its length, without rounding in the components of one along an axis.
-fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
+pub(super) fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
     let length = surface::length(&v);
     let v = v.map(|c| if c.abs() <= ROUNDING * length { 0.0 } else { c });
     let length = surface::length(&v);
@@ -121,42 +140,68 @@ fn along_rake<const D: usize>(rake: &[f64; 3], normal: &[f64; D]) -> Option<[f64
 }
 
 /// Nodes of both sides at one place; tips, where both sides are one node, are left out.
+type Pairs = Vec<(usize, usize)>;
+
 fn pairs<const D: usize>(
     model: &Model<D>,
     name: &str,
     spec: &Spec,
     minus: &[Side],
     plus: &[Side],
-) -> Result<Vec<(usize, usize)>, PlanError> {
+) -> Result<(Pairs, Option<Warning>), PlanError> {
     let close = TOGETHER * model.scale;
     let nodes = |sides: &[Side]| nodes_of_sides(&model.mesh, sides);
-    let (minus, mut plus) = (nodes(minus), nodes(plus));
+    let (on_minus, mut on_plus) = (nodes(minus), nodes(plus));
     let x = |n: &usize| model.mesh.nodes[*n];
     // Sorted by the first coordinate: candidates lie in a narrow band.
-    plus.sort_by(|a, b| x(a)[0].total_cmp(&x(b)[0]));
-    let mut pairs = Vec::with_capacity(minus.len());
+    on_plus.sort_by(|a, b| x(a)[0].total_cmp(&x(b)[0]));
+    let mut partner: BTreeMap<usize, usize> = BTreeMap::new();
     let mut taken = BTreeSet::new();
-    for m in &minus {
-        let from = plus.partition_point(|p| x(p)[0] < x(m)[0] - close);
-        let candidates = plus[from..].iter().take_while(|p| x(p)[0] <= x(m)[0] + close);
+    for m in &on_minus {
+        let from = on_plus.partition_point(|p| x(p)[0] < x(m)[0] - close);
+        let candidates = on_plus[from..].iter().take_while(|p| x(p)[0] <= x(m)[0] + close);
         let near = candidates.filter(|p| (0..D).all(|c| (x(p)[c] - x(m)[c]).abs() <= close));
-        // A node of both sides goes with itself.
-        let found = near.copied().min_by_key(|p| (p != m, taken.contains(p)));
-        let Some(p) = found.filter(|p| taken.insert(*p)) else {
-            return Err(PlanError::at(
-                spec.plus.span(),
-                format!(
-                    "the sides of fault `{name}` do not lie on each other: the node of the minus side at {} has none on the plus side",
-                    rigid::place(&x(m))
-                ),
-                "both sides need the same nodes, as splitting a mesh along a surface makes them".into(),
-            ));
+        let near: Vec<usize> = near.copied().collect();
+        match near.as_slice() {
+            [p] if taken.insert(*p) => partner.insert(*m, *p),
+            [] => {
+                return Err(PlanError::at(
+                    spec.plus.span(),
+                    format!(
+                        "the sides of fault `{name}` do not lie on each other: the node of the minus side at {} has none on the plus side",
+                        rigid::place(&x(m))
+                    ),
+                    "both sides need the same nodes, as splitting a mesh along a surface makes them".into(),
+                ));
+            }
+            _ => return Err(branches(&format!("fault `{name}` branches"), &x(m), spec)),
         };
-        if p != *m {
-            pairs.push((*m, p));
-        }
     }
-    Ok(pairs)
+    let alone: Vec<usize> = on_plus.into_iter().filter(|p| !taken.contains(p)).collect();
+    cover::partners(model, (name, spec), minus, &alone)?;
+    let doubtful = cover::same_faces(model, (name, spec), (minus, plus), |m| partner.get(&m).copied());
+    let pairs: Pairs = partner.into_iter().filter(|(m, p)| m != p).collect();
+    if pairs.is_empty() {
+        return Err(PlanError::at(
+            spec.plus.span(),
+            format!("both sides of fault `{name}` are the same nodes: nothing can slide there"),
+            "a fault lies between two sides that can part: two bodies, or a mesh that is split along a surface, whose sides are \
+             `body.SURFACE.minus` and `body.SURFACE.plus`"
+                .into(),
+        ));
+    }
+    Ok((pairs, doubtful))
+}
+
+/// The refusal of a place where more than two sides meet.
+pub(super) fn branches<const D: usize>(what: &str, at: &[f64; D], spec: &Spec) -> PlanError {
+    PlanError::at(
+        spec.minus.span(),
+        format!("{what} at {}: more than two sides meet there", rigid::place(at)),
+        "a point of a fault has two sides; leave the faces of a branch that touch the other fault out of its surface, so that it ends one cell away \
+         from it, or leave the branch out"
+            .into(),
+    )
 }
 
 /// Integral of the outward normal of the minus side with the shape function of each node.

@@ -1,5 +1,7 @@
 //! What of a scene with faults is integrated, and how.
 
+use super::asked;
+use super::bends;
 use super::bodies::BodiesView;
 use super::both::Both;
 use super::cadence::Cadence;
@@ -10,13 +12,15 @@ use super::hierarchical::{Geometry, Hierarchical};
 use super::loading::Loading;
 use super::located::Frame;
 use super::medium::{Media, Medium};
+use super::meet;
 use super::operator::{Dense, Form, Operator};
 use super::place::{Place, across, places};
 use super::pressure::{Injection, Pressure};
 use super::run::Settings;
+use super::sense;
 use crate::laws;
 use crate::loading;
-use crate::model::Model;
+use crate::model::{Model, meshes};
 use crate::ode::Method;
 use crate::plan::PlanError;
 use crate::scene::law::{self, Evolution, LawChoice};
@@ -115,6 +119,8 @@ pub struct Plan {
     pub kinematics: &'static str,
     /// What probably does not mean what the author of the scene wants.
     pub warnings: Vec<Warning>,
+    /// What should be known and is not in doubt.
+    pub notes: Vec<String>,
 }
 
 impl Plan {
@@ -191,6 +197,9 @@ impl Plan {
         );
         line("operator", self.fault.operator.words());
         line("output", self.cadence.words());
+        for note in &self.notes {
+            line("note", note.clone());
+        }
         for warning in &self.warnings {
             line("warning", warning.to_string());
         }
@@ -231,15 +240,27 @@ pub fn plan_with(scene: &Scene, form: Form) -> Result<Plan, PlanError> {
 }
 
 /// A point with its fault and law.
-struct Placed<const D: usize> {
-    point: Point<D>,
-    fault: usize,
-    normal: f64,
+pub(super) struct Placed<const D: usize> {
+    pub point: Point<D>,
+    pub fault: usize,
+    /// Normal traction at the start \[Pa\].
+    pub normal: f64,
     medium: Medium,
     damping: f64,
     /// Shear traction at the start, where it is given \[Pa\].
     shear: Option<f64>,
     law: LawChoice,
+    /// Rate of creep, where there is any \[m/s\].
+    creep: Option<f64>,
+    /// Components of displacement of the bodies.
+    components: usize,
+}
+
+impl<const D: usize> Placed<D> {
+    /// Turns the creep to the directions of the place, which have changed.
+    pub fn redirect(&mut self) {
+        self.point.creep = self.creep.map(|rate| components(&self.point.place, rate));
+    }
 }
 
 /// How the bodies of a scene are condensed.
@@ -263,21 +284,22 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
     let [stage] = stages.as_slice() else {
         return Err(PlanError::plain(format!("a scene with faults has one stage, found {}", stages.len())));
     };
-    let mut placed: Vec<Placed<D>> = Vec::new();
-    for (k, (name, spec)) in scene.faults.iter().enumerate() {
-        placed.extend(points_of(scene, &model, (name, spec), k)?);
-    }
+    let mut warnings = scene.warnings.clone();
+    let (placed, notes) = all_points(scene, &model, &mut warnings)?;
     let points: Vec<Point<D>> = placed.iter().map(|p| p.point.clone()).collect();
+    let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
     if points.iter().all(|p| p.creep.is_some()) {
-        return Err(PlanError::plain("no point of the faults is free to slide".into()));
+        return Err(asked::nothing_slides(&named, &placed));
     }
     let bodies = model.take_stiffness();
     let conditions = conditions(scene);
     let turns = conditions.tangents > 1;
-    let surroundings = condense(&model, bodies, stage, &points, conditions).map_err(PlanError::plain)?;
-    placed.retain(|p| p.point.creep.is_none());
+    let surroundings =
+        condense(&model, bodies, stage, &points, conditions).map_err(|e| e.place(scene, &model))?;
+    let (creeping, placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
+    warnings.extend(sense::check(scene, (&placed, &creeping), &surroundings.loading, stage.end));
     let Some((first, rest)) = placed.split_first() else {
-        return Err(PlanError::plain("no point of the faults is free to slide".into()));
+        return Err(asked::nothing_slides(&named, &creeping));
     };
     let choices: Vec<LawChoice> = rest.iter().map(|p| p.law.clone()).collect();
     let specs: Vec<&Spec> = scene.faults.values().collect();
@@ -303,12 +325,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
     };
     let start = start(scene, &placed, &fault).map_err(at_law)?;
     let (faults, views) = views(scene, &model, &placed, turns)?;
-    let frame = match &scene.place {
-        None => None,
-        Some(place) => Some(Frame::new(place, D == 3).map_err(|e| {
-            PlanError::at(place.epoch.span(), e.to_string(), "such as \"2000-01-01T00:00:00Z\"".into())
-        })?),
-    };
+    let frame = frame(scene, D == 3)?;
     let sides = || placed.iter().map(|p| [p.point.place.minus, p.point.place.plus]).collect();
     let bodies = surroundings.bodies.map(|bodies| BodiesView::new(bodies, &model, sides()));
     Ok(Plan {
@@ -326,9 +343,37 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         frame,
         in_space: D == 3,
         kinematics: scene.kinematics.get_ref().words(),
-        warnings: scene.warnings.clone(),
+        warnings,
+        notes,
         fault,
     })
+}
+
+/// The points of all faults, and what is to be said of them.
+fn all_points<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    warnings: &mut Vec<Warning>,
+) -> Result<(Vec<Placed<D>>, Vec<String>), PlanError> {
+    let mut placed: Vec<Placed<D>> = Vec::new();
+    for (k, (name, spec)) in scene.faults.iter().enumerate() {
+        placed.extend(points_of(scene, model, (name, spec), k, warnings)?);
+    }
+    let mut notes = meshes::notes(scene)?;
+    for fault in &scene.faults {
+        notes.extend(bends::note(model, (fault.0, fault.1))?);
+    }
+    notes.extend(meet::join(scene, model, &mut placed)?);
+    Ok((placed, notes))
+}
+
+/// Where and when a scene lies on Earth.
+fn frame(scene: &Scene, in_space: bool) -> Result<Option<Frame>, PlanError> {
+    let Some(place) = &scene.place else { return Ok(None) };
+    let frame = Frame::new(place, in_space).map_err(|e| {
+        PlanError::at(place.epoch.span(), e.to_string(), "such as \"2000-01-01T00:00:00Z\"".into())
+    })?;
+    Ok(Some(frame))
 }
 
 /// Points from which the operator is compressed: below, a product with the dense one takes as long (2 us).
@@ -386,6 +431,7 @@ fn points_of<const D: usize>(
     model: &Model<D>,
     (name, spec): (&str, &Spec),
     fault: usize,
+    warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Placed<D>>, PlanError> {
     let base = law::choose(&spec.law).map_err(|errors| {
         let first = errors.into_iter().next();
@@ -393,7 +439,9 @@ fn points_of<const D: usize>(
     })?;
     let mut placed = Vec::new();
     let media = Media::new(scene, model, spec)?;
-    for place in places(model, name, spec)? {
+    let (places, doubtful) = places(model, name, spec)?;
+    warnings.extend(doubtful);
+    for place in places {
         let value = |profile: &Option<Profiled>| profile.as_ref().map(|p| largest(p, &place));
         let creep = spec.creep.as_ref().filter(|c| creeps(c, &place, CLOSE * model.scale));
         let medium = media.at(&place);
@@ -404,9 +452,13 @@ fn points_of<const D: usize>(
             normal: value(&spec.profiles.normal).unwrap_or(spec.normal.get_ref().0),
             shear: value(&spec.profiles.shear).or(spec.shear.as_ref().map(|s| s.get_ref().0)),
             law: varied(&base, value(&spec.profiles.a), value(&spec.profiles.b), value(&spec.profiles.l)),
+            creep: creep.map(|c| c.rate.get_ref().0),
+            components: model.idealisation.components(),
             point: Point { creep: creep.map(|c| components(&place, c.rate.get_ref().0)), place },
         });
     }
+    asked::creep((name, spec), &placed)?;
+    asked::profiles((name, spec), &placed, warnings);
     Ok(placed)
 }
 
@@ -441,7 +493,7 @@ fn largest<const D: usize>(profiles: &Profiled, place: &Place<D>) -> f64 {
 }
 
 /// Value of a profile at a place: linear between its points, constant beyond.
-fn at<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
+pub(super) fn at<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
     let x = match profile.along.get_ref() {
         Along::X => place.at[0],
         Along::Y => place.at[1],
@@ -615,6 +667,16 @@ fn faces<const D: usize>(
     Ok(model.sides(&spec.minus)?.iter().filter_map(of).collect())
 }
 
+/// Direction in which plus moves where slip is positive: out of the plane, along the fault in it, or along the rake.
+pub(super) fn slides<const D: usize>(placed: &Placed<D>) -> [f64; 3] {
+    let normal = in_space(&placed.point.place.normal);
+    match placed.components {
+        1 => [0.0, 0.0, 1.0],
+        2 => [-normal[1], normal[0], 0.0],
+        _ => in_space(&placed.point.place.rake),
+    }
+}
+
 /// Faults and points as outputs see them.
 fn views<const D: usize>(
     scene: &Scene,
@@ -627,12 +689,7 @@ fn views<const D: usize>(
         .map(|p| {
             let place = &p.point.place;
             let (at, normal): ([f64; 3], [f64; 3]) = (in_space(&place.at), in_space(&place.normal));
-            // Out of the plane, or along the fault in it.
-            let slides = match scene.kinematics.get_ref().idealisation().components() {
-                1 => [0.0, 0.0, 1.0],
-                2 => [-normal[1], normal[0], 0.0],
-                _ => in_space(&place.rake),
-            };
+            let slides = slides(p);
             let (along, area, theta) = (place.along, place.area, theta(&p.law));
             let shear_modulus = p.medium.shear_modulus;
             PointView {
@@ -657,12 +714,16 @@ fn views<const D: usize>(
             Station::At(at) => at.iter().zip(&points[p].at).map(|(a, b)| (a - b).powi(2)).sum(),
         };
         let nearest = |s: &Station| (first..last).min_by(|&a, &b| off(a, s).total_cmp(&off(b, s)));
-        let station = |s: &Station| Some((s.clone(), nearest(s)?));
-        let stations = asked.map(|a| a.get_ref().iter().filter_map(|s| station(s.get_ref())).collect());
+        let mut stations = Vec::new();
+        for asked in asked.iter().flat_map(|a| a.get_ref()) {
+            let Some(point) = nearest(asked.get_ref()) else { continue };
+            asked::station(model, (name, spec), asked, (&placed[first..last], point - first))?;
+            stations.push((asked.get_ref().clone(), point));
+        }
         faults.push(FaultView {
             name: name.clone(),
             points: first..last,
-            stations: stations.unwrap_or_default(),
+            stations,
             faces: faces(model, spec, &placed[first..last])?,
         });
     }

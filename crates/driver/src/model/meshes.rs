@@ -7,7 +7,7 @@ use crate::scene::units::{self, Dimension, Length};
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::curve::{Curve, Profile, bend};
 use asperity_fem::mesh::extrude::extrude;
-use asperity_fem::mesh::fault::{FaultMesh, Spacing};
+use asperity_fem::mesh::fault::{FaultMesh, Interpolation, Spacing};
 use asperity_fem::mesh::generate::{Block, Grading, Grid, SIDES, divisions_for};
 use asperity_fem::mesh::split::{Surface, split};
 use asperity_fem::mesh::{Cells, GroupTag, Mesh, MeshError, Options, RawMesh, Side, abaqus, gmsh};
@@ -224,20 +224,52 @@ fn quadrilateral(name: &str, spec: &scene::QuadrilateralMesh) -> Result<Mesh<2>,
     Ok(mesh)
 }
 
-/// A box around a fault. Lengths along the fault count from the first vertex of its trace.
+/// A box around a fault.
 fn fault(name: &str, spec: &scene::FaultMesh) -> Result<Mesh<2>, PlanError> {
+    let generated = faulted(spec)?.mesh();
+    Ok(generated.map_err(|e| PlanError::body(name, spec.trace.span(), e.to_string()))?.mesh)
+}
+
+/// What is known of generated meshes and is in no file: where smooth curves run between the vertices of traces.
+///
+/// # Errors
+/// [`PlanError`] for traces that cannot be meshed.
+pub fn notes(scene: &scene::Scene) -> Result<Vec<String>, PlanError> {
+    let mut notes = Vec::new();
+    for (name, body) in &scene.bodies {
+        let scene::MeshSource::Fault(spec) = &body.mesh else { continue };
+        let departure = faulted(spec)?.departure();
+        let departure = departure.map_err(|e| PlanError::body(name, spec.trace.span(), e.to_string()))?;
+        notes.extend(departure.map(|d| {
+            format!(
+                "the fault of body `{name}` is a smooth curve through the {} vertices of its trace, at most {:.4} m from straight lines between them, at \
+                 ({:.4}, {:.4}) m; `interpolation = \"polyline\"` keeps corners",
+                spec.trace.get_ref().len(),
+                d.distance,
+                d.at[0],
+                d.at[1]
+            )
+        }));
+    }
+    Ok(notes)
+}
+
+/// A box around a fault, as it is generated. Lengths along the fault count from the first vertex of its trace.
+fn faulted(spec: &scene::FaultMesh) -> Result<FaultMesh, PlanError> {
     let point = |x: &[Length; 2]| x.map(|c| c.0);
-    let generated = FaultMesh {
+    Ok(FaultMesh {
         trace: spec.trace.get_ref().iter().map(point).collect(),
+        interpolation: match spec.interpolation {
+            scene::InterpolationSpec::Spline => Interpolation::Spline,
+            scene::InterpolationSpec::Polyline => Interpolation::Polyline,
+        },
         spacing: spacing(spec.spacing.get_ref()),
         thickness: spec.thickness.as_ref().map(|t| t.get_ref().0),
         min: point(spec.min.get_ref()),
         max: point(spec.max.get_ref()),
         growth: *spec.growth.get_ref(),
         kind: element(&spec.element)?,
-    }
-    .mesh();
-    Ok(generated.map_err(|e| PlanError::body(name, spec.trace.span(), e.to_string()))?.mesh)
+    })
 }
 
 /// Sizes along a line.

@@ -324,6 +324,9 @@ pub struct FaultMesh {
     /// Vertices of the fault, from one tip to the other \[m\]; y points up.
     #[serde(deserialize_with = "exact::many")]
     pub trace: Spanned<Vec<[Length; 2]>>,
+    /// What lies between the vertices.
+    #[serde(default)]
+    pub interpolation: InterpolationSpec,
     /// Sizes of cells along the fault.
     pub spacing: Spanned<SpacingSpec>,
     /// Thickness of the first cells across the fault \[m\]; absent: the smallest size along it.
@@ -338,6 +341,17 @@ pub struct FaultMesh {
     pub growth: Spanned<f64>,
     /// Element name.
     pub element: Spanned<String>,
+}
+
+/// The line between the vertices of a trace.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum InterpolationSpec {
+    /// A smooth curve.
+    #[default]
+    Spline,
+    /// Straight lines, which meet in corners.
+    Polyline,
 }
 
 /// Sizes along a fault.

@@ -5,7 +5,7 @@ use crate::element::ElementKind;
 
 /// Part of the box within which a tip counts as lying on its bottom or top, and of the fault within which a node counts as
 /// lying on a vertex: rounding of decimal input.
-const ROUNDING: f64 = 1e-9;
+pub(super) const ROUNDING: f64 = 1e-9;
 
 /// Smallest dip \[degrees\]: below it cells at the free surface have a scaled Jacobian under sin 10° = 0.17.
 const LEAST_DIP: f64 = 10.0;
@@ -87,16 +87,40 @@ fn crossings(trace: &[[f64; 2]]) -> Result<(), FaultMeshError> {
 
 /// Refuses segments that are too flat or go the other way than the trace as a whole.
 fn dips(trace: &[[f64; 2]]) -> Result<(), FaultMeshError> {
-    let down = (trace[0][1] - trace[trace.len() - 1][1]).signum();
-    for (segment, w) in trace.windows(2).enumerate() {
-        let (dx, dy) = (down * (w[1][0] - w[0][0]), down * (w[0][1] - w[1][1]));
-        let dip = dy.atan2(dx).to_degrees();
-        // Rounding of a dip that is just the smallest one must not refuse it.
-        if !(LEAST_DIP - ROUNDING..=180.0 - LEAST_DIP + ROUNDING).contains(&dip) {
-            return Err(FaultMeshError::Dip { segment, dip, least: LEAST_DIP });
-        }
+    match flat(trace) {
+        Some((segment, dip)) => Err(FaultMeshError::Dip { segment, dip, least: LEAST_DIP }),
+        None => Ok(()),
     }
-    Ok(())
+}
+
+/// The first segment that is too flat or goes the other way, with its dip \[degrees\].
+fn flat(trace: &[[f64; 2]]) -> Option<(usize, f64)> {
+    let down = (trace[0][1] - trace[trace.len() - 1][1]).signum();
+    let dips = trace.windows(2).map(|w| {
+        let (dx, dy) = (down * (w[1][0] - w[0][0]), down * (w[0][1] - w[1][1]));
+        dy.atan2(dx).to_degrees()
+    });
+    // Rounding of a dip that is just the smallest one must not refuse it.
+    let admissible = LEAST_DIP - ROUNDING..=180.0 - LEAST_DIP + ROUNDING;
+    dips.enumerate().find(|(_, dip)| !admissible.contains(dip))
+}
+
+/// Refuses a curve through the vertices of a trace that turns flat or leaves the box between them; `places` lie on it.
+pub(super) fn curved(
+    input: &FaultMesh,
+    trace: &[[f64; 2]],
+    places: &[[f64; 2]],
+) -> Result<(), FaultMeshError> {
+    let outside = |x: &[f64; 2]| {
+        !(input.min[0] < x[0] && x[0] < input.max[0] && input.min[1] <= x[1] && x[1] <= input.max[1])
+    };
+    let Some(k) = flat(places).map(|f| f.0).or_else(|| places.iter().position(outside)) else {
+        return Ok(());
+    };
+    let at = places[k];
+    let down = (trace[0][1] - trace[trace.len() - 1][1]).signum();
+    let passed = trace.iter().take_while(|v| down * (v[1] - at[1]) >= 0.0).count();
+    Err(FaultMeshError::Curve { at, segment: passed.clamp(1, trace.len() - 1) - 1 })
 }
 
 /// Distances of the vertices from the first, along the trace.

@@ -62,6 +62,17 @@ pub enum FaultMeshError {
         /// Smallest admissible one \[degrees\].
         least: f64,
     },
+    /// A smooth curve through the vertices that overshoots.
+    #[error(
+        "the smooth curve through the vertices of the trace turns flat or leaves the box at ({:.6}, {:.6}) m, in segment {segment}: more vertices \
+         where the trace bends, or straight lines between them, are needed", .at[0], .at[1]
+    )]
+    Curve {
+        /// Where \[m\].
+        at: [f64; 2],
+        /// Between which vertices.
+        segment: usize,
+    },
     /// A number that must be positive.
     #[error("{name} = {value} is not admissible: {admissible}")]
     Value {

@@ -5,6 +5,7 @@
 //! surface, where rows turn horizontal and cells become parallelograms with the angle of the dip ([`map`] has the formulas).
 
 mod check;
+mod curve;
 mod error;
 mod grid;
 mod map;
@@ -12,14 +13,29 @@ mod quality;
 mod spine;
 
 pub use super::spacing::{MOST_CELLS, Spacing, SpacingError};
+pub use curve::Departure;
 pub use error::FaultMeshError;
 pub use quality::{Quality, quality, scaled_jacobian};
 
 use super::split::{Fault, Surface, split};
 use super::{Mesh, spacing};
 use crate::element::ElementKind;
+use curve::Curve;
 use map::Map;
 use spine::Spine;
+
+/// The line between the vertices of a trace.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interpolation {
+    /// A smooth curve: cubic splines by chord length; a line where the vertices lie on one.
+    #[default]
+    Spline,
+    /// Straight lines, which meet in corners.
+    Polyline,
+}
+
+/// Places along a fault \[m\].
+type Line = Vec<[f64; 2]>;
 
 /// A body with one fault.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +43,8 @@ pub struct FaultMesh {
     /// Vertices of the fault, from one tip to the other \[m\]; y points up. A tip on the bottom or top of the box reaches
     /// the boundary and opens there; others stay closed.
     pub trace: Vec<[f64; 2]>,
+    /// What lies between them.
+    pub interpolation: Interpolation,
     /// Sizes along the fault.
     pub spacing: Spacing,
     /// Thickness of the first cells across the fault \[m\]; the smallest size along it when none.
@@ -63,9 +81,7 @@ impl FaultMesh {
         let trace = check::trace(self)?;
         // From the highest vertex down; distances along stay those of the given direction.
         let downwards = trace[0][1] > trace[trace.len() - 1][1];
-        let mut along = spacing::along(&check::distances(&trace), &self.spacing)?;
-        let mut places = check::places(&trace, &along);
-        let mut vertices = trace.clone();
+        let (mut along, mut places, mut vertices) = self.line(&trace)?;
         if !downwards {
             vertices.reverse();
         } else {
@@ -88,6 +104,32 @@ impl FaultMesh {
             along = with_middles(&along);
         }
         Ok(Faulted { mesh, fault, along, quality })
+    }
+
+    /// Distances of the corners of cells along the fault, their places, and the vertices of the line that the grid follows.
+    fn line(&self, trace: &[[f64; 2]]) -> Result<(Vec<f64>, Line, Line), FaultMeshError> {
+        let Some(curve) = self.curve(trace) else {
+            let along = spacing::along(&check::distances(trace), &self.spacing)?;
+            let places = check::places(trace, &along);
+            return Ok((along, places, trace.to_vec()));
+        };
+        let along = spacing::along(curve.lengths(), &self.spacing)?;
+        let places = curve.places(&along);
+        check::curved(self, trace, &places)?;
+        Ok((along, places.clone(), places))
+    }
+
+    /// The curve through the vertices of the trace; none where straight lines join them.
+    fn curve(&self, trace: &[[f64; 2]]) -> Option<Curve> {
+        if self.interpolation == Interpolation::Polyline { None } else { Curve::through(trace) }
+    }
+
+    /// How far the fault departs from straight lines between its vertices; none where it does not.
+    ///
+    /// # Errors
+    /// See [`FaultMeshError`].
+    pub fn departure(&self) -> Result<Option<Departure>, FaultMeshError> {
+        Ok(self.curve(&check::trace(self)?).map(|curve| curve.departure()))
     }
 
     /// Heights where rows cross the spine, ascending; `places`: nodes of the fault, ascending.

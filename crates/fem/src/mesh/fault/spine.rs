@@ -41,7 +41,7 @@ impl Spine {
 
     /// Segment at a height on the trace.
     fn segment(&self, y: f64) -> usize {
-        self.vertices[1..].iter().position(|v| y >= v[1]).unwrap_or(self.slopes.len() - 1)
+        self.vertices[1..].partition_point(|v| y < v[1]).min(self.slopes.len() - 1)
     }
 
     /// Tip (vertex), slope outwards dX/dd, decay length and distance of a height beyond the trace.

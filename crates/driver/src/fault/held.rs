@@ -1,0 +1,130 @@
+//! Conditions that reach the sides of a fault: which node of a point gives way to its jump, and what cannot be held.
+
+use super::condense::Point;
+use super::place::Place;
+use crate::model::Model;
+use crate::plan::PlanError;
+use crate::rigid;
+use crate::scene::model::{Motion, Scene};
+use asperity_fem::jump::Jump;
+use asperity_fem::mesh::nodes_of_sides;
+
+/// Why bodies cannot be condensed onto faults.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Refusal {
+    /// What is wrong.
+    pub message: String,
+    /// What would be right; none where the message says it.
+    pub help: Option<String>,
+    /// The two nodes of the point and the component of displacement whose conditions are at fault.
+    pub at: Option<([usize; 2], usize)>,
+}
+
+impl From<String> for Refusal {
+    fn from(message: String) -> Self {
+        Self { message, ..Self::default() }
+    }
+}
+
+impl Refusal {
+    /// As an error of a plan, at the condition that is at fault.
+    pub(super) fn place<const D: usize>(self, scene: &Scene, model: &Model<D>) -> PlanError {
+        let Self { message, help, at } = self;
+        let conditions = scene.stages.iter().flat_map(|s| &s.conditions).map(|c| c.get_ref());
+        let place = at.and_then(|(nodes, component)| {
+            let axis = model.idealisation.axis(component);
+            let mut found = conditions.filter_map(|c| {
+                let motion = [&c.x, &c.y, &c.z][axis].as_ref();
+                let motion = motion.filter(|m| !matches!(m.get_ref(), Motion::Free | Motion::Spring { .. }));
+                let place = motion
+                    .map(|m| m.span())
+                    .or(c.symmetry.as_ref().map(|s| s.span()))
+                    .or(c.rotate.as_ref().map(|r| r.span()))?;
+                let set = c.set.as_ref()?;
+                let of = nodes_of_sides(&model.mesh, model.sides(set).ok()?);
+                nodes.iter().any(|n| of.binary_search(n).is_ok()).then(|| (set.get_ref().clone(), place))
+            });
+            found.next()
+        });
+        match place {
+            Some((set, span)) => PlanError { message: format!("`{set}`: {message}"), help, span },
+            None => PlanError { message, help, span: 0..0 },
+        }
+    }
+}
+
+/// Components of a node that are prescribed; `fixed` is sorted.
+fn held<const C: usize>(node: usize, fixed: &[usize]) -> [bool; C] {
+    std::array::from_fn(|c| fixed.binary_search(&(C * node + c)).is_ok())
+}
+
+/// The jump of a point, of which that node gives way that has fewer conditions: what holds one side alone leaves the jump free. A node
+/// that a spring draws, of which `drawn` tells, does not give way.
+pub(super) fn jump<const D: usize, const C: usize>(
+    point: &Point<D>,
+    frame: [[f64; C]; C],
+    fixed: &[usize],
+    drawn: impl Fn(usize) -> bool,
+) -> Jump<C> {
+    let [minus, plus] = [point.place.minus, point.place.plus];
+    let (on_minus, on_plus): ([bool; C], [bool; C]) = (held(minus, fixed), held(plus, fixed));
+    let within = |a: &[bool; C], b: &[bool; C]| a.iter().zip(b).all(|(a, b)| !a || *b);
+    let swap = drawn(plus) || (!drawn(minus) && !within(&on_plus, &on_minus) && within(&on_minus, &on_plus));
+    if swap {
+        // What plus does relative to minus is the opposite of what minus does relative to plus.
+        return Jump { minus: C * plus, plus: C * minus, frame: frame.map(|axis| axis.map(|c| -c)) };
+    }
+    Jump { minus: C * minus, plus: C * plus, frame }
+}
+
+/// The refusal of a condition that the frame of a jump cannot express; `dof` is the degree of freedom that it is about.
+pub(super) fn oblique<const D: usize, const C: usize>(
+    model: &Model<D>,
+    points: &[Point<D>],
+    fixed: &[usize],
+    dof: usize,
+) -> Refusal {
+    let (node, component) = (dof / C, dof % C);
+    let Some(point) = points.iter().find(|p| p.place.minus == node || p.place.plus == node) else {
+        return Refusal::from(format!("a condition on degree of freedom {dof} does not agree with a fault"));
+    };
+    let nodes = [point.place.minus, point.place.plus];
+    let axis = ["x", "y", "z"][model.idealisation.axis(component)];
+    let at = rigid::place(&point.place.at);
+    let both = nodes.iter().all(|&n| held::<C>(n, fixed)[component]);
+    let (message, help) = if both {
+        (
+            format!(
+                "conditions hold {axis} on both sides of a fault that is oblique to it at {at}: the fault could not slide there without opening"
+            ),
+            format!(
+                "let the fault end inside the bodies, hold {axis} on one side of the fault only, or prescribe all components on both sides and let the \
+                 fault creep there"
+            ),
+        )
+    } else {
+        (
+            format!(
+                "conditions hold {axis} on one side of a fault at {at} and other components on the other side"
+            ),
+            format!(
+                "leave {axis} out on one of the sets that meet there, or hold the same components on both"
+            ),
+        )
+    };
+    Refusal { message, help: Some(help), at: Some((nodes, component)) }
+}
+
+/// The refusal of conditions that prescribe the motion of both sides of a point along its slip, whose direction is `slides`.
+pub(super) fn along_slip<const D: usize, const C: usize>(place: &Place<D>, slides: &[f64; C]) -> Refusal {
+    let most = |&a: &usize, &b: &usize| slides[a].abs().total_cmp(&slides[b].abs());
+    let component = (0..C).max_by(most).unwrap_or(0);
+    Refusal {
+        message: format!(
+            "conditions prescribe the motion of both sides of a fault along its slip at {}, where it is to slide",
+            rigid::place(&place.at)
+        ),
+        help: Some("let it creep there, or leave that component of the conditions out".into()),
+        at: Some(([place.minus, place.plus], component)),
+    }
+}
