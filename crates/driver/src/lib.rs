@@ -4,6 +4,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod cli;
+pub mod cohesive;
 pub mod enforcement;
 pub mod fault;
 mod free;

@@ -144,7 +144,8 @@ impl Stage {
 /// [`PlanError`] pointing at the condition that cannot be applied.
 pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Stage>, PlanError> {
     jumps::of_bodies(scene)?;
-    let body_loads = body_loads(scene, model)?;
+    // On faults an initial stress is what their tractions at the start come from.
+    let body_loads = if scene.faults.is_empty() { body_loads(scene, model)? } else { Vec::new() };
     let mut held: BTreeMap<(String, usize), Motion> = BTreeMap::new();
     let mut loads: BTreeMap<(String, usize), Loading> = BTreeMap::new();
     let mut shared = Shared::default();

@@ -1,5 +1,6 @@
 //! Scene -> Plan: the one place where it is decided what is modelled and how. Below it nothing asks what was declared.
 
+use crate::cohesive::Resolved;
 use crate::enforcement::{Enforced, in_pascal_per_metre, in_words};
 use crate::fault;
 use crate::loading::{self, Stage};
@@ -82,6 +83,8 @@ pub struct PlannedInterface {
     pub unknowns: usize,
     /// Friction or bond, absent where the scene declares none.
     pub law: Option<Arc<dyn Law>>,
+    /// What its points resolve, where friction weakens with slip.
+    pub resolved: Option<Resolved>,
     /// Probe positions.
     pub probes: usize,
 }
@@ -310,6 +313,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
     let mut remarks = rigid::check(scene, &model, &stages, &interfaces)?;
     remarks.extend(sizes::of_files(scene, &model));
     let (start_gaps, doubts) = plan_doubts::of(scene, &model, (&interfaces, &stages), &stepping)?;
+    remarks.extend(interfaces.iter().filter_map(|i| Some(i.resolved.as_ref()?.remark(&i.name))));
     let solver = solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
     let mut summary = summary(scene, &model, &interfaces, path, &stepping, &solver, remarks);
     summary.start_gaps = start_gaps;
@@ -383,6 +387,7 @@ fn interface<const D: usize>(
         tangential_penalty: (spec.enforcement.tangential.as_ref())
             .map_or(0.0, |t| in_pascal_per_metre(t, young_per_size)),
         law,
+        resolved: Resolved::new(model, spec, slave_sides),
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),
     })
 }

@@ -215,6 +215,15 @@ impl RunReport {
         }
     }
 
+    /// Warns of interfaces that are pressed so much at the end of a stage that their points do not resolve friction.
+    pub fn resolution<const D: usize>(&mut self, plan: &Plan<D>, stage: &Stage, fields: &[InterfaceFields]) {
+        for (f, interface) in fields.iter().zip(&plan.interfaces) {
+            let largest = f.normal_traction.iter().fold(0.0_f64, |l, v| l.max(*v));
+            let resolved = interface.resolved.as_ref();
+            self.warnings.extend(resolved.and_then(|r| r.warning(&interface.name, &stage.name, largest)));
+        }
+    }
+
     /// Adds the points and forces at the end of a stage.
     pub fn samples<const D: usize>(&mut self, plan: &Plan<D>, stage: &Stage, samples: &Samples) {
         let name = || stage.name.clone();

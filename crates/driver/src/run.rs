@@ -68,6 +68,7 @@ fn run_in<const D: usize>(
     for index in 0..plan.stages.len() {
         let outcome = run.stage(index, &mut system, observer)?;
         report.end_of_stage(&plan.stages[index], &system.interface_fields(), interface_names(plan));
+        report.resolution(plan, &plan.stages[index], &system.interface_fields());
         report.samples(plan, &plan.stages[index], &system.samples());
         let name = &plan.stages[index].name;
         let found = run_doubts::after_stage(plan, name, &system.displacement(), &system.interface_fields());

@@ -198,6 +198,7 @@ plus = "B.left"
 rake = [0, 0, 1]
 law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.010, b = 0.015, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }
 normal = "50 MPa"
+under_resolved = "allow"
 rate = 1e-9
 damping = 5e6
 [[stages]]

@@ -260,7 +260,7 @@ fn blocks(pairs: &[Pair], events: usize) -> Result<Plan, CaseError> {
         let law = LAW.replace("a = 0.02", "a = 0.01").replace("\"8 mm\"", &l.to_string());
         let _ = write!(
             parts,
-            "[faults.{name}]\nminus = \"{name}l.right\"\nplus = \"{name}r.left\"\n{law}\ndamping = {damping}\n"
+            "[faults.{name}]\nminus = \"{name}l.right\"\nplus = \"{name}r.left\"\n{law}\ndamping = {damping}\nunder_resolved = \"allow\"\n"
         );
         let _ = write!(
             sides,

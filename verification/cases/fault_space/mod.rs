@@ -74,6 +74,7 @@ minus = "L.right"
 plus = "R.left"
 law = {{ kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.01, b = 0.015, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }}
 normal = "50 MPa"
+under_resolved = "allow"
 rate = "1.1e-9 m/s"
 {}
 [[stages]]

@@ -75,6 +75,7 @@ rake = [0, 0, 1]
 slip = "free"
 law = {{ kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.01, b = 0.015, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }}
 normal = "50 MPa"
+under_resolved = "allow"
 rate = "1e-9 m/s"
 damping = 5e6
 creep = {{ outside = {{ y = {{ from = {:?}, to = {:?} }}, z = {{ from = {:?}, to = {:?} }} }}, rate = 0.0 }}

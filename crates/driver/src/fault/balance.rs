@@ -12,6 +12,7 @@
 //! energy comes from slip through the operator. The integrator knows none of them, and what the balance lacks is an error of its own
 //! kind: of slip, against the friction that was carried along.
 
+use super::floor::Used;
 use super::operator::Operator;
 use super::plan::Plan;
 use super::run::Moment;
@@ -71,6 +72,8 @@ pub struct Sums {
     since: f64,
     /// Initial tractions and those of the loads then, component by component \[Pa\].
     traction: Vec<f64>,
+    /// Use of floors.
+    floors: Used,
 }
 
 /// Sums works along a run.
@@ -129,6 +132,12 @@ impl<'a> Balance<'a> {
         &self.sums
     }
 
+    /// Use of floors until now.
+    #[must_use]
+    pub fn floors(&self) -> &Used {
+        &self.sums.floors
+    }
+
     /// The run when each of its events had just ended.
     #[must_use]
     pub fn marks(&self) -> &[Mark] {
@@ -153,7 +162,9 @@ impl<'a> Balance<'a> {
         if moment.step.is_some() {
             self.add(moment);
         }
-        if moment.catalogue.events().len() > self.sums.marks.len() {
+        let ended = moment.catalogue.events().len() > self.sums.marks.len();
+        self.sums.floors.step(self.plan, moment, ended);
+        if ended {
             let energy = self.energy(moment.slip());
             // The first components come first.
             let potency = moment.slip().iter().zip(&self.plan.points).map(|(s, p)| s * p.area).sum();
@@ -187,7 +198,9 @@ impl<'a> Balance<'a> {
                 };
                 let (pressure, rise) =
                     fault.pressure.as_ref().map_or((0.0, 0.0), |f| f.felt(p, time, end - ROUNDING * h));
-                let (normal, change) = (total - pressure, growth - rise);
+                let floor = fault.floor.as_ref().map_or(f64::NEG_INFINITY, |f| f.at(p));
+                let (normal, change) =
+                    if total - pressure < floor { (floor, 0.0) } else { (total - pressure, growth - rise) };
                 [self.scale[p] * normal * y[i], self.scale[p] * h * (normal * dy[i] + change * y[i])]
             };
             let way = Way {

@@ -22,6 +22,8 @@ pub struct Point<const D: usize> {
     pub place: Place<D>,
     /// Slip rate along both tangents, where it is prescribed \[m/s\].
     pub creep: Option<[f64; 2]>,
+    /// Whether slip and loads change its normal traction.
+    pub normal_changes: bool,
 }
 
 /// What slip does, component by component.
@@ -174,7 +176,8 @@ fn with_components<const D: usize, const C: usize>(
     let (left, bytes) = Left::of(body, (&retained, &fixed), channels, memory, keep)
         .map_err(|e| in_words(model, &jumps, e))?;
     let rows: Vec<usize> = free.iter().map(|&k| retained.partition_point(|&d| d < slip[k])).collect();
-    let area = |(&k, &supported): (&usize, &bool)| Bearing { area: points[k].place.area, supported };
+    let keeps = |k: usize, supported: bool| supported || !points[k].normal_changes;
+    let area = |(&k, &s): (&usize, &bool)| Bearing { area: points[k].place.area, keeps: keeps(k, s) };
     let bearings: Vec<Bearing> = free.iter().zip(&supported).map(area).collect();
     let found = tractions::<C>(&left, tangents, &rows, &bearings);
     let ties = machine.ties().clone();
@@ -246,14 +249,15 @@ impl Left {
 struct Bearing {
     /// Tributary area \[m²; m per metre of thickness\].
     area: f64,
-    /// Whether supports hold both sides against the opening: they take what changes of its force then, not the contact.
-    supported: bool,
+    /// Whether its normal traction stays: supports that hold both sides against the opening take what changes of its force, or the scene
+    /// says so.
+    keeps: bool,
 }
 
 impl Bearing {
     /// Traction per force: of slip, which the bodies drive with the opposite of what holds it, and of the opening.
     fn per_force(&self, opening: bool) -> f64 {
-        match (opening, self.supported) {
+        match (opening, self.keeps) {
             (false, _) => -1.0 / self.area,
             (true, true) => 0.0,
             (true, false) => 1.0 / self.area,

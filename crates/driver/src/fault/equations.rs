@@ -5,6 +5,7 @@
 //! m = μ/a of all points, their states (point-major), their slip, and f_n where slip changes it. The tractions never stand as differences of large numbers, since m carries them. Pore pressure
 //! is a given function of time: it is taken off f_n, and its rate off df_n/dt, at the time of each stage.
 
+use super::floor::Floor;
 use super::operator::Operator;
 use super::pressure::Pressure;
 use crate::ode::{Clock, Problem};
@@ -25,6 +26,8 @@ pub struct Fault {
     pub normal: Vec<f64>,
     /// Pressure of injected fluid, where there is any.
     pub pressure: Option<Pressure>,
+    /// Least normal traction that friction uses, where any point has one.
+    pub floor: Option<Floor>,
 }
 
 /// Where the unknowns stand.
@@ -96,9 +99,16 @@ impl Layout {
 }
 
 impl Layout {
-    /// f_n of a point \[Pa\], less the pressure of fluid.
+    /// f_n of a point as friction uses it \[Pa\]: less the pressure of fluid, and not less than its floor.
     #[must_use]
     pub fn normal_of(&self, fault: &Fault, at: Clock, unknowns: &[f64], point: usize) -> f64 {
+        let pressed = self.pressed_of(fault, at, unknowns, point);
+        fault.floor.as_ref().map_or(pressed, |floor| pressed.max(floor.at(point)))
+    }
+
+    /// What the bodies press with at a point, less the pressure of fluid \[Pa\].
+    #[must_use]
+    pub fn pressed_of(&self, fault: &Fault, at: Clock, unknowns: &[f64], point: usize) -> f64 {
         let total =
             if self.couples_normal { unknowns[self.normal().start + point] } else { fault.normal[point] };
         total - fault.pressure.as_ref().map_or(0.0, |p| p.at(point, at.seconds()))
@@ -123,7 +133,7 @@ struct Scratch {
     shear_rate: Vec<f64>,
     /// df_n/dt, where it changes.
     normal_rate: Vec<f64>,
-    /// f_n less the pressure of fluid, where there is any.
+    /// f_n as friction uses it, where that is not what bodies press with.
     normal: Vec<f64>,
 }
 
@@ -148,13 +158,14 @@ impl<'a> Equations<'a> {
     pub fn new(fault: &'a Fault, shear_load: Vec<f64>, normal_load: Vec<f64>) -> Self {
         let layout = Layout::of(fault);
         let (n, vectors) = (layout.points, layout.m().end);
-        let (fluid, changes) = (fault.pressure.is_some(), fault.pressure.is_some() || layout.couples_normal);
+        let own = fault.pressure.is_some() || fault.floor.is_some();
+        let changes = own || layout.couples_normal;
         let zeros = |needed: bool| vec![0.0; if needed { n } else { 0 }];
         let scratch = Scratch {
             rate: vec![0.0; vectors],
             shear_rate: vec![0.0; vectors],
             normal_rate: zeros(changes),
-            normal: zeros(fluid),
+            normal: zeros(own),
         };
         Self {
             fault,
@@ -284,14 +295,17 @@ impl Equations<'_> {
             dy[l.normal()].copy_from_slice(&scratch.normal_rate);
         }
         let mut normal = if l.couples_normal { &y[l.normal()] } else { &fault.normal };
-        if let Some(pressure) = &fault.pressure {
+        if !scratch.normal.is_empty() {
             scratch.normal.copy_from_slice(normal);
             if !l.couples_normal {
                 scratch.normal_rate.fill(0.0);
             }
-            if pressurised {
+            if let Some(pressure) = fault.pressure.as_ref().filter(|_| pressurised) {
                 let (time, until) = (at.seconds(), self.until);
                 pressure.take_off(time, until, &mut scratch.normal, &mut scratch.normal_rate);
+            }
+            if let Some(floor) = &fault.floor {
+                floor.hold(&mut scratch.normal, &mut scratch.normal_rate);
             }
             normal = &scratch.normal;
         }

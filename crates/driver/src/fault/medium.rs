@@ -6,6 +6,7 @@
 //! `G = 2 G⁺ G⁻/(G⁺ + G⁻)` (exact in antiplane motion): that G is taken for moments.
 
 use super::place::Place;
+use super::resolution;
 use crate::model::Model;
 use crate::plan::PlanError;
 use crate::scene::model::{Fault as Spec, Scene};
@@ -18,6 +19,8 @@ use std::collections::BTreeMap;
 pub struct Medium {
     /// Shear modulus for moments, the harmonic mean of the two sides \[Pa\].
     pub shear_modulus: f64,
+    /// G' of lengths of friction, in the same way \[Pa\].
+    pub stiffness: f64,
     /// Radiation damping η \[Pa s/m\]; none where a density is not known.
     pub radiation: Option<f64>,
 }
@@ -34,6 +37,7 @@ pub(super) struct Media {
 struct Share {
     area: f64,
     shear: f64,
+    stiffness: f64,
     impedance: Option<f64>,
 }
 
@@ -55,6 +59,7 @@ impl Media {
         let impedance = |share: &Share| share.impedance.map(|z| z / share.area);
         Medium {
             shear_modulus: 2.0 * parallel(minus.shear / minus.area, plus.shear / plus.area),
+            stiffness: 2.0 * parallel(minus.stiffness / minus.area, plus.stiffness / plus.area),
             radiation: impedance(minus).zip(impedance(plus)).map(|(a, b)| parallel(a, b)),
         }
     }
@@ -73,12 +78,16 @@ fn shares<const D: usize>(
     for (block, sides) in by_block {
         let Some(body) = model.bodies.iter().find(|b| b.blocks.contains(&block)) else { continue };
         let (_, material) = model.material(scene, (&body.name, &scene.bodies[&body.name]), block)?;
-        let shear = body.elastic[block - body.blocks.start].shear();
+        let elastic = &body.elastic[block - body.blocks.start];
+        let shear = elastic.shear();
+        let stiffness = resolution::modulus(model.idealisation, shear, elastic.poisson());
         let impedance = material.density.as_ref().map(|d| (shear * d.get_ref().0).sqrt());
         for (node, area) in surface::areas(&model.mesh, &sides, model.idealisation) {
-            let sum = all.entry(node).or_insert(Share { area: 0.0, shear: 0.0, impedance: Some(0.0) });
+            let none = Share { area: 0.0, shear: 0.0, stiffness: 0.0, impedance: Some(0.0) };
+            let sum = all.entry(node).or_insert(none);
             sum.area += area;
             sum.shear += area * shear;
+            sum.stiffness += area * stiffness;
             sum.impedance = sum.impedance.zip(impedance).map(|(sum, z)| sum + area * z);
         }
     }

@@ -8,6 +8,7 @@ use super::cadence::Cadence;
 use super::catalogue::Thresholds;
 use super::condense::{Conditions, Point, Tractions, condense};
 use super::equations::{Fault, Layout};
+use super::floor::{self, Floor, NormalChoice};
 use super::hierarchical::{Geometry, Hierarchical};
 use super::loading::Loading;
 use super::located::Frame;
@@ -16,6 +17,8 @@ use super::meet;
 use super::operator::{Dense, Form, Operator};
 use super::place::{Place, across, places};
 use super::pressure::{Injection, Pressure};
+use super::prestress::Prestress;
+use super::resolution::{self, Ground, Resolution};
 use super::run::Settings;
 use super::sense;
 use crate::laws;
@@ -78,6 +81,8 @@ pub struct FaultView {
     pub name: String,
     /// Its points among those of all faults.
     pub points: std::ops::Range<usize>,
+    /// What normal tractions do there.
+    pub normal: NormalChoice,
     /// Stations: what is asked for and the nearest point.
     pub stations: Vec<(Station, usize)>,
     /// Faces all of whose nodes slide freely, by their points within the fault.
@@ -117,6 +122,8 @@ pub struct Plan {
     pub in_space: bool,
     /// Idealisation in words.
     pub kinematics: &'static str,
+    /// How faults are resolved on which friction weakens.
+    pub resolution: Vec<Resolution>,
     /// What probably does not mean what the author of the scene wants.
     pub warnings: Vec<Warning>,
     /// What should be known and is not in doubt.
@@ -168,11 +175,12 @@ impl Plan {
             line("physics", format!("{} points creep at a prescribed rate", self.creeping));
         }
         let uncoupled = Layout::of(&self.fault).normal().is_empty();
-        line(
-            "physics",
-            if uncoupled { "slip leaves normal tractions as they are" } else { "normal tractions change" }
-                .into(),
-        );
+        let chosen = |f: &FaultView| !f.normal.changes || f.normal.floor.is_some();
+        if uncoupled && !self.faults.iter().any(chosen) {
+            line("physics", "slip leaves normal tractions as they are".into());
+        } else {
+            self.faults.iter().for_each(|f| line("physics", f.normal.words(&f.name)));
+        }
         if self.fault.pressure.is_some() {
             line(
                 "physics",
@@ -197,6 +205,9 @@ impl Plan {
         );
         line("operator", self.fault.operator.words());
         line("output", self.cadence.words());
+        for resolution in &self.resolution {
+            line("points", resolution.words(self.in_space()));
+        }
         for note in &self.notes {
             line("note", note.clone());
         }
@@ -247,6 +258,10 @@ pub(super) struct Placed<const D: usize> {
     pub normal: f64,
     medium: Medium,
     damping: f64,
+    /// Distance to the farthest neighbour \[m\].
+    spacing: f64,
+    /// Least normal traction that friction uses \[Pa\].
+    floor: Option<f64>,
     /// Shear traction at the start, where it is given \[Pa\].
     shear: Option<f64>,
     law: LawChoice,
@@ -260,6 +275,13 @@ impl<const D: usize> Placed<D> {
     /// Turns the creep to the directions of the place, which have changed.
     pub fn redirect(&mut self) {
         self.point.creep = self.creep.map(|rate| components(&self.point.place, rate));
+    }
+}
+
+impl<const D: usize> Placed<D> {
+    /// f_n as friction uses it at the start \[Pa\].
+    fn pressed(&self) -> f64 {
+        self.floor.map_or(self.normal, |floor| self.normal.max(floor))
     }
 }
 
@@ -291,6 +313,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
     if points.iter().all(|p| p.creep.is_some()) {
         return Err(asked::nothing_slides(&named, &placed));
     }
+    let resolution = resolved(scene, &placed, &mut warnings)?;
     let bodies = model.take_stiffness();
     let conditions = conditions(scene);
     let turns = conditions.tangents > 1;
@@ -322,10 +345,10 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         damping: placed.iter().map(|p| p.damping).collect(),
         normal: placed.iter().map(|p| p.normal).collect(),
         pressure: pressure(scene, &placed)?,
+        floor: Floor::new(placed.iter().map(|p| p.floor)),
     };
     let start = start(scene, &placed, &fault).map_err(at_law)?;
     let (faults, views) = views(scene, &model, &placed, turns)?;
-    let frame = frame(scene, D == 3)?;
     let sides = || placed.iter().map(|p| [p.point.place.minus, p.point.place.plus]).collect();
     let bodies = surroundings.bodies.map(|bodies| BodiesView::new(bodies, &model, sides()));
     Ok(Plan {
@@ -340,9 +363,10 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         creeping: points.len() - placed.len(),
         condensation_bytes: surroundings.bytes,
         bodies,
-        frame,
+        frame: frame(scene, D == 3)?,
         in_space: D == 3,
         kinematics: scene.kinematics.get_ref().words(),
+        resolution,
         warnings,
         notes,
         fault,
@@ -374,6 +398,28 @@ fn frame(scene: &Scene, in_space: bool) -> Result<Option<Frame>, PlanError> {
         PlanError::at(place.epoch.span(), e.to_string(), "such as \"2000-01-01T00:00:00Z\"".into())
     })?;
     Ok(Some(frame))
+}
+
+/// How each fault is resolved on which friction weakens.
+fn resolved<const D: usize>(
+    scene: &Scene,
+    placed: &[Placed<D>],
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Resolution>, PlanError> {
+    let mut all = Vec::new();
+    for (fault, (name, spec)) in scene.faults.iter().enumerate() {
+        let points = || placed.iter().filter(|p| p.fault == fault && p.point.creep.is_none());
+        warnings.extend(floor::above_start(name, spec, points().map(|p| p.normal)));
+        let with_ground = points().map(|p| {
+            let (law, modulus) = (&p.law, p.medium.stiffness);
+            (&p.point.place, Ground { law, normal: p.pressed(), modulus, in_space: D == 3 }, p.spacing)
+        });
+        if let Some(found) = resolution::of_points(name, with_ground) {
+            warnings.extend(found.check(spec, D == 3)?);
+            all.push(found);
+        }
+    }
+    Ok(all)
 }
 
 /// Points from which the operator is compressed: below, a product with the dense one takes as long (2 us).
@@ -439,22 +485,36 @@ fn points_of<const D: usize>(
     })?;
     let mut placed = Vec::new();
     let media = Media::new(scene, model, spec)?;
+    let spacings = resolution::spacings(model, model.sides(&spec.minus)?);
+    let choice = NormalChoice::of(spec);
+    let stress = Prestress::new(scene, (name, spec));
     let (places, doubtful) = places(model, name, spec)?;
     warnings.extend(doubtful);
     for place in places {
         let value = |profile: &Option<Profiled>| profile.as_ref().map(|p| largest(p, &place));
         let creep = spec.creep.as_ref().filter(|c| creeps(c, &place, CLOSE * model.scale));
         let medium = media.at(&place);
+        let given = stress.as_ref().filter(|_| creep.is_none());
+        let given = given.map(|s| s.at(model, &place)).transpose()?;
+        let shear = value(&spec.profiles.shear).or(spec.shear.as_ref().map(|s| s.get_ref().0));
+        // The check has seen to one of them; nobody asks where the fault creeps.
+        let normal = value(&spec.profiles.normal).or(spec.normal.as_ref().map(|n| n.get_ref().0));
         placed.push(Placed {
             fault,
             medium,
             damping: damping(spec, &medium)?,
-            normal: value(&spec.profiles.normal).unwrap_or(spec.normal.get_ref().0),
-            shear: value(&spec.profiles.shear).or(spec.shear.as_ref().map(|s| s.get_ref().0)),
+            normal: given.and_then(|g| g.normal).or(normal).unwrap_or_default(),
+            shear: given.map(|g| g.shear).or(shear),
+            spacing: spacings.get(&place.minus).copied().unwrap_or_default(),
+            floor: choice.floor,
             law: varied(&base, value(&spec.profiles.a), value(&spec.profiles.b), value(&spec.profiles.l)),
             creep: creep.map(|c| c.rate.get_ref().0),
             components: model.idealisation.components(),
-            point: Point { creep: creep.map(|c| components(&place, c.rate.get_ref().0)), place },
+            point: Point {
+                creep: creep.map(|c| components(&place, c.rate.get_ref().0)),
+                normal_changes: choice.changes,
+                place,
+            },
         });
     }
     asked::creep((name, spec), &placed)?;
@@ -592,7 +652,7 @@ fn start<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> 
         law.steady(p, initial.ln(), &mut y[states.clone()]);
         if let Some(shear) = point.shear {
             // Friction is odd in the rate: its size is found for a positive one.
-            let mu = (shear - fault.damping[p] * rate) * rate.signum() / point.normal;
+            let mu = (shear - fault.damping[p] * rate) * rate.signum() / point.pressed();
             law.states_for(p, rate.abs(), mu, &mut y[states.clone()])?;
             y[p] = mu * rate.signum() / law.scale(p);
         } else {
@@ -723,6 +783,7 @@ fn views<const D: usize>(
         faults.push(FaultView {
             name: name.clone(),
             points: first..last,
+            normal: NormalChoice::of(spec),
             stations,
             faces: faces(model, spec, &placed[first..last])?,
         });

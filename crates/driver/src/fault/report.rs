@@ -3,8 +3,10 @@
 use super::balance::{Balance, Energy, Mark, steady};
 use super::catalogue::{Event, Part};
 use super::equations::size;
+use super::floor::{FloorUse, uses};
 use super::located::Located;
 use super::plan::{FaultView, Plan};
+use super::resolution::Resolution;
 use super::run::Run;
 use crate::observe::decimals::fixed;
 use crate::ode::Outcome;
@@ -245,6 +247,11 @@ pub struct Report {
     pub scene_sha256: String,
     /// Warnings of the plan.
     pub warnings: Vec<Warning>,
+    /// How faults are resolved on which friction weakens.
+    pub resolution: Vec<Resolution>,
+    /// Use of the floors of normal traction.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub floors: Vec<FloorUse>,
     /// Method of integration.
     pub method: String,
     /// Error of ln V allowed in a step.
@@ -284,7 +291,7 @@ fn why(plan: &Plan, run: &Run, reason: &str) -> String {
         };
         return format!(
             "{reason}: the normal traction of fault `{fault}` falls to zero at x = {:e} m, y = {:e} m, {place}; faults of a scene \
-             do not open: raise `normal` there, or use coarser cells where a corner concentrates stress",
+             do not open: give the fault a `normal_floor` that friction uses where there is less, or `normal_changes = false`, or raise `normal` there",
             view.at[0], view.at[1]
         );
     }
@@ -325,6 +332,8 @@ impl Report {
             version: env!("CARGO_PKG_VERSION").to_string(),
             scene_sha256: String::new(),
             warnings: plan.warnings.clone(),
+            resolution: plan.resolution.clone(),
+            floors: uses(plan, balance.floors()),
             method: plan.settings.method.name().to_string(),
             tolerance: plan.settings.tolerance,
             stopped,
@@ -444,6 +453,9 @@ impl Report {
             "  energy: loads {:.6e}, elastic {:.6e}, friction {:.6e}, radiated {:.6e} {}; lacks {:.1e} of the largest",
             e.loads, e.elastic, e.friction, e.radiated, self.unit, self.energy.imbalance
         );
+        for floor in &self.floors {
+            let _ = writeln!(text, "  {}", floor.words());
+        }
         let _ = writeln!(text, "  end at {}", time(self.end));
         let c = &self.counts;
         let _ = writeln!(
@@ -458,7 +470,7 @@ impl Report {
 }
 
 /// A length in words, in a unit that leaves digits before the point.
-fn length(metres: f64) -> String {
+pub(super) fn length(metres: f64) -> String {
     let (scale, unit) = match metres.abs() {
         m if m >= 1e3 => (1e-3, "km"),
         m if m >= 1.0 || m == 0.0 => (1.0, "m"),

@@ -326,7 +326,8 @@ const NEARLY_OPEN: f64 = 1e-3;
 fn nearly_open(fault: &Fault, run: &Run) -> Option<usize> {
     let layout = Layout::of(fault);
     let share = |p: usize| layout.normal_of(fault, run.at, &run.unknowns, p) / fault.normal[p];
-    let least = (0..fault.normal.len()).min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
+    let opens = |p: &usize| fault.floor.as_ref().is_none_or(|f| f.at(*p).is_infinite());
+    let least = (0..fault.normal.len()).filter(opens).min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
     (share(least) < NEARLY_OPEN).then_some(least)
 }
 

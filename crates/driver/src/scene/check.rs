@@ -3,6 +3,7 @@
 mod bodies;
 mod conditions;
 pub(crate) mod course;
+mod fault_physics;
 mod faults;
 mod interfaces;
 mod materials;

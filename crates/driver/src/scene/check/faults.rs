@@ -22,6 +22,7 @@ impl Checker<'_> {
             }
             self.friction(fault);
             self.start_of(fault);
+            self.physics_of(fault);
             self.injection(fault);
             for (name, profile) in [
                 ("a", &fault.profiles.a),
@@ -41,6 +42,7 @@ impl Checker<'_> {
                 self.creep(fault, creep);
             }
         }
+        self.stress_beside_faults();
         self.directions_of_slip();
         self.stations();
         self.cadence();
@@ -172,8 +174,8 @@ impl Checker<'_> {
 
     fn start_of(&mut self, fault: &Fault) {
         let positive = |v: f64| v > 0.0 && v.is_finite();
-        if !positive(fault.normal.get_ref().0) {
-            self.error(fault.normal.span(), "`normal` must be positive", "such as `normal = \"50 MPa\"`");
+        if let Some(normal) = fault.normal.as_ref().filter(|n| !positive(n.get_ref().0)) {
+            self.error(normal.span(), "`normal` must be positive", "such as `normal = \"50 MPa\"`");
         }
         let rate = fault.rate.get_ref().0;
         if rate == 0.0 || !rate.is_finite() {

@@ -21,8 +21,8 @@ pub struct Fault {
     /// What varies along the fault.
     #[serde(default)]
     pub profiles: Profiles,
-    /// Normal traction f_n at the start \[Pa\].
-    pub normal: Spanned<Pressure>,
+    /// Normal traction f_n at the start \[Pa\]; absent where that of an initial stress of the bodies holds.
+    pub normal: Option<Spanned<Pressure>>,
     /// Slip rate of all points at the start \[m/s\].
     pub rate: Spanned<Velocity>,
     /// Shear traction at the start \[Pa\]; absent: that of the law's initial steady state at `rate`.
@@ -38,6 +38,22 @@ pub struct Fault {
     pub slip: Option<Spanned<SlipSpec>>,
     /// Fluid that is injected and diffuses along the fault.
     pub injection: Option<Injection>,
+    /// What to do where points stand too coarsely for friction; absent: the scene is refused.
+    pub under_resolved: Option<Spanned<UnderResolved>>,
+    /// Whether slip and loads change normal tractions; absent: they do.
+    pub normal_changes: Option<Spanned<bool>>,
+    /// Least normal traction that friction uses \[Pa\].
+    pub normal_floor: Option<Spanned<Pressure>>,
+}
+
+/// What is done with a fault whose points stand farther apart than the cohesive zone is long.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum UnderResolved {
+    /// The scene is refused.
+    Refuse,
+    /// It runs with a warning.
+    Allow,
 }
 
 /// Directions in which a fault in space slips.

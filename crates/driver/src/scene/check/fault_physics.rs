@@ -1,0 +1,76 @@
+//! What a fault through cycles can be made of: keys that hold at interfaces and sliders would be left out without a word.
+
+use super::Checker;
+use crate::fault::prestress::{body_of, presses};
+use crate::scene::model::{Fault, Spanned};
+
+impl Checker<'_> {
+    pub(super) fn physics_of(&mut self, fault: &Fault) {
+        if let Some(limit) = &fault.law.get_ref().f_limit {
+            // At the limit friction no longer depends on the slip rate, which is what the rate is found from.
+            self.error(
+                limit.span(),
+                "a fault through cycles has no limit of the shear traction: the slip rate would not follow from friction that has reached it",
+                "remove `f_limit`; a smaller `normal` or `mu0` lowers the strength, and interfaces have limits",
+            );
+        }
+        let positive = |v: f64| v > 0.0 && v.is_finite();
+        if let Some(floor) = fault.normal_floor.as_ref().filter(|f| !positive(f.get_ref().0)) {
+            self.error(
+                floor.span(),
+                "`normal_floor` must be positive: without pressure friction has no slip rate",
+                "such as `normal_floor = \"1 MPa\"`",
+            );
+        }
+        self.tractions_at_the_start(fault);
+    }
+
+    /// Tractions at the start come from keys of the fault or from an initial stress of its bodies.
+    fn tractions_at_the_start(&mut self, fault: &Fault) {
+        let profile = |p: &Option<crate::scene::model::Profiled>| {
+            p.as_ref().and_then(|p| p.0.first()).map(|p| p.points.span())
+        };
+        let normal = fault.normal.as_ref().map(Spanned::span).or(profile(&fault.profiles.normal));
+        let shear = fault.shear.as_ref().map(Spanned::span).or(profile(&fault.profiles.shear));
+        let bodies = [&fault.minus, &fault.plus].map(|side| body_of(self.scene, side));
+        let stress = bodies.iter().flatten().find_map(|b| b.initial_stress.as_ref());
+        let pressed = stress.is_some_and(presses);
+        if normal.is_none() && !pressed {
+            self.error(
+                fault.minus.span(),
+                "nothing presses the fault: it has no `normal`",
+                "such as `normal = \"50 MPa\"`, `profiles.normal`, or an `initial_stress` of its bodies with components in the plane",
+            );
+        }
+        let Some(stress) = stress else { return };
+        for (key, place) in [("normal", normal.filter(|_| pressed)), ("shear", shear)] {
+            let Some(place) = place else { continue };
+            self.conflict(
+                &place,
+                format!("`{key}` stands beside an initial stress, from which the same traction follows"),
+                format!("remove `{key}` and its profile, or the `initial_stress`"),
+                (&stress.span(), "the initial stress"),
+            );
+        }
+    }
+
+    /// An initial stress of a body without a fault would mean nothing.
+    pub(super) fn stress_beside_faults(&mut self) {
+        let scene = self.scene;
+        if scene.faults.is_empty() {
+            return;
+        }
+        let on_fault = |name: &str| {
+            let of = |set: &Spanned<String>| set.get_ref().split('.').next() == Some(name);
+            scene.faults.values().any(|f| of(&f.minus) || of(&f.plus))
+        };
+        for (name, body) in &scene.bodies {
+            let Some(stress) = body.initial_stress.as_ref().filter(|_| !on_fault(name)) else { continue };
+            self.error(
+                stress.span(),
+                format!("the initial stress of body `{name}` presses no fault, and means nothing else in a scene with faults"),
+                "remove it",
+            );
+        }
+    }
+}
