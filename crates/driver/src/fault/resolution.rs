@@ -133,7 +133,7 @@ fn links(nodes: usize, dimension: usize) -> Vec<(usize, usize)> {
     if dimension == 2 {
         return if nodes == 2 { vec![(0, 1)] } else { vec![(0, 2), (2, 1)] };
     }
-    let corners = if nodes % 3 == 0 && nodes < 8 { 3 } else { 4 };
+    let corners = if matches!(nodes, 3 | 6) { 3 } else { 4 };
     let edges = (0..corners).map(|k| (k, (k + 1) % corners));
     if nodes == corners {
         return edges.collect();
