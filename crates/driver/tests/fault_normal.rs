@@ -195,13 +195,13 @@ fn an_initial_stress_resolves_onto_the_fault_as_on_mohrs_circle() {
     let layout = asperity_driver::fault::Layout::of(&plan.fault);
     let mut rate = vec![0.0; plan.points.len()];
     plan.fault.law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rate);
-    for p in 0..plan.points.len() {
+    for (p, rate) in rate.iter().enumerate() {
         let normal = plan.fault.normal[p];
-        let traction = normal * plan.fault.law.scale(p) * plan.start[p] + plan.fault.damping[p] * rate[p];
+        let traction = normal * plan.fault.law.scale(p) * plan.start[p] + plan.fault.damping[p] * rate;
         // Coordinates of the trace have nine digits.
         assert!((normal / expected[0] - 1.0).abs() < 1e-8, "{normal:e} {expected:?}");
         assert!((traction / expected[1] - 1.0).abs() < 1e-8, "{traction:e} {expected:?}");
-        assert!((rate[p] / 1e-9 - 1.0).abs() < 1e-9, "{}", rate[p]);
+        assert!((rate / 1e-9 - 1.0).abs() < 1e-9, "{rate}");
     }
 }
 
