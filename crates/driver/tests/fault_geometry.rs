@@ -10,6 +10,7 @@ use std::path::Path;
 
 const LAW: &str = r#"law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.010, b = 0.015, l = "30 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }
 normal = "50 MPa"
+under_resolved = "allow"
 rate = "1e-9 m/s"
 damping = "radiation"
 "#;
@@ -419,7 +420,8 @@ fn supports_across_an_oblique_fault_are_refused_with_set_and_place() {
 /// Warnings of a plan, each with the text it is about.
 fn warnings(text: &str) -> Vec<(String, String)> {
     let at = |w: &asperity_driver::warning::Warning| (w.message.clone(), text[w.span.clone()].to_string());
-    plan(text).warnings.iter().map(at).collect()
+    // Cells are coarse here on purpose.
+    plan(text).warnings.iter().filter(|w| !w.message.contains("cohesive zone")).map(at).collect()
 }
 
 #[test]

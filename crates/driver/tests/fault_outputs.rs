@@ -212,7 +212,7 @@ fn pairs(which: &[(&str, f64, f64)]) -> String {
             );
         }
         faults += &format!(
-            "[faults.{name}]\nminus = \"{name}l.right\"\nplus = \"{name}r.left\"\nlaw = {{ kind = \"rate-and-state\", evolution = \"ageing\", mu0 = 0.6, a = 0.010, b = 0.015, l = {l}, v_ref = \"1 um/s\", v_initial = \"1e-9 m/s\" }}\nnormal = \"50 MPa\"\nrate = \"1.1e-9 m/s\"\ndamping = \"radiation\"\n"
+            "[faults.{name}]\nminus = \"{name}l.right\"\nplus = \"{name}r.left\"\nlaw = {{ kind = \"rate-and-state\", evolution = \"ageing\", mu0 = 0.6, a = 0.010, b = 0.015, l = {l}, v_ref = \"1 um/s\", v_initial = \"1e-9 m/s\" }}\nnormal = \"50 MPa\"\nunder_resolved = \"allow\"\nrate = \"1.1e-9 m/s\"\ndamping = \"radiation\"\n"
         );
         sides += &format!(
             "{{ set = \"{name}l.left\", z = {{ rate = -0.5e-9 }} }}, {{ set = \"{name}r.right\", z = {{ rate = 0.5e-9 }} }}, "
