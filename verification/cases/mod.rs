@@ -99,6 +99,8 @@ mod seas_bp3_full;
 mod seas_bp6;
 pub mod slider;
 mod slider_cycles;
+mod slider_inertia;
+mod slider_inertia_all;
 mod slider_normal;
 mod slider_orbit;
 mod slider_stability;
@@ -163,6 +165,8 @@ pub const ALL: &[Case] = &[
     seas_bp3_full::CASE,
     seas_bp6::CASE,
     slider_cycles::CASE,
+    slider_inertia::CASE,
+    slider_inertia_all::CASE,
     slider_normal::CASE,
     slider_orbit::CASE,
     slider_stability::CASE,

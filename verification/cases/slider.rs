@@ -1,7 +1,7 @@
 //! What the cases of spring-sliders share: parameter sets, laws, runs, and the references of the second implementation.
 
 use crate::CaseError;
-use asperity_driver::ode::{Method, Outcome};
+use asperity_driver::ode::{Counts, Method, Outcome};
 use asperity_driver::slider::{self, Now, Plan, Run, Thresholds};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
@@ -160,6 +160,13 @@ pub fn events(plan: &mut Plan, number: usize) {
     plan.events = Some(Thresholds { on: 1e-3, off: 1e-4 });
     plan.most_events = Some(number);
     plan.peaks = true;
+}
+
+/// Work in right-hand sides. A column of a Jacobian is one, in dual numbers. A factorisation is a half and a solution a quarter, mean of a
+/// real and a complex one: their multiplications for two or three unknowns against those of an exponential, a logarithm and the rest.
+pub fn work(counts: &Counts, unknowns: usize) -> f64 {
+    let linear = 0.5 * counts.factorisations as f64 + 0.25 * counts.solves as f64;
+    counts.rates as f64 + unknowns as f64 * counts.jacobians as f64 + linear
 }
 
 /// Runs a plan to its end.

@@ -285,6 +285,7 @@ impl<const D: usize> Interface<D> {
     pub(crate) fn law_refusal(&self, failure: Failure) -> Refusal {
         let entry = match failure {
             Failure::BareLogAtRest { point, .. }
+            | Failure::Negative { point, .. }
             | Failure::Unstable { point, .. }
             | Failure::NonFinite { point, .. }
             | Failure::NotConverged { point, .. } => Some(point),

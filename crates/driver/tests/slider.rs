@@ -3,7 +3,7 @@
 
 use asperity_driver::laws;
 use asperity_driver::observe::{Observer, Recorder};
-use asperity_driver::ode::{Method, Outcome};
+use asperity_driver::ode::{Failure, Method, Outcome};
 use asperity_driver::scene::law::{Evolution, Form, LawChoice, State, Strength};
 use asperity_driver::scene::slider;
 use asperity_driver::slider::{
@@ -504,4 +504,83 @@ fn a_slider_with_little_mass_is_nearly_one_without() {
     // The difference is proportional to the mass.
     let [far, near] = [little, less].map(|with| (with[0] - without[0]).abs());
     assert!(far < 1e-3 && near < 0.2 * far + 1e-7, "{far:e} {near:e}");
+}
+
+/// A slider with a mass that an event leaves at 1e-17 m/s and less.
+fn inertial(law: &str, stiffness: &str, mass: &str, method: &str) -> String {
+    format!(
+        r#"
+schema = 1
+title = "inertial"
+kinematics = "spring-slider"
+[load]
+rate = "1e-9 m/s"
+[sliders.block]
+normal = "50 MPa"
+stiffness = "{stiffness}"
+mass = "{mass}"
+law = {{ kind = "rate-and-state", {law}, mu0 = 0.6, b = 0.015, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }}
+start = "1.5e-9 m/s"
+[time]
+end = "1e12 s"
+method = "{method}"
+[events]
+above = "1 mm/s"
+stop_after = 3
+"#
+    )
+}
+
+#[test]
+fn inertial_sliders_come_to_rest_and_start_again() {
+    for (law, stiffness, mass) in [
+        // Rest within 1e-22 s of an event that is 8e8 s away from the start.
+        ("form = \"regularised\", evolution = \"slip\", a = 0.006", "28.125 MPa/m", "71.24 kg/m^2"),
+        // A step at the end of the stability region every now and then, and some within it.
+        ("form = \"regularised\", evolution = \"slip\", a = 0.010", "6.25 MPa/m", "1.5e5 kg/m^2"),
+        // V = 1e-66 m/s between events.
+        ("form = \"bare\", evolution = \"ageing\", a = 0.0045", "3.28125 MPa/m", "2e6 kg/m^2"),
+    ] {
+        let last = |method: &str, tolerance: f64| {
+            let mut plan = plan(&inertial(law, stiffness, mass, method));
+            plan.tolerance = tolerance;
+            plan.most_steps = 100_000;
+            let run = run(&plan, &mut ()).unwrap();
+            assert_eq!(run.outcome, Outcome::Stopped, "{law} {method}: {:?}", run.counts);
+            run.catalogue.of(0).nth(2).unwrap().interval.unwrap()
+        };
+        // Radau's method and that of the library share nothing but the equations.
+        let reference = last("radau5", 1e-10);
+        for (method, tolerance, bound) in [
+            ("switching", 1e-8, 1e-8),
+            ("switching", 1e-12, 1e-8),
+            ("radau5", 1e-11, 1e-8),
+            ("esdirk34", 1e-8, 1e-6),
+        ] {
+            let error = relative(last(method, tolerance), reference);
+            assert!(error < bound, "{law} {method} at {tolerance:e}: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn a_form_without_a_value_at_rest_ends_where_friction_does() {
+    for form in ["form = \"bare\"", "form = \"cut-off\", v_cut = \"1 cm/s\""] {
+        for mass in ["", "mass = \"2000 kg/m^2\""] {
+            for method in ["switching", "radau5"] {
+                let reversed =
+                    "{ table = [[\"0 s\", \"1 um/s\"], [\"10 s\", \"1 um/s\"], [\"10 s\", \"-10 um/s\"]] }";
+                let text = stable(reversed, "\"5 MPa\"", &format!("damping = \"5 MPa s/m\"\n{mass}"))
+                    .replace("evolution =", &format!("{form}, evolution ="))
+                    .replace("[time]", &format!("[time]\nmethod = \"{method}\""));
+                let plan = plan(&text);
+                let run = run(&plan, &mut ()).unwrap();
+                let what = format!("{form} {mass} {method}: {:?} {:?}", run.outcome, run.hint);
+                assert_eq!(run.outcome, Outcome::Failed { reason: Failure::Ends }, "{what}");
+                assert!(run.hint.unwrap().contains("friction of `block` falls to zero"), "{what}");
+                // 0.5 to 0.6 f_n over k at 10 um/s.
+                assert!((55.0..75.0).contains(&run.at.seconds()), "{what} {:?}", run.at);
+            }
+        }
+    }
 }

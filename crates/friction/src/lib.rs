@@ -44,6 +44,18 @@ pub enum Failure {
         /// Slip rate \[m/s\].
         rate: f64,
     },
+    /// A form without a value at rest would be negative.
+    #[error(
+        "point {point}: at {rate:e} m/s the friction coefficient would be {mu:.4}, and this form has no value below zero; use the regularised form"
+    )]
+    Negative {
+        /// Point in the slice.
+        point: usize,
+        /// Slip rate \[m/s\].
+        rate: f64,
+        /// What the form gives \[-\].
+        mu: f64,
+    },
     /// The law weakens faster than the spring behind the point unloads.
     #[error("point {point}: the law weakens by {weakening:e} Pa/m against a stiffness of {stiffness:e} Pa/m")]
     Unstable {
@@ -86,6 +98,7 @@ impl Failure {
     pub fn at(self, index: usize) -> Self {
         match self {
             Self::BareLogAtRest { rate, .. } => Self::BareLogAtRest { point: index, rate },
+            Self::Negative { rate, mu, .. } => Self::Negative { point: index, rate, mu },
             Self::Unstable { stiffness, weakening, .. } => {
                 Self::Unstable { point: index, stiffness, weakening }
             }

@@ -284,3 +284,29 @@ fn sliders_out_of_range_are_refused() {
     assert!(bare.at_rate(0.0, &[0.0]).is_err() && bare.at_rate(-1.0, &[0.0]).is_err());
     assert_eq!(Bare(parameters()).rest_slope(0.0), None);
 }
+
+#[test]
+fn forms_without_a_value_at_rest_refuse_a_negative_strength() {
+    let steady = |law: &dyn Sliding, rate: f64| {
+        let mut states = vec![0.0; law.states()];
+        law.steady(rate.ln(), &mut states);
+        states
+    };
+    let ageing = || Ageing::new(B, L, V_REF).unwrap();
+    let slippery = || Parameters::new(0.02, A, V_REF).unwrap();
+    let laws: Vec<Arc<dyn Sliding>> = vec![
+        Arc::new(RateLaw::new(Bare(slippery()), ageing(), V_REF, None).unwrap()),
+        Arc::new(RateLaw::new(CutOff::new(slippery(), 1e-6).unwrap(), ageing(), V_REF, None).unwrap()),
+    ];
+    for law in laws {
+        // In steady state at 1 m/s either form is below zero: 0.02 - 0.005 ln 1e6 and 0.02 + 0.015 ln 1e-6 less next to nothing.
+        let failure = law.at_rate(1.0, &steady(&*law, 1.0)).unwrap_err();
+        assert!(matches!(failure, asperity_friction::Failure::Negative { mu, .. } if mu < 0.0), "{failure}");
+        assert!(!law.reverses());
+        assert!(law.slip(&[-1.0, 0.0]).0.rate.is_nan());
+    }
+    let regular: Arc<dyn Sliding> =
+        Arc::new(RateLaw::new(Regularised(slippery()), ageing(), V_REF, None).unwrap());
+    assert!(regular.reverses());
+    assert!(regular.at_rate(1.0, &steady(&*regular, 1.0)).unwrap() > 0.0);
+}

@@ -22,7 +22,7 @@ const TARGETS: [f64; 2] = [1e-8, 1e-10];
 /// What the default may need at most, in units of the best method: no more is lost by not knowing which that is.
 const ALWAYS: f64 = 1.5;
 
-/// A setting: error in the time of the last event, in its peak, wall time, right-hand sides.
+/// A setting: error in the time of the last event, in its peak, wall time, work in right-hand sides.
 struct Point {
     tolerance: f64,
     time: f64,
@@ -69,7 +69,7 @@ fn setting(plan: &Plan, events: usize) -> Result<Result<(Event, f64, f64), Strin
     }
     let found: Vec<&Event> = run.catalogue.of(0).collect();
     Ok(match found.get(events - 1) {
-        Some(event) => Ok(((*event).clone(), wall, run.counts.rates as f64)),
+        Some(event) => Ok(((*event).clone(), wall, slider::work(&run.counts, plan.start.len()))),
         None => Err(format!("{} events instead of {events}", found.len())),
     })
 }
@@ -114,8 +114,8 @@ type Read = fn(&Point) -> (f64, f64);
 fn draw(ledger: &mut Ledger, name: &str, curves: &[Curve]) {
     let kinds: [(&str, &str, Read); 3] = [
         ("time of the last event over the recurrence", "wall time [s]", |p| (p.time, p.wall)),
-        ("time of the last event over the recurrence", "right-hand sides", |p| (p.time, p.work)),
-        ("ln of the last peak slip rate", "right-hand sides", |p| (p.peak, p.work)),
+        ("time of the last event over the recurrence", "work in right-hand sides", |p| (p.time, p.work)),
+        ("ln of the last peak slip rate", "work in right-hand sides", |p| (p.peak, p.work)),
     ];
     for (error, work, read) in kinds {
         let mut plot =
@@ -140,18 +140,18 @@ fn draw(ledger: &mut Ledger, name: &str, curves: &[Curve]) {
                 format!("{:.0e}", p.tolerance),
                 format!("{:.2e}", p.time),
                 format!("{:.2e}", p.peak),
-                format!("{}", p.work),
+                format!("{:.0}", p.work),
             ]
         })
     });
     ledger.table(
         format!("{name} cycle"),
-        &["method", "tolerance", "error of time", "error of ln peak", "right-hand sides"],
+        &["method", "tolerance", "error of time", "error of ln peak", "work"],
         rows.collect::<Vec<_>>(),
     );
 }
 
-/// Right-hand sides a method needs to reach an error: between the settings on its two sides, on a line in logarithms.
+/// Work a method needs to reach an error: between the settings on its two sides, on a line in logarithms.
 fn needed(curve: &Curve, error: f64) -> Option<f64> {
     let pair = curve.points.windows(2).find(|w| w[0].time > error && w[1].time <= error)?;
     let share = (pair[0].time / error).ln() / (pair[0].time / pair[1].time).ln();
@@ -179,12 +179,12 @@ fn judge(ledger: &mut Ledger, cycles: &[Vec<Curve>]) {
     let rivals: Vec<(Method, f64)> =
         Method::ALL.into_iter().filter(|&m| m != best).map(|m| (m, worst(cycles, m))).collect();
     ledger.table(
-        "right-hand sides over the least of any method, at worst over the cycles and errors of 1e-8 and 1e-10",
+        "work over the least of any method, at worst over the cycles and errors of 1e-8 and 1e-10",
         &["method", "ratio"],
         rivals.iter().chain([&(best, own)]).map(|(m, ratio)| [m.name().to_string(), format!("{ratio:.2}")]),
     );
     ledger
-        .claim("right-hand sides of the default over the least of any method, at worst over the cycles and errors")
+        .claim("work of the default over the least of any method, at worst over the cycles and errors")
         .value(own)
         .at_most(ALWAYS)
         .evidence(Evidence::ConvergedSelf, "the same cycles at the tightest tolerance")

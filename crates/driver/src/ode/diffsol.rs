@@ -9,7 +9,7 @@ use super::clock::Clock;
 use super::method::Method;
 use super::problem::System;
 use super::report::{Counts, Failure, Finished};
-use super::stepper::{MOST_REJECTIONS, SHORTEST, SHORTEST_SECONDS, Stepper};
+use super::stepper::{MOST_REJECTIONS, SHORTEST, Stepper};
 use ::diffsol::error::OdeSolverError;
 use ::diffsol::{
     BdfState, DiffsolError, NalgebraContext, NalgebraLU, NalgebraMat, NalgebraVec, OdeBuilder, OdeEquations,
@@ -79,7 +79,10 @@ pub(super) fn with_stepper(
         .build()
         .map_err(|e| told(&e))?;
     problem.ode_options.max_nonlinear_solver_failures = usize::MAX;
-    problem.ode_options.min_timestep = SHORTEST_SECONDS;
+    // With an old Jacobian the library accepts wrong solutions: see `radau5`.
+    problem.ode_options.update_jacobian_after_steps = 1;
+    problem.ode_options.update_rhs_jacobian_after_steps = 1;
+    problem.ode_options.min_timestep = SHORTEST;
     let wrong = |e: DiffsolError| told(&e);
     if method == Method::Bdf {
         let state = BdfState::new_without_initialise(&problem).map_err(wrong)?;
@@ -236,7 +239,6 @@ where
             self.y0.copy_from_slice(state.y.batch_as_slice(0));
             self.f0.copy_from_slice(state.dy.batch_as_slice(0));
         }
-        let shortest = (SHORTEST * system.clock(self.t0).seconds().abs()).max(SHORTEST_SECONDS);
         let stop = limit.min(self.t0 + self.largest);
         let mut length = self.solver.state().h.min(stop - self.t0);
         for _ in 0..MOST_REJECTIONS {
@@ -254,13 +256,13 @@ where
                 }
                 Ok(false) => {}
                 Err(DiffsolError::OdeSolverError(OdeSolverError::StepSizeTooSmall { .. })) => break,
-                Err(_) if length * HALF >= shortest => {}
+                Err(_) if length * HALF >= SHORTEST => {}
                 Err(error) => return Err(told(&error)),
             }
             length *= HALF;
             self.rejected += 1;
             self.rewind(length);
-            if length < shortest {
+            if length < SHORTEST {
                 break;
             }
         }

@@ -4,7 +4,7 @@ use super::clock::Clock;
 use super::events::{Found, Watch};
 use super::problem::System;
 use super::report::{Control, Counts, Failure, Finished, Occurrence, Outcome, Sink, Step};
-use super::stepper::{SHORTEST, Stepper};
+use super::stepper::{NOTHING_LEFT, Stepper};
 
 /// Times a step is taken again to put its end on the root.
 const CORRECTIONS: usize = 3;
@@ -95,7 +95,7 @@ impl<'a> Drive<'a> {
         loop {
             let limit = self.target.since(&self.system.base.get());
             let left = limit - self.t;
-            if left <= NOTHING * limit.abs() || left <= SHORTEST * self.target.seconds().abs() {
+            if left <= NOTHING * limit.abs() || left <= NOTHING_LEFT * self.target.seconds().abs() {
                 return Ok(Outcome::Completed);
             }
             if self.advances == self.most_steps {

@@ -140,6 +140,8 @@ impl Watch {
         if let Some(left) = self.functions[event].left {
             // Rounding may leave it on the old side where it fired; only a change seen after it was on the new side counts.
             if ends.1.abs() <= LEFT_ZERO * left {
+                // What was left may have been noise, large where the function itself is soon small: it counts for less each step.
+                self.functions[event].left = Some(left / LEFT_ZERO);
                 return f64::INFINITY;
             }
             begin = (EARLY, self.value(system, stepper, event, EARLY));

@@ -2,7 +2,7 @@
 
 use super::problem::System;
 use super::report::{Counts, Failure};
-use super::stepper::{MOST_REJECTIONS, SHORTEST, SHORTEST_SECONDS, Stepper};
+use super::stepper::{MOST_REJECTIONS, SHORTEST, Stepper};
 
 /// A step: where it begins, how long it is, and the states and rates at both ends.
 #[derive(Debug, Default)]
@@ -127,14 +127,13 @@ impl<F: Formula> Stepper for OneStep<F> {
 
     fn advance(&mut self, system: &System<'_>, limit: f64) -> Result<(), Failure> {
         self.proceed();
-        let shortest = (SHORTEST * system.clock(self.span.t).seconds().abs()).max(SHORTEST_SECONDS);
         let mut before = false;
         for _ in 0..MOST_REJECTIONS {
             let room = limit - self.span.t;
             let wanted = self.next.min(self.largest);
             let last = room <= STRETCH * wanted;
             self.span.h = if last { room } else { wanted };
-            if self.span.h < shortest {
+            if self.span.h < SHORTEST {
                 break;
             }
             let trial = self.formula.attempt(system, &mut self.span);

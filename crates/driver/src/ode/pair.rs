@@ -11,17 +11,17 @@ pub(super) trait Criterion {
     type Usual: Formula;
     /// Where stability does.
     type Stiff: Formula;
-    /// Steps against the usual and against the stiff method after which the other goes on.
-    const ENOUGH: [u32; 2];
+    /// What against the usual and against the stiff method is enough for the other to go on.
+    const ENOUGH: [f64; 2];
 
-    /// Steps that speak against the method at work after the step just accepted, of which there were `before`; `stiff` says which it is.
+    /// What speaks against the method at work after the step just accepted, where it was `before`; `stiff` says which it is.
     fn against(
         methods: (&mut Self::Usual, &mut Self::Stiff),
         stiff: bool,
-        before: u32,
+        before: f64,
         system: &System<'_>,
         span: &Span,
-    ) -> u32;
+    ) -> f64;
 }
 
 /// See the module.
@@ -32,13 +32,13 @@ pub(super) struct Pair<C: Criterion> {
     /// Whether the step last tried is of the stiff method, and whether the next is.
     stiff: bool,
     next_stiff: bool,
-    /// Steps that speak against it.
-    against: u32,
+    /// What speaks against it.
+    against: f64,
 }
 
 impl<C: Criterion> Pair<C> {
     pub fn of(usual: C::Usual, other: C::Stiff) -> Self {
-        Self { usual, other, stiff: false, next_stiff: false, against: 0 }
+        Self { usual, other, stiff: false, next_stiff: false, against: 0.0 }
     }
 
     fn active(&mut self) -> &mut dyn Formula {
@@ -54,7 +54,7 @@ impl<C: Criterion> Formula for Pair<C> {
     fn attempt(&mut self, system: &System<'_>, span: &mut Span) -> Trial {
         if self.stiff != self.next_stiff {
             self.stiff = self.next_stiff;
-            self.against = 0;
+            self.against = 0.0;
             self.active().forget();
         }
         self.active().attempt(system, span)

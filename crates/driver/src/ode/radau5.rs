@@ -16,12 +16,6 @@ const MOST_ITERATIONS: usize = 6;
 const SOLVED: f64 = 0.03;
 /// Rounding over the tolerance below which the stages cannot be solved.
 const ROUNDING: f64 = 10.0 * f64::EPSILON;
-/// A Jacobian with which the iteration contracts by this factor is kept.
-const CONTRACTION: f64 = 1e-3;
-/// Iterations with which the Jacobian is kept at any contraction.
-const FEW: usize = 2;
-/// Growth below which the factors are worth more than the longer step.
-const WORTH: f64 = 1.2;
 const SAFETY: f64 = 0.9;
 const SHRINK: f64 = 0.2;
 const GROWTH: f64 = 10.0;
@@ -31,7 +25,11 @@ const GROWTH: f64 = 10.0;
 pub(super) struct Radau5 {
     jacobian: Vec<f64>,
     /// Whether the Jacobian is that of the beginning of the step.
-    current: bool,
+    ///
+    /// It is never kept for the next. Rates of relaxation go as 1/V where a mass acts, and fall by many decades while a slider
+    /// speeds up. With the large ones of before, the iteration moves the fast unknowns by next to nothing, passes for converged,
+    /// and the error estimate, filtered by the same matrix, does not see it. It is also dearer: a new Jacobian costs less than the
+    /// iterations it saves.
     known: bool,
     real: Lu<f64>,
     complex: Lu<Complex<f64>>,
@@ -49,7 +47,6 @@ pub(super) struct Radau5 {
     last: Vec<f64>,
     last_length: f64,
     iterations: usize,
-    contraction: f64,
     /// Length and error of the accepted step before.
     before: Option<(f64, f64)>,
     rejected: bool,
@@ -63,7 +60,6 @@ impl Radau5 {
         let zeros = |count: usize| vec![0.0; count];
         Self {
             jacobian: zeros(n * n),
-            current: false,
             known: false,
             real: Lu::new(n, 0.0),
             complex: Lu::new(n, Complex::new(0.0, 0.0)),
@@ -78,7 +74,6 @@ impl Radau5 {
             last: zeros(3 * n),
             last_length: 0.0,
             iterations: 0,
-            contraction: 0.0,
             before: None,
             rejected: false,
             factorisations: 0,
@@ -158,7 +153,6 @@ impl Radau5 {
                 *w += d;
             }
             transform(&FROM, n, &self.w, &mut self.z);
-            self.contraction = rate.unwrap_or(0.0);
             if norm == 0.0 || rate.is_some_and(|r| r / (1.0 - r) * norm < tolerance) {
                 return true;
             }
@@ -237,21 +231,15 @@ impl Formula for Radau5 {
 
     fn attempt(&mut self, system: &System<'_>, span: &mut Span) -> Trial {
         let n = span.y0.len();
-        loop {
-            if !self.known {
-                system.jacobian(span.t, &span.y0, &mut self.jacobian);
-                (self.known, self.current, self.factorised) = (true, true, 0.0);
-            }
-            let ready = self.factorised == span.h || self.factorise(n, span.h);
-            if ready && self.solve(system, span) {
-                break;
-            }
+        if !self.known {
+            system.jacobian(span.t, &span.y0, &mut self.jacobian);
+            (self.known, self.factorised) = (true, 0.0);
+        }
+        let ready = self.factorised == span.h || self.factorise(n, span.h);
+        if !ready || !self.solve(system, span) {
             self.failures += u64::from(ready);
-            if self.current {
-                self.rejected = true;
-                return Trial::Unsolved(0.5);
-            }
-            self.known = false;
+            self.rejected = true;
+            return Trial::Unsolved(0.5);
         }
         for i in 0..n {
             span.y1[i] = span.y0[i] + self.z[2 * n + i];
@@ -278,8 +266,7 @@ impl Formula for Radau5 {
             self.rejected = true;
             return share.clamp(SHRINK, SAFETY);
         }
-        let share = share.clamp(SHRINK, if rejected_before { 1.0 } else { GROWTH });
-        if (1.0..WORTH).contains(&share) { 1.0 } else { share }
+        share.clamp(SHRINK, if rejected_before { 1.0 } else { GROWTH })
     }
 
     fn accept(&mut self, _system: &System<'_>, span: &Span, error: f64) {
@@ -292,8 +279,7 @@ impl Formula for Radau5 {
         self.last_length = span.h;
         self.before = Some((span.h, error.max(f64::MIN_POSITIVE)));
         self.rejected = false;
-        self.current = false;
-        self.known = self.iterations <= FEW || self.contraction <= CONTRACTION;
+        self.known = false;
     }
 
     fn again(&mut self) {
@@ -302,7 +288,7 @@ impl Formula for Radau5 {
     }
 
     fn forget(&mut self) {
-        (self.known, self.current, self.rejected) = (false, false, false);
+        (self.known, self.rejected) = (false, false);
         (self.last_length, self.factorised) = (0.0, 0.0);
         self.before = None;
     }

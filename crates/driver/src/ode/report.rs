@@ -132,6 +132,9 @@ pub enum Failure {
         /// The length reached \[s\].
         length: f64,
     },
+    /// The sink found that the equations have no sense beyond the last state.
+    #[error("the equations have no solution beyond this state")]
+    Ends,
     /// The state to start from, or its rates, are not finite.
     #[error("the state or its rates are not finite at the start")]
     NotFinite,

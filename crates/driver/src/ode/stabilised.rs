@@ -15,7 +15,7 @@ use super::tsit5::Tsit5;
 /// 3.7 on the negative real axis, and the control keeps steps around there; the spectral radius is a bound, up to twice too large.
 const BOUND: f64 = 3.0;
 /// Steps in a row that speak for the other method, after which it goes on.
-const AGAINST: u32 = 3;
+const AGAINST: f64 = 3.0;
 
 /// By the stretch of the steps.
 #[derive(Debug)]
@@ -24,18 +24,18 @@ pub(super) struct Stretch;
 impl Criterion for Stretch {
     type Usual = Tsit5;
     type Stiff = Rkc2;
-    const ENOUGH: [u32; 2] = [AGAINST; 2];
+    const ENOUGH: [f64; 2] = [AGAINST; 2];
 
     fn against(
         _: (&mut Tsit5, &mut Rkc2),
         stiff: bool,
-        before: u32,
+        before: f64,
         system: &System<'_>,
         span: &Span,
-    ) -> u32 {
+    ) -> f64 {
         let stretch = span.h * system.spectral_radius(span.t, &span.y0);
         let against = if stiff { stretch < BOUND } else { stretch > BOUND };
-        if against { before + 1 } else { 0 }
+        if against { before + 1.0 } else { 0.0 }
     }
 }
 

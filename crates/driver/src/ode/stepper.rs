@@ -45,9 +45,11 @@ pub(super) trait Stepper {
     fn tally(&self, counts: &mut Counts);
 }
 
-/// A step below this share of the time is too short: the base of the clock resolves 1e-32 of it.
-pub(super) const SHORTEST: f64 = 1e-26;
-/// A step shorter than this is too short at any time \[s\].
-pub(super) const SHORTEST_SECONDS: f64 = 1e-250;
+/// What is left of the time below this share of it is nothing: the base of the clock resolves 1e-32 of it.
+pub(super) const NOTHING_LEFT: f64 = 1e-26;
+/// A step shorter than this is too short \[s\]. It has nothing to do with the time: a block that a mass carries to rest loses an
+/// e-fold of V in M V/(f_n a), and V falls to 1e-60 m/s. Steps that the clock does not resolve move the state all the same, and
+/// all of them together take no time. It is far above the least number, so that rates stay finite.
+pub(super) const SHORTEST: f64 = 1e-250;
 /// Rejections in a row after which no length will do.
 pub(super) const MOST_REJECTIONS: usize = 200;

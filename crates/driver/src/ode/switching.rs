@@ -11,12 +11,18 @@ use super::pair::{Criterion, Pair};
 use super::problem::System;
 use super::radau5::Radau5;
 
-/// End of the stability region of the explicit method on the negative real axis is 6.1; the control of steps keeps `h |λ|` around it.
-const BOUNDARY: f64 = 5.0;
-/// Steps at the boundary, less those within, after which stability binds.
-const BOUND: u32 = 6;
-/// Steps in a row that the explicit method could have taken, after which it goes on.
-const FREE: u32 = 2;
+/// Mean of `h |λ|` over some steps of the explicit method above which stability binds. Its region ends at 6.1 on the negative real
+/// axis. Where it binds, the control of steps tries longer ones and shorter ones around that in turn, and their mean is 5 to 6.
+const BINDING: f64 = 4.0;
+/// Steps over which that mean is taken; the older ones fade.
+const MEMORY: f64 = 8.0;
+/// One step tells no more than this: a quotient of differences may be any number.
+const MOST: f64 = 10.0;
+/// `h |λ|` of a step of the implicit method below which the explicit one could have taken it.
+const STABLE: f64 = 5.0;
+/// Such steps in a row after which the explicit method goes on: the first ones are as short as those of the explicit method were, and
+/// grow where it is stability that bound them.
+const FREE: f64 = 6.0;
 
 /// By where the explicit method's stages end up, and by the Jacobian of the implicit one.
 #[derive(Debug)]
@@ -25,21 +31,20 @@ pub(super) struct Boundary;
 impl Criterion for Boundary {
     type Usual = Dop853;
     type Stiff = Radau5;
-    const ENOUGH: [u32; 2] = [BOUND, FREE];
+    const ENOUGH: [f64; 2] = [BINDING, FREE];
 
     fn against(
         (explicit, implicit): (&mut Dop853, &mut Radau5),
         stiff: bool,
-        before: u32,
+        before: f64,
         system: &System<'_>,
         span: &Span,
-    ) -> u32 {
+    ) -> f64 {
         if stiff {
-            let stable = span.h * implicit.spectral_radius() < BOUNDARY;
-            return if stable { before + 1 } else { 0 };
+            let stable = span.h * implicit.spectral_radius() < STABLE;
+            return if stable { before + 1.0 } else { 0.0 };
         }
-        let bound = explicit.stretch(system, span) > BOUNDARY;
-        if bound { before + 1 } else { before.saturating_sub(1) }
+        before + (explicit.stretch(system, span).min(MOST) - before) / MEMORY
     }
 }
 

@@ -5,7 +5,7 @@ use super::plan::Plan;
 use super::problem::{Kind, Piece, kinds};
 use crate::observe::ObserveError;
 use crate::ode::{self, Clock, Control, Counts, Failure, Occurrence, Outcome, Sink, Step};
-use asperity_friction::slider::Condition;
+use asperity_friction::slider::{Condition, Slider};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Why a run could not begin, or not be observed.
@@ -104,6 +104,9 @@ const UNRESOLVED: f64 = 1e-26;
 /// So many steps in a row are no accident: the step before an event may be as short.
 const MOST_UNRESOLVED: u32 = 10;
 
+/// Friction over a at which a slider has none left, and V is what it is at rest; the steps would go on to shrink towards zero.
+const SPENT: f64 = 1e-3;
+
 /// What a run found.
 #[derive(Clone, Debug)]
 pub struct Run {
@@ -155,8 +158,8 @@ pub fn run(plan: &Plan, watcher: &mut dyn Watcher) -> Result<Run, RunError> {
         slips.leave(&piece, finished.at);
         (at, unknowns, outcome) = (finished.at, finished.state, finished.outcome);
         add(&mut counts, &finished.counts);
-        if let Some(length) = state.ran_away {
-            outcome = Outcome::Failed { reason: Failure::StepTooSmall { length } };
+        if let Some(reason) = state.senseless.take() {
+            outcome = Outcome::Failed { reason };
         }
         if outcome != Outcome::Completed {
             break;
@@ -166,7 +169,13 @@ pub fn run(plan: &Plan, watcher: &mut dyn Watcher) -> Result<Run, RunError> {
     if let Some(failure) = failure {
         return Err(failure.into());
     }
-    let hint = matches!(outcome, Outcome::Failed { .. }).then(|| hint(plan, &piece, at, &unknowns)).flatten();
+    let hint = match outcome {
+        // Other failures say themselves what is wrong.
+        Outcome::Failed { reason: Failure::StepTooSmall { .. } | Failure::Ends } => {
+            hint(plan, &piece, at, &unknowns)
+        }
+        _ => None,
+    };
     Ok(Run { outcome, at, unknowns, catalogue, counts, hint, interrupted })
 }
 
@@ -190,8 +199,20 @@ fn running(piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<(usize, f64
     })
 }
 
-/// What a failure means, where a quasi-static slider runs away.
+/// The first slider without friction whose form has no value at rest.
+fn spent(plan: &Plan, unknowns: &[f64]) -> Option<usize> {
+    let stands = |(i, s): &(usize, &Slider)| !s.law.reverses() && plan.system.of(*i, unknowns)[0] < SPENT;
+    plan.system.sliders().iter().enumerate().find(stands).map(|(i, _)| i)
+}
+
+/// What it means that no step is short enough, where friction reaches zero or a quasi-static slider runs away.
 fn hint(plan: &Plan, piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<String> {
+    if let Some(i) = spent(plan, unknowns) {
+        return Some(format!(
+            "friction of `{}` falls to zero, where its form has no value; `form = \"regularised\"` passes through rest",
+            plan.names[i]
+        ));
+    }
     running(piece, at, unknowns).map(|(i, rate)| {
         format!(
             "`{}` slides at {rate:.3e} m/s and faster and faster: quasi-static equilibrium ends here; give it `damping` or `mass`",
@@ -261,8 +282,8 @@ struct Following<'a> {
     step: usize,
     /// Steps in a row that time does not resolve.
     unresolved: u32,
-    /// Length of the last of them \[s\], where a slider has run away.
-    ran_away: Option<f64>,
+    /// Why it makes no sense to go on: a slider has run away, or its friction has come to zero.
+    senseless: Option<Failure>,
 }
 
 impl<'a> Following<'a> {
@@ -276,7 +297,7 @@ impl<'a> Following<'a> {
             interrupted: false,
             step: 0,
             unresolved: 0,
-            ran_away: None,
+            senseless: None,
         }
     }
 }
@@ -373,9 +394,7 @@ impl Running<'_, '_> {
             return false;
         }
         self.state.unresolved += 1;
-        let away = self.state.unresolved == MOST_UNRESOLVED;
-        self.state.ran_away = away.then_some(length);
-        away
+        self.state.unresolved == MOST_UNRESOLVED
     }
 
     /// Tells the catalogue of the slip rates at the end of a step.
@@ -422,7 +441,12 @@ impl Sink for Running<'_, '_> {
         }
         self.show(step.end, step.length(), step.state);
         self.sees(step.state);
-        if self.runs_away(step) || self.state.failure.is_some() {
+        if self.runs_away(step) {
+            self.state.senseless = Some(Failure::StepTooSmall { length: step.length() });
+        } else if spent(self.state.plan, step.state).is_some() {
+            self.state.senseless = Some(Failure::Ends);
+        }
+        if self.state.senseless.is_some() || self.state.failure.is_some() {
             return Control::Stop;
         }
         self.state.interrupted = self.state.watcher.stops();

@@ -64,7 +64,7 @@ pub trait Sliding: Rated {
     /// The unknown m at a slip rate \[m/s\] of either sign, with the state variables as they stand.
     ///
     /// # Errors
-    /// [`Failure::BareLogAtRest`] where the form has no value at this rate.
+    /// [`Failure::BareLogAtRest`] where the form has no value at this rate, [`Failure::Negative`] where it would be negative.
     fn at_rate(&self, rate: f64, states: &[f64]) -> Result<f64, Failure>;
 
     /// State variables that are steady at ln V.
@@ -95,6 +95,9 @@ pub trait Sliding: Rated {
 
     /// What a change of ln V by one is in each state variable, for error norms: 1 for logarithms, a for friction.
     fn state_scale(&self) -> f64;
+
+    /// Whether the form has a value at rest and in reversal; where not, the rates do not exist at m ≤ 0.
+    fn reverses(&self) -> bool;
 
     /// Shortest characteristic slip L \[m\], where there is one.
     fn length(&self) -> Option<f64>;
@@ -224,7 +227,12 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
             };
         }
         let phi: f64 = self.parts().iter().zip(states).map(|(p, &s)| p.evolution.phi(s)).sum();
-        Ok((self.form().at(rate.abs().ln(), phi).mu / self.form().scale()).copysign(rate))
+        let mu = self.form().at(rate.abs().ln(), phi).mu;
+        // A form that is not odd in V has no branch on which friction drives the slider.
+        if mu <= 0.0 {
+            return Err(Failure::Negative { point: 0, rate, mu });
+        }
+        Ok((mu / self.form().scale()).copysign(rate))
     }
 
     fn steady(&self, log_rate: f64, states: &mut [f64]) {
@@ -310,6 +318,10 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
         // What moves ln V by one at constant m is a/φ', and a logarithm by itself at most.
         let slope = self.parts().iter().map(|p| p.evolution.phi_slopes(0.0).0.abs()).fold(0.0, f64::max);
         if slope == 0.0 { 1.0 } else { (self.form().scale() / slope).min(1.0) }
+    }
+
+    fn reverses(&self) -> bool {
+        self.form().regular_at_rest()
     }
 
     fn length(&self) -> Option<f64> {

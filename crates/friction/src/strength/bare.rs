@@ -26,7 +26,7 @@ impl Form for Bare {
 
     fn slip_rate(&self, m: f64, phi: f64) -> SlipRate {
         let p = &self.0;
-        let log = m - (p.mu0 + phi) / p.a + p.log_v_ref;
+        let log = if m > 0.0 { m - (p.mu0 + phi) / p.a + p.log_v_ref } else { f64::NAN };
         let (rate, per) = (log.exp(), -1.0 / p.a);
         SlipRate {
             rate,

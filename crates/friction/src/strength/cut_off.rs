@@ -47,7 +47,8 @@ impl Form for CutOff {
 
     fn slip_rate(&self, m: f64, phi: f64) -> SlipRate {
         let (a, w) = (self.p.a, (self.p.mu0 + phi) / self.p.a - m);
-        let log = if w > 0.0 { self.log_v_cut - w - (-(-w).exp_m1()).ln() } else { f64::INFINITY };
+        let within = if w > 0.0 { self.log_v_cut - w - (-(-w).exp_m1()).ln() } else { f64::INFINITY };
+        let log = if m > 0.0 { within } else { f64::NAN };
         let (rate, per) = (log.exp(), -1.0 / a);
         // dV/dw = -V r with r = e^w/(e^w - 1), dr/dw = r (1 - r).
         let r = -1.0 / (-w).exp_m1();

@@ -67,7 +67,7 @@ pub trait Form: Send + Sync + Clone + std::fmt::Debug {
         None
     }
 
-    /// V at which the coefficient is `a m`, of either sign where the form is odd.
+    /// V at which the coefficient is `a m`, of either sign where the form is odd; elsewhere it is not a number at m ≤ 0.
     fn slip_rate(&self, m: f64, phi: f64) -> SlipRate;
 
     /// a \[-\], the scale of μ over an e-fold of V.

@@ -14,7 +14,9 @@ pub fn refused(spec: &Spanned<LawSpec>, failure: &Failure) -> SceneError {
             let help = format!("give `{name}` another value: {admissible}");
             (place.map_or_else(|| spec.span(), |p| p.1), help)
         }
-        Failure::BareLogAtRest { .. } => (spec.span(), "use `form = \"regularised\"`".into()),
+        Failure::BareLogAtRest { .. } | Failure::Negative { .. } => {
+            (spec.span(), "use `form = \"regularised\"`".into())
+        }
         Failure::Unstable { .. } | Failure::NonFinite { .. } | Failure::NotConverged { .. } => {
             (spec.span(), "give the parameters of the law other values".into())
         }

@@ -28,6 +28,16 @@ impl Planner {
         }
         match system.start(&rates, &states) {
             Ok(start) => Some(start),
+            Err(Failure::Negative { point, rate, mu }) => {
+                let (name, span) = scene.sliders.iter().nth(point).map_or(("", 0..0), |(name, spec)| {
+                    let spec = spec.get_ref();
+                    (name, spec.start.as_ref().map_or_else(|| spec.law.span(), |s| s.span()))
+                });
+                let what = format!(
+                    "`{name}` would start at {rate:e} m/s with a friction coefficient of {mu:.4}, and the form of its law has no value below zero"
+                );
+                self.error(span, what, "`form = \"regularised\"`, or other parameters")
+            }
             Err(failure) => self.error(0..0, failure.to_string(), "change the start"),
         }
     }
