@@ -72,6 +72,7 @@ pub mod hertz;
 mod hertz_ball;
 mod hertz_line;
 mod hertz_sphere;
+mod interface_instability;
 mod jaumann_shear;
 mod lame_cylinder;
 mod large_rotation;
@@ -145,6 +146,7 @@ pub const ALL: &[Case] = &[
     hertz_line::CASE,
     hertz_sphere::CASE,
     hertz_ball::CASE,
+    interface_instability::CASE,
     lame_cylinder::CASE,
     nafems_roller::CASE,
     partial_slip::CASE,

@@ -71,7 +71,7 @@ pub fn simulate_in(text: &str, folder: &str) -> Result<Done, CaseError> {
     let done = attempt_in(text, folder)?;
     match &done.report.outcome {
         Outcome::Completed => Ok(done),
-        Outcome::Stopped { stage, time, reason } => {
+        Outcome::Stopped { stage, time, reason, .. } => {
             Err(format!("stopped in stage `{stage}` at {time} s: {reason}").into())
         }
         Outcome::Interrupted { .. } => Err("interrupted".into()),

@@ -460,6 +460,7 @@ impl<const D: usize> Limited for Interface<D> {
         if let Some(shear) = &mut self.shear {
             self.work.law_calls += 1;
             if let Err(failure) = shear.linearise(&self.contact.committed, options) {
+                self.note_softness(&failure);
                 return Err(self.law_refusal(failure));
             }
             for (i, &p) in shear.slices.index.iter().enumerate() {

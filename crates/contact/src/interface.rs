@@ -10,7 +10,8 @@ use crate::shear::{Shear, TwoStep};
 use crate::spec::{InterfaceSpec, SlavePoint, SurfaceNode, TimeRule};
 use crate::status::{Status, label};
 use crate::vector::{add, axpy, dot, moment, norm, scaled, sub};
-use asperity_fem::term::{Augmented, Instant, Linearized, Pattern, Refusal, Term};
+use crate::watch::Watch;
+use asperity_fem::term::{Augmented, Instant, Linearized, Objection, Pattern, Refusal, Term};
 use asperity_friction::Failure;
 use asperity_friction::law::{Law, RateBounds};
 use std::sync::Arc;
@@ -93,6 +94,10 @@ pub struct Interface<const D: usize> {
     pub(crate) fields: PointFields<D>,
     averaging: Averaging,
     pub(crate) work: Work,
+    /// What steps may not do.
+    pub(crate) watch: Watch,
+    /// The point that lost strength with slip in the trial dropped last, where one did.
+    pub(crate) soft: Option<usize>,
     unpaired: usize,
 }
 
@@ -133,6 +138,8 @@ impl<const D: usize> Interface<D> {
             fields: PointFields::new(n),
             averaging: Averaging::new(&spec.measure, &spec.slave, spec.nodes.len()),
             work: Work { searches: 1, projections, ..Work::default() },
+            watch: Watch::default(),
+            soft: None,
             unpaired: 0,
             name: spec.name,
             nodes: spec.nodes,
@@ -322,6 +329,7 @@ impl<const D: usize> Interface<D> {
             let from = tangential(self.multipliers.as_ref());
             let answer = shear.respond(from, &self.contact.trial, increment, dt, two_step, previous, step);
             if let Err(failure) = answer {
+                self.note_softness(&failure);
                 return Err(self.law_refusal(failure));
             }
         } else {
@@ -540,13 +548,19 @@ impl<const D: usize> Term for Interface<D> {
         Ok(())
     }
 
+    fn objection(&self) -> Option<Objection> {
+        self.objects()
+    }
+
     fn accept(&mut self) {
+        self.soft = None;
         self.adopt_multipliers();
         self.commit();
         self.refresh();
     }
 
     fn reject(&mut self) {
+        self.soft = self.softest().or(self.soft);
         self.u.trial.copy_from_slice(&self.u.committed);
         self.contact.trial.copy_from_slice(&self.contact.committed);
         self.motion.trial.copy_from(&self.motion.committed);

@@ -22,6 +22,7 @@ mod shear;
 mod spec;
 mod status;
 mod vector;
+pub mod watch;
 
 pub use enforce::Enforcement;
 pub use error::ContactError;
@@ -31,3 +32,4 @@ pub use spec::{
     InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, Smoothing, SurfaceNode, TimeRule,
 };
 pub use status::Status;
+pub use watch::{Course, RateLimit, Watch};

@@ -8,14 +8,16 @@ use crate::model::{CellBlock, Model, sizes};
 use crate::plan_doubts;
 use crate::rigid;
 use crate::samples::Wanted;
-use crate::scene::law;
+use crate::scene::law::{self, LawChoice};
 use crate::scene::model::{
-    Formulation, Interface as InterfaceSpec, Kinematics, Measure, Method, Path as PathChoice, Rule, Scene,
-    Sliding, Spanned, Stepper,
+    Formulation, Interface as InterfaceSpec, Kinematics, LawSpec, Measure, Method, Path as PathChoice, Rule,
+    Scene, Sliding, Spanned, Stepper,
 };
 use crate::solver::{self, Solver};
 use crate::start_gaps::StartGap;
 use crate::warning::Warning;
+use crate::watch;
+use asperity_contact::Watch;
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
 use asperity_fem::nonlinear::Material;
 use asperity_friction::law::Law;
@@ -85,6 +87,8 @@ pub struct PlannedInterface {
     pub law: Option<Arc<dyn Law>>,
     /// What its points resolve, where friction weakens with slip.
     pub resolved: Option<Resolved>,
+    /// What steps may not do.
+    pub watch: Watch,
     /// Probe positions.
     pub probes: usize,
 }
@@ -302,13 +306,14 @@ pub fn plan(scene: &Scene) -> Result<AnyPlan, PlanError> {
 fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
     let model = Model::<D>::new(scene)?;
     let stages = loading::stages(scene, &model)?;
+    let stepping = stepping(scene)?;
+    let loading = stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
     let interfaces = scene
         .interfaces
         .iter()
-        .map(|(name, spec)| interface(scene, &model, name, spec))
+        .map(|(name, spec)| interface(scene, &model, (name, spec), loading, &stepping))
         .collect::<Result<Vec<_>, _>>()?;
     let path = choose_path(scene, &model, &interfaces)?;
-    let stepping = stepping(scene)?;
     let control = control(scene, &stages);
     let mut remarks = rigid::check(scene, &model, &stages, &interfaces)?;
     remarks.extend(sizes::of_files(scene, &model));
@@ -341,8 +346,9 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
 fn interface<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
-    name: &str,
-    spec: &InterfaceSpec,
+    (name, spec): (&str, &InterfaceSpec),
+    loading: f64,
+    stepping: &Stepping,
 ) -> Result<PlannedInterface, PlanError> {
     if model.idealisation.components() != D {
         return Err(PlanError::at(
@@ -367,9 +373,14 @@ fn interface<const D: usize>(
             "an interface lies between two sides that can part; `split` in a mesh makes them".into(),
         ));
     }
-    let law = match &spec.law {
-        Some(law) => Some(build_law(law)?),
-        None => None,
+    let (law, watch) = match &spec.law {
+        Some(law) => {
+            let choice = choose_law(law)?;
+            let sides = (slave_sides, master_sides);
+            let watch = watch::of(scene, model, &choice, sides, loading, stepping)?;
+            (Some(build_law(law, &choice)?), watch)
+        }
+        None => (None, Watch::default()),
     };
     let young_per_size = model.young_per_size(body, slave_sides);
     let enforced = Enforced::new(&spec.enforcement, young_per_size, model.element_size(body, slave_sides));
@@ -388,6 +399,7 @@ fn interface<const D: usize>(
             .map_or(0.0, |t| in_pascal_per_metre(t, young_per_size)),
         law,
         resolved: Resolved::new(model, spec, slave_sides),
+        watch,
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),
     })
 }
@@ -484,12 +496,15 @@ fn check_faces<const D: usize>(
     Ok(())
 }
 
-fn build_law(spec: &Spanned<crate::scene::model::LawSpec>) -> Result<Arc<dyn Law>, PlanError> {
-    let choice = law::choose(spec).map_err(|errors| {
+fn choose_law(spec: &Spanned<LawSpec>) -> Result<LawChoice, PlanError> {
+    law::choose(spec).map_err(|errors| {
         let first = errors.into_iter().next();
         first.map_or_else(|| PlanError::plain("the law is not complete".into()), PlanError::from)
-    })?;
-    crate::laws::build(&choice).map_err(|e| law::refused(spec, &e).into())
+    })
+}
+
+fn build_law(spec: &Spanned<LawSpec>, choice: &LawChoice) -> Result<Arc<dyn Law>, PlanError> {
+    crate::laws::build(choice).map_err(|e| law::refused(spec, &e).into())
 }
 
 fn choose_path<const D: usize>(

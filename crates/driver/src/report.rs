@@ -23,6 +23,27 @@ pub enum Outcome {
         time: f64,
         /// Why.
         reason: String,
+        /// What kind of end it is.
+        kind: Stop,
+    },
+}
+
+/// Why a stepper could not go on.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stop {
+    /// No solution was found in steps of any length.
+    NotConverged,
+    /// The accuracy asked for needs steps below the smallest allowed.
+    SmallestStep,
+    /// No quasi-static state follows the last one.
+    Instability {
+        /// Interface.
+        interface: String,
+        /// Point at which it was met \[m\].
+        position: [f64; 3],
+        /// Slip rate there in the state that was not accepted \[m/s\].
+        slip_rate: f64,
     },
     /// A signal ended it; everything before `time` stands.
     Interrupted {

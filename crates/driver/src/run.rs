@@ -7,9 +7,11 @@ use crate::plan::{AnyPlan, Plan, Stepping};
 use crate::report::{Outcome, Phases, RunReport};
 use crate::run_doubts;
 use crate::step::Accepted;
+use crate::stop;
 use crate::system::Assembled;
 use crate::timing::StepLength;
 use std::sync::atomic::{AtomicBool, Ordering};
+use crate::watch;
 use std::time::Instant as Clock;
 
 /// Why a run could not be completed.
@@ -123,11 +125,17 @@ impl<const D: usize> Running<'_, D> {
             match trial {
                 Ok(accepted) => {
                     system.set_time(length.snap(system.time()));
-                    let error = system.slip_error(&before, accepted.dt);
-                    length.accepted(accepted.dt, dt, error, accepted.iterations);
+                    let slip = (system.slip_error(&before, accepted.dt), system.slip_fill());
+                    length.accepted(accepted.dt, dt, slip, accepted.iterations);
                     self.record(index, stage, system, &accepted, (rejected, length.reason()));
                     self.show(index, stage, system, observer, false)?;
                     (rejected, free) = (0, None);
+                    if let Some(lengths) = length.exhausted().filter(|_| self.follows_rates()) {
+                        let loading = self.plan.stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
+                        let now = largest(&system.slip_rates());
+                        let faster = now > largest(&before) && now > watch::LOADING * loading;
+                        return Ok(Some(stop::exhausted(system, &stage.name, lengths, faster)));
+                    }
                 }
                 Err(failure) => {
                     self.counts.rejected += 1;
@@ -135,22 +143,18 @@ impl<const D: usize> Running<'_, D> {
                     if free.is_none() && failure.is_singular() {
                         free = system.free_motion();
                     }
-                    let always = failure.always();
-                    if always || !length.halve(dt) {
-                        let mut reason = system.in_words(&failure);
-                        if !always {
-                            reason += &format!("; the step was halved to {dt:.3e} s without success");
-                        }
-                        // Shorter steps may fail otherwise than the first did: what that one found is told.
-                        if let Some(free) = free {
-                            reason += &format!("; {free}");
-                        }
-                        let stage = stage.name.clone();
-                        return Ok(Some(Outcome::Stopped { stage, time: system.time(), reason }));
+                    if failure.always() || !length.halve(dt) {
+                        return Ok(Some(stop::failed(system, &stage.name, &failure, dt, free)));
                     }
                 }
             }
         }
+    }
+
+    /// Whether an interface has a law of the slip rate. Rates of other laws are slip over the length of the step, which may be finite at
+    /// any length.
+    fn follows_rates(&self) -> bool {
+        self.plan.interfaces.iter().any(|i| i.law.as_ref().is_some_and(|l| !l.has_elastic_domain()))
     }
 
     fn record(
@@ -204,6 +208,11 @@ impl<const D: usize> Running<'_, D> {
         self.phases.output += clock.elapsed().as_secs_f64();
         Ok(())
     }
+}
+
+/// Largest magnitude.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m, v| m.max(v.abs()))
 }
 
 /// Names of the interfaces.

@@ -77,8 +77,15 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let largest_rate = plan.stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
         let (mut interfaces, mut unknowns) = (Vec::new(), dofs);
         for i in &plan.interfaces {
+<<<<<<< HEAD
             let spec = spec(&plan.model, &plan.stepping, i, &number, largest_rate, unknowns);
             interfaces.push(Interface::new(spec).map_err(|e| e.to_string())?);
+=======
+            let spec = spec(plan, i, &number, largest_rate, unknowns);
+            let mut interface = Interface::new(spec).map_err(|e| e.to_string())?;
+            interface.set_watch(i.watch);
+            interfaces.push(interface);
+>>>>>>> 0aafb79 (Stop at instabilities of interfaces, by name, with the last state before)
             unknowns += i.unknowns;
         }
         let areas = plan
@@ -256,6 +263,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     pub fn in_words(&self, failure: &Failure) -> String {
         match failure {
             Failure::Refused(why) | Failure::Violated(why) => why.clone(),
+            Failure::Objected(objection) => objection.to_string(),
             Failure::Unsolved { error, .. } => {
                 let nodes = self.nodes();
                 if let Some(pivot) = error.pivot()
@@ -343,6 +351,18 @@ impl<'a, const D: usize> Assembled<'a, D> {
             .zip(before)
             .map(|(now, then)| 0.5 * dt * (now - then).abs())
             .fold(0.0, f64::max)
+    }
+
+    /// Slip of the last step over the largest that the laws allow a step \[-\].
+    #[must_use]
+    pub fn slip_fill(&self) -> f64 {
+        self.interfaces.iter().map(Interface::fill).fold(0.0, f64::max)
+    }
+
+    /// The interfaces.
+    #[must_use]
+    pub fn interfaces(&self) -> &[Interface<D>] {
+        &self.interfaces
     }
 
     /// Largest drift of the friction law over the interfaces.

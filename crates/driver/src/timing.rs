@@ -11,8 +11,11 @@ const GROWTH: f64 = 2.0;
 const SHRINK: f64 = 0.3;
 /// First step as a share of the stage, where the scene gives none.
 const FIRST: f64 = 1e-3;
-/// Smallest step as a share of the stage, where the scene gives none: ten orders below the first.
-const SMALLEST: f64 = 1e-13;
+/// Smallest step as a share of the stage, where the scene gives none: six orders below the first, as many as the factor by which slip
+/// accelerates from the rate of the loads to where quasi-static states end.
+const SMALLEST: f64 = 1e-9;
+/// Smallest step over the spacing of times at the end of the stage: below it steps add up to nothing.
+const SPACING: f64 = 4.0 * f64::EPSILON;
 /// Largest step as a share of the stage, where the scene gives none.
 const LARGEST: f64 = 0.05;
 /// Newton iterations up to which a step may grow: a contact that changes takes three to six.
@@ -25,7 +28,6 @@ const REMAINDER: f64 = 1e-9;
 /// Chooses step lengths within one stage.
 #[derive(Debug)]
 pub struct StepLength {
-    start: f64,
     end: f64,
     /// Length wanted next; with imposed ends, only while recovering from a halved step.
     dt: f64,
@@ -38,6 +40,8 @@ pub struct StepLength {
     newton: bool,
     /// Whether the last trial failed: the next step does not grow, since it would fail again.
     failed: bool,
+    /// Length the error of slip asked for, where it lies below the smallest.
+    needed: Option<f64>,
     reason: &'static str,
 }
 
@@ -54,15 +58,15 @@ impl StepLength {
         let largest = control.max_step.unwrap_or(LARGEST * duration);
         let first = control.first_step.unwrap_or(FIRST * duration).min(largest);
         Self {
-            start: stage.start,
             end: stage.end,
             dt: if imposed.is_some() { f64::INFINITY } else { first },
-            smallest: control.min_step.unwrap_or(SMALLEST * duration),
+            smallest: control.min_step.unwrap_or(SMALLEST * duration).max(SPACING * stage.end),
             largest: if imposed.is_some() { f64::INFINITY } else { largest },
             tolerance: (adaptive && imposed.is_none()).then_some(control.tolerance),
             imposed,
             newton: adaptive,
             failed: false,
+            needed: None,
             reason: "first step",
         }
     }
@@ -93,14 +97,15 @@ impl StepLength {
         if (time - target).abs() <= 4.0 * f64::EPSILON * target.abs() { target } else { time }
     }
 
-    /// Takes note of an accepted step of length `taken`, where `wanted` was asked for, with its estimated error of slip and the
-    /// iterations it took.
-    pub fn accepted(&mut self, taken: f64, wanted: f64, error: f64, iterations: usize) {
+    /// Takes note of an accepted step of length `taken`, where `wanted` was asked for, with its estimated error of slip, its slip over
+    /// the largest its laws allow a step, and the iterations it took. No step is made shorter than the smallest.
+    pub fn accepted(&mut self, taken: f64, wanted: f64, (error, fill): (f64, f64), iterations: usize) {
         let by_error = match self.tolerance {
             // The error of a backward-Euler step falls with the square of its length.
             Some(tolerance) if error > 0.0 => (SAFETY * (tolerance / error).sqrt()).clamp(SHRINK, GROWTH),
             _ => GROWTH,
         };
+        let by_slip = if fill > 0.0 { (SAFETY / fill).clamp(SHRINK, GROWTH) } else { GROWTH };
         let iterations = if self.newton { iterations } else { 0 };
         let by_iterations = if std::mem::take(&mut self.failed) {
             1.0
@@ -111,21 +116,31 @@ impl StepLength {
         } else {
             0.5
         };
-        let factor = by_error.min(by_iterations);
+        let factor = by_error.min(by_iterations).min(by_slip);
         // A step cut short by the end of an interval says nothing against the length that was wanted.
         let basis = if taken < wanted { taken } else { self.dt.min(self.largest).max(taken) };
         self.reason = if self.imposed.is_some() {
             "imposed"
         } else if basis * factor >= self.largest {
             "largest step"
-        } else if by_error < by_iterations {
+        } else if by_error < by_iterations.min(by_slip) {
             "error of slip"
+        } else if by_slip < by_iterations {
+            "length of weakening"
         } else if factor < GROWTH {
             "iterations"
         } else {
             "growth"
         };
-        self.dt = (basis * factor).min(self.largest);
+        let needed = basis * by_error;
+        self.needed = (by_error < 1.0 && needed < self.smallest).then_some(needed);
+        self.dt = (basis * factor).max(self.smallest).min(self.largest);
+    }
+
+    /// The length the error of slip asked for after the last step and the smallest allowed \[s\], where that is longer.
+    #[must_use]
+    pub fn exhausted(&self) -> Option<(f64, f64)> {
+        self.needed.map(|needed| (needed, self.smallest))
     }
 
     /// What set the length of the last step.
@@ -139,7 +154,7 @@ impl StepLength {
         self.dt = 0.5 * dt;
         self.reason = "halved";
         self.failed = true;
-        self.dt >= self.smallest && self.dt > f64::EPSILON * self.start.abs()
+        self.dt >= self.smallest
     }
 }
 

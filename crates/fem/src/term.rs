@@ -30,6 +30,27 @@ impl fmt::Display for Refusal {
     }
 }
 
+/// Why a step whose equations are solved should not stand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Objection {
+    /// The term that objects.
+    pub term: String,
+    /// What happened, with the numbers.
+    pub reason: String,
+    /// Where, in the reference configuration \[m\].
+    pub position: [f64; 3],
+    /// Slip rate there \[m/s\].
+    pub rate: f64,
+    /// Whether a shorter step may be free of it.
+    pub shorter: bool,
+}
+
+impl fmt::Display for Objection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.term, self.reason)
+    }
+}
+
 /// A contribution to the balance of forces `r(u) = f_int - f_ext = 0` on the system's degrees of freedom.
 pub trait Term {
     /// Name for reports.
@@ -45,6 +66,12 @@ pub trait Term {
     /// Search and pairing may change here, at the start of a step or of a Newton iteration, and nowhere else.
     fn prepare(&mut self, _u: &[f64]) -> Result<(), Refusal> {
         Ok(())
+    }
+
+    /// Why the solution whose trial history this is should not be accepted, where it should not: the equations of the step hold, and
+    /// the step does not follow what happens within it, or leaves the model.
+    fn objection(&self) -> Option<Objection> {
+        None
     }
 
     /// Commits the trial history of the last residual.

@@ -50,7 +50,7 @@ pub(super) fn run_bodies(
     }
     Ok(match report.outcome {
         Outcome::Completed => End::Done,
-        Outcome::Stopped { stage, time, reason } => {
+        Outcome::Stopped { stage, time, reason, .. } => {
             End::Stopped(format!("stage `{stage}` at {time:.6e} s: {reason}"))
         }
         Outcome::Interrupted { stage, time } => {

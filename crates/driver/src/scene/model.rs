@@ -346,6 +346,8 @@ pub struct TimeControl {
     pub max_step: Option<Spanned<Time>>,
     /// Smallest step \[s\]: below it the run stops with an outcome.
     pub min_step: Option<Spanned<Time>>,
+    /// Slip rate beyond which a run stops \[m/s\].
+    pub slip_rate_limit: Option<Spanned<Velocity>>,
     /// Fault-ode: method of integration.
     pub method: Option<Spanned<String>>,
     /// Fault-ode: error of ln V allowed in a step \[-\].

@@ -7,7 +7,7 @@
 //! holds it is open or slips there, is held by weak springs for that iteration ([`super::anchor`]).
 
 use super::anchor::Anchor;
-use super::{Accepted, Balance, Before, Failure, Solved, State, line};
+use super::{Accepted, Balance, Before, Failure, Solved, State, line, unopposed};
 use crate::observe::view::Counts;
 use asperity_fem::FemError;
 use asperity_fem::assembly::{Symmetry, System};
@@ -100,7 +100,8 @@ impl Implicit {
         let at = Instant { time: state.time + dt, dt };
         let mut u = self.predict(state, dt);
         constraints.impose(at.time, &mut u);
-        match self.augmented(terms, &mut u, at, counts) {
+        let solved = self.augmented(terms, &mut u, at, counts);
+        match solved.and_then(|solved| unopposed(terms).map(|()| solved)) {
             Ok(Solved { iterations, residual_ratio, augmentations }) => {
                 for term in terms.iter_mut() {
                     term.accept();

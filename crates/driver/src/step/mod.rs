@@ -9,7 +9,7 @@ pub mod static_explicit;
 use crate::observe::view::Counts;
 use asperity_fem::FemError;
 use asperity_fem::assembly::System;
-use asperity_fem::term::{Instant, Linearized, Refusal, Term};
+use asperity_fem::term::{Instant, Linearized, Objection, Refusal, Term};
 
 /// Displacements of the system and where they stand in time.
 #[derive(Clone, Debug)]
@@ -40,13 +40,20 @@ pub enum Failure {
         /// The degree of freedom.
         dof: usize,
     },
+    /// The equations of the step hold, and a term objects to their solution.
+    Objected(Objection),
 }
 
 impl Failure {
     /// Whether shorter steps fail as well.
     #[must_use]
     pub fn always(&self) -> bool {
-        matches!(self, Self::Unsolved { always: true, .. } | Self::Violated(_))
+        match self {
+            Self::Unsolved { always, .. } => *always,
+            Self::Violated(_) => true,
+            Self::Objected(objection) => !objection.shorter,
+            Self::Refused(_) | Self::Adrift { .. } => false,
+        }
     }
 
     /// Whether a motion was found free.
@@ -71,6 +78,11 @@ impl From<Refusal> for Failure {
     fn from(refusal: Refusal) -> Self {
         Self::Refused(refusal.to_string())
     }
+}
+
+/// The first objection of a term to the step it has been solved for.
+fn unopposed<T: Term + ?Sized>(terms: &[&mut T]) -> Result<(), Failure> {
+    terms.iter().find_map(|t| t.objection()).map_or(Ok(()), |objection| Err(Failure::Objected(objection)))
 }
 
 /// Work of a linear system before a step.

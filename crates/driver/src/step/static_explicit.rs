@@ -4,7 +4,7 @@
 //! With the a-term of the friction law, or a carried residual, the increment is affine in the step and not proportional to
 //! it, so that scaling it would not be exact: the step is solved again at `R dt` until no limit binds.
 
-use super::{Accepted, Before, Failure, State};
+use super::{Accepted, Before, Failure, State, unopposed};
 use crate::observe::view::Counts;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
@@ -148,6 +148,7 @@ fn commit(terms: &mut [&mut dyn Limited], state: &mut State, du: &[f64], at: Ins
     for term in terms.iter_mut() {
         term.advance(du, at)?;
     }
+    unopposed(terms)?;
     for term in terms.iter_mut() {
         term.accept();
     }

@@ -30,6 +30,13 @@ impl Checker<'_> {
                 );
             }
         }
+        if let Some(limit) = time.slip_rate_limit.as_ref().filter(|v| v.get_ref().0 <= 0.0) {
+            self.error(
+                limit.span(),
+                "`slip_rate_limit` must be positive: beyond it the run stops",
+                "such as `slip_rate_limit = \"1 m/s\"`; leave it out for the limit of radiation damping",
+            );
+        }
         self.order_of_steps();
         for (name, number) in [("rate_change", &time.rate_change), ("zeta", &time.zeta)] {
             if let Some(number) = number.as_ref().filter(|n| !(*n.get_ref() > 0.0 && n.get_ref().is_finite()))
@@ -102,6 +109,11 @@ impl Checker<'_> {
             place(time.first_step.as_ref().map(Spanned::span), "first_step", &[Implicit, StaticExplicit]),
             place(time.max_step.as_ref().map(Spanned::span), "max_step", &[Implicit, StaticExplicit]),
             place(time.min_step.as_ref().map(Spanned::span), "min_step", &[Implicit, StaticExplicit]),
+            place(
+                time.slip_rate_limit.as_ref().map(Spanned::span),
+                "slip_rate_limit",
+                &[Implicit, StaticExplicit],
+            ),
             place(time.method.as_ref().map(Spanned::span), "method", &[FaultOde]),
             place(time.log_rate_tolerance.as_ref().map(Spanned::span), "log_rate_tolerance", &[FaultOde]),
         ];

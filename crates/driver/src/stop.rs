@@ -1,0 +1,109 @@
+//! How a run ends that cannot go on: what is said of it, and whether it met an instability.
+
+use crate::report::{Outcome, Stop};
+use crate::step::Failure;
+use crate::system::Assembled;
+use asperity_contact::Interface;
+use asperity_fem::term::Objection;
+
+/// What may be done about an instability.
+const REMEDY: &str = "the last state before it is kept. Stiffer bodies or supports, or a larger length of weakening (`l`, `d_c`), \
+    are stable; events are followed where waves or inertia carry them: `[faults.NAME]`, or `kinematics = \"spring-slider\"` with \
+    `damping` or `mass`";
+
+/// Parts of a metre in which a place is told: nanometres, so that rounding does not show.
+const SHOWN: f64 = 1e9;
+
+/// The outcome of a step that failed at its shortest, of length `dt` \[s\]; `free` tells of a motion nothing holds.
+pub fn failed<const D: usize>(
+    system: &Assembled<'_, D>,
+    stage: &str,
+    failure: &Failure,
+    dt: f64,
+    free: Option<String>,
+) -> Outcome {
+    let (time, stage) = (system.time(), stage.to_string());
+    let words = system.in_words(failure);
+    if let Failure::Objected(objection) = failure {
+        let reason = if objection.shorter { format!("{words} (in {dt:.3e} s)") } else { words };
+        return unstable(system, stage, found(objection), &reason);
+    }
+    let mut reason = words;
+    if !failure.always() {
+        reason += &format!("; the step was halved to {dt:.3e} s without success");
+        if let Some(at) = weakest(system) {
+            let reason = format!("{}: no equilibrium near the last one was found: {reason}", at.interface);
+            return unstable(system, stage, at, &reason);
+        }
+    }
+    // Shorter steps may fail otherwise than the first did: what that one found is told.
+    if let Some(free) = free {
+        reason += &format!("; {free}");
+    }
+    Outcome::Stopped { stage, time, reason, kind: Stop::NotConverged }
+}
+
+/// The outcome of a run whose error of slip asks for steps of `needed` \[s\], below the smallest allowed. `faster` tells whether slip
+/// accelerates.
+pub fn exhausted<const D: usize>(
+    system: &Assembled<'_, D>,
+    stage: &str,
+    (needed, smallest): (f64, f64),
+    faster: bool,
+) -> Outcome {
+    let stage = stage.to_string();
+    let reason = format!(
+        "the error of slip needs steps of {needed:.3e} s, below the smallest allowed, {smallest:.3e} s (`min_step`)"
+    );
+    match fastest(system).filter(|_| faster) {
+        Some(at) => unstable(system, stage, at, &reason),
+        None => {
+            let reason = format!("{reason}; allow shorter ones, or a larger `tolerance`");
+            Outcome::Stopped { stage, time: system.time(), reason, kind: Stop::SmallestStep }
+        }
+    }
+}
+
+/// Where an instability was met.
+struct Met {
+    interface: String,
+    position: [f64; 3],
+    /// In the state that was not accepted \[m/s\].
+    slip_rate: f64,
+}
+
+fn unstable<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, what: &str) -> Outcome {
+    let time = system.time();
+    let place = &met.position[..D];
+    let reason = format!(
+        "instability at {}, V = {:.3e} m/s: {what}; {REMEDY}",
+        crate::rigid::place::<D>(&std::array::from_fn(|c| (place[c] * SHOWN).round() / SHOWN)),
+        met.slip_rate
+    );
+    let Met { interface, position, slip_rate } = met;
+    Outcome::Stopped { stage, time, reason, kind: Stop::Instability { interface, position, slip_rate } }
+}
+
+fn found(objection: &Objection) -> Met {
+    Met { interface: objection.term.clone(), position: objection.position, slip_rate: objection.rate }
+}
+
+fn at<const D: usize>(interface: &Interface<D>, point: usize, slip_rate: f64) -> Met {
+    Met {
+        interface: asperity_fem::term::Term::name(interface).to_string(),
+        position: interface.place(point),
+        slip_rate,
+    }
+}
+
+/// The point that lost strength in the trial that failed last.
+fn weakest<const D: usize>(system: &Assembled<'_, D>) -> Option<Met> {
+    let rate = |i: &Interface<D>, p: usize| i.points().slip_rate.get(p).map_or(0.0, |v| v.abs());
+    system.interfaces().iter().find_map(|i| i.weakens().map(|p| at(i, p, rate(i, p))))
+}
+
+/// The point that slips fastest.
+fn fastest<const D: usize>(system: &Assembled<'_, D>) -> Option<Met> {
+    let each = system.interfaces().iter().filter_map(|i| i.fastest().map(|(p, rate)| at(i, p, rate)));
+    each.reduce(|a, b| if b.slip_rate > a.slip_rate { b } else { a })
+}

@@ -1,0 +1,98 @@
+//! What the steps of an interface may not do: derived from its law, the bodies beside it and the loads.
+
+use crate::model::Model;
+use crate::plan::{PlanError, Stepping};
+use crate::scene::law::{Evolution, LawChoice, State};
+use crate::scene::model::Scene;
+use asperity_contact::{Course, RateLimit, Watch};
+use asperity_fem::mesh::Side;
+use std::collections::BTreeSet;
+
+/// Density where a scene declares none \[kg/m³\]: crustal rock has 2500 to 3000.
+const ROCK: f64 = 2700.0;
+/// Slip rates up to so many times the largest prescribed rate are the loading's, whatever its unit of time: two e-folds beyond
+/// what velocity steps of experiments span.
+pub const LOADING: f64 = 100.0;
+/// Largest slip of an implicit step over the length along which a law weakens, as limit r8 has it.
+const ZETA: f64 = 0.1;
+/// Largest slip over L, in units of a/b: up to about a L/b the equations of a step have one solution.
+const UNIQUE: f64 = 0.5;
+
+/// What the steps of an interface between these faces may not do; `loading` is the largest prescribed rate \[m/s\].
+///
+/// # Errors
+/// [`PlanError`] where a body has no material.
+pub fn of<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    law: &LawChoice,
+    (slave, master): (&[Side], &[Side]),
+    loading: f64,
+    stepping: &Stepping,
+) -> Result<Watch, PlanError> {
+    let rate = match (direct_effect(law), &scene.time.slip_rate_limit) {
+        (None, _) => None,
+        (Some(_), Some(stated)) => Some(RateLimit::Stated(stated.get_ref().0)),
+        (Some(a), None) => {
+            let (one, other) = (impedance(scene, model, slave)?, impedance(scene, model, master)?);
+            let damping = one * other / (one + other);
+            Some(RateLimit::Damped { per_traction: a / damping, least: LOADING * loading })
+        }
+    };
+    let bounded = matches!(stepping, Stepping::StaticExplicit { .. });
+    Ok(Watch { rate, course: course(law), bounded })
+}
+
+/// a of a law that depends on the slip rate.
+fn direct_effect(law: &LawChoice) -> Option<f64> {
+    match law {
+        LawChoice::Rate { strength, .. } | LawChoice::RateAndState { strength, .. } => Some(strength.a),
+        LawChoice::Tied
+        | LawChoice::Coulomb { .. }
+        | LawChoice::StaticKinetic { .. }
+        | LawChoice::SlipWeakening { .. } => None,
+    }
+}
+
+/// How a law loses strength.
+fn course(law: &LawChoice) -> Course {
+    match law {
+        LawChoice::Tied | LawChoice::Coulomb { .. } | LawChoice::Rate { .. } => Course::Steady,
+        LawChoice::StaticKinetic { .. } => Course::Drop,
+        LawChoice::SlipWeakening { mu_s, mu_k, d_c, .. } => {
+            if mu_s > mu_k {
+                Course::Branch { most: ZETA * d_c, length: *d_c }
+            } else {
+                Course::Steady
+            }
+        }
+        LawChoice::RateAndState { strength, evolution, states, .. } => {
+            by_state(strength.a, *evolution, states)
+        }
+    }
+}
+
+fn by_state(a: f64, evolution: Evolution, states: &[State]) -> Course {
+    let b: f64 = states.iter().map(|s| s.b).sum();
+    let length = states.iter().map(|s| s.l).fold(f64::INFINITY, f64::min);
+    // What flash heating takes off has no b.
+    let flash = matches!(evolution, Evolution::Flash { .. });
+    if (b > a || flash) && length.is_finite() {
+        Course::State { most: ZETA.min(UNIQUE * a / b) * length }
+    } else {
+        Course::Steady
+    }
+}
+
+/// Largest impedance √(Gρ) of the cells behind some faces \[Pa s/m\].
+fn impedance<const D: usize>(scene: &Scene, model: &Model<D>, sides: &[Side]) -> Result<f64, PlanError> {
+    let blocks: BTreeSet<usize> = sides.iter().map(|s| s.block).collect();
+    let mut largest = 0.0;
+    for block in blocks {
+        let Some(body) = model.bodies.iter().find(|b| b.blocks.contains(&block)) else { continue };
+        let (_, material) = model.material(scene, (&body.name, &scene.bodies[&body.name]), block)?;
+        let density = material.density.as_ref().map_or(ROCK, |d| d.get_ref().0);
+        largest = f64::max(largest, (body.elastic[block - body.blocks.start].shear() * density).sqrt());
+    }
+    Ok(largest)
+}
