@@ -135,13 +135,13 @@ fn states(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
         .cost(&cost)
         .record();
     let (mut times, mut reference) = (Vec::new(), Vec::new());
-    for ratio in [0.1, 0.3, 0.6] {
+    for ratio in [0.3, 0.6, 0.85] {
         let done = at(ratio, &limit)?;
         times.push(onset(&done)?.ok_or("it did not stop")?);
         reference.push(by_slider(system.normal, ratio * critical)?);
     }
     ledger
-        .claim("ageing law, time at which V passes 10 mm/s, k/k_c = 0.1, 0.3, 0.6")
+        .claim("ageing law, time at which V passes 10 mm/s, k/k_c = 0.3, 0.6, 0.85")
         .unit("s")
         .values(&times)
         .equals_each(&reference)
@@ -202,7 +202,8 @@ fn weakening(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
         .equals(1.0)
         .relative(1e-3)
         .evidence(Evidence::Exact, "t = mu_s f_n/(k V)")
-        .because("normal tractions are uniform to a few parts in ten thousand")
+        .because("normal tractions are uniform to some parts in ten thousand, and points share what one of them cannot hold")
+        .why_not_tighter("how uniform they are is known by its order only")
         .covers(&[Capability::InterfaceInstability])
         .cost(&soft.cost)
         .record();
@@ -234,7 +235,8 @@ fn dropping(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
         .equals_each(&[1.0, 1.0])
         .relative(1e-3)
         .evidence(Evidence::Exact, "t = mu_s f_n/(k V); the state before the drop carries mu_s f_n")
-        .because("normal tractions are uniform to a few parts in ten thousand")
+        .because("normal tractions are uniform to some parts in ten thousand, and points share what one of them cannot hold")
+        .why_not_tighter("how uniform they are is known by its order only")
         .covers(&[Capability::InterfaceInstability])
         .cost(&done.cost)
         .record();
