@@ -77,15 +77,10 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let largest_rate = plan.stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
         let (mut interfaces, mut unknowns) = (Vec::new(), dofs);
         for i in &plan.interfaces {
-<<<<<<< HEAD
             let spec = spec(&plan.model, &plan.stepping, i, &number, largest_rate, unknowns);
-            interfaces.push(Interface::new(spec).map_err(|e| e.to_string())?);
-=======
-            let spec = spec(plan, i, &number, largest_rate, unknowns);
             let mut interface = Interface::new(spec).map_err(|e| e.to_string())?;
             interface.set_watch(i.watch);
             interfaces.push(interface);
->>>>>>> 0aafb79 (Stop at instabilities of interfaces, by name, with the last state before)
             unknowns += i.unknowns;
         }
         let areas = plan
