@@ -26,6 +26,13 @@ pub enum Outcome {
         /// What kind of end it is.
         kind: Stop,
     },
+    /// A signal ended it; everything before `time` stands.
+    Interrupted {
+        /// Stage.
+        stage: String,
+        /// Time of the last state \[s\].
+        time: f64,
+    },
 }
 
 /// Why a stepper could not go on.
@@ -44,13 +51,6 @@ pub enum Stop {
         position: [f64; 3],
         /// Slip rate there in the state that was not accepted \[m/s\].
         slip_rate: f64,
-    },
-    /// A signal ended it; everything before `time` stands.
-    Interrupted {
-        /// Stage.
-        stage: String,
-        /// Time of the last state \[s\].
-        time: f64,
     },
 }
 

@@ -10,8 +10,8 @@ use crate::step::Accepted;
 use crate::stop;
 use crate::system::Assembled;
 use crate::timing::StepLength;
-use std::sync::atomic::{AtomicBool, Ordering};
 use crate::watch;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant as Clock;
 
 /// Why a run could not be completed.
