@@ -7,6 +7,7 @@ pub mod cli;
 pub mod cohesive;
 pub mod enforcement;
 pub mod fault;
+mod forecast;
 mod free;
 pub mod laws;
 pub mod loading;

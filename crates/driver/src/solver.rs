@@ -1,6 +1,7 @@
 //! How the linear systems of the steps are solved: chosen from the scene alone, so that the choice and the results do not
 //! depend on the machine.
 
+use crate::forecast;
 use crate::loading::Stage;
 use crate::model::{CellBlock, Model};
 use crate::plan::{Path, PlanError, PlannedInterface, Stepping, interface_nodes};
@@ -199,6 +200,10 @@ impl<const D: usize> Choice<'_, D> {
         let matrix = 2 * lower.stored() * size_of::<f64>();
         match self.scene.solver.method() {
             Asked::Iterative => self.iterative(matrix, "the scene asks for it".into()),
+            Asked::Auto if self.linear_in_space() && forecast::factors_exceed(self.scene, self.memory()) => {
+                let why = format!("factors would take more than {}", size(self.memory()));
+                self.iterative(matrix, why)
+            }
             method => {
                 let analysis = lower.analyse().map_err(|e| PlanError::plain(e.to_string()))?;
                 let unsymmetric = self.unsymmetric();
@@ -207,8 +212,7 @@ impl<const D: usize> Choice<'_, D> {
                 if bytes <= self.memory() {
                     return Ok(self.direct(analysis, bytes));
                 }
-                let linear = D == 3 && self.interfaces.is_empty() && self.model.is_linear();
-                if method == Asked::Auto && linear {
+                if method == Asked::Auto && self.linear_in_space() {
                     let why =
                         format!("a factorisation would take {} of {}", size(bytes), size(self.memory()));
                     return self.iterative(matrix, why);
@@ -218,6 +222,11 @@ impl<const D: usize> Choice<'_, D> {
                 Err(self.too_much(&what, bytes, unsymmetric.is_none()))
             }
         }
+    }
+
+    /// Whether the iterative method serves where factors do not fit.
+    fn linear_in_space(&self) -> bool {
+        D == 3 && self.interfaces.is_empty() && self.model.is_linear()
     }
 
     /// Numbering of the first stage.

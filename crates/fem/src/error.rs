@@ -25,6 +25,9 @@ pub enum FemError {
         /// Determinant \[m^D\].
         determinant: f64,
     },
+    /// Threads that the system does not give.
+    #[error("threads for the elimination cannot be had: {0}")]
+    Threads(String),
     /// An element that does not exist.
     #[error(
         "there is no element `{0}`; those that exist are tri3, tri6, quad4, quad8, quad9 (plane), tet4, tet10, \

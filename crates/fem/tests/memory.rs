@@ -293,7 +293,7 @@ fn condensation_with_loads_holds_what_it_foretells_and_less_than_the_factor() {
         // Dense kernels keep their memory from the first use on.
         loaded(&body).eliminate(usize::MAX).unwrap();
         let loaded = loaded(&body);
-        let told = loaded.bytes();
+        let told = loaded.bytes(1);
         let (left, held) = peak_of(|| loaded.eliminate(usize::MAX).unwrap());
         assert_eq!(left.row(0).len(), 61);
         assert!(held <= told, "{held} of {told}");

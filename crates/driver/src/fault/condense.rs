@@ -9,10 +9,12 @@ use super::place::{Place, across};
 use crate::loading::Stage;
 use crate::model::Model;
 use crate::rigid;
+use crate::solver;
 use asperity_fem::FemError;
 use asperity_fem::condense::{Condensation, Condensed, Loaded, Remainder, Stiffness};
 use asperity_fem::dof::Channel;
 use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
+use asperity_fem::multifrontal::DirectError;
 use asperity_fem::table::Table;
 
 /// A point of a fault with what happens there.
@@ -173,7 +175,8 @@ fn with_components<const D: usize, const C: usize>(
         channels.push(Channel { prescribed, forces: Vec::new(), amplitude });
     }
     channels.extend(machine.pulls(stage.end));
-    let (left, bytes) = Left::of(body, (&retained, &fixed), channels, memory, keep)
+    let operator = operator_bytes::<C>(tangents, free.len());
+    let (left, bytes) = Left::of(body, (&retained, &fixed), channels, (memory, operator), keep)
         .map_err(|e| in_words(model, &jumps, e))?;
     let rows: Vec<usize> = free.iter().map(|&k| retained.partition_point(|&d| d < slip[k])).collect();
     let keeps = |k: usize, supported: bool| supported || !points[k].normal_changes;
@@ -194,21 +197,26 @@ enum Left {
 }
 
 impl Left {
-    /// Of a body, onto `retained` degrees of freedom where others are `fixed`, and the memory it takes \[bytes\].
+    /// Of a body, onto `retained` degrees of freedom where others are `fixed`, and the memory it takes \[bytes\]. What is left stands
+    /// beside the operator made from it for a while.
     fn of(
         body: Stiffness,
         (retained, fixed): (&[usize], &[usize]),
         channels: Vec<Channel>,
-        memory: usize,
+        (memory, operator): (usize, usize),
         keep: bool,
     ) -> Result<(Self, usize), FemError> {
         if !keep {
+            let rows = retained.len() + channels.len();
             let analysis = Loaded::analyse(body, retained, fixed, channels)?;
-            let bytes = analysis.bytes();
+            let eliminating = analysis.bytes(analysis.threads(memory)?);
+            let bytes = eliminating.max(rows.pow(2) * size_of::<f64>() + operator);
+            admit(bytes, memory, rows)?;
             return Ok((Self::Alone(analysis.eliminate(memory)?), bytes));
         }
         let analysis = Condensation::analyse(&body, retained, fixed)?;
-        let bytes = analysis.bytes();
+        let bytes = analysis.bytes() + operator;
+        admit(bytes, memory, retained.len())?;
         let system: Vec<usize> = (0..retained.len()).collect();
         let mut condensed = Condensed::new("bodies".into(), analysis.factor(memory)?, &system);
         condensed.set_channels(channels);
@@ -244,6 +252,17 @@ impl Left {
     }
 }
 
+/// Memory of the dense operator \[bytes\]: of each direction of slip the tractions along all of them, and its normal tractions.
+fn operator_bytes<const C: usize>(tangents: usize, points: usize) -> usize {
+    let normal = usize::from(C > 1);
+    tangents * (tangents + normal) * points.pow(2) * size_of::<f64>()
+}
+
+/// Refuses what needs more than `allowed` bytes.
+fn admit(needed: usize, allowed: usize, equations: usize) -> Result<(), FemError> {
+    if needed <= allowed { Ok(()) } else { Err(DirectError::Memory { needed, allowed, equations }.into()) }
+}
+
 /// What forces of a point act on.
 #[derive(Clone, Copy, Debug)]
 struct Bearing {
@@ -267,6 +286,16 @@ impl Bearing {
 
 /// An error of the condensation with the place in the bodies.
 fn in_words<const D: usize, const C: usize>(model: &Model<D>, jumps: &Jumps<C>, error: FemError) -> String {
+    if let FemError::Direct(DirectError::Memory { needed, allowed, .. }) = error {
+        return format!(
+            "condensing {} degrees of freedom onto {} points of the faults needs about {}, and {} are allowed: raise `memory` in `[solver]` where the machine has it, or \
+             take coarser cells on the faults or away from them",
+            model.dofs(),
+            jumps.list().len(),
+            solver::size(needed),
+            solver::size(allowed)
+        );
+    }
     let Some(pivot) = error.pivot() else { return error.to_string() };
     // A jump stands at the degrees of freedom of one of its nodes.
     let node = pivot.equation / C;

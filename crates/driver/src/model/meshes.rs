@@ -186,6 +186,24 @@ fn divided<const D: usize>(
         .map_err(|e| PlanError::body(name, spec.element.span(), e.to_string()))
 }
 
+/// Cells along each axis of a block.
+///
+/// # Errors
+/// [`PlanError`] where the spec is not complete or does not divide the block.
+pub fn cells_along(name: &str, spec: &scene::BlockMesh) -> Result<Vec<usize>, PlanError> {
+    let ends = spec.min.get_ref().iter().zip(spec.max.get_ref());
+    let along = |(axis, (min, max)): (usize, (&Length, &Length))| match &spec.spacing {
+        None => divisions_along(spec, axis, max.0 - min.0),
+        Some(spacing) => {
+            let given = spacing.get_ref().get(axis);
+            let given = given.ok_or_else(|| PlanError::plain("`spacing` is incomplete".into()))?;
+            let line = self::spacing(given.get_ref()).line(min.0, max.0);
+            Ok(line.map_err(|e| PlanError::body(name, given.span(), e.to_string()))?.len() - 1)
+        }
+    };
+    ends.enumerate().map(along).collect()
+}
+
 fn divisions_along(spec: &scene::BlockMesh, axis: usize, length: f64) -> Result<usize, PlanError> {
     if let Some(divisions) = &spec.divisions {
         return divisions.get_ref().get(axis).copied().filter(|&n| n > 0).ok_or_else(|| {

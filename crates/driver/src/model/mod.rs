@@ -4,6 +4,7 @@ pub mod materials;
 pub mod meshes;
 pub mod sizes;
 
+use crate::forecast::{self, Counts};
 use crate::plan::PlanError;
 use crate::scene::model as scene;
 use crate::scene::near::suggest;
@@ -12,7 +13,7 @@ use asperity_fem::block::{LinearBlock, von_mises};
 use asperity_fem::condense::Stiffness;
 use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::material::elastic::Elastic;
-use asperity_fem::mesh::{Mesh, Side};
+use asperity_fem::mesh::{Cells, Mesh, Side};
 use asperity_fem::nonlinear::{self, Kinematics, Limits, Material};
 use asperity_fem::surface;
 use asperity_fem::term::{Limited, Linearized, Pattern};
@@ -125,6 +126,7 @@ impl<const D: usize> Model<D> {
         idealisation
             .check_dimension(D)
             .map_err(|e| PlanError::at(scene.kinematics.span(), e.to_string(), "see `kinematics`".into()))?;
+        forecast::admit(scene)?;
         let mut mesh = Mesh::<D>::default();
         let mut parts = Vec::new();
         for (name, body) in &scene.bodies {
@@ -135,6 +137,7 @@ impl<const D: usize> Model<D> {
             mesh.append(part, name);
             parts.push((name, body, (nodes..mesh.nodes.len(), blocks..mesh.blocks.len()), size));
         }
+        forecast::machine(&counts(&mesh), idealisation.components())?;
         let mut model =
             Self { scale: diagonal(&mesh.nodes), mesh, blocks: Vec::new(), bodies: Vec::new(), idealisation };
         for (name, body, (nodes, blocks), size) in parts {
@@ -351,6 +354,17 @@ impl<const D: usize> Model<D> {
             sizes.sum::<f64>() / sides.len().max(1) as f64
         })
     }
+}
+
+/// Cells and nodes of each block; nodes that blocks share count for the first.
+fn counts<const D: usize>(mesh: &Mesh<D>) -> Vec<Counts> {
+    let nodes = |b: usize| if b == 0 { mesh.nodes.len() as f64 } else { 0.0 };
+    let count = |(b, cells): (usize, &Cells)| Counts {
+        kind: cells.kind,
+        cells: cells.len() as f64,
+        nodes: nodes(b),
+    };
+    mesh.blocks.iter().enumerate().map(count).collect()
 }
 
 /// The one place where it is decided whether cells are linear.

@@ -25,9 +25,6 @@ pub struct Loaded {
     amplitudes: Vec<Table>,
 }
 
-/// Threads whose work memory is foreseen: a constant, because what a plan says and admits must not depend on the machine.
-const THREADS: usize = 4;
-
 impl Loaded {
     /// Orders and analyses `body` for condensation onto `retained` (sorted), with the loads of `channels`; `fixed` (sorted) are its prescribed
     /// degrees of freedom, of which those that are retained stay as they are. The body's own memory is given back before the analysis begins.
@@ -54,28 +51,44 @@ impl Loaded {
         Ok(Self { symbolic, values, free, retained: retained.len(), amplitudes })
     }
 
-    /// Memory of the condensation at its worst moment \[bytes\].
+    /// Memory of the condensation at its worst moment by so many threads \[bytes\].
     #[must_use]
-    pub fn bytes(&self) -> usize {
+    pub fn bytes(&self, threads: usize) -> usize {
         let own = size_of_val(self.values.as_slice()) + size_of_val(self.free.as_slice());
-        self.symbolic.bytes_of_schur(THREADS) + own
+        self.symbolic.bytes_of_schur(threads) + own
     }
 
-    /// Eliminates the interior.
+    /// The most threads, of those there are, whose work takes no more than `allowed` bytes: each holds fronts of its own.
+    ///
+    /// # Errors
+    /// [`FemError::Direct`] when one alone needs more.
+    pub fn threads(&self, allowed: usize) -> Result<usize, FemError> {
+        let fits = |&threads: &usize| self.bytes(threads) <= allowed;
+        (1..=rayon::current_num_threads()).rev().find(fits).ok_or_else(|| {
+            let equations = self.symbolic.equations();
+            DirectError::Memory { needed: self.bytes(1), allowed, equations }.into()
+        })
+    }
+
+    /// Eliminates the interior, with as many threads as the memory serves; the result is the same bits.
     ///
     /// # Errors
     /// [`FemError::Direct`] when more than `allowed` bytes are needed, or with the degree of freedom where the interior is not held by
     /// the retained and fixed ones.
     pub fn eliminate(self, allowed: usize) -> Result<Remainder, FemError> {
-        let needed = self.bytes();
-        if needed > allowed {
-            let equations = self.symbolic.equations();
-            return Err(DirectError::Memory { needed, allowed, equations }.into());
-        }
+        let threads = self.threads(allowed)?;
         let Self { symbolic, values, free, retained, amplitudes } = self;
-        let matrix = Cholesky::schur(&symbolic, &values).map_err(|e| e.renumbered(|k| free[k]))?;
+        let schur = || Cholesky::schur(&symbolic, &values);
+        let matrix = if threads == rayon::current_num_threads() { schur() } else { limited(threads, schur)? };
+        let matrix = matrix.map_err(|e| e.renumbered(|k| free[k]))?;
         Ok(Remainder { matrix, retained, amplitudes })
     }
+}
+
+/// Does work in a pool of so many threads.
+fn limited<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> Result<R, FemError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    Ok(pool.map_err(|e| FemError::Threads(e.to_string()))?.install(work))
 }
 
 /// What elimination of the interior leaves of a body and its loads: forces on the retained degrees of freedom are

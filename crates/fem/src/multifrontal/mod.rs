@@ -12,6 +12,7 @@ mod extend;
 mod kernel;
 mod mode;
 mod numeric;
+mod schedule;
 mod solve;
 mod supernodes;
 mod symbolic;

@@ -1,6 +1,6 @@
 //! Symbolic analysis: everything about a factorisation that the pattern decides.
 
-use super::DirectError;
+use super::{DirectError, schedule, tasks};
 use super::supernodes::Supernodes;
 use super::tree::Forest;
 use crate::ordering::{Compressed, NONE, Ordering, compress, order};
@@ -353,7 +353,7 @@ impl Symbolic {
     }
 
     /// Values that a task passes on.
-    fn passed(&self, t: usize) -> usize {
+    pub(super) fn passed(&self, t: usize) -> usize {
         self.fronts[self.tasks[t].fronts.end - 1].rest().pow(2)
     }
 
@@ -379,20 +379,22 @@ impl Symbolic {
         (values + self.temporary()) * size_of::<f64>() + self.own()
     }
 
-    /// Memory of [`Cholesky::schur`](super::Cholesky::schur) \[bytes\] by so many threads: what waits for parents, at most, and what as many
-    /// tasks hold while they run, the largest ones.
+    /// Memory of [`Cholesky::schur`](super::Cholesky::schur) by so many threads \[bytes\].
     #[must_use]
     pub fn bytes_of_schur(&self, threads: usize) -> usize {
-        let mut waiting = vec![0_usize; self.tasks.len()];
-        let mut running = Vec::with_capacity(self.tasks.len());
-        for (t, task) in self.tasks.iter().enumerate() {
-            let below: usize = task.children.iter().map(|&c| waiting[c]).sum();
-            waiting[t] = below.max(self.passed(t));
-            running.push(self.passed(t) + task.stacks[0] + task.stacks[1] + task.largest);
-        }
-        running.sort_unstable_by(|a, b| b.cmp(a));
-        let waiting: usize = self.roots.iter().map(|&t| waiting[t]).sum();
-        (waiting + running.iter().take(threads).sum::<usize>()) * size_of::<f64>() + self.own()
+        let values = schedule::values_of_schur(self, &tasks::parents(self), threads);
+        values * size_of::<f64>() + self.own()
+    }
+
+    /// Values that a task holds while it runs, beside what it passes on.
+    pub(super) fn beside(&self, t: usize) -> usize {
+        let task = &self.tasks[t];
+        task.stacks[0] + task.stacks[1] + task.largest
+    }
+
+    /// Operations of a task.
+    pub(super) fn operations_of(&self, t: usize) -> f64 {
+        self.fronts[self.tasks[t].fronts.clone()].iter().map(Front::operations).sum()
     }
 
     /// Equations.

@@ -23,7 +23,7 @@ pub(super) fn slots<T>(count: usize) -> Vec<Slot<T>> {
 }
 
 /// Parent of each task, or `NONE`.
-fn parents(symbolic: &Symbolic) -> Vec<usize> {
+pub(super) fn parents(symbolic: &Symbolic) -> Vec<usize> {
     let mut parent = vec![NONE; symbolic.tasks.len()];
     for (t, task) in symbolic.tasks.iter().enumerate() {
         for &child in &task.children {

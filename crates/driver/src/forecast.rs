@@ -1,0 +1,265 @@
+//! Memory from counts alone: what bodies will take, known before anything is built.
+//!
+//! Counts of generated blocks follow from the scene; of other meshes they are known when the mesh is, before its cells have matrices.
+//! These numbers only refuse what is far out of reach, early. What fits is analysed exactly afterwards (`solver`).
+
+use crate::model::meshes;
+use crate::plan::PlanError;
+use crate::scene::model::{Body, MeshSource, Method, Scene, Spanned};
+use crate::solver::{self, size};
+use asperity_fem::element::ElementKind;
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// Share of an estimate of a factor that is sure to be needed: the estimate is within a third of the analysis on cubes, slabs and squares.
+const SURE: f64 = 0.5;
+/// Bytes of a value or an index.
+const WORD: f64 = 8.0;
+/// Equations below which a part of a grid is one dense front.
+const LEAF: f64 = 32.0;
+
+/// Cells and nodes of a body.
+#[derive(Clone, Debug)]
+pub struct Counts {
+    /// Element.
+    pub kind: ElementKind,
+    /// Cells.
+    pub cells: f64,
+    /// Nodes.
+    pub nodes: f64,
+}
+
+impl Counts {
+    /// Bytes of the mesh, of the matrices of its cells and of their degrees of freedom, of which a node has `components`.
+    fn cells_bytes(&self, components: usize) -> f64 {
+        let nodes = self.kind.nodes() as f64;
+        let dofs = nodes * components as f64;
+        let mesh = self.nodes * self.kind.dimension() as f64 + self.cells * nodes;
+        WORD * (mesh + self.cells * (dofs * dofs + dofs))
+    }
+
+    /// Bytes of the lower triangle of the assembled matrix, values and indices.
+    fn matrix_bytes(&self, components: usize) -> f64 {
+        let dofs = self.nodes * components as f64;
+        0.5 * dofs * neighbours(self.kind) * components as f64 * 2.0 * WORD
+    }
+}
+
+/// Nodes that share a cell with a node inside a regular mesh, itself included, averaged over the nodes of a cell.
+fn neighbours(kind: ElementKind) -> f64 {
+    match kind {
+        ElementKind::Tri3 => 7.0,
+        ElementKind::Tri6 => 11.5,
+        ElementKind::Quad4 => 9.0,
+        ElementKind::Quad8 => 15.7,
+        ElementKind::Quad9 => 16.0,
+        ElementKind::Tet4 => 15.0,
+        ElementKind::Tet10 => 28.0,
+        ElementKind::Hex8 => 27.0,
+        ElementKind::Hex20 => 58.5,
+        ElementKind::Hex27 => 64.0,
+        ElementKind::Wedge6 => 21.0,
+        ElementKind::Wedge15 => 45.0,
+    }
+}
+
+/// A generated block.
+struct Grid {
+    counts: Counts,
+    /// Nodes along each axis.
+    nodes: [usize; 3],
+    /// Where the scene says how fine it is.
+    place: Range<usize>,
+}
+
+/// The grid of a body; none where its mesh is no block, or where what the scene says of it will be refused.
+fn grid(name: &str, body: &Body) -> Option<Grid> {
+    let MeshSource::Block(spec) = &body.mesh else { return None };
+    let kind: ElementKind = spec.element.get_ref().parse().ok()?;
+    let divisions = meshes::cells_along(name, spec).ok()?;
+    let mut nodes = [1; 3];
+    for (n, cells) in nodes.iter_mut().zip(&divisions) {
+        *n = kind.order() * cells + 1;
+    }
+    let place = [
+        spec.size.as_ref().map(Spanned::span),
+        spec.divisions.as_ref().map(Spanned::span),
+        spec.spacing.as_ref().map(Spanned::span),
+    ];
+    let positions: f64 = divisions.iter().map(|&n| n as f64).product();
+    let per_position = match kind.linear() {
+        ElementKind::Tri3 | ElementKind::Wedge6 => 2.0,
+        ElementKind::Tet4 => 6.0,
+        _ => 1.0,
+    };
+    let counts =
+        Counts { kind, cells: per_position * positions, nodes: nodes.iter().map(|&n| n as f64).product() };
+    Some(Grid { counts, nodes, place: place.into_iter().flatten().next().unwrap_or(0..0) })
+}
+
+/// Refuses a scene whose generated bodies alone are more than the machine or `memory` in `[solver]` holds.
+///
+/// # Errors
+/// [`PlanError`] at the block with the most nodes, with the counts, the need and the bound.
+pub fn admit(scene: &Scene) -> Result<(), PlanError> {
+    let components = scene.kinematics.get_ref().idealisation().components();
+    let grids: Vec<Grid> = scene.bodies.iter().filter_map(|(name, body)| grid(name, body)).collect();
+    let Some(largest) = grids.iter().max_by(|a, b| a.counts.nodes.total_cmp(&b.counts.nodes)) else {
+        return Ok(());
+    };
+    let counts: Vec<Counts> = grids.iter().map(|g| g.counts.clone()).collect();
+    let within = |error: PlanError| PlanError { span: largest.place.clone(), ..error };
+    machine(&counts, components).map_err(within)?;
+    // Faults keep no factor.
+    let direct = scene.faults.is_empty() && scene.solver.method() != Method::Iterative;
+    if direct && !may_iterate(scene) {
+        let factor: f64 = SURE * grids.iter().map(|g| factor_bytes(g.nodes, components)).sum::<f64>();
+        let allowed = solver::memory(scene);
+        if factor > allowed as f64 {
+            return Err(within(PlanError::at(
+                0..0,
+                format!(
+                    "the factors of {} need {} or more, and {} are allowed",
+                    in_words(&counts, components),
+                    size(factor as usize),
+                    size(allowed)
+                ),
+                "take larger cells, or raise `memory` in `[solver]` where the machine has it".into(),
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Whether linear systems without a factor are a choice that the plan may take by itself.
+pub fn may_iterate(scene: &Scene) -> bool {
+    scene.solver.method() == Method::Auto
+        && scene.interfaces.is_empty()
+        && scene.kinematics.get_ref().idealisation().dimension() == 3
+}
+
+/// Whether factors of the generated bodies are sure to need more than is allowed.
+#[must_use]
+pub fn factors_exceed(scene: &Scene, allowed: usize) -> bool {
+    let components = scene.kinematics.get_ref().idealisation().components();
+    let grids = scene.bodies.iter().filter_map(|(name, body)| grid(name, body));
+    SURE * grids.map(|g| factor_bytes(g.nodes, components)).sum::<f64>() > allowed as f64
+}
+
+/// Refuses bodies whose meshes, cells and matrix are more than the machine has.
+///
+/// # Errors
+/// [`PlanError`] without a place.
+pub fn machine(counts: &[Counts], components: usize) -> Result<(), PlanError> {
+    let needed: f64 =
+        counts.iter().map(|c| c.cells_bytes(components) + c.matrix_bytes(components)).sum::<f64>();
+    match memory_of_machine() {
+        Some(there) if needed > there as f64 => Err(PlanError::at(
+            0..0,
+            format!(
+                "{} need {} for their matrices alone, and this machine has {}",
+                in_words(counts, components),
+                size(needed as usize),
+                size(there)
+            ),
+            "take larger cells, or a machine with more memory; is the unit of the size right?".into(),
+        )),
+        _ => Ok(()),
+    }
+}
+
+fn in_words(counts: &[Counts], components: usize) -> String {
+    let (cells, nodes) = counts.iter().fold((0.0, 0.0), |(c, n), of| (c + of.cells, n + of.nodes));
+    format!("{cells} cells with {} degrees of freedom", nodes * components as f64)
+}
+
+/// Bytes of the Cholesky factor of a grid of so many nodes along its axes, by nested dissection.
+fn factor_bytes(nodes: [usize; 3], components: usize) -> f64 {
+    let mut known = BTreeMap::new();
+    WORD * values(nodes, [false; 6], components as f64, &mut known)
+}
+
+/// Values of the factor of a box of nodes, some sides of which lie at separators that are eliminated later.
+fn values(
+    nodes: [usize; 3],
+    open: [bool; 6],
+    components: f64,
+    known: &mut BTreeMap<([usize; 3], [bool; 6]), f64>,
+) -> f64 {
+    if let Some(&values) = known.get(&(nodes, open)) {
+        return values;
+    }
+    let n = nodes.map(|n| n as f64);
+    let all: f64 = n.iter().product();
+    let border: f64 = open.iter().enumerate().filter(|(_, open)| **open).map(|(f, _)| all / n[f / 2]).sum();
+    let front = |pivots: f64| {
+        let width = components * pivots;
+        width * (width + components * border) - 0.5 * width * width
+    };
+    let axis = (0..3).max_by_key(|&a| nodes[a]).unwrap_or(0);
+    let result = if components * all <= LEAF || nodes[axis] < 3 {
+        front(all)
+    } else {
+        let below = (nodes[axis] - 1) / 2;
+        let mut part = |side: usize, count: usize| {
+            let (mut nodes, mut open) = (nodes, open);
+            nodes[axis] = count;
+            open[2 * axis + side] = true;
+            values(nodes, open, components, known)
+        };
+        front(all / n[axis]) + part(1, below) + part(0, nodes[axis] - 1 - below)
+    };
+    known.insert((nodes, open), result);
+    result
+}
+
+/// Memory of the machine, or of the group of processes this one belongs to \[bytes\]; none where the system does not say.
+fn memory_of_machine() -> Option<usize> {
+    let there = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = there.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
+    let total = line.split_whitespace().next()?.parse::<usize>().ok()? * 1024;
+    let group = std::fs::read_to_string("/sys/fs/cgroup/memory.max").ok();
+    let group = group.and_then(|text| text.trim().parse::<usize>().ok());
+    Some(group.map_or(total, |group| group.min(total)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_fem::assembly::Lower;
+    use asperity_fem::dof::Constraints;
+    use asperity_fem::mesh::generate::Grid as Lines;
+    use asperity_fem::term::Pattern;
+
+    /// Bytes of the factor's values that the analysis finds.
+    fn analysed<const D: usize>(cells: [usize; D], kind: ElementKind) -> f64 {
+        let lines = cells.map(|n| (0..=n).map(|k| k as f64).collect());
+        let mesh = Lines { lines, kind }.mesh().unwrap();
+        let block = &mesh.blocks[0];
+        let dofs = |cell: usize| block.cell(cell).iter().flat_map(|n| (0..D).map(move |c| n * D + c));
+        let mut pattern = Pattern { dofs: Vec::new(), starts: vec![0], version: 0 };
+        for cell in 0..block.len() {
+            pattern.dofs.extend(dofs(cell));
+            pattern.starts.push(pattern.dofs.len());
+        }
+        let constraints = Constraints { fixed: Vec::new(), channels: Vec::new() };
+        let equations = constraints.equations(mesh.nodes.len() * D);
+        let analysis = Lower::new(&[&pattern], &equations).analyse().unwrap();
+        WORD * analysis.symbolic().stored() as f64
+    }
+
+    #[test]
+    fn factors_of_grids_are_estimated_within_a_third_and_never_surely_too_large() {
+        let cases = [
+            (analysed([100, 100], ElementKind::Quad4), factor_bytes([101, 101, 1], 2)),
+            (analysed([400, 30], ElementKind::Quad4), factor_bytes([401, 31, 1], 2)),
+            (analysed([14, 14, 14], ElementKind::Hex8), factor_bytes([15, 15, 15], 3)),
+            (analysed([40, 12, 4], ElementKind::Hex8), factor_bytes([41, 13, 5], 3)),
+        ];
+        for (analysed, estimated) in cases {
+            let ratio = estimated / analysed;
+            assert!((0.67..1.5).contains(&ratio), "{ratio}");
+            assert!(SURE * estimated <= analysed, "{ratio}");
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! Memory of a factorisation that keeps no factor, found by going through its tasks as a number of threads would take them.
+//!
+//! The largest fronts lie on one path to the root and never run together, so that a sum over the largest tasks would foresee several
+//! times what is taken. Tasks last as long as their operations are many here. What threads do differs from run to run only in how
+//! fast they are.
+
+use super::symbolic::Symbolic;
+use crate::ordering::NONE;
+use std::collections::BTreeSet;
+
+/// A task that runs: when it ends, and its index, which decides between those that end together.
+type Running = BTreeSet<(u64, usize)>;
+
+/// Values in use at the worst moment of the elimination by so many threads.
+pub(super) fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: usize) -> usize {
+    let tasks = &symbolic.tasks;
+    let mut left: Vec<usize> = tasks.iter().map(|t| t.children.len()).collect();
+    let mut leaves = (0..tasks.len()).filter(|&t| tasks[t].children.is_empty());
+    let mut running = Running::new();
+    let (mut alive, mut most) = (0, 0);
+    // A thread goes on with the parent of the last child that ended, else with the next leaf.
+    let mut begin = |t: usize, now: u64, running: &mut Running, alive: &mut usize| {
+        *alive += symbolic.passed(t) + symbolic.beside(t);
+        most = most.max(*alive);
+        running.insert((now.saturating_add(symbolic.operations_of(t) as u64 + 1), t));
+    };
+    for t in leaves.by_ref().take(threads.max(1)) {
+        begin(t, 0, &mut running, &mut alive);
+    }
+    while let Some((end, t)) = running.pop_first() {
+        let taken: usize = tasks[t].children.iter().map(|&c| symbolic.passed(c)).sum();
+        alive -= symbolic.beside(t) + taken;
+        let up = parent[t];
+        let ready = up != NONE && {
+            left[up] -= 1;
+            left[up] == 0
+        };
+        let next = if ready { Some(up) } else { leaves.next() };
+        if let Some(next) = next {
+            begin(next, end, &mut running, &mut alive);
+        }
+    }
+    most
+}
