@@ -359,11 +359,8 @@ impl<const D: usize> Model<D> {
 /// Cells and nodes of each block; nodes that blocks share count for the first.
 fn counts<const D: usize>(mesh: &Mesh<D>) -> Vec<Counts> {
     let nodes = |b: usize| if b == 0 { mesh.nodes.len() as f64 } else { 0.0 };
-    let count = |(b, cells): (usize, &Cells)| Counts {
-        kind: cells.kind,
-        cells: cells.len() as f64,
-        nodes: nodes(b),
-    };
+    let count =
+        |(b, cells): (usize, &Cells)| Counts { kind: cells.kind, cells: cells.len() as f64, nodes: nodes(b) };
     mesh.blocks.iter().enumerate().map(count).collect()
 }
 

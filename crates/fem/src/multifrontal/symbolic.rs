@@ -1,8 +1,8 @@
 //! Symbolic analysis: everything about a factorisation that the pattern decides.
 
-use super::{DirectError, schedule, tasks};
 use super::supernodes::Supernodes;
 use super::tree::Forest;
+use super::{DirectError, schedule, tasks};
 use crate::ordering::{Compressed, NONE, Ordering, compress, order};
 use faer::sparse::SymbolicSparseColMatRef;
 use std::ops::Range;
