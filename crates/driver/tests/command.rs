@@ -183,7 +183,10 @@ fn a_run_of_a_spring_slider_leaves_everything_it_promises() {
     assert!(output.status.success(), "{}", text(&output.stderr));
     for file in [
         "report.json",
+        "events.csv",
         "history/block.csv",
+        "plots/sliders_friction_slip.svg",
+        "plots/sliders_traction_load.png",
         "plots/sliders_friction.svg",
         "plots/sliders_friction.png",
         "plots/sliders_relative_displacement.svg",

@@ -7,7 +7,7 @@ use asperity_driver::ode::{Failure, Method, Outcome};
 use asperity_driver::scene::law::{Evolution, Form, LawChoice, State, Strength};
 use asperity_driver::scene::slider;
 use asperity_driver::slider::{
-    Both, DEFAULT_METHOD, Histories, Now, Plan, Report, Run, Show, Thresholds, run,
+    Both, DEFAULT_METHOD, Histories, Now, Output, Plan, Report, Run, Show, Thresholds, run,
 };
 use asperity_friction::slider::{Condition, History, Slider, Spring, System};
 use nalgebra::Complex;
@@ -192,7 +192,9 @@ fn rows_of_histories_follow_the_slip_rate_closely() {
 
 #[test]
 fn histories_keep_the_balance_of_the_springs() {
-    let plan = plan(COUPLED);
+    let mut plan = plan(COUPLED);
+    // By change each slider has rows of its own.
+    plan.output = Output { change: None, interval: Some(0.5), ..Output::default() };
     let (folder, _) = written(&plan);
     let (left, right) = (history(folder.path(), "left.csv"), history(folder.path(), "right.csv"));
     assert!(left.len() > 1000 && left.len() == right.len());

@@ -32,6 +32,7 @@ impl Drive<'_> {
             stiffness: 0.0,
             damping: self.damping[point],
             mass: None,
+            imposed: None,
         }
     }
 }

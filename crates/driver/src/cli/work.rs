@@ -92,14 +92,15 @@ pub(super) fn run_sliders(
     drawn: bool,
 ) -> miette::Result<End> {
     let mut histories = slider::Histories::create(directory.path(), plan).into_diagnostic()?;
-    let (mut recorder, mut progress) = (drawn.then(Recorder::new), Progress::new());
+    if drawn {
+        histories = histories.traced();
+    }
+    let mut progress = Progress::new();
     let stop = signals::watched().into_diagnostic()?;
     directory.computes()?;
     let clock = Instant::now();
     let ended = {
-        let mut shown = vec![&mut progress as &mut dyn Observer];
-        shown.extend(recorder.as_mut().map(|r| r as &mut dyn Observer));
-        let mut show = Until(slider::Show::to(shown), stop);
+        let mut show = Until(slider::Show::to(vec![&mut progress as &mut dyn Observer]), stop);
         let mut both = slider::Both(&mut histories, &mut show);
         slider::run(plan, &mut both).into_diagnostic()?
     };
@@ -109,9 +110,14 @@ pub(super) fn run_sliders(
     report.scene_sha256.clone_from(&ready.hash);
     report.run.seconds = clock.elapsed().as_secs_f64();
     report.run.origin.clone_from(directory.origin());
-    let drawn = draw(directory.path(), recorder.as_ref());
+    let drawn = if drawn { histories.draw(directory.path(), plan).map(|_| ()) } else { Ok(()) };
+    if plan.events.is_some() {
+        let events = slider::csv(&report.events, &plan.names);
+        crate::observe::atomic::write(&directory.path().join("events.csv"), events.as_bytes())
+            .into_diagnostic()?;
+    }
     directory.write(report.status(), &report)?;
-    drawn?;
+    drawn.into_diagnostic()?;
     out(format_args!("{}", report.text()));
     written(directory);
     Ok(match report.outcome {

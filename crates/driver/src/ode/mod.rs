@@ -16,6 +16,7 @@ mod drive;
 mod events;
 mod explicit;
 mod lu;
+mod matrices;
 mod method;
 mod own;
 mod pair;

@@ -14,6 +14,15 @@ pub trait Problem {
     /// Writes the derivatives of the rates by the unknowns \[1/s\] into `jac`, column by column.
     fn jacobian(&self, at: Clock, y: &[f64], jac: &mut [f64]);
 
+    /// Places of the Jacobian that may differ from zero, as row and column, in the order of [`Problem::entries`]; none where nothing is
+    /// known of them.
+    fn places(&self) -> Option<Vec<(usize, usize)>> {
+        None
+    }
+
+    /// Writes the entries of the Jacobian at those places; those of one place add up.
+    fn entries(&self, _at: Clock, _y: &[f64], _values: &mut [f64]) {}
+
     /// A bound of the spectral radius of the Jacobian \[1/s\], for methods that choose their stages by it; where there is none at
     /// hand it is found from the Jacobian.
     fn spectral_radius(&self, _at: Clock, _y: &[f64]) -> Option<f64> {
@@ -58,6 +67,12 @@ impl System<'_> {
     pub fn jacobian(&self, t: f64, y: &[f64], jac: &mut [f64]) {
         self.jacobians.set(self.jacobians.get() + 1);
         self.problem.jacobian(self.clock(t), y, jac);
+    }
+
+    /// The entries of the Jacobian at the problem's places at local time `t`.
+    pub fn entries(&self, t: f64, y: &[f64], values: &mut [f64]) {
+        self.jacobians.set(self.jacobians.get() + 1);
+        self.problem.entries(self.clock(t), y, values);
     }
 
     /// A bound of the spectral radius at local time `t` \[1/s\].

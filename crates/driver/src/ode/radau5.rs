@@ -3,12 +3,13 @@
 //! Source: E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II", 2nd ed. (1996), section IV.8. The three linear systems
 //! are separated into a real and a complex one; the error estimate is of order 3 and filtered by the real one.
 
-use super::lu::Lu;
+use super::matrices::Matrices;
 use super::own::{Formula, Span, Trial};
 use super::problem::System;
 use super::radau5_table::{COMPLEX_IMAGINARY, COMPLEX_REAL, DENSE, ERROR, FROM, INTO, NODES, REAL};
 use super::report::Counts;
 use nalgebra::Complex;
+use std::cell::Cell;
 
 /// Iterations of Newton's method after which a shorter step is cheaper.
 const MOST_ITERATIONS: usize = 6;
@@ -23,7 +24,9 @@ const GROWTH: f64 = 10.0;
 /// The method.
 #[derive(Debug)]
 pub(super) struct Radau5 {
-    jacobian: Vec<f64>,
+    matrices: Matrices,
+    /// Largest |λ| of the Jacobian \[1/s\], once asked for.
+    radius: Cell<Option<f64>>,
     /// Whether the Jacobian is that of the beginning of the step.
     ///
     /// It is never kept for the next. Rates of relaxation go as 1/V where a mass acts, and fall by many decades while a slider
@@ -31,8 +34,6 @@ pub(super) struct Radau5 {
     /// and the error estimate, filtered by the same matrix, does not see it. It is also dearer: a new Jacobian costs less than the
     /// iterations it saves.
     known: bool,
-    real: Lu<f64>,
-    complex: Lu<Complex<f64>>,
     /// Length the matrices are factorised for; 0: for none.
     factorised: f64,
     /// Increments of the three stages, one after the other, and their transforms.
@@ -59,10 +60,9 @@ impl Radau5 {
     pub fn new(n: usize) -> Self {
         let zeros = |count: usize| vec![0.0; count];
         Self {
-            jacobian: zeros(n * n),
+            matrices: Matrices::Unknown(n),
+            radius: Cell::new(None),
             known: false,
-            real: Lu::new(n, 0.0),
-            complex: Lu::new(n, Complex::new(0.0, 0.0)),
             factorised: 0.0,
             z: zeros(3 * n),
             w: zeros(3 * n),
@@ -82,33 +82,18 @@ impl Radau5 {
         }
     }
 
-    /// An estimate of the largest |λ| of the Jacobian J \[1/s\]: the eighth root of the largest row sum of J^8, which is never
-    /// below it.
+    /// An estimate of the largest |λ| of the Jacobian \[1/s\], which is never below it.
     pub fn spectral_radius(&self) -> f64 {
-        let n = self.stage.len();
-        let largest = self.jacobian.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        if largest == 0.0 {
-            return 0.0;
-        }
-        // Powers of J over its largest entry stay in the range of numbers.
-        let mut power = nalgebra::DMatrix::from_iterator(n, n, self.jacobian.iter().map(|v| v / largest));
-        for _ in 0..3 {
-            power = &power * &power;
-        }
-        let row_sum = power.row_iter().map(|row| row.abs().sum()).fold(0.0, f64::max);
-        largest * row_sum.powf(0.125)
+        let radius = self.radius.get().unwrap_or_else(|| self.matrices.spectral_radius());
+        self.radius.set(Some(radius));
+        radius
     }
 
     /// Factorises both matrices for steps of length `h`.
-    fn factorise(&mut self, n: usize, h: f64) -> bool {
-        for (i, &entry) in self.jacobian.iter().enumerate() {
-            let diagonal = if i % n == i / n { 1.0 } else { 0.0 };
-            self.real.entries[i] = diagonal * REAL / h - entry;
-            self.complex.entries[i] =
-                Complex::new(diagonal * COMPLEX_REAL / h - entry, diagonal * COMPLEX_IMAGINARY / h);
-        }
+    fn factorise(&mut self, h: f64) -> bool {
         self.factorisations += 2;
-        let regular = self.real.factorise() && self.complex.factorise();
+        let pair = Complex::new(COMPLEX_REAL / h, COMPLEX_IMAGINARY / h);
+        let regular = self.matrices.factorise(REAL / h, pair);
         self.factorised = if regular { h } else { 0.0 };
         regular
     }
@@ -171,8 +156,8 @@ impl Radau5 {
             self.pair[i] = Complex::new(self.delta[n + i], self.delta[2 * n + i])
                 - eigenvalue * Complex::new(self.w[n + i], self.w[2 * n + i]);
         }
-        self.real.solve(&mut self.delta[..n]);
-        self.complex.solve(&mut self.pair);
+        self.matrices.solve_real(&mut self.delta[..n]);
+        self.matrices.solve_complex(&mut self.pair);
         self.solves += 2;
         for i in 0..n {
             self.delta[n + i] = self.pair[i].re;
@@ -189,7 +174,7 @@ impl Radau5 {
         for i in 0..n {
             self.error[i] = span.f0[i] + from_stages(&self.z, i);
         }
-        self.real.solve(&mut self.error);
+        self.matrices.solve_real(&mut self.error);
         self.solves += 1;
         let norm = system.norm(&self.error, &span.y0, &span.y1);
         if !(self.rejected || self.last_length == 0.0) || norm <= 1.0 {
@@ -203,7 +188,7 @@ impl Radau5 {
         for i in 0..n {
             self.error[i] += from_stages(&self.z, i);
         }
-        self.real.solve(&mut self.error);
+        self.matrices.solve_real(&mut self.error);
         self.solves += 1;
         system.norm(&self.error, &span.y0, &span.y1)
     }
@@ -232,10 +217,11 @@ impl Formula for Radau5 {
     fn attempt(&mut self, system: &System<'_>, span: &mut Span) -> Trial {
         let n = span.y0.len();
         if !self.known {
-            system.jacobian(span.t, &span.y0, &mut self.jacobian);
+            self.matrices.evaluate(system, span.t, &span.y0);
+            self.radius.set(None);
             (self.known, self.factorised) = (true, 0.0);
         }
-        let ready = self.factorised == span.h || self.factorise(n, span.h);
+        let ready = self.factorised == span.h || self.factorise(span.h);
         if !ready || !self.solve(system, span) {
             self.failures += u64::from(ready);
             self.rejected = true;

@@ -213,6 +213,18 @@ const PARTICULAR: [(&str, &str, &str); 5] = [
 /// # Errors
 /// Every parameter that is missing, belongs to another law, or is out of range.
 pub fn choose(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<SceneError>> {
+    choose_with(spec, false)
+}
+
+/// The law of a slider, whose evolution effect `b` may be negative.
+///
+/// # Errors
+/// As [`choose`].
+pub fn choose_sliding(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<SceneError>> {
+    choose_with(spec, true)
+}
+
+fn choose_with(spec: &Spanned<LawSpec>, negative_b: bool) -> Result<LawChoice, Vec<SceneError>> {
     let law = spec.get_ref();
     let kinds = || KINDS.iter().map(|k| k.0);
     let Some(kind) = &law.kind else {
@@ -228,7 +240,7 @@ pub fn choose(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<SceneError>> {
     };
     let mut errors = foreign(law, name, parameters);
     errors.extend(particular(law, parameters));
-    let mut reader = Reader { kind: name, place: spec.span(), errors };
+    let mut reader = Reader { kind: name, place: spec.span(), errors, negative_b };
     let choice = reader.choice(law);
     match choice {
         Some(choice) if reader.errors.is_empty() => Ok(choice),

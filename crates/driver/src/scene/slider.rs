@@ -2,6 +2,7 @@
 
 mod course;
 mod history;
+mod output;
 mod parts;
 mod planner;
 mod settings;
@@ -9,7 +10,7 @@ mod spec;
 mod start;
 
 pub use course::Course;
-pub use spec::{EventSpec, Load, SliderScene, SliderSpec, SliderTime, SpringSpec};
+pub use spec::{EventSpec, Load, OutputSpec, SliderScene, SliderSpec, SliderTime, SpringSpec, Which};
 
 use super::model::Spanned;
 use super::{SceneError, SceneErrors, explain, near};

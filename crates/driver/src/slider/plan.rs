@@ -1,5 +1,7 @@
 //! What is integrated and how.
 
+use super::output::Output;
+use super::stability;
 use crate::ode::{Method, Options};
 use crate::warning::Warning;
 use asperity_friction::slider::System;
@@ -60,6 +62,8 @@ pub struct Plan {
     pub most_events: Option<usize>,
     /// Whether extremes of the slip rate are found.
     pub peaks: bool,
+    /// Which rows are written.
+    pub output: Output,
     /// What probably does not mean what the author of the scene wants.
     pub warnings: Vec<Warning>,
 }
@@ -82,6 +86,7 @@ impl Plan {
             events: None,
             most_events: None,
             peaks: false,
+            output: Output::default(),
             warnings: Vec::new(),
         }
     }
@@ -128,6 +133,9 @@ impl Plan {
             };
             line(name, format!("{}, {states}, k = {:.6e} Pa/m", s.law.name(), s.stiffness));
         }
+        for (name, words) in self.names.iter().zip(stability::words(self)) {
+            words.into_iter().for_each(|words| line(name, words));
+        }
         for spring in self.system.springs() {
             let [a, b] = spring.between.map(|i| self.names[i].as_str());
             line("spring", format!("{a} to {b}, k = {:.6e} Pa/m", spring.stiffness));
@@ -135,6 +143,9 @@ impl Plan {
         line("unknowns", format!("{}: friction over a, states{}", self.start.len(), self.inertial_words()));
         line("method", format!("{} with tolerance {:e}", self.method.name(), self.tolerance));
         line("end", self.end_words());
+        for remark in stability::remarks(self) {
+            line("note", remark);
+        }
         for warning in &self.warnings {
             line("warning", warning.to_string());
         }

@@ -2,19 +2,36 @@
 
 use super::plan::Plan;
 use crate::ode::{Clock, Problem};
+use asperity_friction::evolution::Speed;
 use asperity_friction::slider::Segment;
 use std::cell::RefCell;
 
-/// ln(V/threshold) of a slider that stands or slides back: below any threshold, and finite.
+/// ln(|V|/threshold) of a slider that stands or slides the other way: below any threshold, and finite.
 const AT_REST: f64 = -1e3;
+
+/// A direction of slip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    Forwards,
+    Backwards,
+}
+
+impl Way {
+    fn is_of(self, rate: f64) -> bool {
+        match self {
+            Self::Forwards => rate > 0.0,
+            Self::Backwards => rate < 0.0,
+        }
+    }
+}
 
 /// What an event function is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// V of a slider against the rate above which an event begins.
-    On(usize),
-    /// V of a slider against the rate below which it ends.
-    Off(usize),
+    /// |V| of a slider in a direction against the rate above which an event begins.
+    On(usize, Way),
+    /// |V| of a slider in a direction against the rate below which it ends.
+    Off(usize, Way),
     /// dV/dt of a slider.
     Acceleration(usize),
 }
@@ -24,9 +41,12 @@ pub(super) fn kinds(plan: &Plan) -> Vec<Kind> {
     let mut kinds = Vec::new();
     for i in 0..plan.names.len() {
         if plan.events.is_some() {
-            kinds.extend([Kind::On(i), Kind::Off(i)]);
+            for way in [Way::Forwards, Way::Backwards] {
+                kinds.extend([Kind::On(i, way), Kind::Off(i, way)]);
+            }
         }
-        if plan.peaks {
+        // Extremes of what is imposed are no findings.
+        if plan.peaks && plan.system.imposed(i).is_none() {
             kinds.push(Kind::Acceleration(i));
         }
     }
@@ -61,6 +81,19 @@ impl Problem for Piece<'_> {
         self.segment.jacobian(at.seconds(), y, jac);
     }
 
+    fn places(&self) -> Option<Vec<(usize, usize)>> {
+        Some(self.plan.system.places())
+    }
+
+    fn entries(&self, at: Clock, y: &[f64], values: &mut [f64]) {
+        let mut values = values.iter_mut();
+        self.segment.entries(at.seconds(), y, |_, entry| {
+            if let Some(value) = values.next() {
+                *value = entry;
+            }
+        });
+    }
+
     fn events(&self) -> usize {
         self.kinds.len()
     }
@@ -70,17 +103,27 @@ impl Problem for Piece<'_> {
         if self.plan.peaks {
             self.segment.rates(at.seconds(), y, &mut rates);
         }
+        // The functions of a slider stand side by side.
+        let mut seen: Option<(usize, Speed)> = None;
+        let mut speed = |i: usize| match seen {
+            Some((slider, speed)) if slider == i => speed,
+            _ => {
+                let (speed, _) = self.segment.slip(i, at.seconds(), y);
+                seen = Some((i, speed));
+                speed
+            }
+        };
         for (g, kind) in g.iter_mut().zip(self.kinds) {
-            let against = |i: usize, threshold: f64| {
-                let (speed, _) = self.plan.system.sliders()[i].law.slip(self.plan.system.of(i, y));
-                if speed.rate > 0.0 { (speed.log - threshold.ln()).max(AT_REST) } else { AT_REST }
+            let mut against = |i: usize, way: Way, threshold: f64| {
+                let speed = speed(i);
+                if way.is_of(speed.rate) { (speed.log - threshold.ln()).max(AT_REST) } else { AT_REST }
             };
             *g = match (*kind, self.plan.events) {
-                (Kind::On(i), Some(t)) => against(i, t.on),
-                (Kind::Off(i), Some(t)) => against(i, t.off),
+                (Kind::On(i, way), Some(t)) => against(i, way, t.on),
+                (Kind::Off(i, way), Some(t)) => against(i, way, t.off),
                 (Kind::Acceleration(i), _) => self.segment.acceleration(i, y, &rates),
                 // `kinds` makes thresholds only where the plan has them.
-                (Kind::On(_) | Kind::Off(_), None) => AT_REST,
+                (Kind::On(..) | Kind::Off(..), None) => AT_REST,
             };
         }
     }

@@ -131,9 +131,10 @@ impl Report {
                 End::Stopped { reason: run.hint.clone().unwrap_or_else(|| reason.to_string()) }
             }
         };
+        let segment = plan.system.segment(run.at.seconds());
         let last = plan.names.iter().zip(plan.system.sliders()).enumerate().map(|(i, (name, s))| {
             let y = plan.system.of(i, &run.unknowns);
-            let (speed, friction) = s.law.slip(y);
+            let (speed, friction) = segment.slip(i, run.at.seconds(), &run.unknowns);
             Final {
                 slider: name.clone(),
                 slip_rate: speed.rate,
@@ -179,12 +180,13 @@ impl Report {
                 |value: Option<f64>, unit: &str| value.map_or("-".into(), |v| format!("{v:.6} {unit}"));
             let _ = writeln!(
                 text,
-                "  `{}` at {:.6} s: interval {}, slip {}, peak {:.6e} m/s",
+                "  `{}` at {:.6} s: interval {}, slip {}, peak {:.6e} m/s, stress drop {}",
                 self.sliders[e.slider],
                 e.onset,
                 told(e.interval, "s"),
                 told(e.slip.map(|s| s * 1e6), "um"),
-                e.peak_rate
+                f64::from(e.direction) * e.peak_rate,
+                told(e.stress_drop.map(|s| s / 1e6), "MPa")
             );
         }
         for l in &self.last {

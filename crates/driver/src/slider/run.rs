@@ -1,12 +1,13 @@
 //! Integration from break to break of the prescribed histories.
 
-use super::catalogue::Catalogue;
+use super::catalogue::{Catalogue, Edge};
+use super::output::Due;
 use super::plan::Plan;
 use super::problem::{Kind, Piece, kinds};
+use super::slips::Slips;
 use crate::observe::ObserveError;
 use crate::ode::{self, Clock, Control, Counts, Failure, Occurrence, Outcome, Sink, Step};
 use asperity_friction::slider::{Condition, Slider};
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Why a run could not begin, or not be observed.
 #[derive(Debug, thiserror::Error)]
@@ -39,6 +40,8 @@ pub struct Now<'a> {
     pub slip: &'a [f64],
     /// Displacement of the load point since time 0 \[m\].
     pub load: f64,
+    /// Whether the plan asks for a row at this time.
+    pub asked: bool,
 }
 
 /// Watches a run.
@@ -52,6 +55,14 @@ pub trait Watcher {
     /// Whether the run is to end after the present step, as if interrupted.
     fn stops(&self) -> bool {
         false
+    }
+
+    /// What was shown last is the onset, the end or an extreme of an event of this slider.
+    ///
+    /// # Errors
+    /// When something cannot be written.
+    fn marked(&mut self, _slider: usize) -> Result<(), ObserveError> {
+        Ok(())
     }
 
     /// Whether it looks at all: what nobody looks at is not computed.
@@ -89,11 +100,13 @@ impl Watcher for Both<'_> {
     fn stops(&self) -> bool {
         self.0.stops() || self.1.stops()
     }
+
+    fn marked(&mut self, slider: usize) -> Result<(), ObserveError> {
+        self.0.marked(slider)?;
+        self.1.marked(slider)
+    }
 }
 
-/// Change of ln V of which outputs show what lies between: a twentieth of an e-fold is less than a hair on a plot over sixteen
-/// decades.
-const RESOLUTION: f64 = 0.05;
 /// A step is halved so often at most: a slider that passes rest changes ln V without bound.
 const MOST_HALVES: u32 = 8;
 
@@ -195,7 +208,8 @@ fn running(piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<(usize, f64
     let load = piece.segment.load().at(at.seconds()).0.abs();
     piece.plan.system.sliders().iter().enumerate().find_map(|(i, s)| {
         let rate = piece.segment.condition(i, at.seconds(), unknowns).rate;
-        (s.damping == 0.0 && s.mass.is_none() && rate > load).then_some((i, rate))
+        let free = s.damping == 0.0 && s.mass.is_none() && piece.plan.system.imposed(i).is_none();
+        (free && rate.abs() > load).then_some((i, rate))
     })
 }
 
@@ -221,56 +235,6 @@ fn hint(plan: &Plan, piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<S
     })
 }
 
-/// Slip of the sliders from the tractions of their springs: `K u = k u_load - (T - T_0)`.
-struct Slips {
-    stiffness: Cholesky<f64, Dyn>,
-    /// Tractions at time 0 \[Pa\].
-    first: Vec<f64>,
-    /// Displacement of the load point when the present piece began, and when that was.
-    load: f64,
-    entered: Clock,
-}
-
-impl Slips {
-    fn new(plan: &Plan) -> Result<Self, RunError> {
-        let n = plan.names.len();
-        let mut k = DMatrix::from_fn(n, n, |i, j| if i == j { plan.system.stiffness(i) } else { 0.0 });
-        for spring in plan.system.springs() {
-            let [a, b] = spring.between;
-            if a != b {
-                k[(a, b)] -= spring.stiffness;
-                k[(b, a)] -= spring.stiffness;
-            }
-        }
-        let held = plan.system.sliders().iter().any(|s| s.stiffness > 0.0);
-        let stiffness = Cholesky::new(k).filter(|_| held).ok_or(RunError::Loose)?;
-        let segment = plan.system.segment(0.0);
-        let first = (0..n).map(|i| segment.condition(i, 0.0, &plan.start).traction).collect();
-        Ok(Self { stiffness, first, load: 0.0, entered: Clock::new(0.0, 0.0) })
-    }
-
-    fn enter(&mut self, at: Clock) {
-        self.entered = at;
-    }
-
-    fn leave(&mut self, piece: &Piece<'_>, at: Clock) {
-        self.load = self.load_at(piece, at);
-    }
-
-    fn load_at(&self, piece: &Piece<'_>, at: Clock) -> f64 {
-        self.load + piece.segment.load().integral(self.entered.seconds(), at.since(&self.entered))
-    }
-
-    fn slip(&self, plan: &Plan, load: f64, conditions: &[Condition]) -> Vec<f64> {
-        let rhs = conditions.iter().zip(&self.first).zip(plan.system.sliders());
-        let rhs = DVector::from_iterator(
-            conditions.len(),
-            rhs.map(|((c, first), s)| s.stiffness * load - (c.traction - first)),
-        );
-        self.stiffness.solve(&rhs).iter().copied().collect()
-    }
-}
-
 /// What goes on from piece to piece.
 struct Following<'a> {
     plan: &'a Plan,
@@ -284,6 +248,8 @@ struct Following<'a> {
     unresolved: u32,
     /// Why it makes no sense to go on: a slider has run away, or its friction has come to zero.
     senseless: Option<Failure>,
+    /// Times of rows still to come.
+    due: Due,
 }
 
 impl<'a> Following<'a> {
@@ -298,6 +264,7 @@ impl<'a> Following<'a> {
             step: 0,
             unresolved: 0,
             senseless: None,
+            due: Due::default(),
         }
     }
 }
@@ -312,51 +279,102 @@ struct Running<'a, 'b> {
 impl Running<'_, '_> {
     /// Shows the first state, and that after a jump.
     fn begin(&mut self, at: Clock, unknowns: &[f64]) {
-        self.show(at, 0.0, unknowns);
-        self.sees(unknowns);
+        let asked = self.state.due.next(&self.state.plan.output, at.seconds()).is_some();
+        self.show(at, 0.0, unknowns, asked);
+        self.sees(at, unknowns);
         let Some(thresholds) = self.state.plan.events else { return };
         let (load, conditions) = self.look(at, unknowns);
-        let slip = self.slips.slip(self.state.plan, load, &conditions);
+        let slip = self.slips.slip(self.piece, at, load, &conditions);
         for (i, c) in conditions.iter().enumerate() {
             // A run that begins within an event, or a jump into one.
-            if c.rate > thresholds.on {
-                self.state.catalogue.begins(i, at, slip[i], c.rate);
-            } else if c.rate < thresholds.off {
-                self.state.catalogue.ends(i, at, slip[i]);
+            if c.rate.abs() > thresholds.on {
+                self.state.catalogue.begins(i, at, c.rate, self.edge(i, unknowns, c, slip[i]));
+            } else if c.rate.abs() < thresholds.off {
+                self.state.catalogue.ends(i, at, self.edge(i, unknowns, c, slip[i]));
             }
         }
     }
 
-    /// Shows what lies within a step, from the dense output, so that curves are smooth where steps are long.
-    fn between(&mut self, step: &Step<'_>) {
-        let start = Sample::of(self.state.plan, step, 0.0);
-        let end = Sample::of(self.state.plan, step, 1.0);
-        // The middle is looked at in any case: what rises and falls within a step may be at its end what it was at its start.
-        let middle = Sample::of(self.state.plan, step, 0.5);
+    /// A slider at the onset or the end of an event.
+    fn edge(&self, i: usize, unknowns: &[f64], condition: &Condition, slip: f64) -> Edge {
+        let system = &self.piece.plan.system;
+        Edge {
+            slip,
+            traction: condition.traction,
+            friction: condition.friction,
+            states: system.of(i, unknowns)[1..=system.sliders()[i].law.states()].to_vec(),
+        }
+    }
+
+    /// Shows what lies within a step, from the dense output: so that curves are smooth where steps are long, and at the times asked
+    /// for. Returns whether the end of the step is one of them.
+    fn between(&mut self, step: &Step<'_>) -> bool {
+        let plan = self.state.plan;
+        let start = self.sample(step, 0.0);
         let mut samples = Vec::new();
-        self.halves(step, [&start, &middle], 1, &mut samples);
-        samples.push(middle.clone());
-        self.halves(step, [&middle, &end], 1, &mut samples);
-        samples.push(end);
+        if plan.output.change.is_some() {
+            let end = self.sample(step, 1.0);
+            // The middle is looked at in any case: what rises and falls within a step may be at its end what it was at its start.
+            let middle = self.sample(step, 0.5);
+            self.halves(step, [&start, &middle], 1, &mut samples);
+            samples.push(middle.clone());
+            self.halves(step, [&middle, &end], 1, &mut samples);
+            samples.push(end);
+        }
+        let ends_asked = self.asked(step, &mut samples);
         // Those between which ln V changes by less are left out.
+        let resolution = plan.output.change.unwrap_or(f64::INFINITY);
         let mut last = start;
-        for pair in samples.windows(2) {
-            if pair[1].change(&last) < RESOLUTION {
+        for (k, sample) in samples.iter().enumerate() {
+            let next = samples.get(k + 1).is_some_and(|next| next.change(&last) >= resolution);
+            let within = sample.fraction < 1.0;
+            if within && (next || sample.asked.is_some()) {
+                let length = (sample.fraction - last.fraction) * step.length();
+                let at = sample.asked.unwrap_or(step.start.later(sample.fraction * step.length()));
+                self.show(at, length, &sample.unknowns, sample.asked.is_some());
+                last = sample.clone();
+            }
+        }
+        ends_asked
+    }
+
+    /// The sliders at a share of a step.
+    fn sample(&self, step: &Step<'_>, fraction: f64) -> Sample {
+        let mut unknowns = step.state.to_vec();
+        if fraction < 1.0 {
+            step.at(fraction, &mut unknowns);
+        }
+        let time = step.start.later(fraction * step.length()).seconds();
+        let each = 0..self.state.plan.names.len();
+        let logs = each.map(|i| self.piece.segment.slip(i, time, &unknowns).0.log).collect();
+        Sample { fraction, asked: None, unknowns, logs }
+    }
+
+    /// Adds the times asked for in a step to its samples. Returns whether its end is one of them.
+    fn asked(&mut self, step: &Step<'_>, samples: &mut Vec<Sample>) -> bool {
+        let plan = self.state.plan;
+        let (end, mut ends_asked) = (step.end.seconds(), false);
+        while let Some(time) = self.state.due.next(&plan.output, end) {
+            let at = Clock::new(time, 0.0);
+            let fraction = at.since(&step.start) / step.length();
+            if time == end || fraction >= 1.0 {
+                ends_asked = true;
                 continue;
             }
-            let fraction = pair[0].fraction;
-            let length = (fraction - last.fraction) * step.length();
-            self.show(step.start.later(fraction * step.length()), length, &pair[0].unknowns);
-            last = pair[0].clone();
+            let place = samples.partition_point(|s| s.fraction < fraction);
+            let sample = self.sample(step, fraction.max(0.0));
+            samples.insert(place, Sample { asked: Some(at), ..sample });
         }
+        ends_asked
     }
 
     /// Samples between two, so that ln V changes little from each to the next.
     fn halves(&self, step: &Step<'_>, ends: [&Sample; 2], depth: u32, samples: &mut Vec<Sample>) {
-        if depth == MOST_HALVES || ends[1].change(ends[0]) < 0.5 * RESOLUTION {
+        let resolution = self.state.plan.output.change.unwrap_or(f64::INFINITY);
+        if depth == MOST_HALVES || ends[1].change(ends[0]) < 0.5 * resolution {
             return;
         }
-        let middle = Sample::of(self.state.plan, step, 0.5 * (ends[0].fraction + ends[1].fraction));
+        let middle = self.sample(step, 0.5 * (ends[0].fraction + ends[1].fraction));
         self.halves(step, [ends[0], &middle], depth + 1, samples);
         samples.push(middle.clone());
         self.halves(step, [&middle, ends[1]], depth + 1, samples);
@@ -370,14 +388,15 @@ impl Running<'_, '_> {
         (self.slips.load_at(self.piece, at), conditions)
     }
 
-    fn show(&mut self, at: Clock, dt: f64, unknowns: &[f64]) {
+    fn show(&mut self, at: Clock, dt: f64, unknowns: &[f64], asked: bool) {
         if !self.state.watcher.watches() || self.state.failure.is_some() {
             return;
         }
         let plan = self.state.plan;
         let (load, conditions) = self.look(at, unknowns);
-        let slip = self.slips.slip(plan, load, &conditions);
-        let now = Now { at, dt, step: self.state.step, unknowns, conditions: &conditions, slip: &slip, load };
+        let slip = self.slips.slip(self.piece, at, load, &conditions);
+        let step = self.state.step;
+        let now = Now { at, dt, step, unknowns, conditions: &conditions, slip: &slip, load, asked };
         if let Err(failure) = self.state.watcher.now(plan, &now) {
             self.state.failure = Some(failure);
         }
@@ -398,10 +417,9 @@ impl Running<'_, '_> {
     }
 
     /// Tells the catalogue of the slip rates at the end of a step.
-    fn sees(&mut self, unknowns: &[f64]) {
-        let plan = self.state.plan;
-        for (i, s) in plan.system.sliders().iter().enumerate() {
-            self.state.catalogue.sees(i, s.law.slip(plan.system.of(i, unknowns)).0.rate);
+    fn sees(&mut self, at: Clock, unknowns: &[f64]) {
+        for i in 0..self.state.plan.names.len() {
+            self.state.catalogue.sees(i, self.piece.segment.slip(i, at.seconds(), unknowns).0.rate);
         }
     }
 }
@@ -411,22 +429,14 @@ impl Running<'_, '_> {
 struct Sample {
     /// Share of the step that is over.
     fraction: f64,
+    /// The time, where it is one that is asked for.
+    asked: Option<Clock>,
     unknowns: Vec<f64>,
     /// ln |V| of each slider.
     logs: Vec<f64>,
 }
 
 impl Sample {
-    fn of(plan: &Plan, step: &Step<'_>, fraction: f64) -> Self {
-        let mut unknowns = step.state.to_vec();
-        if fraction < 1.0 {
-            step.at(fraction, &mut unknowns);
-        }
-        let each = plan.system.sliders().iter().enumerate();
-        let logs = each.map(|(i, s)| s.law.slip(plan.system.of(i, &unknowns)).0.log).collect();
-        Self { fraction, unknowns, logs }
-    }
-
     /// Largest change of ln |V| from another.
     fn change(&self, other: &Self) -> f64 {
         self.logs.iter().zip(&other.logs).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
@@ -436,11 +446,9 @@ impl Sample {
 impl Sink for Running<'_, '_> {
     fn accepted(&mut self, step: &Step<'_>) -> Control {
         self.state.step += 1;
-        if self.state.watcher.watches() {
-            self.between(step);
-        }
-        self.show(step.end, step.length(), step.state);
-        self.sees(step.state);
+        let asked = self.state.watcher.watches() && self.between(step);
+        self.show(step.end, step.length(), step.state, asked);
+        self.sees(step.end, step.state);
         if self.runs_away(step) {
             self.state.senseless = Some(Failure::StepTooSmall { length: step.length() });
         } else if spent(self.state.plan, step.state).is_some() {
@@ -455,24 +463,25 @@ impl Sink for Running<'_, '_> {
 
     fn occurred(&mut self, o: &Occurrence) -> Control {
         let kind = self.piece.kinds[o.event];
-        let (Kind::On(i) | Kind::Off(i) | Kind::Acceleration(i)) = kind;
+        let (Kind::On(i, _) | Kind::Off(i, _) | Kind::Acceleration(i)) = kind;
         let (load, conditions) = self.look(o.at, &o.state);
-        let slip = self.slips.slip(self.state.plan, load, &conditions);
-        match (kind, o.rising) {
-            (Kind::On(_), true) => self.state.catalogue.begins(i, o.at, slip[i], conditions[i].rate),
-            (Kind::Off(_), false) => {
-                self.state.catalogue.ends(i, o.at, slip[i]);
-                // The first of the rates until the next event.
-                self.state.catalogue.sees(i, conditions[i].rate);
+        let rate = conditions[i].rate;
+        if let Kind::On(..) | Kind::Off(..) = kind {
+            let slip = self.slips.slip(self.piece, o.at, load, &conditions);
+            let edge = self.edge(i, &o.state, &conditions[i], slip[i]);
+            match (kind, o.rising) {
+                (Kind::On(..), true) => self.state.catalogue.begins(i, o.at, rate, edge),
+                (Kind::Off(..), false) => self.state.catalogue.ends(i, o.at, edge),
+                _ => {}
             }
-            (Kind::Acceleration(_), _) => self.state.catalogue.sees(i, conditions[i].rate),
-            _ => {}
+        }
+        self.state.catalogue.sees(i, rate);
+        if let Err(failure) = self.state.watcher.marked(i) {
+            self.state.failure.get_or_insert(failure);
         }
         let enough = self.state.plan.most_events;
-        let reached = enough.is_some_and(|n| {
-            // The last event counts when it is over, so that its peak and slip are known.
-            self.state.catalogue.of(0).filter(|e| e.duration.is_some()).count() >= n
-        });
-        if reached { Control::Stop } else { Control::Go }
+        // The last event counts when it is over, so that its peak and slip are known.
+        let reached = enough.is_some_and(|n| self.state.catalogue.over(0) >= n);
+        if reached || self.state.failure.is_some() { Control::Stop } else { Control::Go }
     }
 }

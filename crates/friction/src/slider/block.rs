@@ -9,6 +9,9 @@
 //! * without inertia `dm/dt = (p - K V - f_n' a m - η Q)/(f_n a + η P)`;
 //! * with inertia `dm/dt = (f_n a d/M - Q)/P` and `f_n a dd/dt = p - K V - f_n a dm/dt - f_n' a (m + d) - η (P dm/dt + Q)`.
 //!
+//! Where V is imposed, m follows from V and φ and is no unknown: its place among them is left as it is. The memory of shear traction
+//! takes `dm/dt = (dV/dt - Q)/P`.
+//!
 //! ln V = m - (μ0 + φ)/a + ... follows from numbers of order one to a hundred, so that sixteen decades of V cost nothing, and V
 //! passes through zero without harm. d is an unknown because T - f_n μ - η V would have no digits left while the slider
 //! creeps.
@@ -36,6 +39,8 @@ pub struct Forcing {
     pub damping: f64,
     /// M > 0 \[kg/m²\], or none.
     pub mass: Option<f64>,
+    /// V and dV/dt \[m/s, m/s²\], where they are imposed: springs, damping and mass then do not matter.
+    pub imposed: Option<(f64, f64)>,
 }
 
 /// What a direction of the Jacobian is.
@@ -90,6 +95,15 @@ pub trait Sliding: Rated {
         inertia: bool,
     ) -> Result<(), Failure>;
 
+    /// Carries the unknowns over a jump of f_n and of an imposed slip rate, each before and after.
+    ///
+    /// # Errors
+    /// [`Failure`] where the form has no value at the slip rate.
+    fn step_rate(&self, unknowns: &mut [f64], normal: [f64; 2], rate: [f64; 2]) -> Result<(), Failure>;
+
+    /// Whether a state remembers shear traction.
+    fn remembers_shear(&self) -> bool;
+
     /// a \[-\], the scale of m.
     fn scale(&self) -> f64;
 
@@ -110,17 +124,35 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
     /// φ and V at the unknowns.
     #[inline]
     fn kinematics<N: Number>(&self, y: &[N]) -> (N, SlipRate) {
+        let phi = self.sum(y);
+        (phi, self.form().slip_rate(y[0].value(), phi.value()))
+    }
+
+    /// φ at the unknowns.
+    #[inline]
+    fn sum<N: Number>(&self, y: &[N]) -> N {
         let mut phi = N::constant(0.0);
         for (part, &s) in self.parts().iter().zip(&y[1..]) {
             let e = &part.evolution;
             phi = phi + s.lift(e.phi(s.value()), || e.phi_slopes(s.value()).0);
         }
-        (phi, self.form().slip_rate(y[0].value(), phi.value()))
+        phi
+    }
+
+    /// m and V where V is imposed \[m/s\].
+    fn held<N: Number>(&self, rate: f64, phi: N) -> (N, SlipRate) {
+        let mu = if rate == 0.0 { 0.0 } else { self.form().at(rate.abs().ln(), phi.value()).mu };
+        let m = (mu / self.form().scale()).copysign(rate);
+        let v = self.form().slip_rate(m, phi.value());
+        (phi.lift(m, || -v.d_phi / v.d_m), v)
     }
 
     fn generic<N: Number>(&self, f: &Forcing, pull: N, y: &[N], dy: &mut [N]) {
-        let (a, m, n) = (self.form().scale(), y[0], self.parts().len());
-        let (phi, v) = self.kinematics(y);
+        let (a, n, phi) = (self.form().scale(), self.parts().len(), self.sum(y));
+        let (m, v) = match f.imposed {
+            Some((rate, _)) => self.held(rate, phi),
+            None => (y[0], self.form().slip_rate(y[0].value(), phi.value())),
+        };
         let rate = m.lift2(phi, v.rate, || (v.d_m, v.d_phi));
         let by_m = m.lift2(phi, v.d_m, || (v.d_mm, v.d_m_phi));
         let by_phi = m.lift2(phi, v.d_phi, || (v.d_m_phi, v.d_phi_phi));
@@ -151,11 +183,12 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         let (along, drift) = (by_m - (by_phi * memory).times(a), by_phi * ageing);
         let gained = pull - rate.times(f.stiffness) - m.times(f.normal_rate * a);
         let strength = f.normal * a;
-        match f.mass {
-            None => {
+        match (f.imposed, f.mass) {
+            (Some((_, acceleration)), _) => dy[0] = (N::constant(acceleration) - drift) / along,
+            (None, None) => {
                 dy[0] = (gained - drift.times(f.damping)) / (along.times(f.damping) + N::constant(strength));
             }
-            Some(mass) => {
+            (None, Some(mass)) => {
                 let d = y[n + 1];
                 dy[0] = (d.times(strength / mass) - drift) / along;
                 let accelerated = along * dy[0] + drift;
@@ -168,6 +201,9 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
             if part.shear_memory != 0.0 {
                 dy[ds] = dy[ds] - dy[0].times(a * part.shear_memory.copysign(m.value()));
             }
+        }
+        if f.imposed.is_some() {
+            dy[0] = N::constant(0.0);
         }
     }
 }
@@ -308,6 +344,36 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
             *s = kept - part.normal_memory * under(new) - part.shear_memory * mu.abs();
         }
         Ok(())
+    }
+
+    fn step_rate(
+        &self,
+        unknowns: &mut [f64],
+        [old, new]: [f64; 2],
+        [before, after]: [f64; 2],
+    ) -> Result<(), Failure> {
+        let n = self.parts().len();
+        let mu = self.form().scale() * self.at_rate(before, &unknowns[1..=n])?;
+        let under = |normal: f64| (normal / self.reference()).ln();
+        let mut kept = [0.0; MOST_UNKNOWNS];
+        for ((part, s), kept) in self.parts().iter().zip(&unknowns[1..]).zip(&mut kept) {
+            *kept = s + part.normal_memory * under(old) + part.shear_memory * mu.abs();
+        }
+        if after == 0.0 {
+            for ((part, s), kept) in self.parts().iter().zip(&mut unknowns[1..]).zip(&kept) {
+                *s = kept - part.normal_memory * under(new);
+            }
+        } else {
+            let mut solver = self.solver();
+            solver.after(&kept[..n], new, 0.0, after.abs().ln());
+            unknowns[1..=n].copy_from_slice(solver.states());
+        }
+        unknowns[0] = self.at_rate(after, &unknowns[1..=n])?;
+        Ok(())
+    }
+
+    fn remembers_shear(&self) -> bool {
+        self.parts().iter().any(|part| part.shear_memory != 0.0)
     }
 
     fn scale(&self) -> f64 {

@@ -9,6 +9,7 @@ pub use block::{Direction, Forcing, Sliding};
 pub use history::{History, Piece};
 
 use crate::Failure;
+use crate::evolution::Speed;
 use block::MOST_UNKNOWNS;
 use std::sync::Arc;
 
@@ -45,6 +46,10 @@ pub struct System {
     load: History,
     /// First unknown of each slider, and the number of unknowns.
     starts: Vec<usize>,
+    /// Of each slider: the sliders its springs lead to, with their stiffness \[Pa/m\].
+    links: Vec<Vec<(usize, f64)>>,
+    /// Of each slider: its slip rate, where it is imposed \[m/s\].
+    imposed: Vec<Option<History>>,
 }
 
 impl System {
@@ -67,14 +72,46 @@ impl System {
             }
             starts.push(starts[starts.len() - 1] + 1 + s.law.states() + usize::from(s.mass.is_some()));
         }
+        let mut links = vec![Vec::new(); sliders.len()];
         for spring in &springs {
             crate::positive("stiffness", spring.stiffness)?;
             if let Some(&slider) = spring.between.iter().find(|&&i| i >= sliders.len()) {
                 let admissible = "a slider of the list";
                 return Err(Failure::Parameter { name: "between", value: slider as f64, admissible });
             }
+            let [a, b] = spring.between;
+            if a != b {
+                links[a].push((b, spring.stiffness));
+                links[b].push((a, spring.stiffness));
+            }
         }
-        Ok(Self { sliders, springs, load, starts })
+        let imposed = vec![None; sliders.len()];
+        Ok(Self { sliders, springs, load, starts, links, imposed })
+    }
+
+    /// Imposes the slip rate of a slider \[m/s\], as a machine without compliance does: its friction follows from the law, and no
+    /// spring to the load point, damping or mass acts on it.
+    ///
+    /// # Errors
+    /// [`Failure::Parameter`] where the slider has a spring to the load point, damping or mass.
+    pub fn impose(mut self, slider: usize, rate: History) -> Result<Self, Failure> {
+        let s = &self.sliders[slider];
+        let given = [("stiffness", s.stiffness), ("damping", s.damping), ("mass", s.mass.unwrap_or(0.0))];
+        if let Some(&(name, value)) = given.iter().find(|g| g.1 != 0.0) {
+            return Err(Failure::Parameter {
+                name,
+                value,
+                admissible: "none where the slip rate is imposed",
+            });
+        }
+        self.imposed[slider] = Some(rate);
+        Ok(self)
+    }
+
+    /// The slip rate of a slider, where it is imposed \[m/s\].
+    #[must_use]
+    pub fn imposed(&self, slider: usize) -> Option<&History> {
+        self.imposed[slider].as_ref()
     }
 
     /// Number of unknowns.
@@ -117,6 +154,7 @@ impl System {
     pub fn breaks(&self, after: f64, until: f64) -> Vec<f64> {
         let mut times = self.load.breaks();
         times.extend(self.sliders.iter().flat_map(|s| s.normal.breaks()));
+        times.extend(self.imposed.iter().flatten().flat_map(History::breaks));
         times.retain(|&t| t > after && t < until);
         times.sort_by(f64::total_cmp);
         times.dedup();
@@ -130,6 +168,7 @@ impl System {
             system: self,
             load: self.load.piece(within),
             normals: self.sliders.iter().map(|s| s.normal.piece(within)).collect(),
+            imposed: self.imposed.iter().map(|h| h.as_ref().map(|h| h.piece(within))).collect(),
             stiffness: (0..self.sliders.len()).map(|i| self.stiffness(i)).collect(),
         }
     }
@@ -137,9 +176,22 @@ impl System {
     /// K = k + Σ k_j of one slider \[Pa/m\].
     #[must_use]
     pub fn stiffness(&self, slider: usize) -> f64 {
-        let coupled = self.springs.iter().filter(|s| s.between[0] != s.between[1]);
-        let springs: f64 = coupled.filter(|s| s.between.contains(&slider)).map(|s| s.stiffness).sum();
+        let springs: f64 = self.links[slider].iter().map(|link| link.1).sum();
         self.sliders[slider].stiffness + springs
+    }
+
+    /// Places of the Jacobian that may differ from zero, as row and column, in the order of [`Segment::entries`]: blocks of each slider
+    /// and of the sliders its springs lead to.
+    #[must_use]
+    pub fn places(&self) -> Vec<(usize, usize)> {
+        let mut places = Vec::new();
+        let block = |slider: usize| self.starts[slider]..self.starts[slider + 1];
+        for i in 0..self.sliders.len() {
+            for other in std::iter::once(i).chain(self.links[i].iter().map(|link| link.0)) {
+                places.extend(block(other).flat_map(|column| block(i).map(move |row| (row, column))));
+            }
+        }
+        places
     }
 
     /// Scales of the unknowns for error norms, each worth a change of ln V by about one.
@@ -152,7 +204,8 @@ impl System {
         scales
     }
 
-    /// Unknowns for given slip rates \[m/s\] and state variables (point-major), in equilibrium.
+    /// Unknowns for given slip rates \[m/s\] and state variables (point-major), in equilibrium. A slider with an imposed slip rate
+    /// starts at that.
     ///
     /// # Errors
     /// [`Failure`] of the laws, naming the slider as the point.
@@ -161,7 +214,8 @@ impl System {
         for (i, slider) in self.sliders.iter().enumerate() {
             let y = self.of_mut(i, &mut unknowns);
             y[1..=states[i].len()].copy_from_slice(&states[i]);
-            y[0] = slider.law.at_rate(rates[i], &states[i]).map_err(|f| f.at(i))?;
+            let rate = self.imposed[i].as_ref().map_or(rates[i], |h| h.piece(0.0).at(0.0).0);
+            y[0] = slider.law.at_rate(rate, &states[i]).map_err(|f| f.at(i))?;
         }
         Ok(unknowns)
     }
@@ -179,8 +233,13 @@ impl System {
     ) -> Result<(), Failure> {
         for (i, s) in self.sliders.iter().enumerate() {
             let (old, new) = (from.normals[i].at(time).0, to.normals[i].at(time).0);
-            if old != new {
-                let y = self.of_mut(i, unknowns);
+            let y = self.of_mut(i, unknowns);
+            if let Some(rates) = from.imposed[i].as_ref().zip(to.imposed[i].as_ref()) {
+                let [before, after] = [rates.0, rates.1].map(|r| r.at(time).0);
+                if (old, before) != (new, after) {
+                    s.law.step_rate(y, [old, new], [before, after]).map_err(|f| f.at(i))?;
+                }
+            } else if old != new {
                 s.law.jump(y, old, new, s.damping, s.mass.is_some()).map_err(|f| f.at(i))?;
             }
         }
@@ -202,6 +261,7 @@ pub struct Segment<'a> {
     system: &'a System,
     load: Piece,
     normals: Vec<Piece>,
+    imposed: Vec<Option<Piece>>,
     stiffness: Vec<f64>,
 }
 
@@ -227,17 +287,29 @@ impl Segment<'_> {
         &self.load
     }
 
+    /// The piece of the slip rate of a slider, where it is imposed \[m/s\].
+    #[must_use]
+    pub fn imposed(&self, i: usize) -> Option<&Piece> {
+        self.imposed[i].as_ref()
+    }
+
+    /// Slip rate of a slider \[m/s\].
+    fn rate(&self, i: usize, time: f64, unknowns: &[f64]) -> f64 {
+        match &self.imposed[i] {
+            Some(rate) => rate.at(time).0,
+            None => self.system.sliders[i].law.slip(self.system.of(i, unknowns)).0.rate,
+        }
+    }
+
     fn forcing(&self, i: usize, time: f64, unknowns: &[f64], load: f64) -> Forcing {
         let slider = &self.system.sliders[i];
         let (normal, normal_rate) = self.normals[i].at(time);
         let mut pull = slider.stiffness * load;
-        for spring in &self.system.springs {
-            if let Some(other) = across(spring, i) {
-                let (speed, _) = self.system.sliders[other].law.slip(self.system.of(other, unknowns));
-                pull += spring.stiffness * speed.rate;
-            }
+        for &(other, stiffness) in &self.system.links[i] {
+            pull += stiffness * self.rate(other, time, unknowns);
         }
         Forcing {
+            imposed: self.imposed[i].as_ref().map(|rate| rate.at(time)),
             normal,
             normal_rate,
             pull,
@@ -258,36 +330,63 @@ impl Segment<'_> {
 
     /// Their Jacobian, column-major.
     pub fn jacobian(&self, time: f64, unknowns: &[f64], jacobian: &mut [f64]) {
-        let (n, load) = (unknowns.len(), self.load.at(time).0);
+        let n = unknowns.len();
         jacobian.fill(0.0);
-        let mut by_pull = vec![0.0; n];
+        self.entries(time, unknowns, |(row, column), value| jacobian[column * n + row] += value);
+    }
+
+    /// The entries of the Jacobian that may differ from zero, as row, column and value. Those of one place add up. Their places and
+    /// their order are those of [`System::places`] at all times.
+    pub fn entries(&self, time: f64, unknowns: &[f64], mut put: impl FnMut((usize, usize), f64)) {
+        let load = self.load.at(time).0;
+        let (mut slopes, mut by_pull) = ([0.0; MOST_UNKNOWNS], [0.0; MOST_UNKNOWNS]);
         for (i, slider) in self.system.sliders.iter().enumerate() {
             let forcing = self.forcing(i, time, unknowns, load);
-            let (y, rows) = (self.system.of(i, unknowns), self.system.starts[i]..self.system.starts[i + 1]);
-            for (local, column) in rows.clone().enumerate() {
-                let target = &mut jacobian[column * n..][rows.clone()];
-                slider.law.gradient(&forcing, y, Direction::Unknown(local), target);
+            let (y, first) = (self.system.of(i, unknowns), self.system.starts[i]);
+            let n = y.len();
+            for column in 0..n {
+                slider.law.gradient(&forcing, y, Direction::Unknown(column), &mut slopes[..n]);
+                for (row, &slope) in slopes[..n].iter().enumerate() {
+                    put((first + row, first + column), slope);
+                }
             }
-            slider.law.gradient(&forcing, y, Direction::Pull, &mut by_pull[rows.clone()]);
-            for spring in &self.system.springs {
-                let Some(other) = across(spring, i) else { continue };
-                let columns = self.system.starts[other]..self.system.starts[other + 1];
-                let mut slopes = vec![0.0; columns.len()];
-                self.system.sliders[other].law.slip_slopes(self.system.of(other, unknowns), &mut slopes);
-                for (column, slope) in columns.zip(slopes) {
-                    for row in rows.clone() {
-                        jacobian[column * n + row] += spring.stiffness * by_pull[row] * slope;
+            if self.system.links[i].is_empty() {
+                continue;
+            }
+            slider.law.gradient(&forcing, y, Direction::Pull, &mut by_pull[..n]);
+            for &(other, stiffness) in &self.system.links[i] {
+                let theirs = self.system.of(other, unknowns);
+                let slopes = &mut slopes[..theirs.len()];
+                if self.imposed[other].is_some() {
+                    slopes.fill(0.0);
+                } else {
+                    self.system.sliders[other].law.slip_slopes(theirs, slopes);
+                }
+                for (column, slope) in slopes.iter().enumerate() {
+                    for (row, by_pull) in by_pull[..n].iter().enumerate() {
+                        let place = (first + row, self.system.starts[other] + column);
+                        put(place, stiffness * by_pull * slope);
                     }
                 }
             }
         }
     }
 
+    /// Slip rate and friction coefficient of a slider.
+    #[must_use]
+    pub fn slip(&self, i: usize, time: f64, unknowns: &[f64]) -> (Speed, f64) {
+        let (law, y) = (&self.system.sliders[i].law, self.system.of(i, unknowns));
+        let Some(piece) = &self.imposed[i] else { return law.slip(y) };
+        let rate = piece.at(time).0;
+        let m = law.at_rate(rate, &y[1..=law.states()]).unwrap_or(y[0]);
+        (Speed { rate, log: rate.abs().ln() }, m * law.scale())
+    }
+
     /// What a slider is doing.
     #[must_use]
     pub fn condition(&self, i: usize, time: f64, unknowns: &[f64]) -> Condition {
         let (slider, y) = (&self.system.sliders[i], self.system.of(i, unknowns));
-        let (speed, friction) = slider.law.slip(y);
+        let (speed, friction) = self.slip(i, time, unknowns);
         let normal = self.normals[i].at(time).0;
         let net = if slider.mass.is_some() { y[y.len() - 1] * normal * slider.law.scale() } else { 0.0 };
         Condition {
@@ -307,14 +406,5 @@ impl Segment<'_> {
         let rate = self.system.sliders[i].law.slip_slopes(y, &mut slopes[..y.len()]);
         let gained: f64 = slopes.iter().zip(self.system.of(i, rates)).map(|(a, b)| a * b).sum();
         gained / rate.abs()
-    }
-}
-
-/// The slider at the other end of a spring.
-fn across(spring: &Spring, i: usize) -> Option<usize> {
-    match spring.between {
-        [a, b] if a == i && b != i => Some(b),
-        [a, b] if b == i && a != i => Some(a),
-        _ => None,
     }
 }

@@ -156,7 +156,7 @@ fn largest(series: &[&[f64]]) -> f64 {
 }
 
 /// Whether the fastest point is, at its fastest, far above what it is most of the time.
-fn is_spiky(times: &[f64], series: &[&[f64]]) -> bool {
+pub(super) fn is_spiky(times: &[f64], series: &[&[f64]]) -> bool {
     let mut before = 0.0;
     let mut weighted: Vec<(f64, f64)> = Vec::with_capacity(times.len());
     for (i, &time) in times.iter().enumerate() {

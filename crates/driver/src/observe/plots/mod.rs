@@ -4,6 +4,7 @@
 //! A plot is first a list of shapes (`figure::Figure`); one painter writes it as SVG, another as PNG.
 
 mod axes;
+mod chart;
 mod colour;
 mod curves;
 mod cycles;
@@ -16,6 +17,7 @@ mod svg;
 mod title;
 mod units;
 
+pub use chart::{Chart, Measure};
 pub use cycles::{Cycles, Line, Rows, Table};
 
 use super::files::stems;
@@ -39,6 +41,14 @@ pub fn draw_all(folder: &Path, recorder: &Recorder) -> Result<Vec<PathBuf>, Obse
 /// See [`draw_all`].
 pub fn draw_cycles(folder: &Path, cycles: &Cycles) -> Result<Vec<PathBuf>, ObserveError> {
     write_all(folder, cycles.figures()?)
+}
+
+/// Draws curves of two quantities against each other into `folder` and returns the files, in the order written.
+///
+/// # Errors
+/// See [`draw_all`].
+pub fn draw_charts(folder: &Path, charts: &[Chart]) -> Result<Vec<PathBuf>, ObserveError> {
+    write_all(folder, charts.iter().filter_map(|c| Some((c.file.clone(), c.figure()?))).collect())
 }
 
 fn write_all(folder: &Path, figures: Vec<(String, Figure)>) -> Result<Vec<PathBuf>, ObserveError> {

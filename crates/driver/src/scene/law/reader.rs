@@ -41,14 +41,17 @@ type Placed = (f64, Range<usize>);
 enum Bound {
     Positive,
     NotNegative,
+    Finite,
 }
-use Bound::{NotNegative, Positive};
+use Bound::{Finite, NotNegative, Positive};
 
 /// See the module.
 pub(super) struct Reader {
     pub kind: &'static str,
     pub place: Range<usize>,
     pub errors: Vec<SceneError>,
+    /// Whether `b` may be negative.
+    pub negative_b: bool,
 }
 
 impl Reader {
@@ -131,11 +134,16 @@ impl Reader {
 
     fn within(&mut self, name: &str, value: Placed, example: &str, bound: Bound) -> Option<f64> {
         let (value, place) = value;
-        if value.is_finite() && (value > 0.0 || (bound == NotNegative && value == 0.0)) {
+        let admitted = value > 0.0 || (bound == NotNegative && value == 0.0) || bound == Finite;
+        if value.is_finite() && admitted {
             return Some(value);
         }
-        let sign = if bound == NotNegative { "not negative" } else { "positive" };
-        let message = format!("`{name}` must be finite and {sign}, found {value:?}");
+        let sign = match bound {
+            Positive => " and positive",
+            NotNegative => " and not negative",
+            Finite => "",
+        };
+        let message = format!("`{name}` must be finite{sign}, found {value:?}");
         self.error(place, message, format!("such as `{name} = {example}`"));
         None
     }
@@ -322,7 +330,8 @@ impl Reader {
                 self.missing(name, format!("add it, such as `{name} = {example}`"));
             }
         }
-        let b = law.b.as_ref().and_then(|b| self.entries("b", b, "0.015", NotNegative));
+        let bound = if self.negative_b { Finite } else { NotNegative };
+        let b = law.b.as_ref().and_then(|b| self.entries("b", b, "0.015", bound));
         let l = law.l.as_ref().and_then(|l| self.entries("l", l, "\"10 um\"", Positive));
         let alpha = match &law.alpha {
             None => b.as_ref().map(|b| vec![(0.0, 0..0); b.len()]),
@@ -373,7 +382,7 @@ impl Reader {
             let lost = |memory: f64| memory != 0.0 && !(memory * (1.0 / b)).is_finite();
             match evolution {
                 Evolution::Slip | Evolution::Flash { .. } => {}
-                Evolution::Nagata { c } if *b == 0.0 || lost(c) => {
+                Evolution::Nagata { c } if *b <= 0.0 || lost(c) => {
                     let message = format!("with \"nagata\" `b` must be positive, found {b:?}");
                     let help = "such as `b = 0.015`: the memory of shear traction acts through the state";
                     self.error(b_place.clone(), message, help);

@@ -5,8 +5,10 @@ use super::spec::{SliderScene, SliderSpec, SpringSpec};
 use crate::laws;
 use crate::scene::law::{self, LawChoice};
 use crate::scene::model::{LawSpec, Spanned};
-use crate::scene::near;
-use asperity_friction::slider::{Slider, Sliding, Spring, System};
+use crate::scene::{SceneError, near};
+use crate::slider::{Plan, stability};
+use crate::warning::Warning;
+use asperity_friction::slider::{History, Slider, Sliding, Spring, System};
 use std::sync::Arc;
 
 impl Planner {
@@ -26,8 +28,53 @@ impl Planner {
         Some(Slider { law: law?, stiffness: stiffness?, damping: damping?, mass: mass?, normal: normal? })
     }
 
+    /// The slip rate of a slider where it is imposed; the outer none is an error.
+    pub(super) fn imposed(&mut self, spec: &SliderSpec) -> Option<Option<History>> {
+        let Some(rate) = &spec.rate else { return Some(None) };
+        let idle = [
+            ("stiffness", spec.stiffness.as_ref().map(Spanned::span)),
+            ("damping", spec.damping.as_ref().map(Spanned::span)),
+            ("mass", spec.mass.as_ref().map(Spanned::span)),
+            ("start", spec.start.as_ref().map(Spanned::span)),
+        ];
+        if let Some((name, Some(place))) = idle.into_iter().find(|i| i.1.is_some()) {
+            let message = format!("`{name}` has no effect where the slip rate is imposed");
+            let error = SceneError::at(place, message, format!("remove `{name}`, or remove `rate`"));
+            self.errors.push(error.and(rate.span(), "`rate`"));
+            return None;
+        }
+        self.course(rate, |v| v.0, "rate").map(Some)
+    }
+
+    /// A system with these slip rates imposed.
+    pub(super) fn impose(&mut self, mut system: System, rates: Vec<Option<History>>) -> Option<System> {
+        for (i, rate) in rates.into_iter().enumerate() {
+            let Some(rate) = rate else { continue };
+            system = match system.impose(i, rate) {
+                Ok(system) => system,
+                Err(failure) => return self.error(0..0, failure.to_string(), "change that value"),
+            };
+        }
+        Some(system)
+    }
+
+    /// Warns of sliders whose run ends where quasi-static equilibrium does.
+    pub(super) fn runaways(&mut self, scene: &SliderScene, plan: &mut Plan) {
+        for (i, ratio) in stability::runaways(plan) {
+            let name = &plan.names[i];
+            let spec = scene.sliders[name].get_ref();
+            let place = spec.stiffness.as_ref().map_or(spec.law.span(), Spanned::span);
+            let message = format!(
+                "`{name}` is softer than critical (k/k_c = {ratio:.3}) and has neither damping nor mass: its slip rate grows \
+                 beyond bounds in finite time, where the run ends"
+            );
+            let help = "give it `damping` (G/(2 c_s) for radiation) or `mass`, or a stiffer spring";
+            plan.warnings.push(Warning::at(place, message, help));
+        }
+    }
+
     fn law(&mut self, spec: &Spanned<LawSpec>) -> Option<Arc<dyn Sliding>> {
-        let choice: LawChoice = match law::choose(spec) {
+        let choice: LawChoice = match law::choose_sliding(spec) {
             Ok(choice) => choice,
             Err(errors) => {
                 self.errors.extend(errors);
@@ -78,10 +125,15 @@ impl Planner {
 
     /// Whether a chain of springs leads from each slider to the load point.
     pub(super) fn held(&mut self, scene: &SliderScene, system: &System, names: &[String]) -> Option<()> {
-        let mut held: Vec<bool> = system.sliders().iter().map(|s| s.stiffness > 0.0).collect();
-        for _ in names {
+        let each = system.sliders().iter().enumerate();
+        let mut held: Vec<bool> =
+            each.map(|(i, s)| s.stiffness > 0.0 || system.imposed(i).is_some()).collect();
+        let mut grown = true;
+        while grown {
+            grown = false;
             for spring in system.springs() {
                 let [a, b] = spring.between;
+                grown |= held[a] != held[b];
                 let either = held[a] || held[b];
                 (held[a], held[b]) = (either, either);
             }

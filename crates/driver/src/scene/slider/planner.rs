@@ -3,8 +3,8 @@
 use super::spec::SliderScene;
 use crate::scene::SceneError;
 use crate::scene::model::Spanned;
-use crate::slider::Plan;
-use asperity_friction::slider::{Slider, System};
+use crate::slider::{Output, Plan};
+use asperity_friction::slider::{History, Slider, System};
 use std::ops::Range;
 
 /// Turns a scene into a plan and collects what is wrong.
@@ -32,8 +32,12 @@ impl Planner {
         if scene.sliders.is_empty() {
             return self.error(0..0, "the scene has no slider", "add a table `[sliders.NAME]`");
         }
+        // Where slip rates are imposed and no spring leads to a load point, there is none.
+        let specs = || scene.sliders.values().map(|s| s.get_ref());
+        let driven = specs().any(|s| s.rate.is_some()) && specs().all(|s| s.stiffness.is_none());
         let load = match &scene.load {
             Some(load) => self.course(&load.rate, |v| v.0, "rate"),
+            None if driven => Some(History::Constant(0.0)),
             None => self.error(0..0, "the scene has no load point", "add a table `[load]` with its `rate`"),
         };
         let names: Vec<String> = scene.sliders.keys().cloned().collect();
@@ -41,12 +45,18 @@ impl Planner {
         let springs: Vec<_> = scene.springs.iter().map(|s| self.spring(s.get_ref(), &names)).collect();
         let settings = self.settings(&scene.time);
         let events = scene.events.as_ref().map(|e| self.events(e));
+        let rates: Vec<_> = specs().map(|s| self.imposed(s)).collect();
+        let output = match (&scene.output, settings.end) {
+            (Some(spec), Some(end)) => self.output(spec, &names, end),
+            _ => Some(Output::default()),
+        };
         let (load, sliders) = (load?, sliders.into_iter().collect::<Option<Vec<_>>>()?);
         let springs = springs.into_iter().collect::<Option<Vec<_>>>()?;
         let system = match System::new(sliders, springs, load) {
             Ok(system) => system,
             Err(failure) => return self.error(0..0, failure.to_string(), "change that value"),
         };
+        let system = self.impose(system, rates.into_iter().collect::<Option<Vec<_>>>()?)?;
         self.held(scene, &system, &names)?;
         let start = self.start(scene, &system)?;
         let mut plan = Plan::new(system, start, settings.end?);
@@ -56,11 +66,15 @@ impl Planner {
         plan.tolerance = settings.tolerance.unwrap_or(plan.tolerance);
         plan.most_steps = settings.most_steps.unwrap_or(plan.most_steps);
         (plan.first_step, plan.largest_step) = (settings.first_step, settings.largest_step);
+        plan.output = output?;
+        let extremes = scene.output.as_ref().and_then(|o| o.extremes.as_ref());
+        plan.peaks = extremes.is_some_and(|e| *e.get_ref());
         if let (Some(thresholds), Some(spec)) = (events, &scene.events) {
             plan.events = Some(thresholds?);
             plan.peaks = spec.peaks.unwrap_or(true);
             plan.most_events = spec.stop_after.as_ref().map(|n| *n.get_ref());
         }
+        self.runaways(scene, &mut plan);
         Some(plan)
     }
 

@@ -4,7 +4,9 @@ use super::course::Course;
 use crate::scene::model::{LawSpec, Spanned};
 use crate::scene::units::{Damping, Mass, Pressure, Spring, Time, Velocity};
 use serde::Deserialize;
+use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use std::collections::BTreeMap;
+use std::fmt;
 
 /// A scene of spring-sliders.
 #[derive(Clone, Debug, Deserialize)]
@@ -29,6 +31,8 @@ pub struct SliderScene {
     pub time: SliderTime,
     /// Events.
     pub events: Option<EventSpec>,
+    /// Rows of histories.
+    pub output: Option<OutputSpec>,
 }
 
 /// The load point.
@@ -55,6 +59,8 @@ pub struct SliderSpec {
     pub mass: Option<Spanned<Mass>>,
     /// Slip rate at time 0 \[m/s\]; without it that of the law's initial steady state.
     pub start: Option<Spanned<Velocity>>,
+    /// Slip rate at all times \[m/s\], where it is imposed.
+    pub rate: Option<Spanned<Course<Velocity>>>,
 }
 
 /// A spring between two sliders.
@@ -97,4 +103,55 @@ pub struct EventSpec {
     pub stop_after: Option<Spanned<usize>>,
     /// Whether the extremes of the slip rate are found, not only seen at steps (default true).
     pub peaks: Option<bool>,
+}
+
+/// Rows of histories.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OutputSpec {
+    /// Change of ln V after which a row is written \[-\].
+    pub change: Option<Spanned<f64>>,
+    /// Times of rows \[s\].
+    pub times: Option<Spanned<Vec<Spanned<Time>>>>,
+    /// Time between rows \[s\].
+    pub interval: Option<Spanned<Time>>,
+    /// Which sliders have histories.
+    pub histories: Option<Which>,
+    /// Whether the extremes of the slip rate are found and written, where the scene has no events.
+    pub extremes: Option<Spanned<bool>>,
+}
+
+/// All, none, or those named.
+#[derive(Clone, Debug)]
+pub enum Which {
+    /// All or none.
+    All(bool),
+    /// Those named.
+    Named(Vec<Spanned<String>>),
+}
+
+impl<'de> Deserialize<'de> for Which {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct WhichVisitor;
+        impl<'de> Visitor<'de> for WhichVisitor {
+            type Value = Which;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("true, false, or a list of names such as [\"left\", \"right\"]")
+            }
+
+            fn visit_bool<E: de::Error>(self, all: bool) -> Result<Which, E> {
+                Ok(Which::All(all))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Which, A::Error> {
+                let mut names = Vec::new();
+                while let Some(name) = seq.next_element()? {
+                    names.push(name);
+                }
+                Ok(Which::Named(names))
+            }
+        }
+        deserializer.deserialize_any(WhichVisitor)
+    }
 }

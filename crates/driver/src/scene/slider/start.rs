@@ -1,25 +1,35 @@
 //! Where the sliders start.
 
 use super::planner::Planner;
-use super::spec::SliderScene;
+use super::spec::{SliderScene, SliderSpec};
 use asperity_friction::Failure;
-use asperity_friction::slider::{Slider, System};
+use asperity_friction::slider::{History, Slider, System};
 
 impl Planner {
     pub(super) fn start(&mut self, scene: &SliderScene, system: &System) -> Option<Vec<f64>> {
         let (mut rates, mut states) = (Vec::new(), Vec::new());
-        for (spec, slider) in scene.sliders.values().zip(system.sliders()) {
+        for (i, (spec, slider)) in scene.sliders.values().zip(system.sliders()).enumerate() {
             let spec = spec.get_ref();
             let law = spec.law.get_ref();
             let initial = law.v_initial.as_ref().or(law.v_ref.as_ref());
             let steady = initial.map_or(1.0, |v| v.get_ref().0);
             let rate = match &spec.start {
                 None => steady,
-                Some(start) => self.positive("start", start.get_ref().0, start.span(), "\"1 um/s\"")?,
+                Some(start) => {
+                    let rate = start.get_ref().0;
+                    if rate == 0.0 || !rate.is_finite() {
+                        let message = format!("`start` must be finite and not zero, found {rate:?}");
+                        return self.error(start.span(), message, "such as `start = \"1 um/s\"`");
+                    }
+                    rate
+                }
             };
             let pressed = law.normal_initial.as_ref().map(|p| p.get_ref().0);
             match initial_states(slider, steady, pressed) {
-                Ok(found) => states.push(found),
+                Ok(found) => {
+                    self.both_ways(spec, slider, system.imposed(i), rate, &found)?;
+                    states.push(found);
+                }
                 Err(failure) => {
                     return self.error(spec.law.span(), failure.to_string(), "change that value");
                 }
@@ -40,6 +50,30 @@ impl Planner {
             }
             Err(failure) => self.error(0..0, failure.to_string(), "change the start"),
         }
+    }
+}
+
+impl Planner {
+    /// Whether the strength has a value at the slip rates that are given: not every form has one at rest and backwards.
+    fn both_ways(
+        &mut self,
+        spec: &SliderSpec,
+        slider: &Slider,
+        imposed: Option<&History>,
+        start: f64,
+        states: &[f64],
+    ) -> Option<()> {
+        let (least, place) = match (imposed, &spec.rate, &spec.start) {
+            (Some(rate), Some(given), _) => (rate.least(), given.span()),
+            (_, _, Some(given)) => (start, given.span()),
+            _ => return Some(()),
+        };
+        if least > 0.0 || slider.law.at_rate(0.0, states).is_ok() {
+            return Some(());
+        }
+        let message =
+            format!("slip rates fall to {least:?} m/s, where this form of the strength has no value");
+        self.error(place, message, "a slip rate above zero, or `form = \"regularised\"`")
     }
 }
 

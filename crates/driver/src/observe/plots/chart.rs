@@ -1,0 +1,149 @@
+//! Curves of any two quantities against each other.
+
+use super::axes::{Axis, Frame};
+use super::colour::of_curve;
+use super::curves::{DECADES, Entry, is_spiky, legend, thin};
+use super::figure::{Figure, Point};
+use super::title::title;
+use super::units::{self, Units};
+
+/// What an axis measures, in SI.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// \[s\].
+    Time,
+    /// \[m\].
+    Length,
+    /// \[m/s\]; logarithmic where most of the time it is far below its largest value.
+    Velocity,
+    /// \[Pa\].
+    Stress,
+    /// \[-\].
+    Number,
+}
+
+impl Measure {
+    fn units(self) -> Units {
+        match self {
+            Self::Time => units::TIME,
+            Self::Length => units::LENGTH,
+            Self::Velocity => units::VELOCITY,
+            Self::Stress => units::STRESS,
+            Self::Number => units::NUMBER,
+        }
+    }
+}
+
+/// Curves in one frame.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// Name of its files.
+    pub file: String,
+    /// Title of the scene.
+    pub title: String,
+    /// What lies along, with its name.
+    pub x: (&'static str, Measure),
+    /// What lies upwards, with its name.
+    pub y: (&'static str, Measure),
+    /// Names and points of the curves.
+    pub curves: Vec<(String, Vec<(f64, f64)>)>,
+}
+
+/// Place and size of the frame.
+const AT: Point = (96.0, 40.0);
+/// See [`AT`].
+const SIZE: Point = (560.0, 380.0);
+/// Room right of it for the legend.
+const LEGEND: f64 = 170.0;
+/// Curves that the legend has room for.
+const NAMED: usize = 16;
+
+impl Chart {
+    /// The figure; none without points.
+    pub(super) fn figure(&self) -> Option<Figure> {
+        let points = || self.curves.iter().flat_map(|c| c.1.iter());
+        points().next()?;
+        let largest = |pick: fn(&Point) -> f64| {
+            points().map(|p| pick(p).abs()).filter(|v| v.is_finite()).fold(0.0, f64::max)
+        };
+        let (x_unit, y_unit) = (self.x.1.units().of(largest(|p| p.0)), self.y.1.units().of(largest(|p| p.1)));
+        let log = self.y.1 == Measure::Velocity && self.curves.iter().any(|c| spiky(&c.1));
+        let up = |v: f64| if log { v.abs() } else { v } / y_unit.factor;
+        let label = format!("{} [{}]", self.y.0, y_unit.name);
+        let values = points().map(|p| up(p.1));
+        let y =
+            if log { Axis::logarithmic(values, DECADES, label) } else { Axis::linear(values, 0.08, label) };
+        let label = format!("{} [{}]", self.x.0, x_unit.name);
+        let x = match self.x.1 {
+            Measure::Time => Axis::exact((0.0, largest(|p| p.0) / x_unit.factor), label),
+            _ => Axis::linear(points().map(|p| p.0 / x_unit.factor), 0.0, label),
+        };
+        let frame = Frame { at: AT, size: SIZE, x, y };
+        let mut figure = Figure::new(AT.0 + SIZE.0 + LEGEND, AT.1 + SIZE.1 + 60.0);
+        title(&mut figure, &frame, &self.title, &self.y.0.to_lowercase());
+        frame.grid(&mut figure);
+        for (i, (_, curve)) in self.curves.iter().enumerate() {
+            for piece in curve.split(|p| !(p.0.is_finite() && p.1.is_finite())).filter(|p| !p.is_empty()) {
+                let line: Vec<Point> =
+                    piece.iter().map(|p| frame.point(p.0 / x_unit.factor, up(p.1))).collect();
+                // Columns are those of a curve that runs one way.
+                let line = if self.x.1 == Measure::Time { thin(line) } else { line };
+                figure.line(line, 1.8, of_curve(i, self.curves.len()));
+            }
+        }
+        frame.draw(&mut figure);
+        legend(&mut figure, &frame, self.entries().into_iter());
+        Some(figure)
+    }
+
+    /// Names of the curves; of many the first ones.
+    fn entries(&self) -> Vec<Entry> {
+        let n = self.curves.len();
+        let entry = |(i, curve): (usize, &(String, Vec<Point>))| Entry {
+            name: curve.0.clone(),
+            colour: of_curve(i, n),
+            dashed: false,
+        };
+        let mut entries: Vec<Entry> = self.curves.iter().enumerate().take(NAMED).map(entry).collect();
+        if n > NAMED {
+            entries.push(Entry {
+                name: format!("and {} more", n - NAMED),
+                colour: of_curve(n - 1, n),
+                dashed: true,
+            });
+        }
+        entries
+    }
+}
+
+fn spiky(curve: &[Point]) -> bool {
+    let (times, values): (Vec<f64>, Vec<f64>) = curve.iter().copied().unzip();
+    is_spiky(&times, &[&values])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_that_turns_back_keeps_all_of_its_points() {
+        let there = (0..30_000).map(|i| f64::from(i) * 1e-9);
+        let points: Vec<Point> = there.clone().chain(there.rev()).map(|x| (x, 0.6)).collect();
+        let n = points.len();
+        let chart = Chart {
+            file: "c".into(),
+            title: "t".into(),
+            x: ("Slip", Measure::Length),
+            y: ("Friction coefficient", Measure::Number),
+            curves: vec![("one".into(), points); 20],
+        };
+        let figure = chart.figure().unwrap();
+        let longest = figure.shapes.iter().filter_map(|s| match s {
+            super::super::figure::Shape::Line { points, .. } => Some(points.len()),
+            _ => None,
+        });
+        assert_eq!(longest.max(), Some(n));
+        assert_eq!(chart.entries().len(), NAMED + 1);
+        assert!(Chart { curves: vec![("none".into(), Vec::new())], ..chart }.figure().is_none());
+    }
+}

@@ -1,0 +1,74 @@
+//! Which of the rows of a slider are worth keeping.
+
+use asperity_friction::slider::Condition;
+
+/// Rows are kept at this share of the run at least.
+const SHARE: f64 = 1e-3;
+
+/// Change of the friction coefficient that is worth a change of ln V by one: a tenth of that takes all of a plot.
+const FRICTION: f64 = 0.05;
+
+/// A slider at an instant.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Row {
+    /// When \[s\].
+    pub time: f64,
+    /// Length of the step, or time since the row before where it lies within one; 0 at the start and after a jump \[s\].
+    pub dt: f64,
+    /// What the slider is doing.
+    pub condition: Condition,
+    /// Slip since time 0 \[m\].
+    pub slip: f64,
+    /// Displacement of the load point \[m\].
+    pub load: f64,
+    /// State variables.
+    pub states: Vec<f64>,
+}
+
+/// The rows of a slider, as they come.
+#[derive(Debug, Default)]
+pub(super) struct Thin {
+    /// Time, ln V and friction of the last row kept.
+    last: Option<[f64; 3]>,
+    /// The row that came last, where it was not kept.
+    pending: Option<Row>,
+}
+
+impl Thin {
+    /// The rows to be kept now that one more came: it, and that before it where it shows where a jump began. `change` is that of ln V
+    /// from row to row, `end` the end of the run \[s\].
+    pub fn next(&mut self, row: Row, asked: bool, change: Option<f64>, end: f64) -> [Option<Row>; 2] {
+        let Some(change) = change else { return [None, asked.then_some(row)] };
+        let by = |share: f64| self.last.is_some_and(|last| differs(&row, last, share * change));
+        let late = self.last.is_none_or(|last| row.time - last[0] >= SHARE * end);
+        // A jump is drawn from where it began.
+        let jumped = row.dt == 0.0 || by(2.0);
+        let keep = asked || late || jumped || by(1.0);
+        let before = if jumped { self.pending.take() } else { None };
+        if keep {
+            self.keep(&row);
+            [before, Some(row)]
+        } else {
+            self.pending = Some(row);
+            [before, None]
+        }
+    }
+
+    /// The row that came last, where it was not kept: it is worth it.
+    pub fn mark(&mut self) -> Option<Row> {
+        let row = self.pending.take()?;
+        self.keep(&row);
+        Some(row)
+    }
+
+    fn keep(&mut self, row: &Row) {
+        self.pending = None;
+        self.last = Some([row.time, row.condition.log_rate, row.condition.friction]);
+    }
+}
+
+/// Whether ln V or friction differ by so much. A slider at rest has no ln V to compare.
+fn differs(row: &Row, [_, log, friction]: [f64; 3], by: f64) -> bool {
+    let moved = (row.condition.log_rate - log).abs();
+    moved >= by || moved.is_nan() || (row.condition.friction - friction).abs() >= FRICTION * by
+}
