@@ -192,6 +192,7 @@ pub fn simulate(scene: &Scene) -> Result<Run, CaseError> {
     match &report.outcome {
         Outcome::Completed => finite(&record).map(|()| Run { report, record }),
         Outcome::Stopped { reason, time, .. } => Err(format!("stopped at {time} s: {reason}").into()),
+        Outcome::Interrupted { .. } => Err("interrupted".into()),
     }
 }
 

@@ -86,6 +86,7 @@ fn simulate(scene: &Scene, exact: f64) -> Result<Done, CaseError> {
             Ok(Done { report, record, exact, cost })
         }
         Outcome::Stopped { reason, .. } => Err(format!("stopped: {reason}").into()),
+        Outcome::Interrupted { .. } => Err("interrupted".into()),
     }
 }
 

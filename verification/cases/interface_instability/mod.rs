@@ -93,6 +93,7 @@ fn onset(done: &Done) -> Result<Option<f64>, CaseError> {
         Outcome::Completed => Ok(None),
         Outcome::Stopped { time, kind: Stop::Instability { .. }, .. } => Ok(Some(time - PRESSED)),
         Outcome::Stopped { reason, .. } => Err(reason.clone().into()),
+        Outcome::Interrupted { .. } => Err("interrupted".into()),
     }
 }
 
