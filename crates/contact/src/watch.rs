@@ -140,6 +140,10 @@ impl<const D: usize> Interface<D> {
         match self.watch.course {
             Course::Steady => None,
             Course::Drop => (0..shear.points.len()).find(|&p| lets_go(shear, p)),
+            Course::Branch { length, .. } if softest.clone().all(|(_, d)| !softens(d)) => {
+                let (before, after) = (&shear.committed.states, &shear.trial.states);
+                (0..shear.points.len()).find(|&p| before[p] < length && after[p] >= length)
+            }
             Course::State { .. } | Course::Branch { .. } => softest
                 .filter(|(_, d)| softens(*d))
                 .reduce(|a, b| if b.1 < a.1 { b } else { a })

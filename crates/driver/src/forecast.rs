@@ -15,8 +15,8 @@ use std::ops::Range;
 const SURE: f64 = 0.5;
 /// Bytes of a value or an index.
 const WORD: f64 = 8.0;
-/// Equations below which a part of a grid is one dense front.
-const LEAF: f64 = 32.0;
+/// Equations below which a part of a grid is one dense front: the analysis merges smaller ones.
+const LEAF: f64 = 96.0;
 
 /// Cells and nodes of a body.
 #[derive(Clone, Debug)]
@@ -116,8 +116,9 @@ pub fn admit(scene: &Scene) -> Result<(), PlanError> {
         let factor: f64 = SURE * grids.iter().map(|g| factor_bytes(g.nodes, components)).sum::<f64>();
         let allowed = solver::memory(scene);
         if factor > allowed as f64 {
-            return Err(within(PlanError::at(
-                0..0,
+            let memory = scene.solver.memory.as_ref().map(Spanned::span);
+            return Err(PlanError::at(
+                memory.unwrap_or(largest.place.clone()),
                 format!(
                     "the factors of {} need {} or more, and {} are allowed",
                     in_words(&counts, components),
@@ -125,7 +126,7 @@ pub fn admit(scene: &Scene) -> Result<(), PlanError> {
                     size(allowed)
                 ),
                 "take larger cells, or raise `memory` in `[solver]` where the machine has it".into(),
-            )));
+            ));
         }
     }
     Ok(())
@@ -258,6 +259,7 @@ mod tests {
         ];
         for (analysed, estimated) in cases {
             let ratio = estimated / analysed;
+            println!("{ratio}");
             assert!((0.67..1.5).contains(&ratio), "{ratio}");
             assert!(SURE * estimated <= analysed, "{ratio}");
         }

@@ -11,6 +11,7 @@ use crate::stop;
 use crate::system::Assembled;
 use crate::timing::StepLength;
 use crate::watch;
+use asperity_contact::{Course, Watch};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant as Clock;
 
@@ -109,7 +110,8 @@ impl<const D: usize> Running<'_, D> {
         let clock = Clock::now();
         system.begin_stage(stage).map_err(|reason| RunError::SetUp { stage: stage.name.clone(), reason })?;
         self.phases.set_up += clock.elapsed().as_secs_f64();
-        let mut length = StepLength::new(&self.plan.control, stage, adaptive(&self.plan.stepping));
+        let mut length =
+            StepLength::new(&self.plan.control, stage, adaptive(&self.plan.stepping), self.watches());
         let mut rejected = 0;
         let mut free: Option<String> = None;
         loop {
@@ -149,6 +151,12 @@ impl<const D: usize> Running<'_, D> {
                 }
             }
         }
+    }
+
+    /// Whether the law of an interface follows rates or weakens.
+    fn watches(&self) -> bool {
+        let watched = |w: &Watch| w.rate.is_some() || w.course != Course::Steady;
+        self.plan.interfaces.iter().any(|i| watched(&i.watch))
     }
 
     /// Whether an interface has a law of the slip rate. Rates of other laws are slip over the length of the step, which may be finite at

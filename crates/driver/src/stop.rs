@@ -55,10 +55,12 @@ pub fn exhausted<const D: usize>(
     let reason = format!(
         "the error of slip needs steps of {needed:.3e} s, below the smallest allowed, {smallest:.3e} s (`min_step`)"
     );
-    match fastest(system).filter(|_| faster) {
-        Some(at) => unstable(system, stage, at, &reason),
-        None => {
-            let reason = format!("{reason}; allow shorter ones, or a larger `tolerance`");
+    match fastest(system) {
+        Some(at) if faster => unstable(system, stage, at, &reason),
+        at => {
+            let place =
+                at.map_or_else(String::new, |at| format!("; the fastest point is {}", at.words::<D>()));
+            let reason = format!("{reason}{place}; allow shorter ones, or a larger `tolerance`");
             Outcome::Stopped { stage, time: system.time(), reason, kind: Stop::SmallestStep }
         }
     }
@@ -72,14 +74,17 @@ struct Met {
     slip_rate: f64,
 }
 
+impl Met {
+    /// Place and slip rate.
+    fn words<const D: usize>(&self) -> String {
+        let place = std::array::from_fn(|c| (self.position[c] * SHOWN).round() / SHOWN);
+        format!("at {}, V = {:.3e} m/s", crate::rigid::place::<D>(&place), self.slip_rate)
+    }
+}
+
 fn unstable<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, what: &str) -> Outcome {
     let time = system.time();
-    let place = &met.position[..D];
-    let reason = format!(
-        "instability at {}, V = {:.3e} m/s: {what}; {REMEDY}",
-        crate::rigid::place::<D>(&std::array::from_fn(|c| (place[c] * SHOWN).round() / SHOWN)),
-        met.slip_rate
-    );
+    let reason = format!("instability {}: {what}; {REMEDY}", met.words::<D>());
     let Met { interface, position, slip_rate } = met;
     Outcome::Stopped { stage, time, reason, kind: Stop::Instability { interface, position, slip_rate } }
 }

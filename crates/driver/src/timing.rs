@@ -14,6 +14,8 @@ const FIRST: f64 = 1e-3;
 /// Smallest step as a share of the stage, where the scene gives none: six orders below the first, as many as the factor by which slip
 /// accelerates from the rate of the loads to where quasi-static states end.
 const SMALLEST: f64 = 1e-9;
+/// The same where no law weakens: ten orders below the first, for sets of contacts and yielding points that change one by one.
+const LEAST: f64 = 1e-13;
 /// Smallest step over the spacing of times at the end of the stage: below it steps add up to nothing.
 const SPACING: f64 = 4.0 * f64::EPSILON;
 /// Largest step as a share of the stage, where the scene gives none.
@@ -46,9 +48,10 @@ pub struct StepLength {
 }
 
 impl StepLength {
-    /// Lengths for `stage`; `adaptive` for those found by Newton's method. Others only grow back towards the largest.
+    /// Lengths for `stage`; `adaptive` for those found by Newton's method. Others only grow back towards the largest. `watched` where a
+    /// law follows rates or weakens.
     #[must_use]
-    pub fn new(control: &Control, stage: &Stage, adaptive: bool) -> Self {
+    pub fn new(control: &Control, stage: &Stage, adaptive: bool, watched: bool) -> Self {
         let duration = stage.end - stage.start;
         let imposed = match (&control.imposed, stage.steps) {
             (Some(times), _) => Some(within(times, stage)),
@@ -60,7 +63,10 @@ impl StepLength {
         Self {
             end: stage.end,
             dt: if imposed.is_some() { f64::INFINITY } else { first },
-            smallest: control.min_step.unwrap_or(SMALLEST * duration).max(SPACING * stage.end),
+            smallest: control
+                .min_step
+                .unwrap_or(if watched { SMALLEST } else { LEAST } * duration)
+                .max(SPACING * stage.end),
             largest: if imposed.is_some() { f64::INFINITY } else { largest },
             tolerance: (adaptive && imposed.is_none()).then_some(control.tolerance),
             imposed,

@@ -142,6 +142,8 @@ fn a_run_that_was_killed_is_kept_as_the_one_before() {
     for file in fs::read_dir(folder.join("out/s")).unwrap().map(|e| e.unwrap().path()) {
         if file.is_dir() {
             fs::remove_dir_all(file).unwrap();
+        } else if file != path {
+            fs::remove_file(file).unwrap();
         }
     }
     fs::write(&path, fs::read_to_string(&path).unwrap().replacen("\"completed\"", "\"running\"", 1)).unwrap();

@@ -93,6 +93,7 @@ fn injected(flux: f64) -> Plan {
         )
         .replace("max = [\"500 km\", \"500 km\"]", "max = [\"500 km\", \"0 km\"]")
         .replace("at = \"20 km\"", "at = \"0 km\"")
+        .replace(", \"20 km\", \"20.5 km\", \"21 km\", \"21.5 km\", \"22.5 km\", \"25 km\"]", "]")
         .replace("1.25e-6 m/s", &format!("{flux:e} m/s"));
     match plan_scene(&scene::read(&text).unwrap()).unwrap() {
         ScenePlan::Faults(plan) => *plan,

@@ -19,7 +19,7 @@ poisson = 0.25
 density = 2670
 [bodies.crust]
 material = "rock"
-mesh.fault = {{ trace = {trace}, spacing = [["0 km", "500 m"], ["24 km", "1 km"], ["120 km", "20 km"]], min = ["-100 km", "-60 km"], max = ["200 km", "0 km"], growth = 1.5, element = "quad4" }}
+mesh.fault = {{ trace = {trace}, interpolation = "polyline", spacing = [["0 km", "500 m"], ["24 km", "1 km"], ["120 km", "20 km"]], min = ["-100 km", "-60 km"], max = ["200 km", "0 km"], growth = 1.5, element = "quad4" }}
 [faults.main]
 minus = "crust.fault.minus"
 plus = "crust.fault.plus"
