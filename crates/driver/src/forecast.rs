@@ -3,7 +3,7 @@
 //! Counts of generated blocks follow from the scene; of other meshes they are known when the mesh is, before its cells have matrices.
 //! These numbers only refuse what is far out of reach, early. What fits is analysed exactly afterwards (`solver`).
 
-use crate::model::meshes;
+use crate::model::{CellBlock, Model, meshes};
 use crate::plan::PlanError;
 use crate::scene::model::{Body, MeshSource, Method, Scene, Spanned};
 use crate::solver::{self, size};
@@ -17,6 +17,11 @@ const SURE: f64 = 0.5;
 const WORD: f64 = 8.0;
 /// Equations below which a part of a grid is one dense front: the analysis merges smaller ones.
 const LEAF: f64 = 96.0;
+
+/// Bytes of the program with its libraries, and of its tables and plots: the smallest scenes take 12 MB without plots and 38 MB with them.
+const PROGRAM: usize = 38_000_000;
+/// Bytes of the buffers in which dense kernels pack what they multiply, for each thread.
+const PACKED: usize = 10_000_000;
 
 /// Cells and nodes of a body.
 #[derive(Clone, Debug)]
@@ -61,6 +66,50 @@ fn neighbours(kind: ElementKind) -> f64 {
         ElementKind::Wedge6 => 21.0,
         ElementKind::Wedge15 => 45.0,
     }
+}
+
+/// What a model holds \[bytes\].
+#[derive(Clone, Copy, Debug)]
+pub struct Held {
+    /// Its mesh.
+    mesh: usize,
+    /// The matrices of its cells and their degrees of freedom.
+    cells: usize,
+}
+
+impl Held {
+    /// Of a model whose cells are there.
+    #[must_use]
+    pub fn by<const D: usize>(model: &Model<D>) -> Self {
+        let nodes: usize = model.mesh.blocks.iter().map(|b| b.connectivity.len()).sum();
+        let of_block = |block: &CellBlock<D>| block.pattern().values() + block.pattern().dofs.len();
+        Self {
+            mesh: (model.mesh.nodes.len() * D + nodes) * size_of::<f64>(),
+            cells: model.blocks.iter().map(of_block).sum::<usize>() * size_of::<f64>(),
+        }
+    }
+
+    /// With bodies and interfaces whose linear systems take so much. Condensation works on a copy of the matrices.
+    #[must_use]
+    pub fn with_systems(&self, solver: usize, condensed: bool) -> usize {
+        PROGRAM + self.mesh + if condensed { 2 * self.cells } else { self.cells } + solver
+    }
+
+    /// With faults, onto which bodies are condensed in so much. Jumps are taken on a copy of the matrices, and what small pieces left is not
+    /// given back to the system before the elimination.
+    #[must_use]
+    pub fn with_faults(&self, condensation: usize) -> usize {
+        let threads = rayon::current_num_threads();
+        PROGRAM + threads * PACKED + self.mesh + self.cells + self.cells.max(condensation)
+    }
+}
+
+/// The most memory this process has had so far \[bytes\]; none where the system does not say.
+#[must_use]
+pub fn most_so_far() -> Option<usize> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(line.split_whitespace().next()?.parse::<usize>().ok()? * 1024)
 }
 
 /// A generated block.

@@ -3,6 +3,7 @@
 use crate::cohesive::Resolved;
 use crate::enforcement::{Enforced, in_pascal_per_metre, in_words};
 use crate::fault;
+use crate::forecast::Held;
 use crate::loading::{self, Stage};
 use crate::model::{CellBlock, Model, sizes};
 use crate::plan_doubts;
@@ -256,7 +257,7 @@ impl std::fmt::Display for Summary {
             self.dofs,
             self.system_dofs,
             self.state_bytes.map_or_else(String::new, |bytes| format!("{bytes} bytes of friction state, ")),
-            (self.memory_bytes as f64 / 1e6).max(1.0)
+            self.memory_bytes as f64 / 1e6
         )
     }
 }
@@ -626,7 +627,6 @@ fn summary<const D: usize>(
         }
         (Path::Full, _) => (full_because(scene, model, interfaces), model.dofs()),
     };
-    let cells: usize = model.blocks.iter().map(|b| b.pattern().values()).sum();
     Summary {
         physics,
         path: path_text,
@@ -643,7 +643,7 @@ fn summary<const D: usize>(
         dofs: model.dofs(),
         system_dofs: system_dofs + unknowns,
         state_bytes: (!interfaces.is_empty()).then_some(state_bytes),
-        memory_bytes: cells * size_of::<f64>() + solver.bytes,
+        memory_bytes: Held::by(model).with_systems(solver.bytes, path == Path::Condensed),
     }
 }
 

@@ -164,6 +164,9 @@ pub struct Provenance {
     pub threads: usize,
     /// Commit of the program, "unknown" outside a checkout; with `-dirty` where its sources had changed since.
     pub commit: String,
+    /// Most memory the process had \[bytes\]; absent where the system does not say.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak_bytes: Option<usize>,
     /// What it was begun from.
     #[serde(flatten)]
     pub origin: Origin,

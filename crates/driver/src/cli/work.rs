@@ -4,6 +4,7 @@ use super::directory::Directory;
 use super::read::Ready;
 use super::{End, Pausing, print, signals};
 use crate::fault;
+use crate::forecast;
 use crate::observe::{
     FieldSchedule, Files, Multi, ObserveError, Observer, Progress, Recorder, atomic, plots, stems,
 };
@@ -39,6 +40,7 @@ pub(super) fn run_bodies(
     report.meshes_sha256.clone_from(&ready.meshes);
     report.run.seconds.plan = ready.seconds;
     report.run.origin.clone_from(directory.origin());
+    report.run.peak_bytes = forecast::most_so_far();
     // The report comes last, but comes also where something beside it cannot be written.
     let drawn = draw(directory.path(), recorder.as_ref());
     directory.write(report.status(), &report)?;
@@ -59,8 +61,11 @@ pub(super) fn run_bodies(
     })
 }
 
-/// Says where the results are.
+/// Says what memory was taken, and where the results are.
 fn written(directory: &Directory) {
+    if let Some(bytes) = forecast::most_so_far() {
+        out(format_args!("  memory: {:.0} MB at most\n", bytes as f64 / 1e6));
+    }
     out(format_args!("  written to {}\n", directory.path().display()));
 }
 
@@ -110,6 +115,7 @@ pub(super) fn run_sliders(
     report.scene_sha256.clone_from(&ready.hash);
     report.run.seconds = clock.elapsed().as_secs_f64();
     report.run.origin.clone_from(directory.origin());
+    report.run.peak_bytes = forecast::most_so_far();
     let drawn = if drawn { histories.draw(directory.path(), plan).map(|_| ()) } else { Ok(()) };
     if plan.events.is_some() {
         let events = slider::csv(&report.events, &plan.names);
@@ -149,6 +155,7 @@ pub(super) fn run_faults(
     report.scene_sha256.clone_from(&ready.hash);
     (report.run.set_up_seconds, report.run.seconds) = (ready.seconds, clock.elapsed().as_secs_f64());
     report.run.origin.clone_from(directory.origin());
+    report.run.peak_bytes = forecast::most_so_far();
     report.warnings.extend(coarse.clone());
     let status = match (interrupted, &report.stopped) {
         (Some(why), _) => {

@@ -21,6 +21,7 @@ use super::prestress::Prestress;
 use super::resolution::{self, Ground, Resolution};
 use super::run::Settings;
 use super::sense;
+use crate::forecast::Held;
 use crate::laws;
 use crate::loading;
 use crate::model::{Model, meshes};
@@ -112,8 +113,8 @@ pub struct Plan {
     pub dofs: usize,
     /// Points whose slip rate is prescribed.
     pub creeping: usize,
-    /// Memory of condensation at its worst \[bytes\].
-    pub condensation_bytes: usize,
+    /// Estimated memory of the whole run \[bytes\].
+    pub memory_bytes: usize,
     /// The bodies, where their displacements are asked for.
     pub bodies: Option<BodiesView>,
     /// Where and when it lies on Earth.
@@ -197,10 +198,10 @@ impl Plan {
         line(
             "size",
             format!(
-                "{} degrees of freedom condensed in about {:.0} MB, {} unknowns",
+                "{} degrees of freedom, {} unknowns, about {:.0} MB",
                 self.dofs,
-                (self.condensation_bytes as f64 / 1e6).max(1.0),
-                self.start.len()
+                self.start.len(),
+                self.memory_bytes as f64 / 1e6
             ),
         );
         line("operator", self.fault.operator.words());
@@ -314,6 +315,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         return Err(asked::nothing_slides(&named, &placed));
     }
     let resolution = resolved(scene, &placed, &mut warnings)?;
+    let held = Held::by(&model);
     let bodies = model.take_stiffness();
     let conditions = conditions(scene);
     let turns = conditions.tangents > 1;
@@ -361,7 +363,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         settings: settings(scene, stage.end)?,
         dofs: model.dofs(),
         creeping: points.len() - placed.len(),
-        condensation_bytes: surroundings.bytes,
+        memory_bytes: held.with_faults(surroundings.bytes),
         bodies,
         frame: frame(scene, D == 3)?,
         in_space: D == 3,

@@ -231,6 +231,9 @@ pub struct Provenance {
     pub seconds: f64,
     /// Commit of the program.
     pub commit: String,
+    /// Most memory the process had \[bytes\]; absent where the system does not say.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak_bytes: Option<usize>,
     /// What it was begun from.
     #[serde(flatten)]
     pub origin: Origin,
