@@ -308,7 +308,6 @@ mod tests {
         ];
         for (analysed, estimated) in cases {
             let ratio = estimated / analysed;
-            println!("{ratio}");
             assert!((0.67..1.5).contains(&ratio), "{ratio}");
             assert!(SURE * estimated <= analysed, "{ratio}");
         }
