@@ -18,8 +18,8 @@ const DROP: f64 = 1e-3;
 /// Share of the area in contact that may let go within a step of a law whose strength drops at once. What lets go in parts is held by
 /// the rest; more than half of it at once is not.
 const AT_ONCE: f64 = 0.5;
-/// Traction beyond the strength of a sticking point, over the strength: forward steps end at the strength but for what the normal
-/// traction changes along them.
+/// How far the traction of a sticking point may be from its strength, over the strength: forward steps end at the strength but for what the
+/// normal traction changes along them.
 const BEYOND: f64 = 1e-3;
 /// Rounding of the slope of a law's answer, over 1.
 const ROUNDING: f64 = 1e-9;
@@ -118,10 +118,23 @@ impl<const D: usize> Interface<D> {
         std::array::from_fn(|c| if c < D { x[c] } else { 0.0 })
     }
 
-    /// The point that lost strength with slip fastest in the trial dropped last, where any did.
+    /// The point that lost strength with slip fastest in the trial dropped last, or one that stands at the strength it would lose.
     #[must_use]
     pub fn weakens(&self) -> Option<usize> {
-        self.soft
+        self.soft.or_else(|| self.stands_at_strength())
+    }
+
+    /// A point of a law that weakens with slip that has all but reached its strength: Newton's method turns between sticking and slipping
+    /// there where neither is in balance.
+    fn stands_at_strength(&self) -> Option<usize> {
+        let shear = self.shear.as_ref().filter(|_| matches!(self.watch.course, Course::Branch { .. }))?;
+        let normal: Vec<f64> = self.contact.committed.iter().map(|c| c.traction).collect();
+        let state = &shear.committed;
+        let mut mu = vec![0.0; normal.len()];
+        shear.law.coefficient(&normal, &state.rate, &state.states, &mut mu).ok()?;
+        let strength = |p: usize| mu[p] * normal[p];
+        (0..normal.len())
+            .find(|&p| strength(p) > 0.0 && norm(&state.traction[p]) >= (1.0 - BEYOND) * strength(p))
     }
 
     /// Keeps the point at which a law weakens faster than the spring behind it unloads.
@@ -140,10 +153,6 @@ impl<const D: usize> Interface<D> {
         match self.watch.course {
             Course::Steady => None,
             Course::Drop => (0..shear.points.len()).find(|&p| lets_go(shear, p)),
-            Course::Branch { length, .. } if softest.clone().all(|(_, d)| !softens(d)) => {
-                let (before, after) = (&shear.committed.states, &shear.trial.states);
-                (0..shear.points.len()).find(|&p| before[p] < length && after[p] >= length)
-            }
             Course::State { .. } | Course::Branch { .. } => softest
                 .filter(|(_, d)| softens(*d))
                 .reduce(|a, b| if b.1 < a.1 { b } else { a })

@@ -44,14 +44,15 @@ fn half(scene: &str, size: f64) -> Result<Plan, CaseError> {
     let lines: Vec<&str> = scene
         .lines()
         .map(|line| {
-            let new = [("mesh.fault", mesh.as_str()), ("at = \"20 km\"", "at = \"0 km\"")]
+            // Stations are those of the whole fault.
+            let new = [("mesh.fault", mesh.as_str()), ("at = \"20 km\"", "at = \"0 km\""), ("stations.", "")]
                 .into_iter()
                 .find(|(old, _)| line.starts_with(old));
             replaced += usize::from(new.is_some());
             new.map_or(line, |(_, new)| new)
         })
         .collect();
-    if replaced != 2 {
+    if replaced != 3 {
         return Err("the scene of BP6 has changed".into());
     }
     seas::plan(&lines.join("\n"))

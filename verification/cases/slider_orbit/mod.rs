@@ -26,9 +26,9 @@ fn base() -> Set {
     Set { damping: 0.0, ..slider::MILD }
 }
 
-/// A plan with the bare logarithm, whose friction may fall without bound: that is the law of the theory.
-fn plan(set: &Set, kick: f64, end: f64) -> Result<Plan, CaseError> {
-    let form = Bare(Parameters::new(slider::MU0, set.a, V_REF)?);
+/// A plan with the bare logarithm, the law of the theory.
+fn plan(set: &Set, mu0: f64, kick: f64, end: f64) -> Result<Plan, CaseError> {
+    let form = Bare(Parameters::new(mu0, set.a, V_REF)?);
     let law = RateLaw::new(form, Slip::new(set.b, set.length, V_REF)?, set.load, None)?;
     slider::plan(set.slider(Arc::new(law)), History::Constant(set.load), set.load, kick.exp(), end)
 }
@@ -61,7 +61,7 @@ fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
 
 fn orbit(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> {
     let set = base().at(1.0);
-    let mut plan = plan(&set, KICK, 2000.0)?;
+    let mut plan = plan(&set, slider::MU0, KICK, 2000.0)?;
     // Crossings of the start rate give the period; extremes of V the size of the orbit.
     let threshold = set.load * KICK.exp();
     plan.events = Some(Thresholds { on: threshold * (1.0 + 1e-9), off: set.load });
@@ -136,9 +136,13 @@ const AWAY: usize = 280;
 /// e-folds after which time begins anew: the orbits blow up in finite time, to which steps vanish.
 const PIECE: usize = 20;
 
+/// Coefficient of friction at the reference rate of sliders that run away: it falls by (b - a) [`AWAY`] = 1.4 and must not reach zero, where the
+/// bare form ends. The motion depends on differences of friction only.
+const HIGH: f64 = 4.0;
+
 /// Whether the slider runs away from a kick: before it turns, it is out of sight.
 fn runs_away(set: &Set, kick: f64) -> Result<bool, CaseError> {
-    let mut plan = plan(set, kick, 200.0 * set.length / set.load)?;
+    let mut plan = plan(set, HIGH, kick, 200.0 * set.length / set.load)?;
     (plan.tolerance, plan.peaks, plan.most_events) = (1e-12, true, Some(1));
     // Below its start it has turned: what follows does not matter.
     let turning = kick + set.load.ln() - 0.5;
