@@ -5,7 +5,7 @@ use super::texts::{Done, attempt, simulate, vary};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_driver::ode::Method;
 use asperity_driver::report::{Outcome, Stop};
-use asperity_driver::slider::Thresholds;
+use asperity_driver::slider::{self as driver, Thresholds};
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider};
@@ -169,7 +169,8 @@ fn by_slider(normal: f64, stiffness: f64) -> Result<f64, CaseError> {
     plan.tolerance = 1e-9;
     plan.events = Some(Thresholds { on: LIMIT, off: 0.1 * LIMIT });
     plan.most_events = Some(1);
-    let run = slider::finish(&plan)?;
+    // Nothing ends what follows: the run fails once the limit has been passed.
+    let run = driver::run(&plan, &mut ())?;
     Ok(run.catalogue.events.first().ok_or("the slider did not pass the limit")?.onset)
 }
 
