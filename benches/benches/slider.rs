@@ -5,7 +5,7 @@ use asperity_driver::ode::Method;
 use asperity_driver::slider::{self, Plan, Thresholds};
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
-use asperity_friction::slider::{History, Slider, Sliding, System};
+use asperity_friction::slider::{History, Slider, Sliding, Spring, System};
 use asperity_friction::strength::{Parameters, regularised::Regularised};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::sync::Arc;
@@ -118,5 +118,39 @@ fn reference(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, cycles, reference);
+/// Sliders in a chain, or each on a spring to each other one, through two events of the first.
+fn coupled(count: usize, chain: bool) -> Plan {
+    let set = Set { length: 8e-3, stiffness: 1e6, ..REFERENCE };
+    let one = plan(&set, 2);
+    let slider = one.system.sliders()[0].clone();
+    let mut states = vec![0.0; slider.law.states()];
+    slider.law.steady(set.load.ln(), &mut states);
+    let pairs = (0..count).flat_map(|b| (0..b).map(move |a| [a, b]));
+    let between = pairs.filter(|[a, b]| !chain || b - a == 1);
+    let stiffness = if chain { 10e6 } else { 2e6 / count as f64 };
+    let springs = between.map(|between| Spring { between, stiffness }).collect();
+    let system = System::new(vec![slider; count], springs, History::Constant(set.load)).expect("admissible");
+    let rates: Vec<f64> =
+        (0..count).map(|i| set.load * (1.0 + 0.5 * ((37 * i) % count) as f64 / count as f64)).collect();
+    let start = system.start(&rates, &vec![states; count]).expect("a start");
+    let mut plan = Plan::new(system, start, one.end);
+    (plan.events, plan.most_events, plan.peaks) = (one.events, Some(2), true);
+    plan
+}
+
+/// What more sliders cost.
+fn chains(c: &mut Criterion) {
+    let mut group = c.benchmark_group("two events of coupled sliders");
+    group.sample_size(10);
+    for (name, count, chain) in
+        [("chain of 25", 25, true), ("chain of 100", 100, true), ("40, each to each", 40, false)]
+    {
+        let plan = coupled(count, chain);
+        println!("{name}: {:?}", slider::run(&plan, &mut ()).expect("a run").counts);
+        group.bench_function(name, |b| b.iter(|| slider::run(&plan, &mut ())));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, cycles, reference, chains);
 criterion_main!(benches);

@@ -104,6 +104,7 @@ mod slider_inertia;
 mod slider_inertia_all;
 mod slider_normal;
 mod slider_orbit;
+mod slider_outputs;
 mod slider_stability;
 mod slider_states;
 mod slider_work_precision;
@@ -171,6 +172,7 @@ pub const ALL: &[Case] = &[
     slider_inertia_all::CASE,
     slider_normal::CASE,
     slider_orbit::CASE,
+    slider_outputs::CASE,
     slider_stability::CASE,
     slider_states::CASE,
     slider_work_precision::CASE,

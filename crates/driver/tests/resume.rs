@@ -2,45 +2,20 @@
 #![allow(clippy::unwrap_used, clippy::disallowed_methods)]
 #![cfg(unix)]
 
+mod common;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
-/// A vertical strike-slip fault through twelve events, on coarse cells.
-const SCENE: &str = r#"schema = 1
-title = "cycles"
-kinematics = "antiplane"
-[materials.rock]
-young = "80 GPa"
-poisson = 0.25
-density = 2670
-[bodies.crust]
-material = "rock"
-mesh.fault = { trace = [["0 km", "0 km"], ["0 km", "-15 km"], ["0 km", "-18 km"], ["0 km", "-24 km"], ["0 km", "-80 km"]], spacing = [["0 km", "750 m"], ["24 km", "1 km"], ["80 km", "20 km"]], min = ["-80 km", "-80 km"], max = ["80 km", "0 km"], growth = 1.5, element = "quad4" }
-[faults.main]
-minus = "crust.fault.minus"
-plus = "crust.fault.plus"
-law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.010, b = 0.015, l = "40 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }
-profiles.a = { along = "distance", points = [["15 km", 0.010], ["18 km", 0.025]] }
-normal = "50 MPa"
-rate = "1e-9 m/s"
-damping = "radiation"
-creep = { beyond = "24 km", rate = "1e-9 m/s" }
-[[stages]]
-name = "cycles"
-duration = "3000 yr"
-conditions = [{ set = "crust.left", z = { rate = "-0.5e-9 m/s" } }, { set = "crust.right", z = { rate = "0.5e-9 m/s" } }]
-[time]
-stepper = "fault-ode"
-log_rate_tolerance = 1e-6
-[events]
-above = "1e-3 m/s"
-stop_after = 12
-[output]
-stations.main = ["0 km", "7.5 km", "15 km"]
-"#;
+/// The scene of cycles through twelve events.
+static SCENE: LazyLock<String> = LazyLock::new(|| {
+    let more = common::cycles::SCENE.replace("stop_after = 3", "stop_after = 12");
+    more.replace("stepper = \"fault-ode\"\n", "stepper = \"fault-ode\"\nlog_rate_tolerance = 1e-6\n")
+});
 
 /// Begins a run of `s.toml` in `folder` with outputs in `out`.
 fn start(folder: &Path, out: &str, arguments: &[&str]) -> Child {
@@ -114,7 +89,7 @@ fn grown(child: &mut Child, file: &Path, size: u64) -> bool {
 
 #[test]
 fn a_run_killed_again_and_again_leaves_the_files_of_one_left_alone() {
-    let folder = folder(SCENE);
+    let folder = folder(&SCENE);
     let folder = folder.path();
     let whole = run(folder, "whole", &[]);
     assert!(whole.status.success(), "{}", text(&whole.stderr));
@@ -183,7 +158,7 @@ fn a_fault_in_space_whose_slip_turns_is_gone_on_with_as_well() {
 
 #[test]
 fn a_signal_ends_a_run_with_a_checkpoint_and_its_own_exit_code() {
-    let folder = folder(SCENE);
+    let folder = folder(&SCENE);
     let folder = folder.path();
     // What starts the tests may have them ignore the end of a terminal, which a run then ignores as well.
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();

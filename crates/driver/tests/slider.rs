@@ -1,18 +1,16 @@
 //! Spring-sliders from scenes: events, histories, run-away, prescribed histories, and the same answers from library calls.
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
 use asperity_driver::laws;
 use asperity_driver::observe::{Observer, Recorder};
 use asperity_driver::ode::{Failure, Method, Outcome};
 use asperity_driver::scene::law::{Evolution, Form, LawChoice, State, Strength};
-use asperity_driver::scene::slider;
-use asperity_driver::slider::{
-    Both, DEFAULT_METHOD, Histories, Now, Output, Plan, Report, Run, Show, Thresholds, run,
-};
+use asperity_driver::slider::{Both, DEFAULT_METHOD, Now, Output, Plan, Report, Run, Show, Thresholds, run};
 use asperity_friction::slider::{Condition, History, Slider, Spring, System};
+use common::sliders::{CYCLE, history, plan, relative, written};
 use nalgebra::Complex;
-
-const CYCLE: &str = include_str!("../../../scenes/spring-slider.toml");
 
 /// A slider a third stiffer than the critical stiffness, under these prescribed histories.
 fn stable(load: &str, normal: &str, more: &str) -> String {
@@ -67,10 +65,6 @@ above = "0.1 mm/s"
 below = "20 um/s"
 "#;
 
-fn plan(text: &str) -> Plan {
-    slider::read(text).unwrap_or_else(|e| panic!("{e}\n{text}"))
-}
-
 /// What a watcher saw.
 #[derive(Clone, Debug)]
 struct Row {
@@ -109,10 +103,6 @@ fn at(rows: &[Row], time: f64) -> &Row {
 
 fn bits(values: &[f64]) -> Vec<u64> {
     values.iter().map(|v| v.to_bits()).collect()
-}
-
-fn relative(a: f64, b: f64) -> f64 {
-    (a / b - 1.0).abs()
 }
 
 #[test]
@@ -154,20 +144,6 @@ fn onsets_are_where_the_slip_rate_crosses_the_threshold() {
         let seen = within.map(|r| r.conditions[0].rate).fold(0.0, f64::max);
         assert!(seen <= event.peak_rate && relative(seen, event.peak_rate) < 1e-3, "{seen:e} {event:?}");
     }
-}
-
-/// The columns of `history/NAME.csv`, as numbers.
-fn history(folder: &std::path::Path, name: &str) -> Vec<Vec<f64>> {
-    let text = std::fs::read_to_string(folder.join("history").join(name)).unwrap();
-    text.lines().skip(1).map(|l| l.split(',').map(|v| v.parse().unwrap()).collect()).collect()
-}
-
-fn written(plan: &Plan) -> (tempfile::TempDir, Run) {
-    let folder = tempfile::tempdir().unwrap();
-    let mut files = Histories::create(folder.path(), plan).unwrap();
-    let run = run(plan, &mut files).unwrap();
-    files.finish().unwrap();
-    (folder, run)
 }
 
 #[test]
@@ -563,6 +539,21 @@ fn inertial_sliders_come_to_rest_and_start_again() {
             assert!(error < bound, "{law} {method} at {tolerance:e}: {error:e}");
         }
     }
+}
+
+#[test]
+fn a_method_that_begins_anew_at_each_extreme_says_what_to_take_instead() {
+    let law = "form = \"bare\", evolution = \"ageing\", a = 0.006";
+    let text = inertial(law, "2.8125 MPa/m", "71.24 kg/m^2", "bdf").replace("1e-9 m/s", "1e-7 m/s");
+    let mut plan = plan(&text);
+    (plan.tolerance, plan.most_steps) = (1e-7, 20_000);
+    let stalled = run(&plan, &mut ()).unwrap();
+    let hint = stalled.hint.unwrap();
+    assert!(hint.contains("20000 steps") && hint.contains("take `method = \"switching\"`"), "{hint}");
+    plan.peaks = false;
+    assert_eq!(run(&plan, &mut ()).unwrap().outcome, Outcome::Stopped);
+    (plan.peaks, plan.method) = (true, DEFAULT_METHOD);
+    assert_eq!(run(&plan, &mut ()).unwrap().outcome, Outcome::Stopped);
 }
 
 #[test]

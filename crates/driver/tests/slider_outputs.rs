@@ -1,12 +1,12 @@
 //! What runs of spring-sliders report: events of both directions, rows at times and at peaks, imposed slip rates, stability.
 #![allow(clippy::unwrap_used)]
 
-use asperity_driver::ode::{Method, Outcome};
-use asperity_driver::scene::slider;
-use asperity_driver::slider::{Event, Histories, Now, Plan, Run, critical_stiffness, csv, run};
-use nalgebra::DMatrix;
+mod common;
 
-const CYCLE: &str = include_str!("../../../scenes/spring-slider.toml");
+use asperity_driver::ode::Method;
+use asperity_driver::slider::{Event, Now, Plan, Stability, critical_stiffness, csv, run};
+use common::sliders::{CYCLE, history, plan, relative, written};
+use nalgebra::DMatrix;
 
 const MU0: f64 = 0.6;
 const A: f64 = 0.01;
@@ -24,29 +24,6 @@ fn scene(load: &str, slider: &str, law: &str, rest: &str) -> String {
     format!(
         "schema = 1\ntitle = \"t\"\nkinematics = \"spring-slider\"\n{load}\n[sliders.block]\nnormal = \"5 MPa\"\n{slider}\nlaw = {law}\n{rest}\n"
     )
-}
-
-fn plan(text: &str) -> Plan {
-    slider::read(text).unwrap_or_else(|e| panic!("{e}\n{text}"))
-}
-
-fn relative(a: f64, b: f64) -> f64 {
-    (a / b - 1.0).abs()
-}
-
-/// The columns of `history/NAME.csv`, as numbers.
-fn history(folder: &std::path::Path, name: &str) -> Vec<Vec<f64>> {
-    let text = std::fs::read_to_string(folder.join("history").join(name)).unwrap();
-    text.lines().skip(1).map(|l| l.split(',').map(|v| v.parse().unwrap()).collect()).collect()
-}
-
-fn written(plan: &Plan) -> (tempfile::TempDir, Run) {
-    let folder = tempfile::tempdir().unwrap();
-    let mut files = Histories::create(folder.path(), plan).unwrap();
-    let run = run(plan, &mut files).unwrap();
-    assert!(!matches!(run.outcome, Outcome::Failed { .. }), "{:?}", run.outcome);
-    files.finish().unwrap();
-    (folder, run)
 }
 
 fn rows(text: &str) -> Vec<Vec<f64>> {
@@ -298,6 +275,44 @@ fn growth(text: &str) -> f64 {
     values.iter().map(|e| e.re).fold(f64::NEG_INFINITY, f64::max) * L / 1e-6
 }
 
+/// A law of several states.
+fn states(evolution: &str, b: &str, l: &str) -> String {
+    law(evolution, 0.015).replace("b = 0.015, l = \"10 um\"", &format!("b = {b}, l = {l}"))
+}
+
+#[test]
+fn stability_at_any_stiffness_is_that_of_the_jacobian() {
+    // A state that weakens soon and one that strengthens late: with a mass, soft springs are stable again.
+    let late = states("slip", "[0.015, -0.010]", "[\"10 um\", \"1 mm\"]");
+    let laws = [late, states("slip", "[0.012, 0.003]", "[\"10 um\", \"100 um\"]"), law("nagata", 0.015)];
+    for (law, more) in laws.iter().flat_map(|l| [(l, ""), (l, "mass = 1e12")]) {
+        let law = law.replace("evolution = \"nagata\"", "evolution = \"nagata\", c = 0.5");
+        let (mut seen, mut last) = (Vec::new(), true);
+        for power in 0..=160 {
+            let k = 1e5 * 10f64.powf(f64::from(power) / 30.0);
+            let slider = format!("stiffness = {k:e}\n{more}");
+            let text = scene("[load]\nrate = \"1 um/s\"", &slider, &law, "[time]\nend = \"1 s\"");
+            let plan = plan(&text);
+            let unstable = Stability::new(&plan.system.sliders()[0], 1e-6, 5e6).unstable(k);
+            assert_eq!(unstable, growth(&text) > 0.0, "{law} {more} {k:e}");
+            if unstable != last {
+                seen.push(unstable);
+                last = unstable;
+            }
+            let again = plan.summary().contains("stable again");
+            assert_eq!(
+                again,
+                seen == [false] && law.contains("1 mm") && !more.is_empty(),
+                "{}",
+                plan.summary()
+            );
+        }
+        let windows: &[bool] =
+            if law.contains("1 mm") && !more.is_empty() { &[false, true, false] } else { &[false] };
+        assert_eq!(seen, windows, "{law} {more}");
+    }
+}
+
 #[test]
 fn critical_stiffness_is_where_growth_changes_sign() {
     let laws = [
@@ -307,6 +322,9 @@ fn critical_stiffness_is_where_growth_changes_sign() {
         law("ageing", 0.015)
             .replace("mu0", "form = \"cut-off\", v_cut = \"3 um/s\", v_cut_state = \"20 um/s\", mu0"),
         law("flash", 0.015).replace("mu0", "mu_w = 0.2, v_w = \"0.1 m/s\", mu0"),
+        states("slip", "[0.012, 0.003]", "[\"10 um\", \"100 um\"]"),
+        states("ageing", "[0.006, 0.005, 0.008]", "[\"10 um\", \"30 um\", \"15 um\"]"),
+        law("nagata", 0.015).replace("mu0", "c = 2.0, mu0"),
     ];
     // Mass for which inertia raises k_c: n = M V^2/(f_n L) of the size of a.
     for more in ["", "damping = \"1e10 Pa s/m\"", "mass = 1e11", "damping = \"1e10 Pa s/m\"\nmass = 1e11"] {
@@ -316,7 +334,7 @@ fn critical_stiffness_is_where_growth_changes_sign() {
                 scene("[load]\nrate = \"1 um/s\"", &slider, law, "[time]\nend = \"1 s\"")
             };
             let sample = plan(&at(1e9));
-            let critical = critical_stiffness(&sample.system.sliders()[0], 1e-6, 5e6).unwrap();
+            let critical = critical_stiffness(&sample.system.sliders()[0], 1e-6, 5e6);
             let [below, above] = [0.999, 1.001].map(|share| growth(&at(share * critical)));
             assert!(below > 0.0 && above < 0.0, "{law} {more}: {below:e} {above:e} at {critical:e}");
         }
@@ -330,7 +348,7 @@ fn critical_stiffness_is_where_growth_changes_sign() {
         let (eta, mass) = (s.sliders()[0].damping, s.sliders()[0].mass.unwrap_or(0.0));
         let a = A + eta * 1e-6 / 5e6;
         let exact = 5e6 / L * (0.015 - a) * (1.0 + mass * 1e-12 / (5e6 * L) / a);
-        assert!(relative(critical_stiffness(&s.sliders()[0], 1e-6, 5e6).unwrap(), exact) < 1e-6, "{more}");
+        assert!(relative(critical_stiffness(&s.sliders()[0], 1e-6, 5e6), exact) < 1e-6, "{more}");
     }
 }
 

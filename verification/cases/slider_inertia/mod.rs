@@ -71,7 +71,9 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     independent(ledger)?;
     let sets: Vec<Set> = all().into_iter().step_by(EACH).collect();
     agree(ledger, &sets)?;
-    compare(ledger, &sets)
+    // A comparison takes thirty runs: each third set.
+    let few: Vec<Set> = sets.into_iter().step_by(3).collect();
+    compare(ledger, &few)
 }
 
 impl Set {
@@ -236,14 +238,14 @@ const RIVALS: [Method; 3] = [Method::Radau5, Method::Esdirk34, Method::Bdf];
 /// Work of the default over the least of any method, at equal errors.
 pub fn compare(ledger: &mut Ledger, sets: &[Set]) -> Result<(), CaseError> {
     let (mut worst, mut rows) = (0.0_f64, Vec::new());
-    // A comparison takes thirty runs: each third set.
-    for set in sets.iter().step_by(3) {
+    for set in sets {
         let Some((reference, _)) = events(set, Method::Radau5, 1e-11)? else { continue };
         let reference = last_interval(&reference);
         let own = needed(set, driver::DEFAULT_METHOD, reference)?;
         let rivals: Vec<f64> = RIVALS.iter().map(|&m| needed(set, m, reference)).collect::<Result<_, _>>()?;
         let least = rivals.iter().copied().fold(own, f64::min);
-        worst = worst.max(own / least);
+        // A method that does not come to that error anywhere needs infinitely much; so would a default that does not.
+        worst = worst.max(if own.is_finite() { own / least } else { f64::INFINITY });
         let mut row = vec![
             format!(
                 "{}{}",
@@ -264,7 +266,10 @@ pub fn compare(ledger: &mut Ledger, sets: &[Set]) -> Result<(), CaseError> {
         rows,
     );
     ledger
-        .claim("work of the default over the least of any method at an error of 1e-8, at worst over the sets")
+        .claim(format!(
+            "work of the default over the least of any method at an error of 1e-8, at worst over {} sets",
+            sets.len()
+        ))
         .value(worst)
         .at_most(ALWAYS)
         .evidence(Evidence::ConvergedSelf, "radau5 at 1e-11")

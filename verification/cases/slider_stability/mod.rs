@@ -2,11 +2,12 @@
 
 use super::slider::{self, Kind, Set, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::slider::Plan;
-use asperity_friction::evolution::ageing::Ageing;
+use asperity_driver::slider::{Plan, critical_stiffness};
+use asperity_friction::component::Component;
+use asperity_friction::evolution::{Evolution, ageing::Ageing, nagata::Nagata, slip::Slip};
 use asperity_friction::rate::RateLaw;
-use asperity_friction::slider::History;
-use asperity_friction::strength::{Parameters, cut_off::CutOff};
+use asperity_friction::slider::{History, Sliding};
+use asperity_friction::strength::{Parameters, cut_off::CutOff, regularised::Regularised};
 use nalgebra::{Complex, DMatrix};
 use std::sync::Arc;
 
@@ -30,7 +31,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     quasi_static(ledger)?;
     damped(ledger)?;
     inertial(ledger)?;
-    cut_off(ledger)
+    cut_off(ledger)?;
+    critical(ledger)
 }
 
 /// `m λ³ + ... = 0` in units of V/L: `(m λ² + a' λ - (b - κ))(λ + 1) + b = 0`, with m = M V²/(f_n L), a' = a + η V/f_n and
@@ -179,6 +181,99 @@ fn cut_off(ledger: &mut Ledger) -> Result<(), CaseError> {
         .because(DIFFERENCES)
         .why_not_tighter("the bound is that of the least favourable stiffness")
         .covers(&[Capability::Slider, Capability::LawFamily])
+        .cost(&cost)
+        .record();
+    Ok(())
+}
+
+/// A law of these states under the normal traction of the set.
+fn law<E: Evolution + 'static>(set: &Set, states: Vec<E>) -> Result<Arc<dyn Sliding>, CaseError> {
+    let form = Regularised(Parameters::new(slider::MU0, set.a, V_REF)?);
+    let parts = states.into_iter().map(|e| Component::new(e, 0.0)).collect::<Result<Vec<_>, _>>()?;
+    Ok(Arc::new(RateLaw::with_parts(form, parts, set.load, set.normal, None)?))
+}
+
+/// Laws with several states, whose b and L these are \[-, m\], and one with a memory of shear traction.
+fn laws(set: &Set) -> Result<Vec<(&'static str, Arc<dyn Sliding>)>, CaseError> {
+    let slips = |list: &[(f64, f64)]| {
+        list.iter().map(|&(b, l)| Slip::new(b, l, V_REF)).collect::<Result<Vec<_>, _>>()
+    };
+    let ages = |list: &[(f64, f64)]| {
+        list.iter().map(|&(b, l)| Ageing::new(b, l, V_REF)).collect::<Result<Vec<_>, _>>()
+    };
+    Ok(vec![
+        ("slip law, two states", law(set, slips(&[(0.012, 1e-5), (0.003, 1e-4)])?)?),
+        ("ageing law, two states", law(set, ages(&[(0.012, 1e-5), (0.008, 2e-5)])?)?),
+        (
+            "slip law, two states of which one strengthens",
+            law(set, slips(&[(0.016, 1e-5), (-0.003, 5e-5)])?)?,
+        ),
+        ("slip law, three states", law(set, slips(&[(0.006, 1e-5), (0.005, 3e-5), (0.004, 2e-4)])?)?),
+        ("Nagata law, c = 0.5", law(set, vec![Nagata::new(0.015, 1e-5, V_REF, 0.5)?])?),
+        ("Nagata law, c = 2", law(set, vec![Nagata::new(0.015, 1e-5, V_REF, 2.0)?])?),
+    ])
+}
+
+/// Growth on both sides of the critical stiffness that plans print, from integrations of perturbed starts.
+fn critical(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let base = Set { damping: 0.0, ..slider::MILD };
+    let mass = 0.005 * base.normal * base.length / (base.load * base.load);
+    let sets = [base, Set { damping: 1e10, ..base }, Set { damping: 1e10, mass: Some(mass), ..base }];
+    let (mut wrong, mut marginal, mut rows) = (0, 0.0_f64, Vec::new());
+    let (done, cost) = Cost::of(|| -> Result<(), CaseError> {
+        for set in sets {
+            for (name, law) in laws(&set)? {
+                let k = critical_stiffness(&set.slider(law.clone()), set.load, set.normal);
+                let growth = |share: f64| -> Result<f64, CaseError> {
+                    let slider = Set { stiffness: share * k, ..set }.slider(law.clone());
+                    let plan = slider::plan(slider, History::Constant(set.load), set.load, 1.0, 1.0)?;
+                    let found = measured(&plan, &set, 0.5 * set.length / set.load)?;
+                    Ok(found.iter().map(|e| e.re).fold(f64::NEG_INFINITY, f64::max))
+                };
+                let [below, at, above] = [growth(0.99)?, growth(1.0)?, growth(1.01)?];
+                wrong += u64::from(below <= 0.0) + u64::from(above >= 0.0);
+                marginal = marginal.max(at.abs());
+                let more = if set.mass.is_some() {
+                    ", damped, with mass"
+                } else if set.damping > 0.0 {
+                    ", damped"
+                } else {
+                    ""
+                };
+                rows.push([
+                    format!("{name}{more}"),
+                    format!("{k:.6e}"),
+                    format!("{below:.3e}"),
+                    format!("{at:.1e}"),
+                    format!("{above:.3e}"),
+                ]);
+            }
+        }
+        Ok(())
+    });
+    done?;
+    ledger.table(
+        "largest growth rate [V/L] beside the critical stiffness",
+        &["law", "k_c [Pa/m]", "at 0.99 k_c", "at k_c", "at 1.01 k_c"],
+        rows,
+    );
+    ledger
+        .claim("several states, memory of shear traction, damping and mass: sides of k_c (1 per cent off) on which perturbations do not grow below it or do not decay above it, of 36")
+        .count(wrong, 0)
+        .evidence(Evidence::SemiAnalytic, "integrations of perturbed starts on either side")
+        .because("k_c parts growth from decay")
+        .covers(&[Capability::Slider, Capability::SeveralStates, Capability::LawFamily])
+        .cost(&cost)
+        .record();
+    ledger
+        .claim("several states, memory of shear traction, damping and mass: largest growth or decay of the slowest perturbation at k = k_c")
+        .unit("V/L")
+        .value(marginal)
+        .at_most(1e-6)
+        .evidence(Evidence::SemiAnalytic, "integrations of perturbed starts at k_c")
+        .because(DIFFERENCES)
+        .why_not_tighter("larger b/a than in the sweeps above, with states of different lengths, give the third derivatives of the flow a larger factor")
+        .covers(&[Capability::Slider, Capability::SeveralStates, Capability::LawFamily])
         .cost(&cost)
         .record();
     Ok(())

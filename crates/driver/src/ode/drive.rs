@@ -194,8 +194,11 @@ impl<'a> Drive<'a> {
 
     /// Takes the step again up to the root, corrected by the secant. `false`: the stepper cannot.
     fn retake(&mut self, found: Found, h: f64) -> bool {
-        let mut slope = self.watch.slope(self.system, self.stepper, found) / h;
         let mut length = found.fraction * h;
+        if self.system.problem.extreme(found.event) {
+            return self.stepper.retake(self.system, length);
+        }
+        let mut slope = self.watch.slope(self.system, self.stepper, found) / h;
         if !self.stepper.retake(self.system, length) {
             return false;
         }

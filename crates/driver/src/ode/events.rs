@@ -34,7 +34,6 @@ pub(super) struct Watch {
     start: Vec<f64>,
     middle: Vec<f64>,
     end: Vec<f64>,
-    other: Vec<f64>,
     state: Vec<f64>,
     /// Whether no step has been seen yet.
     fresh: bool,
@@ -57,7 +56,6 @@ impl Watch {
             start: zeros(),
             middle: zeros(),
             end: zeros(),
-            other: zeros(),
             state: vec![0.0; system.size],
             fresh: true,
         }
@@ -117,8 +115,7 @@ impl Watch {
     fn value(&mut self, system: &System<'_>, stepper: &dyn Stepper, event: usize, fraction: f64) -> f64 {
         let (t0, t1) = stepper.span();
         stepper.interpolate(system, fraction, &mut self.state);
-        system.problem.event(system.clock(t0 + fraction * (t1 - t0)), &self.state, &mut self.other);
-        self.other[event]
+        system.problem.one_event(event, system.clock(t0 + fraction * (t1 - t0)), &self.state)
     }
 
     /// Share of the step at which a function first changes sign; infinite: it does not.
@@ -209,9 +206,8 @@ impl Watch {
     }
 
     /// The function `event` at the end of the stepper's step.
-    pub fn at_end(&mut self, system: &System<'_>, stepper: &dyn Stepper, event: usize) -> f64 {
-        system.problem.event(system.clock(stepper.span().1), stepper.end(), &mut self.other);
-        self.other[event]
+    pub fn at_end(&self, system: &System<'_>, stepper: &dyn Stepper, event: usize) -> f64 {
+        system.problem.one_event(event, system.clock(stepper.span().1), stepper.end())
     }
 
     /// Takes note that the step ended at the change `found`, in state `y` at local time `t`; calls `fired` with the number and

@@ -81,9 +81,20 @@ impl Matrices {
         }
     }
 
+    /// Whether [`Matrices::spectral_radius`] is below `limit` \[1/s\], without it where bounds of it tell as much.
+    pub fn slower_than(&self, limit: f64) -> bool {
+        if let Self::Sparse(sparse) = self {
+            let [least, most] = sparse.bounds();
+            if least >= limit || most < limit {
+                return most < limit;
+            }
+        }
+        self.spectral_radius() < limit
+    }
+
     /// An estimate of the largest |λ| of the Jacobian J \[1/s\]: the eighth root of the largest row sum of J^8, which is never
     /// below it.
-    pub fn spectral_radius(&self) -> f64 {
+    fn spectral_radius(&self) -> f64 {
         let (entries, n) = match self {
             Self::Unknown(_) => return 0.0,
             Self::Dense { jacobian, .. } => (jacobian, jacobian.len().isqrt()),
@@ -190,6 +201,41 @@ impl Sparse {
         self.real.is_some() && self.complex.is_some()
     }
 
+    /// Bounds of the estimate of the spectral radius \[1/s\]. Products of J^8 with vectors of ±1 cannot exceed its largest row sum; the
+    /// row sums of |J|^8 cannot fall below. Both take a few products with J, and the power itself as many as there are unknowns.
+    fn bounds(&self) -> [f64; 2] {
+        let n = self.diagonal.len();
+        let largest = self.values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        if largest == 0.0 {
+            return [0.0; 2];
+        }
+        let size = |absolute: bool, sign: fn(usize) -> f64| {
+            let mut x: Vec<f64> = (0..n).map(sign).collect();
+            let mut product = vec![0.0; n];
+            for _ in 0..8 {
+                self.multiply(&x, largest, absolute, &mut product);
+                std::mem::swap(&mut x, &mut product);
+            }
+            largest * x.iter().fold(0.0, |m: f64, v| m.max(v.abs())).powf(0.125)
+        };
+        let signs: [fn(usize) -> f64; 3] =
+            [|_| 1.0, |i| if i % 2 == 0 { 1.0 } else { -1.0 }, |i| if (i / 2) % 2 == 0 { 1.0 } else { -1.0 }];
+        let least = signs.into_iter().map(|sign| size(false, sign)).fold(0.0, f64::max);
+        [least, size(true, |_| 1.0)]
+    }
+
+    /// The Jacobian, or that of the sizes of its entries, over `largest` times a vector.
+    fn multiply(&self, x: &[f64], largest: f64, absolute: bool, product: &mut [f64]) {
+        product.fill(0.0);
+        let (starts, rows) = (self.pattern.col_ptr(), self.pattern.row_idx());
+        for (column, x) in x.iter().enumerate() {
+            let own = starts[column]..starts[column + 1];
+            for (&row, &value) in rows[own.clone()].iter().zip(&self.values[own]) {
+                product[row] += if absolute { value.abs() } else { value } / largest * x;
+            }
+        }
+    }
+
     /// Largest row sum of the eighth power of the Jacobian over `largest`: column by column, each with no more rows than it has.
     fn eighth_power(&self, largest: f64) -> f64 {
         let n = self.diagonal.len();
@@ -262,6 +308,14 @@ mod tests {
         ];
         let radii = both.each_ref().map(Matrices::spectral_radius);
         assert!((radii[0] / radii[1] - 1.0).abs() < 1e-12, "{radii:?}");
+        let Matrices::Sparse(sparse) = &both[0] else { unreachable!() };
+        let [least, most] = sparse.bounds();
+        // Tight enough to tell, and on the right sides.
+        assert!(least > 0.5 * radii[0] && least < radii[0], "{least} {radii:?}");
+        assert!(most < 2.0 * radii[0] && most > radii[0], "{most} {radii:?}");
+        for share in [0.1, 0.99, 1.01, 10.0] {
+            assert!(both.iter().all(|m| m.slower_than(share * radii[0]) == (share > 1.0)), "{share}");
+        }
         let solutions = both.each_mut().map(|m| {
             assert!(m.factorise(30.0, Complex::new(20.0, 25.0)));
             let mut real: Vec<f64> = (0..n).map(|i| i as f64).collect();

@@ -36,6 +36,19 @@ pub trait Problem {
 
     /// Writes the event functions into `g`: an event is a change of sign.
     fn event(&self, _at: Clock, _y: &[f64], _g: &mut [f64]) {}
+
+    /// One event function by itself, as a search for its root asks for it.
+    fn one_event(&self, event: usize, at: Clock, y: &[f64]) -> f64 {
+        let mut g = vec![0.0; self.events()];
+        self.event(at, y, &mut g);
+        g[event]
+    }
+
+    /// Whether the event is an extreme of something else, the only matter of interest there: the time may be wrong by what the dense
+    /// output is, since that changes the extreme by the square of it.
+    fn extreme(&self, _event: usize) -> bool {
+        false
+    }
 }
 
 /// A problem in local time, with its tolerances, that counts what is evaluated.

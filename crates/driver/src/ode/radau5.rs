@@ -9,7 +9,6 @@ use super::problem::System;
 use super::radau5_table::{COMPLEX_IMAGINARY, COMPLEX_REAL, DENSE, ERROR, FROM, INTO, NODES, REAL};
 use super::report::Counts;
 use nalgebra::Complex;
-use std::cell::Cell;
 
 /// Iterations of Newton's method after which a shorter step is cheaper.
 const MOST_ITERATIONS: usize = 6;
@@ -25,8 +24,6 @@ const GROWTH: f64 = 10.0;
 #[derive(Debug)]
 pub(super) struct Radau5 {
     matrices: Matrices,
-    /// Largest |λ| of the Jacobian \[1/s\], once asked for.
-    radius: Cell<Option<f64>>,
     /// Whether the Jacobian is that of the beginning of the step.
     ///
     /// It is never kept for the next. Rates of relaxation go as 1/V where a mass acts, and fall by many decades while a slider
@@ -61,7 +58,6 @@ impl Radau5 {
         let zeros = |count: usize| vec![0.0; count];
         Self {
             matrices: Matrices::Unknown(n),
-            radius: Cell::new(None),
             known: false,
             factorised: 0.0,
             z: zeros(3 * n),
@@ -82,11 +78,9 @@ impl Radau5 {
         }
     }
 
-    /// An estimate of the largest |λ| of the Jacobian \[1/s\], which is never below it.
-    pub fn spectral_radius(&self) -> f64 {
-        let radius = self.radius.get().unwrap_or_else(|| self.matrices.spectral_radius());
-        self.radius.set(Some(radius));
-        radius
+    /// Whether an estimate of the largest |λ| of the Jacobian, which is never below it, is below `limit` \[1/s\].
+    pub fn slower_than(&self, limit: f64) -> bool {
+        self.matrices.slower_than(limit)
     }
 
     /// Factorises both matrices for steps of length `h`.
@@ -218,7 +212,6 @@ impl Formula for Radau5 {
         let n = span.y0.len();
         if !self.known {
             self.matrices.evaluate(system, span.t, &span.y0);
-            self.radius.set(None);
             (self.known, self.factorised) = (true, 0.0);
         }
         let ready = self.factorised == span.h || self.factorise(span.h);

@@ -41,7 +41,7 @@ impl Criterion for Boundary {
         span: &Span,
     ) -> f64 {
         if stiff {
-            let stable = span.h * implicit.spectral_radius() < STABLE;
+            let stable = implicit.slower_than(STABLE / span.h);
             return if stable { before + 1.0 } else { 0.0 };
         }
         before + (explicit.stretch(system, span).min(MOST) - before) / MEMORY

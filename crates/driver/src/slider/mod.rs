@@ -22,4 +22,4 @@ pub use output::{DEFAULT_CHANGE, Output};
 pub use plan::{DEFAULT_METHOD, DEFAULT_TOLERANCE, MOST_STEPS, Plan, Thresholds};
 pub use report::{End, Report};
 pub use run::{Both, Now, Run, RunError, Watcher, run};
-pub use stability::critical_stiffness;
+pub use stability::{Stability, critical_stiffness};

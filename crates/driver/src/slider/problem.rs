@@ -68,6 +68,19 @@ impl<'a> Piece<'a> {
     }
 }
 
+impl Piece<'_> {
+    /// A slip rate against a threshold.
+    fn against(&self, kind: Kind, speed: Speed) -> f64 {
+        let (way, threshold) = match (kind, self.plan.events) {
+            (Kind::On(_, way), Some(t)) => (way, t.on),
+            (Kind::Off(_, way), Some(t)) => (way, t.off),
+            // `kinds` makes thresholds only where the plan has them.
+            _ => return AT_REST,
+        };
+        if way.is_of(speed.rate) { (speed.log - threshold.ln()).max(AT_REST) } else { AT_REST }
+    }
+}
+
 impl Problem for Piece<'_> {
     fn size(&self) -> usize {
         self.plan.system.size()
@@ -114,17 +127,26 @@ impl Problem for Piece<'_> {
             }
         };
         for (g, kind) in g.iter_mut().zip(self.kinds) {
-            let mut against = |i: usize, way: Way, threshold: f64| {
-                let speed = speed(i);
-                if way.is_of(speed.rate) { (speed.log - threshold.ln()).max(AT_REST) } else { AT_REST }
-            };
-            *g = match (*kind, self.plan.events) {
-                (Kind::On(i, way), Some(t)) => against(i, way, t.on),
-                (Kind::Off(i, way), Some(t)) => against(i, way, t.off),
-                (Kind::Acceleration(i), _) => self.segment.acceleration(i, y, &rates),
-                // `kinds` makes thresholds only where the plan has them.
-                (Kind::On(..) | Kind::Off(..), None) => AT_REST,
+            *g = match *kind {
+                Kind::On(i, _) | Kind::Off(i, _) => self.against(*kind, speed(i)),
+                Kind::Acceleration(i) => self.segment.acceleration(i, y, &rates),
             };
         }
+    }
+
+    fn one_event(&self, event: usize, at: Clock, y: &[f64]) -> f64 {
+        let kind = self.kinds[event];
+        match kind {
+            Kind::On(i, _) | Kind::Off(i, _) => self.against(kind, self.segment.slip(i, at.seconds(), y).0),
+            Kind::Acceleration(i) => {
+                let mut rates = self.rates.borrow_mut();
+                self.segment.rates_of(i, at.seconds(), y, &mut rates);
+                self.segment.acceleration(i, y, &rates)
+            }
+        }
+    }
+
+    fn extreme(&self, event: usize) -> bool {
+        matches!(self.kinds[event], Kind::Acceleration(_))
     }
 }

@@ -6,7 +6,7 @@ use super::plan::Plan;
 use super::problem::{Kind, Piece, kinds};
 use super::slips::Slips;
 use crate::observe::ObserveError;
-use crate::ode::{self, Clock, Control, Counts, Failure, Occurrence, Outcome, Sink, Step};
+use crate::ode::{self, Clock, Control, Counts, Failure, Method, Occurrence, Outcome, Sink, Step};
 use asperity_friction::slider::{Condition, Slider};
 
 /// Why a run could not begin, or not be observed.
@@ -187,6 +187,7 @@ pub fn run(plan: &Plan, watcher: &mut dyn Watcher) -> Result<Run, RunError> {
         Outcome::Failed { reason: Failure::StepTooSmall { .. } | Failure::Ends } => {
             hint(plan, &piece, at, &unknowns)
         }
+        Outcome::Failed { reason: Failure::TooManySteps { most } } => restarts(plan, most),
         _ => None,
     };
     Ok(Run { outcome, at, unknowns, catalogue, counts, hint, interrupted })
@@ -231,6 +232,17 @@ fn hint(plan: &Plan, piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<S
         format!(
             "`{}` slides at {rate:.3e} m/s and faster and faster: quasi-static equilibrium ends here; give it `damping` or `mass`",
             plan.names[i]
+        )
+    })
+}
+
+/// What it means that a method with a memory of several steps does not come to its end.
+fn restarts(plan: &Plan, most: usize) -> Option<String> {
+    let rests = plan.system.sliders().iter().any(|s| s.mass.is_some());
+    (plan.method == Method::Bdf && plan.peaks && rests).then(|| {
+        format!(
+            "the end is not reached in {most} steps: `bdf` begins anew at each extreme of the slip rate, of which rounding makes many where \
+             a mass rests; take `method = \"switching\"`, or `peaks = false`"
         )
     })
 }

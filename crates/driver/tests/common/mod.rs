@@ -2,6 +2,9 @@
 // Each test file uses its own part of this module.
 #![allow(dead_code)]
 
+pub mod cycles;
+pub mod sliders;
+
 use asperity_driver::observe::Recorder;
 use asperity_driver::observe::view::BodyFields;
 use asperity_driver::plan::{self, AnyPlan};

@@ -18,6 +18,7 @@
 
 use super::number::{Dual, Number};
 use crate::Failure;
+use crate::component::Component;
 use crate::evolution::{Evolution, Speed};
 use crate::law::{Drives, Rated};
 use crate::rate::RateLaw;
@@ -50,6 +51,29 @@ pub enum Direction {
     Unknown(usize),
     /// The pull of its springs.
     Pull,
+}
+
+/// Friction near steady sliding, to first order in the changes x of ln V and φ_i of the states: `μ = a x + q Σ φ_i` and
+/// `dφ_i/dt = -r_i (φ_i + b_i x) - C_i dμ/dt`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response {
+    /// a = ∂μ/∂ln V \[-\].
+    pub direct: f64,
+    /// q = ∂μ/∂φ \[-\]: 1 unless μ is a few a.
+    pub weight: f64,
+    /// The states.
+    pub states: Vec<Relaxation>,
+}
+
+/// A state near steady sliding; see [`Response`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Relaxation {
+    /// b_i \[-\].
+    pub weakening: f64,
+    /// r_i \[1/s\].
+    pub rate: f64,
+    /// C_i \[-\]: memory of shear traction.
+    pub memory: f64,
 }
 
 /// A law as a slider uses it. One call treats one slider.
@@ -101,8 +125,8 @@ pub trait Sliding: Rated {
     /// [`Failure`] where the form has no value at the slip rate.
     fn step_rate(&self, unknowns: &mut [f64], normal: [f64; 2], rate: [f64; 2]) -> Result<(), Failure>;
 
-    /// Whether a state remembers shear traction.
-    fn remembers_shear(&self) -> bool;
+    /// Friction near steady sliding at ln V.
+    fn response(&self, log_rate: f64) -> Response;
 
     /// a \[-\], the scale of m.
     fn scale(&self) -> f64;
@@ -372,8 +396,20 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
         Ok(())
     }
 
-    fn remembers_shear(&self) -> bool {
-        self.parts().iter().any(|part| part.shear_memory != 0.0)
+    fn response(&self, log_rate: f64) -> Response {
+        let steady: Vec<f64> = self.parts().iter().map(|p| p.evolution.steady(log_rate)).collect();
+        let phi = self.parts().iter().zip(&steady).map(|(p, &s)| p.evolution.phi(s)).sum();
+        let strength = self.form().at(log_rate, phi);
+        let state = |(part, &s): (&Component<E>, &f64)| {
+            let (slope, _) = part.evolution.phi_slopes(s);
+            let change = part.evolution.rate(s, Speed::of_log(log_rate));
+            // What is kept changes by 1 + q C of the change at constant V, as in `generic`.
+            let memory = part.shear_memory * slope;
+            let rate = -change.d_state * (1.0 + strength.d_phi * memory);
+            Relaxation { weakening: slope * change.d_log_rate / change.d_state, rate, memory }
+        };
+        let states = self.parts().iter().zip(&steady).map(state).collect();
+        Response { direct: strength.d_log_rate, weight: strength.d_phi, states }
     }
 
     fn scale(&self) -> f64 {

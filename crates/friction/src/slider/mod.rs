@@ -5,7 +5,7 @@ mod block;
 mod history;
 mod number;
 
-pub use block::{Direction, Forcing, Sliding};
+pub use block::{Direction, Forcing, Relaxation, Response, Sliding};
 pub use history::{History, Piece};
 
 use crate::Failure;
@@ -301,12 +301,13 @@ impl Segment<'_> {
         }
     }
 
-    fn forcing(&self, i: usize, time: f64, unknowns: &[f64], load: f64) -> Forcing {
+    /// What acts on a slider, by the slip rates of the others \[m/s\].
+    fn forcing(&self, i: usize, time: f64, load: f64, rate: impl Fn(usize) -> f64) -> Forcing {
         let slider = &self.system.sliders[i];
         let (normal, normal_rate) = self.normals[i].at(time);
         let mut pull = slider.stiffness * load;
         for &(other, stiffness) in &self.system.links[i] {
-            pull += stiffness * self.rate(other, time, unknowns);
+            pull += stiffness * rate(other);
         }
         Forcing {
             imposed: self.imposed[i].as_ref().map(|rate| rate.at(time)),
@@ -321,11 +322,24 @@ impl Segment<'_> {
 
     /// Rates of change of the unknowns at a time \[s\].
     pub fn rates(&self, time: f64, unknowns: &[f64], rates: &mut [f64]) {
-        let load = self.load.at(time).0;
+        let (load, slips) = (self.load.at(time).0, self.linked(time, unknowns));
         for (i, slider) in self.system.sliders.iter().enumerate() {
-            let forcing = self.forcing(i, time, unknowns, load);
+            let forcing = self.forcing(i, time, load, |other| slips[other]);
             slider.law.equations(&forcing, self.system.of(i, unknowns), self.system.of_mut(i, rates));
         }
+    }
+
+    /// Slip rates of all sliders, each computed once however many springs lead to it; none without springs.
+    fn linked(&self, time: f64, unknowns: &[f64]) -> Vec<f64> {
+        let count = if self.system.springs.is_empty() { 0 } else { self.system.sliders.len() };
+        (0..count).map(|i| self.rate(i, time, unknowns)).collect()
+    }
+
+    /// Writes the rates of one slider at their places: its springs are all that is looked at.
+    pub fn rates_of(&self, i: usize, time: f64, unknowns: &[f64], rates: &mut [f64]) {
+        let forcing = self.forcing(i, time, self.load.at(time).0, |other| self.rate(other, time, unknowns));
+        let law = &self.system.sliders[i].law;
+        law.equations(&forcing, self.system.of(i, unknowns), self.system.of_mut(i, rates));
     }
 
     /// Their Jacobian, column-major.
@@ -338,10 +352,10 @@ impl Segment<'_> {
     /// The entries of the Jacobian that may differ from zero, as row, column and value. Those of one place add up. Their places and
     /// their order are those of [`System::places`] at all times.
     pub fn entries(&self, time: f64, unknowns: &[f64], mut put: impl FnMut((usize, usize), f64)) {
-        let load = self.load.at(time).0;
+        let (load, slips) = (self.load.at(time).0, self.linked(time, unknowns));
         let (mut slopes, mut by_pull) = ([0.0; MOST_UNKNOWNS], [0.0; MOST_UNKNOWNS]);
         for (i, slider) in self.system.sliders.iter().enumerate() {
-            let forcing = self.forcing(i, time, unknowns, load);
+            let forcing = self.forcing(i, time, load, |other| slips[other]);
             let (y, first) = (self.system.of(i, unknowns), self.system.starts[i]);
             let n = y.len();
             for column in 0..n {

@@ -1,0 +1,388 @@
+//! The numbers that leave a run of spring-sliders: rows of histories, the catalogue, the plan.
+
+use super::slider::{self, Independent, MU0, V_REF};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use asperity_driver::ode::Outcome;
+use asperity_driver::scene::slider as scene;
+use asperity_driver::slider::{self as driver, Histories, Plan};
+use std::path::PathBuf;
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "slider_outputs",
+    readme: include_str!("README.md"),
+    covers: &[Capability::Slider, Capability::Events],
+    quick: true,
+    run,
+};
+
+/// a, L \[m\] and f_n \[Pa\] of all scenes.
+const A: f64 = 0.01;
+const L: f64 = 1e-5;
+const NORMAL: f64 = 5e6;
+/// Columns of a history.
+const TIME: usize = 0;
+const SLIP: usize = 2;
+const RATE: usize = 3;
+const FRICTION: usize = 4;
+const STATE: usize = 8;
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let reference = Independent::read()?;
+    velocity_steps(ledger)?;
+    cycles(ledger, &reference)?;
+    holds(ledger, &reference)?;
+    strengthening(ledger)?;
+    stiffness(ledger)
+}
+
+/// A law with these values of b and L.
+fn law(evolution: &str, b: &str, more: &str) -> String {
+    format!(
+        "{{ kind = \"rate-and-state\", evolution = \"{evolution}\", mu0 = 0.6, a = 0.01, b = {b}, v_ref = \"1 um/s\", v_initial = \"1 um/s\", {more} }}"
+    )
+}
+
+/// A scene of one slider.
+fn text(load: &str, slider: &str, law: &str, rest: &str) -> String {
+    format!(
+        "schema = 1\ntitle = \"t\"\nkinematics = \"spring-slider\"\n{load}\n[sliders.block]\nnormal = \"5 MPa\"\n{slider}\nlaw = {law}\n{rest}\n"
+    )
+}
+
+fn plan(text: &str) -> Result<Plan, CaseError> {
+    scene::read(text).map_err(|e| e.to_string().into())
+}
+
+/// A folder that goes with its owner.
+struct Folder(PathBuf);
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // What cannot be removed stays in the folder of temporary files.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Numbers of a file of comma-separated values below its head, from the column `first` on; what is no number is NaN.
+fn table(text: &str, first: usize) -> Vec<Vec<f64>> {
+    let numbers = |l: &str| l.split(',').skip(first).map(|v| v.parse().unwrap_or(f64::NAN)).collect();
+    text.lines().skip(1).map(numbers).collect()
+}
+
+/// The rows of the history and of the catalogue that a scene leaves.
+fn files(name: &str, plan: &Plan) -> Result<[Vec<Vec<f64>>; 2], CaseError> {
+    let folder = Folder(std::env::temp_dir().join(format!("asperity-outputs-{name}-{}", std::process::id())));
+    std::fs::create_dir_all(&folder.0)?;
+    let mut histories = Histories::create(&folder.0, plan)?;
+    let run = driver::run(plan, &mut histories)?;
+    if let Outcome::Failed { reason } = run.outcome {
+        return Err(reason.to_string().into());
+    }
+    histories.finish()?;
+    let history = std::fs::read_to_string(folder.0.join("history/block.csv"))?;
+    Ok([table(&history, 0), table(&driver::csv(&run.catalogue.events, &plan.names), 1)])
+}
+
+/// mu of the regularised form.
+fn friction(rate: f64, phi: f64) -> f64 {
+    A * (rate / (2.0 * V_REF) * ((MU0 + phi) / A).exp()).asinh()
+}
+
+/// phi after `time` at a constant slip rate.
+fn relaxed(evolution: &str, b: f64, phi: f64, rate: f64, time: f64) -> f64 {
+    let left = (-rate * time / L).exp();
+    if evolution == "ageing" {
+        let (theta, steady) = (L / V_REF * (phi / b).exp(), L / rate);
+        b * (V_REF / L * (steady + (theta - steady) * left)).ln()
+    } else {
+        let steady = -b * (rate / V_REF).ln();
+        steady + (phi - steady) * left
+    }
+}
+
+/// Slip rate, slip and phi of the imposed course: 1 um/s for 20 s, 10 um/s for 10 s, then 0.1 um/s.
+fn imposed(evolution: &str, b: f64, time: f64) -> [f64; 3] {
+    let phi = |from: f64, rate: f64, time: f64| relaxed(evolution, b, from, rate, time);
+    if time <= 20.0 {
+        [1e-6, 1e-6 * time, 0.0]
+    } else if time <= 30.0 {
+        [1e-5, 2e-5 + 1e-5 * (time - 20.0), phi(0.0, 1e-5, time - 20.0)]
+    } else {
+        [1e-7, 1.2e-4 + 1e-7 * (time - 30.0), phi(phi(0.0, 1e-5, 10.0), 1e-7, time - 30.0)]
+    }
+}
+
+/// Rows at times, of an imposed slip rate, whose slip, friction and states have closed forms.
+fn velocity_steps(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let course = "rate = { table = [[\"0 s\", \"1 um/s\"], [\"20 s\", \"1 um/s\"], [\"20 s\", \"10 um/s\"], [\"30 s\", \"10 um/s\"], [\"30 s\", \"0.1 um/s\"]] }";
+    let (mut missed, mut slips, mut frictions, mut states) = (0, 0.0_f64, 0.0_f64, 0.0_f64);
+    let (done, cost) = Cost::of(|| -> Result<(), CaseError> {
+        for (evolution, b) in [("ageing", 0.015), ("ageing", -0.005), ("slip", 0.015), ("slip", -0.005)] {
+            let law = law(evolution, &b.to_string(), "l = \"10 um\"");
+            let rest = "[time]\nend = \"200 s\"\ntolerance = 1e-11\n[output]\ninterval = \"0.3 s\"";
+            let [rows, _] = files("steps", &plan(&text("", course, &law, rest))?)?;
+            let asked: Vec<f64> = (0..=666).map(|k| 0.3 * f64::from(k)).collect();
+            missed += u64::from(rows.len() != asked.len());
+            for (row, &time) in rows.iter().zip(&asked) {
+                let [rate, slip, phi] = imposed(evolution, b, time);
+                missed += u64::from(row[TIME] != time || row[RATE] != rate);
+                slips = slips.max((row[SLIP] - slip).abs());
+                frictions = frictions.max((row[FRICTION] - friction(rate, phi)).abs() / A);
+                let state = if evolution == "ageing" { b * row[STATE] } else { row[STATE] };
+                states = states.max((state - phi).abs() / A);
+            }
+        }
+        Ok(())
+    });
+    done?;
+    ledger
+        .claim("imposed velocity steps, ageing and slip law, b = 0.015 and -0.005: rows at another time or slip rate than asked for, of 4 x 667")
+        .count(missed, 0)
+        .evidence(Evidence::Exact, "multiples of the interval; the slip rates of the course")
+        .because("a time that is asked for is a time, to the last bit")
+        .cost(&cost)
+        .record();
+    ledger
+        .claim("imposed velocity steps: slip in the rows against the integral of the course")
+        .unit("m")
+        .value(slips)
+        .at_most(1e-18)
+        .evidence(Evidence::Exact, "slip at constant rates")
+        .because("rounding of 0.14 mm")
+        .why_not_tighter("a few units in the last place")
+        .cost(&cost)
+        .record();
+    ledger
+        .claim("imposed velocity steps: friction in the rows against the relaxation in closed form, over a")
+        .value(frictions)
+        .at_most(1e-9)
+        .evidence(Evidence::Exact, "relaxation at constant V")
+        .because("a tolerance of 1e-11 a step, over some tens of steps")
+        .why_not_tighter("the order of the sum of errors of steps is what is known")
+        .cost(&cost)
+        .record();
+    ledger
+        .claim("imposed velocity steps: states in the rows against the relaxation in closed form, over a")
+        .value(states)
+        .at_most(1e-9)
+        .evidence(Evidence::Exact, "relaxation at constant V")
+        .because("as friction")
+        .why_not_tighter("as friction")
+        .cost(&cost)
+        .record();
+    Ok(())
+}
+
+/// Columns of the catalogue, after the name.
+const ONSET: usize = 1;
+const INTERVAL: usize = 2;
+const DURATION: usize = 3;
+const EVENT_SLIP: usize = 4;
+const PEAK: usize = 5;
+const LEAST: usize = 6;
+const DROP: usize = 7;
+/// Traction, friction and state at the onset; those at the end follow.
+const AT_ONSET: usize = 8;
+const AT_END: usize = 11;
+
+/// Stiffness \[Pa/m\], damping \[Pa s/m\] and load \[m/s\] of the shipped scene.
+const SPRING: [f64; 3] = [1.25e9, 5e6, 1e-6];
+
+/// Ten cycles: the catalogue and the peaks in the history.
+fn cycles(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> {
+    let mut plan = plan(include_str!("../../../scenes/spring-slider.toml"))?;
+    plan.tolerance = 1e-10;
+    let (read, cost) = Cost::of(|| files("cycles", &plan));
+    let [rows, events] = read?;
+    let expected = reference.numbers("mild_ageing", "crossings_s")?;
+    let recurrence = reference.number("mild_ageing", "last_interval_s")?;
+    let late = events.iter().zip(&expected).map(|(e, t)| (e[ONSET] - t).abs() / recurrence);
+    let apart =
+        events.windows(2).zip(expected.windows(2)).map(|(e, t)| (e[1][INTERVAL] - (t[1] - t[0])).abs());
+    let whole = events.len() == 10 && events.iter().all(|e| e.len() == 14);
+    let largest = late.chain(apart.map(|t| t / recurrence)).fold(0.0, f64::max);
+    ledger
+        .claim("events.csv, ten events: onsets and intervals, error over the recurrence")
+        .value(if whole { largest } else { f64::NAN })
+        .at_most(1e-9)
+        .evidence(Evidence::OtherCode, slider::SOURCE)
+        .because("a tolerance of 1e-10 a step, amplified by what an event does to the time of the next")
+        .why_not_tighter("the tolerance is a hundredth of the default, not the least")
+        .cost(&cost)
+        .record();
+    let [most, least] = ["v_max_between_last_two", "v_min_between_last_two"]
+        .map(|key| reference.number("mild_ageing", key).map(f64::ln));
+    let (most, least, last) = (most?, least?, events.last().ok_or("no event")?);
+    // The last cycle but one, from after its onset to after the next.
+    let before = events[events.len() - 2][ONSET];
+    let cycle = || rows.iter().filter(|r| r[TIME] > before - 100.0 && r[TIME] < last[ONSET]);
+    let seen = |pick: fn(f64, f64) -> f64| cycle().map(|r| r[RATE].ln()).reduce(pick).unwrap_or(f64::NAN);
+    ledger
+        .claim("events.csv and history: ln V at the peak and at the least of a cycle")
+        .values(&[last[PEAK].ln(), last[LEAST].ln(), seen(f64::max), seen(f64::min)])
+        .equals_each(&[most, least, most, least])
+        .absolute(1e-8)
+        .evidence(Evidence::OtherCode, slider::SOURCE)
+        .because("rows stand on the extremes, which are found to second order; a tolerance of 1e-10 over some hundred steps")
+        .why_not_tighter("all errors of one sign would give that")
+        .cost(&cost)
+        .record();
+    balance(ledger, &events, &cost);
+    Ok(())
+}
+
+/// Slip, stress drop, tractions and states of the events against spring and law.
+fn balance(ledger: &mut Ledger, events: &[Vec<f64>], cost: &Cost) {
+    let [stiffness, damping, load] = SPRING;
+    let (mut drops, mut edges) = (0.0_f64, 0.0_f64);
+    for e in events {
+        let lost = stiffness * (e[EVENT_SLIP] - load * e[DURATION]);
+        drops = drops.max((e[DROP] / lost - 1.0).abs());
+        drops = drops.max(((e[AT_ONSET] - e[AT_END]) / lost - 1.0).abs());
+        for (at, rate) in [(AT_ONSET, 1e-3), (AT_END, 1e-4)] {
+            let [traction, mu, state] = [e[at], e[at + 1], e[at + 2]];
+            edges = edges.max((mu - friction(rate, 0.015 * state)).abs() / A);
+            edges = edges.max((traction - NORMAL * mu - damping * rate).abs() / (NORMAL * A));
+        }
+    }
+    ledger
+        .claim("events.csv: stress drop, and traction at the onset less that at the end, over what the spring loses")
+        .value(drops)
+        .at_most(1e-9)
+        .evidence(Evidence::Exact, "k (slip - V_load duration)")
+        .because("the slip of an event is a difference of slips, which carry rounding of 3 mm: 1e-12 of 0.25 mm, and of friction 1e-15 of 0.1")
+        .why_not_tighter("differences of tractions of 3 MPa to 0.3 MPa, read from the file")
+        .cost(cost)
+        .record();
+    ledger
+        .claim("events.csv: friction by the law from state and threshold, and traction by friction and damping, over a and f_n a, at onsets and ends")
+        .value(edges)
+        .at_most(1e-9)
+        .evidence(Evidence::Exact, "strength of the regularised form; T = f_n mu + eta V")
+        .because("thresholds are met to rounding: ln V is m less (mu0 + phi)/a, numbers of some sixty")
+        .why_not_tighter("the root is met to what rounding of ln V leaves of the time")
+        .cost(cost)
+        .record();
+}
+
+/// Peaks of friction after holds, as the rows of a history show them.
+fn holds(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> {
+    for evolution in ["ageing", "slip"] {
+        let name = format!("slide_hold_slide_{evolution}");
+        let (times, expected) =
+            (reference.numbers(&name, "hold_s")?, reference.numbers(&name, "peak_minus_steady_mu")?);
+        let (found, cost) =
+            Cost::of(|| times.iter().map(|&t| healed(evolution, t)).collect::<Result<Vec<_>, _>>());
+        ledger
+            .claim(format!("slide-hold-slide, {evolution} law: largest friction of the history above steady after holds of 1 s to 1e4 s"))
+            .values(&found?)
+            .equals_each(&expected)
+            .absolute(2e-6)
+            .evidence(Evidence::OtherCode, slider::SOURCE)
+            .because("rows stand within 0.01 of ln V of each other; beside the peak friction is lower by kappa/2 (d ln V)^2, with kappa = 0.025, over the pace of ln V in V/L, near one")
+            .why_not_tighter("where rows fall beside the peak is chance")
+            .cost(&cost)
+            .record();
+    }
+    Ok(())
+}
+
+fn healed(evolution: &str, hold: f64) -> Result<f64, CaseError> {
+    let (stop, go) = (1.0, 1.0 + hold);
+    let load = format!(
+        "[load]\nrate = {{ table = [[\"0 s\", \"1 um/s\"], [\"{stop} s\", \"1 um/s\"], [\"{stop} s\", \"0 m/s\"], [\"{go} s\", \"0 m/s\"], [\"{go} s\", \"1 um/s\"]] }}"
+    );
+    let rest = format!("[time]\nend = \"{} s\"\n[output]\nchange = 0.01", go + 200.0);
+    let slider = "stiffness = \"12.5 GPa/m\"\ndamping = \"5 MPa s/m\"";
+    let [rows, _] =
+        files("holds", &plan(&text(&load, slider, &law(evolution, "0.015", "l = \"10 um\""), &rest))?)?;
+    let after = rows.iter().filter(|r| r[TIME] >= go);
+    Ok(after.map(|r| r[FRICTION]).fold(0.0, f64::max) - MU0)
+}
+
+/// b < 0: friction after a tenfold step of the load.
+fn strengthening(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let load =
+        "[load]\nrate = { table = [[\"0 s\", \"1 um/s\"], [\"10 s\", \"1 um/s\"], [\"10 s\", \"10 um/s\"]] }";
+    let (found, cost) = Cost::of(|| -> Result<Vec<f64>, CaseError> {
+        let mut last = Vec::new();
+        for evolution in ["ageing", "slip", "prz"] {
+            let law = law(evolution, "-0.005", "l = \"10 um\"");
+            let scene = text(load, "stiffness = \"5 GPa/m\"", &law, "[time]\nend = \"600 s\"");
+            let [rows, _] = files("strengthening", &plan(&scene)?)?;
+            last.push(rows.last().ok_or("no row")?[FRICTION]);
+        }
+        Ok(last)
+    });
+    ledger
+        .claim("b = -0.005, ageing, slip and PRZ law: friction in the last row, long after a tenfold step of the load")
+        .values(&found?)
+        .equals_each(&[MU0 + (A + 0.005) * 10f64.ln(); 3])
+        .absolute(1e-9)
+        .evidence(Evidence::Exact, "steady friction mu0 + (a - b) ln(V/Vref)")
+        .because("a tolerance of 1e-8 in ln V, times a, and a bare logarithm to e^(-2 mu/a)")
+        .why_not_tighter("a few steps of tolerance")
+        .cost(&cost)
+        .record();
+    Ok(())
+}
+
+/// k/k_c and k_c of a plan, as it prints them.
+fn printed(summary: &str) -> Result<[f64; 2], CaseError> {
+    let number = |key: &str| -> Result<f64, CaseError> {
+        let after = summary.split_once(key).ok_or("the plan has no k_c")?.1;
+        Ok(after.split([',', ' ', '\n']).next().ok_or("no number")?.parse()?)
+    };
+    Ok([number("k/k_c = ")?, number(", k_c = ")?])
+}
+
+/// Gu et al. (1984): `kappa_c/2` of two states, with rho = L1/L2, in units of f_n/L1.
+fn two_states(b: [f64; 2], rho: f64) -> f64 {
+    let (first, second, both) = (b[0] - A, rho * rho * (b[1] - A), b[0] + b[1] - A);
+    let root = ((first + second).powi(2) + 4.0 * rho * rho * A * both).sqrt();
+    (first + second + 2.0 * rho * both + root) / (2.0 * (1.0 + rho))
+}
+
+/// The critical stiffness that plans print.
+fn stiffness(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let stiff = 1e9;
+    let (mut ratios, mut expected) = (Vec::new(), Vec::new());
+    let mut look = |law: &str, more: &str, critical: f64| -> Result<(), CaseError> {
+        let slider = format!("stiffness = {stiff:e}\n{more}");
+        let scene = text("[load]\nrate = \"1 um/s\"", &slider, law, "[time]\nend = \"1 s\"");
+        let [ratio, found] = printed(&plan(&scene)?.summary())?;
+        ratios.extend([found / critical, ratio]);
+        expected.extend([1.0, stiff / critical]);
+        Ok(())
+    };
+    let one = law("ageing", "0.015", "l = \"10 um\"");
+    look(&one, "", NORMAL / L * 0.005)?;
+    // eta V/f_n = 0.002; n = M V^2/(f_n L) = 0.002.
+    look(&one, "damping = \"1e10 Pa s/m\"", NORMAL / L * 0.003)?;
+    look(&one, "mass = 1e11", NORMAL / L * 0.005 * (1.0 + 0.002 / A))?;
+    for (b, rho) in
+        [([0.012, 0.003], 0.1), ([0.02, 0.005], 0.5), ([0.004, 0.016], 0.02), ([0.015, -0.002], 0.2)]
+    {
+        let law = law("slip", &format!("{b:?}"), &format!("l = [\"10 um\", \"{} um\"]", 10.0 / rho));
+        look(&law, "", NORMAL / L * two_states(b, rho))?;
+    }
+    for c in [0.5, 2.0] {
+        look(
+            &law("nagata", "0.015", &format!("l = \"10 um\", c = {c}")),
+            "",
+            NORMAL / L * 0.005 / (1.0 + c),
+        )?;
+    }
+    ledger
+        .claim("plans of nine sliders: k_c over that of theory, and k/k_c: one state, damped, with mass; two states; memory of shear traction")
+        .values(&ratios)
+        .equals_each(&expected)
+        .absolute(2e-6)
+        .evidence(Evidence::Exact, "Ruina (1983); Gu et al. (1984); (b - a) f_n/[L (1 + c)]")
+        .because("plans print k_c with seven digits and k/k_c with six after the point")
+        .why_not_tighter("the digits printed")
+        .covers(&[Capability::Slider, Capability::SeveralStates, Capability::LawFamily])
+        .record();
+    Ok(())
+}
