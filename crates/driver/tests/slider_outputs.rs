@@ -285,10 +285,10 @@ fn stability_at_any_stiffness_is_that_of_the_jacobian() {
     // A state that weakens soon and one that strengthens late: with a mass, soft springs are stable again.
     let late = states("slip", "[0.015, -0.010]", "[\"10 um\", \"1 mm\"]");
     let laws = [late, states("slip", "[0.012, 0.003]", "[\"10 um\", \"100 um\"]"), law("nagata", 0.015)];
-    for (law, more) in laws.iter().flat_map(|l| [(l, ""), (l, "mass = 1e12")]) {
+    for (law, more) in laws.iter().flat_map(|l| [(l, ""), (l, "mass = 4e13")]) {
         let law = law.replace("evolution = \"nagata\"", "evolution = \"nagata\", c = 0.5");
         let (mut seen, mut last) = (Vec::new(), true);
-        for power in 0..=160 {
+        for power in 0..=220 {
             let k = 1e5 * 10f64.powf(f64::from(power) / 30.0);
             let slider = format!("stiffness = {k:e}\n{more}");
             let text = scene("[load]\nrate = \"1 um/s\"", &slider, &law, "[time]\nend = \"1 s\"");

@@ -71,9 +71,12 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     independent(ledger)?;
     let sets: Vec<Set> = all().into_iter().step_by(EACH).collect();
     agree(ledger, &sets)?;
-    // A comparison takes thirty runs: each third set.
-    let few: Vec<Set> = sets.into_iter().step_by(3).collect();
-    compare(ledger, &few)
+    compare(ledger, &each_third(sets))
+}
+
+/// The sets on which methods are compared, which takes thirty runs each.
+pub fn each_third(sets: Vec<Set>) -> Vec<Set> {
+    sets.into_iter().step_by(3).collect()
 }
 
 impl Set {

@@ -193,8 +193,11 @@ fn law<E: Evolution + 'static>(set: &Set, states: Vec<E>) -> Result<Arc<dyn Slid
     Ok(Arc::new(RateLaw::with_parts(form, parts, set.load, set.normal, None)?))
 }
 
+/// A law with its name.
+type Named = (&'static str, Arc<dyn Sliding>);
+
 /// Laws with several states, whose b and L these are \[-, m\], and one with a memory of shear traction.
-fn laws(set: &Set) -> Result<Vec<(&'static str, Arc<dyn Sliding>)>, CaseError> {
+fn laws(set: &Set) -> Result<Vec<Named>, CaseError> {
     let slips = |list: &[(f64, f64)]| {
         list.iter().map(|&(b, l)| Slip::new(b, l, V_REF)).collect::<Result<Vec<_>, _>>()
     };
