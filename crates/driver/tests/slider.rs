@@ -546,11 +546,11 @@ fn a_method_that_begins_anew_at_each_extreme_says_what_to_take_instead() {
     let law = "form = \"bare\", evolution = \"ageing\", a = 0.006";
     let text = inertial(law, "2.8125 MPa/m", "71.24 kg/m^2", "bdf").replace("e-9 m/s", "e-7 m/s");
     let mut plan = plan(&text);
-    (plan.tolerance, plan.most_steps) = (1e-7, 20_000);
-    let stalled = run(&plan, &mut ()).unwrap();
-    let hint = stalled.hint.unwrap();
-    assert!(hint.contains("20000 steps") && hint.contains("take `method = \"switching\"`"), "{hint}");
-    plan.peaks = false;
+    // Whether it stalls is a matter of rounding; so few steps are not enough in any case.
+    (plan.tolerance, plan.most_steps) = (1e-7, 500);
+    let hint = run(&plan, &mut ()).unwrap().hint.unwrap();
+    assert!(hint.contains("500 steps") && hint.contains("take `method = \"switching\"`"), "{hint}");
+    (plan.peaks, plan.most_steps) = (false, 100_000);
     assert_eq!(run(&plan, &mut ()).unwrap().outcome, Outcome::Stopped);
     (plan.peaks, plan.method) = (true, DEFAULT_METHOD);
     assert_eq!(run(&plan, &mut ()).unwrap().outcome, Outcome::Stopped);
