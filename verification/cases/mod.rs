@@ -55,6 +55,7 @@ mod fault_bend;
 mod fault_bodies;
 mod fault_compression;
 mod fault_free_surface;
+mod fault_gravity;
 mod fault_operator;
 mod fault_space;
 mod fault_stability;
@@ -133,6 +134,7 @@ pub const ALL: &[Case] = &[
     fault_compression::CASE,
     fault_bend::CASE,
     fault_free_surface::CASE,
+    fault_gravity::CASE,
     fault_operator::CASE,
     fault_space::CASE,
     fault_stability::CASE,

@@ -40,6 +40,8 @@ pub struct Stage {
     pub fixed: Vec<usize>,
     /// Sets that a spring moves as one.
     pub springs: Vec<Spring>,
+    /// In scenes with faults, nodal forces of the weight of the bodies, which is there before the start.
+    pub weight: Vec<(usize, f64)>,
 }
 
 /// Degrees of freedom that move as one, drawn by a spring.
@@ -108,6 +110,34 @@ impl Stage {
         !self.springs.is_empty() || self.loads.iter().any(|(_, channel)| !channel.forces.is_empty())
     }
 
+    /// Whether conditions hold any of some degrees of freedom along the components that are asked for.
+    #[must_use]
+    pub fn holds(&self, dofs: &Range<usize>, components: &[bool]) -> bool {
+        let fixed = self.fixed.iter().chain(self.springs.iter().flat_map(|s| &s.dofs));
+        fixed.into_iter().any(|d| dofs.contains(d) && components[d % components.len()])
+    }
+
+    /// Largest force along a direction that loads exert on some degrees of freedom at any time of the stage \[N; N/m\].
+    #[must_use]
+    pub fn largest_force(&self, dofs: &Range<usize>, along: &[f64]) -> f64 {
+        let channels = || self.loads.iter().map(|(_, channel)| channel);
+        let of = |channel: &Channel| -> f64 {
+            let own = channel.forces.iter().filter(|(d, _)| dofs.contains(d));
+            own.map(|(d, force)| force * along[d % along.len()]).sum()
+        };
+        let parts: Vec<(&Table, f64)> = channels().map(|c| (&c.amplitude, of(c))).collect();
+        let turns = parts.iter().flat_map(|(a, _)| a.times().iter().copied());
+        let within = turns.filter(|t| *t > self.start && *t < self.end);
+        let times = within.chain([self.start, self.end]);
+        times.map(|t| parts.iter().map(|(a, f)| f * a.value(t)).sum()).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Whether tractions or pressures act on sets.
+    #[must_use]
+    pub fn has_loads(&self) -> bool {
+        self.loads.iter().any(|(set, _)| set.is_some())
+    }
+
     fn motion_channels(&self, dofs: &[usize], motion: &Motion, u0: &[f64], channels: &mut Vec<Channel>) {
         let present = |table: Table| Channel {
             prescribed: dofs.iter().filter(|&&d| u0[d] != 0.0).map(|&d| (d, u0[d])).collect(),
@@ -144,8 +174,12 @@ impl Stage {
 /// [`PlanError`] pointing at the condition that cannot be applied.
 pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Stage>, PlanError> {
     jumps::of_bodies(scene)?;
-    // On faults an initial stress is what their tractions at the start come from.
-    let body_loads = if scene.faults.is_empty() { body_loads(scene, model)? } else { Vec::new() };
+    // On faults initial stress and weight are what their tractions at the start come from.
+    let (body_loads, weight) = if scene.faults.is_empty() {
+        (body_loads(scene, model)?, Vec::new())
+    } else {
+        (Vec::new(), weights(scene, model)?.concat())
+    };
     let mut held: BTreeMap<(String, usize), Motion> = BTreeMap::new();
     let mut loads: BTreeMap<(String, usize), Loading> = BTreeMap::new();
     let mut shared = Shared::default();
@@ -190,6 +224,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
             loads: channels,
             fixed,
             springs: springs.collect(),
+            weight: weight.clone(),
         });
         start = end;
     }
@@ -372,34 +407,42 @@ fn load_channel<const D: usize>(
 
 /// Channels of body forces and initial stresses, which act from the start.
 fn body_loads<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Channel>, PlanError> {
-    let mut channels = Vec::new();
+    let mut channels: Vec<Channel> = weights(scene, model)?.into_iter().map(|w| steady(w, 1.0)).collect();
     for body in &model.bodies {
-        let spec = &scene.bodies[&body.name];
-        for (k, block) in body.blocks.clone().enumerate() {
-            if let Some(gravity) = &spec.gravity {
-                let (name, material) = model.material(scene, (&body.name, spec), block)?;
-                let density = density_of(name, material, gravity.span())?;
-                let force: Vec<f64> = gravity.get_ref().iter().map(|g| density * g).collect();
-                // Weight does not depend on the stiffness; blocks that are not linear have it from one that is.
-                let weight = |b: &LinearBlock<D>| b.body_force(&model.mesh, &force);
-                let forces = match model.blocks[block].linear() {
-                    Some(linear) => weight(linear),
-                    None => {
-                        let (space, standard) = (model.idealisation, Formulation::Standard);
-                        LinearBlock::new(&model.mesh, block, &body.elastic[k], space, standard)
-                            .and_then(|b| weight(&b))
-                    }
-                };
-                let forces =
-                    forces.map_err(|e| PlanError::body(&body.name, gravity.span(), e.to_string()))?;
-                channels.push(steady(forces, 1.0));
-            }
-            if let (Some(stress), Some(linear)) = (initial_stress(spec), model.blocks[block].linear()) {
+        let stress = initial_stress(&scene.bodies[&body.name]);
+        for block in body.blocks.clone() {
+            if let (Some(stress), Some(linear)) = (stress, model.blocks[block].linear()) {
                 channels.push(steady(linear.initial_stress(stress), -1.0));
             }
         }
     }
     Ok(channels)
+}
+
+/// Nodal forces of the weight of each block of cells that has one.
+fn weights<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Vec<(usize, f64)>>, PlanError> {
+    let mut all = Vec::new();
+    for body in &model.bodies {
+        let spec = &scene.bodies[&body.name];
+        let Some(gravity) = &spec.gravity else { continue };
+        for (k, block) in body.blocks.clone().enumerate() {
+            let (name, material) = model.material(scene, (&body.name, spec), block)?;
+            let density = density_of(name, material, gravity.span())?;
+            let force: Vec<f64> = gravity.get_ref().iter().map(|g| density * g).collect();
+            // Weight does not depend on the stiffness; blocks that are not linear have it from one that is.
+            let weight = |b: &LinearBlock<D>| b.body_force(&model.mesh, &force);
+            let forces = match model.blocks[block].linear() {
+                Some(linear) => weight(linear),
+                None => {
+                    let (space, standard) = (model.idealisation, Formulation::Standard);
+                    LinearBlock::new(&model.mesh, block, &body.elastic[k], space, standard)
+                        .and_then(|b| weight(&b))
+                }
+            };
+            all.push(forces.map_err(|e| PlanError::body(&body.name, gravity.span(), e.to_string()))?);
+        }
+    }
+    Ok(all)
 }
 
 /// The initial stress of a body, given in full, as xx, yy, xy or as yz, zx, as xx, yy, zz, xy, yz, zx \[Pa\].

@@ -229,3 +229,59 @@ fn points_are_counted_along_the_cohesive_zone_and_few_are_warned_of_or_refused()
     assert!(refused.message.contains("cohesive zone") && refused.help.unwrap().contains("under_resolved"));
     assert_eq!(bp1("781.25 m", "under_resolved = \"allow\"").unwrap().warnings.len(), 1);
 }
+
+/// What weight refuses, each with the remedy that it names.
+#[test]
+fn scenes_that_weight_makes_impossible_are_accepted_with_the_remedy_of_their_refusal() {
+    let file = |name: &str| {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_scenes").join(name);
+        std::fs::read_to_string(path).unwrap()
+    };
+    let shear = "profiles.shear = { along = \"y\", points = [[\"-20 km\", 80e6], [\"0 km\", 1e5]] }\nrate = ";
+    let stress = |s: &str| format!("initial_stress = {s}\ngravity = ");
+    for (name, from, to) in [
+        (
+            "fault_weight_presses_nothing.toml",
+            "rate = \"-1e-9",
+            "normal_floor = \"1 MPa\"\nrate = \"-1e-9".to_string(),
+        ),
+        ("fault_weight_presses_nothing.toml", "gravity = ", stress("[\"-1 MPa\", \"-3 MPa\", 0]")),
+        ("fault_weight_against_rate.toml", "rate = \"", format!("{shear}\"")),
+        ("fault_weight_against_rate.toml", "gravity = ", stress("[\"-200 MPa\", \"-10 MPa\", 0]")),
+        ("fault_weight_against_rate.toml", "rate = \"1e-9", "rate = \"-1e-9".into()),
+        ("fault_weight_and_normal.toml", "normal = \"50 MPa\"", String::new()),
+        ("fault_weight_and_normal.toml", "gravity = [0, -9.81]", String::new()),
+        ("fault_gravity.toml", "gravity = [-9.81]", String::new()),
+        ("fault_weight_of_one_body.toml", "[bodies.B]", "[bodies.B]\ngravity = [0, -9.81]".into()),
+    ] {
+        let text = file(name);
+        let change = |text: &str| {
+            scene::read(text).map_err(|e| e.to_string()).and_then(|s| plan_scene(&s).map_err(|e| e.message))
+        };
+        assert!(text.contains(from) && change(&text).is_err(), "{name}");
+        let mended =
+            text.replacen(from, &to, 1).replace("rate = \"", "under_resolved = \"allow\"\nrate = \"");
+        // A vertical fault between two blocks is not sheared by weight.
+        let mended =
+            mended.replace("rate = 1e-9\n", "normal_floor = \"1 MPa\"\nshear = \"20 MPa\"\nrate = 1e-9\n");
+        assert!(change(&mended).is_ok(), "{name} {to}: {:?}", change(&mended).err());
+    }
+}
+
+/// Conditions on the lower end of blocks that move as the creep has it say nothing new, and count once.
+#[test]
+fn conditions_that_say_the_same_as_creep_count_once() {
+    let file =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_scenes/fault_creep_and_sides.toml");
+    let text = std::fs::read_to_string(file).unwrap().replace("rate = 3e-9", "rate = 1e-9");
+    let plan = planned(&text).unwrap();
+    assert!(plan.warnings.is_empty(), "{:?}", plan.warnings);
+    // Blocks that slip everywhere at the rate of the creep move rigidly.
+    let n = plan.points.len();
+    let (load, _) = plan.loading.rates(1.0, n, false);
+    let mut slip = vec![0.0; n];
+    plan.fault.operator.shear(&vec![1e-9; n], &mut slip);
+    let size = slip.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let off = load.iter().zip(&slip).fold(0.0_f64, |m, (a, b)| m.max((a + b).abs()));
+    assert!(off < 1e-9 * size, "{off:e} {size:e}");
+}

@@ -43,6 +43,15 @@ pub enum Tractions {
     },
 }
 
+/// Tractions at the start that the weight of the bodies causes where no point has slipped yet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weight {
+    /// Component by component \[Pa\].
+    pub shear: Vec<f64>,
+    /// Compression positive \[Pa\].
+    pub normal: Vec<f64>,
+}
+
 /// Bodies, condensed.
 #[derive(Debug)]
 pub struct Surroundings {
@@ -50,6 +59,10 @@ pub struct Surroundings {
     pub operator: Tractions,
     /// Tractions that loads and creep cause.
     pub loading: Loading,
+    /// Of these, rates of shear tractions that creep causes by itself, component by component \[Pa/s\].
+    pub creep: Option<Vec<f64>>,
+    /// Tractions of their weight, where they have any.
+    pub weight: Option<Weight>,
     /// Memory of the condensation at its worst \[bytes\].
     pub bytes: usize,
     /// The bodies, where they are kept.
@@ -150,6 +163,11 @@ fn with_components<const D: usize, const C: usize>(
     if let Some((k, c)) = free.iter().find_map(along_slip) {
         return Err(held::along_slip(&points[k].place, &frame(&points[k].place)[c]));
     }
+    let mut channels = Vec::new();
+    for channel in &constraints.channels {
+        channels.push(machine.channel(&jumps.channel(channel, &constraints.fixed).map_err(oblique)?)?);
+    }
+    let creeping = held::creep((points, &slip), &fixed, &channels, (tangents, stage.end), &frame)?;
     let supported: Vec<bool> = free.iter().map(|&k| C > 1 && is_fixed(slip[k] + C - 1)).collect();
     for (point, &dof) in points.iter().zip(&slip) {
         if point.creep.is_some() {
@@ -161,20 +179,16 @@ fn with_components<const D: usize, const C: usize>(
     fixed.extend(machine.tied());
     fixed.sort_unstable();
     fixed.dedup();
-    let mut channels = Vec::new();
-    for channel in &constraints.channels {
-        channels.push(machine.channel(&jumps.channel(channel, &constraints.fixed).map_err(oblique)?)?);
-    }
-    let creeping = points.iter().zip(&slip).filter_map(|(p, &d)| p.creep.map(|rate| (d, rate)));
-    let components =
-        creeping.flat_map(|(d, rate)| rate.into_iter().enumerate().map(move |(c, v)| (d + c, v)));
-    // At rate zero it is held, as all that is fixed and not prescribed.
-    let prescribed: Vec<(usize, f64)> = components.filter(|(_, v)| *v != 0.0).collect();
-    if !prescribed.is_empty() {
+    let creep = (!creeping.is_empty()).then_some(channels.len());
+    if creep.is_some() {
         let amplitude = Table::new(vec![0.0, stage.end], vec![0.0, stage.end]);
-        channels.push(Channel { prescribed, forces: Vec::new(), amplitude });
+        channels.push(Channel { prescribed: creeping, forces: Vec::new(), amplitude });
     }
     channels.extend(machine.pulls(stage.end));
+    let weighs = C > 1 && !stage.weight.is_empty();
+    if weighs {
+        channels.push(machine.channel(&jumps.channel(&weight(stage), &constraints.fixed).map_err(oblique)?)?);
+    }
     let operator = operator_bytes::<C>(tangents, free.len());
     let (left, bytes) = Left::of(body, (&retained, &fixed), channels, (memory, operator), keep)
         .map_err(|e| in_words(model, &jumps, e))?;
@@ -182,10 +196,15 @@ fn with_components<const D: usize, const C: usize>(
     let keeps = |k: usize, supported: bool| supported || !points[k].normal_changes;
     let area = |(&k, &s): (&usize, &bool)| Bearing { area: points[k].place.area, keeps: keeps(k, s) };
     let bearings: Vec<Bearing> = free.iter().zip(&supported).map(area).collect();
-    let found = tractions::<C>(&left, tangents, &rows, &bearings);
+    let found = tractions::<C>(&left, tangents, &rows, &bearings, (creep, weighs));
     let ties = machine.ties().clone();
     let bodies = left.kept().map(|condensed| Bodies::new(condensed, jumps, ties, rows));
     Ok(Surroundings { bytes, bodies, ..found })
+}
+
+/// The weight of the bodies. What it does to them was there before the start, so that its amplitude is zero in the course of the run.
+fn weight(stage: &Stage) -> Channel {
+    Channel { prescribed: Vec::new(), forces: stage.weight.clone(), amplitude: Table::constant(0.0) }
 }
 
 /// What elimination leaves of the bodies.
@@ -313,12 +332,14 @@ fn in_words<const D: usize, const C: usize>(model: &Model<D>, jumps: &Jumps<C>, 
 
 /// Tractions from the condensed forces; `rows` are those of the slip of each point, in motion of more than one component its opening stands next to it. A force
 /// is what must act on a jump to hold it there: the bodies drive slip with its opposite, and where it holds the sides apart they
-/// press on each other, in compression.
+/// press on each other, in compression. `creep` is the number of the channel of
+/// creep; where the bodies weigh, their weight is the last one.
 fn tractions<const C: usize>(
     left: &Left,
     tangents: usize,
     rows: &[usize],
     bearings: &[Bearing],
+    (creep, weighs): (Option<usize>, bool),
 ) -> Surroundings {
     let n = rows.len();
     // Traction of a component, the opening after the tangents, that slip of a component causes.
@@ -337,7 +358,12 @@ fn tractions<const C: usize>(
     };
     let shear_of = |forces: &[f64]| (0..tangents).flat_map(|c| over_area(forces, c)).collect::<Vec<f64>>();
     // Loads may change normal tractions where slip does not.
-    let channels = left.channels();
+    let mut channels = left.channels();
+    let weight = channels.pop_if(|_| weighs).map(|(_, forces)| Weight {
+        shear: shear_of(forces),
+        normal: rows.iter().zip(bearings).map(|(&r, b)| forces[r + tangents] / b.area).collect(),
+    });
+    let creep = creep.map(|c| shear_of(channels[c].1));
     let shear_load = channels.iter().map(|(_, f)| largest(&shear_of(f))).fold(0.0, f64::max);
     let loaded =
         C > 1 && channels.iter().any(|(_, f)| largest(&over_area(f, tangents)) > UNCOUPLED * shear_load);
@@ -364,5 +390,5 @@ fn tractions<const C: usize>(
         let change = if C == 1 { Vec::new() } else { over_area(forces, tangents) };
         loading.add(Table::clone(amplitude), shear_of(forces), change);
     }
-    Surroundings { operator, loading, bytes: 0, bodies: None }
+    Surroundings { operator, loading, creep, weight, bytes: 0, bodies: None }
 }

@@ -47,15 +47,22 @@ impl NormalChoice {
     }
 }
 
-/// A warning where a floor lies above what presses a fault at the start: it decides friction there, not what is pressed.
-pub(super) fn above_start(name: &str, spec: &Spec, normals: impl Iterator<Item = f64>) -> Option<Warning> {
+/// A warning where a floor lies above what presses a fault at the start: it decides friction there, not what is pressed. Of faults that weight presses, which
+/// does not press a free surface, it may do so at up to half of the points: the plan notes how many there are.
+pub(super) fn above_start(
+    name: &str,
+    spec: &Spec,
+    weighs: bool,
+    normals: impl Iterator<Item = f64>,
+) -> Option<Warning> {
     let floor = spec.normal_floor.as_ref()?;
     let (mut below, mut all) = (0, 0);
     for normal in normals {
         all += 1;
         below += usize::from(normal < floor.get_ref().0);
     }
-    (below > 0).then(|| {
+    let allowed = if weighs { all / 2 } else { 0 };
+    (below > allowed).then(|| {
         Warning::at(
             floor.span(),
             format!("the floor of fault `{name}` lies above its normal traction at the start at {below} of {all} points"),

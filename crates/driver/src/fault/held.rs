@@ -6,6 +6,7 @@ use crate::model::Model;
 use crate::plan::PlanError;
 use crate::rigid;
 use crate::scene::model::{Motion, Scene};
+use asperity_fem::dof::Channel;
 use asperity_fem::jump::Jump;
 use asperity_fem::mesh::nodes_of_sides;
 
@@ -127,4 +128,88 @@ pub(super) fn along_slip<const D: usize, const C: usize>(place: &Place<D>, slide
         help: Some("let it creep there, or leave that component of the conditions out".into()),
         at: Some(([place.minus, place.plus], component)),
     }
+}
+
+/// Share of the motions up to which two of them are the same: rounding of rates and durations.
+const AGREES: f64 = 1e-9;
+
+/// Rates of creep \[m/s\] by degree of freedom until `end`, of jumps along so many tangents, where conditions, which fix the jumps of `fixed`, do not prescribe them already.
+///
+/// # Errors
+/// A [`Refusal`] where conditions prescribe another motion of both sides of a point that creeps, or move its sides apart.
+pub(super) fn creep<const D: usize, const C: usize>(
+    (points, first): (&[Point<D>], &[usize]),
+    fixed: &[usize],
+    channels: &[Channel],
+    (tangents, end): (usize, f64),
+    frame: &impl Fn(&Place<D>) -> [[f64; C]; C],
+) -> Result<Vec<(usize, f64)>, Refusal> {
+    let value = |channel: &Channel, dof: usize| {
+        channel.prescribed.iter().find(|(d, _)| *d == dof).map_or(0.0, |(_, value)| *value)
+    };
+    let moved = |dof: usize, time: f64| -> f64 {
+        channels.iter().map(|c| value(c, dof) * c.amplitude.value(time)).sum()
+    };
+    let mut times: Vec<f64> = channels.iter().flat_map(|c| c.amplitude.times().iter().copied()).collect();
+    times.retain(|t| *t < end);
+    times.push(end);
+    let most = |c: &Channel| {
+        c.prescribed.iter().fold(0.0_f64, |m, (_, v)| m.max((v * c.amplitude.value(end)).abs()))
+    };
+    let travel = channels.iter().map(most).fold(0.0, f64::max);
+    let mut rates = Vec::new();
+    for (point, &dof) in points.iter().zip(first) {
+        let Some(creep) = point.creep else { continue };
+        // What does not slide does not creep, and nothing opens.
+        let along = creep.into_iter().take(tangents).chain(std::iter::repeat(0.0));
+        for (c, rate) in along.take(C).enumerate() {
+            if fixed.binary_search(&(dof + c)).is_err() {
+                rates.extend((rate != 0.0).then_some((dof + c, rate)));
+                continue;
+            }
+            let scale = travel.max((rate * end).abs());
+            let differs = |t: &&f64| (moved(dof + c, **t) - rate * **t).abs() > AGREES * scale;
+            if let Some(&t) = times.iter().find(differs) {
+                let way = moved(dof + c, t);
+                return Err(otherwise(
+                    &point.place,
+                    &frame(&point.place)[c],
+                    (c < tangents).then_some(rate),
+                    way,
+                    t,
+                ));
+            }
+        }
+    }
+    Ok(rates)
+}
+
+/// The refusal of conditions that move both sides of a place by `way` \[m\] in `time` \[s\] along an axis where it creeps at `rate`, or, where
+/// that is none, does not open.
+fn otherwise<const D: usize, const C: usize>(
+    place: &Place<D>,
+    axis: &[f64; C],
+    rate: Option<f64>,
+    way: f64,
+    time: f64,
+) -> Refusal {
+    let most = |&a: &usize, &b: &usize| axis[a].abs().total_cmp(&axis[b].abs());
+    let component = (0..C).max_by(most).unwrap_or(0);
+    let at = rigid::place(&place.at);
+    let (message, help) = match rate {
+        Some(rate) => (
+            format!(
+                "conditions move the sides of a fault past each other by {way:.4e} m in {time:.4e} s at {at}, and its creep of {rate:e} m/s there by {:.4e} m",
+                rate * time
+            ),
+            "let the motions of both sides differ by the creep, or leave that component out on one of them",
+        ),
+        None => (
+            format!(
+                "conditions move the sides of a fault apart or into each other at {at}, by {way:.4e} m in {time:.4e} s"
+            ),
+            "a fault does not open: prescribe the same motion along its normal on both sides, or leave that component out on one of them",
+        ),
+    };
+    Refusal { message, help: Some(help.into()), at: Some(([place.minus, place.plus], component)) }
 }

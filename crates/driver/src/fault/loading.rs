@@ -57,4 +57,15 @@ impl Loading {
         }
         (shear, normal)
     }
+
+    /// Mean rates of shear tractions until `end` \[Pa/s\], component by component.
+    #[must_use]
+    pub fn mean(&self, end: f64, points: usize) -> Vec<f64> {
+        let mut mean = vec![0.0; points * self.components];
+        for part in &self.parts {
+            let rate = (part.amplitude.value(end) - part.amplitude.value(0.0)) / end;
+            mean.iter_mut().zip(&part.shear).for_each(|(sum, t)| *sum += rate * t);
+        }
+        mean
+    }
 }

@@ -6,7 +6,7 @@ use super::bodies::BodiesView;
 use super::both::Both;
 use super::cadence::Cadence;
 use super::catalogue::Thresholds;
-use super::condense::{Conditions, Point, Tractions, condense};
+use super::condense::{Conditions, Point, Surroundings, Tractions, condense};
 use super::equations::{Fault, Layout};
 use super::floor::{self, Floor, NormalChoice};
 use super::hierarchical::{Geometry, Hierarchical};
@@ -16,14 +16,17 @@ use super::medium::{Media, Medium};
 use super::meet;
 use super::operator::{Dense, Form, Operator};
 use super::place::{Place, across, places};
+use super::plates;
 use super::pressure::{Injection, Pressure};
-use super::prestress::Prestress;
+use super::prestress::{Prestress, Resolved};
 use super::resolution::{self, Ground, Resolution};
 use super::run::Settings;
 use super::sense;
+use super::start_doubts;
+use super::weight;
 use crate::forecast::Held;
 use crate::laws;
-use crate::loading;
+use crate::loading::{self, Stage};
 use crate::model::{Model, meshes};
 use crate::ode::Method;
 use crate::plan::PlanError;
@@ -262,9 +265,11 @@ pub(super) struct Placed<const D: usize> {
     /// Distance to the farthest neighbour \[m\].
     spacing: f64,
     /// Least normal traction that friction uses \[Pa\].
-    floor: Option<f64>,
+    pub floor: Option<f64>,
     /// Shear traction at the start, where it is given \[Pa\].
-    shear: Option<f64>,
+    pub shear: Option<f64>,
+    /// What the bodies exert at the start.
+    pub prestress: Resolved,
     law: LawChoice,
     /// Rate of creep, where there is any \[m/s\].
     creep: Option<f64>,
@@ -281,7 +286,7 @@ impl<const D: usize> Placed<D> {
 
 impl<const D: usize> Placed<D> {
     /// f_n as friction uses it at the start \[Pa\].
-    fn pressed(&self) -> f64 {
+    pub fn pressed(&self) -> f64 {
         self.floor.map_or(self.normal, |floor| self.normal.max(floor))
     }
 }
@@ -308,21 +313,24 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         return Err(PlanError::plain(format!("a scene with faults has one stage, found {}", stages.len())));
     };
     let mut warnings = scene.warnings.clone();
-    let (placed, notes) = all_points(scene, &model, &mut warnings)?;
+    let (placed, mut notes) = all_points(scene, &model, &mut warnings)?;
     let points: Vec<Point<D>> = placed.iter().map(|p| p.point.clone()).collect();
     let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
     if points.iter().all(|p| p.creep.is_some()) {
         return Err(asked::nothing_slides(&named, &placed));
     }
-    let resolution = resolved(scene, &placed, &mut warnings)?;
+    // Under weight normal tractions are known once the bodies are condensed.
+    let early = if stage.weight.is_empty() { Some(resolved(scene, &placed, &mut warnings)?) } else { None };
     let held = Held::by(&model);
     let bodies = model.take_stiffness();
     let conditions = conditions(scene);
     let turns = conditions.tangents > 1;
     let surroundings =
         condense(&model, bodies, stage, &points, conditions).map_err(|e| e.place(scene, &model))?;
-    let (creeping, placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
-    warnings.extend(sense::check(scene, (&placed, &creeping), &surroundings.loading, stage.end));
+    let (creeping, mut placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
+    warnings.extend(doubts(scene, (&model, stage), (&placed, &creeping), &surroundings));
+    notes.extend(weight::press(scene, (&model, stage), surroundings.weight.as_ref(), &mut placed)?);
+    let resolution = early.map_or_else(|| resolved(scene, &placed, &mut warnings), Ok)?;
     let Some((first, rest)) = placed.split_first() else {
         return Err(asked::nothing_slides(&named, &creeping));
     };
@@ -350,6 +358,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         floor: Floor::new(placed.iter().map(|p| p.floor)),
     };
     let start = start(scene, &placed, &fault).map_err(at_law)?;
+    warnings.extend(start_doubts::check(scene, &placed, &fault));
     let (faults, views) = views(scene, &model, &placed, turns)?;
     let sides = || placed.iter().map(|p| [p.point.place.minus, p.point.place.plus]).collect();
     let bodies = surroundings.bodies.map(|bodies| BodiesView::new(bodies, &model, sides()));
@@ -373,6 +382,19 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         notes,
         fault,
     })
+}
+
+/// What is doubtful in how loads and creep drive faults, whose points slide or creep.
+fn doubts<const D: usize>(
+    scene: &Scene,
+    (model, stage): (&Model<D>, &Stage),
+    (placed, creeping): (&[Placed<D>], &[Placed<D>]),
+    surroundings: &Surroundings,
+) -> Vec<Warning> {
+    let mut all = sense::check(scene, (placed, creeping), &surroundings.loading, stage.end);
+    all.extend(plates::check(scene, (model, stage), (placed, creeping), surroundings));
+    all.extend(weight::hangs(scene, model, stage));
+    all
 }
 
 /// The points of all faults, and what is to be said of them.
@@ -411,7 +433,8 @@ fn resolved<const D: usize>(
     let mut all = Vec::new();
     for (fault, (name, spec)) in scene.faults.iter().enumerate() {
         let points = || placed.iter().filter(|p| p.fault == fault && p.point.creep.is_none());
-        warnings.extend(floor::above_start(name, spec, points().map(|p| p.normal)));
+        let weighs = scene.bodies.values().any(|b| b.gravity.is_some());
+        warnings.extend(floor::above_start(name, spec, weighs, points().map(|p| p.normal)));
         let with_ground = points().map(|p| {
             let (law, modulus) = (&p.law, p.medium.stiffness);
             (&p.point.place, Ground { law, normal: p.pressed(), modulus, in_space: D == 3 }, p.spacing)
@@ -490,6 +513,7 @@ fn points_of<const D: usize>(
     let spacings = resolution::spacings(model, model.sides(&spec.minus)?);
     let choice = NormalChoice::of(spec);
     let stress = Prestress::new(scene, (name, spec));
+    let weighs = scene.bodies.values().any(|b| b.gravity.is_some());
     let (places, doubtful) = places(model, name, spec)?;
     warnings.extend(doubtful);
     for place in places {
@@ -497,7 +521,7 @@ fn points_of<const D: usize>(
         let creep = spec.creep.as_ref().filter(|c| creeps(c, &place, CLOSE * model.scale));
         let medium = media.at(&place);
         let given = stress.as_ref().filter(|_| creep.is_none());
-        let given = given.map(|s| s.at(model, &place)).transpose()?;
+        let given = given.map(|s| s.start(model, &place, weighs)).transpose()?;
         let shear = value(&spec.profiles.shear).or(spec.shear.as_ref().map(|s| s.get_ref().0));
         // The check has seen to one of them; nobody asks where the fault creeps.
         let normal = value(&spec.profiles.normal).or(spec.normal.as_ref().map(|n| n.get_ref().0));
@@ -507,6 +531,7 @@ fn points_of<const D: usize>(
             damping: damping(spec, &medium)?,
             normal: given.and_then(|g| g.normal).or(normal).unwrap_or_default(),
             shear: given.map(|g| g.shear).or(shear),
+            prestress: given.unwrap_or_default(),
             spacing: spacings.get(&place.minus).copied().unwrap_or_default(),
             floor: choice.floor,
             law: varied(&base, value(&spec.profiles.a), value(&spec.profiles.b), value(&spec.profiles.l)),

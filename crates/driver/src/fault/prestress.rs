@@ -29,12 +29,14 @@ pub struct Prestress<'a> {
 }
 
 /// Tractions at a place \[Pa\].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Resolved {
     /// f_n, where the stress has components in the plane.
     pub normal: Option<f64>,
     /// τ_0.
     pub shear: f64,
+    /// The shear traction across that.
+    pub across: f64,
 }
 
 /// The body of a side by the name of the side.
@@ -57,11 +59,28 @@ impl<'a> Prestress<'a> {
         Some(Self { name, sides, presses: presses(given), place: given.span(), spec })
     }
 
-    /// Tractions at a place where the fault slides freely.
+    /// Tractions at a place where the fault slides freely. Where weight acts as well, only their sum is judged.
     ///
     /// # Errors
-    /// [`PlanError`] where both sides are not in balance, the fault is not pressed, or friction would not resist its motion.
-    pub fn at<const D: usize>(&self, model: &Model<D>, place: &Place<D>) -> Result<Resolved, PlanError> {
+    /// [`PlanError`] where both sides are not in balance, and see [`Self::admit`].
+    pub fn start<const D: usize>(
+        &self,
+        model: &Model<D>,
+        place: &Place<D>,
+        weighs: bool,
+    ) -> Result<Resolved, PlanError> {
+        let found = self.at(model, place)?;
+        if !weighs {
+            self.admit(place, &found)?;
+        }
+        Ok(found)
+    }
+
+    /// What the stress exerts at a place.
+    ///
+    /// # Errors
+    /// [`PlanError`] where both sides are not in balance.
+    fn at<const D: usize>(&self, model: &Model<D>, place: &Place<D>) -> Result<Resolved, PlanError> {
         let n = in_space(&place.normal);
         let slides = match model.idealisation.components() {
             1 => [0.0, 0.0, 1.0],
@@ -70,39 +89,64 @@ impl<'a> Prestress<'a> {
         };
         let [minus, plus] = self.sides.map(|s| traction(&s, &n));
         let largest = self.sides.iter().flatten().fold(0.0_f64, |l, v| l.max(v.abs()));
+        if minus.iter().zip(&plus).any(|(a, b)| (a - b).abs() > BALANCED * largest) {
+            let message = format!(
+                "the initial stress exerts {minus:?} Pa on one side and {plus:?} Pa on the other side of fault `{}` at {}",
+                self.name,
+                rigid::place(&place.at)
+            );
+            let help = "bodies on both sides of a fault need the same traction there: give both the same `initial_stress`";
+            return Err(PlanError::at(self.place.clone(), message, help.into()));
+        }
+        let across = if D == 3 { dot(&minus, &across(&n, &slides)) } else { 0.0 };
+        let normal = self.presses.then_some(-dot(&minus, &n));
+        Ok(Resolved { normal, shear: dot(&minus, &slides), across })
+    }
+
+    /// Refuses tractions at a place under which a fault does not slip as it is to, where the stress is all there is.
+    ///
+    /// # Errors
+    /// [`PlanError`] where the fault is not pressed, or friction would not resist its motion.
+    fn admit<const D: usize>(&self, place: &Place<D>, found: &Resolved) -> Result<(), PlanError> {
         let refuse = |what: String, help: &str| {
             let message =
                 format!("the initial stress {what} fault `{}` at {}", self.name, rigid::place(&place.at));
-            PlanError::at(self.place.clone(), message, help.into())
+            Err(PlanError::at(self.place.clone(), message, help.into()))
         };
-        if minus.iter().zip(&plus).any(|(a, b)| (a - b).abs() > BALANCED * largest) {
-            return Err(refuse(
-                format!("exerts {minus:?} Pa on one side and {plus:?} Pa on the other side of"),
-                "bodies on both sides of a fault need the same traction there: give both the same `initial_stress`",
-            ));
-        }
-        let (pressed, shear) = (-dot(&minus, &n), dot(&minus, &slides));
-        if self.presses && pressed <= 0.0 {
-            return Err(refuse(
+        if let Some(pressed) = found.normal.filter(|f| *f <= 0.0) {
+            return refuse(
                 format!("does not press, with {pressed:e} Pa,"),
                 "compression is negative in `initial_stress`, such as [\"-50 MPa\", \"-80 MPa\", \"10 MPa\"]",
-            ));
+            );
         }
-        if shear * self.spec.rate.get_ref().0.signum() <= 0.0 {
-            return Err(refuse(
-                format!("exerts a shear traction of {shear:e} Pa, which is not of the sign of `rate`, on"),
+        if against(self.spec, found.shear) {
+            return refuse(
+                format!(
+                    "exerts a shear traction of {:e} Pa, which is not of the sign of `rate`, on",
+                    found.shear
+                ),
                 "friction resists the motion: change the sign of `rate`, or the stress",
-            ));
+            );
         }
-        let free = self.spec.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
-        if free && dot(&minus, &across(&n, &slides)).abs() > ALONG * shear.abs() {
-            return Err(refuse(
+        if strays(self.spec, found) {
+            return refuse(
                 "exerts a shear traction across `rake` on".into(),
                 "slip that may turn starts along `rake`: let it point along the shear traction",
-            ));
+            );
         }
-        Ok(Resolved { normal: self.presses.then_some(pressed), shear })
+        Ok(())
     }
+}
+
+/// Whether friction under this shear traction \[Pa\] would not resist the motion at the start.
+pub(super) fn against(spec: &Spec, shear: f64) -> bool {
+    shear * spec.rate.get_ref().0.signum() <= 0.0
+}
+
+/// Whether slip that may turn would not start along the rake.
+pub(super) fn strays(spec: &Spec, found: &Resolved) -> bool {
+    let free = spec.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
+    free && found.across.abs() > ALONG * found.shear.abs()
 }
 
 fn in_space<const D: usize>(v: &[f64; D]) -> [f64; 3] {

@@ -7,6 +7,8 @@
 //!   on a fault", JGR 98 (1993), 9885-9907; the SEAS benchmarks take it so;
 //! * slip of the ageing law nucleates over `2 L_b/[π (1 - a/b)²]`, and in the plane over 2.75 L_b where a/b is small: A. M. Rubin, J.-P. Ampuero, "Earthquake
 //!   nucleation on (aging) rate and state faults", JGR 110 (2005), B11312; in space over π²/4 times as much: T. Chen, N. Lapusta, JGR 114 (2009), B01311;
+//! * a front of linear slip weakening loses its strength over `9π/32 G'/(f_n w)` at rest, w = (μ_s - μ_k)/d_c: A. C. Palmer, J. R. Rice, Proc. R. Soc. A 332 (1973),
+//!   527-548, as S. M. Day et al., JGR 110 (2005), B12307, have it; its slip nucleates over 1.158 G'/(f_n w): K. Uenishi, J. R. Rice, JGR 108 (2003), 2042;
 //! * of laws that do not age, half the critical wavelength `π G' b/(f_n w (b - a))` of linear stability: J. R. Rice, A. L. Ruina, "Stability of
 //!   steady frictional slipping", J. Appl. Mech. 50 (1983), 343-349.
 //!
@@ -26,13 +28,17 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Points to a cohesive zone below which a plan warns: three, to the digit that is printed; about as many are needed (S. M. Day et al., JGR 110 (2005), B12307).
-const FEW: f64 = 2.95;
+pub const FEW: f64 = 2.95;
 /// Points to a cohesive zone that help texts ask for.
 pub const ENOUGH: f64 = 3.0;
 /// Points to a cohesive zone below which a scene is refused: each point then breaks by itself, and events are those of the mesh (Rice 1993).
-const TOO_FEW: f64 = 1.0;
+pub const TOO_FEW: f64 = 1.0;
 /// Half the length of nucleation over L_b where a/b is small (Rubin and Ampuero 2005).
 const SMALL_RATIO: f64 = 1.3774;
+/// Length at the tip of a front at rest over which linear slip weakening loses its strength, over G'/(f_n w): 9π/32.
+const BREAKDOWN: f64 = 9.0 * PI / 32.0;
+/// Length over which slip that weakens linearly nucleates, over G'/(f_n w) (Uenishi and Rice 2003).
+const UNSTABLE: f64 = 1.158;
 /// By how much a front of the slip law, and of flash weakening, is narrower than L_b at least. Strength falls there over L whatever the drop, so that the zone
 /// narrows with the logarithm of the rise of V; with BP1 4.4 points to L_b make events in the afterslip that 8.8 do not (case `seas_bp1_16mm`).
 const NARROWS: f64 = 2.0;
@@ -80,6 +86,10 @@ impl Ground<'_> {
     /// Cohesive zone and length of nucleation \[m\]; none where friction does not weaken.
     #[must_use]
     pub fn lengths(&self) -> Option<[f64; 2]> {
+        if let LawChoice::SlipWeakening { mu_s, mu_k, d_c, .. } = self.law {
+            let length = self.modulus * d_c / (self.normal * (mu_s - mu_k));
+            return (mu_s > mu_k).then_some([BREAKDOWN * length, UNSTABLE * length]);
+        }
         let LawChoice::RateAndState { strength, evolution, states, .. } = self.law else { return None };
         let a = strength.a;
         let mut b: f64 = states.iter().map(|s| s.b).sum();
@@ -277,6 +287,18 @@ mod tests {
             assert!((found[0] / zone - 1.0).abs() < share, "{found:?} {zone}");
             assert!((found[1] / nucleation - 1.0).abs() < share, "{found:?} {nucleation}");
         }
+    }
+
+    #[test]
+    fn the_zone_of_slip_weakening_is_that_of_the_dynamic_rupture_benchmark() {
+        // Day et al. (2005), version 3: 620 m in mode III and 827 m in mode II.
+        let law = LawChoice::SlipWeakening { mu_s: 0.677, mu_k: 0.525, d_c: 0.4, f_limit: None };
+        for (modulus, zone) in [(32.04e9, 620.0), (32.04e9 / 0.75, 827.0)] {
+            let found = Ground { law: &law, normal: 120e6, modulus, in_space: false }.lengths().unwrap();
+            assert!((found[0] / zone - 1.0).abs() < 2e-3, "{found:?}");
+        }
+        let steady = LawChoice::SlipWeakening { mu_s: 0.6, mu_k: 0.6, d_c: 0.4, f_limit: None };
+        assert!(Ground { law: &steady, normal: 120e6, modulus: 32e9, in_space: false }.lengths().is_none());
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! matter to faults only, whose tractions are given at the start.
 
 use crate::plan::PlanError;
-use crate::scene::model::{Body, Condition, Loading, Motion, Scene, Spanned, Stage, Stepper};
+use crate::scene::model::{Condition, Loading, Motion, Scene, Spanned, Stage, Stepper};
 use std::collections::BTreeMap;
 
 /// What a set does along an axis.
@@ -25,12 +25,9 @@ fn follower(scene: &Scene) -> Option<&'static str> {
 /// # Errors
 /// [`PlanError`] pointing at them.
 pub(super) fn of_bodies(scene: &Scene) -> Result<(), PlanError> {
-    let Some(stepper) = follower(scene) else { return Ok(()) };
+    // What they exert on faults is there before the start.
+    let Some(stepper) = follower(scene).filter(|_| scene.faults.is_empty()) else { return Ok(()) };
     for (name, body) in &scene.bodies {
-        if stepper == "fault-ode" {
-            of_faults(name, body)?;
-            continue;
-        }
         let gravity = body.gravity.as_ref().map(|g| ("gravity", g.span()));
         let stress = body.initial_stress.as_ref().map(|s| ("initial_stress", s.span()));
         if let Some((key, place)) = gravity.or(stress) {
@@ -44,17 +41,6 @@ pub(super) fn of_bodies(scene: &Scene) -> Result<(), PlanError> {
         }
     }
     Ok(())
-}
-
-/// Refuses weight beside faults; an initial stress is their tractions at the start.
-fn of_faults(name: &str, body: &Body) -> Result<(), PlanError> {
-    let Some(gravity) = &body.gravity else { return Ok(()) };
-    Err(PlanError::at(
-        gravity.span(),
-        format!("`gravity` of body `{name}` acts at once, and what presses faults at the start is given, not found"),
-        "leave it out and give the normal traction of the weight less the pressure of pores, such as `profiles.normal = { along = \"y\", points =          [[\"-40 km\", 672e6], [\"0 km\", 1e6]] }` at the fault, or an `initial_stress` of the bodies"
-            .into(),
-    ))
 }
 
 /// Refuses loads and releases of a stage that change a force at once; `before` are the motions and the values of the loads at the

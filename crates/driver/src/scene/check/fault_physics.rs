@@ -35,11 +35,21 @@ impl Checker<'_> {
         let bodies = [&fault.minus, &fault.plus].map(|side| body_of(self.scene, side));
         let stress = bodies.iter().flatten().find_map(|b| b.initial_stress.as_ref());
         let pressed = stress.is_some_and(presses);
-        if normal.is_none() && !pressed {
+        let in_plane = !self.is_antiplane();
+        let weight = self.scene.bodies.values().find_map(|b| b.gravity.as_ref()).filter(|_| in_plane);
+        if normal.is_none() && !pressed && weight.is_none() {
             self.error(
                 fault.minus.span(),
                 "nothing presses the fault: it has no `normal`",
-                "such as `normal = \"50 MPa\"`, `profiles.normal`, or an `initial_stress` of its bodies with components in the plane",
+                "such as `normal = \"50 MPa\"`, `profiles.normal`, `gravity`, or an `initial_stress` of its bodies with components in the plane",
+            );
+        }
+        if let (Some(weight), Some(normal)) = (weight, &normal) {
+            self.conflict(
+                normal,
+                "`normal` stands beside `gravity`, from which the same traction follows",
+                "remove `normal` and its profile, or the `gravity` of the bodies",
+                (&weight.span(), "the gravity"),
             );
         }
         let Some(stress) = stress else { return };
@@ -50,6 +60,32 @@ impl Checker<'_> {
                 format!("`{key}` stands beside an initial stress, from which the same traction follows"),
                 format!("remove `{key}` and its profile, or the `initial_stress`"),
                 (&stress.span(), "the initial stress"),
+            );
+        }
+    }
+
+    /// Weight presses faults in the plane, and acts on all bodies alike.
+    pub(super) fn weight_beside_faults(&mut self) {
+        let scene = self.scene;
+        let mut weighing = scene.bodies.iter().filter_map(|(name, b)| Some((name, b.gravity.as_ref()?)));
+        let Some((name, gravity)) = weighing.next().filter(|_| !scene.faults.is_empty()) else { return };
+        if self.is_antiplane() {
+            self.error(
+                gravity.span(),
+                format!("`gravity` of body `{name}` presses no fault in antiplane motion, where bodies move out of the plane only"),
+                "leave it out and give the normal traction of the weight less the pressure of pores, such as `profiles.normal = { along = \"y\", points = \
+                 [[\"-40 km\", 672e6], [\"0 km\", 1e6]] }` at the fault",
+            );
+            return;
+        }
+        let same = |b: &crate::scene::model::Body| {
+            b.gravity.as_ref().map(Spanned::get_ref) == Some(gravity.get_ref())
+        };
+        if let Some((other, _)) = scene.bodies.iter().find(|(_, b)| !same(b)) {
+            self.error(
+                gravity.span(),
+                format!("`gravity` of body `{name}` is not that of body `{other}`"),
+                "in a scene with faults all bodies have the same `gravity`; what they weigh follows from their densities",
             );
         }
     }

@@ -43,6 +43,7 @@ impl Checker<'_> {
             }
         }
         self.stress_beside_faults();
+        self.weight_beside_faults();
         self.directions_of_slip();
         self.stations();
         self.cadence();

@@ -1,0 +1,260 @@
+//! Weight of bodies between rollers, resolved onto faults.
+
+use crate::cases::seas;
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use asperity_driver::fault::{Layout, Plan};
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "fault_gravity",
+    readme: include_str!("README.md"),
+    covers: &[Capability::FaultCycles, Capability::PlaneStrain, Capability::Loads],
+    quick: true,
+    run,
+};
+
+const DENSITY: f64 = 2670.0;
+const GRAVITY: f64 = 9.81;
+/// Depth of the box \[m\]; faults end at half of it.
+const DEPTH: f64 = 20e3;
+/// Error of tractions over the largest of second-order cells: rounding of an elimination of some thousand unknowns, whose condition number is about the square of
+/// the number of cells across the box, 1e4.
+const ROUNDING: f64 = 1e-10;
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    planes(ledger)?;
+    first_order(ledger)?;
+    with_stress(ledger)?;
+    in_space(ledger)
+}
+
+/// A fault below a free surface.
+struct Dipping {
+    /// \[degrees\]
+    dip: f64,
+    poisson: f64,
+    element: &'static str,
+    /// Size of cells \[m\].
+    size: f64,
+    /// More keys of the body.
+    body: &'static str,
+}
+
+impl Dipping {
+    fn plan(&self) -> Result<Plan, CaseError> {
+        let (s, c) = self.dip.to_radians().sin_cos();
+        let end = 0.5 * DEPTH;
+        let text = format!(
+            r#"
+schema = 1
+title = "weight"
+kinematics = "plane-strain"
+[materials.rock]
+young = "80 GPa"
+poisson = {}
+density = {DENSITY}
+[bodies.crust]
+material = "rock"
+mesh.fault = {{ trace = [[0.0, 0.0], [{:?}, {:?}]], spacing = {:?}, min = ["-15 km", {:?}], max = ["35 km", 0.0], growth = 1.5, element = "{}" }}
+{}
+[faults.main]
+minus = "crust.fault.minus"
+plus = "crust.fault.plus"
+law = {{ kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.02, b = 0.015, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }}
+normal_floor = "1 kPa"
+rate = "-1e-9 m/s"
+[[stages]]
+name = "stretched"
+duration = "1 yr"
+conditions = [{{ set = "crust.left", x = {{ rate = "-1e-9 m/s" }} }}, {{ set = "crust.right", x = {{ rate = "1e-9 m/s" }} }}, {{ set = "crust.bottom", y = 0 }}]
+[time]
+stepper = "fault-ode"
+"#,
+            self.poisson,
+            end * c / s,
+            -end,
+            self.size,
+            -DEPTH,
+            self.element,
+            self.body
+        );
+        seas::plan(&text)
+    }
+
+    /// f_n and τ_0 along slip at a depth \[Pa\].
+    fn exact(&self, depth: f64) -> [f64; 2] {
+        let (s, c) = self.dip.to_radians().sin_cos();
+        let vertical = DENSITY * GRAVITY * depth;
+        let across = self.poisson / (1.0 - self.poisson) * vertical;
+        [vertical * c * c + across * s * s, -(vertical - across) * s * c]
+    }
+}
+
+const WEIGHS: &str = "gravity = [0, -9.81]";
+
+/// τ_0 of a point \[Pa\].
+fn shear(plan: &Plan, point: usize, rates: &[f64]) -> f64 {
+    let fault = &plan.fault;
+    fault.normal[point] * fault.law.scale(point) * plan.start[point] + fault.damping[point] * rates[point]
+}
+
+/// Largest errors of f_n and of τ_0 over the largest f_n; the point at the surface, which friction takes from its floor, has no τ_0 of the weight.
+fn errors(plan: &Plan, exact: impl Fn(f64) -> [f64; 2]) -> [f64; 2] {
+    let layout = Layout::of(&plan.fault);
+    let mut rates = vec![0.0; plan.points.len()];
+    plan.fault.law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rates);
+    let largest = plan.fault.normal.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+    let mut worst = [0.0_f64; 2];
+    for (p, point) in plan.points.iter().enumerate() {
+        let depth = -point.at[1];
+        let [normal, along] = exact(depth);
+        worst[0] = worst[0].max((plan.fault.normal[p] - normal).abs() / largest);
+        if depth > 0.0 {
+            worst[1] = worst[1].max((shear(plan, p, &rates) - along).abs() / largest);
+        }
+    }
+    worst
+}
+
+fn planes(ledger: &mut Ledger) -> Result<(), CaseError> {
+    for (dip, poisson) in [(60.0, 0.25), (30.0, 0.35), (45.0, 0.2), (75.0, 0.3)] {
+        let case = Dipping { dip, poisson, element: "quad9", size: 1000.0, body: WEIGHS };
+        let (plan, cost) = Cost::of(|| case.plan());
+        let found = errors(&plan?, |z| case.exact(z));
+        exact(ledger, &format!("dip {dip}, nu {poisson}"), &found, &cost);
+    }
+    Ok(())
+}
+
+/// Claims of errors that are rounding.
+fn exact(ledger: &mut Ledger, what: &str, errors: &[f64], cost: &Cost) {
+    for (name, error) in ["f_n", "tau_0"].iter().zip(errors) {
+        ledger
+            .claim(format!("{name} under weight, {what}: largest error over the largest f_n"))
+            .value(*error)
+            .at_most(ROUNDING)
+            .evidence(Evidence::Exact, "rho g z and nu/(1 - nu) of it, resolved onto the plane")
+            .because(
+                "displacements of uniaxial strain are quadratic, and nodal forces of linear tractions on faces of second order are \
+                 areas times values: what is left is rounding of the elimination",
+            )
+            .why_not_tighter("rounding grows with the number of cells across the box, and differs between processors")
+            .covers(&[Capability::FaultCycles, Capability::PlaneStrain, Capability::Loads])
+            .cost(cost)
+            .record();
+    }
+}
+
+/// Cells of first order have one stress where the exact one is linear.
+fn first_order(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let mut levels = Vec::new();
+    let mut total = None;
+    for size in [2000.0, 1000.0, 500.0, 250.0] {
+        let case = Dipping { dip: 60.0, poisson: 0.25, element: "quad4", size, body: WEIGHS };
+        let (plan, cost) = Cost::of(|| case.plan());
+        let [normal, _] = errors(&plan?, |z| case.exact(z));
+        levels.push((size, normal));
+        total = Some(cost);
+    }
+    let cost = total.ok_or("no level")?;
+    ledger
+        .order("f_n under weight, dip 60, cells of first order")
+        .levels(&levels)
+        .expected(1.0)
+        .within(0.1)
+        .evidence(Evidence::Exact, "rho g z and nu/(1 - nu) of it, resolved onto the plane")
+        .because("the point at the surface is pressed with a third of what presses one cell below it, and f_n there is zero")
+        .finest(
+            2.0 * 250.0 / (0.5 * DEPTH),
+            "a cell's depth over that of the fault; a third of it at the surface, and more where the tip concentrates what cells miss",
+        )
+        .covers(&[Capability::FaultCycles, Capability::PlaneStrain, Capability::Loads])
+        .cost(&cost)
+        .record();
+    Ok(())
+}
+
+/// Weight on top of a uniform initial stress, and without it in the course of the run.
+fn with_stress(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let body = "gravity = [0, -9.81]\ninitial_stress = [\"-10 MPa\", \"-30 MPa\", \"0 MPa\"]";
+    let case = Dipping { dip: 60.0, poisson: 0.25, element: "quad9", size: 1000.0, body };
+    let (plan, cost) = Cost::of(|| case.plan());
+    let plan = plan?;
+    // On a plane of dip 60: f_n = 30/4 + 3/4 10, and τ of half the difference times sin 120.
+    let stress = [15e6, -10e6 * 120f64.to_radians().sin()];
+    let sum = |z: f64| {
+        let weight = case.exact(z);
+        [weight[0] + stress[0], weight[1] + stress[1]]
+    };
+    exact(ledger, "dip 60, with an initial stress", &errors(&plan, sum), &cost);
+    let light = Dipping { body: "initial_stress = [\"-10 MPa\", \"-30 MPa\", \"0 MPa\"]", ..case }.plan()?;
+    let rates = |plan: &Plan| plan.loading.rates(1.0, plan.points.len(), true);
+    let ((a, an), (b, bn)) = (rates(&plan), rates(&light));
+    let size = a.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let off = a.iter().chain(&an).zip(b.iter().chain(&bn)).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+    ledger
+        .claim("rates of tractions by loads with weight less those without, over the largest")
+        .value(off / size)
+        .at_most(ROUNDING)
+        .evidence(Evidence::Exact, "weight does not change in time")
+        .because("the two condensations differ by a row of loads, and in rounding")
+        .why_not_tighter("eliminations of different systems add in another order")
+        .covers(&[Capability::FaultCycles])
+        .cost(&cost)
+        .record();
+    Ok(())
+}
+
+/// A vertical fault through a box in space, welded where sides hold it along its slip.
+fn in_space(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let poisson = 0.3;
+    let block = |name: &str, from: f64, to: f64| {
+        format!(
+            "[bodies.{name}]\nmaterial = \"rock\"\ngravity = [0, -9.81, 0]\nmesh.block = {{ min = [{from:?}, -8e3, 0.0], max = [{to:?}, 0.0, 4e3], divisions = [3, 8, 4], element = \"hex27\" }}\n"
+        )
+    };
+    let held = |name: &str, side: &str| {
+        format!(
+            "{{ set = \"{name}.{side}\", x = 0 }}, {{ set = \"{name}.front\", z = 0 }}, {{ set = \"{name}.back\", z = 0 }}, {{ set = \"{name}.bottom\", y = 0 }}"
+        )
+    };
+    let text = format!(
+        r#"
+schema = 1
+title = "weight in space"
+kinematics = "3d"
+[materials.rock]
+young = "80 GPa"
+poisson = {poisson}
+density = {DENSITY}
+{}{}
+[faults.main]
+minus = "L.right"
+plus = "R.left"
+law = {{ kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.02, b = 0.015, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }}
+normal_floor = "1 kPa"
+rake = [0, 0, 1]
+profiles.shear = {{ along = "y", points = [["-8 km", 60e6], ["0 km", 1e3]] }}
+creep = {{ outside = {{ z = {{ from = 0.0, to = 4e3 }}, y = {{ from = -8e3 }} }}, rate = 0 }}
+rate = "1e-9 m/s"
+[[stages]]
+name = "still"
+duration = "1 yr"
+conditions = [{}, {}]
+[time]
+stepper = "fault-ode"
+"#,
+        block("L", -3e3, 0.0),
+        block("R", 0.0, 3e3),
+        held("L", "left"),
+        held("R", "right"),
+    );
+    let (plan, cost) = Cost::of(|| seas::plan(&text));
+    let plan = plan?;
+    let largest = plan.fault.normal.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+    let off = plan.points.iter().zip(&plan.fault.normal).map(|(point, normal)| {
+        (normal + poisson / (1.0 - poisson) * DENSITY * GRAVITY * point.at[1]).abs() / largest
+    });
+    exact(ledger, "a vertical fault in space, nu 0.3", &[off.fold(0.0, f64::max)], &cost);
+    Ok(())
+}
