@@ -76,7 +76,7 @@ pub struct Interface<const D: usize> {
     pub(crate) rate_floor: f64,
     pub(crate) rate_bounds: RateBounds,
     pub(crate) carry: bool,
-    label_rate: Option<f64>,
+    pub(crate) label_rate: Option<f64>,
     rule: TimeRule,
     /// Length of the step committed last under the present law, for two-step differences.
     pub(crate) previous_dt: Option<f64>,

@@ -7,6 +7,7 @@
 
 use crate::interface::Interface;
 use crate::shear::Shear;
+use crate::status::{Status, label};
 use crate::vector::norm;
 use asperity_fem::term::Objection;
 use asperity_friction::Failure;
@@ -21,6 +22,8 @@ const AT_ONCE: f64 = 0.5;
 /// How far the traction of a sticking point may be from its strength, over the strength: forward steps end at the strength but for what the
 /// normal traction changes along them.
 const BEYOND: f64 = 1e-3;
+/// Pa in a MPa.
+const MEGA: f64 = 1e6;
 /// Rounding of the slope of a law's answer, over 1.
 const ROUNDING: f64 = 1e-9;
 
@@ -80,6 +83,9 @@ pub struct Watch {
     pub course: Course,
     /// Whether the stepper itself bounds the slip of its steps.
     pub bounded: bool,
+    /// Normal traction beyond which points that slide stand farther apart than the length over which a front of slip loses strength, where that is
+    /// refused \[Pa\].
+    pub coarse_beyond: Option<f64>,
 }
 
 impl<const D: usize> Interface<D> {
@@ -164,7 +170,21 @@ impl<const D: usize> Interface<D> {
     pub(crate) fn objects(&self) -> Option<Objection> {
         let shear = self.shear.as_ref()?;
         let early = if self.watch.bounded { self.holds_too_much(shear) } else { self.leaps(shear) };
-        early.or_else(|| self.runs_away(shear))
+        early.or_else(|| self.runs_away(shear)).or_else(|| self.stands_too_coarsely(shear))
+    }
+
+    /// A point slides under more normal traction than the points resolve.
+    fn stands_too_coarsely(&self, shear: &Shear) -> Option<Objection> {
+        let most = self.watch.coarse_beyond?;
+        let slides = |p: &usize| {
+            let (contact, rate) = (&self.contact.trial[*p], shear.trial.rate[*p].abs());
+            let status = label(shear.trial.regime[*p], rate, self.label_rate);
+            contact.closed && contact.traction > most && status == Status::Slip
+        };
+        let normal = |p: usize| self.contact.trial[p].traction;
+        let p = (0..self.slave.len()).filter(slides).max_by(|&a, &b| normal(a).total_cmp(&normal(b)))?;
+        let reason = format!("slides under {:.4} MPa", normal(p) / MEGA);
+        Some(Objection { coarse: true, ..self.objection_at(shear, p, &reason, false) })
     }
 
     /// The trial state lies beyond what a step may span.
@@ -266,6 +286,7 @@ impl<const D: usize> Interface<D> {
             position: self.place(p),
             rate: shear.trial.rate[p].abs(),
             shorter,
+            coarse: false,
         }
     }
 }

@@ -383,6 +383,7 @@ fn interface<const D: usize>(
         }
         None => (None, Watch::default()),
     };
+    let resolved = Resolved::new(model, spec, slave_sides);
     let young_per_size = model.young_per_size(body, slave_sides);
     let enforced = Enforced::new(&spec.enforcement, young_per_size, model.element_size(body, slave_sides));
     Ok(PlannedInterface {
@@ -399,8 +400,8 @@ fn interface<const D: usize>(
         tangential_penalty: (spec.enforcement.tangential.as_ref())
             .map_or(0.0, |t| in_pascal_per_metre(t, young_per_size)),
         law,
-        resolved: Resolved::new(model, spec, slave_sides),
-        watch,
+        watch: Watch { coarse_beyond: resolved.as_ref().and_then(Resolved::refused_beyond), ..watch },
+        resolved,
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),
     })
 }

@@ -1,5 +1,6 @@
 //! What is doubtful in a scene once its bodies are made and its stages resolved.
 
+use crate::cohesive;
 use crate::enforcement;
 use crate::loading::Stage;
 use crate::model::{Model, sizes};
@@ -35,8 +36,27 @@ pub fn of<const D: usize>(
             doubts.extend(start_gaps::doubts(&start, (spec, bonded), stages, h));
         }
         starts.push(start);
+        doubts.extend(resolution(scene, model, stages, planned)?);
     }
     Ok((starts, doubts))
+}
+
+/// Few points for friction under what loads are known to press with, and a key that has nothing to decide.
+fn resolution<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    stages: &[Stage],
+    planned: &PlannedInterface,
+) -> Result<Option<Warning>, PlanError> {
+    let (name, spec) = (planned.name.as_str(), &scene.interfaces[&planned.name]);
+    let Some(resolved) = &planned.resolved else {
+        return Ok(spec.under_resolved.as_ref().map(|key| {
+            let message = format!("`under_resolved` of interface `{name}` decides nothing: its friction does not weaken with slip");
+            Warning::at(key.span(), message, "remove it")
+        }));
+    };
+    let known = cohesive::pressed(scene, model, stages, (name, spec));
+    known.map_or(Ok(None), |mean| resolved.check(name, mean))
 }
 
 /// A bound on the error of slip that is as large as the motion.

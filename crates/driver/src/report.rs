@@ -43,6 +43,13 @@ pub enum Stop {
     NotConverged,
     /// The accuracy asked for needs steps below the smallest allowed.
     SmallestStep,
+    /// A point was about to slide where less than one point stands on the length over which a front of slip loses strength.
+    UnderResolved {
+        /// Interface.
+        interface: String,
+        /// The point \[m\].
+        position: [f64; 3],
+    },
     /// No quasi-static state follows the last one.
     Instability {
         /// Interface.

@@ -1,5 +1,6 @@
 //! How a run ends that cannot go on: what is said of it, and whether it met an instability.
 
+use crate::cohesive::Resolved;
 use crate::report::{Outcome, Stop};
 use crate::step::Failure;
 use crate::system::Assembled;
@@ -25,6 +26,9 @@ pub fn failed<const D: usize>(
     let (time, stage) = (system.time(), stage.to_string());
     let words = system.in_words(failure);
     if let Failure::Objected(objection) = failure {
+        if objection.coarse {
+            return coarse(system, stage, found(objection), &objection.reason);
+        }
         let reason = if objection.shorter { format!("{words} (in {dt:.3e} s)") } else { words };
         return unstable(system, stage, found(objection), &reason);
     }
@@ -83,10 +87,36 @@ impl Met {
 }
 
 fn unstable<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, what: &str) -> Outcome {
+    if is_coarse(system, &met) {
+        return coarse(system, stage, met, what);
+    }
     let time = system.time();
     let reason = format!("instability {}: {what}; {REMEDY}", met.words::<D>());
     let Met { interface, position, slip_rate } = met;
     Outcome::Stopped { stage, time, reason, kind: Stop::Instability { interface, position, slip_rate } }
+}
+
+/// The outcome of a step in which a point would slide that its neighbours do not resolve.
+fn coarse<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, what: &str) -> Outcome {
+    let remedy = system.resolved(&met.interface).map_or_else(String::new, |r| format!("; {}", r.limit()));
+    let reason = format!(
+        "less than one point stands on the length over which friction falls {}: {what}{remedy}",
+        met.words::<D>()
+    );
+    let Met { interface, position, .. } = met;
+    Outcome::Stopped { stage, time: system.time(), reason, kind: Stop::UnderResolved { interface, position } }
+}
+
+/// Whether a point is pressed more than its neighbours resolve, and the scene does not allow it: what loses its strength there is a point of the mesh.
+fn is_coarse<const D: usize>(system: &Assembled<'_, D>, met: &Met) -> bool {
+    let most = system.resolved(&met.interface).and_then(Resolved::refused_beyond);
+    let normal = |i: &Interface<D>| {
+        let point = (0..i.points().normal_traction.len()).find(|&p| i.place(p) == met.position)?;
+        i.points().normal_traction.get(point).copied()
+    };
+    let mut own = system.interfaces().iter().filter(|i| asperity_fem::term::Term::name(*i) == met.interface);
+    let normal = own.find_map(normal);
+    most.zip(normal).is_some_and(|(most, normal)| normal > most)
 }
 
 fn found(objection: &Objection) -> Met {

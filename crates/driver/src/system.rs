@@ -1,5 +1,6 @@
 //! A plan brought to life: terms, constraints, stepper and state, on either path.
 
+use crate::cohesive::Resolved;
 use crate::free;
 use crate::loading::Stage;
 use crate::model::{CellBlock, Model};
@@ -402,6 +403,12 @@ impl<'a, const D: usize> Assembled<'a, D> {
     #[must_use]
     pub fn interface_fields(&self) -> Vec<InterfaceFields> {
         self.interfaces.iter().map(views::interface_fields).collect()
+    }
+
+    /// What the points of an interface of this name resolve, where friction weakens on it.
+    #[must_use]
+    pub fn resolved(&self, interface: &str) -> Option<&Resolved> {
+        self.plan.interfaces.iter().find(|i| i.name == interface)?.resolved.as_ref()
     }
 
     /// Present fields of the bodies.

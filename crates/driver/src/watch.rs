@@ -40,7 +40,7 @@ pub fn of<const D: usize>(
         }
     };
     let bounded = matches!(stepping, Stepping::StaticExplicit { .. });
-    Ok(Watch { rate, course: course(law), bounded })
+    Ok(Watch { rate, course: course(law), bounded, coarse_beyond: None })
 }
 
 /// a of a law that depends on the slip rate.

@@ -163,6 +163,7 @@ fn a_run_that_cannot_go_on_keeps_its_last_good_state_and_says_so() {
             r#"law = { kind = "rate", form = "regularised", mu0 = 0.6, a = 0.01, v_ref = "1e-3 mm/s" }"#,
             r#"law = { kind = "rate-and-state", evolution = "slip", mu0 = 0.6, a = 0.005, b = 0.2, l = "0.1 um", v_ref = "1e-3 mm/s", v_initial = "1e-6 mm/s" }"#,
     );
+    let weak = weak.replace("enforcement = {", "under_resolved = \"allow\"\nenforcement = {");
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("s.toml"), weak).unwrap();
     let output = asperity(folder.path(), &["run", "s.toml"]);

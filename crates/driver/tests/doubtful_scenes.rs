@@ -4,9 +4,11 @@
 
 use asperity_driver::observe::Recorder;
 use asperity_driver::plan::{self, ScenePlan};
+use asperity_driver::report::{Outcome, RunReport, Stop};
 use asperity_driver::run;
 use asperity_driver::scene;
 use asperity_driver::warning::{Place, Warning};
+use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 fn here(folder: &str) -> PathBuf {
@@ -55,6 +57,90 @@ fn every_doubtful_scene_is_warned_of_once_at_its_place() {
     let wrong: Vec<String> =
         files.iter().filter_map(|(name, text)| complaint(text).map(|c| format!("{name}: {c}"))).collect();
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), files.len(), wrong.join("\n"));
+}
+
+/// The sandwich with cells of 5 mm under some 10 MPa, and a law.
+fn sandwich(law: &str, key: &str, duration: &str) -> RunReport {
+    let rate = "{ kind = \"rate\", form = \"regularised\", mu0 = 0.6, a = 0.01, v_ref = \"1e-3 mm/s\" }";
+    let text =
+        include_str!("../../../scenes/sandwich.toml").replace("1.25 mm", "5 mm").replace("50 s", duration);
+    let text = text.replace(rate, law).replace("enforcement = {", &format!("{key}\nenforcement = {{"));
+    let plan = plan::plan(&scene::read(&text).unwrap()).unwrap();
+    run::run(&plan, &mut Recorder::new()).unwrap()
+}
+
+fn ageing(l: &str) -> String {
+    format!(
+        "{{ kind = \"rate-and-state\", evolution = \"ageing\", mu0 = 0.6, a = 0.005, b = 0.02, l = \"{l}\", v_ref = \"1 um/s\", v_initial = \"1 um/s\" }}"
+    )
+}
+
+/// Loads do not say what presses this interface: its sides are moved.
+#[test]
+fn an_interface_pressed_beyond_what_its_points_resolve_stops_before_it_slides() {
+    let weakening = |d_c| format!("{{ kind = \"slip-weakening\", mu_s = 0.6, mu_k = 0.3, d_c = \"{d_c}\" }}");
+    // Under 10 MPa 1 mm to the zone of L = 10 nm, and 3 mm to that of d_c = 0.5 um; it slides at once under the one, and reaches its strength after 20 s under the other.
+    for (law, wide, duration) in
+        [(ageing("10 nm"), ageing("5 um"), "1 s"), (weakening("0.5 um"), weakening("50 um"), "50 s")]
+    {
+        let of = |law: &str, key: &str| sandwich(law, key, duration);
+        let report = of(&law, "");
+        let Outcome::Stopped { stage, time, reason, kind: Stop::UnderResolved { interface, position } } =
+            &report.outcome
+        else {
+            panic!("{law}: {:?}", report.outcome)
+        };
+        assert_eq!((stage.as_str(), interface.as_str(), position[0]), ("shear", "fault", 0.025));
+        assert!(
+            reason.contains("under_resolved = \"allow\"") && reason.contains("less than one point"),
+            "{reason}"
+        );
+        // The state before is kept: nothing has slid.
+        assert_eq!(report.steps.last().unwrap().time, *time);
+        assert!(report.results.last().unwrap().status[2] == 0, "{:?}", report.results.last());
+        // What presses it was told of when it was pressed.
+        let few = |r: &RunReport| {
+            r.warnings.iter().filter(|w| w.message.contains("at the end of stage `press`")).count()
+        };
+        assert_eq!(few(&report), 1, "{:?}", report.warnings);
+        let allowed = of(&law, "under_resolved = \"allow\"");
+        assert!(
+            !matches!(allowed.outcome, Outcome::Stopped { kind: Stop::UnderResolved { .. }, .. }),
+            "{:?}",
+            allowed.outcome
+        );
+        assert_eq!(few(&allowed), 1);
+        let resolved = of(&wide, "");
+        assert_eq!(
+            (resolved.outcome.clone(), few(&resolved)),
+            (Outcome::Completed, 0),
+            "{:?}",
+            resolved.warnings
+        );
+    }
+}
+
+#[test]
+fn points_resolve_an_interface_up_to_the_normal_traction_of_the_published_lengths() {
+    for (law, length) in [
+        // G' L/b and, over the drop of the coefficient, 9π/32 G' d_c, with two equal sides in plane strain.
+        (ageing("1 um"), 1e-6 / 0.02),
+        (
+            "{ kind = \"slip-weakening\", mu_s = 0.6, mu_k = 0.35, d_c = \"1 um\" }".into(),
+            9.0 * PI / 32.0 * 1e-6 / 0.25,
+        ),
+    ] {
+        let text = file("interface_few_points.toml");
+        let from = text.find("law = ").unwrap();
+        let to = from + text[from..].find('\n').unwrap();
+        let text = text.replace(&text[from..to], &format!("under_resolved = \"allow\"\nlaw = {law}"));
+        let plan::AnyPlan::Two(plan) = plan::plan(&scene::read(&text).unwrap()).unwrap() else {
+            panic!("a plane scene")
+        };
+        let modulus = 80e9 / 2.5 / 0.75;
+        let one = plan.interfaces[0].resolved.as_ref().unwrap().one;
+        assert!((one / (modulus * length / 0.1) - 1.0).abs() < 1e-9, "{law}: {one:e}");
+    }
 }
 
 fn found(text: &str) -> Vec<String> {

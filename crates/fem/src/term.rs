@@ -43,6 +43,8 @@ pub struct Objection {
     pub rate: f64,
     /// Whether a shorter step may be free of it.
     pub shorter: bool,
+    /// Whether it is for want of points: the step may be right, and what follows would be that of the mesh.
+    pub coarse: bool,
 }
 
 impl fmt::Display for Objection {

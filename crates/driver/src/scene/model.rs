@@ -98,6 +98,8 @@ pub struct Interface {
     pub enforcement: Enforcement,
     /// Friction; absent = frictionless.
     pub law: Option<Spanned<LawSpec>>,
+    /// What to do where points stand too coarsely for friction that weakens; absent: the scene is refused, or the run stops.
+    pub under_resolved: Option<Spanned<UnderResolved>>,
 }
 
 /// Measures that exist.

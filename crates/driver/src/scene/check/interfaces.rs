@@ -43,6 +43,15 @@ impl Checker<'_> {
                 ),
                 _ => {}
             }
+            if let Some(key) = interface.under_resolved.as_ref().filter(|_| interface.law.is_none()) {
+                self.error(
+                    key.span(),
+                    format!(
+                        "interface `{name}` has `under_resolved`, but no friction law that points resolve"
+                    ),
+                    "remove `under_resolved`, or add a law",
+                );
+            }
             if let Some(spec) = &interface.law {
                 self.coefficients(spec.get_ref());
                 self.errors.extend(law::choose(spec).err().unwrap_or_default());
