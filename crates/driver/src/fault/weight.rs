@@ -19,6 +19,8 @@ use crate::warning::Warning;
 /// Share of the largest traction below which one is rounding of the condensation.
 const NOTHING: f64 = 1e-9;
 
+/// What shears a fault that weight does not.
+const SHEARS: &str = "give the shear traction that earlier motion has left, as `shear` or `profiles.shear`, or an `initial_stress` that shears the fault along `rate`";
 /// Parts of a MPa in which tractions are told.
 const SHOWN: f64 = 1e4;
 
@@ -109,11 +111,16 @@ fn start_at<const D: usize>(
         point.shear = None;
         return Ok(());
     }
-    if found.shear.abs() <= small || against(spec, found.shear) {
-        let shear = if found.shear.abs() <= small { 0.0 } else { found.shear };
+    if found.shear.abs() <= small {
+        return refuse("does not shear".into(), SHEARS);
+    }
+    if against(spec, found.shear) {
         return refuse(
-            format!("leaves a shear traction of {shear:.3e} Pa, which is not of the sign of `rate`, on"),
-            "give the shear traction that earlier motion has left, as `shear` or `profiles.shear`, or an `initial_stress` that shears the fault; or change the sign of `rate`",
+            format!(
+                "leaves a shear traction of {:.3e} Pa, which is not of the sign of `rate`, on",
+                found.shear
+            ),
+            &format!("{SHEARS}; or change the sign of `rate`"),
         );
     }
     if strays(spec, &found) {
