@@ -130,17 +130,20 @@ impl<const D: usize> Interface<D> {
         self.soft.or_else(|| self.stands_at_strength())
     }
 
-    /// A point of a law that weakens with slip that has all but reached its strength: Newton's method turns between sticking and slipping
+    /// A point of a law that loses strength by slipping that has all but reached it: Newton's method turns between sticking and slipping
     /// there where neither is in balance.
     fn stands_at_strength(&self) -> Option<usize> {
-        let shear = self.shear.as_ref().filter(|_| matches!(self.watch.course, Course::Branch { .. }))?;
+        let falls = matches!(self.watch.course, Course::Branch { .. } | Course::Drop);
+        let shear = self.shear.as_ref().filter(|_| falls)?;
         let normal: Vec<f64> = self.contact.committed.iter().map(|c| c.traction).collect();
         let state = &shear.committed;
         let mut mu = vec![0.0; normal.len()];
         shear.law.coefficient(&normal, &state.rate, &state.states, &mut mu).ok()?;
         let strength = |p: usize| mu[p] * normal[p];
-        (0..normal.len())
-            .find(|&p| strength(p) > 0.0 && norm(&state.traction[p]) >= (1.0 - BEYOND) * strength(p))
+        // A law that drops at once has nothing left to lose where it slips, but where a forward step has yet to take the drop.
+        let dropped = |p: usize| self.watch.course == Course::Drop && state.regime[p] == Regime::Slip;
+        let share = |p: usize| if dropped(p) { 1.0 + BEYOND } else { 1.0 - BEYOND };
+        (0..normal.len()).find(|&p| strength(p) > 0.0 && norm(&state.traction[p]) >= share(p) * strength(p))
     }
 
     /// Keeps the point at which a law weakens faster than the spring behind it unloads.

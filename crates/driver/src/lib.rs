@@ -4,6 +4,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod cli;
+mod coarse;
 pub mod cohesive;
 pub mod enforcement;
 pub mod fault;

@@ -3,7 +3,7 @@
 use crate::cohesive::Resolved;
 use crate::enforcement::{Enforced, in_pascal_per_metre, in_words};
 use crate::fault;
-use crate::forecast::Held;
+use crate::forecast::{self, Held};
 use crate::loading::{self, Stage};
 use crate::model::{CellBlock, Model, sizes};
 use crate::plan_doubts;
@@ -49,12 +49,6 @@ impl PlanError {
     #[must_use]
     pub fn body(name: &str, span: Range<usize>, message: String) -> Self {
         Self { message: format!("body `{name}`: {message}"), help: None, span }
-    }
-
-    /// An error without a place.
-    #[must_use]
-    pub fn plain(message: String) -> Self {
-        Self { message, help: None, span: 0..0 }
     }
 }
 
@@ -322,6 +316,7 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
     remarks.extend(interfaces.iter().filter_map(|i| Some(i.resolved.as_ref()?.remark(&i.name))));
     let solver = solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
     let mut summary = summary(scene, &model, &interfaces, path, &stepping, &solver, remarks);
+    forecast::fits(scene, summary.memory_bytes)?;
     summary.start_gaps = start_gaps;
     summary.warnings.extend(doubts);
     let initial_stress =
@@ -363,8 +358,10 @@ fn interface<const D: usize>(
     let slave_sides = model.sides(&spec.slave)?;
     let master_sides = model.sides(&spec.master)?;
     let body = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]);
-    let body =
-        body.ok_or_else(|| PlanError::plain(format!("interface `{name}`: the slave side has no body")))?;
+    let body = body.ok_or_else(|| {
+        let help = "sets of bodies are named `body.set`".into();
+        PlanError::at(spec.slave.span(), format!("interface `{name}`: the slave side has no body"), help)
+    })?;
     check_faces(model, spec, slave_sides, master_sides)?;
     let slave = slave_points(model, name, spec, slave_sides, master_sides)?;
     if slave.is_empty() {
@@ -501,7 +498,10 @@ fn check_faces<const D: usize>(
 fn choose_law(spec: &Spanned<LawSpec>) -> Result<LawChoice, PlanError> {
     law::choose(spec).map_err(|errors| {
         let first = errors.into_iter().next();
-        first.map_or_else(|| PlanError::plain("the law is not complete".into()), PlanError::from)
+        let incomplete = || {
+            PlanError::at(spec.span(), "the law is not complete".into(), "see the laws of friction".into())
+        };
+        first.map_or_else(incomplete, PlanError::from)
     })
 }
 

@@ -1,5 +1,6 @@
 //! What is doubtful in a scene once its bodies are made and its stages resolved.
 
+use crate::coarse;
 use crate::cohesive;
 use crate::enforcement;
 use crate::loading::Stage;
@@ -35,6 +36,7 @@ pub fn of<const D: usize>(
             doubts.extend(enforcement::doubts(&planned.name, &spec.enforcement, stiffness, h));
             doubts.extend(start_gaps::doubts(&start, (spec, bonded), stages, h));
         }
+        doubts.extend(coarse::doubts(&model.mesh.nodes, planned, spec));
         starts.push(start);
         doubts.extend(resolution(scene, model, stages, planned)?);
     }

@@ -20,6 +20,9 @@ const TOLERANCE: f64 = 1e-10;
 const MOST_ITERATIONS: usize = 2000;
 /// Memory of the iterative method over that of its matrix: 2.5 to 3.8 in the benchmark.
 const HIERARCHY: usize = 4;
+/// Degrees of freedom up to which a plan analyses the system of generated blocks: that takes a second in space. Of larger ones memory follows from
+/// counts, and the run analyses.
+const ANALYSED: usize = 50_000;
 /// Memory of LU over that of Cholesky of the same pattern: both triangles, before any fill that pivoting adds.
 const UNSYMMETRIC: usize = 2;
 
@@ -157,26 +160,38 @@ impl<const D: usize> Choice<'_, D> {
         self.stages.iter().find(general)
     }
 
-    fn condensed(&self) -> Result<Solver, PlanError> {
-        let mut analyses = Vec::new();
-        let mut kept = 0;
-        let fixed = &self.stages[0].fixed;
-        for (body, retained) in self.model.bodies.iter().zip(retained(self.model, self.interfaces)) {
-            let dofs = &body.dofs;
-            kept += retained.len();
-            let pattern = self.model.pattern(body);
-            let analysis = condense::Analysis::new(
-                &[&pattern],
-                dofs.len(),
-                &local(&retained, dofs),
-                &local(fixed, dofs),
-            );
-            analyses.push(analysis.map_err(|e| PlanError::body(&body.name, 0..0, e.to_string()))?);
+    /// Bytes from counts alone, where the model is large and they say enough.
+    fn counted(&self, bytes: impl Fn(&Scene) -> Option<usize>) -> Option<usize> {
+        if self.model.dofs() <= ANALYSED { None } else { bytes(self.scene) }
+    }
+
+    /// What condensation of the bodies onto `retained` needs, without the interface.
+    fn condensations(&self, retained: &[Vec<usize>]) -> Result<(Prepared, usize), PlanError> {
+        if let Some(bytes) = self.counted(forecast::condensation) {
+            return Ok((Prepared::Nothing, bytes));
         }
+        let mut analyses = Vec::new();
+        let fixed = &self.stages[0].fixed;
+        for (body, retained) in self.model.bodies.iter().zip(retained) {
+            let dofs = &body.dofs;
+            let pattern = self.model.pattern(body);
+            let analysis =
+                condense::Analysis::new(&[&pattern], dofs.len(), &local(retained, dofs), &local(fixed, dofs));
+            let place = || self.scene.bodies[&body.name].material.span();
+            analyses.push(analysis.map_err(|e| PlanError::body(&body.name, place(), e.to_string()))?);
+        }
+        let bytes = analyses.iter().map(condense::Analysis::bytes).sum();
+        Ok((Prepared::Bodies(analyses), bytes))
+    }
+
+    fn condensed(&self) -> Result<Solver, PlanError> {
+        let retained = retained(self.model, self.interfaces);
+        let (prepared, bodies) = self.condensations(&retained)?;
+        let mut kept = retained.iter().map(Vec::len).sum::<usize>();
         kept += self.interfaces.iter().map(|i| i.unknowns).sum::<usize>();
         // The interface's matrix, its factor, and the copy a term hands over.
         let dense = 3 * kept * kept * size_of::<f64>();
-        let bytes = analyses.iter().map(condense::Analysis::bytes).sum::<usize>() + dense;
+        let bytes = bodies + dense;
         if bytes > self.memory() {
             let what = format!("condensing the bodies onto {kept} degrees of freedom");
             return Err(self.too_much(&what, bytes, false));
@@ -188,40 +203,38 @@ impl<const D: usize> Choice<'_, D> {
         Ok(Solver {
             method: Method::Direct,
             memory: self.memory(),
-            prepared: Prepared::Bodies(analyses),
+            prepared,
             bytes,
             why: format!("direct: {why}"),
         })
     }
 
     fn full(&self) -> Result<Solver, PlanError> {
-        let patterns: Vec<&Pattern> = self.model.blocks.iter().map(CellBlock::pattern).collect();
-        let lower = Lower::new(&patterns, &self.equations());
-        let matrix = 2 * lower.stored() * size_of::<f64>();
-        match self.scene.solver.method() {
-            Asked::Iterative => self.iterative(matrix, "the scene asks for it".into()),
-            Asked::Auto if self.linear_in_space() && forecast::factors_exceed(self.scene, self.memory()) => {
-                let why = format!("factors would take more than {}", size(self.memory()));
-                self.iterative(matrix, why)
-            }
-            method => {
-                let analysis = lower.analyse().map_err(|e| PlanError::plain(e.to_string()))?;
-                let unsymmetric = self.unsymmetric();
-                let factor = if unsymmetric.is_some() { UNSYMMETRIC } else { 1 };
-                let bytes = factor * analysis.symbolic().bytes();
-                if bytes <= self.memory() {
-                    return Ok(self.direct(analysis, bytes));
-                }
-                if method == Asked::Auto && self.linear_in_space() {
-                    let why =
-                        format!("a factorisation would take {} of {}", size(bytes), size(self.memory()));
-                    return self.iterative(matrix, why);
-                }
-                let n = self.model.dofs();
-                let what = format!("the factorisation of {n} degrees of freedom");
-                Err(self.too_much(&what, bytes, unsymmetric.is_none()))
-            }
+        let method = self.scene.solver.method();
+        if method == Asked::Iterative {
+            return self.iterative("the scene asks for it".into());
         }
+        let unsymmetric = self.unsymmetric();
+        let (prepared, bytes) = match self.counted(forecast::factorisation) {
+            Some(bytes) => (Prepared::Nothing, bytes),
+            None => {
+                let patterns: Vec<&Pattern> = self.model.blocks.iter().map(CellBlock::pattern).collect();
+                let analysis = Lower::new(&patterns, &self.equations()).analyse();
+                let analysis = analysis.map_err(|e| self.at_memory(e.to_string()))?;
+                let bytes = analysis.symbolic().bytes();
+                (Prepared::System(analysis), bytes)
+            }
+        };
+        let bytes = if unsymmetric.is_some() { UNSYMMETRIC } else { 1 } * bytes;
+        if bytes <= self.memory() {
+            return Ok(self.direct(prepared, bytes));
+        }
+        if method == Asked::Auto && self.linear_in_space() {
+            let why = format!("a factorisation would take {} of {}", size(bytes), size(self.memory()));
+            return self.iterative(why);
+        }
+        let what = format!("the factorisation of {} degrees of freedom", self.model.dofs());
+        Err(self.too_much(&what, bytes, unsymmetric.is_none()))
     }
 
     /// Whether the iterative method serves where factors do not fit.
@@ -235,7 +248,7 @@ impl<const D: usize> Choice<'_, D> {
         constraints.equations(self.model.dofs())
     }
 
-    fn direct(&self, analysis: Analysis, bytes: usize) -> Solver {
+    fn direct(&self, prepared: Prepared, bytes: usize) -> Solver {
         let general =
             |s: &&Stage| symmetry(self.model, self.interfaces, self.stepping, s) == Symmetry::General;
         let count = self.stages.iter().filter(general).count();
@@ -253,13 +266,13 @@ impl<const D: usize> Choice<'_, D> {
         Solver {
             method: Method::Direct,
             memory: self.memory(),
-            prepared: Prepared::System(analysis),
+            prepared,
             bytes,
             why: format!("direct: {factors}{often}"),
         }
     }
 
-    fn iterative(&self, matrix: usize, why: String) -> Result<Solver, PlanError> {
+    fn iterative(&self, why: String) -> Result<Solver, PlanError> {
         let solver = &self.scene.solver;
         if let Some(stage) = self.unsymmetric() {
             let reason = if self.interfaces.iter().any(|i| i.unknowns > 0) {
@@ -277,6 +290,7 @@ impl<const D: usize> Choice<'_, D> {
                 "use `method = \"direct\"`, or leave it out".into(),
             ));
         }
+        let matrix = forecast::matrix_bytes(&self.model.counts(), self.model.idealisation.components());
         let bytes = HIERARCHY * matrix;
         if bytes > self.memory() {
             let what = format!("the iterative solution of {} degrees of freedom", self.model.dofs());
@@ -293,6 +307,14 @@ impl<const D: usize> Choice<'_, D> {
                 "iterative: {why}; conjugate gradients with smoothed aggregation to a residual of {tolerance:e}"
             ),
         })
+    }
+
+    /// An error of a system that is too large to be numbered.
+    fn at_memory(&self, message: String) -> PlanError {
+        let (solver, materials) = (&self.scene.solver, self.scene.bodies.values().map(|b| b.material.span()));
+        let place = solver.memory.as_ref().map(Spanned::span).or(solver.method.as_ref().map(Spanned::span));
+        let place = place.or(materials.into_iter().next()).unwrap_or(0..0);
+        PlanError::at(place, message, "take a coarser mesh".into())
     }
 
     fn too_much(&self, what: &str, bytes: usize, iterative: bool) -> PlanError {

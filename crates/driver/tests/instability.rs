@@ -22,6 +22,7 @@ struct Sandwich {
     duration: &'static str,
     explicit: bool,
     mortar: bool,
+    enforcement: &'static str,
     time: &'static str,
 }
 
@@ -34,6 +35,7 @@ impl Sandwich {
             duration: "50 s",
             explicit: false,
             mortar: false,
+            enforcement: "kind = \"penalty\"",
             time: "",
         }
     }
@@ -45,7 +47,8 @@ impl Sandwich {
             .replace(RATE, &self.law)
             .replace("1.25 mm", self.size)
             .replace("0.00966 mm", self.push)
-            .replace("\"50 s\"", &format!("\"{}\"", self.duration));
+            .replace("\"50 s\"", &format!("\"{}\"", self.duration))
+            .replace("kind = \"penalty\"", self.enforcement);
         if self.mortar {
             text = text.replace("measure = \"node-to-point\"", "measure = \"mortar\"");
         }
@@ -188,5 +191,30 @@ fn a_smallest_step_or_a_limit_of_the_scene_stops_the_run_earlier() {
         let (last, before) = (report.steps.last().unwrap(), &report.steps[..report.steps.len() - 1]);
         assert!(last.dt > 1e-7 && before.iter().all(|s| s.dt > 1e-7));
         assert!(report.results.last().unwrap().slip_rate.iter().all(|v| v.abs() < 1e-3));
+    }
+}
+
+#[test]
+fn drops_that_forward_steps_do_not_follow_are_named() {
+    // The implicit stepper follows them.
+    for mortar in [false, true] {
+        let (report, _) = Sandwich { explicit: true, mortar, ..Sandwich::new(DROPPING) }.run();
+        let named = matches!(report.outcome, Outcome::Stopped { kind: Stop::Instability { .. }, .. });
+        assert!(named || report.outcome == Outcome::Completed, "{:?}", report.outcome);
+    }
+}
+
+#[test]
+fn every_enforcement_and_cell_size_names_the_instability() {
+    let law = state("\"ageing\"", 0.005, 0.02, "0.2 um");
+    let slip = state("\"slip\"", 0.005, 0.02, "0.2 um");
+    let enforced = ["kind = \"augmented-lagrangian\"", "kind = \"uzawa\", penetration = \"1 nm\""];
+    for law in [&law, &slip] {
+        for size in ["5 mm", "2.5 mm", "1.25 mm"] {
+            Sandwich { size, ..Sandwich::new(law) }.onset();
+        }
+        for enforcement in enforced {
+            Sandwich { enforcement, ..Sandwich::new(law) }.onset();
+        }
     }
 }

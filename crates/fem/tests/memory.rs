@@ -293,12 +293,16 @@ fn condensation_with_loads_holds_what_it_foretells_and_less_than_the_factor() {
         // Dense kernels keep their memory from the first use on.
         loaded(&body).eliminate(usize::MAX).unwrap();
         let loaded = loaded(&body);
-        let told = loaded.bytes(1);
+        let (asked, told) = (loaded.asked(1), loaded.bytes(1));
         let (left, held) = peak_of(|| loaded.eliminate(usize::MAX).unwrap());
         assert_eq!(left.row(0).len(), 61);
-        assert!(held <= told, "{held} of {told}");
+        assert!(held <= asked, "{held} of {asked}");
+        // One thread does what was gone through: nothing but rounding of allocations and small lists is not foreseen.
+        assert!(10 * held >= 9 * asked, "{held} of {asked}");
+        // Of contributions half is written.
+        assert!(told < asked && 2 * told > asked, "{told} of {asked}");
         let factored = Condensation::analyse(&body, &retained, &fixed).unwrap();
         let whole = factored.bytes();
-        assert!(3 * told < 2 * whole, "{told} and {whole}");
+        assert!(3 * asked < 2 * whole, "{asked} and {whole}");
     });
 }

@@ -5,7 +5,7 @@ use super::plan::{Placed, at};
 use crate::model::Model;
 use crate::plan::PlanError;
 use crate::rigid;
-use crate::scene::model::{Along, Fault as Spec, Profile, Profiled, Spanned, Station};
+use crate::scene::model::{Along, Fault as Spec, LawSpec, Profile, Profiled, Scene, Spanned, Station};
 use crate::warning::Warning;
 use asperity_fem::mesh::face_nodes;
 
@@ -52,7 +52,11 @@ pub(super) fn nothing_slides<const D: usize>(faults: &[(&String, &Spec)], placed
     let of = |k: usize| placed.iter().filter(move |p| p.fault == k).map(|p| &p.point.place);
     let mut all = faults.iter().enumerate().filter_map(|(k, f)| Some((f.0, of(k), f.1.creep.as_ref()?)));
     let Some((name, places, creep)) = all.next() else {
-        return PlanError::plain("no point of the faults is free to slide".into());
+        return PlanError::at(
+            faults.first().map_or(0..0, |f| f.1.minus.span()),
+            "no point of the faults is free to slide".into(),
+            "`minus` and `plus` are two sides that can part".into(),
+        );
     };
     let border = creep.beyond.as_ref().map(Spanned::span).or(creep.outside.as_ref().map(Spanned::span));
     PlanError::at(
@@ -187,4 +191,25 @@ fn cell<const D: usize>(model: &Model<D>, spec: &Spec, place: &Place<D>) -> Resu
         }
     }
     Ok(size)
+}
+
+/// The refusal of a body that no fault can be in.
+pub(super) fn not_linear(scene: &Scene, body: &str) -> PlanError {
+    let spec = &scene.bodies[body];
+    let strain = spec.strain.as_ref().filter(|_| spec.is_finite());
+    let place = strain.map_or_else(|| spec.material.span(), Spanned::span);
+    let help = "an elastic material and small strain".into();
+    PlanError::at(place, format!("body `{body}` is not linear: faults need linear bodies"), help)
+}
+
+/// The refusal of more stages than one, or of none.
+pub(super) fn stages(scene: &Scene) -> PlanError {
+    let place = scene.stages.get(1).map_or_else(|| scene.time.stepper.span(), |s| s.duration.span());
+    let found = format!("a scene with faults has one stage, found {}", scene.stages.len());
+    PlanError::at(place, found, "loads that change in time are tables of one stage".into())
+}
+
+/// The refusal of a law of which nothing else is said.
+pub(super) fn incomplete(law: &Spanned<LawSpec>) -> PlanError {
+    PlanError::at(law.span(), "the law is not complete".into(), "see the laws of friction".into())
 }

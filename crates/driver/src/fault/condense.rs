@@ -1,7 +1,7 @@
 //! Bodies condensed onto the jumps of their faults: what slip and loads do to tractions.
 
 use super::bodies::Bodies;
-use super::held::{self, Refusal};
+use super::held::{self, About, Refusal};
 use super::loading::Loading;
 use super::machine::Machine;
 use super::operator::Dense;
@@ -136,10 +136,12 @@ fn with_components<const D: usize, const C: usize>(
     let machine = Machine::new(stage);
     let drawn = |node: usize| (C * node..C * (node + 1)).any(|d| machine.draws(d));
     if let Some(p) = points.iter().find(|p| drawn(p.place.minus) && drawn(p.place.plus)) {
-        return Err(Refusal::from(format!(
-            "a spring draws both sides of a fault as one at {}, which could not slip there: let it draw a side that ends at the fault",
+        let message = format!(
+            "a spring draws both sides of a fault as one at {}, which could not slip there",
             rigid::place(&p.place.at)
-        )));
+        );
+        let help = Some("let it draw a side that ends at the fault".into());
+        return Err(Refusal { message, help, about: About::Spring, ..Refusal::default() });
     }
     let jump = |p: &Point<D>| held::jump(p, frame(&p.place), &constraints.fixed, drawn);
     let list: Vec<Jump<C>> = points.iter().map(jump).collect();
@@ -304,18 +306,11 @@ impl Bearing {
 }
 
 /// An error of the condensation with the place in the bodies.
-fn in_words<const D: usize, const C: usize>(model: &Model<D>, jumps: &Jumps<C>, error: FemError) -> String {
+fn in_words<const D: usize, const C: usize>(model: &Model<D>, jumps: &Jumps<C>, error: FemError) -> Refusal {
     if let FemError::Direct(DirectError::Memory { needed, allowed, .. }) = error {
-        return format!(
-            "condensing {} degrees of freedom onto {} points of the faults needs about {}, and {} are allowed: raise `memory` in `[solver]` where the machine has it, or \
-             take coarser cells on the faults or away from them",
-            model.dofs(),
-            jumps.list().len(),
-            solver::size(needed),
-            solver::size(allowed)
-        );
+        return too_much(model.dofs(), jumps.list().len(), needed, allowed);
     }
-    let Some(pivot) = error.pivot() else { return error.to_string() };
+    let Some(pivot) = error.pivot() else { return Refusal::from(error.to_string()) };
     // A jump stands at the degrees of freedom of one of its nodes.
     let node = pivot.equation / C;
     let component = match jumps.list().iter().any(|j| j.plus / C == node) {
@@ -323,11 +318,34 @@ fn in_words<const D: usize, const C: usize>(model: &Model<D>, jumps: &Jumps<C>, 
         false => "can move there",
     };
     let body = model.bodies.iter().find(|b| b.dofs.contains(&pivot.equation)).map_or("", |b| b.name.as_str());
-    format!(
-        "the bodies around the faults are not held: body `{body}` {component} without resistance, found at {}; prescribe motions of sides that hold \
-         each side of a fault",
+    let message = format!(
+        "the bodies around the faults are not held: body `{body}` {component} without resistance, found at {}",
         rigid::place(&model.mesh.nodes[node])
-    )
+    );
+    let help = Some("prescribe motions of sides that hold each side of a fault".into());
+    Refusal { message, help, about: About::Body(body.into()), ..Refusal::default() }
+}
+
+/// The refusal of a condensation that needs more memory than is allowed.
+pub(super) fn too_much(dofs: usize, points: usize, needed: usize, allowed: usize) -> Refusal {
+    let message = format!(
+        "condensing {dofs} degrees of freedom onto {points} points of the faults needs about {}, and {} are allowed",
+        solver::size(needed),
+        solver::size(allowed)
+    );
+    let help = "raise `memory` in `[solver]` where the machine has it, or take coarser cells on the faults or away from them";
+    Refusal { message, help: Some(help.into()), about: About::Memory, ..Refusal::default() }
+}
+
+/// What the condensation onto so many points of displacements with `components` takes at least \[bytes\]: what is left of the bodies, and
+/// the operator that is made of it.
+pub(super) fn least_bytes(components: usize, tangents: usize, points: usize) -> usize {
+    let rows = points * (tangents + usize::from(components > 1));
+    let operator = match components {
+        1 => operator_bytes::<1>(tangents, points),
+        _ => operator_bytes::<2>(tangents, points),
+    };
+    rows.pow(2) * size_of::<f64>() + operator
 }
 
 /// Tractions from the condensed forces; `rows` are those of the slip of each point, in motion of more than one component its opening stands next to it. A force

@@ -5,10 +5,11 @@ use super::place::Place;
 use crate::model::Model;
 use crate::plan::PlanError;
 use crate::rigid;
-use crate::scene::model::{Motion, Scene};
+use crate::scene::model::{Motion, Scene, Spanned};
 use asperity_fem::dof::Channel;
 use asperity_fem::jump::Jump;
 use asperity_fem::mesh::nodes_of_sides;
+use std::ops::Range;
 
 /// Why bodies cannot be condensed onto faults.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -19,6 +20,39 @@ pub struct Refusal {
     pub help: Option<String>,
     /// The two nodes of the point and the component of displacement whose conditions are at fault.
     pub at: Option<([usize; 2], usize)>,
+    /// What it is about, where no condition is known to be at fault.
+    pub about: About,
+}
+
+/// What a refusal is about.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum About {
+    /// The sides of the faults.
+    #[default]
+    Sides,
+    /// The memory that is allowed.
+    Memory,
+    /// A body.
+    Body(String),
+    /// A condition that draws a set by a spring.
+    Spring,
+}
+
+impl About {
+    fn place(&self, scene: &Scene) -> Range<usize> {
+        let springs = || {
+            let motions = scene.stages.iter().flat_map(|s| &s.conditions).map(|c| c.get_ref());
+            let mut motions = motions.flat_map(|c| [&c.x, &c.y, &c.z].into_iter().flatten());
+            motions.find(|m| matches!(m.get_ref(), Motion::Spring { .. })).map(|m| m.span())
+        };
+        let found = match self {
+            Self::Sides => None,
+            Self::Memory => scene.solver.memory.as_ref().map(Spanned::span),
+            Self::Body(body) => scene.bodies.get(body).map(|b| b.material.span()),
+            Self::Spring => springs(),
+        };
+        found.or_else(|| scene.faults.values().next().map(|f| f.minus.span())).unwrap_or(0..0)
+    }
 }
 
 impl From<String> for Refusal {
@@ -30,7 +64,7 @@ impl From<String> for Refusal {
 impl Refusal {
     /// As an error of a plan, at the condition that is at fault.
     pub(super) fn place<const D: usize>(self, scene: &Scene, model: &Model<D>) -> PlanError {
-        let Self { message, help, at } = self;
+        let Self { message, help, at, about } = self;
         let conditions = scene.stages.iter().flat_map(|s| &s.conditions).map(|c| c.get_ref());
         let place = at.and_then(|(nodes, component)| {
             let axis = model.idealisation.axis(component);
@@ -49,7 +83,7 @@ impl Refusal {
         });
         match place {
             Some((set, span)) => PlanError { message: format!("`{set}`: {message}"), help, span },
-            None => PlanError { message, help, span: 0..0 },
+            None => PlanError { message, help, span: about.place(scene) },
         }
     }
 }
@@ -113,7 +147,7 @@ pub(super) fn oblique<const D: usize, const C: usize>(
             ),
         )
     };
-    Refusal { message, help: Some(help), at: Some((nodes, component)) }
+    Refusal { message, help: Some(help), at: Some((nodes, component)), ..Refusal::default() }
 }
 
 /// The refusal of conditions that prescribe the motion of both sides of a point along its slip, whose direction is `slides`.
@@ -127,6 +161,7 @@ pub(super) fn along_slip<const D: usize, const C: usize>(place: &Place<D>, slide
         ),
         help: Some("let it creep there, or leave that component of the conditions out".into()),
         at: Some(([place.minus, place.plus], component)),
+        ..Refusal::default()
     }
 }
 
@@ -211,5 +246,6 @@ fn otherwise<const D: usize, const C: usize>(
             "a fault does not open: prescribe the same motion along its normal on both sides, or leave that component out on one of them",
         ),
     };
-    Refusal { message, help: Some(help.into()), at: Some(([place.minus, place.plus], component)) }
+    let at = Some(([place.minus, place.plus], component));
+    Refusal { message, help: Some(help.into()), at, ..Refusal::default() }
 }

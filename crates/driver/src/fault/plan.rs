@@ -6,7 +6,7 @@ use super::bodies::BodiesView;
 use super::both::Both;
 use super::cadence::Cadence;
 use super::catalogue::Thresholds;
-use super::condense::{Conditions, Point, Surroundings, Tractions, condense};
+use super::condense::{self, Conditions, Point, Surroundings, Tractions, condense};
 use super::equations::{Fault, Layout};
 use super::floor::{self, Floor, NormalChoice};
 use super::hierarchical::{Geometry, Hierarchical};
@@ -24,7 +24,7 @@ use super::run::Settings;
 use super::sense;
 use super::start_doubts;
 use super::weight;
-use crate::forecast::Held;
+use crate::forecast::{self, Held};
 use crate::laws;
 use crate::loading::{self, Stage};
 use crate::model::{Model, meshes};
@@ -291,6 +291,23 @@ impl<const D: usize> Placed<D> {
     }
 }
 
+/// Refuses faults of so many points that what the bodies are condensed to alone is too much, before cells have matrices.
+fn admit<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    points: &[Point<D>],
+    conditions: Conditions,
+) -> Result<(), PlanError> {
+    let free = points.iter().filter(|p| p.creep.is_none()).count();
+    let least = condense::least_bytes(model.idealisation.components(), conditions.tangents, free);
+    forecast::fits(scene, least)?;
+    if least > conditions.memory {
+        let refusal = condense::too_much(model.dofs(), free, least, conditions.memory);
+        return Err(refusal.place(scene, model));
+    }
+    Ok(())
+}
+
 /// How the bodies of a scene are condensed.
 fn conditions(scene: &Scene) -> Conditions {
     // All faults of a scene have the same, which the check has seen to.
@@ -303,14 +320,11 @@ fn conditions(scene: &Scene) -> Conditions {
 fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError> {
     let mut model = Model::<D>::new(scene)?;
     if let Some(body) = model.bodies.iter().find(|b| b.nonlinear.is_some()) {
-        return Err(PlanError::plain(format!(
-            "body `{}` is not linear: faults need linear bodies",
-            body.name
-        )));
+        return Err(asked::not_linear(scene, &body.name));
     }
     let stages = loading::stages(scene, &model)?;
     let [stage] = stages.as_slice() else {
-        return Err(PlanError::plain(format!("a scene with faults has one stage, found {}", stages.len())));
+        return Err(asked::stages(scene));
     };
     let mut warnings = scene.warnings.clone();
     let (placed, mut notes) = all_points(scene, &model, &mut warnings)?;
@@ -322,8 +336,9 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
     // Under weight normal tractions are known once the bodies are condensed.
     let early = if stage.weight.is_empty() { Some(resolved(scene, &placed, &mut warnings)?) } else { None };
     let held = Held::by(&model);
-    let bodies = model.take_stiffness();
     let conditions = conditions(scene);
+    admit::<D>(scene, &model, &points, conditions)?;
+    let bodies = model.take_stiffness();
     let turns = conditions.tangents > 1;
     let surroundings =
         condense(&model, bodies, stage, &points, conditions).map_err(|e| e.place(scene, &model))?;
@@ -346,7 +361,11 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
     }
     let at_law = |e: Failure| PlanError::from(law::refused(&specs[first.fault].law, &e));
     let law = laws::build_fault(&first.law, &choices).map_err(&at_law)?.ok_or_else(|| {
-        PlanError::plain("a fault through cycles needs a law that depends on the slip rate: \"rate\" or \"rate-and-state\"".into())
+        PlanError::at(
+            specs[first.fault].law.span(),
+            "a fault through cycles needs a law that depends on the slip rate".into(),
+            "\"rate\" or \"rate-and-state\" is such a kind".into(),
+        )
     })?;
     let law = if turns { Box::new(Turning::new(law)) } else { law };
     let fault = Fault {
@@ -506,7 +525,7 @@ fn points_of<const D: usize>(
 ) -> Result<Vec<Placed<D>>, PlanError> {
     let base = law::choose(&spec.law).map_err(|errors| {
         let first = errors.into_iter().next();
-        first.map_or_else(|| PlanError::plain("the law is not complete".into()), PlanError::from)
+        first.map_or_else(|| asked::incomplete(&spec.law), PlanError::from)
     })?;
     let mut placed = Vec::new();
     let media = Media::new(scene, model, spec)?;

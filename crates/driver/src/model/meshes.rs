@@ -196,7 +196,10 @@ pub fn cells_along(name: &str, spec: &scene::BlockMesh) -> Result<Vec<usize>, Pl
         None => divisions_along(spec, axis, max.0 - min.0),
         Some(spacing) => {
             let given = spacing.get_ref().get(axis);
-            let given = given.ok_or_else(|| PlanError::plain("`spacing` is incomplete".into()))?;
+            let given = given.ok_or_else(|| {
+                let help = "one entry for each axis".into();
+                PlanError::at(spacing.span(), "`spacing` is incomplete".into(), help)
+            })?;
             let line = self::spacing(given.get_ref()).line(min.0, max.0);
             Ok(line.map_err(|e| PlanError::body(name, given.span(), e.to_string()))?.len() - 1)
         }

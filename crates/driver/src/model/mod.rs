@@ -70,6 +70,15 @@ impl<const D: usize> CellBlock<D> {
         rows.map(|row| row.iter().zip(dofs).map(|(k, &dof)| k * u[dof]).sum()).collect()
     }
 
+    /// Bytes of cells with a history.
+    #[must_use]
+    pub fn history_bytes(&self) -> usize {
+        match self {
+            Self::Linear(_) => 0,
+            Self::Nonlinear(block) => block.bytes(),
+        }
+    }
+
     /// Its degrees of freedom, cell by cell.
     #[must_use]
     pub fn pattern(&self) -> &Pattern {
@@ -137,7 +146,7 @@ impl<const D: usize> Model<D> {
             mesh.append(part, name);
             parts.push((name, body, (nodes..mesh.nodes.len(), blocks..mesh.blocks.len()), size));
         }
-        forecast::machine(&counts(&mesh), idealisation.components())?;
+        forecast::machine(&counts(&mesh), idealisation)?;
         let mut model =
             Self { scale: diagonal(&mesh.nodes), mesh, blocks: Vec::new(), bodies: Vec::new(), idealisation };
         for (name, body, (nodes, blocks), size) in parts {
@@ -214,6 +223,12 @@ impl<const D: usize> Model<D> {
                 "name one for each group of cells".into(),
             )
         })
+    }
+
+    /// Cells and nodes of each block.
+    #[must_use]
+    pub fn counts(&self) -> Vec<Counts> {
+        counts(&self.mesh)
     }
 
     /// Degrees of freedom in all.

@@ -25,26 +25,40 @@ pub fn of_files<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<String> 
     model.bodies.iter().filter_map(line).collect()
 }
 
-/// Bodies of files without unit that are next to not moved for their size.
+/// Bodies that are next to not moved for their size: those of files without unit, and blocks, whose numbers may be meant in another unit.
 pub fn doubts<const D: usize>(scene: &Scene, model: &Model<D>, stages: &[Stage]) -> Vec<Warning> {
     let travel: f64 = stages.iter().map(Stage::travel).sum();
     if travel <= 0.0 || stages.iter().any(Stage::is_loaded) {
         return Vec::new();
     }
     let doubt = |body: &Body<D>| {
-        let (place, unit) = file(&scene.bodies[&body.name].mesh)?;
+        let mesh = &scene.bodies[&body.name].mesh;
         let (min, max) = bounds(&model.mesh.nodes[body.nodes.clone()]);
         let size = (0..D).map(|c| max[c] - min[c]).fold(0.0, f64::max);
-        (unit.is_none() && travel < NO_MOTION * size).then(|| {
-            let (moved, size) = (brief(travel), brief(size));
-            let message = format!(
-                "body `{}` is {size} large and moved by {moved} at most: its mesh file is read in m, since no `unit` is given",
-                body.name
-            );
-            Warning::at(place, message, "add the unit of length of the file, such as `unit = \"mm\"`, or `unit = \"m\"`")
+        if travel >= NO_MOTION * size {
+            return None;
+        }
+        let what =
+            format!("body `{}` is {} large and moved by {} at most", body.name, brief(size), brief(travel));
+        if let MeshSource::Block(block) = mesh {
+            let message = format!("{what}: it strains by less than a millionth");
+            let help = "are its lengths meant in m? a number may have its unit, such as \"50 mm\"";
+            return Some(Warning::at(block.max.span(), message, help));
+        }
+        let (place, unit) = file(mesh)?;
+        unit.is_none().then(|| {
+            let message = format!("{what}: its mesh file is read in m, since no `unit` is given");
+            Warning::at(
+                place,
+                message,
+                "add the unit of length of the file, such as `unit = \"mm\"`, or `unit = \"m\"`",
+            )
         })
     };
-    model.bodies.iter().filter_map(doubt).collect()
+    let mut found: Vec<Warning> = model.bodies.iter().filter_map(doubt).collect();
+    // What was meant of one body was meant of all: the first is told of.
+    found.truncate(1);
+    found
 }
 
 /// Place and unit of a mesh file.

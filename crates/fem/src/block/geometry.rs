@@ -40,23 +40,9 @@ pub(super) struct CellGeometry<'a, const D: usize> {
 }
 
 impl<const D: usize> Geometry<D> {
-    /// Evaluates the gradients of `cells` (block number `block`) at the points of the idealisation's rule.
-    ///
-    /// # Errors
-    /// [`FemError::Jacobian`] naming the first cell that is inside out, [`FemError::Radius`] naming the first node left of the
-    /// axis.
-    pub fn new(
-        mesh: &Mesh<D>,
-        cells: &Cells,
-        block: usize,
-        idealisation: Idealisation,
-    ) -> Result<Self, FemError> {
-        check_radii(mesh, cells, idealisation)?;
-        let rule: Vec<(Shape, f64)> = idealisation
-            .quadrature(cells.kind)
-            .into_iter()
-            .map(|(xi, w)| (cells.kind.shape(xi), w))
-            .collect();
+    /// Evaluates the gradients of `cells`, which [`check`] has found good, at the points of the idealisation's rule.
+    pub fn new(places: &Places<D>, cells: &Cells, idealisation: Idealisation) -> Self {
+        let rule = rule(cells, idealisation);
         let (nodes, points) = (cells.kind.nodes(), rule.len());
         let mut result = Self {
             nodes,
@@ -67,34 +53,28 @@ impl<const D: usize> Geometry<D> {
             shapes: rule.iter().flat_map(|(s, _)| s.n[..nodes].to_vec()).collect(),
             idealisation,
         };
-        let chunks: Vec<Result<(), FemError>> = result
+        result
             .gradients
             .par_chunks_mut(CHUNK * points * nodes)
             .zip(result.volumes.par_chunks_mut(CHUNK * points))
             .zip(result.positions.par_chunks_mut(CHUNK * points))
             .enumerate()
-            .map(|(chunk, ((gradients, volumes), positions))| {
+            .for_each(|(chunk, ((gradients, volumes), positions))| {
                 for (k, volume) in volumes.iter_mut().enumerate() {
                     let (cell, (shape, weight)) = (chunk * CHUNK + k / points, &rule[k % points]);
-                    let ids = cells.cell(cell);
-                    let (x, j) = place(mesh, ids, shape);
-                    let determinant = determinant(&j);
-                    let bad = || FemError::Jacobian { block, cell, determinant };
-                    let inverse = if determinant > 0.0 { j.try_inverse() } else { None }.ok_or_else(bad)?;
+                    let (x, j) = place(places, cells.cell(cell), shape);
+                    // A cell inside out was refused; a NaN would show in the stiffness.
+                    let inverse = j.try_inverse().unwrap_or_else(|| j.map(|_| f64::NAN));
                     for (a, g) in gradients[k * nodes..(k + 1) * nodes].iter_mut().enumerate() {
                         *g = std::array::from_fn(|i| {
                             (0..D).map(|m| shape.dn[a][m] * inverse[(m, i)]).sum::<f64>()
                         });
                     }
                     positions[k] = x;
-                    *volume = weight * determinant * idealisation.weight(&x);
+                    *volume = weight * determinant(&j) * idealisation.weight(&x);
                 }
-                Ok(())
-            })
-            .collect();
-        // In order: the first cell is named whatever thread found it.
-        chunks.into_iter().collect::<Result<(), FemError>>()?;
-        Ok(result)
+            });
+        result
     }
 
     /// One cell.
@@ -128,6 +108,68 @@ impl<const D: usize> CellGeometry<'_, D> {
     }
 }
 
+/// Shape functions and weights of the points of a cell.
+fn rule(cells: &Cells, idealisation: Idealisation) -> Vec<(Shape, f64)> {
+    let points = idealisation.quadrature(cells.kind).into_iter();
+    points.map(|(xi, w)| (cells.kind.shape(xi), w)).collect()
+}
+
+/// Whether all cells of a block (number `block`) are the right way out and right of the axis; nothing is kept.
+///
+/// # Errors
+/// [`FemError::Jacobian`] naming the first cell that is inside out, [`FemError::Radius`] naming the first node left of the axis.
+pub(super) fn check<const D: usize>(
+    mesh: &Mesh<D>,
+    cells: &Cells,
+    block: usize,
+    idealisation: Idealisation,
+) -> Result<(), FemError> {
+    check_radii(mesh, cells, idealisation)?;
+    let rule = rule(cells, idealisation);
+    // In order: the first cell is named whatever thread found it.
+    let first_bad = (0..cells.len()).into_par_iter().with_min_len(CHUNK).find_map_first(|cell| {
+        let at = |(shape, _): &(Shape, f64)| determinant(&place(&mesh.nodes, cells.cell(cell), shape).1);
+        let mut bad = rule.iter().map(at).filter(|d| d.is_nan() || *d <= 0.0);
+        bad.next().map(|determinant| FemError::Jacobian { block, cell, determinant })
+    });
+    first_bad.map_or(Ok(()), Err)
+}
+
+/// Positions of the nodes of a block \[m\].
+#[derive(Clone, Debug)]
+pub(super) struct Places<const D: usize> {
+    /// Number of the first.
+    first: usize,
+    nodes: Vec<[f64; D]>,
+}
+
+impl<const D: usize> Places<D> {
+    /// Of the nodes from the least to the greatest number that `cells` name.
+    pub fn new(mesh: &Mesh<D>, cells: &Cells) -> Self {
+        let first = cells.connectivity.iter().copied().min().unwrap_or(0);
+        let end = cells.connectivity.iter().map(|n| n + 1).max().unwrap_or(first);
+        Self { first, nodes: mesh.nodes[first..end].to_vec() }
+    }
+}
+
+/// Nodes that have positions.
+pub(super) trait Positions<const D: usize> {
+    /// Position \[m\].
+    fn position(&self, node: usize) -> &[f64; D];
+}
+
+impl<const D: usize> Positions<D> for Places<D> {
+    fn position(&self, node: usize) -> &[f64; D] {
+        &self.nodes[node - self.first]
+    }
+}
+
+impl<const D: usize> Positions<D> for Vec<[f64; D]> {
+    fn position(&self, node: usize) -> &[f64; D] {
+        &self[node]
+    }
+}
+
 /// Nodes left of the axis of revolution are refused; nodes on it are welcome.
 fn check_radii<const D: usize>(
     mesh: &Mesh<D>,
@@ -145,17 +187,18 @@ fn check_radii<const D: usize>(
 
 /// Position and Jacobian ∂x_i/∂ξ_m of a point of a cell.
 pub(super) fn place<const D: usize>(
-    mesh: &Mesh<D>,
+    places: &impl Positions<D>,
     nodes: &[usize],
     shape: &Shape,
 ) -> ([f64; D], SMatrix<f64, D, D>) {
     let mut x = [0.0; D];
     let mut j = SMatrix::<f64, D, D>::zeros();
     for (a, &node) in nodes.iter().enumerate() {
+        let at = places.position(node);
         for i in 0..D {
-            x[i] += mesh.nodes[node][i] * shape.n[a];
+            x[i] += at[i] * shape.n[a];
             for m in 0..D {
-                j[(i, m)] += mesh.nodes[node][i] * shape.dn[a][m];
+                j[(i, m)] += at[i] * shape.dn[a][m];
             }
         }
     }

@@ -28,7 +28,7 @@ impl<const D: usize> LinearBlock<D> {
         for cell in 0..self.cells.len() {
             let nodes = self.cells.cell(cell);
             for (shape, weight) in &rule {
-                let (x, j) = place(mesh, nodes, shape);
+                let (x, j) = place(&mesh.nodes, nodes, shape);
                 let volume = weight * determinant(&j) * self.idealisation.weight(&x);
                 let mut value = [0.0; 3];
                 f(&x, &mut value[..components]);
@@ -50,7 +50,7 @@ impl<const D: usize> LinearBlock<D> {
         let components = self.idealisation.components();
         let mut forces: BTreeMap<usize, f64> = BTreeMap::new();
         for cell in 0..self.cells.len() {
-            let geometry = self.geometry.cell(cell);
+            let geometry = self.geometry().cell(cell);
             for (q, volume) in geometry.volumes.iter().enumerate() {
                 let nodes = self.cells.cell(cell).iter().zip(geometry.gradients(q)).zip(geometry.shapes(q));
                 for ((&node, gradient), n) in nodes {

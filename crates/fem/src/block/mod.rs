@@ -13,10 +13,11 @@ use crate::kinematics::{Dilatation, Formulation, Idealisation};
 use crate::material::elastic::Elastic;
 use crate::mesh::{Cells, Mesh};
 use crate::term::{Fraction, Instant, Limited, Linearized, Pattern, Refusal, Term};
-use geometry::Geometry;
+use geometry::{Geometry, Places};
 pub use norm::FieldValue;
 use projection::Projection;
 use rayon::prelude::*;
+use std::sync::{Arc, OnceLock};
 use stiffness::Moduli;
 pub use stress::{PointState, von_mises};
 
@@ -27,17 +28,22 @@ const CHUNK: usize = 256;
 const MOST_DOFS: usize = 3 * MOST_NODES;
 
 /// See the module.
+///
+/// Degrees of freedom, geometry and stiffness of the cells are found when they are first asked for: who plans a scene and does not run it
+/// need not have the memory. Clones share them.
 #[derive(Clone, Debug)]
 pub struct LinearBlock<const D: usize> {
     name: String,
-    cells: Cells,
+    cells: Arc<Cells>,
+    places: Arc<Places<D>>,
     material: Elastic,
     idealisation: Idealisation,
     formulation: Formulation,
-    pattern: Pattern,
-    stiffness: Vec<f64>,
-    geometry: Geometry<D>,
-    projection: Option<Projection>,
+    /// Dilatation that B-bar projects.
+    space: Option<Dilatation>,
+    pattern: Arc<OnceLock<Pattern>>,
+    geometry: Arc<OnceLock<(Geometry<D>, Option<Projection>)>>,
+    stiffness: Arc<OnceLock<Vec<f64>>>,
 }
 
 impl<const D: usize> LinearBlock<D> {
@@ -60,28 +66,54 @@ impl<const D: usize> LinearBlock<D> {
         }
         idealisation.check_dimension(D)?;
         let space = formulation.dilatation(cells.kind, idealisation)?;
-        let geometry = Geometry::new(mesh, &cells, block, idealisation)?;
-        let components = idealisation.components();
-        let width = cells.kind.nodes() * components;
-        let projection = space.map(|space| Projection::new(space, &geometry, cells.len(), width));
-        let mut result = Self {
+        geometry::check(mesh, &cells, block, idealisation)?;
+        Ok(Self {
             name: format!("cells {block}"),
+            places: Arc::new(Places::new(mesh, &cells)),
+            cells: Arc::new(cells),
             material: *material,
             idealisation,
             formulation,
-            pattern: pattern(&cells, components),
-            stiffness: Vec::new(),
-            geometry,
-            projection,
-            cells,
-        };
-        result.stiffness = result.assemble();
-        Ok(result)
+            space,
+            pattern: Arc::default(),
+            geometry: Arc::default(),
+            stiffness: Arc::default(),
+        })
+    }
+
+    /// Whether degrees of freedom, geometry or stiffness of its cells were asked for.
+    #[must_use]
+    pub fn is_made(&self) -> bool {
+        self.pattern.get().is_some() || self.geometry.get().is_some() || self.stiffness.get().is_some()
+    }
+
+    fn cell_dofs(&self) -> &Pattern {
+        self.pattern.get_or_init(|| pattern(&self.cells, self.idealisation.components()))
+    }
+
+    fn made(&self) -> &(Geometry<D>, Option<Projection>) {
+        self.geometry.get_or_init(|| {
+            let geometry = Geometry::new(&self.places, &self.cells, self.idealisation);
+            let width = self.cells.kind.nodes() * self.idealisation.components();
+            let project = |space| Projection::new(space, &geometry, self.cells.len(), width);
+            let projection = self.space.map(project);
+            (geometry, projection)
+        })
+    }
+
+    fn geometry(&self) -> &Geometry<D> {
+        &self.made().0
+    }
+
+    fn projection(&self) -> Option<&Projection> {
+        self.made().1.as_ref()
     }
 
     fn assemble(&self) -> Vec<f64> {
         let size = (self.cells.kind.nodes() * self.idealisation.components()).pow(2);
         let moduli = self.moduli();
+        // Made here, not by a task that others would wait for.
+        self.made();
         let mut values = vec![0.0; self.cells.len() * size];
         values.par_chunks_mut(size * CHUNK).enumerate().for_each(|(chunk, part)| {
             for (k, k_e) in part.chunks_exact_mut(size).enumerate() {
@@ -97,7 +129,7 @@ impl<const D: usize> LinearBlock<D> {
             Idealisation::PlaneStress => self.material.plane_stress_lame(),
             _ => self.material.lame(),
         };
-        match self.projection.as_ref().map(Projection::space) {
+        match self.space {
             None => Moduli { shear, dilatation, projected: 0.0 },
             Some(Dilatation::ConstantPressure) => Moduli { shear, dilatation: 0.0, projected: dilatation },
             Some(_) => Moduli { shear, dilatation: -2.0 / 3.0 * shear, projected: self.material.bulk() },
@@ -105,7 +137,7 @@ impl<const D: usize> LinearBlock<D> {
     }
 
     fn cell_stiffness(&self, cell: usize, moduli: &Moduli, k_e: &mut [f64]) {
-        let geometry = self.geometry.cell(cell);
+        let geometry = self.geometry().cell(cell);
         match self.idealisation {
             Idealisation::Antiplane => stiffness::antiplane(&geometry, moduli.shear, k_e),
             _ => stiffness::solid(&geometry, moduli, k_e),
@@ -113,7 +145,7 @@ impl<const D: usize> LinearBlock<D> {
         if self.idealisation == Idealisation::Axisymmetric {
             stiffness::hoop(&geometry, moduli, k_e);
         }
-        for c in self.projection.iter().flat_map(|p| p.moments(cell)) {
+        for c in self.projection().into_iter().flat_map(|p| p.moments(cell)) {
             stiffness::projected(moduli.projected, c, k_e);
         }
         stiffness::mirror(self.cells.kind.nodes() * self.idealisation.components(), k_e);
@@ -140,13 +172,23 @@ impl<const D: usize> LinearBlock<D> {
     /// Degrees of freedom and stiffness of its cells; all else is given back.
     #[must_use]
     pub fn into_stiffness(self) -> (Pattern, Vec<f64>) {
-        (self.pattern, self.stiffness)
+        let _ = (self.cell_dofs(), self.stiffness());
+        let Self { pattern, stiffness, .. } = self;
+        (taken(pattern), taken(stiffness))
     }
 
     /// Cell stiffness matrices one after another, each row by row \[N/m, or N/m² in the plane\]; symmetric to the last bit.
     #[must_use]
     pub fn stiffness(&self) -> &[f64] {
-        &self.stiffness
+        self.stiffness.get_or_init(|| self.assemble())
+    }
+}
+
+/// What was made, without a copy where nobody shares it.
+fn taken<T: Clone + Default>(shared: Arc<OnceLock<T>>) -> T {
+    match Arc::try_unwrap(shared) {
+        Ok(own) => own.into_inner().unwrap_or_default(),
+        Err(shared) => shared.get().cloned().unwrap_or_default(),
     }
 }
 
@@ -165,12 +207,13 @@ impl<const D: usize> Term for LinearBlock<D> {
     fn residual(&mut self, u: &[f64], _at: Instant, r: &mut [f64]) -> Result<(), Refusal> {
         let mut offset = 0;
         let mut local = [0.0; MOST_DOFS];
-        for block in self.pattern.blocks() {
+        let stiffness = self.stiffness();
+        for block in self.cell_dofs().blocks() {
             let n = block.len();
             for (value, &dof) in local.iter_mut().zip(block) {
                 *value = u[dof];
             }
-            for (row, &dof) in self.stiffness[offset..offset + n * n].chunks_exact(n).zip(block) {
+            for (row, &dof) in stiffness[offset..offset + n * n].chunks_exact(n).zip(block) {
                 r[dof] += row.iter().zip(&local).map(|(k, u)| k * u).sum::<f64>();
             }
             offset += n * n;
@@ -185,21 +228,21 @@ impl<const D: usize> Term for LinearBlock<D> {
 
 impl<const D: usize> Linearized for LinearBlock<D> {
     fn pattern(&self) -> &Pattern {
-        &self.pattern
+        self.cell_dofs()
     }
 
     fn tangent(&mut self, values: &mut [f64]) {
-        values.copy_from_slice(&self.stiffness);
+        values.copy_from_slice(self.stiffness());
     }
 
     fn constant_tangent(&self) -> Option<&[f64]> {
-        Some(&self.stiffness)
+        Some(self.stiffness())
     }
 }
 
 impl<const D: usize> Limited for LinearBlock<D> {
     fn rate(&mut self, _at: Instant, values: &mut [f64], _constant: &mut [f64]) -> Result<(), Refusal> {
-        values.copy_from_slice(&self.stiffness);
+        values.copy_from_slice(self.stiffness());
         Ok(())
     }
 

@@ -40,7 +40,7 @@ impl<const D: usize> LinearBlock<D> {
         exact: &impl Fn(&[f64; D]) -> FieldValue,
     ) -> [f64; 2] {
         let (nodes, components) = (self.cells.cell(cell), self.idealisation.components());
-        let (x, j) = place(mesh, nodes, shape);
+        let (x, j) = place(&mesh.nodes, nodes, shape);
         let volume = determinant(&j) * self.idealisation.weight(&x);
         let (value, gradient) = exact(&x);
         // Cells inside out were refused when the block was made; a NaN would show in the sum.
@@ -67,7 +67,7 @@ impl<const D: usize> LinearBlock<D> {
     pub fn stress_error(&self, u: &[f64], exact: impl Fn(&[f64; D]) -> [f64; 6]) -> f64 {
         let mut sum = 0.0;
         for cell in 0..self.cells.len() {
-            for (state, x) in self.cell_state(cell, u).zip(self.geometry.cell(cell).positions) {
+            for (state, x) in self.cell_state(cell, u).zip(self.geometry().cell(cell).positions) {
                 let squares = state.stress.iter().zip(exact(x)).enumerate().map(|(k, (s, e))| {
                     let times = if k < 3 { 1.0 } else { 2.0 };
                     times * (s - e).powi(2)

@@ -14,7 +14,6 @@ const MOST_TERMS: usize = 4;
 /// Projections of all cells of a block.
 #[derive(Clone, Debug)]
 pub(super) struct Projection {
-    space: Dilatation,
     terms: usize,
     points: usize,
     width: usize,
@@ -53,12 +52,7 @@ impl Projection {
                     }
                 }
             });
-        Self { space, terms, points, width, moments, values }
-    }
-
-    /// What the projection serves.
-    pub fn space(&self) -> Dilatation {
-        self.space
+        Self { terms, points, width, moments, values }
     }
 
     /// The vectors c_k of a cell.

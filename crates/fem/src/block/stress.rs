@@ -29,11 +29,12 @@ impl<const D: usize> LinearBlock<D> {
     /// Strain and stress at the quadrature points of a cell.
     pub fn cell_state(&self, cell: usize, u: &[f64]) -> impl Iterator<Item = PointState> {
         let components = self.idealisation.components();
-        let dofs = &self.pattern.dofs[self.pattern.starts[cell]..self.pattern.starts[cell + 1]];
+        let pattern = self.cell_dofs();
+        let dofs = &pattern.dofs[pattern.starts[cell]..pattern.starts[cell + 1]];
         let mut local = [0.0; super::MOST_DOFS];
         local.iter_mut().zip(dofs).for_each(|(value, &dof)| *value = u[dof]);
-        let geometry = self.geometry.cell(cell);
-        let mut projected = self.projection.as_ref().map(|p| p.dilatation(cell, &local));
+        let geometry = self.geometry().cell(cell);
+        let mut projected = self.projection().map(|p| p.dilatation(cell, &local));
         (0..geometry.volumes.len()).map(move |q| {
             let mut h = [[0.0; 3]; 3];
             let nodes = local.chunks_exact(components).zip(geometry.gradients(q));
@@ -60,8 +61,7 @@ impl<const D: usize> LinearBlock<D> {
     /// State of a displacement gradient whose dilatation B-bar shifts by `shift`; plane stress finds its strain along z here.
     fn state(&self, mut h: [[f64; 3]; 3], shift: f64, volume: f64) -> PointState {
         let material = &self.material;
-        let mean_pressure =
-            self.projection.as_ref().is_some_and(|p| p.space() == Dilatation::ConstantPressure);
+        let mean_pressure = self.space == Some(Dilatation::ConstantPressure);
         if !mean_pressure {
             (0..3).for_each(|i| h[i][i] += shift / 3.0);
         }
@@ -127,7 +127,7 @@ impl<const D: usize> LinearBlock<D> {
     pub fn nodal_stress(&self, _mesh: &Mesh<D>, u: &[f64]) -> Vec<(usize, [f64; 6])> {
         let mut sums: BTreeMap<usize, ([f64; 6], f64)> = BTreeMap::new();
         for (cell, stress) in self.cell_stress(u).into_iter().enumerate() {
-            let volume: f64 = self.geometry.cell(cell).volumes.iter().sum();
+            let volume: f64 = self.geometry().cell(cell).volumes.iter().sum();
             for &node in self.cells.cell(cell) {
                 let entry = sums.entry(node).or_default();
                 entry.1 += volume;

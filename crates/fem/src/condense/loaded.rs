@@ -54,8 +54,17 @@ impl Loaded {
     /// Memory of the condensation at its worst moment by so many threads \[bytes\].
     #[must_use]
     pub fn bytes(&self, threads: usize) -> usize {
-        let own = size_of_val(self.values.as_slice()) + size_of_val(self.free.as_slice());
-        self.symbolic.bytes_of_schur(threads) + own
+        self.symbolic.bytes_of_schur(threads) + self.own()
+    }
+
+    /// Memory it asks for at most, of which some is never written \[bytes\].
+    #[must_use]
+    pub fn asked(&self, threads: usize) -> usize {
+        self.symbolic.asked_by_schur(threads) + self.own()
+    }
+
+    fn own(&self) -> usize {
+        size_of_val(self.values.as_slice()) + size_of_val(self.free.as_slice())
     }
 
     /// The most threads, of those there are, whose work takes no more than `allowed` bytes: each holds fronts of its own.

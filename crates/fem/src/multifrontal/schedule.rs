@@ -11,8 +11,26 @@ use std::collections::BTreeSet;
 /// A task that runs: when it ends, and its index, which decides between those that end together.
 type Running = BTreeSet<(u64, usize)>;
 
+/// What counts of what a front passes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Passes {
+    /// All of it: what is asked for.
+    All,
+    /// Its lower triangle: what is written, and taken, since systems give pages when they are first written.
+    Written,
+}
+
 /// Values in use at the worst moment of the elimination by so many threads.
-pub(super) fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: usize) -> usize {
+pub(super) fn values_of_schur(
+    symbolic: &Symbolic,
+    parent: &[usize],
+    threads: usize,
+    passes: Passes,
+) -> usize {
+    let passed = |t: usize| match passes {
+        Passes::All => symbolic.passed(t),
+        Passes::Written => triangle(symbolic.passed(t)),
+    };
     let tasks = &symbolic.tasks;
     let mut left: Vec<usize> = tasks.iter().map(|t| t.children.len()).collect();
     let mut leaves = (0..tasks.len()).filter(|&t| tasks[t].children.is_empty());
@@ -20,7 +38,7 @@ pub(super) fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: us
     let (mut alive, mut most) = (0, 0);
     // A thread goes on with the parent of the last child that ended, else with the next leaf.
     let mut begin = |t: usize, now: u64, running: &mut Running, alive: &mut usize| {
-        *alive += symbolic.passed(t) + symbolic.beside(t);
+        *alive += passed(t) + symbolic.beside(t);
         most = most.max(*alive);
         running.insert((now.saturating_add(symbolic.operations_of(t) as u64 + 1), t));
     };
@@ -28,7 +46,7 @@ pub(super) fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: us
         begin(t, 0, &mut running, &mut alive);
     }
     while let Some((end, t)) = running.pop_first() {
-        let taken: usize = tasks[t].children.iter().map(|&c| symbolic.passed(c)).sum();
+        let taken: usize = tasks[t].children.iter().map(|&c| passed(c)).sum();
         alive -= symbolic.beside(t) + taken;
         let up = parent[t];
         let ready = up != NONE && {
@@ -41,4 +59,10 @@ pub(super) fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: us
         }
     }
     most
+}
+
+/// Values of the lower triangle of a square of so many.
+fn triangle(square: usize) -> usize {
+    let rows = square.isqrt();
+    rows * (rows + 1) / 2
 }

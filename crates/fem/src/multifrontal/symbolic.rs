@@ -1,8 +1,9 @@
 //! Symbolic analysis: everything about a factorisation that the pattern decides.
 
+use super::schedule::{self, Passes};
 use super::supernodes::Supernodes;
 use super::tree::Forest;
-use super::{DirectError, schedule, tasks};
+use super::{DirectError, tasks};
 use crate::ordering::{Compressed, NONE, Ordering, compress, order};
 use faer::sparse::SymbolicSparseColMatRef;
 use std::ops::Range;
@@ -379,10 +380,20 @@ impl Symbolic {
         (values + self.temporary()) * size_of::<f64>() + self.own()
     }
 
-    /// Memory of [`Cholesky::schur`](super::Cholesky::schur) by so many threads \[bytes\].
+    /// Memory that [`Cholesky::schur`](super::Cholesky::schur) by so many threads takes \[bytes\].
     #[must_use]
     pub fn bytes_of_schur(&self, threads: usize) -> usize {
-        let values = schedule::values_of_schur(self, &tasks::parents(self), threads);
+        self.schur(threads, Passes::Written)
+    }
+
+    /// Memory that it asks for, of which it leaves some untouched \[bytes\].
+    #[must_use]
+    pub fn asked_by_schur(&self, threads: usize) -> usize {
+        self.schur(threads, Passes::All)
+    }
+
+    fn schur(&self, threads: usize, passes: Passes) -> usize {
+        let values = schedule::values_of_schur(self, &tasks::parents(self), threads, passes);
         values * size_of::<f64>() + self.own()
     }
 

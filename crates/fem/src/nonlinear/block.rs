@@ -101,6 +101,17 @@ impl<const D: usize> Block<D> {
         Ok(())
     }
 
+    /// Bytes of the block with its history.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let body = &self.body;
+        let lists = body.cells.connectivity.len() + body.nodes.len() + body.pattern.dofs.len();
+        let two = |of: &Two| of.committed.len() + of.trial.len();
+        let values = [two(&self.u), two(&self.state), two(&self.drift), self.forces.len(), self.none.len()];
+        (lists + values.iter().sum::<usize>() + body.volumes.len()) * std::mem::size_of::<f64>()
+            + size_of_val(body.reference.as_slice())
+    }
+
     /// Kind of the cells.
     #[must_use]
     pub fn kind(&self) -> ElementKind {
