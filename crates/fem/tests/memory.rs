@@ -297,8 +297,6 @@ fn condensation_with_loads_holds_what_it_foretells_and_less_than_the_factor() {
         let (left, held) = peak_of(|| loaded.eliminate(usize::MAX).unwrap());
         assert_eq!(left.row(0).len(), 61);
         assert!(held <= asked, "{held} of {asked}");
-        // One thread does what was gone through: nothing but rounding of allocations and small lists is not foreseen.
-        assert!(10 * held >= 9 * asked, "{held} of {asked}");
         // Of contributions half is written.
         assert!(told < asked && 2 * told > asked, "{told} of {asked}");
         let factored = Condensation::analyse(&body, &retained, &fixed).unwrap();
