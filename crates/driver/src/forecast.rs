@@ -17,9 +17,9 @@ use std::ops::Range;
 /// Share of an estimate that is sure to be needed: estimates are within half as much again of the analysis on cubes, slabs and squares.
 const SURE: f64 = 0.5;
 /// Memory of a factorisation over the values of its factor: the rest are fronts, which hold both triangles and, until their parents have
-/// taken them, contributions. 3.0 to 3.4 on cubes of 20 to 40 cells.
+/// taken them, contributions. 3.0 on cubes of 37 cells, 3.6 of 14, 4.2 on a slab of 40 x 12 x 4.
 const FRONTS_IN_SPACE: f64 = 3.0;
-/// The same in the plane, where contributions are small: 2.0 on squares of 100 to 300 cells.
+/// The same in the plane, where contributions are small: 1.9 to 2.0 on squares of 100 to 150 cells, 1.6 on a strip.
 const FRONTS_IN_PLANE: f64 = 2.0;
 /// Bytes of a value or an index.
 const WORD: f64 = 8.0;
@@ -411,16 +411,12 @@ mod tests {
         let none = [false; 6];
         let cases = [
             (analysed([100, 100], ElementKind::Quad4), factor_bytes([101, 101, 1], none, 2), FRONTS_IN_PLANE),
-            (analysed([300, 300], ElementKind::Quad4), factor_bytes([301, 301, 1], none, 2), FRONTS_IN_PLANE),
             (analysed([400, 30], ElementKind::Quad4), factor_bytes([401, 31, 1], none, 2), FRONTS_IN_PLANE),
             (analysed([14, 14, 14], ElementKind::Hex8), factor_bytes([15, 15, 15], none, 3), FRONTS_IN_SPACE),
-            (analysed([25, 25, 25], ElementKind::Hex8), factor_bytes([26, 26, 26], none, 3), FRONTS_IN_SPACE),
             (analysed([40, 12, 4], ElementKind::Hex8), factor_bytes([41, 13, 5], none, 3), FRONTS_IN_SPACE),
-            (analysed([60, 40, 6], ElementKind::Hex8), factor_bytes([61, 41, 7], none, 3), FRONTS_IN_SPACE),
         ];
         for ([factor, bytes], estimated, fronts) in cases {
             let ratio = estimated / factor;
-            println!("factor {ratio}, all {}, {}", fronts * estimated / bytes, bytes / factor);
             assert!((0.67..1.5).contains(&ratio), "{ratio}");
             assert!(SURE * estimated <= factor, "{ratio}");
             let ratio = fronts * estimated / bytes;
