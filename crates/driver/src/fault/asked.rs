@@ -213,3 +213,12 @@ pub(super) fn stages(scene: &Scene) -> PlanError {
 pub(super) fn incomplete(law: &Spanned<LawSpec>) -> PlanError {
     PlanError::at(law.span(), "the law is not complete".into(), "see the laws of friction".into())
 }
+
+/// The refusal of a law that faults cannot follow.
+pub(super) fn another_law(law: &Spanned<LawSpec>) -> PlanError {
+    PlanError::at(
+        law.span(),
+        "a fault through cycles needs a law that depends on the slip rate".into(),
+        "\"rate\" or \"rate-and-state\" is such a kind".into(),
+    )
+}

@@ -360,13 +360,9 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         ));
     }
     let at_law = |e: Failure| PlanError::from(law::refused(&specs[first.fault].law, &e));
-    let law = laws::build_fault(&first.law, &choices).map_err(&at_law)?.ok_or_else(|| {
-        PlanError::at(
-            specs[first.fault].law.span(),
-            "a fault through cycles needs a law that depends on the slip rate".into(),
-            "\"rate\" or \"rate-and-state\" is such a kind".into(),
-        )
-    })?;
+    let law = laws::build_fault(&first.law, &choices)
+        .map_err(&at_law)?
+        .ok_or_else(|| asked::another_law(&specs[first.fault].law))?;
     let law = if turns { Box::new(Turning::new(law)) } else { law };
     let fault = Fault {
         operator: operator(surroundings.operator, &placed, form),
