@@ -74,6 +74,7 @@ mod hertz_ball;
 mod hertz_line;
 mod hertz_sphere;
 mod interface_instability;
+mod interface_rate_state;
 mod jaumann_shear;
 mod lame_cylinder;
 mod large_rotation;
@@ -150,6 +151,7 @@ pub const ALL: &[Case] = &[
     hertz_sphere::CASE,
     hertz_ball::CASE,
     interface_instability::CASE,
+    interface_rate_state::CASE,
     lame_cylinder::CASE,
     nafems_roller::CASE,
     partial_slip::CASE,

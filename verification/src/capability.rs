@@ -71,6 +71,8 @@ capabilities! {
     HardContact => "contact on the edge of solvability",
     /// Contact under changes of units, numbering, order and extreme meshes.
     ContactInvariance => "contact: units, numbering, order, extreme meshes",
+    /// Rate-and-state friction between bodies, in time.
+    InterfaceStates => "interfaces: rate and state in time",
     /// Interfaces whose law loses strength faster than the bodies unload them.
     InterfaceInstability => "interfaces: the end of quasi-static equilibrium",
     /// Pairing that follows large sliding.

@@ -6,7 +6,7 @@ use crate::enforce::{Enforcement, Multipliers, Penalty, Unknowns, tangential};
 use crate::error::ContactError;
 use crate::measure::{Attachment, Geometry, Measure, NormalPoint, Slides, Tractions};
 use crate::observe::{Balance, PointFields, Work};
-use crate::shear::{Shear, TwoStep};
+use crate::shear::{Past, Shear, TwoStep};
 use crate::spec::{InterfaceSpec, SlavePoint, SurfaceNode, TimeRule};
 use crate::status::{Status, label};
 use crate::vector::{add, axpy, dot, moment, norm, scaled, sub};
@@ -318,16 +318,20 @@ impl<const D: usize> Interface<D> {
     fn respond(&mut self, dt: f64) -> Result<(), Refusal> {
         self.check_bonds()?;
         self.enforce();
-        let two_step = match (self.rule, self.previous_dt) {
-            (TimeRule::Bdf2, Some(previous)) => Some(TwoStep::new(dt, previous)),
+        let past = match (self.rule, self.previous_dt) {
+            (TimeRule::Bdf2, Some(previous)) => Some(Past {
+                two_step: TwoStep::new(dt, previous),
+                slip: &self.motion.committed.step,
+                contact: &self.contact.committed,
+            }),
             _ => None,
         };
         if let Some(shear) = &mut self.shear {
-            let (previous, step) = (&self.motion.committed.step, &mut self.motion.trial.step);
+            let step = &mut self.motion.trial.step;
             self.work.law_calls += 1;
             let increment = &self.geometry.increment;
             let from = tangential(self.multipliers.as_ref());
-            let answer = shear.respond(from, &self.contact.trial, increment, dt, two_step, previous, step);
+            let answer = shear.respond(from, &self.contact.trial, increment, dt, past, step);
             if let Err(failure) = answer {
                 self.note_softness(&failure);
                 return Err(self.law_refusal(failure));
@@ -550,6 +554,10 @@ impl<const D: usize> Term for Interface<D> {
 
     fn objection(&self) -> Option<Objection> {
         self.objects()
+    }
+
+    fn error(&mut self) -> f64 {
+        self.shear.as_mut().map_or(0.0, |shear| shear.error(self.trial_dt))
     }
 
     fn accept(&mut self) {

@@ -1,6 +1,7 @@
 //! What an interface shows: committed fields per slave point, balances and counts of work.
 
 use crate::status::Status;
+use crate::vector::{dot, norm};
 
 /// Committed fields, one value a slave point.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -82,6 +83,12 @@ impl<const D: usize> PointFields<D> {
     pub fn mean_normal_traction(&self) -> f64 {
         let force: f64 = self.normal_traction.iter().zip(&self.area).map(|(f, a)| f * a).sum();
         force / self.area.iter().sum::<f64>()
+    }
+
+    /// Slip increments of the last step as slip rates count: signed along e_1 in two dimensions, their size in three \[m\].
+    pub fn signed_increments(&self) -> impl Iterator<Item = f64> + '_ {
+        let each = self.slip_increment.iter().zip(&self.tangent);
+        each.map(|(s, t)| if D == 2 { dot(s, t) } else { norm(s) })
     }
 
     /// Largest penetration \[m\], 0 when nothing penetrates.

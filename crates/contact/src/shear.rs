@@ -6,7 +6,7 @@
 use crate::measure::{NormalPoint, ShearPoint};
 use crate::vector::{axpy, dot, norm, scaled};
 use asperity_friction::Failure;
-use asperity_friction::law::{Lag, Law, Regime, Responses, Trials};
+use asperity_friction::law::{Lag, Law, Regime, Responses, Taken, Trials};
 use std::sync::Arc;
 
 /// Frictional history of all points.
@@ -50,6 +50,7 @@ pub(crate) struct Slices {
     pub normal: Vec<f64>,
     pub trial: Vec<f64>,
     pub direction: Vec<[f64; 2]>,
+    pub weight: Vec<f64>,
     pub offset: Vec<f64>,
     pub old: Vec<f64>,
     pub traction: Vec<f64>,
@@ -59,6 +60,9 @@ pub(crate) struct Slices {
     pub d_trial: Vec<f64>,
     pub d_normal: Vec<f64>,
     pub states: Vec<f64>,
+    /// Slip rates at the start of the step, and estimated errors of μ at its end.
+    pub before: Vec<f64>,
+    pub error: Vec<f64>,
 }
 
 impl Slices {
@@ -69,6 +73,7 @@ impl Slices {
             normal: f(),
             trial: f(),
             direction: Vec::with_capacity(n),
+            weight: f(),
             offset: f(),
             old: Vec::with_capacity(n * states),
             traction: f(),
@@ -78,6 +83,8 @@ impl Slices {
             d_trial: f(),
             d_normal: f(),
             states: Vec::with_capacity(n * states),
+            before: f(),
+            error: f(),
         }
     }
 
@@ -86,6 +93,7 @@ impl Slices {
         self.normal.clear();
         self.trial.clear();
         self.direction.clear();
+        self.weight.clear();
         self.offset.clear();
         self.old.clear();
     }
@@ -116,6 +124,30 @@ impl TwoStep {
     pub(crate) fn new(dt: f64, previous: f64) -> Self {
         let w = dt / previous;
         Self { weight: (1.0 + 2.0 * w) / (1.0 + w), past: w * w / ((1.0 + w) * dt) }
+    }
+}
+
+/// What two-step differences look back on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Past<'a> {
+    pub two_step: TwoStep,
+    /// Slip increments of the last step \[m\].
+    pub slip: &'a [[f64; 2]],
+    /// Points at its end.
+    pub contact: &'a [NormalPoint],
+}
+
+impl Past<'_> {
+    /// Weight and offset of a point whose trial traction points along `direction`. One that was open has no past: it begins with backward
+    /// Euler.
+    fn of(&self, p: usize, direction: &[f64; 2]) -> (f64, f64) {
+        if !self.contact[p].closed {
+            return (1.0, 0.0);
+        }
+        // The previous slip counts as path length: its sign tells whether slip goes on or reverses.
+        let along = dot(&self.slip[p], direction);
+        let length = norm(&self.slip[p]);
+        (self.two_step.weight, if along == 0.0 { 0.0 } else { self.two_step.past * length.copysign(along) })
     }
 }
 
@@ -158,27 +190,21 @@ impl Shear {
     }
 
     /// Implicit response of the law to the tangential increments from the tractions `from` (the committed ones, where none are
-    /// given); writes the trial history, the points of the tangent and the slip increments `step`. `previous` holds the slip
-    /// increments of the last step.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "slices of one call, none of which belong together elsewhere"
-    )]
+    /// given); writes the trial history, the points of the tangent and the slip increments `step`.
     pub(crate) fn respond(
         &mut self,
         from: Option<&[[f64; 2]]>,
         normal: &[NormalPoint],
         increment: &[[f64; 2]],
         dt: f64,
-        two_step: Option<TwoStep>,
-        previous: &[[f64; 2]],
+        past: Option<Past<'_>>,
         step: &mut [[f64; 2]],
     ) -> Result<(), Failure> {
-        self.gather(from, normal, increment, two_step, previous);
+        self.gather(from, normal, increment, past);
         let s = &mut self.slices;
         s.size_answers(self.law.states());
         if !s.index.is_empty() {
-            let lag = two_step.map(|t| Lag { weight: t.weight, offset: &s.offset });
+            let lag = past.map(|_| Lag { weight: &s.weight, offset: &s.offset });
             // The solver's own first guess is nearer than the rate of the step before wherever that changes by more than a
             // few percent.
             let trials =
@@ -203,8 +229,7 @@ impl Shear {
         from: Option<&[[f64; 2]]>,
         normal: &[NormalPoint],
         increment: &[[f64; 2]],
-        two_step: Option<TwoStep>,
-        previous: &[[f64; 2]],
+        past: Option<Past<'_>>,
     ) {
         let k = self.law.states();
         let from = from.unwrap_or(&self.committed.traction);
@@ -224,13 +249,39 @@ impl Shear {
             s.trial.push(size);
             s.direction.push(direction);
             s.old.extend_from_slice(&self.committed.states[p * k..(p + 1) * k]);
-            if let Some(t) = two_step {
-                // The previous slip counts as path length: its sign tells whether slip goes on or reverses.
-                let along = dot(&previous[p], &direction);
-                let length = norm(&previous[p]);
-                s.offset.push(if along == 0.0 { 0.0 } else { t.past * length.copysign(along) });
+            if let Some(past) = past {
+                let (weight, offset) = past.of(p, &direction);
+                s.weight.push(weight);
+                s.offset.push(offset);
             }
         }
+    }
+
+    /// Estimated error of μ over the trial step, the largest of all points \[-\], as it shows in the traction: a point whose spring takes
+    /// up most of the step moves by little, and one that bears less than the mean counts by what it bears.
+    pub(crate) fn error(&mut self, dt: f64) -> f64 {
+        let s = &mut self.slices;
+        s.before.clear();
+        for (&p, direction) in s.index.iter().zip(&s.direction) {
+            // V runs along the traction, and so do rate and slip of the law along the trial direction.
+            let along = dot(&self.committed.traction[p], direction);
+            s.before.push(if along < 0.0 { -self.committed.rate[p] } else { self.committed.rate[p] });
+        }
+        s.error.resize(s.index.len(), 0.0);
+        let taken = Taken {
+            normal: &s.normal,
+            before: &s.before,
+            rate: &s.rate,
+            slip: &s.slip,
+            dt,
+            old: &s.old,
+            new: &s.states,
+        };
+        self.law.error(taken, &mut s.error);
+        let mean = s.normal.iter().sum::<f64>() / s.normal.len() as f64;
+        let shares = s.normal.iter().map(|f| (f / mean).min(1.0));
+        let each = s.error.iter().zip(&s.d_trial).zip(shares);
+        each.map(|((e, d_trial), share)| e * (1.0 - d_trial) * share).fold(0.0, f64::max)
     }
 
     /// Writes each point once, the open ones at rest: on large interfaces a sweep costs what it moves.

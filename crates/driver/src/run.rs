@@ -9,7 +9,7 @@ use crate::run_doubts;
 use crate::step::Accepted;
 use crate::stop;
 use crate::system::Assembled;
-use crate::timing::StepLength;
+use crate::timing::{Figures, StepLength};
 use crate::watch;
 use asperity_contact::{Course, Watch};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -122,13 +122,19 @@ impl<const D: usize> Running<'_, D> {
             }
             let clock = Clock::now();
             let before = system.slip_rates();
+            system.set_bound(length.bound(dt));
             let trial = system.step(dt, &mut self.counts);
             self.phases.steps += clock.elapsed().as_secs_f64();
             match trial {
                 Ok(accepted) => {
                     system.set_time(length.snap(system.time()));
-                    let slip = (system.slip_error(&before, accepted.dt), system.slip_fill());
-                    length.accepted(accepted.dt, dt, slip, accepted.iterations);
+                    let figures = Figures {
+                        slip: system.slip_error(&before, accepted.dt),
+                        friction: accepted.error,
+                        fill: system.slip_fill(),
+                        iterations: accepted.iterations,
+                    };
+                    length.accepted(accepted.dt, dt, figures);
                     self.record(index, stage, system, &accepted, (rejected, length.reason()));
                     self.show(index, stage, system, observer, false)?;
                     (rejected, free) = (0, None);

@@ -91,7 +91,10 @@ impl<'a, const D: usize> Assembled<'a, D> {
             .map(|(planned, built)| (planned.name.clone(), built.points().area.clone()))
             .collect();
         if let Stepping::Implicit { rule } = plan.stepping {
-            interfaces.iter_mut().for_each(|i| i.set_time_rule(time_rule(rule)));
+            for (interface, planned) in interfaces.iter_mut().zip(&plan.interfaces) {
+                let follows = planned.law.as_ref().is_some_and(|l| !l.has_elastic_domain());
+                interface.set_time_rule(if follows { time_rule(rule) } else { TimeRule::BackwardEuler });
+            }
         }
         let bodies = match plan.path {
             Path::Condensed => Bodies::Condensed(Vec::new()),
@@ -254,11 +257,21 @@ impl<'a, const D: usize> Assembled<'a, D> {
         }
     }
 
+    /// Implicit steps that leave a larger error of friction coefficients are not accepted \[-\].
+    pub fn set_bound(&mut self, bound: f64) {
+        if let Some(ActiveStepper::Implicit(stepper)) = &mut self.stepper {
+            stepper.set_bound(bound);
+        }
+    }
+
     /// A failed step in words: degrees of freedom by body and place.
     #[must_use]
     pub fn in_words(&self, failure: &Failure) -> String {
         match failure {
             Failure::Refused(why) | Failure::Violated(why) => why.clone(),
+            Failure::Inaccurate { error } => {
+                format!("friction coefficients are off by some {error:.1e} at the end of the step")
+            }
             Failure::Objected(objection) => objection.to_string(),
             Failure::Unsolved { error, .. } => {
                 let nodes = self.nodes();
@@ -339,13 +352,16 @@ impl<'a, const D: usize> Assembled<'a, D> {
         self.interfaces.iter().flat_map(|i| i.points().slip_rate.iter().copied()).collect()
     }
 
-    /// Estimated error of slip of the last step: backward Euler leaves half the change of V times the step \[m\].
+    /// Estimated error of slip of the last step: what the trapezoidal rule over the rates of both ends would slip differently \[m\]. After
+    /// backward Euler this is half the change of V times the step.
     #[must_use]
     pub fn slip_error(&self, before: &[f64], dt: f64) -> f64 {
-        self.slip_rates()
-            .iter()
+        let increments = self.interfaces.iter().flat_map(|i| i.points().signed_increments());
+        let rates = self.interfaces.iter().flat_map(|i| i.points().slip_rate.iter());
+        rates
             .zip(before)
-            .map(|(now, then)| 0.5 * dt * (now - then).abs())
+            .zip(increments)
+            .map(|((now, then), slip)| (0.5 * dt * (now + then) - slip).abs())
             .fold(0.0, f64::max)
     }
 

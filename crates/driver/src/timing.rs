@@ -24,8 +24,23 @@ const LARGEST: f64 = 0.05;
 const EASY: usize = 8;
 /// Newton iterations beyond which the next step is halved: half of those after which it would fail.
 const HARD: usize = 15;
+/// Error of friction coefficients up to which a step stands, over the bound.
+const STANDS: f64 = 2.0;
 /// A remainder below this share of the step is not worth a step of its own.
 const REMAINDER: f64 = 1e-9;
+
+/// What an accepted step tells of the length of the next.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Figures {
+    /// Estimated error of slip \[m\].
+    pub slip: f64,
+    /// Estimated error of friction coefficients \[-\].
+    pub friction: f64,
+    /// Slip over the largest that the laws allow a step \[-\].
+    pub fill: f64,
+    /// Newton iterations.
+    pub iterations: usize,
+}
 
 /// Chooses step lengths within one stage.
 #[derive(Debug)]
@@ -36,6 +51,8 @@ pub struct StepLength {
     smallest: f64,
     largest: f64,
     tolerance: Option<f64>,
+    /// Bound of the error of friction coefficients, where steps are adapted to it \[-\].
+    friction: Option<f64>,
     /// Ends of imposed steps still to come, last first.
     imposed: Option<Vec<f64>>,
     /// Whether steps are found by Newton's method: solves of a forward step say nothing about its length.
@@ -69,6 +86,7 @@ impl StepLength {
                 .max(SPACING * stage.end),
             largest: if imposed.is_some() { f64::INFINITY } else { largest },
             tolerance: (adaptive && imposed.is_none()).then_some(control.tolerance),
+            friction: (adaptive && imposed.is_none()).then_some(control.friction),
             imposed,
             newton: adaptive,
             failed: false,
@@ -103,14 +121,24 @@ impl StepLength {
         if (time - target).abs() <= 4.0 * f64::EPSILON * target.abs() { target } else { time }
     }
 
-    /// Takes note of an accepted step of length `taken`, where `wanted` was asked for, with its estimated error of slip, its slip over
-    /// the largest its laws allow a step, and the iterations it took. No step is made shorter than the smallest.
-    pub fn accepted(&mut self, taken: f64, wanted: f64, (error, fill): (f64, f64), iterations: usize) {
-        let by_error = match self.tolerance {
-            // The error of a backward-Euler step falls with the square of its length.
+    /// The error of friction coefficients up to which a step of length `dt` stands: twice what is wanted, so that the next one is in time to
+    /// correct. The shortest steps stand whatever it is.
+    #[must_use]
+    pub fn bound(&self, dt: f64) -> f64 {
+        self.friction.filter(|_| 0.5 * dt >= self.smallest).map_or(f64::INFINITY, |wanted| STANDS * wanted)
+    }
+
+    /// Takes note of an accepted step of length `taken`, where `wanted` was asked for, with its figures. No step is made shorter than the
+    /// smallest.
+    pub fn accepted(&mut self, taken: f64, wanted: f64, figures: Figures) {
+        let Figures { slip, friction, fill, iterations } = figures;
+        // The error of slip of a backward-Euler step and that of V of a two-step difference fall with the square of its length.
+        let by = |tolerance: Option<f64>, error: f64| match tolerance {
             Some(tolerance) if error > 0.0 => (SAFETY * (tolerance / error).sqrt()).clamp(SHRINK, GROWTH),
             _ => GROWTH,
         };
+        let (by_travel, by_friction) = (by(self.tolerance, slip), by(self.friction, friction));
+        let by_error = by_travel.min(by_friction);
         let by_slip = if fill > 0.0 { (SAFETY / fill).clamp(SHRINK, GROWTH) } else { GROWTH };
         let iterations = if self.newton { iterations } else { 0 };
         let by_iterations = if std::mem::take(&mut self.failed) {
@@ -130,7 +158,7 @@ impl StepLength {
         } else if basis * factor >= self.largest {
             "largest step"
         } else if by_error < by_iterations.min(by_slip) {
-            "error of slip"
+            if by_friction < by_travel { "error of friction" } else { "error of slip" }
         } else if by_slip < by_iterations {
             "length of weakening"
         } else if factor < GROWTH {

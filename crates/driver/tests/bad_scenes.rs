@@ -188,7 +188,7 @@ fn what_contradicts_itself_is_shown_at_both_places() {
     assert_eq!(places("pressure_on_held_motion.toml"), [(34, 44), (26, 27)]);
     assert_eq!(places("size_and_divisions.toml"), [(9, 78), (9, 59)]);
     assert_eq!(places("min_above_max.toml"), [(37, 12), (38, 12)]);
-    assert_eq!(places("bdf2_with_state.toml"), [(37, 8), (20, 16)]);
+    assert_eq!(places("bdf2_of_slip_weakening.toml"), [(37, 8), (20, 16)]);
     assert_eq!(places("law_states_of_two_lengths.toml"), [(20, 139), (20, 119)]);
     assert_eq!(places("law_memory_without_state.toml"), [(20, 170), (20, 129)]);
     assert_eq!(places("law_kinetic_above_static.toml"), [(20, 53), (20, 41)]);
@@ -234,10 +234,12 @@ fn a_report_marks_both_places() {
 
 #[test]
 fn places_far_apart_are_shown_without_what_lies_between() {
-    let (_, text) =
-        files("tests/bad_scenes").into_iter().find(|(file, _)| file == "bdf2_with_state.toml").unwrap();
+    let (_, text) = files("tests/bad_scenes")
+        .into_iter()
+        .find(|(file, _)| file == "bdf2_of_slip_weakening.toml")
+        .unwrap();
     let report = format!("{:?}", diagnostic::report("x.toml", &text, &errors(&text).unwrap()));
-    for part in ["x.toml:20:16", "the law with state", "x.toml:37:8", "rule = \"bdf2\""] {
+    for part in ["x.toml:20:16", "the law of slip", "x.toml:37:8", "rule = \"bdf2\""] {
         assert!(report.contains(part), "{part} is not in\n{report}");
     }
     assert!(!report.contains("frictionless"), "{report}");

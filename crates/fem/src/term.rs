@@ -76,6 +76,11 @@ pub trait Term {
         None
     }
 
+    /// Estimated error that the step leaves in friction coefficients \[-\]; 0 where none follows rates.
+    fn error(&mut self) -> f64 {
+        0.0
+    }
+
     /// Commits the trial history of the last residual.
     fn accept(&mut self);
 

@@ -37,13 +37,33 @@ pub struct Trials<'a> {
     pub near: Option<&'a [f64]>,
 }
 
-/// Coefficients of a two-step backward difference in slip (BDF2 with variable step).
+/// Coefficients of a two-step backward difference in slip (BDF2 with variable step), `n` values each. States evolve at the mean rate of
+/// the step, Δλ/Δt.
 #[derive(Clone, Copy, Debug)]
 pub struct Lag<'a> {
-    /// Factor of Δλ/Δt \[-\].
-    pub weight: f64,
-    /// What is taken off per point \[m/s\], `n` values.
+    /// Factor of Δλ/Δt \[-\]; 1 with an offset of 0 is backward Euler.
+    pub weight: &'a [f64],
+    /// What is taken off per point \[m/s\].
     pub offset: &'a [f64],
+}
+
+/// What `n` closed points did over a step, for an estimate of its error. Rates and slips count along the traction at the end.
+#[derive(Clone, Copy, Debug)]
+pub struct Taken<'a> {
+    /// f_n at the end \[Pa\].
+    pub normal: &'a [f64],
+    /// V at the start \[m/s\].
+    pub before: &'a [f64],
+    /// V at the end \[m/s\].
+    pub rate: &'a [f64],
+    /// Δλ \[m\].
+    pub slip: &'a [f64],
+    /// Δt \[s\].
+    pub dt: f64,
+    /// States at the start, point-major.
+    pub old: &'a [f64],
+    /// States at the end, point-major.
+    pub new: &'a [f64],
 }
 
 /// Where the answer of a law goes; every slice holds `n` values but `states`, which holds `n * law.states()`.
@@ -206,6 +226,12 @@ pub trait Law: Send + Sync + std::fmt::Debug {
     /// # Errors
     /// [`Failure`] names the point and its inputs; a trial that cannot be answered is the step controller's matter.
     fn respond(&self, trials: Trials<'_>, old: &[f64], out: Responses<'_>) -> Result<(), Failure>;
+
+    /// Estimates by how much the friction coefficient at the end of a step is off, one value a point \[-\]; 0 for laws that do not
+    /// depend on rates.
+    fn error(&self, _taken: Taken<'_>, out: &mut [f64]) {
+        out.fill(0.0);
+    }
 
     /// Linearises the law at the present state for a forward step.
     fn rates(&self, present: Present<'_>, out: Rates<'_>) -> Result<(), Failure>;

@@ -10,6 +10,7 @@ pub mod evolution;
 pub mod fault;
 pub mod law;
 mod line;
+mod pace;
 pub mod point;
 pub mod rate;
 pub mod sheet;

@@ -7,6 +7,7 @@
 use crate::Failure;
 use crate::component::Component;
 use crate::evolution::{Evolution, Evolved, Speed};
+use crate::pace::{Halves, Linear, Pace};
 use crate::strength::Form;
 
 /// ln V of a point at rest: e^z and z e^z vanish, and products of z stay finite.
@@ -111,6 +112,10 @@ pub struct Solver<'a, F, E: Evolution> {
     /// f_ref of the memory of normal traction \[Pa\].
     reference: f64,
     starts: Vec<E::Start>,
+    /// The two-step difference of the step, absent for backward Euler.
+    pace: Option<Pace>,
+    /// Rates at which the states evolve.
+    rates: Vec<Linear>,
     /// State variables, before the jump of a shear memory.
     before: Vec<f64>,
     /// State variables after the last evaluation.
@@ -132,6 +137,8 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
             parts,
             reference,
             starts: Vec::with_capacity(n),
+            pace: None,
+            rates: vec![Linear::SAME; n],
             before: vec![0.0; n],
             after: vec![0.0; n],
             log_normal: 0.0,
@@ -140,7 +147,12 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         }
     }
 
-    /// Strength after a step of length `dt` at constant ln V, from the states `old` as the law keeps them; [`AT_REST`] for none.
+    /// Steps from here on have this two-step difference.
+    pub(crate) fn set_pace(&mut self, pace: Option<Pace>) {
+        self.pace = pace;
+    }
+
+    /// Strength after a step of length `dt` to ln V, from the states `old` as the law keeps them; [`AT_REST`] for none.
     pub(crate) fn after(&mut self, old: &[f64], normal: f64, dt: f64, log_rate: f64) -> Present {
         self.prepare(old, normal, dt);
         // Only the strength is asked for: neither spring nor drive.
@@ -194,6 +206,9 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
             *before = old - part.normal_memory * self.log_normal;
             self.starts.push(part.evolution.start(*before, dt));
         }
+        for (part, rate) in self.parts.iter().zip(&mut self.rates) {
+            *rate = self.pace.map_or(Linear::SAME, |pace| pace.rate(part.evolution.length(), dt));
+        }
     }
 
     /// The states after the last evaluation, at friction coefficient `mu`, as the law keeps them. A memory of normal traction
@@ -211,12 +226,13 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
     /// Evolves one part; with a memory of shear traction the state jumps first.
     fn evolve(&mut self, i: usize, speed: Speed) -> (Evolved, f64) {
         let part = &self.parts[i];
+        let (own, by_own) = self.rates[i].at(speed);
         if part.shear_memory == 0.0 {
-            let evolved = part.evolution.evolve(&self.starts[i], speed);
+            let evolved = by_end(part.evolution.evolve(&self.starts[i], own), by_own);
             return (evolved, evolved.d_state);
         }
         let (before, d_before, share) = self.jump(i, speed.log);
-        let mut evolved = part.evolution.evolve(&part.evolution.start(before, self.dt), speed);
+        let mut evolved = by_end(part.evolution.evolve(&part.evolution.start(before, self.dt), own), by_own);
         evolved.d_log_rate += evolved.d_state * d_before;
         (evolved, evolved.d_state * share)
     }
@@ -243,6 +259,22 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         }
         let slope = 1.0 + c * strength.d_phi * part.evolution.phi_slopes(state).0;
         (state, -c * strength.d_log_rate / slope, 1.0 / slope)
+    }
+
+    /// φ after the prepared step, taken in halves; none with a memory of shear traction, whose states jump as they go.
+    pub(crate) fn in_halves(&self, halves: Halves) -> Option<f64> {
+        let mut phi = 0.0;
+        for (part, &before) in self.parts.iter().zip(&self.before) {
+            if part.shear_memory != 0.0 {
+                return None;
+            }
+            let evolution = &part.evolution;
+            let after = halves.rates(evolution.length(), self.dt).into_iter().fold(before, |state, speed| {
+                evolution.evolve(&evolution.start(state, 0.5 * self.dt), speed).state
+            });
+            phi += evolution.phi(after);
+        }
+        Some(phi)
     }
 
     fn evaluate(&mut self, p: &Point, z: f64, iterations: usize) -> Value {
@@ -356,8 +388,11 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         if self.parts.is_empty() || p.dt == 0.0 {
             return Ok((everywhere, 0));
         }
-        let weakening: f64 =
-            self.parts.iter().zip(&self.before).map(|(part, &s)| part.evolution.weakening(s, top)).sum();
+        let highest = Speed::of_log(top);
+        let bounds = self.parts.iter().zip(&self.before).zip(&self.rates);
+        let weakening: f64 = bounds
+            .map(|((part, &s), rate)| rate.slope * part.evolution.weakening(s, rate.at(highest).0.log))
+            .sum();
         if p.spring > p.normal * weakening * p.dt {
             return Ok((everywhere, 0));
         }
@@ -406,6 +441,16 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         let log_ratio = (p.spring / a).ln();
         omega_log(at_strength + log_ratio).min(top + log_ratio) - log_ratio
     }
+}
+
+/// An evolved state by the logarithm of the rate at the end of the step; the one it evolved at changes by `share` times as much.
+fn by_end(evolved: Evolved, share: f64) -> Evolved {
+    if share == 1.0 {
+        return evolved;
+    }
+    let Evolved { d_log_rate, curvature, .. } = evolved;
+    let curvature = share * (share * curvature + (1.0 - share) * d_log_rate);
+    Evolved { d_log_rate: share * d_log_rate, curvature, ..evolved }
 }
 
 /// ln ω(x) with ω + ln ω = x, to about a percent of an e-fold: asymptotic forms at both ends and one Newton step between.

@@ -1,13 +1,15 @@
 //! Laws whose strength depends on the slip rate: a strength form times an evolution (possibly none).
 
 mod balance;
+mod error;
 mod forward;
 mod rated;
 
 use crate::Failure;
 use crate::component::Component;
 use crate::evolution::{Evolution, stateless::Stateless};
-use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Trials};
+use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Taken, Trials};
+use crate::pace::Pace;
 use crate::point::{AT_REST, Point, Solver};
 use crate::strength::{Form, Parameters, regularised::Regularised};
 
@@ -114,6 +116,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
             return Err(Failure::NonFinite { point: k, normal, trial });
         }
         let drive = Drive::new(k, t);
+        solver.set_pace(drive.pace());
         if normal == 0.0 || drive.size == 0.0 {
             return self.unloaded(k, normal, &drive, t.dt, old, solver);
         }
@@ -222,17 +225,23 @@ struct Drive {
     sign: f64,
     spring: f64,
     offset: f64,
+    weight: f64,
     /// Δt/w \[s\].
     time: f64,
 }
 
 impl Drive {
     fn new(k: usize, t: &Trials<'_>) -> Self {
-        let (weight, offset) = t.lag.map_or((1.0, 0.0), |lag| (lag.weight, lag.offset[k]));
+        let (weight, offset) = t.lag.map_or((1.0, 0.0), |lag| (lag.weight[k], lag.offset[k]));
         let time = t.dt / weight;
         let spring = t.stiffness * time;
         let signed = t.trial[k] - spring * offset;
-        Self { size: signed.abs(), sign: if signed < 0.0 { -1.0 } else { 1.0 }, spring, offset, time }
+        Self { size: signed.abs(), sign: if signed < 0.0 { -1.0 } else { 1.0 }, spring, offset, weight, time }
+    }
+
+    /// The two-step difference along V.
+    fn pace(&self) -> Option<Pace> {
+        Pace::new(self.weight, self.sign * self.offset)
     }
 
     /// Δλ = (V + offset) Δt/w \[m\].
@@ -310,6 +319,10 @@ impl<F: Form, E: Evolution> Law for RateLaw<F, E> {
             solver.keep(old, answer.mu, self.state_mut(out.states, k));
         }
         Ok(())
+    }
+
+    fn error(&self, taken: Taken<'_>, out: &mut [f64]) {
+        self.estimate(&taken, out);
     }
 
     fn rates(&self, present: Present<'_>, out: Rates<'_>) -> Result<(), Failure> {

@@ -54,7 +54,7 @@ pub(crate) fn answer(
 /// Slip rate \[m/s\] of point k that slips by Δλ \[m\] over an implicit step.
 #[inline]
 pub(crate) fn rate_of(t: &Trials<'_>, k: usize, slip: f64) -> f64 {
-    let (weight, offset) = t.lag.map_or((1.0, 0.0), |lag| (lag.weight, lag.offset[k]));
+    let (weight, offset) = t.lag.map_or((1.0, 0.0), |lag| (lag.weight[k], lag.offset[k]));
     weight * slip / t.dt - offset
 }
 

@@ -35,7 +35,7 @@ fn respond(
 ) -> Result<One, Failure> {
     let mut old = vec![0.0; law.states()];
     law.initial(&mut old);
-    let offset = [lag.map_or(0.0, |l| l.1)];
+    let (weight, offset) = ([lag.map_or(1.0, |l| l.0)], [lag.map_or(0.0, |l| l.1)]);
     let mut new = vec![0.0; law.states()];
     let (mut t, mut s, mut v, mut g, mut dt_, mut dn) = ([0.0], [0.0], [0.0], [Regime::Stick], [0.0], [0.0]);
     law.respond(
@@ -44,7 +44,7 @@ fn respond(
             trial: &[trial],
             stiffness,
             dt,
-            lag: lag.map(|l| Lag { weight: l.0, offset: &offset }),
+            lag: lag.map(|_| Lag { weight: &weight, offset: &offset }),
             near: None,
         },
         &old,

@@ -115,7 +115,7 @@ fn respond(
     let mut old = vec![0.0; law.states()];
     law.initial(&mut old);
     let mut new = old.clone();
-    let offset = [lag.map_or(0.0, |l| l.1)];
+    let (weight, offset) = ([lag.map_or(1.0, |l| l.0)], [lag.map_or(0.0, |l| l.1)]);
     let (mut t, mut s, mut v, mut g, mut by_t, mut by_n) =
         ([0.0], [0.0], [0.0], [Regime::Stick], [0.0], [0.0]);
     law.respond(
@@ -124,7 +124,7 @@ fn respond(
             trial: &[trial],
             stiffness: 1e12,
             dt,
-            lag: lag.map(|l| Lag { weight: l.0, offset: &offset }),
+            lag: lag.map(|_| Lag { weight: &weight, offset: &offset }),
             near: None,
         },
         &old,

@@ -53,14 +53,14 @@ fn respond_with(
 ) -> Result<One, Failure> {
     let (mut t, mut s, mut v, mut g) = ([f64::NAN], [f64::NAN], [f64::NAN], [Regime::Stick]);
     let (mut by_trial, mut by_normal, mut new) = ([f64::NAN], [f64::NAN], [f64::NAN]);
-    let offset = [lag.map_or(0.0, |l| l.1)];
+    let (weight, offset) = ([lag.map_or(1.0, |l| l.0)], [lag.map_or(0.0, |l| l.1)]);
     law.respond(
         Trials {
             normal: &[normal],
             trial: &[trial],
             stiffness,
             dt: DT,
-            lag: lag.map(|l| Lag { weight: l.0, offset: &offset }),
+            lag: lag.map(|_| Lag { weight: &weight, offset: &offset }),
             near: None,
         },
         &[old],

@@ -342,6 +342,8 @@ pub struct TimeControl {
     pub path: Path,
     /// Implicit, adaptive: bound on the estimated local error of slip per step \[m\].
     pub tolerance: Option<Spanned<Length>>,
+    /// Implicit, adaptive: bound on the estimated error of friction coefficients per step \[-\].
+    pub friction_tolerance: Option<Spanned<f64>>,
     /// First step \[s\].
     pub first_step: Option<Spanned<Time>>,
     /// Largest step \[s\].
@@ -384,7 +386,7 @@ pub enum Rule {
     /// First order.
     #[default]
     BackwardEuler,
-    /// Second order, laws without state.
+    /// Second order, laws of the slip rate.
     Bdf2,
 }
 

@@ -7,7 +7,7 @@
 //! holds it is open or slips there, is held by weak springs for that iteration ([`super::anchor`]).
 
 use super::anchor::Anchor;
-use super::{Accepted, Balance, Before, Failure, Solved, State, line, unopposed};
+use super::{Accepted, Balance, Before, Failure, Solved, State, accurate, line, unopposed};
 use crate::observe::view::Counts;
 use asperity_fem::FemError;
 use asperity_fem::assembly::{Symmetry, System};
@@ -60,6 +60,8 @@ pub struct Implicit {
     farthest: f64,
     /// Displacement increment of the last accepted step and its length, for the prediction of the next.
     last: Option<(Vec<f64>, f64)>,
+    /// Largest error of friction coefficients a step may leave \[-\].
+    bound: f64,
 }
 
 impl Implicit {
@@ -68,7 +70,21 @@ impl Implicit {
     #[must_use]
     pub fn new(system: System, position: f64, extent: f64, travel: f64) -> Self {
         let (balance, trial) = (Balance::default(), Balance::default());
-        Self { system, balance, trial, position, extent, farthest: FARTHEST * (extent + travel), last: None }
+        Self {
+            system,
+            balance,
+            trial,
+            position,
+            extent,
+            farthest: FARTHEST * (extent + travel),
+            last: None,
+            bound: f64::INFINITY,
+        }
+    }
+
+    /// Steps that leave a larger error of friction coefficients are not accepted \[-\].
+    pub fn set_bound(&mut self, bound: f64) {
+        self.bound = bound;
     }
 
     /// The linear system, for its counts.
@@ -101,8 +117,12 @@ impl Implicit {
         let mut u = self.predict(state, dt);
         constraints.impose(at.time, &mut u);
         let solved = self.augmented(terms, &mut u, at, counts);
-        match solved.and_then(|solved| unopposed(terms).map(|()| solved)) {
-            Ok(Solved { iterations, residual_ratio, augmentations }) => {
+        let stands = solved.and_then(|solved| {
+            unopposed(terms)?;
+            Ok((solved, accurate(terms, self.bound)?))
+        });
+        match stands {
+            Ok((Solved { iterations, residual_ratio, augmentations }, error)) => {
                 for term in terms.iter_mut() {
                     term.accept();
                 }
@@ -110,7 +130,7 @@ impl Implicit {
                 self.last = Some((increment, dt));
                 state.u = u;
                 state.time = at.time;
-                Ok(Accepted { dt, iterations, augmentations, residual_ratio, limited_by: None })
+                Ok(Accepted { dt, iterations, augmentations, residual_ratio, error, limited_by: None })
             }
             Err(why) => {
                 for term in terms.iter_mut() {

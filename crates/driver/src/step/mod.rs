@@ -40,6 +40,11 @@ pub enum Failure {
         /// The degree of freedom.
         dof: usize,
     },
+    /// The equations of the step hold, and friction coefficients are off by more than may stand.
+    Inaccurate {
+        /// Estimated error \[-\].
+        error: f64,
+    },
     /// The equations of the step hold, and a term objects to their solution.
     Objected(Objection),
 }
@@ -52,7 +57,7 @@ impl Failure {
             Self::Unsolved { always, .. } => *always,
             Self::Violated(_) => true,
             Self::Objected(objection) => !objection.shorter,
-            Self::Refused(_) | Self::Adrift { .. } => false,
+            Self::Refused(_) | Self::Inaccurate { .. } | Self::Adrift { .. } => false,
         }
     }
 
@@ -83,6 +88,12 @@ impl From<Refusal> for Failure {
 /// The first objection of a term to the step it has been solved for.
 fn unopposed<T: Term + ?Sized>(terms: &[&mut T]) -> Result<(), Failure> {
     terms.iter().find_map(|t| t.objection()).map_or(Ok(()), |objection| Err(Failure::Objected(objection)))
+}
+
+/// Estimated error that a solved step leaves in friction coefficients, where it is no more than `bound`.
+fn accurate<T: Term + ?Sized>(terms: &mut [&mut T], bound: f64) -> Result<f64, Failure> {
+    let error = terms.iter_mut().map(|t| t.error()).fold(0.0, f64::max);
+    if error > bound { Err(Failure::Inaccurate { error }) } else { Ok(error) }
 }
 
 /// Work of a linear system before a step.
@@ -123,6 +134,8 @@ pub struct Accepted {
     pub augmentations: usize,
     /// Residual over the largest force \[-\].
     pub residual_ratio: f64,
+    /// Estimated error of friction coefficients \[-\].
+    pub error: f64,
     /// What set the length, where the stepper itself did.
     pub limited_by: Option<String>,
 }

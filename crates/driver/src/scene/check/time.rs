@@ -4,8 +4,8 @@ use super::Checker;
 use crate::scene::model::{Rule, Spanned, Stepper};
 use std::ops::Range;
 
-/// Kinds of law with a state, which backward differentiation of order 2 does not carry.
-const WITH_STATE: [&str; 3] = ["static-kinetic", "slip-weakening", "rate-and-state"];
+/// Kinds of law whose strength depends on slip and not on its rate, which backward differentiation of order 2 is not for.
+const OF_SLIP: [&str; 2] = ["static-kinetic", "slip-weakening"];
 
 impl Checker<'_> {
     pub(super) fn time(&mut self) {
@@ -38,7 +38,12 @@ impl Checker<'_> {
             );
         }
         self.order_of_steps();
-        for (name, number) in [("rate_change", &time.rate_change), ("zeta", &time.zeta)] {
+        let numbers = [
+            ("rate_change", &time.rate_change),
+            ("zeta", &time.zeta),
+            ("friction_tolerance", &time.friction_tolerance),
+        ];
+        for (name, number) in numbers {
             if let Some(number) = number.as_ref().filter(|n| !(*n.get_ref() > 0.0 && n.get_ref().is_finite()))
             {
                 self.error(
@@ -80,15 +85,15 @@ impl Checker<'_> {
     fn second_order(&mut self, rule: &Spanned<Rule>) {
         for (name, interface) in &self.scene.interfaces {
             let kind = interface.law.as_ref().and_then(|l| l.get_ref().kind.as_ref());
-            if let Some(kind) = kind.filter(|k| WITH_STATE.contains(&k.get_ref().as_str())) {
+            if let Some(kind) = kind.filter(|k| OF_SLIP.contains(&k.get_ref().as_str())) {
                 self.conflict(
                     &rule.span(),
                     format!(
-                        "`bdf2` is for laws without state, but interface `{name}` has \"{}\"",
+                        "`bdf2` is for laws of the slip rate, but interface `{name}` has \"{}\"",
                         kind.get_ref()
                     ),
                     "use `rule = \"backward-euler\"`, or leave it out",
-                    (&kind.span(), "the law with state"),
+                    (&kind.span(), "the law of slip"),
                 );
             }
         }
@@ -106,6 +111,7 @@ impl Checker<'_> {
             place(time.zeta.as_ref().map(Spanned::span), "zeta", &[StaticExplicit]),
             place(time.rule.as_ref().map(Spanned::span), "rule", &[Implicit]),
             place(time.tolerance.as_ref().map(Spanned::span), "tolerance", &[Implicit]),
+            place(time.friction_tolerance.as_ref().map(Spanned::span), "friction_tolerance", &[Implicit]),
             place(time.first_step.as_ref().map(Spanned::span), "first_step", &[Implicit, StaticExplicit]),
             place(time.max_step.as_ref().map(Spanned::span), "max_step", &[Implicit, StaticExplicit]),
             place(time.min_step.as_ref().map(Spanned::span), "min_step", &[Implicit, StaticExplicit]),

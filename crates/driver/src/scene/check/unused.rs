@@ -116,7 +116,11 @@ impl Checker<'_> {
         if stages.is_empty() || stages.iter().any(|s| s.steps.is_none()) {
             return;
         }
-        let keys = [key("tolerance", time.tolerance.as_ref()), key("first_step", time.first_step.as_ref())];
+        let keys = [
+            key("tolerance", time.tolerance.as_ref()),
+            key("friction_tolerance", time.friction_tolerance.as_ref()),
+            key("first_step", time.first_step.as_ref()),
+        ];
         for (name, place) in keys.into_iter().flatten() {
             let message =
                 format!("`{name}` is about steps that are adapted, and every stage has equal `steps`");
@@ -162,6 +166,7 @@ impl Checker<'_> {
         }
         let keys = [
             key("tolerance", time.tolerance.as_ref()),
+            key("friction_tolerance", time.friction_tolerance.as_ref()),
             key("rule", time.rule.as_ref()),
             key("rate_change", time.rate_change.as_ref()),
             key("zeta", time.zeta.as_ref()),
@@ -187,6 +192,7 @@ impl Checker<'_> {
         let keys = [
             (key("zeta", time.zeta.as_ref()), "characteristic slip", &WITH_LENGTH[..]),
             (key("rate_change", time.rate_change.as_ref()), "slip rate", &WITH_RATE[..]),
+            (key("friction_tolerance", time.friction_tolerance.as_ref()), "slip rate", &WITH_RATE[..]),
         ];
         for (given, what, owners) in keys {
             let Some((name, place)) = given.filter(|_| !kinds.iter().any(|k| owners.contains(k))) else {

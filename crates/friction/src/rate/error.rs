@@ -1,0 +1,39 @@
+//! By how much a step of a rate-dependent law misses its friction coefficient.
+//!
+//! Two things are held over a step that change within it. The slip is a difference whose rate at the end is V: the trapezoidal rule over
+//! the rates of both ends would slip by `Δt (V_0 + V)/2`, and what that differs by from Δλ is of the size of the error of either. The states
+//! evolve at one rate: in two halves, at the rates of a parabola through the same slip, they end elsewhere. Both are stated in μ.
+
+use super::RateLaw;
+use crate::evolution::Evolution;
+use crate::law::Taken;
+use crate::pace::Halves;
+use crate::point::Solver;
+use crate::strength::Form;
+
+impl<F: Form, E: Evolution> RateLaw<F, E> {
+    pub(super) fn estimate(&self, taken: &Taken<'_>, out: &mut [f64]) {
+        let mut solver = self.solver();
+        for (k, out) in out.iter_mut().enumerate() {
+            *out = self.point_error(k, taken, &mut solver);
+        }
+    }
+
+    fn point_error(&self, k: usize, taken: &Taken<'_>, solver: &mut Solver<'_, F, E>) -> f64 {
+        let (normal, dt) = (taken.normal[k], taken.dt);
+        let (before, rate, mean) = (taken.before[k], taken.rate[k], taken.slip[k] / dt);
+        if normal <= 0.0 || rate == 0.0 {
+            return 0.0;
+        }
+        let now = solver.after(self.state(taken.new, k), normal, 0.0, rate.abs().ln());
+        if normal * now.mu >= self.limit {
+            // The traction is the limit, whatever the strength.
+            return 0.0;
+        }
+        let by_rate = now.slope * (0.5 * (before + rate) - mean) / rate;
+        solver.prepare(self.state(taken.old, k), normal, dt);
+        let halves = Halves { mean: mean.abs(), change: rate.abs() - before.abs() };
+        let phi = solver.in_halves(halves).unwrap_or(now.phi);
+        by_rate.abs() + now.d_phi * (now.phi - phi).abs()
+    }
+}
