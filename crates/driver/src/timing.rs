@@ -166,8 +166,8 @@ impl StepLength {
         } else {
             "growth"
         };
-        let needed = basis * by_error;
-        self.needed = (by_error < 1.0 && needed < self.smallest).then_some(needed);
+        let needed = basis * by_travel;
+        self.needed = (by_travel < 1.0 && needed < self.smallest).then_some(needed);
         self.dt = (basis * factor).max(self.smallest).min(self.largest);
     }
 

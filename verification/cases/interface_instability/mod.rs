@@ -113,31 +113,29 @@ fn states(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
     );
     let limit = format!("slip_rate_limit = {LIMIT:e}");
     // Loading takes some 500 s; then 150 L of slip.
-    let at = |ratio: f64, time: &str| attempt(&scene(system.bond(ratio * critical), &law, 2000.0, time)?);
-    let fine = format!("{limit}\nmax_step = \"0.5 s\"");
-    let runs = [(0.85, &limit), (1.15, &limit), (0.92, &fine), (1.08, &fine)];
+    let at = |ratio: f64| attempt(&scene(system.bond(ratio * critical), &law, 2000.0, &limit)?);
     let mut found = Vec::new();
     let mut cost = None;
-    for (ratio, time) in runs {
-        let done = at(ratio, time)?;
+    for ratio in [0.85, 1.15, 0.98, 1.02] {
+        let done = at(ratio)?;
         found.push(told(onset(&done)?));
         cost = Some(done.cost);
     }
     let cost = cost.ok_or("nothing was run")?;
     ledger
-        .claim("ageing law, k/k_c = 0.85 and 1.15, and 0.92 and 1.08 in steps of L/20: stopped (1) or completed (0)")
+        .claim("ageing law, k/k_c = 0.85, 1.15, 0.98 and 1.02: stopped (1) or completed (0)")
         .values(&found)
         .equals_each(&[1.0, 0.0, 1.0, 0.0])
         .absolute(0.1)
         .evidence(Evidence::Exact, "k_c = f_n (b - a)/L: linear stability, and for this law of any perturbation")
-        .because("the outcome is yes or no; steps of backward Euler with slip x L damp like a stiffness of x k_c")
+        .because("the outcome is yes or no; steps of second order that slip by 0.1 L move the limit by some (0.1)^2 of k_c")
         .why_not_tighter("a smaller bound says no more")
         .covers(&[Capability::InterfaceInstability, Capability::AgeingLaw])
         .cost(&cost)
         .record();
     let (mut times, mut reference) = (Vec::new(), Vec::new());
     for ratio in [0.3, 0.6, 0.85] {
-        let done = at(ratio, &limit)?;
+        let done = at(ratio)?;
         times.push(onset(&done)?.ok_or("it did not stop")?);
         reference.push(by_slider(system.normal, ratio * critical)?);
     }
@@ -146,10 +144,10 @@ fn states(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
         .unit("s")
         .values(&times)
         .equals_each(&reference)
-        .relative(5e-3)
+        .relative(1e-4)
         .evidence(Evidence::SemiAnalytic, "one slider on a spring, Radau IIA of order 5 with an event")
         .because(
-            "steps of first order that slip by up to a tenth of L, while the load moves by some hundred L",
+            "errors of friction stay below 1e-4 until it runs away, which the load makes up for within some 0.2 s",
         )
         .covers(&[Capability::InterfaceInstability, Capability::AgeingLaw])
         .cost(&cost)

@@ -84,7 +84,7 @@ fn in_time(ledger: &mut Ledger, space: &str, scene: &str) -> Result<(), CaseErro
             .equals_each(&[0.0; 4])
             .absolute(DEFAULT)
             .evidence(Evidence::SemiAnalytic, SOURCE)
-            .because("the default bounds the error of a step by 2e-6, and what steps leave relaxes over the some fifty that a slip of L takes")
+            .because("the default bounds the error of a step by 2e-6, and what steps leave adds up over those in which traction relaxes, some tens")
             .covers(&[Capability::InterfaceStates])
             .cost(&cost.ok_or("nothing was run")?)
             .record();

@@ -42,7 +42,8 @@ impl Law for Mu {
             let slips = t.trial[i] > strength;
             out.traction[i] = if slips { strength } else { t.trial[i] };
             out.slip[i] = (t.trial[i] - out.traction[i]) / t.stiffness;
-            out.rate[i] = t.lag.map_or(out.slip[i] / t.dt, |l| l.weight * out.slip[i] / t.dt - l.offset[i]);
+            out.rate[i] =
+                t.lag.map_or(out.slip[i] / t.dt, |l| l.weight[i] * out.slip[i] / t.dt - l.offset[i]);
             out.regime[i] = if slips { Regime::Slip } else { Regime::Stick };
             out.d_trial[i] = if slips { 0.0 } else { 1.0 };
             out.d_normal[i] = if slips { self.0 } else { 0.0 };
@@ -135,7 +136,7 @@ impl Law for Viscous {
     }
     fn respond(&self, t: Trials<'_>, _old: &[f64], out: Responses<'_>) -> Result<(), Failure> {
         for i in 0..t.normal.len() {
-            let (weight, offset) = t.lag.map_or((1.0, 0.0), |l| (l.weight, l.offset[i]));
+            let (weight, offset) = t.lag.map_or((1.0, 0.0), |l| (l.weight[i], l.offset[i]));
             let rate = |s: f64| weight * s / t.dt - offset;
             let f = |s: f64| t.trial[i] - t.stiffness * s - t.normal[i] * self.mu(rate(s)).0;
             let (mut lo, mut hi) = (0.0, t.trial[i] / t.stiffness);
