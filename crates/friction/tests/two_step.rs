@@ -76,7 +76,7 @@ fn respond(law: &dyn Law, normal: f64, trial: f64, dt: f64, lag: (f64, f64), old
 }
 
 /// A slider on a spring through a step of the load to three times its rate: traction at some multiples of the longest step, and the
-/// largest error estimated after the first step.
+/// largest error estimated after the first tenth of the time.
 fn march(law: &dyn Law, steps: usize) -> (Vec<f64>, f64) {
     let (load, end) = (3.0 * V_REF, 20.0);
     let dt = end / steps as f64;
@@ -100,7 +100,8 @@ fn march(law: &dyn Law, steps: usize) -> (Vec<f64>, f64) {
             new: &one.states,
         };
         law.error(taken, &mut error);
-        if past.is_some() {
+        // The rate of the load jumps at the start, and that of V with it.
+        if 10 * step > steps {
             largest = largest.max(error[0]);
         }
         (traction, before, past, states) = (one.traction, one.rate, Some(one.slip), one.states);
@@ -191,9 +192,14 @@ fn derivatives_follow_states_at_the_mean_rate() {
                 (one.d_trial, &(|h: f64| at(NORMAL, trial + h).traction) as &dyn Fn(f64) -> f64),
                 (one.d_normal, &|h: f64| at(NORMAL + h, trial).traction),
             ] {
-                let rest = |h: f64| (by(h) - one.traction - derivative * h).abs();
-                let order = (rest(2e4) / rest(1e4)).log2();
-                assert!((order - 2.0).abs() < 0.2, "{} {dt} {trial}: {order}", law.name());
+                // Rounding of tractions over h, some 1e-8; the third derivative adds h^2 a f_n/T^3.
+                let h = 100.0;
+                let found = (by(h) - by(-h)) / (2.0 * h);
+                assert!(
+                    (found - derivative).abs() < 1e-6,
+                    "{} {dt} {trial}: {found} {derivative}",
+                    law.name()
+                );
             }
         }
     }
