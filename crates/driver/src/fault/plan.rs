@@ -407,7 +407,10 @@ fn doubts<const D: usize>(
     surroundings: &Surroundings,
 ) -> Vec<Warning> {
     let mut all = sense::check(scene, (placed, creeping), &surroundings.loading, stage.end);
-    all.extend(plates::check(scene, (model, stage), (placed, creeping), surroundings));
+    if all.is_empty() {
+        // One cause, one warning.
+        all.extend(plates::check(scene, (model, stage), (placed, creeping), surroundings));
+    }
     all.extend(weight::hangs(scene, model, stage));
     all
 }
