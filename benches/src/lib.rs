@@ -141,7 +141,6 @@ fn spec<const D: usize>(
         scale: 1e3,
         rate_floor: f64::MIN_POSITIVE,
         rate_bounds: RateBounds { zeta: 0.1, log_rate: 0.5 },
-        carry: true,
         label_rate: None,
     }
 }

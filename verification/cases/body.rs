@@ -22,7 +22,7 @@ pub type Entry = (usize, f64);
 /// A model without options.
 pub fn model(material: Material, idealisation: Idealisation, kinematics: Kinematics) -> Model {
     let formulation = Formulation::Standard;
-    Model { material, idealisation, kinematics, formulation, limits: Limits::default(), carry: false }
+    Model { material, idealisation, kinematics, formulation, limits: Limits::default() }
 }
 
 /// The same with averaged dilatation.
@@ -155,6 +155,12 @@ pub struct Body<const D: usize> {
     pub work: Work,
     /// Time at the end of the last step \[s\].
     pub time: f64,
+    /// Whether a forward step takes up the force that the one before left unbalanced.
+    pub carry: bool,
+    /// Forces of the block less the loads after the last forward step, where they are carried.
+    left: Vec<f64>,
+    /// Loads of all forward steps.
+    loaded: Vec<f64>,
     pattern: Pattern,
     system: System,
 }
@@ -175,7 +181,8 @@ impl<const D: usize> Body<D> {
         let system = System::new(equations, storage).with_symmetry(symmetry);
         let pattern = block.pattern().clone();
         let work = Work::default();
-        Ok(Self { mesh, block, u: vec![0.0; dofs], work, time: 0.0, pattern, system })
+        let (carry, left, loaded) = (false, vec![0.0; dofs], vec![0.0; dofs]);
+        Ok(Self { mesh, block, u: vec![0.0; dofs], work, time: 0.0, carry, left, loaded, pattern, system })
     }
 
     /// Forces of the block at displacements `u`.
@@ -319,19 +326,23 @@ impl<const D: usize> Body<D> {
             let r = end.fraction;
             let mut du: Vec<f64> = whole.iter().map(|x| r * x).collect();
             let free = self.system.equations().free.clone();
-            let mut rhs: Vec<f64> = free.iter().map(|&d| r * (forces[d] - known[d]) - constant[d]).collect();
+            let mut rhs: Vec<f64> =
+                free.iter().map(|&d| r * (forces[d] - known[d]) - constant[d] - self.left[d]).collect();
             self.system.solve(&mut rhs)?;
             free.iter().zip(&rhs).for_each(|(&d, x)| du[d] = *x);
             let at = Instant { time: self.time + r * dt, dt: r * dt };
-            self.work.residuals += 1;
             match self.block.limit(&du, at).filter(|found| found.value < 1.0 - WHOLE) {
                 Some(found) if pass + 1 < MOST_PASSES => {
                     end = Forward { fraction: r * found.value, limit: Some(found) };
                     constant = self.rate(end.fraction * dt)?.1;
                 }
                 _ => {
-                    self.block.advance(&du, at).map_err(|refusal| refusal.to_string())?;
-                    let u = self.u.iter().zip(&du).map(|(u, d)| u + d).collect();
+                    let u: Vec<f64> = self.u.iter().zip(&du).map(|(u, d)| u + d).collect();
+                    let f = self.forces(&u, r * dt).map_err(|refusal| refusal.to_string())?;
+                    self.loaded.iter_mut().zip(&forces).for_each(|(sum, force)| *sum += r * force);
+                    if self.carry {
+                        self.left = f.iter().zip(&self.loaded).map(|(f, load)| f - load).collect();
+                    }
                     self.accept(u, r * dt);
                     break;
                 }

@@ -39,6 +39,8 @@ mod bodies_convergence;
 mod bodies_patch;
 pub mod body;
 mod cantilever_rotation;
+mod contact_combinations;
+mod contact_combinations_all;
 mod contact_enforcement;
 mod contact_extremes;
 mod contact_hard;
@@ -121,6 +123,8 @@ pub const ALL: &[Case] = &[
     block_dragged::CASE,
     bodies_convergence::CASE,
     bodies_patch::CASE,
+    contact_combinations::CASE,
+    contact_combinations_all::CASE,
     contact_enforcement::CASE,
     contact_extremes::CASE,
     contact_hard::CASE,

@@ -170,11 +170,11 @@ pub fn equal_steps(mut scene: Scene, n: usize) -> Scene {
     scene
 }
 
-/// The static-explicit stepper.
-pub fn static_explicit(mut scene: Scene, carry: bool) -> Scene {
+/// The static-explicit stepper, without correction.
+pub fn static_explicit(mut scene: Scene) -> Scene {
     scene.time.stepper = here(Stepper::StaticExplicit);
     scene.time.tolerance = None;
-    scene.time.carry = Some(here(carry));
+    scene.time.drift = Some(here(1.0));
     scene
 }
 

@@ -1,12 +1,12 @@
-//! Forward (rate-form) steps: the rate tangent at the committed state, the limits r4 to r8, and the advance by the tangent.
+//! Forward (rate-form) steps: the rate tangent at the committed state and the limits r4 to r8.
 //!
 //! At the committed state t^e = t, so with η = t/|t| and the law's answer
 //! `dt = E_t (I - η⊗η) du + η (along E_t η·du + coupling df_n + constant)`, `df_n = -E_n dg_n`.
 
 use crate::interface::Interface;
-use crate::measure::{NormalPoint, ShearPoint};
+use crate::measure::{NormalPoint, ShearPoint, Slides};
 use crate::shear::{Shear, Slices};
-use crate::vector::{add, axpy, dot, norm, scaled, sub};
+use crate::vector::{add, axpy, dot, norm, scaled};
 use asperity_fem::term::{Fraction, Instant, Limited, Refusal};
 use asperity_friction::Failure;
 use asperity_friction::law::{Increments, Limit, LimitKind, Present, RateBounds, Rates, Regime};
@@ -36,7 +36,6 @@ struct Step<'a> {
 struct PresentOptions {
     dt: f64,
     rate_floor: f64,
-    carry: bool,
 }
 
 impl Shear {
@@ -80,7 +79,6 @@ impl Shear {
                 stiffness: self.stiffness,
                 dt: options.dt,
                 rate_floor: options.rate_floor,
-                carry: options.carry,
             };
             let rates = Rates { along: &mut s.d_trial, coupling: &mut s.d_normal, constant: &mut s.traction };
             self.law.rates(present, rates)?;
@@ -210,16 +208,18 @@ impl Shear {
 
     /// Switches points whose increment contradicts their regime: slip backwards sticks, and what sticks at its strength and is
     /// drawn further slips. Returns whether any did.
-    fn switch(&mut self, step: &Step<'_>) -> Result<bool, Failure> {
+    fn switch(&mut self, step: &Step<'_>) -> bool {
         let mut any = false;
-        for (i, at_strength) in self.at_strength(step)?.into_iter().enumerate() {
+        let present = self.slices.present(self.stiffness, step.present);
+        let stands: Vec<bool> = (0..self.slices.index.len()).map(|i| self.law.stands(present, i)).collect();
+        for (i, stands) in stands.into_iter().enumerate() {
             let p = self.slices.index[i];
             let (du, dt) = (&step.increment[p], self.traction_increment(i, step));
             let forth = match self.slices.regime[i] {
                 Regime::Slip => {
                     slip_increment(Regime::Slip, &self.points[p], du, &dt, self.stiffness) >= -BAND * norm(du)
                 }
-                Regime::Stick => at_strength && dot(&self.slices.direction[i], &dt) > 0.0,
+                Regime::Stick => stands && dot(&self.slices.direction[i], &dt) > 0.0,
             };
             let regime = if forth { Regime::Slip } else { Regime::Stick };
             // The last switch is one to slip: a point that sticks at its strength would leave it.
@@ -230,22 +230,7 @@ impl Shear {
                 any = true;
             }
         }
-        Ok(any)
-    }
-
-    /// Whether each entry is at its strength: whether the law lets it slip after an increment of nothing.
-    fn at_strength(&mut self, step: &Step<'_>) -> Result<Vec<bool>, Failure> {
-        let n = self.slices.index.len();
-        let nothing = vec![0.0; n];
-        let increments = Increments { normal: &nothing, traction: &nothing, slip: &nothing };
-        let s = &self.slices;
-        let sticking = vec![Regime::Stick; n];
-        let present = Present { regime: &sticking, ..s.present(self.stiffness, step.present) };
-        let (mut regime, mut rate, mut states) = (sticking.clone(), s.rate.clone(), s.old.clone());
-        if n > 0 {
-            self.law.advance(present, increments, &mut regime, &mut rate, &mut states)?;
-        }
-        Ok(regime.into_iter().map(|r| r == Regime::Slip).collect())
+        any
     }
 }
 
@@ -261,7 +246,6 @@ impl Slices {
             stiffness,
             dt: options.dt,
             rate_floor: options.rate_floor,
-            carry: options.carry,
         }
     }
 }
@@ -289,13 +273,15 @@ fn slip_increment(regime: Regime, point: &ShearPoint, du: &[f64; 2], dt: &[f64; 
 
 impl<const D: usize> Interface<D> {
     fn options(&self, dt: f64) -> PresentOptions {
-        PresentOptions { dt, rate_floor: self.rate_floor, carry: self.carry }
+        PresentOptions { dt, rate_floor: self.rate_floor }
     }
 
-    /// Linearised increments of gap and tangential displacement for the system increment `du`.
-    fn slide(&mut self, du: &[f64]) {
+    /// Linearised increments of gap and tangential displacement from the committed state for the system increment `du`.
+    pub fn slides(&mut self, du: &[f64]) -> &Slides {
+        self.measure.measure(&self.u.committed, &mut self.geometry);
         Self::gather(&self.nodes, du, &mut self.du);
         self.measure.slides(&self.geometry, &self.du, &mut self.slides);
+        &self.slides
     }
 
     /// r4 and r5 over all points, unless they are bonded.
@@ -334,117 +320,6 @@ impl<const D: usize> Interface<D> {
         let name = if limit.kind == LimitKind::StickToSlip { "r6" } else { "r8" };
         (limit.fraction < 1.0 - BAND).then(|| (limit.fraction, name, shear.slices.index[limit.point]))
     }
-
-    /// Drift of forward steps: `max |t - μ(V, φ) f_n| / max |t|` over closed slipping points; 0 without any.
-    ///
-    /// # Errors
-    /// [`Refusal`] when the law has no coefficient at the committed state.
-    pub fn drift(&mut self) -> Result<f64, Refusal> {
-        let Some(shear) = &mut self.shear else { return Ok(0.0) };
-        shear.gather_present(&self.contact.committed);
-        let s = &mut shear.slices;
-        s.traction.resize(s.index.len(), 0.0);
-        if let Err(failure) = shear.law.coefficient(&s.normal, &s.rate, &s.old, &mut s.traction) {
-            return Err(self.law_refusal(failure));
-        }
-        let (mut worst, mut largest) = (0.0f64, 0.0f64);
-        for i in (0..s.index.len()).filter(|&i| s.regime[i] == Regime::Slip) {
-            let off = (s.trial[i] - s.traction[i] * s.normal[i]).abs();
-            // `max` would drop a NaN.
-            if off.is_nan() {
-                return Ok(f64::NAN);
-            }
-            worst = worst.max(off);
-            largest = largest.max(s.trial[i]);
-        }
-        Ok(if largest > 0.0 { worst / largest } else { 0.0 })
-    }
-
-    /// Normal tractions and status after the increment.
-    fn advance_normal(&mut self) {
-        let rest = self.penalty.stiffness * self.penalty.closure;
-        for p in 0..self.slave.len() {
-            let old = self.contact.committed[p];
-            let (gap, dg) = (self.geometry.gap[p], self.slides.gap[p]);
-            let df = -old.stiffness * dg;
-            let traction = old.traction + df;
-            if self.tied.is_some() {
-                self.contact.trial[p] = NormalPoint { traction, ..old };
-                continue;
-            }
-            let closed = if old.closed {
-                df >= 0.0 || traction > rest.max(BAND * old.traction)
-            } else {
-                // `gap` is that at the end of the step, `gap - dg` that at its start.
-                self.geometry.paired[p] && dg < 0.0 && gap <= self.penalty.closure.max(BAND * (gap - dg))
-            };
-            let stiffness = if closed { self.penalty.stiffness } else { 0.0 };
-            let traction = match (closed, old.closed) {
-                (true, true) => traction,
-                (true, false) => self.penalty.stiffness * (-gap).max(0.0),
-                (false, _) => 0.0,
-            };
-            self.contact.trial[p] = NormalPoint { closed, traction, stiffness };
-        }
-    }
-
-    /// Shear tractions, slip, rates and states after the increment.
-    fn advance_shear(&mut self, options: PresentOptions) -> Result<(), Failure> {
-        let Some(shear) = &mut self.shear else {
-            for (p, step) in self.motion.trial.step.iter_mut().enumerate() {
-                *step = if self.contact.committed[p].closed { self.slides.increment[p] } else { [0.0; 2] };
-            }
-            return Ok(());
-        };
-        let normal = &self.contact.committed;
-        shear.linearise(normal, options)?;
-        let step =
-            Step { normal, gap: &self.slides.gap, increment: &self.slides.increment, present: options };
-        let n = shear.slices.index.len();
-        let (mut df, mut dtau, mut slip) =
-            (Vec::with_capacity(n), Vec::with_capacity(n), Vec::with_capacity(n));
-        shear.trial.copy_from(&shear.committed);
-        self.motion.trial.step.fill([0.0; 2]);
-        for i in 0..n {
-            let p = shear.slices.index[i];
-            let dt = shear.traction_increment(i, &step);
-            let t = &shear.committed.traction[p];
-            let regime = shear.slices.regime[i];
-            df.push(-normal[p].stiffness * step.gap[p]);
-            dtau.push(magnitude_increment(t, &dt));
-            slip.push(slip_increment(regime, &shear.points[p], &step.increment[p], &dt, shear.stiffness));
-            if regime == Regime::Slip {
-                self.motion.trial.step[p] = sub(&step.increment[p], &scaled(&dt, shear.stiffness.recip()));
-            }
-            shear.trial.traction[p] = add(t, &dt);
-        }
-        let increments = Increments { normal: &df, traction: &dtau, slip: &slip };
-        advance_law(shear, increments, options)?;
-        for (p, c) in self.contact.trial.iter().enumerate().filter(|(_, c)| !c.closed) {
-            debug_assert!(c.traction == 0.0);
-            shear.trial.traction[p] = [0.0; 2];
-            shear.trial.rate[p] = 0.0;
-            shear.trial.regime[p] = Regime::Stick;
-        }
-        Ok(())
-    }
-}
-
-/// Lets the law advance regime, rate and states of the gathered points and scatters them.
-fn advance_law(shear: &mut Shear, step: Increments<'_>, options: PresentOptions) -> Result<(), Failure> {
-    let k = shear.states();
-    let s = &shear.slices;
-    let present = s.present(shear.stiffness, options);
-    let (mut regime, mut rate, mut states) = (s.regime.clone(), s.rate.clone(), s.old.clone());
-    if !regime.is_empty() {
-        shear.law.advance(present, step, &mut regime, &mut rate, &mut states)?;
-    }
-    for (i, &p) in s.index.iter().enumerate() {
-        shear.trial.regime[p] = regime[i];
-        shear.trial.rate[p] = rate[i];
-        shear.trial.states[p * k..(p + 1) * k].copy_from_slice(&states[i * k..(i + 1) * k]);
-    }
-    Ok(())
 }
 
 impl<const D: usize> Limited for Interface<D> {
@@ -476,19 +351,17 @@ impl<const D: usize> Limited for Interface<D> {
 
     fn switch(&mut self, du: &[f64], at: Instant) -> bool {
         let present = self.options(at.dt);
-        self.measure.measure(&self.u.committed, &mut self.geometry);
-        self.slide(du);
+        self.slides(du);
         let Some(shear) = self.shear.as_mut().filter(|s| s.law.has_elastic_domain()) else { return false };
         self.work.law_calls += 2;
         let normal = &self.contact.committed;
         let step = Step { normal, gap: &self.slides.gap, increment: &self.slides.increment, present };
         // What the law cannot answer here it refuses when the step is taken.
-        shear.linearise(normal, present).and_then(|()| shear.switch(&step)).unwrap_or(false)
+        shear.linearise(normal, present).is_ok_and(|()| shear.switch(&step))
     }
 
     fn limit(&mut self, du: &[f64], at: Instant) -> Option<Fraction> {
-        self.measure.measure(&self.u.committed, &mut self.geometry);
-        self.slide(du);
+        self.slides(du);
         let mut best = self.normal_limit();
         if let Some(found) = self.law_limit(at.dt)
             && best.is_none_or(|b| found.0 < b.0)
@@ -514,25 +387,5 @@ impl<const D: usize> Limited for Interface<D> {
                 limit,
             }
         })
-    }
-
-    fn advance(&mut self, du: &[f64], at: Instant) -> Result<(), Refusal> {
-        self.trial_dt = at.dt;
-        let options = self.options(at.dt);
-        self.measure.measure(&self.u.committed, &mut self.geometry);
-        self.slide(du);
-        for ((new, old), d) in self.u.trial.iter_mut().zip(&self.u.committed).zip(&self.du) {
-            *new = add(old, d);
-        }
-        if self.u.trial.iter().any(|u| !dot(u, u).is_finite()) {
-            return Err(self.refuse("displacement after the step is not finite".to_owned()));
-        }
-        self.measure.measure(&self.u.trial, &mut self.geometry);
-        self.advance_normal();
-        if let Err(failure) = self.advance_shear(options) {
-            return Err(self.law_refusal(failure));
-        }
-        self.accumulate();
-        Ok(())
     }
 }

@@ -75,7 +75,6 @@ pub struct Interface<const D: usize> {
     touch: [f64; 2],
     pub(crate) rate_floor: f64,
     pub(crate) rate_bounds: RateBounds,
-    pub(crate) carry: bool,
     pub(crate) label_rate: Option<f64>,
     rule: TimeRule,
     /// Length of the step committed last under the present law, for two-step differences.
@@ -120,7 +119,6 @@ impl<const D: usize> Interface<D> {
             tied: None,
             rate_floor: spec.rate_floor,
             rate_bounds: spec.rate_bounds,
-            carry: spec.carry,
             label_rate: spec.label_rate,
             rule: TimeRule::default(),
             previous_dt: None,
@@ -258,11 +256,10 @@ impl<const D: usize> Interface<D> {
         self.label_rate = rate;
     }
 
-    /// Forward steps: floor of slip rates \[m/s\], bounds of r8, and whether point residuals are carried.
-    pub fn set_forward(&mut self, rate_floor: f64, bounds: RateBounds, carry: bool) {
+    /// Forward steps: floor of slip rates \[m/s\], and bounds of r8.
+    pub fn set_forward(&mut self, rate_floor: f64, bounds: RateBounds) {
         self.rate_floor = rate_floor;
         self.rate_bounds = bounds;
-        self.carry = carry;
     }
 
     /// Committed fields.

@@ -179,8 +179,6 @@ pub struct InterfaceSpec<const D: usize> {
     pub rate_floor: f64,
     /// Forward steps: bounds of limit r8.
     pub rate_bounds: RateBounds,
-    /// Forward steps: whether the point residual `mu f_n - τ` is carried into the next step.
-    pub carry: bool,
     /// For laws without an elastic domain: the largest prescribed rate \[m/s\]; a point slower than 1e-6 of it is
     /// labelled stick. `None` for yield-surface laws, whose regime is the label.
     pub label_rate: Option<f64>,

@@ -81,8 +81,6 @@ pub struct Watch {
     pub rate: Option<RateLimit>,
     /// How the law loses strength.
     pub course: Course,
-    /// Whether the stepper itself bounds the slip of its steps.
-    pub bounded: bool,
     /// Normal traction beyond which points that slide stand farther apart than the length over which a front of slip loses strength, where that is
     /// refused \[Pa\].
     pub coarse_beyond: Option<f64>,
@@ -103,7 +101,6 @@ impl<const D: usize> Interface<D> {
             slips.filter(|(p, _)| counts(*p)).map(|(_, s)| norm(s) / most).fold(0.0, f64::max)
         };
         match self.watch.course {
-            _ if self.watch.bounded => 0.0,
             Course::Steady | Course::Drop => 0.0,
             Course::State { most } => slip(most, &|_| true),
             Course::Branch { most, length } => slip(most, &|p| shear.committed.states[p] < length),
@@ -172,8 +169,7 @@ impl<const D: usize> Interface<D> {
     /// Why the trial state should not be accepted.
     pub(crate) fn objects(&self) -> Option<Objection> {
         let shear = self.shear.as_ref()?;
-        let early = if self.watch.bounded { self.holds_too_much(shear) } else { self.leaps(shear) };
-        early.or_else(|| self.runs_away(shear)).or_else(|| self.stands_too_coarsely(shear))
+        self.leaps(shear).or_else(|| self.runs_away(shear)).or_else(|| self.stands_too_coarsely(shear))
     }
 
     /// A point slides under more normal traction than the points resolve.
@@ -216,26 +212,6 @@ impl<const D: usize> Interface<D> {
             }
             Course::Drop => self.lets_go_at_once(shear),
         }
-    }
-
-    /// A point sticks beyond its strength: in a forward step it was to slip and would have slipped backwards.
-    fn holds_too_much(&self, shear: &Shear) -> Option<Objection> {
-        if !matches!(self.watch.course, Course::Branch { .. } | Course::Drop) {
-            return None;
-        }
-        let normal: Vec<f64> = self.contact.trial.iter().map(|c| c.traction).collect();
-        let mut mu = vec![0.0; normal.len()];
-        shear.law.coefficient(&normal, &shear.trial.rate, &shear.trial.states, &mut mu).ok()?;
-        let beyond = |p: &usize| {
-            let strength = mu[*p] * normal[*p];
-            shear.trial.regime[*p] == Regime::Stick
-                && strength > 0.0
-                && norm(&shear.trial.traction[*p]) > strength * (1.0 + BEYOND)
-        };
-        let p = (0..normal.len()).find(beyond)?;
-        let reason =
-            "sticks beyond its strength: it would lose more of it by slipping than the bodies unload it";
-        Some(self.objection_at(shear, p, reason, true))
     }
 
     /// More of the surface leaves rest within the step, with a drop of its traction, than the rest of it holds.

@@ -6,7 +6,7 @@ use crate::observe::view::{Counts, Observer, StepRecord, StepView};
 use crate::plan::{AnyPlan, Plan, Stepping};
 use crate::report::{Outcome, Phases, RunReport};
 use crate::run_doubts;
-use crate::step::Accepted;
+use crate::step::{Accepted, Cut};
 use crate::stop;
 use crate::system::Assembled;
 use crate::timing::{Figures, StepLength};
@@ -123,7 +123,7 @@ impl<const D: usize> Running<'_, D> {
             let clock = Clock::now();
             let before = system.slip_rates();
             system.set_bound(length.bound(dt));
-            let trial = system.step(dt, &mut self.counts);
+            let trial = system.step((dt, length.smallest()), &mut self.counts);
             self.phases.steps += clock.elapsed().as_secs_f64();
             match trial {
                 Ok(accepted) => {
@@ -134,15 +134,16 @@ impl<const D: usize> Running<'_, D> {
                         fill: system.slip_fill(),
                         iterations: accepted.iterations,
                     };
-                    length.accepted(accepted.dt, dt, figures);
+                    length.accepted((accepted.dt, accepted.cut), figures);
                     self.record(index, stage, system, &accepted, (rejected, length.reason()));
                     self.show(index, stage, system, observer, false)?;
                     (rejected, free) = (0, None);
                     if let Some(lengths) = length.exhausted().filter(|_| self.follows_rates()) {
-                        let loading = self.plan.stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
-                        let now = largest(&system.slip_rates());
-                        let faster = now > largest(&before) && now > watch::LOADING * loading;
-                        return Ok(Some(stop::exhausted(system, &stage.name, lengths, faster)));
+                        let faster = self.faster(&before, &system.slip_rates());
+                        // Where slip only just begins, shorter forward steps would follow rates that matter to nothing.
+                        if faster || accepted.cut != Cut::Accuracy {
+                            return Ok(Some(stop::exhausted(system, &stage.name, lengths, faster)));
+                        }
                     }
                 }
                 Err(failure) => {
@@ -157,6 +158,12 @@ impl<const D: usize> Running<'_, D> {
                 }
             }
         }
+    }
+
+    /// Whether the largest slip rate has grown beyond what loads drive.
+    fn faster(&self, before: &[f64], now: &[f64]) -> bool {
+        let loading = self.plan.stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
+        largest(now) > largest(before) && largest(now) > watch::LOADING * loading
     }
 
     /// Whether the law of an interface follows rates or weakens.
@@ -190,7 +197,7 @@ impl<const D: usize> Running<'_, D> {
             augmentations: accepted.augmentations,
             rejected,
             residual_ratio: accepted.residual_ratio,
-            drift: system.drift(),
+            drift: accepted.drift,
             penetration: system.largest_penetration(),
             limited_by: accepted.limited_by.clone().unwrap_or_else(|| reason.to_string()),
         });

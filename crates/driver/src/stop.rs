@@ -56,9 +56,13 @@ pub fn exhausted<const D: usize>(
     faster: bool,
 ) -> Outcome {
     let stage = stage.to_string();
-    let reason = format!(
-        "the error of slip needs steps of {needed:.3e} s, below the smallest allowed, {smallest:.3e} s (`min_step`)"
-    );
+    let reason = if needed < smallest {
+        format!(
+            "the error of slip needs steps of {needed:.3e} s, below the smallest allowed, {smallest:.3e} s (`min_step`)"
+        )
+    } else {
+        format!("slip needs steps shorter than the smallest allowed, {smallest:.3e} s (`min_step`)")
+    };
     match fastest(system) {
         Some(at) if faster => unstable(system, stage, at, &reason),
         at => {

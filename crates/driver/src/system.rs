@@ -155,16 +155,16 @@ impl<'a, const D: usize> Assembled<'a, D> {
     }
 
     fn new_stepper(&self) -> Result<ActiveStepper, String> {
-        let system = self.linear_system()?;
+        let newton = Implicit::new(
+            self.linear_system()?,
+            self.position(),
+            self.plan.model.scale,
+            self.plan.stages.iter().map(Stage::travel).sum(),
+        );
         Ok(match self.plan.stepping {
-            Stepping::Implicit { .. } => ActiveStepper::Implicit(Box::new(Implicit::new(
-                system,
-                self.position(),
-                self.plan.model.scale,
-                self.plan.stages.iter().map(Stage::travel).sum(),
-            ))),
-            Stepping::StaticExplicit { .. } => {
-                ActiveStepper::StaticExplicit(Box::new(StaticExplicit::new(system)))
+            Stepping::Implicit { .. } => ActiveStepper::Implicit(Box::new(newton)),
+            Stepping::StaticExplicit { drift, .. } => {
+                ActiveStepper::StaticExplicit(Box::new(StaticExplicit::new(newton, drift)))
             }
         })
     }
@@ -238,11 +238,11 @@ impl<'a, const D: usize> Assembled<'a, D> {
         Constraints { fixed, channels }
     }
 
-    /// Tries a step.
+    /// Tries a step of length `dt`; a forward one may be shorter, for accuracy no shorter than `smallest`.
     ///
     /// # Errors
     /// [`Failure`]; nothing was committed.
-    pub fn step(&mut self, dt: f64, counts: &mut Counts) -> Result<Accepted, Failure> {
+    pub fn step(&mut self, (dt, smallest): (f64, f64), counts: &mut Counts) -> Result<Accepted, Failure> {
         let (state, constraints) = (&mut self.state, &self.constraints);
         match &mut self.stepper {
             None => Err(Failure::Refused("no stage has begun".into())),
@@ -252,7 +252,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
             }
             Some(ActiveStepper::StaticExplicit(stepper)) => {
                 let mut terms = limited(&mut self.bodies, &mut self.interfaces);
-                stepper.step(&mut terms, constraints, state, dt, counts)
+                stepper.step(&mut terms, constraints, state, (dt, smallest), counts)
             }
         }
     }
@@ -375,21 +375,6 @@ impl<'a, const D: usize> Assembled<'a, D> {
     #[must_use]
     pub fn interfaces(&self) -> &[Interface<D>] {
         &self.interfaces
-    }
-
-    /// Largest drift of the friction law over the interfaces.
-    #[must_use]
-    pub fn drift(&mut self) -> f64 {
-        match self.plan.stepping {
-            Stepping::Implicit { .. } => 0.0,
-            Stepping::StaticExplicit { .. } => {
-                // A drift that cannot be evaluated is shown as NaN, not hidden.
-                self.interfaces
-                    .iter_mut()
-                    .map(|i| i.drift().unwrap_or(f64::NAN))
-                    .fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a })
-            }
-        }
     }
 
     /// Largest penetration \[m\].
@@ -602,11 +587,9 @@ pub(crate) fn spec<const D: usize>(
         };
         faces.iter().map(segment).collect()
     };
-    let (carry, rate_bounds) = match *stepping {
-        Stepping::StaticExplicit { carry, rate_change, zeta } => {
-            (carry, RateBounds { zeta, log_rate: rate_change })
-        }
-        Stepping::Implicit { .. } => (false, RateBounds { zeta: f64::INFINITY, log_rate: f64::INFINITY }),
+    let rate_bounds = match *stepping {
+        Stepping::StaticExplicit { rate_change, zeta, .. } => RateBounds { zeta, log_rate: rate_change },
+        Stepping::Implicit { .. } => RateBounds { zeta: f64::INFINITY, log_rate: f64::INFINITY },
     };
     InterfaceSpec {
         name: planned.name.clone(),
@@ -633,7 +616,6 @@ pub(crate) fn spec<const D: usize>(
         scale: model.scale,
         rate_floor: RATE_FLOOR * largest_rate,
         rate_bounds,
-        carry,
         label_rate: planned.law.as_ref().filter(|l| !l.has_elastic_domain()).map(|_| largest_rate),
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::loading::Stage;
 use crate::plan::Control;
+use crate::step::Cut;
 
 /// Share of the optimal length that is tried: the usual safety of step controllers.
 const SAFETY: f64 = 0.9;
@@ -55,8 +56,6 @@ pub struct StepLength {
     friction: Option<f64>,
     /// Ends of imposed steps still to come, last first.
     imposed: Option<Vec<f64>>,
-    /// Whether steps are found by Newton's method: solves of a forward step say nothing about its length.
-    newton: bool,
     /// Whether the last trial failed: the next step does not grow, since it would fail again.
     failed: bool,
     /// Length the error of slip asked for, where it lies below the smallest.
@@ -88,7 +87,6 @@ impl StepLength {
             tolerance: (adaptive && imposed.is_none()).then_some(control.tolerance),
             friction: (adaptive && imposed.is_none()).then_some(control.friction),
             imposed,
-            newton: adaptive,
             failed: false,
             needed: None,
             reason: "first step",
@@ -128,9 +126,9 @@ impl StepLength {
         self.friction.filter(|_| 0.5 * dt >= self.smallest).map_or(f64::INFINITY, |wanted| STANDS * wanted)
     }
 
-    /// Takes note of an accepted step of length `taken`, where `wanted` was asked for, with its figures. No step is made shorter than the
+    /// Takes note of an accepted step: its length, why the stepper cut it where it did, and its figures. No step is made shorter than the
     /// smallest.
-    pub fn accepted(&mut self, taken: f64, wanted: f64, figures: Figures) {
+    pub fn accepted(&mut self, (taken, cut): (f64, Cut), figures: Figures) {
         let Figures { slip, friction, fill, iterations } = figures;
         // The error of slip of a backward-Euler step and that of V of a two-step difference fall with the square of its length.
         let by = |tolerance: Option<f64>, error: f64| match tolerance {
@@ -140,7 +138,6 @@ impl StepLength {
         let (by_travel, by_friction) = (by(self.tolerance, slip), by(self.friction, friction));
         let by_error = by_travel.min(by_friction);
         let by_slip = if fill > 0.0 { (SAFETY / fill).clamp(SHRINK, GROWTH) } else { GROWTH };
-        let iterations = if self.newton { iterations } else { 0 };
         let by_iterations = if std::mem::take(&mut self.failed) {
             1.0
         } else if iterations <= EASY {
@@ -151,8 +148,8 @@ impl StepLength {
             0.5
         };
         let factor = by_error.min(by_iterations).min(by_slip);
-        // A step cut short by the end of an interval says nothing against the length that was wanted.
-        let basis = if taken < wanted { taken } else { self.dt.min(self.largest).max(taken) };
+        // A step cut short by an event or by the end of an interval says nothing against the length that was wanted.
+        let basis = if cut == Cut::Accuracy { taken } else { self.dt.min(self.largest).max(taken) };
         self.reason = if self.imposed.is_some() {
             "imposed"
         } else if basis * factor >= self.largest {
@@ -166,8 +163,10 @@ impl StepLength {
         } else {
             "growth"
         };
-        let needed = basis * by_travel;
-        self.needed = (by_travel < 1.0 && needed < self.smallest).then_some(needed);
+        self.needed = match cut {
+            Cut::Accuracy => (taken <= self.smallest).then_some(taken),
+            _ => Some(basis * by_travel).filter(|needed| by_travel < 1.0 && *needed < self.smallest),
+        };
         self.dt = (basis * factor).max(self.smallest).min(self.largest);
     }
 
@@ -175,6 +174,12 @@ impl StepLength {
     #[must_use]
     pub fn exhausted(&self) -> Option<(f64, f64)> {
         self.needed.map(|needed| (needed, self.smallest))
+    }
+
+    /// Smallest step \[s\].
+    #[must_use]
+    pub fn smallest(&self) -> f64 {
+        self.smallest
     }
 
     /// What set the length of the last step.

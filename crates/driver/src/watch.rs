@@ -1,7 +1,7 @@
 //! What the steps of an interface may not do: derived from its law, the bodies beside it and the loads.
 
 use crate::model::Model;
-use crate::plan::{PlanError, Stepping};
+use crate::plan::PlanError;
 use crate::scene::law::{Evolution, LawChoice, State};
 use crate::scene::model::Scene;
 use asperity_contact::{Course, RateLimit, Watch};
@@ -28,7 +28,6 @@ pub fn of<const D: usize>(
     law: &LawChoice,
     (slave, master): (&[Side], &[Side]),
     loading: f64,
-    stepping: &Stepping,
 ) -> Result<Watch, PlanError> {
     let rate = match (direct_effect(law), &scene.time.slip_rate_limit) {
         (None, _) => None,
@@ -39,8 +38,7 @@ pub fn of<const D: usize>(
             Some(RateLimit::Damped { per_traction: a / damping, least: LOADING * loading })
         }
     };
-    let bounded = matches!(stepping, Stepping::StaticExplicit { .. });
-    Ok(Watch { rate, course: course(law), bounded, coarse_beyond: None })
+    Ok(Watch { rate, course: course(law), coarse_beyond: None })
 }
 
 /// a of a law that depends on the slip rate.

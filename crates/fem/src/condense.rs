@@ -14,7 +14,7 @@ use crate::multifrontal::{Cholesky, DirectError, Symbolic};
 use crate::ordering::Ordering;
 use crate::sparse::{Part, ScatterMap, lower_pattern};
 use crate::table::Table;
-use crate::term::{Fraction, Instant, Limited, Linearized, Pattern, Refusal, Term};
+use crate::term::{Instant, Limited, Linearized, Pattern, Refusal, Term};
 use faer::MatMut;
 pub use loaded::{Loaded, Remainder};
 use std::sync::Arc;
@@ -314,14 +314,6 @@ impl Limited for Condensed {
                 constant[dof] += change * h;
             }
         }
-        Ok(())
-    }
-
-    fn limit(&mut self, _du: &[f64], _at: Instant) -> Option<Fraction> {
-        None
-    }
-
-    fn advance(&mut self, _du: &[f64], _at: Instant) -> Result<(), Refusal> {
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! External forces as a term: patterns times amplitudes.
 
 use crate::table::Table;
-use crate::term::{Fraction, Instant, Limited, Linearized, Pattern, Refusal, Term};
+use crate::term::{Instant, Limited, Linearized, Pattern, Refusal, Term};
 
 /// Nodal forces that vary in time.
 #[derive(Clone, Debug, Default)]
@@ -57,14 +57,6 @@ impl Linearized for ExternalForces {
 impl Limited for ExternalForces {
     fn rate(&mut self, at: Instant, _values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal> {
         self.subtract(|table| table.value(at.time) - table.value(at.time - at.dt), constant);
-        Ok(())
-    }
-
-    fn limit(&mut self, _du: &[f64], _at: Instant) -> Option<Fraction> {
-        None
-    }
-
-    fn advance(&mut self, _du: &[f64], _at: Instant) -> Result<(), Refusal> {
         Ok(())
     }
 }

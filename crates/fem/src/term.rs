@@ -169,6 +169,14 @@ pub struct Fraction {
     pub limit: &'static str,
 }
 
+impl Fraction {
+    /// Whether the limit bounds what a step may err, so that a longer one would not do, and is not an event.
+    #[must_use]
+    pub fn bounds_accuracy(&self) -> bool {
+        matches!(self.limit, "r2" | "r3" | "r8")
+    }
+}
+
 /// Serves forward (rate-form) steps: `K Δu = ΔF`, from the committed state.
 pub trait Limited: Linearized {
     /// Writes the rate tangent in the order of the pattern, and adds the constant part of the force increment over `dt`
@@ -186,13 +194,9 @@ pub trait Limited: Linearized {
     }
 
     /// The largest fraction of the increment `du` over `dt` this term admits, or `None` when it sets no limit.
-    fn limit(&mut self, du: &[f64], at: Instant) -> Option<Fraction>;
-
-    /// Writes the trial history after the increment `du`, by the rate tangent; `accept` commits it.
-    ///
-    /// # Errors
-    /// [`Refusal`] when the state after the increment is not finite or cannot be evaluated.
-    fn advance(&mut self, du: &[f64], at: Instant) -> Result<(), Refusal>;
+    fn limit(&mut self, _du: &[f64], _at: Instant) -> Option<Fraction> {
+        None
+    }
 }
 
 /// Writes and reads committed history.

@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Trials};
-use crate::yielding::{all_finite, answer, cap, first_exit, next_regime, slipped, strength};
+use crate::yielding::{all_finite, answer, at_strength, cap, first_exit, strength};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,9 +98,7 @@ impl Law for Coulomb {
             let (strength, slope) = self.strength(present.normal[k]);
             (out.along[k], out.coupling[k], out.constant[k]) = match present.regime[k] {
                 Regime::Stick => (1.0, 0.0, 0.0),
-                Regime::Slip => {
-                    (0.0, slope, if present.carry { strength - present.traction[k] } else { 0.0 })
-                }
+                Regime::Slip => (0.0, slope, strength - present.traction[k]),
             };
         }
         Ok(())
@@ -110,20 +108,8 @@ impl Law for Coulomb {
         first_exit(&present, &step, |_| self.mu, self.limit)
     }
 
-    fn advance(
-        &self,
-        present: Present<'_>,
-        step: Increments<'_>,
-        regime: &mut [Regime],
-        rate: &mut [f64],
-        _states: &mut [f64],
-    ) -> Result<(), Failure> {
-        for k in 0..present.normal.len() {
-            let (strength, _) = self.strength(present.normal[k] + step.normal[k]);
-            regime[k] = next_regime(&present, &step, k, strength);
-            rate[k] = slipped(&present, &step, k) / present.dt;
-        }
-        Ok(())
+    fn stands(&self, present: Present<'_>, k: usize) -> bool {
+        at_strength(&present, k, self.strength(present.normal[k]).0)
     }
 }
 

@@ -104,8 +104,6 @@ pub struct Present<'a> {
     pub dt: f64,
     /// Slip rates below this one count as rest \[m/s\].
     pub rate_floor: f64,
-    /// Whether the residual `mu(V, φ) f_n - τ` of the point is carried into the step.
-    pub carry: bool,
 }
 
 /// The linearised law over a forward step: `Δτ = along (E_t η·Δu) + coupling Δf_n + constant`.
@@ -115,11 +113,11 @@ pub struct Rates<'a> {
     pub along: &'a mut [f64],
     /// `κ μ'` with μ' = μ + f_n ∂μ/∂f_n; 0 in stick \[-\].
     pub coupling: &'a mut [f64],
-    /// Constant part \[Pa\].
+    /// Constant part \[Pa\]: what the law changes by itself over Δt, and what the traction misses of the strength.
     pub constant: &'a mut [f64],
 }
 
-/// Increments found over a forward step, for limits and for advancing.
+/// Increments found over a forward step.
 #[derive(Clone, Copy, Debug)]
 pub struct Increments<'a> {
     /// Increment of the normal traction \[Pa\].
@@ -239,13 +237,8 @@ pub trait Law: Send + Sync + std::fmt::Debug {
     /// The smallest limit r6 or r8 over the slice for the increments of a whole step, or `None` when nothing binds.
     fn limit(&self, present: Present<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit>;
 
-    /// Advances regime, slip rate and states over an accepted forward step of length `present.dt`.
-    fn advance(
-        &self,
-        present: Present<'_>,
-        step: Increments<'_>,
-        regime: &mut [Regime],
-        rate: &mut [f64],
-        states: &mut [f64],
-    ) -> Result<(), Failure>;
+    /// Whether point `k`, at rest, stands at its strength and would slip at the least push. Asked of laws with an elastic domain only.
+    fn stands(&self, _present: Present<'_>, _k: usize) -> bool {
+        false
+    }
 }

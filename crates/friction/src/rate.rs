@@ -332,15 +332,4 @@ impl<F: Form, E: Evolution> Law for RateLaw<F, E> {
     fn limit(&self, present: Present<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit> {
         self.forward_limit(&present, &step, &bounds)
     }
-
-    fn advance(
-        &self,
-        present: Present<'_>,
-        step: Increments<'_>,
-        regime: &mut [Regime],
-        rate: &mut [f64],
-        states: &mut [f64],
-    ) -> Result<(), Failure> {
-        self.forward_advance(&present, &step, regime, rate, states)
-    }
 }

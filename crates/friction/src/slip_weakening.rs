@@ -14,7 +14,7 @@ use crate::Failure;
 use crate::law::{
     BAND, Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
 };
-use crate::yielding::{all_finite, cap, exit, next_regime, rate_of, slipped, smaller};
+use crate::yielding::{all_finite, at_strength, cap, exit, rate_of, smaller};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -203,8 +203,7 @@ impl Law for SlipWeakening {
                         return Err(Failure::Unstable { point: k, stiffness, weakening });
                     }
                     let kappa = stiffness / left;
-                    let carried = if present.carry { value - traction } else { 0.0 };
-                    (-weakening / left, kappa * slope, kappa * carried)
+                    (-weakening / left, kappa * slope, kappa * (value - traction))
                 }
             };
         }
@@ -212,7 +211,7 @@ impl Law for SlipWeakening {
     }
 
     /// r6 of sticking points, r8 of slipping ones. Where a slipping point passes from the cap to the weakening branch the step
-    /// is not cut: r8 bounds what is left over, and the next step carries it.
+    /// is not cut: r8 bounds what is left over, and the next step takes it up.
     fn limit(&self, present: Present<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit> {
         (0..present.normal.len())
             .map(|k| match present.regime[k] {
@@ -222,27 +221,7 @@ impl Law for SlipWeakening {
             .fold(None, smaller)
     }
 
-    fn advance(
-        &self,
-        present: Present<'_>,
-        step: Increments<'_>,
-        regime: &mut [Regime],
-        rate: &mut [f64],
-        states: &mut [f64],
-    ) -> Result<(), Failure> {
-        for k in 0..present.normal.len() {
-            let (normal, traction, old) = (
-                present.normal[k] + step.normal[k],
-                present.traction[k] + step.traction[k],
-                present.states[k],
-            );
-            all_finite(k, normal, traction, &[step.slip[k], old])?;
-            regime[k] = next_regime(&present, &step, k, self.strength(old, normal).value);
-            // Slip accumulates, and nothing heals.
-            let slip = slipped(&present, &step, k);
-            rate[k] = slip / present.dt;
-            states[k] = old + slip;
-        }
-        Ok(())
+    fn stands(&self, present: Present<'_>, k: usize) -> bool {
+        at_strength(&present, k, self.strength(present.states[k], present.normal[k]).value)
     }
 }

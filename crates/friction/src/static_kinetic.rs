@@ -10,7 +10,7 @@
 
 use crate::Failure;
 use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Trials};
-use crate::yielding::{all_finite, answer, cap, first_exit, next_regime, slipped, strength};
+use crate::yielding::{all_finite, answer, at_strength, cap, first_exit, strength};
 
 /// The state variable of a point that slips.
 const SLIPPING: f64 = 1.0;
@@ -91,8 +91,7 @@ impl Law for StaticKinetic {
         Ok(())
     }
 
-    /// In slip the constant is the residual, where it is carried. A point that has just left rest takes the drop F̄_k - F̄_s
-    /// over the step in any case: that is the law, not an error of the steps before.
+    /// A point that leaves rest takes the drop F̄_k - F̄_s over the step.
     fn rates(&self, present: Present<'_>, out: Rates<'_>) -> Result<(), Failure> {
         for k in 0..present.normal.len() {
             let (normal, traction) = (present.normal[k], present.traction[k]);
@@ -101,14 +100,7 @@ impl Law for StaticKinetic {
                 Regime::Stick => (1.0, 0.0, 0.0),
                 Regime::Slip => {
                     let (strength, slope) = self.strength(self.mu_k, normal);
-                    let constant = if present.carry {
-                        strength - traction
-                    } else if present.rate[k] == 0.0 {
-                        strength - self.strength(self.mu_s, normal).0
-                    } else {
-                        0.0
-                    };
-                    (0.0, slope, constant)
+                    (0.0, slope, strength - traction)
                 }
             };
         }
@@ -119,23 +111,7 @@ impl Law for StaticKinetic {
         first_exit(&present, &step, |k| self.mu(present.states[k]), self.limit)
     }
 
-    fn advance(
-        &self,
-        present: Present<'_>,
-        step: Increments<'_>,
-        regime: &mut [Regime],
-        rate: &mut [f64],
-        states: &mut [f64],
-    ) -> Result<(), Failure> {
-        for k in 0..present.normal.len() {
-            let (normal, traction) =
-                (present.normal[k] + step.normal[k], present.traction[k] + step.traction[k]);
-            all_finite(k, normal, traction, &[step.slip[k], present.states[k]])?;
-            let (strength, _) = self.strength(self.mu(present.states[k]), normal);
-            regime[k] = next_regime(&present, &step, k, strength);
-            rate[k] = slipped(&present, &step, k) / present.dt;
-            states[k] = if regime[k] == Regime::Slip { SLIPPING } else { RESTING };
-        }
-        Ok(())
+    fn stands(&self, present: Present<'_>, k: usize) -> bool {
+        at_strength(&present, k, self.strength(self.mu(present.states[k]), present.normal[k]).0)
     }
 }

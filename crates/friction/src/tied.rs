@@ -62,19 +62,6 @@ impl Law for Tied {
     fn limit(&self, _present: Present<'_>, _step: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
         None
     }
-
-    fn advance(
-        &self,
-        _present: Present<'_>,
-        _step: Increments<'_>,
-        regime: &mut [Regime],
-        rate: &mut [f64],
-        _states: &mut [f64],
-    ) -> Result<(), Failure> {
-        regime.fill(Regime::Stick);
-        rate.fill(0.0);
-        Ok(())
-    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,4 @@
-//! What laws with a yield surface share: the capped cone, the return of a point to it, limit r6, and the regime and slip rate
-//! after a forward step.
+//! What laws with a yield surface share: the capped cone, the return of a point to it, and limit r6.
 
 use crate::Failure;
 use crate::law::{BAND, Increments, Limit, LimitKind, Present, Regime, Responses, Trials};
@@ -93,17 +92,7 @@ pub(crate) fn exit(
     Some(Limit { fraction, point: k, kind: LimitKind::StickToSlip })
 }
 
-/// Regime after an accepted forward step over which the strength ends at `strength` \[Pa\]: a sticking point slips from the
-/// surface on, a slipping one sticks when its slip reverses.
-pub(crate) fn next_regime(present: &Present<'_>, step: &Increments<'_>, k: usize, strength: f64) -> Regime {
-    let slipping = match present.regime[k] {
-        Regime::Stick => (present.traction[k] + step.traction[k]).abs() >= strength * (1.0 - BAND),
-        Regime::Slip => step.slip[k] > 0.0,
-    };
-    if slipping { Regime::Slip } else { Regime::Stick }
-}
-
-/// Slip \[m\] of an accepted forward step. What comes out backwards is the overshoot of a linear step.
-pub(crate) fn slipped(present: &Present<'_>, step: &Increments<'_>, k: usize) -> f64 {
-    if present.regime[k] == Regime::Slip { step.slip[k].max(0.0) } else { 0.0 }
+/// Whether the traction of point k is its strength \[Pa\].
+pub(crate) fn at_strength(present: &Present<'_>, k: usize, strength: f64) -> bool {
+    present.traction[k].abs() >= strength * (1.0 - BAND)
 }

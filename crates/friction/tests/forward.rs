@@ -1,4 +1,4 @@
-//! The rate form: its linearisation, the limits r6 and r8, and the advance.
+//! The rate form: its linearisation, and the limits r6 and r8.
 #![allow(clippy::unwrap_used)]
 
 use asperity_friction::component::Component;
@@ -31,7 +31,6 @@ struct Start {
     traction: f64,
     rate: f64,
     dt: f64,
-    carry: bool,
 }
 
 fn present<'a>(s: &'a Start, regime: &'a [Regime; 1], states: &'a [f64]) -> Present<'a> {
@@ -45,7 +44,6 @@ fn present<'a>(s: &'a Start, regime: &'a [Regime; 1], states: &'a [f64]) -> Pres
         stiffness: STIFFNESS,
         dt: s.dt,
         rate_floor: FLOOR,
-        carry: s.carry,
     }
 }
 
@@ -69,23 +67,8 @@ fn limit(law: &dyn Law, s: &Start, regime: Regime, states: &[f64], step: [f64; 3
     )
 }
 
-fn advance(law: &dyn Law, s: &Start, regime: Regime, states: &mut [f64], step: [f64; 3]) -> (Regime, f64) {
-    let [normal, traction, slip] = step.map(|x| [x]);
-    let (mut new, mut rate) = ([Regime::Stick], [f64::NAN]);
-    let old = states.to_vec();
-    law.advance(
-        present(s, &[regime], &old),
-        Increments { normal: &normal, traction: &traction, slip: &slip },
-        &mut new,
-        &mut rate,
-        states,
-    )
-    .unwrap();
-    (new[0], rate[0])
-}
-
-/// Increment of the traction and the states by the implicit return.
-fn implicit(law: &dyn Law, s: &Start, states: &[f64], slide: f64, df: f64) -> (f64, Vec<f64>) {
+/// Increment of the traction by the implicit return.
+fn implicit(law: &dyn Law, s: &Start, states: &[f64], slide: f64, df: f64) -> f64 {
     let mut new = states.to_vec();
     let (mut t, mut l, mut v, mut g, mut dt, mut dn) = ([0.0], [0.0], [0.0], [Regime::Stick], [0.0], [0.0]);
     law.respond(
@@ -109,11 +92,10 @@ fn implicit(law: &dyn Law, s: &Start, states: &[f64], slide: f64, df: f64) -> (f
         },
     )
     .unwrap();
-    (t[0] - s.traction, new)
+    t[0] - s.traction
 }
 
-/// From a balanced but unsteady state, the strengths of the forward and the implicit step part at second order in Δt, and the
-/// states at that order or faster.
+/// From a balanced but unsteady state, the strengths of the forward and the implicit step part at second order in Δt.
 fn part_at_second_order<F: Form, E: Evolution>(form: F, parts: &[Component<E>], evolution: &E, rate: f64) {
     for offset in [-0.01, 0.008] {
         // Steady under less normal traction than there is.
@@ -126,26 +108,20 @@ fn part_at_second_order<F: Form, E: Evolution>(form: F, parts: &[Component<E>], 
         let mut mu = [0.0];
         law.coefficient(&[NORMAL], &[rate], &states, &mut mu).unwrap();
         let errors = |dt: f64| {
-            let s = Start { normal: NORMAL, traction: NORMAL * mu[0], rate, dt, carry: true };
+            let s = Start { normal: NORMAL, traction: NORMAL * mu[0], rate, dt };
             let [along, coupling, constant] = rates(&law, &s, Regime::Slip, &states);
             let (slide, df) = (rate * dt, 0.2 * NORMAL * rate * dt / LENGTH);
             let forward = along * STIFFNESS * slide + coupling * df + constant;
-            let (back, after) = implicit(&law, &s, &states, slide, df);
-            let mut advanced = states.clone();
-            advance(&law, &s, Regime::Slip, &mut advanced, [df, forward, slide - forward / STIFFNESS]);
-            let apart = advanced.iter().zip(&after).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let back = implicit(&law, &s, &states, slide, df);
             // An error of the strength reaches the traction with the factor κ, itself of the order of Δt.
-            ((forward - back).abs() / (1.0 - along), apart)
+            (forward - back).abs() / (1.0 - along)
         };
         // Small against both L/V and a f_n/(E_t V), the times of state and spring, of which a memory of shear traction
         // shortens the second.
         let dt = 2e-3 * 2e-7 / rate / (1.0 + evolution.shear_memory());
-        let ((coarse, states_coarse), (fine, states_fine)) = (errors(dt), errors(0.5 * dt));
+        let (coarse, fine) = (errors(dt), errors(0.5 * dt));
         let order = (coarse / fine).log2();
         assert!((order - 2.0).abs() < 0.1, "{}, offset {offset}: order {order}", E::NAME);
-        let rounding = 4e-15 * (1.0 + states[0].abs());
-        let order = (states_coarse / states_fine).log2();
-        assert!(states_coarse < rounding || order > 1.9, "{}, offset {offset}: states {order}", E::NAME);
     }
 }
 
@@ -211,16 +187,17 @@ fn the_rate_form_of_the_slip_law_is_its_closed_form() {
     let law = RateLaw::new(Bare(parameters()), evolution, V_REF, None).unwrap();
     let (rate, dt, omega) = (3e-7, 0.01, 0.012);
     let phi = evolution.steady(f64::ln(rate)) + omega;
-    let s = Start { normal: NORMAL, traction: 5e6, rate, dt, carry: false };
+    let mu = 0.6 + phi + 0.01 * (rate / V_REF).ln();
+    let s = Start { normal: NORMAL, traction: mu * NORMAL, rate, dt };
     let [along, coupling, constant] = rates(&law, &s, Regime::Slip, &[phi]);
     let hardening = NORMAL * (0.01 / (rate * dt) - omega / LENGTH);
     let kappa = STIFFNESS / (STIFFNESS + hardening);
-    let mu = 0.6 + phi + 0.01 * (rate / V_REF).ln();
     approx::assert_relative_eq!(along, hardening / (STIFFNESS + hardening), max_relative = 1e-14);
     approx::assert_relative_eq!(coupling, kappa * mu, max_relative = 1e-14);
-    approx::assert_relative_eq!(constant, -kappa * 0.01 * NORMAL, max_relative = 1e-14);
-    let carried = rates(&law, &Start { carry: true, ..s }, Regime::Slip, &[phi]);
-    approx::assert_relative_eq!(carried[2] - constant, kappa * (mu * NORMAL - 5e6), max_relative = 1e-13);
+    approx::assert_relative_eq!(constant, -kappa * 0.01 * NORMAL, max_relative = 1e-12);
+    // What a traction misses of the strength is made up.
+    let off = rates(&law, &Start { traction: 5e6, ..s }, Regime::Slip, &[phi]);
+    approx::assert_relative_eq!(off[2] - constant, kappa * (mu * NORMAL - 5e6), max_relative = 1e-13);
 }
 
 /// The ageing law's constant is -κ f_n (a - b Δt/θ_0), its hardening f_n [a/(V_0 Δt) - b/L].
@@ -228,8 +205,10 @@ fn the_rate_form_of_the_slip_law_is_its_closed_form() {
 fn the_rate_form_of_the_ageing_law_is_its_closed_form() {
     let (b, theta, rate, dt) = (0.015, 7.0, 3e-7, 0.01);
     let law = RateLaw::new(Bare(parameters()), Ageing::new(b, LENGTH, V_REF).unwrap(), V_REF, None).unwrap();
-    let s = Start { normal: NORMAL, traction: 5e6, rate, dt, carry: false };
-    let [along, _, constant] = rates(&law, &s, Regime::Slip, &[f64::ln(V_REF * theta / LENGTH)]);
+    let psi = f64::ln(V_REF * theta / LENGTH);
+    let mu = 0.6 + b * psi + 0.01 * (rate / V_REF).ln();
+    let s = Start { normal: NORMAL, traction: mu * NORMAL, rate, dt };
+    let [along, _, constant] = rates(&law, &s, Regime::Slip, &[psi]);
     let hardening = NORMAL * (0.01 / (rate * dt) - b / LENGTH);
     let kappa = STIFFNESS / (STIFFNESS + hardening);
     approx::assert_relative_eq!(along, hardening / (STIFFNESS + hardening), max_relative = 1e-13);
@@ -240,7 +219,7 @@ fn the_rate_form_of_the_ageing_law_is_its_closed_form() {
 fn a_point_weaker_than_its_spring_is_refused_in_the_rate_form() {
     let evolution = Ageing::new(10.0, 1e-9, V_REF).unwrap();
     let law = RateLaw::new(Regularised(parameters()), evolution, V_REF, None).unwrap();
-    let s = Start { normal: NORMAL, traction: 5e6, rate: 1e-6, dt: 10.0, carry: false };
+    let s = Start { normal: NORMAL, traction: 5e6, rate: 1e-6, dt: 10.0 };
     let (mut a, mut b, mut c) = ([0.0], [0.0], [0.0]);
     let failure = law
         .rates(
@@ -262,22 +241,15 @@ fn floor_mu(law: &dyn Law) -> f64 {
 }
 
 #[test]
-fn a_resting_point_sticks_until_its_strength_at_the_floor_and_then_slips_at_the_floor() {
+fn a_resting_point_sticks_until_its_strength_at_the_floor() {
     let law = velocity();
-    let s = Start { normal: NORMAL, traction: 1e6, rate: 0.0, dt: 0.1, carry: true };
+    let s = Start { normal: NORMAL, traction: 1e6, rate: 0.0, dt: 0.1 };
     assert_eq!(rates(&law, &s, Regime::Stick, &[]), [1.0, 0.0, 0.0]);
     let (df, dtau) = (1e6, 6e6);
     let found = limit(&law, &s, Regime::Stick, &[], [df, dtau, 0.0]).unwrap();
     assert_eq!(found.kind, LimitKind::StickToSlip);
     let r = found.fraction;
     approx::assert_relative_eq!(1e6 + r * dtau, floor_mu(&law) * (NORMAL + r * df), max_relative = 1e-14);
-    // Just before, the point rests; at the event it slips at the floor rate.
-    let before = 0.999 * r;
-    assert_eq!(
-        advance(&law, &s, Regime::Stick, &mut [], [before * df, before * dtau, 0.0]),
-        (Regime::Stick, 0.0)
-    );
-    assert_eq!(advance(&law, &s, Regime::Stick, &mut [], [r * df, r * dtau, 0.0]), (Regime::Slip, FLOOR));
     // A point within the band does not limit the step.
     let near = Start { traction: floor_mu(&law) * NORMAL * (1.0 - 1e-10), ..s };
     assert_eq!(limit(&law, &near, Regime::Stick, &[], [0.0, 1e6, 0.0]), None);
@@ -286,10 +258,9 @@ fn a_resting_point_sticks_until_its_strength_at_the_floor_and_then_slips_at_the_
 #[test]
 fn a_traction_leaves_on_the_other_side_too() {
     let law = velocity();
-    let s = Start { normal: NORMAL, traction: 1e6, rate: 0.0, dt: 0.1, carry: true };
+    let s = Start { normal: NORMAL, traction: 1e6, rate: 0.0, dt: 0.1 };
     let r = limit(&law, &s, Regime::Stick, &[], [0.0, -1e7, 0.0]).unwrap().fraction;
     approx::assert_relative_eq!(1e6 - r * 1e7, -floor_mu(&law) * NORMAL, max_relative = 1e-14);
-    assert_eq!(advance(&law, &s, Regime::Stick, &mut [], [0.0, -r * 1e7, 0.0]), (Regime::Slip, FLOOR));
     // A cone that shrinks to nothing around an unloaded point is an opening.
     let unloaded = Start { traction: 0.0, ..s };
     assert_eq!(limit(&law, &unloaded, Regime::Stick, &[], [-2.0 * NORMAL, 0.0, 0.0]), None);
@@ -302,12 +273,11 @@ fn the_cap_is_a_surface_of_its_own() {
     let laws: [&dyn Law; 2] = [&coulomb, &capped];
     for law in laws {
         // The cone grows past the cap before the traction arrives.
-        let s = Start { normal: NORMAL, traction: 1e6, rate: 0.0, dt: 0.1, carry: true };
+        let s = Start { normal: NORMAL, traction: 1e6, rate: 0.0, dt: 0.1 };
         let found = limit(law, &s, Regime::Stick, &[], [8e6, 4e6, 0.0]).unwrap();
         assert_eq!(found.fraction, 0.5, "{}", law.name());
-        assert_eq!(advance(law, &s, Regime::Stick, &mut [], [4e6, 2e6, 0.0]).0, Regime::Slip);
-        // At the cap the normal traction has no say, and a residual is carried.
-        let s = Start { normal: NORMAL, traction: 2.9e6, rate: 1e-6, dt: 0.1, carry: true };
+        // At the cap the normal traction has no say, and the step ends on it.
+        let s = Start { normal: NORMAL, traction: 2.9e6, rate: 1e-6, dt: 0.1 };
         let [along, coupling, constant] = rates(law, &s, Regime::Slip, &[]);
         assert_eq!((along, coupling), (0.0, 0.0));
         approx::assert_relative_eq!(constant, 1e5, max_relative = 1e-9);
@@ -315,25 +285,24 @@ fn the_cap_is_a_surface_of_its_own() {
 }
 
 #[test]
-fn coulomb_points_switch_at_the_cone_and_return_when_slip_reverses() {
+fn coulomb_points_switch_at_the_cone() {
     let law = Coulomb::new(0.5, None).unwrap();
-    let s = Start { normal: 8e6, traction: 3e6, rate: 0.0, dt: 0.1, carry: true };
+    let s = Start { normal: 8e6, traction: 3e6, rate: 0.0, dt: 0.1 };
     assert_eq!(rates(&law, &s, Regime::Stick, &[]), [1.0, 0.0, 0.0]);
     let found = limit(&law, &s, Regime::Stick, &[], [-2e6, 1e6, 0.0]).unwrap();
     assert_eq!((found.fraction, found.kind), (0.5, LimitKind::StickToSlip));
-    assert_eq!(advance(&law, &s, Regime::Stick, &mut [], [-1e6, 0.5e6, 0.0]), (Regime::Slip, 0.0));
+    let there = Start { normal: 7e6, traction: 3.5e6, ..s };
+    let stands = |s: &Start| law.stands(present(s, &[Regime::Stick], &[]), 0);
+    assert_eq!([stands(&s), stands(&there)], [false, true]);
     let s = Start { traction: 3.9e6, ..s };
     assert_eq!(rates(&law, &s, Regime::Slip, &[]), [0.0, 0.5, 1e5]);
-    assert_eq!(rates(&law, &Start { carry: false, ..s }, Regime::Slip, &[]), [0.0, 0.5, 0.0]);
-    assert_eq!(advance(&law, &s, Regime::Slip, &mut [], [0.0, 0.0, 2e-7]), (Regime::Slip, 2e-7 / 0.1));
-    assert_eq!(advance(&law, &s, Regime::Slip, &mut [], [0.0, -1e5, -1e-9]), (Regime::Stick, 0.0));
 }
 
 #[test]
 fn the_slip_of_a_step_is_bounded_by_the_characteristic_length() {
     let law = RateLaw::new(Regularised(parameters()), Slip::new(0.015, LENGTH, V_REF).unwrap(), V_REF, None)
         .unwrap();
-    let s = Start { normal: NORMAL, traction: 5e6, rate: 1e-6, dt: 4.0, carry: true };
+    let s = Start { normal: NORMAL, traction: 5e6, rate: 1e-6, dt: 4.0 };
     let found = limit(&law, &s, Regime::Slip, &[0.0], [0.0, 0.0, 4e-6]).unwrap();
     assert_eq!(found.kind, LimitKind::SlipLength);
     approx::assert_relative_eq!(found.fraction, BOUNDS.zeta * LENGTH / 4e-6, max_relative = 1e-15);
@@ -344,7 +313,7 @@ fn the_slip_of_a_step_is_bounded_by_the_characteristic_length() {
 #[test]
 fn the_change_of_the_rate_is_bounded_in_both_directions_and_ends_at_the_floor() {
     let law = velocity();
-    let s = Start { normal: NORMAL, traction: 5e6, rate: 1e-9, dt: 0.1, carry: true };
+    let s = Start { normal: NORMAL, traction: 5e6, rate: 1e-9, dt: 0.1 };
     let fraction = |slip: f64| limit(&law, &s, Regime::Slip, &[], [0.0, 0.0, slip]);
     let up = fraction(1e-8 * s.dt).unwrap();
     assert_eq!(up.kind, LimitKind::RateChange);
@@ -358,43 +327,6 @@ fn the_change_of_the_rate_is_bounded_in_both_directions_and_ends_at_the_floor() 
     assert_eq!(limit(&law, &near, Regime::Slip, &[], [0.0, 0.0, -FLOOR * s.dt]), None);
 }
 
-#[test]
-fn a_step_that_comes_out_backwards_ends_in_rest_below_the_strength_and_at_the_floor_on_it() {
-    let law = velocity();
-    let traction = floor_mu(&law) * NORMAL;
-    let s = Start { normal: NORMAL, traction, rate: 1e-17, dt: 0.1, carry: true };
-    assert_eq!(advance(&law, &s, Regime::Slip, &mut [], [0.0, -1e5, -1e-19]), (Regime::Stick, 0.0));
-    assert_eq!(advance(&law, &s, Regime::Slip, &mut [], [0.0, 0.0, -1e-19]), (Regime::Slip, FLOOR));
-}
-
-#[test]
-fn states_advance_by_their_exact_step() {
-    let evolution = Ageing::new(0.015, LENGTH, V_REF).unwrap();
-    let law = RateLaw::new(Regularised(parameters()), evolution, V_REF, None).unwrap();
-    let mut states = [0.0];
-    law.initial(&mut states);
-    let old = states[0];
-    let s = Start { normal: NORMAL, traction: 5e6, rate: 1e-6, dt: 2.0, carry: true };
-    let (_, rate) = advance(&law, &s, Regime::Slip, &mut states, [0.0, 0.0, 4e-6]);
-    assert_eq!(rate, 2e-6);
-    assert_eq!(states[0], evolution.step(old, f64::ln(2e-6), 2.0).state);
-    // At rest θ grows with time: θ = L/V_ref + 2 s.
-    let mut resting = [old];
-    let s = Start { traction: 0.0, rate: 0.0, ..s };
-    advance(&law, &s, Regime::Stick, &mut resting, [0.0, 0.0, 0.0]);
-    approx::assert_relative_eq!(resting[0], (V_REF * 12.0 / LENGTH).ln(), max_relative = 1e-14);
-}
-
-#[test]
-fn a_step_that_is_not_finite_is_refused() {
-    let law = velocity();
-    let s = Start { normal: NORMAL, traction: 5e6, rate: 1e-6, dt: 0.1, carry: true };
-    let (mut regime, mut rate) = ([Regime::Slip], [0.0]);
-    let step = Increments { normal: &[0.0], traction: &[0.0], slip: &[f64::NAN] };
-    let failure = law.advance(present(&s, &[Regime::Slip], &[]), step, &mut regime, &mut rate, &mut []);
-    assert!(matches!(failure, Err(asperity_friction::Failure::NonFinite { point: 0, .. })));
-}
-
 /// With the a-term in the tangent the disturbance that a lagged coefficient lets grow below Δt = 2 a σ/(k V) decays at any
 /// step: a point on its penalty spring, pulled at V, with a rate that starts off by a tenth.
 #[test]
@@ -405,14 +337,13 @@ fn forward_steps_are_stable_for_small_steps() {
         let dt = factor * 0.01 * NORMAL / (STIFFNESS * v);
         let mut mu = [0.0];
         law.coefficient(&[9e6], &[1.1 * v], &[], &mut mu).unwrap();
-        let mut s = Start { normal: NORMAL, traction: NORMAL * mu[0], rate: 1.1 * v, dt, carry: true };
+        let mut s = Start { normal: NORMAL, traction: NORMAL * mu[0], rate: 1.1 * v, dt };
         let mut last = 0.1;
         for _ in 0..400 {
             let [along, _, constant] = rates(&law, &s, Regime::Slip, &[]);
             let change = along * STIFFNESS * v * dt + constant;
             let slip = v * dt - change / STIFFNESS;
-            let (regime, rate) = advance(&law, &s, Regime::Slip, &mut [], [0.0, change, slip]);
-            assert_eq!(regime, Regime::Slip);
+            let rate = slip / dt;
             s = Start { traction: s.traction + change, rate, ..s };
             let deviation = (rate / v - 1.0).abs();
             assert!(
@@ -436,7 +367,7 @@ fn a_memory_of_normal_traction_lowers_the_coupling() {
     // φ is less by α ln(f_n/f_ref) than what is kept.
     let phi = evolution.steady(f64::ln(rate)) + omega;
     let kept = phi + alpha * (NORMAL / 5e6).ln();
-    let s = Start { normal: NORMAL, traction: 5e6, rate, dt, carry: false };
+    let s = Start { normal: NORMAL, traction: 5e6, rate, dt };
     let [along, coupling, _] = rates(&law, &s, Regime::Slip, &[kept]);
     let hardening = NORMAL * (0.01 / (rate * dt) - omega / LENGTH);
     let kappa = STIFFNESS / (STIFFNESS + hardening);
@@ -453,7 +384,7 @@ fn the_rate_form_of_the_nagata_law_is_its_closed_form() {
         RateLaw::new(Bare(parameters()), Nagata::new(b, LENGTH, V_REF, c).unwrap(), V_REF, None).unwrap();
     let psi = f64::ln(V_REF * theta / LENGTH);
     let mu = 0.6 + b * psi + 0.01 * (rate / V_REF).ln();
-    let s = Start { normal: NORMAL, traction: 5e6, rate, dt, carry: false };
+    let s = Start { normal: NORMAL, traction: mu * NORMAL, rate, dt };
     let [along, coupling, constant] = rates(&law, &s, Regime::Slip, &[psi + c / b * mu]);
     let hardening = NORMAL * (0.01 / (rate * dt) - b / LENGTH) / (1.0 + c);
     let kappa = STIFFNESS / (STIFFNESS + hardening);
@@ -461,26 +392,6 @@ fn the_rate_form_of_the_nagata_law_is_its_closed_form() {
     approx::assert_relative_eq!(coupling, kappa * mu, max_relative = 1e-12);
     let expected = -kappa * NORMAL * (0.01 - b * dt / theta) / (1.0 + c);
     approx::assert_relative_eq!(constant, expected, max_relative = 1e-11);
-}
-
-/// What a resting point keeps stays a number, also where the strength has no value at rest.
-#[test]
-fn the_states_of_a_resting_point_stay_numbers() {
-    let nagata = || Nagata::new(0.015, LENGTH, V_REF, 2.0).unwrap();
-    let cut = CutOff::new(parameters(), 1e-4).unwrap();
-    let laws: [Box<dyn Law>; 3] = [
-        Box::new(RateLaw::new(Regularised(parameters()), nagata(), V_REF, None).unwrap()),
-        Box::new(RateLaw::new(Bare(parameters()), nagata(), V_REF, None).unwrap()),
-        Box::new(RateLaw::new(cut, nagata(), V_REF, None).unwrap()),
-    ];
-    for law in laws {
-        let mut states = [0.0];
-        law.initial(&mut states);
-        let s = Start { normal: NORMAL, traction: 0.0, rate: 0.0, dt: 3.0, carry: true };
-        let old = states[0];
-        advance(law.as_ref(), &s, Regime::Stick, &mut states, [0.0, 0.0, 0.0]);
-        assert!(states[0] >= old && states[0] < old + 10.0, "{} after {old}", states[0]);
-    }
 }
 
 /// A resting point under growing normal traction meets a strength that its memory lowers: to first order in Δf_n.
@@ -497,11 +408,10 @@ fn the_start_of_slip_takes_in_the_memory_of_normal_traction() {
     };
     let error = |change: f64| {
         let traction = strength(NORMAL) - 0.5 * change.abs();
-        let s = Start { normal: NORMAL, traction, rate: 0.0, dt: 0.1, carry: true };
+        let s = Start { normal: NORMAL, traction, rate: 0.0, dt: 0.1 };
         let found = limit(&law, &s, Regime::Stick, &states, [change, 2.0 * change.abs(), 0.0]).unwrap();
         let r = found.fraction;
         let step = [r * change, 2.0 * r * change.abs(), 0.0];
-        assert_eq!(advance(&law, &s, Regime::Stick, &mut states.clone(), step).0, Regime::Slip);
         (traction + step[1] - strength(NORMAL + step[0])).abs()
     };
     for sign in [1.0, -1.0] {

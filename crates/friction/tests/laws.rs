@@ -316,7 +316,6 @@ fn the_rate_form_is_the_linear_part_of_the_point_return_at_steady_slip() {
             stiffness,
             dt,
             rate_floor: 1e-18,
-            carry: true,
         },
         Rates { along: &mut along, coupling: &mut coupling, constant: &mut constant },
     )

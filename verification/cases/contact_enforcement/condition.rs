@@ -74,7 +74,6 @@ fn spec(plan: &Plan<2>, planned: &PlannedInterface, unknowns: usize) -> Interfac
         scale: plan.model.scale,
         rate_floor: 0.0,
         rate_bounds: RateBounds { zeta: f64::INFINITY, log_rate: f64::INFINITY },
-        carry: false,
         label_rate: None,
     }
 }

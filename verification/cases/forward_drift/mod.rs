@@ -49,11 +49,13 @@ fn square(kinematics: Kinematics, limits: Limits, carry: bool) -> Result<(Body<2
     let mesh = body::grid::<2>(ElementKind::Quad4, [0.0; 2], [1.0; 2], [3; 2])?;
     let mesh = body::distorted(mesh, [1.0; 2], 1.0 / 3.0, 0.2);
     let material = body::j2(YOUNG, POISSON, Hardening::swift(YIELD, 0.01, 0.4)?)?;
-    let options = Model { carry, limits, ..body::model(material, Idealisation::PlaneStrain, kinematics) };
+    let options = Model { limits, ..body::model(material, Idealisation::PlaneStrain, kinematics) };
     let mut held = body::moved(&mesh, &body::side(&mesh, "bottom")?, |_| [0.0; 2]);
     held.extend(body::moved(&mesh, &body::side(&mesh, "top")?, |_| [END, 0.2 * END]));
     let fixed = body::dofs(&held);
-    Ok((Body::new(mesh, options, &fixed)?, held))
+    let mut body = Body::new(mesh, options, &fixed)?;
+    body.carry = carry;
+    Ok((body, held))
 }
 
 /// What a run of forward steps showed.

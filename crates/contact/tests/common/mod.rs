@@ -55,7 +55,7 @@ impl Law for Mu {
             let slips = p.regime[i] == Regime::Slip;
             out.along[i] = if slips { 0.0 } else { 1.0 };
             out.coupling[i] = if slips { self.0 } else { 0.0 };
-            out.constant[i] = if slips && p.carry { self.0 * p.normal[i] - p.traction[i] } else { 0.0 };
+            out.constant[i] = if slips { self.0 * p.normal[i] - p.traction[i] } else { 0.0 };
         }
         Ok(())
     }
@@ -81,21 +81,8 @@ impl Law for Mu {
         }
         best
     }
-    fn advance(
-        &self,
-        p: Present<'_>,
-        s: Increments<'_>,
-        regime: &mut [Regime],
-        rate: &mut [f64],
-        _states: &mut [f64],
-    ) -> Result<(), Failure> {
-        for i in 0..p.normal.len() {
-            let strength = self.0 * (p.normal[i] + s.normal[i]);
-            let on_surface = (p.traction[i] + s.traction[i]).abs() >= strength * (1.0 - 1e-9);
-            regime[i] = if on_surface && s.slip[i] >= 0.0 { Regime::Slip } else { Regime::Stick };
-            rate[i] = s.slip[i].max(0.0) / p.dt;
-        }
-        Ok(())
+    fn stands(&self, p: Present<'_>, k: usize) -> bool {
+        p.traction[k].abs() >= self.0 * p.normal[k] * (1.0 - 1e-9)
     }
 }
 
@@ -170,20 +157,6 @@ impl Law for Viscous {
     }
     fn limit(&self, _p: Present<'_>, _s: Increments<'_>, _bounds: RateBounds) -> Option<Limit> {
         None
-    }
-    fn advance(
-        &self,
-        p: Present<'_>,
-        s: Increments<'_>,
-        regime: &mut [Regime],
-        rate: &mut [f64],
-        _states: &mut [f64],
-    ) -> Result<(), Failure> {
-        for i in 0..p.normal.len() {
-            regime[i] = Regime::Slip;
-            rate[i] = s.slip[i] / p.dt;
-        }
-        Ok(())
     }
 }
 
@@ -266,7 +239,6 @@ pub fn spec<const D: usize>(
         scale: 1.0,
         rate_floor: 1e-12,
         rate_bounds: RateBounds { zeta: 0.1, log_rate: 0.5 },
-        carry: false,
         label_rate: None,
     }
 }

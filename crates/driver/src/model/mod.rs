@@ -1,9 +1,11 @@
 //! The discrete model of a scene: one mesh of all bodies, and what each block of its cells is.
 
+mod cell_size;
 pub mod materials;
 pub mod meshes;
 pub mod sizes;
 
+use self::cell_size::cell_size;
 use crate::forecast::{self, Counts};
 use crate::plan::PlanError;
 use crate::scene::model as scene;
@@ -154,14 +156,7 @@ impl<const D: usize> Model<D> {
             for block in blocks.clone() {
                 let (_, material) = model.material(scene, (name, body), block)?;
                 elastic.push(materials::elastic(material)?);
-                model.blocks.push(cell_block(
-                    &model.mesh,
-                    block,
-                    scene,
-                    (name, body),
-                    material,
-                    idealisation,
-                )?);
+                model.blocks.push(cell_block(&model.mesh, block, (name, body), material, idealisation)?);
             }
             let parts = connected(&model.mesh, nodes.clone(), blocks.clone());
             let linear = model.blocks[blocks.clone()].iter().all(|b| b.linear().is_some());
@@ -383,7 +378,6 @@ fn counts<const D: usize>(mesh: &Mesh<D>) -> Vec<Counts> {
 fn cell_block<const D: usize>(
     mesh: &Mesh<D>,
     block: usize,
-    scene: &scene::Scene,
     (name, body): (&str, &scene::Body),
     material: &scene::Material,
     idealisation: Idealisation,
@@ -399,17 +393,12 @@ fn cell_block<const D: usize>(
             .map(|b| CellBlock::Linear(Box::new(b)))
             .map_err(|e| PlanError::body(name, place, e.to_string()));
     }
-    // A carried force changes stresses in steps of any length, so that a point close to its yield surface would cross it in all of
-    // them and the step vanish: bodies carry only when the scene says so.
-    let carry = *scene.time.stepper.get_ref() == scene::Stepper::StaticExplicit
-        && scene.time.carry.as_ref().is_some_and(|c| *c.get_ref());
     let model = nonlinear::Model {
         material: materials::behaviour(material)?,
         idealisation,
         kinematics: if body.is_finite() { Kinematics::UpdatedLagrangian } else { Kinematics::Small },
         formulation,
         limits: Limits::default(),
-        carry,
     };
     let mut term = nonlinear::Block::new(mesh, block, model)
         .map_err(|e| PlanError::body(name, place, e.to_string()))?
@@ -459,13 +448,6 @@ fn connected<const D: usize>(mesh: &Mesh<D>, nodes: Range<usize>, blocks: Range<
         parts.entry(root(&mut parent, n)).or_default().push(first + n);
     }
     parts.into_values().collect()
-}
-
-/// Largest extent of a cell along an axis \[m\].
-fn cell_size<const D: usize>(mesh: &Mesh<D>, block: usize, cell: usize) -> f64 {
-    let points: Vec<[f64; D]> = mesh.blocks[block].cell(cell).iter().map(|&n| mesh.nodes[n]).collect();
-    let (min, max) = bounds(&points);
-    (0..D).map(|c| max[c] - min[c]).fold(0.0, f64::max)
 }
 
 /// Corners of the bounding box.

@@ -356,8 +356,8 @@ pub struct TimeControl {
     pub method: Option<Spanned<String>>,
     /// Fault-ode: error of ln V allowed in a step \[-\].
     pub log_rate_tolerance: Option<Spanned<f64>>,
-    /// Static-explicit: carry the residual into the next step (default true).
-    pub carry: Option<Spanned<bool>>,
+    /// Static-explicit: residual over the largest force that a step may leave \[-\] (default 1e-4).
+    pub drift: Option<Spanned<f64>>,
     /// Static-explicit, r8: bound on |Δ ln max(V, V_floor)| per step (default 0.5).
     pub rate_change: Option<Spanned<f64>>,
     /// Static-explicit, r8: ζ, slip increment per characteristic slip L (default 0.1).

@@ -93,6 +93,16 @@ impl Implicit {
         &self.system
     }
 
+    /// The linear system, for what else is solved with it.
+    pub(super) fn system_mut(&mut self) -> &mut System {
+        &mut self.system
+    }
+
+    /// Residual of the state evaluated last \[N\].
+    pub(super) fn residual(&self) -> &Vec<f64> {
+        &self.balance.r
+    }
+
     /// Goes on with another stage: what is known of its tangents, and whether the rate of the last step holds there.
     pub fn begin_stage(&mut self, symmetry: Symmetry, goes_on: bool) {
         self.system.set_symmetry(symmetry);
@@ -130,7 +140,7 @@ impl Implicit {
                 self.last = Some((increment, dt));
                 state.u = u;
                 state.time = at.time;
-                Ok(Accepted { dt, iterations, augmentations, residual_ratio, error, limited_by: None })
+                Ok(Accepted { dt, iterations, augmentations, residual_ratio, error, ..Accepted::default() })
             }
             Err(why) => {
                 for term in terms.iter_mut() {
@@ -150,6 +160,25 @@ impl Implicit {
                 state.u.iter().zip(increment).map(|(u, du)| u + du * (dt / last)).collect()
             }
         }
+    }
+
+    /// Removes the residual at `u` where it exceeds `drift` times the largest force.
+    pub(super) fn correct(
+        &mut self,
+        terms: &mut [&mut dyn Linearized],
+        u: &mut Vec<f64>,
+        at: Instant,
+        drift: f64,
+        counts: &mut Counts,
+    ) -> Result<Corrected, Failure> {
+        prepare(terms, u)?;
+        self.evaluate(terms, u, at, counts)?;
+        let left = self.norm()? / self.scale();
+        if left <= drift {
+            return Ok(Corrected { iterations: 0, drift: left, residual_ratio: left });
+        }
+        let (iterations, residual_ratio) = self.iterate(terms, u, at, counts)?;
+        Ok(Corrected { iterations, drift: left, residual_ratio })
     }
 
     /// Iterates until forces are in balance and the pairing is that of the positions.
@@ -465,6 +494,15 @@ impl Implicit {
             Err(_) => Trial { norm: f64::NAN, slope: f64::NAN },
         }
     }
+}
+
+/// A state whose residual was removed where it was large.
+pub(super) struct Corrected {
+    pub iterations: usize,
+    /// Residual over the largest force before \[-\].
+    pub drift: f64,
+    /// And after \[-\].
+    pub residual_ratio: f64,
 }
 
 /// A direction.

@@ -128,16 +128,34 @@ struct Solved {
 pub struct Accepted {
     /// Length actually taken \[s\].
     pub dt: f64,
-    /// Newton iterations, or forward solves.
+    /// Newton iterations.
     pub iterations: usize,
     /// Augmentations of multipliers.
     pub augmentations: usize,
+    /// Forward solves.
+    pub solves: usize,
     /// Residual over the largest force \[-\].
     pub residual_ratio: f64,
     /// Estimated error of friction coefficients \[-\].
     pub error: f64,
+    /// The same as a forward step left it, before it was corrected \[-\].
+    pub drift: f64,
     /// What set the length, where the stepper itself did.
     pub limited_by: Option<String>,
+    /// Why the stepper shortened the step.
+    pub cut: Cut,
+}
+
+/// Why a stepper took a shorter step than it was asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Cut {
+    /// It did not.
+    #[default]
+    Nothing,
+    /// Up to an event: the next step may be as long as was wanted.
+    Event,
+    /// Longer steps would not be accurate.
+    Accuracy,
 }
 
 /// Sums residuals of terms, keeping the largest force any of them exerts.

@@ -1,49 +1,61 @@
-//! The source's static-explicit stepper: one forward solve a step with the rate tangent, its length limited by the
-//! R-minimum rule.
+//! The source's static-explicit stepper, with its equilibrium corrected: a forward solve with the rate tangent foresees the step, the
+//! R-minimum rule limits its length, and the terms answer what was foreseen by their own laws.
 //!
 //! With the a-term of the friction law, or a carried residual, the increment is affine in the step and not proportional to
 //! it, so that scaling it would not be exact: the step is solved again at `R dt` until no limit binds.
+//!
+//! After the step gaps, friction laws and yield surfaces hold at every point. What the linearisation missed is the balance of
+//! forces: the drift. A small one is carried into the next step, a larger one is removed by Newton's method before the step stands.
 
-use super::{Accepted, Before, Failure, State, unopposed};
+use super::implicit::Implicit;
+use super::{Accepted, Before, Cut, Failure, State, unopposed};
 use crate::observe::view::Counts;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
-use asperity_fem::term::{Fraction, Instant, Limited, Pattern};
+use asperity_fem::term::{Fraction, Instant, Limited, Linearized, Pattern};
 
 /// A fraction this close to 1 does not bind: events within 1e-9 of the step's end switch with it.
 const WHOLE: f64 = 1.0 - 1e-9;
-/// Solves within one step. The fraction settles in two or three, and points that switch between stick and slip settle in as many; a
-/// step that needs more is a failure to report.
-const MOST_SOLVES: usize = 40;
+/// Solves within one step. The fraction settles in two or three, and points that switch between stick and slip settle in as many; what
+/// has not settled by then is left to the correction.
+const MOST_SOLVES: usize = 12;
 /// Limits on the change of the slip rate and the slip increment are bounds on accuracy, not events: a step that keeps them
 /// to this share of the bound is taken as it is.
 const SOFT: f64 = 0.9;
+/// Share of the wanted length below which events do not shorten a step. Where they crowd, as in a rolling contact or a body that yields
+/// point by point, a step passes several of them, and the correction finds the state after all of them.
+const LEAST: f64 = 0.05;
 
 /// Working memory of the stepper.
 #[derive(Debug)]
 pub struct StaticExplicit {
-    system: System,
+    /// Owner of the linear system, and the corrector.
+    newton: Implicit,
+    /// Residual over the largest force beyond which it is removed at once \[-\].
+    drift: f64,
+    /// Residual left by the step before; empty before the first.
+    left: Vec<f64>,
 }
 
 impl StaticExplicit {
-    /// A stepper for `system`.
+    /// A stepper that foresees with the system of `newton`, and corrects with it what is beyond `drift` of the largest force.
     #[must_use]
-    pub fn new(system: System) -> Self {
-        Self { system }
+    pub fn new(newton: Implicit, drift: f64) -> Self {
+        Self { newton, drift, left: Vec::new() }
     }
 
     /// The linear system, for its counts.
     #[must_use]
     pub fn system(&self) -> &System {
-        &self.system
+        self.newton.system()
     }
 
     /// Goes on with another stage.
     pub fn begin_stage(&mut self, symmetry: Symmetry) {
-        self.system.set_symmetry(symmetry);
+        self.newton.begin_stage(symmetry, false);
     }
 
-    /// Takes a step of at most `dt`.
+    /// Takes a step of at most `dt.0`; where accuracy asks for less than `dt.1`, one of that length.
     ///
     /// # Errors
     /// [`Failure`]; the terms have dropped what they tried.
@@ -52,62 +64,91 @@ impl StaticExplicit {
         terms: &mut [&mut dyn Limited],
         constraints: &Constraints,
         state: &mut State,
-        dt: f64,
+        dt: (f64, f64),
         counts: &mut Counts,
     ) -> Result<Accepted, Failure> {
-        let result = self.limited(terms, constraints, state, dt, counts);
-        if result.is_err() {
-            for term in terms.iter_mut() {
-                term.reject();
-            }
+        let result = self
+            .foresee(terms, constraints, state, dt, counts)
+            .and_then(|foreseen| self.correct(terms, constraints, state, foreseen, counts));
+        for term in terms.iter_mut() {
+            if result.is_ok() { term.accept() } else { term.reject() }
         }
         result
     }
 
-    fn limited(
+    /// The increment of a step of at most `wanted` by the rate tangent, and the length that the R-minimum rule leaves it, accuracy no less
+    /// than `smallest`.
+    fn foresee(
         &mut self,
         terms: &mut [&mut dyn Limited],
         constraints: &Constraints,
-        state: &mut State,
-        mut dt: f64,
+        state: &State,
+        (wanted, smallest_step): (f64, f64),
         counts: &mut Counts,
-    ) -> Result<Accepted, Failure> {
+    ) -> Result<Foreseen, Failure> {
         for term in terms.iter_mut() {
             term.prepare(&state.u)?;
         }
-        let mut cause: Option<Fraction> = None;
-        for solve in 1..=MOST_SOLVES {
+        let mut dt = wanted;
+        let (mut cause, mut cut) = (None, Cut::Nothing);
+        for solves in 1.. {
             let at = Instant { time: state.time + dt, dt };
             let du = self.solve(terms, constraints, state, at, counts)?;
+            let settled = solves >= MOST_SOLVES;
             let mut switched = false;
             for term in terms.iter_mut() {
                 switched |= term.switch(&du, at);
             }
-            if switched {
+            if switched && !settled {
                 continue;
             }
-            let limit = smallest(terms, &du, at);
-            match limit {
-                Some(limit) if limit.value < WHOLE => {
-                    let soft = limit.limit == "r8";
-                    dt *= if soft { SOFT * limit.value } else { limit.value };
-                    if dt <= 0.0 || !dt.is_finite() {
-                        return Err(format!("the step vanishes: {}", limit.cause).into());
-                    }
-                    cause = Some(limit);
-                }
-                _ => {
-                    commit(terms, state, &du, at)?;
-                    let limited_by = cause.map(|c| c.cause);
-                    return Ok(Accepted { dt, iterations: solve, limited_by, ..Accepted::default() });
-                }
+            let limit = smallest(terms, &du, at).filter(|limit| limit.value < WHOLE && !settled);
+            let shorter = limit.as_ref().map_or(dt, |limit| shortened(limit, dt, (wanted, smallest_step)));
+            if shorter <= 0.0 || !shorter.is_finite() {
+                let cause = limit.map_or_else(String::new, |limit| limit.cause);
+                return Err(format!("the step vanishes: {cause}").into());
             }
+            let Some(limit) = limit.filter(|_| shorter < dt * WHOLE) else {
+                return Ok(Foreseen { at, du, cut, cause, solves });
+            };
+            dt = shorter;
+            cut = if limit.bounds_accuracy() { Cut::Accuracy } else { Cut::Event };
+            cause = Some(limit.cause);
         }
-        let why = cause.map_or_else(String::new, |c| c.cause);
-        Err(format!("the R-minimum rule did not settle in {MOST_SOLVES} solves; last limit {why}").into())
+        Err("no solve was made".to_owned().into())
     }
 
-    /// Solves `K Δu = ΔF` over the step `at`.
+    /// Lets the terms answer the increment, and removes what is out of balance beyond the drift allowed.
+    fn correct(
+        &mut self,
+        terms: &mut [&mut dyn Limited],
+        constraints: &Constraints,
+        state: &mut State,
+        Foreseen { at, du, cut, cause, solves }: Foreseen,
+        counts: &mut Counts,
+    ) -> Result<Accepted, Failure> {
+        let mut u: Vec<f64> = state.u.iter().zip(&du).map(|(u, du)| u + du).collect();
+        constraints.impose(at.time, &mut u);
+        let mut linearized: Vec<&mut dyn Linearized> =
+            terms.iter_mut().map(|term| &mut **term as &mut dyn Linearized).collect();
+        let corrected = self.newton.correct(&mut linearized, &mut u, at, self.drift, counts)?;
+        unopposed(&linearized)?;
+        self.left.clone_from(self.newton.residual());
+        state.u = u;
+        state.time = at.time;
+        Ok(Accepted {
+            dt: at.dt,
+            iterations: corrected.iterations,
+            solves,
+            residual_ratio: corrected.residual_ratio,
+            drift: corrected.drift,
+            limited_by: cause,
+            cut,
+            ..Accepted::default()
+        })
+    }
+
+    /// Solves `K Δu = ΔF - r` over the step `at`, r what the step before left.
     fn solve(
         &mut self,
         terms: &mut [&mut dyn Limited],
@@ -116,47 +157,50 @@ impl StaticExplicit {
         at: Instant,
         counts: &mut Counts,
     ) -> Result<Vec<f64>, Failure> {
-        let n = state.u.len();
+        let system = self.newton.system_mut();
         let mut du = prescribed_increment(constraints, state, at);
-        let mut load = vec![0.0; n];
-        let before = Before::of(&self.system);
-        let factored = self.system.factor_rate(terms, |t, values| {
+        let mut load = if self.left.is_empty() { vec![0.0; state.u.len()] } else { self.left.clone() };
+        let before = Before::of(system);
+        let factored = system.factor_rate(terms, |t, values| {
             t.rate(at, values, &mut load)?;
             add_product(t.pattern(), values, &du, &mut load);
             Ok::<_, Failure>(())
         })?;
-        let mut rhs: Vec<f64> = self.system.equations().free.iter().map(|&d| -load[d]).collect();
+        let mut rhs: Vec<f64> = system.equations().free.iter().map(|&d| -load[d]).collect();
         let solved = factored.and_then(|anew| {
             counts.tangents += usize::from(anew);
             counts.factorisations += usize::from(anew);
-            self.system.solve(&mut rhs)
+            system.solve(&mut rhs)
         });
         counts.iterations += 1;
         counts.solves += 1;
-        before.count(&self.system, counts);
+        before.count(system, counts);
         solved.map_err(|e| Failure::unsolved(e, terms))?;
-        for (&dof, &value) in self.system.equations().free.iter().zip(&rhs) {
+        for (&dof, &value) in system.equations().free.iter().zip(&rhs) {
             du[dof] = value;
         }
         Ok(du)
     }
 }
 
-/// Advances all terms by the increment and commits. On linear bodies, with tractions advanced by the same tangent, the
-/// balance of forces holds identically; what drifts is the friction law, which the interface measures.
-fn commit(terms: &mut [&mut dyn Limited], state: &mut State, du: &[f64], at: Instant) -> Result<(), Failure> {
-    for term in terms.iter_mut() {
-        term.advance(du, at)?;
-    }
-    unopposed(terms)?;
-    for term in terms.iter_mut() {
-        term.accept();
-    }
-    for (u, du) in state.u.iter_mut().zip(du) {
-        *u += du;
-    }
-    state.time = at.time;
-    Ok(())
+/// A step before the terms have answered it.
+struct Foreseen {
+    at: Instant,
+    du: Vec<f64>,
+    cut: Cut,
+    cause: Option<String>,
+    solves: usize,
+}
+
+/// The length a limit leaves of a step of length `dt`, where `wanted` was asked for and accuracy may ask for no less than `smallest`.
+fn shortened(limit: &Fraction, dt: f64, (wanted, smallest): (f64, f64)) -> f64 {
+    let length = dt * limit.value;
+    let length = match limit.limit {
+        "r8" => (SOFT * length).max(smallest),
+        _ if limit.bounds_accuracy() => length,
+        _ => length.max(LEAST * wanted),
+    };
+    length.min(dt)
 }
 
 /// Increment of the prescribed degrees of freedom; zero elsewhere.

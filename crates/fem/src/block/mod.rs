@@ -12,7 +12,7 @@ use crate::error::FemError;
 use crate::kinematics::{Dilatation, Formulation, Idealisation};
 use crate::material::elastic::Elastic;
 use crate::mesh::{Cells, Mesh};
-use crate::term::{Fraction, Instant, Limited, Linearized, Pattern, Refusal, Term};
+use crate::term::{Instant, Limited, Linearized, Pattern, Refusal, Term};
 use geometry::{Geometry, Places};
 pub use norm::FieldValue;
 use projection::Projection;
@@ -243,14 +243,6 @@ impl<const D: usize> Linearized for LinearBlock<D> {
 impl<const D: usize> Limited for LinearBlock<D> {
     fn rate(&mut self, _at: Instant, values: &mut [f64], _constant: &mut [f64]) -> Result<(), Refusal> {
         values.copy_from_slice(self.stiffness());
-        Ok(())
-    }
-
-    fn limit(&mut self, _du: &[f64], _at: Instant) -> Option<Fraction> {
-        None
-    }
-
-    fn advance(&mut self, _du: &[f64], _at: Instant) -> Result<(), Refusal> {
         Ok(())
     }
 }

@@ -38,8 +38,6 @@ pub struct Block<const D: usize> {
     pub(super) u: Two,
     /// Kept numbers of all points.
     pub(super) state: Two,
-    /// Force a forward step left unbalanced, cell by cell, when it is carried; else empty.
-    pub(super) drift: Two,
     /// Forces of each cell, before they are summed.
     pub(super) forces: Vec<f64>,
     /// Zeros: the start of every step of a material without memory.
@@ -53,7 +51,6 @@ impl<const D: usize> Block<D> {
     /// # Errors
     /// [`ModelError`] for a cell inside out and for combinations that do not exist.
     pub fn new(mesh: &Mesh<D>, block: usize, model: Model) -> Result<Self, ModelError> {
-        let carry = model.carry;
         let body = Body::new(mesh, block, model)?;
         let (cells, width) = (body.cells.len(), body.frame.width());
         let dofs = body.nodes.len() * body.frame.components;
@@ -61,7 +58,6 @@ impl<const D: usize> Block<D> {
             name: format!("cells {block}"),
             u: Two::zeros(dofs),
             state: Two::zeros(cells * body.state_size()),
-            drift: Two::zeros(if carry && body.frame.layout.stride > 0 { cells * width } else { 0 }),
             forces: vec![0.0; cells * width],
             none: vec![0.0; if body.frame.layout.stride == 0 { dofs } else { 0 }],
             dt: 0.0,
@@ -107,7 +103,7 @@ impl<const D: usize> Block<D> {
         let body = &self.body;
         let lists = body.cells.connectivity.len() + body.nodes.len() + body.pattern.dofs.len();
         let two = |of: &Two| of.committed.len() + of.trial.len();
-        let values = [two(&self.u), two(&self.state), two(&self.drift), self.forces.len(), self.none.len()];
+        let values = [two(&self.u), two(&self.state), self.forces.len(), self.none.len()];
         (lists + values.iter().sum::<usize>() + body.volumes.len()) * std::mem::size_of::<f64>()
             + size_of_val(body.reference.as_slice())
     }
@@ -236,13 +232,11 @@ impl<const D: usize> Term for Block<D> {
     fn accept(&mut self) {
         self.u.accept();
         self.state.accept();
-        self.drift.accept();
     }
 
     fn reject(&mut self) {
         self.u.reject();
         self.state.reject();
-        self.drift.reject();
     }
 }
 
@@ -277,11 +271,11 @@ impl<const D: usize> Block<D> {
 
 impl<const D: usize> Saved for Block<D> {
     fn save(&self) -> Vec<f64> {
-        [&self.u, &self.state, &self.drift].iter().flat_map(|two| two.committed.iter().copied()).collect()
+        [&self.u, &self.state].iter().flat_map(|two| two.committed.iter().copied()).collect()
     }
 
     fn restore(&mut self, saved: &[f64]) -> bool {
-        let parts = [&mut self.u, &mut self.state, &mut self.drift];
+        let parts = [&mut self.u, &mut self.state];
         if saved.len() != parts.iter().map(|p| p.committed.len()).sum::<usize>() {
             return false;
         }

@@ -1,9 +1,8 @@
-//! Forward steps: the rate tangent, its limits, and the state after a step.
+//! Forward steps: the rate tangent and its limits.
 //!
 //! The rate of the forces over the current configuration is `∫ ∂δu_i/∂x_j Σ_ijkl ∂v_k/∂x_l dV` with
 //! `Σ_ijkl = C^ep_ijkl + (τ_jl δ_ik - τ_ik δ_jl - τ_il δ_jk - τ_jk δ_il)/2` over the reference volumes: the consistent tangent of
-//! a step of length zero, with the continuum moduli. Stresses after a step are those of the objective update, so that they
-//! stay on the yield surface; what the linearisation missed is left as a force, which the next step may carry.
+//! a step of length zero, with the continuum moduli.
 
 use super::block::{Block, size_of};
 use super::cell::Scratch;
@@ -67,14 +66,7 @@ impl<const D: usize> Block<D> {
         let width = self.body.frame.width();
         self.body
             .chunks((values, width * width), (forces, width), |scratch, mut task| {
-                for (cell, k, f) in task.cells() {
-                    self.forward_cell(material, dt, cell, scratch, k, f)?;
-                    if !self.drift.committed.is_empty() {
-                        let drift = &self.drift.committed[cell * width..(cell + 1) * width];
-                        f.iter_mut().zip(drift).for_each(|(f, d)| *f += d);
-                    }
-                }
-                Ok(())
+                task.cells().try_for_each(|(cell, k, f)| self.forward_cell(material, dt, cell, scratch, k, f))
             })
             .into_iter()
             .collect()
@@ -169,40 +161,6 @@ impl<const D: usize> Block<D> {
         if value < 1.0 { Found { value, ..found } } else { found }
     }
 
-    /// What the linearisation of the step missed: forces after it, less those the rate tangent foresaw.
-    fn drift_with<M: Constitutive>(&self, material: &M, dt: f64, drift: &mut [f64]) -> Result<(), String> {
-        let body = &self.body;
-        let (width, c) = (body.frame.width(), body.frame.components);
-        body.chunks((drift, width), (&mut [], 0), |scratch, mut task| {
-            let (mut k, mut f, mut du) = (vec![0.0; width * width], vec![0.0; width], vec![0.0; width]);
-            for (cell, out, _) in task.cells() {
-                // Forces of the committed stresses; then of the prediction.
-                body.gather(cell, &self.u.committed, &self.u.committed, scratch);
-                scratch
-                    .motion(&body.frame, body.cell_volumes(cell))
-                    .map_err(|_| format!("cell {cell} is inside out"))?;
-                let old = body.cell_state(cell, &self.state.committed);
-                scratch.forward(&body.frame, material, dt, old);
-                scratch.forces(&body.frame, body.cell_volumes(cell), &mut f);
-                for (o, (new, f)) in out.iter_mut().zip(self.forces[cell * width..].iter().zip(&f)) {
-                    *o = new - f;
-                }
-                self.forward_cell(material, dt, cell, scratch, &mut k, &mut f)?;
-                for (a, &node) in body.cells.cell(cell).iter().enumerate() {
-                    for i in 0..c {
-                        du[a * c + i] = self.u.trial[node * c + i] - self.u.committed[node * c + i];
-                    }
-                }
-                for ((o, row), f) in out.iter_mut().zip(k.chunks_exact(width)).zip(&f) {
-                    *o -= f + row.iter().zip(&du).map(|(k, d)| k * d).sum::<f64>();
-                }
-            }
-            Ok(())
-        })
-        .into_iter()
-        .collect()
-    }
-
     /// Trial displacements: the committed ones and an increment of the system.
     fn take_increment(&mut self, du: &[f64]) {
         self.take(du);
@@ -243,19 +201,5 @@ impl<const D: usize> Limited for Block<D> {
             cause: format!("{limit} {event}, {}, cell {cell}, point {point}", self.name),
             limit,
         })
-    }
-
-    fn advance(&mut self, du: &[f64], at: Instant) -> Result<(), Refusal> {
-        self.take_increment(du);
-        self.dt = at.dt;
-        self.evaluate()?;
-        if !self.drift.trial.is_empty() {
-            let mut drift = std::mem::take(&mut self.drift.trial);
-            let result =
-                with_material!(&self.body.model.material, m => self.drift_with(m, at.dt, &mut drift));
-            self.drift.trial = drift;
-            result.map_err(|reason| self.refusal(reason))?;
-        }
-        Ok(())
     }
 }

@@ -86,9 +86,6 @@ pub struct Model {
     pub formulation: Formulation,
     /// Limits of forward steps.
     pub limits: Limits,
-    /// Whether a forward step carries the force its predecessor left unbalanced into its right-hand side: the drift is then
-    /// of second order in the step instead of first.
-    pub carry: bool,
 }
 
 /// Why a block cannot be made.

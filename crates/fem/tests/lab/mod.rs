@@ -42,7 +42,7 @@ pub fn standard_solid() -> Material {
 
 pub fn model(material: Material, idealisation: Idealisation, kinematics: Kinematics) -> Model {
     let formulation = Formulation::Standard;
-    Model { material, idealisation, kinematics, formulation, limits: Limits::default(), carry: false }
+    Model { material, idealisation, kinematics, formulation, limits: Limits::default() }
 }
 
 /// Deterministic noise in (-1, 1).

@@ -3,9 +3,9 @@
 use super::RateLaw;
 use crate::Failure;
 use crate::evolution::Evolution;
-use crate::law::{BAND, Increments, Limit, LimitKind, Present, RateBounds, Rates, Regime};
+use crate::law::{Increments, Limit, LimitKind, Present, RateBounds, Rates};
 use crate::line::Line;
-use crate::point::{AT_REST, Solver};
+use crate::point::Solver;
 use crate::strength::Form;
 
 /// The strength linearised in the slip increment: `μ f_n + constant + hardening Δλ`.
@@ -72,6 +72,13 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         self.parts.iter().filter_map(|part| part.evolution.length()).reduce(f64::min)
     }
 
+    /// Whether the strength of a slipping point is F_limit.
+    fn capped(&self, present: &Present<'_>, k: usize, solver: &mut Solver<'_, F, E>) -> bool {
+        let states = self.state(present.states, k);
+        let now = solver.after(states, present.normal[k], 0.0, present.rate[k].ln());
+        now.mu * present.normal[k] >= self.limit
+    }
+
     /// Limits r8 of a slipping point. The rate at the end of a fraction r of the step is close to linear in r.
     fn rate_limits(
         &self,
@@ -79,10 +86,15 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         step: &Increments<'_>,
         bounds: &RateBounds,
         k: usize,
+        solver: &mut Solver<'_, F, E>,
     ) -> Option<(f64, LimitKind)> {
         let rate = present.rate[k];
         let change = step.slip[k] / present.dt - rate;
-        let by_rate = if change > 0.0 {
+        // Where a point only just closes its strength follows f_n, and at F_limit it follows nothing: V may change at once.
+        let closing = step.normal[k] > present.normal[k];
+        let by_rate = if closing || self.capped(present, k, solver) {
+            f64::INFINITY
+        } else if change > 0.0 {
             bounds.log_rate.exp_m1() * rate / change
         } else if change < 0.0 && rate * (-bounds.log_rate).exp() > present.rate_floor {
             (-bounds.log_rate).exp_m1() * rate / change
@@ -111,8 +123,8 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
             }
             let l = self.linearised(present, k, &mut solver);
             if l.mu * present.normal[k] >= self.limit {
-                let carried = if present.carry { self.limit - present.traction[k] } else { 0.0 };
-                (out.along[k], out.coupling[k], out.constant[k]) = (0.0, 0.0, carried);
+                let missed = self.limit - present.traction[k];
+                (out.along[k], out.coupling[k], out.constant[k]) = (0.0, 0.0, missed);
                 continue;
             }
             let sum = present.stiffness + l.hardening;
@@ -124,10 +136,10 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
                 });
             }
             let kappa = present.stiffness / sum;
-            let carried = if present.carry { l.mu * present.normal[k] - present.traction[k] } else { 0.0 };
+            let missed = l.mu * present.normal[k] - present.traction[k];
             out.along[k] = l.hardening / sum;
             out.coupling[k] = kappa * l.by_normal;
-            out.constant[k] = kappa * (l.constant + carried);
+            out.constant[k] = kappa * (l.constant + missed);
         }
         Ok(())
     }
@@ -144,7 +156,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
             let found = if Self::at_rest(present, k) {
                 self.start_of_slip(present, step, k, &mut solver).map(|r| (r, LimitKind::StickToSlip))
             } else {
-                self.rate_limits(present, step, bounds, k)
+                self.rate_limits(present, step, bounds, k, &mut solver)
             };
             if let Some((fraction, kind)) = found
                 && smallest.is_none_or(|s| fraction < s.fraction)
@@ -153,42 +165,5 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
             }
         }
         smallest
-    }
-
-    pub(super) fn forward_advance(
-        &self,
-        present: &Present<'_>,
-        step: &Increments<'_>,
-        regime: &mut [Regime],
-        rate: &mut [f64],
-        states: &mut [f64],
-    ) -> Result<(), Failure> {
-        let mut solver = self.solver();
-        for k in 0..present.normal.len() {
-            let (normal, traction) =
-                (present.normal[k] + step.normal[k], present.traction[k] + step.traction[k]);
-            let v = if Self::at_rest(present, k) { 0.0 } else { step.slip[k] / present.dt };
-            if !(v.is_finite() && traction.is_finite()) {
-                return Err(Failure::NonFinite {
-                    point: k,
-                    normal: present.normal[k],
-                    trial: present.traction[k],
-                });
-            }
-            // Whether the point ends the step on or above its strength at the floor rate.
-            let (mu, d_normal) = self.floor_coefficient(present, k, &mut solver);
-            let cone = mu * normal + d_normal * step.normal[k];
-            let starts = traction != 0.0 && traction.abs() >= cone.min(self.limit) * (1.0 - BAND);
-            let moving = v >= present.rate_floor || starts;
-            regime[k] = if moving { Regime::Slip } else { Regime::Stick };
-            rate[k] = if moving { v.max(present.rate_floor) } else { 0.0 };
-            let log_rate = if v > 0.0 { v.ln() } else { AT_REST };
-            let old = self.state(present.states, k);
-            let mu = solver.after(old, normal.max(0.0), present.dt, log_rate).mu;
-            // At rest there is no shear traction to remember, whatever the form makes of it.
-            let mu = if v > 0.0 { mu } else { 0.0 };
-            solver.keep(old, mu, self.state_mut(states, k));
-        }
-        Ok(())
     }
 }

@@ -39,6 +39,7 @@ impl Checker<'_> {
         }
         self.order_of_steps();
         let numbers = [
+            ("drift", &time.drift),
             ("rate_change", &time.rate_change),
             ("zeta", &time.zeta),
             ("friction_tolerance", &time.friction_tolerance),
@@ -106,7 +107,7 @@ impl Checker<'_> {
         let place =
             |p: Option<Range<usize>>, key: &'static str, of: &'static [Stepper]| p.map(|p| (key, p, of));
         let keys = [
-            place(time.carry.as_ref().map(Spanned::span), "carry", &[StaticExplicit]),
+            place(time.drift.as_ref().map(Spanned::span), "drift", &[StaticExplicit]),
             place(time.rate_change.as_ref().map(Spanned::span), "rate_change", &[StaticExplicit]),
             place(time.zeta.as_ref().map(Spanned::span), "zeta", &[StaticExplicit]),
             place(time.rule.as_ref().map(Spanned::span), "rule", &[Implicit]),
