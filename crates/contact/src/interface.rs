@@ -554,7 +554,7 @@ impl<const D: usize> Term for Interface<D> {
     }
 
     fn error(&mut self) -> f64 {
-        self.shear.as_mut().map_or(0.0, |shear| shear.error(self.trial_dt))
+        self.shear.as_mut().map_or(0.0, |shear| shear.error(&self.contact.committed, self.trial_dt))
     }
 
     fn accept(&mut self) {

@@ -257,9 +257,10 @@ impl Shear {
         }
     }
 
-    /// Estimated error of μ over the trial step, the largest of all points \[-\], as it shows in the traction: a point whose spring takes
-    /// up most of the step moves by little, and one that bears less than the mean counts by what it bears.
-    pub(crate) fn error(&mut self, dt: f64) -> f64 {
+    /// Estimated error of μ over the trial step from the points at its start, the largest of all points \[-\], as it shows in the traction: a
+    /// point whose spring takes up most of the step moves by little, and one that bore less at the start than points bear in the mean
+    /// counts by what it bore. One that only just closes has nothing to err in.
+    pub(crate) fn error(&mut self, start: &[NormalPoint], dt: f64) -> f64 {
         let s = &mut self.slices;
         s.before.clear();
         for (&p, direction) in s.index.iter().zip(&s.direction) {
@@ -279,7 +280,7 @@ impl Shear {
         };
         self.law.error(taken, &mut s.error);
         let mean = s.normal.iter().sum::<f64>() / s.normal.len() as f64;
-        let shares = s.normal.iter().map(|f| (f / mean).min(1.0));
+        let shares = s.index.iter().zip(&s.normal).map(|(&p, f)| (f.min(start[p].traction) / mean).min(1.0));
         let each = s.error.iter().zip(&s.d_trial).zip(shares);
         each.map(|((e, d_trial), share)| e * (1.0 - d_trial) * share).fold(0.0, f64::max)
     }
