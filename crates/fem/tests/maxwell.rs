@@ -183,7 +183,7 @@ fn creep(steps: usize, forward: bool) -> f64 {
         let mut du = vec![0.0; 9];
         free.iter().zip(x.iter()).for_each(|(&d, x)| du[d] = *x);
         u.iter_mut().zip(&du).for_each(|(u, d)| *u += d);
-        block.residual(&u, at, &mut vec![0.0; 9]).unwrap();
+        block.residual(&u, at, &mut [0.0; 9]).unwrap();
         block.accept();
     }
     let exact = traction / SHEAR + traction * total / VISCOSITY;
