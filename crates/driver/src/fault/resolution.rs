@@ -320,8 +320,18 @@ mod tests {
         let (ageing, slip) =
             (law(AGEING, 0.01, &[(0.015, 0.008)]), law(Evolution::Slip, 0.01, &[(0.015, 0.008)]));
         let [zone, nucleation] = lengths(&slip, 5e7, false);
-        assert!((lengths(&ageing, 5e7, false)[0] / zone - NARROWS).abs() < 1e-14);
+        // Half of L_b, from the cells that BP1 needs with this law.
+        assert!((lengths(&ageing, 5e7, false)[0] / zone - 2.0).abs() < 1e-14);
         assert!((2.0 * nucleation / (PI * G * 0.008 / (5e7 * 0.005)) - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn flash_weakening_adds_its_drop_to_what_is_lost_over_l() {
+        let flash = Evolution::Flash { v_w: 0.1, mu_w: 0.13 };
+        let [zone, nucleation] = lengths(&law(flash, 0.01, &[(0.014, 0.02)]), 5e7, false);
+        let lost = 0.014 + 0.6 - 0.13;
+        assert!((zone / (0.5 * G * 0.02 / (5e7 * lost)) - 1.0).abs() < 1e-14);
+        assert!((2.0 * nucleation / (PI * G * 0.02 / (5e7 * (lost - 0.01))) - 1.0).abs() < 1e-14);
     }
 
     #[test]
