@@ -153,7 +153,14 @@ impl<const D: usize> Running<'_, D> {
                         free = system.free_motion();
                     }
                     if failure.always() || !length.halve(dt) {
-                        return Ok(Some(stop::failed(system, &stage.name, &failure, dt, free)));
+                        return Ok(Some(stop::failed(
+                            system,
+                            &stage.name,
+                            &failure,
+                            dt,
+                            free,
+                            self.fast(system),
+                        )));
                     }
                 }
             }
@@ -162,8 +169,17 @@ impl<const D: usize> Running<'_, D> {
 
     /// Whether the largest slip rate has grown beyond what loads drive.
     fn faster(&self, before: &[f64], now: &[f64]) -> bool {
+        largest(now) > largest(before) && self.beyond_loads(now)
+    }
+
+    /// Whether a law follows rates, and the largest is beyond what loads drive.
+    fn fast(&self, system: &Assembled<'_, D>) -> bool {
+        self.follows_rates() && self.beyond_loads(&system.slip_rates())
+    }
+
+    fn beyond_loads(&self, rates: &[f64]) -> bool {
         let loading = self.plan.stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
-        largest(now) > largest(before) && largest(now) > watch::LOADING * loading
+        largest(rates) > watch::LOADING * loading
     }
 
     /// Whether the law of an interface follows rates or weakens.

@@ -15,13 +15,15 @@ const REMEDY: &str = "the last state before it is kept. Stiffer bodies or suppor
 /// Parts of a metre in which a place is told: nanometres, so that rounding does not show.
 const SHOWN: f64 = 1e9;
 
-/// The outcome of a step that failed at its shortest, of length `dt` \[s\]; `free` tells of a motion nothing holds.
+/// The outcome of a step that failed at its shortest, of length `dt` \[s\]; `free` tells of a motion nothing holds, `fast` whether slip has left
+/// what loads drive behind.
 pub fn failed<const D: usize>(
     system: &Assembled<'_, D>,
     stage: &str,
     failure: &Failure,
     dt: f64,
     free: Option<String>,
+    fast: bool,
 ) -> Outcome {
     let (time, stage) = (system.time(), stage.to_string());
     let words = system.in_words(failure);
@@ -35,7 +37,7 @@ pub fn failed<const D: usize>(
     let mut reason = words;
     if !failure.always() {
         reason += &format!("; the step was halved to {dt:.3e} s without success");
-        if let Some(at) = weakest(system) {
+        if let Some(at) = weakest(system).or_else(|| fastest(system).filter(|_| fast)) {
             let reason = format!("{}: no equilibrium near the last one was found: {reason}", at.interface);
             return unstable(system, stage, at, &reason);
         }
