@@ -60,7 +60,6 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     in_time(ledger, "in space", SPACE)?;
     elastic_base(ledger)?;
     orders(ledger)?;
-    forward(ledger)?;
     onset(ledger)?;
     work(ledger)
 }
@@ -170,37 +169,6 @@ fn orders(ledger: &mut Ledger) -> Result<(), CaseError> {
         }
     }
     ledger.table("velocity step in equal steps", &["law", "rule", "steps", "error of friction"], rows);
-    Ok(())
-}
-
-/// Static-explicit steps, whose limits r8 are refined together.
-fn forward(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let scene = vary(PLANE, &[("stepper = \"implicit\"", "stepper = \"static-explicit\"")])?;
-    for kind in KINDS {
-        for (measure, sliding) in [("node-to-point", "small"), ("mortar", "finite")] {
-            let (mut levels, mut cost) = (Vec::new(), None);
-            for factor in [1.0, 2.0, 4.0] {
-                let time = format!("rate_change = {}\nzeta = {}", 0.5 / factor, 0.1 / factor);
-                let done = texts::simulate(&with(&scene, kind, measure, sliding, &time)?)?;
-                levels.push((1.0 / factor, error(&done, &reference(kind, stiffness(HEIGHT), &done)?)));
-                cost = Some(done.cost);
-            }
-            ledger
-                .order(format!(
-                    "friction of every point at every step, less that of the slider, static-explicit, {} law, {measure}, {sliding} sliding, in the limits r8",
-                    word(kind)
-                ))
-                .levels(&levels)
-                .expected(1.0)
-                .within(0.25)
-                .finest(1e-3, "a/2 times the change of ln V in a step, 0.125, and b/2 times the slip over L, 0.025, of backward Euler")
-                .evidence(Evidence::SemiAnalytic, SOURCE)
-                .because("V = slip increment over step is backward Euler")
-                .covers(&[Capability::InterfaceStates, Capability::StaticExplicit])
-                .cost(&cost.ok_or("nothing was run")?)
-                .record();
-        }
-    }
     Ok(())
 }
 
