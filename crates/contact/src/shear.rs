@@ -280,6 +280,10 @@ impl Shear {
         };
         self.law.error(taken, &mut s.error);
         let mean = s.normal.iter().sum::<f64>() / s.normal.len() as f64;
+        // Where nothing is pressed friction bears nothing.
+        if mean.is_nan() || mean <= 0.0 {
+            return 0.0;
+        }
         let shares = s.index.iter().zip(&s.normal).map(|(&p, f)| (f.min(start[p].traction) / mean).min(1.0));
         let each = s.error.iter().zip(&s.d_trial).zip(shares);
         each.map(|((e, d_trial), share)| e * (1.0 - d_trial) * share).fold(0.0, f64::max)

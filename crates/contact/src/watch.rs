@@ -19,9 +19,9 @@ const DROP: f64 = 1e-3;
 /// Share of the area in contact that may let go within a step of a law whose strength drops at once. What lets go in parts is held by
 /// the rest; more than half of it at once is not.
 const AT_ONCE: f64 = 0.5;
-/// How far the traction of a sticking point may be from its strength, over the strength: forward steps end at the strength but for what the
-/// normal traction changes along them.
-const BEYOND: f64 = 1e-3;
+/// How near to its strength, over the strength, the traction of a sticking point is that is taken for being there: normal tractions change by less along
+/// the shortest steps.
+const NEAR: f64 = 1e-3;
 /// Pa in a MPa.
 const MEGA: f64 = 1e6;
 /// Rounding of the slope of a law's answer, over 1.
@@ -137,10 +137,10 @@ impl<const D: usize> Interface<D> {
         let mut mu = vec![0.0; normal.len()];
         shear.law.coefficient(&normal, &state.rate, &state.states, &mut mu).ok()?;
         let strength = |p: usize| mu[p] * normal[p];
-        // A law that drops at once has nothing left to lose where it slips, but where a forward step has yet to take the drop.
+        // A law that drops at once has nothing left to lose where it slips.
         let dropped = |p: usize| self.watch.course == Course::Drop && state.regime[p] == Regime::Slip;
-        let share = |p: usize| if dropped(p) { 1.0 + BEYOND } else { 1.0 - BEYOND };
-        (0..normal.len()).find(|&p| strength(p) > 0.0 && norm(&state.traction[p]) >= share(p) * strength(p))
+        let stands = |p: usize| norm(&state.traction[p]) >= (1.0 - NEAR) * strength(p);
+        (0..normal.len()).find(|&p| strength(p) > 0.0 && !dropped(p) && stands(p))
     }
 
     /// Keeps the point at which a law weakens faster than the spring behind it unloads.

@@ -129,7 +129,7 @@ fn states(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
         .equals_each(&[1.0, 0.0, 1.0, 0.0])
         .absolute(0.1)
         .evidence(Evidence::Exact, "k_c = f_n (b - a)/L: linear stability, and for this law of any perturbation")
-        .because("the outcome is yes or no; closer above k_c what begins with a slack spring passes 10 mm/s before it decays")
+        .because("the outcome is yes or no; k_c is the limit about steady slip, and a run begins far from it, with a slack spring")
         .why_not_tighter("a smaller bound says no more")
         .covers(&[Capability::InterfaceInstability, Capability::AgeingLaw])
         .cost(&cost)

@@ -346,23 +346,11 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
     warnings.extend(doubts(scene, (&model, stage), (&placed, &creeping), &surroundings));
     notes.extend(weight::press(scene, (&model, stage), surroundings.weight.as_ref(), &mut placed)?);
     let resolution = early.map_or_else(|| resolved(scene, &placed, &mut warnings), Ok)?;
-    let Some((first, rest)) = placed.split_first() else {
+    let Some(first) = placed.first() else {
         return Err(asked::nothing_slides(&named, &creeping));
     };
-    let choices: Vec<LawChoice> = rest.iter().map(|p| p.law.clone()).collect();
-    let specs: Vec<&Spec> = scene.faults.values().collect();
-    if let Some(other) = rest.iter().find(|p| !first.law.same_kind(&p.law)) {
-        return Err(PlanError::at(
-            specs[other.fault].law.span(),
-            "the faults have laws of different kinds".into(),
-            "one form, one evolution and as many states for all faults of a scene; parameters may differ"
-                .into(),
-        ));
-    }
-    let at_law = |e: Failure| PlanError::from(law::refused(&specs[first.fault].law, &e));
-    let law = laws::build_fault(&first.law, &choices)
-        .map_err(&at_law)?
-        .ok_or_else(|| asked::another_law(&specs[first.fault].law))?;
+    let at_law = |e: Failure| PlanError::from(law::refused(&named[first.fault].1.law, &e));
+    let law = friction(&named, &placed, at_law)?;
     let law = if turns { Box::new(Turning::new(law)) } else { law };
     let fault = Fault {
         operator: operator(surroundings.operator, &placed, form),
@@ -397,6 +385,26 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         notes,
         fault,
     })
+}
+
+/// The laws of all points, which are of one kind.
+fn friction<const D: usize>(
+    faults: &[(&String, &Spec)],
+    placed: &[Placed<D>],
+    at_law: impl Fn(Failure) -> PlanError,
+) -> Result<Box<dyn FaultLaw>, PlanError> {
+    let (first, rest) = (&placed[0], &placed[1..]);
+    let spec = |p: &Placed<D>| &faults[p.fault].1.law;
+    if let Some(other) = rest.iter().find(|p| !first.law.same_kind(&p.law)) {
+        return Err(PlanError::at(
+            spec(other).span(),
+            "the faults have laws of different kinds".into(),
+            "one form, one evolution and as many states for all faults of a scene; parameters may differ"
+                .into(),
+        ));
+    }
+    let choices: Vec<LawChoice> = rest.iter().map(|p| p.law.clone()).collect();
+    laws::build_fault(&first.law, &choices).map_err(at_law)?.ok_or_else(|| asked::another_law(spec(first)))
 }
 
 /// What is doubtful in how loads and creep drive faults, whose points slide or creep.

@@ -2,6 +2,7 @@
 
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::Mesh;
+use nalgebra::Vector3;
 
 /// Size of a cell \[m\], from the edges e_m of its linear image at its centre: the longest edge of quadrilaterals and hexahedra, √|e_1 × e_2| of triangles,
 /// ∛|e_1·(e_2 × e_3)| of tetrahedra, both of which are h for cells that halve a square or share a cube of edge h, and the longer of edge and triangle of
@@ -10,37 +11,24 @@ pub fn cell_size<const D: usize>(mesh: &Mesh<D>, block: usize, cell: usize) -> f
     let cells = &mesh.blocks[block];
     let kind = cells.kind.linear();
     let shape = kind.shape(centre(kind));
-    let mut e = [[0.0; 3]; 3];
+    let mut e = [Vector3::zeros(); 3];
     for (a, &node) in cells.cell(cell)[..kind.nodes()].iter().enumerate() {
-        for (m, e) in e.iter_mut().enumerate() {
-            (0..D).for_each(|i| e[i] += shape.dn[a][m] * mesh.nodes[node][i]);
-        }
+        let x = Vector3::from_fn(|i, _| mesh.nodes[node].get(i).copied().unwrap_or(0.0));
+        e.iter_mut().zip(shape.dn[a]).for_each(|(e, slope)| *e += slope * x);
     }
-    let triangle = size(&cross(&e[0], &e[1]));
+    let area = e[0].cross(&e[1]);
     match kind {
-        ElementKind::Tri3 => triangle.sqrt(),
-        ElementKind::Tet4 => dot(&e[2], &cross(&e[0], &e[1])).abs().cbrt(),
-        ElementKind::Wedge6 => (2.0 * size(&e[2])).max(triangle.sqrt()),
+        ElementKind::Tri3 => area.norm().sqrt(),
+        ElementKind::Tet4 => area.dot(&e[2]).abs().cbrt(),
+        ElementKind::Wedge6 => (2.0 * e[2].norm()).max(area.norm().sqrt()),
         // The reference is two long.
-        _ => e.iter().map(|e| 2.0 * size(e)).fold(0.0, f64::max),
+        _ => e.iter().map(|e| 2.0 * e.norm()).fold(0.0, f64::max),
     }
 }
 
 /// Where edges are taken; those of simplices are the same everywhere.
 fn centre(kind: ElementKind) -> [f64; 3] {
     if kind == ElementKind::Wedge6 { [1.0 / 3.0, 1.0 / 3.0, 0.0] } else { [0.0; 3] }
-}
-
-fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn size(a: &[f64; 3]) -> f64 {
-    dot(a, a).sqrt()
-}
-
-fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[cfg(test)]

@@ -158,7 +158,7 @@ pub struct StepRecord {
     pub time: f64,
     /// Its length \[s\].
     pub dt: f64,
-    /// Newton iterations, or re-solves of the R-minimum rule.
+    /// Newton iterations; of static-explicit steps those of the correction.
     pub iterations: usize,
     /// Augmentations of multipliers (Uzawa's method).
     pub augmentations: usize,
@@ -166,7 +166,7 @@ pub struct StepRecord {
     pub rejected: usize,
     /// Residual over the largest force in the system \[-\].
     pub residual_ratio: f64,
-    /// Drift of static-explicit steps: max |t - μ f_n|/max |t| \[-\]; 0 for implicit steps by construction.
+    /// The same of a static-explicit step before it was corrected \[-\]; 0 for implicit steps.
     pub drift: f64,
     /// Largest penetration \[m\].
     pub penetration: f64,

@@ -132,8 +132,6 @@ pub struct Accepted {
     pub iterations: usize,
     /// Augmentations of multipliers.
     pub augmentations: usize,
-    /// Forward solves.
-    pub solves: usize,
     /// Residual over the largest force \[-\].
     pub residual_ratio: f64,
     /// Estimated error of friction coefficients \[-\].

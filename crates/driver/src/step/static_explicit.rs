@@ -91,31 +91,33 @@ impl StaticExplicit {
         }
         let mut dt = wanted;
         let (mut cause, mut cut) = (None, Cut::Nothing);
-        for solves in 1.. {
+        let mut left = MOST_SOLVES;
+        loop {
             let at = Instant { time: state.time + dt, dt };
             let du = self.solve(terms, constraints, state, at, counts)?;
-            let settled = solves >= MOST_SOLVES;
+            left -= 1;
+            if left == 0 {
+                return Ok(Foreseen { at, du, cut, cause });
+            }
             let mut switched = false;
             for term in terms.iter_mut() {
                 switched |= term.switch(&du, at);
             }
-            if switched && !settled {
+            if switched {
                 continue;
             }
-            let limit = smallest(terms, &du, at).filter(|limit| limit.value < WHOLE && !settled);
+            let limit = smallest(terms, &du, at).filter(|limit| limit.value < WHOLE);
             let shorter = limit.as_ref().map_or(dt, |limit| shortened(limit, dt, (wanted, smallest_step)));
-            if shorter <= 0.0 || !shorter.is_finite() {
-                let cause = limit.map_or_else(String::new, |limit| limit.cause);
-                return Err(format!("the step vanishes: {cause}").into());
-            }
             let Some(limit) = limit.filter(|_| shorter < dt * WHOLE) else {
-                return Ok(Foreseen { at, du, cut, cause, solves });
+                return Ok(Foreseen { at, du, cut, cause });
             };
+            if shorter <= 0.0 || !shorter.is_finite() {
+                return Err(format!("the step vanishes: {}", limit.cause).into());
+            }
             dt = shorter;
             cut = if limit.bounds_accuracy() { Cut::Accuracy } else { Cut::Event };
             cause = Some(limit.cause);
         }
-        Err("no solve was made".to_owned().into())
     }
 
     /// Lets the terms answer the increment, and removes what is out of balance beyond the drift allowed.
@@ -124,7 +126,7 @@ impl StaticExplicit {
         terms: &mut [&mut dyn Limited],
         constraints: &Constraints,
         state: &mut State,
-        Foreseen { at, du, cut, cause, solves }: Foreseen,
+        Foreseen { at, du, cut, cause }: Foreseen,
         counts: &mut Counts,
     ) -> Result<Accepted, Failure> {
         let mut u: Vec<f64> = state.u.iter().zip(&du).map(|(u, du)| u + du).collect();
@@ -139,7 +141,6 @@ impl StaticExplicit {
         Ok(Accepted {
             dt: at.dt,
             iterations: corrected.iterations,
-            solves,
             residual_ratio: corrected.residual_ratio,
             drift: corrected.drift,
             limited_by: cause,
@@ -189,7 +190,6 @@ struct Foreseen {
     du: Vec<f64>,
     cut: Cut,
     cause: Option<String>,
-    solves: usize,
 }
 
 /// The length a limit leaves of a step of length `dt`, where `wanted` was asked for and accuracy may ask for no less than `smallest`.

@@ -4,6 +4,10 @@ use super::Checker;
 use crate::scene::model::{Rule, Spanned, Stepper};
 use std::ops::Range;
 
+/// Largest residual over the largest force that scenes may leave: tractions of the pressed surface, which are of the size of the largest force over its
+/// area, then err by a percent.
+const MOST_DRIFT: f64 = 1e-2;
+
 /// Kinds of law whose strength depends on slip and not on its rate, which backward differentiation of order 2 is not for.
 const OF_SLIP: [&str; 2] = ["static-kinetic", "slip-weakening"];
 
@@ -39,20 +43,27 @@ impl Checker<'_> {
         }
         self.order_of_steps();
         let numbers = [
-            ("drift", &time.drift),
-            ("rate_change", &time.rate_change),
-            ("zeta", &time.zeta),
-            ("friction_tolerance", &time.friction_tolerance),
+            ("drift", &time.drift, "1e-4"),
+            ("rate_change", &time.rate_change, "0.5"),
+            ("zeta", &time.zeta, "0.1"),
+            ("friction_tolerance", &time.friction_tolerance, "2e-6"),
         ];
-        for (name, number) in numbers {
+        for (name, number, usual) in numbers {
             if let Some(number) = number.as_ref().filter(|n| !(*n.get_ref() > 0.0 && n.get_ref().is_finite()))
             {
                 self.error(
                     number.span(),
                     format!("`{name}` must be positive and finite"),
-                    format!("such as `{name} = 0.1`"),
+                    format!("such as `{name} = {usual}`"),
                 );
             }
+        }
+        if let Some(drift) = time.drift.as_ref().filter(|d| *d.get_ref() > MOST_DRIFT) {
+            self.error(
+                drift.span(),
+                "`drift` is the share of the largest force that a step may leave out of balance, and more than a hundredth shows in all tractions",
+                "at most 1e-2; the default is 1e-4",
+            );
         }
         if let Some(rule) =
             time.rule.as_ref().filter(|r| *r.get_ref() == Rule::Bdf2 && stepper == Stepper::Implicit)
