@@ -118,6 +118,32 @@ fn the_tangent_with_multipliers_as_unknowns_is_the_derivative_of_the_residual() 
     }
 }
 
+/// A flat side of 150 points in an order of its own above one of 100 segments: more points than the measure works on at once.
+fn long_line() -> InterfaceSpec<2> {
+    let (masters, slaves) = (101, 150);
+    let mut x: Vec<[f64; 2]> = (0..masters).map(|k| [0.3 * (100 - k) as f64, 0.0]).collect();
+    // 67 and 150 have no common factor.
+    let node = |k: usize| masters + k * 67 % slaves;
+    let mut above = vec![[0.0; 2]; slaves];
+    (0..slaves).for_each(|k| above[node(k) - masters] = [0.05 + 0.2 * k as f64, 0.0]);
+    x.extend(above);
+    let segment = |nodes: [usize; 2]| Segment { kind: SegmentKind::Seg2, nodes: nodes.to_vec() };
+    let master = (0..100).map(|k| segment([k, k + 1])).collect();
+    let all: Vec<usize> = (masters..masters + slaves).collect();
+    let mut spec = spec(&x, &all, master, Sliding::Finite, coulomb());
+    let faces = (0..slaves - 1).map(|k| segment([node(k), node(k + 1)])).collect();
+    spec.measure = MeasureKind::Mortar { faces, axisymmetric: false };
+    spec.enforcement = unknown(&spec);
+    spec
+}
+
+#[test]
+fn the_tangent_with_multipliers_as_unknowns_is_the_derivative_where_points_are_worked_on_in_pieces() {
+    let moves = [[[0.01, -0.10]; 150], [[0.25, -0.11]; 150]];
+    let (mut interface, u) = case(long_line(), 0.0, [&moves[0], &moves[1]]);
+    assert_taylor(&mut interface, &u, 13);
+}
+
 #[test]
 fn the_cases_contain_open_points_stick_and_slip() {
     let mut spec = line_spec(0.7, Sliding::Finite, coulomb());

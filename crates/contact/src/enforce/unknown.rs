@@ -128,16 +128,13 @@ impl Unknowns {
             pattern.dofs.extend(own(p));
             close(&mut pattern);
         }
-        let mut with = self.points.iter().copied().peekable();
-        let mut without = Vec::new();
-        for p in 0..self.weights.len() {
-            if with.next_if_eq(&p).is_none() {
-                pattern.dofs.extend(own(p));
-                close(&mut pattern);
-                without.push(p);
-            }
+        let mut with = vec![false; self.weights.len()];
+        self.points.iter().for_each(|&p| with[p] = true);
+        for p in (0..with.len()).filter(|&p| !with[p]) {
+            pattern.dofs.extend(own(p));
+            close(&mut pattern);
+            self.points.push(p);
         }
-        self.points.extend(without);
         self.pattern = pattern;
     }
 

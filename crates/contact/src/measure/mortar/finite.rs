@@ -394,7 +394,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
     }
 
     fn block_points(&self, out: &mut Vec<usize>) {
-        out.extend(0..self.points.len());
+        out.extend_from_slice(self.order.all());
     }
 
     fn search(&mut self, u: &[[f64; D]], projections: &mut u64) -> bool {
