@@ -58,6 +58,7 @@ mod fault_bodies;
 mod fault_compression;
 mod fault_free_surface;
 mod fault_gravity;
+mod fault_opening;
 mod fault_operator;
 mod fault_space;
 mod fault_stability;
@@ -140,6 +141,7 @@ pub const ALL: &[Case] = &[
     fault_bend::CASE,
     fault_free_surface::CASE,
     fault_gravity::CASE,
+    fault_opening::CASE,
     fault_operator::CASE,
     fault_space::CASE,
     fault_stability::CASE,

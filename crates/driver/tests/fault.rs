@@ -111,7 +111,7 @@ fn under_fluid(tolerance: f64) -> (f64, f64) {
     let mut look = |now: &Moment<'_>| {
         plan.fault.operator.shear(now.slip(), &mut exerted);
         for (p, exerted) in exerted.iter().enumerate() {
-            let normal = now.normal(&plan.fault, p);
+            let normal = now.normal(p);
             lowest = lowest.min(normal);
             let resisting =
                 normal * plan.fault.law.scale(p) * now.unknowns[p] + plan.fault.damping[p] * now.rate[p];

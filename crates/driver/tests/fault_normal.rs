@@ -99,7 +99,7 @@ fn followed(plan: &Plan, floor: f64) -> (Run, Report, f64) {
             let resisting = friction(p, pressed, now.unknowns[p], now.rate[p]);
             worst = worst.max((first[p] + shear[p] + shear_rate[p] * time - resisting).abs() / scale);
             // What outputs show; an unknown itself, which a does not make smaller.
-            let shown = now.normal(&plan.fault, p) - pressed.max(floor);
+            let shown = now.normal(p) - pressed.max(floor);
             worst = worst.max(0.025 * shown.abs() / scale);
         }
         Control::Go

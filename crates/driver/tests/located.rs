@@ -129,6 +129,7 @@ fn slipped(text: &str, components: &[f64]) -> Located {
         hypocentre: n - 1,
         slip: components.iter().flat_map(|&slip| vec![slip; n]).collect(),
         drop: vec![0.0; n * components.len()],
+        opening: Vec::new(),
     };
     let located = Located::new(&plan, plan.frame.as_ref().unwrap(), &event, &(0..plan.points.len())).unwrap();
     let area: f64 = plan.points.iter().map(|p| p.area).sum();

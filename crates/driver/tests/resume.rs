@@ -157,6 +157,13 @@ fn a_fault_in_space_whose_slip_turns_is_gone_on_with_as_well() {
 }
 
 #[test]
+fn a_fault_that_opens_and_closes_is_gone_on_with_as_well() {
+    let scene = include_str!("../../../scenes/fault-opening.toml").replace("\"100 m\"", "\"200 m\"");
+    let breaks = broken_off_at_every_restart(&(scene + "bodies = true\n"));
+    assert!(breaks > 3, "{breaks}");
+}
+
+#[test]
 fn a_signal_ends_a_run_with_a_checkpoint_and_its_own_exit_code() {
     let folder = folder(&SCENE);
     let folder = folder.path();

@@ -194,7 +194,7 @@ fn events(ledger: &mut Ledger) -> Result<(), CaseError> {
     let plan = seas::plan(&bent(250.0))?;
     let mut normal = Vec::new();
     let run = seas::found(&plan, &plan.settings, |now| {
-        normal = (0..plan.points.len()).map(|p| now.normal(&plan.fault, p)).collect();
+        normal = (0..plan.points.len()).map(|p| now.normal(p)).collect();
     })?;
     let straight = seas::plan(&straight(250.0))?;
     let beside = seas::found(&straight, &straight.settings, |_| {})?;

@@ -174,7 +174,7 @@ fn vertical(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Largest relative change of normal traction.
 pub fn normal_change(plan: &Plan, now: &Moment<'_>) -> f64 {
-    let of = |p: usize| (now.normal(&plan.fault, p) / plan.fault.normal[p] - 1.0).abs();
+    let of = |p: usize| (now.normal(p) / plan.fault.normal[p] - 1.0).abs();
     (0..plan.points.len()).map(of).fold(0.0, f64::max)
 }
 

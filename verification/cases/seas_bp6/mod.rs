@@ -106,7 +106,7 @@ fn seen(plan: &Plan, share: f64) -> Result<Seen, CaseError> {
         out.imbalance = out.imbalance.max(imbalance(plan, now, &mut exerted));
         let time = now.at.seconds();
         for p in 0..plan.points.len() {
-            out.least = out.least.min(now.normal(&plan.fault, p));
+            out.least = out.least.min(now.normal(p));
         }
         if time > SPREAD && !(OFF..OFF + SPREAD).contains(&time) {
             let fluid: f64 = plan.points.iter().enumerate().map(|(p, v)| v.area * pressure.at(p, time)).sum();
@@ -123,7 +123,7 @@ fn seen(plan: &Plan, share: f64) -> Result<Seen, CaseError> {
 fn imbalance(plan: &Plan, now: &Moment<'_>, exerted: &mut [f64]) -> f64 {
     plan.fault.operator.shear(now.slip(), exerted);
     let of = |p: usize| {
-        let strength = now.normal(&plan.fault, p) * plan.fault.law.scale(p) * now.unknowns[p];
+        let strength = now.normal(p) * plan.fault.law.scale(p) * now.unknowns[p];
         (SHEAR + exerted[p] - strength - plan.fault.damping[p] * now.rate[p]).abs() / NORMAL
     };
     (0..exerted.len()).map(of).fold(0.0, f64::max)

@@ -8,14 +8,20 @@
 //!     loads           elastic         friction         radiated
 //! ```
 //!
+//! Where faults open by o, the loads, which take their normal tractions at the start and change them to N_l, and fluid of the pressure p do `∫ Σ A (p - N_l) do` as well, and the
+//! elastic energy is that of slip and of openings since the start.
+//!
 //! The integrals run over cubic polynomials with the values and rates of both ends of each step, for slip as for tractions; the elastic
 //! energy comes from slip through the operator. The integrator knows none of them, and what the balance lacks is an error of its own
 //! kind: of slip, against the friction that was carried along.
 
+use super::equations::{Fault, Pressed};
 use super::floor::Used;
+use super::opened::Opened;
+use super::opening::Crack;
 use super::operator::Operator;
 use super::plan::Plan;
-use super::run::Moment;
+use super::run::{Ends, Moment};
 use crate::ode::Clock;
 use serde::{Deserialize, Serialize};
 
@@ -33,18 +39,26 @@ pub struct Energy {
     pub friction: f64,
     /// Work against radiation damping.
     pub radiated: f64,
+    /// Work of fluid, of loads and of the normal tractions at the start on openings.
+    #[serde(default, skip_serializing_if = "nothing")]
+    pub opening: f64,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn nothing(value: &f64) -> bool {
+    *value == 0.0
 }
 
 impl Energy {
     /// What the balance lacks over the largest of its parts \[-\].
     #[must_use]
     pub fn imbalance(&self) -> f64 {
-        let parts = [self.loads, self.elastic, self.friction, self.radiated];
+        let parts = [self.loads, self.elastic, self.friction, self.radiated, self.opening];
         let largest = parts.iter().fold(0.0_f64, |l, v| l.max(v.abs()));
         if largest == 0.0 {
             return 0.0;
         }
-        (self.loads - self.elastic - self.friction - self.radiated).abs() / largest
+        (self.loads + self.opening - self.elastic - self.friction - self.radiated).abs() / largest
     }
 }
 
@@ -74,6 +88,12 @@ pub struct Sums {
     traction: Vec<f64>,
     /// Use of floors.
     floors: Used,
+    /// Openings.
+    #[serde(default)]
+    opened: Opened,
+    /// Where points may open: normal tractions at the start and those of the loads, at the last change of the loads \[Pa\].
+    #[serde(default)]
+    pressing: Vec<f64>,
 }
 
 /// Sums works along a run.
@@ -85,6 +105,11 @@ pub struct Balance<'a> {
     breaks: Vec<f64>,
     /// Rates of the loads' tractions now \[Pa/s\].
     rate: Vec<f64>,
+    /// The same of normal tractions.
+    normal_rate: Vec<f64>,
+    /// Openings at the start \[m\]; no values where no point may open.
+    first: Vec<f64>,
+    crack: Crack,
     /// a of all points.
     scale: Vec<f64>,
     scratch: Vec<f64>,
@@ -98,13 +123,18 @@ impl<'a> Balance<'a> {
         let (n, layout) = (plan.points.len(), super::Layout::of(fault));
         let mut rate = vec![0.0; layout.m().end];
         fault.law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rate);
+        let pressed = at_start(plan);
         let first = |i: usize| {
             let p = i % n;
-            layout.normal_of(fault, Clock::new(0.0, 0.0), &plan.start, p) * fault.law.scale(p) * plan.start[i]
-                + fault.damping[p] * rate[i]
+            pressed.normal[p] * fault.law.scale(p) * plan.start[i] + fault.damping[p] * rate[i]
         };
         let traction = layout.m().map(first).collect();
-        Self::resume(plan, Sums { traction, ..Sums::default() })
+        let mut pressing = Vec::new();
+        if let Some(opening) = &fault.opening {
+            pressing.clone_from(&fault.normal);
+            opening.pressing(&pressed.opening, &mut pressing);
+        }
+        Self::resume(plan, Sums { traction, pressing, ..Sums::default() })
     }
 
     /// Goes on with sums.
@@ -119,6 +149,9 @@ impl<'a> Balance<'a> {
             sums,
             breaks,
             rate: Vec::new(),
+            normal_rate: Vec::new(),
+            first: at_start(plan).opening,
+            crack: Crack::default(),
             scale,
             scratch: vec![0.0; super::Layout::of(&plan.fault).m().end],
         };
@@ -138,6 +171,12 @@ impl<'a> Balance<'a> {
         &self.sums.floors
     }
 
+    /// Openings until now.
+    #[must_use]
+    pub fn opened(&self) -> &Opened {
+        &self.sums.opened
+    }
+
     /// The run when each of its events had just ended.
     #[must_use]
     pub fn marks(&self) -> &[Mark] {
@@ -149,12 +188,14 @@ impl<'a> Balance<'a> {
         let end = self.breaks.get(self.sums.leg).copied().unwrap_or(self.plan.settings.end);
         let within = 0.5 * (self.sums.since + end);
         let (n, couples) = (self.plan.points.len(), self.plan.fault.operator.couples_normal());
-        self.rate = self.plan.loading.rates(within, n, couples).0;
+        (self.rate, self.normal_rate) = self.plan.loading.rates(within, n, couples);
     }
 
-    /// Works at the end of a step, with the energy that `slip` stores.
-    pub fn energy(&mut self, slip: &[f64]) -> Energy {
-        Energy { elastic: elastic(self.plan, slip, &mut self.scratch), ..self.sums.works }
+    /// Works at the end of a step, with the energy that `slip` and openings store.
+    pub fn energy(&mut self, slip: &[f64], opening: &[f64]) -> Energy {
+        let apart: Vec<f64> = opening.iter().zip(&self.first).map(|(b, a)| b - a).collect();
+        let elastic = elastic(self.plan, slip, &mut self.scratch) + parting(self.plan, slip, &apart);
+        Energy { elastic, ..self.sums.works }
     }
 
     /// Takes note of a step.
@@ -164,8 +205,9 @@ impl<'a> Balance<'a> {
         }
         let ended = moment.catalogue.events().len() > self.sums.marks.len();
         self.sums.floors.step(self.plan, moment, ended);
+        self.sums.opened.step(self.plan, moment);
         if ended {
-            let energy = self.energy(moment.slip());
+            let energy = self.energy(moment.slip(), &moment.pressed.opening);
             // The first components come first.
             let potency = moment.slip().iter().zip(&self.plan.points).map(|(s, p)| s * p.area).sum();
             self.sums.marks.push(Mark { time: moment.at.seconds(), potency, energy });
@@ -179,6 +221,7 @@ impl<'a> Balance<'a> {
             let until = self.breaks[self.sums.leg];
             let span = until - self.sums.since;
             self.sums.traction.iter_mut().zip(&self.rate).for_each(|(t, r)| *t += span * r);
+            self.sums.pressing.iter_mut().zip(&self.normal_rate).for_each(|(t, r)| *t += span * r);
             (self.sums.since, self.sums.leg) = (until, self.sums.leg + 1);
             self.load();
         }
@@ -186,11 +229,21 @@ impl<'a> Balance<'a> {
         let (slips, normals) = (layout.slip().start, layout.normal());
         let after = end - self.sums.since;
         let mut works = self.sums.works;
+        let pressing = self.pressing(moment, step);
+        works.opening += self.parted(moment, step, &pressing);
+        let pressed = [&step.start_pressed.normal, &moment.pressed.normal];
         let points =
             layout.m().zip(self.plan.points.iter().cycle()).map(|(i, point)| (i, i % layout.points(), point));
         for (i, p, point) in points {
             // Friction a m f_n and its rate.
-            let friction = |y: &[f64], dy: &[f64], time: f64| {
+            let friction = |y: &[f64], dy: &[f64], time: f64, last: usize| {
+                if let Some(rates) = pressing.get(last) {
+                    let (normal, change) = (pressed[last][p], rates[0][p]);
+                    return [
+                        self.scale[p] * normal * y[i],
+                        self.scale[p] * h * (normal * dy[i] + change * y[i]),
+                    ];
+                }
                 let (total, growth) = if normals.is_empty() {
                     (fault.normal[p], 0.0)
                 } else {
@@ -208,8 +261,8 @@ impl<'a> Balance<'a> {
                 rates: [h * step.start_rates[slips + i], h * step.end_rates[slips + i]],
             };
             let (first, last) = (
-                friction(step.start, step.start_rates, end - h),
-                friction(moment.unknowns, step.end_rates, end),
+                friction(step.start, step.start_rates, end - h, 0),
+                friction(moment.unknowns, step.end_rates, end, 1),
             );
             let (traction, rate) = (self.sums.traction[i], self.rate[i]);
             let load = |t: f64| [traction + t * rate, h * rate];
@@ -219,6 +272,56 @@ impl<'a> Balance<'a> {
         }
         self.sums.works = works;
     }
+
+    /// Where points may open, rates of f_n as friction uses it and of openings at both ends of a step.
+    fn pressing(&mut self, moment: &Moment<'_>, step: &Ends<'_>) -> Vec<[Vec<f64>; 2]> {
+        let fault: &Fault = &self.plan.fault;
+        if fault.opening.is_none() {
+            return Vec::new();
+        }
+        let (h, end) = (moment.dt, moment.at.seconds());
+        let until = end - ROUNDING * h;
+        let ends = [(end - h, step.start, step.start_rates), (end, moment.unknowns, step.end_rates)];
+        ends.map(|(time, y, dy)| fault.pressing(time, until, y, dy, &mut self.crack)).into()
+    }
+
+    /// Work on openings over a step.
+    fn parted(&self, moment: &Moment<'_>, step: &Ends<'_>, pressing: &[[Vec<f64>; 2]]) -> f64 {
+        let (Some(opening), [first, last]) = (&self.plan.fault.opening, pressing) else { return 0.0 };
+        let (h, end) = (moment.dt, moment.at.seconds());
+        let work = |&p: &usize| {
+            let way = Way {
+                by: moment.pressed.opening[p] - step.start_pressed.opening[p],
+                rates: [h * first[1][p], h * last[1][p]],
+            };
+            let apart = |time: f64| {
+                let fluid = self.plan.fault.pressure.as_ref();
+                let (pressure, rise) = fluid.map_or((0.0, 0.0), |f| f.felt(p, time, end - ROUNDING * h));
+                let load = self.normal_rate.get(p).copied().unwrap_or(0.0);
+                let against = self.sums.pressing[p] + (time - self.sums.since) * load;
+                [pressure - against, h * (rise - load)]
+            };
+            self.plan.points[p].area * way.work(apart(end - h), apart(end))
+        };
+        opening.points().iter().map(work).sum()
+    }
+}
+
+/// What presses the points at the start.
+fn at_start(plan: &Plan) -> Pressed {
+    plan.fault.pressed(Clock::new(0.0, 0.0), &plan.start, &mut Crack::default())
+}
+
+/// Energy that openings since the start store, beside that of slip: by themselves and by the tractions they cause on slip.
+fn parting(plan: &Plan, slip: &[f64], apart: &[f64]) -> f64 {
+    let Some(opening) = &plan.fault.opening else { return 0.0 };
+    let (mut normal, mut shear) = (vec![0.0; plan.points.len()], vec![0.0; slip.len()]);
+    opening.pressing(apart, &mut normal);
+    opening.sheared(apart, &mut shear);
+    let points = || plan.points.iter().cycle();
+    let own: f64 = apart.iter().zip(&normal).zip(points()).map(|((o, t), p)| 0.5 * p.area * o * t).sum();
+    let on_slip: f64 = slip.iter().zip(&shear).zip(points()).map(|((s, t), p)| p.area * s * t).sum();
+    own - on_slip
 }
 
 /// Energy that `slip` stores in the bodies.

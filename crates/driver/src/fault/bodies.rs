@@ -1,6 +1,7 @@
 //! Displacements of the bodies around faults: what slip and loads do there, by one solution with the factor of the condensation.
 
 use super::equations::Layout;
+use super::opening::Crack;
 use super::plan::Plan;
 use super::run::Run;
 use crate::model::Model;
@@ -46,7 +47,8 @@ impl Bodies {
         Self { condensed, jumps: [Box::new(ties), Box::new(jumps)], rows, components: C }
     }
 
-    /// Displacements of all nodes \[m\], node by node, for slip of all points \[m\], component by component, and the loads at `time` \[s\].
+    /// Displacements of all nodes \[m\], node by node, for slip of all points \[m\], component by component, openings after it where points may open, and the loads at
+    /// `time` \[s\].
     #[must_use]
     pub fn displacement(&self, slip: &[f64], time: f64) -> Vec<f64> {
         let mut retained = vec![0.0; self.condensed.reduction().retained().len()];
@@ -115,11 +117,12 @@ pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), ObserveError> {
     };
     for (k, event) in run.catalogue.events().iter().enumerate() {
         // Loads are nothing at the start.
-        let displacement = view.bodies.vectors(&event.slip, 0.0);
+        let displacement = view.bodies.vectors(&[event.slip.as_slice(), &event.opening].concat(), 0.0);
         put(format!("bodies_event_{k:03}.vtu"), event.onset.seconds(), &displacement)?;
     }
     let slip = &run.unknowns[Layout::of(&plan.fault).slip()];
+    let opening = plan.fault.pressed(run.at, &run.unknowns, &mut Crack::default()).opening;
     let end = run.at.seconds();
-    put("bodies_end.vtu".into(), end, &view.bodies.vectors(slip, end))?;
+    put("bodies_end.vtu".into(), end, &view.bodies.vectors(&[slip, &opening].concat(), end))?;
     atomic::write(&out.join("bodies.pvd"), &pvd(&entries))
 }

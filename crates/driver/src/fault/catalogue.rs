@@ -32,6 +32,9 @@ pub struct Event {
     pub slip: Vec<f64>,
     /// Fall of the shear traction of all points over the event, component by component \[Pa\].
     pub drop: Vec<f64>,
+    /// Growth of the opening of all points over the event, where points may open \[m\].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub opening: Vec<f64>,
 }
 
 /// An event that goes on.
@@ -46,6 +49,8 @@ struct Open {
     hypocentre: usize,
     slip: Vec<f64>,
     shear: Vec<f64>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    opening: Vec<f64>,
 }
 
 /// The events of a run.
@@ -104,8 +109,14 @@ impl Catalogue {
         }
     }
 
-    /// The crossing happens at `at`, the point `fastest` being the fastest.
-    pub(super) fn pass(&mut self, crossing: Crossing, at: Clock, fastest: usize, [slip, shear]: [&[f64]; 2]) {
+    /// The crossing happens at `at`, the point `fastest` being the fastest; with slip, shear tractions and openings then.
+    pub(super) fn pass(
+        &mut self,
+        crossing: Crossing,
+        at: Clock,
+        fastest: usize,
+        [slip, shear, opening]: [&[f64]; 3],
+    ) {
         match (crossing, self.open.take()) {
             (Crossing::Begins, _) => {
                 self.open = Some(Open {
@@ -116,6 +127,7 @@ impl Catalogue {
                     hypocentre: fastest,
                     slip: slip.to_vec(),
                     shear: shear.to_vec(),
+                    opening: opening.to_vec(),
                 });
             }
             (Crossing::Falls, Some(open)) => {
@@ -131,6 +143,7 @@ impl Catalogue {
                 hypocentre: open.hypocentre,
                 slip: slip.iter().zip(&open.slip).map(|(b, a)| b - a).collect(),
                 drop: open.shear.iter().zip(shear).map(|(a, b)| a - b).collect(),
+                opening: opening.iter().zip(&open.opening).map(|(b, a)| b - a).collect(),
             }),
             (_, None) => {}
         }
@@ -174,7 +187,7 @@ mod tests {
         let history = [(1.0, 2.0), (3.0, 0.5), (6.0, 4.0), (7.0, 0.9), (11.0, 0.05)];
         for (time, largest) in history {
             let crossing = catalogue.crossing(largest).unwrap();
-            catalogue.pass(crossing, clock(time), 0, [&[time], &[0.0]]);
+            catalogue.pass(crossing, clock(time), 0, [&[time], &[0.0], &[]]);
             catalogue.rate(largest);
             assert!(catalogue.crossing(largest).is_none());
         }
@@ -190,7 +203,7 @@ mod tests {
         for (time, largest) in [(1.0, 2.0), (2.0, 0.01)] {
             while let Some(crossing) = catalogue.crossing(largest) {
                 found.push(crossing);
-                catalogue.pass(crossing, clock(time), 0, [&[0.0], &[0.0]]);
+                catalogue.pass(crossing, clock(time), 0, [&[0.0], &[0.0], &[]]);
             }
         }
         assert_eq!(found, [Crossing::Begins, Crossing::Falls, Crossing::Ends]);

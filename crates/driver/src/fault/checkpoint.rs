@@ -204,7 +204,7 @@ mod tests {
         // A time with a carry, which one number does not hold.
         run.at = crate::ode::Clock::new(6.2e9, 1.0 / 3.0).rebased().later(1e-13);
         run.next_step = Some(1.0 / 7.0);
-        run.catalogue.pass(Crossing::Begins, run.at, 1, [&[0.1, 0.2], &[3.0, 4.0]]);
+        run.catalogue.pass(Crossing::Begins, run.at, 1, [&[0.1, 0.2], &[3.0, 4.0], &[]]);
         run.catalogue.rate(2.5);
         let last = Stand { run, files: Position::default(), sums: Sums::default() };
         let before = Some(Box::new(last.clone()));

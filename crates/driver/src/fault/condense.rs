@@ -4,6 +4,7 @@ use super::bodies::Bodies;
 use super::held::{self, About, Refusal};
 use super::loading::Loading;
 use super::machine::Machine;
+use super::opening::Opening;
 use super::operator::Dense;
 use super::place::{Place, across};
 use crate::loading::Stage;
@@ -26,6 +27,8 @@ pub struct Point<const D: usize> {
     pub creep: Option<[f64; 2]>,
     /// Whether slip and loads change its normal traction.
     pub normal_changes: bool,
+    /// Whether it opens where nothing presses it.
+    pub opens: bool,
 }
 
 /// What slip does, component by component.
@@ -57,6 +60,8 @@ pub struct Weight {
 pub struct Surroundings {
     /// Tractions that slip causes.
     pub operator: Tractions,
+    /// Tractions that openings cause, where points may open.
+    pub opening: Option<Opening>,
     /// Tractions that loads and creep cause.
     pub loading: Loading,
     /// Of these, rates of shear tractions that creep causes by itself, component by component \[Pa/s\].
@@ -191,13 +196,18 @@ fn with_components<const D: usize, const C: usize>(
     if weighs {
         channels.push(machine.channel(&jumps.channel(&weight(stage), &constraints.fixed).map_err(oblique)?)?);
     }
-    let operator = operator_bytes::<C>(tangents, free.len());
-    let (left, bytes) = Left::of(body, (&retained, &fixed), channels, (memory, operator), keep)
-        .map_err(|e| in_words(model, &jumps, e))?;
     let rows: Vec<usize> = free.iter().map(|&k| retained.partition_point(|&d| d < slip[k])).collect();
     let keeps = |k: usize, supported: bool| supported || !points[k].normal_changes;
-    let area = |(&k, &s): (&usize, &bool)| Bearing { area: points[k].place.area, keeps: keeps(k, s) };
-    let bearings: Vec<Bearing> = free.iter().zip(&supported).map(area).collect();
+    let bearing = |(&k, &s): (&usize, &bool)| Bearing {
+        area: points[k].place.area,
+        keeps: keeps(k, s),
+        opens: points[k].opens && !keeps(k, s),
+    };
+    let bearings: Vec<Bearing> = free.iter().zip(&supported).map(bearing).collect();
+    let opens = bearings.iter().filter(|b| b.opens).count();
+    let operator = operator_bytes::<C>(tangents, free.len()) + Opening::memory(opens, free.len(), tangents);
+    let (left, bytes) = Left::of(body, (&retained, &fixed), channels, (memory, operator), keep)
+        .map_err(|e| in_words(model, &jumps, e))?;
     let found = tractions::<C>(&left, tangents, &rows, &bearings, (creep, weighs));
     let ties = machine.ties().clone();
     let bodies = left.kept().map(|condensed| Bodies::new(condensed, jumps, ties, rows));
@@ -292,6 +302,8 @@ struct Bearing {
     /// Whether its normal traction stays: supports that hold both sides against the opening take what changes of its force, or the scene
     /// says so.
     keeps: bool,
+    /// Whether it opens where nothing presses it.
+    opens: bool,
 }
 
 impl Bearing {
@@ -337,15 +349,15 @@ pub(super) fn too_much(dofs: usize, points: usize, needed: usize, allowed: usize
     Refusal { message, help: Some(help.into()), about: About::Memory, ..Refusal::default() }
 }
 
-/// What the condensation onto so many points of displacements with `components` takes at least \[bytes\]: what is left of the bodies, and
+/// What the condensation onto so many points of displacements with `components`, some of which may open, takes at least \[bytes\]: what is left of the bodies, and
 /// the operator that is made of it.
-pub(super) fn least_bytes(components: usize, tangents: usize, points: usize) -> usize {
+pub(super) fn least_bytes(components: usize, tangents: usize, points: usize, opening: usize) -> usize {
     let rows = points * (tangents + usize::from(components > 1));
     let operator = match components {
         1 => operator_bytes::<1>(tangents, points),
         _ => operator_bytes::<2>(tangents, points),
     };
-    rows.pow(2) * size_of::<f64>() + operator
+    rows.pow(2) * size_of::<f64>() + operator + Opening::memory(opening, points, tangents)
 }
 
 /// Tractions from the condensed forces; `rows` are those of the slip of each point, in motion of more than one component its opening stands next to it. A force
@@ -403,10 +415,28 @@ fn tractions<const C: usize>(
             across: loads.then(|| Box::new(across.map(|shear| Dense::new(n, shear, None)))),
         }
     };
+    let opens: Vec<usize> = (0..n).filter(|&p| C > 1 && bearings[p].opens).collect();
+    let forces = |&p: &usize| left.row(rows[p] + tangents);
+    let columns = [
+        opens.iter().map(|p| over_area(forces(p), tangents)).collect(),
+        opens.iter().map(|p| shear_of(forces(p))).collect(),
+    ];
+    let opening = opening(opens, bearings, columns);
     let mut loading = Loading::new(tangents);
     for (amplitude, forces) in channels {
         let change = if C == 1 { Vec::new() } else { over_area(forces, tangents) };
         loading.add(Table::clone(amplitude), shear_of(forces), change);
     }
-    Surroundings { operator, loading, creep, weight, bytes: 0, bodies: None }
+    Surroundings { operator, opening, loading, creep, weight, bytes: 0, bodies: None }
+}
+
+/// What openings of these points do, where there are any, from the normal and the shear tractions of all points that each of them causes.
+fn opening(points: Vec<usize>, bearings: &[Bearing], [normal, shear]: [Vec<Vec<f64>>; 2]) -> Option<Opening> {
+    if points.is_empty() {
+        return None;
+    }
+    let largest = |columns: &[Vec<f64>]| columns.iter().flatten().fold(0.0_f64, |l, v| l.max(v.abs()));
+    let shears = largest(&shear) > UNCOUPLED * largest(&normal);
+    let areas = points.iter().map(|&p| bearings[p].area).collect();
+    Some(Opening::new(points, areas, normal, shears.then_some(shear)))
 }

@@ -3,9 +3,10 @@
 //! With `τ̇ = A V + τ̇_load` and, where slip changes normal tractions, `ḟ_n = B V + ḟ_load`, each point is a slider without
 //! springs that feels the rate τ̇: [`asperity_friction::fault`], and [`asperity_friction::turning`] where slip has two directions. Unknowns:
 //! m = μ/a of all points, their states (point-major), their slip, and f_n where slip changes it. The tractions never stand as differences of large numbers, since m carries them. Pore pressure
-//! is a given function of time: it is taken off f_n, and its rate off df_n/dt, at the time of each stage.
+//! is a given function of time: it is taken off f_n, and its rate off df_n/dt, at the time of each stage. Openings are functions of f_n and add to both rates, see [`super::opening`].
 
 use super::floor::Floor;
+use super::opening::{Crack, Opening};
 use super::operator::Operator;
 use super::pressure::Pressure;
 use crate::ode::{Clock, Problem};
@@ -28,6 +29,77 @@ pub struct Fault {
     pub pressure: Option<Pressure>,
     /// Least normal traction that friction uses, where any point has one.
     pub floor: Option<Floor>,
+    /// Tractions that openings cause, where points may open.
+    pub opening: Option<Opening>,
+}
+
+/// What presses the points of a fault at a moment.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pressed {
+    /// What the bodies press with, less the pressure of fluid; nothing where a point is open \[Pa\].
+    pub bodies: Vec<f64>,
+    /// f_n as friction uses it: the same, and not less than the floor \[Pa\].
+    pub normal: Vec<f64>,
+    /// Opening \[m\]; no values where no point may open.
+    pub opening: Vec<f64>,
+}
+
+impl Fault {
+    /// What presses the points at a moment. Whatever `crack` was last, the result is the same; where it does not settle, which the integration refuses, it is the last that was
+    /// tried.
+    #[must_use]
+    pub fn pressed(&self, at: Clock, unknowns: &[f64], crack: &mut Crack) -> Pressed {
+        let layout = Layout::of(self);
+        let total = if layout.couples_normal { &unknowns[layout.normal()] } else { &self.normal };
+        let mut bodies = total.to_vec();
+        if let Some(pressure) = &self.pressure {
+            bodies.iter_mut().enumerate().for_each(|(p, f)| *f -= pressure.at(p, at.seconds()));
+        }
+        let mut opening = Vec::new();
+        if let Some(of) = &self.opening {
+            let _ = of.solve(crack, &mut bodies);
+            opening = vec![0.0; bodies.len()];
+            of.of(crack, &mut opening, &mut []);
+        }
+        let least = |p: usize| self.floor.as_ref().map_or(f64::NEG_INFINITY, |floor| floor.at(p));
+        let normal = bodies.iter().enumerate().map(|(p, f)| f.max(least(p))).collect();
+        Pressed { bodies, normal, opening }
+    }
+
+    /// Rates of what presses the points: of f_n as friction uses it \[Pa/s\] and of openings \[m/s\], given those of the unknowns, in an integration that ends at `until` \[s\].
+    #[must_use]
+    pub fn pressing(
+        &self,
+        at: f64,
+        until: f64,
+        unknowns: &[f64],
+        rates: &[f64],
+        crack: &mut Crack,
+    ) -> [Vec<f64>; 2] {
+        let layout = Layout::of(self);
+        let n = layout.points;
+        let mut normal = vec![0.0; n];
+        let mut rate = vec![0.0; n];
+        if layout.couples_normal {
+            normal.copy_from_slice(&unknowns[layout.normal()]);
+            rate.copy_from_slice(&rates[layout.normal()]);
+        } else {
+            normal.copy_from_slice(&self.normal);
+        }
+        if let Some(pressure) = &self.pressure {
+            pressure.take_off(at, until, &mut normal, &mut rate);
+        }
+        let mut openings = vec![0.0; n];
+        if let Some(opening) = &self.opening {
+            let _ = opening.solve(crack, &mut normal);
+            opening.rates(crack, &mut rate, &mut vec![0.0; layout.m().end]);
+            opening.of(crack, &mut vec![0.0; n], &mut openings);
+        }
+        if let Some(floor) = &self.floor {
+            floor.hold(&mut normal, &mut rate);
+        }
+        [rate, openings]
+    }
 }
 
 /// Where the unknowns stand.
@@ -98,23 +170,6 @@ impl Layout {
     }
 }
 
-impl Layout {
-    /// f_n of a point as friction uses it \[Pa\]: less the pressure of fluid, and not less than its floor.
-    #[must_use]
-    pub fn normal_of(&self, fault: &Fault, at: Clock, unknowns: &[f64], point: usize) -> f64 {
-        let pressed = self.pressed_of(fault, at, unknowns, point);
-        fault.floor.as_ref().map_or(pressed, |floor| pressed.max(floor.at(point)))
-    }
-
-    /// What the bodies press with at a point, less the pressure of fluid \[Pa\].
-    #[must_use]
-    pub fn pressed_of(&self, fault: &Fault, at: Clock, unknowns: &[f64], point: usize) -> f64 {
-        let total =
-            if self.couples_normal { unknowns[self.normal().start + point] } else { fault.normal[point] };
-        total - fault.pressure.as_ref().map_or(0.0, |p| p.at(point, at.seconds()))
-    }
-}
-
 /// Size of the vector at a point of a list that stands component by component; of one component its absolute value.
 #[must_use]
 pub fn size(values: &[f64], points: usize, point: usize) -> f64 {
@@ -135,6 +190,8 @@ struct Scratch {
     normal_rate: Vec<f64>,
     /// f_n as friction uses it, where that is not what bodies press with.
     normal: Vec<f64>,
+    /// What is open.
+    crack: Crack,
 }
 
 /// The equations between two changes of the loading.
@@ -148,7 +205,7 @@ pub struct Equations<'a> {
     /// When the next change of loading or pressure comes \[s\].
     until: f64,
     scratch: RefCell<Scratch>,
-    /// The point whose normal traction was found not to be positive since the last call of [`Equations::opened`].
+    /// The point whose normal traction was found not to be positive, or whose opening not to settle, since the last call of [`Equations::opened`].
     opened: Cell<Option<usize>>,
 }
 
@@ -158,7 +215,7 @@ impl<'a> Equations<'a> {
     pub fn new(fault: &'a Fault, shear_load: Vec<f64>, normal_load: Vec<f64>) -> Self {
         let layout = Layout::of(fault);
         let (n, vectors) = (layout.points, layout.m().end);
-        let own = fault.pressure.is_some() || fault.floor.is_some();
+        let own = fault.pressure.is_some() || fault.floor.is_some() || fault.opening.is_some();
         let changes = own || layout.couples_normal;
         let zeros = |needed: bool| vec![0.0; if needed { n } else { 0 }];
         let scratch = Scratch {
@@ -166,6 +223,7 @@ impl<'a> Equations<'a> {
             shear_rate: vec![0.0; vectors],
             normal_rate: zeros(changes),
             normal: zeros(own),
+            crack: Crack::default(),
         };
         Self {
             fault,
@@ -190,7 +248,7 @@ impl<'a> Equations<'a> {
         self.layout
     }
 
-    /// A point whose normal traction was not positive in a stage since the last call, which made the step to be rejected.
+    /// A point whose normal traction was not positive, or whose opening did not settle, in a stage since the last call, which made the step to be rejected.
     pub fn opened(&self) -> Option<usize> {
         self.opened.take()
     }
@@ -247,30 +305,32 @@ impl Equations<'_> {
         for (rate, tolerance) in dy.iter().zip(tolerances) {
             time = time.min(DRIFT * tolerance / rate.abs());
         }
-        let normal: Vec<f64> = (0..l.points).map(|p| l.normal_of(self.fault, at, y, p)).collect();
-        let change = |time: f64| -> Vec<f64> {
-            let later = at.later(time);
-            (0..l.points).map(|p| l.normal_of(self.fault, later, y, p) - normal[p]).collect()
+        let mut crack = Crack::default();
+        let before = self.fault.pressed(at, y, &mut crack);
+        let normal = &before.normal;
+        let mut change = |time: f64| self.fault.pressed(at.later(time), y, &mut crack);
+        let less = |after: &[f64], before: &[f64]| -> Vec<f64> {
+            after.iter().zip(before).map(|(b, a)| b - a).collect()
         };
-        let mut changes = change(time);
+        let mut after = change(time);
         for _ in 0..QUARTERINGS {
-            if changes.iter().zip(&normal).all(|(c, f)| c.abs() <= GENTLE * f) {
+            if after.normal.iter().zip(normal).all(|(b, a)| (b - a).abs() <= GENTLE * a) {
                 break;
             }
             time *= 0.25;
-            changes = change(time);
+            after = change(time);
         }
+        let changes = less(&after.normal, normal);
         let (m, states) = (l.m(), l.states());
-        let (zeros, still_shear) = (vec![0.0; l.points], vec![0.0; m.end]);
+        let (zeros, still_shear, mut shear) = (vec![0.0; l.points], vec![0.0; m.end], vec![0.0; m.end]);
+        if let Some(opening) = &self.fault.opening {
+            opening.sheared(&less(&after.opening, &before.opening), &mut shear);
+        }
         let mut moved = vec![0.0; states.end];
         let mut still = vec![0.0; states.end];
-        for (rate, out) in [(&changes, &mut moved), (&zeros, &mut still)] {
-            let drive = Drive {
-                normal: &normal,
-                normal_rate: Some(rate),
-                shear_rate: &still_shear,
-                damping: &self.fault.damping,
-            };
+        for (rate, shear, out) in [(&changes, &shear, &mut moved), (&zeros, &still_shear, &mut still)] {
+            let drive =
+                Drive { normal, normal_rate: Some(rate), shear_rate: shear, damping: &self.fault.damping };
             let (dm, ds) = out.split_at_mut(m.end);
             self.fault.law.rates(0, drive, &y[m.clone()], &y[states.clone()], dm, ds);
         }
@@ -303,6 +363,14 @@ impl Equations<'_> {
             if let Some(pressure) = fault.pressure.as_ref().filter(|_| pressurised) {
                 let (time, until) = (at.seconds(), self.until);
                 pressure.take_off(time, until, &mut scratch.normal, &mut scratch.normal_rate);
+            }
+            if let Some(opening) = &fault.opening {
+                if let Err(point) = opening.solve(&mut scratch.crack, &mut scratch.normal) {
+                    self.opened.set(Some(point));
+                    dy.fill(f64::NAN);
+                    return;
+                }
+                opening.rates(&mut scratch.crack, &mut scratch.normal_rate, &mut scratch.shear_rate);
             }
             if let Some(floor) = &fault.floor {
                 floor.hold(&mut scratch.normal, &mut scratch.normal_rate);
@@ -340,14 +408,15 @@ impl Problem for Equations<'_> {
     /// relax with V/L.
     fn spectral_radius(&self, at: Clock, y: &[f64]) -> Option<f64> {
         let (l, fault) = (self.layout, self.fault);
-        let rate = &mut self.scratch.borrow_mut().rate;
+        let Scratch { rate, crack, .. } = &mut *self.scratch.borrow_mut();
         fault.law.slip_rates(0, &y[l.m()], &y[l.states()], rate);
+        let pressed = fault.pressed(at, y, crack);
         // The norm of what gives way, one matrix a point with its eigenvalues along and across slip.
         let norm = (l.components as f64).sqrt();
         let of = |(i, k): (usize, &f64)| {
             let p = i % l.points;
             let v = size(rate, l.points, p);
-            let strength = l.normal_of(fault, at, y, p) * fault.law.scale(p);
+            let strength = pressed.normal[p] * fault.law.scale(p);
             let states = fault.law.length(p).map_or(0.0, f64::recip);
             v * (norm * k / (strength + fault.damping[p] * v) + states)
         };

@@ -2,6 +2,7 @@
 
 use super::equations::{Layout, size};
 use super::figures::each;
+use super::opening::Crack;
 use super::plan::{FaultView, Plan};
 use super::run::Run;
 use super::snapshots;
@@ -35,6 +36,9 @@ pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), ObserveError> {
         for (k, event) in run.catalogue.events().iter().enumerate() {
             let mut fields = along(plan, fault, "slip", &event.slip);
             fields.extend(along(plan, fault, "stress_drop", &event.drop));
+            if fault.normal.opens {
+                fields.push(Field::Scalar("opening".into(), event.opening[fault.points.clone()].to_vec()));
+            }
             let (file, onset) = (format!("{}_event_{k:03}.vtu", fault.name), event.onset.seconds());
             put(&folder.join(&file), &grid, onset, &fields)?;
             events.push(entry(&file, onset));
@@ -90,7 +94,8 @@ pub(super) fn state(plan: &Plan, fault: &FaultView, at: Clock, y: &[f64]) -> Vec
     let (law, n) = (&plan.fault.law, plan.points.len());
     let mut rate = vec![0.0; layout.m().end];
     law.slip_rates(0, &y[layout.m()], &y[layout.states()], &mut rate);
-    let normal = |p: usize| layout.normal_of(&plan.fault, at, y, p);
+    let pressed = plan.fault.pressed(at, y, &mut Crack::default());
+    let normal = |p: usize| pressed.normal[p];
     let shear: Vec<f64> = layout.m().map(|i| normal(i % n) * law.scale(i % n) * y[i]).collect();
     let speeds = fault.points.clone().map(|p| size(&rate, n, p).log10()).collect();
     let mut fields = along(plan, fault, "slip", &y[layout.slip()]);
@@ -101,6 +106,9 @@ pub(super) fn state(plan: &Plan, fault: &FaultView, at: Clock, y: &[f64]) -> Vec
     }
     fields.extend(along(plan, fault, "shear_traction", &shear));
     fields.push(Field::Scalar("normal_traction".into(), fault.points.clone().map(normal).collect()));
+    if fault.normal.opens {
+        fields.push(Field::Scalar("opening".into(), pressed.opening[fault.points.clone()].to_vec()));
+    }
     let (states, count) = (&y[layout.states()], law.states());
     for k in 0..count {
         let values = fault.points.clone().map(|p| states[p * count + k]).collect();

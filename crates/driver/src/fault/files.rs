@@ -1,4 +1,4 @@
-//! Output files of a run: stations, the largest slip rate, and profiles of slip and of slip rates, or in space snapshots.
+//! Output files of a run: stations, the largest slip rate, and profiles of slip, of slip rates and of openings, or in space snapshots.
 //!
 //! Rows come by change and by simulated time, not by step, so that files grow with what happens.
 
@@ -78,8 +78,8 @@ pub struct Position {
     snapshots: Option<Taken>,
 }
 
-/// Writes `stations/`, `largest_rate.csv` and, in the plane, `slip_profiles.csv` and `rate_profiles.csv` (log10 of m/s), in space
-/// snapshots.
+/// Writes `stations/`, `largest_rate.csv` and, in the plane, `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and, where points may open,
+/// `opening_profiles.csv`, in space snapshots.
 #[derive(Debug)]
 pub struct Files<'a> {
     plan: &'a Plan,
@@ -166,7 +166,10 @@ impl<'a> Files<'a> {
             let along: String = plan.points.iter().map(|p| format!(",{}", p.along)).collect();
             let head = format!("time [s]{along}\n");
             heads.push((out.join("slip_profiles.csv"), head.clone()));
-            heads.push((out.join("rate_profiles.csv"), head));
+            heads.push((out.join("rate_profiles.csv"), head.clone()));
+            if plan.fault.opening.is_some() {
+                heads.push((out.join("opening_profiles.csv"), head));
+            }
         }
         let folder = out.join("stations");
         heads.extend(stations::heads(plan).into_iter().map(|(name, head)| (folder.join(name), head)));
@@ -211,6 +214,10 @@ impl<'a> Files<'a> {
         if self.rows[2].gauge.profile(reading, interval, RATE_CHANGE) {
             let row = profile(time, now.rate, |rate| fixed(rate.abs().log10(), 3));
             self.rows[2].push(&row, cadence, time)?;
+        }
+        if self.plan.fault.opening.is_some() && self.rows[3].gauge.profile(reading, interval, f64::INFINITY) {
+            let row = profile(time, &now.pressed.opening, |opening| scientific(opening, 6));
+            self.rows[3].push(&row, cadence, time)?;
         }
         Ok(())
     }
@@ -279,7 +286,7 @@ fn means(plan: &Plan, now: &Moment<'_>) -> (f64, f64) {
     let (mut area, mut shear, mut slip) = (0.0, 0.0, 0.0);
     for (p, point) in plan.points.iter().enumerate() {
         area += point.area;
-        shear += point.area * now.normal(&plan.fault, p) * plan.fault.law.scale(p) * now.unknowns[p];
+        shear += point.area * now.normal(p) * plan.fault.law.scale(p) * now.unknowns[p];
         slip += point.area * now.slip()[p];
     }
     (shear / area, slip / area)

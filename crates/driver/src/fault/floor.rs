@@ -19,6 +19,8 @@ pub struct NormalChoice {
     pub changes: bool,
     /// The least that friction uses \[Pa\].
     pub floor: Option<f64>,
+    /// Whether the fault opens where nothing presses it.
+    pub opens: bool,
 }
 
 impl NormalChoice {
@@ -26,6 +28,7 @@ impl NormalChoice {
         Self {
             changes: spec.normal_changes.as_ref().is_none_or(|c| *c.get_ref()),
             floor: spec.normal_floor.as_ref().map(|f| f.get_ref().0),
+            opens: spec.opening.as_ref().is_some_and(|o| *o.get_ref()),
         }
     }
 
@@ -37,6 +40,10 @@ impl NormalChoice {
             "slip and loads leave normal tractions as they are, since `normal_changes = false`"
         };
         let below = match self.floor {
+            Some(floor) if self.opens => format!(
+                "; the fault opens where they would pull, and friction uses {:?} MPa where they are less",
+                floor / 1e6
+            ),
             Some(floor) => {
                 format!("; friction uses {:?} MPa where they are less, and they go on below", floor / 1e6)
             }
@@ -128,15 +135,13 @@ impl Used {
             list.resize(n, 0.0);
         }
         self.duration += moment.dt;
-        let before = moment.at.later(-moment.dt);
         let slips = layout.slip();
         let by: Vec<f64> =
             moment.unknowns[slips.clone()].iter().zip(&step.start[slips]).map(|(b, a)| b - a).collect();
         let mut any = false;
         for p in 0..n {
             let least = floor.at(p);
-            let missing = [(before, step.start), (moment.at, moment.unknowns)]
-                .map(|(at, y)| least - layout.pressed_of(&plan.fault, at, y, p));
+            let missing = [step.start_pressed, moment.pressed].map(|pressed| least - pressed.bodies[p]);
             let slip = size(&by, n, p);
             self.whole[p] += slip;
             // Linear within the step.

@@ -14,6 +14,7 @@ use super::loading::Loading;
 use super::located::Frame;
 use super::medium::{Media, Medium};
 use super::meet;
+use super::opening::Crack;
 use super::operator::{Dense, Form, Operator};
 use super::place::{Place, across, places};
 use super::plates;
@@ -28,7 +29,7 @@ use crate::forecast::{self, Held};
 use crate::laws;
 use crate::loading::{self, Stage};
 use crate::model::{Model, meshes};
-use crate::ode::Method;
+use crate::ode::{Clock, Method};
 use crate::plan::PlanError;
 use crate::scene::law::{self, Evolution, LawChoice};
 use crate::scene::model::{
@@ -167,10 +168,11 @@ impl Plan {
             line(
                 "physics",
                 format!(
-                    "fault `{}`: {} points that slide {}without opening, {} state variables a point",
+                    "fault `{}`: {} points that slide {}{}, {} state variables a point",
                     fault.name,
                     fault.points.len(),
                     if law.components() > 1 { "in any direction " } else { "" },
+                    if fault.normal.opens { "and open" } else { "without opening" },
                     law.states()
                 ),
             );
@@ -208,6 +210,9 @@ impl Plan {
             ),
         );
         line("operator", self.fault.operator.words());
+        if let Some(opening) = &self.fault.opening {
+            line("operator", opening.words());
+        }
         line("output", self.cadence.words());
         for resolution in &self.resolution {
             line("points", resolution.words(self.in_space()));
@@ -299,7 +304,8 @@ fn admit<const D: usize>(
     conditions: Conditions,
 ) -> Result<(), PlanError> {
     let free = points.iter().filter(|p| p.creep.is_none()).count();
-    let least = condense::least_bytes(model.idealisation.components(), conditions.tangents, free);
+    let opening = points.iter().filter(|p| p.creep.is_none() && p.opens).count();
+    let least = condense::least_bytes(model.idealisation.components(), conditions.tangents, free, opening);
     forecast::fits(scene, least)?;
     if least > conditions.memory {
         let refusal = condense::too_much(model.dofs(), free, least, conditions.memory);
@@ -359,6 +365,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         normal: placed.iter().map(|p| p.normal).collect(),
         pressure: pressure(scene, &placed)?,
         floor: Floor::new(placed.iter().map(|p| p.floor)),
+        opening: surroundings.opening,
     };
     let start = start(scene, &placed, &fault).map_err(at_law)?;
     warnings.extend(start_doubts::check(scene, &placed, &fault));
@@ -566,6 +573,7 @@ fn points_of<const D: usize>(
             point: Point {
                 creep: creep.map(|c| components(&place, c.rate.get_ref().0)),
                 normal_changes: choice.changes,
+                opens: choice.opens,
                 place,
             },
         });
@@ -693,6 +701,11 @@ fn start<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> 
     let n = fault.law.states();
     let mut y = vec![0.0; layout.size()];
     let specs: Vec<&Spec> = scene.faults.values().collect();
+    if !layout.normal().is_empty() {
+        let normal = layout.normal();
+        y[normal].iter_mut().zip(placed).for_each(|(f, point)| *f = point.normal);
+    }
+    let pressed = fault.pressed(Clock::new(0.0, 0.0), &y, &mut Crack::default());
     for (p, point) in placed.iter().enumerate() {
         let spec = specs[point.fault];
         let rate = spec.rate.get_ref().0;
@@ -705,14 +718,11 @@ fn start<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> 
         law.steady(p, initial.ln(), &mut y[states.clone()]);
         if let Some(shear) = point.shear {
             // Friction is odd in the rate: its size is found for a positive one.
-            let mu = (shear - fault.damping[p] * rate) * rate.signum() / point.pressed();
+            let mu = (shear - fault.damping[p] * rate) * rate.signum() / pressed.normal[p];
             law.states_for(p, rate.abs(), mu, &mut y[states.clone()])?;
             y[p] = mu * rate.signum() / law.scale(p);
         } else {
             y[p] = law.at_rate(p, rate, &y[states])?;
-        }
-        if !layout.normal().is_empty() {
-            y[layout.normal().start + p] = point.normal;
         }
     }
     Ok(y)

@@ -5,6 +5,8 @@ use super::catalogue::{Event, Part};
 use super::equations::size;
 use super::floor::{FloorUse, uses};
 use super::located::Located;
+use super::opened::{OpenedFault, openings};
+use super::opening::Crack;
 use super::plan::{FaultView, Plan};
 use super::resolution::Resolution;
 use super::run::Run;
@@ -152,7 +154,7 @@ pub struct EnergyBalance {
     /// Works \[J; J per metre of thickness in the plane\].
     #[serde(flatten)]
     pub parts: Energy,
-    /// |loads - elastic - friction - radiated| over the largest of them \[-\].
+    /// |loads + opening - elastic - friction - radiated| over the largest of them \[-\].
     pub imbalance: f64,
 }
 
@@ -190,6 +192,7 @@ impl Cycle {
             elastic: b.energy.elastic - a.energy.elastic,
             friction: b.energy.friction - a.energy.friction,
             radiated: b.energy.radiated - a.energy.radiated,
+            opening: b.energy.opening - a.energy.opening,
         };
         let duration = b.time - a.time;
         Self {
@@ -255,6 +258,9 @@ pub struct Report {
     /// Use of the floors of normal traction.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub floors: Vec<FloorUse>,
+    /// Openings of the faults that open.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub openings: Vec<OpenedFault>,
     /// Method of integration.
     pub method: String,
     /// Error of ln V allowed in a step.
@@ -292,10 +298,15 @@ fn why(plan: &Plan, run: &Run, reason: &str) -> String {
         } else {
             format!("{:e} m along it", view.along)
         };
+        let (x, y) = (view.at[0], view.at[1]);
+        if plan.faults.iter().any(|f| f.normal.opens && f.points.contains(&point)) {
+            return format!(
+                "{reason}: which points of fault `{fault}` are open does not settle at x = {x:e} m, y = {y:e} m, {place}; are the bodies held?"
+            );
+        }
         return format!(
-            "{reason}: the normal traction of fault `{fault}` falls to zero at x = {:e} m, y = {:e} m, {place}; faults of a scene \
-             do not open: give the fault a `normal_floor` that friction uses where there is less, or `normal_changes = false`, or raise `normal` there",
-            view.at[0], view.at[1]
+            "{reason}: the normal traction of fault `{fault}` falls to zero at x = {x:e} m, y = {y:e} m, {place}, and it does not open: give the fault a `normal_floor` that \
+             friction uses where there is less, with `opening = true` where its sides may part, or `normal_changes = false`, or raise `normal` there"
         );
     }
     if plan.fault.damping.contains(&0.0) {
@@ -319,7 +330,8 @@ impl Report {
         };
         let events = run.catalogue.events();
         let slip = &run.unknowns[super::Layout::of(&plan.fault).slip()];
-        let energy = balance.energy(slip).into();
+        let opening = plan.fault.pressed(run.at, &run.unknowns, &mut Crack::default()).opening;
+        let energy = balance.energy(slip, &opening).into();
         let marks = balance.marks();
         let driven = if marks.len() > 1 { steady(plan) } else { None };
         let driven = driven.map(|rate| rate.iter().zip(&plan.points).map(|(v, p)| v * p.area).sum());
@@ -337,6 +349,7 @@ impl Report {
             warnings: plan.warnings.clone(),
             resolution: plan.resolution.clone(),
             floors: uses(plan, balance.floors()),
+            openings: openings(plan, balance.opened(), &opening),
             method: plan.settings.method.name().to_string(),
             tolerance: plan.settings.tolerance,
             stopped,
@@ -451,13 +464,18 @@ impl Report {
             );
         }
         let e = &self.energy.parts;
+        let opening =
+            if self.openings.is_empty() { String::new() } else { format!(", on openings {:.6e}", e.opening) };
         let _ = writeln!(
             text,
-            "  energy: loads {:.6e}, elastic {:.6e}, friction {:.6e}, radiated {:.6e} {}; lacks {:.1e} of the largest",
+            "  energy: loads {:.6e}{opening}, elastic {:.6e}, friction {:.6e}, radiated {:.6e} {}; lacks {:.1e} of the largest",
             e.loads, e.elastic, e.friction, e.radiated, self.unit, self.energy.imbalance
         );
         for floor in &self.floors {
             let _ = writeln!(text, "  {}", floor.words());
+        }
+        for opened in &self.openings {
+            let _ = writeln!(text, "  {}", opened.words());
         }
         let _ = writeln!(text, "  end at {}", time(self.end));
         let c = &self.counts;

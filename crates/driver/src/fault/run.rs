@@ -4,8 +4,9 @@
 //! restarts from: a run that goes on from such a point takes the same steps, bit for bit, as one that was never broken off.
 
 use super::catalogue::{Catalogue, Part, Thresholds};
-use super::equations::{Equations, Fault, Layout, size};
+use super::equations::{Equations, Fault, Layout, Pressed, size};
 use super::loading::Loading;
+use super::opening::Crack;
 use crate::ode::{
     self, Clock, Control, Counts, Failure, Finished, Method, Occurrence, Options, Outcome, Sink, Step,
 };
@@ -44,6 +45,8 @@ pub struct Moment<'a> {
     pub rate: &'a [f64],
     /// Largest slip rate \[m/s\].
     pub largest: f64,
+    /// What presses the points.
+    pub pressed: &'a Pressed,
     /// Events until now.
     pub catalogue: &'a Catalogue,
     /// The step, where the method knows the rates at its ends; none at the start.
@@ -55,6 +58,8 @@ pub struct Moment<'a> {
 pub struct Ends<'a> {
     /// Unknowns at its start.
     pub start: &'a [f64],
+    /// What pressed the points then.
+    pub start_pressed: &'a Pressed,
     /// Their rates.
     pub start_rates: &'a [f64],
     /// Rates at its end.
@@ -68,7 +73,8 @@ impl<'a> Moment<'a> {
         let (unknowns, rate) = (step.start, &step.start_rates[self.layout.slip()]);
         let points = self.layout.points();
         let largest = (0..points).map(|p| size(rate, points, p)).fold(0.0, f64::max);
-        Moment { at, dt: 0.0, unknowns, rate, largest, step: None, ..*self }
+        let pressed = step.start_pressed;
+        Moment { at, dt: 0.0, unknowns, rate, largest, pressed, step: None, ..*self }
     }
 }
 
@@ -91,10 +97,16 @@ impl Moment<'_> {
         &self.unknowns[self.layout.states()]
     }
 
-    /// f_n of a point \[Pa\].
+    /// f_n of a point as friction uses it \[Pa\].
     #[must_use]
-    pub fn normal(&self, fault: &Fault, point: usize) -> f64 {
-        self.layout.normal_of(fault, self.at, self.unknowns, point)
+    pub fn normal(&self, point: usize) -> f64 {
+        self.pressed.normal[point]
+    }
+
+    /// Opening of a point, where points may open \[m\].
+    #[must_use]
+    pub fn opening(&self, point: usize) -> Option<f64> {
+        self.pressed.opening.get(point).copied()
     }
 }
 
@@ -283,7 +295,10 @@ fn piece(
         shear: vec![0.0; vectors],
         between: run.unknowns.clone(),
         largest: 0.0,
+        crack: Crack::default(),
+        pressed: Pressed::default(),
     };
+    follow.pressed = fault.pressed(run.at, &run.unknowns, &mut follow.crack);
     if run.counts.steps == 0 && follow.begin(run.at, &run.unknowns) == Control::Stop {
         run.outcome = Outcome::Stopped;
         return false;
@@ -324,8 +339,8 @@ const NEARLY_OPEN: f64 = 1e-3;
 
 /// The point that is about to open, where one is.
 fn nearly_open(fault: &Fault, run: &Run) -> Option<usize> {
-    let layout = Layout::of(fault);
-    let share = |p: usize| layout.normal_of(fault, run.at, &run.unknowns, p) / fault.normal[p];
+    let pressed = fault.pressed(run.at, &run.unknowns, &mut Crack::default());
+    let share = |p: usize| pressed.normal[p] / fault.normal[p];
     let opens = |p: &usize| fault.floor.as_ref().is_none_or(|f| f.at(*p).is_infinite());
     let least = (0..fault.normal.len()).filter(opens).min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
     (share(least) < NEARLY_OPEN).then_some(least)
@@ -350,6 +365,10 @@ struct Follow<'a> {
     between: Vec<f64>,
     /// Largest slip rate at the end of the last step \[m/s\].
     largest: f64,
+    /// What is open.
+    crack: Crack,
+    /// What presses the points at the end of the last step.
+    pressed: Pressed,
 }
 
 /// Halvings of a step in search of the time a slip rate is passed: below the rounding of times.
@@ -381,18 +400,19 @@ impl Follow<'_> {
 
     fn tell(&mut self, at: Clock, dt: f64, unknowns: &[f64], step: Option<Ends<'_>>) -> Control {
         let layout = self.equations.layout();
-        let (rate, catalogue) = (self.rate.as_slice(), &*self.catalogue);
-        self.watcher.now(&Moment { at, dt, unknowns, layout, rate, largest: self.largest, catalogue, step })
+        let (rate, catalogue, pressed) = (self.rate.as_slice(), &*self.catalogue, &self.pressed);
+        let largest = self.largest;
+        self.watcher.now(&Moment { at, dt, unknowns, layout, rate, largest, pressed, catalogue, step })
     }
 
     /// When the fastest of these points passes a threshold within the step, and which it is: by halving, since the fastest point
-    /// changes. Leaves the unknowns and the tractions of that time.
+    /// changes. Leaves the unknowns and the tractions of that time, and returns openings.
     fn locate(
         &mut self,
         step: &Step<'_>,
         (threshold, upwards): (f64, bool),
         among: Range<usize>,
-    ) -> (Clock, usize) {
+    ) -> (Clock, usize, Vec<f64>) {
         let (mut before, mut after) = (0.0, 1.0);
         for _ in 0..MOST_HALVINGS {
             let middle = 0.5 * (before + after);
@@ -411,12 +431,12 @@ impl Follow<'_> {
         self.equations.slip_rates(&self.between, &mut self.rate);
         let at = step.start.later(after * step.length());
         let layout = self.equations.layout();
+        let pressed = self.fault.pressed(at, &self.between, &mut self.crack);
         for (i, shear) in self.shear.iter_mut().enumerate() {
             let p = i % layout.points();
-            let normal = layout.normal_of(self.fault, at, &self.between, p);
-            *shear = normal * self.fault.law.scale(p) * self.between[i];
+            *shear = pressed.normal[p] * self.fault.law.scale(p) * self.between[i];
         }
-        (at, self.fastest(&self.rate, among).0)
+        (at, self.fastest(&self.rate, among).0, pressed.opening)
     }
 
     /// Takes note of the largest slip rates after a step, of all points and of those of each fault.
@@ -424,8 +444,9 @@ impl Follow<'_> {
         let slip = self.equations.layout().slip();
         self.catalogue.rate(largest);
         while let Some(crossing) = self.catalogue.crossing(largest) {
-            let (at, fastest) = self.locate(step, self.catalogue.passed(crossing), self.all());
-            self.catalogue.pass(crossing, at, fastest, [&self.between[slip.clone()], &self.shear]);
+            let (at, fastest, opening) = self.locate(step, self.catalogue.passed(crossing), self.all());
+            let values = [&self.between[slip.clone()], self.shear.as_slice(), opening.as_slice()];
+            self.catalogue.pass(crossing, at, fastest, values);
             self.catalogue.rate(largest);
         }
         for (k, &largest) in parts.iter().enumerate() {
@@ -433,8 +454,8 @@ impl Follow<'_> {
             while let Some(crossing) = self.parts[k].catalogue.crossing(largest) {
                 let Part { points, catalogue } = &self.parts[k];
                 let (points, passed) = (points.clone(), catalogue.passed(crossing));
-                let (at, fastest) = self.locate(step, passed, points);
-                let values = [&self.between[slip.clone()], self.shear.as_slice()];
+                let (at, fastest, opening) = self.locate(step, passed, points);
+                let values = [&self.between[slip.clone()], self.shear.as_slice(), opening.as_slice()];
                 self.parts[k].catalogue.pass(crossing, at, fastest, values);
                 self.parts[k].catalogue.rate(largest);
             }
@@ -461,9 +482,13 @@ impl Sink for Follow<'_> {
             None => self.equations.slip_rates(step.state, &mut self.rate),
         }
         self.largest = largest;
+        let pressed = self.fault.pressed(step.end, step.state, &mut self.crack);
+        let start_pressed = std::mem::replace(&mut self.pressed, pressed);
         let ends = step.start_rates().zip(step.rates);
-        let ends =
-            ends.map(|(start_rates, end_rates)| Ends { start: step.start_state(), start_rates, end_rates });
+        let ends = ends.map(|(start_rates, end_rates)| {
+            let (start, start_pressed) = (step.start_state(), &start_pressed);
+            Ends { start, start_pressed, start_rates, end_rates }
+        });
         if self.tell(step.end, step.length(), step.state, ends) == Control::Stop {
             return Control::Stop;
         }

@@ -44,11 +44,12 @@ fn driven<const D: usize>(
     ends.push(end);
     let mut from = 0.0;
     for until in ends {
-        let (shear, _) = loading.rates(0.5 * (from + until), placed.len(), false);
+        let (shear, normal) = loading.rates(0.5 * (from + until), placed.len(), true);
         from = until;
-        let own = placed.iter().zip(&shear).filter(|(p, _)| p.fault == fault);
-        let forces = own.map(|(p, rate)| (p.point.place.area, p.point.place.area * rate));
-        let [area, force, size] = forces.fold([0.0; 3], |s, (a, f)| [s[0] + a, s[1] + f, s[2] + f.abs()]);
+        let own = placed.iter().zip(shear.iter().zip(&normal)).filter(|(p, _)| p.fault == fault);
+        let forces = own.map(|(p, (s, n))| [s, n].map(|rate| p.point.place.area * rate));
+        let [force, size] = forces.fold([0.0; 2], |sum, [s, n]| [sum[0] + s, sum[1] + s.abs() + n.abs()]);
+        let area: f64 = placed.iter().filter(|p| p.fault == fault).map(|p| p.point.place.area).sum();
         if force.abs() <= ROUNDING * size || size == 0.0 {
             continue;
         }

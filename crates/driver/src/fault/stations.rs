@@ -73,18 +73,26 @@ fn head(plan: &Plan, fault: &str, asked: &Station, point: usize) -> String {
         head.push_str(&format!("# directions: 2 is along {:?}, 3 along {across:?}\n", view.slides));
     }
     let (columns, names) = if view.across.is_some() { IN_A_PLANE } else { ALONG_A_LINE };
-    for (k, column) in std::iter::once(&"Time (s)").chain(columns).enumerate() {
+    let opens = opens(plan, point);
+    let last = opens.then_some(&"Opening (m)");
+    for (k, column) in std::iter::once(&"Time (s)").chain(columns).chain(last).enumerate() {
         head.push_str(&format!("# Column #{} = {column}\n", k + 1));
     }
     head.push_str(names);
+    head.push_str(if opens { " opening" } else { "" });
     head.push('\n');
     head
+}
+
+/// Whether the fault of a point opens.
+fn opens(plan: &Plan, point: usize) -> bool {
+    plan.faults.iter().any(|f| f.normal.opens && f.points.contains(&point))
 }
 
 /// The row of a station.
 pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
     let (states, n) = (plan.fault.law.states(), plan.points.len());
-    let normal = now.normal(&plan.fault, point);
+    let normal = now.normal(point);
     let theta = plan.points[point]
         .theta
         .filter(|_| states == 1)
@@ -103,6 +111,10 @@ pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
         let shear = normal * plan.fault.law.scale(point) * now.unknowns[i];
         row.push_str(&format!(" {}", scientific(shear / 1e6, 9)));
     }
-    row.push_str(&format!(" {} {}\n", fixed(theta, 9), scientific(normal / 1e6, 9)));
+    row.push_str(&format!(" {} {}", fixed(theta, 9), scientific(normal / 1e6, 9)));
+    if let Some(opening) = now.opening(point).filter(|_| opens(plan, point)) {
+        row.push_str(&format!(" {}", scientific(opening, 9)));
+    }
+    row.push('\n');
     row
 }

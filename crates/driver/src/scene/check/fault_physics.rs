@@ -22,7 +22,33 @@ impl Checker<'_> {
                 "such as `normal_floor = \"1 MPa\"`",
             );
         }
+        self.opening_of(fault);
         self.tractions_at_the_start(fault);
+    }
+
+    /// What a fault that opens needs.
+    fn opening_of(&mut self, fault: &Fault) {
+        let Some(opening) = fault.opening.as_ref().filter(|o| *o.get_ref()) else { return };
+        if self.is_antiplane() {
+            self.error(
+                opening.span(),
+                "no fault opens in antiplane motion, where bodies move out of the plane only",
+                "remove `opening`; faults open in `kinematics = \"plane-strain\"` and in \"3d\"",
+            );
+        } else if let Some(stays) = fault.normal_changes.as_ref().filter(|c| !c.get_ref()) {
+            self.conflict(
+                &opening.span(),
+                "`opening` stands beside `normal_changes = false`: a fault opens where its normal traction has gone",
+                "remove one of them",
+                (&stays.span(), "normal tractions stay"),
+            );
+        } else if fault.normal_floor.is_none() {
+            self.error(
+                opening.span(),
+                "`opening` needs a `normal_floor`: where a fault is open friction uses it, since without pressure it has no slip rate",
+                "such as `normal_floor = \"0.1 MPa\"`, little beside the normal tractions at the start",
+            );
+        }
     }
 
     /// Tractions at the start come from keys of the fault or from an initial stress of its bodies.

@@ -8,7 +8,7 @@ use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_spanned::Spanned;
 use std::fmt;
 
-/// A fault: two sides at one place that slide past each other and do not part; their jump is the unknown.
+/// A fault: two sides at one place that slide past each other; their jump is the unknown.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fault {
@@ -44,6 +44,8 @@ pub struct Fault {
     pub normal_changes: Option<Spanned<bool>>,
     /// Least normal traction that friction uses \[Pa\].
     pub normal_floor: Option<Spanned<Pressure>>,
+    /// Whether the fault opens where nothing presses it; absent: it does not.
+    pub opening: Option<Spanned<bool>>,
 }
 
 /// What is done with a fault whose points stand farther apart than the cohesive zone is long.
