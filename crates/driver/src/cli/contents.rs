@@ -11,7 +11,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Files that runs leave in their directory.
-const FILES: [&str; 17] = [
+const FILES: [&str; 18] = [
     REPORT,
     LOCK,
     ".writable",
@@ -24,6 +24,7 @@ const FILES: [&str; 17] = [
     "events.quakeml",
     "CMTSOLUTION",
     "largest_rate.csv",
+    "opening_profiles.csv",
     "slip_profiles.csv",
     "rate_profiles.csv",
     "snapshots.csv",
