@@ -9,7 +9,13 @@ use asperity_driver::ode::{Control, Outcome};
 pub const CASE: Case = Case {
     name: "fault_opening",
     readme: include_str!("README.md"),
-    covers: &[Capability::FaultCycles, Capability::PlaneStrain, Capability::Loads, Capability::Events],
+    covers: &[
+        Capability::FaultCycles,
+        Capability::PlaneStrain,
+        Capability::Solid3d,
+        Capability::Loads,
+        Capability::Events,
+    ],
     quick: true,
     run,
 };
@@ -29,9 +35,90 @@ const PULL: f64 = 10e6;
 const PRESSED: f64 = 1e6;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    apart(ledger)?;
     uniform(ledger)?;
     smooth(ledger)?;
     shallow(ledger)
+}
+
+/// Two blocks without contraction across, each 1 km long, that are pulled apart by 1 m: in the plane, and in space with slip along one direction or along any.
+fn apart(ledger: &mut Ledger) -> Result<(), CaseError> {
+    for (kinematics, element, slip) in [
+        ("plane-strain", "quad9", ""),
+        ("3d", "hex8", "rake = [0, 1, 1]"),
+        ("3d", "hex27", "rake = [0, 1, 1]\nslip = \"free\""),
+    ] {
+        let (opening, cost) = Cost::of(|| parted(kinematics, element, slip));
+        let (least, most) = opening?;
+        // What pulls before it opens, over the stiffness of both blocks.
+        let exact = 1.0 - PRESSED * 2.0 * A / YOUNG;
+        ledger
+            .claim(format!("least and largest opening between two blocks that are pulled apart, {kinematics}, {element}"))
+            .unit("m")
+            .values(&[least, most])
+            .equals_each(&[exact, exact])
+            .relative(1e-9)
+            .evidence(Evidence::Exact, "way - f_n l/E: what is left of the way when nothing presses any more")
+            .because("a patch test: rounding of the elimination, and of f_n, which is integrated under a constant rate")
+            .why_not_tighter("the rounding of an elimination differs between processors")
+            .covers(&[Capability::FaultCycles, Capability::Solid3d, Capability::Loads])
+            .cost(&cost)
+            .record();
+    }
+    Ok(())
+}
+
+/// Least and largest opening between the blocks at the end \[m\].
+fn parted(kinematics: &str, element: &str, slip: &str) -> Result<(f64, f64), CaseError> {
+    let flat = kinematics != "3d";
+    let block = |name: &str, from: f64, to: f64| {
+        let (min, max, divisions) = if flat {
+            (format!("[{from:?}, 0.0]"), format!("[{to:?}, 600.0]"), "[3, 4]")
+        } else {
+            (format!("[{from:?}, 0.0, 0.0]"), format!("[{to:?}, 600.0, 400.0]"), "[3, 4, 3]")
+        };
+        format!(
+            "[bodies.{name}]\nmaterial = \"rock\"\nmesh.block = {{ min = {min}, max = {max}, divisions = {divisions}, element = \"{element}\" }}\n"
+        )
+    };
+    let across = if flat { "y = 0" } else { "y = 0, z = 0" };
+    let text = format!(
+        r#"
+schema = 1
+title = "two blocks"
+kinematics = "{kinematics}"
+[materials.rock]
+young = {YOUNG:?}
+poisson = 0.0
+density = 2670.0
+{}{}
+[faults.main]
+minus = "L.right"
+plus = "R.left"
+law = {{ kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.02, b = 0.015, l = "0.1 m", v_ref = "1 um/s", v_initial = "1e-12 m/s" }}
+normal = {PRESSED:?}
+normal_floor = "10 kPa"
+opening = true
+rate = "1e-12 m/s"
+damping = "radiation"
+{slip}
+[[stages]]
+name = "pulled"
+duration = "1 d"
+conditions = [{{ set = "L.left", x = 0, {across} }}, {{ set = "R.right", x = {{ to = 1.0 }}, {across} }}]
+[time]
+stepper = "fault-ode"
+method = "stabilised"
+"#,
+        block("L", -A, 0.0),
+        block("R", 0.0, A)
+    );
+    let plan = seas::plan(&text)?;
+    let mut opening = Vec::new();
+    seas::found(&plan, &plan.settings, |now| {
+        opening = (0..plan.points.len()).filter_map(|p| now.opening(p)).collect();
+    })?;
+    Ok(opening.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), o| (l.min(*o), m.max(*o))))
 }
 
 /// A plate with cells of this size along a fault across its middle, which is pulled evenly until the pull is that above; `normal` are points of the normal traction at the start over
