@@ -95,6 +95,17 @@ fn a_fault_that_fluid_opens_balances_and_closes_when_the_injection_ends() {
     assert_eq!(found.report.floors[0].least, 0.0);
 }
 
+/// Nothing slips under so high a floor: what the opening takes it gives back.
+#[test]
+fn an_opening_without_slip_gives_back_what_it_takes() {
+    let plan = planned(&INJECTED.replace("\"0.1 MPa\"", "\"20 MPa\""));
+    let found = followed(&plan);
+    let energy = &found.report.energy;
+    assert!(found.most >= 3 && found.report.openings[0].open == 0);
+    assert!(energy.parts.exchanged > 1e6 && energy.imbalance < 1e-4, "{energy:?}");
+    assert!(energy.parts.opening.abs() < 1e-4 * energy.parts.exchanged, "{energy:?}");
+}
+
 #[test]
 fn a_shallow_thrust_runs_through_events_that_open_it() {
     let plan = planned(THRUST);

@@ -47,6 +47,30 @@ pub(super) fn creep<const D: usize>(
     ))
 }
 
+/// Refuses faults that are to open where none of their points may; `points` are those that may, among `placed`.
+///
+/// # Errors
+/// [`PlanError`] at the key.
+pub(super) fn opens<const D: usize>(
+    faults: &[(&String, &Spec)],
+    placed: &[Placed<D>],
+    points: &[usize],
+) -> Result<(), PlanError> {
+    for (k, (name, spec)) in faults.iter().enumerate() {
+        let Some(opening) = spec.opening.as_ref().filter(|o| *o.get_ref()) else { continue };
+        if !points.iter().any(|&p| placed[p].fault == k) {
+            return Err(PlanError::at(
+                opening.span(),
+                format!(
+                    "no point of fault `{name}` can open: where it does not creep, conditions hold both of its sides across it"
+                ),
+                "leave these conditions out on one of the sides, or remove `opening`".into(),
+            ));
+        }
+    }
+    Ok(())
+}
+
 /// The refusal of faults of which nothing is left to slide.
 pub(super) fn nothing_slides<const D: usize>(faults: &[(&String, &Spec)], placed: &[Placed<D>]) -> PlanError {
     let of = |k: usize| placed.iter().filter(move |p| p.fault == k).map(|p| &p.point.place);

@@ -42,6 +42,9 @@ pub struct Energy {
     /// Work of fluid, of loads and of the normal tractions at the start on openings.
     #[serde(default, skip_serializing_if = "nothing")]
     pub opening: f64,
+    /// What that work came to step by step, in sizes: openings give back what they take.
+    #[serde(default, skip_serializing_if = "nothing")]
+    pub exchanged: f64,
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref)]
@@ -53,7 +56,7 @@ impl Energy {
     /// What the balance lacks over the largest of its parts \[-\].
     #[must_use]
     pub fn imbalance(&self) -> f64 {
-        let parts = [self.loads, self.elastic, self.friction, self.radiated, self.opening];
+        let parts = [self.loads, self.elastic, self.friction, self.radiated, self.opening, self.exchanged];
         let largest = parts.iter().fold(0.0_f64, |l, v| l.max(v.abs()));
         if largest == 0.0 {
             return 0.0;
@@ -230,7 +233,9 @@ impl<'a> Balance<'a> {
         let after = end - self.sums.since;
         let mut works = self.sums.works;
         let pressing = self.pressing(moment, step);
-        works.opening += self.parted(moment, step, &pressing);
+        let parted = self.parted(moment, step, &pressing);
+        works.opening += parted;
+        works.exchanged += parted.abs();
         let pressed = [&step.start_pressed.normal, &moment.pressed.normal];
         let points =
             layout.m().zip(self.plan.points.iter().cycle()).map(|(i, point)| (i, i % layout.points(), point));

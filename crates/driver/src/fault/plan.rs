@@ -356,6 +356,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
         return Err(asked::nothing_slides(&named, &creeping));
     };
     let at_law = |e: Failure| PlanError::from(law::refused(&named[first.fault].1.law, &e));
+    asked::opens(&named, &placed, surroundings.opening.as_ref().map_or(&[], |o| o.points()))?;
     let law = friction(&named, &placed, at_law)?;
     let law = if turns { Box::new(Turning::new(law)) } else { law };
     let fault = Fault {

@@ -193,6 +193,7 @@ impl Cycle {
             friction: b.energy.friction - a.energy.friction,
             radiated: b.energy.radiated - a.energy.radiated,
             opening: b.energy.opening - a.energy.opening,
+            exchanged: b.energy.exchanged - a.energy.exchanged,
         };
         let duration = b.time - a.time;
         Self {
