@@ -113,6 +113,7 @@ mod slider_outputs;
 mod slider_stability;
 mod slider_states;
 mod slider_work_precision;
+mod static_explicit_jumps;
 pub mod texts;
 mod two_rings;
 mod uniaxial_hardening;
@@ -191,6 +192,7 @@ pub const ALL: &[Case] = &[
     cantilever_rotation::CASE,
     elastic_plastic_cylinder::CASE,
     forward_drift::CASE,
+    static_explicit_jumps::CASE,
     jaumann_shear::CASE,
     large_rotation::CASE,
     maxwell_relaxation::CASE,

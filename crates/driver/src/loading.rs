@@ -29,6 +29,8 @@ pub struct Stage {
     pub end: f64,
     /// Number of equal steps, where the scene says so.
     pub steps: Option<usize>,
+    /// Whether a force is there, or gone, at once.
+    pub jumps: bool,
     /// Names of interfaces without friction.
     pub frictionless: Vec<String>,
     motions: Vec<(Vec<usize>, Motion)>,
@@ -173,7 +175,6 @@ impl Stage {
 /// # Errors
 /// [`PlanError`] pointing at the condition that cannot be applied.
 pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Stage>, PlanError> {
-    jumps::of_bodies(scene)?;
     // On faults initial stress and weight are what their tractions at the start come from.
     let (body_loads, weight) = if scene.faults.is_empty() {
         (body_loads(scene, model)?, Vec::new())
@@ -196,7 +197,9 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
         for condition in &spec.conditions {
             take_up(model, condition, (&mut held, &mut shared), &mut loads)?;
         }
-        jumps::of_stage(scene, spec, (&before, &present), &loads)?;
+        let jumps = jumps::of_stage(scene, spec, (&before, &present), &loads)?
+            | jumps::loses_friction(scene, spec, scene.stages.get(stages.len().wrapping_sub(1)))
+            | (stages.is_empty() && jumps::at_start(scene));
         shared.stage(model, spec, &held)?;
         let (springs, motions): (Vec<_>, Vec<_>) = motions::<D>(model, &held)?
             .into_iter()
@@ -218,6 +221,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
             start,
             end,
             steps: spec.steps.as_ref().map(|s| *s.get_ref()),
+            jumps,
             frictionless: spec.frictionless.iter().map(|s| s.get_ref().clone()).collect(),
             turning: turning(model, &motions),
             motions,

@@ -125,6 +125,8 @@ pub enum Stepping {
     },
     /// R-minimum.
     StaticExplicit {
+        /// Rule for the slip rate.
+        rule: Rule,
         /// Residual over the largest force that a step may leave.
         drift: f64,
         /// Bound on |Δ ln V| per step.
@@ -132,6 +134,16 @@ pub enum Stepping {
         /// ζ.
         zeta: f64,
     },
+}
+
+impl Stepping {
+    /// Rule for the slip rate.
+    #[must_use]
+    pub fn rule(&self) -> Rule {
+        match self {
+            Self::Implicit { rule } | Self::StaticExplicit { rule, .. } => *rule,
+        }
+    }
 }
 
 /// What will be run.
@@ -271,6 +283,8 @@ const RATE_CHANGE: f64 = 0.5;
 const ZETA: f64 = 0.1;
 /// Residual a forward step may leave, over the largest force, where the scene does not say: a tenth of what tractions are read to.
 const DRIFT: f64 = 1e-4;
+/// The same where laws follow rates, which feel what is out of balance: it errs in friction as much as some tens of steps may ([`FRICTION_TOLERANCE`]).
+const RATE_DRIFT: f64 = 1e-5;
 
 /// Share of the largest tributary area of an interface below which one is zero but for rounding.
 const NO_AREA: f64 = 1e-12;
@@ -562,13 +576,16 @@ fn not_linear<const D: usize>(model: &Model<D>) -> Option<String> {
 
 fn stepping(scene: &Scene) -> Result<Stepping, PlanError> {
     let time = &scene.time;
+    let usual = if evolves(scene) { Rule::Bdf2 } else { Rule::BackwardEuler };
+    let rule = time.rule.as_ref().map_or(usual, |r| *r.get_ref());
     Ok(match time.stepper.get_ref() {
-        Stepper::Implicit => {
-            let usual = if evolves(scene) { Rule::Bdf2 } else { Rule::BackwardEuler };
-            Stepping::Implicit { rule: time.rule.as_ref().map_or(usual, |r| *r.get_ref()) }
-        }
+        Stepper::Implicit => Stepping::Implicit { rule },
         Stepper::StaticExplicit => Stepping::StaticExplicit {
-            drift: time.drift.as_ref().map_or(DRIFT, |d| *d.get_ref()),
+            rule,
+            drift: time
+                .drift
+                .as_ref()
+                .map_or(if evolves(scene) { RATE_DRIFT } else { DRIFT }, |d| *d.get_ref()),
             rate_change: time.rate_change.as_ref().map_or(RATE_CHANGE, |r| *r.get_ref()),
             zeta: time.zeta.as_ref().map_or(ZETA, |z| *z.get_ref()),
         },
@@ -589,8 +606,9 @@ fn evolves(scene: &Scene) -> bool {
 fn control(scene: &Scene, stages: &[Stage]) -> Control {
     let time = &scene.time;
     let travel = stages.iter().map(|s| s.largest_rate() * (s.end - s.start)).fold(0.0, f64::max);
-    // Where nothing is moved there is no travel to compare slip with.
-    let usual = if travel > 0.0 { SLIP_TOLERANCE * travel } else { f64::INFINITY };
+    // Where nothing is moved there is no travel to compare slip with, and static-explicit steps have the R-minimum rule.
+    let adapts = travel > 0.0 && *time.stepper.get_ref() == Stepper::Implicit;
+    let usual = if adapts { SLIP_TOLERANCE * travel } else { f64::INFINITY };
     // Without a state nothing remembers an error of friction: what points leave behind as they begin to slip one by one need not be small.
     let accuracy = if evolves(scene) { FRICTION_TOLERANCE } else { f64::INFINITY };
     Control {

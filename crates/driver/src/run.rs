@@ -3,7 +3,7 @@
 use crate::loading::Stage;
 use crate::observe::ObserveError;
 use crate::observe::view::{Counts, Observer, StepRecord, StepView};
-use crate::plan::{AnyPlan, Plan, Stepping};
+use crate::plan::{AnyPlan, Plan};
 use crate::report::{Outcome, Phases, RunReport};
 use crate::run_doubts;
 use crate::step::{Accepted, Cut};
@@ -110,8 +110,7 @@ impl<const D: usize> Running<'_, D> {
         let clock = Clock::now();
         system.begin_stage(stage).map_err(|reason| RunError::SetUp { stage: stage.name.clone(), reason })?;
         self.phases.set_up += clock.elapsed().as_secs_f64();
-        let mut length =
-            StepLength::new(&self.plan.control, stage, adaptive(&self.plan.stepping), self.watches());
+        let mut length = StepLength::new(&self.plan.control, stage, self.watches());
         let mut rejected = 0;
         let mut free: Option<String> = None;
         loop {
@@ -255,9 +254,4 @@ fn largest(values: &[f64]) -> f64 {
 /// Names of the interfaces.
 fn interface_names<const D: usize>(plan: &Plan<D>) -> impl Iterator<Item = String> + '_ {
     plan.interfaces.iter().map(|i| i.name.clone())
-}
-
-/// Implicit steps are adapted to the error of slip; forward steps have the R-minimum rule.
-fn adaptive(stepping: &Stepping) -> bool {
-    matches!(stepping, Stepping::Implicit { .. })
 }

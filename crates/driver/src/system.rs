@@ -90,11 +90,10 @@ impl<'a, const D: usize> Assembled<'a, D> {
             .zip(&interfaces)
             .map(|(planned, built)| (planned.name.clone(), built.points().area.clone()))
             .collect();
-        if let Stepping::Implicit { rule } = plan.stepping {
-            for (interface, planned) in interfaces.iter_mut().zip(&plan.interfaces) {
-                let follows = planned.law.as_ref().is_some_and(|l| !l.has_elastic_domain());
-                interface.set_time_rule(if follows { time_rule(rule) } else { TimeRule::BackwardEuler });
-            }
+        for (interface, planned) in interfaces.iter_mut().zip(&plan.interfaces) {
+            let follows = planned.law.as_ref().is_some_and(|l| !l.has_elastic_domain());
+            let rule = if follows { plan.stepping.rule() } else { Rule::BackwardEuler };
+            interface.set_time_rule(time_rule(rule));
         }
         let bodies = match plan.path {
             Path::Condensed => Bodies::Condensed(Vec::new()),
@@ -142,7 +141,9 @@ impl<'a, const D: usize> Assembled<'a, D> {
             Some(ActiveStepper::Implicit(stepper)) => {
                 stepper.begin_stage(symmetry, self.plan.model.is_linear());
             }
-            Some(ActiveStepper::StaticExplicit(stepper)) => stepper.begin_stage(symmetry),
+            Some(ActiveStepper::StaticExplicit(stepper)) => {
+                stepper.begin_stage(symmetry, stage.jumps || moves_at_once(&self.constraints, &self.state));
+            }
             None => {}
         }
         for (interface, planned) in self.interfaces.iter_mut().zip(&self.plan.interfaces) {
@@ -257,10 +258,12 @@ impl<'a, const D: usize> Assembled<'a, D> {
         }
     }
 
-    /// Implicit steps that leave a larger error of friction coefficients are not accepted \[-\].
+    /// Steps that leave a larger error of friction coefficients are not accepted \[-\].
     pub fn set_bound(&mut self, bound: f64) {
-        if let Some(ActiveStepper::Implicit(stepper)) = &mut self.stepper {
-            stepper.set_bound(bound);
+        match &mut self.stepper {
+            Some(ActiveStepper::Implicit(stepper)) => stepper.set_bound(bound),
+            Some(ActiveStepper::StaticExplicit(stepper)) => stepper.set_bound(bound),
+            None => {}
         }
     }
 
@@ -563,6 +566,15 @@ fn local_channels(constraints: &Constraints, dofs: std::ops::Range<usize>) -> Ve
         })
         .filter(|c| !c.prescribed.is_empty() || !c.forces.is_empty())
         .collect()
+}
+
+/// Whether a prescribed displacement is not where it was before the stage.
+fn moves_at_once(constraints: &Constraints, state: &State) -> bool {
+    let mut first = state.u.clone();
+    constraints.impose(state.time, &mut first);
+    // Where displacements go on the two are the same up to rounding of a product.
+    let same = |(new, old): (&f64, &f64)| (new - old).abs() <= 4.0 * f64::EPSILON * old.abs().max(new.abs());
+    !first.iter().zip(&state.u).all(same)
 }
 
 /// Declares an interface to the contact crate; its multipliers that are unknowns are numbered from `unknowns`.

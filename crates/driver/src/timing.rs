@@ -64,10 +64,9 @@ pub struct StepLength {
 }
 
 impl StepLength {
-    /// Lengths for `stage`; `adaptive` for those found by Newton's method. Others only grow back towards the largest. `watched` where a
-    /// law follows rates or weakens.
+    /// Lengths for `stage`; `watched` where a law follows rates or weakens.
     #[must_use]
-    pub fn new(control: &Control, stage: &Stage, adaptive: bool, watched: bool) -> Self {
+    pub fn new(control: &Control, stage: &Stage, watched: bool) -> Self {
         let duration = stage.end - stage.start;
         let imposed = match (&control.imposed, stage.steps) {
             (Some(times), _) => Some(within(times, stage)),
@@ -84,8 +83,8 @@ impl StepLength {
                 .unwrap_or(if watched { SMALLEST } else { LEAST } * duration)
                 .max(SPACING * stage.end),
             largest: if imposed.is_some() { f64::INFINITY } else { largest },
-            tolerance: (adaptive && imposed.is_none()).then_some(control.tolerance),
-            friction: (adaptive && imposed.is_none()).then_some(control.friction),
+            tolerance: imposed.is_none().then_some(control.tolerance),
+            friction: imposed.is_none().then_some(control.friction),
             imposed,
             failed: false,
             needed: None,

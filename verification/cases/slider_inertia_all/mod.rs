@@ -1,6 +1,6 @@
 //! All sliders with a mass of `slider_inertia`.
 
-use super::slider_inertia::{agree, all, compare, each_third};
+use super::slider_inertia::{agree, all, compare};
 use crate::{Capability, Case, CaseError, Ledger};
 
 /// See the README.
@@ -15,5 +15,5 @@ pub const CASE: Case = Case {
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let sets = all();
     agree(ledger, &sets)?;
-    compare(ledger, &each_third(sets))
+    compare(ledger, &sets)
 }

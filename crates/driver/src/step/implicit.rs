@@ -87,6 +87,11 @@ impl Implicit {
         self.bound = bound;
     }
 
+    /// Largest error of friction coefficients a step may leave \[-\].
+    pub(super) fn bound(&self) -> f64 {
+        self.bound
+    }
+
     /// The linear system, for its counts.
     #[must_use]
     pub fn system(&self) -> &System {

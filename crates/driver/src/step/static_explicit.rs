@@ -8,7 +8,7 @@
 //! forces: the drift. A small one is carried into the next step, a larger one is removed by Newton's method before the step stands.
 
 use super::implicit::Implicit;
-use super::{Accepted, Before, Cut, Failure, State, unopposed};
+use super::{Accepted, Before, Cut, Failure, State, accurate, unopposed};
 use crate::observe::view::Counts;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
@@ -35,13 +35,15 @@ pub struct StaticExplicit {
     drift: f64,
     /// Residual left by the step before; empty before the first.
     left: Vec<f64>,
+    /// Whether the next step begins with a jump.
+    jumps: bool,
 }
 
 impl StaticExplicit {
     /// A stepper that foresees with the system of `newton`, and corrects with it what is beyond `drift` of the largest force.
     #[must_use]
     pub fn new(newton: Implicit, drift: f64) -> Self {
-        Self { newton, drift, left: Vec::new() }
+        Self { newton, drift, left: Vec::new(), jumps: false }
     }
 
     /// The linear system, for its counts.
@@ -50,9 +52,15 @@ impl StaticExplicit {
         self.newton.system()
     }
 
-    /// Goes on with another stage.
-    pub fn begin_stage(&mut self, symmetry: Symmetry) {
+    /// Steps that leave a larger error of friction coefficients are not accepted \[-\].
+    pub fn set_bound(&mut self, bound: f64) {
+        self.newton.set_bound(bound);
+    }
+
+    /// Goes on with another stage, in which a force or a displacement `jumps` or not.
+    pub fn begin_stage(&mut self, symmetry: Symmetry, jumps: bool) {
         self.newton.begin_stage(symmetry, false);
+        self.jumps = jumps;
     }
 
     /// Takes a step of at most `dt.0`; where accuracy asks for less than `dt.1`, one of that length.
@@ -67,6 +75,9 @@ impl StaticExplicit {
         dt: (f64, f64),
         counts: &mut Counts,
     ) -> Result<Accepted, Failure> {
+        if self.jumps {
+            return self.jump(terms, constraints, state, dt.0, counts);
+        }
         let result = self
             .foresee(terms, constraints, state, dt, counts)
             .and_then(|foreseen| self.correct(terms, constraints, state, foreseen, counts));
@@ -74,6 +85,22 @@ impl StaticExplicit {
             if result.is_ok() { term.accept() } else { term.reject() }
         }
         result
+    }
+
+    /// A step that begins with a jump, which has no rate: Newton's method finds its end.
+    fn jump(
+        &mut self,
+        terms: &mut [&mut dyn Limited],
+        constraints: &Constraints,
+        state: &mut State,
+        dt: f64,
+        counts: &mut Counts,
+    ) -> Result<Accepted, Failure> {
+        let mut linearized = linearized(terms);
+        let accepted = self.newton.step(&mut linearized, constraints, state, dt, counts)?;
+        self.left.clone_from(self.newton.residual());
+        self.jumps = false;
+        Ok(accepted)
     }
 
     /// The increment of a step of at most `wanted` by the rate tangent, and the length that the R-minimum rule leaves it, accuracy no less
@@ -131,10 +158,10 @@ impl StaticExplicit {
     ) -> Result<Accepted, Failure> {
         let mut u: Vec<f64> = state.u.iter().zip(&du).map(|(u, du)| u + du).collect();
         constraints.impose(at.time, &mut u);
-        let mut linearized: Vec<&mut dyn Linearized> =
-            terms.iter_mut().map(|term| &mut **term as &mut dyn Linearized).collect();
+        let mut linearized = linearized(terms);
         let corrected = self.newton.correct(&mut linearized, &mut u, at, self.drift, counts)?;
         unopposed(&linearized)?;
+        let error = accurate(&mut linearized, self.newton.bound())?;
         self.left.clone_from(self.newton.residual());
         state.u = u;
         state.time = at.time;
@@ -143,6 +170,7 @@ impl StaticExplicit {
             iterations: corrected.iterations,
             residual_ratio: corrected.residual_ratio,
             drift: corrected.drift,
+            error,
             limited_by: cause,
             cut,
             ..Accepted::default()
@@ -182,6 +210,11 @@ impl StaticExplicit {
         }
         Ok(du)
     }
+}
+
+/// The terms as Newton's method sees them.
+fn linearized<'a>(terms: &'a mut [&mut dyn Limited]) -> Vec<&'a mut dyn Linearized> {
+    terms.iter_mut().map(|term| &mut **term as &mut dyn Linearized).collect()
 }
 
 /// A step before the terms have answered it.

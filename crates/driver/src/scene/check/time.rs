@@ -66,7 +66,7 @@ impl Checker<'_> {
             );
         }
         if let Some(rule) =
-            time.rule.as_ref().filter(|r| *r.get_ref() == Rule::Bdf2 && stepper == Stepper::Implicit)
+            time.rule.as_ref().filter(|r| *r.get_ref() == Rule::Bdf2 && stepper != Stepper::FaultOde)
         {
             self.second_order(rule);
         }
@@ -121,9 +121,13 @@ impl Checker<'_> {
             place(time.drift.as_ref().map(Spanned::span), "drift", &[StaticExplicit]),
             place(time.rate_change.as_ref().map(Spanned::span), "rate_change", &[StaticExplicit]),
             place(time.zeta.as_ref().map(Spanned::span), "zeta", &[StaticExplicit]),
-            place(time.rule.as_ref().map(Spanned::span), "rule", &[Implicit]),
+            place(time.rule.as_ref().map(Spanned::span), "rule", &[Implicit, StaticExplicit]),
             place(time.tolerance.as_ref().map(Spanned::span), "tolerance", &[Implicit]),
-            place(time.friction_tolerance.as_ref().map(Spanned::span), "friction_tolerance", &[Implicit]),
+            place(
+                time.friction_tolerance.as_ref().map(Spanned::span),
+                "friction_tolerance",
+                &[Implicit, StaticExplicit],
+            ),
             place(time.first_step.as_ref().map(Spanned::span), "first_step", &[Implicit, StaticExplicit]),
             place(time.max_step.as_ref().map(Spanned::span), "max_step", &[Implicit, StaticExplicit]),
             place(time.min_step.as_ref().map(Spanned::span), "min_step", &[Implicit, StaticExplicit]),
