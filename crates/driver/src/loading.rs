@@ -29,8 +29,6 @@ pub struct Stage {
     pub end: f64,
     /// Number of equal steps, where the scene says so.
     pub steps: Option<usize>,
-    /// Whether a force is there, or gone, at once.
-    pub jumps: bool,
     /// Names of interfaces without friction.
     pub frictionless: Vec<String>,
     motions: Vec<(Vec<usize>, Motion)>,
@@ -197,9 +195,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
         for condition in &spec.conditions {
             take_up(model, condition, (&mut held, &mut shared), &mut loads)?;
         }
-        let jumps = jumps::of_stage(scene, spec, (&before, &present), &loads)?
-            | jumps::loses_friction(scene, spec, scene.stages.get(stages.len().wrapping_sub(1)))
-            | (stages.is_empty() && jumps::at_start(scene));
+        jumps::of_stage(scene, spec, (&before, &present), &loads)?;
         shared.stage(model, spec, &held)?;
         let (springs, motions): (Vec<_>, Vec<_>) = motions::<D>(model, &held)?
             .into_iter()
@@ -221,7 +217,6 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
             start,
             end,
             steps: spec.steps.as_ref().map(|s| *s.get_ref()),
-            jumps,
             frictionless: spec.frictionless.iter().map(|s| s.get_ref().clone()).collect(),
             turning: turning(model, &motions),
             motions,

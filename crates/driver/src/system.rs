@@ -141,9 +141,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
             Some(ActiveStepper::Implicit(stepper)) => {
                 stepper.begin_stage(symmetry, self.plan.model.is_linear());
             }
-            Some(ActiveStepper::StaticExplicit(stepper)) => {
-                stepper.begin_stage(symmetry, stage.jumps || moves_at_once(&self.constraints, &self.state));
-            }
+            Some(ActiveStepper::StaticExplicit(stepper)) => stepper.begin_stage(symmetry),
             None => {}
         }
         for (interface, planned) in self.interfaces.iter_mut().zip(&self.plan.interfaces) {
@@ -566,15 +564,6 @@ fn local_channels(constraints: &Constraints, dofs: std::ops::Range<usize>) -> Ve
         })
         .filter(|c| !c.prescribed.is_empty() || !c.forces.is_empty())
         .collect()
-}
-
-/// Whether a prescribed displacement is not where it was before the stage.
-fn moves_at_once(constraints: &Constraints, state: &State) -> bool {
-    let mut first = state.u.clone();
-    constraints.impose(state.time, &mut first);
-    // Where displacements go on the two are the same up to rounding of a product.
-    let same = |(new, old): (&f64, &f64)| (new - old).abs() <= 4.0 * f64::EPSILON * old.abs().max(new.abs());
-    !first.iter().zip(&state.u).all(same)
 }
 
 /// Declares an interface to the contact crate; its multipliers that are unknowns are numbered from `unknowns`.

@@ -1,7 +1,4 @@
-//! Forces that jump.
-//!
-//! A force that is there at once has no rate. Static-explicit steps, which follow rates, leave the step in which it acts to Newton's method.
-//! On faults it is refused, as are displacements that jump: their tractions are given at the start.
+//! Forces and displacements that jump, which faults refuse: their tractions at the start are given, and follow rates from there.
 
 use crate::plan::PlanError;
 use crate::scene::model::{Condition, Loading, Motion, Scene, Spanned, Stage, Stepper};
@@ -10,33 +7,20 @@ use std::collections::BTreeMap;
 /// What a set does along an axis.
 type Of<T> = BTreeMap<(String, usize), T>;
 
-/// Whether weight or initial stress act from the start of a scene.
-pub(super) fn at_start(scene: &Scene) -> bool {
-    scene.bodies.values().any(|body| body.gravity.is_some() || body.initial_stress.is_some())
-}
-
-/// Whether a stage takes friction off an interface that had it in the stage before.
-pub(super) fn loses_friction(scene: &Scene, stage: &Stage, before: Option<&Stage>) -> bool {
-    let frictionless = |stage: &Stage, name: &str| stage.frictionless.iter().any(|n| n.get_ref() == name);
-    let had = |name: &str| scene.interfaces.get(name).is_some_and(|i| i.law.is_some());
-    before.is_some_and(|before| {
-        stage.frictionless.iter().any(|n| had(n.get_ref()) && !frictionless(before, n.get_ref()))
-    })
-}
-
-/// Whether loads and releases of a stage change a force at once; `before` are the motions and the values of the loads at the
+/// Refuses loads and releases of a stage of faults that change a force at once; `before` are the motions and the values of the loads at the
 /// end of the stage before.
 ///
 /// # Errors
-/// [`PlanError`] pointing at the condition, where the scene has faults.
+/// [`PlanError`] pointing at the condition.
 pub(super) fn of_stage(
     scene: &Scene,
     stage: &Stage,
     (held, present): (&Of<Motion>, &Of<f64>),
     loads: &Of<Loading>,
-) -> Result<bool, PlanError> {
-    let on_faults = *scene.time.stepper.get_ref() == Stepper::FaultOde;
-    let mut jumps = false;
+) -> Result<(), PlanError> {
+    if *scene.time.stepper.get_ref() != Stepper::FaultOde {
+        return Ok(());
+    }
     let place = |set: &str| {
         let of_set = |c: &&Spanned<Condition>| c.get_ref().set.as_ref().is_some_and(|s| s.get_ref() == set);
         stage.conditions.iter().find(of_set).map(|c| c.span()).unwrap_or_default()
@@ -48,8 +32,7 @@ pub(super) fn of_stage(
             Loading::To(_) => from,
             Loading::Table(points) => points.first().map_or(from, |p| p.1),
         };
-        jumps |= first != from;
-        if first != from && on_faults {
+        if first != from {
             return Err(PlanError::at(
                 place(&key.0),
                 format!(
@@ -68,7 +51,7 @@ pub(super) fn of_stage(
                 Motion::Table(points) => points.first().is_some_and(|p| p.1 != 0.0),
                 _ => false,
             };
-            if at_once && on_faults {
+            if at_once {
                 return Err(PlanError::at(
                     motion.span(),
                     "a displacement that is there at once loads the faults, whose tractions at the start are given".into(),
@@ -79,11 +62,7 @@ pub(super) fn of_stage(
         for (axis, motion) in [&c.x, &c.y, &c.z].into_iter().enumerate() {
             let Some(set) = &c.set else { continue };
             let was_held = held.get(&(set.get_ref().clone(), axis)).is_some_and(|m| *m != Motion::Free);
-            let Some(motion) = motion.as_ref().filter(|m| *m.get_ref() == Motion::Free && was_held) else {
-                continue;
-            };
-            jumps = true;
-            if on_faults {
+            if let Some(motion) = motion.as_ref().filter(|m| *m.get_ref() == Motion::Free && was_held) {
                 return Err(PlanError::at(
                     motion.span(),
                     format!(
@@ -94,5 +73,5 @@ pub(super) fn of_stage(
             }
         }
     }
-    Ok(jumps)
+    Ok(())
 }

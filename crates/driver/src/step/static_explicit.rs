@@ -35,15 +35,13 @@ pub struct StaticExplicit {
     drift: f64,
     /// Residual left by the step before; empty before the first.
     left: Vec<f64>,
-    /// Whether the next step begins with a jump.
-    jumps: bool,
 }
 
 impl StaticExplicit {
     /// A stepper that foresees with the system of `newton`, and corrects with it what is beyond `drift` of the largest force.
     #[must_use]
     pub fn new(newton: Implicit, drift: f64) -> Self {
-        Self { newton, drift, left: Vec::new(), jumps: false }
+        Self { newton, drift, left: Vec::new() }
     }
 
     /// The linear system, for its counts.
@@ -57,10 +55,9 @@ impl StaticExplicit {
         self.newton.set_bound(bound);
     }
 
-    /// Goes on with another stage, in which a force or a displacement `jumps` or not.
-    pub fn begin_stage(&mut self, symmetry: Symmetry, jumps: bool) {
+    /// Goes on with another stage.
+    pub fn begin_stage(&mut self, symmetry: Symmetry) {
         self.newton.begin_stage(symmetry, false);
-        self.jumps = jumps;
     }
 
     /// Takes a step of at most `dt.0`; where accuracy asks for less than `dt.1`, one of that length.
@@ -75,9 +72,6 @@ impl StaticExplicit {
         dt: (f64, f64),
         counts: &mut Counts,
     ) -> Result<Accepted, Failure> {
-        if self.jumps {
-            return self.jump(terms, constraints, state, dt.0, counts);
-        }
         let result = self
             .foresee(terms, constraints, state, dt, counts)
             .and_then(|foreseen| self.correct(terms, constraints, state, foreseen, counts));
@@ -85,22 +79,6 @@ impl StaticExplicit {
             if result.is_ok() { term.accept() } else { term.reject() }
         }
         result
-    }
-
-    /// A step that begins with a jump, which has no rate: Newton's method finds its end.
-    fn jump(
-        &mut self,
-        terms: &mut [&mut dyn Limited],
-        constraints: &Constraints,
-        state: &mut State,
-        dt: f64,
-        counts: &mut Counts,
-    ) -> Result<Accepted, Failure> {
-        let mut linearized = linearized(terms);
-        let accepted = self.newton.step(&mut linearized, constraints, state, dt, counts)?;
-        self.left.clone_from(self.newton.residual());
-        self.jumps = false;
-        Ok(accepted)
     }
 
     /// The increment of a step of at most `wanted` by the rate tangent, and the length that the R-minimum rule leaves it, accuracy no less
@@ -158,7 +136,8 @@ impl StaticExplicit {
     ) -> Result<Accepted, Failure> {
         let mut u: Vec<f64> = state.u.iter().zip(&du).map(|(u, du)| u + du).collect();
         constraints.impose(at.time, &mut u);
-        let mut linearized = linearized(terms);
+        let mut linearized: Vec<&mut dyn Linearized> =
+            terms.iter_mut().map(|term| &mut **term as &mut dyn Linearized).collect();
         let corrected = self.newton.correct(&mut linearized, &mut u, at, self.drift, counts)?;
         unopposed(&linearized)?;
         let error = accurate(&mut linearized, self.newton.bound())?;
@@ -210,11 +189,6 @@ impl StaticExplicit {
         }
         Ok(du)
     }
-}
-
-/// The terms as Newton's method sees them.
-fn linearized<'a>(terms: &'a mut [&mut dyn Limited]) -> Vec<&'a mut dyn Linearized> {
-    terms.iter_mut().map(|term| &mut **term as &mut dyn Linearized).collect()
 }
 
 /// A step before the terms have answered it.
