@@ -205,8 +205,10 @@ pub struct Equations<'a> {
     /// When the next change of loading or pressure comes \[s\].
     until: f64,
     scratch: RefCell<Scratch>,
-    /// The point whose normal traction was found not to be positive, or whose opening not to settle, since the last call of [`Equations::opened`].
+    /// The point whose normal traction was found not to be positive since the last call of [`Equations::opened`].
     opened: Cell<Option<usize>>,
+    /// A point whose opening did not settle. That does not depend on the step: nothing is evaluated any more, and the integration ends.
+    unsettled: Cell<Option<usize>>,
 }
 
 impl<'a> Equations<'a> {
@@ -233,6 +235,7 @@ impl<'a> Equations<'a> {
             until: f64::INFINITY,
             scratch: RefCell::new(scratch),
             opened: Cell::new(None),
+            unsettled: Cell::new(None),
         }
     }
 
@@ -250,7 +253,8 @@ impl<'a> Equations<'a> {
 
     /// A point whose normal traction was not positive, or whose opening did not settle, in a stage since the last call, which made the step to be rejected.
     pub fn opened(&self) -> Option<usize> {
-        self.opened.take()
+        let opened = self.opened.take();
+        self.unsettled.get().or(opened)
     }
 
     /// Slip rates of all points \[m/s\].
@@ -342,6 +346,10 @@ impl Equations<'_> {
 
     /// The rates, with or without those of pressure.
     fn evaluate(&self, at: Clock, y: &[f64], dy: &mut [f64], pressurised: bool) {
+        if self.unsettled.get().is_some() {
+            dy.fill(f64::NAN);
+            return;
+        }
         let (l, fault) = (self.layout, self.fault);
         let scratch = &mut *self.scratch.borrow_mut();
         let (m, states) = (&y[l.m()], &y[l.states()]);
@@ -366,7 +374,7 @@ impl Equations<'_> {
             }
             if let Some(opening) = &fault.opening {
                 if let Err(point) = opening.solve(&mut scratch.crack, &mut scratch.normal) {
-                    self.opened.set(Some(point));
+                    self.unsettled.set(Some(point));
                     dy.fill(f64::NAN);
                     return;
                 }
