@@ -14,6 +14,12 @@ pub const CASE: Case = Case {
 
 const COLUMN: &str = include_str!("scene.toml");
 const BLOCKS: &str = include_str!("blocks.toml");
+const PLATE: &str = include_str!("plate.toml");
+/// Laws of the plate.
+const LAWS: [&str; 2] = [
+    "{ kind = \"coulomb\", mu = 0.6 }",
+    "{ kind = \"rate-and-state\", evolution = \"ageing\", mu0 = 0.6, a = 0.015, b = 0.010, l = \"10 um\", v_ref = \"1 um/s\", v_initial = \"1 um/s\" }",
+];
 /// Height \[m\].
 const HEIGHT: f64 = 10.0;
 /// Modulus of uniaxial strain, E (1 - ν)/((1 + ν)(1 - 2 ν)) \[Pa\].
@@ -73,7 +79,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     for jump in &JUMPS {
         column(ledger, jump)?;
     }
-    blocks(ledger)
+    blocks(ledger)?;
+    plate(ledger)
 }
 
 fn column(ledger: &mut Ledger, jump: &Jump) -> Result<(), CaseError> {
@@ -121,5 +128,61 @@ fn blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
         .because("Newton's method ends at 1e-11 of the largest force, that of a node")
         .cost(&done.cost)
         .record();
+    Ok(())
+}
+
+/// A plate that its weight presses: both measures, small and finite sliding, start gap and overlap of a tenth of a millimetre.
+fn plate(ledger: &mut Ledger) -> Result<(), CaseError> {
+    for (law, friction) in LAWS.iter().zip(["Coulomb's law", "rate and state"]) {
+        let (mut normal, mut against, mut cost) = (Vec::new(), Vec::new(), None);
+        for measure in ["node-to-point", "mortar"] {
+            for sliding in ["small", "finite"] {
+                for start in [-0.1, 0.1] {
+                    let of = |stepper: &str| -> Result<_, CaseError> {
+                        let start = format!("{start}");
+                        let changes = [
+                            ("START", start.as_str()),
+                            ("MEASURE", measure),
+                            ("SLIDING", sliding),
+                            ("LAW", law),
+                            ("STEPPER", stepper),
+                        ];
+                        let done = texts::simulate(&vary(PLATE, &changes)?)?;
+                        let last = |name| done.force(name).map(|all| all[all.len() - 1]);
+                        let forces = (last("pushed")?[0], last("below")?[1]);
+                        Ok((forces, done.cost))
+                    };
+                    let (implicit, _) = of("implicit")?;
+                    let (own, own_cost) = of("static-explicit")?;
+                    cost.get_or_insert(own_cost);
+                    normal.push(own.1 / (WEIGHT * 4.0 * (1.0 - 1e-3 * start)));
+                    against.push(own.0 / implicit.0);
+                }
+            }
+        }
+        let cost = cost.ok_or("nothing was run")?;
+        ledger
+            .claim(format!(
+                "plate under its weight, {friction}: force below the base over the weight, of two measures, small and finite sliding, overlap and start gap"
+            ))
+            .values(&normal)
+            .equals_each(&vec![1.0; normal.len()])
+            .absolute(1e-4)
+            .evidence(Evidence::Exact, "balance of forces")
+            .because("steps may leave 1e-4 of the largest force at a node out of balance, and a node bears less than all")
+            .why_not_tighter("the bound is what the stepper promises")
+            .cost(&cost)
+            .record();
+        ledger
+            .claim(format!("the same, {friction}: force that pushes the plate over that of implicit steps"))
+            .values(&against)
+            .equals_each(&vec![1.0; against.len()])
+            .absolute(1e-4)
+            .evidence(Evidence::ConvergedSelf, "implicit steps at their default")
+            .because("what steps may leave out of balance; both follow the same law, to 1e-4 in friction")
+            .why_not_tighter("the bound is what both steppers promise")
+            .cost(&cost)
+            .record();
+    }
     Ok(())
 }
