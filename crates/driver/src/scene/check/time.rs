@@ -8,6 +8,10 @@ use std::ops::Range;
 /// area, then err by a percent.
 const MOST_DRIFT: f64 = 1e-2;
 
+/// Errors of friction coefficients that steps may be bounded by: Newton's method leaves 1e-11 of the largest force, which hides less, and more than
+/// a hundredth is more than what rates and states change friction by.
+const FRICTION_TOLERANCES: Range<f64> = 1e-9..1e-2;
+
 /// Kinds of law whose strength depends on slip and not on its rate, which backward differentiation of order 2 is not for.
 const OF_SLIP: [&str; 2] = ["static-kinetic", "slip-weakening"];
 
@@ -63,6 +67,18 @@ impl Checker<'_> {
                 drift.span(),
                 "`drift` is the share of the largest force that a step may leave out of balance, and more than a hundredth shows in all tractions",
                 "at most 1e-2; the default is 1e-4",
+            );
+        }
+        if let Some(tolerance) = time
+            .friction_tolerance
+            .as_ref()
+            .filter(|t| *t.get_ref() > 0.0 && !FRICTION_TOLERANCES.contains(t.get_ref()))
+        {
+            self.error(
+                tolerance.span(),
+                "`friction_tolerance` bounds the error of friction coefficients of a step: less than 1e-9 is hidden by rounding, and 1e-2 and more \
+                 bounds nothing",
+                "between 1e-9 and 1e-2; the default is 2e-6",
             );
         }
         if let Some(rule) =
