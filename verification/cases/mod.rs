@@ -43,7 +43,9 @@ mod contact_combinations;
 mod contact_combinations_all;
 mod contact_enforcement;
 mod contact_extremes;
+mod contact_facets;
 mod contact_hard;
+mod contact_invariance;
 mod contact_patch;
 mod contact_patch_mortar;
 mod contact_rotation;
@@ -129,7 +131,9 @@ pub const ALL: &[Case] = &[
     contact_combinations_all::CASE,
     contact_enforcement::CASE,
     contact_extremes::CASE,
+    contact_facets::CASE,
     contact_hard::CASE,
+    contact_invariance::CASE,
     contact_patch::CASE,
     contact_patch_mortar::CASE,
     contact_rotation::CASE,

@@ -15,6 +15,7 @@ pub mod loading;
 pub mod model;
 pub mod observe;
 pub mod ode;
+pub mod penalty;
 pub mod plan;
 mod plan_doubts;
 pub mod printing;

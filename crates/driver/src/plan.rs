@@ -6,6 +6,7 @@ use crate::fault;
 use crate::forecast::{self, Held};
 use crate::loading::{self, Stage};
 use crate::model::{CellBlock, Model, sizes};
+use crate::penalty::{self, Softer};
 use crate::plan_doubts;
 use crate::rigid;
 use crate::samples::Wanted;
@@ -80,6 +81,10 @@ pub struct PlannedInterface {
     pub unknowns: usize,
     /// Friction or bond, absent where the scene declares none.
     pub law: Option<Arc<dyn Law>>,
+    /// The softer of its sides, by which penalties are measured.
+    pub softer: Softer,
+    /// Its penalty in words, where that is so large that iterations suffer.
+    pub blamed: Option<String>,
     /// What its points resolve, where friction weakens with slip.
     pub resolved: Option<Resolved>,
     /// What steps may not do.
@@ -405,6 +410,9 @@ fn interface<const D: usize>(
     let resolved = Resolved::new(model, spec, slave_sides);
     let young_per_size = model.young_per_size(body, slave_sides);
     let enforced = Enforced::new(&spec.enforcement, young_per_size, model.element_size(body, slave_sides));
+    let facing = model.body_of(spec.master.get_ref()).map_or(body, |b| &model.bodies[b]);
+    let softer = Softer::of(model, (body, slave_sides), (facing, master_sides));
+    penalty::check(name, spec, &softer)?;
     Ok(PlannedInterface {
         name: name.to_string(),
         enforced,
@@ -419,6 +427,8 @@ fn interface<const D: usize>(
         tangential_penalty: (spec.enforcement.tangential.as_ref())
             .map_or(0.0, |t| in_pascal_per_metre(t, young_per_size)),
         law,
+        blamed: penalty::blamed(name, &spec.enforcement, &softer),
+        softer,
         watch: Watch { coarse_beyond: resolved.as_ref().and_then(Resolved::refused_beyond), ..watch },
         resolved,
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),

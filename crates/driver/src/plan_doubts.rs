@@ -2,9 +2,9 @@
 
 use crate::coarse;
 use crate::cohesive;
-use crate::enforcement;
 use crate::loading::Stage;
 use crate::model::{Model, sizes};
+use crate::penalty;
 use crate::plan::{PlanError, PlannedInterface, Stepping};
 use crate::scene::check::show;
 use crate::scene::model::Scene;
@@ -31,9 +31,9 @@ pub fn of<const D: usize>(
         let sides = model.sides(&spec.slave)?;
         let start = start_gaps::measure(model, stepping, planned, (spec, sides))?;
         if let Some(body) = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]) {
-            let (stiffness, h) = (model.young_per_size(body, sides), model.element_size(body, sides));
+            let h = model.element_size(body, sides);
             let bonded = planned.law.as_ref().is_some_and(|l| l.bonded());
-            doubts.extend(enforcement::doubts(&planned.name, &spec.enforcement, stiffness, h));
+            doubts.extend(penalty::doubts(&planned.name, &spec.enforcement, &planned.softer));
             doubts.extend(start_gaps::doubts(&start, (spec, bonded), stages, h));
         }
         doubts.extend(coarse::doubts(&model.mesh.nodes, planned, spec));

@@ -151,6 +151,9 @@ impl<const D: usize> Running<'_, D> {
                     if free.is_none() && failure.is_singular() {
                         free = system.free_motion();
                     }
+                    if let Some(outcome) = stop::stalled(system, &stage.name, &failure, &self.counts) {
+                        return Ok(Some(outcome));
+                    }
                     if failure.always() || !length.halve(dt) {
                         return Ok(Some(stop::failed(
                             system,

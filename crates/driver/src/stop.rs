@@ -1,6 +1,7 @@
 //! How a run ends that cannot go on: what is said of it, and whether it met an instability.
 
 use crate::cohesive::Resolved;
+use crate::observe::view::Counts;
 use crate::report::{Outcome, Stop};
 use crate::step::Failure;
 use crate::system::Assembled;
@@ -11,6 +12,12 @@ use asperity_fem::term::Objection;
 const REMEDY: &str = "the last state before it is kept. Stiffer bodies or supports, or a larger length of weakening (`l`, `d_c`), \
     are stable; events are followed where waves or inertia carry them: `[faults.NAME]`, or `kinematics = \"spring-slider\"` with \
     `damping` or `mass`";
+
+/// Trials of steps that failed after which a run with a penalty far beyond the stiffness of its bodies ends: one set of contacts that changes
+/// as a whole takes a few, and halving down to the smallest step 44.
+const STALLED: usize = 20;
+/// Steps to each of them up to which it does.
+const SELDOM: usize = 4;
 
 /// Parts of a metre in which a place is told: nanometres, so that rounding does not show.
 const SHOWN: f64 = 1e9;
@@ -47,6 +54,27 @@ pub fn failed<const D: usize>(
         reason += &format!("; {free}");
     }
     Outcome::Stopped { stage, time, reason, kind: Stop::NotConverged }
+}
+
+/// The outcome of a run whose iterations fail again and again for a penalty that is far too large, where they do.
+pub fn stalled<const D: usize>(
+    system: &Assembled<'_, D>,
+    stage: &str,
+    failure: &Failure,
+    counts: &Counts,
+) -> Option<Outcome> {
+    let by_accuracy = matches!(failure, Failure::Inaccurate { .. } | Failure::Objected(_));
+    if by_accuracy || counts.rejected < STALLED || counts.steps > SELDOM * counts.rejected {
+        return None;
+    }
+    let blamed = system.blamed()?;
+    let reason = format!(
+        "{} trials of steps failed, beside {} that stand: {blamed}. The last of them: {}",
+        counts.rejected,
+        counts.steps,
+        system.in_words(failure)
+    );
+    Some(Outcome::Stopped { stage: stage.to_string(), time: system.time(), reason, kind: Stop::NotConverged })
 }
 
 /// The outcome of a run whose error of slip asks for steps of `needed` \[s\], below the smallest allowed. `faster` tells whether slip

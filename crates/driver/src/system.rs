@@ -289,6 +289,11 @@ impl<'a, const D: usize> Assembled<'a, D> {
         }
     }
 
+    /// A penalty so large that iterations suffer, in words.
+    pub fn blamed(&self) -> Option<&str> {
+        self.plan.interfaces.iter().find_map(|i| i.blamed.as_deref())
+    }
+
     /// What an unknown is about, where it is a multiplier.
     fn multiplier_in_words(&self, unknown: usize, nodes: &[usize]) -> Option<String> {
         let mut first = nodes.len() * self.plan.model.idealisation.components();

@@ -1,0 +1,137 @@
+//! A round block dragged over a flat one: how friction pulses with facets, and how that falls with their size.
+
+use super::texts::{simulate, vary};
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "contact_facets",
+    readme: include_str!("README.md"),
+    covers: &[Capability::PenaltyContact3d, Capability::Coulomb],
+    quick: false,
+    run,
+};
+
+/// Cells across the round block.
+const CELLS: [usize; 3] = [6, 9, 12];
+/// On which measures are compared.
+const COMPARED: usize = 9;
+const ANGLE: f64 = 25.0;
+const MU: f64 = 0.3;
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let mut rows = Vec::new();
+    let mut levels = Vec::new();
+    let mut plain = None;
+    for cells in CELLS {
+        let way = Way::of(cells, &[])?;
+        rows.push(way.row("node-to-point", cells));
+        levels.push((1.0 / cells as f64, way.swing()));
+        if cells == COMPARED {
+            plain = Some(way);
+        }
+    }
+    ledger
+        .order("distance of friction from its mean along the way over mu N, root of the mean square, node-to-point")
+        .levels(&levels)
+        .expected(1.0)
+        .within(0.4)
+        .or_better()
+        .finest(0.03, "kinks of h/R = 0.08 between facets, shared by a dozen nodes without common sign")
+        .because("neighbouring facets of the dent differ in direction by h/R, and with them the forces of nodes that pass from one to the next")
+        .why_not_tighter("the way starts and ends anywhere among the cells, and the number of nodes in contact changes along it")
+        .evidence(Evidence::Exact, "a steady motion over a homogeneous body: the continuum has none")
+        .covers(&[Capability::PenaltyContact3d, Capability::Coulomb])
+        .record();
+    let plain = plain.ok_or("nothing to compare with")?;
+    let smoothed = Way::of(COMPARED, &[("\"node-to-point\"", "\"node-to-point\"\nsmoothing = \"cubic\"")])?;
+    ledger
+        .claim("distance of friction from its mean along the way, smoothed faces over plain ones on the same mesh")
+        .value(smoothed.swing() / plain.swing())
+        .at_most(0.5)
+        .evidence(Evidence::ConvergedSelf, "both vanish in the continuum")
+        .because("normals that do not jump leave the chord error of faces, of second order in h, instead of the kinks")
+        .why_not_tighter("nodes that enter and leave the contact remain")
+        .covers(&[Capability::PenaltyContact3d, Capability::Coulomb])
+        .cost(&smoothed.cost)
+        .record();
+    rows.push(smoothed.row("smoothed", COMPARED));
+    rows.push(Way::of(COMPARED, &[("\"node-to-point\"", "\"mortar\"")])?.row("mortar", COMPARED));
+    let head = [
+        "measure",
+        "cells",
+        "across [% of mu N]",
+        "pulse [% of mu N]",
+        "T/(mu N)",
+        "N [MN]",
+        "iterations",
+        "wall [s]",
+    ];
+    ledger.table("friction of a round block dragged at 25 degrees", &head, rows);
+    Ok(())
+}
+
+/// What became of the force along the way.
+struct Way {
+    /// Root of the mean square of friction across the way, over mu N.
+    across: f64,
+    /// The same of what friction along it differs by from its mean.
+    pulse: f64,
+    /// Mean of friction along the way over mu N.
+    ratio: f64,
+    /// Mean of the normal force \[N\].
+    normal: f64,
+    cost: Cost,
+    iterations: usize,
+}
+
+impl Way {
+    fn of(cells: usize, changes: &[(&str, &str)]) -> Result<Self, CaseError> {
+        let flat = format!("divisions = [{}, {}, {}]", 3 * cells / 2, cells / 3, 3 * cells / 2);
+        let round = format!("divisions = [{cells}, {}, {cells}]", cells / 2);
+        let mesh = [("divisions = [9, 2, 9]", flat.as_str()), ("divisions = [6, 3, 6]", round.as_str())];
+        let done = simulate(&vary(&vary(include_str!("scene.toml"), &mesh)?, changes)?)?;
+        let (s, c) = ANGLE.to_radians().sin_cos();
+        let (mut along, mut across, mut normal) = (Vec::new(), Vec::new(), Vec::new());
+        for (time, sample) in done.record.times().iter().zip(done.record.samples()) {
+            if *time > 2.0 {
+                let force = sample.forces[0];
+                let bound = MU * -force[1];
+                along.push((c * force[0] + s * force[2]) / bound);
+                across.push((c * force[2] - s * force[0]) / bound);
+                normal.push(-force[1]);
+            }
+        }
+        let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
+        let size = |v: &[f64], about: f64| {
+            (v.iter().map(|v| (v - about).powi(2)).sum::<f64>() / v.len() as f64).sqrt()
+        };
+        let ratio = mean(&along);
+        Ok(Self {
+            across: size(&across, 0.0),
+            pulse: size(&along, ratio),
+            ratio,
+            normal: mean(&normal),
+            cost: done.cost,
+            iterations: done.report.counts.iterations,
+        })
+    }
+
+    /// Root of the mean square of the distance from the mean along the way, over mu N.
+    fn swing(&self) -> f64 {
+        self.across.hypot(self.pulse)
+    }
+
+    fn row(&self, measure: &str, cells: usize) -> [String; 8] {
+        [
+            measure.to_owned(),
+            format!("{cells}"),
+            format!("{:.2}", 100.0 * self.across),
+            format!("{:.2}", 100.0 * self.pulse),
+            format!("{:.4}", self.ratio),
+            format!("{:.3}", self.normal * 1e-6),
+            format!("{}", self.iterations),
+            format!("{:.1}", self.cost.wall.unwrap_or(f64::NAN)),
+        ]
+    }
+}
