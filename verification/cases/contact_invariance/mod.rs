@@ -57,7 +57,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
                         .at_most(if overlaps { QUADRATURE } else { BOUND })
                         .evidence(Evidence::Exact, "the problem is the same")
                         .because(
-                            "residuals end at 1e-11 of the largest force or below, and the last Newton step squares what is left; five steps \
+                            "residuals end at 1e-11 of the largest force or below, and the last Newton step squares what is left; eight steps \
                              carry it on; overlaps in space are fanned out from the first corner of a facet",
                         )
                         .why_not_tighter("positions times the penalty are rounded to 1e-12 of the tractions, differently in other axes")
