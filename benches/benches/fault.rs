@@ -2,8 +2,8 @@
 #![allow(missing_docs)]
 
 use asperity_driver::fault::{Equations, Form, Plan, plan_with};
-use asperity_driver::ode::{Clock, Problem};
 use asperity_driver::scene;
+use asperity_ode::{Clock, Problem};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 /// BP1 with cells of this size \[m\] where the fault is locked.

@@ -1,12 +1,12 @@
 //! Earthquake cycles of spring-sliders.
 #![allow(missing_docs, clippy::print_stdout)]
 
-use asperity_driver::ode::Method;
 use asperity_driver::slider::{self, Plan, Thresholds};
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding, Spring, System};
 use asperity_friction::strength::{Parameters, regularised::Regularised};
+use asperity_ode::Method;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::sync::Arc;
 

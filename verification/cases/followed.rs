@@ -2,7 +2,7 @@
 
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::fault::{Balance, Event, Moment, Plan, Report, Run, Settings, Watcher, resume};
-use asperity_driver::ode::{Control, Outcome};
+use asperity_ode::{Control, Outcome};
 
 /// Sums works, and keeps one of the places where the run restarts.
 struct Look<'a> {

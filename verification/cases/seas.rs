@@ -2,9 +2,9 @@
 
 use crate::{CaseError, Cost};
 use asperity_driver::fault::{Event, Moment, Plan, Settings, run as integrate};
-use asperity_driver::ode::{Control, Outcome};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
+use asperity_ode::{Control, Outcome};
 
 /// A year \[s\], as the benchmarks count it.
 pub const YEAR: f64 = 365.25 * 86400.0;

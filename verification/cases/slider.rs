@@ -1,12 +1,12 @@
 //! What the cases of spring-sliders share: parameter sets, laws, runs, and the references of the second implementation.
 
 use crate::CaseError;
-use asperity_driver::ode::{Counts, Method, Outcome};
 use asperity_driver::slider::{self, Now, Plan, Run, Thresholds};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding, System};
 use asperity_friction::strength::{Parameters, regularised::Regularised};
+use asperity_ode::{Counts, Method, Outcome};
 use std::sync::Arc;
 
 /// Reference friction of all sets.

@@ -14,7 +14,6 @@ pub mod laws;
 pub mod loading;
 pub mod model;
 pub mod observe;
-pub mod ode;
 pub mod penalty;
 pub mod plan;
 mod plan_doubts;

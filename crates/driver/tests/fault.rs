@@ -2,9 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use asperity_driver::fault::{Balance, Both, Dense, Event, Moment, Operator, Plan, Report, run};
-use asperity_driver::ode::{Control, Method, Outcome};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
+use asperity_ode::{Control, Method, Outcome};
 
 const YEAR: f64 = 365.25 * 86400.0;
 const PLATE: f64 = 1e-9;

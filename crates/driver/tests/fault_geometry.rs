@@ -2,9 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use asperity_driver::fault::{Moment, Plan, run};
-use asperity_driver::ode::{Control, Outcome};
 use asperity_driver::plan::{PlanError, ScenePlan, plan_scene};
 use asperity_driver::scene::{self, diagnostic};
+use asperity_ode::{Control, Outcome};
 use std::fmt::Write as _;
 use std::path::Path;
 

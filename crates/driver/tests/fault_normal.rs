@@ -2,9 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use asperity_driver::fault::{Balance, Moment, Plan, Report, Run, run};
-use asperity_driver::ode::{Control, Outcome};
 use asperity_driver::plan::{PlanError, ScenePlan, plan_scene};
 use asperity_driver::scene;
+use asperity_ode::{Control, Outcome};
 
 /// A fault of this trace below a free surface, with these keys, that plates draw along the first leg of the trace in the sense of `sign`.
 fn dipping(trace: &str, direction: [f64; 2], sign: f64, keys: &str) -> String {

@@ -2,9 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use asperity_driver::fault::{Balance, Layout, Moment, Plan, Report, Run, run};
-use asperity_driver::ode::{Control, Outcome};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
+use asperity_ode::{Control, Outcome};
 
 /// A fault below a free surface that fluid opens; it closes when the injection ends.
 const INJECTED: &str = include_str!("../../../scenes/fault-opening.toml");

@@ -4,9 +4,9 @@
 mod common;
 
 use asperity_driver::fault::{Event, Files, Moment, Plan, Position, Report, Run, Watcher, draw, resume};
-use asperity_driver::ode::Control;
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
+use asperity_ode::Control;
 use common::cycles::SCENE;
 use std::fs;
 use std::path::Path;

@@ -3,8 +3,8 @@
 
 mod common;
 
-use asperity_driver::ode::Method;
 use asperity_driver::slider::{Event, Now, Plan, Stability, critical_stiffness, csv, run};
+use asperity_ode::Method;
 use common::sliders::{CYCLE, history, plan, relative, written};
 use nalgebra::DMatrix;
 

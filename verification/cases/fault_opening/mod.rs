@@ -3,7 +3,7 @@
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::fault::{Balance, Plan, Report, run as integrate};
-use asperity_driver::ode::{Control, Outcome};
+use asperity_ode::{Control, Outcome};
 
 /// See the README.
 pub const CASE: Case = Case {

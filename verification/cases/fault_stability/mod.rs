@@ -3,7 +3,7 @@
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::fault::{Equations, Layout, Moment, Plan, run as integrate};
-use asperity_driver::ode::{Clock, Control, Outcome, Problem};
+use asperity_ode::{Clock, Control, Outcome, Problem};
 use modes::Mode;
 use nalgebra::{Complex, Matrix2};
 use std::f64::consts::PI;

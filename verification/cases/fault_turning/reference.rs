@@ -2,9 +2,7 @@
 
 use crate::CaseError;
 use asperity_driver::fault::{Operator, Plan};
-use asperity_driver::ode::{
-    Clock, Control, Method, Occurrence, Options, Outcome, Problem, Sink, Step, integrate,
-};
+use asperity_ode::{Clock, Control, Method, Occurrence, Options, Outcome, Problem, Sink, Step, integrate};
 
 /// Friction of the scene: f0, a, b, L \[m\] and V0 \[m/s\].
 const F0: f64 = 0.6;

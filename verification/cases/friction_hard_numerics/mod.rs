@@ -2,7 +2,6 @@
 
 use super::slider::{self, Kind, Set};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::ode::Clock;
 use asperity_driver::slider::{self as driver, Now, Plan};
 use asperity_friction::Failure;
 use asperity_friction::component::Component;
@@ -12,6 +11,7 @@ use asperity_friction::law::{Drives, Law, Rated};
 use asperity_friction::point::{Point, Solver};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};
+use asperity_ode::Clock;
 
 /// See the README.
 pub const CASE: Case = Case {

@@ -2,9 +2,9 @@
 
 use super::slider::{self, Independent, Kind, Set, V_REF};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::ode::{self, Clock, Control, Method, Occurrence, Options, Outcome, Problem, Sink, Step};
 use asperity_friction::evolution::{Evolution, Speed, ageing::Ageing, prz::Prz, slip::Slip};
 use asperity_friction::slider::History;
+use asperity_ode::{Clock, Control, Method, Occurrence, Options, Outcome, Problem, Sink, Step};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -142,7 +142,14 @@ fn stepped<E: Evolution>(
     };
     let mut keep = Keep(Vec::new());
     let (end, cost) = Cost::of(|| {
-        ode::integrate(&problem, Clock::new(0.0, 0.0), &[start], 6.0 * LENGTH / v2, &options, &mut keep)
+        asperity_ode::integrate(
+            &problem,
+            Clock::new(0.0, 0.0),
+            &[start],
+            6.0 * LENGTH / v2,
+            &options,
+            &mut keep,
+        )
     });
     if end.outcome != Outcome::Completed {
         return Err(format!("{name}: {:?}", end.outcome).into());

@@ -3,13 +3,13 @@
 use super::slider;
 use super::texts::{Done, attempt, simulate, vary};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_driver::ode::Method;
 use asperity_driver::report::{Outcome, Stop};
 use asperity_driver::slider::{self as driver, Thresholds};
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider};
 use asperity_friction::strength::{Parameters, regularised::Regularised};
+use asperity_ode::Method;
 use std::sync::Arc;
 
 /// See the README.

@@ -3,13 +3,13 @@
 use super::slider::{self, Kind};
 use super::texts::{self, Done, vary};
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
-use asperity_driver::ode::Method;
 use asperity_driver::report::{Outcome, Stop};
 use asperity_driver::slider::{self as driver, Now, Output, Plan, Thresholds};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding};
 use asperity_friction::strength::{Parameters, regularised::Regularised};
+use asperity_ode::Method;
 use std::sync::Arc;
 
 /// See the README.

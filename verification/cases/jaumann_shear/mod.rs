@@ -2,12 +2,12 @@
 
 use super::body::{self, Body, Work};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::ode::{self, Clock, Control, Method, Occurrence, Options, Outcome, Problem, Sink, Step};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::material::elastic::Elastic;
 use asperity_fem::material::hardening::Hardening;
 use asperity_fem::nonlinear::{Kinematics, Material};
+use asperity_ode::{Clock, Control, Method, Occurrence, Options, Outcome, Problem, Sink, Step};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -232,8 +232,14 @@ fn integrated(modulus: f64, gamma: f64) -> Result<Pair, CaseError> {
         largest_step: None,
         most_steps: 100_000,
     };
-    let end =
-        ode::integrate(&Flow { modulus }, Clock::new(0.0, 0.0), &start, gamma - first, &options, &mut Silent);
+    let end = asperity_ode::integrate(
+        &Flow { modulus },
+        Clock::new(0.0, 0.0),
+        &start,
+        gamma - first,
+        &options,
+        &mut Silent,
+    );
     if end.outcome != Outcome::Completed {
         return Err(format!("the reference: {:?}", end.outcome).into());
     }

@@ -3,8 +3,8 @@
 use crate::cases::seas::{self, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_driver::fault::{Dense, Event, Loading, Moment, Plan, run as integrate};
-use asperity_driver::ode::Control;
 use asperity_fem::table::Table;
+use asperity_ode::Control;
 
 /// See the README.
 pub const CASE: Case = Case {

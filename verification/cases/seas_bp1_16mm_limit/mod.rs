@@ -3,7 +3,7 @@
 use crate::cases::seas;
 use crate::cases::seas_bp1_16mm::{LAWS, Law, text};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::ode::Method;
+use asperity_ode::Method;
 
 /// See the README.
 pub const CASE: Case = Case {

@@ -3,7 +3,7 @@
 use crate::cases::seas::{self, CONVERGED, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_driver::fault::Plan;
-use asperity_driver::ode::Method;
+use asperity_ode::Method;
 
 /// See the README.
 pub const CASE: Case = Case {

@@ -4,7 +4,7 @@ use super::{ABOVE, EVENTS};
 use crate::cases::seas::YEAR;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::fault::{Equations, Plan};
-use asperity_driver::ode::{self, Clock, Control, Method, Occurrence, Options, Problem, Sink, Step};
+use asperity_ode::{Clock, Control, Method, Occurrence, Options, Problem, Sink, Step};
 use std::time::Instant;
 
 /// Wall time after which such a method is broken off \[s\]: some thirty times what the default needs to the third event.
@@ -104,7 +104,7 @@ fn reach(plan: &Plan, method: Method, limit: f64) -> Reached {
         most_steps: 100_000,
     };
     let (start, end) = (Clock::new(0.0, 0.0), plan.settings.end);
-    let out = ode::integrate(&problem, start, &plan.start, end, &options, &mut sink);
+    let out = asperity_ode::integrate(&problem, start, &plan.start, end, &options, &mut sink);
     let (at, wall) = sink.trace.last().copied().unwrap_or((0.0, limit));
     let row = [
         method.name().to_string(),

@@ -3,7 +3,7 @@
 use crate::cases::seas::{self, YEAR};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_driver::fault::{Moment, Plan, run as integrate};
-use asperity_driver::ode::{Control, Method, Outcome};
+use asperity_ode::{Control, Method, Outcome};
 use std::time::Instant;
 
 mod factorising;

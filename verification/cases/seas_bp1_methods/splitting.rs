@@ -6,7 +6,7 @@
 use super::{ABOVE, EVENTS, Setting};
 use crate::cases::seas::YEAR;
 use asperity_driver::fault::{Equations, Plan};
-use asperity_driver::ode::{Clock, Problem};
+use asperity_ode::{Clock, Problem};
 use std::time::Instant;
 
 /// Vref and L of BP1 \[m/s\], \[m\].

@@ -2,8 +2,8 @@
 
 use super::slider::{self, Independent, Kind, Set};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::ode::Method;
 use asperity_driver::slider::{self as driver, Event, Now, Plan, Report};
+use asperity_ode::Method;
 
 /// See the README.
 pub const CASE: Case = Case {

@@ -2,12 +2,12 @@
 
 use super::slider::{MU0, V_REF, plan, work};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::ode::{Counts, Method, Outcome};
 use asperity_driver::slider::{self as driver, Event, Plan};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding};
 use asperity_friction::strength::{Parameters, bare::Bare, regularised::Regularised};
+use asperity_ode::{Counts, Method, Outcome};
 use rayon::prelude::*;
 use std::sync::Arc;
 

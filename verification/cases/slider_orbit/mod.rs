@@ -2,12 +2,12 @@
 
 use super::slider::{self, Independent, Set, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::ode::Outcome;
 use asperity_driver::slider::{self as driver, Now, Plan, Thresholds};
 use asperity_friction::evolution::slip::Slip;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::History;
 use asperity_friction::strength::{Parameters, bare::Bare};
+use asperity_ode::Outcome;
 use std::sync::Arc;
 
 /// See the README.

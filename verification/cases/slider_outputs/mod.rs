@@ -2,9 +2,9 @@
 
 use super::slider::{self, Independent, MU0, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::ode::Outcome;
 use asperity_driver::scene::slider as scene;
 use asperity_driver::slider::{self as driver, Histories, Plan};
+use asperity_ode::Outcome;
 use std::path::PathBuf;
 
 /// See the README.

@@ -2,8 +2,8 @@
 
 use super::slider::{self, Kind, Set};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::ode::{Method, Outcome};
 use asperity_driver::slider::{self as driver, Event, Plan};
+use asperity_ode::{Method, Outcome};
 use std::time::Instant;
 
 /// See the README.

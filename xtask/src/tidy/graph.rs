@@ -7,21 +7,29 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// What each package of the workspace may depend on inside it, tests and build scripts included.
-const ALLOWED: [(&str, &[&str]); 7] = [
+const ALLOWED: [(&str, &[&str]); 8] = [
     ("asperity-friction", &[]),
     ("asperity-fem", &[]),
+    ("asperity-ode", &[]),
     ("asperity-contact", &["asperity-fem", "asperity-friction"]),
-    ("asperity-driver", &["asperity-fem", "asperity-friction", "asperity-contact"]),
-    ("asperity-verification", &["asperity-fem", "asperity-friction", "asperity-contact", "asperity-driver"]),
-    ("asperity-benches", &["asperity-fem", "asperity-friction", "asperity-contact", "asperity-driver"]),
+    ("asperity-driver", &["asperity-fem", "asperity-friction", "asperity-ode", "asperity-contact"]),
+    ("asperity-verification", PROGRAMS),
+    ("asperity-benches", PROGRAMS),
     ("xtask", &[]),
 ];
 
-/// Libraries that work on values only.
-pub const LIBRARIES: [&str; 3] = ["asperity-friction", "asperity-fem", "asperity-contact"];
+/// What may be used by programs that stand beside the driver.
+const PROGRAMS: &[&str] =
+    &["asperity-fem", "asperity-friction", "asperity-ode", "asperity-contact", "asperity-driver"];
 
-/// What a library of values has no use for: terminals, pictures, time integration.
-const NOT_IN_LIBRARIES: [&str; 6] = ["clap", "miette", "plotters", "indicatif", "diffsol", "toml"];
+/// Libraries that work on values only.
+pub const LIBRARIES: [&str; 4] = ["asperity-friction", "asperity-fem", "asperity-ode", "asperity-contact"];
+
+/// What a library of values has no use for: terminals, pictures, scene files.
+const NOT_IN_LIBRARIES: [&str; 5] = ["clap", "miette", "plotters", "indicatif", "toml"];
+
+/// Libraries that one package hides from the others.
+const BEHIND: [(&str, &str); 1] = [("diffsol", "asperity-ode")];
 
 /// Libraries of which two versions would mean two kinds of matrices.
 const SINGLE: [&str; 2] = ["faer", "nalgebra"];
@@ -43,6 +51,7 @@ pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
     let lock = std::fs::read_to_string(&path).map_err(|source| Failure::Read { path, source })?;
     let mut found = direction(&members, &edges);
     found.extend(libraries(&edges));
+    found.extend(hidden(&edges));
     found.extend(single_versions(&lock));
     Ok(found)
 }
@@ -89,6 +98,17 @@ fn libraries(edges: &[Edge]) -> Vec<Problem> {
         .collect()
 }
 
+fn hidden(edges: &[Edge]) -> Vec<Problem> {
+    let mut found = Vec::new();
+    for (library, owner) in BEHIND {
+        for edge in edges.iter().filter(|edge| edge.to == library && edge.from != owner) {
+            let message = format!("{} must not depend on {library}: it is behind {owner}", edge.from);
+            found.push(Problem::new(&edge.manifest, 0, message));
+        }
+    }
+    found
+}
+
 fn single_versions(lock: &str) -> Vec<Problem> {
     let mut found = Vec::new();
     for name in SINGLE {
@@ -115,7 +135,7 @@ fn versions<'a>(lock: &'a str, name: &str) -> BTreeSet<&'a str> {
 
 #[cfg(test)]
 mod tests {
-    use super::{ALLOWED, Edge, direction, libraries, single_versions};
+    use super::{ALLOWED, Edge, direction, hidden, libraries, single_versions};
 
     fn edge(from: &str, to: &str) -> Edge {
         Edge { from: from.to_owned(), to: to.to_owned(), manifest: "Cargo.toml".to_owned() }
@@ -132,6 +152,8 @@ mod tests {
             ("asperity-friction", "asperity-fem"),
             ("asperity-fem", "asperity-contact"),
             ("asperity-contact", "asperity-driver"),
+            ("asperity-ode", "asperity-friction"),
+            ("asperity-fem", "asperity-ode"),
             ("asperity-driver", "asperity-verification"),
             ("xtask", "asperity-fem"),
         ] {
@@ -153,6 +175,13 @@ mod tests {
             1
         );
         assert_eq!(libraries(&[edge("asperity-friction", "clap")]).len(), 1);
+    }
+
+    #[test]
+    fn a_hidden_library_is_caught_outside_its_package() {
+        let edges = [edge("asperity-ode", "diffsol"), edge("asperity-driver", "diffsol")];
+        assert_eq!(hidden(&edges), hidden(&edges[1..]));
+        assert_eq!(hidden(&edges).len(), 1);
     }
 
     #[test]

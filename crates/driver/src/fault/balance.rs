@@ -22,7 +22,7 @@ use super::opening::Crack;
 use super::operator::Operator;
 use super::plan::Plan;
 use super::run::{Ends, Moment};
-use crate::ode::Clock;
+use asperity_ode::Clock;
 use serde::{Deserialize, Serialize};
 
 /// Share of a step by which its end may lie beyond the end of an injection: rounding of times.

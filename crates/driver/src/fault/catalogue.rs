@@ -1,7 +1,7 @@
 //! Events: from the time the fastest point passes a slip rate until all have fallen below a lower one. Beside that duration stands the
 //! time above the upper rate alone, which is what the community counts.
 
-use crate::ode::Clock;
+use asperity_ode::Clock;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 

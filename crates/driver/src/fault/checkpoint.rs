@@ -202,7 +202,7 @@ mod tests {
     fn sample() -> Checkpoint {
         let mut run = Run::new(vec![0.1 + 0.2, -0.0, 5e-324, 1.797e308], Thresholds { on: 1e-3, off: 1e-4 });
         // A time with a carry, which one number does not hold.
-        run.at = crate::ode::Clock::new(6.2e9, 1.0 / 3.0).rebased().later(1e-13);
+        run.at = asperity_ode::Clock::new(6.2e9, 1.0 / 3.0).rebased().later(1e-13);
         run.next_step = Some(1.0 / 7.0);
         run.catalogue.pass(Crossing::Begins, run.at, 1, [&[0.1, 0.2], &[3.0, 4.0], &[]]);
         run.catalogue.rate(2.5);

@@ -9,8 +9,8 @@ use super::floor::Floor;
 use super::opening::{Crack, Opening};
 use super::operator::Operator;
 use super::pressure::Pressure;
-use crate::ode::{Clock, Problem};
 use asperity_friction::fault::{Drive, FaultLaw};
+use asperity_ode::{Clock, Problem};
 use std::cell::{Cell, RefCell};
 use std::ops::Range;
 

@@ -8,7 +8,7 @@ use super::run::Run;
 use super::snapshots;
 use crate::observe::vtu::{Array, Grid, PvdEntry, Values, pvd};
 use crate::observe::{ObserveError, atomic};
-use crate::ode::Clock;
+use asperity_ode::Clock;
 use std::path::Path;
 
 /// Writes `fields/FAULT_event_000.vtu` of each event, `fields/FAULT_end.vtu` and the collections `fields.pvd` of the states in the

@@ -8,8 +8,8 @@ use super::plan::Plan;
 use super::report;
 use super::run::{Moment, Run, Watcher};
 use crate::observe::{ObserveError, Progress};
-use crate::ode::Control;
 use crate::warning::Warning;
+use asperity_ode::Control;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -178,9 +178,9 @@ impl<'a> Keeper<'a> {
         if let Some(failure) = self.files.failure() {
             return Err(failure);
         }
-        let failed = matches!(run.outcome, crate::ode::Outcome::Failed { .. });
+        let failed = matches!(run.outcome, asperity_ode::Outcome::Failed { .. });
         if !failed && self.interrupted.is_none() {
-            let over = run.outcome == crate::ode::Outcome::Completed;
+            let over = run.outcome == asperity_ode::Outcome::Completed;
             let before = self.before.take().filter(|_| over);
             self.save(self.stand(run), before)?;
         }

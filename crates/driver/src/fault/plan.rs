@@ -29,7 +29,6 @@ use crate::forecast::{self, Held};
 use crate::laws;
 use crate::loading::{self, Stage};
 use crate::model::{Model, meshes};
-use crate::ode::{Clock, Method};
 use crate::plan::PlanError;
 use crate::scene::law::{self, Evolution, LawChoice};
 use crate::scene::model::{
@@ -41,6 +40,7 @@ use asperity_fem::mesh::{Side, face_nodes};
 use asperity_friction::Failure;
 use asperity_friction::fault::FaultLaw;
 use asperity_friction::turning::Turning;
+use asperity_ode::{Clock, Method};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 

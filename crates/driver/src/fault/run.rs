@@ -7,8 +7,8 @@ use super::catalogue::{Catalogue, Part, Thresholds};
 use super::equations::{Equations, Fault, Layout, Pressed, size};
 use super::loading::Loading;
 use super::opening::Crack;
-use crate::ode::{
-    self, Clock, Control, Counts, Failure, Finished, Method, Occurrence, Options, Outcome, Sink, Step,
+use asperity_ode::{
+    Clock, Control, Counts, Failure, Finished, Method, Occurrence, Options, Outcome, Sink, Step,
 };
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -312,7 +312,7 @@ fn piece(
     }
     let duration = Clock::new(end, 0.0).since(&run.at);
     let Finished { outcome, at, state, counts } =
-        ode::integrate(equations, run.at, &run.unknowns, duration, &options, &mut follow);
+        asperity_ode::integrate(equations, run.at, &run.unknowns, duration, &options, &mut follow);
     let paused = follow.paused;
     run.next_step = follow.next_step;
     (run.outcome, run.at, run.unknowns) = (outcome, at, state);

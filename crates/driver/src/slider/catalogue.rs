@@ -1,6 +1,6 @@
 //! Events of the sliders: when each began and ended, which way and how far it slipped, how fast, and what it released.
 
-use crate::ode::Clock;
+use asperity_ode::Clock;
 use serde::Serialize;
 use std::fmt::Write as _;
 

@@ -2,9 +2,9 @@
 
 use super::output::Output;
 use super::stability;
-use crate::ode::{Method, Options};
 use crate::warning::Warning;
 use asperity_friction::slider::System;
+use asperity_ode::{Method, Options};
 use serde::Serialize;
 use std::fmt::Write as _;
 

@@ -1,9 +1,9 @@
 //! A segment of the equations as a problem of the integrator, with its event functions.
 
 use super::plan::Plan;
-use crate::ode::{Clock, Problem};
 use asperity_friction::evolution::Speed;
 use asperity_friction::slider::Segment;
+use asperity_ode::{Clock, Problem};
 use std::cell::RefCell;
 
 /// ln(|V|/threshold) of a slider that stands or slides the other way: below any threshold, and finite.

@@ -3,9 +3,9 @@
 use super::catalogue::Event;
 use super::plan::{Plan, Thresholds};
 use super::run::Run;
-use crate::ode::{Counts, Outcome};
 use crate::report::{Origin, Status};
 use crate::warning::Warning;
+use asperity_ode::{Counts, Outcome};
 use serde::Serialize;
 use std::fmt::Write as _;
 

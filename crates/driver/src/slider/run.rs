@@ -6,8 +6,8 @@ use super::plan::Plan;
 use super::problem::{Kind, Piece, kinds};
 use super::slips::Slips;
 use crate::observe::ObserveError;
-use crate::ode::{self, Clock, Control, Counts, Failure, Method, Occurrence, Outcome, Sink, Step};
 use asperity_friction::slider::{Condition, Slider};
+use asperity_ode::{Clock, Control, Counts, Failure, Method, Occurrence, Outcome, Sink, Step};
 
 /// Why a run could not begin, or not be observed.
 #[derive(Debug, thiserror::Error)]
@@ -167,7 +167,7 @@ pub fn run(plan: &Plan, watcher: &mut dyn Watcher) -> Result<Run, RunError> {
             break;
         }
         let duration = Clock::new(end, 0.0).since(&at);
-        let finished = ode::integrate(&piece, at, &unknowns, duration, &options, &mut sink);
+        let finished = asperity_ode::integrate(&piece, at, &unknowns, duration, &options, &mut sink);
         slips.leave(&piece, finished.at);
         (at, unknowns, outcome) = (finished.at, finished.state, finished.outcome);
         add(&mut counts, &finished.counts);

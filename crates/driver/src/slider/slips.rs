@@ -3,8 +3,8 @@
 use super::plan::Plan;
 use super::problem::Piece;
 use super::run::RunError;
-use crate::ode::Clock;
 use asperity_friction::slider::Condition;
+use asperity_ode::Clock;
 use faer::linalg::solvers::SolveCore;
 use faer::sparse::linalg::solvers::Llt;
 use faer::sparse::{SparseColMat, Triplet};

@@ -1,8 +1,8 @@
 //! Spring-sliders run from a text, with their files.
 
-use asperity_driver::ode::Outcome;
 use asperity_driver::scene::slider;
 use asperity_driver::slider::{Histories, Plan, Run, run};
+use asperity_ode::Outcome;
 use std::path::Path;
 
 /// The scene of the book: a slider through ten events.

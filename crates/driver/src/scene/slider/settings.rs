@@ -2,11 +2,11 @@
 
 use super::planner::Planner;
 use super::spec::{EventSpec, SliderTime};
-use crate::ode::Method;
 use crate::scene::model::Spanned;
 use crate::scene::units::Time;
 use crate::scene::{SceneError, near};
 use crate::slider::Thresholds;
+use asperity_ode::Method;
 use std::str::FromStr;
 
 /// `[time]`, where it was right.

@@ -1,7 +1,7 @@
 //! Orders of methods, errors under the tolerance, stiffness, and numbers of unknowns.
 
 use super::common::*;
-use asperity_driver::ode::{Method, integrate};
+use asperity_ode::{Method, integrate};
 
 /// y0' = y0 y1, y1' = -2 t y1^2 with y0 = exp(arctan t), y1 = 1/(1 + t^2).
 fn bell() -> Given {

@@ -1,12 +1,5 @@
-//! Integration of systems of ordinary differential equations, with events and with time resolved to 1e-9 s at 1e9 s.
-//!
-//! All methods run in one loop (`drive`), which keeps the time, finds the events and counts; a method only takes steps. Those of
-//! the library diffsol are behind the module of that name, and nothing else names it.
-//!
-//! An event is a change of sign of a function of time and state. It is looked for at the end and in the middle of each accepted
-//! step, and where a parabola through these values comes near to zero; two changes of one function within a step that show in
-//! none of these are missed. The step ends at the event, and the next begins there. A function that is zero to rounding where an
-//! integration begins takes its side from what follows and does not fire there.
+#![doc = include_str!("../README.md")]
+#![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod clock;
 mod diffsol;

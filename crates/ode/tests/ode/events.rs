@@ -1,7 +1,7 @@
 //! Events: order, place, direction, start and end, and going on from one.
 
 use super::common::*;
-use asperity_driver::ode::{Method, Outcome, integrate};
+use asperity_ode::{Method, Outcome, integrate};
 use std::f64::consts::PI;
 
 #[test]

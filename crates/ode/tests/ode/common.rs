@@ -1,8 +1,6 @@
 //! Problems, and a sink that records everything and checks that it makes sense.
 
-use asperity_driver::ode::{
-    Clock, Control, Finished, Method, Occurrence, Options, Outcome, Problem, Sink, Step,
-};
+use asperity_ode::{Clock, Control, Finished, Method, Occurrence, Options, Outcome, Problem, Sink, Step};
 
 type Rates = fn(f64, &[f64], &mut [f64]);
 type Jacobian = fn(f64, &[f64], &mut [f64]);

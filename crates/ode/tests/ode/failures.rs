@@ -1,7 +1,7 @@
 //! Rates that are not finite, too many steps, and requests without sense.
 
 use super::common::*;
-use asperity_driver::ode::{Counts, Failure, Method, Options, Outcome, integrate};
+use asperity_ode::{Counts, Failure, Method, Options, Outcome, integrate};
 
 #[test]
 fn rates_that_are_not_finite_shorten_the_step() {

@@ -1,7 +1,7 @@
 //! Long waits and short events on one clock.
 
 use super::common::*;
-use asperity_driver::ode::{Clock, Method, Problem, integrate};
+use asperity_ode::{Clock, Method, Problem, integrate};
 use std::f64::consts::PI;
 
 #[test]

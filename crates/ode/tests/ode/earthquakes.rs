@@ -1,7 +1,7 @@
 //! A spring slider that sticks and slips: every method finds the same events.
 
 use super::common::*;
-use asperity_driver::ode::{Clock, Method, Problem, integrate};
+use asperity_ode::{Clock, Method, Problem, integrate};
 
 /// A spring slider without inertia but with radiation damping: y = (ln V/V0, ln theta V0/D), regularised by neither; stiffness
 /// 0.7 of the critical one, so that it sticks and slips from 1e-13 to 1 m/s. Events: V crosses 1 mm/s.
