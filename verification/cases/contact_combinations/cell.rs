@@ -14,6 +14,8 @@ const SCENE: &str = include_str!("scene.toml");
 pub enum Kinematics {
     PlaneStrain,
     PlaneStress,
+    /// A ring that grows into a tube and slides along it.
+    Axisymmetric,
     Space,
 }
 
@@ -65,11 +67,20 @@ pub enum Start {
     Rough,
 }
 
+/// Face of the die.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Face {
+    Flat,
+    /// Part of a cylinder, of a ball in space; its border never touches.
+    Round,
+}
+
 /// Friction laws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Law {
     Coulomb,
     Capped,
+    Kinetic,
     Weakening,
     Rate,
     RateCapped,
@@ -78,8 +89,16 @@ pub enum Law {
 }
 
 /// All of them.
-pub const LAWS: [Law; 7] =
-    [Law::Coulomb, Law::Capped, Law::Weakening, Law::Rate, Law::RateCapped, Law::Ageing, Law::Slip];
+pub const LAWS: [Law; 8] = [
+    Law::Coulomb,
+    Law::Capped,
+    Law::Kinetic,
+    Law::Weakening,
+    Law::Rate,
+    Law::RateCapped,
+    Law::Ageing,
+    Law::Slip,
+];
 
 /// Kinds of enforcement as a scene spells them.
 pub const ENFORCEMENTS: [&str; 3] = ["penalty", "uzawa", "augmented-lagrangian"];
@@ -99,6 +118,7 @@ impl Law {
         match self {
             Self::Coulomb => "Coulomb",
             Self::Capped => "Coulomb, F_limit",
+            Self::Kinetic => "static-kinetic",
             Self::Weakening => "slip weakening",
             Self::Rate => "rate",
             Self::RateCapped => "rate, F_limit",
@@ -117,6 +137,7 @@ impl Law {
         match self {
             Self::Coulomb => format!("kind = \"coulomb\", mu = {MU}"),
             Self::Capped => format!("kind = \"coulomb\", mu = {MU}, f_limit = \"5 MPa\""),
+            Self::Kinetic => format!("kind = \"static-kinetic\", mu_s = 0.44, mu_k = {MU}"),
             Self::Weakening => {
                 format!("kind = \"slip-weakening\", mu_s = 0.44, mu_k = {MU}, d_c = \"{} m\"", way / 10.0)
             }
@@ -127,16 +148,30 @@ impl Law {
         }
     }
 
-    /// Shear traction \[Pa\] of a point that has slid on at the rate \[m/s\] for many lengths, under a normal traction \[Pa\].
-    pub fn strength(self, normal: f64, rate: f64) -> f64 {
-        let steady = |b: f64| A * (rate / (2.0 * V_REF) * ((MU + b * (V_REF / rate).ln()) / A).exp()).asinh();
-        match self {
-            Self::Coulomb | Self::Weakening => MU * normal,
-            Self::Capped => (MU * normal).min(CAP),
-            Self::Rate => steady(0.0) * normal,
-            Self::RateCapped => (steady(0.0) * normal).min(CAP),
-            Self::Ageing | Self::Slip => steady(B) * normal,
+    /// Part of friction that the state carries, of a state variable as outputs show it, or in the steady state of a rate.
+    fn of_state(self, state: Option<f64>, rate: f64) -> f64 {
+        match (self, state) {
+            (Self::Ageing, Some(psi)) => B * psi,
+            (Self::Slip, Some(friction)) => friction,
+            (Self::Ageing | Self::Slip, None) => B * (V_REF / rate).ln(),
+            _ => 0.0,
         }
+    }
+
+    /// Shear traction \[Pa\] of a point that slides at the rate \[m/s\] under a normal traction \[Pa\], with this state, else the steady one.
+    pub fn strength(self, normal: f64, rate: f64, state: Option<f64>) -> f64 {
+        let friction = A * (rate / (2.0 * V_REF) * ((MU + self.of_state(state, rate)) / A).exp()).asinh();
+        match self {
+            Self::Coulomb | Self::Kinetic | Self::Weakening => MU * normal,
+            Self::Capped => (MU * normal).min(CAP),
+            Self::RateCapped => (friction * normal).min(CAP),
+            Self::Rate | Self::Ageing | Self::Slip => friction * normal,
+        }
+    }
+
+    /// Whether a state evolves with slip over a length.
+    pub fn evolves(self) -> bool {
+        matches!(self, Self::Ageing | Self::Slip)
     }
 }
 
@@ -144,6 +179,7 @@ impl Law {
 #[derive(Clone, Copy, Debug)]
 pub struct Cell {
     pub kinematics: Kinematics,
+    pub face: Face,
     pub bodies: Bodies,
     pub pairing: Pairing,
     pub enforcement: &'static str,
@@ -159,8 +195,11 @@ pub enum End {
     Ran {
         /// Force on the die at the ends of both stages \[N, N/m\].
         forces: [[f64; 3]; 2],
-        /// Largest distance of a shear traction from the strength at the end, over the largest strength.
+        /// Largest distance of a shear traction from the strength at the end, with the point's own rate and state, over the largest
+        /// strength.
         missed: f64,
+        /// The same from the strength in the steady state, where there is one.
+        unsteady: Option<f64>,
         /// Largest residual left by a step, over the largest force.
         residual: f64,
     },
@@ -203,8 +242,35 @@ impl Cell {
             changes.push(("material = \"soft\"", "material = \"soft\"\nstrain = \"finite\""));
             changes.push(("material = \"hard\"", "material = \"hard\"\nstrain = \"finite\""));
         }
+        let apex = if self.kinematics == Kinematics::Space { "x = 0.9, z = 0.15" } else { "x = 0.9" };
+        let round = format!(
+            "\"quad4\", curves.bottom = {{ kind = \"circle\", radius = \"40 m\", apex = {{ {apex} }} }} }}\n\n[interfaces"
+        );
+        if self.face == Face::Round {
+            changes.push(("\"quad4\" }\n\n[interfaces", &round));
+        }
+        let drawn = format!("y = {{ to = \"{} m\" }} }}]", self.pairing.way());
         match self.kinematics {
             Kinematics::PlaneStrain => {}
+            Kinematics::Axisymmetric => {
+                changes.extend([
+                    ("\"plane-strain\"", "\"axisymmetric\""),
+                    (
+                        "min = [\"0 m\", \"-0.5 m\"], max = [\"2 m\", \"0 m\"], divisions = [12, 3]",
+                        "min = [\"1.4 m\", \"0 m\"], max = [\"1.9 m\", \"2 m\"], divisions = [3, 12]",
+                    ),
+                    (
+                        "min = [\"0.5 m\", \"0 m\"], max = [\"1.3 m\", \"0.4 m\"], divisions = [5, 2]",
+                        "min = [\"1 m\", \"0.5 m\"], max = [\"1.4 m\", \"1.3 m\"], divisions = [2, 5]",
+                    ),
+                    ("x = 0, y = { to = \"-1 mm\" }", "x = { to = \"1 mm\" }, y = 0"),
+                    (&way, &drawn),
+                    ("die.bottom", "die.right"),
+                    ("slab.top", "slab.left"),
+                    ("slab.bottom", "slab.right"),
+                    ("die.top", "die.left"),
+                ]);
+            }
             Kinematics::PlaneStress => changes.push(("\"plane-strain\"", "\"plane-stress\"")),
             Kinematics::Space => changes.extend([
                 ("\"plane-strain\"", "\"3d\""),
@@ -249,13 +315,23 @@ impl Cell {
         let forces = [forces[0], forces[1]];
         let end = record.stage_end("draw").ok_or("the run has no end")?;
         let fields = &end.interfaces[0];
-        let (mut missed, mut largest) = (0.0_f64, 0.0_f64);
+        let (mut missed, mut unsteady, mut largest) = (0.0_f64, 0.0_f64, 0.0_f64);
         for (k, &normal) in fields.normal_traction.iter().enumerate().filter(|(_, f)| **f > 0.0) {
-            let strength = self.law.strength(normal, fields.slip_rate[k].abs());
-            missed = missed.max((fields.shear_traction[k].abs() - strength).abs());
-            largest = largest.max(strength);
+            let state = fields.states.first().map(|s| s[k]);
+            let (rate, shear) = (fields.slip_rate[k].abs(), fields.shear_traction[k].abs());
+            let [own, steady] = [state, None].map(|s| self.law.strength(normal, rate, s));
+            missed = missed.max((shear - own).abs());
+            unsteady = unsteady.max((shear - steady).abs());
+            largest = largest.max(own);
         }
+        // Points of a round face are loaded and unloaded as they pass nodes: their rates, and their states, never settle.
+        let settles = self.law.evolves() && self.face == Face::Flat;
         let residual = report.steps.iter().map(|s| s.residual_ratio).fold(0.0, f64::max);
-        Ok(End::Ran { forces, missed: missed / largest, residual })
+        Ok(End::Ran {
+            forces,
+            missed: missed / largest,
+            unsteady: settles.then_some(unsteady / largest),
+            residual,
+        })
     }
 }

@@ -178,7 +178,7 @@ impl Implicit {
     ) -> Result<Corrected, Failure> {
         prepare(terms, u)?;
         self.evaluate(terms, u, at, counts)?;
-        let left = self.norm()? / self.scale();
+        let left = self.ratio(self.norm()?, u);
         if left <= drift {
             return Ok(Corrected { iterations: 0, drift: left, residual_ratio: left });
         }
@@ -220,7 +220,7 @@ impl Implicit {
         for iteration in 0..MOST_ITERATIONS {
             let norm = self.norm()?;
             if self.has_converged(norm, u, &progress, iteration >= usize::from(pairing > 0)) {
-                return Ok((iteration, norm / self.scale()));
+                return Ok((iteration, self.ratio(norm, u)));
             }
             progress.note(norm, u);
             if progress.gives_up_trust() && norm > progress.best {
@@ -321,6 +321,11 @@ impl Implicit {
     /// Rounding of the forces at `u`.
     fn rounding(&self, u: &[f64]) -> f64 {
         ROUNDING * self.system.largest_entry() * largest(u).max(self.position)
+    }
+
+    /// A residual over the largest force; zero where no force exceeds rounding, as in bodies that nothing touches.
+    fn ratio(&self, residual: f64, u: &[f64]) -> f64 {
+        if self.balance.largest_force <= self.rounding(u) { 0.0 } else { residual / self.scale() }
     }
 
     fn scale(&self) -> f64 {
