@@ -1,5 +1,6 @@
 //! Checks of the workspace that neither the compiler nor clippy makes. Every rule has a test with a text it must catch.
 
+mod book;
 mod graph;
 mod house;
 mod source;
@@ -48,6 +49,7 @@ pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
         }
     }
     found.extend(house::check(&files));
+    found.extend(book::check(&files, &|path| root.join(path).exists()));
     found.sort();
     found.dedup();
     Ok(found)
