@@ -9,6 +9,7 @@ const WRITTEN: [&str; 12] =
 /// Checks one file.
 pub fn check(path: &str, text: &str) -> Vec<Problem> {
     let mut found = leads_outside(path, text);
+    found.extend(unmerged(path, text));
     if WRITTEN.iter().any(|kind| path.ends_with(kind)) {
         found.extend(line_ends(path, text));
     }
@@ -27,6 +28,16 @@ fn leads_outside(path: &str, text: &str) -> Vec<Problem> {
         }
     }
     found
+}
+
+/// Marks that a merge left; put together here for the same reason.
+fn unmerged(path: &str, text: &str) -> Vec<Problem> {
+    let marks = ["<", ">"].map(|mark| mark.repeat(7) + " ");
+    let lines = text.lines().enumerate();
+    let marked = lines.filter(|(_, line)| marks.iter().any(|mark| line.starts_with(mark.as_str())));
+    marked
+        .map(|(number, _)| Problem::new(path, number + 1, "the mark of a merge that was not resolved"))
+        .collect()
 }
 
 fn line_ends(path: &str, text: &str) -> Vec<Problem> {
@@ -54,6 +65,12 @@ mod tests {
         assert_eq!(check("docs/a.svg", &text)[0].line, 2);
         assert_eq!(check("a.rs", &format!("// {}/x\n", ["", "work", "shared"].join("/"))).len(), 1);
         assert_eq!(check("a.rs", "// a shared folder\n"), []);
+    }
+
+    #[test]
+    fn marks_of_merges_are_caught() {
+        let text = format!("a\n{} HEAD\nb\n{} c\n", "<".repeat(7), ">".repeat(7));
+        assert_eq!(check("a.md", &text).len(), 2);
     }
 
     #[test]
