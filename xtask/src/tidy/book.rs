@@ -1,6 +1,6 @@
 //! Rules about the documents: width of lines, links that lead somewhere, cases that are listed, pages in the table of contents.
 
-use super::Problem;
+use super::problem::Problem;
 use super::tree::File;
 
 /// Columns of a line of prose: what a diff or a terminal shows beside another window.

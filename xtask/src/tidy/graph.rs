@@ -1,6 +1,6 @@
 //! Who may depend on whom, and which libraries exist once.
 
-use super::Problem;
+use super::problem::Problem;
 use crate::stage::Failure;
 use cargo_metadata::{Metadata, MetadataCommand};
 use std::collections::BTreeSet;

@@ -1,6 +1,6 @@
 //! Rules about particular files: the README and the READMEs of the cases.
 
-use super::Problem;
+use super::problem::Problem;
 use super::tree::File;
 
 /// The two commands a stranger needs.

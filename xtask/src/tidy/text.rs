@@ -1,6 +1,6 @@
 //! Rules about every text file.
 
-use super::Problem;
+use super::problem::Problem;
 
 /// Kinds of files people write; others (snapshots, tables, pictures) are made by programs and keep their form.
 const WRITTEN: [&str; 12] =

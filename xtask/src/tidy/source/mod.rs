@@ -1,11 +1,11 @@
 //! Rules about Rust sources.
 
 mod floats;
-mod mask;
-mod regions;
+pub mod mask;
+pub mod regions;
 
-use super::Problem;
 use super::graph::LIBRARIES;
+use super::problem::Problem;
 use std::ops::Range;
 
 /// Magnitude below which a float literal must be a constant with its reason: it is a tolerance or a unit, and both need one.
@@ -66,7 +66,7 @@ pub fn check(path: &str, source: &str) -> Vec<Problem> {
 }
 
 /// Integration tests, benches, and modules that are only ever declared under `cfg(test)`.
-fn is_test_file(path: &str) -> bool {
+pub fn is_test_file(path: &str) -> bool {
     let mut parts = path.split('/').rev();
     let file = parts.next().unwrap_or("");
     file == "tests.rs"
