@@ -6,6 +6,7 @@
 //! that tractions are forces per reference area, as those of bodies and of node-to-point contact are.
 
 use super::clip::{Polygon, twice_area};
+use super::rule::Rule;
 use super::scalar::Scalar;
 use super::weighting::Weighting;
 use crate::shape::{MOST_NODES, Shape, shape};
@@ -61,7 +62,7 @@ pub(super) fn integrate<T: Scalar, const D: usize, const N: usize>(
     x: &[[T; D]],
     kind: SegmentKind,
     y: &[[T; D]],
-    gauss: &[[f64; 2]],
+    rule: &Rule,
     sums: &mut Sums<T, N>,
 ) -> bool {
     let (origin, base) = plane(frozen.kind, x);
@@ -73,7 +74,7 @@ pub(super) fn integrate<T: Scalar, const D: usize, const N: usize>(
     pair.slave.iter_mut().zip(x).for_each(|(s, p)| *s = flat(p));
     pair.master.iter_mut().zip(y).for_each(|(s, p)| *s = flat(p));
     *sums = Sums::zero();
-    if D == 2 { pair.interval(gauss, sums) } else { pair.polygons(gauss, sums) }
+    if D == 2 { pair.interval(&rule.line, sums) } else { pair.polygons(rule, sums) }
 }
 
 impl<T: Scalar, const D: usize, const N: usize> Pair<'_, T, D, N> {
@@ -95,7 +96,7 @@ impl<T: Scalar, const D: usize, const N: usize> Pair<'_, T, D, N> {
     }
 
     /// Three dimensions: the common polygons of all parts, as fans of triangles.
-    fn polygons(&self, gauss: &[[f64; 2]], sums: &mut Sums<T, N>) -> bool {
+    fn polygons(&self, rule: &Rule, sums: &mut Sums<T, N>) -> bool {
         let mut found = false;
         let whole = |part: &Polygon<T>| {
             (2..part.corners)
@@ -112,12 +113,11 @@ impl<T: Scalar, const D: usize, const N: usize> Pair<'_, T, D, N> {
                     continue;
                 }
                 let common = own.clipped(&other);
-                for k in 2..common.corners {
-                    let (a, b, c) = (common.at[0], common.at[k - 1], common.at[k]);
+                for [a, b, c] in common.fan(rule.centred) {
                     let double = twice_area(&a, &b, &c);
                     if double.value() > least {
                         found = true;
-                        self.triangle(&a, &b, &c, double, gauss, sums);
+                        self.triangle(&[a, b, c], double, rule, sums);
                     }
                 }
             }
@@ -125,22 +125,11 @@ impl<T: Scalar, const D: usize, const N: usize> Pair<'_, T, D, N> {
         found
     }
 
-    /// The square's rule collapsed onto a triangle.
-    fn triangle(
-        &self,
-        a: &[T; 2],
-        b: &[T; 2],
-        c: &[T; 2],
-        double: T,
-        gauss: &[[f64; 2]],
-        sums: &mut Sums<T, N>,
-    ) {
-        for [s, ws] in gauss {
-            for [t, wt] in gauss {
-                let v = t * (1.0 - s);
-                let y = std::array::from_fn(|i| a[i].times(1.0 - s - v) + b[i].times(*s) + c[i].times(v));
-                self.add(y, double.times(ws * wt * (1.0 - s)), sums);
-            }
+    /// Adds the Gauss points of a triangle.
+    fn triangle(&self, [a, b, c]: &[[T; 2]; 3], double: T, rule: &Rule, sums: &mut Sums<T, N>) {
+        for ([p, q, r], weight) in &rule.triangle {
+            let y = std::array::from_fn(|i| a[i].times(*p) + b[i].times(*q) + c[i].times(*r));
+            self.add(y, double.times(*weight), sums);
         }
     }
 

@@ -43,6 +43,29 @@ impl<T: Scalar> Polygon<T> {
         out
     }
 
+    /// Triangles that make it up: about its centroid, else about its first corner.
+    pub(super) fn fan(&self, centred: bool) -> impl Iterator<Item = [[T; 2]; 3]> {
+        let apex = if centred { self.centroid() } else { self.at[0] };
+        let first = if centred { 0 } else { 1 };
+        let last = self.corners.saturating_sub(first);
+        (first..last.max(first)).map(move |k| [apex, self.at[k], self.at[(k + 1) % self.corners]])
+    }
+
+    /// Centroid of its area.
+    fn centroid(&self) -> [T; 2] {
+        let o = self.at[0];
+        let mut whole = T::of(0.0);
+        let mut sum = [T::of(0.0); 2];
+        for k in 2..self.corners {
+            let (a, b) = (self.at[k - 1], self.at[k]);
+            let double = twice_area(&o, &a, &b);
+            whole = whole + double;
+            (0..2).for_each(|i| sum[i] = sum[i] + double * (a[i] - o[i] + b[i] - o[i]));
+        }
+        let share = T::of(1.0) / whole.times(3.0);
+        std::array::from_fn(|i| o[i] + sum[i] * share)
+    }
+
     /// The part left of the line from `a` to `b`.
     fn left_of(&self, a: &[T; 2], b: &[T; 2]) -> Self {
         let mut out = Self::empty();

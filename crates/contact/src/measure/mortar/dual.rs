@@ -11,6 +11,7 @@
 //! Analysis 38, 989-1012.
 
 use super::cell::{Frozen, Sums, integrate};
+use super::rule::Rule;
 use crate::shape::MOST_NODES;
 use nalgebra::DMatrix;
 
@@ -25,7 +26,7 @@ pub(super) type Part = (usize, Sums<f64, MOST_NODES>);
 pub(super) fn dualise<const D: usize>(
     frozen: Frozen<'_, D>,
     x: &[[f64; D]],
-    gauss: &[[f64; 2]],
+    rule: &Rule,
     parts: &mut [Part],
 ) {
     let n = frozen.kind.nodes();
@@ -33,7 +34,7 @@ pub(super) fn dualise<const D: usize>(
         return;
     }
     let mass = DMatrix::from_fn(n, n, |a, b| parts.iter().map(|(_, s)| s.own[a][b]).sum::<f64>());
-    if mass.sum() < (1.0 - UNFACED) * area(frozen, x, gauss) {
+    if mass.sum() < (1.0 - UNFACED) * area(frozen, x, rule) {
         return;
     }
     let Some(inverse) = mass.clone().try_inverse() else { return };
@@ -45,10 +46,10 @@ pub(super) fn dualise<const D: usize>(
 }
 
 /// Area of the whole facet: its overlap with itself seen from the other side.
-fn area<const D: usize>(frozen: Frozen<'_, D>, x: &[[f64; D]], gauss: &[[f64; 2]]) -> f64 {
+fn area<const D: usize>(frozen: Frozen<'_, D>, x: &[[f64; D]], rule: &Rule) -> f64 {
     let back: Vec<[f64; D]> = x.iter().rev().copied().collect();
     let mut sums = Sums::<f64, MOST_NODES>::zero();
-    integrate(frozen, x, frozen.kind, &back, gauss, &mut sums);
+    integrate(frozen, x, frozen.kind, &back, rule, &mut sums);
     let n = frozen.kind.nodes();
     sums.own[..n].iter().flat_map(|row| &row[..n]).sum()
 }

@@ -3,8 +3,8 @@
 //! The tangential increment since the last commit is the growth of the averaged distance between material points that
 //! faced each other then: with the weights `s = (D, -M)/a` of then and now, `v = Σ_k (s_k^then - s_k^now) x_k` at present
 //! positions, in components along the frame (Puso and Laursen 2004b: the change of the mortar matrices, which vanishes
-//! in a common rigid motion). The frame is laid along a material vector of the slave surface, so that history needs no
-//! turning.
+//! in a common rigid motion). The frame turns with the slave surface, by the polar rotation of two of
+//! its material vectors, so that history needs no turning.
 //!
 //! The tangent (`blocks`) has the derivatives of the overlap: in space those of `overlap`, in the plane number by number
 //! (`scalar::Dual`). Corners of the polygons that are corners of both facets at once have one-sided derivatives there.
@@ -57,8 +57,8 @@ pub(super) struct Point {
     pub at: usize,
     /// Start of its columns among those of its piece.
     pub column: usize,
-    /// The frame's material vector in the base vectors of the first facet beside the point.
-    along: [f64; 2],
+    /// The frame's material vectors in the base vectors of the first facet beside the point.
+    along: [[f64; 2]; 2],
 }
 
 /// A slave facet with a master facet that may overlap it.
@@ -243,7 +243,7 @@ impl<const D: usize> Finite<D> {
             slave: overlap::Side { kind: facet.kind, x: &own[..s] },
             reference: &reference[..s],
             master: overlap::Side { kind: master.kind, x: &other[..m] },
-            gauss: self.sides.rule(c.facet, c.master),
+            rule: self.sides.rule(c.facet, c.master),
         })
     }
 
@@ -290,14 +290,13 @@ impl<const D: usize> Finite<D> {
             axpy(&mut v, then - share * w, &self.x[n]);
         }
         let e = self.sides.bases(self.sides.beside[p][0], &self.x);
-        let mut material = scaled(&e[0], point.along[0]);
-        axpy(&mut material, point.along[1], &e[1]);
+        let material = point.along.map(|[a, b]| add(&scaled(&e[0], a), &scaled(&e[1], b)));
         Local::new(&self.sides.normal_sum(p, &self.x), material, d, v)
     }
 
     /// δn and δframe for a unit displacement along axis `i` of `node`, one of the slaves of point `p`.
     pub(super) fn turn(&self, p: usize, node: usize, i: usize, out: &mut Change<D>) {
-        let (mut normals, mut material) = ([0.0; D], [0.0; D]);
+        let (mut normals, mut material) = ([0.0; D], [[0.0; D]; 2]);
         for (k, b) in self.sides.beside[p].iter().enumerate() {
             let facet = &self.sides.facets[b.facet];
             let Some(l) = facet.nodes.iter().position(|&n| n == node) else { continue };
@@ -313,7 +312,9 @@ impl<const D: usize> Finite<D> {
                 axpy(&mut normals, slopes[1], &cross(&e[0], &unit));
             }
             if k == 0 {
-                material[i] = self.points[p].along[0] * slopes[0] + self.points[p].along[1] * slopes[1];
+                for (m, [a, b]) in material.iter_mut().zip(&self.points[p].along) {
+                    m[i] = a * slopes[0] + b * slopes[1];
+                }
             }
         }
         self.locals[p].turn(&normals, &material, out);
@@ -378,14 +379,14 @@ fn three<const D: usize>(x: [f64; D]) -> [f64; 3] {
     std::array::from_fn(|i| x.get(i).copied().unwrap_or(0.0))
 }
 
-/// Components of the small-sliding frame's first vector in the base vectors of the first facet beside point `p`.
-fn along<const D: usize>(sides: &Sides<D>, p: usize, x: &[[f64; D]]) -> [f64; 2] {
+/// Components of the small-sliding frame's vectors in the base vectors of the first facet beside point `p`.
+fn along<const D: usize>(sides: &Sides<D>, p: usize, x: &[[f64; D]]) -> [[f64; 2]; 2] {
     let first: Beside = sides.beside[p][0];
     let e = sides.bases(first, x);
     let normals = sides.normal_sum(p, x);
     let frame = fixed_frame(&scaled(&normals, -norm(&normals).recip()));
     let metric = [dot(&e[0], &e[0]), dot(&e[0], &e[1]), dot(&e[1], &e[1])];
-    solve_tangential(D - 1, &metric, &[dot(&e[0], &frame[0]), dot(&e[1], &frame[0])])
+    frame.map(|t| solve_tangential(D - 1, &metric, &[dot(&e[0], &t), dot(&e[1], &t)]))
 }
 
 impl<const D: usize> Measure<D> for Finite<D> {

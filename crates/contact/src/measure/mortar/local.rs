@@ -10,8 +10,11 @@ pub(super) struct Local<const D: usize> {
     pub n: [f64; D],
     /// Length of the sum of facet normals.
     length: f64,
-    /// The material tangent vector e the frame is laid along.
+    /// m_1 + m_2 × n, which the frame is laid along: m_1 and m_2 are material tangent vectors, at right angles at the start. The
+    /// frame then turns as the surface does in the mean (the polar rotation), whichever vectors are chosen.
     e: [f64; D],
+    /// m_2.
+    second: [f64; D],
     /// Length of its projection on the tangent plane.
     projected: f64,
     pub frame: [[f64; D]; 2],
@@ -46,18 +49,20 @@ pub(super) struct Traction<'a> {
 }
 
 impl<const D: usize> Local<D> {
-    /// From the sum of the outward slave normals and a material tangent vector (unused in two dimensions).
-    pub(super) fn new(normals: &[f64; D], e: [f64; D], d: [f64; D], v: [f64; D]) -> Self {
+    /// From the sum of the outward slave normals and two material tangent vectors (unused in two dimensions).
+    pub(super) fn new(normals: &[f64; D], material: [[f64; D]; 2], d: [f64; D], v: [f64; D]) -> Self {
         let length = norm(normals);
         let n = scaled(normals, -length.recip());
+        let [e, second] = material;
         if D == 2 {
             let frame = [quarter(&n), [0.0; D]];
-            return Self { n, length, e, projected: 1.0, frame, d, v };
+            return Self { n, length, e, second, projected: 1.0, frame, d, v };
         }
+        let e = add(&e, &cross(&second, &n));
         let mut q = e;
         axpy(&mut q, -dot(&n, &e), &n);
         let first = unit(&q);
-        Self { n, length, e, projected: norm(&q), frame: [first, cross(&n, &first)], d, v }
+        Self { n, length, e, second, projected: norm(&q), frame: [first, cross(&n, &first)], d, v }
     }
 
     /// g_n.
@@ -70,8 +75,8 @@ impl<const D: usize> Local<D> {
         [dot(&self.frame[0], &self.v), dot(&self.frame[1], &self.v)]
     }
 
-    /// δn and δframe for changes of the normals' sum and of the tangent vector.
-    pub(super) fn turn(&self, normals: &[f64; D], e: &[f64; D], out: &mut Change<D>) {
+    /// δn and δframe for changes of the normals' sum and of the tangent vectors.
+    pub(super) fn turn(&self, normals: &[f64; D], [first, second]: &[[f64; D]; 2], out: &mut Change<D>) {
         let mut dn = scaled(normals, -self.length.recip());
         let out_of_plane = dot(&self.n, &dn);
         axpy(&mut dn, -out_of_plane, &self.n);
@@ -81,9 +86,10 @@ impl<const D: usize> Local<D> {
             return;
         }
         let along = dot(&self.n, &self.e);
-        let mut dq = *e;
+        let e = add(&add(first, &cross(second, &self.n)), &cross(&self.second, &dn));
+        let mut dq = e;
         axpy(&mut dq, -along, &dn);
-        axpy(&mut dq, -(dot(&dn, &self.e) + dot(&self.n, e)), &self.n);
+        axpy(&mut dq, -(dot(&dn, &self.e) + dot(&self.n, &e)), &self.n);
         let first = &self.frame[0];
         let lengthening = dot(first, &dq);
         axpy(&mut dq, -lengthening, first);

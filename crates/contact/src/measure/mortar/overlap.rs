@@ -11,6 +11,7 @@
 
 use super::clip::twice_area;
 use super::polygon::{Corner, Crossing, Polygon};
+use super::rule::Rule;
 use crate::spec::SegmentKind;
 use crate::vector::{axpy, cross, dot, norm, scaled, sub, unit};
 
@@ -166,9 +167,13 @@ struct Pair<'a> {
     least: f64,
 }
 
+/// The apex of fans about the centroid among the corners.
+const CENTROID: usize = Polygon::MOST;
+
 /// Slopes of the integrals in the plane: by corners of the polygon and by nodes, each along both axes.
 struct Slopes {
-    corners: [[[f64; ALL]; 2]; Polygon::MOST],
+    /// The last is the centroid, where a fan has it as its apex.
+    corners: [[[f64; ALL]; 2]; CENTROID + 1],
     nodes: [[[f64; ALL]; 2]; BOTH],
 }
 
@@ -179,8 +184,7 @@ pub(super) struct Facets<'a> {
     /// Reference positions of the slave's nodes.
     pub reference: &'a [[f64; 3]],
     pub master: Side<'a>,
-    /// Rule on [0, 1].
-    pub gauss: &'a [[f64; 2]],
+    pub rule: &'a Rule,
 }
 
 /// Integrals over the overlap, for functions b of the slave: ∫ N_b N_k of slave nodes, then ∫ N_b N_γ of master nodes.
@@ -203,8 +207,8 @@ fn place(b: usize, k: usize) -> usize {
 pub(super) fn integrals(facets: &Facets<'_>) -> Option<Integrals> {
     let pair = Pair::new(facets)?;
     let mut sums = [0.0; ALL];
-    for k in 2..pair.polygon.corners {
-        pair.triangle(k, facets.gauss, &mut sums);
+    for triangle in pair.triangles(facets.rule) {
+        pair.triangle(&triangle, facets.rule, &mut sums);
     }
     Some(std::array::from_fn(|b| std::array::from_fn(|k| sums[place(b, k)])))
 }
@@ -212,13 +216,23 @@ pub(super) fn integrals(facets: &Facets<'_>) -> Option<Integrals> {
 /// The derivatives of these integrals; false where there is no overlap.
 pub(super) fn derivatives(facets: &Facets<'_>, out: &mut Derivatives) -> bool {
     let Some(pair) = Pair::new(facets) else { return false };
-    let mut slopes = Slopes { corners: [[[0.0; ALL]; 2]; Polygon::MOST], nodes: [[[0.0; ALL]; 2]; BOTH] };
-    for k in 2..pair.polygon.corners {
-        pair.sloped_triangle(k, facets.gauss, &mut slopes);
+    let mut slopes = Slopes { corners: [[[0.0; ALL]; 2]; CENTROID + 1], nodes: [[[0.0; ALL]; 2]; BOTH] };
+    for triangle in pair.triangles(facets.rule) {
+        pair.sloped_triangle(&triangle, facets.rule, &mut slopes);
+    }
+    if facets.rule.centred {
+        pair.hand_on_centroid(&mut slopes.corners);
     }
     pair.hand_on(&mut slopes);
     pair.spread(&slopes, out);
     true
+}
+
+/// A triangle of the fan: the corners it is made of, their places, twice its area.
+struct Triangle {
+    corners: [usize; 3],
+    at: [[f64; 2]; 3],
+    double: f64,
 }
 
 /// A Gauss point.
@@ -280,12 +294,19 @@ impl<'a> Pair<'a> {
         Some(Self { sides: [slave, master], flat, bilinear, density, base, normal, length, polygon, least })
     }
 
-    /// Corners of triangle `k` of the fan with twice its area; `None` where that is rounding.
-    #[inline]
-    fn fan(&self, k: usize) -> Option<([[f64; 2]; 3], f64)> {
-        let corners = [0, k - 1, k].map(|c| self.polygon.at[c].at);
-        let double = twice_area(&corners[0], &corners[1], &corners[2]);
-        (double > self.least).then_some((corners, double))
+    /// Triangles of the overlap, but for those that are rounding: a fan about the centroid, else about the first corner.
+    fn triangles(&self, rule: &Rule) -> impl Iterator<Item = Triangle> {
+        let corners = self.polygon.corners;
+        let centroid = if rule.centred { self.polygon.centroid() } else { [0.0; 2] };
+        let place = move |c: usize| if c == CENTROID { centroid } else { self.polygon.at[c].at };
+        let range = if rule.centred { 0..corners } else { 1..corners - 1 };
+        let apex = if rule.centred { CENTROID } else { 0 };
+        let triangle = move |k: usize| {
+            let corners = [apex, k, (k + 1) % corners];
+            let at = corners.map(place);
+            Triangle { corners, at, double: twice_area(&at[0], &at[1], &at[2]) }
+        };
+        range.map(triangle).filter(|t| t.double > self.least)
     }
 
     /// What is known at a place in the plane.
@@ -310,31 +331,28 @@ impl<'a> Pair<'a> {
         }
     }
 
-    fn triangle(&self, k: usize, gauss: &[[f64; 2]], sums: &mut [f64; ALL]) {
-        let Some((corners, double)) = self.fan(k) else { return };
-        each_point(gauss, |share, weight| {
-            let g = self.point(&mean(&corners, &share));
-            let w = double * weight * g.density;
+    fn triangle(&self, t: &Triangle, rule: &Rule, sums: &mut [f64; ALL]) {
+        for (share, weight) in &rule.triangle {
+            let g = self.point(&mean(&t.at, share));
+            let w = t.double * weight * g.density;
             for b in 0..NODES {
                 let wb = w * g.own[b];
                 (b..NODES).for_each(|k| sums[place(b, k)] += wb * g.own[k]);
                 (0..NODES).for_each(|k| sums[place(b, NODES + k)] += wb * g.other[k]);
             }
-        });
+        }
     }
 
     /// Adds the slopes of the integrals over a triangle.
-    fn sloped_triangle(&self, k: usize, gauss: &[[f64; 2]], slopes: &mut Slopes) {
-        let Some((corners, double)) = self.fan(k) else { return };
+    fn sloped_triangle(&self, t: &Triangle, rule: &Rule, slopes: &mut Slopes) {
         let mut sums = [0.0; ALL];
-        let places = [0, k - 1, k];
-        each_point(gauss, |share, weight| {
-            let g = self.point(&mean(&corners, &share));
-            let w = double * weight;
+        for (share, weight) in &rule.triangle {
+            let g = self.point(&mean(&t.at, share));
+            let w = t.double * weight;
             let (values, by_own, by_other) = products(&g, w);
             add_scaled(&mut sums, 1.0, &values);
             for m in 0..2 {
-                for (c, s) in places.iter().zip(&share) {
+                for (c, s) in t.corners.iter().zip(share) {
                     let to = &mut slopes.corners[*c][m];
                     add_scaled(to, *s, &by_own[m]);
                     add_other(to, *s, &by_other[m]);
@@ -349,12 +367,22 @@ impl<'a> Pair<'a> {
                     add_other(&mut other[m], -g.other[n], &by_other[m]);
                 }
             }
-        });
+        }
         // The area of the triangle scales all of it.
-        for (i, c) in places.iter().enumerate() {
-            let (p, q) = (&corners[(i + 1) % 3], &corners[(i + 2) % 3]);
-            add_scaled(&mut slopes.corners[*c][0], (p[1] - q[1]) / double, &sums);
-            add_scaled(&mut slopes.corners[*c][1], (q[0] - p[0]) / double, &sums);
+        for (i, c) in t.corners.iter().enumerate() {
+            let (p, q) = (&t.at[(i + 1) % 3], &t.at[(i + 2) % 3]);
+            add_scaled(&mut slopes.corners[*c][0], (p[1] - q[1]) / t.double, &sums);
+            add_scaled(&mut slopes.corners[*c][1], (q[0] - p[0]) / t.double, &sums);
+        }
+    }
+
+    /// Hands the slopes by the centroid on to the corners it follows.
+    fn hand_on_centroid(&self, corners: &mut [[[f64; ALL]; 2]; CENTROID + 1]) {
+        let (corners, centroid) = corners.split_at_mut(CENTROID);
+        for (to, slope) in corners.iter_mut().zip(self.polygon.centroid_slopes()) {
+            for (m, to) in to.iter_mut().enumerate() {
+                (0..2).for_each(|i| add_scaled(to, slope[i][m], &centroid[0][i]));
+            }
         }
     }
 
@@ -441,17 +469,6 @@ impl<'a> Pair<'a> {
     }
 }
 
-/// The square's rule collapsed onto a triangle: shares of its corners, and weights.
-#[inline]
-fn each_point(gauss: &[[f64; 2]], mut work: impl FnMut([f64; 3], f64)) {
-    for [s, ws] in gauss {
-        for [t, wt] in gauss {
-            let v = t * (1.0 - s);
-            work([1.0 - s - v, *s, v], ws * wt * (1.0 - s));
-        }
-    }
-}
-
 #[inline]
 fn mean(corners: &[[f64; 2]; 3], share: &[f64; 3]) -> [f64; 2] {
     std::array::from_fn(|i| share[0] * corners[0][i] + share[1] * corners[1][i] + share[2] * corners[2][i])
@@ -507,6 +524,7 @@ fn add_other(to: &mut [f64; ALL], c: f64, by: &[f64; OWN_OTHER]) {
 mod tests {
     use super::*;
     use crate::measure::mortar::cell::{Frozen, Sums, integrate};
+    use crate::measure::mortar::rule::Rules;
     use crate::measure::mortar::scalar::Dual;
     use crate::measure::mortar::weighting::Weighting;
     use proptest::prelude::*;
@@ -533,7 +551,7 @@ mod tests {
         slave: Side<'_>,
         reference: &[[f64; 3]],
         master: Side<'_>,
-        gauss: &[[f64; 2]],
+        rule: &Rule,
     ) -> Option<Sums<Number, 4>> {
         let weighting = Weighting::new(slave.kind, Some);
         let frozen = Frozen { kind: slave.kind, weighting: &weighting, reference, axisymmetric: false };
@@ -547,7 +565,7 @@ mod tests {
         };
         let mut sums = Sums::zero();
         let (x, y) = (seeded(slave.x, 0), seeded(master.x, 4));
-        integrate(frozen, &x, master.kind, &y, gauss, &mut sums).then_some(sums)
+        integrate(frozen, &x, master.kind, &y, rule, &mut sums).then_some(sums)
     }
 
     fn kind() -> impl Strategy<Value = SegmentKind> {
@@ -560,18 +578,45 @@ mod tests {
 
     proptest! {
         #[test]
+        fn integrals_do_not_depend_on_the_corner_that_comes_first(
+            noises in (noise(0.2), noise(0.5)),
+            by in 1..4_usize,
+        ) {
+            let (own, other) = (facet(SegmentKind::Quad4, 0.2, 1.0, &noises.0), facet(SegmentKind::Quad4, 0.0, 1.2, &noises.1));
+            let turned = |x: &[[f64; 3]]| -> Vec<[f64; 3]> { (0..4).map(|k| x[(k + by) % 4]).collect() };
+            let rules = Rules::new();
+            let of = |own: &[[f64; 3]], other: &[[f64; 3]]| {
+                let side = |x| Side { kind: SegmentKind::Quad4, x };
+                integrals(&Facets { slave: side(own), reference: own, master: side(other), rule: rules.of(3) })
+            };
+            let (first, second) = (of(&own, &other), of(&turned(&own), &turned(&other)));
+            prop_assert_eq!(first.is_some(), second.is_some());
+            let (Some(first), Some(second)) = (first, second) else { return Ok(()) };
+            for b in 0..4 {
+                for k in 0..4 {
+                    for part in [0, NODES] {
+                        let (a, c) = (first[(b + by) % 4][part + (k + by) % 4], second[b][part + k]);
+                        prop_assert!((a - c).abs() < 1e-12, "{} {} {}: {} {}", b, k, part, a, c);
+                    }
+                }
+            }
+        }
+
+        #[test]
         fn integrals_and_derivatives_are_those_of_numbers_that_carry_derivatives(
             kinds in (kind(), kind()),
             noises in (noise(0.2), noise(0.5), noise(0.1)),
+            points in 1..5_usize,
         ) {
             let own = facet(kinds.0, 0.2, 1.0, &noises.0);
             let other = facet(kinds.1, 0.0, 1.2, &noises.1);
             let reference: Vec<[f64; 3]> =
                 own.iter().zip(noises.2.chunks(3)).map(|(x, n)| std::array::from_fn(|i| x[i] + n[i])).collect();
-            let gauss = [[0.1, 0.3], [0.5, 0.4], [0.8, 0.3]];
+            let rules = Rules::new();
+            let rule = rules.of(points);
             let (slave, master) = (Side { kind: kinds.0, x: &own }, Side { kind: kinds.1, x: &other });
-            let expected = forward(slave, &reference, master, &gauss);
-            let facets = Facets { slave, reference: &reference, master, gauss: &gauss };
+            let expected = forward(slave, &reference, master, rule);
+            let facets = Facets { slave, reference: &reference, master, rule };
             let found = integrals(&facets);
             let mut slopes = [[[[0.0; 3]; BOTH]; BOTH]; NODES];
             prop_assert_eq!(found.is_some(), expected.is_some());

@@ -67,6 +67,40 @@ impl Polygon {
         (2..self.corners).map(|k| twice_area(&self.at[0].at, &self.at[k - 1].at, &self.at[k].at)).sum()
     }
 
+    /// Centroid of its area.
+    pub(super) fn centroid(&self) -> [f64; 2] {
+        let o = self.at[0].at;
+        let (mut whole, mut sum) = (0.0, [0.0; 2]);
+        for k in 2..self.corners {
+            let (a, b) = (&self.at[k - 1].at, &self.at[k].at);
+            let double = twice_area(&o, a, b);
+            whole += double;
+            (0..2).for_each(|i| sum[i] += double * (a[i] - o[i] + b[i] - o[i]));
+        }
+        std::array::from_fn(|i| o[i] + sum[i] / (3.0 * whole))
+    }
+
+    /// Slopes of the centroid, `δ(centroid)_i = Σ c[i][m] δ(corner)_m`, one after the other of the corners: the centroid is
+    /// `Σ (p_k + p_k+1) (p_k × p_k+1) / (3 Σ p_k × p_k+1)` about any place, here about itself.
+    pub(super) fn centroid_slopes(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
+        let (n, centroid) = (self.corners, self.centroid());
+        let of = move |k: usize| sub(&self.at[k % n].at, &centroid);
+        let flat = |a: &[f64; 2], b: &[f64; 2]| a[0] * b[1] - a[1] * b[0];
+        let share = (3.0 * self.twice_area()).recip();
+        (0..n).map(move |k| {
+            let (before, here, after) = (of(k + n - 1), of(k), of(k + 1));
+            let products = flat(&before, &here) + flat(&here, &after);
+            // Slopes of both products by this corner.
+            let (left, right) = ([-before[1], before[0]], [after[1], -after[0]]);
+            std::array::from_fn(|i| {
+                std::array::from_fn(|m| {
+                    let along = (before[i] + here[i]) * left[m] + (here[i] + after[i]) * right[m];
+                    share * (along + if i == m { products } else { 0.0 })
+                })
+            })
+        })
+    }
+
     /// Whether the boxes of two polygons are apart.
     pub(super) fn apart(&self, other: &Self) -> bool {
         let range = |p: &Self, i: usize| {

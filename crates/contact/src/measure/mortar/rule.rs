@@ -3,6 +3,7 @@
 use crate::shape::shape;
 use crate::spec::SegmentKind;
 use crate::vector::{axpy, cross, dot, norm};
+use asperity_fem::quadrature::{triangle_1, triangle_3, triangle_6};
 
 /// Most Gauss points in one direction. Faces so distorted that the product of shape functions needs more are integrated
 /// to a smaller accuracy, as every element is.
@@ -14,21 +15,59 @@ const ACCURACY: f64 = 1e-16;
 /// A facet whose Jacobian varies by less than this share is a parallelogram but for the rounding of coordinates.
 const REGULAR: f64 = 1e-10;
 
-/// Gauss-Legendre points on [0, 1] for 1 to [`MOST`] points: abscissa and weight.
+/// Quadrature on the pieces of an overlap.
+#[derive(Clone, Debug)]
+pub(super) struct Rule {
+    /// On [0, 1]: abscissa and weight.
+    pub line: Vec<[f64; 2]>,
+    /// On triangles: shares of the corners, and weights of sum 1/2.
+    pub triangle: Vec<([f64; 3], f64)>,
+    /// Whether a polygon is a fan about its centroid. With the symmetric rule of degree 4 its integrals then depend neither on the
+    /// corner that comes first nor on corners that rounding adds. Rules of a lower degree serve triangles, and are exact on them;
+    /// those of a higher one have enough points for any fan.
+    pub centred: bool,
+}
+
+impl Rule {
+    /// Gauss-Legendre points on [0, 1]. On triangles a symmetric rule of degree 2n - 2 where one is at hand, else the square's
+    /// collapsed, of the same degree.
+    fn new(n: usize) -> Self {
+        let line = legendre(n);
+        let shares = |([x, y, _], weight): ([f64; 3], f64)| ([1.0 - x - y, x, y], weight);
+        let triangle = match n {
+            1 => triangle_1().into_iter().map(shares).collect(),
+            2 => triangle_3().into_iter().map(shares).collect(),
+            3 => triangle_6().into_iter().map(shares).collect(),
+            _ => collapsed(&line),
+        };
+        Self { line, triangle, centred: n == 3 }
+    }
+}
+
+/// The square's rule collapsed onto a triangle.
+fn collapsed(line: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
+    let point = |[s, ws]: [f64; 2], [t, wt]: [f64; 2]| {
+        let v = t * (1.0 - s);
+        ([1.0 - s - v, s, v], ws * wt * (1.0 - s))
+    };
+    line.iter().flat_map(|&s| line.iter().map(move |&t| point(s, t))).collect()
+}
+
+/// Rules of 1 to [`MOST`] points in one direction.
 #[derive(Clone, Debug)]
 pub(super) struct Rules {
-    lines: Vec<Vec<[f64; 2]>>,
+    rules: Vec<Rule>,
 }
 
 impl Rules {
     pub(super) fn new() -> Self {
-        Self { lines: (1..=MOST).map(legendre).collect() }
+        Self { rules: (1..=MOST).map(Rule::new).collect() }
     }
 
     /// The rule of `n` points.
     #[inline]
-    pub(super) fn line(&self, n: usize) -> &[[f64; 2]] {
-        &self.lines[n - 1]
+    pub(super) fn of(&self, n: usize) -> &Rule {
+        &self.rules[n - 1]
     }
 }
 

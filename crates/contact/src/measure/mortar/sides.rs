@@ -1,7 +1,7 @@
 //! The two surfaces of a mortar interface: facets with their weightings, averaged normals, and which facets may overlap.
 
 use super::cell::Frozen;
-use super::rule::{self, Rules};
+use super::rule::{self, Rule, Rules};
 use super::weighting::Weighting;
 use crate::search::tree::{Aabb, Tree};
 use crate::shape::{MOST_NODES, shape};
@@ -106,9 +106,9 @@ impl<const D: usize> Sides<D> {
 
     /// The quadrature rule for slave facet `f` with master facet `m`; chosen by the reference configuration.
     #[inline]
-    pub(super) fn rule(&self, f: usize, m: usize) -> &[[f64; 2]] {
+    pub(super) fn rule(&self, f: usize, m: usize) -> &Rule {
         let distortion = self.facets[f].distortion.max(self.distortion[m]);
-        self.rules.line(rule::points(self.facets[f].kind, self.master[m].kind, distortion))
+        self.rules.of(rule::points(self.facets[f].kind, self.master[m].kind, distortion))
     }
 
     /// Base vectors of facet `b.facet` at the node of a slave point.
