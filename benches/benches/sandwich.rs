@@ -1,8 +1,8 @@
 //! The main job without its output: plan and run of the sandwich.
 #![allow(missing_docs)]
 
-use asperity_driver::observe::Recorder;
 use asperity_driver::{plan, run, scene};
+use asperity_output::Recorder;
 use criterion::{Criterion, criterion_group, criterion_main};
 
 fn sandwich(c: &mut Criterion) {

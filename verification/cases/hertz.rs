@@ -1,13 +1,13 @@
 //! Hertz contacts as the cases use them: scenes with one thing changed at a time, tractions of a run, closed forms.
 
 use crate::{CaseError, Cost};
-use asperity_driver::observe::Recorder;
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::scene::model::{
     BlockMesh, LawSpec, Measure, MeshSource, Motion, Scene, Sliding, SpacingSpec, here,
 };
 use asperity_driver::scene::units::{Length, Penalty};
 use asperity_driver::{plan, run as driver_run, scene as reader};
+use asperity_output::Recorder;
 use std::f64::consts::PI;
 
 /// Reads a scene of the product or of a case.

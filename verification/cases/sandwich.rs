@@ -1,8 +1,6 @@
 //! The sandwich benchmark as the cases use it: the scene file of the product, with one thing changed at a time.
 
 use crate::CaseError;
-use asperity_driver::observe::Recorder;
-use asperity_driver::observe::view::InterfaceFields;
 use asperity_driver::plan;
 use asperity_driver::report::{Outcome, RunReport, mean};
 use asperity_driver::run;
@@ -10,6 +8,8 @@ use asperity_driver::scene;
 pub use asperity_driver::scene::model::Scene;
 use asperity_driver::scene::model::{MeshSource, Stepper, here};
 use asperity_driver::scene::units::{Length, Penalty, Pressure, Velocity};
+use asperity_output::Recorder;
+use asperity_output::view::InterfaceFields;
 
 /// Young's modulus of the benchmark \[Pa\].
 pub const YOUNG: f64 = 44.8e9;

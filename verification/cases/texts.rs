@@ -1,10 +1,10 @@
 //! Scenes of cases as texts: one file a user could run, varied by replacing parts of it, read by the public reader.
 
 use crate::{CaseError, Cost};
-use asperity_driver::observe::Recorder;
-use asperity_driver::observe::view::InterfaceFields;
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::{plan, run, scene};
+use asperity_output::Recorder;
+use asperity_output::view::InterfaceFields;
 use std::path::Path;
 
 /// The text with each first string of a pair, which must occur, replaced by the second.

@@ -1,6 +1,6 @@
 //! The driver of asperity: from a scene file to results a person can look at.
 //!
-//! `scene` reads, `plan` decides, `run` steps, `observe` writes.
+//! `scene` reads, `plan` decides, `run` steps; the crate `asperity-output` writes.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod cli;
@@ -13,11 +13,9 @@ mod free;
 pub mod laws;
 pub mod loading;
 pub mod model;
-pub mod observe;
 pub mod penalty;
 pub mod plan;
 mod plan_doubts;
-pub mod printing;
 pub mod report;
 pub mod rigid;
 pub mod run;

@@ -1,6 +1,7 @@
 //! The `asperity` command.
 
-use asperity_driver::{cli, printing};
+use asperity_driver::cli;
+use asperity_output::printing;
 use clap::Parser;
 use std::fmt::Write;
 use std::process::ExitCode;

@@ -1,10 +1,12 @@
 //! `report.json`: what a run found, what it cost and where it came from.
 
 use crate::loading::Stage;
-use crate::observe::view::{Counts, ForceMark, InterfaceFields, PointMark, PointValues, Samples, StepRecord};
 use crate::plan::{Plan, Summary};
 use crate::views;
 use crate::warning::Warning;
+use asperity_output::view::{
+    Counts, ForceMark, InterfaceFields, PointMark, PointValues, Samples, StepRecord,
+};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 

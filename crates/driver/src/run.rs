@@ -1,8 +1,6 @@
 //! Running a plan: stages in sequence, steps within them, observers after each.
 
 use crate::loading::Stage;
-use crate::observe::ObserveError;
-use crate::observe::view::{Counts, Observer, StepRecord, StepView};
 use crate::plan::{AnyPlan, Plan};
 use crate::report::{Outcome, Phases, RunReport};
 use crate::run_doubts;
@@ -12,6 +10,8 @@ use crate::system::Assembled;
 use crate::timing::{Figures, StepLength};
 use crate::watch;
 use asperity_contact::{Course, Watch};
+use asperity_output::OutputError;
+use asperity_output::view::{Counts, Observer, StepRecord, StepView};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant as Clock;
 
@@ -28,7 +28,7 @@ pub enum RunError {
     },
     /// An observer could not write.
     #[error(transparent)]
-    Observe(#[from] ObserveError),
+    Observe(#[from] OutputError),
 }
 
 /// Runs a plan. A stepper that does not converge is no error: the report's outcome says so and everything computed

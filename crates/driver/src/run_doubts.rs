@@ -1,7 +1,6 @@
 //! What a run finds that its model does not describe: strain, rotation and slip beyond what small means, and contact that never was.
 
 use crate::model::{CellBlock, Model};
-use crate::observe::view::InterfaceFields;
 use crate::plan::{Plan, PlannedInterface};
 use crate::report::InterfaceResult;
 use crate::scene::check::brief;
@@ -10,6 +9,7 @@ use crate::warning::Warning;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::Cells;
 use asperity_fem::nonlinear::Kinematics;
+use asperity_output::view::InterfaceFields;
 use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Largest principal strain of a theory of small strain \[-\]: its error is of the order of the strain itself, so that stress and area are

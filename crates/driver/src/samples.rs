@@ -2,7 +2,6 @@
 
 use crate::loading::Stage;
 use crate::model::{CellBlock, Model};
-use crate::observe::view::{PointValues, Samples};
 use crate::plan::PlanError;
 use crate::rigid::place;
 use crate::scene::model::{PointSpec, Scene, Spanned};
@@ -10,6 +9,7 @@ use asperity_fem::block::von_mises;
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::{locate, nodes_of_sides};
 use asperity_fem::table::Table;
+use asperity_output::view::{PointValues, Samples};
 use nalgebra::{DMatrix, DVector};
 
 /// A point of a body.

@@ -1,12 +1,12 @@
 //! How a run ends that cannot go on: what is said of it, and whether it met an instability.
 
 use crate::cohesive::Resolved;
-use crate::observe::view::Counts;
 use crate::report::{Outcome, Stop};
 use crate::step::Failure;
 use crate::system::Assembled;
 use asperity_contact::Interface;
 use asperity_fem::term::Objection;
+use asperity_output::view::Counts;
 
 /// What may be done about an instability.
 const REMEDY: &str = "the last state before it is kept. Stiffer bodies or supports, or a larger length of weakening (`l`, `d_c`), \

@@ -4,7 +4,6 @@ use crate::cohesive::Resolved;
 use crate::free;
 use crate::loading::Stage;
 use crate::model::{CellBlock, Model};
-use crate::observe::view::{BodyFields, Counts, InterfaceFields, Samples, Setup};
 use crate::plan::{Path, Plan, PlannedInterface, Stepping, interface_nodes};
 use crate::report::InterfaceBalance;
 use crate::samples::Beside;
@@ -25,6 +24,7 @@ use asperity_fem::kinematics::Idealisation;
 use asperity_fem::loads::ExternalForces;
 use asperity_fem::term::{Limited, Linearized};
 use asperity_friction::law::RateBounds;
+use asperity_output::view::{BodyFields, Counts, InterfaceFields, Samples, Setup};
 
 /// Rate below which a forward step counts a point as at rest, over the largest prescribed rate (the floor of limit r8).
 const RATE_FLOOR: f64 = 1e-12;

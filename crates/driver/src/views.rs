@@ -1,9 +1,6 @@
 //! The model and its state as observers see them.
 
 use crate::model::CellBlock;
-use crate::observe::view::{
-    BodyFields, ForceMark, InterfaceFields, InterfaceMesh, MeshView, PointMark, Setup,
-};
 use crate::plan::{Plan, PlannedInterface};
 use crate::report::InterfaceBalance;
 use crate::samples::{ForceSet, Point};
@@ -12,6 +9,9 @@ use asperity_contact::{Interface, PointFields, Status};
 use asperity_fem::block::von_mises;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::nonlinear::Kinematics;
+use asperity_output::view::{
+    BodyFields, ForceMark, InterfaceFields, InterfaceMesh, MeshView, PointMark, Setup,
+};
 use std::collections::BTreeMap;
 
 /// Pads a vector to three components.

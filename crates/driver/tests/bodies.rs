@@ -3,7 +3,7 @@
 
 mod common;
 
-use asperity_driver::observe::Recorder;
+use asperity_output::Recorder;
 use common::{close, displacements, fields, planned, simulate};
 
 const YOUNG: f64 = 10e9;

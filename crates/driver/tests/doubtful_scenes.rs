@@ -2,12 +2,12 @@
 //! Then what runs find that their models do not describe.
 #![allow(clippy::unwrap_used)]
 
-use asperity_driver::observe::Recorder;
 use asperity_driver::plan::{self, ScenePlan};
 use asperity_driver::report::{Outcome, RunReport, Stop};
 use asperity_driver::run;
 use asperity_driver::scene;
 use asperity_driver::warning::{Place, Warning};
+use asperity_output::Recorder;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 

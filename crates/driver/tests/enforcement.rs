@@ -3,9 +3,9 @@
 
 mod common;
 
-use asperity_driver::observe::Recorder;
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::run;
+use asperity_output::Recorder;
 use common::{close, displacements, fields, planned, simulate};
 
 /// Young's modulus over the element size of the upper block \[Pa/m\].

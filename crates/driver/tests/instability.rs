@@ -3,9 +3,9 @@
 
 mod common;
 
-use asperity_driver::observe::Recorder;
 use asperity_driver::report::{Outcome, RunReport, Stop};
 use asperity_driver::run;
+use asperity_output::Recorder;
 use common::planned;
 
 const SCENE: &str = include_str!("../../../scenes/sandwich.toml");

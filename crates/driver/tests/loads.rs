@@ -1,10 +1,10 @@
 //! Loads and stages end to end, against closed forms.
 #![allow(clippy::unwrap_used)]
 
-use asperity_driver::observe::Recorder;
 use asperity_driver::plan::{self, AnyPlan};
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::{run, scene};
+use asperity_output::Recorder;
 
 /// A 1 x 2 m column of E = 10 GPa, nu = 0.25, rollers at the sides and the bottom, with one more condition.
 fn column(element: &str, extra_body: &str, condition: &str) -> String {

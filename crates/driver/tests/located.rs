@@ -2,7 +2,8 @@
 //! examples that ObsPy's readers are tested with, solutions of the Global CMT project.
 #![allow(clippy::unwrap_used)]
 
-use asperity_driver::fault::located::{Located, Plane, Spot, Tensor, cmtsolution, quakeml};
+use asperity_driver::fault::located::locate;
+use asperity_output::located::{Located, Plane, Spot, Tensor, cmtsolution, quakeml};
 
 const NDK: &str = include_str!("catalogues/events.ndk");
 const CMT: &str = include_str!("catalogues/CMTSOLUTION");
@@ -131,7 +132,7 @@ fn slipped(text: &str, components: &[f64]) -> Located {
         drop: vec![0.0; n * components.len()],
         opening: Vec::new(),
     };
-    let located = Located::new(&plan, plan.frame.as_ref().unwrap(), &event, &(0..plan.points.len())).unwrap();
+    let located = locate(&plan, plan.frame.as_ref().unwrap(), &event, &(0..plan.points.len())).unwrap();
     let area: f64 = plan.points.iter().map(|p| p.area).sum();
     let length = if text.contains("\"3d\"") {
         1.0

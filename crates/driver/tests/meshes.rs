@@ -3,7 +3,7 @@
 
 mod common;
 
-use asperity_driver::observe::Recorder;
+use asperity_output::Recorder;
 use common::{close, displacements, fields, planned, simulate};
 
 /// Modulus of uniaxial strain over Young's modulus for a Poisson's ratio of a quarter.

@@ -3,9 +3,9 @@
 
 mod common;
 
-use asperity_driver::observe::view::{PointValues, Samples};
-use asperity_driver::observe::{FieldSchedule, Files, Multi, Observer, Recorder};
 use asperity_driver::run;
+use asperity_output::view::{PointValues, Samples};
+use asperity_output::{FieldSchedule, Files, Multi, Observer, Recorder};
 use common::{close, planned, simulate};
 
 const YOUNG: f64 = 10e9;

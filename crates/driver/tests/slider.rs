@@ -4,11 +4,11 @@
 mod common;
 
 use asperity_driver::laws;
-use asperity_driver::observe::{Observer, Recorder};
 use asperity_driver::scene::law::{Evolution, Form, LawChoice, State, Strength};
 use asperity_driver::slider::{Both, DEFAULT_METHOD, Now, Output, Plan, Report, Run, Show, Thresholds, run};
 use asperity_friction::slider::{Condition, History, Slider, Spring, System};
 use asperity_ode::{Failure, Method, Outcome};
+use asperity_output::{Observer, Recorder};
 use common::sliders::{CYCLE, history, plan, relative, written};
 use nalgebra::Complex;
 

@@ -1,8 +1,8 @@
 //! Regression, not evidence: the plan and the counts of a run whose control flow cannot depend on the last bits.
 #![allow(clippy::unwrap_used)]
 
-use asperity_driver::observe::Recorder;
 use asperity_driver::{plan, run, scene};
+use asperity_output::Recorder;
 
 #[test]
 fn the_plan_of_the_sandwich_reads_as_before() {

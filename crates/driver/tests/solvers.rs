@@ -3,10 +3,10 @@
 
 mod common;
 
-use asperity_driver::observe::Recorder;
 use asperity_driver::plan::{self, PlanError};
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::{run, scene};
+use asperity_output::Recorder;
 use common::{displacements, fields, planned, simulate};
 use std::path::Path;
 

@@ -1,10 +1,10 @@
 //! Bodies in antiplane motion as scenes: a crack and a prism.
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::observe::Recorder;
-use asperity_driver::observe::view::Samples;
 use asperity_driver::report::Outcome;
 use asperity_driver::{plan, run as driver, scene};
+use asperity_output::Recorder;
+use asperity_output::view::Samples;
 use std::f64::consts::{PI, SQRT_2};
 
 /// See the README.

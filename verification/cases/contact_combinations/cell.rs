@@ -2,9 +2,9 @@
 
 use super::super::texts::vary;
 use crate::CaseError;
-use asperity_driver::observe::Recorder;
 use asperity_driver::report::Outcome;
 use asperity_driver::{plan, run, scene};
+use asperity_output::Recorder;
 use std::path::Path;
 
 const SCENE: &str = include_str!("scene.toml");

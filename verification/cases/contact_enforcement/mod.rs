@@ -4,11 +4,11 @@
 mod condition;
 
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::observe::Recorder;
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::scene::model::{BlockMesh, EnforcementKind, Loading, Measure, MeshSource, Scene, here};
 use asperity_driver::scene::units::{Penalty, Penetration};
 use asperity_driver::{plan, run as driver_run, scene as reader};
+use asperity_output::Recorder;
 
 /// See the README.
 pub const CASE: Case = Case {

@@ -2,8 +2,8 @@
 
 use super::contact_hard::scenes::{Done, Pair, block};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_driver::observe::Recorder;
 use asperity_driver::{plan, run as driver_run, scene};
+use asperity_output::Recorder;
 use std::fmt::Write;
 
 /// See the README.

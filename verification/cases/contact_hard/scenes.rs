@@ -1,10 +1,10 @@
 //! Two bodies with one interface, as scenes a user could write.
 
 use crate::{CaseError, Cost};
-use asperity_driver::observe::Recorder;
-use asperity_driver::observe::view::InterfaceFields;
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::{plan, run, scene};
+use asperity_output::Recorder;
+use asperity_output::view::InterfaceFields;
 
 /// A scene of two bodies; every string is a piece of its file.
 #[derive(Clone, Debug)]

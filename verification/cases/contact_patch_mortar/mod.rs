@@ -1,13 +1,13 @@
 //! Contact patch test on meshes that do not match: mortar passes, node-to-point does not.
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::observe::Recorder;
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::scene::model::{
     BlockMesh, Condition, Kinematics, Measure, MeshSource, Motion, Scene, Sliding, here,
 };
 use asperity_driver::scene::units::{Length, Penalty};
 use asperity_driver::{plan, run as driver_run, scene as reader};
+use asperity_output::Recorder;
 
 /// See the README.
 pub const CASE: Case = Case {

@@ -1,12 +1,12 @@
 //! Cracks in a plane: closed with friction under compression, and opened by pressure.
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::observe::Recorder;
-use asperity_driver::observe::view::InterfaceFields;
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::scene::model::{FaultMesh, Interface, Measure, MeshSource, Scene, SpacingSpec, here};
 use asperity_driver::scene::units::{Length, Penalty};
 use asperity_driver::{plan, run as driver_run, scene as reader};
+use asperity_output::Recorder;
+use asperity_output::view::InterfaceFields;
 use std::f64::consts::PI;
 
 /// See the README.

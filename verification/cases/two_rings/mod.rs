@@ -4,10 +4,10 @@ mod exact;
 mod mesh;
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::observe::Recorder;
 use asperity_driver::report::Outcome;
 use asperity_driver::scene::model::{Measure, here};
 use asperity_driver::{plan, run as driver_run, scene as reader};
+use asperity_output::Recorder;
 use exact::{RADII, Rings};
 use std::f64::consts::FRAC_PI_2;
 

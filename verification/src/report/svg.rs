@@ -52,7 +52,7 @@ pub fn draw(plot: &Plot) -> Result<String, SvgError> {
 /// The font measures text only: the SVG names the family and the reader's system draws it.
 fn register_font() -> Result<(), SvgError> {
     static REGISTERED: OnceLock<bool> = OnceLock::new();
-    let bytes = include_bytes!("../../../crates/driver/assets/DejaVuSans.ttf");
+    let bytes = include_bytes!("../../../crates/output/assets/DejaVuSans.ttf");
     let done = REGISTERED
         .get_or_init(|| plotters::style::register_font("sans-serif", FontStyle::Normal, bytes).is_ok());
     if *done { Ok(()) } else { Err(SvgError::Font) }

@@ -7,20 +7,30 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// What each package of the workspace may depend on inside it, tests and build scripts included.
-const ALLOWED: [(&str, &[&str]); 8] = [
+const ALLOWED: [(&str, &[&str]); 9] = [
     ("asperity-friction", &[]),
     ("asperity-fem", &[]),
     ("asperity-ode", &[]),
+    ("asperity-output", &[]),
     ("asperity-contact", &["asperity-fem", "asperity-friction"]),
-    ("asperity-driver", &["asperity-fem", "asperity-friction", "asperity-ode", "asperity-contact"]),
+    (
+        "asperity-driver",
+        &["asperity-fem", "asperity-friction", "asperity-ode", "asperity-output", "asperity-contact"],
+    ),
     ("asperity-verification", PROGRAMS),
     ("asperity-benches", PROGRAMS),
     ("xtask", &[]),
 ];
 
 /// What may be used by programs that stand beside the driver.
-const PROGRAMS: &[&str] =
-    &["asperity-fem", "asperity-friction", "asperity-ode", "asperity-contact", "asperity-driver"];
+const PROGRAMS: &[&str] = &[
+    "asperity-fem",
+    "asperity-friction",
+    "asperity-ode",
+    "asperity-output",
+    "asperity-contact",
+    "asperity-driver",
+];
 
 /// Libraries that work on values only.
 pub const LIBRARIES: [&str; 4] = ["asperity-friction", "asperity-fem", "asperity-ode", "asperity-contact"];
@@ -154,6 +164,7 @@ mod tests {
             ("asperity-contact", "asperity-driver"),
             ("asperity-ode", "asperity-friction"),
             ("asperity-fem", "asperity-ode"),
+            ("asperity-output", "asperity-fem"),
             ("asperity-driver", "asperity-verification"),
             ("xtask", "asperity-fem"),
         ] {

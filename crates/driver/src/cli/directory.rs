@@ -2,8 +2,8 @@
 
 use super::contents::{self, Contents};
 use crate::fault;
-use crate::observe::atomic;
 use crate::report::{Origin, Status, commit};
+use asperity_output::atomic;
 use jiff::Timestamp;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde::Serialize;

@@ -7,8 +7,8 @@ mod read;
 mod signals;
 mod work;
 
-use crate::observe::Pulse;
 use crate::scene::units::Time;
+use asperity_output::Pulse;
 use clap::{Args, Parser, Subcommand};
 use directory::{Begin, Directory};
 use miette::miette;

@@ -1,9 +1,9 @@
 //! What the commands print on standard output.
 
 use super::read::Planned;
-use crate::observe::decimals::fixed;
-use crate::printing::out;
 use crate::report::RunReport;
+use asperity_output::decimals::fixed;
+use asperity_output::printing::out;
 
 /// The plan.
 pub(super) fn plan(plan: &Planned) {

@@ -5,14 +5,14 @@ use super::read::Ready;
 use super::{End, Pausing, print, signals};
 use crate::fault;
 use crate::forecast;
-use crate::observe::{
-    FieldSchedule, Files, Multi, ObserveError, Observer, Progress, Recorder, atomic, plots, stems,
-};
 use crate::plan::AnyPlan;
-use crate::printing::{err, out};
 use crate::report::{Outcome, Status};
 use crate::run;
 use crate::slider;
+use asperity_output::printing::{err, out};
+use asperity_output::{
+    FieldSchedule, Files, Multi, Observer, OutputError, Progress, Recorder, atomic, plots, stems,
+};
 use miette::IntoDiagnostic;
 use std::path::Path;
 use std::sync::Arc;
@@ -80,7 +80,7 @@ fn draw(out: &Path, recorder: Option<&Recorder>) -> miette::Result<()> {
 struct Until<'a>(slider::Show<'a>, Arc<AtomicBool>);
 
 impl slider::Watcher for Until<'_> {
-    fn now(&mut self, plan: &slider::Plan, now: &slider::Now<'_>) -> Result<(), ObserveError> {
+    fn now(&mut self, plan: &slider::Plan, now: &slider::Now<'_>) -> Result<(), OutputError> {
         self.0.now(plan, now)
     }
 
@@ -119,7 +119,7 @@ pub(super) fn run_sliders(
     let drawn = if drawn { histories.draw(directory.path(), plan).map(|_| ()) } else { Ok(()) };
     if plan.events.is_some() {
         let events = slider::csv(&report.events, &plan.names);
-        crate::observe::atomic::write(&directory.path().join("events.csv"), events.as_bytes())
+        asperity_output::atomic::write(&directory.path().join("events.csv"), events.as_bytes())
             .into_diagnostic()?;
     }
     directory.write(report.status(), &report)?;
@@ -226,7 +226,7 @@ fn write_faults(
 }
 
 /// The catalogue of all faults, and of each where there are several, as tables.
-fn write_catalogues(path: &Path, report: &fault::Report) -> Result<(), ObserveError> {
+fn write_catalogues(path: &Path, report: &fault::Report) -> Result<(), OutputError> {
     let write = |name: &str, events| atomic::write(&path.join(name), fault::Report::csv(events).as_bytes());
     write("events.csv", &report.events)?;
     let names = stems(report.faults.iter().map(|f| f.fault.as_str()));
@@ -240,9 +240,9 @@ fn write_located(path: &Path, plan: &fault::Plan, report: &fault::Report, hash: 
         return Ok(());
     }
     let events = report.located();
-    let document = fault::located::quakeml(&plan.title, hash, &events).into_diagnostic()?;
+    let document = asperity_output::located::quakeml(&plan.title, hash, &events).into_diagnostic()?;
     atomic::write(&path.join("events.quakeml"), &document).into_diagnostic()?;
-    match fault::located::cmtsolution(&plan.title, &events) {
+    match asperity_output::located::cmtsolution(&plan.title, &events) {
         Some(text) => atomic::write(&path.join("CMTSOLUTION"), text.as_bytes()).into_diagnostic(),
         None => {
             let why = "moments need `length` in `[place]`, the length out of the plane";

@@ -5,10 +5,10 @@ use super::opening::Crack;
 use super::plan::Plan;
 use super::run::Run;
 use crate::model::Model;
-use crate::observe::vtu::{Array, Grid, PvdEntry, pvd};
-use crate::observe::{ObserveError, atomic};
 use asperity_fem::condense::Condensed;
 use asperity_fem::jump::Jumps;
+use asperity_output::vtu::{Array, Grid, PvdEntry, pvd};
+use asperity_output::{OutputError, atomic};
 use std::path::Path;
 
 /// Displacements from unknowns of which some are jumps.
@@ -104,7 +104,7 @@ impl BodiesView {
 ///
 /// # Errors
 /// When a file cannot be written.
-pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), ObserveError> {
+pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), OutputError> {
     let Some(view) = &plan.bodies else { return Ok(()) };
     let folder = out.join("fields");
     atomic::create_dir(&folder)?;

@@ -12,7 +12,7 @@
 use super::balance::Sums;
 use super::files::Position;
 use super::run::Run;
-use crate::observe::{ObserveError, atomic};
+use asperity_output::{OutputError, atomic};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fs;
@@ -126,7 +126,7 @@ pub enum ResumeError {
     },
     /// A file cannot be written.
     #[error(transparent)]
-    Observe(#[from] ObserveError),
+    Observe(#[from] OutputError),
 }
 
 fn sha256(bytes: &[u8]) -> String {
@@ -138,9 +138,9 @@ impl Checkpoint {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn write(&self, out: &Path) -> Result<(), ObserveError> {
+    pub fn write(&self, out: &Path) -> Result<(), OutputError> {
         let path = out.join(FILE);
-        let contents = serde_json::to_string(self).map_err(|e| ObserveError::write(&path, e.into()))?;
+        let contents = serde_json::to_string(self).map_err(|e| OutputError::write(&path, e.into()))?;
         let text = format!("{KIND}{VERSION}\n{}\n{contents}\n", sha256(contents.as_bytes()));
         atomic::write_durably(&path, text.as_bytes())
     }
@@ -185,10 +185,10 @@ impl Checkpoint {
     ///
     /// # Errors
     /// When there is one that cannot be removed.
-    pub fn remove(out: &Path) -> Result<(), ObserveError> {
+    pub fn remove(out: &Path) -> Result<(), OutputError> {
         let path = out.join(FILE);
         match fs::remove_file(&path) {
-            Err(e) if e.kind() != ErrorKind::NotFound => Err(ObserveError::write(&path, e)),
+            Err(e) if e.kind() != ErrorKind::NotFound => Err(OutputError::write(&path, e)),
             _ => Ok(()),
         }
     }

@@ -6,9 +6,9 @@ use super::opening::Crack;
 use super::plan::{FaultView, Plan};
 use super::run::Run;
 use super::snapshots;
-use crate::observe::vtu::{Array, Grid, PvdEntry, Values, pvd};
-use crate::observe::{ObserveError, atomic};
 use asperity_ode::Clock;
+use asperity_output::vtu::{Array, Grid, PvdEntry, Values, pvd};
+use asperity_output::{OutputError, atomic};
 use std::path::Path;
 
 /// Writes `fields/FAULT_event_000.vtu` of each event, `fields/FAULT_end.vtu` and the collections `fields.pvd` of the states in the
@@ -16,7 +16,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// When a file cannot be read or written.
-pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), ObserveError> {
+pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), OutputError> {
     if !plan.in_space {
         return Ok(());
     }
@@ -55,7 +55,7 @@ pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), ObserveError> {
 ///
 /// # Errors
 /// When the file cannot be written.
-pub(super) fn put(path: &Path, grid: &Grid, time: f64, fields: &[Field]) -> Result<u64, ObserveError> {
+pub(super) fn put(path: &Path, grid: &Grid, time: f64, fields: &[Field]) -> Result<u64, OutputError> {
     let arrays: Vec<Array<'_>> = fields.iter().map(Field::array).collect();
     let bytes = grid.file(time, &arrays, &[]);
     atomic::write(path, &bytes)?;

@@ -4,15 +4,15 @@
 use super::cadence::time;
 use super::plan::Plan;
 use super::run::Run;
-use crate::observe::ObserveError;
-use crate::observe::plots::{self, Cycles, Line, Rows, Table};
+use asperity_output::OutputError;
+use asperity_output::plots::{self, Cycles, Line, Rows, Table};
 use std::path::{Path, PathBuf};
 
 /// Draws the plots of the run in `out` into its folder `plots`.
 ///
 /// # Errors
 /// When a file cannot be read or written.
-pub fn draw(out: &Path, plan: &Plan, run: &Run) -> Result<Vec<PathBuf>, ObserveError> {
+pub fn draw(out: &Path, plan: &Plan, run: &Run) -> Result<Vec<PathBuf>, OutputError> {
     let line = |fault: &super::FaultView| {
         let along: Vec<f64> = plan.points[fault.points.clone()].iter().map(|p| p.along).collect();
         let ascends = along.windows(2).all(|w| w[0] < w[1]) && along.len() > 1;
@@ -38,7 +38,7 @@ struct Written<'a> {
 }
 
 impl Rows for Written<'_> {
-    fn each(&self, table: Table, look: &mut dyn FnMut(&[f64])) -> Result<(), ObserveError> {
+    fn each(&self, table: Table, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
         let name = match table {
             Table::Largest => "largest_rate.csv",
             Table::Slip => "slip_profiles.csv",
@@ -52,8 +52,8 @@ impl Rows for Written<'_> {
 }
 
 /// Looks at the rows of a table of numbers, one after the other; a row that lacks columns is left out.
-pub(super) fn each(path: &Path, look: &mut dyn FnMut(&[f64])) -> Result<(), ObserveError> {
-    let failed = |e: csv::Error| ObserveError::Draw { path: path.to_path_buf(), reason: e.to_string() };
+pub(super) fn each(path: &Path, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
+    let failed = |e: csv::Error| OutputError::Draw { path: path.to_path_buf(), reason: e.to_string() };
     let mut reader = csv::ReaderBuilder::new().flexible(true).from_path(path).map_err(failed)?;
     let width = reader.headers().map_err(failed)?.len();
     let (mut record, mut row) = (csv::StringRecord::new(), Vec::with_capacity(width));

@@ -8,10 +8,10 @@ use super::plan::Plan;
 use super::run::{Moment, Watcher};
 use super::snapshots::{self, Snapshots, Taken};
 use super::stations;
-use crate::observe::decimals::{fixed, scientific};
-use crate::observe::{ObserveError, atomic};
 use crate::warning::Warning;
 use asperity_ode::{Clock, Control};
+use asperity_output::decimals::{fixed, scientific};
+use asperity_output::{OutputError, atomic};
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io::Write;
@@ -34,10 +34,10 @@ struct Rows {
 }
 
 impl Rows {
-    fn create(path: PathBuf, head: &str) -> Result<Self, ObserveError> {
+    fn create(path: PathBuf, head: &str) -> Result<Self, OutputError> {
         atomic::write(&path, head.as_bytes())?;
         let file = fs::OpenOptions::new().append(true).open(&path);
-        let file = file.map_err(|source| ObserveError::write(&path, source))?;
+        let file = file.map_err(|source| OutputError::write(&path, source))?;
         Ok(Self { path, file, gauge: Gauge::of(head.len() as u64) })
     }
 
@@ -50,19 +50,19 @@ impl Rows {
         if found < expected {
             return Err(ResumeError::Shorter { path, found, expected });
         }
-        file.set_len(expected).map_err(|source| ObserveError::write(&path, source))?;
+        file.set_len(expected).map_err(|source| OutputError::write(&path, source))?;
         Ok(Self { path, file, gauge })
     }
 
     /// One write for a row of this time: a run that is killed leaves whole rows.
-    fn push(&mut self, row: &str, cadence: &Cadence, time: f64) -> Result<(), ObserveError> {
+    fn push(&mut self, row: &str, cadence: &Cadence, time: f64) -> Result<(), OutputError> {
         self.gauge.spend(row.len() as u64, cadence.largest_file, time);
-        self.file.write_all(row.as_bytes()).map_err(|source| ObserveError::write(&self.path, source))
+        self.file.write_all(row.as_bytes()).map_err(|source| OutputError::write(&self.path, source))
     }
 
     /// Waits until the rows are on the disc.
-    fn settle(&self) -> Result<(), ObserveError> {
-        self.file.sync_data().map_err(|source| ObserveError::write(&self.path, source))
+    fn settle(&self) -> Result<(), OutputError> {
+        self.file.sync_data().map_err(|source| OutputError::write(&self.path, source))
     }
 }
 
@@ -90,7 +90,7 @@ pub struct Files<'a> {
     /// When the last step ended.
     before: Option<Clock>,
     snapshots: Option<Snapshots>,
-    failure: Option<ObserveError>,
+    failure: Option<OutputError>,
 }
 
 impl<'a> Files<'a> {
@@ -98,7 +98,7 @@ impl<'a> Files<'a> {
     ///
     /// # Errors
     /// When a file cannot be written.
-    pub fn create(out: &Path, plan: &'a Plan) -> Result<Self, ObserveError> {
+    pub fn create(out: &Path, plan: &'a Plan) -> Result<Self, OutputError> {
         atomic::writable_dir(out)?;
         atomic::create_dir(&out.join("stations"))?;
         let mut rows = Vec::new();
@@ -144,7 +144,7 @@ impl<'a> Files<'a> {
     ///
     /// # Errors
     /// When something could not be written.
-    pub fn settle(&self) -> Result<(), ObserveError> {
+    pub fn settle(&self) -> Result<(), OutputError> {
         self.rows.iter().try_for_each(Rows::settle)
     }
 
@@ -177,11 +177,11 @@ impl<'a> Files<'a> {
     }
 
     /// The first thing that could not be written.
-    pub fn failure(&mut self) -> Option<ObserveError> {
+    pub fn failure(&mut self) -> Option<OutputError> {
         self.failure.take()
     }
 
-    fn write(&mut self, now: &Moment<'_>) -> Result<(), ObserveError> {
+    fn write(&mut self, now: &Moment<'_>) -> Result<(), OutputError> {
         let (plan, time) = (self.plan, now.at.seconds());
         let earlier = self.before.replace(now.at);
         let then = now.step.as_ref().zip(earlier).map(|(step, at)| now.start_of(step, at));
@@ -203,7 +203,7 @@ impl<'a> Files<'a> {
     }
 
     /// Profiles of slip and of slip rates along lines.
-    fn profiles(&mut self, now: &Moment<'_>) -> Result<(), ObserveError> {
+    fn profiles(&mut self, now: &Moment<'_>) -> Result<(), OutputError> {
         let (time, cadence) = (now.at.seconds(), &self.plan.cadence);
         let fast = usize::from(now.largest >= self.plan.settings.thresholds.on);
         let (reading, interval) = (Reading { time, rate: now.largest }, cadence.contours[fast]);
@@ -230,7 +230,7 @@ fn follow(
     rate: f64,
     (now, then): (&Moment<'_>, Option<&Moment<'_>>),
     row: &dyn Fn(&Moment<'_>) -> String,
-) -> Result<(), ObserveError> {
+) -> Result<(), OutputError> {
     let time = now.at.seconds();
     let due = rows.gauge.step(&plan.cadence, Reading { time, rate });
     let mut at_end = due.now;

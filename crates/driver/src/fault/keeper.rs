@@ -7,9 +7,9 @@ use super::identity;
 use super::plan::Plan;
 use super::report;
 use super::run::{Moment, Run, Watcher};
-use crate::observe::{ObserveError, Progress};
 use crate::warning::Warning;
 use asperity_ode::Control;
+use asperity_output::{OutputError, Progress};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -45,7 +45,7 @@ pub struct Keeper<'a> {
     /// Where the run restarted last.
     before: Before,
     interrupted: Option<&'static str>,
-    failure: Option<ObserveError>,
+    failure: Option<OutputError>,
 }
 
 impl<'a> Keeper<'a> {
@@ -150,7 +150,7 @@ impl<'a> Keeper<'a> {
         Stand { run: run.clone(), files: self.files.position(), sums: self.balance.sums().clone() }
     }
 
-    fn save(&mut self, last: Stand, before: Before) -> Result<(), ObserveError> {
+    fn save(&mut self, last: Stand, before: Before) -> Result<(), OutputError> {
         self.files.settle()?;
         let loads = identity::loads(self.plan, last.run.at.seconds());
         let (physics, end) = (self.physics.clone(), self.plan.settings.end);
@@ -170,7 +170,7 @@ impl<'a> Keeper<'a> {
     ///
     /// # Errors
     /// The first thing that could not be written.
-    pub fn finish(mut self, run: &Run) -> Result<(Balance<'a>, Option<&'static str>), ObserveError> {
+    pub fn finish(mut self, run: &Run) -> Result<(Balance<'a>, Option<&'static str>), OutputError> {
         self.progress.finish();
         if let Some(failure) = self.failure.take() {
             return Err(failure);

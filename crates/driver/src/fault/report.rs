@@ -4,16 +4,17 @@ use super::balance::{Balance, Energy, Mark, steady};
 use super::catalogue::{Event, Part};
 use super::equations::size;
 use super::floor::{FloorUse, uses};
-use super::located::Located;
+use super::located::locate;
 use super::opened::{OpenedFault, openings};
 use super::opening::Crack;
 use super::plan::{FaultView, Plan};
 use super::resolution::Resolution;
 use super::run::Run;
-use crate::observe::decimals::fixed;
 use crate::report::Origin;
 use crate::warning::Warning;
 use asperity_ode::Outcome;
+use asperity_output::decimals::fixed;
+use asperity_output::located::Located;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -97,7 +98,7 @@ impl Entry {
             direction: turning.as_ref().map(|t| t.direction),
             turned: turning.as_ref().map(|t| t.angle),
             // The reader has made sure that the calendar reaches to the end of the run.
-            located: plan.frame.as_ref().and_then(|frame| Located::new(plan, frame, event, points).ok()),
+            located: plan.frame.as_ref().and_then(|frame| locate(plan, frame, event, points).ok()),
         }
     }
 }

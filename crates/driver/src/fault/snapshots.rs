@@ -5,9 +5,9 @@ use super::fields;
 use super::files::RATE_CHANGE;
 use super::plan::Plan;
 use super::run::Moment;
-use crate::observe::decimals::fixed;
-use crate::observe::vtu::Grid;
-use crate::observe::{ObserveError, atomic};
+use asperity_output::decimals::fixed;
+use asperity_output::vtu::Grid;
+use asperity_output::{OutputError, atomic};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -46,7 +46,7 @@ impl Snapshots {
     ///
     /// # Errors
     /// When the folder cannot be made.
-    pub fn begin(out: &Path, plan: &Plan) -> Result<Option<Self>, ObserveError> {
+    pub fn begin(out: &Path, plan: &Plan) -> Result<Option<Self>, OutputError> {
         if !plan.in_space {
             return Ok(None);
         }
@@ -70,7 +70,7 @@ impl Snapshots {
     ///
     /// # Errors
     /// When a file cannot be written.
-    pub fn take(&mut self, plan: &Plan, now: &Moment<'_>) -> Result<Option<String>, ObserveError> {
+    pub fn take(&mut self, plan: &Plan, now: &Moment<'_>) -> Result<Option<String>, OutputError> {
         let time = now.at.seconds();
         let fast = now.largest >= plan.settings.thresholds.on;
         let [between, within] = plan.cadence.contours;

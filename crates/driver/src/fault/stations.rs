@@ -4,8 +4,8 @@ use super::cadence::NO_RATE;
 use super::equations::size;
 use super::plan::Plan;
 use super::run::Moment;
-use crate::observe::decimals::{fixed, scientific};
 use crate::scene::model::Station;
+use asperity_output::seas::{Head, Row};
 use std::path::PathBuf;
 
 /// Points of all stations.
@@ -36,52 +36,22 @@ pub(super) fn heads(plan: &Plan) -> Vec<(PathBuf, String)> {
     heads
 }
 
-/// Names of columns with their units, and of fields.
-const ALONG_A_LINE: (&[&str], &str) = (
-    &["Slip (m)", "Slip rate (log10 m/s)", "Shear stress (MPa)", "State (log10 s)", "Normal stress (MPa)"],
-    "t slip slip_rate shear_stress state normal_stress",
-);
-/// Where slip may turn.
-const IN_A_PLANE: (&[&str], &str) = (
-    &[
-        "Slip_2 (m)",
-        "Slip_3 (m)",
-        "Slip_rate_2 (log10 m/s)",
-        "Slip_rate_3 (log10 m/s)",
-        "Shear_stress_2 (MPa)",
-        "Shear_stress_3 (MPa)",
-        "State (log10 s)",
-        "Normal stress (MPa)",
-    ],
-    "t slip_2 slip_3 slip_rate_2 slip_rate_3 shear_stress_2 shear_stress_3 state normal_stress",
-);
-
 fn head(plan: &Plan, fault: &str, asked: &Station, point: usize) -> String {
     let view = &plan.points[point];
     let location = match asked {
         Station::Along(s) => format!("{s} m along fault {fault}, point at {:.6} m", view.along),
         Station::At(at) => format!("{at:?} m on fault {fault}, point at {:?} m", view.at),
     };
-    let mut head = format!(
-        "# problem={}\n# code=asperity\n# code_version={}\n# tributary_area={:.6e} {}\n# location= {location}\n",
-        plan.title,
-        env!("CARGO_PKG_VERSION"),
-        view.area,
-        if plan.in_space { "m2" } else { "m per m" }
-    );
-    if let Some(across) = &view.across {
-        head.push_str(&format!("# directions: 2 is along {:?}, 3 along {across:?}\n", view.slides));
-    }
-    let (columns, names) = if view.across.is_some() { IN_A_PLANE } else { ALONG_A_LINE };
-    let opens = opens(plan, point);
-    let last = opens.then_some(&"Opening (m)");
-    for (k, column) in std::iter::once(&"Time (s)").chain(columns).chain(last).enumerate() {
-        head.push_str(&format!("# Column #{} = {column}\n", k + 1));
-    }
-    head.push_str(names);
-    head.push_str(if opens { " opening" } else { "" });
-    head.push('\n');
-    head
+    let head = Head {
+        title: &plan.title,
+        version: env!("CARGO_PKG_VERSION"),
+        area: view.area,
+        in_space: plan.in_space,
+        location: &location,
+        directions: view.across.map(|across| [view.slides, across]),
+        opens: opens(plan, point),
+    };
+    head.text()
 }
 
 /// Whether the fault of a point opens.
@@ -97,24 +67,18 @@ pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
         .theta
         .filter(|_| states == 1)
         .map_or(f64::NAN, |(time, per)| (time.ln() + now.states()[point] * per) / std::f64::consts::LN_10);
-    let mut row = format!("{:.14e}", now.at.seconds());
     let components = || (point..now.rate.len()).step_by(n);
-    for i in components() {
-        row.push_str(&format!(" {}", scientific(now.slip()[i], 9)));
-    }
-    for i in components() {
-        let rate = if now.rate.len() > n { now.rate[i].abs().max(NO_RATE) } else { size(now.rate, n, point) };
-        row.push_str(&format!(" {}", fixed(rate.log10(), 9)));
-    }
-    for i in components() {
+    let rate =
+        |i: usize| if now.rate.len() > n { now.rate[i].abs().max(NO_RATE) } else { size(now.rate, n, point) };
+    let row = Row {
+        time: now.at.seconds(),
+        slip: components().map(|i| now.slip()[i]).collect(),
+        rate: components().map(rate).collect(),
         // The traction that friction resists with: what drives less the damping.
-        let shear = normal * plan.fault.law.scale(point) * now.unknowns[i];
-        row.push_str(&format!(" {}", scientific(shear / 1e6, 9)));
-    }
-    row.push_str(&format!(" {} {}", fixed(theta, 9), scientific(normal / 1e6, 9)));
-    if let Some(opening) = now.opening(point).filter(|_| opens(plan, point)) {
-        row.push_str(&format!(" {}", scientific(opening, 9)));
-    }
-    row.push('\n');
-    row
+        shear: components().map(|i| normal * plan.fault.law.scale(point) * now.unknowns[i]).collect(),
+        log_state: theta,
+        normal,
+        opening: now.opening(point).filter(|_| opens(plan, point)),
+    };
+    row.text()
 }

@@ -2,7 +2,7 @@
 
 use super::plan::Plan;
 use super::thin::Row;
-use crate::observe::plots::{Chart, Measure};
+use asperity_output::plots::{Chart, Measure};
 
 /// What plots show of a slider.
 #[derive(Debug, Default)]

@@ -4,7 +4,7 @@ use super::figures::Trace;
 use super::plan::Plan;
 use super::run::{Now, Watcher};
 use super::thin::{Row, Thin};
-use crate::observe::{ObserveError, atomic, plots};
+use asperity_output::{OutputError, atomic, plots};
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -30,10 +30,10 @@ impl Histories {
     ///
     /// # Errors
     /// When a file cannot be written.
-    pub fn create(out: &Path, plan: &Plan) -> Result<Self, ObserveError> {
+    pub fn create(out: &Path, plan: &Plan) -> Result<Self, OutputError> {
         atomic::writable_dir(out)?;
         let folder = out.join("history");
-        let stems = crate::observe::stems(plan.names.iter().map(String::as_str));
+        let stems = asperity_output::stems(plan.names.iter().map(String::as_str));
         let mut sliders = Vec::new();
         for (i, (stem, slider)) in stems.iter().zip(plan.system.sliders()).enumerate() {
             let file = if plan.output.writes(i) {
@@ -58,7 +58,7 @@ impl Histories {
     ///
     /// # Errors
     /// When a file cannot be written.
-    pub fn finish(&mut self) -> Result<(), ObserveError> {
+    pub fn finish(&mut self) -> Result<(), OutputError> {
         let traced = self.traced;
         self.sliders.iter_mut().try_for_each(|kept| match kept.thin.mark() {
             Some(row) => kept.add(&row, traced),
@@ -70,26 +70,26 @@ impl Histories {
     ///
     /// # Errors
     /// When a file cannot be written or a drawing fails.
-    pub fn draw(&self, out: &Path, plan: &Plan) -> Result<Vec<PathBuf>, ObserveError> {
+    pub fn draw(&self, out: &Path, plan: &Plan) -> Result<Vec<PathBuf>, OutputError> {
         let traces: Vec<&Trace> = self.sliders.iter().map(|k| &k.trace).collect();
         plots::draw_charts(&out.join("plots"), &super::figures::charts(plan, &traces))
     }
 }
 
 /// A file with its header, to be appended to.
-fn begun(path: PathBuf, states: usize) -> Result<(PathBuf, fs::File), ObserveError> {
+fn begun(path: PathBuf, states: usize) -> Result<(PathBuf, fs::File), OutputError> {
     let head =
         "time [s],step [s],slip [m],slip_rate [m/s],friction [-],traction [Pa],normal_traction [Pa],load [m]";
     let states: String = (1..=states).map(|i| format!(",state_{i}")).collect();
     atomic::write(&path, format!("{head}{states}\n").as_bytes())?;
     match fs::OpenOptions::new().append(true).open(&path) {
         Ok(file) => Ok((path, file)),
-        Err(source) => Err(ObserveError::write(&path, source)),
+        Err(source) => Err(OutputError::write(&path, source)),
     }
 }
 
 impl Kept {
-    fn add(&mut self, row: &Row, traced: bool) -> Result<(), ObserveError> {
+    fn add(&mut self, row: &Row, traced: bool) -> Result<(), OutputError> {
         if traced {
             self.trace.push(row);
         }
@@ -101,12 +101,12 @@ impl Kept {
             c.rate, c.friction, c.traction, c.normal
         );
         // One write per row: a run that is killed leaves whole rows.
-        file.write_all(line.as_bytes()).map_err(|source| ObserveError::write(path, source))
+        file.write_all(line.as_bytes()).map_err(|source| OutputError::write(path, source))
     }
 }
 
 impl Watcher for Histories {
-    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), ObserveError> {
+    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), OutputError> {
         let time = now.at.seconds();
         for (i, kept) in self.sliders.iter_mut().enumerate() {
             if kept.file.is_none() && !self.traced {
@@ -128,7 +128,7 @@ impl Watcher for Histories {
         Ok(())
     }
 
-    fn marked(&mut self, slider: usize) -> Result<(), ObserveError> {
+    fn marked(&mut self, slider: usize) -> Result<(), OutputError> {
         let kept = &mut self.sliders[slider];
         match kept.thin.mark() {
             Some(row) => kept.add(&row, self.traced),

@@ -3,10 +3,10 @@
 
 use super::plan::Plan;
 use super::run::{Now, Watcher};
-use crate::observe::view::{
+use asperity_output::view::{
     BodyFields, InterfaceFields, InterfaceMesh, Samples, Setup, StepRecord, StepView,
 };
-use crate::observe::{ObserveError, Observer};
+use asperity_output::{Observer, OutputError};
 
 /// The stage there is.
 const STAGE: &str = "run";
@@ -45,7 +45,7 @@ impl<'a> Show<'a> {
 }
 
 impl Watcher for Show<'_> {
-    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), ObserveError> {
+    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), OutputError> {
         if !self.begun {
             self.begun = true;
             let setup = Self::setup(plan);

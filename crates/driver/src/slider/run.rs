@@ -5,9 +5,9 @@ use super::output::Due;
 use super::plan::Plan;
 use super::problem::{Kind, Piece, kinds};
 use super::slips::Slips;
-use crate::observe::ObserveError;
 use asperity_friction::slider::{Condition, Slider};
 use asperity_ode::{Clock, Control, Counts, Failure, Method, Occurrence, Outcome, Sink, Step};
+use asperity_output::OutputError;
 
 /// Why a run could not begin, or not be observed.
 #[derive(Debug, thiserror::Error)]
@@ -20,7 +20,7 @@ pub enum RunError {
     Law(#[from] asperity_friction::Failure),
     /// An observer could not write.
     #[error(transparent)]
-    Observe(#[from] ObserveError),
+    Observe(#[from] OutputError),
 }
 
 /// The sliders at an instant.
@@ -50,7 +50,7 @@ pub trait Watcher {
     ///
     /// # Errors
     /// When something cannot be written.
-    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), ObserveError>;
+    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), OutputError>;
 
     /// Whether the run is to end after the present step, as if interrupted.
     fn stops(&self) -> bool {
@@ -61,7 +61,7 @@ pub trait Watcher {
     ///
     /// # Errors
     /// When something cannot be written.
-    fn marked(&mut self, _slider: usize) -> Result<(), ObserveError> {
+    fn marked(&mut self, _slider: usize) -> Result<(), OutputError> {
         Ok(())
     }
 
@@ -76,13 +76,13 @@ impl Watcher for () {
         false
     }
 
-    fn now(&mut self, _: &Plan, _: &Now<'_>) -> Result<(), ObserveError> {
+    fn now(&mut self, _: &Plan, _: &Now<'_>) -> Result<(), OutputError> {
         Ok(())
     }
 }
 
 impl<F: FnMut(&Plan, &Now<'_>)> Watcher for F {
-    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), ObserveError> {
+    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), OutputError> {
         self(plan, now);
         Ok(())
     }
@@ -92,7 +92,7 @@ impl<F: FnMut(&Plan, &Now<'_>)> Watcher for F {
 pub struct Both<'a>(pub &'a mut dyn Watcher, pub &'a mut dyn Watcher);
 
 impl Watcher for Both<'_> {
-    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), ObserveError> {
+    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), OutputError> {
         self.0.now(plan, now)?;
         self.1.now(plan, now)
     }
@@ -101,7 +101,7 @@ impl Watcher for Both<'_> {
         self.0.stops() || self.1.stops()
     }
 
-    fn marked(&mut self, slider: usize) -> Result<(), ObserveError> {
+    fn marked(&mut self, slider: usize) -> Result<(), OutputError> {
         self.0.marked(slider)?;
         self.1.marked(slider)
     }
@@ -252,7 +252,7 @@ struct Following<'a> {
     plan: &'a Plan,
     watcher: &'a mut dyn Watcher,
     catalogue: Catalogue,
-    failure: Option<ObserveError>,
+    failure: Option<OutputError>,
     /// Whether the watcher ended the run.
     interrupted: bool,
     step: usize,

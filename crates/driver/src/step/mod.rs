@@ -6,10 +6,10 @@ pub mod implicit;
 mod line;
 pub mod static_explicit;
 
-use crate::observe::view::Counts;
 use asperity_fem::FemError;
 use asperity_fem::assembly::System;
 use asperity_fem::term::{Instant, Linearized, Objection, Refusal, Term};
+use asperity_output::view::Counts;
 
 /// Displacements of the system and where they stand in time.
 #[derive(Clone, Debug)]

@@ -5,11 +5,11 @@
 pub mod cycles;
 pub mod sliders;
 
-use asperity_driver::observe::Recorder;
-use asperity_driver::observe::view::BodyFields;
 use asperity_driver::plan::{self, AnyPlan};
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::{run, scene};
+use asperity_output::Recorder;
+use asperity_output::view::BodyFields;
 use std::path::Path;
 
 /// A plan; mesh files are those of the tests.

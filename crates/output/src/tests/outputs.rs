@@ -2,9 +2,11 @@
 
 use super::super::*;
 use super::fake::{body_fields, play, setup};
-use crate::observe::view::{BodyFields, InterfaceMesh, Setup, StepView};
+use crate::error::expect_length;
+use crate::view::{BodyFields, InterfaceMesh, Setup, StepView};
 use std::cell::Cell;
 use std::fs;
+use std::path::{Path, PathBuf};
 
 fn schedule() -> FieldSchedule {
     FieldSchedule { fields: 2, profiles: 10 }
@@ -154,11 +156,11 @@ struct Stopping<'a> {
 }
 
 impl Observer for Stopping<'_> {
-    fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
+    fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
         self.files.begin(setup)
     }
 
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         if self.left == 0 {
             return expect_length("steps", 0, 1);
         }
@@ -187,7 +189,7 @@ fn a_directory_that_cannot_be_written_is_named_before_anything_is_computed() {
     let file = dir.path().join("taken");
     fs::write(&file, "a file").unwrap();
     let error = Files::create(&file.join("out"), schedule()).unwrap_err();
-    assert!(matches!(&error, ObserveError::Directory { path, .. } if path.ends_with("taken/out")));
+    assert!(matches!(&error, OutputError::Directory { path, .. } if path.ends_with("taken/out")));
     assert!(error.to_string().contains("taken/out"), "{error}");
 }
 
@@ -200,7 +202,7 @@ fn a_failed_write_leaves_the_old_file_and_nothing_beside_it() {
     assert_eq!(fs::read(&path).unwrap(), b"new");
     let blocked = dir.path().join("blocked");
     fs::create_dir_all(blocked.join("inside")).unwrap();
-    assert!(matches!(atomic::write(&blocked, b"x"), Err(ObserveError::Write { .. })));
+    assert!(matches!(atomic::write(&blocked, b"x"), Err(OutputError::Write { .. })));
     assert_eq!(names(dir.path()), ["blocked", "report.json"]);
 }
 
@@ -224,11 +226,11 @@ struct Swapped<'a> {
 }
 
 impl Observer for Swapped<'_> {
-    fn begin(&mut self, _: &Setup) -> Result<(), ObserveError> {
+    fn begin(&mut self, _: &Setup) -> Result<(), OutputError> {
         self.inner.begin(self.announced)
     }
 
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         self.inner.step(view)
     }
 }
@@ -237,7 +239,7 @@ impl Observer for Swapped<'_> {
 fn a_probe_outside_the_interface_is_refused() {
     let mut wrong = setup(0);
     wrong.interfaces[0].probes.push(99);
-    assert!(matches!(Recorder::new().begin(&wrong), Err(ObserveError::Shape { found: 99, .. })));
+    assert!(matches!(Recorder::new().begin(&wrong), Err(OutputError::Shape { found: 99, .. })));
     let dir = tempfile::tempdir().unwrap();
     assert!(Files::create(dir.path(), schedule()).unwrap().begin(&wrong).is_err());
 }
@@ -268,11 +270,11 @@ fn several_observers_share_one_recovery_of_the_bodies() {
 struct Asking;
 
 impl Observer for Asking {
-    fn begin(&mut self, _: &Setup) -> Result<(), ObserveError> {
+    fn begin(&mut self, _: &Setup) -> Result<(), OutputError> {
         Ok(())
     }
 
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         assert!(!(view.fields)().displacement.is_empty());
         Ok(())
     }
@@ -302,21 +304,21 @@ fn times_of_outputs_are_those_at_which_they_appear() {
 #[test]
 fn names_of_interfaces_become_safe_and_different_file_names() {
     let names = ["fault", "../up", "bodies", "", "fault/", "fault_"];
-    let stems = files::stems(names.into_iter());
+    let stems = stems(names.into_iter());
     assert_eq!(stems, ["fault", "___up", "bodies-2", "-3", "fault_", "fault_-5"]);
 }
 
 #[test]
 fn labels_name_the_coordinates_that_differ() {
     let plane = [[0.025, 0.0, 0.0], [0.025, 0.0125, 0.0]];
-    assert_eq!(plots::position_labels(plane.into_iter()), ["y = 0 mm", "y = 12.5 mm"]);
+    assert_eq!(plots::labels::position_labels(plane.into_iter()), ["y = 0 mm", "y = 12.5 mm"]);
     let layers = [[0.025, 0.0, 0.001], [0.025, 0.05, 0.002]];
-    assert_eq!(plots::position_labels(layers.into_iter()), ["y = 0; z = 1 mm", "y = 50; z = 2 mm"]);
+    assert_eq!(plots::labels::position_labels(layers.into_iter()), ["y = 0; z = 1 mm", "y = 50; z = 2 mm"]);
     let sevenths = [[0.0, 0.05 / 7.0, 0.0], [0.0, 0.05, 0.0]];
-    assert_eq!(plots::position_labels(sevenths.into_iter()), ["y = 7.14 mm", "y = 50 mm"]);
+    assert_eq!(plots::labels::position_labels(sevenths.into_iter()), ["y = 7.14 mm", "y = 50 mm"]);
     let close = [[0.0, 0.05, 0.0], [0.0, 0.050001, 0.0]];
-    assert_eq!(plots::position_labels(close.into_iter()), ["y = 50 mm", "y = 50.001 mm"]);
-    assert_eq!(plots::position_labels([[0.0; 3]].into_iter()), ["x = 0; y = 0 m"]);
+    assert_eq!(plots::labels::position_labels(close.into_iter()), ["y = 50 mm", "y = 50.001 mm"]);
+    assert_eq!(plots::labels::position_labels([[0.0; 3]].into_iter()), ["x = 0; y = 0 m"]);
 }
 
 #[test]

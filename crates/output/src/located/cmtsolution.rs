@@ -3,7 +3,7 @@
 //! Units are dyn cm, degrees, km and s. The first line is the hypocentre; the centroid's place is the mean place of slip, its time the
 //! onset (shift zero), and the half duration half the time above the thresholds.
 
-use super::Located;
+use super::event::Located;
 use jiff::tz::TimeZone;
 use std::fmt::Write as _;
 

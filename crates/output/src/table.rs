@@ -68,7 +68,7 @@ pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields)
 /// The header of a table of probes.
 pub(super) fn probe_header(mesh: &InterfaceMesh) -> Vec<u8> {
     let mut rows = Rows::default();
-    let labels = super::plots::position_labels(mesh.probes.iter().map(|&node| mesh.positions[node]));
+    let labels = crate::plots::labels::position_labels(mesh.probes.iter().map(|&node| mesh.positions[node]));
     let names: Vec<String> = PROBE.iter().map(|(name, _)| (*name).to_string()).chain(states(mesh)).collect();
     let columns = labels.iter().flat_map(|label| names.iter().map(move |name| format!("{name} at {label}")));
     rows.push(WHEN.iter().map(ToString::to_string).chain(columns));

@@ -1,6 +1,6 @@
 //! A made-up run with the shape of the sandwich: no mechanics, smooth fields.
 
-use super::super::ObserveError;
+use super::super::OutputError;
 use super::super::view::*;
 
 pub(crate) const H: f64 = 2.5e-3;
@@ -144,7 +144,7 @@ pub(crate) fn play(
     per_stage: usize,
     spoil: Option<f64>,
     observer: &mut dyn Observer,
-) -> Result<(), ObserveError> {
+) -> Result<(), OutputError> {
     observer.begin(setup)?;
     let (mut start, mut step) = (0.0, 0);
     for (stage, (name, end)) in setup.stages.iter().enumerate() {

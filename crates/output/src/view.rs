@@ -252,19 +252,19 @@ pub trait Observer {
     ///
     /// # Errors
     /// When something cannot be written.
-    fn begin(&mut self, setup: &Setup) -> Result<(), super::ObserveError>;
+    fn begin(&mut self, setup: &Setup) -> Result<(), super::OutputError>;
 
     /// After each accepted step.
     ///
     /// # Errors
     /// When something cannot be written.
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), super::ObserveError>;
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), super::OutputError>;
 
     /// After the last accepted step of a run that cannot go on, the last good state; [`Observer::step`] has seen it.
     ///
     /// # Errors
     /// When something cannot be written.
-    fn stopped(&mut self, _view: &StepView<'_>) -> Result<(), super::ObserveError> {
+    fn stopped(&mut self, _view: &StepView<'_>) -> Result<(), super::OutputError> {
         Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Files that exist whole or not at all: written under a temporary name in the same directory, then renamed.
 
-use super::ObserveError;
+use super::OutputError;
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -9,20 +9,20 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// Names the directory that could not be made.
-pub fn create_dir(path: &Path) -> Result<(), ObserveError> {
-    fs::create_dir_all(path).map_err(|source| ObserveError::Directory { path: path.to_path_buf(), source })
+pub fn create_dir(path: &Path) -> Result<(), OutputError> {
+    fs::create_dir_all(path).map_err(|source| OutputError::Directory { path: path.to_path_buf(), source })
 }
 
 /// Writes `bytes` to `path`, replacing what was there in one step. A reader sees the old file or the new one.
 ///
 /// # Errors
 /// Names the file that could not be written; the temporary file is removed.
-pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ObserveError> {
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let temporary = temporary_name(path);
     fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path)).map_err(|source| {
         // The first error is the one to report; a leftover that cannot be removed either adds nothing to it.
         let _ = fs::remove_file(&temporary);
-        ObserveError::write(path, source)
+        OutputError::write(path, source)
     })
 }
 
@@ -30,7 +30,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ObserveError> {
 ///
 /// # Errors
 /// See [`write`].
-pub fn write_durably(path: &Path, bytes: &[u8]) -> Result<(), ObserveError> {
+pub fn write_durably(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let temporary = temporary_name(path);
     let written = fs::File::create(&temporary).and_then(|mut file| {
         file.write_all(bytes)?;
@@ -39,7 +39,7 @@ pub fn write_durably(path: &Path, bytes: &[u8]) -> Result<(), ObserveError> {
     written.and_then(|()| fs::rename(&temporary, path)).map_err(|source| {
         // See `write`.
         let _ = fs::remove_file(&temporary);
-        ObserveError::write(path, source)
+        OutputError::write(path, source)
     })
 }
 
@@ -47,11 +47,11 @@ pub fn write_durably(path: &Path, bytes: &[u8]) -> Result<(), ObserveError> {
 ///
 /// # Errors
 /// Names the directory, or the file that could not be written into it.
-pub fn writable_dir(path: &Path) -> Result<(), ObserveError> {
+pub fn writable_dir(path: &Path) -> Result<(), OutputError> {
     create_dir(path)?;
     let trial = path.join(".writable");
     write(&trial, b"")?;
-    fs::remove_file(&trial).map_err(|source| ObserveError::write(&trial, source))
+    fs::remove_file(&trial).map_err(|source| OutputError::write(&trial, source))
 }
 
 fn temporary_name(path: &Path) -> PathBuf {

@@ -1,35 +1,10 @@
-//! What a run leaves behind: records in memory, field files, tables, plots and progress, each an [`Observer`] that sees
-//! every accepted step and knows nothing of how it was computed.
-
-pub mod atomic;
-pub mod decimals;
-pub mod files;
-mod multi;
-pub mod plots;
-mod progress;
-mod pulse;
-mod record;
-mod schedule;
-mod table;
-#[cfg(test)]
-mod tests;
-pub mod view;
-pub mod vtu;
-
-pub use files::Files;
-pub(crate) use files::stems;
-pub use multi::Multi;
-pub use progress::Progress;
-pub use pulse::Pulse;
-pub use record::{InterfaceHistory, PointHistory, Recorder, StageEnd};
-pub use schedule::FieldSchedule;
-pub use view::Observer;
+//! Why an output could not be made.
 
 use std::path::{Path, PathBuf};
 
 /// Why an output could not be made.
 #[derive(Debug, thiserror::Error)]
-pub enum ObserveError {
+pub enum OutputError {
     /// A directory could not be made.
     #[error("cannot create the output directory {path}: {source}")]
     Directory {
@@ -66,16 +41,18 @@ pub enum ObserveError {
     },
 }
 
-impl ObserveError {
-    pub(crate) fn write(path: &Path, source: std::io::Error) -> Self {
+impl OutputError {
+    /// A file could not be written.
+    #[must_use]
+    pub fn write(path: &Path, source: std::io::Error) -> Self {
         Self::Write { path: path.to_path_buf(), source }
     }
 }
 
 /// Refuses a field whose length is not the announced one.
-fn expect_length(what: &str, expected: usize, found: usize) -> Result<(), ObserveError> {
+pub(crate) fn expect_length(what: &str, expected: usize, found: usize) -> Result<(), OutputError> {
     if expected == found {
         return Ok(());
     }
-    Err(ObserveError::Shape { what: what.to_string(), expected, found })
+    Err(OutputError::Shape { what: what.to_string(), expected, found })
 }

@@ -1,6 +1,6 @@
 //! What a person waiting sees: a bar on a terminal, one line per interval otherwise. The only place here that reads a clock.
 
-use super::ObserveError;
+use super::OutputError;
 use super::pulse::Pulse;
 use super::view::{Observer, Setup, StepView};
 use crate::printing;
@@ -95,7 +95,7 @@ impl Drop for Progress {
 }
 
 impl Observer for Progress {
-    fn begin(&mut self, _: &Setup) -> Result<(), ObserveError> {
+    fn begin(&mut self, _: &Setup) -> Result<(), OutputError> {
         match &mut self.sink {
             Sink::Bar { bar, .. } => bar.reset(),
             Sink::Lines { started, shown, .. } => (*started, *shown) = (Instant::now(), 0),
@@ -103,7 +103,7 @@ impl Observer for Progress {
         Ok(())
     }
 
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         self.show(view.record.time / view.end_time, || status(view));
         Ok(())
     }

@@ -1,7 +1,8 @@
 //! The catalogue as QuakeML 1.2, basic event description: https://quake.ethz.ch/quakeml.
 
-use super::{Located, Plane, Spot, Tensor};
-use crate::observe::vtu::admitted;
+use super::event::{Located, Spot};
+use super::tensor::{Plane, Tensor};
+use crate::vtu::admitted;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io;

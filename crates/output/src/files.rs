@@ -9,7 +9,9 @@ use super::record::{check_interfaces, check_probes, check_samples};
 use super::schedule::{Due, FieldSchedule};
 use super::view::{BodyFields, InterfaceFields, InterfaceMesh, MeshView, Observer, Setup, StepView};
 use super::vtu::{Array, Grid, PvdEntry, Values, pvd};
-use super::{ObserveError, atomic, expect_length, table};
+use crate::error::{OutputError, expect_length};
+use crate::names::stems;
+use crate::{atomic, table};
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -60,17 +62,17 @@ struct Growing {
 }
 
 impl Growing {
-    fn create(path: PathBuf, header: &[u8]) -> Result<Self, ObserveError> {
+    fn create(path: PathBuf, header: &[u8]) -> Result<Self, OutputError> {
         atomic::write(&path, header)?;
         match fs::OpenOptions::new().append(true).open(&path) {
             Ok(file) => Ok(Self { path, file }),
-            Err(source) => Err(ObserveError::write(&path, source)),
+            Err(source) => Err(OutputError::write(&path, source)),
         }
     }
 
     /// One write per row: a run that is killed leaves whole rows.
-    fn push(&mut self, row: &[u8]) -> Result<(), ObserveError> {
-        self.file.write_all(row).map_err(|source| ObserveError::write(&self.path, source))
+    fn push(&mut self, row: &[u8]) -> Result<(), OutputError> {
+        self.file.write_all(row).map_err(|source| OutputError::write(&self.path, source))
     }
 }
 
@@ -79,7 +81,7 @@ impl Files {
     ///
     /// # Errors
     /// When the directory cannot be made or written to.
-    pub fn create(out: &Path, schedule: FieldSchedule) -> Result<Self, ObserveError> {
+    pub fn create(out: &Path, schedule: FieldSchedule) -> Result<Self, OutputError> {
         atomic::writable_dir(out)?;
         Ok(Self {
             out: out.to_path_buf(),
@@ -110,7 +112,7 @@ impl Files {
         &self.collection
     }
 
-    fn write_fields(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+    fn write_fields(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         let Some(bodies) = &self.bodies else { return Ok(()) };
         self.field_number += 1;
         self.written[1] = Some(view.record.time);
@@ -131,7 +133,7 @@ impl Files {
         atomic::write(&self.out.join("fields.pvd"), &pvd(&self.collection))
     }
 
-    fn write_profiles(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+    fn write_profiles(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         self.profile_number += 1;
         self.written[0] = Some(view.record.time);
         for ((part, mesh), fields) in self.interfaces.iter().zip(&self.setup.interfaces).zip(view.interfaces)
@@ -142,7 +144,7 @@ impl Files {
         Ok(())
     }
 
-    fn write_probes(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+    fn write_probes(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         for ((part, mesh), fields) in
             self.interfaces.iter_mut().zip(&self.setup.interfaces).zip(view.interfaces)
         {
@@ -158,7 +160,7 @@ impl Files {
         Ok(())
     }
 
-    fn write_samples(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+    fn write_samples(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         let row = |values: &[f64]| {
             table::history_row(view.record.time, view.record.stage, view.record.step, values)
         };
@@ -172,8 +174,8 @@ impl Files {
     }
 
     /// Begins the tables of points and forces.
-    fn begin_samples(&mut self, setup: &Setup) -> Result<(), ObserveError> {
-        let begin = |folder: &str, names: Vec<&str>, header: &[u8]| -> Result<Vec<Growing>, ObserveError> {
+    fn begin_samples(&mut self, setup: &Setup) -> Result<(), OutputError> {
+        let begin = |folder: &str, names: Vec<&str>, header: &[u8]| -> Result<Vec<Growing>, OutputError> {
             if names.is_empty() {
                 return Ok(Vec::new());
             }
@@ -190,7 +192,7 @@ impl Files {
     }
 
     /// Removes what an earlier run of these interfaces left, so that its files are not taken for this run's.
-    fn remove_earlier(&self) -> Result<(), ObserveError> {
+    fn remove_earlier(&self) -> Result<(), OutputError> {
         let stems: Vec<&str> = self.interfaces.iter().map(|part| part.stem.as_str()).collect();
         remove_numbered(&self.out.join("profiles"), &stems, "csv")?;
         let with_bodies: Vec<&str> = stems.iter().copied().chain(["bodies"]).collect();
@@ -203,7 +205,7 @@ impl Files {
 }
 
 impl Observer for Files {
-    fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
+    fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
         check_probes(setup)?;
         self.setup = setup.clone();
         self.fields_due = Due::new(self.schedule.fields, &setup.stages);
@@ -240,7 +242,7 @@ impl Observer for Files {
         self.begin_samples(setup)
     }
 
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         check_interfaces(&self.setup, view.interfaces)?;
         check_samples(&self.setup, view.samples)?;
         self.write_probes(view)?;
@@ -256,7 +258,7 @@ impl Observer for Files {
     }
 
     /// The last good state is written whether or not it was due.
-    fn stopped(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+    fn stopped(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         let now = Some(view.record.time);
         if self.schedule.profiles > 0 && self.written[0] != now {
             self.write_profiles(view)?;
@@ -342,7 +344,7 @@ fn interface_grid(mesh: &InterfaceMesh, dimension: usize) -> Grid {
     Grid::new(&mesh.positions, &cells)
 }
 
-fn check_bodies(mesh: &MeshView, fields: &BodyFields) -> Result<(), ObserveError> {
+fn check_bodies(mesh: &MeshView, fields: &BodyFields) -> Result<(), OutputError> {
     let (nodes, cells) = (mesh.nodes.len(), mesh.cells.len());
     expect_length("body of each cell", cells, mesh.cell_body.len())?;
     expect_length("displacement of the nodes", nodes, fields.displacement.len())?;
@@ -355,25 +357,11 @@ fn check_bodies(mesh: &MeshView, fields: &BodyFields) -> Result<(), ObserveError
     }
 }
 
-/// File names for names of interfaces: letters, digits, `-` and `_` stay; what would collide gets its number.
-pub(crate) fn stems<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
-    let mut taken: Vec<String> = vec!["bodies".to_string()];
-    for (i, name) in names.enumerate() {
-        let safe = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '_' };
-        let mut stem: String = name.chars().map(safe).collect();
-        while stem.is_empty() || taken.contains(&stem) {
-            stem = format!("{stem}-{i}");
-        }
-        taken.push(stem);
-    }
-    taken.split_off(1)
-}
-
 /// Removes `<stem>_<digits>.<extension>` for the given stems, and nothing else.
-fn remove_numbered(dir: &Path, stems: &[&str], extension: &str) -> Result<(), ObserveError> {
+fn remove_numbered(dir: &Path, stems: &[&str], extension: &str) -> Result<(), OutputError> {
     let Ok(entries) = fs::read_dir(dir) else { return Ok(()) };
     for entry in entries {
-        let path = entry.map_err(|source| ObserveError::write(dir, source))?.path();
+        let path = entry.map_err(|source| OutputError::write(dir, source))?.path();
         let ours = path.extension().is_some_and(|found| found == extension)
             && path
                 .file_stem()
@@ -389,6 +377,6 @@ fn remove_numbered(dir: &Path, stems: &[&str], extension: &str) -> Result<(), Ob
     Ok(())
 }
 
-fn remove(path: &Path) -> Result<(), ObserveError> {
-    fs::remove_file(path).map_err(|source| ObserveError::write(path, source))
+fn remove(path: &Path) -> Result<(), OutputError> {
+    fs::remove_file(path).map_err(|source| OutputError::write(path, source))
 }

@@ -1,6 +1,6 @@
 //! One observer that forwards to several.
 
-use super::ObserveError;
+use super::OutputError;
 use super::view::{BodyFields, Observer, Setup, StepView};
 use std::cell::OnceCell;
 
@@ -25,18 +25,18 @@ impl<'a> Multi<'a> {
 }
 
 impl Observer for Multi<'_> {
-    fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
+    fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
         self.observers.iter_mut().try_for_each(|observer| observer.begin(setup))
     }
 
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         let recovered = OnceCell::new();
         let once = || recovered.get_or_init(|| (view.fields)()).clone();
         let shared = sharing(view, &once);
         self.observers.iter_mut().try_for_each(|observer| observer.step(&shared))
     }
 
-    fn stopped(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+    fn stopped(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         let recovered = OnceCell::new();
         let once = || recovered.get_or_init(|| (view.fields)()).clone();
         let shared = sharing(view, &once);

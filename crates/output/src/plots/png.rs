@@ -14,7 +14,7 @@ use std::sync::OnceLock;
 const SCALE: f64 = 2.0;
 
 /// DejaVu Sans 2.37 (its licence stands beside it).
-static FONT: &[u8] = include_bytes!("../../../assets/DejaVuSans.ttf");
+static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans.ttf");
 
 /// Height of DejaVu's line over its em: plotters sizes fonts by the former.
 const LINE_OVER_EM: f64 = 1.164;

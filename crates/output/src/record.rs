@@ -1,7 +1,7 @@
 //! A run kept in memory: the records of all steps, histories at points of the interfaces, and states at stage ends.
 
 use super::view::{BodyFields, InterfaceFields, Observer, Samples, Setup, StepRecord, StepView};
-use super::{ObserveError, expect_length};
+use crate::error::{OutputError, expect_length};
 
 /// Histories at one slave node, one value a step (see [`InterfaceFields`] for signs).
 #[derive(Clone, Debug, Default)]
@@ -140,7 +140,7 @@ impl Recorder {
 }
 
 impl Observer for Recorder {
-    fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
+    fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
         check_probes(setup)?;
         let (all_nodes, with_bodies) = (self.all_nodes, self.with_bodies);
         let histories = setup.interfaces.iter().map(|mesh| {
@@ -162,7 +162,7 @@ impl Observer for Recorder {
         Ok(())
     }
 
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         check_interfaces(&self.setup, view.interfaces)?;
         check_samples(&self.setup, view.samples)?;
         self.times.push(view.record.time);
@@ -200,26 +200,26 @@ impl PointHistory {
 }
 
 /// Refuses probes that are no slave nodes.
-pub(super) fn check_probes(setup: &Setup) -> Result<(), ObserveError> {
+pub(super) fn check_probes(setup: &Setup) -> Result<(), OutputError> {
     for mesh in &setup.interfaces {
         let n = mesh.positions.len();
         expect_length(&format!("areas of interface {}", mesh.name), n, mesh.areas.len())?;
         if let Some(&found) = mesh.probes.iter().find(|&&node| node >= n) {
             let what = format!("a probe of interface {} is node number {found}", mesh.name);
-            return Err(ObserveError::Shape { what, expected: n, found });
+            return Err(OutputError::Shape { what, expected: n, found });
         }
     }
     Ok(())
 }
 
 /// Refuses samples that do not fit the announced points and sets.
-pub(super) fn check_samples(setup: &Setup, samples: &Samples) -> Result<(), ObserveError> {
+pub(super) fn check_samples(setup: &Setup, samples: &Samples) -> Result<(), OutputError> {
     expect_length("points of the step", setup.points.len(), samples.points.len())?;
     expect_length("forces of the step", setup.forces.len(), samples.forces.len())
 }
 
 /// Refuses interface fields that do not fit the announced slave nodes, so that no observer indexes out of range.
-pub(super) fn check_interfaces(setup: &Setup, interfaces: &[InterfaceFields]) -> Result<(), ObserveError> {
+pub(super) fn check_interfaces(setup: &Setup, interfaces: &[InterfaceFields]) -> Result<(), OutputError> {
     expect_length("interfaces of the step", setup.interfaces.len(), interfaces.len())?;
     for (mesh, fields) in setup.interfaces.iter().zip(interfaces) {
         let n = mesh.positions.len();

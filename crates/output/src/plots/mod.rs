@@ -11,6 +11,7 @@ mod cycles;
 mod faces;
 mod field;
 mod figure;
+pub(crate) mod labels;
 mod png;
 mod profile;
 mod svg;
@@ -20,10 +21,9 @@ mod units;
 pub use chart::{Chart, Measure};
 pub use cycles::{Cycles, Line, Rows, Table};
 
-use super::files::stems;
-use super::{ObserveError, Recorder, atomic};
+use super::{OutputError, Recorder, atomic};
+use crate::names::stems;
 use figure::Figure;
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Draws all plots of a run into `folder` and returns the files, in the order written. The recorder must have kept
@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// When a file cannot be written or a drawing fails.
-pub fn draw_all(folder: &Path, recorder: &Recorder) -> Result<Vec<PathBuf>, ObserveError> {
+pub fn draw_all(folder: &Path, recorder: &Recorder) -> Result<Vec<PathBuf>, OutputError> {
     write_all(folder, figures(recorder))
 }
 
@@ -39,7 +39,7 @@ pub fn draw_all(folder: &Path, recorder: &Recorder) -> Result<Vec<PathBuf>, Obse
 ///
 /// # Errors
 /// See [`draw_all`].
-pub fn draw_cycles(folder: &Path, cycles: &Cycles) -> Result<Vec<PathBuf>, ObserveError> {
+pub fn draw_cycles(folder: &Path, cycles: &Cycles) -> Result<Vec<PathBuf>, OutputError> {
     write_all(folder, cycles.figures()?)
 }
 
@@ -47,17 +47,17 @@ pub fn draw_cycles(folder: &Path, cycles: &Cycles) -> Result<Vec<PathBuf>, Obser
 ///
 /// # Errors
 /// See [`draw_all`].
-pub fn draw_charts(folder: &Path, charts: &[Chart]) -> Result<Vec<PathBuf>, ObserveError> {
+pub fn draw_charts(folder: &Path, charts: &[Chart]) -> Result<Vec<PathBuf>, OutputError> {
     write_all(folder, charts.iter().filter_map(|c| Some((c.file.clone(), c.figure()?))).collect())
 }
 
-fn write_all(folder: &Path, figures: Vec<(String, Figure)>) -> Result<Vec<PathBuf>, ObserveError> {
+fn write_all(folder: &Path, figures: Vec<(String, Figure)>) -> Result<Vec<PathBuf>, OutputError> {
     atomic::create_dir(folder)?;
     let mut written = Vec::new();
     for (name, figure) in figures {
         let (svg, png) = (folder.join(format!("{name}.svg")), folder.join(format!("{name}.png")));
         atomic::write(&svg, svg::paint(&figure).as_bytes())?;
-        let bytes = png::paint(&figure).map_err(|reason| ObserveError::Draw { path: png.clone(), reason })?;
+        let bytes = png::paint(&figure).map_err(|reason| OutputError::Draw { path: png.clone(), reason })?;
         atomic::write(&png, &bytes)?;
         written.extend([svg, png]);
     }
@@ -89,39 +89,3 @@ fn figures(recorder: &Recorder) -> Vec<(String, Figure)> {
     }
     figures
 }
-
-/// Labels that tell positions apart: the coordinates that differ among them, in one unit.
-pub(super) fn position_labels(positions: impl Iterator<Item = [f64; 3]>) -> Vec<String> {
-    let positions: Vec<[f64; 3]> = positions.collect();
-    let bounds = |axis: usize| {
-        let values = positions.iter().map(|p| p[axis]);
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (lo.min(x), hi.max(x)))
-    };
-    let largest = positions.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let mut axes: Vec<usize> = (0..3)
-        .filter(|&axis| {
-            let (lo, hi) = bounds(axis);
-            hi - lo > SAME_PLACE * largest
-        })
-        .collect();
-    if axes.is_empty() {
-        axes = vec![0, 1];
-    }
-    let unit = units::LENGTH.of(largest);
-    let label = |p: &[f64; 3], digits: i32| {
-        // Rounds to this many digits of the largest coordinate.
-        let fine = 10.0_f64.powi(digits - 1 - (largest / unit.factor).max(1.0).log10() as i32);
-        let parts = axes.iter().map(|&axis| {
-            let value = (p[axis] / unit.factor * fine).round() / fine + 0.0;
-            format!("{} = {value}", ["x", "y", "z"][axis])
-        });
-        format!("{} {}", parts.collect::<Vec<_>>().join("; "), unit.name)
-    };
-    let labels = |digits: i32| positions.iter().map(|p| label(p, digits)).collect::<Vec<_>>();
-    let different = |labels: &[String]| labels.iter().collect::<BTreeSet<_>>().len() == labels.len();
-    // Four digits read well; positions that need more get them.
-    (4..9).map(labels).find(|labels| different(labels)).unwrap_or_else(|| labels(9))
-}
-
-/// Coordinates closer than this fraction of the largest one count as equal: generated meshes place nodes to rounding.
-const SAME_PLACE: f64 = 1e-9;

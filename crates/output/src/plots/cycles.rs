@@ -2,8 +2,7 @@
 //!
 //! Each goes through the rows of a table twice, for the ranges of its axes and for what it draws; what it keeps does not grow with the rows.
 
-use super::super::ObserveError;
-use super::super::files::stems;
+use super::super::OutputError;
 use super::axes::{Axis, Frame};
 use super::colour::{Rgb, viridis};
 use super::curves::{DECADES, Entry, Thinner, legend};
@@ -11,6 +10,7 @@ use super::field::Bar;
 use super::figure::{Figure, Image, Point};
 use super::title::title;
 use super::units::{LENGTH, STRESS, TIME};
+use crate::stems;
 use std::ops::Range;
 
 /// A fault along a line.
@@ -41,7 +41,7 @@ pub trait Rows {
     ///
     /// # Errors
     /// When it cannot be read.
-    fn each(&self, table: Table, look: &mut dyn FnMut(&[f64])) -> Result<(), ObserveError>;
+    fn each(&self, table: Table, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError>;
 }
 
 /// What is drawn.
@@ -104,11 +104,11 @@ const TOGETHER: f64 = 2e-3;
 /// Decades below the fastest that the image of slip rates shows: what lies lower is locked.
 const SHOWN: f64 = 14.0;
 
-type Drawn = Result<Option<Figure>, ObserveError>;
+type Drawn = Result<Option<Figure>, OutputError>;
 
 impl Cycles<'_> {
     /// All figures with the names of their files.
-    pub(super) fn figures(&self) -> Result<Vec<(String, Figure)>, ObserveError> {
+    pub(super) fn figures(&self) -> Result<Vec<(String, Figure)>, OutputError> {
         let mut figures = Vec::new();
         let mut add = |name: String, figure: Option<Figure>| figures.extend(figure.map(|f| (name, f)));
         add("largest_rate".into(), self.largest_rate()?);
@@ -125,7 +125,7 @@ impl Cycles<'_> {
     }
 
     /// Ranges of time, largest slip rate and mean shear traction.
-    fn ranges(&self) -> Result<[Bounds; 3], ObserveError> {
+    fn ranges(&self) -> Result<[Bounds; 3], OutputError> {
         let mut ranges = [Bounds::NONE; 3];
         self.rows.each(Table::Largest, &mut |row| {
             for (range, value) in ranges.iter_mut().zip([row[0], 10.0_f64.powf(row[1]), row[3]]) {
@@ -203,7 +203,7 @@ impl Cycles<'_> {
         table: Table,
         line: &Line,
         look: &mut dyn FnMut(f64, &[f64]),
-    ) -> Result<(), ObserveError> {
+    ) -> Result<(), OutputError> {
         self.rows.each(table, &mut |row| {
             if let Some(values) = row.get(1..).and_then(|all| all.get(line.columns.clone())) {
                 look(row[0], values);
@@ -313,7 +313,7 @@ mod tests {
     }
 
     impl Rows for Kept {
-        fn each(&self, table: Table, look: &mut dyn FnMut(&[f64])) -> Result<(), ObserveError> {
+        fn each(&self, table: Table, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
             let rows = match table {
                 Table::Largest => &self.largest,
                 Table::Slip => &self.slip,

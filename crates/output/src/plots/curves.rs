@@ -5,9 +5,10 @@ use super::super::record::PointHistory;
 use super::axes::{Axis, Frame};
 use super::colour::{INK, MARK, Rgb, of_curve};
 use super::figure::{Anchor, Figure, Point};
+use super::labels::position_labels;
 use super::title::{title, within};
+use super::units::TIME;
 use super::units::{self, Unit, Units};
-use super::{position_labels, units::TIME};
 
 /// A quantity drawn against time.
 #[derive(Clone, Copy)]

@@ -1,0 +1,32 @@
+#![doc = include_str!("../README.md")]
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+pub mod atomic;
+pub mod decimals;
+mod error;
+pub mod files;
+pub mod located;
+mod multi;
+mod names;
+pub mod plots;
+pub mod printing;
+mod progress;
+mod pulse;
+mod record;
+mod schedule;
+pub mod seas;
+mod table;
+#[cfg(test)]
+mod tests;
+pub mod view;
+pub mod vtu;
+
+pub use error::OutputError;
+pub use files::Files;
+pub use multi::Multi;
+pub use names::stems;
+pub use progress::Progress;
+pub use pulse::Pulse;
+pub use record::{InterfaceHistory, PointHistory, Recorder, StageEnd};
+pub use schedule::FieldSchedule;
+pub use view::Observer;

@@ -1,0 +1,59 @@
+//! An event with its place on Earth and its time.
+
+use super::tensor::{Plane, Tensor};
+use jiff::Timestamp;
+use serde::Serialize;
+
+/// A place on Earth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spot {
+    /// Degrees north.
+    pub latitude: f64,
+    /// Degrees east.
+    pub longitude: f64,
+    /// Downwards \[m\].
+    pub depth: f64,
+}
+
+/// What seismologists tell of an event.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Located {
+    /// Onset, UTC.
+    pub time: String,
+    /// Where it began.
+    pub hypocentre: Spot,
+    /// Mean place of its slip.
+    pub centroid: Spot,
+    /// Moment tensor \[N m\]; per metre of length out of the plane where none is declared.
+    pub tensor: Tensor,
+    /// Nodal planes.
+    pub planes: [Plane; 2],
+    /// Scalar moment \[N m\], where the length out of the plane is known.
+    pub moment: Option<f64>,
+    /// Moment magnitude, where the moment is known.
+    pub magnitude: Option<f64>,
+    /// Onset \[s\].
+    #[serde(skip)]
+    pub onset: Timestamp,
+    /// From onset to end \[s\].
+    #[serde(skip)]
+    pub duration: f64,
+}
+
+/// Moment magnitude of a moment \[N m\]: IASPEI (2013), Mw = (2/3) (log10 M0 - 9.1).
+#[must_use]
+pub fn magnitude(moment: f64) -> f64 {
+    (moment.log10() - 9.1) / 1.5
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn magnitudes_are_those_of_the_standard() {
+        // M0 = 1.1e21 N m is Mw 7.96 and 1.26e9 N m is Mw 0.
+        assert!((magnitude(1.1e21) - 7.9609).abs() < 1e-4);
+        assert!((magnitude(10f64.powf(9.1))).abs() < 1e-12);
+    }
+}

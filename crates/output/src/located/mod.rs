@@ -1,0 +1,11 @@
+//! Catalogues of simulated events in the formats of real ones.
+
+mod cmtsolution;
+mod event;
+mod quakeml;
+mod tensor;
+
+pub use cmtsolution::cmtsolution;
+pub use event::{Located, Spot, magnitude};
+pub use quakeml::quakeml;
+pub use tensor::{Plane, Tensor};

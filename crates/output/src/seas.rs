@@ -1,0 +1,149 @@
+//! Files of stations in the format of the SEAS community.
+
+use crate::decimals::{fixed, scientific};
+
+/// What the head of a file says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Head<'a> {
+    /// Title of the scene.
+    pub title: &'a str,
+    /// Version of the program.
+    pub version: &'a str,
+    /// Tributary area of the point \[m^2, or m per metre out of the plane\].
+    pub area: f64,
+    /// Whether that is an area.
+    pub in_space: bool,
+    /// Where the station is.
+    pub location: &'a str,
+    /// Directions 2 and 3 of slip, where it may turn.
+    pub directions: Option<[[f64; 3]; 2]>,
+    /// Whether the fault opens.
+    pub opens: bool,
+}
+
+/// Names of columns with their units, and of fields.
+const ALONG_A_LINE: (&[&str], &str) = (
+    &["Slip (m)", "Slip rate (log10 m/s)", "Shear stress (MPa)", "State (log10 s)", "Normal stress (MPa)"],
+    "t slip slip_rate shear_stress state normal_stress",
+);
+/// Where slip may turn.
+const IN_A_PLANE: (&[&str], &str) = (
+    &[
+        "Slip_2 (m)",
+        "Slip_3 (m)",
+        "Slip_rate_2 (log10 m/s)",
+        "Slip_rate_3 (log10 m/s)",
+        "Shear_stress_2 (MPa)",
+        "Shear_stress_3 (MPa)",
+        "State (log10 s)",
+        "Normal stress (MPa)",
+    ],
+    "t slip_2 slip_3 slip_rate_2 slip_rate_3 shear_stress_2 shear_stress_3 state normal_stress",
+);
+
+impl Head<'_> {
+    /// The lines before the rows.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let Head { title, version, area, location, .. } = self;
+        let unit = if self.in_space { "m2" } else { "m per m" };
+        let mut head = format!(
+            "# problem={title}\n# code=asperity\n# code_version={version}\n# tributary_area={area:.6e} {unit}\n# location= {location}\n",
+        );
+        if let Some([two, three]) = &self.directions {
+            head.push_str(&format!("# directions: 2 is along {two:?}, 3 along {three:?}\n"));
+        }
+        let (columns, names) = if self.directions.is_some() { IN_A_PLANE } else { ALONG_A_LINE };
+        let last = self.opens.then_some(&"Opening (m)");
+        for (k, column) in std::iter::once(&"Time (s)").chain(columns).chain(last).enumerate() {
+            head.push_str(&format!("# Column #{} = {column}\n", k + 1));
+        }
+        head.push_str(names);
+        head.push_str(if self.opens { " opening" } else { "" });
+        head.push('\n');
+        head
+    }
+}
+
+/// The point at a time. Slip, rate and traction have one component, or two where slip may turn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Time \[s\].
+    pub time: f64,
+    /// Slip \[m\].
+    pub slip: Vec<f64>,
+    /// Slip rate \[m/s\], above zero.
+    pub rate: Vec<f64>,
+    /// Shear traction \[Pa\].
+    pub shear: Vec<f64>,
+    /// Decadic logarithm of the state over 1 s; not a number where there is none.
+    pub log_state: f64,
+    /// Normal traction \[Pa\].
+    pub normal: f64,
+    /// Opening \[m\], where the fault opens.
+    pub opening: Option<f64>,
+}
+
+/// Pascals in a megapascal.
+const MPA: f64 = 1e6;
+
+impl Row {
+    /// The line.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut row = format!("{:.14e}", self.time);
+        let mut push = |value: String| {
+            row.push(' ');
+            row.push_str(&value);
+        };
+        self.slip.iter().for_each(|slip| push(scientific(*slip, 9)));
+        self.rate.iter().for_each(|rate| push(fixed(rate.log10(), 9)));
+        self.shear.iter().for_each(|shear| push(scientific(shear / MPA, 9)));
+        push(fixed(self.log_state, 9));
+        push(scientific(self.normal / MPA, 9));
+        if let Some(opening) = self.opening {
+            push(scientific(opening, 9));
+        }
+        row.push('\n');
+        row
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_has_the_columns_of_its_head() {
+        let mut head = Head {
+            title: "t",
+            version: "1",
+            area: 2.0,
+            in_space: true,
+            location: "here",
+            directions: None,
+            opens: true,
+        };
+        let mut row = Row {
+            time: 1.0,
+            slip: vec![0.5],
+            rate: vec![1e-9],
+            shear: vec![3e7],
+            log_state: f64::NAN,
+            normal: 5e7,
+            opening: Some(-0.0),
+        };
+        assert_eq!(
+            row.text(),
+            "1.00000000000000e0 5.000000000e-1 -9.000000000 3.000000000e1 NaN 5.000000000e1 0.000000000e0\n"
+        );
+        let columns = |text: &str| text.split_whitespace().count();
+        let names = |head: &Head<'_>| columns(head.text().lines().last().unwrap());
+        assert_eq!(names(&head), columns(&row.text()));
+        head.directions = Some([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
+        for two in [&mut row.slip, &mut row.rate, &mut row.shear] {
+            two.push(1.0);
+        }
+        assert_eq!(names(&head), columns(&row.text()));
+    }
+}
