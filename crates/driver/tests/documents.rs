@@ -14,6 +14,18 @@ const COUNTS: f64 = 0.05;
 /// Change of a result that depends on rounding.
 const RESULTS: f64 = 1e-4;
 
+/// The program of the how-to.
+mod program {
+    include!("documents/program.rs");
+
+    #[test]
+    fn the_program_of_the_how_to_runs_as_it_stands_there() {
+        main().unwrap();
+        let page = std::fs::read_to_string(super::root().join("docs/src/spring-slider-howto.md")).unwrap();
+        assert_eq!(super::blocks(&page, "rust"), [include_str!("documents/program.rs")]);
+    }
+}
+
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
@@ -142,7 +154,7 @@ fn missing<'a>(expected: &'a [String], printed: &[&str]) -> Option<&'a str> {
     if first == "..." {
         // Several points in a row, with progress between them, are one.
         let rest = &rest[rest.iter().take_while(|line| *line == "...").count()..];
-        let Some(next) = rest.first() else { return None };
+        let next = rest.first()?;
         let Some(at) = printed.iter().position(|line| alike(next, line)) else { return Some(next) };
         return missing(rest, &printed[at..]);
     }

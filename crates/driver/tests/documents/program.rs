@@ -1,0 +1,33 @@
+use asperity_driver::slider::{Plan, Thresholds, run};
+use asperity_friction::evolution::{Evolution, ageing::Ageing};
+use asperity_friction::rate::RateLaw;
+use asperity_friction::slider::{History, Slider, System};
+use asperity_friction::strength::{Parameters, regularised::Regularised};
+use std::sync::Arc;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let (v_ref, load) = (1e-6, 1e-6);
+    let ageing = Ageing::new(0.015, 1e-5, v_ref)?;
+    let law = RateLaw::new(Regularised(Parameters::new(0.6, 0.010, v_ref)?), ageing, v_ref, None)?;
+    let block = Slider {
+        law: Arc::new(law),
+        stiffness: 1.25e9,
+        damping: 5e6,
+        mass: None,
+        normal: History::Constant(5e6),
+    };
+    let system = System::new(vec![block], vec![], History::Constant(load))?;
+    let state = ageing.steady(f64::ln(load));
+    let start = system.start(&[1.5 * load], &[vec![state]])?;
+
+    let mut plan = Plan::new(system, start, 4000.0);
+    plan.events = Some(Thresholds { on: 1e-3, off: 1e-4 });
+    plan.most_events = Some(10);
+    plan.peaks = true;
+    let found = run(&plan, &mut ())?;
+    for event in found.catalogue.of(0) {
+        println!("{:.6} s, {:?}, {:e} m/s", event.onset, event.interval, event.peak_rate);
+    }
+    println!("{:?}, {} right-hand sides", found.outcome, found.counts.rates);
+    Ok(())
+}
