@@ -14,7 +14,8 @@ const COUNTS: f64 = 0.05;
 /// Change of a result that depends on rounding.
 const RESULTS: f64 = 1e-4;
 
-/// The program of the how-to.
+/// The program of the how-to, which prints.
+#[allow(clippy::print_stdout)]
 mod program {
     include!("documents/program.rs");
 
