@@ -4,6 +4,7 @@ mod book;
 mod circles;
 mod graph;
 mod house;
+mod keys;
 mod problem;
 mod source;
 mod text;
@@ -24,6 +25,7 @@ pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
         }
     }
     found.extend(house::check(&files));
+    found.extend(keys::check(&files));
     found.extend(book::check(&files, &|path| root.join(path).exists()));
     found.extend(circles::check(&files));
     found.sort();
