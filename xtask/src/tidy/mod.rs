@@ -6,6 +6,7 @@ mod graph;
 mod house;
 mod keys;
 mod problem;
+mod sentences;
 mod source;
 mod text;
 mod tree;
@@ -20,6 +21,7 @@ pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
     let files = tree::files(root)?;
     for file in &files {
         found.extend(text::check(&file.path, &file.text));
+        found.extend(sentences::check(file));
         if file.path.ends_with(".rs") {
             found.extend(source::check(&file.path, &file.text));
         }
