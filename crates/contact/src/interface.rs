@@ -1,5 +1,9 @@
 //! The interface: measure x enforcement x law, as a term of the system.
 
+mod augmented;
+mod mixed;
+mod watched;
+
 use crate::average::Averaging;
 use crate::build::{build_measure, check};
 use crate::enforce::{Enforcement, Multipliers, Penalty, Unknowns, tangential};

@@ -7,6 +7,16 @@ use crate::spec::SegmentKind;
 /// Most nodes a segment has.
 pub const MOST_NODES: usize = 9;
 
+/// Corners of `kind`.
+#[must_use]
+pub fn corners(kind: SegmentKind) -> usize {
+    match kind {
+        SegmentKind::Seg2 | SegmentKind::Seg3 => 2,
+        SegmentKind::Tri3 | SegmentKind::Tri6 => 3,
+        SegmentKind::Quad4 | SegmentKind::Quad8 | SegmentKind::Quad9 => 4,
+    }
+}
+
 /// Values and derivatives at one point; entries beyond the segment's nodes are zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {

@@ -6,36 +6,9 @@
 //! exerts on the point.
 
 use crate::Failure;
-use crate::sheet::{Line, Sheet};
-use crate::slider::{Forcing, Sliding};
-
-/// What acts on a slice of points at an instant.
-#[derive(Clone, Copy, Debug)]
-pub struct Drive<'a> {
-    /// f_n > 0 \[Pa\].
-    pub normal: &'a [f64],
-    /// df_n/dt \[Pa/s\]; none where f_n does not change.
-    pub normal_rate: Option<&'a [f64]>,
-    /// dτ/dt of the driving shear traction \[Pa/s\], component by component.
-    pub shear_rate: &'a [f64],
-    /// η ≥ 0 \[Pa s/m\].
-    pub damping: &'a [f64],
-}
-
-impl Drive<'_> {
-    /// What acts on a point.
-    fn forcing(&self, point: usize) -> Forcing {
-        Forcing {
-            normal: self.normal[point],
-            normal_rate: self.normal_rate.map_or(0.0, |r| r[point]),
-            pull: self.shear_rate[point],
-            stiffness: 0.0,
-            damping: self.damping[point],
-            mass: None,
-            imposed: None,
-        }
-    }
-}
+pub use crate::drive::Drive;
+use crate::sheet::Sheet;
+use crate::slider::{Line, Sliding};
 
 /// The laws of the points of a fault. Slices hold one entry for each point, states are point-major; `first` is the number of
 /// the first point of the slices. Where slip has more than one component, those of m, of slip rates and of shear tractions hold the first

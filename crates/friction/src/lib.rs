@@ -6,6 +6,7 @@
 
 pub mod component;
 pub mod coulomb;
+mod drive;
 pub mod evolution;
 pub mod fault;
 pub mod law;

@@ -5,8 +5,7 @@
 //! all but the end of the step. With `x = V Δt/L` the share of Λ in the rate that matters is then `g = 2 [1/x - 1/(e^x - 1)]`: this
 //! makes the step exact to the first order in the change of V for every x, and a steady state follows V without delay.
 
-use crate::evolution::Speed;
-use crate::point::AT_REST;
+use crate::evolution::{AT_REST, Speed};
 
 /// Below this x the series of g is exact to rounding: its next term is x^5/15120.
 const SMALL: f64 = 1e-2;

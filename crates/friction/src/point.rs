@@ -6,12 +6,9 @@
 
 use crate::Failure;
 use crate::component::Component;
-use crate::evolution::{Evolution, Evolved, Speed};
+use crate::evolution::{AT_REST, Evolution, Evolved, Speed};
 use crate::pace::{Halves, Linear, Pace};
 use crate::strength::Form;
-
-/// ln V of a point at rest: e^z and z e^z vanish, and products of z stay finite.
-pub(crate) const AT_REST: f64 = f64::MIN;
 
 /// Iterations before a point is given up; none of the property tests takes more than twelve.
 const MOST: usize = 60;

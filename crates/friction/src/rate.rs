@@ -7,10 +7,10 @@ mod rated;
 
 use crate::Failure;
 use crate::component::Component;
-use crate::evolution::{Evolution, stateless::Stateless};
+use crate::evolution::{AT_REST, Evolution, stateless::Stateless};
 use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Taken, Trials};
 use crate::pace::Pace;
-use crate::point::{AT_REST, Point, Solver};
+use crate::point::{Point, Solver};
 use crate::strength::{Form, Parameters, regularised::Regularised};
 
 /// A rate-dependent law: a strength form with any number of state variables of one evolution law (none, where the law has no

@@ -4,28 +4,12 @@
 //! together, by a polynomial the compiler spreads over the lanes of the processor. Elsewhere the equations of
 //! [`crate::slider`] hold, of which these are a case.
 
-use crate::fault::Drive;
+use crate::drive::Drive;
+use crate::slider::Line;
 use pulp::{Arch, Simd, WithSimd};
 
 /// Points treated together.
 const LANES: usize = 8;
-
-/// What a law needs for this: while |m| is above `from`, `ln V = |m| - offset - b s/a`; `ds/dt = healing exp(-s) - V/L`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Line {
-    /// Smallest |m|.
-    pub from: f64,
-    /// See the struct.
-    pub offset: f64,
-    /// a \[-\].
-    pub a: f64,
-    /// b \[-\].
-    pub b: f64,
-    /// Vref/L \[1/s\].
-    pub healing: f64,
-    /// L \[m\].
-    pub length: f64,
-}
 
 /// Lines of [`LANES`] points.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,8 @@
 use super::clock::Clock;
 use super::events::{Found, Watch};
 use super::problem::System;
-use super::report::{Control, Counts, Failure, Finished, Occurrence, Outcome, Sink, Step};
+use super::report::{Control, Counts, Failure, Finished, Occurrence, Outcome};
+use super::sink::{Sink, Step};
 use super::stepper::{NOTHING_LEFT, Stepper};
 
 /// Times a step is taken again to put its end on the root.

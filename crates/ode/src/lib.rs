@@ -19,6 +19,7 @@ mod radau5_table;
 mod report;
 mod rkc;
 mod root;
+mod sink;
 mod stabilised;
 mod stepper;
 mod switching;
@@ -27,7 +28,8 @@ mod tsit5;
 pub use clock::Clock;
 pub use method::{Method, Options, UnknownMethod};
 pub use problem::Problem;
-pub use report::{Control, Counts, Failure, Finished, Occurrence, Outcome, Sink, Step};
+pub use report::{Control, Counts, Failure, Finished, Occurrence, Outcome};
+pub use sink::{Sink, Step};
 
 use drive::Drive;
 use own::OneStep;

@@ -1,13 +1,13 @@
 //! The HTML pages: self-contained, readable without a network and without scripts.
 
 use super::coverage::{self, Cell};
-use super::page_title;
 use super::provenance::Provenance;
 use crate::capability::Capability;
 use crate::case::Outcome;
 use crate::claim::{Evidence, Judged, Mark, Test, Verdict};
 use crate::ledger::Table;
 use crate::plot::Plot;
+use crate::readme;
 use crate::suite::Summary;
 use std::fmt::Write as _;
 
@@ -360,4 +360,10 @@ fn free_table(table: &Table) -> String {
         escape(&table.title),
         cells(&table.head, "th")
     )
+}
+
+/// The title of a case's page: the README's, or the case's name.
+fn page_title(outcome: &Outcome) -> &str {
+    let title = readme::title(outcome.case.readme);
+    if title.is_empty() { outcome.case.name } else { title }
 }

@@ -7,7 +7,6 @@ pub mod provenance;
 pub mod svg;
 
 use crate::case::Outcome;
-use crate::readme;
 use provenance::Provenance;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -70,10 +69,4 @@ fn drawings(outcome: &Outcome) -> Result<Vec<String>, ReportError> {
 
 fn put(path: &Path, text: &str) -> Result<(), ReportError> {
     fs::write(path, text).map_err(|source| ReportError::Write { path: path.to_owned(), source })
-}
-
-/// The title of a case's page: the README's, or the case's name.
-fn page_title(outcome: &Outcome) -> &str {
-    let title = readme::title(outcome.case.readme);
-    if title.is_empty() { outcome.case.name } else { title }
 }

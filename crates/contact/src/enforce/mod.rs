@@ -5,7 +5,7 @@ mod unknown;
 mod uzawa;
 
 use crate::measure::NormalPoint;
-pub(crate) use unknown::Unknowns;
+pub(crate) use unknown::{Buffers, REGULAR, Unknowns};
 pub(crate) use uzawa::{Multipliers, tangential};
 
 /// How gaps and slips that should be zero are brought there.

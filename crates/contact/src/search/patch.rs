@@ -3,8 +3,7 @@
 //! A segment is either the polynomial of its own nodes or, on smoothed surfaces, a cubic Bézier patch on control points
 //! that are linear in nodal positions (see [`super::smooth`]). Both are evaluated here from their points.
 
-use super::project::corners;
-use crate::shape::{MOST_NODES, shape};
+use crate::shape::{MOST_NODES, corners, shape};
 use crate::spec::SegmentKind;
 use crate::vector::axpy;
 

@@ -5,7 +5,7 @@
 //! projected on edge by edge.
 
 use super::patch::{Form, Patch, evaluate};
-use crate::shape::{MOST_NODES, Shape};
+use crate::shape::{MOST_NODES, Shape, corners};
 use crate::spec::SegmentKind;
 use crate::vector::{axpy, dot, solve_tangential, sub};
 
@@ -46,16 +46,6 @@ pub struct Projection<const D: usize> {
     pub distance_squared: f64,
     /// Where it lies.
     pub outcome: Outcome,
-}
-
-/// Corners of `kind`.
-#[must_use]
-pub fn corners(kind: SegmentKind) -> usize {
-    match kind {
-        SegmentKind::Seg2 | SegmentKind::Seg3 => 2,
-        SegmentKind::Tri3 | SegmentKind::Tri6 => 3,
-        SegmentKind::Quad4 | SegmentKind::Quad8 | SegmentKind::Quad9 => 4,
-    }
 }
 
 /// Natural coordinates of a corner.

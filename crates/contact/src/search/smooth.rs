@@ -14,8 +14,8 @@
 //! (Vlachos et al. 2001), which reproduces parabolas; quadrilaterals the bilinearly blended Coons patch of their edges.
 
 use super::patch::Form;
-use super::project::corners;
 use crate::error::ContactError;
+use crate::shape::corners;
 use crate::spec::{Segment, Smoothing};
 use crate::vector::{add, axpy, cross, dot, norm, perpendicular, scaled, sub, unit};
 use nalgebra::DMatrix;

@@ -1,10 +1,11 @@
 //! The master surface: its segments, which of their borders are shared, and the closest point among all of them.
 
 use super::patch::{Basis, Form, MOST_POINTS, Patch, evaluate};
-use super::project::{Outcome, Projection, corners, foot, project_on};
+use super::project::{Outcome, Projection, foot, project_on};
 use super::smooth::Smooth;
 use super::tree::{Aabb, Tree};
 use crate::error::ContactError;
+use crate::shape::corners;
 use crate::spec::{Segment, Smoothing};
 use crate::vector::{norm, sub};
 use rayon::prelude::*;

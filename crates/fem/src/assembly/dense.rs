@@ -3,19 +3,16 @@
 //! The sum of the constant terms is kept. Of the equations that no other term touches most are eliminated once ([`Eliminated`]);
 //! what is factored anew in each iteration is the rest.
 
-use super::eliminated::{Eliminated, Entry};
-use super::held::SymmetricPart;
-use super::{Symmetry, Version};
+use super::eliminated::{Eliminated, Entry, ROUNDING, lower};
+use super::known::{Symmetry, Version};
+use super::symmetric::SymmetricPart;
 use crate::dof::Equations;
 use crate::error::FemError;
 use crate::multifrontal::{DirectError, Pivot};
 use crate::term::Pattern;
-use faer::linalg::solvers::{Llt, LltError, PartialPivLu, SolveCore};
-use faer::{Conj, Mat, MatMut, Side};
+use faer::linalg::solvers::{Llt, PartialPivLu, SolveCore};
+use faer::{Conj, Mat, MatMut};
 
-/// Rounding of a pivot relative to its diagonal entry, times the square root of the number of pivots, as in the sparse
-/// factorisation.
-pub(super) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Difference of mirrored entries, over the largest entry, that is rounding of the sums they are.
 const MIRRORED: f64 = 1e-12;
 /// Share of equations that must be left over for their elimination to pay.
@@ -293,18 +290,6 @@ fn factor_whole(matrix: &Mat<f64>, symmetry: Symmetry) -> Result<(DenseFactor, b
         Ok(factor) => Ok((DenseFactor::Cholesky(factor), false)),
         Err(DirectError::NotPositive(_)) if symmetry == Symmetry::Symmetric => Ok((general(), true)),
         Err(error) => Err(error.into()),
-    }
-}
-
-/// Cholesky of the lower triangle with pivots above a bound each, or the pivot that is not and its value.
-pub(super) fn lower(matrix: &Mat<f64>, bound: impl Fn(usize) -> f64) -> Result<Llt<f64>, (usize, f64)> {
-    let factor = matrix.llt(Side::Lower).map_err(|e| match e {
-        LltError::NonPositivePivot { index } => (index, f64::NAN),
-    })?;
-    let l = factor.L();
-    match (0..matrix.nrows()).map(|k| (k, l[(k, k)].powi(2))).find(|&(k, p)| p <= bound(k)) {
-        Some(failed) => Err(failed),
-        None => Ok(factor),
     }
 }
 

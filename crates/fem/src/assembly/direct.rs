@@ -1,6 +1,6 @@
 //! A sparse system solved by a factorisation.
 
-use super::{Symmetry, Version, version};
+use super::known::{Symmetry, Version, version};
 use crate::dof::Equations;
 use crate::error::FemError;
 use crate::multifrontal::{self, DirectError};

@@ -3,12 +3,15 @@
 //! With g for those gone and r for the rest, `K_gg = L Lᵀ` and `X = L⁻¹ K_gr`, the rest is left with `S = K_rr - Xᵀ X`, to which the
 //! terms that change are added. Contact changes the rows of closed points only, in most models a small part of an interface.
 
-use super::dense::{ROUNDING, lower};
 use crate::dof::Equations;
 use faer::linalg::matmul::matmul;
-use faer::linalg::solvers::Llt;
+use faer::linalg::solvers::{Llt, LltError};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
-use faer::{Accum, Mat, MatMut, Par};
+use faer::{Accum, Mat, MatMut, Par, Side};
+
+/// Rounding of a pivot relative to its diagonal entry, times the square root of the number of pivots, as in the sparse
+/// factorisation.
+pub(super) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// An entry of a changing term: row, column, value.
 pub(super) type Entry = (usize, usize, f64);
@@ -85,4 +88,16 @@ impl Eliminated {
 fn column(values: &mut [f64]) -> MatMut<'_, f64> {
     let n = values.len();
     MatMut::from_column_major_slice_mut(values, n, 1)
+}
+
+/// Cholesky of the lower triangle with pivots above a bound each, or the pivot that is not and its value.
+pub(super) fn lower(matrix: &Mat<f64>, bound: impl Fn(usize) -> f64) -> Result<Llt<f64>, (usize, f64)> {
+    let factor = matrix.llt(Side::Lower).map_err(|e| match e {
+        LltError::NonPositivePivot { index } => (index, f64::NAN),
+    })?;
+    let l = factor.L();
+    match (0..matrix.nrows()).map(|k| (k, l[(k, k)].powi(2))).find(|&(k, p)| p <= bound(k)) {
+        Some(failed) => Err(failed),
+        None => Ok(factor),
+    }
 }

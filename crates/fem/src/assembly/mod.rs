@@ -6,6 +6,8 @@ mod direct;
 mod eliminated;
 mod held;
 mod iterative;
+mod known;
+mod symmetric;
 
 use crate::dof::Equations;
 use crate::error::FemError;
@@ -16,6 +18,8 @@ use direct::SparseStore;
 pub use direct::{Analysis, Lower};
 use iterative::IterativeStore;
 pub use iterative::{Iterative, NearNull};
+pub use known::Symmetry;
+use known::{Version, version};
 use rayon::prelude::*;
 use std::convert::Infallible;
 
@@ -26,17 +30,6 @@ pub enum Storage {
     Dense,
     /// Compressed columns: systems of all degrees of freedom.
     Sparse,
-}
-
-/// What the caller knows of the tangents of all terms.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Symmetry {
-    /// Nothing: LU.
-    General,
-    /// Symmetric: Cholesky with half the entries; LU where their sum turns out not to be positive definite.
-    Symmetric,
-    /// Symmetric, and their sum positive definite on the free degrees of freedom: Cholesky, or an error.
-    Positive,
 }
 
 /// Values scanned by one task.
@@ -64,9 +57,6 @@ pub struct System {
     /// Iterations of conjugate gradients so far.
     pub iterations: usize,
 }
-
-/// Version and size of a pattern.
-type Version = (u64, usize);
 
 #[derive(Debug)]
 enum Store {
@@ -387,10 +377,6 @@ impl System {
         };
         Err(self.in_degrees_of_freedom(DirectError::Singular(pivot).into()))
     }
-}
-
-fn version(pattern: &Pattern) -> Version {
-    (pattern.version, pattern.dofs.len())
 }
 
 /// Largest magnitude. The order of the pieces does not matter to a maximum.

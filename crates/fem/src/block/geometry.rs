@@ -1,12 +1,14 @@
 //! Gradients of the shape functions at the quadrature points of a block, stored flat.
 
-use super::CHUNK;
 use crate::element::Shape;
 use crate::error::FemError;
 use crate::kinematics::Idealisation;
 use crate::mesh::{Cells, Mesh};
 use nalgebra::SMatrix;
 use rayon::prelude::*;
+
+/// Cells treated by one task: fixed, so that results do not depend on the number of threads.
+pub(super) const CHUNK: usize = 256;
 
 /// Geometry of all cells of a block.
 #[derive(Clone, Debug)]

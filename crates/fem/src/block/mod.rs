@@ -13,16 +13,13 @@ use crate::kinematics::{Dilatation, Formulation, Idealisation};
 use crate::material::elastic::Elastic;
 use crate::mesh::{Cells, Mesh};
 use crate::term::{Instant, Limited, Linearized, Pattern, Refusal, Term};
-use geometry::{Geometry, Places};
+use geometry::{CHUNK, Geometry, Places};
 pub use norm::FieldValue;
 use projection::Projection;
 use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 use stiffness::Moduli;
 pub use stress::{PointState, von_mises};
-
-/// Cells treated by one task: fixed, so that results do not depend on the number of threads.
-const CHUNK: usize = 256;
 
 /// Most degrees of freedom of a cell.
 const MOST_DOFS: usize = 3 * MOST_NODES;

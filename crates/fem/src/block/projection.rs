@@ -3,8 +3,7 @@
 //! With φ_k polynomials orthonormal over the cell, θ̄ = Σ_k φ_k ∫ φ_k θ dV = Σ_k φ_k c_k·u, where c_k = ∫ φ_k ∂θ/∂u dV. The
 //! energy κ/2 ∫ θ̄² dV is κ/2 Σ_k (c_k·u)².
 
-use super::CHUNK;
-use super::geometry::{CellGeometry, Geometry};
+use super::geometry::{CHUNK, CellGeometry, Geometry};
 use crate::kinematics::Dilatation;
 use rayon::prelude::*;
 

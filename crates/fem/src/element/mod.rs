@@ -7,6 +7,7 @@ mod hex8;
 mod quad4;
 mod quad8;
 mod quad9;
+mod shape;
 mod tet10;
 mod tet4;
 mod tri3;
@@ -14,27 +15,11 @@ mod tri6;
 mod wedge15;
 mod wedge6;
 
+pub use shape::{MOST_NODES, Shape};
+
 use crate::error::FemError;
 use crate::quadrature;
 use std::str::FromStr;
-
-/// Most nodes an element has.
-pub const MOST_NODES: usize = 27;
-
-/// Shape functions and their natural derivatives at one point. Entries beyond the element's nodes are zero.
-#[derive(Clone, Copy, Debug)]
-pub struct Shape {
-    /// N_a \[-\].
-    pub n: [f64; MOST_NODES],
-    /// ∂N_a/∂ξ_m \[-\].
-    pub dn: [[f64; 3]; MOST_NODES],
-}
-
-impl Default for Shape {
-    fn default() -> Self {
-        Self { n: [0.0; MOST_NODES], dn: [[0.0; 3]; MOST_NODES] }
-    }
-}
 
 /// Kinds of element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

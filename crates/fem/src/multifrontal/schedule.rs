@@ -5,15 +5,35 @@
 //! fast they are.
 
 use super::symbolic::Symbolic;
+use super::tasks;
 use crate::ordering::NONE;
 use std::collections::BTreeSet;
 
 /// A task that runs: when it ends, and its index, which decides between those that end together.
 type Running = BTreeSet<(u64, usize)>;
 
+impl Symbolic {
+    /// Memory that [`Cholesky::schur`](super::Cholesky::schur) by so many threads takes \[bytes\].
+    #[must_use]
+    pub fn bytes_of_schur(&self, threads: usize) -> usize {
+        self.schur(threads, Passes::Written)
+    }
+
+    /// Memory that it asks for, of which it leaves some untouched \[bytes\].
+    #[must_use]
+    pub fn asked_by_schur(&self, threads: usize) -> usize {
+        self.schur(threads, Passes::All)
+    }
+
+    fn schur(&self, threads: usize, passes: Passes) -> usize {
+        let values = values_of_schur(self, &tasks::parents(self), threads, passes);
+        values * size_of::<f64>() + self.own()
+    }
+}
+
 /// What counts of what a front passes on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Passes {
+enum Passes {
     /// All of it: what is asked for.
     All,
     /// Its lower triangle: what is written, and taken, since systems give pages when they are first written.
@@ -21,12 +41,7 @@ pub(super) enum Passes {
 }
 
 /// Values in use at the worst moment of the elimination by so many threads.
-pub(super) fn values_of_schur(
-    symbolic: &Symbolic,
-    parent: &[usize],
-    threads: usize,
-    passes: Passes,
-) -> usize {
+fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: usize, passes: Passes) -> usize {
     let passed = |t: usize| match passes {
         Passes::All => symbolic.passed(t),
         Passes::Written => triangle(symbolic.passed(t)),

@@ -1,9 +1,8 @@
 //! Symbolic analysis: everything about a factorisation that the pattern decides.
 
-use super::schedule::{self, Passes};
+use super::DirectError;
 use super::supernodes::Supernodes;
 use super::tree::Forest;
-use super::{DirectError, tasks};
 use crate::ordering::{Compressed, NONE, Ordering, compress, order};
 use faer::sparse::SymbolicSparseColMatRef;
 use std::ops::Range;
@@ -370,7 +369,7 @@ impl Symbolic {
     }
 
     /// Bytes of the analysis that a factorisation reads.
-    fn own(&self) -> usize {
+    pub(super) fn own(&self) -> usize {
         size_of_val(self.relative.as_slice()) + size_of_val(self.entries.as_slice())
     }
 
@@ -378,23 +377,6 @@ impl Symbolic {
     fn peak(&self) -> usize {
         let values: usize = self.tasks.iter().map(|t| t.values).sum();
         (values + self.temporary()) * size_of::<f64>() + self.own()
-    }
-
-    /// Memory that [`Cholesky::schur`](super::Cholesky::schur) by so many threads takes \[bytes\].
-    #[must_use]
-    pub fn bytes_of_schur(&self, threads: usize) -> usize {
-        self.schur(threads, Passes::Written)
-    }
-
-    /// Memory that it asks for, of which it leaves some untouched \[bytes\].
-    #[must_use]
-    pub fn asked_by_schur(&self, threads: usize) -> usize {
-        self.schur(threads, Passes::All)
-    }
-
-    fn schur(&self, threads: usize, passes: Passes) -> usize {
-        let values = schedule::values_of_schur(self, &tasks::parents(self), threads, passes);
-        values * size_of::<f64>() + self.own()
     }
 
     /// Values that a task holds while it runs, beside what it passes on.

@@ -11,6 +11,9 @@ mod relaxation;
 pub mod slip;
 pub mod stateless;
 
+/// ln V of a point at rest: e^z and z e^z vanish, and products of z stay finite.
+pub(crate) const AT_REST: f64 = f64::MIN;
+
 /// State after a step at constant V, with its derivatives at fixed Δt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evolved {

@@ -16,13 +16,13 @@
 //! passes through zero without harm. d is an unknown because T - f_n μ - η V would have no digits left while the slider
 //! creeps.
 
+use super::line::Line;
 use super::number::{Dual, Number};
 use crate::Failure;
 use crate::component::Component;
 use crate::evolution::{Evolution, Speed};
 use crate::law::{Drives, Rated};
 use crate::rate::RateLaw;
-use crate::sheet::Line;
 use crate::strength::{Form, SlipRate};
 
 /// What acts on a slider at an instant.

@@ -3,10 +3,12 @@
 
 mod block;
 mod history;
+mod line;
 mod number;
 
 pub use block::{Direction, Forcing, Relaxation, Response, Sliding};
 pub use history::{History, Piece};
+pub use line::Line;
 
 use crate::Failure;
 use crate::evolution::Speed;

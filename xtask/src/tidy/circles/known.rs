@@ -2,18 +2,6 @@
 
 /// The folder of a crate and files of it that use each other, straight or through others. What is broken leaves the list.
 pub const KNOWN: &[(&str, &[&str])] = &[
-    ("crates/contact/src", &["enforce/unknown.rs", "enforce/uzawa.rs", "interface.rs", "watch.rs"]),
-    (
-        "crates/contact/src",
-        &[
-            "measure/mortar/blocks.rs",
-            "measure/mortar/finite.rs",
-            "measure/mortar/order.rs",
-            "measure/mortar/pairing.rs",
-        ],
-    ),
-    ("crates/contact/src", &["measure/node_to_point/finite.rs", "measure/node_to_point/track.rs"]),
-    ("crates/contact/src", &["search/patch.rs", "search/project.rs"]),
     ("crates/driver/src", &["cli/contents.rs", "cli/directory.rs"]),
     ("crates/driver/src", &["cli/mod.rs", "cli/work.rs"]),
     (
@@ -93,46 +81,4 @@ pub const KNOWN: &[(&str, &[&str])] = &[
     ),
     ("crates/driver/src", &["slider/plan.rs", "slider/stability.rs"]),
     ("crates/driver/src", &["slider/run.rs", "slider/slips.rs"]),
-    (
-        "crates/fem/src",
-        &[
-            "assembly/dense.rs",
-            "assembly/direct.rs",
-            "assembly/eliminated.rs",
-            "assembly/held.rs",
-            "assembly/mod.rs",
-        ],
-    ),
-    ("crates/fem/src", &["block/geometry.rs", "block/mod.rs", "block/projection.rs", "block/stiffness.rs"]),
-    (
-        "crates/fem/src",
-        &[
-            "element/hex20.rs",
-            "element/hex27.rs",
-            "element/hex8.rs",
-            "element/mod.rs",
-            "element/quad4.rs",
-            "element/quad8.rs",
-            "element/quad9.rs",
-            "element/tet10.rs",
-            "element/tet4.rs",
-            "element/tri3.rs",
-            "element/tri6.rs",
-            "element/wedge15.rs",
-            "element/wedge6.rs",
-        ],
-    ),
-    (
-        "crates/fem/src",
-        &["mesh/fault/check.rs", "mesh/fault/curve.rs", "mesh/fault/grid.rs", "mesh/fault/mod.rs"],
-    ),
-    (
-        "crates/fem/src",
-        &["mesh/split/fans.rs", "mesh/split/mod.rs", "mesh/split/orient.rs", "mesh/split/surface.rs"],
-    ),
-    ("crates/fem/src", &["multifrontal/schedule.rs", "multifrontal/symbolic.rs", "multifrontal/tasks.rs"]),
-    ("crates/friction/src", &["fault.rs", "sheet.rs", "slider/block.rs"]),
-    ("crates/friction/src", &["pace.rs", "point.rs"]),
-    ("crates/ode/src", &["report.rs", "stepper.rs"]),
-    ("verification/src", &["report/html.rs", "report/mod.rs"]),
 ];

@@ -5,33 +5,16 @@
 //! the force's change is spread once.
 
 use super::cell::{Sums, integrate};
-use super::finite::{Cell, Finite, Point};
 use super::local::{Change, Traction};
 use super::overlap::{self, BOTH, Derivatives, NODES};
 use super::scalar::Dual;
+use super::state::{Cell, Finite, Point};
 use crate::measure::Tractions;
 use crate::vector::{axpy, scaled};
-use std::sync::{Mutex, PoisonError};
+use std::sync::PoisonError;
 
 /// Numbers that vary in a cell of the plane: two facets of two nodes.
 const LINES: usize = 8;
-
-/// Buffers of a piece, which one thread works on at a time.
-#[derive(Debug)]
-pub(super) struct Scratch<const D: usize>(Mutex<Vec<[f64; D]>>);
-
-impl<const D: usize> Scratch<D> {
-    /// For this number of columns.
-    pub(super) fn new(columns: usize) -> Self {
-        Self(Mutex::new(vec![[0.0; D]; columns]))
-    }
-}
-
-impl<const D: usize> Clone for Scratch<D> {
-    fn clone(&self) -> Self {
-        Self::new(self.0.lock().unwrap_or_else(PoisonError::into_inner).len())
-    }
-}
 
 /// Blocks of one piece of the work order.
 struct Blocks<'a, const D: usize> {

@@ -15,15 +15,14 @@
 //! Puso, M. A. and Laursen, T. A. (2004b), A mortar segment-to-segment frictional contact method for large deformations,
 //! Computer Methods in Applied Mechanics and Engineering 193, 4891-4913.
 
-use super::blocks::Scratch;
 use super::cell::{Sums, integrate};
 use super::local::{Change, Local};
-use super::order::WorkOrder;
+use super::order::{CHUNK, WorkOrder};
 use super::overlap::{self, NODES};
-use super::pairing::Found;
 use super::scalar::Dual;
 use super::sides::{Beside, Sides, node_at};
 use super::small::FACED;
+use super::state::{Cell, Finite, Point};
 use crate::measure::bound::Bound;
 use crate::measure::fixed::fixed_frame;
 use crate::measure::{Attachment, Exit, Geometry, Measure, Slides, Tractions};
@@ -32,72 +31,6 @@ use crate::spec::{Segment, SlavePoint, SurfaceNode};
 use crate::vector::{add, axpy, cross, dot, norm, perpendicular, scaled, solve_tangential};
 use asperity_fem::term::Pattern;
 use rayon::prelude::*;
-
-/// Cells, facets or points worked on together on one thread: a microsecond each, and more.
-pub(super) const CHUNK: usize = 64;
-
-#[derive(Clone, Debug, Default)]
-pub(super) struct Point {
-    /// Nodes of its block: those of the slave facets beside it, then those of the masters near it.
-    pub nodes: Vec<usize>,
-    /// How many of them are slaves.
-    pub slaves: usize,
-    /// Rows of D and -M on these nodes.
-    pub weights: Vec<f64>,
-    /// s_k of the last commit.
-    pub then: Vec<f64>,
-    pub(super) area: f64,
-    /// About its area when all of its facets face the master.
-    whole: f64,
-    /// Whether `then` exists: the point faced the master at the last commit, or has met it since.
-    pub anchored: bool,
-    /// Met it since.
-    fresh: bool,
-    /// Start of its block among the values.
-    pub at: usize,
-    /// Start of its columns among those of its piece.
-    pub column: usize,
-    /// The frame's material vectors in the base vectors of the first facet beside the point.
-    along: [[f64; 2]; 2],
-}
-
-/// A slave facet with a master facet that may overlap it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Cell {
-    pub facet: usize,
-    pub master: usize,
-    /// Start of its table in `places`: for each point of the facet the places of slave and master nodes in its block.
-    pub table: usize,
-}
-
-/// The measure.
-#[derive(Clone, Debug)]
-pub(super) struct Finite<const D: usize> {
-    pub(super) sides: Sides<D>,
-    reference: Vec<[f64; D]>,
-    pub(super) dofs: Vec<usize>,
-    pub(super) points: Vec<Point>,
-    pub(super) locals: Vec<Local<D>>,
-    pub(super) x: Vec<[f64; D]>,
-    /// In the order of their facets.
-    pub(super) cells: Vec<Cell>,
-    /// First cell of each facet, and the end.
-    pub(super) first: Vec<usize>,
-    pub(super) places: Vec<usize>,
-    /// Integrals of the cells, laid out as `places`.
-    pub(super) integrals: Vec<f64>,
-    /// Points in the order of their blocks.
-    pub(super) order: WorkOrder,
-    pub(super) pattern: Pattern,
-    /// What the tangent adds up, by piece.
-    pub(super) scratch: Vec<Scratch<D>>,
-    /// The committed weights must be found from the configuration measured next.
-    restored: bool,
-    /// What the search finds, facet by facet in pieces.
-    pub(super) found: Vec<Found>,
-    /// How long it holds.
-    pub(super) bound: Bound<D>,
-}
 
 /// Builds the measure in the reference configuration. Returns it with the number of pairs of facets examined.
 #[must_use]

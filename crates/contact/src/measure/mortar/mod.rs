@@ -30,6 +30,7 @@ mod rule;
 mod scalar;
 mod sides;
 mod small;
+mod state;
 mod weighting;
 
 pub use finite::finite;

@@ -1,7 +1,9 @@
 //! Points in pieces that lie together, so that few cells are needed by two of them.
 
-use super::finite::CHUNK;
 use super::sides::Sides;
+
+/// Cells, facets or points worked on together on one thread: a microsecond each, and more.
+pub(super) const CHUNK: usize = 64;
 
 /// An order of the slave points, cut into pieces of [`CHUNK`].
 #[derive(Clone, Debug)]

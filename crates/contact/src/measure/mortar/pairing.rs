@@ -1,22 +1,9 @@
 //! Which facets may overlap in finite sliding, and the blocks that follow.
 
-use super::blocks::Scratch;
-use super::finite::{CHUNK, Cell, Finite};
+use super::order::CHUNK;
+use super::state::{Cell, Finite, Found, Scratch};
 use asperity_fem::term::Pattern;
 use rayon::prelude::*;
-
-/// What the search found for a piece of the slave facets.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Found {
-    /// Slave and master facets.
-    pairs: Vec<(usize, usize)>,
-    /// Buffer: candidates of one facet.
-    candidates: Vec<usize>,
-    /// Pairs looked at.
-    examined: u64,
-    /// How far nodes may move before there are other pairs \[m\].
-    free: f64,
-}
 
 impl<const D: usize> Finite<D> {
     /// Finds the cells anew; blocks change when they do.

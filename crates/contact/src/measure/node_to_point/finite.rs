@@ -21,7 +21,7 @@
 
 use super::kernel::{Columns, Friction, Kernel};
 use super::local::Local;
-use super::track::{Place, Point};
+use super::track::{CHUNK, Place, Point, track};
 use crate::measure::bound::Bound;
 use crate::measure::{Attachment, Exit, Geometry, Measure, Slides, Tractions};
 use crate::search::project::{BORDER, depth, margins};
@@ -31,20 +31,17 @@ use crate::spec::{SlavePoint, SurfaceNode};
 use crate::vector::{add, axpy, dot, sub};
 use asperity_fem::term::Pattern;
 
-/// Points worked on together on one thread: some 50 microseconds of work, and a tangent that fits the second-level cache.
-pub(super) const CHUNK: usize = 128;
-
 /// The measure.
 #[derive(Clone, Debug)]
 pub struct Finite<const D: usize> {
-    pub(super) surface: Surface<D>,
+    surface: Surface<D>,
     reference: Vec<[f64; D]>,
     dofs: Vec<usize>,
-    pub(super) points: Vec<Point>,
+    points: Vec<Point>,
     /// Positions of all nodes at the last measurement.
-    pub(super) x: Vec<[f64; D]>,
+    x: Vec<[f64; D]>,
     /// What the last search proved.
-    pub(super) bound: Bound<D>,
+    bound: Bound<D>,
     /// Most nodes a segment depends on.
     widest: usize,
     /// Nodes of all blocks: the slave, those the held segment depends on, those of the anchor's that are not yet there.
@@ -329,7 +326,9 @@ impl<const D: usize> Measure<D> for Finite<D> {
         if self.bound.holds(&self.x) {
             return false;
         }
-        self.track(projections);
+        self.surface.refit(&self.x);
+        let radius = track(&self.surface, &self.x, &mut self.points, projections);
+        self.bound.prove(&self.x, radius);
         self.rebuild();
         true
     }

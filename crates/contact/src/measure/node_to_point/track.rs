@@ -8,13 +8,16 @@
 //! `2 (1 + Λ) δ < d - |g_n|`. The foot moves continuously meanwhile: always on lines and flat triangles, on quadrilaterals
 //! while the gap is small against the radius of curvature, which is asked for with a margin of 10.
 
-use super::finite::{CHUNK, Finite};
 use super::local::Local;
 use crate::search::patch::{Form, MOST_POINTS, evaluate};
-use crate::search::project::{BORDER, Outcome, Projection, corners, margins};
+use crate::search::project::{BORDER, Outcome, Projection, margins};
 use crate::search::surface::Surface;
+use crate::shape::corners;
 use crate::spec::SlavePoint;
 use crate::vector::{add, axpy, dot, norm, scaled, sub};
+
+/// Points worked on together on one thread: some 50 microseconds of work, and a tangent that fits the second-level cache.
+pub(super) const CHUNK: usize = 128;
 
 /// A held segment keeps its point until it lies this far outside, in natural coordinates: rounding and small movements
 /// at a shared border do not change the pairing back and forth, and the continued segment is off by this times the kink.
@@ -71,14 +74,16 @@ struct Tracked {
     projections: u64,
 }
 
-impl<const D: usize> Finite<D> {
-    /// Decides anew which segment holds each point, at the configuration set.
-    pub(super) fn track(&mut self, projections: &mut u64) {
-        self.surface.refit(&self.x);
-        let found = track_range(&self.surface, &self.x, &mut self.points);
-        *projections += found.projections;
-        self.bound.prove(&self.x, found.radius);
-    }
+/// Decides anew which segment holds each point, with the nodes at `x`; gives how far they may move before that can change.
+pub(super) fn track<const D: usize>(
+    surface: &Surface<D>,
+    x: &[[f64; D]],
+    points: &mut [Point],
+    projections: &mut u64,
+) -> f64 {
+    let found = track_range(surface, x, points);
+    *projections += found.projections;
+    found.radius
 }
 
 fn track_range<const D: usize>(surface: &Surface<D>, x: &[[f64; D]], points: &mut [Point]) -> Tracked {

@@ -10,54 +10,23 @@ mod error;
 mod grid;
 mod map;
 mod quality;
+mod spec;
 mod spine;
 
 pub use super::spacing::{MOST_CELLS, Spacing, SpacingError};
 pub use curve::Departure;
 pub use error::FaultMeshError;
 pub use quality::{Quality, quality, scaled_jacobian};
+pub use spec::{FaultMesh, Interpolation};
 
 use super::split::{Fault, Surface, split};
 use super::{Mesh, spacing};
-use crate::element::ElementKind;
 use curve::Curve;
 use map::Map;
 use spine::Spine;
 
-/// The line between the vertices of a trace.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Interpolation {
-    /// A smooth curve: cubic splines by chord length; a line where the vertices lie on one.
-    #[default]
-    Spline,
-    /// Straight lines, which meet in corners.
-    Polyline,
-}
-
 /// Places along a fault \[m\].
 type Line = Vec<[f64; 2]>;
-
-/// A body with one fault.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FaultMesh {
-    /// Vertices of the fault, from one tip to the other \[m\]; y points up. A tip on the bottom or top of the box reaches
-    /// the boundary and opens there; others stay closed.
-    pub trace: Vec<[f64; 2]>,
-    /// What lies between them.
-    pub interpolation: Interpolation,
-    /// Sizes along the fault.
-    pub spacing: Spacing,
-    /// Thickness of the first cells across the fault \[m\]; the smallest size along it when none.
-    pub thickness: Option<f64>,
-    /// Lower corner of the box \[m\].
-    pub min: [f64; 2],
-    /// Upper corner of the box \[m\]; its upper side is the free surface.
-    pub max: [f64; 2],
-    /// Largest ratio of neighbouring sizes away from the fault, at least 1 \[-\].
-    pub growth: f64,
-    /// quad4, quad8 or quad9; edges are straight.
-    pub kind: ElementKind,
-}
 
 /// A mesh that is split along its fault.
 #[derive(Clone, Debug, PartialEq)]

@@ -15,39 +15,15 @@
 mod error;
 mod fans;
 mod orient;
+mod spec;
 mod surface;
 
 pub use error::SplitError;
+pub use spec::Surface;
 
 use super::{Mesh, Side, face_nodes};
 use std::collections::BTreeSet;
 use surface::InnerFace;
-
-/// A surface inside a body.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Surface<const D: usize> {
-    /// Name: the new side sets are `NAME.minus` and `NAME.plus`.
-    pub name: String,
-    /// Nodes of each face, corners first; nodes beyond the corners may be left out.
-    pub faces: Vec<Vec<usize>>,
-    /// A direction that points from the minus to the plus side, on average over each connected piece \[any length\].
-    pub towards_plus: Option<[f64; D]>,
-}
-
-impl<const D: usize> Surface<D> {
-    /// The surface that a set of sides forms. Minus is where the cell of the first side lies.
-    ///
-    /// # Errors
-    /// [`SplitError::UnknownSet`] with the sets that exist.
-    pub fn from_side_set(mesh: &Mesh<D>, name: &str) -> Result<Self, SplitError> {
-        let sides = mesh.side_sets.get(name).ok_or_else(|| SplitError::UnknownSet {
-            name: name.to_string(),
-            existing: mesh.side_sets.keys().cloned().collect(),
-        })?;
-        let faces = sides.iter().map(|s| face_nodes(mesh, s)).collect();
-        Ok(Self { name: name.to_string(), faces, towards_plus: None })
-    }
-}
 
 /// A node of the minus side and the node of the plus side at the same place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

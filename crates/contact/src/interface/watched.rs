@@ -1,0 +1,221 @@
+//! Whether a step of an interface is one that can be followed.
+
+use super::Interface;
+use crate::shear::Shear;
+use crate::status::{Status, label};
+use crate::vector::norm;
+use crate::watch::{Course, RateLimit, Watch};
+use asperity_fem::term::Objection;
+use asperity_friction::Failure;
+use asperity_friction::law::Regime;
+
+/// A point that leaves rest drops where its traction falls by more than this share: what falls with the normal traction over a
+/// short step is less.
+const DROP: f64 = 1e-3;
+/// Share of the area in contact that may let go within a step of a law whose strength drops at once. What lets go in parts is held by
+/// the rest; more than half of it at once is not.
+const AT_ONCE: f64 = 0.5;
+/// How near to its strength, over the strength, the traction of a sticking point is that is taken for being there: normal tractions change by less along
+/// the shortest steps.
+const NEAR: f64 = 1e-3;
+/// Pa in a MPa.
+const MEGA: f64 = 1e6;
+/// Rounding of the slope of a law's answer, over 1.
+const ROUNDING: f64 = 1e-9;
+
+impl<const D: usize> Interface<D> {
+    /// Sets what steps may not do; nothing is watched before.
+    pub fn set_watch(&mut self, watch: Watch) {
+        self.watch = watch;
+    }
+
+    /// Slip of the last step over the largest the course of the law allows; 0 where it allows any \[-\].
+    #[must_use]
+    pub fn fill(&self) -> f64 {
+        let Some(shear) = &self.shear else { return 0.0 };
+        let slips = self.motion.committed.step.iter().enumerate();
+        let slip = |most: f64, counts: &dyn Fn(usize) -> bool| {
+            slips.filter(|(p, _)| counts(*p)).map(|(_, s)| norm(s) / most).fold(0.0, f64::max)
+        };
+        match self.watch.course {
+            Course::Steady | Course::Drop => 0.0,
+            Course::State { most } => slip(most, &|_| true),
+            Course::Branch { most, length } => slip(most, &|p| shear.committed.states[p] < length),
+        }
+    }
+
+    /// The point that slips fastest in the committed state, with its slip rate \[m/s\].
+    #[must_use]
+    pub fn fastest(&self) -> Option<(usize, f64)> {
+        let rates = self.fields.slip_rate.iter().map(|v| v.abs()).enumerate();
+        rates.reduce(|a, b| if b.1 > a.1 { b } else { a })
+    }
+
+    /// Reference position of slave point `p`, padded to three components \[m\].
+    #[must_use]
+    pub fn place(&self, p: usize) -> [f64; 3] {
+        let x = &self.nodes[self.slave[p].node].position;
+        std::array::from_fn(|c| if c < D { x[c] } else { 0.0 })
+    }
+
+    /// The point that lost strength with slip fastest in the trial dropped last, or one that stands at the strength it would lose.
+    #[must_use]
+    pub fn weakens(&self) -> Option<usize> {
+        self.soft.or_else(|| self.stands_at_strength())
+    }
+
+    /// A point of a law that loses strength by slipping that has all but reached it: Newton's method turns between sticking and slipping
+    /// there where neither is in balance.
+    fn stands_at_strength(&self) -> Option<usize> {
+        let falls = matches!(self.watch.course, Course::Branch { .. } | Course::Drop);
+        let shear = self.shear.as_ref().filter(|_| falls)?;
+        let normal: Vec<f64> = self.contact.committed.iter().map(|c| c.traction).collect();
+        let state = &shear.committed;
+        let mut mu = vec![0.0; normal.len()];
+        shear.law.coefficient(&normal, &state.rate, &state.states, &mut mu).ok()?;
+        let strength = |p: usize| mu[p] * normal[p];
+        // A law that drops at once has nothing left to lose where it slips.
+        let dropped = |p: usize| self.watch.course == Course::Drop && state.regime[p] == Regime::Slip;
+        let stands = |p: usize| norm(&state.traction[p]) >= (1.0 - NEAR) * strength(p);
+        (0..normal.len()).find(|&p| strength(p) > 0.0 && !dropped(p) && stands(p))
+    }
+
+    /// Keeps the point at which a law weakens faster than the spring behind it unloads.
+    pub(crate) fn note_softness(&mut self, failure: &Failure) {
+        if let (Failure::Unstable { point, .. }, Some(shear)) = (failure, &self.shear) {
+            self.soft = shear.slices.index.get(*point).copied();
+        }
+    }
+
+    /// The point that loses strength with slip fastest in the present trial state.
+    pub(crate) fn softest(&self) -> Option<usize> {
+        let shear = self.shear.as_ref()?;
+        let points = shear.points.iter().zip(&shear.trial.regime).enumerate();
+        let softest =
+            points.filter(|(_, (_, regime))| **regime == Regime::Slip).map(|(p, (s, _))| (p, s.d_trial));
+        match self.watch.course {
+            Course::Steady => None,
+            Course::Drop => (0..shear.points.len()).find(|&p| lets_go(shear, p)),
+            Course::State { .. } | Course::Branch { .. } => softest
+                .filter(|(_, d)| softens(*d))
+                .reduce(|a, b| if b.1 < a.1 { b } else { a })
+                .map(|(p, _)| p),
+        }
+    }
+
+    /// Why the trial state should not be accepted.
+    pub(crate) fn objects(&self) -> Option<Objection> {
+        let shear = self.shear.as_ref()?;
+        self.leaps(shear).or_else(|| self.runs_away(shear)).or_else(|| self.stands_too_coarsely(shear))
+    }
+
+    /// A point slides under more normal traction than the points resolve.
+    fn stands_too_coarsely(&self, shear: &Shear) -> Option<Objection> {
+        let most = self.watch.coarse_beyond?;
+        let slides = |p: &usize| {
+            let (contact, rate) = (&self.contact.trial[*p], shear.trial.rate[*p].abs());
+            let status = label(shear.trial.regime[*p], rate, self.label_rate);
+            contact.closed && contact.traction > most && status == Status::Slip
+        };
+        let normal = |p: usize| self.contact.trial[p].traction;
+        let p = (0..self.slave.len()).filter(slides).max_by(|&a, &b| normal(a).total_cmp(&normal(b)))?;
+        let reason = format!("slides under {:.4} MPa", normal(p) / MEGA);
+        Some(Objection { coarse: true, ..self.objection_at(shear, p, &reason, false) })
+    }
+
+    /// The trial state lies beyond what a step may span.
+    fn leaps(&self, shear: &Shear) -> Option<Objection> {
+        let slip = |p: usize| norm(&self.motion.trial.step[p]);
+        let farthest = |counts: &dyn Fn(usize) -> bool| {
+            (0..self.slave.len()).filter(|&p| counts(p)).max_by(|&a, &b| slip(a).total_cmp(&slip(b)))
+        };
+        match self.watch.course {
+            Course::Steady => None,
+            Course::State { most } => {
+                let soft =
+                    |p: usize| shear.trial.regime[p] == Regime::Slip && softens(shear.points[p].d_trial);
+                let p = farthest(&|p| slip(p) > most || soft(p))?;
+                let reason =
+                    format!("slips by {:.3e} m within a step, and the law weakens over less", slip(p));
+                Some(self.objection_at(shear, p, &reason, true))
+            }
+            Course::Branch { most, length } => {
+                // Only the part of the slip along which the law weakens counts.
+                let along = |p: usize| slip(p).min(length - shear.committed.states[p]);
+                let p = farthest(&|p| along(p) > most)?;
+                let reason =
+                    format!("slips by {:.3e} m at once while it weakens over {length:.3e} m", slip(p));
+                Some(self.objection_at(shear, p, &reason, true))
+            }
+            Course::Drop => self.lets_go_at_once(shear),
+        }
+    }
+
+    /// More of the surface leaves rest within the step, with a drop of its traction, than the rest of it holds.
+    fn lets_go_at_once(&self, shear: &Shear) -> Option<Objection> {
+        let area = |p: usize| self.fields.area[p];
+        let held = |p: &usize| self.contact.committed[*p].closed && self.contact.trial[*p].closed;
+        let closed: f64 = (0..self.slave.len()).filter(held).map(area).sum();
+        let gone: Vec<usize> = (0..self.slave.len()).filter(held).filter(|&p| lets_go(shear, p)).collect();
+        let share = gone.iter().map(|&p| area(p)).sum::<f64>() / closed;
+        if share.is_nan() || share <= AT_ONCE {
+            return None;
+        }
+        let slip = |p: usize| norm(&self.motion.trial.step[p]);
+        let p = gone.into_iter().max_by(|&a, &b| slip(a).total_cmp(&slip(b)))?;
+        let reason = format!(
+            "slips by {:.3e} m as {:.0} % of the surface in contact lets go at once",
+            slip(p),
+            1e2 * share
+        );
+        Some(self.objection_at(shear, p, &reason, true))
+    }
+
+    /// A slip rate beyond the limit.
+    fn runs_away(&self, shear: &Shear) -> Option<Objection> {
+        let limit = self.watch.rate?;
+        let closed = |p: &usize| self.contact.trial[*p].closed;
+        let normal = self.contact.trial.iter().filter(|c| c.closed).map(|c| c.traction).fold(0.0, f64::max);
+        let rate = |p: usize| shear.trial.rate[p].abs();
+        let p = (0..self.slave.len()).filter(closed).max_by(|&a, &b| rate(a).total_cmp(&rate(b)))?;
+        let most = limit.under(normal);
+        // Without normal traction there is no friction, and slip is what the bodies do.
+        if normal <= 0.0 || rate(p) <= most {
+            return None;
+        }
+        let why = match limit {
+            RateLimit::Stated(_) => "`slip_rate_limit` of the scene",
+            RateLimit::Damped { .. } => "at which radiated waves carry as much as the direct effect",
+        };
+        Some(self.objection_at(
+            shear,
+            p,
+            &format!("reaches {:.3e} m/s, beyond {most:.3e} m/s, {why}", rate(p)),
+            false,
+        ))
+    }
+
+    fn objection_at(&self, shear: &Shear, p: usize, reason: &str, shorter: bool) -> Objection {
+        Objection {
+            term: self.name.clone(),
+            reason: format!("node {} {reason}", self.label(p)),
+            position: self.place(p),
+            rate: shear.trial.rate[p].abs(),
+            shorter,
+            coarse: false,
+        }
+    }
+}
+
+/// Whether traction falls with slip at an answer: the slope is H/(E_t + H) with H < 0, beyond 1 where the spring is softer still.
+fn softens(slope: f64) -> bool {
+    !(-ROUNDING..=1.0 + ROUNDING).contains(&slope)
+}
+
+/// Whether a point leaves rest in the trial state, with a drop of its traction.
+fn lets_go(shear: &Shear, p: usize) -> bool {
+    let (before, after) = (norm(&shear.committed.traction[p]), norm(&shear.trial.traction[p]));
+    shear.committed.regime[p] == Regime::Stick
+        && shear.trial.regime[p] == Regime::Slip
+        && after < before * (1.0 - DROP)
+}

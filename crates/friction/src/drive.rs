@@ -1,0 +1,31 @@
+//! What acts on the points of a fault.
+
+use crate::slider::Forcing;
+
+/// What acts on a slice of points at an instant.
+#[derive(Clone, Copy, Debug)]
+pub struct Drive<'a> {
+    /// f_n > 0 \[Pa\].
+    pub normal: &'a [f64],
+    /// df_n/dt \[Pa/s\]; none where f_n does not change.
+    pub normal_rate: Option<&'a [f64]>,
+    /// dτ/dt of the driving shear traction \[Pa/s\], component by component.
+    pub shear_rate: &'a [f64],
+    /// η ≥ 0 \[Pa s/m\].
+    pub damping: &'a [f64],
+}
+
+impl Drive<'_> {
+    /// What acts on a point.
+    pub(crate) fn forcing(&self, point: usize) -> Forcing {
+        Forcing {
+            normal: self.normal[point],
+            normal_rate: self.normal_rate.map_or(0.0, |r| r[point]),
+            pull: self.shear_rate[point],
+            stiffness: 0.0,
+            damping: self.damping[point],
+            mass: None,
+            imposed: None,
+        }
+    }
+}
