@@ -297,6 +297,7 @@ impl<const D: usize> Interface<D> {
                 let df = -c.stiffness * dg;
                 (df < 0.0 && c.traction > rest).then(|| (c.traction / -df, "r5"))
             } else {
+                let gap = gap - self.offset(p);
                 (self.geometry.paired[p] && dg < 0.0 && gap > self.penalty.closure).then(|| (gap / -dg, "r4"))
             };
             if let Some((r, name)) = found

@@ -75,6 +75,8 @@ pub struct Interface<const D: usize> {
     pub(crate) unknowns: Option<Box<Unknowns>>,
     /// Gaps at which bonded points were tied \[m\]; absent where points may part.
     pub(crate) tied: Option<Vec<f64>>,
+    /// Normal tractions about which the penalty acts, where the interface was pressed before anything moved \[Pa\].
+    pub(crate) pressed: Option<Vec<f64>>,
     /// See [`Shear::touch`].
     touch: [f64; 2],
     pub(crate) rate_floor: f64,
@@ -121,6 +123,7 @@ impl<const D: usize> Interface<D> {
             multipliers: Multipliers::of(&spec.enforcement, n),
             unknowns: None,
             tied: None,
+            pressed: None,
             rate_floor: spec.rate_floor,
             rate_bounds: spec.rate_bounds,
             label_rate: spec.label_rate,
@@ -197,6 +200,10 @@ impl<const D: usize> Interface<D> {
         self.motion = Kept::new(Motion::new(n));
         self.previous_dt = None;
         self.tie();
+        if self.tied.is_some() {
+            // Points are bonded without traction at the gaps they have by now.
+            self.pressed = None;
+        }
         self.renew_multipliers();
         self.refresh();
     }
@@ -210,7 +217,7 @@ impl<const D: usize> Interface<D> {
     /// Trial normal tractions at the geometry last measured.
     fn enforce(&mut self) {
         let (gap, out) = (&self.geometry.gap, &mut self.contact.trial);
-        let multiplier = self.multipliers.as_ref().map(|m| m.normal.as_slice());
+        let multiplier = self.multipliers.as_ref().map(|m| m.normal.as_slice()).or(self.pressed.as_deref());
         match (&self.tied, multiplier) {
             (Some(tied), _) => self.penalty.bonded(gap, tied, multiplier, out),
             (None, Some(multiplier)) => self.penalty.augmented(gap, multiplier, out),

@@ -16,6 +16,7 @@ mod history;
 mod interface;
 pub mod measure;
 pub mod observe;
+mod press;
 pub mod search;
 pub mod shape;
 mod shear;
@@ -28,6 +29,7 @@ pub use enforce::Enforcement;
 pub use error::ContactError;
 pub use interface::Interface;
 pub use observe::{Balance, PointFields, Work};
+pub use press::StartTraction;
 pub use spec::{
     InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding, Smoothing, SurfaceNode, TimeRule,
 };

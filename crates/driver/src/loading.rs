@@ -4,6 +4,7 @@ mod jumps;
 mod rotation;
 mod shared;
 
+use crate::initial_stress;
 use crate::model::{Model, bounds};
 use crate::plan::PlanError;
 use crate::scene::model::{Condition, Loading, Material, Motion, Scene, Spanned};
@@ -408,10 +409,10 @@ fn load_channel<const D: usize>(
 fn body_loads<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Channel>, PlanError> {
     let mut channels: Vec<Channel> = weights(scene, model)?.into_iter().map(|w| steady(w, 1.0)).collect();
     for body in &model.bodies {
-        let stress = initial_stress(&scene.bodies[&body.name]);
+        let stress = initial_stress::of_body(scene, &body.name);
         for block in body.blocks.clone() {
-            if let (Some(stress), Some(linear)) = (stress, model.blocks[block].linear()) {
-                channels.push(steady(linear.initial_stress(stress), -1.0));
+            if let (Some(stress), Some(linear)) = (&stress, model.blocks[block].linear()) {
+                channels.push(steady(linear.initial_stress_field(|x| stress.at(x)), -1.0));
             }
         }
     }
@@ -442,18 +443,6 @@ fn weights<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Vec<(u
         }
     }
     Ok(all)
-}
-
-/// The initial stress of a body, given in full, as xx, yy, xy or as yz, zx, as xx, yy, zz, xy, yz, zx \[Pa\].
-#[must_use]
-pub fn initial_stress(spec: &crate::scene::model::Body) -> Option<[f64; 6]> {
-    let values: Vec<f64> = spec.initial_stress.as_ref()?.get_ref().iter().map(|p| p.0).collect();
-    match values[..] {
-        [yz, zx] => Some([0.0, 0.0, 0.0, 0.0, yz, zx]),
-        [xx, yy, xy] => Some([xx, yy, 0.0, xy, 0.0, 0.0]),
-        [xx, yy, zz, xy, yz, zx] => Some([xx, yy, zz, xy, yz, zx]),
-        _ => None,
-    }
 }
 
 fn density_of(name: &str, material: &Material, place: Range<usize>) -> Result<f64, PlanError> {

@@ -4,10 +4,12 @@ use crate::cohesive::Resolved;
 use crate::enforcement::{Enforced, in_pascal_per_metre, in_words};
 use crate::fault;
 use crate::forecast::{self, Held};
+use crate::initial_stress::{self, StressField};
 use crate::loading::{self, Stage};
 use crate::model::{CellBlock, Model, sizes};
 use crate::penalty::{self, Softer};
 use crate::plan_doubts;
+use crate::pressed::{self, Pressed};
 use crate::rigid;
 use crate::samples::Wanted;
 use crate::scene::law::{self, LawChoice};
@@ -16,6 +18,7 @@ use crate::scene::model::{
     Scene, Sliding, Spanned, Stepper,
 };
 use crate::solver::{self, Solver};
+use crate::start_balance;
 use crate::start_gaps::StartGap;
 use crate::warning::Warning;
 use crate::watch;
@@ -85,6 +88,8 @@ pub struct PlannedInterface {
     pub softer: Softer,
     /// Its penalty in words, where that is so large that iterations suffer.
     pub blamed: Option<String>,
+    /// Tractions of the initial stress, where its bodies start with one.
+    pub pressed: Option<Pressed>,
     /// What its points resolve, where friction weakens with slip.
     pub resolved: Option<Resolved>,
     /// What steps may not do.
@@ -159,7 +164,7 @@ pub struct Plan<const D: usize> {
     /// Bodies.
     pub model: Model<D>,
     /// Initial stress per body.
-    pub initial_stress: Vec<Option<[f64; 6]>>,
+    pub initial_stress: Vec<Option<StressField>>,
     /// Interfaces.
     pub interfaces: Vec<PlannedInterface>,
     /// Stages.
@@ -328,6 +333,7 @@ pub fn plan(scene: &Scene) -> Result<AnyPlan, PlanError> {
 
 fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
     let model = Model::<D>::new(scene)?;
+    initial_stress::check(scene, &model)?;
     let stages = loading::stages(scene, &model)?;
     let stepping = stepping(scene)?;
     let loading = stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
@@ -341,14 +347,15 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
     let mut remarks = rigid::check(scene, &model, &stages, &interfaces)?;
     remarks.extend(sizes::of_files(scene, &model));
     let (start_gaps, doubts) = plan_doubts::of(scene, &model, (&interfaces, &stages), &stepping)?;
+    let (balance, unbalanced) = start_balance::of(scene, &model, (&interfaces, &stages), &stepping)?;
+    remarks.extend(balance);
     remarks.extend(interfaces.iter().filter_map(|i| Some(i.resolved.as_ref()?.remark(&i.name))));
     let solver = solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
     let mut summary = summary(scene, &model, &interfaces, path, &stepping, &solver, remarks);
     forecast::fits(scene, summary.memory_bytes)?;
     summary.start_gaps = start_gaps;
-    summary.warnings.extend(doubts);
-    let initial_stress =
-        model.bodies.iter().map(|b| loading::initial_stress(&scene.bodies[&b.name])).collect();
+    summary.warnings.extend(doubts.into_iter().chain(unbalanced));
+    let initial_stress = model.bodies.iter().map(|b| initial_stress::of_body(scene, &b.name)).collect();
     let samples = Wanted::new(scene, &model)?;
     Ok(Plan {
         title: scene.title.clone(),
@@ -429,6 +436,7 @@ fn interface<const D: usize>(
         law,
         blamed: penalty::blamed(name, &spec.enforcement, &softer),
         softer,
+        pressed: pressed::of(scene, model, (name, spec), slave_sides)?,
         watch: Watch { coarse_beyond: resolved.as_ref().and_then(Resolved::refused_beyond), ..watch },
         resolved,
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),

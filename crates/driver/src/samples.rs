@@ -1,5 +1,6 @@
 //! What a scene asks of its bodies beside fields: displacement and stress at points, forces on sets.
 
+use crate::initial_stress::StressField;
 use crate::loading::Stage;
 use crate::model::{CellBlock, Model};
 use crate::plan::PlanError;
@@ -106,7 +107,7 @@ impl Wanted {
     pub fn values<const D: usize>(
         &self,
         model: &Model<D>,
-        (blocks, initial): (&[CellBlock<D>], &[Option<[f64; 6]>]),
+        (blocks, initial): (&[CellBlock<D>], &[Option<StressField>]),
         (u, time): (&[f64], f64),
         beside: &[Beside],
     ) -> Samples {
@@ -142,7 +143,7 @@ impl Point {
     fn stress<const D: usize>(
         &self,
         model: &Model<D>,
-        (blocks, initial): (&[CellBlock<D>], &[Option<[f64; 6]>]),
+        (blocks, initial): (&[CellBlock<D>], &[Option<StressField>]),
         u: &[f64],
     ) -> [f64; 6] {
         let block = &blocks[self.block];
@@ -156,8 +157,8 @@ impl Point {
         }
         // Blocks that are not linear keep their initial stress themselves.
         let body = model.bodies.iter().position(|b| b.blocks.contains(&self.block));
-        if let (Some(initial), CellBlock::Linear(_)) = (body.and_then(|b| initial[b]), block) {
-            sum.iter_mut().zip(initial).for_each(|(s, t)| *s += t);
+        if let (Some(initial), CellBlock::Linear(_)) = (body.and_then(|b| initial[b].as_ref()), block) {
+            sum.iter_mut().zip(initial.at(&self.position)).for_each(|(s, t)| *s += t);
         }
         sum
     }

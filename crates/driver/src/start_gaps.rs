@@ -17,7 +17,7 @@ use std::fmt;
 
 /// Share of the element size from which an overlap or an opening at the start is told: less comes from facets about a curve, whose sagitta
 /// is h²/8R, a fortieth of h where eight facets span a radian.
-const SHARE: f64 = 0.1;
+pub const SHARE: f64 = 0.1;
 
 /// Rounding of a gap over the size of the scene: what the contact takes for closed without traction.
 const ROUNDING: f64 = 1e-12;

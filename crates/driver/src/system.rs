@@ -81,6 +81,9 @@ impl<'a, const D: usize> Assembled<'a, D> {
             let spec = spec(&plan.model, &plan.stepping, i, &number, largest_rate, unknowns);
             let mut interface = Interface::new(spec).map_err(|e| e.to_string())?;
             interface.set_watch(i.watch);
+            if let Some(pressed) = &i.pressed {
+                interface.press(&pressed.starts(), pressed.reach);
+            }
             interfaces.push(interface);
             unknowns += i.unknowns;
         }

@@ -188,10 +188,18 @@ pub fn body_fields<const D: usize>(plan: &Plan<D>, blocks: &[CellBlock<D>], u: &
         for index in body.blocks.clone() {
             let block = &blocks[index];
             // Blocks that are not linear keep their initial stress themselves.
-            let initial = initial.filter(|_| block.linear().is_some()).unwrap_or([0.0; 6]);
-            let add = |s: [f64; 6]| std::array::from_fn(|i| s[i] + initial[i]);
+            let add = |s: [f64; 6], x: &[f64; D]| match initial {
+                Some(initial) if block.linear().is_some() => {
+                    let initial = initial.at(x);
+                    std::array::from_fn(|i| s[i] + initial[i])
+                }
+                _ => s,
+            };
             let cells: Vec<[f64; 6]> = match block {
-                CellBlock::Linear(block) => block.cell_stress(u).into_iter().map(add).collect(),
+                CellBlock::Linear(block) => {
+                    let middles = block.cell_middles();
+                    block.cell_stress(u).into_iter().zip(&middles).map(|(s, x)| add(s, x)).collect()
+                }
                 CellBlock::Nonlinear(block) => block.cell_stress(),
             };
             if plastic {
@@ -201,7 +209,7 @@ pub fn body_fields<const D: usize>(plan: &Plan<D>, blocks: &[CellBlock<D>], u: &
             for (node, stress) in nodal_stress(plan, block, (index, &cells), u) {
                 let (sum, count) = &mut sums[node];
                 *count += 1.0;
-                let stress: [f64; 6] = if block.linear().is_some() { add(stress) } else { stress };
+                let stress = add(stress, &plan.model.mesh.nodes[node]);
                 sum.iter_mut().zip(stress).for_each(|(a, b)| *a += b);
             }
             fields.cell_mises.extend(cells.iter().map(von_mises));

@@ -2,7 +2,9 @@
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_driver::report::{Outcome, RunReport};
-use asperity_driver::scene::model::{FaultMesh, Interface, Measure, MeshSource, Scene, SpacingSpec, here};
+use asperity_driver::scene::model::{
+    FaultMesh, InitialStress, Interface, Measure, MeshSource, Scene, SpacingSpec, here,
+};
 use asperity_driver::scene::units::{Length, Penalty};
 use asperity_driver::{plan, run as driver_run, scene as reader};
 use asperity_output::Recorder;
@@ -371,7 +373,9 @@ fn inclined(ledger: &mut Ledger) -> Result<(), CaseError> {
     mesh(&mut scene)?.trace =
         here([-1.0, -0.5, 0.0, 0.5, 1.0].map(|t| [Length(t * sin), Length(t * cos)]).to_vec());
     let stress = scene.bodies.get_mut("plane").and_then(|b| b.initial_stress.as_mut());
-    let values = stress.ok_or("the scene has no initial stress")?.get_mut();
+    let InitialStress::Uniform(values) = stress.ok_or("the scene has no initial stress")?.get_mut() else {
+        return Err("the initial stress varies".into());
+    };
     values.iter_mut().zip([0.0, -COMPRESSION, 0.0]).for_each(|(v, s)| v.0 = s);
     let done = simulate(&scene)?;
     ledger

@@ -4,11 +4,11 @@
 //! `τ_0 = s·σn`. The bodies are taken to be in equilibrium under it at the start, whatever holds it at their outer faces: what loads and slip change comes on top.
 
 use super::place::{Place, across};
-use crate::loading;
+use crate::initial_stress;
 use crate::model::Model;
 use crate::plan::PlanError;
 use crate::rigid;
-use crate::scene::model::{Body, Fault as Spec, Scene, SlipSpec, Spanned};
+use crate::scene::model::{Body, Fault as Spec, InitialStress, Scene, SlipSpec, Spanned};
 use std::ops::Range;
 
 /// Difference of the tractions on both sides over their size up to which they balance: rounding of stresses given in the scene.
@@ -45,8 +45,8 @@ pub(crate) fn body_of<'a>(scene: &'a Scene, side: &Spanned<String>) -> Option<&'
 }
 
 /// Whether stress is given with its components in the plane.
-pub(crate) fn presses(stress: &Spanned<Vec<crate::scene::units::Pressure>>) -> bool {
-    stress.get_ref().len() > 2
+pub(crate) fn presses(stress: &Spanned<InitialStress>) -> bool {
+    !matches!(stress.get_ref(), InitialStress::Uniform(values) if values.len() <= 2)
 }
 
 impl<'a> Prestress<'a> {
@@ -54,7 +54,7 @@ impl<'a> Prestress<'a> {
     pub fn new(scene: &'a Scene, (name, spec): (&'a str, &'a Spec)) -> Option<Self> {
         let bodies = [&spec.minus, &spec.plus].map(|side| body_of(scene, side));
         let given = bodies.iter().flatten().find_map(|b| b.initial_stress.as_ref())?;
-        let stress = |body: &Option<&Body>| body.and_then(loading::initial_stress).unwrap_or([0.0; 6]);
+        let stress = |body: &Option<&Body>| body.and_then(initial_stress::uniform).unwrap_or([0.0; 6]);
         let sides = [stress(&bodies[0]), stress(&bodies[1])];
         Some(Self { name, sides, presses: presses(given), place: given.span(), spec })
     }

@@ -7,6 +7,7 @@ pub mod sizes;
 
 use self::cell_size::cell_size;
 use crate::forecast::{self, Counts};
+use crate::initial_stress;
 use crate::plan::PlanError;
 use crate::scene::model as scene;
 use crate::scene::near::suggest;
@@ -156,7 +157,13 @@ impl<const D: usize> Model<D> {
             for block in blocks.clone() {
                 let (_, material) = model.material(scene, (name, body), block)?;
                 elastic.push(materials::elastic(material)?);
-                model.blocks.push(cell_block(&model.mesh, block, (name, body), material, idealisation)?);
+                model.blocks.push(cell_block(
+                    (scene, &model.mesh),
+                    block,
+                    (name, body),
+                    material,
+                    idealisation,
+                )?);
             }
             let parts = connected(&model.mesh, nodes.clone(), blocks.clone());
             let linear = model.blocks[blocks.clone()].iter().all(|b| b.linear().is_some());
@@ -376,7 +383,7 @@ fn counts<const D: usize>(mesh: &Mesh<D>) -> Vec<Counts> {
 
 /// The one place where it is decided whether cells are linear.
 fn cell_block<const D: usize>(
-    mesh: &Mesh<D>,
+    (scene, mesh): (&scene::Scene, &Mesh<D>),
     block: usize,
     (name, body): (&str, &scene::Body),
     material: &scene::Material,
@@ -403,9 +410,12 @@ fn cell_block<const D: usize>(
     let mut term = nonlinear::Block::new(mesh, block, model)
         .map_err(|e| PlanError::body(name, place, e.to_string()))?
         .named(format!("body `{name}`, cells {block}"));
-    if let (Some(stress), Some(given)) = (crate::loading::initial_stress(body), &body.initial_stress) {
-        admissible(&stress, &term.model().material)
-            .and_then(|()| term.prestress(|_, _| stress).map_err(|e| e.to_string()))
+    if let (Some(stress), Some(given)) = (initial_stress::of_body(scene, name), &body.initial_stress) {
+        let everywhere = mesh.blocks[block].connectivity.iter().map(|&n| stress.at(&mesh.nodes[n]));
+        let borne = everywhere.map(|s| admissible(&s, &term.model().material)).find(Result::is_err);
+        borne
+            .unwrap_or(Ok(()))
+            .and_then(|()| term.prestress_field(|x| stress.at(x)).map_err(|e| e.to_string()))
             .map_err(|e| PlanError::body(name, given.span(), e))?;
     }
     Ok(CellBlock::Nonlinear(Box::new(term)))

@@ -11,6 +11,7 @@ mod meshes;
 mod output;
 mod place;
 mod solver;
+mod stress;
 mod time;
 mod unused;
 

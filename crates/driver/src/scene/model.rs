@@ -7,6 +7,7 @@ mod body;
 mod fault;
 mod place;
 mod solver;
+mod stress;
 
 use super::law::Several;
 use super::slider::EventSpec;
@@ -16,10 +17,12 @@ pub use body::*;
 pub use fault::*;
 pub use place::Place;
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 pub use serde_spanned::Spanned;
 pub use solver::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+pub use stress::*;
 
 /// A value without a place in a file, for scenes built in Rust.
 pub fn here<T>(value: T) -> Spanned<T> {
@@ -100,6 +103,16 @@ pub struct Interface {
     pub law: Option<Spanned<LawSpec>>,
     /// What to do where points stand too coarsely for friction that weakens; absent: the scene is refused, or the run stops.
     pub under_resolved: Option<Spanned<UnderResolved>>,
+    /// Whether it starts with the tractions of the initial stress of its bodies; absent: it does not.
+    pub initial_stress: Option<Spanned<bool>>,
+    /// Key of a fault; refused here.
+    pub normal: Option<Spanned<IgnoredAny>>,
+    /// Key of a fault; refused here.
+    pub shear: Option<Spanned<IgnoredAny>>,
+    /// Key of a fault; refused here.
+    pub rate: Option<Spanned<IgnoredAny>>,
+    /// Key of a fault; refused here.
+    pub profiles: Option<Spanned<IgnoredAny>>,
 }
 
 /// Measures that exist.

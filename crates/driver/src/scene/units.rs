@@ -22,6 +22,8 @@ pub enum Dimension {
     Stiffness,
     /// \[Pa/m\], of a spring per area.
     Spring,
+    /// \[Pa/m\], of a stress along an axis.
+    Gradient,
     /// \[Pa s/m\].
     Damping,
     /// \[kg/m²\].
@@ -46,6 +48,7 @@ impl Dimension {
             Self::Density => "a density",
             Self::Stiffness => "a contact stiffness",
             Self::Spring => "a stiffness",
+            Self::Gradient => "a gradient of stress",
             Self::Damping => "a damping",
             Self::Mass => "a mass per area",
             Self::Viscosity => "a viscosity",
@@ -63,6 +66,7 @@ impl Dimension {
             Self::Density => "a density such as \"2700 kg/m^3\" or a number in kg/m^3",
             Self::Stiffness => "a penalty such as \"100 E/h\" or \"1e12 Pa/m\" or a number in Pa/m",
             Self::Spring => "a stiffness such as \"1.25 GPa/m\" or a number in Pa/m",
+            Self::Gradient => "a gradient of stress such as \"26 MPa/km\" or a number in Pa/m",
             Self::Damping => "a damping such as \"5 MPa s/m\" or a number in Pa s/m",
             Self::Mass => "a mass per area such as \"3000 kg/m^2\" or a number in kg/m^2",
             Self::Viscosity => "a viscosity such as \"1e19 Pa s\" or a number in Pa s",
@@ -79,7 +83,7 @@ impl Dimension {
             Self::Velocity => "m/s, mm/s, um/s, mm/yr and other lengths per time",
             Self::Density => "kg/m^3, g/cm^3",
             Self::Stiffness => "E/h, Pa/m, MPa/mm and other pressures per length",
-            Self::Spring => "Pa/m, MPa/mm and other pressures per length",
+            Self::Spring | Self::Gradient => "Pa/m, MPa/mm and other pressures per length",
             Self::Damping => "Pa s/m, MPa s/m and other pressures times s/m",
             Self::Mass => "kg/m^2",
             Self::Viscosity => "Pa s, GPa yr and other pressures times times",
@@ -223,9 +227,9 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, String> {
     let Some(unit) = unit(name) else {
         return refuse(&format!("there is no unit `{name}`; units here are {}", wanted.units()));
     };
-    // A stiffness is a stiffness, of a contact or of a spring.
-    let same =
-        unit.dimension == wanted || (unit.dimension == Dimension::Stiffness && wanted == Dimension::Spring);
+    // A pressure per length is one, of a contact, of a spring or along an axis.
+    let per_length = matches!(wanted, Dimension::Spring | Dimension::Gradient);
+    let same = unit.dimension == wanted || (unit.dimension == Dimension::Stiffness && per_length);
     if !same {
         return match (wanted, unit.dimension) {
             (Dimension::Spring | Dimension::Stiffness, Dimension::Pressure) => refuse(
@@ -304,6 +308,8 @@ quantity! {
     Density: Density,
     /// A stiffness per area \[Pa/m\].
     Spring: Spring,
+    /// Change of a stress per length \[Pa/m\].
+    Gradient: Gradient,
     /// Radiation damping \[Pa s/m\].
     Damping: Damping,
     /// A mass per area \[kg/m²\].

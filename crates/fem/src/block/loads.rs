@@ -46,12 +46,19 @@ impl<const D: usize> LinearBlock<D> {
     /// gives the same forces, as its projection keeps the integral of the dilatation).
     #[must_use]
     pub fn initial_stress(&self, stress: [f64; 6]) -> Vec<(usize, f64)> {
+        self.initial_stress_field(|_| stress)
+    }
+
+    /// As [`LinearBlock::initial_stress`], of the stress at each position. B-bar would give other forces where the mean stress varies; these
+    /// are in balance with the tractions on the faces and the body forces of the field.
+    pub fn initial_stress_field(&self, stress: impl Fn(&[f64; D]) -> [f64; 6]) -> Vec<(usize, f64)> {
         const ROWS: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
         let components = self.idealisation.components();
         let mut forces: BTreeMap<usize, f64> = BTreeMap::new();
         for cell in 0..self.cells.len() {
             let geometry = self.geometry().cell(cell);
             for (q, volume) in geometry.volumes.iter().enumerate() {
+                let stress = stress(&geometry.positions[q]);
                 let nodes = self.cells.cell(cell).iter().zip(geometry.gradients(q)).zip(geometry.shapes(q));
                 for ((&node, gradient), n) in nodes {
                     for c in 0..components {

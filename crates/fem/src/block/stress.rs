@@ -106,6 +106,21 @@ impl<const D: usize> LinearBlock<D> {
         self.cell_means(u, |s| s.strain)
     }
 
+    /// Middle of the volume of each cell \[m\].
+    #[must_use]
+    pub fn cell_middles(&self) -> Vec<[f64; D]> {
+        let middle = |cell: usize| {
+            let geometry = self.geometry().cell(cell);
+            let volume: f64 = geometry.volumes.iter().sum();
+            let mut sum = [0.0; D];
+            for (x, v) in geometry.positions.iter().zip(geometry.volumes) {
+                sum.iter_mut().zip(x).for_each(|(s, x)| *s += v * x);
+            }
+            sum.map(|s| s / volume)
+        };
+        (0..self.cells.len()).map(middle).collect()
+    }
+
     fn cell_means(&self, u: &[f64], part: impl Fn(&PointState) -> [f64; 6]) -> Vec<[f64; 6]> {
         (0..self.cells.len())
             .map(|cell| {

@@ -97,6 +97,28 @@ impl<const D: usize> Block<D> {
         Ok(())
     }
 
+    /// As [`Block::prestress`], of the stress at each position.
+    ///
+    /// # Errors
+    /// As [`Block::prestress`].
+    pub fn prestress_field(&mut self, stress: impl Fn(&[f64; D]) -> Voigt) -> Result<(), ModelError> {
+        let body = &self.body;
+        let at = |cell: usize, point: usize| {
+            let mut x = [0.0; D];
+            let shapes = body.frame.n.chunks_exact(body.frame.nodes).nth(point).unwrap_or_default();
+            for (&node, n) in body.cells.cell(cell).iter().zip(shapes) {
+                x.iter_mut().zip(&body.reference[node]).for_each(|(x, p)| *x += n * p);
+            }
+            x
+        };
+        let points = body.frame.points();
+        let places: Vec<[f64; D]> = (0..body.cells.len())
+            .flat_map(|c| (0..points).map(move |q| (c, q)))
+            .map(|(c, q)| at(c, q))
+            .collect();
+        self.prestress(|cell, point| stress(&places[cell * points + point]))
+    }
+
     /// Bytes of the block with its history.
     #[must_use]
     pub fn bytes(&self) -> usize {

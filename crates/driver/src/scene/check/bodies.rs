@@ -1,7 +1,7 @@
 //! Bodies: their materials and the forces on them.
 
 use super::Checker;
-use crate::scene::model::{Body, Formulation, Kinematics, Strain};
+use crate::scene::model::{Body, Formulation, Strain};
 use crate::scene::near::suggest;
 
 impl Checker<'_> {
@@ -79,28 +79,6 @@ impl Checker<'_> {
                 );
             }
         }
-        if let Some(stress) = &body.initial_stress {
-            let given = stress.get_ref().len();
-            let (short, right) = match (self.dimension(), self.is_antiplane()) {
-                (_, true) => (2, "[yz, zx] or [xx, yy, zz, xy, yz, zx]"),
-                (2, _) => (3, "[xx, yy, xy] or [xx, yy, zz, xy, yz, zx]"),
-                _ => (6, "[xx, yy, zz, xy, yz, zx]"),
-            };
-            if given != 6 && given != short {
-                self.error(
-                    stress.span(),
-                    format!("`initial_stress` has {given} components"),
-                    format!("in {} give {right}", self.idealisation()),
-                );
-            }
-            let sheet = *self.scene.kinematics.get_ref() == Kinematics::PlaneStress;
-            if let (true, 6, Some(zz)) = (sheet, given, stress.get_ref().get(2).filter(|z| z.0 != 0.0)) {
-                self.error(
-                    stress.span(),
-                    format!("an initial stress zz of {:e} Pa in plane stress", zz.0),
-                    "in plane stress zz is 0",
-                );
-            }
-        }
+        self.initial_stress(name, body);
     }
 }

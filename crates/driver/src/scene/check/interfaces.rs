@@ -18,6 +18,31 @@ const MOST_FRICTION: f64 = 4.0;
 type Side = (String, usize, usize);
 
 impl Checker<'_> {
+    /// What faults are told of their start, interfaces find out or are told elsewhere.
+    fn keys_of_faults(&mut self, name: &str, interface: &Interface) {
+        let tractions = "loads press an interface, or the `initial_stress` of its bodies with `initial_stress = true` in the interface, which brings normal and \
+                         shear tractions";
+        let keys = [
+            ("normal", &interface.normal, tractions),
+            ("shear", &interface.shear, tractions),
+            ("rate", &interface.rate, "the state at the start is steady at `v_initial` of the law"),
+            (
+                "profiles",
+                &interface.profiles,
+                "parameters are the same all over an interface: make two sets and an interface of each, with its own law",
+            ),
+        ];
+        for (key, place, help) in keys {
+            if let Some(place) = place {
+                self.error(
+                    place.span(),
+                    format!("interface `{name}` has no `{key}`: it is a key of faults"),
+                    help,
+                );
+            }
+        }
+    }
+
     pub(super) fn interfaces(&mut self) {
         for (name, interface) in &self.scene.interfaces {
             self.name("an interface", name, interface.slave.span());
@@ -43,6 +68,7 @@ impl Checker<'_> {
                 ),
                 _ => {}
             }
+            self.keys_of_faults(name, interface);
             if let Some(key) = interface.under_resolved.as_ref().filter(|_| interface.law.is_none()) {
                 self.error(
                     key.span(),

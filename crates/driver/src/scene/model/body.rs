@@ -1,5 +1,6 @@
 //! Materials, bodies and meshes as a scene declares them.
 
+use super::stress::InitialStress;
 use crate::scene::exact::{self, Exactly};
 use crate::scene::units::{Density, Length, Pressure, Viscosity};
 use asperity_fem::kinematics::Idealisation;
@@ -144,8 +145,8 @@ pub struct Body {
     /// Size of strains.
     #[serde(default)]
     pub strain: Option<Spanned<Strain>>,
-    /// Uniform initial stress [xx, yy, xy], in antiplane motion [yz, zx], or [xx, yy, zz, xy, yz, zx] \[Pa\], tension positive.
-    pub initial_stress: Option<Spanned<Vec<Pressure>>>,
+    /// Stress at the start.
+    pub initial_stress: Option<Spanned<InitialStress>>,
     /// Acceleration acting on the body's mass \[m/s²\], one entry per component of the displacement.
     pub gravity: Option<Spanned<Vec<f64>>>,
 }

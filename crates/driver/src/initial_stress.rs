@@ -1,0 +1,144 @@
+//! The stress that a body starts with, as a field.
+
+use crate::model::{Model, bounds};
+use crate::plan::PlanError;
+use crate::scene::check::brief;
+use crate::scene::model::{Axis, Body, InitialStress, Scene, Spanned, StressKind, VaryingStress};
+
+/// Heights above the level of a lithostatic stress that are rounding, over the size of the scene.
+const ROUNDING: f64 = 1e-9;
+
+/// A stress xx, yy, zz, xy, yz, zx \[Pa\] that varies linearly along an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StressField {
+    /// At the level \[Pa\].
+    stress: [f64; 6],
+    /// \[Pa/m\].
+    gradient: [f64; 6],
+    axis: usize,
+    /// Coordinate along the axis \[m\].
+    level: f64,
+}
+
+impl StressField {
+    /// At a place.
+    #[must_use]
+    pub fn at(&self, x: &[f64]) -> [f64; 6] {
+        let distance = x[self.axis] - self.level;
+        std::array::from_fn(|i| self.stress[i] + self.gradient[i] * distance)
+    }
+
+    /// The traction on a face with this normal, of any length \[Pa times that\].
+    #[must_use]
+    pub fn traction<const D: usize>(&self, x: &[f64; D], normal: &[f64; D]) -> [f64; D] {
+        const ROWS: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+        let s = self.at(x);
+        std::array::from_fn(|i| (0..D).map(|j| s[ROWS[i][j]] * normal[j]).sum())
+    }
+
+    fn uniform(stress: [f64; 6]) -> Self {
+        Self { stress, gradient: [0.0; 6], axis: 0, level: 0.0 }
+    }
+}
+
+/// The stress of a body, where it has one that is complete.
+#[must_use]
+pub fn of_body(scene: &Scene, name: &str) -> Option<StressField> {
+    let body = scene.bodies.get(name)?;
+    match body.initial_stress.as_ref()?.get_ref() {
+        InitialStress::Uniform(_) => uniform(body).map(StressField::uniform),
+        InitialStress::Varying(stress) => match stress.kind.get_ref() {
+            StressKind::Linear => linear(stress),
+            StressKind::Lithostatic => lithostatic(scene, body, stress),
+        },
+    }
+}
+
+/// The stress of a body that is the same everywhere.
+#[must_use]
+pub fn uniform(body: &Body) -> Option<[f64; 6]> {
+    match body.initial_stress.as_ref()?.get_ref() {
+        InitialStress::Uniform(values) => in_full(&values.iter().map(|p| p.0).collect::<Vec<f64>>()),
+        InitialStress::Varying(_) => None,
+    }
+}
+
+/// A list given in full, as xx, yy, xy or as yz, zx, in full.
+fn in_full(values: &[f64]) -> Option<[f64; 6]> {
+    match *values {
+        [yz, zx] => Some([0.0, 0.0, 0.0, 0.0, yz, zx]),
+        [xx, yy, xy] => Some([xx, yy, 0.0, xy, 0.0, 0.0]),
+        [xx, yy, zz, xy, yz, zx] => Some([xx, yy, zz, xy, yz, zx]),
+        _ => None,
+    }
+}
+
+fn linear(spec: &VaryingStress) -> Option<StressField> {
+    let stress: Vec<f64> = spec.stress.as_ref()?.get_ref().iter().map(|p| p.0).collect();
+    let gradient: Vec<f64> = spec.gradient.as_ref()?.get_ref().iter().map(|p| p.0).collect();
+    let axis = match spec.along.as_ref()?.get_ref() {
+        Axis::X => 0,
+        Axis::Y => 1,
+        Axis::Z => 2,
+    };
+    let level = spec.level.as_ref()?.get_ref().0;
+    Some(StressField { stress: in_full(&stress)?, gradient: in_full(&gradient)?, axis, level })
+}
+
+/// Vertical axis of a body, and its acceleration \[m/s²\].
+fn vertical(scene: &Scene, body: &Body) -> Option<(usize, f64)> {
+    let space = scene.kinematics.get_ref().idealisation();
+    let gravity = body.gravity.as_ref()?.get_ref();
+    let (component, acceleration) = gravity.iter().enumerate().find(|(_, g)| **g != 0.0)?;
+    Some((space.axis(component), *acceleration))
+}
+
+/// Vertical stress from the weight above, and K0 times as much across it; in a sheet none through its thickness.
+fn lithostatic(scene: &Scene, body: &Body, spec: &VaryingStress) -> Option<StressField> {
+    let (axis, acceleration) = vertical(scene, body)?;
+    let material = body.materials().next()?.1;
+    let density = scene.materials.get(material)?.density.as_ref()?.get_ref().0;
+    let k0 = *spec.k0.as_ref()?.get_ref();
+    let overburden = spec.overburden.as_ref().map_or(0.0, |p| p.get_ref().0);
+    let sheet = *scene.kinematics.get_ref() == crate::scene::model::Kinematics::PlaneStress;
+    let of = |vertical: f64| -> [f64; 6] {
+        std::array::from_fn(|i| match i {
+            i if i == axis => vertical,
+            2 if sheet => 0.0,
+            0..=2 => k0 * vertical,
+            _ => 0.0,
+        })
+    };
+    let level = spec.level.as_ref()?.get_ref().0;
+    Some(StressField { stress: of(-overburden), gradient: of(-density * acceleration), axis, level })
+}
+
+/// Refuses bodies that reach above the level of their lithostatic stress, where it would pull.
+///
+/// # Errors
+/// [`PlanError`] at the level.
+pub fn check<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<(), PlanError> {
+    for body in &model.bodies {
+        let spec = &scene.bodies[&body.name];
+        let Some(InitialStress::Varying(stress)) = spec.initial_stress.as_ref().map(Spanned::get_ref) else {
+            continue;
+        };
+        let (Some((axis, acceleration)), Some(level)) = (vertical(scene, spec), &stress.level) else {
+            continue;
+        };
+        if *stress.kind.get_ref() != StressKind::Lithostatic {
+            continue;
+        }
+        let (min, max) = bounds(&model.mesh.nodes[body.nodes.clone()]);
+        let highest =
+            if acceleration < 0.0 { max[axis] - level.get_ref().0 } else { level.get_ref().0 - min[axis] };
+        if highest > ROUNDING * model.scale {
+            return Err(PlanError::at(
+                level.span(),
+                format!("body `{}` reaches {} above the `level` of its lithostatic stress", body.name, brief(highest)),
+                "the level is the height at which the vertical stress is the overburden: the upper side of the body, or higher".into(),
+            ));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,103 @@
+//! Tractions that the initial stress of the bodies exerts on an interface before anything moves.
+//!
+//! With the stress σ and the outward normal n of the slave the force per area on the slave is σn. Both sides need the same.
+
+use crate::initial_stress;
+use crate::model::{Body, Model};
+use crate::plan::PlanError;
+use crate::rigid::place;
+use crate::scene::model::{Interface as Spec, Scene};
+use crate::start_gaps::SHARE;
+use asperity_contact::StartTraction;
+use asperity_fem::mesh::{Side, nodes_of_sides};
+use asperity_fem::surface;
+
+/// Difference of the forces of both sides on a node over the largest up to which they balance: rounding of stresses given in a scene.
+const BALANCED: f64 = 1e-6;
+
+/// Tractions of the slave points of an interface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pressed {
+    /// Point by point, at the node and in the mean over what it stands for \[Pa\].
+    points: Vec<([f64; 3], [f64; 3])>,
+    /// Gaps and overlaps up to this one are closed at the start \[m\].
+    pub reach: f64,
+}
+
+impl Pressed {
+    /// As the contact takes them.
+    #[must_use]
+    pub fn starts<const D: usize>(&self) -> Vec<StartTraction<D>> {
+        let cut = |v: &[f64; 3]| std::array::from_fn(|c| v[c]);
+        self.points.iter().map(|(at, mean)| StartTraction { at: cut(at), mean: cut(mean) }).collect()
+    }
+}
+
+/// The tractions of an interface that starts with them.
+///
+/// # Errors
+/// [`PlanError`] where a body has no initial stress, and where both exert different tractions.
+pub fn of<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    (name, spec): (&str, &Spec),
+    slave: &[Side],
+) -> Result<Option<Pressed>, PlanError> {
+    let Some(key) = spec.initial_stress.as_ref().filter(|key| *key.get_ref()) else { return Ok(None) };
+    let master = model.sides(&spec.master)?;
+    let body = |set: &str| model.body_of(set).map(|b| &model.bodies[b]);
+    let (Some(own), Some(other)) = (body(spec.slave.get_ref()), body(spec.master.get_ref())) else {
+        return Ok(None);
+    };
+    let field = |body: &Body<D>| {
+        initial_stress::of_body(scene, &body.name).ok_or_else(|| {
+            let message = format!(
+                "interface `{name}` starts with an initial stress, and body `{}` has none",
+                body.name
+            );
+            PlanError::at(key.span(), message, "both bodies need an `initial_stress`".into())
+        })
+    };
+    let (here, there) = (field(own)?, field(other)?);
+    let space = model.idealisation;
+    let forces = surface::integrate(&model.mesh, slave, space, |point, value| {
+        value.copy_from_slice(&here.traction(&point.position, &point.normal));
+    });
+    let beyond = surface::integrate(&model.mesh, slave, space, |point, value| {
+        value.copy_from_slice(&there.traction(&point.position, &point.normal));
+    });
+    let normals =
+        surface::integrate(&model.mesh, slave, space, |point, value| value.copy_from_slice(&point.normal));
+    let areas = surface::areas(&model.mesh, slave, space);
+    let largest = forces.iter().chain(&beyond).map(|(_, f)| f.abs()).fold(0.0, f64::max);
+    let mut both = forces.iter().zip(&beyond);
+    if let Some(((dof, a), (_, b))) = both.find(|(a, b)| (a.1 - b.1).abs() > BALANCED * largest) {
+        let at = place(&model.mesh.nodes[dof / D]);
+        return Err(PlanError::at(
+            key.span(),
+            format!(
+                "the initial stresses of bodies `{}` and `{}` exert different tractions on interface `{name}`: forces along {} on the node at {at} are {a:.4e} \
+                 and {b:.4e}",
+                own.name, other.name, ["x", "y", "z"][dof % D]
+            ),
+            "what one body exerts the other bears: give both the same stress there, or remove `initial_stress` from the interface".into(),
+        ));
+    }
+    let masters = nodes_of_sides(&model.mesh, master);
+    let nodes = nodes_of_sides(&model.mesh, slave).into_iter().enumerate();
+    // Both lists ascend by node, with one entry for each component.
+    let points = nodes.filter(|(_, n)| masters.binary_search(n).is_err()).map(|(k, node)| {
+        let entry = |list: &[(usize, f64)]| -> [f64; D] { std::array::from_fn(|c| list[k * D + c].1) };
+        let normal = entry(&normals);
+        let size = normal.iter().map(|n| n * n).sum::<f64>().sqrt();
+        let unit: [f64; D] = normal.map(|n| if size > 0.0 { n / size } else { 0.0 });
+        let area = areas[&node];
+        let padded = |v: [f64; D]| std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0));
+        let at = here.traction(&model.mesh.nodes[node], &unit);
+        // A corner of a six-node triangle stands for no area, and has no mean.
+        let mean = if area > 0.0 { entry(&forces).map(|f| f / area) } else { at };
+        (padded(at), padded(mean))
+    });
+    let reach = SHARE * model.element_size(own, slave);
+    Ok(Some(Pressed { points: points.collect(), reach }))
+}
