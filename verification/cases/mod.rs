@@ -41,6 +41,7 @@ pub mod body;
 mod cantilever_rotation;
 mod contact_combinations;
 mod contact_combinations_all;
+mod contact_combinations_space;
 mod contact_enforcement;
 mod contact_extremes;
 mod contact_facets;
@@ -120,6 +121,7 @@ pub mod texts;
 mod two_rings;
 mod uniaxial_hardening;
 mod volumetric_path;
+mod wavy_sliding;
 
 /// Every case, in the order of the report.
 pub const ALL: &[Case] = &[
@@ -129,6 +131,7 @@ pub const ALL: &[Case] = &[
     bodies_patch::CASE,
     contact_combinations::CASE,
     contact_combinations_all::CASE,
+    contact_combinations_space::CASE,
     contact_enforcement::CASE,
     contact_extremes::CASE,
     contact_facets::CASE,
@@ -202,4 +205,5 @@ pub const ALL: &[Case] = &[
     maxwell_relaxation::CASE,
     uniaxial_hardening::CASE,
     volumetric_path::CASE,
+    wavy_sliding::CASE,
 ];

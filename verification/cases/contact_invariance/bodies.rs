@@ -56,7 +56,7 @@ fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
-/// A grid with a bottom that may be round.
+/// A grid with a bottom and a top that may be curved.
 pub struct Grid {
     /// Corners \[m\].
     pub min: [f64; 3],
@@ -64,8 +64,29 @@ pub struct Grid {
     pub max: [f64; 3],
     /// Cells along each axis; none along z in the plane.
     pub cells: [usize; 3],
-    /// Radius of the bottom about x = z = 0 \[m\]; flat where infinite.
-    pub radius: f64,
+    /// Shape of the bottom and of the top.
+    pub sides: [Side; 2],
+}
+
+/// Shape of a side of a grid.
+#[derive(Clone, Copy, Debug)]
+pub enum Side {
+    Flat,
+    /// A ball, in the plane a circle, of this radius about x = z = 0 \[m\].
+    Round(f64),
+    /// A cosine along x of this amplitude and length \[m\].
+    Wavy(f64, f64),
+}
+
+impl Side {
+    /// Height above the flat side \[m\].
+    fn height(self, [x, _, z]: [f64; 3]) -> f64 {
+        match self {
+            Self::Flat => 0.0,
+            Self::Round(radius) => radius - (radius.powi(2) - x * x - z * z).sqrt(),
+            Self::Wavy(amplitude, length) => amplitude * (std::f64::consts::TAU * x / length).cos(),
+        }
+    }
 }
 
 impl Grid {
@@ -76,10 +97,8 @@ impl Grid {
     fn place(&self, at: [usize; 3]) -> [f64; 3] {
         let share = |c: usize| at[c] as f64 / self.cells[c].max(1) as f64;
         let mut x: [f64; 3] = std::array::from_fn(|c| self.min[c] + share(c) * (self.max[c] - self.min[c]));
-        if self.radius.is_finite() {
-            let depth = self.radius - (self.radius.powi(2) - x[0].powi(2) - x[2].powi(2)).sqrt();
-            x[1] += depth * (1.0 - share(1));
-        }
+        let [bottom, top] = self.sides.map(|side| side.height(x));
+        x[1] += bottom * (1.0 - share(1)) + top * share(1);
         x
     }
 

@@ -1,10 +1,10 @@
 //! Curved contact turned, mirrored and in other units.
 
-mod bodies;
+pub mod bodies;
 
 use super::texts::{Done, simulate_in, vary};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use bodies::{Change, Grid};
+use bodies::{Change, Grid, Side};
 use std::path::PathBuf;
 
 /// See the README.
@@ -148,13 +148,13 @@ fn write(space: bool, change: &Change) -> Result<PathBuf, CaseError> {
             min: [-0.61, -0.4, flat[0]],
             max: [0.73, 0.0, flat[1]],
             cells: if space { [7, 2, 6] } else { [27, 8, 0] },
-            radius: f64::INFINITY,
+            sides: [Side::Flat; 2],
         },
         Grid {
             min: [-0.35, 0.0, round[0]],
             max: [0.35, 0.3, round[1]],
             cells: if space { [5, 2, 5] } else { [20, 8, 0] },
-            radius: 1.0,
+            sides: [Side::Round(1.0), Side::Flat],
         },
     ];
     let folder = std::env::temp_dir().join(format!("asperity-contact-invariance-{}", std::process::id()));
