@@ -4,10 +4,10 @@
 //! resolve it. Where loads alone press a flat interface their mean is known before, and judged then. Otherwise a run stops where a point slides
 //! under so much that less than one point stands on the zone, and the end of each stage warns of less than three.
 
+use crate::diagnostic::Diagnostic;
 use crate::fault::{ENOUGH, FEW, Ground, TOO_FEW, modulus, spacings};
 use crate::loading::Stage;
 use crate::model::{Body, Model};
-use crate::plan::PlanError;
 use crate::scene::law;
 use crate::scene::model::{Interface, Scene, UnderResolved};
 use crate::warning::Warning;
@@ -103,8 +103,8 @@ impl Resolved {
     /// A warning where a mean normal traction \[Pa\] that loads are known to press with leaves too few points.
     ///
     /// # Errors
-    /// [`PlanError`] where they are less than one and the scene does not allow it.
-    pub fn check(&self, interface: &str, mean: f64) -> Result<Option<Warning>, PlanError> {
+    /// [`Diagnostic`] where they are less than one and the scene does not allow it.
+    pub fn check(&self, interface: &str, mean: f64) -> Result<Option<Warning>, Diagnostic> {
         let points = self.one / mean;
         if mean <= 0.0 || points >= FEW {
             return Ok(None);
@@ -116,7 +116,7 @@ impl Resolved {
         );
         if points < TOO_FEW && !self.allowed {
             let message = format!("{message}: each point breaks by itself, and slip is that of the mesh");
-            return Err(PlanError::at(self.place.clone(), message, self.remedy(mean)));
+            return Err(Diagnostic::at(self.place.clone(), message, self.remedy(mean)));
         }
         let message = format!("{message}: fronts of slip follow the mesh");
         Ok(Some(Warning::at(self.place.clone(), message, self.enough(mean))))

@@ -4,8 +4,8 @@
 //! These numbers refuse what is far out of reach, early. Small systems are analysed exactly afterwards (`solver`), and so are meshes that are no blocks;
 //! of large blocks the numbers stand, and a plan neither assembles nor analyses.
 
+use crate::diagnostic::Diagnostic;
 use crate::model::{CellBlock, Model, meshes};
-use crate::plan::PlanError;
 use crate::scene::model::{Body, MeshSource, Method, Scene, Spanned};
 use crate::solver::{self, size};
 use asperity_fem::element::ElementKind;
@@ -198,8 +198,8 @@ fn grid(name: &str, body: &Body) -> Option<Grid> {
 /// Refuses a scene whose generated bodies alone are more than the machine or `memory` in `[solver]` holds.
 ///
 /// # Errors
-/// [`PlanError`] at the block with the most nodes, with the counts, the need and the bound.
-pub fn admit(scene: &Scene) -> Result<(), PlanError> {
+/// [`Diagnostic`] at the block with the most nodes, with the counts, the need and the bound.
+pub fn admit(scene: &Scene) -> Result<(), Diagnostic> {
     let idealisation = scene.kinematics.get_ref().idealisation();
     let components = idealisation.components();
     let grids: Vec<Grid> = grids(scene).collect();
@@ -207,7 +207,7 @@ pub fn admit(scene: &Scene) -> Result<(), PlanError> {
         return Ok(());
     };
     let counts: Vec<Counts> = grids.iter().map(|g| g.counts.clone()).collect();
-    let within = |error: PlanError| PlanError { span: largest.place.clone(), ..error };
+    let within = |error: Diagnostic| Diagnostic { span: largest.place.clone(), ..error };
     machine(&counts, idealisation).map_err(within)?;
     // Faults keep no factor.
     let direct = scene.faults.is_empty() && scene.solver.method() != Method::Iterative;
@@ -216,7 +216,7 @@ pub fn admit(scene: &Scene) -> Result<(), PlanError> {
         let allowed = solver::memory(scene);
         if factor > allowed as f64 {
             let memory = scene.solver.memory.as_ref().map(Spanned::span);
-            return Err(PlanError::at(
+            return Err(Diagnostic::at(
                 memory.unwrap_or(largest.place.clone()),
                 format!(
                     "the factors of {} need {} or more, and {} are allowed",
@@ -224,7 +224,7 @@ pub fn admit(scene: &Scene) -> Result<(), PlanError> {
                     size(factor as usize),
                     size(allowed)
                 ),
-                "take larger cells, or raise `memory` in `[solver]` where the machine has it".into(),
+                "take larger cells, or raise `memory` in `[solver]` where the machine has it",
             ));
         }
     }
@@ -290,13 +290,13 @@ pub fn condensation(scene: &Scene) -> Option<usize> {
 /// Refuses a plan that needs so much more than this machine has that no error of the estimate hides it.
 ///
 /// # Errors
-/// [`PlanError`] at `memory` in `[solver]` where it is, which may have asked for it.
-pub fn fits(scene: &Scene, needed: usize) -> Result<(), PlanError> {
+/// [`Diagnostic`] at `memory` in `[solver]` where it is, which may have asked for it.
+pub fn fits(scene: &Scene, needed: usize) -> Result<(), Diagnostic> {
     match memory_of_machine() {
-        Some(there) if SURE * needed as f64 > there as f64 => Err(PlanError::at(
+        Some(there) if SURE * needed as f64 > there as f64 => Err(Diagnostic::at(
             scene.solver.memory.as_ref().map_or(0..0, Spanned::span),
             format!("the run needs about {}, and this machine has {}", size(needed), size(there)),
-            "take larger cells, or a machine with more memory; is the unit of the size right?".into(),
+            "take larger cells, or a machine with more memory; is the unit of the size right?",
         )),
         _ => Ok(()),
     }
@@ -305,13 +305,13 @@ pub fn fits(scene: &Scene, needed: usize) -> Result<(), PlanError> {
 /// Refuses bodies whose meshes, cells and matrix are more than the machine has.
 ///
 /// # Errors
-/// [`PlanError`] without a place.
-pub fn machine(counts: &[Counts], idealisation: Idealisation) -> Result<(), PlanError> {
+/// [`Diagnostic`] without a place.
+pub fn machine(counts: &[Counts], idealisation: Idealisation) -> Result<(), Diagnostic> {
     let components = idealisation.components();
     let of = |c: &Counts| c.cells_bytes(idealisation) + c.matrix_bytes(components);
     let needed: f64 = counts.iter().map(of).sum();
     match memory_of_machine() {
-        Some(there) if needed > there as f64 => Err(PlanError::at(
+        Some(there) if needed > there as f64 => Err(Diagnostic::at(
             0..0,
             format!(
                 "{} need {} for their matrices alone, and this machine has {}",
@@ -319,7 +319,7 @@ pub fn machine(counts: &[Counts], idealisation: Idealisation) -> Result<(), Plan
                 size(needed as usize),
                 size(there)
             ),
-            "take larger cells, or a machine with more memory; is the unit of the size right?".into(),
+            "take larger cells, or a machine with more memory; is the unit of the size right?",
         )),
         _ => Ok(()),
     }

@@ -1,7 +1,7 @@
 //! The stress that a body starts with, as a field.
 
+use crate::diagnostic::Diagnostic;
 use crate::model::{Model, bounds};
-use crate::plan::PlanError;
 use crate::scene::check::brief;
 use crate::scene::model::{Axis, Body, InitialStress, Scene, Spanned, StressKind, VaryingStress};
 
@@ -116,8 +116,8 @@ fn lithostatic(scene: &Scene, body: &Body, spec: &VaryingStress) -> Option<Stres
 /// Refuses bodies that reach above the level of their lithostatic stress, where it would pull.
 ///
 /// # Errors
-/// [`PlanError`] at the level.
-pub fn check<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<(), PlanError> {
+/// [`Diagnostic`] at the level.
+pub fn check<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<(), Diagnostic> {
     for body in &model.bodies {
         let spec = &scene.bodies[&body.name];
         let Some(InitialStress::Varying(stress)) = spec.initial_stress.as_ref().map(Spanned::get_ref) else {
@@ -133,10 +133,14 @@ pub fn check<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<(), Plan
         let highest =
             if acceleration < 0.0 { max[axis] - level.get_ref().0 } else { level.get_ref().0 - min[axis] };
         if highest > ROUNDING * model.scale {
-            return Err(PlanError::at(
+            return Err(Diagnostic::at(
                 level.span(),
-                format!("body `{}` reaches {} above the `level` of its lithostatic stress", body.name, brief(highest)),
-                "the level is the height at which the vertical stress is the overburden: the upper side of the body, or higher".into(),
+                format!(
+                    "body `{}` reaches {} above the `level` of its lithostatic stress",
+                    body.name,
+                    brief(highest)
+                ),
+                "the level is the height at which the vertical stress is the overburden: the upper side of the body, or higher",
             ));
         }
     }

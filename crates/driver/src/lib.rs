@@ -6,6 +6,7 @@
 pub mod cli;
 mod coarse;
 pub mod cohesive;
+pub mod diagnostic;
 pub mod enforcement;
 pub mod fault;
 mod forecast;

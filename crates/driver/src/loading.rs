@@ -4,9 +4,9 @@ mod jumps;
 mod rotation;
 mod shared;
 
+use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
 use crate::model::{Model, bounds};
-use crate::plan::PlanError;
 use crate::scene::model::{Condition, Loading, Material, Motion, Scene, Spanned};
 use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::{Channel, Constraints};
@@ -172,8 +172,8 @@ impl Stage {
 /// Resolves the stages of a scene.
 ///
 /// # Errors
-/// [`PlanError`] pointing at the condition that cannot be applied.
-pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Stage>, PlanError> {
+/// [`Diagnostic`] pointing at the condition that cannot be applied.
+pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Stage>, Diagnostic> {
     // On faults initial stress and weight are what their tractions at the start come from.
     let (body_loads, weight) = if scene.faults.is_empty() {
         (body_loads(scene, model)?, Vec::new())
@@ -261,14 +261,10 @@ fn take_up<const D: usize>(
     condition: &Spanned<Condition>,
     (held, shared): (&mut BTreeMap<(String, usize), Motion>, &mut Shared),
     loads: &mut BTreeMap<(String, usize), Loading>,
-) -> Result<(), PlanError> {
+) -> Result<(), Diagnostic> {
     let c = condition.get_ref();
     let set = c.set.as_ref().ok_or_else(|| {
-        PlanError::at(
-            condition.span(),
-            "the condition names no set".into(),
-            "add `set = \"body.side\"`".into(),
-        )
+        Diagnostic::at(condition.span(), "the condition names no set", "add `set = \"body.side\"`")
     })?;
     model.sides(set)?;
     for (axis, motion) in [&c.x, &c.y, &c.z].into_iter().enumerate() {
@@ -290,7 +286,7 @@ fn take_up<const D: usize>(
     }
     for ((set, axis), place) in shared.places.iter().filter(|(key, _)| key.0 == *set.get_ref()) {
         if model.idealisation.component(*axis).is_none() {
-            return Err(PlanError::at(
+            return Err(Diagnostic::at(
                 place.clone(),
                 format!("bodies do not move along {} in {}", AXES[*axis], model.idealisation.name()),
                 format!("leave this condition on `{set}` out"),
@@ -300,11 +296,7 @@ fn take_up<const D: usize>(
     if let Some(traction) = &c.traction {
         let components = traction.get_ref().len();
         model.idealisation.check_components(components).map_err(|e| {
-            PlanError::at(
-                traction.span(),
-                e.to_string(),
-                "one entry for each component of the displacement".into(),
-            )
+            Diagnostic::at(traction.span(), e.to_string(), "one entry for each component of the displacement")
         })?;
         for (component, loading) in traction.get_ref().iter().enumerate() {
             let axis = model.idealisation.axis(component);
@@ -313,10 +305,10 @@ fn take_up<const D: usize>(
     }
     if let Some(pressure) = &c.pressure {
         if model.idealisation.components() != D {
-            return Err(PlanError::at(
+            return Err(Diagnostic::at(
                 pressure.span(),
                 format!("a pressure does nothing in {}", model.idealisation.name()),
-                "use a `traction`".into(),
+                "use a `traction`",
             ));
         }
         loads.insert((set.get_ref().clone(), PRESSURE), pressure.get_ref().clone());
@@ -325,17 +317,17 @@ fn take_up<const D: usize>(
 }
 
 /// Axis of a set whose nodes all share one coordinate.
-fn normal_axis<const D: usize>(model: &Model<D>, set: &Spanned<String>) -> Result<usize, PlanError> {
+fn normal_axis<const D: usize>(model: &Model<D>, set: &Spanned<String>) -> Result<usize, Diagnostic> {
     let nodes = nodes_of_sides(&model.mesh, model.sides(set)?);
     let points: Vec<[f64; D]> = nodes.iter().map(|&n| model.mesh.nodes[n]).collect();
     let (min, max) = bounds(&points);
     /// Coordinates of a generated plane face agree to rounding; relative to the size of the scene.
     const FLAT: f64 = 1e-12;
     (0..D).find(|&c| max[c] - min[c] <= FLAT * model.scale).ok_or_else(|| {
-        PlanError::at(
+        Diagnostic::at(
             set.span(),
             format!("`{}` is not a plane parallel to an axis", set.get_ref()),
-            "prescribe displacement components instead of symmetry".into(),
+            "prescribe displacement components instead of symmetry",
         )
     })
 }
@@ -345,7 +337,7 @@ fn normal_axis<const D: usize>(model: &Model<D>, set: &Spanned<String>) -> Resul
 fn motions<const D: usize>(
     model: &Model<D>,
     held: &BTreeMap<(String, usize), Motion>,
-) -> Result<Vec<(Vec<usize>, Motion)>, PlanError> {
+) -> Result<Vec<(Vec<usize>, Motion)>, Diagnostic> {
     let mut taken = vec![false; model.dofs()];
     let mut result = Vec::new();
     for ((set, axis), motion) in held.iter().filter(|(_, m)| **m != Motion::Free) {
@@ -406,7 +398,7 @@ fn load_channel<const D: usize>(
 }
 
 /// Channels of body forces and initial stresses, which act from the start.
-fn body_loads<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Channel>, PlanError> {
+fn body_loads<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Channel>, Diagnostic> {
     let mut channels: Vec<Channel> = weights(scene, model)?.into_iter().map(|w| steady(w, 1.0)).collect();
     for body in &model.bodies {
         let stress = initial_stress::of_body(scene, &body.name);
@@ -420,7 +412,7 @@ fn body_loads<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Cha
 }
 
 /// Nodal forces of the weight of each block of cells that has one.
-fn weights<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Vec<(usize, f64)>>, PlanError> {
+fn weights<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Vec<(usize, f64)>>, Diagnostic> {
     let mut all = Vec::new();
     for body in &model.bodies {
         let spec = &scene.bodies[&body.name];
@@ -439,18 +431,18 @@ fn weights<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Vec<(u
                         .and_then(|b| weight(&b))
                 }
             };
-            all.push(forces.map_err(|e| PlanError::body(&body.name, gravity.span(), e.to_string()))?);
+            all.push(forces.map_err(|e| Diagnostic::body(&body.name, gravity.span(), e.to_string()))?);
         }
     }
     Ok(all)
 }
 
-fn density_of(name: &str, material: &Material, place: Range<usize>) -> Result<f64, PlanError> {
+fn density_of(name: &str, material: &Material, place: Range<usize>) -> Result<f64, Diagnostic> {
     material.density.as_ref().map(|d| d.get_ref().0).ok_or_else(|| {
-        PlanError::at(
+        Diagnostic::at(
             place,
             format!("material `{name}` has no density"),
-            "gravity acts on a mass: add `density = \"2700 kg/m^3\"`".into(),
+            "gravity acts on a mass: add `density = \"2700 kg/m^3\"`",
         )
     })
 }

@@ -4,9 +4,9 @@
 //! the softer of the two sides: k = E_n h/E with its E and h. Gaps are differences of positions, which are known to eps X, X the size of the
 //! scene, so that tractions have an error of E_n eps X = k eps (X/h) E.
 
+use crate::diagnostic::Diagnostic;
 use crate::enforcement::in_pascal_per_metre;
 use crate::model::{Body, Model};
-use crate::plan::PlanError;
 use crate::scene::check::brief;
 use crate::scene::model::{Enforcement, EnforcementKind, Interface as InterfaceSpec, Spanned};
 use crate::scene::units::Penalty;
@@ -135,12 +135,12 @@ impl<'a> Given<'a> {
 /// Refuses penalties that leave tractions less than three digits.
 ///
 /// # Errors
-/// [`PlanError`] with the place.
-pub fn check(name: &str, spec: &InterfaceSpec, softer: &Softer) -> Result<(), PlanError> {
+/// [`Diagnostic`] with the place.
+pub fn check(name: &str, spec: &InterfaceSpec, softer: &Softer) -> Result<(), Diagnostic> {
     let beyond = |given: &Given<'_>| {
         let error = softer.factor(given.value) * f64::EPSILON * softer.extent;
         (error > MOST_ROUNDING).then(|| {
-            PlanError::at(
+            Diagnostic::at(
                 given.penalty.span(),
                 format!(
                     "{}: rounding of positions, 2e-16 of the {} of the scene, is an error of {error:.1e} E in the tractions, above {MOST_ROUNDING:.0e}",

@@ -1,6 +1,7 @@
 //! Scene -> Plan: the one place where it is decided what is modelled and how. Below it nothing asks what was declared.
 
 use crate::cohesive::Resolved;
+use crate::diagnostic::Diagnostic;
 use crate::enforcement::{Enforced, in_pascal_per_metre, in_words};
 use crate::fault;
 use crate::forecast::{self, Held};
@@ -27,34 +28,7 @@ use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
 use asperity_fem::nonlinear::Material;
 use asperity_friction::law::Law;
 use serde::Serialize;
-use std::ops::Range;
 use std::sync::Arc;
-
-/// Why a scene has no plan.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{message}")]
-pub struct PlanError {
-    /// What is wrong.
-    pub message: String,
-    /// What would be right.
-    pub help: Option<String>,
-    /// Where in the scene file; empty when built in Rust.
-    pub span: Range<usize>,
-}
-
-impl PlanError {
-    /// An error with a place and a remedy.
-    #[must_use]
-    pub fn at(span: Range<usize>, message: String, help: String) -> Self {
-        Self { message, help: Some(help), span }
-    }
-
-    /// An error about a body.
-    #[must_use]
-    pub fn body(name: &str, span: Range<usize>, message: String) -> Self {
-        Self { message: format!("body `{name}`: {message}"), help: None, span }
-    }
-}
 
 /// A planned interface, in node numbers of the common mesh.
 #[derive(Debug)]
@@ -311,8 +285,8 @@ pub enum ScenePlan {
 /// Plans a scene of either kind.
 ///
 /// # Errors
-/// [`PlanError`] with the place in the scene.
-pub fn plan_scene(scene: &Scene) -> Result<ScenePlan, PlanError> {
+/// [`Diagnostic`] with the place in the scene.
+pub fn plan_scene(scene: &Scene) -> Result<ScenePlan, Diagnostic> {
     Ok(if scene.faults.is_empty() {
         ScenePlan::Bodies(Box::new(plan(scene)?))
     } else {
@@ -323,15 +297,15 @@ pub fn plan_scene(scene: &Scene) -> Result<ScenePlan, PlanError> {
 /// Plans a scene of bodies and interfaces.
 ///
 /// # Errors
-/// [`PlanError`] with the place in the scene.
-pub fn plan(scene: &Scene) -> Result<AnyPlan, PlanError> {
+/// [`Diagnostic`] with the place in the scene.
+pub fn plan(scene: &Scene) -> Result<AnyPlan, Diagnostic> {
     Ok(match scene.kinematics.get_ref().idealisation().dimension() {
         2 => AnyPlan::Two(Box::new(plan_in::<2>(scene)?)),
         _ => AnyPlan::Three(Box::new(plan_in::<3>(scene)?)),
     })
 }
 
-fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, PlanError> {
+fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let model = Model::<D>::new(scene)?;
     initial_stress::check(scene, &model)?;
     let stages = loading::stages(scene, &model)?;
@@ -379,30 +353,29 @@ fn interface<const D: usize>(
     model: &Model<D>,
     (name, spec): (&str, &InterfaceSpec),
     loading: f64,
-) -> Result<PlannedInterface, PlanError> {
+) -> Result<PlannedInterface, Diagnostic> {
     if model.idealisation.components() != D {
-        return Err(PlanError::at(
+        return Err(Diagnostic::at(
             spec.slave.span(),
             format!("interface `{name}`: there are no interfaces between bodies in antiplane motion"),
             "interfaces exist with \"plane-strain\", \"plane-stress\", \"axisymmetric\" and \"3d\", and friction without \
-             bodies as `kinematics = \"spring-slider\"`; in antiplane motion bodies have conditions on their sets"
-                .into(),
+             bodies as `kinematics = \"spring-slider\"`; in antiplane motion bodies have conditions on their sets",
         ));
     }
     let slave_sides = model.sides(&spec.slave)?;
     let master_sides = model.sides(&spec.master)?;
     let body = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]);
     let body = body.ok_or_else(|| {
-        let help = "sets of bodies are named `body.set`".into();
-        PlanError::at(spec.slave.span(), format!("interface `{name}`: the slave side has no body"), help)
+        let help = "sets of bodies are named `body.set`";
+        Diagnostic::at(spec.slave.span(), format!("interface `{name}`: the slave side has no body"), help)
     })?;
     check_faces(model, spec, slave_sides, master_sides)?;
     let slave = slave_points(model, name, spec, slave_sides, master_sides)?;
     if slave.is_empty() {
-        return Err(PlanError::at(
+        return Err(Diagnostic::at(
             spec.master.span(),
             format!("the two sides of interface `{name}` are the same nodes"),
-            "an interface lies between two sides that can part; `split` in a mesh makes them".into(),
+            "an interface lies between two sides that can part; `split` in a mesh makes them",
         ));
     }
     let (law, watch) = match &spec.law {
@@ -450,7 +423,7 @@ fn slave_points<const D: usize>(
     spec: &InterfaceSpec,
     slave: &[Side],
     master: &[Side],
-) -> Result<Vec<(usize, f64)>, PlanError> {
+) -> Result<Vec<(usize, f64)>, Diagnostic> {
     // The tip of a split surface lies on both sides, where they cannot part.
     let master_nodes = nodes_of_sides(&model.mesh, master);
     let nodes =
@@ -460,19 +433,18 @@ fn slave_points<const D: usize>(
     }
     let areas = model.tributary_areas(slave).map_err(|e| {
         let help = "use an element with positive nodal areas, or `measure = \"mortar\"`";
-        PlanError::at(spec.slave.span(), e.to_string(), help.into())
+        Diagnostic::at(spec.slave.span(), e.to_string(), help)
     })?;
     let slave: Vec<(usize, f64)> = nodes.map(|n| (n, areas[&n])).collect();
     let largest = slave.iter().map(|s| s.1).fold(0.0, f64::max);
     if let Some((node, _)) = slave.iter().find(|s| s.1 <= NO_AREA * largest) {
-        return Err(PlanError::at(
+        return Err(Diagnostic::at(
             spec.slave.span(),
             format!(
                 "the slave node at {} of interface `{name}` has no tributary area",
                 rigid::place(&model.mesh.nodes[*node])
             ),
-            "elements of second order have none on the axis of revolution: use quad4 or tri3, or `measure = \"mortar\"`"
-                .into(),
+            "elements of second order have none on the axis of revolution: use quad4 or tri3, or `measure = \"mortar\"`",
         ));
     }
     Ok(slave)
@@ -484,7 +456,7 @@ fn check_faces<const D: usize>(
     spec: &InterfaceSpec,
     slave: &[Side],
     master: &[Side],
-) -> Result<(), PlanError> {
+) -> Result<(), Diagnostic> {
     let linear = |side: &Side| {
         let nodes = face_nodes(&model.mesh, side).len();
         if D == 2 { nodes == 2 } else { nodes <= 4 }
@@ -493,70 +465,67 @@ fn check_faces<const D: usize>(
         && let Some(side) = master.iter().find(|s| !linear(s))
     {
         let element = model.mesh.blocks[side.block].kind.name();
-        return Err(PlanError::at(
+        return Err(Diagnostic::at(
             smoothing.span(),
             format!("smoothing needs master faces of first order, but the master has faces of {element}"),
-            "faces of second order are curved already: leave `smoothing` out".into(),
+            "faces of second order are curved already: leave `smoothing` out",
         ));
     }
     if *spec.measure.get_ref() == Measure::Mortar {
         if let Some(smoothing) = &spec.smoothing {
-            return Err(PlanError::at(
+            return Err(Diagnostic::at(
                 smoothing.span(),
-                "smoothing is a property of node-to-point; mortar integrates over the facets themselves"
-                    .into(),
-                "leave `smoothing` out".into(),
+                "smoothing is a property of node-to-point; mortar integrates over the facets themselves",
+                "leave `smoothing` out",
             ));
         }
         if *spec.sliding.get_ref() == Sliding::Finite
             && let Some(side) = slave.iter().chain(master).find(|s| !linear(s))
         {
             let element = model.mesh.blocks[side.block].kind.name();
-            return Err(PlanError::at(
+            return Err(Diagnostic::at(
                 spec.sliding.span(),
                 format!(
                     "finite sliding of a mortar interface needs faces of first order, but it has faces of {element}"
                 ),
-                "use elements of first order there, `sliding = \"small\"`, or `measure = \"node-to-point\"`"
-                    .into(),
+                "use elements of first order there, `sliding = \"small\"`, or `measure = \"node-to-point\"`",
             ));
         }
     }
     let both = slave.iter().filter(|s| master.contains(s)).count();
     if both > 0 {
-        return Err(PlanError::at(
+        return Err(Diagnostic::at(
             spec.master.span(),
             format!(
                 "{both} faces are slave and master at once: a surface in contact with itself is not supported"
             ),
-            "declare the parts that meet as two sets without common faces".into(),
+            "declare the parts that meet as two sets without common faces",
         ));
     }
     Ok(())
 }
 
-fn choose_law(spec: &Spanned<LawSpec>) -> Result<LawChoice, PlanError> {
+fn choose_law(spec: &Spanned<LawSpec>) -> Result<LawChoice, Diagnostic> {
     law::choose(spec).map_err(|errors| {
         let first = errors.into_iter().next();
-        let incomplete = || {
-            PlanError::at(spec.span(), "the law is not complete".into(), "see the laws of friction".into())
-        };
-        first.map_or_else(incomplete, PlanError::from)
+        let incomplete =
+            || Diagnostic::at(spec.span(), "the law is not complete", "see the laws of friction");
+        first.unwrap_or_else(incomplete)
     })
 }
 
-fn build_law(spec: &Spanned<LawSpec>, choice: &LawChoice) -> Result<Arc<dyn Law>, PlanError> {
-    crate::laws::build(choice).map_err(|e| law::refused(spec, &e).into())
+fn build_law(spec: &Spanned<LawSpec>, choice: &LawChoice) -> Result<Arc<dyn Law>, Diagnostic> {
+    crate::laws::build(choice).map_err(|e| law::refused(spec, &e))
 }
 
 fn choose_path<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     interfaces: &[PlannedInterface],
-) -> Result<Path, PlanError> {
+) -> Result<Path, Diagnostic> {
     let refuse = |message: String| {
-        let help = "use `path = \"auto\"` or `path = \"full\"`".into();
-        Err(PlanError::at(scene.time.stepper.span(), message, help))
+        let help = "use `path = \"auto\"` or `path = \"full\"`";
+        Err(Diagnostic::at(scene.time.stepper.span(), message, help))
     };
     match (scene.time.path, not_linear(model)) {
         _ if scene.solver.method() == Method::Iterative => Ok(Path::Full),
@@ -592,7 +561,7 @@ fn not_linear<const D: usize>(model: &Model<D>) -> Option<String> {
     model.bodies.iter().find_map(|b| b.nonlinear.map(|why| format!("in body `{}` {why}", b.name)))
 }
 
-fn stepping(scene: &Scene) -> Result<Stepping, PlanError> {
+fn stepping(scene: &Scene) -> Result<Stepping, Diagnostic> {
     let time = &scene.time;
     let usual = if evolves(scene) { Rule::Bdf2 } else { Rule::BackwardEuler };
     let rule = time.rule.as_ref().map_or(usual, |r| *r.get_ref());
@@ -608,9 +577,9 @@ fn stepping(scene: &Scene) -> Result<Stepping, PlanError> {
             zeta: time.zeta.as_ref().map_or(ZETA, |z| *z.get_ref()),
         },
         Stepper::FaultOde => {
-            let help = "add `[faults.NAME]`, or use \"implicit\" or \"static-explicit\"".into();
-            let message = "the stepper \"fault-ode\" integrates faults, and the scene has none".into();
-            return Err(PlanError::at(time.stepper.span(), message, help));
+            let help = "add `[faults.NAME]`, or use \"implicit\" or \"static-explicit\"";
+            let message = "the stepper \"fault-ode\" integrates faults, and the scene has none";
+            return Err(Diagnostic::at(time.stepper.span(), message, help));
         }
     })
 }

@@ -2,10 +2,11 @@
 
 use crate::coarse;
 use crate::cohesive;
+use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
 use crate::model::{Model, sizes};
 use crate::penalty;
-use crate::plan::{PlanError, PlannedInterface, Stepping};
+use crate::plan::{PlannedInterface, Stepping};
 use crate::scene::check::show;
 use crate::scene::model::Scene;
 use crate::start_gaps::{self, StartGap};
@@ -17,13 +18,13 @@ const BOUNDS_NOTHING: f64 = 0.1;
 /// Where the sides of the interfaces are, and what is doubtful before the first step.
 ///
 /// # Errors
-/// [`PlanError`] for sides that cannot be meant.
+/// [`Diagnostic`] for sides that cannot be meant.
 pub fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     (interfaces, stages): (&[PlannedInterface], &[Stage]),
     stepping: &Stepping,
-) -> Result<(Vec<StartGap>, Vec<Warning>), PlanError> {
+) -> Result<(Vec<StartGap>, Vec<Warning>), Diagnostic> {
     let (mut starts, mut doubts) = (Vec::new(), sizes::doubts(scene, model, stages));
     doubts.extend(tolerance(scene, stages));
     for planned in interfaces {
@@ -49,7 +50,7 @@ fn resolution<const D: usize>(
     model: &Model<D>,
     stages: &[Stage],
     planned: &PlannedInterface,
-) -> Result<Option<Warning>, PlanError> {
+) -> Result<Option<Warning>, Diagnostic> {
     let (name, spec) = (planned.name.as_str(), &scene.interfaces[&planned.name]);
     let Some(resolved) = &planned.resolved else {
         return Ok(spec.under_resolved.as_ref().map(|key| {

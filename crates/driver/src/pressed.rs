@@ -2,9 +2,9 @@
 //!
 //! With the stress σ and the outward normal n of the slave the force per area on the slave is σn. Both sides need the same.
 
+use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
 use crate::model::{Body, Model};
-use crate::plan::PlanError;
 use crate::rigid::place;
 use crate::scene::model::{Interface as Spec, Scene};
 use crate::start_gaps::SHARE;
@@ -36,13 +36,13 @@ impl Pressed {
 /// The tractions of an interface that starts with them.
 ///
 /// # Errors
-/// [`PlanError`] where a body has no initial stress, and where both exert different tractions.
+/// [`Diagnostic`] where a body has no initial stress, and where both exert different tractions.
 pub fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     (name, spec): (&str, &Spec),
     slave: &[Side],
-) -> Result<Option<Pressed>, PlanError> {
+) -> Result<Option<Pressed>, Diagnostic> {
     let Some(key) = spec.initial_stress.as_ref().filter(|key| *key.get_ref()) else { return Ok(None) };
     let master = model.sides(&spec.master)?;
     let body = |set: &str| model.body_of(set).map(|b| &model.bodies[b]);
@@ -55,7 +55,7 @@ pub fn of<const D: usize>(
                 "interface `{name}` starts with an initial stress, and body `{}` has none",
                 body.name
             );
-            PlanError::at(key.span(), message, "both bodies need an `initial_stress`".into())
+            Diagnostic::at(key.span(), message, "both bodies need an `initial_stress`")
         })
     };
     let (here, there) = (field(own)?, field(other)?);
@@ -73,14 +73,16 @@ pub fn of<const D: usize>(
     let mut both = forces.iter().zip(&beyond);
     if let Some(((dof, a), (_, b))) = both.find(|(a, b)| (a.1 - b.1).abs() > BALANCED * largest) {
         let at = place(&model.mesh.nodes[dof / D]);
-        return Err(PlanError::at(
+        return Err(Diagnostic::at(
             key.span(),
             format!(
                 "the initial stresses of bodies `{}` and `{}` exert different tractions on interface `{name}`: forces along {} on the node at {at} are {a:.4e} \
                  and {b:.4e}",
-                own.name, other.name, ["x", "y", "z"][dof % D]
+                own.name,
+                other.name,
+                ["x", "y", "z"][dof % D]
             ),
-            "what one body exerts the other bears: give both the same stress there, or remove `initial_stress` from the interface".into(),
+            "what one body exerts the other bears: give both the same stress there, or remove `initial_stress` from the interface",
         ));
     }
     let masters = nodes_of_sides(&model.mesh, master);

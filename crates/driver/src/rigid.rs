@@ -3,9 +3,10 @@
 //! A rigid motion is free when no fixed degree of freedom sees it. It is refused when no interface of the body could
 //! hold it either, in any stage.
 
+use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
 use crate::model::Model;
-use crate::plan::{PlanError, PlannedInterface};
+use crate::plan::PlannedInterface;
 use crate::scene::model::Scene;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::face_nodes;
@@ -19,13 +20,13 @@ const FREE: f64 = 1e-9;
 /// Checks all bodies in all stages. Returns remarks on bodies that contact alone holds.
 ///
 /// # Errors
-/// [`PlanError`] naming the body, the motion and the stage.
+/// [`Diagnostic`] naming the body, the motion and the stage.
 pub fn check<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     stages: &[Stage],
     interfaces: &[PlannedInterface],
-) -> Result<Vec<String>, PlanError> {
+) -> Result<Vec<String>, Diagnostic> {
     let mut remarks = Vec::new();
     for (body, nodes) in model.bodies.iter().flat_map(|b| b.parts.iter().map(move |p| (b, p))) {
         let what = match body.parts.len() {
@@ -41,7 +42,7 @@ pub fn check<const D: usize>(
             let Some(motion) = free_motion::<D>(&rows, model.idealisation) else { continue };
             rows.extend(contact_rows(model, nodes, stage, interfaces));
             if let Some(loose) = free_motion::<D>(&rows, model.idealisation) {
-                return Err(PlanError::at(
+                return Err(Diagnostic::at(
                     scene.bodies[&body.name].material.span(),
                     format!("{what} is free to move in stage `{}`: nothing holds its {loose}", stage.name),
                     remedy(model, &body.name, &loose),

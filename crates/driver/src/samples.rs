@@ -1,9 +1,9 @@
 //! What a scene asks of its bodies beside fields: displacement and stress at points, forces on sets.
 
+use crate::diagnostic::Diagnostic;
 use crate::initial_stress::StressField;
 use crate::loading::Stage;
 use crate::model::{CellBlock, Model};
-use crate::plan::PlanError;
 use crate::rigid::place;
 use crate::scene::model::{PointSpec, Scene, Spanned};
 use asperity_fem::block::von_mises;
@@ -60,13 +60,13 @@ impl Wanted {
     /// Finds the points and sets of a scene.
     ///
     /// # Errors
-    /// [`PlanError`] for a point outside its body and a set that does not exist.
-    pub fn new<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Self, PlanError> {
+    /// [`Diagnostic`] for a point outside its body and a set that does not exist.
+    pub fn new<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Self, Diagnostic> {
         let points = scene.output.points.iter().map(|(name, spec)| point(model, name, spec));
         let forces = scene.output.forces.iter().map(|(name, spec)| {
             let set = &spec.get_ref().set;
             let nodes = nodes_of_sides(&model.mesh, model.sides(set)?);
-            Ok::<_, PlanError>(ForceSet {
+            Ok::<_, Diagnostic>(ForceSet {
                 name: name.clone(),
                 set: set.get_ref().clone(),
                 cells: cells_with(model, &nodes),
@@ -198,10 +198,10 @@ fn point<const D: usize>(
     model: &Model<D>,
     name: &str,
     spec: &Spanned<PointSpec>,
-) -> Result<Point, PlanError> {
+) -> Result<Point, Diagnostic> {
     let (given, at) = (&spec.get_ref().body, &spec.get_ref().at);
     let refuse =
-        |place: std::ops::Range<usize>, message: String, help: String| PlanError::at(place, message, help);
+        |place: std::ops::Range<usize>, message: String, help: String| Diagnostic::at(place, message, help);
     let body = model.bodies.iter().find(|b| b.name == *given.get_ref()).ok_or_else(|| {
         refuse(
             given.span(),

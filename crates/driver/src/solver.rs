@@ -1,10 +1,11 @@
 //! How the linear systems of the steps are solved: chosen from the scene alone, so that the choice and the results do not
 //! depend on the machine.
 
+use crate::diagnostic::Diagnostic;
 use crate::forecast;
 use crate::loading::Stage;
 use crate::model::{CellBlock, Model};
-use crate::plan::{Path, PlanError, PlannedInterface, Stepping, interface_nodes};
+use crate::plan::{Path, PlannedInterface, Stepping, interface_nodes};
 use crate::scene::model::{Measure, Method as Asked, Scene, Sliding, Spanned};
 use asperity_fem::assembly::{Analysis, Lower, Symmetry};
 use asperity_fem::condense;
@@ -124,7 +125,7 @@ pub fn local(list: &[usize], dofs: &std::ops::Range<usize>) -> Vec<usize> {
 /// Chooses.
 ///
 /// # Errors
-/// [`PlanError`] when the method does not serve the scene, or takes more memory than is allowed.
+/// [`Diagnostic`] when the method does not serve the scene, or takes more memory than is allowed.
 pub fn choose<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -132,7 +133,7 @@ pub fn choose<const D: usize>(
     stages: &[Stage],
     path: Path,
     stepping: &Stepping,
-) -> Result<Solver, PlanError> {
+) -> Result<Solver, Diagnostic> {
     let choice = Choice { scene, model, interfaces, stages, stepping };
     match path {
         Path::Condensed => choice.condensed(),
@@ -166,7 +167,7 @@ impl<const D: usize> Choice<'_, D> {
     }
 
     /// What condensation of the bodies onto `retained` needs, without the interface.
-    fn condensations(&self, retained: &[Vec<usize>]) -> Result<(Prepared, usize), PlanError> {
+    fn condensations(&self, retained: &[Vec<usize>]) -> Result<(Prepared, usize), Diagnostic> {
         if let Some(bytes) = self.counted(forecast::condensation) {
             return Ok((Prepared::Nothing, bytes));
         }
@@ -178,13 +179,13 @@ impl<const D: usize> Choice<'_, D> {
             let analysis =
                 condense::Analysis::new(&[&pattern], dofs.len(), &local(retained, dofs), &local(fixed, dofs));
             let place = || self.scene.bodies[&body.name].material.span();
-            analyses.push(analysis.map_err(|e| PlanError::body(&body.name, place(), e.to_string()))?);
+            analyses.push(analysis.map_err(|e| Diagnostic::body(&body.name, place(), e.to_string()))?);
         }
         let bytes = analyses.iter().map(condense::Analysis::bytes).sum();
         Ok((Prepared::Bodies(analyses), bytes))
     }
 
-    fn condensed(&self) -> Result<Solver, PlanError> {
+    fn condensed(&self) -> Result<Solver, Diagnostic> {
         let retained = retained(self.model, self.interfaces);
         let (prepared, bodies) = self.condensations(&retained)?;
         let mut kept = retained.iter().map(Vec::len).sum::<usize>();
@@ -209,7 +210,7 @@ impl<const D: usize> Choice<'_, D> {
         })
     }
 
-    fn full(&self) -> Result<Solver, PlanError> {
+    fn full(&self) -> Result<Solver, Diagnostic> {
         let method = self.scene.solver.method();
         if method == Asked::Iterative {
             return self.iterative("the scene asks for it".into());
@@ -272,7 +273,7 @@ impl<const D: usize> Choice<'_, D> {
         }
     }
 
-    fn iterative(&self, why: String) -> Result<Solver, PlanError> {
+    fn iterative(&self, why: String) -> Result<Solver, Diagnostic> {
         let solver = &self.scene.solver;
         if let Some(stage) = self.unsymmetric() {
             let reason = if self.interfaces.iter().any(|i| i.unknowns > 0) {
@@ -284,10 +285,10 @@ impl<const D: usize> Choice<'_, D> {
             } else {
                 "large deformation makes its matrix unsymmetric".into()
             };
-            return Err(PlanError::at(
+            return Err(Diagnostic::at(
                 solver.method.as_ref().map_or(0..0, Spanned::span),
                 format!("the iterative method needs a symmetric matrix, but {reason}"),
-                "use `method = \"direct\"`, or leave it out".into(),
+                "use `method = \"direct\"`, or leave it out",
             ));
         }
         let matrix = forecast::matrix_bytes(&self.model.counts(), self.model.idealisation.components());
@@ -310,23 +311,23 @@ impl<const D: usize> Choice<'_, D> {
     }
 
     /// An error of a system that is too large to be numbered.
-    fn at_memory(&self, message: String) -> PlanError {
+    fn at_memory(&self, message: String) -> Diagnostic {
         let (solver, materials) = (&self.scene.solver, self.scene.bodies.values().map(|b| b.material.span()));
         let place = solver.memory.as_ref().map(Spanned::span).or(solver.method.as_ref().map(Spanned::span));
         let place = place.or(materials.into_iter().next()).unwrap_or(0..0);
-        PlanError::at(place, message, "take a coarser mesh".into())
+        Diagnostic::at(place, message, "take a coarser mesh")
     }
 
-    fn too_much(&self, what: &str, bytes: usize, iterative: bool) -> PlanError {
+    fn too_much(&self, what: &str, bytes: usize, iterative: bool) -> Diagnostic {
         let memory = &self.scene.solver.memory;
         let iterative = if iterative { ", use `method = \"iterative\"` in `[solver]`" } else { "" };
-        PlanError {
-            message: format!("{what} needs about {}, and {} are allowed", size(bytes), size(self.memory())),
-            help: Some(format!(
+        Diagnostic::at(
+            memory.as_ref().map_or(0..0, Spanned::span),
+            format!("{what} needs about {}, and {} are allowed", size(bytes), size(self.memory())),
+            format!(
                 "raise `memory` in `[solver]` where the machine has it{iterative}, or take a coarser mesh"
-            )),
-            span: memory.as_ref().map_or(0..0, Spanned::span),
-        }
+            ),
+        )
     }
 }
 

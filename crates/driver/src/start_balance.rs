@@ -1,8 +1,9 @@
 //! How far initial stress, weight, loads and interfaces are from balance before anything moves.
 
+use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
 use crate::model::{CellBlock, Model};
-use crate::plan::{PlanError, PlannedInterface, Stepping};
+use crate::plan::{PlannedInterface, Stepping};
 use crate::rigid::place;
 use crate::scene::model::Scene;
 use crate::system;
@@ -36,13 +37,13 @@ struct Left<const D: usize> {
 /// A remark on the start of bodies with an initial stress, and a warning where it is not in balance.
 ///
 /// # Errors
-/// [`PlanError`] for an interface that cannot be built.
+/// [`Diagnostic`] for an interface that cannot be built.
 pub fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     (interfaces, stages): (&[PlannedInterface], &[Stage]),
     stepping: &Stepping,
-) -> Result<(Vec<String>, Option<Warning>), PlanError> {
+) -> Result<(Vec<String>, Option<Warning>), Diagnostic> {
     let given = scene.bodies.values().find_map(|b| b.initial_stress.as_ref());
     let (Some(given), Some(stage)) = (given, stages.first()) else { return Ok((Vec::new(), None)) };
     let mut remarks = Vec::new();
@@ -111,7 +112,7 @@ fn pressed<const D: usize>(
     stepping: &Stepping,
     (planned, stage): (&PlannedInterface, &Stage),
     r: &mut [f64],
-) -> Result<Option<String>, PlanError> {
+) -> Result<Option<String>, Diagnostic> {
     let Some(pressed) = &planned.pressed else { return Ok(None) };
     let name = &planned.name;
     let number: Vec<usize> = (0..model.dofs()).collect();
@@ -122,7 +123,7 @@ fn pressed<const D: usize>(
     }
     let law = declared.law.clone();
     let mut built = Interface::new(declared).map_err(|e| {
-        PlanError::at(scene.interfaces[name].slave.span(), e.to_string(), "see `slave` and `master`".into())
+        Diagnostic::at(scene.interfaces[name].slave.span(), e.to_string(), "see `slave` and `master`")
     })?;
     built.press(&pressed.starts(), pressed.reach);
     built.exert(r);

@@ -1,8 +1,9 @@
 //! Where the sides of the interfaces are before the first step: gaps, overlaps and what faces what, measured as the contact will measure.
 
+use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
 use crate::model::{Model, bounds};
-use crate::plan::{PlanError, PlannedInterface, Stepping};
+use crate::plan::{PlannedInterface, Stepping};
 use crate::rigid::face_normal;
 use crate::scene::check::brief;
 use crate::scene::model::Interface as Spec;
@@ -62,22 +63,22 @@ impl fmt::Display for StartGap {
 /// Measures the start of an interface.
 ///
 /// # Errors
-/// [`PlanError`] at the slave where nothing can ever touch, or where the sides are the wrong ones.
+/// [`Diagnostic`] at the slave where nothing can ever touch, or where the sides are the wrong ones.
 pub fn measure<const D: usize>(
     model: &Model<D>,
     stepping: &Stepping,
     planned: &PlannedInterface,
     (spec, sides): (&Spec, &[Side]),
-) -> Result<StartGap, PlanError> {
+) -> Result<StartGap, Diagnostic> {
     let number: Vec<usize> = (0..model.dofs()).collect();
     let mut declared = system::spec(model, stepping, planned, &number, 0.0, 0);
     // Where the sides are depends neither on the law nor on the enforcement.
     (declared.enforcement, declared.law) = (Enforcement::Penalty, None);
     let built = Interface::new(declared).map_err(|e| {
-        PlanError::at(
+        Diagnostic::at(
             spec.slave.span(),
             e.to_string(),
-            "slave and master are sides that look at each other: are they the right ones, in the right unit of length?".into(),
+            "slave and master are sides that look at each other: are they the right ones, in the right unit of length?",
         )
     })?;
     let points = built.points();
@@ -127,16 +128,16 @@ fn refuse<const D: usize>(
     spec: &Spec,
     start: &StartGap,
     points: &PointFields<D>,
-) -> Option<PlanError> {
+) -> Option<Diagnostic> {
     let (slave, master) = (spec.slave.get_ref(), spec.master.get_ref());
     if start.facing == 0 {
-        return Some(PlanError::at(
+        return Some(Diagnostic::at(
             spec.slave.span(),
             format!(
                 "`{slave}` and `{master}` of interface `{}` do not face each other: both look the same way",
                 planned.name
             ),
-            "choose the side of each body that looks at the other".into(),
+            "choose the side of each body that looks at the other",
         ));
     }
     // Bodies that hold each other (a ring around a shaft) do not overlap by more than either is thick.
@@ -149,7 +150,7 @@ fn refuse<const D: usize>(
         .map(|b| (&model.bodies[b].name, thickness(model, b, &points.normal[p])))
         .min_by(|a, b| a.1.total_cmp(&b.1))?;
     (deepest >= thick * (1.0 - SHARE)).then(|| {
-        PlanError::at(
+        Diagnostic::at(
             spec.slave.span(),
             format!(
                 "`{slave}` and `{master}` of interface `{}` overlap by {} everywhere, and body `{name}` is {} thick",
@@ -157,7 +158,7 @@ fn refuse<const D: usize>(
                 brief(deepest),
                 brief(thick)
             ),
-            "these are the far sides of the two bodies: choose the near ones, or put the bodies beside each other".into(),
+            "these are the far sides of the two bodies: choose the near ones, or put the bodies beside each other",
         )
     })
 }

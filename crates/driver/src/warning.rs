@@ -1,6 +1,6 @@
 //! Warnings: what a scene says that runs, and probably does not mean what its author wants.
 
-use crate::scene::diagnostic::line_column;
+use crate::diagnostic::line_column;
 use serde::Serialize;
 use std::fmt;
 use std::ops::Range;

@@ -1,7 +1,7 @@
 //! What the steps of an interface may not do: derived from its law, the bodies beside it and the loads.
 
+use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::plan::PlanError;
 use crate::scene::law::{Evolution, LawChoice, State};
 use crate::scene::model::Scene;
 use asperity_contact::{Course, RateLimit, Watch};
@@ -21,14 +21,14 @@ const UNIQUE: f64 = 0.5;
 /// What the steps of an interface between these faces may not do; `loading` is the largest prescribed rate \[m/s\].
 ///
 /// # Errors
-/// [`PlanError`] where a body has no material.
+/// [`Diagnostic`] where a body has no material.
 pub fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     law: &LawChoice,
     (slave, master): (&[Side], &[Side]),
     loading: f64,
-) -> Result<Watch, PlanError> {
+) -> Result<Watch, Diagnostic> {
     let rate = match (direct_effect(law), &scene.time.slip_rate_limit) {
         (None, _) => None,
         (Some(_), Some(stated)) => Some(RateLimit::Stated(stated.get_ref().0)),
@@ -83,7 +83,7 @@ fn by_state(a: f64, evolution: Evolution, states: &[State]) -> Course {
 }
 
 /// Largest impedance √(Gρ) of the cells behind some faces \[Pa s/m\].
-fn impedance<const D: usize>(scene: &Scene, model: &Model<D>, sides: &[Side]) -> Result<f64, PlanError> {
+fn impedance<const D: usize>(scene: &Scene, model: &Model<D>, sides: &[Side]) -> Result<f64, Diagnostic> {
     let blocks: BTreeSet<usize> = sides.iter().map(|s| s.block).collect();
     let mut largest = 0.0;
     for block in blocks {

@@ -2,7 +2,9 @@
 //! or `# expect: - part of the message` where the error is about no place in the file.
 #![allow(clippy::unwrap_used)]
 
-use asperity_driver::scene::{self, SceneErrors, diagnostic, units};
+use asperity_driver::diagnostic;
+use asperity_driver::diagnostic::Diagnostics;
+use asperity_driver::scene::{self, units};
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -19,14 +21,14 @@ fn files(folder: &str) -> Vec<(String, String)> {
         .collect()
 }
 
-fn errors(text: &str) -> Option<SceneErrors> {
+fn errors(text: &str) -> Option<Diagnostics> {
     if scene::slider::is_slider(text) {
         return scene::slider::read(text).err();
     }
     let meshes = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
     match scene::read_in(text, &meshes) {
         Err(errors) => Some(errors),
-        Ok(scene) => asperity_driver::plan::plan_scene(&scene).err().map(SceneErrors::from),
+        Ok(scene) => asperity_driver::plan::plan_scene(&scene).err().map(Diagnostics::from),
     }
 }
 

@@ -1,9 +1,11 @@
 //! Sides, segments, traces and supports of faults: what must not matter, what is refused and what is warned of.
 #![allow(clippy::unwrap_used)]
 
+use asperity_driver::diagnostic;
+use asperity_driver::diagnostic::Diagnostic;
 use asperity_driver::fault::{Moment, Plan, run};
-use asperity_driver::plan::{PlanError, ScenePlan, plan_scene};
-use asperity_driver::scene::{self, diagnostic};
+use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::scene;
 use asperity_ode::{Control, Outcome};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -24,7 +26,7 @@ fn text(kinematics: &str, parts: &str, conditions: &str) -> String {
     )
 }
 
-fn planned(text: &str, folder: &Path) -> Result<Plan, PlanError> {
+fn planned(text: &str, folder: &Path) -> Result<Plan, Diagnostic> {
     let scene = scene::read_in(text, folder).unwrap_or_else(|e| panic!("{e}\n{text}"));
     match plan_scene(&scene)? {
         ScenePlan::Faults(plan) => Ok(*plan),
@@ -136,7 +138,7 @@ fn borders(grid: &Grid) -> [(&'static str, Vec<Vec<usize>>); 2] {
 }
 
 /// A scene of the plane split along these lines, with a fault on each of the same properties.
-fn of_lines(kinematics: &str, lines: &[(&str, Vec<Vec<usize>>)], more: &str) -> Result<Plan, PlanError> {
+fn of_lines(kinematics: &str, lines: &[(&str, Vec<Vec<usize>>)], more: &str) -> Result<Plan, Diagnostic> {
     let grid = plane();
     let mut faces: Vec<_> = borders(&grid).to_vec();
     faces.extend(lines.iter().cloned());
@@ -369,7 +371,7 @@ fn sides_of_one_set_of_nodes_are_refused_with_words() {
 }
 
 /// A fault that dips by 60 degrees through a box.
-fn dipping(swapped: bool, conditions: &str) -> Result<Plan, PlanError> {
+fn dipping(swapped: bool, conditions: &str) -> Result<Plan, Diagnostic> {
     let [minus, plus] = if swapped { ["plus", "minus"] } else { ["minus", "plus"] };
     let parts = format!(
         "[bodies.B]\nmaterial = \"rock\"\nmesh.fault = {{ trace = [[0, 0], [\"10 km\", \"-17.320508 km\"]], spacing = \"1 km\", \

@@ -1,8 +1,9 @@
 //! Normal tractions of faults: floors, tractions that stay, initial stress, and how finely points stand beside lengths of friction.
 #![allow(clippy::unwrap_used)]
 
+use asperity_driver::diagnostic::Diagnostic;
 use asperity_driver::fault::{Balance, Moment, Plan, Report, Run, run};
-use asperity_driver::plan::{PlanError, ScenePlan, plan_scene};
+use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Outcome};
 
@@ -62,7 +63,7 @@ fn thrust(keys: &str) -> String {
     dipping(LISTRIC, [0.75_f64.sqrt(), -0.5], 1.0, &format!("{press}\n{keys}"))
 }
 
-fn planned(text: &str) -> Result<Plan, PlanError> {
+fn planned(text: &str) -> Result<Plan, Diagnostic> {
     let scene = scene::read(text).unwrap();
     plan_scene(&scene).map(|plan| match plan {
         ScenePlan::Faults(plan) => *plan,

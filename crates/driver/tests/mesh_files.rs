@@ -3,8 +3,9 @@
 
 mod common;
 
+use asperity_driver::diagnostic::Diagnostics;
 use asperity_driver::plan;
-use asperity_driver::scene::{self, SceneErrors};
+use asperity_driver::scene;
 use common::{close, displacements, simulate};
 use std::path::Path;
 
@@ -162,7 +163,7 @@ fn refused(text: &str) -> (String, std::ops::Range<usize>) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
     let error = match scene::read_in(text, &folder) {
         Err(errors) => errors,
-        Ok(scene) => SceneErrors::from(plan::plan(&scene).map(|_| ()).unwrap_err()),
+        Ok(scene) => Diagnostics::from(plan::plan(&scene).map(|_| ()).unwrap_err()),
     };
     let first = &error.0[0];
     (format!("{} ({})", first.message, first.help.clone().unwrap_or_default()), first.span.clone())

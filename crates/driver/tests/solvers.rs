@@ -3,7 +3,8 @@
 
 mod common;
 
-use asperity_driver::plan::{self, PlanError};
+use asperity_driver::diagnostic::Diagnostic;
+use asperity_driver::plan;
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::{run, scene};
 use asperity_output::Recorder;
@@ -46,7 +47,7 @@ fn pull(traction: &str, steps: usize) -> String {
 const LOAD: &str = "[{ to = 1e6 }, { to = 2e5 }, { to = -3e5 }]";
 const PLANE_LOAD: &str = "[{ to = 1e6 }, { to = 2e5 }]";
 
-fn refused(text: &str) -> PlanError {
+fn refused(text: &str) -> Diagnostic {
     let scene = scene::read_in(text, Path::new("")).unwrap_or_else(|e| panic!("{e}"));
     plan::plan(&scene).unwrap_err()
 }

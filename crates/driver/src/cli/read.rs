@@ -1,9 +1,10 @@
 //! From a scene file to its plan.
 
 use super::directory::Begin;
+use crate::diagnostic::{Diagnostics, report};
 use crate::fault;
 use crate::plan::{self, AnyPlan, ScenePlan};
-use crate::scene::{self, SceneErrors};
+use crate::scene;
 use crate::slider;
 use crate::warning::Warning;
 use miette::{IntoDiagnostic, WrapErr};
@@ -70,7 +71,7 @@ impl Source {
             .wrap_err_with(|| format!("cannot read the scene {}", path.display()))?;
         let clock = Instant::now();
         let name = path.display().to_string();
-        let told = |errors: &SceneErrors| scene::diagnostic::report(&name, &text, errors);
+        let told = |errors: &Diagnostics| report(&name, &text, errors);
         let parsed = if scene::slider::is_slider(&text) {
             Parsed::Sliders(Box::new(scene::slider::read(&text).map_err(|errors| told(&errors))?))
         } else {
@@ -107,7 +108,7 @@ impl Source {
                     Ok(ScenePlan::Bodies(plan)) => Planned::Bodies(plan),
                     Ok(ScenePlan::Faults(plan)) => Planned::Faults(plan),
                     Err(error) => {
-                        return Err(scene::diagnostic::report(&name, &text, &SceneErrors::from(error)));
+                        return Err(report(&name, &text, &Diagnostics::from(error)));
                     }
                 };
                 for file in scene.mesh_files() {

@@ -2,8 +2,8 @@
 
 use super::place::Place;
 use super::plan::{Placed, at};
+use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::plan::PlanError;
 use crate::rigid;
 use crate::scene::model::{Along, Fault as Spec, LawSpec, Profile, Profiled, Scene, Spanned, Station};
 use crate::warning::Warning;
@@ -30,41 +30,41 @@ fn extent<'a, const D: usize>(places: impl Iterator<Item = &'a Place<D>> + Clone
 /// Refuses creep that takes no point of its fault.
 ///
 /// # Errors
-/// [`PlanError`] at the border of the creep.
+/// [`Diagnostic`] at the border of the creep.
 pub(super) fn creep<const D: usize>(
     (name, spec): (&str, &Spec),
     placed: &[Placed<D>],
-) -> Result<(), PlanError> {
+) -> Result<(), Diagnostic> {
     let Some(creep) = spec.creep.as_ref().filter(|_| placed.iter().all(|p| p.point.creep.is_none())) else {
         return Ok(());
     };
     let border = creep.beyond.as_ref().map(Spanned::span).or(creep.outside.as_ref().map(Spanned::span));
     let extent = extent(placed.iter().map(|p| &p.point.place));
-    Err(PlanError::at(
+    Err(Diagnostic::at(
         border.unwrap_or_else(|| creep.rate.span()),
         format!("creep takes no point of fault `{name}`, whose points lie {extent}"),
-        "move the border of the creep onto the fault, or leave `creep` out".into(),
+        "move the border of the creep onto the fault, or leave `creep` out",
     ))
 }
 
 /// Refuses faults that are to open where none of their points may; `points` are those that may, among `placed`.
 ///
 /// # Errors
-/// [`PlanError`] at the key.
+/// [`Diagnostic`] at the key.
 pub(super) fn opens<const D: usize>(
     faults: &[(&String, &Spec)],
     placed: &[Placed<D>],
     points: &[usize],
-) -> Result<(), PlanError> {
+) -> Result<(), Diagnostic> {
     for (k, (name, spec)) in faults.iter().enumerate() {
         let Some(opening) = spec.opening.as_ref().filter(|o| *o.get_ref()) else { continue };
         if !points.iter().any(|&p| placed[p].fault == k) {
-            return Err(PlanError::at(
+            return Err(Diagnostic::at(
                 opening.span(),
                 format!(
                     "no point of fault `{name}` can open: where it does not creep, conditions hold both of its sides across it"
                 ),
-                "leave these conditions out on one of the sides, or remove `opening`".into(),
+                "leave these conditions out on one of the sides, or remove `opening`",
             ));
         }
     }
@@ -72,25 +72,28 @@ pub(super) fn opens<const D: usize>(
 }
 
 /// The refusal of faults of which nothing is left to slide.
-pub(super) fn nothing_slides<const D: usize>(faults: &[(&String, &Spec)], placed: &[Placed<D>]) -> PlanError {
+pub(super) fn nothing_slides<const D: usize>(
+    faults: &[(&String, &Spec)],
+    placed: &[Placed<D>],
+) -> Diagnostic {
     let of = |k: usize| placed.iter().filter(move |p| p.fault == k).map(|p| &p.point.place);
     let mut all = faults.iter().enumerate().filter_map(|(k, f)| Some((f.0, of(k), f.1.creep.as_ref()?)));
     let Some((name, places, creep)) = all.next() else {
-        return PlanError::at(
+        return Diagnostic::at(
             faults.first().map_or(0..0, |f| f.1.minus.span()),
-            "no point of the faults is free to slide".into(),
-            "`minus` and `plus` are two sides that can part".into(),
+            "no point of the faults is free to slide",
+            "`minus` and `plus` are two sides that can part",
         );
     };
     let border = creep.beyond.as_ref().map(Spanned::span).or(creep.outside.as_ref().map(Spanned::span));
-    PlanError::at(
+    Diagnostic::at(
         border.unwrap_or_else(|| creep.rate.span()),
         format!(
             "no point of the faults is free to slide: creep takes all {} points of fault `{name}`, which lie {}",
             places.clone().count(),
             extent(places)
         ),
-        "a part of a fault must slide by its law: move the border of the creep".into(),
+        "a part of a fault must slide by its law: move the border of the creep",
     )
 }
 
@@ -169,13 +172,13 @@ fn constant<const D: usize>(
 /// Refuses a station farther than a cell from the nearest point that slides, number `point` of `placed`.
 ///
 /// # Errors
-/// [`PlanError`] at the station.
+/// [`Diagnostic`] at the station.
 pub(super) fn station<const D: usize>(
     model: &Model<D>,
     (name, spec): (&str, &Spec),
     asked: &Spanned<Station>,
     (placed, point): (&[Placed<D>], usize),
-) -> Result<(), PlanError> {
+) -> Result<(), Diagnostic> {
     let place = &placed[point].point.place;
     let (off, wanted, found) = match asked.get_ref() {
         Station::Along(s) => ((place.along - s).abs(), format!("{s} m along"), format!("{} m", place.along)),
@@ -190,17 +193,17 @@ pub(super) fn station<const D: usize>(
         return Ok(());
     }
     let extent = extent(placed.iter().map(|p| &p.point.place));
-    Err(PlanError::at(
+    Err(Diagnostic::at(
         asked.span(),
         format!(
             "the station at {wanted} fault `{name}` lies off its sliding points, which lie {extent}: the nearest one is at {found}, {off} m away"
         ),
-        "a place on the part of the fault that slides freely".into(),
+        "a place on the part of the fault that slides freely",
     ))
 }
 
 /// Largest extent of the faces at a place \[m\].
-fn cell<const D: usize>(model: &Model<D>, spec: &Spec, place: &Place<D>) -> Result<f64, PlanError> {
+fn cell<const D: usize>(model: &Model<D>, spec: &Spec, place: &Place<D>) -> Result<f64, Diagnostic> {
     let mut size = 0.0_f64;
     for side in model.sides(&spec.minus)? {
         let nodes = face_nodes(&model.mesh, side);
@@ -218,31 +221,31 @@ fn cell<const D: usize>(model: &Model<D>, spec: &Spec, place: &Place<D>) -> Resu
 }
 
 /// The refusal of a body that no fault can be in.
-pub(super) fn not_linear(scene: &Scene, body: &str) -> PlanError {
+pub(super) fn not_linear(scene: &Scene, body: &str) -> Diagnostic {
     let spec = &scene.bodies[body];
     let strain = spec.strain.as_ref().filter(|_| spec.is_finite());
     let place = strain.map_or_else(|| spec.material.span(), Spanned::span);
-    let help = "an elastic material and small strain".into();
-    PlanError::at(place, format!("body `{body}` is not linear: faults need linear bodies"), help)
+    let help = "an elastic material and small strain";
+    Diagnostic::at(place, format!("body `{body}` is not linear: faults need linear bodies"), help)
 }
 
 /// The refusal of more stages than one, or of none.
-pub(super) fn stages(scene: &Scene) -> PlanError {
+pub(super) fn stages(scene: &Scene) -> Diagnostic {
     let place = scene.stages.get(1).map_or_else(|| scene.time.stepper.span(), |s| s.duration.span());
     let found = format!("a scene with faults has one stage, found {}", scene.stages.len());
-    PlanError::at(place, found, "loads that change in time are tables of one stage".into())
+    Diagnostic::at(place, found, "loads that change in time are tables of one stage")
 }
 
 /// The refusal of a law of which nothing else is said.
-pub(super) fn incomplete(law: &Spanned<LawSpec>) -> PlanError {
-    PlanError::at(law.span(), "the law is not complete".into(), "see the laws of friction".into())
+pub(super) fn incomplete(law: &Spanned<LawSpec>) -> Diagnostic {
+    Diagnostic::at(law.span(), "the law is not complete", "see the laws of friction")
 }
 
 /// The refusal of a law that faults cannot follow.
-pub(super) fn another_law(law: &Spanned<LawSpec>) -> PlanError {
-    PlanError::at(
+pub(super) fn another_law(law: &Spanned<LawSpec>) -> Diagnostic {
+    Diagnostic::at(
         law.span(),
-        "a fault through cycles needs a law that depends on the slip rate".into(),
-        "\"rate\" or \"rate-and-state\" is such a kind".into(),
+        "a fault through cycles needs a law that depends on the slip rate",
+        "\"rate\" or \"rate-and-state\" is such a kind",
     )
 }

@@ -1,7 +1,7 @@
 //! How sharply faults turn from one cell to the next.
 
+use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::plan::PlanError;
 use crate::rigid;
 use crate::scene::model::Fault as Spec;
 use asperity_fem::mesh::{Side, face_nodes};
@@ -14,11 +14,11 @@ const NOTED: f64 = 2.0;
 /// A note on the sharpest turn of a fault.
 ///
 /// # Errors
-/// [`PlanError`] for sets that are not there.
+/// [`Diagnostic`] for sets that are not there.
 pub(super) fn note<const D: usize>(
     model: &Model<D>,
     (name, spec): (&str, &Spec),
-) -> Result<Option<String>, PlanError> {
+) -> Result<Option<String>, Diagnostic> {
     // In antiplane motion the direction of slip is the same everywhere.
     if model.idealisation.components() == 1 {
         return Ok(None);

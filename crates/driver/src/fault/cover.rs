@@ -1,8 +1,8 @@
 //! What the two sides of a fault must have in common: the same nodes wherever one covers the other.
 
 use super::place::TOGETHER;
+use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::plan::PlanError;
 use crate::rigid;
 use crate::scene::model::Fault as Spec;
 use crate::warning::Warning;
@@ -16,13 +16,13 @@ const RISE: f64 = 0.1;
 /// Where the plus side reaches beyond the minus side it is free, as its author declared it.
 ///
 /// # Errors
-/// [`PlanError`] at the plus side, with the first place and how many there are.
+/// [`Diagnostic`] at the plus side, with the first place and how many there are.
 pub(super) fn partners<const D: usize>(
     model: &Model<D>,
     (name, spec): (&str, &Spec),
     minus: &[Side],
     alone: &[usize],
-) -> Result<(), PlanError> {
+) -> Result<(), Diagnostic> {
     if alone.is_empty() {
         return Ok(());
     }
@@ -31,7 +31,7 @@ pub(super) fn partners<const D: usize>(
     let x = |n: &usize| &model.mesh.nodes[*n];
     let covered: Vec<&usize> = alone.iter().filter(|n| faces.iter().any(|f| f.holds(x(n), close))).collect();
     let Some(first) = covered.first() else { return Ok(()) };
-    Err(PlanError::at(
+    Err(Diagnostic::at(
         spec.plus.span(),
         format!(
             "the sides of fault `{name}` do not lie on each other: the node of the plus side at {} lies between nodes of the minus side and has none \
@@ -39,7 +39,7 @@ pub(super) fn partners<const D: usize>(
             rigid::place(x(first)),
             covered.len()
         ),
-        "both sides need the same nodes: equal sizes of cells on both, or one mesh that is split along the fault".into(),
+        "both sides need the same nodes: equal sizes of cells on both, or one mesh that is split along the fault",
     ))
 }
 

@@ -2,8 +2,8 @@
 
 use super::condense::Point;
 use super::place::Place;
+use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::plan::PlanError;
 use crate::rigid;
 use crate::scene::model::{Motion, Scene, Spanned};
 use asperity_fem::dof::Channel;
@@ -63,7 +63,7 @@ impl From<String> for Refusal {
 
 impl Refusal {
     /// As an error of a plan, at the condition that is at fault.
-    pub(super) fn place<const D: usize>(self, scene: &Scene, model: &Model<D>) -> PlanError {
+    pub(super) fn place<const D: usize>(self, scene: &Scene, model: &Model<D>) -> Diagnostic {
         let Self { message, help, at, about } = self;
         let conditions = scene.stages.iter().flat_map(|s| &s.conditions).map(|c| c.get_ref());
         let place = at.and_then(|(nodes, component)| {
@@ -81,10 +81,11 @@ impl Refusal {
             });
             found.next()
         });
-        match place {
-            Some((set, span)) => PlanError { message: format!("`{set}`: {message}"), help, span },
-            None => PlanError { message, help, span: about.place(scene) },
-        }
+        let (message, span) = match place {
+            Some((set, span)) => (format!("`{set}`: {message}"), span),
+            None => (message, about.place(scene)),
+        };
+        Diagnostic { message, help, span, also: Vec::new() }
     }
 }
 

@@ -7,8 +7,8 @@
 
 use super::place::Place;
 use super::resolution;
+use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::plan::PlanError;
 use crate::scene::model::{Fault as Spec, Scene};
 use asperity_fem::mesh::Side;
 use asperity_fem::surface;
@@ -46,8 +46,8 @@ impl Media {
     /// area hold there.
     ///
     /// # Errors
-    /// [`PlanError`] where a block has no material.
-    pub fn new<const D: usize>(scene: &Scene, model: &Model<D>, spec: &Spec) -> Result<Self, PlanError> {
+    /// [`Diagnostic`] where a block has no material.
+    pub fn new<const D: usize>(scene: &Scene, model: &Model<D>, spec: &Spec) -> Result<Self, Diagnostic> {
         let side = |sides| shares(scene, model, sides);
         Ok(Self { minus: side(model.sides(&spec.minus)?)?, plus: side(model.sides(&spec.plus)?)? })
     }
@@ -69,7 +69,7 @@ fn shares<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     sides: &[Side],
-) -> Result<BTreeMap<usize, Share>, PlanError> {
+) -> Result<BTreeMap<usize, Share>, Diagnostic> {
     let mut by_block: BTreeMap<usize, Vec<Side>> = BTreeMap::new();
     for side in sides {
         by_block.entry(side.block).or_default().push(*side);

@@ -5,8 +5,8 @@
 
 use super::place::{branches, directions, unit};
 use super::plan::Placed;
+use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::plan::PlanError;
 use crate::rigid;
 use crate::scene::model::{Fault as Spec, Scene};
 use asperity_fem::mesh::face_nodes;
@@ -15,12 +15,12 @@ use std::collections::BTreeMap;
 /// Joins the points that faults share; gives notes on where they do.
 ///
 /// # Errors
-/// [`PlanError`] where two faults have a face in common, or branch.
+/// [`Diagnostic`] where two faults have a face in common, or branch.
 pub(super) fn join<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     placed: &mut Vec<Placed<D>>,
-) -> Result<Vec<String>, PlanError> {
+) -> Result<Vec<String>, Diagnostic> {
     let faults: Vec<(&String, &Spec)> = scene.faults.iter().collect();
     distinct(model, &faults, placed)?;
     let mut owner: BTreeMap<usize, usize> = BTreeMap::new();
@@ -68,7 +68,7 @@ fn absorb<const D: usize>(
     placed: &mut [Placed<D>],
     a: usize,
     b: usize,
-) -> Result<(), PlanError> {
+) -> Result<(), Diagnostic> {
     let other = placed[b].point.place.clone();
     let owner = &mut placed[a];
     let place = &mut owner.point.place;
@@ -89,7 +89,7 @@ fn distinct<const D: usize>(
     model: &Model<D>,
     faults: &[(&String, &Spec)],
     placed: &[Placed<D>],
-) -> Result<(), PlanError> {
+) -> Result<(), Diagnostic> {
     let mut owner: BTreeMap<Vec<[usize; 2]>, usize> = BTreeMap::new();
     for (k, &(name, spec)) in faults.iter().enumerate() {
         let own = placed.iter().filter(|p| p.fault == k).map(|p| &p.point.place);
@@ -106,7 +106,7 @@ fn distinct<const D: usize>(
             key.sort_unstable();
             let Some(before) = owner.insert(key, k).filter(|&before| before != k) else { continue };
             let other = faults[before].0;
-            return Err(PlanError::at(
+            return Err(Diagnostic::at(
                 spec.minus.span(),
                 format!("faults `{other}` and `{name}` both have the face at {at}"),
                 format!(

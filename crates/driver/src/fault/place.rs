@@ -1,8 +1,8 @@
 //! The points of a fault: pairs of nodes, one on each side, at one place.
 
 use super::cover;
+use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::plan::PlanError;
 use crate::rigid;
 use crate::scene::model::{Fault as Spec, Spanned};
 use crate::warning::Warning;
@@ -39,16 +39,16 @@ pub struct Place<const D: usize> {
 /// The points of a fault, along a plane one from its upper end, and what is doubtful about its sides.
 ///
 /// # Errors
-/// [`PlanError`] where the sides do not lie on each other node by node, where more than two meet, or a point has no area.
+/// [`Diagnostic`] where the sides do not lie on each other node by node, where more than two meet, or a point has no area.
 pub fn places<const D: usize>(
     model: &Model<D>,
     name: &str,
     spec: &Spec,
-) -> Result<(Vec<Place<D>>, Option<Warning>), PlanError> {
+) -> Result<(Vec<Place<D>>, Option<Warning>), Diagnostic> {
     let (minus, plus) = (model.sides(&spec.minus)?, model.sides(&spec.plus)?);
     let (pairs, doubtful) = pairs(model, name, spec, minus, plus)?;
     let no_areas =
-        |e: FemError| PlanError::at(spec.minus.span(), format!("fault `{name}`: {e}"), WITH_AREAS.into());
+        |e: FemError| Diagnostic::at(spec.minus.span(), format!("fault `{name}`: {e}"), WITH_AREAS);
     let areas = model.tributary_areas(minus).map_err(no_areas)?;
     let normals = normals(model, minus);
     let along = if D == 2 { distances(model, minus) } else { BTreeMap::new() };
@@ -56,13 +56,13 @@ pub fn places<const D: usize>(
     for (minus, plus) in pairs {
         let area = areas.get(&minus).copied().unwrap_or(0.0);
         if area <= 0.0 {
-            return Err(PlanError::at(
+            return Err(Diagnostic::at(
                 spec.minus.span(),
                 format!(
                     "a node of fault `{name}` at {} has no positive area",
                     rigid::place(&model.mesh.nodes[minus])
                 ),
-                WITH_AREAS.into(),
+                WITH_AREAS,
             ));
         }
         let normal = unit(normals[&minus]);
@@ -86,18 +86,18 @@ pub fn places<const D: usize>(
 /// Directions of slip and of creep at a place of a fault.
 ///
 /// # Errors
-/// [`PlanError`] at a rake that is normal to the fault.
+/// [`Diagnostic`] at a rake that is normal to the fault.
 pub(super) fn directions<const D: usize>(
     (name, spec): (&str, &Spec),
     at: &[f64; D],
     normal: &[f64; D],
-) -> Result<[[f64; D]; 2], PlanError> {
+) -> Result<[[f64; D]; 2], Diagnostic> {
     let within = |rake: &Spanned<[f64; 3]>| {
         along_rake(rake.get_ref(), normal).ok_or_else(|| {
-            PlanError::at(
+            Diagnostic::at(
                 rake.span(),
                 format!("`rake` is normal to fault `{name}` at {}", rigid::place(at)),
-                "a direction along the fault".into(),
+                "a direction along the fault",
             )
         })
     };
@@ -148,7 +148,7 @@ fn pairs<const D: usize>(
     spec: &Spec,
     minus: &[Side],
     plus: &[Side],
-) -> Result<(Pairs, Option<Warning>), PlanError> {
+) -> Result<(Pairs, Option<Warning>), Diagnostic> {
     let close = TOGETHER * model.scale;
     let nodes = |sides: &[Side]| nodes_of_sides(&model.mesh, sides);
     let (on_minus, mut on_plus) = (nodes(minus), nodes(plus));
@@ -165,13 +165,13 @@ fn pairs<const D: usize>(
         match near.as_slice() {
             [p] if taken.insert(*p) => partner.insert(*m, *p),
             [] => {
-                return Err(PlanError::at(
+                return Err(Diagnostic::at(
                     spec.plus.span(),
                     format!(
                         "the sides of fault `{name}` do not lie on each other: the node of the minus side at {} has none on the plus side",
                         rigid::place(&x(m))
                     ),
-                    "both sides need the same nodes, as splitting a mesh along a surface makes them".into(),
+                    "both sides need the same nodes, as splitting a mesh along a surface makes them",
                 ));
             }
             _ => return Err(branches(&format!("fault `{name}` branches"), &x(m), spec)),
@@ -182,25 +182,23 @@ fn pairs<const D: usize>(
     let doubtful = cover::same_faces(model, (name, spec), (minus, plus), |m| partner.get(&m).copied());
     let pairs: Pairs = partner.into_iter().filter(|(m, p)| m != p).collect();
     if pairs.is_empty() {
-        return Err(PlanError::at(
+        return Err(Diagnostic::at(
             spec.plus.span(),
             format!("both sides of fault `{name}` are the same nodes: nothing can slide there"),
             "a fault lies between two sides that can part: two bodies, or a mesh that is split along a surface, whose sides are \
-             `body.SURFACE.minus` and `body.SURFACE.plus`"
-                .into(),
+             `body.SURFACE.minus` and `body.SURFACE.plus`",
         ));
     }
     Ok((pairs, doubtful))
 }
 
 /// The refusal of a place where more than two sides meet.
-pub(super) fn branches<const D: usize>(what: &str, at: &[f64; D], spec: &Spec) -> PlanError {
-    PlanError::at(
+pub(super) fn branches<const D: usize>(what: &str, at: &[f64; D], spec: &Spec) -> Diagnostic {
+    Diagnostic::at(
         spec.minus.span(),
         format!("{what} at {}: more than two sides meet there", rigid::place(at)),
         "a point of a fault has two sides; leave the faces of a branch that touch the other fault out of its surface, so that it ends one cell away \
-         from it, or leave the branch out"
-            .into(),
+         from it, or leave the branch out",
     )
 }
 

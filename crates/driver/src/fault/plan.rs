@@ -25,11 +25,11 @@ use super::run::Settings;
 use super::sense;
 use super::start_doubts;
 use super::weight;
+use crate::diagnostic::Diagnostic;
 use crate::forecast::{self, Held};
 use crate::laws;
 use crate::loading::{self, Stage};
 use crate::model::{Model, meshes};
-use crate::plan::PlanError;
 use crate::scene::law::{self, Evolution, LawChoice};
 use crate::scene::model::{
     Along, Creep, DampingSpec, Fault as Spec, Kinematics, Profile, Profiled, Scene, SlipSpec, Station,
@@ -238,23 +238,23 @@ fn range(values: &[f64]) -> Option<String> {
 /// Plans a scene whose stepper is "fault-ode".
 ///
 /// # Errors
-/// [`PlanError`] with the place in the scene.
-pub fn plan(scene: &Scene) -> Result<Plan, PlanError> {
+/// [`Diagnostic`] with the place in the scene.
+pub fn plan(scene: &Scene) -> Result<Plan, Diagnostic> {
     plan_with(scene, Form::Fitting)
 }
 
 /// Plans such a scene with the operator in a given form.
 ///
 /// # Errors
-/// [`PlanError`] with the place in the scene.
-pub fn plan_with(scene: &Scene, form: Form) -> Result<Plan, PlanError> {
+/// [`Diagnostic`] with the place in the scene.
+pub fn plan_with(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
     match scene.kinematics.get_ref() {
         Kinematics::Antiplane | Kinematics::PlaneStrain => plan_in::<2>(scene, form),
         Kinematics::ThreeD => plan_in::<3>(scene, form),
-        other => Err(PlanError::at(
+        other => Err(Diagnostic::at(
             scene.kinematics.span(),
             format!("faults in {} are not integrated yet", other.words()),
-            "\"antiplane\", \"plane-strain\" and \"3d\" are".into(),
+            "\"antiplane\", \"plane-strain\" and \"3d\" are",
         )),
     }
 }
@@ -302,7 +302,7 @@ fn admit<const D: usize>(
     model: &Model<D>,
     points: &[Point<D>],
     conditions: Conditions,
-) -> Result<(), PlanError> {
+) -> Result<(), Diagnostic> {
     let free = points.iter().filter(|p| p.creep.is_none()).count();
     let opening = points.iter().filter(|p| p.creep.is_none() && p.opens).count();
     let least = condense::least_bytes(model.idealisation.components(), conditions.tangents, free, opening);
@@ -323,7 +323,7 @@ fn conditions(scene: &Scene) -> Conditions {
     Conditions { tangents: if turns { 2 } else { 1 }, memory: solver::memory(scene), keep }
 }
 
-fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError> {
+fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
     let mut model = Model::<D>::new(scene)?;
     if let Some(body) = model.bodies.iter().find(|b| b.nonlinear.is_some()) {
         return Err(asked::not_linear(scene, &body.name));
@@ -355,7 +355,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
     let Some(first) = placed.first() else {
         return Err(asked::nothing_slides(&named, &creeping));
     };
-    let at_law = |e: Failure| PlanError::from(law::refused(&named[first.fault].1.law, &e));
+    let at_law = |e: Failure| law::refused(&named[first.fault].1.law, &e);
     asked::opens(&named, &placed, surroundings.opening.as_ref().map_or(&[], |o| o.points()))?;
     let law = friction(&named, &placed, at_law)?;
     let law = if turns { Box::new(Turning::new(law)) } else { law };
@@ -399,16 +399,15 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, PlanError>
 fn friction<const D: usize>(
     faults: &[(&String, &Spec)],
     placed: &[Placed<D>],
-    at_law: impl Fn(Failure) -> PlanError,
-) -> Result<Box<dyn FaultLaw>, PlanError> {
+    at_law: impl Fn(Failure) -> Diagnostic,
+) -> Result<Box<dyn FaultLaw>, Diagnostic> {
     let (first, rest) = (&placed[0], &placed[1..]);
     let spec = |p: &Placed<D>| &faults[p.fault].1.law;
     if let Some(other) = rest.iter().find(|p| !first.law.same_kind(&p.law)) {
-        return Err(PlanError::at(
+        return Err(Diagnostic::at(
             spec(other).span(),
-            "the faults have laws of different kinds".into(),
-            "one form, one evolution and as many states for all faults of a scene; parameters may differ"
-                .into(),
+            "the faults have laws of different kinds",
+            "one form, one evolution and as many states for all faults of a scene; parameters may differ",
         ));
     }
     let choices: Vec<LawChoice> = rest.iter().map(|p| p.law.clone()).collect();
@@ -436,7 +435,7 @@ fn all_points<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
     warnings: &mut Vec<Warning>,
-) -> Result<(Vec<Placed<D>>, Vec<String>), PlanError> {
+) -> Result<(Vec<Placed<D>>, Vec<String>), Diagnostic> {
     let mut placed: Vec<Placed<D>> = Vec::new();
     for (k, (name, spec)) in scene.faults.iter().enumerate() {
         placed.extend(points_of(scene, model, (name, spec), k, warnings)?);
@@ -450,11 +449,10 @@ fn all_points<const D: usize>(
 }
 
 /// Where and when a scene lies on Earth.
-fn frame(scene: &Scene, in_space: bool) -> Result<Option<Frame>, PlanError> {
+fn frame(scene: &Scene, in_space: bool) -> Result<Option<Frame>, Diagnostic> {
     let Some(place) = &scene.place else { return Ok(None) };
-    let frame = Frame::new(place, in_space).map_err(|e| {
-        PlanError::at(place.epoch.span(), e.to_string(), "such as \"2000-01-01T00:00:00Z\"".into())
-    })?;
+    let frame = Frame::new(place, in_space)
+        .map_err(|e| Diagnostic::at(place.epoch.span(), e.to_string(), "such as \"2000-01-01T00:00:00Z\""))?;
     Ok(Some(frame))
 }
 
@@ -463,7 +461,7 @@ fn resolved<const D: usize>(
     scene: &Scene,
     placed: &[Placed<D>],
     warnings: &mut Vec<Warning>,
-) -> Result<Vec<Resolution>, PlanError> {
+) -> Result<Vec<Resolution>, Diagnostic> {
     let mut all = Vec::new();
     for (fault, (name, spec)) in scene.faults.iter().enumerate() {
         let points = || placed.iter().filter(|p| p.fault == fault && p.point.creep.is_none());
@@ -537,10 +535,10 @@ fn points_of<const D: usize>(
     (name, spec): (&str, &Spec),
     fault: usize,
     warnings: &mut Vec<Warning>,
-) -> Result<Vec<Placed<D>>, PlanError> {
+) -> Result<Vec<Placed<D>>, Diagnostic> {
     let base = law::choose(&spec.law).map_err(|errors| {
         let first = errors.into_iter().next();
-        first.map_or_else(|| asked::incomplete(&spec.law), PlanError::from)
+        first.unwrap_or_else(|| asked::incomplete(&spec.law))
     })?;
     let mut placed = Vec::new();
     let media = Media::new(scene, model, spec)?;
@@ -651,22 +649,22 @@ fn varied(base: &LawChoice, a: Option<f64>, b: Option<f64>, l: Option<f64>) -> L
 }
 
 /// η at a point \[Pa s/m\].
-fn damping(spec: &Spec, medium: &Medium) -> Result<f64, PlanError> {
+fn damping(spec: &Spec, medium: &Medium) -> Result<f64, Diagnostic> {
     let Some(given) = &spec.damping else { return Ok(0.0) };
     match given.get_ref() {
         DampingSpec::Value(value) => Ok(*value),
         DampingSpec::Radiation => medium.radiation.ok_or_else(|| {
-            PlanError::at(
+            Diagnostic::at(
                 given.span(),
-                "radiation damping needs the density of the materials at the fault".into(),
-                "add `density = \"2670 kg/m^3\"` to them, or give the damping in Pa s/m".into(),
+                "radiation damping needs the density of the materials at the fault",
+                "add `density = \"2670 kg/m^3\"` to them, or give the damping in Pa s/m",
             )
         }),
     }
 }
 
 /// Pressure of the fluid that is injected.
-fn pressure<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Option<Pressure>, PlanError> {
+fn pressure<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Option<Pressure>, Diagnostic> {
     let mut pressure: Option<Pressure> = None;
     for (fault, (name, spec)) in scene.faults.iter().enumerate() {
         let Some(injection) = &spec.injection else { continue };
@@ -675,7 +673,7 @@ fn pressure<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Optio
         let along: Vec<f64> = points.map(|p| p.point.place.along).collect();
         let (least, most) = along.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), s| (l.min(*s), m.max(*s)));
         if !(least <= at && at <= most) {
-            return Err(PlanError::at(
+            return Err(Diagnostic::at(
                 injection.at.span(),
                 format!("fault `{name}` does not slide at {at} m along it, where fluid is injected"),
                 format!("it slides from {least} to {most} m"),
@@ -729,7 +727,7 @@ fn start<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> 
     Ok(y)
 }
 
-fn settings(scene: &Scene, end: f64) -> Result<Settings, PlanError> {
+fn settings(scene: &Scene, end: f64) -> Result<Settings, Diagnostic> {
     let time = &scene.time;
     let method = match &time.method {
         None => DEFAULT_METHOD,
@@ -737,7 +735,7 @@ fn settings(scene: &Scene, end: f64) -> Result<Settings, PlanError> {
             Ok(method) if Method::EXPLICIT.contains(&method) => method,
             _ => {
                 let those = Method::EXPLICIT.map(|m| format!("\"{}\"", m.name())).join(", ");
-                return Err(PlanError::at(
+                return Err(Diagnostic::at(
                     name.span(),
                     format!("the method \"{}\" does not integrate faults", name.get_ref()),
                     format!("those without a Jacobian do: {those}"),
@@ -782,7 +780,7 @@ fn faces<const D: usize>(
     model: &Model<D>,
     spec: &Spec,
     placed: &[Placed<D>],
-) -> Result<Vec<Vec<usize>>, PlanError> {
+) -> Result<Vec<Vec<usize>>, Diagnostic> {
     let points = placed.iter().enumerate().map(|(p, placed)| (placed.point.place.minus, p));
     let points: BTreeMap<usize, usize> = points.collect();
     let of = |side: &Side| {
@@ -807,7 +805,7 @@ fn views<const D: usize>(
     model: &Model<D>,
     placed: &[Placed<D>],
     turns: bool,
-) -> Result<(Vec<FaultView>, Vec<PointView>), PlanError> {
+) -> Result<(Vec<FaultView>, Vec<PointView>), Diagnostic> {
     let points: Vec<PointView> = placed
         .iter()
         .map(|p| {

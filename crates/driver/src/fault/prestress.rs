@@ -4,9 +4,9 @@
 //! `τ_0 = s·σn`. The bodies are taken to be in equilibrium under it at the start, whatever holds it at their outer faces: what loads and slip change comes on top.
 
 use super::place::{Place, across};
+use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
 use crate::model::Model;
-use crate::plan::PlanError;
 use crate::rigid;
 use crate::scene::model::{Body, Fault as Spec, InitialStress, Scene, SlipSpec, Spanned};
 use std::ops::Range;
@@ -62,13 +62,13 @@ impl<'a> Prestress<'a> {
     /// Tractions at a place where the fault slides freely. Where weight acts as well, only their sum is judged.
     ///
     /// # Errors
-    /// [`PlanError`] where both sides are not in balance, and see [`Self::admit`].
+    /// [`Diagnostic`] where both sides are not in balance, and see [`Self::admit`].
     pub fn start<const D: usize>(
         &self,
         model: &Model<D>,
         place: &Place<D>,
         weighs: bool,
-    ) -> Result<Resolved, PlanError> {
+    ) -> Result<Resolved, Diagnostic> {
         let found = self.at(model, place)?;
         if !weighs {
             self.admit(place, &found)?;
@@ -79,8 +79,8 @@ impl<'a> Prestress<'a> {
     /// What the stress exerts at a place.
     ///
     /// # Errors
-    /// [`PlanError`] where both sides are not in balance.
-    fn at<const D: usize>(&self, model: &Model<D>, place: &Place<D>) -> Result<Resolved, PlanError> {
+    /// [`Diagnostic`] where both sides are not in balance.
+    fn at<const D: usize>(&self, model: &Model<D>, place: &Place<D>) -> Result<Resolved, Diagnostic> {
         let n = in_space(&place.normal);
         let slides = match model.idealisation.components() {
             1 => [0.0, 0.0, 1.0],
@@ -96,7 +96,7 @@ impl<'a> Prestress<'a> {
                 rigid::place(&place.at)
             );
             let help = "bodies on both sides of a fault need the same traction there: give both the same `initial_stress`";
-            return Err(PlanError::at(self.place.clone(), message, help.into()));
+            return Err(Diagnostic::at(self.place.clone(), message, help));
         }
         let across = if D == 3 { dot(&minus, &across(&n, &slides)) } else { 0.0 };
         let normal = self.presses.then_some(-dot(&minus, &n));
@@ -106,12 +106,12 @@ impl<'a> Prestress<'a> {
     /// Refuses tractions at a place under which a fault does not slip as it is to, where the stress is all there is.
     ///
     /// # Errors
-    /// [`PlanError`] where the fault is not pressed, or friction would not resist its motion.
-    fn admit<const D: usize>(&self, place: &Place<D>, found: &Resolved) -> Result<(), PlanError> {
+    /// [`Diagnostic`] where the fault is not pressed, or friction would not resist its motion.
+    fn admit<const D: usize>(&self, place: &Place<D>, found: &Resolved) -> Result<(), Diagnostic> {
         let refuse = |what: String, help: &str| {
             let message =
                 format!("the initial stress {what} fault `{}` at {}", self.name, rigid::place(&place.at));
-            Err(PlanError::at(self.place.clone(), message, help.into()))
+            Err(Diagnostic::at(self.place.clone(), message, help))
         };
         if let Some(pressed) = found.normal.filter(|f| *f <= 0.0) {
             return refuse(

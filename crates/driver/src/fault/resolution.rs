@@ -16,8 +16,8 @@
 
 use super::place::Place;
 use super::report::length;
+use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::plan::PlanError;
 use crate::scene::law::{Evolution, LawChoice};
 use crate::scene::model::{Fault as Spec, UnderResolved};
 use crate::warning::Warning;
@@ -208,8 +208,8 @@ impl Resolution {
     /// A warning where points are few.
     ///
     /// # Errors
-    /// [`PlanError`] where they are too few and the scene does not allow it.
-    pub fn check(&self, spec: &Spec, in_space: bool) -> Result<Option<Warning>, PlanError> {
+    /// [`Diagnostic`] where they are too few and the scene does not allow it.
+    pub fn check(&self, spec: &Spec, in_space: bool) -> Result<Option<Warning>, Diagnostic> {
         let zone = &self.cohesive_zone;
         if zone.points >= FEW {
             return Ok(None);
@@ -231,7 +231,7 @@ impl Resolution {
         if zone.points < TOO_FEW && !allowed {
             let message = format!("{message}: each point breaks by itself, and events are those of the mesh");
             let help = format!("{enough}; or `under_resolved = \"allow\"` at the fault");
-            return Err(PlanError::at(place, message, help));
+            return Err(Diagnostic::at(place, message, help));
         }
         Ok(Some(Warning::at(place, format!("{message}: fronts follow the mesh"), enough)))
     }

@@ -9,9 +9,9 @@ use super::condense::Weight;
 use super::place::TOGETHER;
 use super::plan::Placed;
 use super::prestress::{Resolved, against, strays};
+use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
 use crate::model::Model;
-use crate::plan::PlanError;
 use crate::rigid;
 use crate::scene::model::{Fault as Spec, Scene, Spanned};
 use crate::warning::Warning;
@@ -32,18 +32,18 @@ fn gravity(scene: &Scene) -> Option<&Spanned<Vec<f64>>> {
 /// Adds what weight exerts to the tractions of points at the start.
 ///
 /// # Errors
-/// [`PlanError`] where a fault is not pressed, or friction would not resist its motion.
+/// [`Diagnostic`] where a fault is not pressed, or friction would not resist its motion.
 pub(super) fn press<const D: usize>(
     scene: &Scene,
     (model, stage): (&Model<D>, &Stage),
     weight: Option<&Weight>,
     placed: &mut [Placed<D>],
-) -> Result<Vec<String>, PlanError> {
+) -> Result<Vec<String>, Diagnostic> {
     let Some(weight) = weight else { return Ok(Vec::new()) };
     add(scene, weight, placed).map_err(|e| match hangs(scene, model, stage) {
         // What hangs from its sides is pressed by no one's intention.
         Some(Warning { message, help, .. }) => {
-            PlanError { message: format!("{}: {message}", e.message), help, ..e }
+            Diagnostic { message: format!("{}: {message}", e.message), help, ..e }
         }
         None => e,
     })
@@ -54,7 +54,7 @@ fn add<const D: usize>(
     scene: &Scene,
     weight: &Weight,
     placed: &mut [Placed<D>],
-) -> Result<Vec<String>, PlanError> {
+) -> Result<Vec<String>, Diagnostic> {
     let faults: Vec<(&String, &Spec)> = scene.faults.iter().collect();
     let count = placed.len();
     for (k, point) in placed.iter_mut().enumerate() {
@@ -86,11 +86,11 @@ fn start_at<const D: usize>(
     (name, spec): (&str, &Spec),
     point: &mut Placed<D>,
     small: f64,
-) -> Result<(), PlanError> {
+) -> Result<(), Diagnostic> {
     let refuse = |what: String, help: &str| {
         let at = rigid::place(&point.point.place.at);
         let place = gravity(scene).map(Spanned::span).unwrap_or_default();
-        Err(PlanError::at(place, format!("weight {what} fault `{name}` at {at}"), help.into()))
+        Err(Diagnostic::at(place, format!("weight {what} fault `{name}` at {at}"), help))
     };
     let found = point.prestress;
     let by_floor = point.floor.is_some_and(|floor| point.normal < floor);

@@ -1,6 +1,6 @@
 //! Forces and displacements that jump, which faults refuse: their tractions at the start are given, and follow rates from there.
 
-use crate::plan::PlanError;
+use crate::diagnostic::Diagnostic;
 use crate::scene::model::{Condition, Loading, Motion, Scene, Spanned, Stage, Stepper};
 use std::collections::BTreeMap;
 
@@ -11,13 +11,13 @@ type Of<T> = BTreeMap<(String, usize), T>;
 /// end of the stage before.
 ///
 /// # Errors
-/// [`PlanError`] pointing at the condition.
+/// [`Diagnostic`] pointing at the condition.
 pub(super) fn of_stage(
     scene: &Scene,
     stage: &Stage,
     (held, present): (&Of<Motion>, &Of<f64>),
     loads: &Of<Loading>,
-) -> Result<(), PlanError> {
+) -> Result<(), Diagnostic> {
     if *scene.time.stepper.get_ref() != Stepper::FaultOde {
         return Ok(());
     }
@@ -33,13 +33,13 @@ pub(super) fn of_stage(
             Loading::Table(points) => points.first().map_or(from, |p| p.1),
         };
         if first != from {
-            return Err(PlanError::at(
+            return Err(Diagnostic::at(
                 place(&key.0),
                 format!(
                     "the load on `{}` jumps from {from:?} to {first:?} Pa in stage `{}`, and faults follow rates",
                     key.0, stage.name
                 ),
-                "ramp it, such as `{ to = \"10 MPa\" }`, or begin with this value".into(),
+                "ramp it, such as `{ to = \"10 MPa\" }`, or begin with this value",
             ));
         }
     }
@@ -52,10 +52,10 @@ pub(super) fn of_stage(
                 _ => false,
             };
             if at_once {
-                return Err(PlanError::at(
+                return Err(Diagnostic::at(
                     motion.span(),
-                    "a displacement that is there at once loads the faults, whose tractions at the start are given".into(),
-                    "motions of a scene with faults begin at zero: `{ rate = .. }`, `{ to = .. }` or a table".into(),
+                    "a displacement that is there at once loads the faults, whose tractions at the start are given",
+                    "motions of a scene with faults begin at zero: `{ rate = .. }`, `{ to = .. }` or a table",
                 ));
             }
         }
@@ -63,12 +63,12 @@ pub(super) fn of_stage(
             let Some(set) = &c.set else { continue };
             let was_held = held.get(&(set.get_ref().clone(), axis)).is_some_and(|m| *m != Motion::Free);
             if let Some(motion) = motion.as_ref().filter(|m| *m.get_ref() == Motion::Free && was_held) {
-                return Err(PlanError::at(
+                return Err(Diagnostic::at(
                     motion.span(),
                     format!(
                         "`{set}` is released with the force that held it, which vanishes at once, and faults follow rates"
                     ),
-                    "leave it held".into(),
+                    "leave it held",
                 ));
             }
         }

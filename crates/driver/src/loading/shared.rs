@@ -1,8 +1,8 @@
 //! Sets that share nodes and say different things about them. For generated blocks the check of the scene has found this
 //! already; which nodes the sets of other meshes share is known only from the mesh.
 
+use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::plan::PlanError;
 use crate::scene::check::course::Course;
 use crate::scene::model::{Motion, Stage};
 use asperity_fem::mesh::nodes_of_sides;
@@ -29,7 +29,7 @@ impl Shared {
         model: &Model<D>,
         stage: &Stage,
         held: &BTreeMap<Key, Motion>,
-    ) -> Result<(), PlanError> {
+    ) -> Result<(), Diagnostic> {
         let duration = stage.duration.get_ref().0;
         for (a, b) in pairs(model, held) {
             let (from_a, from_b) = (self.start(a), self.start(b));
@@ -39,7 +39,7 @@ impl Shared {
                 let place = |key| self.places.get(key).cloned().unwrap_or_default();
                 let span = if place(a).start > place(b).start { place(a) } else { place(b) };
                 let axis = ["x", "y", "z"][a.1];
-                return Err(PlanError::at(
+                return Err(Diagnostic::at(
                     span,
                     format!(
                         "`{}` and `{}` share nodes and prescribe {axis} there differently in stage `{}`",

@@ -1,6 +1,6 @@
 //! Materials of a scene as the bodies take them.
 
-use crate::plan::PlanError;
+use crate::diagnostic::Diagnostic;
 use crate::scene::model as scene;
 use crate::scene::near::suggest;
 use asperity_fem::FemError;
@@ -14,32 +14,32 @@ use std::ops::Range;
 /// The material `name` of a scene.
 ///
 /// # Errors
-/// [`PlanError`] at `place` with the materials that exist.
+/// [`Diagnostic`] at `place` with the materials that exist.
 pub fn find<'a>(
     scene: &'a scene::Scene,
     name: &str,
     place: Range<usize>,
-) -> Result<&'a scene::Material, PlanError> {
+) -> Result<&'a scene::Material, Diagnostic> {
     scene.materials.get(name).ok_or_else(|| {
         let known = scene.materials.keys().map(String::as_str);
-        PlanError::at(place, format!("there is no material `{name}`"), suggest(name, "materials", known))
+        Diagnostic::at(place, format!("there is no material `{name}`"), suggest(name, "materials", known))
     })
 }
 
 /// Its elastic part.
 ///
 /// # Errors
-/// [`PlanError`] for constants out of range.
-pub fn elastic(spec: &scene::Material) -> Result<Elastic, PlanError> {
+/// [`Diagnostic`] for constants out of range.
+pub fn elastic(spec: &scene::Material) -> Result<Elastic, Diagnostic> {
     Elastic::new(spec.young.get_ref().0, *spec.poisson.get_ref())
-        .map_err(|e| PlanError::at(spec.young.span(), e.to_string(), "0 < E and -1 < nu < 0.5".into()))
+        .map_err(|e| Diagnostic::at(spec.young.span(), e.to_string(), "0 < E and -1 < nu < 0.5"))
 }
 
 /// All of it.
 ///
 /// # Errors
-/// [`PlanError`] for parameters out of range.
-pub fn behaviour(spec: &scene::Material) -> Result<Material, PlanError> {
+/// [`Diagnostic`] for parameters out of range.
+pub fn behaviour(spec: &scene::Material) -> Result<Material, Diagnostic> {
     let elastic = elastic(spec)?;
     if let Some(plasticity) = &spec.plasticity {
         let spec = plasticity.get_ref();
@@ -60,8 +60,8 @@ pub fn behaviour(spec: &scene::Material) -> Result<Material, PlanError> {
     viscous.map(Material::Maxwell).map_err(|e| refused(place, &e))
 }
 
-fn refused(place: Range<usize>, error: &FemError) -> PlanError {
-    PlanError::at(place, error.to_string(), remedy(error).into())
+fn refused(place: Range<usize>, error: &FemError) -> Diagnostic {
+    Diagnostic::at(place, error.to_string(), remedy(error))
 }
 
 /// What would be right instead of a parameter that is not admissible.

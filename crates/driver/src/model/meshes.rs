@@ -1,6 +1,6 @@
 //! Meshes of the bodies: generated, or read from files.
 
-use crate::plan::PlanError;
+use crate::diagnostic::Diagnostic;
 use crate::scene::model as scene;
 use crate::scene::near::suggest;
 use crate::scene::units::{self, Dimension, Length};
@@ -18,21 +18,21 @@ use std::path::Path;
 /// The mesh of a body, with its sets by their own names.
 ///
 /// # Errors
-/// [`PlanError`] at the place in the scene; a file that cannot be read is named with what is wrong in it.
+/// [`Diagnostic`] at the place in the scene; a file that cannot be read is named with what is wrong in it.
 pub fn of_body<const D: usize>(
     scene: &scene::Scene,
     name: &str,
     body: &scene::Body,
-) -> Result<Mesh<D>, PlanError> {
+) -> Result<Mesh<D>, Diagnostic> {
     let Some(layers) = &body.extrude else { return source::<D>(scene, name, body) };
     let plane = source::<2>(scene, name, body)?;
     let z: Vec<f64> = layers.get_ref().iter().map(|z| z.0).collect();
-    let drawn = extrude(&plane, &z).map_err(|e| PlanError::body(name, layers.span(), e.to_string()))?;
+    let drawn = extrude(&plane, &z).map_err(|e| Diagnostic::body(name, layers.span(), e.to_string()))?;
     in_dimension(drawn.mesh, || {
-        PlanError::at(
+        Diagnostic::at(
             layers.span(),
             format!("`extrude` makes the mesh of body `{name}` three-dimensional"),
-            "remove it, or use `kinematics = \"3d\"`".into(),
+            "remove it, or use `kinematics = \"3d\"`",
         )
     })
 }
@@ -41,13 +41,13 @@ fn source<const D: usize>(
     scene: &scene::Scene,
     name: &str,
     body: &scene::Body,
-) -> Result<Mesh<D>, PlanError> {
+) -> Result<Mesh<D>, Diagnostic> {
     let plane = |place: std::ops::Range<usize>| {
         move || {
-            PlanError::at(
+            Diagnostic::at(
                 place,
                 format!("the mesh of body `{name}` is plane"),
-                "in three dimensions add `extrude = [..]` to the body, the heights of its layers".into(),
+                "in three dimensions add `extrude = [..]` to the body, the heights of its layers",
             )
         }
     };
@@ -75,8 +75,8 @@ fn source<const D: usize>(
 /// The same mesh as one of dimension `B`, or the error when it is of another.
 fn in_dimension<const A: usize, const B: usize>(
     mesh: Mesh<A>,
-    error: impl FnOnce() -> PlanError,
-) -> Result<Mesh<B>, PlanError> {
+    error: impl FnOnce() -> Diagnostic,
+) -> Result<Mesh<B>, Diagnostic> {
     if A != B {
         return Err(error());
     }
@@ -85,22 +85,22 @@ fn in_dimension<const A: usize, const B: usize>(
     Ok(Mesh { nodes, blocks, side_sets, cell_sets, node_sets })
 }
 
-fn element(name: &Spanned<String>) -> Result<ElementKind, PlanError> {
+fn element(name: &Spanned<String>) -> Result<ElementKind, Diagnostic> {
     name.get_ref()
         .parse()
-        .map_err(|e| PlanError::at(name.span(), format!("{e}"), "see the list of elements".into()))
+        .map_err(|e| Diagnostic::at(name.span(), format!("{e}"), "see the list of elements"))
 }
 
 fn grading(ratio: f64) -> Grading {
     if ratio == 1.0 { Grading::Uniform } else { Grading::Geometric { ratio } }
 }
 
-fn block<const D: usize>(name: &str, spec: &scene::BlockMesh) -> Result<Mesh<D>, PlanError> {
+fn block<const D: usize>(name: &str, spec: &scene::BlockMesh) -> Result<Mesh<D>, Diagnostic> {
     let kind = element(&spec.element)?;
-    let corner = |v: &Spanned<Vec<Length>>| -> Result<[f64; D], PlanError> {
+    let corner = |v: &Spanned<Vec<Length>>| -> Result<[f64; D], Diagnostic> {
         let values: Vec<f64> = v.get_ref().iter().map(|l| l.0).collect();
         <[f64; D]>::try_from(values)
-            .map_err(|c| PlanError::at(v.span(), format!("{} coordinates", c.len()), format!("give {D}")))
+            .map_err(|c| Diagnostic::at(v.span(), format!("{} coordinates", c.len()), format!("give {D}")))
     };
     let (min, max) = (corner(&spec.min)?, corner(&spec.max)?);
     let mut mesh = match &spec.spacing {
@@ -111,10 +111,10 @@ fn block<const D: usize>(name: &str, spec: &scene::BlockMesh) -> Result<Mesh<D>,
     for (side, curve) in &spec.curves {
         curves.push(self::curve(side, curve)?);
         bend(&mut mesh.nodes.clone(), &min, &max, &curves)
-            .map_err(|e| PlanError::body(name, curve.span(), e.to_string()))?;
+            .map_err(|e| Diagnostic::body(name, curve.span(), e.to_string()))?;
     }
     let place = spec.element.span();
-    bend(&mut mesh.nodes, &min, &max, &curves).map_err(|e| PlanError::body(name, place, e.to_string()))?;
+    bend(&mut mesh.nodes, &min, &max, &curves).map_err(|e| Diagnostic::body(name, place, e.to_string()))?;
     Ok(mesh)
 }
 
@@ -124,11 +124,11 @@ fn spaced<const D: usize>(
     kind: ElementKind,
     (min, max): (&[f64; D], &[f64; D]),
     spacing: &Spanned<Vec<Spanned<scene::SpacingSpec>>>,
-) -> Result<Mesh<D>, PlanError> {
+) -> Result<Mesh<D>, Diagnostic> {
     let mut lines = [const { Vec::new() }; D];
     for (axis, line) in lines.iter_mut().enumerate() {
         let given = spacing.get_ref().get(axis).ok_or_else(|| {
-            PlanError::at(
+            Diagnostic::at(
                 spacing.span(),
                 format!("`spacing` has {} entries", spacing.get_ref().len()),
                 format!("give {D}, one an axis"),
@@ -136,23 +136,23 @@ fn spaced<const D: usize>(
         })?;
         *line = self::spacing(given.get_ref())
             .line(min[axis], max[axis])
-            .map_err(|e| PlanError::body(name, given.span(), e.to_string()))?;
+            .map_err(|e| Diagnostic::body(name, given.span(), e.to_string()))?;
     }
-    Grid { lines, kind }.mesh().map_err(|e| PlanError::body(name, spacing.span(), e.to_string()))
+    Grid { lines, kind }.mesh().map_err(|e| Diagnostic::body(name, spacing.span(), e.to_string()))
 }
 
-fn curve<const D: usize>(side: &str, spec: &Spanned<scene::CurveSpec>) -> Result<Curve<D>, PlanError> {
+fn curve<const D: usize>(side: &str, spec: &Spanned<scene::CurveSpec>) -> Result<Curve<D>, Diagnostic> {
     let axis = SIDES.iter().take(D).position(|ends| ends.contains(&side)).ok_or_else(|| {
         let known = SIDES.iter().take(D).flatten().copied();
-        PlanError::at(spec.span(), format!("a block has no side `{side}`"), suggest(side, "sides", known))
+        Diagnostic::at(spec.span(), format!("a block has no side `{side}`"), suggest(side, "sides", known))
     })?;
     let curve = spec.get_ref();
     let apex = *curve.apex.get_ref();
     if (D..3).any(|c| apex.along(c).is_some()) {
-        return Err(PlanError::at(
+        return Err(Diagnostic::at(
             curve.apex.span(),
-            "the apex has a coordinate `z` in a plane scene".into(),
-            "give those along the side that it bends over, such as `apex = { x = 0 }`".into(),
+            "the apex has a coordinate `z` in a plane scene",
+            "give those along the side that it bends over, such as `apex = { x = 0 }`",
         ));
     }
     Ok(Curve {
@@ -172,7 +172,7 @@ fn divided<const D: usize>(
     kind: ElementKind,
     (min, max): (&[f64; D], &[f64; D]),
     spec: &scene::BlockMesh,
-) -> Result<Mesh<D>, PlanError> {
+) -> Result<Mesh<D>, Diagnostic> {
     let mut divisions = [1; D];
     let mut gradings = [Grading::Uniform; D];
     for axis in 0..D {
@@ -183,50 +183,46 @@ fn divided<const D: usize>(
     }
     Block { min: *min, max: *max, divisions, grading: gradings, kind }
         .mesh()
-        .map_err(|e| PlanError::body(name, spec.element.span(), e.to_string()))
+        .map_err(|e| Diagnostic::body(name, spec.element.span(), e.to_string()))
 }
 
 /// Cells along each axis of a block.
 ///
 /// # Errors
-/// [`PlanError`] where the spec is not complete or does not divide the block.
-pub fn cells_along(name: &str, spec: &scene::BlockMesh) -> Result<Vec<usize>, PlanError> {
+/// [`Diagnostic`] where the spec is not complete or does not divide the block.
+pub fn cells_along(name: &str, spec: &scene::BlockMesh) -> Result<Vec<usize>, Diagnostic> {
     let ends = spec.min.get_ref().iter().zip(spec.max.get_ref());
     let along = |(axis, (min, max)): (usize, (&Length, &Length))| match &spec.spacing {
         None => divisions_along(spec, axis, max.0 - min.0),
         Some(spacing) => {
             let given = spacing.get_ref().get(axis);
             let given = given.ok_or_else(|| {
-                let help = "one entry for each axis".into();
-                PlanError::at(spacing.span(), "`spacing` is incomplete".into(), help)
+                let help = "one entry for each axis";
+                Diagnostic::at(spacing.span(), "`spacing` is incomplete", help)
             })?;
             let line = self::spacing(given.get_ref()).line(min.0, max.0);
-            Ok(line.map_err(|e| PlanError::body(name, given.span(), e.to_string()))?.len() - 1)
+            Ok(line.map_err(|e| Diagnostic::body(name, given.span(), e.to_string()))?.len() - 1)
         }
     };
     ends.enumerate().map(along).collect()
 }
 
-fn divisions_along(spec: &scene::BlockMesh, axis: usize, length: f64) -> Result<usize, PlanError> {
+fn divisions_along(spec: &scene::BlockMesh, axis: usize, length: f64) -> Result<usize, Diagnostic> {
     if let Some(divisions) = &spec.divisions {
         return divisions.get_ref().get(axis).copied().filter(|&n| n > 0).ok_or_else(|| {
-            PlanError::at(
-                divisions.span(),
-                "divisions are incomplete".into(),
-                "one positive number an axis".into(),
-            )
+            Diagnostic::at(divisions.span(), "divisions are incomplete", "one positive number an axis")
         });
     }
-    let size = spec.size.as_ref().ok_or_else(|| {
-        PlanError::at(spec.element.span(), "the block has no element size".into(), "give `size`".into())
-    })?;
-    divisions_for(length, size.get_ref().0).map_err(|e| {
-        PlanError::at(size.span(), e.to_string(), "a size that divides each edge of the block".into())
-    })
+    let size = spec
+        .size
+        .as_ref()
+        .ok_or_else(|| Diagnostic::at(spec.element.span(), "the block has no element size", "give `size`"))?;
+    divisions_for(length, size.get_ref().0)
+        .map_err(|e| Diagnostic::at(size.span(), e.to_string(), "a size that divides each edge of the block"))
 }
 
 /// The unit square, mapped bilinearly onto four corners.
-fn quadrilateral(name: &str, spec: &scene::QuadrilateralMesh) -> Result<Mesh<2>, PlanError> {
+fn quadrilateral(name: &str, spec: &scene::QuadrilateralMesh) -> Result<Mesh<2>, Diagnostic> {
     let ratios = spec.grading.as_ref().map_or([1.0; 2], |g| *g.get_ref());
     let unit = Block {
         min: [0.0; 2],
@@ -235,7 +231,7 @@ fn quadrilateral(name: &str, spec: &scene::QuadrilateralMesh) -> Result<Mesh<2>,
         grading: ratios.map(grading),
         kind: element(&spec.element)?,
     };
-    let mut mesh = unit.mesh().map_err(|e| PlanError::body(name, spec.element.span(), e.to_string()))?;
+    let mut mesh = unit.mesh().map_err(|e| Diagnostic::body(name, spec.element.span(), e.to_string()))?;
     let corners = spec.corners.get_ref().map(|x| x.map(|c| c.0));
     for x in &mut mesh.nodes {
         let [s, t] = *x;
@@ -246,21 +242,21 @@ fn quadrilateral(name: &str, spec: &scene::QuadrilateralMesh) -> Result<Mesh<2>,
 }
 
 /// A box around a fault.
-fn fault(name: &str, spec: &scene::FaultMesh) -> Result<Mesh<2>, PlanError> {
+fn fault(name: &str, spec: &scene::FaultMesh) -> Result<Mesh<2>, Diagnostic> {
     let generated = faulted(spec)?.mesh();
-    Ok(generated.map_err(|e| PlanError::body(name, spec.trace.span(), e.to_string()))?.mesh)
+    Ok(generated.map_err(|e| Diagnostic::body(name, spec.trace.span(), e.to_string()))?.mesh)
 }
 
 /// What is known of generated meshes and is in no file: where smooth curves run between the vertices of traces.
 ///
 /// # Errors
-/// [`PlanError`] for traces that cannot be meshed.
-pub fn notes(scene: &scene::Scene) -> Result<Vec<String>, PlanError> {
+/// [`Diagnostic`] for traces that cannot be meshed.
+pub fn notes(scene: &scene::Scene) -> Result<Vec<String>, Diagnostic> {
     let mut notes = Vec::new();
     for (name, body) in &scene.bodies {
         let scene::MeshSource::Fault(spec) = &body.mesh else { continue };
         let departure = faulted(spec)?.departure();
-        let departure = departure.map_err(|e| PlanError::body(name, spec.trace.span(), e.to_string()))?;
+        let departure = departure.map_err(|e| Diagnostic::body(name, spec.trace.span(), e.to_string()))?;
         notes.extend(departure.map(|d| {
             format!(
                 "the fault of body `{name}` is a smooth curve through the {} vertices of its trace, at most {:.4} m from straight lines between them, at \
@@ -276,7 +272,7 @@ pub fn notes(scene: &scene::Scene) -> Result<Vec<String>, PlanError> {
 }
 
 /// A box around a fault, as it is generated. Lengths along the fault count from the first vertex of its trace.
-fn faulted(spec: &scene::FaultMesh) -> Result<FaultMesh, PlanError> {
+fn faulted(spec: &scene::FaultMesh) -> Result<FaultMesh, Diagnostic> {
     let point = |x: &[Length; 2]| x.map(|c| c.0);
     Ok(FaultMesh {
         trace: spec.trace.get_ref().iter().map(point).collect(),
@@ -305,13 +301,13 @@ fn spacing(spec: &scene::SpacingSpec) -> Spacing {
 }
 
 /// Metres in the unit of a file.
-fn unit(name: Option<&Spanned<String>>) -> Result<f64, PlanError> {
+fn unit(name: Option<&Spanned<String>>) -> Result<f64, Diagnostic> {
     let Some(name) = name else { return Ok(1.0) };
     units::parse(&format!("1 {}", name.get_ref()), Dimension::Length).map_err(|_| {
-        PlanError::at(
+        Diagnostic::at(
             name.span(),
             format!("there is no unit of length `{}`", name.get_ref()),
-            "such as `unit = \"km\"`".into(),
+            "such as `unit = \"km\"`",
         )
     })
 }
@@ -327,9 +323,9 @@ fn read<const D: usize>(
     options: &Options,
     (groups, what): (Option<&Spanned<Vec<Spanned<String>>>>, &str),
     surfaces: &[Spanned<String>],
-) -> Result<Mesh<D>, PlanError> {
+) -> Result<Mesh<D>, Diagnostic> {
     let name = file.get_ref();
-    let at = |message: String, help: &str| PlanError::at(file.span(), message, help.to_string());
+    let at = |message: String, help: &str| Diagnostic::at(file.span(), message, help.to_string());
     let path = scene.folder.join(name);
     let bytes = std::fs::read(&path)
         .map_err(|e| at(format!("the mesh file `{name}` cannot be read: {e}"), &looked_for(&path)))?;
@@ -343,7 +339,7 @@ fn read<const D: usize>(
             for group in groups.get_ref() {
                 let found = mesh.cell_sets.get(group.get_ref()).ok_or_else(|| {
                     let known = mesh.cell_sets.keys().map(String::as_str);
-                    PlanError::at(
+                    Diagnostic::at(
                         group.span(),
                         format!("the mesh file `{name}` has no cells in a group `{}`", group.get_ref()),
                         suggest(group.get_ref(), what, known),
@@ -386,9 +382,9 @@ fn looked_for(path: &Path) -> String {
 /// Endings of mesh files.
 const MESHES: [&str; 2] = ["msh", "inp"];
 
-fn cut<const D: usize>(mesh: &mut Mesh<D>, file: &str, name: &Spanned<String>) -> Result<(), PlanError> {
+fn cut<const D: usize>(mesh: &mut Mesh<D>, file: &str, name: &Spanned<String>) -> Result<(), Diagnostic> {
     let known = || suggest(name.get_ref(), "sets", mesh.side_sets.keys().map(String::as_str));
-    let refuse = |message: String, help: String| PlanError::at(name.span(), message, help);
+    let refuse = |message: String, help: String| Diagnostic::at(name.span(), message, help);
     let mut surface = Surface::from_side_set(mesh, name.get_ref()).map_err(|_| {
         refuse(format!("the mesh file `{file}` has no faces in a group `{}` here", name.get_ref()), known())
     })?;

@@ -6,9 +6,9 @@ pub mod meshes;
 pub mod sizes;
 
 use self::cell_size::cell_size;
+use crate::diagnostic::Diagnostic;
 use crate::forecast::{self, Counts};
 use crate::initial_stress;
-use crate::plan::PlanError;
 use crate::scene::model as scene;
 use crate::scene::near::suggest;
 use asperity_fem::FemError;
@@ -132,12 +132,12 @@ impl<const D: usize> Model<D> {
     /// Makes or reads the meshes of a scene and the terms of its bodies.
     ///
     /// # Errors
-    /// [`PlanError`] naming the body whose mesh or material is not admissible.
-    pub fn new(scene: &scene::Scene) -> Result<Self, PlanError> {
+    /// [`Diagnostic`] naming the body whose mesh or material is not admissible.
+    pub fn new(scene: &scene::Scene) -> Result<Self, Diagnostic> {
         let idealisation = scene.kinematics.get_ref().idealisation();
         idealisation
             .check_dimension(D)
-            .map_err(|e| PlanError::at(scene.kinematics.span(), e.to_string(), "see `kinematics`".into()))?;
+            .map_err(|e| Diagnostic::at(scene.kinematics.span(), e.to_string(), "see `kinematics`"))?;
         forecast::admit(scene)?;
         let mut mesh = Mesh::<D>::default();
         let mut parts = Vec::new();
@@ -182,13 +182,13 @@ impl<const D: usize> Model<D> {
     /// The material of a block of a body, with its name.
     ///
     /// # Errors
-    /// [`PlanError`] when its cells have none, or several.
+    /// [`Diagnostic`] when its cells have none, or several.
     pub fn material<'a>(
         &self,
         scene: &'a scene::Scene,
         (name, body): (&str, &'a scene::Body),
         block: usize,
-    ) -> Result<(&'a str, &'a scene::Material), PlanError> {
+    ) -> Result<(&'a str, &'a scene::Material), Diagnostic> {
         let prefix = format!("{name}.");
         let of_block = |group: &str| self.mesh.cell_sets.get(group).is_some_and(|s| s.contains(&block));
         let mut found: Option<(&str, (&'a str, &'a scene::Material))> = None;
@@ -196,7 +196,7 @@ impl<const D: usize> Model<D> {
             let Some(group) = group else { return Ok((material, materials::find(scene, material, place)?)) };
             if !self.mesh.cell_sets.contains_key(&format!("{prefix}{group}")) {
                 let known = self.mesh.cell_sets.keys().filter_map(|k| k.strip_prefix(&prefix));
-                return Err(PlanError::at(
+                return Err(Diagnostic::at(
                     place,
                     format!("body `{name}` has no cells in a group `{group}`"),
                     suggest(group, "groups of its cells", known),
@@ -206,10 +206,10 @@ impl<const D: usize> Model<D> {
                 continue;
             }
             if let Some((first, _)) = found {
-                return Err(PlanError::at(
+                return Err(Diagnostic::at(
                     place,
                     format!("cells of body `{name}` lie in both groups `{first}` and `{group}`"),
-                    "one material for each cell".into(),
+                    "one material for each cell",
                 ));
             }
             found = Some((group, (material, materials::find(scene, material, place)?)));
@@ -219,10 +219,10 @@ impl<const D: usize> Model<D> {
                 self.mesh.cell_sets.keys().filter(|g| of_block(g)).map(String::as_str).collect();
             let which =
                 if groups.is_empty() { "in no group".into() } else { format!("in {}", groups.join(", ")) };
-            PlanError::at(
+            Diagnostic::at(
                 body.material.span(),
                 format!("cells of body `{name}` {which} have no material"),
-                "name one for each group of cells".into(),
+                "name one for each group of cells",
             )
         })
     }
@@ -321,11 +321,11 @@ impl<const D: usize> Model<D> {
     /// The faces of a set.
     ///
     /// # Errors
-    /// [`PlanError`] when the set does not exist, with those that do.
-    pub fn sides(&self, set: &scene::Spanned<String>) -> Result<&[Side], PlanError> {
+    /// [`Diagnostic`] when the set does not exist, with those that do.
+    pub fn sides(&self, set: &scene::Spanned<String>) -> Result<&[Side], Diagnostic> {
         self.mesh.side_sets.get(set.get_ref()).map(Vec::as_slice).ok_or_else(|| {
             let known = self.mesh.side_sets.keys().map(String::as_str);
-            PlanError::at(
+            Diagnostic::at(
                 set.span(),
                 format!("there is no set `{}`", set.get_ref()),
                 suggest(set.get_ref(), "sets", known),
@@ -388,7 +388,7 @@ fn cell_block<const D: usize>(
     (name, body): (&str, &scene::Body),
     material: &scene::Material,
     idealisation: Idealisation,
-) -> Result<CellBlock<D>, PlanError> {
+) -> Result<CellBlock<D>, Diagnostic> {
     let place = body.formulation.as_ref().map_or_else(|| body.material.span(), scene::Spanned::span);
     let formulation = match body.formulation.as_ref().map(|f| *f.get_ref()) {
         Some(scene::Formulation::BBar) => Formulation::BBar,
@@ -398,7 +398,7 @@ fn cell_block<const D: usize>(
         let elastic = materials::elastic(material)?;
         return LinearBlock::new(mesh, block, &elastic, idealisation, formulation)
             .map(|b| CellBlock::Linear(Box::new(b)))
-            .map_err(|e| PlanError::body(name, place, e.to_string()));
+            .map_err(|e| Diagnostic::body(name, place, e.to_string()));
     }
     let model = nonlinear::Model {
         material: materials::behaviour(material)?,
@@ -408,7 +408,7 @@ fn cell_block<const D: usize>(
         limits: Limits::default(),
     };
     let mut term = nonlinear::Block::new(mesh, block, model)
-        .map_err(|e| PlanError::body(name, place, e.to_string()))?
+        .map_err(|e| Diagnostic::body(name, place, e.to_string()))?
         .named(format!("body `{name}`, cells {block}"));
     if let (Some(stress), Some(given)) = (initial_stress::of_body(scene, name), &body.initial_stress) {
         let everywhere = mesh.blocks[block].connectivity.iter().map(|&n| stress.at(&mesh.nodes[n]));
@@ -416,7 +416,7 @@ fn cell_block<const D: usize>(
         borne
             .unwrap_or(Ok(()))
             .and_then(|()| term.prestress_field(|x| stress.at(x)).map_err(|e| e.to_string()))
-            .map_err(|e| PlanError::body(name, given.span(), e))?;
+            .map_err(|e| Diagnostic::body(name, given.span(), e))?;
     }
     Ok(CellBlock::Nonlinear(Box::new(term)))
 }

@@ -15,16 +15,16 @@ mod stress;
 mod time;
 mod unused;
 
-use super::SceneError;
 use super::model::{Body, Kinematics, MeshSource, Scene, Spanned};
 use super::near::suggest;
+use crate::diagnostic::Diagnostic;
 use crate::warning::Warning;
 use asperity_fem::mesh::generate::SIDES;
 use std::ops::Range;
 
 /// Everything wrong in a scene, and everything doubtful, in the order of the file.
 #[must_use]
-pub fn check(scene: &Scene) -> (Vec<SceneError>, Vec<Warning>) {
+pub fn check(scene: &Scene) -> (Vec<Diagnostic>, Vec<Warning>) {
     let mut checker = Checker { scene, errors: Vec::new(), warnings: Vec::new() };
     checker.schema();
     checker.materials();
@@ -48,13 +48,13 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 
 struct Checker<'a> {
     scene: &'a Scene,
-    errors: Vec<SceneError>,
+    errors: Vec<Diagnostic>,
     warnings: Vec<Warning>,
 }
 
 impl Checker<'_> {
     fn error(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
-        self.errors.push(SceneError::at(span, message, help));
+        self.errors.push(Diagnostic::at(span, message, help));
     }
 
     /// Something that runs, and probably is not meant so.
@@ -70,7 +70,7 @@ impl Checker<'_> {
         help: impl Into<String>,
         also: (&Range<usize>, &str),
     ) {
-        self.errors.push(SceneError::at(span.clone(), message, help).and(also.0.clone(), also.1));
+        self.errors.push(Diagnostic::at(span.clone(), message, help).and(also.0.clone(), also.1));
     }
 
     /// A count nobody means, which would exhaust the memory.

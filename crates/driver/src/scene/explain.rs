@@ -1,7 +1,7 @@
 //! Errors of the TOML reader in the words of a scene.
 
-use super::SceneError;
 use super::near::suggest;
+use crate::diagnostic::Diagnostic;
 use std::ops::Range;
 
 /// Keys of a scene that are tables, with how a table of each begins.
@@ -14,14 +14,14 @@ const TABLES: [(&str, &str); 4] = [
 
 /// An error of the TOML reader about `text`, with what was probably meant.
 #[must_use]
-pub(super) fn explain(error: &toml::de::Error, text: &str) -> SceneError {
+pub(super) fn explain(error: &toml::de::Error, text: &str) -> Diagnostic {
     let place = error.span().unwrap_or(0..0);
     let found = text.get(place.clone()).unwrap_or_default().trim();
     let next = text.get(place.start..).and_then(|t| t.chars().next());
     let (message, help) = content(error.message())
         .or_else(|| syntax(error.message(), found, next))
         .unwrap_or_else(|| (error.message().to_string(), None));
-    SceneError { message, help, span: visible(place, text), also: Vec::new() }
+    Diagnostic { message, help, span: visible(place, text), also: Vec::new() }
 }
 
 /// A message and what would be right.

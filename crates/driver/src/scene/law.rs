@@ -8,7 +8,8 @@ pub use refused::refused;
 pub use several::Several;
 
 use super::model::{LawSpec, Spanned};
-use super::{SceneError, near};
+use super::near;
+use crate::diagnostic::Diagnostic;
 use reader::Reader;
 use std::ops::Range;
 
@@ -212,7 +213,7 @@ const PARTICULAR: [(&str, &str, &str); 5] = [
 ///
 /// # Errors
 /// Every parameter that is missing, belongs to another law, or is out of range.
-pub fn choose(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<SceneError>> {
+pub fn choose(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<Diagnostic>> {
     choose_with(spec, false)
 }
 
@@ -220,19 +221,19 @@ pub fn choose(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<SceneError>> {
 ///
 /// # Errors
 /// As [`choose`].
-pub fn choose_sliding(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<SceneError>> {
+pub fn choose_sliding(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<Diagnostic>> {
     choose_with(spec, true)
 }
 
-fn choose_with(spec: &Spanned<LawSpec>, negative_b: bool) -> Result<LawChoice, Vec<SceneError>> {
+fn choose_with(spec: &Spanned<LawSpec>, negative_b: bool) -> Result<LawChoice, Vec<Diagnostic>> {
     let law = spec.get_ref();
     let kinds = || KINDS.iter().map(|k| k.0);
     let Some(kind) = &law.kind else {
         let help = format!("add `kind = ..`; the kinds are {}", kinds().collect::<Vec<_>>().join(", "));
-        return Err(vec![SceneError::at(spec.span(), "the law has no kind", help)]);
+        return Err(vec![Diagnostic::at(spec.span(), "the law has no kind", help)]);
     };
     let Some((name, parameters)) = KINDS.iter().find(|k| k.0 == kind.get_ref()) else {
-        return Err(vec![SceneError::at(
+        return Err(vec![Diagnostic::at(
             kind.span(),
             format!("there is no law of kind `{}`", kind.get_ref()),
             near::suggest(kind.get_ref(), "kinds", kinds()),
@@ -262,13 +263,13 @@ fn given(law: &LawSpec) -> Vec<(&'static str, Range<usize>)> {
     places.into_iter().filter_map(|(name, place)| place.map(|p| (name, p))).collect()
 }
 
-fn foreign(law: &LawSpec, kind: &str, parameters: &[&str]) -> Vec<SceneError> {
+fn foreign(law: &LawSpec, kind: &str, parameters: &[&str]) -> Vec<Diagnostic> {
     let strange = given(law).into_iter().filter(|(name, _)| !parameters.contains(name));
     strange
         .map(|(name, place)| {
             let owners: Vec<String> =
                 KINDS.iter().filter(|k| k.1.contains(&name)).map(|k| format!("\"{}\"", k.0)).collect();
-            SceneError::at(
+            Diagnostic::at(
                 place,
                 format!(
                     "`{name}` is not a parameter of the law \"{kind}\"; it belongs to {}",
@@ -284,7 +285,7 @@ fn foreign(law: &LawSpec, kind: &str, parameters: &[&str]) -> Vec<SceneError> {
 }
 
 /// Parameters of a form or evolution other than the chosen one.
-fn particular(law: &LawSpec, parameters: &[&str]) -> Vec<SceneError> {
+fn particular(law: &LawSpec, parameters: &[&str]) -> Vec<Diagnostic> {
     let form = law.form.as_ref().map_or(FORMS[0], |f| f.get_ref());
     let evolution = law.evolution.as_ref().map_or("", |e| e.get_ref());
     let mut errors = Vec::new();
@@ -294,7 +295,7 @@ fn particular(law: &LawSpec, parameters: &[&str]) -> Vec<SceneError> {
         if chosen != *owner && known.contains(&chosen) {
             let message =
                 format!("`{name}` is not a parameter of the {what} \"{chosen}\"; it belongs to \"{owner}\"");
-            errors.push(SceneError::at(place, message, format!("remove it, or use `{what} = \"{owner}\"`")));
+            errors.push(Diagnostic::at(place, message, format!("remove it, or use `{what} = \"{owner}\"`")));
         }
     }
     errors

@@ -13,7 +13,8 @@ pub use course::Course;
 pub use spec::{EventSpec, Load, OutputSpec, SliderScene, SliderSpec, SliderTime, SpringSpec, Which};
 
 use super::model::Spanned;
-use super::{SceneError, SceneErrors, explain, near};
+use super::{explain, near};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::slider::Plan;
 use planner::Planner;
 use serde::Deserialize;
@@ -39,24 +40,24 @@ impl Head {
     }
 
     /// What is wrong with the kinematics of a scene of sliders.
-    fn error(&self) -> Option<SceneError> {
+    fn error(&self) -> Option<Diagnostic> {
         let help = "sliders belong to `kinematics = \"spring-slider\"`";
         let Some(kinematics) = &self.kinematics else {
-            return Some(SceneError::at(0..1, "the key `kinematics` is missing", help));
+            return Some(Diagnostic::at(0..1, "the key `kinematics` is missing", help));
         };
         let place = kinematics.span();
         let Some(name) = kinematics.get_ref().as_str() else {
-            return Some(SceneError::at(place, "the kinematics is a text in quotes", help));
+            return Some(Diagnostic::at(place, "the kinematics is a text in quotes", help));
         };
         if name == "spring-slider" {
             return None;
         }
         Some(if KINEMATICS.contains(&name) {
             let message = format!("the scene has sliders, but its kinematics is \"{name}\"");
-            SceneError::at(place, message, help)
+            Diagnostic::at(place, message, help)
         } else {
             let help = near::suggest(name, "kinematics", KINEMATICS);
-            SceneError::at(place, format!("there is no kinematics `{name}`"), help)
+            Diagnostic::at(place, format!("there is no kinematics `{name}`"), help)
         })
     }
 }
@@ -71,18 +72,18 @@ pub fn is_slider(text: &str) -> bool {
 ///
 /// # Errors
 /// All that is wrong with it, or the first thing that keeps it from being read.
-pub fn read(text: &str) -> Result<Plan, SceneErrors> {
+pub fn read(text: &str) -> Result<Plan, Diagnostics> {
     if let Some(error) = toml::from_str::<Head>(text).ok().and_then(|head| head.error()) {
-        return Err(SceneErrors(vec![error]));
+        return Err(Diagnostics(vec![error]));
     }
     let scene: SliderScene =
-        toml::from_str(text).map_err(|e| SceneErrors(vec![explain::explain(&e, text)]))?;
+        toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
     let mut planner = Planner::default();
     let plan = planner.plan(&scene);
     let mut errors = planner.errors;
     errors.sort_by_key(|e| (e.span.is_empty(), e.span.start));
     match plan {
         Some(plan) if errors.is_empty() => Ok(plan),
-        _ => Err(SceneErrors(errors)),
+        _ => Err(Diagnostics(errors)),
     }
 }

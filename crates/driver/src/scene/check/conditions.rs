@@ -3,7 +3,7 @@
 use super::course::Course;
 use super::interfaces::is_tied;
 use super::{AXES, Checker};
-use crate::scene::SceneError;
+use crate::diagnostic::Diagnostic;
 use crate::scene::model::{Condition, Kinematics, Loading, Motion, RotationSpec, Spanned, Stage};
 use crate::scene::near::suggest;
 use std::collections::BTreeMap;
@@ -311,7 +311,7 @@ impl Checker<'_> {
             let help =
                 "times count from the start of the stage: end the table with it, or lengthen the stage";
             self.errors
-                .push(SceneError::at(place, message, help).and(stage.duration.span(), "the stage ends"));
+                .push(Diagnostic::at(place, message, help).and(stage.duration.span(), "the stage ends"));
         }
     }
 

@@ -1,9 +1,10 @@
 //! Reads the parameters of a law and collects what is wrong with them.
 
 use super::{EVOLUTIONS, Evolution, FORMS, Form, Heat, LawChoice, Several, State, Strength};
+use crate::diagnostic::Diagnostic;
 use crate::scene::model::{LawSpec, Spanned};
+use crate::scene::near;
 use crate::scene::units::{Length, Pressure, Velocity};
-use crate::scene::{SceneError, near};
 use asperity_friction::strength::arrhenius::GAS_CONSTANT;
 use std::ops::Range;
 
@@ -49,7 +50,7 @@ use Bound::{Finite, NotNegative, Positive};
 pub(super) struct Reader {
     pub kind: &'static str,
     pub place: Range<usize>,
-    pub errors: Vec<SceneError>,
+    pub errors: Vec<Diagnostic>,
     /// Whether `b` may be negative.
     pub negative_b: bool,
 }
@@ -95,7 +96,7 @@ impl Reader {
     }
 
     fn error(&mut self, place: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
-        self.errors.push(SceneError::at(place, message, help));
+        self.errors.push(Diagnostic::at(place, message, help));
     }
 
     fn missing(&mut self, name: &str, help: impl Into<String>) {
@@ -188,7 +189,7 @@ impl Reader {
         };
         let place = |key: &Option<Spanned<f64>>| key.as_ref().map(Spanned::span).unwrap_or_default();
         let message = format!("`mu_k` {words} `mu_s`, found {mu_k:?} and {mu_s:?}");
-        let error = SceneError::at(place(&law.mu_k), message, help);
+        let error = Diagnostic::at(place(&law.mu_k), message, help);
         self.errors.push(error.and(place(&law.mu_s), "`mu_s`"));
         None
     }
@@ -317,7 +318,7 @@ impl Reader {
             return Some(mu_w);
         }
         let message = format!("`mu_w` must be below `mu0`, found {mu_w:?} and {:?}", mu0.get_ref());
-        let error = SceneError::at(place.span(), message, "0 <= mu_w < mu0, such as `mu_w = 0.13`");
+        let error = Diagnostic::at(place.span(), message, "0 <= mu_w < mu0, such as `mu_w = 0.13`");
         self.errors.push(error.and(mu0.span(), "`mu0`"));
         None
     }
@@ -347,7 +348,7 @@ impl Reader {
                     "`{name}` and `b` are of different lengths: {count} and {}, one value for each state variable",
                     b.len()
                 );
-                let error = SceneError::at(place, message, format!("give {} values of `{name}`", b.len()));
+                let error = Diagnostic::at(place, message, format!("give {} values of `{name}`", b.len()));
                 self.errors.push(error.and(b_place.clone(), "`b`"));
                 return None;
             }
@@ -392,7 +393,7 @@ impl Reader {
                     let message = format!(
                         "`alpha` acts through the state, which has no effect on the strength with b = {b:?}"
                     );
-                    let error = SceneError::at(alpha_place.clone(), message, "alpha = 0, or b > 0");
+                    let error = Diagnostic::at(alpha_place.clone(), message, "alpha = 0, or b > 0");
                     self.errors.push(error.and(b_place.clone(), "`b`"));
                     admitted = None;
                 }

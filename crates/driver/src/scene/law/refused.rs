@@ -1,13 +1,13 @@
 //! A law that could not be built, at the parameter that is to blame.
 
 use super::given;
-use crate::scene::SceneError;
+use crate::diagnostic::Diagnostic;
 use crate::scene::model::{LawSpec, Spanned};
 use asperity_friction::Failure;
 
 /// The failure of a law with the place of the parameter and what it may be.
 #[must_use]
-pub fn refused(spec: &Spanned<LawSpec>, failure: &Failure) -> SceneError {
+pub fn refused(spec: &Spanned<LawSpec>, failure: &Failure) -> Diagnostic {
     let (place, help) = match failure {
         Failure::Parameter { name, admissible, .. } => {
             let place = given(spec.get_ref()).into_iter().find(|(key, _)| key == name);
@@ -21,7 +21,7 @@ pub fn refused(spec: &Spanned<LawSpec>, failure: &Failure) -> SceneError {
             (spec.span(), "give the parameters of the law other values".into())
         }
     };
-    SceneError::at(place, failure.to_string(), help)
+    Diagnostic::at(place, failure.to_string(), help)
 }
 
 #[cfg(test)]

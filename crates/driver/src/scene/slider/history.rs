@@ -2,8 +2,8 @@
 
 use super::course::Course;
 use super::planner::Planner;
+use crate::diagnostic::Diagnostic;
 use crate::scene::Entry;
-use crate::scene::SceneError;
 use crate::scene::model::Spanned;
 use crate::scene::units::Pressure;
 use asperity_friction::slider::History;
@@ -45,7 +45,7 @@ impl Planner {
             if now < time(before) {
                 let message =
                     format!("the times of `{name}` do not increase: {now:?} s after {:?} s", time(before));
-                let error = SceneError::at(entry.span(), message, "write the entries in the order of time");
+                let error = Diagnostic::at(entry.span(), message, "write the entries in the order of time");
                 self.errors.push(error.and(before.span(), "the entry before"));
                 return None;
             }

@@ -2,10 +2,11 @@
 
 use super::planner::Planner;
 use super::spec::{SliderScene, SliderSpec, SpringSpec};
+use crate::diagnostic::Diagnostic;
 use crate::laws;
 use crate::scene::law::{self, LawChoice};
 use crate::scene::model::{LawSpec, Spanned};
-use crate::scene::{SceneError, near};
+use crate::scene::near;
 use crate::slider::{Plan, stability};
 use crate::warning::Warning;
 use asperity_friction::slider::{History, Slider, Sliding, Spring, System};
@@ -39,7 +40,7 @@ impl Planner {
         ];
         if let Some((name, Some(place))) = idle.into_iter().find(|i| i.1.is_some()) {
             let message = format!("`{name}` has no effect where the slip rate is imposed");
-            let error = SceneError::at(place, message, format!("remove `{name}`, or remove `rate`"));
+            let error = Diagnostic::at(place, message, format!("remove `{name}`, or remove `rate`"));
             self.errors.push(error.and(rate.span(), "`rate`"));
             return None;
         }

@@ -1,7 +1,7 @@
 //! From a scene of spring-sliders to a plan.
 
 use super::spec::SliderScene;
-use crate::scene::SceneError;
+use crate::diagnostic::Diagnostic;
 use crate::scene::model::Spanned;
 use crate::slider::{Output, Plan};
 use asperity_friction::slider::{History, Slider, System};
@@ -10,7 +10,7 @@ use std::ops::Range;
 /// Turns a scene into a plan and collects what is wrong.
 #[derive(Default)]
 pub(super) struct Planner {
-    pub errors: Vec<SceneError>,
+    pub errors: Vec<Diagnostic>,
 }
 
 impl Planner {
@@ -20,7 +20,7 @@ impl Planner {
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> Option<T> {
-        self.errors.push(SceneError::at(span, message, help));
+        self.errors.push(Diagnostic::at(span, message, help));
         None
     }
 

@@ -2,9 +2,10 @@
 
 use super::planner::Planner;
 use super::spec::{EventSpec, SliderTime};
+use crate::diagnostic::Diagnostic;
 use crate::scene::model::Spanned;
+use crate::scene::near;
 use crate::scene::units::Time;
-use crate::scene::{SceneError, near};
 use crate::slider::Thresholds;
 use asperity_ode::Method;
 use std::str::FromStr;
@@ -36,7 +37,7 @@ impl Planner {
             && first.get_ref().0 > largest.get_ref().0
         {
             let message = "`first_step` is larger than `max_step`";
-            let error = SceneError::at(first.span(), message, "first_step <= max_step");
+            let error = Diagnostic::at(first.span(), message, "first_step <= max_step");
             self.errors.push(error.and(largest.span(), "max_step"));
         }
         Settings {

@@ -1,25 +1,13 @@
 //! Errors of a scene as a person sees them: the place in the file, a caret, and what would be right.
 
-use super::{SceneError, SceneErrors};
+use super::position::line_column;
+use super::{Diagnostic, Diagnostics};
 use miette::{
-    Diagnostic, LabeledSpan, MietteError, MietteSpanContents, NamedSource, Report, SourceCode, SourceSpan,
-    SpanContents,
+    LabeledSpan, MietteError, MietteSpanContents, NamedSource, Report, SourceCode, SourceSpan, SpanContents,
 };
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
-
-/// Line and column of a byte of a text, both counted from 1; columns count characters.
-#[must_use]
-pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
-    let mut end = offset.min(text.len());
-    while !text.is_char_boundary(end) {
-        end -= 1;
-    }
-    let before = &text[..end];
-    let start = before.rfind('\n').map_or(0, |n| n + 1);
-    (before.matches('\n').count() + 1, before[start..].chars().count() + 1)
-}
 
 /// Two places further apart than this many lines are shown apart, without what lies between them.
 const FAR: usize = 8;
@@ -105,7 +93,7 @@ impl SourceCode for Excerpts {
 /// One error with the text it is about.
 #[derive(Debug)]
 struct Placed {
-    error: SceneError,
+    error: Diagnostic,
     source: Arc<Excerpts>,
 }
 
@@ -117,7 +105,7 @@ impl fmt::Display for Placed {
 
 impl std::error::Error for Placed {}
 
-impl Diagnostic for Placed {
+impl miette::Diagnostic for Placed {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         self.error.help.as_ref().map(|h| Box::new(h) as Box<dyn fmt::Display>)
     }
@@ -165,15 +153,15 @@ impl fmt::Display for Many {
 
 impl std::error::Error for Many {}
 
-impl Diagnostic for Many {
-    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
-        Some(Box::new(self.errors.iter().map(|e| e as &dyn Diagnostic)))
+impl miette::Diagnostic for Many {
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn miette::Diagnostic> + 'a>> {
+        Some(Box::new(self.errors.iter().map(|e| e as &dyn miette::Diagnostic)))
     }
 }
 
 /// The errors of the scene `text`, read from `file`, ready to be printed.
 #[must_use]
-pub fn report(file: &str, text: &str, errors: &SceneErrors) -> Report {
+pub fn report(file: &str, text: &str, errors: &Diagnostics) -> Report {
     let source = Arc::new(Excerpts(NamedSource::new(file, text.to_string())));
     let mut placed: Vec<Placed> =
         errors.0.iter().map(|error| Placed { error: error.clone(), source: Arc::clone(&source) }).collect();
@@ -190,15 +178,8 @@ pub fn report(file: &str, text: &str, errors: &SceneErrors) -> Report {
 mod tests {
     use super::*;
 
-    #[test]
-    fn columns_count_characters_from_one() {
-        assert_eq!(line_column("ab\ncd", 0), (1, 1));
-        assert_eq!(line_column("ab\ncd", 4), (2, 2));
-        assert_eq!(line_column("µ = 1\n", "µ ".len()), (1, 3));
-        assert_eq!(line_column("ab", 99), (1, 3));
-    }
-    fn rendered(text: &str, errors: Vec<SceneError>) -> String {
-        let report = format!("{:?}", report("s.toml", text, &SceneErrors(errors)));
+    fn rendered(text: &str, errors: Vec<Diagnostic>) -> String {
+        let report = format!("{:?}", report("s.toml", text, &Diagnostics(errors)));
         assert!(report.lines().all(|line| line.chars().count() < 2 * LONGEST_LINE), "{report}");
         report
     }
@@ -209,7 +190,7 @@ mod tests {
             let text =
                 format!("schema = 1\ntitle = \"{}µ\" wrong # and so on\nnext = 2\n", "x".repeat(column));
             let at = text.find("wrong").unwrap();
-            let shown = rendered(&text, vec![SceneError::at(at..at + 5, "what is wrong", "what is right")]);
+            let shown = rendered(&text, vec![Diagnostic::at(at..at + 5, "what is wrong", "what is right")]);
             let place = line_column(&text, at);
             // The title, its quotes, the key and the character of two bytes stand before it.
             assert_eq!(place, (2, column + 9 + 1 + 2 + 1));
@@ -223,7 +204,7 @@ mod tests {
         let long = "é".repeat(40_000);
         let text = format!("# {long}\nwrong = 1\n# {long}\nlist = [{long}]\n");
         let (first, list) = (text.find("wrong").unwrap(), text.find('[').unwrap());
-        let error = SceneError::at(first..first + 5, "first", "").and(list..text.len() - 1, "second");
+        let error = Diagnostic::at(first..first + 5, "first", "").and(list..text.len() - 1, "second");
         let shown = rendered(&text, vec![error.clone()]);
         assert!(shown.contains("s.toml:2:1") && shown.contains("list = [éé"), "{shown}");
         assert!(rendered(&text, vec![error.clone(), error]).contains("2 errors"));
