@@ -80,6 +80,7 @@ mod hertz_ball;
 mod hertz_line;
 mod hertz_sphere;
 mod interface_instability;
+mod interface_prestress;
 mod interface_rate_state;
 mod jaumann_shear;
 mod lame_cylinder;
@@ -165,6 +166,7 @@ pub const ALL: &[Case] = &[
     hertz_sphere::CASE,
     hertz_ball::CASE,
     interface_instability::CASE,
+    interface_prestress::CASE,
     interface_rate_state::CASE,
     lame_cylinder::CASE,
     nafems_roller::CASE,
