@@ -141,11 +141,12 @@ fn dragged<const D: usize>(
             0..0,
             format!(
                 "interface `{}` slides by {} in stage `{stage}`, {:.1} times the size {} of the faces of its master, and its pairing does not \
-                 follow",
+                 follow: beyond some {} nodes bear on faces that they have left, with full friction even off the end of the master",
                 planned.name,
                 brief(slid),
                 slid / size,
-                brief(size)
+                brief(size),
+                brief(SMALL_SLIDING * size)
             ),
             "use `sliding = \"finite\"`; with \"small\" every node keeps the partner that it has at the start",
         )

@@ -100,6 +100,7 @@ fn interface_mesh<const D: usize>(
             .collect(),
         probes: probes(&positions, planned.probes),
         states: planned.law.as_ref().map_or(0, |law| law.states()),
+        in_space: D == 3,
         positions,
     }
 }
@@ -134,20 +135,29 @@ fn mean_shear<const D: usize>(p: &PointFields<D>) -> Vec<f64> {
 
 /// State of an interface. In two dimensions tangential quantities are measured along (n_y, -n_x), n the outward normal of
 /// the master: the direction in which the slave side is walked with its body to the left. That is minus the first tangent of
-/// the contact crate, which walks along the master side.
+/// the contact crate, which walks along the master side. In three dimensions they are magnitudes, beside vectors: the tangents that
+/// components count along differ from measure to measure.
 #[must_use]
 pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFields {
     let p = interface.points();
     let measure =
         |field: &[f64]| -> Vec<f64> { field.iter().map(|v| if D == 2 { -v } else { *v }).collect() };
+    let length = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
+    let tangential = |vectors: &[[f64; D]], along: &[f64]| -> Vec<f64> {
+        if D == 2 { measure(along) } else { vectors.iter().map(length).collect() }
+    };
+    let in_space =
+        |vectors: &[[f64; D]]| if D == 3 { vectors.iter().map(padded).collect() } else { Vec::new() };
     InterfaceFields {
         gap: p.gap.clone(),
         normal_traction: p.normal_traction.clone(),
         shear_traction: measure(&p.shear_measure),
         mean_normal_traction: p.mean_normal.clone(),
         mean_shear_traction: mean_shear(p),
-        relative_displacement: measure(&p.relative_measure),
-        slip: measure(&p.slip_measure),
+        relative_displacement: tangential(&p.relative, &p.relative_measure),
+        slip: tangential(&p.slip, &p.slip_measure),
+        slip_vector: in_space(&p.slip),
+        shear_vector: in_space(&p.shear),
         slip_rate: measure(&p.slip_rate),
         friction: p.friction.clone(),
         status: p

@@ -174,6 +174,7 @@ fn driven(sliding: &str, rate: &str) -> String {
 fn a_side_dragged_off_its_partners_is_told_where_the_pairing_does_not_follow() {
     let told = found(&driven("small", "\"-30 mm/s\""));
     assert!(told.len() == 1 && told[0].contains("interface `fault` slides by 1.49"), "{told:?}");
+    assert!(told[0].contains("beyond some 1 m nodes bear on faces that they have left"), "{told:?}");
     assert_eq!(found(&driven("small", "\"-10 mm/s\"")), Vec::<String>::new());
 }
 
@@ -214,4 +215,63 @@ fn half_a_side_without_partner_is_counted() {
     let plan = plan::plan(&scene::read(&text).unwrap()).unwrap();
     let start = &plan.summary().start_gaps[0];
     assert_eq!((start.facing, start.unpaired), (3, 2));
+}
+
+/// A pair of blocks pressed without friction, held with it, and sheared, under friction of this form.
+fn pressed_first(form: &str, held: &str) -> String {
+    format!(
+        r#"schema = 1
+title = "two blocks"
+kinematics = "plane-strain"
+[materials.rock]
+young = "10 GPa"
+poisson = 0.25
+[bodies.A]
+mesh.block = {{ min = [0, 0], max = [2, 4], size = 1, element = "quad4" }}
+material = "rock"
+[bodies.B]
+mesh.block = {{ min = [2, 0], max = [4, 4], size = 1, element = "quad4" }}
+material = "rock"
+[interfaces.fault]
+slave = "A.right"
+master = "B.left"
+measure = "node-to-point"
+sliding = "small"
+enforcement = {{ kind = "penalty", normal = "100 E/h", tangential = "100 E/h" }}
+law = {{ kind = "rate-and-state", evolution = "ageing", {form}, mu0 = 0.6, a = 0.01, b = 0.005, l = "10 um", v_ref = "1 um/s", v_initial = "1 um/s" }}
+[[stages]]
+name = "press"
+duration = 10
+frictionless = ["fault"]
+conditions = [
+    {{ set = "A.left", x = {{ to = "1 mm" }} }}, {{ set = "A.bottom", y = 0 }}, {{ set = "A.top", y = 0 }},
+    {{ set = "B.right", x = 0 }}, {{ set = "B.top", y = 0 }}, {{ set = "B.bottom", y = 0 }},
+]
+{held}
+[[stages]]
+name = "shear"
+duration = 10
+conditions = [{{ set = "B.top", y = {{ rate = "-1 um/s" }} }}, {{ set = "B.bottom", y = {{ rate = "-1 um/s" }} }}]
+[time]
+stepper = "implicit"
+"#
+    )
+}
+
+#[test]
+fn bare_and_cut_off_friction_begins_where_something_slides_and_stops_with_the_remedy_where_nothing_does() {
+    let held = "[[stages]]\nname = \"rest\"\nduration = 10\n";
+    for form in ["form = \"regularised\"", "form = \"bare\"", "form = \"cut-off\", v_cut = \"1 mm/s\""] {
+        assert_eq!(found(&pressed_first(form, "")), Vec::<String>::new(), "{form}");
+        let plan = plan::plan(&scene::read(&pressed_first(form, held)).unwrap()).unwrap();
+        let report = run::run(&plan, &mut Recorder::new()).unwrap();
+        match report.outcome {
+            Outcome::Completed => assert!(form.contains("regularised"), "{form}"),
+            Outcome::Stopped { stage, reason, .. } => {
+                assert!(stage == "rest" && !form.contains("regularised"), "{form}: {stage}: {reason}");
+                assert!(reason.contains("use `form = \"regularised\"`"), "{reason}");
+            }
+            Outcome::Interrupted { .. } => panic!("{form} was interrupted"),
+        }
+    }
 }

@@ -36,9 +36,9 @@ pub enum Failure {
         /// What would be right.
         admissible: &'static str,
     },
-    /// The bare logarithm has no value at rest or in reversal.
+    /// Bare and cut-off logarithms have no value at rest or in reversal.
     #[error(
-        "point {point}: the bare logarithm of the slip rate {rate:e} m/s does not exist; use the regularised form"
+        "point {point}: bare and cut-off friction have no value at the slip rate {rate:e} m/s; use `form = \"regularised\"`"
     )]
     BareLogAtRest {
         /// Point in the slice.

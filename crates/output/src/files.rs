@@ -320,6 +320,10 @@ impl Part {
             Array::scalar("status", Values::U8(&fields.status)),
             f64s("area", &fields.area),
         ];
+        if !fields.slip_vector.is_empty() {
+            points.push(Array::vector("slip_vector", &fields.slip_vector));
+            points.push(Array::vector("shear_traction_vector", &fields.shear_vector));
+        }
         points.extend(names.iter().zip(&states).map(|(name, v)| Array::scalar(name, Values::F64(v))));
         self.grid.file(time, &points, &[])
     }

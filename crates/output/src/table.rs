@@ -30,6 +30,21 @@ const PROBE: [Column; 6] = [
     ("shear_traction [Pa]", |f, i| f.shear_traction[i]),
 ];
 
+/// Further columns of both in space.
+const SPACE: [Column; 6] = [
+    ("slip_x [m]", |f, i| f.slip_vector[i][0]),
+    ("slip_y [m]", |f, i| f.slip_vector[i][1]),
+    ("slip_z [m]", |f, i| f.slip_vector[i][2]),
+    ("shear_traction_x [Pa]", |f, i| f.shear_vector[i][0]),
+    ("shear_traction_y [Pa]", |f, i| f.shear_vector[i][1]),
+    ("shear_traction_z [Pa]", |f, i| f.shear_vector[i][2]),
+];
+
+/// Columns of an interface after those of a table.
+fn columns(table: &'static [Column], mesh: &InterfaceMesh) -> impl Iterator<Item = &'static Column> + use<> {
+    table.iter().chain(if mesh.in_space { &SPACE[..] } else { &[] })
+}
+
 /// The shortest decimal that reads back as the same number, with an exponent where that is easier to read.
 fn number(value: f64) -> String {
     // Outside these decades positional notation is mostly zeros.
@@ -52,14 +67,14 @@ pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields)
     rows.push(
         head.iter()
             .map(ToString::to_string)
-            .chain(PROFILE.iter().map(|(name, _)| (*name).to_string()))
+            .chain(columns(&PROFILE, mesh).map(|(name, _)| (*name).to_string()))
             .chain(states(mesh)),
     );
     for (i, position) in mesh.positions.iter().enumerate() {
         let place = [number(time), i.to_string()].into_iter().chain(position.iter().map(|&x| number(x)));
         let area = number(fields.area[i]);
         let states = (0..mesh.states).map(|k| number(fields.state(k, i)));
-        let values = PROFILE.iter().map(|(_, read)| number(read(fields, i)));
+        let values = columns(&PROFILE, mesh).map(|(_, read)| number(read(fields, i)));
         rows.push(place.chain([area]).chain(values).chain(states));
     }
     rows.bytes()
@@ -69,7 +84,8 @@ pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields)
 pub(super) fn probe_header(mesh: &InterfaceMesh) -> Vec<u8> {
     let mut rows = Rows::default();
     let labels = crate::plots::labels::position_labels(mesh.probes.iter().map(|&node| mesh.positions[node]));
-    let names: Vec<String> = PROBE.iter().map(|(name, _)| (*name).to_string()).chain(states(mesh)).collect();
+    let names: Vec<String> =
+        columns(&PROBE, mesh).map(|(name, _)| (*name).to_string()).chain(states(mesh)).collect();
     let columns = labels.iter().flat_map(|label| names.iter().map(move |name| format!("{name} at {label}")));
     rows.push(WHEN.iter().map(ToString::to_string).chain(columns));
     rows.bytes()
@@ -85,7 +101,7 @@ pub(super) fn probe_row(
 ) -> Vec<u8> {
     let values = mesh.probes.iter().flat_map(|&i| {
         let states = (0..mesh.states).map(move |k| fields.state(k, i));
-        PROBE.iter().map(move |(_, read)| read(fields, i)).chain(states)
+        columns(&PROBE, mesh).map(move |(_, read)| read(fields, i)).chain(states)
     });
     history_row(time, stage, step, &values.collect::<Vec<f64>>())
 }

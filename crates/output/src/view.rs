@@ -37,6 +37,8 @@ pub struct InterfaceMesh {
     pub probes: Vec<usize>,
     /// State variables of its law.
     pub states: usize,
+    /// Whether it lies in space, where slip and shear traction are vectors.
+    pub in_space: bool,
 }
 
 /// State of an interface after a step, one value a slave node.
@@ -54,10 +56,14 @@ pub struct InterfaceFields {
     /// Shear traction averaged in the same way, with the sign of the shear traction \[Pa\].
     pub mean_shear_traction: Vec<f64>,
     /// Relative tangential displacement (slave relative to master) \[m\]: elastic part and slip together, with the sign of
-    /// the shear traction's measure, since the law began to act.
+    /// the shear traction in two dimensions, magnitude in three, since the law began to act.
     pub relative_displacement: Vec<f64>,
-    /// Slip (plastic part) \[m\], signed in two dimensions, since the law began to act.
+    /// Slip (plastic part) \[m\], signed in two dimensions, magnitude in three, since the law began to act.
     pub slip: Vec<f64>,
+    /// Slip of the slave relative to the master as a vector \[m\]; empty but in three dimensions.
+    pub slip_vector: Vec<[f64; 3]>,
+    /// Shear traction as a vector, the one that the slave exerts on the master: along slip \[Pa\]; empty but in three dimensions.
+    pub shear_vector: Vec<[f64; 3]>,
     /// Slip rate V \[m/s\].
     pub slip_rate: Vec<f64>,
     /// Friction coefficient |t|/f_n \[-\]; 0 where open or frictionless.

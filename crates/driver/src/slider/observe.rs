@@ -27,6 +27,7 @@ impl<'a> Show<'a> {
     fn setup(plan: &Plan) -> Setup {
         let n = plan.names.len();
         let sliders = InterfaceMesh {
+            in_space: false,
             states: 0,
             name: "sliders".into(),
             positions: vec![[0.0; 3]; n],
@@ -58,6 +59,8 @@ impl Watcher for Show<'_> {
         };
         let n = now.conditions.len();
         let fields = InterfaceFields {
+            slip_vector: Vec::new(),
+            shear_vector: Vec::new(),
             gap: vec![0.0; n],
             normal_traction: each(|c| c.normal),
             shear_traction: each(|c| c.traction),

@@ -54,6 +54,7 @@ pub(crate) fn setup(layers: usize) -> Setup {
         (0..layers).flat_map(|k| (0..rows - 1).map(move |j| quad(j, k))).collect()
     };
     let fault = InterfaceMesh {
+        in_space: false,
         name: "fault".into(),
         labels: Vec::new(),
         areas: vec![H; positions.len()],
@@ -91,6 +92,8 @@ fn fields_at(setup: &Setup, time: f64, spoil: Option<f64>) -> InterfaceFields {
         *last = f64::INFINITY;
     }
     InterfaceFields {
+        slip_vector: Vec::new(),
+        shear_vector: Vec::new(),
         gap,
         normal_traction: per(&sigma),
         shear_traction: per(&|s| sigma(s) * mu(s)),
