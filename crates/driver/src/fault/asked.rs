@@ -1,7 +1,7 @@
 //! Whether what a scene asks of a fault takes any of its points: creep, profiles, stations.
 
 use super::place::Place;
-use super::plan::{Placed, at};
+use super::placed::{Placed, at};
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::rigid;

@@ -16,7 +16,7 @@
 //! kind: of slip, against the friction that was carried along.
 
 use super::equations::{Fault, Pressed};
-use super::floor::Used;
+use super::floor_use::Used;
 use super::opened::Opened;
 use super::opening::Crack;
 use super::operator::Operator;

@@ -4,13 +4,15 @@
 //! A file that has grown to half of what it may is written with twice these amounts from then on, at three quarters with four times, and so
 //! forth: it never passes its largest size, and goes on for long.
 
-use super::files::YEAR;
+use super::words::YEAR;
 use crate::scene::model::Output;
 use crate::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 /// Change of log10 of the slip rate from row to row, where nothing is said.
 const DECADES: f64 = 0.125;
+/// A profile of rates is written where log10 of the largest slip rate has changed by so much.
+pub(super) const RATE_CHANGE: f64 = 0.5;
 /// Slip from row to row over the smallest characteristic slip of the fault, where nothing is said: states change over the whole of it. In BP1,
 /// 4 mm in a tenth of a second at 4 cm/s.
 const SLIP: f64 = 0.5;

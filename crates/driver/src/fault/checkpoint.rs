@@ -10,7 +10,7 @@
 //! takes the place of the one before it.
 
 use super::balance::Sums;
-use super::files::Position;
+use super::position::Position;
 use super::run::Run;
 use asperity_output::{OutputError, atomic};
 use serde::{Deserialize, Serialize};

@@ -7,6 +7,7 @@ use super::machine::Machine;
 use super::opening::Opening;
 use super::operator::Dense;
 use super::place::{Place, across};
+use super::point::Point;
 use crate::loading::Stage;
 use crate::model::Model;
 use crate::rigid;
@@ -17,19 +18,6 @@ use asperity_fem::dof::Channel;
 use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
 use asperity_fem::multifrontal::DirectError;
 use asperity_fem::table::Table;
-
-/// A point of a fault with what happens there.
-#[derive(Clone, Debug)]
-pub struct Point<const D: usize> {
-    /// Where.
-    pub place: Place<D>,
-    /// Slip rate along both tangents, where it is prescribed \[m/s\].
-    pub creep: Option<[f64; 2]>,
-    /// Whether slip and loads change its normal traction.
-    pub normal_changes: bool,
-    /// Whether it opens where nothing presses it.
-    pub opens: bool,
-}
 
 /// What slip does, component by component.
 #[derive(Debug)]

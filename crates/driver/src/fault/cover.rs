@@ -1,6 +1,5 @@
 //! What the two sides of a fault must have in common: the same nodes wherever one covers the other.
 
-use super::place::TOGETHER;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::rigid;
@@ -8,6 +7,9 @@ use crate::scene::model::Fault as Spec;
 use crate::warning::Warning;
 use asperity_fem::mesh::{Side, face_nodes};
 use std::collections::BTreeSet;
+
+/// Distance of two nodes at one place over the size of the model: rounding of generated and of written coordinates.
+pub(super) const TOGETHER: f64 = 1e-9;
 
 /// Distance from the plane through the corners of a face, over its size, within which a place lies on it: an arc of 45 degrees rises by that.
 const RISE: f64 = 0.1;

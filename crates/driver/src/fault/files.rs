@@ -2,25 +2,20 @@
 //!
 //! Rows come by change and by simulated time, not by step, so that files grow with what happens.
 
-use super::cadence::{Cadence, Gauge, Reading, warning};
+use super::cadence::{Cadence, Gauge, RATE_CHANGE, Reading, warning};
 use super::checkpoint::{Checkpoint, ResumeError};
 use super::plan::Plan;
+use super::position::Position;
 use super::run::{Moment, Watcher};
-use super::snapshots::{self, Snapshots, Taken};
+use super::snapshots::{self, Snapshots};
 use super::stations;
 use crate::warning::Warning;
 use asperity_ode::{Clock, Control};
 use asperity_output::decimals::{fixed, scientific};
 use asperity_output::{OutputError, atomic};
-use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-
-/// A year \[s\], as the benchmarks count it.
-pub(super) const YEAR: f64 = 365.25 * 86_400.0;
-/// A profile of rates is written where log10 of the largest slip rate has changed by so much.
-pub(super) const RATE_CHANGE: f64 = 0.5;
 
 /// Columns of the largest slip rate; means are weighted with areas, and along the rake where slip may turn.
 const LARGEST_HEAD: &str = "time [s],log10 slip_rate [m/s],point,mean shear_traction [Pa],mean slip [m]\n";
@@ -64,18 +59,6 @@ impl Rows {
     fn settle(&self) -> Result<(), OutputError> {
         self.file.sync_data().map_err(|source| OutputError::write(&self.path, source))
     }
-}
-
-/// Where the files of a run stand.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Position {
-    /// Of the files, in their order.
-    gauges: Vec<Gauge>,
-    /// When the last step ended.
-    before: Option<Clock>,
-    /// In space.
-    #[serde(default)]
-    snapshots: Option<Taken>,
 }
 
 /// Writes `stations/`, `largest_rate.csv` and, in the plane, `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and, where points may open,

@@ -1,7 +1,7 @@
 //! Conditions that reach the sides of a fault: which node of a point gives way to its jump, and what cannot be held.
 
-use super::condense::Point;
 use super::place::Place;
+use super::point::Point;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::rigid;

@@ -5,8 +5,8 @@ use super::checkpoint::{Checkpoint, FILE, ResumeError, Stand};
 use super::files::Files;
 use super::identity;
 use super::plan::Plan;
-use super::report;
 use super::run::{Moment, Run, Watcher};
+use super::words::time;
 use crate::warning::Warning;
 use asperity_ode::Control;
 use asperity_output::{OutputError, Progress};
@@ -196,7 +196,7 @@ impl Watcher for Keeper<'_> {
         self.progress.show(part, || {
             format!(
                 "t = {}, max V = {:.3e} m/s, step {steps} of {:.3e} s, {} events",
-                report::time(moment.at.seconds()),
+                time(moment.at.seconds()),
                 moment.largest,
                 moment.dt,
                 moment.catalogue.events().len()

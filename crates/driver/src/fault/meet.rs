@@ -4,7 +4,7 @@
 //! normal their mean, as if the segments were one fault.
 
 use super::place::{branches, directions, unit};
-use super::plan::Placed;
+use super::placed::Placed;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::rigid;

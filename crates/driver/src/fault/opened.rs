@@ -2,6 +2,7 @@
 
 use super::plan::Plan;
 use super::run::Moment;
+use super::words::time;
 use serde::{Deserialize, Serialize};
 
 /// What came of openings until now, point by point.
@@ -100,7 +101,7 @@ impl OpenedFault {
             self.points,
             self.of,
             self.largest,
-            super::report::time(self.when),
+            time(self.when),
             100.0 * self.time_share,
             self.open
         )

@@ -1,6 +1,6 @@
 //! The points of a fault: pairs of nodes, one on each side, at one place.
 
-use super::cover;
+use super::cover::{self, TOGETHER};
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::rigid;
@@ -11,9 +11,6 @@ use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
 use asperity_fem::surface;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Distance of two nodes at one place over the size of the model: rounding of generated and of written coordinates.
-pub(super) const TOGETHER: f64 = 1e-9;
 
 /// A point of a fault.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@
 
 use super::condense::{Surroundings, Tractions};
 use super::operator::Operator;
-use super::plan::{Placed, slides};
+use super::placed::{Placed, slides};
 use crate::loading::Stage;
 use crate::model::Model;
 use crate::scene::model::{Creep, Fault as Spec, Scene};

@@ -3,13 +3,14 @@
 use super::balance::{Balance, Energy, Mark, steady};
 use super::catalogue::{Event, Part};
 use super::equations::size;
-use super::floor::{FloorUse, uses};
+use super::floor_use::{FloorUse, uses};
 use super::located::locate;
 use super::opened::{OpenedFault, openings};
 use super::opening::Crack;
 use super::plan::{FaultView, Plan};
 use super::resolution::Resolution;
 use super::run::Run;
+use super::words::{length, time};
 use crate::report::Origin;
 use crate::warning::Warning;
 use asperity_ode::Outcome;
@@ -319,9 +320,6 @@ fn why(plan: &Plan, run: &Run, reason: &str) -> String {
     reason.to_string()
 }
 
-/// A year \[s\].
-const YEAR: f64 = 365.25 * 86_400.0;
-
 impl Report {
     /// The report of a run of a plan.
     #[must_use]
@@ -489,25 +487,5 @@ impl Report {
         let r = &self.run;
         let _ = writeln!(text, "  seconds: set-up {:.2}, integration {:.2}", r.set_up_seconds, r.seconds);
         text
-    }
-}
-
-/// A length in words, in a unit that leaves digits before the point.
-pub(super) fn length(metres: f64) -> String {
-    let (scale, unit) = match metres.abs() {
-        m if m >= 1e3 => (1e-3, "km"),
-        m if m >= 1.0 || m == 0.0 => (1.0, "m"),
-        m if m >= 1e-3 => (1e3, "mm"),
-        _ => (1e6, "um"),
-    };
-    format!("{} {unit}", fixed(metres * scale, 4))
-}
-
-/// A time in words.
-pub(super) fn time(seconds: f64) -> String {
-    if seconds.abs() >= 0.1 * YEAR {
-        format!("{:.5} yr", seconds / YEAR)
-    } else {
-        format!("{} s", fixed(seconds, 5))
     }
 }

@@ -15,7 +15,7 @@
 //! Only points that weaken, b > a, count. f_n is that at the start.
 
 use super::place::Place;
-use super::report::length;
+use super::words::length;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::scene::law::{Evolution, LawChoice};

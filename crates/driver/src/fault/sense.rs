@@ -1,7 +1,7 @@
 //! Whether loads and creep drive faults in the sense in which they are to slip.
 
 use super::loading::Loading;
-use super::plan::{Placed, slides};
+use super::placed::{Placed, slides};
 use crate::scene::model::{Fault as Spec, Scene};
 use crate::warning::Warning;
 

@@ -1,8 +1,7 @@
 //! The state of faults in space in the course of a run, as VTU.
 
-use super::cadence::{Gauge, Reading};
+use super::cadence::{Gauge, RATE_CHANGE, Reading};
 use super::fields;
-use super::files::RATE_CHANGE;
 use super::plan::Plan;
 use super::run::Moment;
 use asperity_output::decimals::fixed;

@@ -1,7 +1,7 @@
 //! Whether the tractions at the start are those of friction at the slip rate of the start.
 
 use super::equations::Fault;
-use super::plan::Placed;
+use super::placed::Placed;
 use crate::rigid;
 use crate::scene::model::{Fault as Spec, Scene, Spanned};
 use crate::warning::Warning;

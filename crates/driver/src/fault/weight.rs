@@ -6,8 +6,8 @@
 //! held by its own tractions on the outer faces, and takes no part in carrying the weight.
 
 use super::condense::Weight;
-use super::place::TOGETHER;
-use super::plan::Placed;
+use super::cover::TOGETHER;
+use super::placed::Placed;
 use super::prestress::{Resolved, against, strays};
 use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;

@@ -1,0 +1,50 @@
+//! What a run in space leaves at its end: fields of events and of the last state, and the collections of all fields.
+
+use super::fields::{Field, along, grid, put, state};
+use super::figures::each;
+use super::plan::Plan;
+use super::run::Run;
+use super::snapshots;
+use asperity_output::vtu::{PvdEntry, pvd};
+use asperity_output::{OutputError, atomic};
+use std::path::Path;
+
+/// Writes `fields/FAULT_event_000.vtu` of each event, `fields/FAULT_end.vtu` and the collections `fields.pvd` of the states in the
+/// course of the run and `events.pvd` of the events, at the times of their onsets. Faults in the plane have profiles instead.
+///
+/// # Errors
+/// When a file cannot be read or written.
+pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), OutputError> {
+    if !plan.in_space {
+        return Ok(());
+    }
+    let (mut taken, mut states, mut events) = (Vec::new(), Vec::new(), Vec::new());
+    each(&out.join(snapshots::LIST), &mut |row| taken.push(row[1]))?;
+    for (part, fault) in plan.faults.iter().enumerate() {
+        let grid = grid(plan, fault);
+        let folder = out.join("fields");
+        let entry = |file: &str, time: f64| PvdEntry {
+            time,
+            part,
+            name: fault.name.clone(),
+            file: format!("fields/{file}"),
+        };
+        states
+            .extend(taken.iter().enumerate().map(|(k, &time)| entry(&snapshots::name(&fault.name, k), time)));
+        for (k, event) in run.catalogue.events().iter().enumerate() {
+            let mut fields = along(plan, fault, "slip", &event.slip);
+            fields.extend(along(plan, fault, "stress_drop", &event.drop));
+            if fault.normal.opens {
+                fields.push(Field::Scalar("opening".into(), event.opening[fault.points.clone()].to_vec()));
+            }
+            let (file, onset) = (format!("{}_event_{k:03}.vtu", fault.name), event.onset.seconds());
+            put(&folder.join(&file), &grid, onset, &fields)?;
+            events.push(entry(&file, onset));
+        }
+        let (file, time) = (format!("{}_end.vtu", fault.name), run.at.seconds());
+        put(&folder.join(&file), &grid, time, &state(plan, fault, run.at, &run.unknowns))?;
+        states.push(entry(&file, time));
+    }
+    atomic::write(&out.join("events.pvd"), &pvd(&events))?;
+    atomic::write(&out.join("fields.pvd"), &pvd(&states))
+}

@@ -1,0 +1,37 @@
+//! Displacements of the bodies, as VTU.
+
+use super::equations::Layout;
+use super::opening::Crack;
+use super::plan::Plan;
+use super::run::Run;
+use asperity_output::vtu::{Array, Grid, PvdEntry, pvd};
+use asperity_output::{OutputError, atomic};
+use std::path::Path;
+
+/// Writes the displacements of the bodies over each event, which its slip causes, and at the end of the run, since its start, as VTU,
+/// where the scene asks for them.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), OutputError> {
+    let Some(view) = &plan.bodies else { return Ok(()) };
+    let folder = out.join("fields");
+    atomic::create_dir(&folder)?;
+    let grid = Grid::new(&view.nodes, &view.cells);
+    let mut entries = Vec::new();
+    let mut put = |file: String, time: f64, displacement: &[[f64; 3]]| {
+        let arrays = [Array::vector("displacement", displacement)];
+        entries.push(PvdEntry { time, part: 0, name: "bodies".into(), file: format!("fields/{file}") });
+        atomic::write(&folder.join(&file), &grid.file(time, &arrays, &[]))
+    };
+    for (k, event) in run.catalogue.events().iter().enumerate() {
+        // Loads are nothing at the start.
+        let displacement = view.bodies.vectors(&[event.slip.as_slice(), &event.opening].concat(), 0.0);
+        put(format!("bodies_event_{k:03}.vtu"), event.onset.seconds(), &displacement)?;
+    }
+    let slip = &run.unknowns[Layout::of(&plan.fault).slip()];
+    let opening = plan.fault.pressed(run.at, &run.unknowns, &mut Crack::default()).opening;
+    let end = run.at.seconds();
+    put("bodies_end.vtu".into(), end, &view.bodies.vectors(&[slip, &opening].concat(), end))?;
+    atomic::write(&out.join("bodies.pvd"), &pvd(&entries))
+}
