@@ -33,6 +33,20 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         add(Kinematics::PlaneStrain, Face::Round, Bodies::ELASTIC, pairing, &[Law::Coulomb, Law::Ageing]);
         add(Kinematics::Space, Face::Flat, Bodies::ELASTIC, pairing, &[Law::Coulomb]);
     }
+    for pairing in Pairing::ALL {
+        for enforcement in [ENFORCEMENTS[1], ENFORCEMENTS[2]] {
+            cells.extend([Law::Coulomb, Law::Ageing].map(|law| Cell {
+                kinematics: Kinematics::PlaneStrain,
+                face: Face::Flat,
+                bodies: Bodies::ELASTIC,
+                pairing,
+                enforcement,
+                law,
+                start: Start::Rough,
+                forward: false,
+            }));
+        }
+    }
     claims(ledger, Table::of(&cells)?);
     Ok(())
 }

@@ -25,6 +25,8 @@ pub struct Table {
     unsteady: Vec<f64>,
     residual: f64,
     stopped: u64,
+    /// Runs that end where a drop of friction lets go of many points at once.
+    events: u64,
     refused: u64,
     ran: u64,
 }
@@ -65,7 +67,7 @@ impl Table {
 
     /// Outcomes of a law with both steppers, into the last two rows.
     fn add(&mut self, law: Law, ends: &[End; 2]) {
-        let mut words = [self.note(&ends[0]), self.note(&ends[1])];
+        let mut words = [self.note(law, &ends[0]), self.note(law, &ends[1])];
         if let [End::Ran { forces: one, .. }, End::Ran { forces: other, .. }] = ends {
             let apart = one.iter().zip(other).map(|(a, b)| distance(a, b)).fold(0.0, f64::max);
             self.apart.push(apart);
@@ -78,7 +80,7 @@ impl Table {
     }
 
     /// Takes note of an outcome; what the table says of it.
-    fn note(&mut self, end: &End) -> String {
+    fn note(&mut self, law: Law, end: &End) -> String {
         match end {
             End::Ran { missed, unsteady, residual, .. } => {
                 self.ran += 1;
@@ -90,6 +92,10 @@ impl Table {
             End::Refused(reason) => {
                 self.refused += 1;
                 format!("refused ({})", self.reason(reason))
+            }
+            End::Stopped(reason) if law == Law::Kinetic && reason.starts_with("instability") => {
+                self.events += 1;
+                format!("event ({})", self.reason(reason))
             }
             End::Stopped(reason) => {
                 self.stopped += 1;
@@ -142,7 +148,7 @@ pub fn claims(ledger: &mut Ledger, table: Table) {
     ledger
         .claim("combinations that stopped before their end")
         .count(table.stopped, 0)
-        .evidence(Evidence::Exact, "every combination has a solution: the slab bears the die, and no law weakens faster than the bodies unload it")
+        .evidence(Evidence::Exact, "every combination has a solution: the slab bears the die, and no law but the drop of static-kinetic friction weakens faster than the bodies unload it")
         .because("what runs is right and what cannot run is refused beforehand")
         .record();
     ledger
@@ -197,5 +203,8 @@ pub fn claims(ledger: &mut Ledger, table: Table) {
     for (k, reason) in table.reasons.iter().enumerate() {
         ledger.note(format!("({}) {reason}", k + 1));
     }
-    ledger.note(format!("{} combinations ran, {} were refused.", table.ran, table.refused));
+    ledger.note(format!(
+        "{} combinations ran, {} were refused, {} ended at an event.",
+        table.ran, table.refused, table.events
+    ));
 }
