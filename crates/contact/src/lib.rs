@@ -35,3 +35,8 @@ pub use spec::{
 };
 pub use status::Status;
 pub use watch::{Course, RateLimit, Watch};
+
+/// The example of the README, as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

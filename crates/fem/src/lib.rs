@@ -26,3 +26,8 @@ pub mod table;
 pub mod term;
 
 pub use error::FemError;
+
+/// The example of the README, as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -130,3 +130,8 @@ pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, Failure> {
         Err(Failure::Parameter { name, value, admissible: "a finite number" })
     }
 }
+
+/// The example of the README, as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

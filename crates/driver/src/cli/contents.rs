@@ -1,6 +1,6 @@
 //! What is in an output directory, and whether a run may begin there.
 
-use super::directory::{Begin, LOCK, REPORT};
+use super::begin::{Begin, LOCK, REPORT};
 use crate::fault;
 use crate::report::Status;
 use miette::{IntoDiagnostic, WrapErr, miette};

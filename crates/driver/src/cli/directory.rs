@@ -1,42 +1,15 @@
 //! The directory of a run: that of one run at a time, with its report from the first moment, and nothing of another run in it.
 
+use super::begin::{Begin, LOCK, REPORT};
 use super::contents::{self, Contents};
 use crate::fault;
 use crate::report::{Origin, Status, commit};
 use asperity_output::atomic;
-use jiff::Timestamp;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde::Serialize;
 use std::fs::{self, File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-
-/// Name of the report.
-pub(super) const REPORT: &str = "report.json";
-/// File whose lock says that a run writes here.
-pub(super) const LOCK: &str = ".lock";
-
-/// What a run is begun with.
-#[derive(Clone, Debug)]
-pub(super) struct Begin {
-    pub title: String,
-    /// SHA-256 of the scene file.
-    pub hash: String,
-    pub origin: Origin,
-    /// Whether to go on from a checkpoint there.
-    pub resume: bool,
-    /// Whether an unfinished run or the result of another scene may be moved out of the way.
-    pub force: bool,
-}
-
-impl Begin {
-    /// Of a scene file that is read now.
-    pub fn now(scene: &Path, title: &str, hash: &str) -> Self {
-        let path = fs::canonicalize(scene).unwrap_or_else(|_| scene.to_path_buf());
-        let origin = Origin { scene: path.display().to_string(), started: Timestamp::now().to_string() };
-        Self { title: title.into(), hash: hash.into(), origin, resume: false, force: false }
-    }
-}
 
 /// A report with how its run stands.
 #[derive(Serialize)]

@@ -1,22 +1,24 @@
 //! The commands of the binary: `run` and `check`.
 
+mod begin;
 mod contents;
 mod directory;
+mod end;
+mod pausing;
 mod print;
 mod read;
 mod signals;
 mod work;
 
-use crate::scene::units::Time;
 use asperity_output::Pulse;
-use clap::{Args, Parser, Subcommand};
-use directory::{Begin, Directory};
+use begin::Begin;
+use clap::{Parser, Subcommand};
+use directory::Directory;
+pub use end::End;
 use miette::miette;
+pub use pausing::Pausing;
 use read::{Planned, Source};
-use serde::Deserialize;
-use serde::de::value::StrDeserializer;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 use work::{run_bodies, run_faults, run_sliders};
 
 /// Faults and rock friction by finite elements.
@@ -53,39 +55,6 @@ pub enum Command {
         /// Scene file (TOML).
         scene: PathBuf,
     },
-}
-
-/// When a run of faults is interrupted, and how it goes on.
-#[derive(Clone, Debug, Default, Args)]
-pub struct Pausing {
-    /// Go on from the checkpoint in the output directory (runs of faults), also to more events or a longer last stage; from the start
-    /// where there is none.
-    #[arg(long)]
-    pub resume: bool,
-    /// Wall time after which to end with a checkpoint (runs of faults), such as "2 h".
-    #[arg(long, value_parser = duration)]
-    pub wall_time: Option<Duration>,
-    /// Wall time between checkpoints (runs of faults).
-    #[arg(long, value_parser = duration, default_value = "10 s")]
-    pub checkpoint_every: Duration,
-}
-
-/// A time as scenes write it.
-fn duration(text: &str) -> Result<Duration, String> {
-    let time = Time::deserialize(StrDeserializer::<serde::de::value::Error>::new(text));
-    let seconds = time.map_err(|e| e.to_string())?.0;
-    Duration::try_from_secs_f64(seconds).map_err(|e| e.to_string())
-}
-
-/// How a command ended.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum End {
-    /// As asked.
-    Done,
-    /// The stepper stopped early; everything until then was written.
-    Stopped(String),
-    /// Ended by a signal or its wall time.
-    Interrupted(String),
 }
 
 /// Executes a command.

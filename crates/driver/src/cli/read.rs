@@ -1,6 +1,6 @@
 //! From a scene file to its plan.
 
-use super::directory::Begin;
+use super::begin::Begin;
 use crate::diagnostic::{Diagnostics, report};
 use crate::fault;
 use crate::plan::{self, AnyPlan, ScenePlan};

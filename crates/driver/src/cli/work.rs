@@ -1,8 +1,10 @@
 //! Runs of plans, and what each leaves in its directory.
 
 use super::directory::Directory;
+use super::end::End;
+use super::pausing::Pausing;
 use super::read::Ready;
-use super::{End, Pausing, print, signals};
+use super::{print, signals};
 use crate::fault;
 use crate::forecast;
 use crate::plan::AnyPlan;

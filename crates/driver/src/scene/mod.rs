@@ -4,6 +4,7 @@ pub mod check;
 mod entry;
 mod exact;
 mod explain;
+mod here;
 pub mod law;
 pub mod model;
 mod motion;

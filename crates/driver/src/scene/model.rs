@@ -9,6 +9,7 @@ mod place;
 mod solver;
 mod stress;
 
+pub use super::here::here;
 use super::law::Several;
 use super::slider::EventSpec;
 use super::units::{Angle, Length, Memory, Penalty, Penetration, Pressure, Time, Velocity};
@@ -23,11 +24,6 @@ pub use solver::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 pub use stress::*;
-
-/// A value without a place in a file, for scenes built in Rust.
-pub fn here<T>(value: T) -> Spanned<T> {
-    Spanned::new(0..0, value)
-}
 
 /// A whole scene.
 #[derive(Clone, Debug, Deserialize)]

@@ -1,6 +1,7 @@
 //! Scenes of spring-sliders: `kinematics = "spring-slider"`.
 
 mod course;
+mod event;
 mod history;
 mod output;
 mod parts;
@@ -10,7 +11,8 @@ mod spec;
 mod start;
 
 pub use course::Course;
-pub use spec::{EventSpec, Load, OutputSpec, SliderScene, SliderSpec, SliderTime, SpringSpec, Which};
+pub use event::EventSpec;
+pub use spec::{Load, OutputSpec, SliderScene, SliderSpec, SliderTime, SpringSpec, Which};
 
 use super::model::Spanned;
 use super::{explain, near};

@@ -1,6 +1,7 @@
 //! Integration from break to break of the prescribed histories.
 
 use super::catalogue::{Catalogue, Edge};
+use super::error::RunError;
 use super::output::Due;
 use super::plan::Plan;
 use super::problem::{Kind, Piece, kinds};
@@ -8,20 +9,6 @@ use super::slips::Slips;
 use asperity_friction::slider::{Condition, Slider};
 use asperity_ode::{Clock, Control, Counts, Failure, Method, Occurrence, Outcome, Sink, Step};
 use asperity_output::OutputError;
-
-/// Why a run could not begin, or not be observed.
-#[derive(Debug, thiserror::Error)]
-pub enum RunError {
-    /// Nothing holds a slider.
-    #[error("no spring leads from the sliders to the load point, so that their slip is not determined")]
-    Loose,
-    /// A law has no answer at a jump of the normal traction.
-    #[error(transparent)]
-    Law(#[from] asperity_friction::Failure),
-    /// An observer could not write.
-    #[error(transparent)]
-    Observe(#[from] OutputError),
-}
 
 /// The sliders at an instant.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! Slip of the sliders from the tractions of their springs: `K u = k u_load - (T - T_0)`, sparse like the springs.
 
+use super::error::RunError;
 use super::plan::Plan;
 use super::problem::Piece;
-use super::run::RunError;
 use asperity_friction::slider::Condition;
 use asperity_ode::Clock;
 use faer::linalg::solvers::SolveCore;

@@ -213,6 +213,16 @@ mod tests {
     }
 
     #[test]
+    fn names_of_other_crates_that_are_passed_on_count_for_nothing() {
+        let list = [
+            ("lib.rs", "mod a;\nmod b;\n"),
+            ("a.rs", "pub use other::Name;\nuse crate::b::B;\npub struct A(B);\n"),
+            ("b.rs", "use crate::a::Name;\npub struct B(Name);\n"),
+        ];
+        assert_eq!(rounds(&list), [""; 0]);
+    }
+
+    #[test]
     fn tests_and_comments_close_no_circle() {
         let list = [
             ("lib.rs", "mod a;\nmod b;\n"),

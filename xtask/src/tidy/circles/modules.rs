@@ -94,7 +94,7 @@ impl Crate {
         }
         let named = |binding: &&Binding| binding.name.as_deref() == Some(name) && binding.path != [name];
         if let Some(binding) = names.bindings.iter().find(named) {
-            return self.resolve(module, &binding.path, passes);
+            return self.resolve(module, &binding.path, passes).or(Some(Target::Outside));
         }
         let all = names.bindings.iter().filter(|binding| binding.name.is_none());
         let mut through = all.filter_map(|binding| match self.resolve(module, &binding.path, passes)? {
@@ -122,4 +122,6 @@ enum Target {
     Item(usize),
     /// An item of the module in which it was looked up.
     Own,
+    /// Something of another crate, passed on here.
+    Outside,
 }

@@ -1,6 +1,7 @@
 //! Reads the parameters of a law and collects what is wrong with them.
 
-use super::{EVOLUTIONS, Evolution, FORMS, Form, Heat, LawChoice, Several, State, Strength};
+use super::choice::{EVOLUTIONS, Evolution, FORMS, Form, Heat, LawChoice, State, Strength};
+use super::several::Several;
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{LawSpec, Spanned};
 use crate::scene::near;

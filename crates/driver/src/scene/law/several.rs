@@ -1,7 +1,8 @@
 //! One value or a list of them, one for each state variable.
 
-use crate::scene::model::{Spanned, here};
+use crate::scene::here::here;
 use serde::de::{Deserialize, Deserializer, Error, IntoDeserializer, SeqAccess, Visitor};
+use serde_spanned::Spanned;
 use std::fmt;
 use std::marker::PhantomData;
 

@@ -1,7 +1,8 @@
 //! Time integration and events.
 
+use super::event::EventSpec;
 use super::planner::Planner;
-use super::spec::{EventSpec, SliderTime};
+use super::spec::SliderTime;
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::Spanned;
 use crate::scene::near;

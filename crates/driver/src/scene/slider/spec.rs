@@ -1,6 +1,7 @@
 //! A scene of spring-sliders as a value: what its file says, in SI units, before any decision is taken.
 
 use super::course::Course;
+use super::event::EventSpec;
 use crate::scene::model::{LawSpec, Spanned};
 use crate::scene::units::{Damping, Mass, Pressure, Spring, Time, Velocity};
 use serde::Deserialize;
@@ -89,20 +90,6 @@ pub struct SliderTime {
     pub max_step: Option<Spanned<Time>>,
     /// Steps after which to give up.
     pub most_steps: Option<Spanned<usize>>,
-}
-
-/// Events.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct EventSpec {
-    /// Slip rate above which an event begins \[m/s\].
-    pub above: Spanned<Velocity>,
-    /// Slip rate below which it ends \[m/s\]; a tenth of `above` where absent.
-    pub below: Option<Spanned<Velocity>>,
-    /// Events of the first slider after which the run ends.
-    pub stop_after: Option<Spanned<usize>>,
-    /// Whether the extremes of the slip rate are found, not only seen at steps (default true).
-    pub peaks: Option<bool>,
 }
 
 /// Rows of histories.

@@ -1,0 +1,12 @@
+//! How a command ended.
+
+/// How a command ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum End {
+    /// As asked.
+    Done,
+    /// The stepper stopped early; everything until then was written.
+    Stopped(String),
+    /// Ended by a signal or its wall time.
+    Interrupted(String),
+}

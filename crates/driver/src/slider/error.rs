@@ -1,0 +1,17 @@
+//! Why a run could not begin, or not be observed.
+
+use asperity_output::OutputError;
+
+/// Why a run could not begin, or not be observed.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// Nothing holds a slider.
+    #[error("no spring leads from the sliders to the load point, so that their slip is not determined")]
+    Loose,
+    /// A law has no answer at a jump of the normal traction.
+    #[error(transparent)]
+    Law(#[from] asperity_friction::Failure),
+    /// An observer could not write.
+    #[error(transparent)]
+    Observe(#[from] OutputError),
+}

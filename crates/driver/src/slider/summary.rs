@@ -1,0 +1,54 @@
+//! A plan in words.
+
+use super::plan::Plan;
+use super::stability;
+use std::fmt::Write as _;
+
+impl Plan {
+    /// What a person should see before the run.
+    #[must_use]
+    pub fn summary(&self) -> String {
+        let mut text = format!("plan: {}\n", self.title);
+        let mut line = |name: &str, value: String| {
+            let _ = writeln!(text, "  {name:<18}{value}");
+        };
+        line("kinematics", format!("spring-slider, {}", self.dynamics()));
+        for (name, s) in self.names.iter().zip(self.system.sliders()) {
+            let states = match s.law.states() {
+                0 => "no state".to_string(),
+                1 => "1 state variable".to_string(),
+                n => format!("{n} state variables"),
+            };
+            line(name, format!("{}, {states}, k = {:.6e} Pa/m", s.law.name(), s.stiffness));
+        }
+        for (name, words) in self.names.iter().zip(stability::words(self)) {
+            words.into_iter().for_each(|words| line(name, words));
+        }
+        for spring in self.system.springs() {
+            let [a, b] = spring.between.map(|i| self.names[i].as_str());
+            line("spring", format!("{a} to {b}, k = {:.6e} Pa/m", spring.stiffness));
+        }
+        line("unknowns", format!("{}: friction over a, states{}", self.start.len(), self.inertial_words()));
+        line("method", format!("{} with tolerance {:e}", self.method.name(), self.tolerance));
+        line("end", self.end_words());
+        for remark in stability::remarks(self) {
+            line("note", remark);
+        }
+        for warning in &self.warnings {
+            line("warning", warning.to_string());
+        }
+        text
+    }
+
+    fn inertial_words(&self) -> &'static str {
+        if self.system.sliders().iter().any(|s| s.mass.is_some()) { ", net traction" } else { "" }
+    }
+
+    fn end_words(&self) -> String {
+        match (&self.events, self.most_events) {
+            (Some(t), Some(n)) => format!("{} s, or {n} events above {:e} m/s", self.end, t.on),
+            (Some(t), None) => format!("{} s; events above {:e} m/s", self.end, t.on),
+            (None, _) => format!("{} s", self.end),
+        }
+    }
+}
