@@ -218,7 +218,11 @@ pub enum End {
 }
 
 impl Cell {
-    fn text(&self) -> Result<String, CaseError> {
+    /// Its scene.
+    ///
+    /// # Errors
+    /// When the scene lacks what is to be replaced.
+    pub fn text(&self) -> Result<String, CaseError> {
         let way = self.pairing.way();
         let law = format!("law = {{ {} }}", self.law.text(way));
         let way = format!("x = {{ to = \"{way} m\" }} }}]");

@@ -3,9 +3,10 @@
 pub mod cell;
 mod table;
 
-use crate::{Capability, Case, CaseError, Ledger};
+use super::texts::{simulate, vary};
+use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use cell::{Bodies, Cell, ENFORCEMENTS, Face, Kinematics, LAWS, Law, Pairing, Start};
-use table::{Table, claims};
+use table::{Table, claims, distance};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -48,6 +49,46 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         }
     }
     claims(ledger, Table::of(&cells)?);
+    closing(ledger)
+}
+
+/// A round die is pressed with friction from the first touch. Points close one after the other, and implicit steps that hold several
+/// closings take their friction together.
+fn closing(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let cell = Cell {
+        kinematics: Kinematics::PlaneStress,
+        face: Face::Round,
+        bodies: Bodies::ELASTIC,
+        pairing: Pairing::ALL[0],
+        enforcement: ENFORCEMENTS[0],
+        law: Law::Coulomb,
+        start: Start::Rough,
+        forward: false,
+    };
+    let pressed = |text: &str| -> Result<[f64; 3], CaseError> {
+        Ok(simulate(text)?.report.forces.first().ok_or("no force is reported")?.value)
+    };
+    let exact = pressed(&Cell { forward: true, ..cell }.text()?)?;
+    let mut levels = Vec::new();
+    for steps in [250, 500, 1000, 2000] {
+        let equal = format!("name = \"press\"\nsteps = {steps}");
+        let text = vary(&cell.text()?, &[("name = \"press\"", &equal), ("\nmax_step = \"5 ms\"", "")])?;
+        levels.push((1.0 / f64::from(steps), distance(&exact, &pressed(&text)?)));
+    }
+    ledger
+        .order("force of implicit against static-explicit steps, a round die pressed with friction from the first touch")
+        .levels(&levels)
+        .expected(1.0)
+        .within(0.3)
+        .finest(2e-4, "mu times the share of the force that grows within a step")
+        .because(
+            "a point that closes within an implicit step meets friction with the motion of the rest of the step, of first order in it; \
+             static-explicit steps end at each closing, and between closings sticking is linear",
+        )
+        .why_not_tighter("where in a step a point closes differs from level to level")
+        .evidence(Evidence::SemiAnalytic, "piecewise linear between closings, at which static-explicit steps end: exact but for rounding")
+        .covers(&[Capability::StaticExplicit, Capability::Implicit])
+        .record();
     Ok(())
 }
 

@@ -119,7 +119,7 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 /// Distance of two forces over the size of the first.
-fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+pub fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     size(std::array::from_fn(|i| a[i] - b[i])) / size(*a)
 }
