@@ -4,10 +4,10 @@
 //! These numbers refuse what is far out of reach, early. Small systems are analysed exactly afterwards (`solver`), and so are meshes that are no blocks;
 //! of large blocks the numbers stand, and a plan neither assembles nor analyses.
 
+use crate::amounts::{self, size};
 use crate::diagnostic::Diagnostic;
-use crate::model::{CellBlock, Model, meshes};
+use crate::model::meshes;
 use crate::scene::model::{Body, MeshSource, Method, Scene, Spanned};
-use crate::solver::{self, size};
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::generate::SIDES;
@@ -26,11 +26,6 @@ const WORD: f64 = 8.0;
 /// Equations below which a part of a grid is one dense front: the analysis merges smaller ones.
 const LEAF: f64 = 96.0;
 
-/// Bytes of the program with its libraries, and of its tables and plots: the smallest scenes take 12 MB without plots and 38 MB with them.
-const PROGRAM: usize = 38_000_000;
-/// Bytes of the buffers in which dense kernels pack what they multiply, for each thread.
-const PACKED: usize = 10_000_000;
-
 /// Cells and nodes of a body.
 #[derive(Clone, Debug)]
 pub struct Counts {
@@ -44,18 +39,18 @@ pub struct Counts {
 
 impl Counts {
     /// Bytes of the mesh, of which blocks of cells have their own.
-    fn mesh_bytes(&self) -> f64 {
+    pub(crate) fn mesh_bytes(&self) -> f64 {
         2.0 * WORD * (self.nodes * self.kind.dimension() as f64 + self.cells * self.kind.nodes() as f64)
     }
 
     /// Bytes of the matrices of the cells and of their degrees of freedom.
-    fn stiffness_bytes(&self, components: usize) -> f64 {
+    pub(crate) fn stiffness_bytes(&self, components: usize) -> f64 {
         let dofs = (self.kind.nodes() * components) as f64;
         WORD * self.cells * (dofs * dofs + dofs)
     }
 
     /// Bytes of the gradients of shape functions, positions and volumes of the points of the cells.
-    fn geometry_bytes(&self, idealisation: Idealisation) -> f64 {
+    pub(crate) fn geometry_bytes(&self, idealisation: Idealisation) -> f64 {
         let points = idealisation.quadrature(self.kind).len() as f64;
         let dimension = self.kind.dimension() as f64;
         WORD * self.cells * points * (self.kind.nodes() as f64 * dimension + dimension + 1.0)
@@ -97,55 +92,6 @@ fn neighbours(kind: ElementKind) -> f64 {
 #[must_use]
 pub fn matrix_bytes(counts: &[Counts], components: usize) -> usize {
     counts.iter().map(|c| c.matrix_bytes(components)).sum::<f64>() as usize
-}
-
-/// What a model holds when it is run \[bytes\].
-#[derive(Clone, Copy, Debug)]
-pub struct Held {
-    /// Its mesh.
-    mesh: usize,
-    /// The matrices of its linear cells and their degrees of freedom.
-    stiffness: usize,
-    /// Geometry of its linear cells.
-    geometry: usize,
-    /// Cells that are not linear, with their histories, which a run has a copy of, and their matrices in turn.
-    nonlinear: usize,
-}
-
-impl Held {
-    /// Of a model, whether its cells have matrices yet or not.
-    #[must_use]
-    pub fn by<const D: usize>(model: &Model<D>) -> Self {
-        let counts = model.counts();
-        let of = |bytes: &dyn Fn(&Counts) -> f64, linear: bool| -> usize {
-            let blocks = counts.iter().zip(&model.blocks);
-            blocks.filter(|(_, b)| b.linear().is_some() == linear).map(|(c, _)| bytes(c)).sum::<f64>()
-                as usize
-        };
-        let stiffness = |c: &Counts| c.stiffness_bytes(model.idealisation.components());
-        let histories: usize = model.blocks.iter().map(CellBlock::history_bytes).sum();
-        Self {
-            mesh: counts.iter().map(Counts::mesh_bytes).sum::<f64>() as usize,
-            stiffness: of(&stiffness, true),
-            geometry: of(&|c| c.geometry_bytes(model.idealisation), true),
-            nonlinear: 2 * histories + of(&stiffness, false),
-        }
-    }
-
-    /// With bodies and interfaces whose linear systems take so much. Condensation works on a copy of the matrices.
-    #[must_use]
-    pub fn with_systems(&self, solver: usize, condensed: bool) -> usize {
-        let copies = if condensed { 2 } else { 1 };
-        PROGRAM + self.mesh + copies * self.stiffness + self.geometry + self.nonlinear + solver
-    }
-
-    /// With faults, onto which bodies are condensed in so much. Jumps are taken on a copy of the matrices, and what small pieces left is not
-    /// given back to the system before the elimination.
-    #[must_use]
-    pub fn with_faults(&self, condensation: usize) -> usize {
-        let threads = rayon::current_num_threads();
-        PROGRAM + threads * PACKED + self.mesh + self.stiffness + self.stiffness.max(condensation)
-    }
 }
 
 /// The most memory this process has had so far \[bytes\]; none where the system does not say.
@@ -213,7 +159,7 @@ pub fn admit(scene: &Scene) -> Result<(), Diagnostic> {
     let direct = scene.faults.is_empty() && scene.solver.method() != Method::Iterative;
     if direct && !may_iterate(scene) {
         let factor: f64 = SURE * grids.iter().map(|g| g.factor_bytes([false; 6], components)).sum::<f64>();
-        let allowed = solver::memory(scene);
+        let allowed = amounts::memory(scene);
         if factor > allowed as f64 {
             let memory = scene.solver.memory.as_ref().map(Spanned::span);
             return Err(Diagnostic::at(

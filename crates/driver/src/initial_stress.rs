@@ -1,12 +1,6 @@
 //! The stress that a body starts with, as a field.
 
-use crate::diagnostic::Diagnostic;
-use crate::model::{Model, bounds};
-use crate::scene::check::brief;
-use crate::scene::model::{Axis, Body, InitialStress, Scene, Spanned, StressKind, VaryingStress};
-
-/// Heights above the level of a lithostatic stress that are rounding, over the size of the scene.
-const ROUNDING: f64 = 1e-9;
+use crate::scene::model::{Axis, Body, InitialStress, Scene, StressKind, VaryingStress};
 
 /// A stress xx, yy, zz, xy, yz, zx \[Pa\] that varies linearly along an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +80,7 @@ fn linear(spec: &VaryingStress) -> Option<StressField> {
 }
 
 /// Vertical axis of a body, and its acceleration \[m/s²\].
-fn vertical(scene: &Scene, body: &Body) -> Option<(usize, f64)> {
+pub(crate) fn vertical(scene: &Scene, body: &Body) -> Option<(usize, f64)> {
     let space = scene.kinematics.get_ref().idealisation();
     let gravity = body.gravity.as_ref()?.get_ref();
     let (component, acceleration) = gravity.iter().enumerate().find(|(_, g)| **g != 0.0)?;
@@ -111,38 +105,4 @@ fn lithostatic(scene: &Scene, body: &Body, spec: &VaryingStress) -> Option<Stres
     };
     let level = spec.level.as_ref()?.get_ref().0;
     Some(StressField { stress: of(-overburden), gradient: of(-density * acceleration), axis, level })
-}
-
-/// Refuses bodies that reach above the level of their lithostatic stress, where it would pull.
-///
-/// # Errors
-/// [`Diagnostic`] at the level.
-pub fn check<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<(), Diagnostic> {
-    for body in &model.bodies {
-        let spec = &scene.bodies[&body.name];
-        let Some(InitialStress::Varying(stress)) = spec.initial_stress.as_ref().map(Spanned::get_ref) else {
-            continue;
-        };
-        let (Some((axis, acceleration)), Some(level)) = (vertical(scene, spec), &stress.level) else {
-            continue;
-        };
-        if *stress.kind.get_ref() != StressKind::Lithostatic {
-            continue;
-        }
-        let (min, max) = bounds(&model.mesh.nodes[body.nodes.clone()]);
-        let highest =
-            if acceleration < 0.0 { max[axis] - level.get_ref().0 } else { level.get_ref().0 - min[axis] };
-        if highest > ROUNDING * model.scale {
-            return Err(Diagnostic::at(
-                level.span(),
-                format!(
-                    "body `{}` reaches {} above the `level` of its lithostatic stress",
-                    body.name,
-                    brief(highest)
-                ),
-                "the level is the height at which the vertical stress is the overburden: the upper side of the body, or higher",
-            ));
-        }
-    }
-    Ok(())
 }

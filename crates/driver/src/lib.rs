@@ -3,6 +3,7 @@
 //! `scene` reads, `plan` decides, `run` steps; the crate `asperity-output` writes.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+mod amounts;
 pub mod cli;
 mod coarse;
 pub mod cohesive;
@@ -11,6 +12,7 @@ pub mod enforcement;
 pub mod fault;
 mod forecast;
 mod free;
+mod held;
 pub mod initial_stress;
 pub mod laws;
 pub mod loading;
@@ -31,6 +33,7 @@ mod start_balance;
 pub mod start_gaps;
 pub mod step;
 mod stop;
+mod stress_level;
 pub mod system;
 pub mod timing;
 mod views;

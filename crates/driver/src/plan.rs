@@ -1,10 +1,12 @@
 //! Scene -> Plan: the one place where it is decided what is modelled and how. Below it nothing asks what was declared.
 
+use crate::amounts;
 use crate::cohesive::Resolved;
 use crate::diagnostic::Diagnostic;
 use crate::enforcement::{Enforced, in_pascal_per_metre, in_words};
 use crate::fault;
-use crate::forecast::{self, Held};
+use crate::forecast;
+use crate::held::Held;
 use crate::initial_stress::{self, StressField};
 use crate::loading::{self, Stage};
 use crate::model::{CellBlock, Model, sizes};
@@ -21,6 +23,7 @@ use crate::scene::model::{
 use crate::solver::{self, Solver};
 use crate::start_balance;
 use crate::start_gaps::StartGap;
+use crate::stress_level;
 use crate::warning::Warning;
 use crate::watch;
 use asperity_contact::Watch;
@@ -307,7 +310,7 @@ pub fn plan(scene: &Scene) -> Result<AnyPlan, Diagnostic> {
 
 fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
     let model = Model::<D>::new(scene)?;
-    initial_stress::check(scene, &model)?;
+    stress_level::check(scene, &model)?;
     let stages = loading::stages(scene, &model)?;
     let stepping = stepping(scene)?;
     let loading = stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
@@ -657,8 +660,8 @@ fn summary<const D: usize>(
         solver: format!(
             "{}; about {} of the {} allowed",
             solver.why,
-            solver::size(solver.bytes),
-            solver::size(solver.memory)
+            amounts::size(solver.bytes),
+            amounts::size(solver.memory)
         ),
         stepper: describe(stepping, !model.is_linear(), !interfaces.is_empty()),
         remarks,

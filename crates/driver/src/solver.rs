@@ -1,6 +1,7 @@
 //! How the linear systems of the steps are solved: chosen from the scene alone, so that the choice and the results do not
 //! depend on the machine.
 
+use crate::amounts::{memory, size};
 use crate::diagnostic::Diagnostic;
 use crate::forecast;
 use crate::loading::Stage;
@@ -12,8 +13,6 @@ use asperity_fem::condense;
 use asperity_fem::dof::{Constraints, Equations};
 use asperity_fem::term::Pattern;
 
-/// Default of `memory`: a constant, because a choice that depends on the machine would give other digits elsewhere.
-const MEMORY: f64 = 8.0 * 1024.0 * 1024.0 * 1024.0;
 /// Default of `tolerance`. A Newton iteration ends at 1e-11 of the largest force; with one solution at 1e-10 linear steps end
 /// after one or two.
 const TOLERANCE: f64 = 1e-10;
@@ -329,24 +328,4 @@ impl<const D: usize> Choice<'_, D> {
             ),
         )
     }
-}
-
-/// An amount of memory in words.
-#[must_use]
-pub fn size(bytes: usize) -> String {
-    let bytes = bytes as f64;
-    let unit = |power: i32| bytes / 1024.0_f64.powi(power);
-    if unit(3) >= 1.0 {
-        format!("{:.1} GiB", unit(3))
-    } else if unit(2) >= 1.0 {
-        format!("{:.1} MiB", unit(2))
-    } else {
-        format!("{:.1} KiB", unit(1))
-    }
-}
-
-/// What factorisations of a scene may take \[bytes\].
-#[must_use]
-pub fn memory(scene: &Scene) -> usize {
-    scene.solver.memory.as_ref().map_or(MEMORY, |m| m.get_ref().0) as usize
 }

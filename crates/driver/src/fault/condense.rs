@@ -8,10 +8,10 @@ use super::opening::Opening;
 use super::operator::Dense;
 use super::place::{Place, across};
 use super::point::Point;
+use crate::amounts;
 use crate::loading::Stage;
 use crate::model::Model;
 use crate::rigid;
-use crate::solver;
 use asperity_fem::FemError;
 use asperity_fem::condense::{Condensation, Condensed, Loaded, Remainder, Stiffness};
 use asperity_fem::dof::Channel;
@@ -330,8 +330,8 @@ fn in_words<const D: usize, const C: usize>(model: &Model<D>, jumps: &Jumps<C>, 
 pub(super) fn too_much(dofs: usize, points: usize, needed: usize, allowed: usize) -> Refusal {
     let message = format!(
         "condensing {dofs} degrees of freedom onto {points} points of the faults needs about {}, and {} are allowed",
-        solver::size(needed),
-        solver::size(allowed)
+        amounts::size(needed),
+        amounts::size(allowed)
     );
     let help = "raise `memory` in `[solver]` where the machine has it, or take coarser cells on the faults or away from them";
     Refusal { message, help: Some(help.into()), about: About::Memory, ..Refusal::default() }

@@ -27,8 +27,10 @@ use super::run::Settings;
 use super::sense;
 use super::start_doubts;
 use super::weight;
+use crate::amounts;
 use crate::diagnostic::Diagnostic;
-use crate::forecast::{self, Held};
+use crate::forecast;
+use crate::held::Held;
 use crate::laws;
 use crate::loading::{self, Stage};
 use crate::model::{Model, meshes};
@@ -36,7 +38,6 @@ use crate::scene::law::{self, Evolution, LawChoice};
 use crate::scene::model::{
     Creep, DampingSpec, Fault as Spec, Kinematics, Profiled, Scene, SlipSpec, Station,
 };
-use crate::solver;
 use crate::warning::Warning;
 use asperity_fem::mesh::{Side, face_nodes};
 use asperity_friction::Failure;
@@ -107,7 +108,7 @@ fn conditions(scene: &Scene) -> Conditions {
     let free = |s: &Spec| s.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
     let turns = scene.faults.values().any(free);
     let keep = scene.output.bodies.as_ref().is_some_and(|b| *b.get_ref());
-    Conditions { tangents: if turns { 2 } else { 1 }, memory: solver::memory(scene), keep }
+    Conditions { tangents: if turns { 2 } else { 1 }, memory: amounts::memory(scene), keep }
 }
 
 fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
