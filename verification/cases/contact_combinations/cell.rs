@@ -217,6 +217,36 @@ pub enum End {
     Stopped(String),
 }
 
+/// The scene about an axis: a ring in place of the die, which grows into a tube.
+const AXIS: [(&str, &str); 8] = [
+    ("\"plane-strain\"", "\"axisymmetric\""),
+    (
+        "min = [\"0 m\", \"-0.5 m\"], max = [\"2 m\", \"0 m\"], divisions = [12, 3]",
+        "min = [\"1.4 m\", \"0 m\"], max = [\"1.9 m\", \"2 m\"], divisions = [3, 12]",
+    ),
+    (
+        "min = [\"0.5 m\", \"0 m\"], max = [\"1.3 m\", \"0.4 m\"], divisions = [5, 2]",
+        "min = [\"1 m\", \"0.5 m\"], max = [\"1.4 m\", \"1.3 m\"], divisions = [2, 5]",
+    ),
+    ("x = 0, y = { to = \"-1 mm\" }", "x = { to = \"1 mm\" }, y = 0"),
+    ("die.bottom", "die.right"),
+    ("slab.top", "slab.left"),
+    ("slab.bottom", "slab.right"),
+    ("die.top", "die.left"),
+];
+
+/// The scene in space.
+const SPACE: [(&str, &str); 8] = [
+    ("\"plane-strain\"", "\"3d\""),
+    ("\"quad4\"", "\"hex8\""),
+    ("\"-0.5 m\"]", "\"-0.5 m\", \"0 m\"]"),
+    ("\"0 m\"], divisions = [12, 3]", "\"0 m\", \"0.3 m\"], divisions = [12, 3, 1]"),
+    ("min = [\"0.5 m\", \"0 m\"]", "min = [\"0.5 m\", \"0 m\", \"0 m\"]"),
+    ("\"0.4 m\"], divisions = [5, 2]", "\"0.4 m\", \"0.3 m\"], divisions = [5, 2, 1]"),
+    ("x = 0, y = 0 }", "x = 0, y = 0, z = 0 }"),
+    ("x = 0, y = { to", "x = 0, z = 0, y = { to"),
+];
+
 impl Cell {
     /// Its scene.
     ///
@@ -264,35 +294,11 @@ impl Cell {
         match self.kinematics {
             Kinematics::PlaneStrain => {}
             Kinematics::Axisymmetric => {
-                changes.extend([
-                    ("\"plane-strain\"", "\"axisymmetric\""),
-                    (
-                        "min = [\"0 m\", \"-0.5 m\"], max = [\"2 m\", \"0 m\"], divisions = [12, 3]",
-                        "min = [\"1.4 m\", \"0 m\"], max = [\"1.9 m\", \"2 m\"], divisions = [3, 12]",
-                    ),
-                    (
-                        "min = [\"0.5 m\", \"0 m\"], max = [\"1.3 m\", \"0.4 m\"], divisions = [5, 2]",
-                        "min = [\"1 m\", \"0.5 m\"], max = [\"1.4 m\", \"1.3 m\"], divisions = [2, 5]",
-                    ),
-                    ("x = 0, y = { to = \"-1 mm\" }", "x = { to = \"1 mm\" }, y = 0"),
-                    (&way, &drawn),
-                    ("die.bottom", "die.right"),
-                    ("slab.top", "slab.left"),
-                    ("slab.bottom", "slab.right"),
-                    ("die.top", "die.left"),
-                ]);
+                changes.extend(AXIS);
+                changes.push((&way, &drawn));
             }
             Kinematics::PlaneStress => changes.push(("\"plane-strain\"", "\"plane-stress\"")),
-            Kinematics::Space => changes.extend([
-                ("\"plane-strain\"", "\"3d\""),
-                ("\"quad4\"", "\"hex8\""),
-                ("\"-0.5 m\"]", "\"-0.5 m\", \"0 m\"]"),
-                ("\"0 m\"], divisions = [12, 3]", "\"0 m\", \"0.3 m\"], divisions = [12, 3, 1]"),
-                ("min = [\"0.5 m\", \"0 m\"]", "min = [\"0.5 m\", \"0 m\", \"0 m\"]"),
-                ("\"0.4 m\"], divisions = [5, 2]", "\"0.4 m\", \"0.3 m\"], divisions = [5, 2, 1]"),
-                ("x = 0, y = 0 }", "x = 0, y = 0, z = 0 }"),
-                ("x = 0, y = { to", "x = 0, z = 0, y = { to"),
-            ]),
+            Kinematics::Space => changes.extend(SPACE),
         }
         if self.start == Start::Smooth {
             changes.push(("name = \"press\"", "name = \"press\"\nfrictionless = [\"contact\"]"));
