@@ -1,6 +1,7 @@
 //! How far initial stress, weight, loads and interfaces are from balance before anything moves.
 
 use crate::diagnostic::Diagnostic;
+use crate::initial_stress;
 use crate::loading::Stage;
 use crate::model::{CellBlock, Model};
 use crate::plan::{PlannedInterface, Stepping};
@@ -34,6 +35,14 @@ struct Left<const D: usize> {
     largest: (f64, usize, usize),
 }
 
+/// How an interface starts.
+struct Start {
+    /// In words.
+    remark: String,
+    /// Whether friction does not hold all points.
+    slips: bool,
+}
+
 /// A remark on the start of bodies with an initial stress, and a warning where it is not in balance.
 ///
 /// # Errors
@@ -46,18 +55,25 @@ pub fn of<const D: usize>(
 ) -> Result<(Vec<String>, Option<Warning>), Diagnostic> {
     let given = scene.bodies.values().find_map(|b| b.initial_stress.as_ref());
     let (Some(given), Some(stage)) = (given, stages.first()) else { return Ok((Vec::new(), None)) };
+    let stress = largest_stress(scene, model);
+    if stress == 0.0 {
+        return Ok((Vec::new(), None));
+    }
     let mut remarks = Vec::new();
     let mut r = of_bodies(model, stage);
+    let mut slips = false;
     for planned in interfaces {
-        if let Some(remark) = pressed(scene, model, stepping, (planned, stage), &mut r)? {
-            remarks.push(remark);
+        if let Some(start) = pressed(scene, model, stepping, (planned, stage), &mut r)? {
+            slips |= start.slips;
+            remarks.push(start.remark);
         }
     }
-    let left = of_free(scene, model, stage, &r);
+    let left = of_free(model, stage, &r, stress);
     if left.share <= ROUNDING {
-        remarks.push(
-            "initial stress, weight, loads at the start and interfaces are in balance to rounding".into(),
-        );
+        let until = if slips { " until friction gives way" } else { "" };
+        remarks.push(format!(
+            "initial stress, weight, loads at the start and interfaces are in balance to rounding{until}"
+        ));
         return Ok((remarks, None));
     }
     let (force, node, axis) = left.largest;
@@ -112,7 +128,7 @@ fn pressed<const D: usize>(
     stepping: &Stepping,
     (planned, stage): (&PlannedInterface, &Stage),
     r: &mut [f64],
-) -> Result<Option<String>, Diagnostic> {
+) -> Result<Option<Start>, Diagnostic> {
     let Some(pressed) = &planned.pressed else { return Ok(None) };
     let name = &planned.name;
     let number: Vec<usize> = (0..model.dofs()).collect();
@@ -133,7 +149,8 @@ fn pressed<const D: usize>(
         .map(|(f, t)| (*f, t.iter().map(|t| t * t).sum::<f64>().sqrt()))
         .collect();
     if borne.is_empty() {
-        return Ok(Some(format!("interface `{name}`: the initial stress does not press it")));
+        let remark = format!("interface `{name}`: the initial stress does not press it");
+        return Ok(Some(Start { remark, slips: false }));
     }
     let (least, most) = borne.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), (f, _)| (a.min(*f), b.max(*f)));
     let ratio = borne.iter().map(|(f, t)| t / f).fold(0.0, f64::max);
@@ -146,7 +163,7 @@ fn pressed<const D: usize>(
     if slips > 0 {
         remark += &format!("; friction does not hold {slips} of them, which slip at once");
     }
-    Ok(Some(remark))
+    Ok(Some(Start { remark, slips: slips > 0 }))
 }
 
 /// Points whose shear traction a law with a yield surface does not bear.
@@ -171,15 +188,18 @@ fn slipping(law: &dyn asperity_friction::law::Law, borne: &[(f64, f64)], stiffne
     out[0].iter().zip(&trial).filter(|(t, e)| **t < **e * (1.0 - HELD)).count()
 }
 
-/// What is left at degrees of freedom that no condition holds, of the body where it is most.
-fn of_free<const D: usize>(scene: &Scene, model: &Model<D>, stage: &Stage, r: &[f64]) -> Left<D> {
-    let components = model.idealisation.components();
-    let stress =
-        model.bodies.iter().filter_map(|b| Some((b, crate::initial_stress::of_body(scene, &b.name)?)));
-    let stress = stress
+/// Largest component of the initial stress at a node \[Pa\].
+fn largest_stress<const D: usize>(scene: &Scene, model: &Model<D>) -> f64 {
+    let fields = model.bodies.iter().filter_map(|b| Some((b, initial_stress::of_body(scene, &b.name)?)));
+    fields
         .flat_map(|(b, field)| model.mesh.nodes[b.nodes.clone()].iter().map(move |x| field.at(x)))
         .flat_map(|s| s.into_iter().map(f64::abs))
-        .fold(0.0, f64::max);
+        .fold(0.0, f64::max)
+}
+
+/// What is left at degrees of freedom that no condition holds, of the body where it is most.
+fn of_free<const D: usize>(model: &Model<D>, stage: &Stage, r: &[f64], stress: f64) -> Left<D> {
+    let components = model.idealisation.components();
     let mut left = Left { share: 0.0, largest: (0.0, 0, 0) };
     for body in &model.bodies {
         let free = body.dofs.clone().filter(|d| stage.fixed.binary_search(d).is_err());

@@ -3,10 +3,13 @@
 use super::Checker;
 use crate::model::materials::{behaviour, elastic};
 use crate::scene::model::{Hardening, Material, Plasticity, Spanned};
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 /// A parameter of hardening: its key, its place where it is given, and the kinds it belongs to.
 type Key = (&'static str, Option<Range<usize>>, &'static [Hardening]);
+
+/// Densities from foam of rock to the heaviest metals, with room on both sides \[kg/m³\].
+const DENSITIES: RangeInclusive<f64> = 100.0..=30_000.0;
 
 impl Checker<'_> {
     pub(super) fn materials(&mut self) {
@@ -33,6 +36,15 @@ impl Checker<'_> {
                     density.span(),
                     format!("the density of `{name}` must be positive"),
                     "such as `density = \"2700 kg/m^3\"`",
+                );
+            } else if let Some(density) =
+                material.density.as_ref().filter(|d| !DENSITIES.contains(&d.get_ref().0))
+            {
+                let found = density.get_ref().0;
+                self.warn(
+                    density.span(),
+                    format!("the density of `{name}`, {found:?} kg/m^3, is that of no rock or metal"),
+                    "numbers without a unit are in kg/m^3: is it \"2.7 g/cm^3\"?",
                 );
             }
         }
