@@ -1,0 +1,14 @@
+//! Tests of contact, in one binary; `allocation` counts allocations in its own.
+#![allow(clippy::unwrap_used)]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod curved;
+mod enforcement;
+mod forward;
+mod mortar;
+mod physics;
+mod search;
+mod sliding;
+mod tangent;

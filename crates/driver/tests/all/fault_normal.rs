@@ -1,0 +1,287 @@
+//! Normal tractions of faults: floors, tractions that stay, initial stress, and how finely points stand beside lengths of friction.
+
+use asperity_driver::diagnostic::Diagnostic;
+use asperity_driver::fault::{Balance, Moment, Plan, Report, Run, run};
+use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::scene;
+use asperity_ode::{Control, Outcome};
+
+/// A fault of this trace below a free surface, with these keys, that plates draw along the first leg of the trace in the sense of `sign`.
+fn dipping(trace: &str, direction: [f64; 2], sign: f64, keys: &str) -> String {
+    let [x, y] = direction.map(|c| 0.5e-9 * sign * c);
+    format!(
+        r#"schema = 1
+title = "dipping"
+kinematics = "plane-strain"
+[materials.rock]
+young = "80 GPa"
+poisson = 0.25
+density = 2670
+[bodies.crust]
+material = "rock"
+mesh.fault = {{ trace = {trace}, interpolation = "polyline", spacing = [["0 km", "500 m"], ["24 km", "1 km"], ["120 km", "20 km"]], min = ["-100 km", "-60 km"], max = ["200 km", "0 km"], growth = 1.5, element = "quad4" }}
+[faults.main]
+minus = "crust.fault.minus"
+plus = "crust.fault.plus"
+law = {{ kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.010, b = 0.015, l = "40 mm", v_ref = "1 um/s", v_initial = "1e-8 m/s" }}
+profiles.a = {{ along = "distance", points = [["15 km", 0.010], ["18 km", 0.025]] }}
+rate = {:e}
+damping = "radiation"
+creep = {{ beyond = "24 km", rate = {:e} }}
+{keys}
+[[stages]]
+name = "cycles"
+duration = "5000 yr"
+conditions = [{{ set = "crust.left", x = {{ rate = {x:e} }}, y = {{ rate = {y:e} }} }}, {{ set = "crust.right", x = {{ rate = {:e} }}, y = {{ rate = {:e} }} }}]
+[time]
+stepper = "fault-ode"
+[events]
+above = "1e-3 m/s"
+stop_after = 3
+"#,
+        1e-9 * sign,
+        1e-9 * sign,
+        -x,
+        -y
+    )
+}
+
+const DIP_60: &str = r#"[["0 km", "0 km"], ["7.5 km", "-12.9903811 km"], ["9 km", "-15.5884573 km"], ["12 km", "-20.7846097 km"], ["34.6410162 km", "-60 km"]]"#;
+/// Dips of 45, 30 and 20 degrees.
+const LISTRIC: &str = r#"[["0 km", "0 km"], ["4.2426407 km", "-4.2426407 km"], ["11.1708439 km", "-8.2426407 km"], ["153.3715 km", "-60 km"]]"#;
+
+/// A normal fault under 1 MPa and 7.45 MPa more by kilometre of depth.
+fn normal_fault(keys: &str) -> String {
+    let press = r#"profiles.normal = { along = "y", points = [["-20 km", 150e6], ["0 km", 1e6]] }"#;
+    dipping(DIP_60, [0.5, -(0.75_f64.sqrt())], -1.0, &format!("{press}\n{keys}"))
+}
+
+/// A thrust that flattens downwards under 2 MPa and 4.8 MPa more by kilometre of depth.
+fn thrust(keys: &str) -> String {
+    let press = r#"profiles.normal = { along = "y", points = [["-20 km", 98e6], ["0 km", 2e6]] }"#;
+    dipping(LISTRIC, [0.75_f64.sqrt(), -0.5], 1.0, &format!("{press}\n{keys}"))
+}
+
+fn planned(text: &str) -> Result<Plan, Diagnostic> {
+    let scene = scene::read(text).unwrap();
+    plan_scene(&scene).map(|plan| match plan {
+        ScenePlan::Faults(plan) => *plan,
+        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+    })
+}
+
+/// A run with its report, and the largest imbalance of tractions over the largest f_n at the start: what bodies exert and press comes from slip and loads
+/// through the operator, and friction uses the larger of what they press and `floor`.
+fn followed(plan: &Plan, floor: f64) -> (Run, Report, f64) {
+    let n = plan.points.len();
+    let couples = plan.fault.operator.couples_normal();
+    let (shear_rate, normal_rate) = plan.loading.rates(1.0, n, couples);
+    let (law, damping) = (&plan.fault.law, &plan.fault.damping);
+    let mut rate = vec![0.0; n];
+    let layout = asperity_driver::fault::Layout::of(&plan.fault);
+    law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rate);
+    let friction =
+        |p: usize, pressed: f64, m: f64, v: f64| pressed.max(floor) * law.scale(p) * m + damping[p] * v;
+    let first: Vec<f64> = (0..n).map(|p| friction(p, plan.fault.normal[p], plan.start[p], rate[p])).collect();
+    let scale = plan.fault.normal.iter().fold(0.0_f64, |l, f| l.max(*f));
+    let (mut shear, mut press, mut worst) = (vec![0.0; n], vec![0.0; n], 0.0_f64);
+    let mut balance = Balance::new(plan);
+    let mut look = |now: &Moment<'_>| {
+        balance.step(now);
+        plan.fault.operator.shear(now.slip(), &mut shear);
+        if couples {
+            plan.fault.operator.normal(now.slip(), &mut press);
+        }
+        let time = now.at.seconds();
+        for p in 0..n {
+            let load = if couples { normal_rate[p] * time } else { 0.0 };
+            let pressed = plan.fault.normal[p] + press[p] + load;
+            let resisting = friction(p, pressed, now.unknowns[p], now.rate[p]);
+            worst = worst.max((first[p] + shear[p] + shear_rate[p] * time - resisting).abs() / scale);
+            // What outputs show; an unknown itself, which a does not make smaller.
+            let shown = now.normal(p) - pressed.max(floor);
+            worst = worst.max(0.025 * shown.abs() / scale);
+        }
+        Control::Go
+    };
+    let out = run(&plan.fault, &plan.loading, plan.start.clone(), &plan.settings, &mut look);
+    let report = Report::new(plan, &out, &mut balance);
+    (out, report, worst)
+}
+
+/// A bound of the imbalance of tractions over f_n: errors of ln V within the tolerance in the mean over all unknowns, four a point, move friction by a (0.025 at
+/// most) times as much, and add up over the steps like a random walk.
+fn drift(plan: &Plan, out: &Run) -> f64 {
+    let most = (4.0 * plan.points.len() as f64).sqrt() * plan.settings.tolerance;
+    0.025 * most * (out.counts.steps as f64).sqrt()
+}
+
+/// The report of a run through three events, in which friction balances what bodies exert and the budget of energy closes.
+fn through(text: &str, floor: f64) -> Report {
+    let plan = planned(text).unwrap();
+    let (out, report, worst) = followed(&plan, floor);
+    assert_eq!((&out.outcome, report.events.len()), (&Outcome::Stopped, 3));
+    assert!(worst < drift(&plan, &out), "{worst:e} {:e}", drift(&plan, &out));
+    // Ten times the tolerance, of the largest part.
+    assert!(report.energy.imbalance < 1e-4, "{:?}", report.energy);
+    report
+}
+
+#[test]
+fn a_shallow_normal_fault_ends_where_it_would_open_and_goes_on_with_a_choice() {
+    let plan = planned(&normal_fault("")).unwrap();
+    let (out, report, _) = followed(&plan, 0.0);
+    let stopped = report.stopped.unwrap();
+    assert!(matches!(out.outcome, Outcome::Failed { .. }) && out.opens == Some(0), "{:?}", out.opens);
+    assert!(stopped.contains("normal_floor") && stopped.contains("normal_changes = false"), "{stopped}");
+
+    let used = &through(&normal_fault("normal_floor = \"0.5 MPa\""), 0.5e6).floors[0];
+    assert!(used.points > 0 && used.points < used.of && used.events > 0 && used.least < 0.5e6, "{used:?}");
+    assert!(used.time_share > 0.0 && used.time_share < 1.0 && used.slip_share < 0.1, "{used:?}");
+
+    let stays = normal_fault("normal_changes = false");
+    assert!(!planned(&stays).unwrap().fault.operator.couples_normal());
+    through(&stays, 0.0);
+}
+
+#[test]
+fn a_shallow_listric_thrust_goes_on_with_a_choice() {
+    let used = &through(&thrust("normal_floor = \"1 MPa\""), 1e6).floors[0];
+    assert!(used.points < used.of, "{used:?}");
+    through(&thrust("normal_changes = false"), 0.0);
+}
+
+#[test]
+fn a_floor_that_is_never_reached_changes_nothing() {
+    let deep =
+        |keys: &str| dipping(DIP_60, [0.5, -(0.75_f64.sqrt())], 1.0, &format!("normal = \"50 MPa\"\n{keys}"));
+    let onsets = |keys: &str| {
+        let (_, report, _) = followed(&planned(&deep(keys)).unwrap(), 0.0);
+        (report.events.iter().map(|e| e.onset).collect::<Vec<_>>(), report)
+    };
+    let ((without, _), (with, report)) = (onsets(""), onsets("normal_floor = \"1 MPa\""));
+    assert_eq!(without, with);
+    assert_eq!((report.floors[0].points, report.floors[0].time_share), (0, 0.0));
+}
+
+/// An upright fault in a symmetric box has no change of normal traction: leaving the change out changes nothing but the norm of errors.
+#[test]
+fn where_slip_presses_nothing_it_does_not_matter_whether_it_may() {
+    let trace = r#"[["50 km", "0 km"], ["50 km", "-15 km"], ["50 km", "-18 km"], ["50 km", "-24 km"], ["50 km", "-60 km"]]"#;
+    let onsets = |keys: &str| {
+        let text = dipping(trace, [0.0, -1.0], 1.0, &format!("normal = \"50 MPa\"\n{keys}"));
+        let mut plan = planned(&text).unwrap();
+        plan.settings.tolerance = 1e-8;
+        let (_, report, worst) = followed(&plan, 0.0);
+        assert!(worst < 1e-6, "{worst:e}");
+        report.events.iter().map(|e| e.onset).collect::<Vec<_>>()
+    };
+    let (may, may_not) = (onsets(""), onsets("normal_changes = false"));
+    assert_eq!(may.len(), 3);
+    // A hundred times the tolerance of ln V over ten e-folds of V before an event.
+    for (a, b) in may.iter().zip(&may_not) {
+        assert!((a / b - 1.0).abs() < 1e-7, "{may:?} {may_not:?}");
+    }
+}
+
+#[test]
+fn an_initial_stress_resolves_onto_the_fault_as_on_mohrs_circle() {
+    let text = dipping(DIP_60, [0.5, -(0.75_f64.sqrt())], 1.0, "").replace(
+        "material = \"rock\"\n",
+        "material = \"rock\"\ninitial_stress = [\"-100 MPa\", \"-50 MPa\", \"5 MPa\"]\n",
+    );
+    let plan = planned(&text).unwrap();
+    let (mean, half, shear) = (-75e6, -25e6, 5e6);
+    // The normal points 30 degrees up from x.
+    let (sine, cosine) = 60f64.to_radians().sin_cos();
+    let expected = [-(mean + half * cosine + shear * sine), -half * sine + shear * cosine];
+    let layout = asperity_driver::fault::Layout::of(&plan.fault);
+    let mut rate = vec![0.0; plan.points.len()];
+    plan.fault.law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rate);
+    for (p, rate) in rate.iter().enumerate() {
+        let normal = plan.fault.normal[p];
+        let traction = normal * plan.fault.law.scale(p) * plan.start[p] + plan.fault.damping[p] * rate;
+        // Coordinates of the trace have nine digits.
+        assert!((normal / expected[0] - 1.0).abs() < 1e-8, "{normal:e} {expected:?}");
+        assert!((traction / expected[1] - 1.0).abs() < 1e-8, "{traction:e} {expected:?}");
+        assert!((rate / 1e-9 - 1.0).abs() < 1e-9, "{rate}");
+    }
+}
+
+#[test]
+fn points_are_counted_along_the_cohesive_zone_and_few_are_warned_of_or_refused() {
+    let bp1 = |size: &str, key: &str| {
+        let text = include_str!("../../../../scenes/bp1.toml").replace("156.25 m", size);
+        planned(&text.replace("damping = \"radiation\"", &format!("damping = \"radiation\"\n{key}")))
+    };
+    let plan = bp1("156.25 m", "").unwrap();
+    let zone = plan.resolution[0].cohesive_zone;
+    // G L/(b f_n), with two points to a cell of second order; cells are at most as large as asked for.
+    let length = 32.038_120_32e9 * 0.008 / (0.015 * 50e6);
+    assert!(
+        (zone.length / length - 1.0).abs() < 1e-9 && (zone.spacing / 78.125 - 1.0).abs() < 0.02,
+        "{zone:?}"
+    );
+    assert!(plan.warnings.is_empty(), "{:?}", plan.warnings);
+    let few = bp1("312.5 m", "").unwrap();
+    assert!(few.warnings.len() == 1 && few.warnings[0].message.contains("2.1"), "{:?}", few.warnings);
+    let refused = bp1("781.25 m", "").unwrap_err();
+    assert!(refused.message.contains("cohesive zone") && refused.help.unwrap().contains("under_resolved"));
+    assert_eq!(bp1("781.25 m", "under_resolved = \"allow\"").unwrap().warnings.len(), 1);
+}
+
+/// What weight refuses, each with the remedy that it names.
+#[test]
+fn scenes_that_weight_makes_impossible_are_accepted_with_the_remedy_of_their_refusal() {
+    let file = |name: &str| {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_scenes").join(name);
+        std::fs::read_to_string(path).unwrap()
+    };
+    let shear = "profiles.shear = { along = \"y\", points = [[\"-20 km\", 80e6], [\"0 km\", 1e5]] }\nrate = ";
+    let stress = |s: &str| format!("initial_stress = {s}\ngravity = ");
+    for (name, from, to) in [
+        (
+            "fault_weight_presses_nothing.toml",
+            "rate = \"-1e-9",
+            "normal_floor = \"1 MPa\"\nrate = \"-1e-9".to_string(),
+        ),
+        ("fault_weight_presses_nothing.toml", "gravity = ", stress("[\"-1 MPa\", \"-3 MPa\", 0]")),
+        ("fault_weight_against_rate.toml", "rate = \"", format!("{shear}\"")),
+        ("fault_weight_against_rate.toml", "gravity = ", stress("[\"-200 MPa\", \"-10 MPa\", 0]")),
+        ("fault_weight_against_rate.toml", "rate = \"1e-9", "rate = \"-1e-9".into()),
+        ("fault_weight_and_normal.toml", "normal = \"50 MPa\"", String::new()),
+        ("fault_weight_and_normal.toml", "gravity = [0, -9.81]", String::new()),
+        ("fault_gravity.toml", "gravity = [-9.81]", String::new()),
+        ("fault_weight_of_one_body.toml", "[bodies.B]", "[bodies.B]\ngravity = [0, -9.81]".into()),
+    ] {
+        let text = file(name);
+        let change = |text: &str| {
+            scene::read(text).map_err(|e| e.to_string()).and_then(|s| plan_scene(&s).map_err(|e| e.message))
+        };
+        assert!(text.contains(from) && change(&text).is_err(), "{name}");
+        let mended =
+            text.replacen(from, &to, 1).replace("rate = \"", "under_resolved = \"allow\"\nrate = \"");
+        // A vertical fault between two blocks is not sheared by weight.
+        let mended =
+            mended.replace("rate = 1e-9\n", "normal_floor = \"1 MPa\"\nshear = \"20 MPa\"\nrate = 1e-9\n");
+        assert!(change(&mended).is_ok(), "{name} {to}: {:?}", change(&mended).err());
+    }
+}
+
+/// Conditions on the lower end of blocks that move as the creep has it say nothing new, and count once.
+#[test]
+fn conditions_that_say_the_same_as_creep_count_once() {
+    let file =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_scenes/fault_creep_and_sides.toml");
+    let text = std::fs::read_to_string(file).unwrap().replace("rate = 3e-9", "rate = 1e-9");
+    let plan = planned(&text).unwrap();
+    assert!(plan.warnings.is_empty(), "{:?}", plan.warnings);
+    // Blocks that slip everywhere at the rate of the creep move rigidly.
+    let n = plan.points.len();
+    let (load, _) = plan.loading.rates(1.0, n, false);
+    let mut slip = vec![0.0; n];
+    plan.fault.operator.shear(&vec![1e-9; n], &mut slip);
+    let size = slip.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let off = load.iter().zip(&slip).fold(0.0_f64, |m, (a, b)| m.max((a + b).abs()));
+    assert!(off < 1e-9 * size, "{off:e} {size:e}");
+}

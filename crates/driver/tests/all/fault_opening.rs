@@ -1,0 +1,176 @@
+//! Faults that open: tractions balance, energy closes, and what never opens is as it was.
+
+use asperity_driver::fault::{Balance, Layout, Moment, Plan, Report, Run, run};
+use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::scene;
+use asperity_ode::{Control, Outcome};
+
+/// A fault below a free surface that fluid opens; it closes when the injection ends.
+const INJECTED: &str = include_str!("../../../../scenes/fault-opening.toml");
+/// A thrust that flattens downwards under little pressure.
+const THRUST: &str = include_str!("../../../../verification/cases/fault_opening/thrust.toml");
+
+fn planned(text: &str) -> Plan {
+    match plan_scene(&scene::read(text).unwrap()).unwrap() {
+        ScenePlan::Faults(plan) => *plan,
+        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+    }
+}
+
+/// What a run came to.
+struct Found {
+    run: Run,
+    report: Report,
+    /// Largest imbalance of tractions along and across the fault over the largest f_n at the start.
+    along: f64,
+    across: f64,
+    /// Most points that were open at once.
+    most: usize,
+}
+
+/// Follows a run whose loads have one rate. Tractions follow from slip and openings through the operators: along the fault they are friction's, across it what presses less fluid, nothing
+/// where it is open.
+fn followed(plan: &Plan) -> Found {
+    let (n, fault) = (plan.points.len(), &plan.fault);
+    let (law, opening) = (&fault.law, fault.opening.as_ref().unwrap());
+    let floor = plan.faults[0].normal.floor.unwrap();
+    let (shear_rate, normal_rate) = plan.loading.rates(1.0, n, true);
+    let layout = Layout::of(fault);
+    let mut rate = vec![0.0; n];
+    law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rate);
+    let friction = |p: usize, f: f64, m: f64, v: f64| f * law.scale(p) * m + fault.damping[p] * v;
+    let first: Vec<f64> = (0..n).map(|p| friction(p, fault.normal[p], plan.start[p], rate[p])).collect();
+    let scale = fault.normal.iter().fold(0.0_f64, |l, f| l.max(*f));
+    let (mut along, mut across, mut most) = (0.0_f64, 0.0_f64, 0);
+    let mut balance = Balance::new(plan);
+    let mut look = |now: &Moment<'_>| {
+        balance.step(now);
+        let time = now.at.seconds();
+        let by: Vec<f64> = (0..n).map(|p| now.opening(p).unwrap()).collect();
+        let (mut shear, mut press) = (vec![0.0; n], vec![0.0; n]);
+        fault.operator.shear(now.slip(), &mut shear);
+        opening.sheared(&by, &mut shear);
+        fault.operator.normal(now.slip(), &mut press);
+        opening.pressing(&by, &mut press);
+        for p in 0..n {
+            let fluid = fault.pressure.as_ref().map_or(0.0, |f| f.at(p, time));
+            let pressed = fault.normal[p] + press[p] + normal_rate[p] * time - fluid;
+            let resists = friction(p, pressed.max(floor), now.unknowns[p], now.rate[p]);
+            along = along.max((first[p] + shear[p] + shear_rate[p] * time - resists).abs() / scale);
+            let kept = if by[p] > 0.0 { pressed.abs() } else { (-pressed).max(0.0) };
+            across = across.max(kept / scale).max((now.normal(p) - pressed.max(floor)).abs() / scale);
+            assert!(by[p] >= 0.0);
+        }
+        most = most.max(by.iter().filter(|o| **o > 0.0).count());
+        Control::Go
+    };
+    let out = run(fault, &plan.loading, plan.start.clone(), &plan.settings, &mut look);
+    let report = Report::new(plan, &out, &mut balance);
+    Found { run: out, report, along, across, most }
+}
+
+impl Found {
+    /// Tractions and energies are in balance: errors within the tolerance in the mean over all unknowns, four a point, add up over the steps like a random walk. They are of ln V, and
+    /// move friction by a (`direct` at most) times as much, and f_n by as much of itself.
+    fn balances(&self, plan: &Plan, direct: f64) {
+        let most = (4.0 * plan.points.len() as f64).sqrt() * plan.settings.tolerance;
+        let drift = direct * most * (self.run.counts.steps as f64).sqrt();
+        assert!(self.along < drift && self.across < drift, "{:e} {:e} {drift:e}", self.along, self.across);
+        // Ten times the tolerance, of the largest part.
+        assert!(self.report.energy.imbalance < 1e-4, "{:?}", self.report.energy);
+    }
+}
+
+#[test]
+fn a_fault_that_fluid_opens_balances_and_closes_when_the_injection_ends() {
+    let plan = planned(INJECTED);
+    let found = followed(&plan);
+    assert_eq!(found.run.outcome, Outcome::Completed);
+    found.balances(&plan, 0.015);
+    let opened = &found.report.openings[0];
+    assert!(found.most >= 3 && opened.points >= found.most && opened.open == 0, "{opened:?}");
+    assert!(opened.time_share > 0.1 && opened.time_share < 0.9 && opened.volume == 0.0, "{opened:?}");
+    assert!(found.report.energy.parts.opening != 0.0);
+    assert_eq!(found.report.floors[0].least, 0.0);
+}
+
+/// Nothing slips under so high a floor: what the opening takes it gives back.
+#[test]
+fn an_opening_without_slip_gives_back_what_it_takes() {
+    let plan = planned(&INJECTED.replace("\"0.1 MPa\"", "\"20 MPa\""));
+    let found = followed(&plan);
+    let energy = &found.report.energy;
+    assert!(found.most >= 3 && found.report.openings[0].open == 0);
+    assert!(energy.parts.exchanged > 1e6 && energy.imbalance < 1e-4, "{energy:?}");
+    assert!(energy.parts.opening.abs() < 1e-4 * energy.parts.exchanged, "{energy:?}");
+}
+
+#[test]
+fn a_shallow_thrust_runs_through_events_that_open_it() {
+    let plan = planned(THRUST);
+    let found = followed(&plan);
+    assert_eq!((&found.run.outcome, found.report.events.len()), (&Outcome::Stopped, 3));
+    found.balances(&plan, 0.025);
+    assert!(found.most > 0, "{:?}", found.report.openings);
+    let text = found.report.text();
+    assert!(text.contains("on openings") && text.contains("fault `main` opened at"), "{text}");
+}
+
+#[test]
+fn a_fault_that_never_opens_is_the_same_to_the_last_bit_as_one_that_may_not() {
+    let deep = INJECTED.replace("normal = \"10 MPa\"", "normal = \"100 MPa\"").replace("4 MPa", "40 MPa");
+    let end = |text: &str| {
+        let plan = planned(text);
+        run(&plan.fault, &plan.loading, plan.start.clone(), &plan.settings, &mut |_: &Moment<'_>| Control::Go)
+    };
+    let (with, without) = (end(&deep), end(&deep.replace("opening = true\n", "")));
+    assert_eq!((with.unknowns, with.counts), (without.unknowns, without.counts));
+}
+
+#[test]
+fn sides_of_a_fault_lie_as_far_apart_as_it_is_open() {
+    let plan = planned(&format!("{INJECTED}bodies = true\n").replace("until = \"5 d\"", "until = \"20 d\""));
+    let found = followed(&plan);
+    let end = plan.fault.pressed(found.run.at, &found.run.unknowns, &mut Default::default());
+    let slip = &found.run.unknowns[Layout::of(&plan.fault).slip()];
+    let view = plan.bodies.as_ref().unwrap();
+    let moved = view.bodies.vectors(&[slip, &end.opening].concat(), found.run.at.seconds());
+    let largest = slip.iter().chain(&end.opening).fold(0.0_f64, |l, v| l.max(v.abs()));
+    assert!(end.opening.iter().any(|o| *o > 0.01));
+    for (p, (&[minus, plus], point)) in view.sides.iter().zip(&plan.points).enumerate() {
+        for (c, (way, normal)) in point.slides.iter().zip(point.normal).enumerate() {
+            let jump = moved[plus][c] - moved[minus][c];
+            // Rounding of displacements.
+            let off = jump - slip[p] * way - end.opening[p] * normal;
+            assert!(off.abs() < 1e-12 * largest, "{p} {c} {off:e}");
+        }
+    }
+}
+
+#[test]
+fn the_plan_says_what_opens_and_counts_its_memory() {
+    let plan = planned(INJECTED);
+    let text = plan.summary();
+    assert!(
+        text.contains("that slide and open") && text.contains("the fault opens where they would pull"),
+        "{text}"
+    );
+    let closed = planned(&INJECTED.replace("opening = true\n", ""));
+    let opening = plan.fault.opening.as_ref().unwrap();
+    let n = plan.points.len();
+    assert_eq!((opening.points().len(), opening.bytes()), (n, 2 * n * n * size_of::<f64>()));
+    assert!(plan.memory_bytes >= closed.memory_bytes);
+    assert!(!closed.summary().contains("opens"));
+}
+
+/// The sides pull a fault apart and shear it by rounding only.
+#[test]
+fn loads_that_only_pull_do_not_drive_a_fault_against_its_rate() {
+    let trace = "trace = [[\"0 km\", \"2 km\"], [\"0 km\", \"-2 km\"]]";
+    let pulled = INJECTED
+        .replace("trace = [[\"0 km\", \"0 km\"], [\"2 km\", \"-3.4641016 km\"]]", trace)
+        .replace("\"0 km\"], growth", "\"20 km\"], growth")
+        .replace("right\", x = 0 }", "right\", x = { rate = \"1e-9 m/s\" } }");
+    assert!(pulled.contains(trace) && pulled.contains("x = { rate"));
+    assert!(planned(&pulled).warnings.is_empty(), "{:?}", planned(&pulled).warnings);
+}

@@ -1,0 +1,232 @@
+//! Output files of faults through cycles: what they must show, and how far they may grow.
+#![allow(clippy::disallowed_methods)]
+
+use crate::common::cycles::SCENE;
+use asperity_driver::fault::{Event, Files, Moment, Plan, Position, Report, Run, Watcher, draw, resume};
+use asperity_driver::plan::{ScenePlan, plan_scene};
+use asperity_driver::scene;
+use asperity_ode::Control;
+use std::fs;
+use std::path::Path;
+
+fn plan(text: &str) -> Plan {
+    match plan_scene(&scene::read(text).unwrap()).unwrap() {
+        ScenePlan::Faults(plan) => *plan,
+        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+    }
+}
+
+/// Writes the files of a run and remembers the largest rates of all steps: of the fastest point, then of each station.
+struct Seen<'a> {
+    files: Files<'a>,
+    stations: Vec<usize>,
+    largest: Vec<f64>,
+    steps: usize,
+    sizes: Vec<usize>,
+}
+
+impl Watcher for Seen<'_> {
+    fn now(&mut self, moment: &Moment<'_>) -> Control {
+        self.steps += 1;
+        let rates = std::iter::once(moment.largest).chain(self.stations.iter().map(|&p| moment.speed(p)));
+        self.largest.iter_mut().zip(rates).for_each(|(most, rate)| *most = most.max(rate));
+        self.files.now(moment)
+    }
+
+    fn pause(&mut self, _: &Run) -> Control {
+        // What a checkpoint holds of the files is all that they hold in memory.
+        self.sizes.push(serde_json::to_string::<Position>(&self.files.position()).unwrap().len());
+        Control::Go
+    }
+}
+
+fn run<'a>(plan: &'a Plan, out: &Path) -> (Seen<'a>, Run) {
+    let stations: Vec<usize> = plan.faults[0].stations.iter().map(|s| s.1).collect();
+    let largest = vec![0.0; stations.len() + 1];
+    let files = Files::create(out, plan).unwrap();
+    let mut seen = Seen { files, stations, largest, steps: 0, sizes: Vec::new() };
+    let begin = Run::new(plan.start.clone(), plan.settings.thresholds);
+    let points: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
+    let begin = begin.of_faults(&points, plan.settings.thresholds);
+    let run = resume(&plan.fault, &plan.loading, begin, &plan.settings, &mut seen);
+    (seen, run)
+}
+
+/// Times \[s\] and slip rates \[m/s\] of a file.
+fn rates(path: &Path, column: usize) -> Vec<[f64; 2]> {
+    let text = fs::read_to_string(path).unwrap();
+    let rows = text.lines().map(|l| l.split([',', ' ']).map(|v| v.parse().unwrap_or(f64::NAN)).collect());
+    let rows = rows.map(|row: Vec<f64>| row);
+    let rows = rows.filter(|row| row.len() > column && row[0].is_finite() && row[column].is_finite());
+    rows.map(|row| [row[0], 10f64.powf(row[column])]).collect()
+}
+
+fn sizes(folder: &Path) -> Vec<u64> {
+    let files = fs::read_dir(folder).unwrap().map(|e| e.unwrap());
+    files.filter(|e| e.path().is_file()).map(|e| e.metadata().unwrap().len()).collect()
+}
+
+#[test]
+fn every_peak_stands_in_the_files_and_rows_come_by_change() {
+    let (plan, folder) = (plan(SCENE), tempfile::tempdir().unwrap());
+    let (seen, run) = run(&plan, folder.path());
+    assert_eq!(run.catalogue.events().len(), 3);
+    let mut all = vec![rates(&folder.path().join("largest_rate.csv"), 1)];
+    for name in ["main_dp000", "main_dp075", "main_dp150"] {
+        all.push(rates(&folder.path().join("stations").join(name), 2));
+    }
+    for (rows, &largest) in all.iter().zip(&seen.largest) {
+        let found = rows.iter().map(|r| r[1]).fold(0.0, f64::max);
+        // An extremum that lies within half a per cent of the row before makes no row.
+        assert!(found <= largest * (1.0 + 1e-5) && found > 0.995 * largest, "{found} {largest}");
+        assert!(rows.windows(2).all(|w| w[0][0] < w[1][0]));
+        assert!(rows.len() > 300 && rows.len() < seen.steps, "{} of {}", rows.len(), seen.steps);
+    }
+    for event in run.catalogue.events() {
+        let (onset, end) = (event.onset.seconds(), event.end.seconds());
+        let rows: Vec<_> = all[0].iter().filter(|r| (onset..=end).contains(&r[0])).collect();
+        let found = rows.iter().map(|r| r[1]).fold(0.0, f64::max);
+        assert!((found / event.peak - 1.0).abs() < 0.005, "{found} {}", event.peak);
+    }
+    let largest = *seen.sizes.iter().max().unwrap();
+    assert!(largest < 2000, "what files keep in memory grows: {largest}");
+}
+
+#[test]
+fn rows_do_not_follow_steps_where_events_begin_at_slow_rates() {
+    let folder = tempfile::tempdir().unwrap();
+    let count = |above: &str, name: &str| {
+        // Four hundred years, with the first events.
+        let text = SCENE.replace("\"1e-3 m/s\"", above).replace("\"3000 yr\"", "\"400 yr\"");
+        let plan = plan(&text.replace("stop_after = 3", "stop_after = 1000"));
+        let out = folder.path().join(name);
+        fs::create_dir(&out).unwrap();
+        let (seen, _) = run(&plan, &out);
+        let profiles = fs::read_to_string(out.join("slip_profiles.csv")).unwrap().lines().count();
+        (rates(&out.join("largest_rate.csv"), 1).len() as f64, profiles as f64, seen.steps as f64)
+    };
+    let (rows, _, _) = count("\"1e-3 m/s\"", "fast");
+    let (slow, profiles, steps) = count("\"1.2e-9 m/s\"", "slow");
+    // What makes rows due does not depend on what counts as an event.
+    assert!((slow / rows - 1.0).abs() < 0.1, "{slow} {rows}");
+    assert!(profiles < 0.25 * steps, "{profiles} profiles of {steps} steps");
+}
+
+#[test]
+fn files_stay_below_their_largest_size_and_the_run_says_so() {
+    let text = SCENE.replace("[output]\n", "[output]\nlargest_file = \"20 kB\"\n");
+    let (plan, folder) = (plan(&text), tempfile::tempdir().unwrap());
+    let (seen, run) = run(&plan, folder.path());
+    for size in sizes(folder.path()).into_iter().chain(sizes(&folder.path().join("stations"))) {
+        assert!((1000..=20_000).contains(&size), "{size}");
+    }
+    let warning = seen.files.warning().unwrap();
+    assert!(
+        warning.message.contains("beyond half of `largest_file` (0.02") && warning.help.is_some(),
+        "{warning}"
+    );
+    // The last rows stand near the end of the run.
+    let rows = rates(&folder.path().join("largest_rate.csv"), 1);
+    assert!(rows[rows.len() - 1][0] > 0.5 * run.at.seconds());
+    // Plots are drawn from files of any length.
+    assert_eq!(draw(folder.path(), &plan, &run).unwrap().len(), 8);
+}
+
+#[test]
+fn no_number_of_the_files_is_minus_zero() {
+    let (plan, folder) =
+        (plan(&SCENE.replace("stop_after = 3", "stop_after = 1")), tempfile::tempdir().unwrap());
+    run(&plan, folder.path());
+    let mut files =
+        vec!["largest_rate.csv".to_string(), "slip_profiles.csv".into(), "rate_profiles.csv".into()];
+    files.extend(["main_dp000", "main_dp075", "main_dp150"].map(|name| format!("stations/{name}")));
+    for file in files {
+        let text = fs::read_to_string(folder.path().join(&file)).unwrap();
+        for word in text.split([' ', ',', '\n']).filter(|w| w.starts_with('-')) {
+            assert!(word.parse::<f64>().is_ok_and(|v| v != 0.0), "{word} in {file}");
+        }
+    }
+}
+
+#[test]
+fn time_above_the_rate_does_not_depend_on_the_rate_that_ends_events() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |below: &str, name: &str| -> Vec<Event> {
+        let plan =
+            plan(&SCENE.replace("above = \"1e-3 m/s\"", &format!("above = \"1e-3 m/s\"\nbelow = {below}")));
+        fs::create_dir(folder.path().join(name)).unwrap();
+        run(&plan, &folder.path().join(name)).1.catalogue.events().to_vec()
+    };
+    let (wide, narrow) = (of("\"1e-4 m/s\"", "wide"), of("\"0.9999e-3 m/s\"", "narrow"));
+    for (w, n) in wide.iter().zip(&narrow) {
+        let whole = |e: &Event| e.end.since(&e.onset);
+        // With one rate for both the duration is the time above it, but for the ten-thousandth between the two.
+        assert!((n.above / whole(n) - 1.0).abs() < 1e-3, "{} {}", n.above, whole(n));
+        assert!((w.above / n.above - 1.0).abs() < 1e-3, "{} {}", w.above, n.above);
+        assert!(whole(w) > 1.5 * w.above, "{} {}", whole(w), w.above);
+    }
+}
+
+/// Pairs of blocks that no elastic way joins: characteristic slip \[m\] and half width \[m\] decide when each slips.
+fn pairs(which: &[(&str, f64, f64)]) -> String {
+    let head = SCENE.split("[bodies.crust]").next().unwrap();
+    let (mut bodies, mut faults, mut sides) = (String::new(), String::new(), String::new());
+    for (name, l, half) in which {
+        let foot = if *name == "P" { -1e5 } else { -2e5 };
+        for (side, from, to) in [("l", -half, 0.0), ("r", 0.0, *half)] {
+            let top = foot + 1000.0;
+            bodies += &format!(
+                "[bodies.{name}{side}]\nmaterial = \"rock\"\nmesh.block = {{ min = [{from}, {foot}], max = [{to}, {top}], divisions = [1, 1], element = \"quad4\" }}\n"
+            );
+        }
+        faults += &format!(
+            "[faults.{name}]\nminus = \"{name}l.right\"\nplus = \"{name}r.left\"\nlaw = {{ kind = \"rate-and-state\", evolution = \"ageing\", mu0 = 0.6, a = 0.010, b = 0.015, l = {l}, v_ref = \"1 um/s\", v_initial = \"1e-9 m/s\" }}\nnormal = \"50 MPa\"\nunder_resolved = \"allow\"\nrate = \"1.1e-9 m/s\"\ndamping = \"radiation\"\n"
+        );
+        sides += &format!(
+            "{{ set = \"{name}l.left\", z = {{ rate = -0.5e-9 }} }}, {{ set = \"{name}r.right\", z = {{ rate = 0.5e-9 }} }}, "
+        );
+    }
+    format!(
+        "{head}{bodies}{faults}[[stages]]\nname = \"cycles\"\nduration = \"150 yr\"\nconditions = [{sides}]\n[time]\nstepper = \"fault-ode\"\nlog_rate_tolerance = 1e-7\n[events]\nabove = \"1e-4 m/s\"\n"
+    )
+}
+
+#[test]
+fn each_fault_of_several_has_the_catalogue_it_has_alone() {
+    // Each pair slips as one: corners of pairs on shorter ways slip apart after a few events, from rounding.
+    let all = [("P", 0.017, 2000.0), ("Q", 0.013, 1600.0)];
+    let folder = tempfile::tempdir().unwrap();
+    let both = plan(&pairs(&all));
+    let out = folder.path().join("both");
+    fs::create_dir(&out).unwrap();
+    let (_, ended) = run(&both, &out);
+    let mut balance = asperity_driver::fault::Balance::new(&both);
+    let report = Report::new(&both, &ended, &mut balance);
+    assert_eq!(report.faults.len(), 2);
+    for (fault, pair) in report.faults.iter().zip(all) {
+        let alone = plan(&pairs(&[pair]));
+        let out = folder.path().join(pair.0);
+        fs::create_dir(&out).unwrap();
+        let (_, ended) = run(&alone, &out);
+        let mut balance = asperity_driver::fault::Balance::new(&alone);
+        let alone = Report::new(&alone, &ended, &mut balance);
+        assert!(alone.faults.is_empty());
+        assert_eq!(fault.fault, pair.0);
+        assert_eq!(fault.events.len(), alone.events.len());
+        assert!(fault.events.len() >= 3, "{}", fault.events.len());
+        for (a, b) in fault.events.iter().zip(&alone.events) {
+            let near =
+                |a: f64, b: f64, bound: f64| assert!((a / b - 1.0).abs() < bound, "{a} {b} of {}", pair.0);
+            // No elastic way leads from one pair to the other: what is left are errors of the tolerance over a cycle, and peaks that steps see.
+            near(a.onset, b.onset, 1e-5);
+            near(a.moment, b.moment, 1e-5);
+            near(a.largest_slip, b.largest_slip, 1e-5);
+            near(a.duration, b.duration, 1e-3);
+            near(a.duration_above, b.duration_above, 1e-3);
+            near(a.peak_rate, b.peak_rate, 5e-3);
+            near(a.interval.unwrap_or(1.0), b.interval.unwrap_or(1.0), 1e-5);
+        }
+    }
+    // Together they are more than either, and the interval between two of them is no fault's.
+    assert!(report.events.len() > report.faults[0].events.len());
+}

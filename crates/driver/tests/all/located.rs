@@ -1,0 +1,249 @@
+//! Catalogues as seismologists exchange them, against files of real events: `catalogues/events.ndk` and `catalogues/CMTSOLUTION` are the
+//! examples that ObsPy's readers are tested with, solutions of the Global CMT project.
+
+use asperity_driver::fault::located::locate;
+use asperity_output::located::{Located, Plane, Spot, Tensor, cmtsolution, quakeml};
+
+const NDK: &str = include_str!("../catalogues/events.ndk");
+const CMT: &str = include_str!("../catalogues/CMTSOLUTION");
+
+fn numbers(text: &str) -> Vec<f64> {
+    text.split_whitespace().filter_map(|word| word.parse().ok()).collect()
+}
+
+/// Largest difference of two tensors over the moment of the second.
+fn off(a: &Tensor, b: &Tensor) -> f64 {
+    a.0.iter().zip(&b.0).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / b.moment()
+}
+
+#[test]
+fn nodal_planes_are_those_of_the_global_cmt_catalogue() {
+    let lines: Vec<&str> = NDK.lines().collect();
+    assert!(lines.len() >= 25);
+    for event in lines.chunks_exact(5) {
+        let values = numbers(&event[3][2..]);
+        let power = 10f64.powi(event[3][..2].trim().parse().unwrap());
+        let tensor = Tensor(std::array::from_fn(|k| values[2 * k] * power));
+        // Strike, dip and rake of both planes in whole degrees, after the axes and the moment.
+        let axes = numbers(&event[4][3..]);
+        let moment = axes[9] * power;
+        assert!((tensor.moment() / moment - 1.0).abs() < 2e-3, "{}", event[0]);
+        let plane = |k: usize| Plane { strike: axes[k], dip: axes[k + 1], rake: axes[k + 2] };
+        for found in tensor.planes() {
+            // Angles of near planes may differ much, tensors may not: whole degrees are within 0.5 degrees, 0.009 rad, in each of
+            // three angles.
+            let rebuilt = Tensor::of_plane(&found, 1.0);
+            for given in [plane(10), plane(13)] {
+                let off = off(&rebuilt, &Tensor::of_plane(&given, 1.0));
+                assert!(off < 0.03, "{}: {found:?} {given:?} {off}", event[0]);
+            }
+        }
+    }
+}
+
+/// The event of the example.
+fn iran() -> Located {
+    let value = |name: &str| {
+        let line = CMT.lines().find(|l| l.starts_with(name)).unwrap();
+        line.split_whitespace().last().unwrap().parse::<f64>().unwrap()
+    };
+    let names = ["Mrr", "Mtt", "Mpp", "Mrt", "Mrp", "Mtp"];
+    let tensor = Tensor(names.map(|name| value(name) / 1e7));
+    Located {
+        time: "2003-12-26T01:56:52.4Z".into(),
+        hypocentre: Spot { latitude: 29.0, longitude: 58.31, depth: 10e3 },
+        centroid: Spot {
+            latitude: value("latitude"),
+            longitude: value("longitude"),
+            depth: value("depth") * 1e3,
+        },
+        planes: tensor.planes(),
+        tensor,
+        moment: Some(tensor.moment()),
+        magnitude: Some(6.8),
+        onset: "2003-12-26T01:56:52.4Z".parse().unwrap(),
+        duration: 2.0 * value("half duration"),
+    }
+}
+
+#[test]
+fn a_cmtsolution_has_the_columns_of_the_example() {
+    let written = cmtsolution("a b", &[iran()]).unwrap();
+    let (found, expected): (Vec<&str>, Vec<&str>) = (written.lines().collect(), CMT.lines().collect());
+    // What is not the catalogue's name, the magnitudes and the region.
+    assert_eq!(found[0][4..50], expected[0][4..50]);
+    assert_eq!(&found[0][..5], " SIM ");
+    assert_eq!(found[1], "event name:            a_b-1");
+    assert_eq!(found[3..13], expected[3..13]);
+    let mut later = iran();
+    later.onset = "2003-12-26T01:56:52.407891Z".parse().unwrap();
+    let written = cmtsolution("a", &[later.clone(), later.clone()]).unwrap();
+    assert!(written.contains("time shift:         0.007891"), "{written}");
+    assert_eq!(written.matches("event name:").count(), 2);
+    later.magnitude = None;
+    assert_eq!(cmtsolution("a", &[later]), None);
+}
+
+#[test]
+fn quakeml_says_that_events_are_simulated_and_gives_no_magnitude_without_a_length() {
+    let title = "rocks & <faults>";
+    let text = String::from_utf8(quakeml(title, "id", &[iran()]).unwrap()).unwrap();
+    for part in [
+        "<q:quakeml xmlns=\"http://quakeml.org/xmlns/bed/1.2\"",
+        "<type>other event</type>",
+        "rocks &amp; &lt;faults&gt;. Simulated event",
+        "<value>2003-12-26T01:56:52.4Z</value>",
+        "<preferredMagnitudeID>smi:local/asperity/id/1/magnitude</preferredMagnitudeID>",
+        "<Mrr>",
+    ] {
+        assert!(text.contains(part), "{part} is not in\n{text}");
+    }
+    let plane = Located { moment: None, magnitude: None, ..iran() };
+    let text = String::from_utf8(quakeml(title, "id", &[plane]).unwrap()).unwrap();
+    for part in ["<magnitude", "<momentTensor", "Mw", "<Mrr>"] {
+        assert!(!text.contains(part), "{part} is in\n{text}");
+    }
+    assert!(text.contains("per metre of length out of the plane") && text.contains("<nodalPlane1>"));
+}
+
+/// The plan of a scene with an event in which all points slip by as much, with the sign of `slip`.
+fn uniform(text: &str, slip: f64) -> Located {
+    slipped(text, &[slip])
+}
+
+/// The same with all components of slip.
+fn slipped(text: &str, components: &[f64]) -> Located {
+    use asperity_driver::fault::Event;
+    use asperity_driver::plan::{ScenePlan, plan_scene};
+    use asperity_ode::Clock;
+    let plan = match plan_scene(&asperity_driver::scene::read(text).unwrap()).unwrap() {
+        ScenePlan::Faults(plan) => *plan,
+        ScenePlan::Bodies(_) => panic!("the scene has faults"),
+    };
+    let n = plan.points.len();
+    let event = Event {
+        onset: Clock::new(86_400.0, 0.5),
+        end: Clock::new(86_400.0, 10.5),
+        above: 8.0,
+        peak: 1.0,
+        hypocentre: n - 1,
+        slip: components.iter().flat_map(|&slip| vec![slip; n]).collect(),
+        drop: vec![0.0; n * components.len()],
+        opening: Vec::new(),
+    };
+    let located = locate(&plan, plan.frame.as_ref().unwrap(), &event, &(0..plan.points.len())).unwrap();
+    let area: f64 = plan.points.iter().map(|p| p.area).sum();
+    let length = if text.contains("\"3d\"") {
+        1.0
+    } else if text.contains("60 km\"\n") {
+        60e3
+    } else {
+        80e3
+    };
+    let slip = components.iter().map(|c| c * c).sum::<f64>().sqrt();
+    let moment = plan.points[0].shear_modulus * area * length * slip;
+    assert!((located.moment.unwrap() / moment - 1.0).abs() < 1e-12);
+    assert!((located.tensor.moment() / moment - 1.0).abs() < 1e-12);
+    located
+}
+
+fn assert_plane(located: &Located, expected: Plane) {
+    let double = Tensor::of_plane(&expected, located.moment.unwrap());
+    assert!(off(&located.tensor, &double) < 1e-7, "{:?} is not {expected:?}", located.planes);
+}
+
+#[test]
+fn mechanisms_are_those_of_the_scene_seen_along_its_strike() {
+    let strike_slip = include_str!("../../../../interop/strike_slip.toml");
+    // Plus, to the right, comes towards who looks along the strike.
+    let located = uniform(strike_slip, 2.0);
+    assert_plane(&located, Plane { strike: 317.0, dip: 90.0, rake: 180.0 });
+    assert_eq!(located.time, "1987-03-06T06:07:08.625Z");
+    // The fault is a line below the origin.
+    let spot = located.hypocentre;
+    assert!((spot.latitude - 35.9).abs() < 1e-12 && (spot.longitude + 120.5).abs() < 1e-12, "{spot:?}");
+    assert!(spot.depth > 20e3 && located.centroid.depth < spot.depth, "{located:?}");
+    assert_plane(&uniform(strike_slip, -2.0), Plane { strike: 317.0, dip: 90.0, rake: 0.0 });
+    let thrust = include_str!("../../../../interop/thrust.toml");
+    // The fault dips to the right, plus lies on it.
+    let located = uniform(thrust, 1.0);
+    assert_plane(&located, Plane { strike: 20.0, dip: 30.0, rake: 90.0 });
+    assert_plane(&uniform(thrust, -1.0), Plane { strike: 20.0, dip: 30.0, rake: -90.0 });
+    // Down the dip of 30 degrees to the right of N20E, which is S70E, beyond the date line; 2 km deeper than the trace says.
+    let spot = located.hypocentre;
+    let across = (spot.depth - 2e3) / 30f64.to_radians().tan();
+    let degree = 6_371_008.8 * std::f64::consts::PI / 180.0;
+    let south = (-33.5 - spot.latitude) * degree;
+    let east = (spot.longitude + 180.1) * degree * 33.5f64.to_radians().cos();
+    assert!((south - across * 20f64.to_radians().sin()).abs() < 1e-3, "{spot:?}");
+    assert!((east - across * 20f64.to_radians().cos()).abs() < 1e-3, "{spot:?}");
+}
+
+/// Two blocks with a fault between them, y up and the fault along z.
+const UPRIGHT: &str = r#"
+schema = 1
+title = "two blocks"
+kinematics = "3d"
+[materials.rock]
+young = "80 GPa"
+poisson = 0.25
+[bodies.A]
+material = "rock"
+mesh.block = { min = ["-2 km", "-2 km", 0], max = [0, 0, "2 km"], divisions = [1, 2, 2], element = "hex8" }
+[bodies.B]
+material = "rock"
+mesh.block = { min = [0, "-2 km", 0], max = ["2 km", 0, "2 km"], divisions = [1, 2, 2], element = "hex8" }
+[faults.main]
+minus = "A.right"
+plus = "B.left"
+rake = [0, 0, 1]
+law = { kind = "rate-and-state", evolution = "ageing", mu0 = 0.6, a = 0.010, b = 0.015, l = "8 mm", v_ref = "1 um/s", v_initial = "1e-9 m/s" }
+normal = "50 MPa"
+under_resolved = "allow"
+rate = 1e-9
+damping = 5e6
+[[stages]]
+name = "cycles"
+duration = "100 yr"
+conditions = [{ set = "A.left", x = 0, y = 0, z = { rate = -0.5e-9 } }, { set = "B.right", x = 0, y = 0, z = { rate = 0.5e-9 } }]
+[time]
+stepper = "fault-ode"
+[place]
+epoch = "1987-03-05T06:07:08Z"
+latitude = "35.9 deg"
+longitude = "-120.5 deg"
+strike = "317 deg"
+up = [0, 2, 0]
+along = [0, 0, 1]
+"#;
+
+#[test]
+fn mechanisms_in_space_follow_the_directions_the_scene_gives() {
+    // Who looks along z with y up has x to the left: plus, to the left, moves away, as in a right-lateral event.
+    let located = uniform(UPRIGHT, 2.0);
+    assert_plane(&located, Plane { strike: 317.0, dip: 90.0, rake: 180.0 });
+    // The last point is the highest or lowest; all lie on the fault below the origin, 2 km along N43W at most.
+    let spot = located.hypocentre;
+    let degree = 6_371_008.8 * std::f64::consts::PI / 180.0;
+    let (north, east) =
+        ((spot.latitude - 35.9) * degree, (spot.longitude + 120.5) * degree * 35.9f64.to_radians().cos());
+    let along = north.hypot(east);
+    assert!((0.0..=2e3 + 1e-3).contains(&along) && (-1e-6..=2e3 + 1e-6).contains(&spot.depth), "{spot:?}");
+    assert!(
+        (north - along * 43f64.to_radians().cos()).abs() < 1e-3
+            && (east + along * 43f64.to_radians().sin()).abs() < 1e-3
+    );
+    // Plus, the left side, goes up.
+    let thrust = uniform(&UPRIGHT.replace("rake = [0, 0, 1]", "rake = [0, 1, 0]"), 1.0);
+    assert_plane(&thrust, Plane { strike: 317.0, dip: 90.0, rake: -90.0 });
+    // Free slip: along z, and across it down, normal x rake.
+    let free = UPRIGHT.replace("rake = [0, 0, 1]", "rake = [0, 0, 1]\nslip = \"free\"");
+    let (sine, cosine) = 30f64.to_radians().sin_cos();
+    assert_plane(
+        &slipped(&free, &[2.0 * cosine, 2.0 * sine]),
+        Plane { strike: 317.0, dip: 90.0, rake: 150.0 },
+    );
+    // Without its directions z is up and y along the strike: then slip along z is up the dip, and plus lies to the right.
+    let usual = UPRIGHT.replace("up = [0, 2, 0]\nalong = [0, 0, 1]\n", "");
+    assert_plane(&uniform(&usual, 1.0), Plane { strike: 317.0, dip: 90.0, rake: 90.0 });
+}

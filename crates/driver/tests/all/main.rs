@@ -1,0 +1,31 @@
+//! Tests of the driver, in one binary: each links all crates, which takes longer than to run most of them.
+#![allow(clippy::unwrap_used)]
+
+mod antiplane;
+mod bad_scenes;
+mod bodies;
+mod command;
+mod common;
+mod directories;
+mod documents;
+mod doubtful_scenes;
+mod enforcement;
+mod fault;
+mod fault_geometry;
+mod fault_normal;
+mod fault_opening;
+mod fault_outputs;
+mod instability;
+mod interface_signs;
+mod laws;
+mod loads;
+mod located;
+mod memory;
+mod mesh_files;
+mod meshes;
+mod resume;
+mod samples;
+mod slider;
+mod slider_outputs;
+mod snapshot;
+mod solvers;

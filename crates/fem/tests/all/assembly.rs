@@ -1,0 +1,372 @@
+//! The system of a step: parallel assembly, symmetric and general factorisation, reuse, and what an error names.
+
+use asperity_fem::assembly::{Storage, Symmetry, System};
+use asperity_fem::block::LinearBlock;
+use asperity_fem::dof::{Constraints, Equations};
+use asperity_fem::element::ElementKind;
+use asperity_fem::kinematics::{Formulation, Idealisation};
+use asperity_fem::material::elastic::Elastic;
+use asperity_fem::mesh::generate::{Block, Grading};
+use asperity_fem::mesh::{Mesh, nodes_of_sides};
+use asperity_fem::scatter::CellForces;
+use asperity_fem::sparse::{Part, ScatterMap};
+use asperity_fem::term::{Instant, Linearized, Pattern, Refusal, Term};
+
+fn mesh(n: usize) -> Mesh<2> {
+    let kind = ElementKind::Quad9;
+    Block { min: [0.0; 2], max: [1.0; 2], divisions: [n; 2], grading: [Grading::Uniform; 2], kind }
+        .mesh()
+        .unwrap()
+}
+
+fn block(mesh: &Mesh<2>) -> LinearBlock<2> {
+    let material = Elastic::new(3e9, 0.2).unwrap();
+    LinearBlock::new(mesh, 0, &material, Idealisation::of_dimension(2), Formulation::Standard).unwrap()
+}
+
+fn clamped(mesh: &Mesh<2>) -> Equations {
+    let fixed = nodes_of_sides(mesh, &mesh.side_sets["left"]).into_iter().flat_map(|n| [2 * n, 2 * n + 1]);
+    Constraints { fixed: fixed.collect(), channels: Vec::new() }.equations(2 * mesh.nodes.len())
+}
+
+/// A spring from a degree of freedom to the ground, or nothing of a stiffness at all.
+struct Spring {
+    pattern: Pattern,
+    stiffness: f64,
+}
+
+impl Spring {
+    fn new(dof: usize, version: u64, stiffness: f64) -> Self {
+        Self { pattern: Pattern::of_blocks(version, [[dof].as_slice()]), stiffness }
+    }
+}
+
+impl Term for Spring {
+    fn name(&self) -> &str {
+        "spring"
+    }
+
+    fn residual(&mut self, u: &[f64], _at: Instant, r: &mut [f64]) -> Result<(), Refusal> {
+        r[self.pattern.dofs[0]] += self.stiffness * u[self.pattern.dofs[0]];
+        Ok(())
+    }
+
+    fn accept(&mut self) {}
+
+    fn reject(&mut self) {}
+}
+
+impl Linearized for Spring {
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    fn tangent(&mut self, values: &mut [f64]) {
+        values[0] = self.stiffness;
+    }
+
+    fn constant_tangent(&self) -> Option<&[f64]> {
+        Some(std::slice::from_ref(&self.stiffness))
+    }
+}
+
+#[test]
+fn entries_are_the_sums_of_a_serial_loop_bit_by_bit_for_any_number_of_threads() {
+    let mesh = mesh(40);
+    let (block, equations) = (block(&mesh), clamped(&mesh));
+    let spring = Spring::new(2 * mesh.nodes.len() - 1, 0, 1e9);
+    for part in [Part::Whole, Part::Lower] {
+        let run = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let mut map = ScatterMap::new(&[block.pattern(), &spring.pattern], &equations, part);
+                map.clear();
+                let offset = map.add(0, block.stiffness());
+                map.add(offset, &[spring.stiffness]);
+                map
+            })
+        };
+        let map = run(1);
+        let mut expected = vec![0.0; map.stored()];
+        let symbolic = map.matrix().symbolic();
+        let mut offset = 0;
+        for cell in block.pattern().blocks() {
+            for (i, &r) in cell.iter().enumerate() {
+                for (j, &c) in cell.iter().enumerate() {
+                    let (row, col) = (equations.number[r], equations.number[c]);
+                    let stored = row != Equations::FIXED && col != Equations::FIXED;
+                    if stored && (part == Part::Whole || row >= col) {
+                        let place = symbolic.row_idx_of_col_raw(col).binary_search(&row).unwrap();
+                        expected[symbolic.col_range(col).start + place] +=
+                            block.stiffness()[offset + i * cell.len() + j];
+                    }
+                }
+            }
+            offset += cell.len() * cell.len();
+        }
+        // The last equation's diagonal is the last stored entry of both parts.
+        *expected.last_mut().unwrap() += spring.stiffness;
+        for threads in [1, 2, 3] {
+            assert_eq!(run(threads).matrix().val(), expected);
+        }
+    }
+}
+
+#[test]
+fn symmetric_and_general_systems_give_the_same_solution() {
+    let mesh = mesh(12);
+    let mut block = block(&mesh);
+    let n = clamped(&mesh).free.len();
+    let load: Vec<f64> = (0..n).map(|k| ((k * 31) % 17) as f64 - 8.0).collect();
+    let mut solutions = Vec::new();
+    for storage in [Storage::Dense, Storage::Sparse] {
+        for symmetry in [Symmetry::General, Symmetry::Positive] {
+            let mut system = System::new(clamped(&mesh), storage).with_symmetry(symmetry);
+            system.factor_tangent(&mut [&mut block]).unwrap();
+            let mut x = load.clone();
+            system.solve(&mut x).unwrap();
+            solutions.push(x);
+        }
+    }
+    let size = solutions[0].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    for other in &solutions[1..] {
+        assert!(solutions[0].iter().zip(other).all(|(a, b)| (a - b).abs() < 1e-10 * size));
+    }
+}
+
+#[test]
+fn a_factor_is_reused_while_patterns_keep_their_versions_and_made_anew_when_one_changes() {
+    let mesh = mesh(4);
+    let mut block = block(&mesh);
+    let dof = 2 * mesh.nodes.len() - 1;
+    let mut system = System::new(clamped(&mesh), Storage::Sparse).with_symmetry(Symmetry::Positive);
+    let mut spring = Spring::new(dof, 0, 1e9);
+    assert!(!system.is_factored([block.pattern(), spring.pattern()]));
+    assert!(system.factor_tangent(&mut [&mut block, &mut spring]).unwrap());
+    assert!(!system.factor_tangent(&mut [&mut block, &mut spring]).unwrap());
+    assert_eq!(system.factorisations, 1);
+    let mut moved = Spring::new(dof - 1, 1, 1e9);
+    assert!(system.factor_tangent(&mut [&mut block, &mut moved]).unwrap());
+    assert_eq!(system.factorisations, 2);
+    // The new factor belongs to the new pattern: a unit force meets the body and the moved spring.
+    let (mut with, mut without) = (vec![0.0; system.equations().free.len()], Vec::new());
+    let last = with.len() - 2;
+    with[last] = 1.0;
+    without.extend_from_slice(&with);
+    system.solve(&mut with).unwrap();
+    system.factor_tangent(&mut [&mut block]).unwrap();
+    system.solve(&mut without).unwrap();
+    // Sherman and Morrison: u = u0 / (1 + k u0).
+    let expected = without[last] / (1.0 + 1e9 * without[last]);
+    assert!((with[last] - expected).abs() < 1e-12 * expected);
+}
+
+/// Pairs of degrees of freedom, of which the closed ones are coupled without symmetry, as friction couples.
+struct Pairs {
+    pattern: Pattern,
+    closed: Vec<bool>,
+}
+
+impl Pairs {
+    fn new(pairs: &[[usize; 2]]) -> Self {
+        let pattern = Pattern::of_blocks(0, pairs.iter().map(<[usize; 2]>::as_slice));
+        Self { pattern, closed: vec![false; pairs.len()] }
+    }
+}
+
+impl Term for Pairs {
+    fn name(&self) -> &str {
+        "pairs"
+    }
+
+    fn residual(&mut self, _u: &[f64], _at: Instant, _r: &mut [f64]) -> Result<(), Refusal> {
+        Ok(())
+    }
+
+    fn accept(&mut self) {}
+
+    fn reject(&mut self) {}
+}
+
+impl Linearized for Pairs {
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    fn tangent(&mut self, values: &mut [f64]) {
+        for (block, closed) in values.chunks_exact_mut(4).zip(&self.closed) {
+            let coupling = if *closed { [3e11, -3e11, -2.1e11, 3e11] } else { [0.0; 4] };
+            block.copy_from_slice(&coupling);
+        }
+    }
+}
+
+#[test]
+fn a_dense_system_solves_as_a_sparse_one_whichever_pairs_close_and_open() {
+    let mesh = mesh(6);
+    let mut block = block(&mesh);
+    let last = 2 * mesh.nodes.len();
+    // Along the right and the upper side and a bit of both, over and over: few pairs, more, all, none, others, all that there are.
+    let pairs: Vec<[usize; 2]> = (0..60).map(|k| [last - 1 - k, last - 2 - k]).collect();
+    let mut contact = Pairs::new(&pairs);
+    let n = clamped(&mesh).free.len();
+    let load: Vec<f64> = (0..n).map(|k| ((k * 31) % 17) as f64 - 8.0).collect();
+    let mut dense = System::new(clamped(&mesh), Storage::Dense);
+    for closed in [0..0, 0..3, 0..9, 0..2, 0..60, 30..33, 0..0, 20..60] {
+        for (k, is) in contact.closed.iter_mut().enumerate() {
+            *is = closed.contains(&k);
+        }
+        let mut solve = |system: &mut System| {
+            assert!(system.factor_tangent(&mut [&mut block, &mut contact]).unwrap());
+            let mut x = load.clone();
+            system.solve(&mut x).unwrap();
+            x
+        };
+        let found = solve(&mut dense);
+        let expected = solve(&mut System::new(clamped(&mesh), Storage::Sparse));
+        let size = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let error = found.iter().zip(&expected).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        // Rounding times the condition of the block, 1e4, and the stiffness of the pairs over its own, 100.
+        assert!(error < 1e-9 * size, "{closed:?}: {:e}", error / size);
+    }
+}
+
+#[test]
+fn what_nothing_but_a_closed_pair_holds_is_held_by_it_and_named_when_it_opens() {
+    // A chain of springs between six degrees of freedom floats; a pair that couples its end to a held one holds it.
+    let chain: Vec<[usize; 2]> = (1..6).map(|k| [k, k + 1]).collect();
+    let pattern = Pattern::of_blocks(0, chain.iter().map(<[usize; 2]>::as_slice));
+    let mut links = Chain { pattern, values: [1e12, -1e12, -1e12, 1e12].repeat(chain.len()) };
+    let mut contact = Pairs::new(&[[0, 1]]);
+    let equations = || Constraints { fixed: vec![0], channels: Vec::new() }.equations(7);
+    for symmetry in [Symmetry::General, Symmetry::Symmetric] {
+        let mut system = System::new(equations(), Storage::Dense).with_symmetry(symmetry);
+        for _ in 0..2 {
+            contact.closed[0] = true;
+            system.factor_tangent(&mut [&mut links, &mut contact]).unwrap();
+            let mut x = [0.0, 0.0, 0.0, 0.0, 0.0, 3e11];
+            system.solve(&mut x).unwrap();
+            // The force passes the whole chain: 1 at the pair, 0.3 more in each link.
+            let exact = [1.0, 1.3, 1.6, 1.9, 2.2, 2.5];
+            assert!(x.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-12), "{x:?}");
+            contact.closed[0] = false;
+            let error = system
+                .factor_tangent(&mut [&mut links, &mut contact])
+                .and_then(|_| system.solve(&mut [0.0, 0.0, 0.0, 0.0, 0.0, 3e11]))
+                .unwrap_err();
+            assert!(error.is_singular(), "{error}");
+        }
+    }
+}
+
+/// Links of 1e12 between pairs of degrees of freedom.
+struct Chain {
+    pattern: Pattern,
+    values: Vec<f64>,
+}
+
+impl Term for Chain {
+    fn name(&self) -> &str {
+        "chain"
+    }
+
+    fn residual(&mut self, _u: &[f64], _at: Instant, _r: &mut [f64]) -> Result<(), Refusal> {
+        Ok(())
+    }
+
+    fn accept(&mut self) {}
+
+    fn reject(&mut self) {}
+}
+
+impl Linearized for Chain {
+    fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    fn tangent(&mut self, values: &mut [f64]) {
+        values.copy_from_slice(&self.values);
+    }
+
+    fn constant_tangent(&self) -> Option<&[f64]> {
+        Some(&self.values)
+    }
+}
+
+#[test]
+fn what_nothing_holds_is_named_by_its_degree_of_freedom() {
+    let equations = || Constraints { fixed: vec![0], channels: Vec::new() }.equations(3);
+    for storage in [Storage::Dense, Storage::Sparse] {
+        for symmetry in [Symmetry::General, Symmetry::Positive] {
+            let mut system = System::new(equations(), storage).with_symmetry(symmetry);
+            let (mut held, mut free) = (Spring::new(1, 0, 2.0), Spring::new(2, 0, 0.0));
+            let error = system
+                .factor_tangent(&mut [&mut held, &mut free])
+                .and_then(|_| system.solve(&mut [1.0, 1.0]))
+                .unwrap_err();
+            assert!(error.to_string().contains("degree of freedom 2"), "{error}");
+            assert!(!system.is_factored([held.pattern(), free.pattern()]));
+        }
+    }
+}
+
+#[test]
+fn a_negative_spring_is_not_positive_definite() {
+    let equations = Constraints::default().equations(1);
+    for storage in [Storage::Dense, Storage::Sparse] {
+        let mut system = System::new(equations.clone(), storage).with_symmetry(Symmetry::Positive);
+        let error = system.factor_tangent(&mut [&mut Spring::new(0, 0, -1.0)]).unwrap_err();
+        assert!(error.to_string().contains("not positive definite: degree of freedom 0"), "{error}");
+    }
+}
+
+#[test]
+fn a_symmetric_matrix_with_a_negative_mode_is_solved_by_lu_and_counted() {
+    let mesh = mesh(3);
+    let mut block = block(&mesh);
+    let n = clamped(&mesh).free.len();
+    let load: Vec<f64> = (0..n).map(|k| ((k * 31) % 17) as f64 - 8.0).collect();
+    // A spring that pushes away at the last degree of freedom, stiffer than the body: one negative eigenvalue.
+    let dof = 2 * mesh.nodes.len() - 1;
+    let mut away = Spring::new(dof, 0, -3e10);
+    for storage in [Storage::Dense, Storage::Sparse] {
+        let mut solve = |symmetry, stiffness: f64| {
+            away.stiffness = stiffness;
+            let mut system = System::new(clamped(&mesh), storage).with_symmetry(symmetry);
+            let anew = system.factor_tangent(&mut [&mut block, &mut away]).unwrap();
+            let mut x = load.clone();
+            system.solve(&mut x).unwrap();
+            assert!(anew);
+            (x, system.indefinite)
+        };
+        let (exact, _) = solve(Symmetry::General, -3e10);
+        let (found, counted) = solve(Symmetry::Symmetric, -3e10);
+        let size = exact.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        assert!(exact.iter().zip(&found).all(|(a, b)| (a - b).abs() < 1e-10 * size), "{storage:?}");
+        assert_eq!((counted, solve(Symmetry::Symmetric, 3e10).1), (1, 0), "{storage:?}");
+    }
+}
+
+#[test]
+fn parallel_cell_forces_are_the_residual_of_the_block() {
+    let mesh = mesh(20);
+    let mut block = block(&mesh);
+    let n = 2 * mesh.nodes.len();
+    let u: Vec<f64> = (0..n).map(|k| ((k * 37) % 101) as f64 * 1e-6).collect();
+    let mut expected = vec![0.0; n];
+    block.residual(&u, Instant { time: 0.0, dt: 1.0 }, &mut expected).unwrap();
+    let mut r = vec![0.0; n];
+    let stiffness = block.stiffness();
+    CellForces::new(block.pattern(), n).add(
+        block.pattern(),
+        |cell, dofs, f| {
+            let size = dofs.len() * dofs.len();
+            let k = &stiffness[cell * size..(cell + 1) * size];
+            for (f, row) in f.iter_mut().zip(k.chunks_exact(dofs.len())) {
+                *f = row.iter().zip(dofs).map(|(k, &dof)| k * u[dof]).sum();
+            }
+        },
+        &mut r,
+    );
+    assert_eq!(r, expected);
+}

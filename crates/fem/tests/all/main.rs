@@ -1,0 +1,22 @@
+//! Tests of finite elements, in one binary; `memory` counts allocations in its own.
+#![allow(clippy::unwrap_used)]
+
+mod abaqus;
+mod assembly;
+mod byte_order;
+mod condense;
+mod direct;
+mod extrude;
+mod fault_mesh;
+mod finite;
+mod gmsh;
+mod iterative;
+mod jump;
+mod lab;
+mod maxwell;
+mod mesh_bytes;
+mod plasticity;
+mod reading;
+mod split;
+mod symmetry;
+mod tangents;
