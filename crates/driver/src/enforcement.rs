@@ -1,6 +1,5 @@
 //! How interfaces enforce their constraints, in SI, and what that adds to the system.
 
-use crate::plan::PlannedInterface;
 use crate::scene::model::{Enforcement as Spec, EnforcementKind, Spanned};
 use crate::scene::units::{Penalty, Penetration};
 use asperity_contact::Enforcement;
@@ -69,21 +68,6 @@ pub fn in_pascal_per_metre(penalty: &Spanned<Penalty>, young_per_size: f64) -> f
     match *penalty.get_ref() {
         Penalty::Value(value) => value,
         Penalty::YoungPerSize(factor) => factor * young_per_size,
-    }
-}
-
-/// The enforcement of an interface in words.
-#[must_use]
-pub fn in_words(interface: &PlannedInterface) -> String {
-    let kind = if interface.law.as_ref().is_some_and(|l| l.bonded()) { "tied" } else { "contact" };
-    match interface.enforced {
-        Enforced::Penalty => format!("penalty {kind}"),
-        Enforced::Uzawa { tolerance, most } => format!(
-            "{kind} by Uzawa's method to a penetration of {tolerance:.2e} m in at most {most} augmentations a step"
-        ),
-        Enforced::AugmentedLagrangian { .. } => {
-            format!("{kind} by {} multipliers as unknowns (augmented Lagrangian)", interface.unknowns)
-        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! What is free to move, in words: bodies, places and components instead of equations.
 
+use crate::coordinates::in_words;
 use crate::model::Model;
-use crate::rigid::place;
 use asperity_fem::FemError;
 use asperity_fem::multifrontal::FreeMode;
 
@@ -17,7 +17,7 @@ pub(crate) fn unsolved<const D: usize>(
     let Some(pivot) = error.pivot() else { return error.to_string() };
     let (node, component) = node_of(pivot.equation);
     let axis = AXES[model.idealisation.axis(component)];
-    let at = place(&model.mesh.nodes[node]);
+    let at = in_words(&model.mesh.nodes[node]);
     let body = model.bodies.iter().find(|b| b.nodes.contains(&node));
     let body = body.map_or(String::new(), |b| format!(" of body `{}`", b.name));
     format!(
@@ -35,7 +35,7 @@ pub(crate) fn adrift<const D: usize>(model: &Model<D>, (node, component): (usize
     let body = body.map_or(String::new(), |b| format!(" of body `{}`", b.name));
     format!(
         "nothing resists the motion in {axis} of the node at {}{body}: contact and friction do not hold it against the loads",
-        place(&model.mesh.nodes[node])
+        in_words(&model.mesh.nodes[node])
     )
 }
 

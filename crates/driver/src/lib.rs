@@ -4,9 +4,11 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod amounts;
+pub mod balance;
 pub mod cli;
-mod coarse;
 pub mod cohesive;
+mod coordinates;
+mod declared;
 pub mod diagnostic;
 pub mod enforcement;
 pub mod fault;
@@ -15,11 +17,11 @@ mod free;
 mod held;
 pub mod initial_stress;
 pub mod laws;
+mod linear_solver;
 pub mod loading;
 pub mod model;
 pub mod penalty;
 pub mod plan;
-mod plan_doubts;
 pub mod pressed;
 pub mod report;
 pub mod rigid;

@@ -2,12 +2,12 @@
 //!
 //! With the stress σ and the outward normal n of the slave the force per area on the slave is σn. Both sides need the same.
 
+use crate::coordinates;
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
 use crate::model::{Body, Model};
-use crate::rigid::place;
+use crate::plan::SHARE;
 use crate::scene::model::{Interface as Spec, Scene};
-use crate::start_gaps::SHARE;
 use asperity_contact::StartTraction;
 use asperity_fem::mesh::{Side, nodes_of_sides};
 use asperity_fem::surface;
@@ -72,7 +72,7 @@ pub fn of<const D: usize>(
     let largest = forces.iter().chain(&beyond).map(|(_, f)| f.abs()).fold(0.0, f64::max);
     let mut both = forces.iter().zip(&beyond);
     if let Some(((dof, a), (_, b))) = both.find(|(a, b)| (a.1 - b.1).abs() > BALANCED * largest) {
-        let at = place(&model.mesh.nodes[dof / D]);
+        let at = coordinates::in_words(&model.mesh.nodes[dof / D]);
         return Err(Diagnostic::at(
             key.span(),
             format!(

@@ -1,5 +1,6 @@
 //! `report.json`: what a run found, what it cost and where it came from.
 
+use crate::balance::InterfaceBalance;
 use crate::loading::Stage;
 use crate::plan::{Plan, Summary};
 use crate::views;
@@ -97,21 +98,6 @@ pub struct Phases {
     pub steps: f64,
     /// Observers and recovery of fields.
     pub output: f64,
-}
-
-/// Force balance of an interface at the end of the run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct InterfaceBalance {
-    /// Interface.
-    pub interface: String,
-    /// Total contact force on the slave side \[N, or N/m of thickness\].
-    pub slave_force: Vec<f64>,
-    /// Sum of the forces on both sides over the largest \[-\].
-    pub force_residual: f64,
-    /// Sum of the moments on both sides, after the couple of friction at a finite gap, over force times size \[-\].
-    pub moment_residual: f64,
-    /// Couple g_n n x f left by penetration and friction together \[N m\].
-    pub couple: Vec<f64>,
 }
 
 /// Figures of an interface at the end of a stage.

@@ -3,6 +3,7 @@
 //! A rigid motion is free when no fixed degree of freedom sees it. It is refused when no interface of the body could
 //! hold it either, in any stage.
 
+use crate::coordinates;
 use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
 use crate::model::Model;
@@ -34,7 +35,7 @@ pub fn check<const D: usize>(
             _ => format!(
                 "the part of body `{}` with the node at {}",
                 body.name,
-                place(&model.mesh.nodes[nodes[0]])
+                coordinates::in_words(&model.mesh.nodes[nodes[0]])
             ),
         };
         for stage in stages {
@@ -82,17 +83,11 @@ fn remedy<const D: usize>(model: &Model<D>, body: &str, loose: &str) -> String {
 /// Whether the faces of a set are turned along an axis.
 fn is_across<const D: usize>(model: &Model<D>, set: &str, axis: usize) -> bool {
     let mut faces = model.mesh.side_sets[set].iter().map(|side| face_nodes(&model.mesh, side));
-    faces.all(|face| axis < D && face_normal(model, &face)[axis].abs() > ACROSS)
+    faces.all(|face| axis < D && model.face_normal(&face)[axis].abs() > ACROSS)
 }
 
 /// Part of a normal along an axis from which a face lies across it: within 25 degrees.
 const ACROSS: f64 = 0.9;
-
-/// A position in words.
-pub(crate) fn place<const D: usize>(x: &[f64; D]) -> String {
-    let coordinates: Vec<String> = x.iter().map(|c| c.to_string()).collect();
-    format!("({}) m", coordinates.join(", "))
-}
 
 /// Rigid modes of a point, one entry a mode: translations, then rotations about the body's centre.
 type Row = Vec<f64>;
@@ -157,7 +152,7 @@ fn contact_rows<const D: usize>(
             if nodes.binary_search(&face[0]).is_err() {
                 continue;
             }
-            let normal = face_normal(model, face);
+            let normal = model.face_normal(face);
             for &node in face {
                 let components: Vec<Row> = (0..D).map(|axis| row(position(node), axis)).collect();
                 if friction {
@@ -179,22 +174,6 @@ fn project(components: &[Row], normal: &[f64]) -> Row {
         }
     }
     sum
-}
-
-/// Unit normal of a face, outward of its body.
-pub(crate) fn face_normal<const D: usize>(model: &Model<D>, face: &[usize]) -> Vec<f64> {
-    let edge = |a: usize, b: usize| -> Vec<f64> {
-        (0..D).map(|c| model.mesh.nodes[face[b]][c] - model.mesh.nodes[face[a]][c]).collect()
-    };
-    let e = edge(0, 1);
-    let n = if D == 2 {
-        vec![e[1], -e[0]]
-    } else {
-        let f = edge(0, 2);
-        vec![e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]]
-    };
-    let length = n.iter().map(|c| c * c).sum::<f64>().sqrt();
-    n.iter().map(|c| c / length).collect()
 }
 
 /// A rigid motion no row sees, in words.

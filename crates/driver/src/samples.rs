@@ -1,10 +1,10 @@
 //! What a scene asks of its bodies beside fields: displacement and stress at points, forces on sets.
 
+use crate::coordinates::in_words;
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress::StressField;
 use crate::loading::Stage;
 use crate::model::{CellBlock, Model};
-use crate::rigid::place;
 use crate::scene::model::{PointSpec, Scene, Spanned};
 use asperity_fem::block::von_mises;
 use asperity_fem::element::ElementKind;
@@ -218,8 +218,8 @@ fn point<const D: usize>(
         let (min, max) = crate::model::bounds(nodes);
         refuse(
             at.span(),
-            format!("the point `{name}` at {} lies outside body `{}`", place(&x), body.name),
-            format!("the body lies between {} and {}", place(&min), place(&max)),
+            format!("the point `{name}` at {} lies outside body `{}`", in_words(&x), body.name),
+            format!("the body lies between {} and {}", in_words(&min), in_words(&max)),
         )
     })?;
     let cells = &model.mesh.blocks[found.block];

@@ -1,13 +1,13 @@
 //! How far initial stress, weight, loads and interfaces are from balance before anything moves.
 
+use crate::coordinates::in_words;
+use crate::declared;
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
 use crate::loading::Stage;
 use crate::model::{CellBlock, Model};
 use crate::plan::{PlannedInterface, Stepping};
-use crate::rigid::place;
 use crate::scene::model::Scene;
-use crate::system;
 use crate::warning::Warning;
 use asperity_contact::{Enforcement, Interface};
 use asperity_friction::law::{Regime, Responses, Trials};
@@ -80,7 +80,7 @@ pub fn of<const D: usize>(
     let told = format!(
         "initial stress, weight, loads at the start and interfaces are out of balance by {:.1e} of the stress, most at {} along {}",
         left.share,
-        place(&model.mesh.nodes[node]),
+        in_words(&model.mesh.nodes[node]),
         ["x", "y", "z"][axis]
     );
     if left.share <= SETTLES {
@@ -132,7 +132,7 @@ fn pressed<const D: usize>(
     let Some(pressed) = &planned.pressed else { return Ok(None) };
     let name = &planned.name;
     let number: Vec<usize> = (0..model.dofs()).collect();
-    let mut declared = system::spec(model, stepping, planned, &number, 0.0, 0);
+    let mut declared = declared::spec(model, stepping, planned, &number, 0.0, 0);
     declared.enforcement = Enforcement::Penalty;
     if stage.frictionless.contains(name) {
         declared.law = None;

@@ -1,24 +1,17 @@
 //! Where the sides of the interfaces are before the first step: gaps, overlaps and what faces what, measured as the contact will measure.
 
+use crate::declared;
 use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
 use crate::model::{Model, bounds};
-use crate::plan::{PlannedInterface, Stepping};
-use crate::rigid::face_normal;
+use crate::plan::{PlannedInterface, SHARE, StartGap, Stepping};
 use crate::scene::check::brief;
 use crate::scene::model::Interface as Spec;
-use crate::system;
 use crate::warning::Warning;
 use asperity_contact::{Enforcement, Interface, PointFields};
 use asperity_fem::mesh::Side;
 use asperity_fem::surface;
-use serde::Serialize;
 use std::collections::BTreeMap;
-use std::fmt;
-
-/// Share of the element size from which an overlap or an opening at the start is told: less comes from facets about a curve, whose sagitta
-/// is h²/8R, a fortieth of h where eight facets span a radian.
-pub const SHARE: f64 = 0.1;
 
 /// Rounding of a gap over the size of the scene: what the contact takes for closed without traction.
 const ROUNDING: f64 = 1e-12;
@@ -26,39 +19,6 @@ const ROUNDING: f64 = 1e-12;
 /// How far sides can come together, over what the conditions prescribe: both sides may move, and a body that is squeezed bulges by
 /// less than it is squeezed.
 const REACH: f64 = 3.0;
-
-/// The start of an interface.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct StartGap {
-    /// Interface.
-    pub interface: String,
-    /// Slave points.
-    pub points: usize,
-    /// Those that face the master: they have a partner, and it looks at them.
-    pub facing: usize,
-    /// Those without partner.
-    pub unpaired: usize,
-    /// Least and largest gap of those that face the master \[m\], negative where the bodies overlap.
-    pub gap: [f64; 2],
-    /// Area that faces the master \[m², m per metre of thickness\].
-    pub facing_area: f64,
-    /// Area of the slave side \[m², m per metre of thickness\].
-    pub slave_area: f64,
-    /// Unit of the areas.
-    pub area_unit: &'static str,
-}
-
-impl fmt::Display for StartGap {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { interface, points, facing, unpaired, gap, facing_area, slave_area, area_unit } = self;
-        write!(f, "interface `{interface}`: ")?;
-        if *facing > 0 {
-            write!(f, "gaps from {} to {} at the ", brief(gap[0]), brief(gap[1]))?;
-        }
-        write!(f, "{facing} of {points} slave nodes that face the master, {unpaired} without partner; ")?;
-        write!(f, "{facing_area:.4e} of {slave_area:.4e} {area_unit} face it")
-    }
-}
 
 /// Measures the start of an interface.
 ///
@@ -71,7 +31,7 @@ pub fn measure<const D: usize>(
     (spec, sides): (&Spec, &[Side]),
 ) -> Result<StartGap, Diagnostic> {
     let number: Vec<usize> = (0..model.dofs()).collect();
-    let mut declared = system::spec(model, stepping, planned, &number, 0.0, 0);
+    let mut declared = declared::spec(model, stepping, planned, &number, 0.0, 0);
     // Where the sides are depends neither on the law nor on the enforcement.
     (declared.enforcement, declared.law) = (Enforcement::Penalty, None);
     let built = Interface::new(declared).map_err(|e| {
@@ -113,7 +73,7 @@ fn looks_at<const D: usize>(slave: &[f64; D], points: &PointFields<D>, p: usize)
 fn slave_normals<const D: usize>(model: &Model<D>, planned: &PlannedInterface) -> BTreeMap<usize, [f64; D]> {
     let mut normals: BTreeMap<usize, [f64; D]> = BTreeMap::new();
     for face in &planned.slave_faces {
-        let normal = face_normal(model, face);
+        let normal = model.face_normal(face);
         for &node in face {
             normals.entry(node).or_insert([0.0; D]).iter_mut().zip(&normal).for_each(|(s, n)| *s += n);
         }

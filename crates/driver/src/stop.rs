@@ -1,6 +1,7 @@
 //! How a run ends that cannot go on: what is said of it, and whether it met an instability.
 
 use crate::cohesive::Resolved;
+use crate::coordinates;
 use crate::report::{Outcome, Stop};
 use crate::step::Failure;
 use crate::system::Assembled;
@@ -116,7 +117,7 @@ impl Met {
     /// Place and slip rate.
     fn words<const D: usize>(&self) -> String {
         let place = std::array::from_fn(|c| (self.position[c] * SHOWN).round() / SHOWN);
-        format!("at {}, V = {:.3e} m/s", crate::rigid::place::<D>(&place), self.slip_rate)
+        format!("at {}, V = {:.3e} m/s", coordinates::in_words::<D>(&place), self.slip_rate)
     }
 }
 

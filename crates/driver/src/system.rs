@@ -1,33 +1,27 @@
 //! A plan brought to life: terms, constraints, stepper and state, on either path.
 
+use crate::balance::{InterfaceBalance, balance};
 use crate::cohesive::Resolved;
+use crate::declared;
 use crate::free;
 use crate::loading::Stage;
-use crate::model::{CellBlock, Model};
-use crate::plan::{Path, Plan, PlannedInterface, Stepping, interface_nodes};
-use crate::report::InterfaceBalance;
+use crate::model::CellBlock;
+use crate::plan::{Path, Plan, Stepping};
 use crate::samples::Beside;
-use crate::scene::model::{Measure, Rule, Sliding};
+use crate::scene::model::Rule;
 use crate::solver::{self, Method, Prepared};
 use crate::step::implicit::Implicit;
 use crate::step::static_explicit::StaticExplicit;
 use crate::step::{Accepted, Failure, State};
 use crate::views;
-use asperity_contact::{
-    Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, SurfaceNode, TimeRule,
-};
+use asperity_contact::{Interface, TimeRule};
 use asperity_fem::FemError;
 use asperity_fem::assembly::{Iterative, NearNull, Storage, System};
 use asperity_fem::condense::{Analysis, Condensation, Condensed};
 use asperity_fem::dof::{Channel, Constraints};
-use asperity_fem::kinematics::Idealisation;
 use asperity_fem::loads::ExternalForces;
 use asperity_fem::term::{Limited, Linearized};
-use asperity_friction::law::RateBounds;
 use asperity_output::view::{BodyFields, Counts, InterfaceFields, Samples, Setup};
-
-/// Rate below which a forward step counts a point as at rest, over the largest prescribed rate (the floor of limit r8).
-const RATE_FLOOR: f64 = 1e-12;
 
 /// Terms of the bodies on either path.
 enum Bodies<const D: usize> {
@@ -78,7 +72,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
         let largest_rate = plan.stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
         let (mut interfaces, mut unknowns) = (Vec::new(), dofs);
         for i in &plan.interfaces {
-            let spec = spec(&plan.model, &plan.stepping, i, &number, largest_rate, unknowns);
+            let spec = declared::spec(&plan.model, &plan.stepping, i, &number, largest_rate, unknowns);
             let mut interface = Interface::new(spec).map_err(|e| e.to_string())?;
             interface.set_watch(i.watch);
             if let Some(pressed) = &i.pressed {
@@ -453,7 +447,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
             .interfaces
             .iter()
             .zip(&self.interfaces)
-            .map(|(p, i)| views::balance(&p.name, i, self.plan.model.scale))
+            .map(|(p, i)| balance(&p.name, i, self.plan.model.scale))
             .collect()
     }
 
@@ -572,73 +566,6 @@ fn local_channels(constraints: &Constraints, dofs: std::ops::Range<usize>) -> Ve
         })
         .filter(|c| !c.prescribed.is_empty() || !c.forces.is_empty())
         .collect()
-}
-
-/// Declares an interface to the contact crate; its multipliers that are unknowns are numbered from `unknowns`.
-pub(crate) fn spec<const D: usize>(
-    model: &Model<D>,
-    stepping: &Stepping,
-    planned: &PlannedInterface,
-    number: &[usize],
-    largest_rate: f64,
-    unknowns: usize,
-) -> InterfaceSpec<D> {
-    let labels = interface_nodes(planned);
-    let local = |node: usize| labels.partition_point(|&n| n < node);
-    let nodes = labels
-        .iter()
-        .map(|&n| SurfaceNode { position: model.mesh.nodes[n], dof: number[n * D], label: n })
-        .collect();
-    let segments = |faces: &[Vec<usize>]| -> Vec<Segment> {
-        let segment = |face: &Vec<usize>| Segment {
-            kind: segment_kind::<D>(face.len()),
-            nodes: face.iter().map(|&n| local(n)).collect(),
-        };
-        faces.iter().map(segment).collect()
-    };
-    let rate_bounds = match *stepping {
-        Stepping::StaticExplicit { rate_change, zeta, .. } => RateBounds { zeta, log_rate: rate_change },
-        Stepping::Implicit { .. } => RateBounds { zeta: f64::INFINITY, log_rate: f64::INFINITY },
-    };
-    InterfaceSpec {
-        name: planned.name.clone(),
-        nodes,
-        slave: planned.slave.iter().map(|&(n, area)| SlavePoint { node: local(n), area }).collect(),
-        master: segments(&planned.master_faces),
-        measure: match planned.measure {
-            Measure::NodeToPoint => MeasureKind::NodeToPoint,
-            Measure::Mortar => MeasureKind::Mortar {
-                faces: segments(&planned.slave_faces),
-                axisymmetric: model.idealisation == Idealisation::Axisymmetric,
-            },
-        },
-        sliding: match planned.sliding {
-            Sliding::Small => asperity_contact::Sliding::Small,
-            Sliding::Finite => asperity_contact::Sliding::Finite,
-        },
-        smoothing: planned.smoothed.then(asperity_contact::Smoothing::default),
-        fixed_normal: None,
-        enforcement: planned.enforced.declared(unknowns),
-        normal_penalty: planned.normal_penalty,
-        tangential_penalty: planned.tangential_penalty,
-        law: planned.law.clone(),
-        scale: model.scale,
-        rate_floor: RATE_FLOOR * largest_rate,
-        rate_bounds,
-        label_rate: planned.law.as_ref().filter(|l| !l.has_elastic_domain()).map(|_| largest_rate),
-    }
-}
-
-fn segment_kind<const D: usize>(nodes: usize) -> SegmentKind {
-    match (D, nodes) {
-        (2, 2) => SegmentKind::Seg2,
-        (2, _) => SegmentKind::Seg3,
-        (_, 3) => SegmentKind::Tri3,
-        (_, 4) => SegmentKind::Quad4,
-        (_, 6) => SegmentKind::Tri6,
-        (_, 8) => SegmentKind::Quad8,
-        (_, _) => SegmentKind::Quad9,
-    }
 }
 
 /// Time rule of the contact crate.

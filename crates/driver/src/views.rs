@@ -2,7 +2,6 @@
 
 use crate::model::CellBlock;
 use crate::plan::{Plan, PlannedInterface};
-use crate::report::InterfaceBalance;
 use crate::samples::{ForceSet, Point};
 use crate::scene::model::Sliding;
 use asperity_contact::{Interface, PointFields, Status};
@@ -259,20 +258,4 @@ fn nodal_stress<const D: usize>(
         }
     }
     sums.into_iter().map(|(node, (sum, count))| (node, sum.map(|s| s / count))).collect()
-}
-
-/// Balance of contact forces.
-#[must_use]
-pub fn balance<const D: usize>(name: &str, interface: &Interface<D>, scale: f64) -> InterfaceBalance {
-    let b = interface.balance();
-    let size = |v: &[f64]| v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-    let force = size(&b.slave_force);
-    let relative = |v: &[f64], scale: f64| if scale > 0.0 { size(v) / scale } else { 0.0 };
-    InterfaceBalance {
-        interface: name.to_string(),
-        slave_force: b.slave_force.to_vec(),
-        force_residual: relative(&b.residual, force),
-        moment_residual: relative(&b.moment_residual, force * scale),
-        couple: b.couple.to_vec(),
-    }
 }

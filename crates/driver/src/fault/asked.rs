@@ -2,9 +2,9 @@
 
 use super::place::Place;
 use super::placed::{Placed, at};
+use crate::coordinates;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::rigid;
 use crate::scene::model::{Along, Fault as Spec, LawSpec, Profile, Profiled, Scene, Spanned, Station};
 use crate::warning::Warning;
 use asperity_fem::mesh::face_nodes;
@@ -186,7 +186,7 @@ pub(super) fn station<const D: usize>(
             let squares = x.iter().zip(&place.at).map(|(a, b)| (a - b).powi(2));
             let coordinates: Vec<String> = x.iter().map(f64::to_string).collect();
             let wanted = format!("({}) m on", coordinates.join(", "));
-            (squares.sum::<f64>().sqrt(), wanted, rigid::place(&place.at))
+            (squares.sum::<f64>().sqrt(), wanted, coordinates::in_words(&place.at))
         }
     };
     if off <= cell(model, spec, place)? {

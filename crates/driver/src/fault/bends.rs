@@ -1,8 +1,8 @@
 //! How sharply faults turn from one cell to the next.
 
+use crate::coordinates;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::rigid;
 use crate::scene::model::Fault as Spec;
 use asperity_fem::mesh::{Side, face_nodes};
 use std::collections::BTreeMap;
@@ -45,7 +45,7 @@ pub(super) fn note<const D: usize>(
     Ok((angle >= NOTED).then(|| {
         format!(
             "fault `{name}` turns by up to {angle:.1} degrees from one cell to the next, at {}: tractions there grow as cells shrink",
-            rigid::place(&model.mesh.nodes[node])
+            coordinates::in_words(&model.mesh.nodes[node])
         )
     }))
 }

@@ -9,9 +9,9 @@ use super::operator::Dense;
 use super::place::{Place, across};
 use super::point::Point;
 use crate::amounts;
+use crate::coordinates;
 use crate::loading::Stage;
 use crate::model::Model;
-use crate::rigid;
 use asperity_fem::FemError;
 use asperity_fem::condense::{Condensation, Condensed, Loaded, Remainder, Stiffness};
 use asperity_fem::dof::Channel;
@@ -131,7 +131,7 @@ fn with_components<const D: usize, const C: usize>(
     if let Some(p) = points.iter().find(|p| drawn(p.place.minus) && drawn(p.place.plus)) {
         let message = format!(
             "a spring draws both sides of a fault as one at {}, which could not slip there",
-            rigid::place(&p.place.at)
+            coordinates::in_words(&p.place.at)
         );
         let help = Some("let it draw a side that ends at the fault".into());
         return Err(Refusal { message, help, about: About::Spring, ..Refusal::default() });
@@ -320,7 +320,7 @@ fn in_words<const D: usize, const C: usize>(model: &Model<D>, jumps: &Jumps<C>, 
     let body = model.bodies.iter().find(|b| b.dofs.contains(&pivot.equation)).map_or("", |b| b.name.as_str());
     let message = format!(
         "the bodies around the faults are not held: body `{body}` {component} without resistance, found at {}",
-        rigid::place(&model.mesh.nodes[node])
+        coordinates::in_words(&model.mesh.nodes[node])
     );
     let help = Some("prescribe motions of sides that hold each side of a fault".into());
     Refusal { message, help, about: About::Body(body.into()), ..Refusal::default() }

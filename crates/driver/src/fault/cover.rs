@@ -1,8 +1,8 @@
 //! What the two sides of a fault must have in common: the same nodes wherever one covers the other.
 
+use crate::coordinates;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::rigid;
 use crate::scene::model::Fault as Spec;
 use crate::warning::Warning;
 use asperity_fem::mesh::{Side, face_nodes};
@@ -38,7 +38,7 @@ pub(super) fn partners<const D: usize>(
         format!(
             "the sides of fault `{name}` do not lie on each other: the node of the plus side at {} lies between nodes of the minus side and has none \
              there; so it is with {} of its nodes",
-            rigid::place(x(first)),
+            coordinates::in_words(x(first)),
             covered.len()
         ),
         "both sides need the same nodes: equal sizes of cells on both, or one mesh that is split along the fault",
@@ -67,7 +67,7 @@ pub(super) fn same_faces<const D: usize>(
         spec.plus.span(),
         format!(
             "the sides of fault `{name}` have the same nodes and different faces, first at {}: between the nodes they gap and overlap",
-            rigid::place(&model.mesh.nodes[node])
+            coordinates::in_words(&model.mesh.nodes[node])
         ),
         "use the same element with the same edges on both sides",
     ))

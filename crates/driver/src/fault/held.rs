@@ -2,9 +2,9 @@
 
 use super::place::Place;
 use super::point::Point;
+use crate::coordinates;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::rigid;
 use crate::scene::model::{Motion, Scene, Spanned};
 use asperity_fem::dof::Channel;
 use asperity_fem::jump::Jump;
@@ -126,7 +126,7 @@ pub(super) fn oblique<const D: usize, const C: usize>(
     };
     let nodes = [point.place.minus, point.place.plus];
     let axis = ["x", "y", "z"][model.idealisation.axis(component)];
-    let at = rigid::place(&point.place.at);
+    let at = coordinates::in_words(&point.place.at);
     let both = nodes.iter().all(|&n| held::<C>(n, fixed)[component]);
     let (message, help) = if both {
         (
@@ -158,7 +158,7 @@ pub(super) fn along_slip<const D: usize, const C: usize>(place: &Place<D>, slide
     Refusal {
         message: format!(
             "conditions prescribe the motion of both sides of a fault along its slip at {}, where it is to slide",
-            rigid::place(&place.at)
+            coordinates::in_words(&place.at)
         ),
         help: Some("let it creep there, or leave that component of the conditions out".into()),
         at: Some(([place.minus, place.plus], component)),
@@ -231,7 +231,7 @@ fn otherwise<const D: usize, const C: usize>(
 ) -> Refusal {
     let most = |&a: &usize, &b: &usize| axis[a].abs().total_cmp(&axis[b].abs());
     let component = (0..C).max_by(most).unwrap_or(0);
-    let at = rigid::place(&place.at);
+    let at = coordinates::in_words(&place.at);
     let (message, help) = match rate {
         Some(rate) => (
             format!(

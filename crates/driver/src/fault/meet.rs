@@ -5,9 +5,9 @@
 
 use super::place::{branches, directions, unit};
 use super::placed::Placed;
+use crate::coordinates;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::rigid;
 use crate::scene::model::{Fault as Spec, Scene};
 use asperity_fem::mesh::face_nodes;
 use std::collections::BTreeMap;
@@ -46,7 +46,7 @@ pub(super) fn join<const D: usize>(
     for &(a, b) in &shared {
         absorb(&faults, placed, a, b)?;
         let place = &placed[a].point.place;
-        let at = || (0, rigid::place(&place.at));
+        let at = || (0, coordinates::in_words(&place.at));
         notes.entry((placed[a].fault, placed[b].fault)).or_insert_with(at).0 += 1;
     }
     let mut k = 0;
@@ -101,7 +101,7 @@ fn distinct<const D: usize>(
                 [n.min(other), n.max(other)]
             };
             let nodes = face_nodes(&model.mesh, side);
-            let at = rigid::place(&model.mesh.nodes[nodes[0]]);
+            let at = coordinates::in_words(&model.mesh.nodes[nodes[0]]);
             let mut key: Vec<[usize; 2]> = nodes.into_iter().map(pair).collect();
             key.sort_unstable();
             let Some(before) = owner.insert(key, k).filter(|&before| before != k) else { continue };

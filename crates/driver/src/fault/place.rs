@@ -1,9 +1,9 @@
 //! The points of a fault: pairs of nodes, one on each side, at one place.
 
 use super::cover::{self, TOGETHER};
+use crate::coordinates;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::rigid;
 use crate::scene::model::{Fault as Spec, Spanned};
 use crate::warning::Warning;
 use asperity_fem::FemError;
@@ -57,7 +57,7 @@ pub fn places<const D: usize>(
                 spec.minus.span(),
                 format!(
                     "a node of fault `{name}` at {} has no positive area",
-                    rigid::place(&model.mesh.nodes[minus])
+                    coordinates::in_words(&model.mesh.nodes[minus])
                 ),
                 WITH_AREAS,
             ));
@@ -93,7 +93,7 @@ pub(super) fn directions<const D: usize>(
         along_rake(rake.get_ref(), normal).ok_or_else(|| {
             Diagnostic::at(
                 rake.span(),
-                format!("`rake` is normal to fault `{name}` at {}", rigid::place(at)),
+                format!("`rake` is normal to fault `{name}` at {}", coordinates::in_words(at)),
                 "a direction along the fault",
             )
         })
@@ -166,7 +166,7 @@ fn pairs<const D: usize>(
                     spec.plus.span(),
                     format!(
                         "the sides of fault `{name}` do not lie on each other: the node of the minus side at {} has none on the plus side",
-                        rigid::place(&x(m))
+                        coordinates::in_words(&x(m))
                     ),
                     "both sides need the same nodes, as splitting a mesh along a surface makes them",
                 ));
@@ -193,7 +193,7 @@ fn pairs<const D: usize>(
 pub(super) fn branches<const D: usize>(what: &str, at: &[f64; D], spec: &Spec) -> Diagnostic {
     Diagnostic::at(
         spec.minus.span(),
-        format!("{what} at {}: more than two sides meet there", rigid::place(at)),
+        format!("{what} at {}: more than two sides meet there", coordinates::in_words(at)),
         "a point of a fault has two sides; leave the faces of a branch that touch the other fault out of its surface, so that it ends one cell away \
          from it, or leave the branch out",
     )

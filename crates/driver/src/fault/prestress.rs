@@ -4,10 +4,10 @@
 //! `τ_0 = s·σn`. The bodies are taken to be in equilibrium under it at the start, whatever holds it at their outer faces: what loads and slip change comes on top.
 
 use super::place::{Place, across};
+use crate::coordinates;
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
 use crate::model::Model;
-use crate::rigid;
 use crate::scene::model::{Body, Fault as Spec, InitialStress, Scene, SlipSpec, Spanned};
 use std::ops::Range;
 
@@ -93,7 +93,7 @@ impl<'a> Prestress<'a> {
             let message = format!(
                 "the initial stress exerts {minus:?} Pa on one side and {plus:?} Pa on the other side of fault `{}` at {}",
                 self.name,
-                rigid::place(&place.at)
+                coordinates::in_words(&place.at)
             );
             let help = "bodies on both sides of a fault need the same traction there: give both the same `initial_stress`";
             return Err(Diagnostic::at(self.place.clone(), message, help));
@@ -109,8 +109,11 @@ impl<'a> Prestress<'a> {
     /// [`Diagnostic`] where the fault is not pressed, or friction would not resist its motion.
     fn admit<const D: usize>(&self, place: &Place<D>, found: &Resolved) -> Result<(), Diagnostic> {
         let refuse = |what: String, help: &str| {
-            let message =
-                format!("the initial stress {what} fault `{}` at {}", self.name, rigid::place(&place.at));
+            let message = format!(
+                "the initial stress {what} fault `{}` at {}",
+                self.name,
+                coordinates::in_words(&place.at)
+            );
             Err(Diagnostic::at(self.place.clone(), message, help))
         };
         if let Some(pressed) = found.normal.filter(|f| *f <= 0.0) {

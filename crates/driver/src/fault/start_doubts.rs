@@ -2,7 +2,7 @@
 
 use super::equations::Fault;
 use super::placed::Placed;
-use crate::rigid;
+use crate::coordinates;
 use crate::scene::model::{Fault as Spec, Scene, Spanned};
 use crate::warning::Warning;
 use asperity_friction::fault::FaultLaw;
@@ -44,7 +44,7 @@ pub(super) fn check<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: 
         let found = (shear.abs() - fault.damping[p] * rate) / point.pressed();
         let off = (found / steady).max(steady / found);
         if off > FAR && worst[point.fault].as_ref().is_none_or(|w| off > w.0) {
-            worst[point.fault] = Some((off, found, steady, rigid::place(&point.point.place.at)));
+            worst[point.fault] = Some((off, found, steady, coordinates::in_words(&point.point.place.at)));
         }
     }
     let told = worst.into_iter().zip(&scene.faults).filter_map(|(w, fault)| Some((w?, fault)));

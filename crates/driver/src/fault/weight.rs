@@ -9,10 +9,10 @@ use super::condense::Weight;
 use super::cover::TOGETHER;
 use super::placed::Placed;
 use super::prestress::{Resolved, against, strays};
+use crate::coordinates;
 use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
 use crate::model::Model;
-use crate::rigid;
 use crate::scene::model::{Fault as Spec, Scene, Spanned};
 use crate::warning::Warning;
 
@@ -88,7 +88,7 @@ fn start_at<const D: usize>(
     small: f64,
 ) -> Result<(), Diagnostic> {
     let refuse = |what: String, help: &str| {
-        let at = rigid::place(&point.point.place.at);
+        let at = coordinates::in_words(&point.point.place.at);
         let place = gravity(scene).map(Spanned::span).unwrap_or_default();
         Err(Diagnostic::at(place, format!("weight {what} fault `{name}` at {at}"), help))
     };
@@ -182,7 +182,7 @@ pub(super) fn hangs<const D: usize>(scene: &Scene, model: &Model<D>, stage: &Sta
             given.span(),
             format!(
                 "nothing carries the bodies from below: they are not held along their weight at their lowest places, such as {}, and hang from their sides, which shears the faults",
-                rigid::place(&model.mesh.nodes[first])
+                coordinates::in_words(&model.mesh.nodes[first])
             ),
             "hold the lower side along the weight, such as `{ set = \"crust.bottom\", y = 0 }`, and leave that component of the sides free",
         )

@@ -354,6 +354,23 @@ impl<const D: usize> Model<D> {
         Ok(surface::areas(&self.mesh, sides, self.idealisation))
     }
 
+    /// Unit normal of a face, outward of its body.
+    #[must_use]
+    pub fn face_normal(&self, face: &[usize]) -> Vec<f64> {
+        let edge = |a: usize, b: usize| -> Vec<f64> {
+            (0..D).map(|c| self.mesh.nodes[face[b]][c] - self.mesh.nodes[face[a]][c]).collect()
+        };
+        let e = edge(0, 1);
+        let n = if D == 2 {
+            vec![e[1], -e[0]]
+        } else {
+            let f = edge(0, 2);
+            vec![e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]]
+        };
+        let length = n.iter().map(|c| c * c).sum::<f64>().sqrt();
+        n.iter().map(|c| c / length).collect()
+    }
+
     /// Young's modulus over element size behind the faces of a body \[Pa/m\]: of the first cell there, and for the size of a
     /// generated block of the first cell of the block, of other meshes the mean of the cells at the faces.
     #[must_use]

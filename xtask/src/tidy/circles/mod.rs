@@ -1,19 +1,17 @@
 //! Circles of modules: files of one crate that use each other, straight or through others. They can only be read together.
 
-mod known;
 mod modules;
 mod paths;
 
 use super::problem::Problem;
 use super::source::{is_test_file, mask, regions};
 use super::tree::File;
-use known::KNOWN;
 use modules::{Crate, Module};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Finds circles that are not known, and known ones that are gone.
+/// Finds circles.
 pub fn check(files: &[File]) -> Vec<Problem> {
-    compare(&circles(files), KNOWN)
+    circles(files).iter().map(problem).collect()
 }
 
 /// A circle: the folder of the crate's sources and the files in it, sorted, and one way around.
@@ -24,34 +22,11 @@ struct Circle {
     round: Vec<String>,
 }
 
-fn compare(found: &[Circle], known: &[(&str, &[&str])]) -> Vec<Problem> {
-    let mut problems = Vec::new();
-    for circle in found {
-        let listed = |file: &String| {
-            known.iter().any(|(folder, files)| circle.folder == *folder && files.contains(&file.as_str()))
-        };
-        let new: Vec<&str> = circle.files.iter().filter(|file| !listed(file)).map(String::as_str).collect();
-        if let Some(first) = new.first() {
-            let (round, new) = (circle.round.join(" -> "), new.join(", "));
-            let message =
-                format!("{} files use each other, among them {round} (not known: {new})", circle.files.len());
-            problems.push(Problem::new(&format!("{}/{first}", circle.folder), 0, message));
-        }
-    }
-    for (folder, files) in known {
-        let on_a_circle = |file: &&&str| {
-            found
-                .iter()
-                .any(|circle| circle.folder == *folder && circle.files.iter().any(|other| other == **file))
-        };
-        let gone: Vec<&str> = files.iter().filter(|file| !on_a_circle(file)).copied().collect();
-        if !gone.is_empty() {
-            let message =
-                format!("on no circle any more: take {} off the list (xtask, tidy/circles)", gone.join(", "));
-            problems.push(Problem::new(folder, 0, message));
-        }
-    }
-    problems
+fn problem(circle: &Circle) -> Problem {
+    let message =
+        format!("{} files use each other, among them {}", circle.files.len(), circle.round.join(" -> "));
+    let first = circle.files.first().map_or("", String::as_str);
+    Problem::new(&format!("{}/{first}", circle.folder), 0, message)
 }
 
 fn circles(files: &[File]) -> Vec<Circle> {
@@ -150,7 +125,7 @@ fn round(edges: &[BTreeSet<usize>], from: usize) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::{circles, compare};
+    use super::{check, circles};
     use crate::tidy::tree::File;
 
     fn files(list: &[(&str, &str)]) -> Vec<File> {
@@ -172,25 +147,11 @@ mod tests {
             ("c.rs", "use super::a;\npub fn g() -> a::A {}\n"),
         ];
         assert_eq!(rounds(&planted), ["a.rs -> b.rs -> c.rs -> a.rs"]);
-        let found = compare(&circles(&files(&planted)), &[]);
-        assert!(found[0].message.contains("a.rs -> b.rs -> c.rs -> a.rs"), "{found:?}");
-        let known: [(&str, &[&str]); 1] = [("crates/x/src", &["a.rs", "b.rs", "c.rs"])];
-        assert_eq!(compare(&circles(&files(&planted)), &known), []);
-    }
-
-    #[test]
-    fn a_known_circle_that_grows_shrinks_or_is_gone_is_caught() {
-        let list = [
-            ("lib.rs", ""),
-            ("a.rs", "use super::b::B;\npub fn f() {}\n"),
-            ("b.rs", "pub struct B;\nuse super::a::f;\n"),
-        ];
-        let found = circles(&files(&list));
-        let compared = |listed: &[&str]| compare(&found, &[("crates/x/src", listed)]).len();
-        assert_eq!(compared(&["a.rs", "b.rs"]), 0);
-        assert_eq!(compared(&["a.rs"]), 1);
-        assert_eq!(compared(&["a.rs", "b.rs", "c.rs"]), 1);
-        assert_eq!(compare(&[], &[("crates/x/src", &["a.rs", "b.rs"])]).len(), 1);
+        let found = check(&files(&planted));
+        assert_eq!(found.len(), 1);
+        assert!(
+            found[0].message.contains("3 files") && found[0].message.contains("a.rs -> b.rs -> c.rs -> a.rs")
+        );
     }
 
     #[test]

@@ -1,15 +1,15 @@
 //! What is doubtful in a scene once its bodies are made and its stages resolved.
 
-use crate::coarse;
+use super::coarse;
+use super::{PlannedInterface, StartGap, Stepping};
 use crate::cohesive;
 use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
 use crate::model::{Model, sizes};
 use crate::penalty;
-use crate::plan::{PlannedInterface, Stepping};
 use crate::scene::check::show;
 use crate::scene::model::Scene;
-use crate::start_gaps::{self, StartGap};
+use crate::start_gaps;
 use crate::warning::Warning;
 
 /// Share of what the conditions move that an error of slip allowed in a single step may be: beyond it nothing bounds the steps.

@@ -1,6 +1,6 @@
 //! Sides of interfaces with too few faces for what is asked of them.
 
-use crate::plan::PlannedInterface;
+use super::PlannedInterface;
 use crate::scene::model::{Interface as Spec, Measure};
 use crate::warning::Warning;
 

@@ -1,0 +1,79 @@
+//! Interfaces of a plan as the contact crate takes them.
+
+use crate::model::Model;
+use crate::plan::{PlannedInterface, Stepping, interface_nodes};
+use crate::scene::model::{Measure, Sliding};
+use asperity_contact::{InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, SurfaceNode};
+use asperity_fem::kinematics::Idealisation;
+use asperity_friction::law::RateBounds;
+
+/// Rate below which a forward step counts a point as at rest, over the largest prescribed rate (the floor of limit r8).
+const RATE_FLOOR: f64 = 1e-12;
+
+/// Declares an interface to the contact crate; its multipliers that are unknowns are numbered from `unknowns`.
+#[must_use]
+pub fn spec<const D: usize>(
+    model: &Model<D>,
+    stepping: &Stepping,
+    planned: &PlannedInterface,
+    number: &[usize],
+    largest_rate: f64,
+    unknowns: usize,
+) -> InterfaceSpec<D> {
+    let labels = interface_nodes(planned);
+    let local = |node: usize| labels.partition_point(|&n| n < node);
+    let nodes = labels
+        .iter()
+        .map(|&n| SurfaceNode { position: model.mesh.nodes[n], dof: number[n * D], label: n })
+        .collect();
+    let segments = |faces: &[Vec<usize>]| -> Vec<Segment> {
+        let segment = |face: &Vec<usize>| Segment {
+            kind: segment_kind::<D>(face.len()),
+            nodes: face.iter().map(|&n| local(n)).collect(),
+        };
+        faces.iter().map(segment).collect()
+    };
+    let rate_bounds = match *stepping {
+        Stepping::StaticExplicit { rate_change, zeta, .. } => RateBounds { zeta, log_rate: rate_change },
+        Stepping::Implicit { .. } => RateBounds { zeta: f64::INFINITY, log_rate: f64::INFINITY },
+    };
+    InterfaceSpec {
+        name: planned.name.clone(),
+        nodes,
+        slave: planned.slave.iter().map(|&(n, area)| SlavePoint { node: local(n), area }).collect(),
+        master: segments(&planned.master_faces),
+        measure: match planned.measure {
+            Measure::NodeToPoint => MeasureKind::NodeToPoint,
+            Measure::Mortar => MeasureKind::Mortar {
+                faces: segments(&planned.slave_faces),
+                axisymmetric: model.idealisation == Idealisation::Axisymmetric,
+            },
+        },
+        sliding: match planned.sliding {
+            Sliding::Small => asperity_contact::Sliding::Small,
+            Sliding::Finite => asperity_contact::Sliding::Finite,
+        },
+        smoothing: planned.smoothed.then(asperity_contact::Smoothing::default),
+        fixed_normal: None,
+        enforcement: planned.enforced.declared(unknowns),
+        normal_penalty: planned.normal_penalty,
+        tangential_penalty: planned.tangential_penalty,
+        law: planned.law.clone(),
+        scale: model.scale,
+        rate_floor: RATE_FLOOR * largest_rate,
+        rate_bounds,
+        label_rate: planned.law.as_ref().filter(|l| !l.has_elastic_domain()).map(|_| largest_rate),
+    }
+}
+
+fn segment_kind<const D: usize>(nodes: usize) -> SegmentKind {
+    match (D, nodes) {
+        (2, 2) => SegmentKind::Seg2,
+        (2, _) => SegmentKind::Seg3,
+        (_, 3) => SegmentKind::Tri3,
+        (_, 4) => SegmentKind::Quad4,
+        (_, 6) => SegmentKind::Tri6,
+        (_, 8) => SegmentKind::Quad8,
+        (_, _) => SegmentKind::Quad9,
+    }
+}

@@ -1,0 +1,62 @@
+//! An interface of a plan, as data.
+
+use crate::cohesive::Resolved;
+use crate::enforcement::Enforced;
+use crate::penalty::Softer;
+use crate::pressed::Pressed;
+use crate::scene::model::{Measure, Sliding};
+use asperity_contact::Watch;
+use asperity_friction::law::Law;
+use std::sync::Arc;
+
+/// A planned interface, in node numbers of the common mesh.
+#[derive(Debug)]
+pub struct PlannedInterface {
+    /// Name in the scene.
+    pub name: String,
+    /// Slave nodes, ascending, with their tributary areas \[m², or m per metre of thickness\]; a mortar interface finds its
+    /// own from the overlap, and these are ones.
+    pub slave: Vec<(usize, f64)>,
+    /// Slave faces, as lists of mesh nodes.
+    pub slave_faces: Vec<Vec<usize>>,
+    /// Master faces, as lists of mesh nodes.
+    pub master_faces: Vec<Vec<usize>>,
+    /// How gaps are measured.
+    pub measure: Measure,
+    /// Whether the pairing follows the motion.
+    pub sliding: Sliding,
+    /// Whether the master surface is smoothed.
+    pub smoothed: bool,
+    /// E_n \[Pa/m\].
+    pub normal_penalty: f64,
+    /// E_t \[Pa/m\]; 0 without friction.
+    pub tangential_penalty: f64,
+    /// How the constraints are enforced.
+    pub enforced: Enforced,
+    /// Multipliers that are unknowns of the system.
+    pub unknowns: usize,
+    /// Friction or bond, absent where the scene declares none.
+    pub law: Option<Arc<dyn Law>>,
+    /// The softer of its sides, by which penalties are measured.
+    pub softer: Softer,
+    /// Its penalty in words, where that is so large that iterations suffer.
+    pub blamed: Option<String>,
+    /// Tractions of the initial stress, where its bodies start with one.
+    pub pressed: Option<Pressed>,
+    /// What its points resolve, where friction weakens with slip.
+    pub resolved: Option<Resolved>,
+    /// What steps may not do.
+    pub watch: Watch,
+    /// Probe positions.
+    pub probes: usize,
+}
+
+/// Mesh nodes of an interface, ascending.
+#[must_use]
+pub fn interface_nodes(interface: &PlannedInterface) -> Vec<usize> {
+    let mut nodes: Vec<usize> =
+        interface.slave_faces.iter().chain(&interface.master_faces).flatten().copied().collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}

@@ -1,0 +1,90 @@
+//! Scene -> Plan: the one place where it is decided what is modelled and how. Below it nothing asks what was declared.
+
+use super::{AnyPlan, Plan, doubts, interfaces, path, stepping, summary};
+use crate::diagnostic::Diagnostic;
+use crate::fault;
+use crate::forecast;
+use crate::initial_stress;
+use crate::linear_solver;
+use crate::loading::{self, Stage};
+use crate::model::{Model, sizes};
+use crate::rigid;
+use crate::samples::Wanted;
+use crate::scene::model::Scene;
+use crate::start_balance;
+use crate::stress_level;
+
+/// What a scene with bodies asks for.
+#[derive(Debug)]
+pub enum ScenePlan {
+    /// Stages of bodies and interfaces.
+    Bodies(Box<AnyPlan>),
+    /// Faults through earthquake cycles.
+    Faults(Box<fault::Plan>),
+}
+
+/// Plans a scene of either kind.
+///
+/// # Errors
+/// [`Diagnostic`] with the place in the scene.
+pub fn plan_scene(scene: &Scene) -> Result<ScenePlan, Diagnostic> {
+    Ok(if scene.faults.is_empty() {
+        ScenePlan::Bodies(Box::new(plan(scene)?))
+    } else {
+        ScenePlan::Faults(Box::new(fault::plan(scene)?))
+    })
+}
+
+/// Plans a scene of bodies and interfaces.
+///
+/// # Errors
+/// [`Diagnostic`] with the place in the scene.
+pub fn plan(scene: &Scene) -> Result<AnyPlan, Diagnostic> {
+    Ok(match scene.kinematics.get_ref().idealisation().dimension() {
+        2 => AnyPlan::Two(Box::new(plan_in::<2>(scene)?)),
+        _ => AnyPlan::Three(Box::new(plan_in::<3>(scene)?)),
+    })
+}
+
+fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
+    let model = Model::<D>::new(scene)?;
+    stress_level::check(scene, &model)?;
+    let stages = loading::stages(scene, &model)?;
+    let stepping = stepping::choose(scene)?;
+    let loading = stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
+    let interfaces = scene
+        .interfaces
+        .iter()
+        .map(|(name, spec)| interfaces::plan(scene, &model, (name, spec), loading))
+        .collect::<Result<Vec<_>, _>>()?;
+    let path = path::choose(scene, &model, &interfaces)?;
+    let control = stepping::control(scene, &stages);
+    let mut remarks = rigid::check(scene, &model, &stages, &interfaces)?;
+    remarks.extend(sizes::of_files(scene, &model));
+    let (start_gaps, doubts) = doubts::of(scene, &model, (&interfaces, &stages), &stepping)?;
+    let (balance, unbalanced) = start_balance::of(scene, &model, (&interfaces, &stages), &stepping)?;
+    remarks.extend(balance);
+    remarks.extend(interfaces.iter().filter_map(|i| Some(i.resolved.as_ref()?.remark(&i.name))));
+    let solver = linear_solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
+    let mut summary = summary::of(scene, &model, &interfaces, path, &stepping, &solver, remarks);
+    forecast::fits(scene, summary.memory_bytes)?;
+    summary.start_gaps = start_gaps;
+    summary.warnings.extend(doubts.into_iter().chain(unbalanced));
+    let initial_stress = model.bodies.iter().map(|b| initial_stress::of_body(scene, &b.name)).collect();
+    let samples = Wanted::new(scene, &model)?;
+    Ok(Plan {
+        title: scene.title.clone(),
+        model,
+        initial_stress,
+        interfaces,
+        stages,
+        path,
+        solver,
+        stepping,
+        control,
+        samples,
+        field_outputs: scene.output.fields.as_ref().map_or(1, |f| *f.get_ref()),
+        profile_outputs: scene.output.profiles.as_ref().map_or(10, |f| *f.get_ref()),
+        summary,
+    })
+}

@@ -1,0 +1,74 @@
+//! The stepper of a scene, and the control of its steps.
+
+use super::{Control, Stepping};
+use crate::diagnostic::Diagnostic;
+use crate::loading::Stage;
+use crate::scene::model::{Rule, Scene, Stepper};
+
+/// Default bound on the local error of slip per step, relative to the largest prescribed displacement.
+const SLIP_TOLERANCE: f64 = 2e-5;
+/// Default bound on the estimated error of friction coefficients of a step, where a law has a state: over velocity steps, holds and what
+/// follows them it leaves errors of up to 5e-5 (case `interface_rate_state`).
+const FRICTION_TOLERANCE: f64 = 2e-6;
+/// The kind of such laws.
+const RATE_AND_STATE: &str = "rate-and-state";
+/// Default bound r8 on |Δ ln V|.
+const RATE_CHANGE: f64 = 0.5;
+/// Default ζ of r8.
+const ZETA: f64 = 0.1;
+/// Residual a forward step may leave, over the largest force, where the scene does not say: a tenth of what tractions are read to.
+const DRIFT: f64 = 1e-4;
+/// The same where laws follow rates, which feel what is out of balance: it errs in friction as much as some tens of steps may ([`FRICTION_TOLERANCE`]).
+const RATE_DRIFT: f64 = 1e-5;
+
+/// The stepper of a scene.
+///
+/// # Errors
+/// [`Diagnostic`] for the stepper of faults, which bodies alone do not have.
+pub fn choose(scene: &Scene) -> Result<Stepping, Diagnostic> {
+    let time = &scene.time;
+    let usual = if evolves(scene) { Rule::Bdf2 } else { Rule::BackwardEuler };
+    let rule = time.rule.as_ref().map_or(usual, |r| *r.get_ref());
+    Ok(match time.stepper.get_ref() {
+        Stepper::Implicit => Stepping::Implicit { rule },
+        Stepper::StaticExplicit => Stepping::StaticExplicit {
+            rule,
+            drift: time
+                .drift
+                .as_ref()
+                .map_or(if evolves(scene) { RATE_DRIFT } else { DRIFT }, |d| *d.get_ref()),
+            rate_change: time.rate_change.as_ref().map_or(RATE_CHANGE, |r| *r.get_ref()),
+            zeta: time.zeta.as_ref().map_or(ZETA, |z| *z.get_ref()),
+        },
+        Stepper::FaultOde => {
+            let help = "add `[faults.NAME]`, or use \"implicit\" or \"static-explicit\"";
+            let message = "the stepper \"fault-ode\" integrates faults, and the scene has none";
+            return Err(Diagnostic::at(time.stepper.span(), message, help));
+        }
+    })
+}
+
+/// Whether some interface has a law of slip rate and state.
+fn evolves(scene: &Scene) -> bool {
+    let mut kinds = scene.interfaces.values().filter_map(|i| i.law.as_ref()?.get_ref().kind.as_ref());
+    kinds.any(|kind| kind.get_ref() == RATE_AND_STATE)
+}
+
+/// The control of the steps of a scene with these stages.
+pub fn control(scene: &Scene, stages: &[Stage]) -> Control {
+    let time = &scene.time;
+    let travel = stages.iter().map(|s| s.largest_rate() * (s.end - s.start)).fold(0.0, f64::max);
+    // Where nothing is moved there is no travel to compare slip with, and static-explicit steps have the R-minimum rule.
+    let adapts = travel > 0.0 && *time.stepper.get_ref() == Stepper::Implicit;
+    let usual = if adapts { SLIP_TOLERANCE * travel } else { f64::INFINITY };
+    // Without a state nothing remembers an error of friction: what points leave behind as they begin to slip one by one need not be small.
+    let accuracy = if evolves(scene) { FRICTION_TOLERANCE } else { f64::INFINITY };
+    Control {
+        tolerance: time.tolerance.as_ref().map_or(usual, |t| t.get_ref().0),
+        friction: time.friction_tolerance.as_ref().map_or(accuracy, |t| *t.get_ref()),
+        first_step: time.first_step.as_ref().map(|t| t.get_ref().0),
+        max_step: time.max_step.as_ref().map(|t| t.get_ref().0),
+        min_step: time.min_step.as_ref().map(|t| t.get_ref().0),
+        imposed: time.imposed.clone(),
+    }
+}

@@ -1,0 +1,162 @@
+//! The plan in words.
+
+use super::path::{finite, full_because};
+use super::{Path, PlannedInterface, Stepping, Summary, interface_nodes};
+use crate::amounts;
+use crate::enforcement::Enforced;
+use crate::held::Held;
+use crate::model::{CellBlock, Model};
+use crate::scene::model::{Formulation, Kinematics, Measure, Rule, Scene};
+use crate::solver::Solver;
+use asperity_fem::nonlinear::Material;
+
+/// The summary of a plan, but for what is found of its start.
+pub fn of<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    interfaces: &[PlannedInterface],
+    path: Path,
+    stepping: &Stepping,
+    solver: &Solver,
+    remarks: Vec<String>,
+) -> Summary {
+    let mut physics = bodies_in_words(scene, model);
+    let mut state_bytes = 0;
+    let (mut retained, mut unknowns) = (0, 0);
+    for i in interfaces {
+        let friction = i.law.as_ref().filter(|l| !l.bonded()).map_or("no friction".to_string(), |l| {
+            state_bytes += 2 * l.states() * i.slave.len() * size_of::<f64>();
+            format!("{} friction with {} state variables a point", l.name(), l.states())
+        });
+        physics.push(format!(
+            "interface `{}`: {} {}, {} slave nodes against {} master faces, {friction}",
+            i.name,
+            match i.measure {
+                Measure::NodeToPoint => "node-to-point",
+                Measure::Mortar => "mortar",
+            },
+            enforced(i),
+            i.slave.len(),
+            i.master_faces.len()
+        ));
+        retained += interface_nodes(i).len() * D;
+        unknowns += i.unknowns;
+    }
+    let (path_text, system_dofs) = match (path, scene.time.path) {
+        (Path::Condensed, _) => {
+            let small = if finite(interfaces) { "" } else { " and sliding is small" };
+            (
+                format!(
+                    "condensed: bodies are linear{small}, so each is factored once and only the interface is solved"
+                ),
+                retained,
+            )
+        }
+        (Path::Full, _) => (full_because(scene, model, interfaces), model.dofs()),
+    };
+    Summary {
+        physics,
+        path: path_text,
+        solver: format!(
+            "{}; about {} of the {} allowed",
+            solver.why,
+            amounts::size(solver.bytes),
+            amounts::size(solver.memory)
+        ),
+        stepper: describe(stepping, !model.is_linear(), !interfaces.is_empty()),
+        remarks,
+        warnings: scene.warnings.clone(),
+        start_gaps: Vec::new(),
+        dofs: model.dofs(),
+        system_dofs: system_dofs + unknowns,
+        state_bytes: (!interfaces.is_empty()).then_some(state_bytes),
+        memory_bytes: Held::by(model).with_systems(solver.bytes, path == Path::Condensed),
+    }
+}
+
+/// What the bodies are made of, one line for each kind there is.
+fn bodies_in_words<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<String> {
+    let mut lines: Vec<(String, Vec<&str>, usize)> = Vec::new();
+    for body in &model.bodies {
+        let spec = &scene.bodies[&body.name];
+        for block in body.blocks.clone() {
+            let material = match &model.blocks[block] {
+                CellBlock::Linear(_) => "linear elasticity, small strain",
+                CellBlock::Nonlinear(b) => match (&b.model().material, spec.is_finite()) {
+                    (Material::Elastic(_), _) => {
+                        "hypoelasticity, large deformation (updated Lagrangian, Jaumann rate)"
+                    }
+                    (Material::J2(_), true) => {
+                        "plasticity, large deformation (updated Lagrangian, Jaumann rate)"
+                    }
+                    (Material::J2(_), false) => "plasticity, small strain",
+                    (Material::Maxwell(_), true) => {
+                        "viscoelasticity, large deformation (updated Lagrangian, Jaumann rate)"
+                    }
+                    (Material::Maxwell(_), false) => "viscoelasticity, small strain",
+                },
+            };
+            let b_bar = spec.formulation.as_ref().is_some_and(|f| *f.get_ref() == Formulation::BBar);
+            let text = format!("{material}{}", if b_bar { ", B-bar" } else { "" });
+            let cells = model.mesh.blocks[block].len();
+            match lines.iter_mut().find(|l| l.0 == text) {
+                Some((_, bodies, n)) => {
+                    *n += cells;
+                    if bodies.last() != Some(&body.name.as_str()) {
+                        bodies.push(&body.name);
+                    }
+                }
+                None => lines.push((text, vec![&body.name], cells)),
+            }
+        }
+    }
+    let space = match scene.kinematics.get_ref() {
+        Kinematics::ThreeD => "three-dimensional",
+        Kinematics::Axisymmetric => "axisymmetric",
+        other => other.words(),
+    };
+    let several = lines.len() > 1;
+    let line = |(text, bodies, cells): (String, Vec<&str>, usize)| {
+        let names = if several { format!(": {}", bodies.join(", ")) } else { String::new() };
+        format!("{text}, {space} ({}, {cells} cells{names})", counted(bodies.len(), "body", "bodies"))
+    };
+    lines.into_iter().map(line).collect()
+}
+
+/// A number with its noun.
+fn counted(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
+}
+
+fn describe(stepping: &Stepping, limits: bool, slips: bool) -> String {
+    match stepping {
+        Stepping::Implicit { .. } if !slips => "implicit: Newton with line search".into(),
+        Stepping::Implicit { rule: Rule::BackwardEuler } => {
+            "implicit: Newton with line search, backward Euler in slip, steps adapted to the error of slip"
+                .into()
+        }
+        Stepping::Implicit { rule: Rule::Bdf2 } => {
+            "implicit: Newton with line search, second-order backward differences in slip, steps adapted to errors of slip and friction"
+                .into()
+        }
+        Stepping::StaticExplicit { drift, .. } => format!(
+            "static-explicit: R-minimum rule{}; a residual above {drift:e} of the largest force is corrected at once, a smaller one taken \
+             up by the next step",
+            if limits { ", bodies limited by yield (r1), strain (r2) and rotation (r3)" } else { "" }
+        ),
+    }
+}
+
+/// The enforcement of an interface in words.
+fn enforced(interface: &PlannedInterface) -> String {
+    let kind = if interface.law.as_ref().is_some_and(|l| l.bonded()) { "tied" } else { "contact" };
+    match interface.enforced {
+        Enforced::Penalty => format!("penalty {kind}"),
+        Enforced::Uzawa { tolerance, most } => format!(
+            "{kind} by Uzawa's method to a penetration of {tolerance:.2e} m in at most {most} augmentations a step"
+        ),
+        Enforced::AugmentedLagrangian { .. } => {
+            format!("{kind} by {} multipliers as unknowns (augmented Lagrangian)", interface.unknowns)
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! A plan as data, and its summary as it is printed.
+
+use super::choices::{Control, Path, Stepping};
+use super::interface::PlannedInterface;
+use super::start_gap::StartGap;
+use crate::initial_stress::StressField;
+use crate::loading::Stage;
+use crate::model::Model;
+use crate::samples::Wanted;
+use crate::solver::Solver;
+use crate::warning::Warning;
+use serde::Serialize;
+
+/// What will be run.
+#[derive(Debug)]
+pub struct Plan<const D: usize> {
+    /// Title of the scene.
+    pub title: String,
+    /// Bodies.
+    pub model: Model<D>,
+    /// Initial stress per body.
+    pub initial_stress: Vec<Option<StressField>>,
+    /// Interfaces.
+    pub interfaces: Vec<PlannedInterface>,
+    /// Stages.
+    pub stages: Vec<Stage>,
+    /// Path.
+    pub path: Path,
+    /// How the linear systems are solved.
+    pub solver: Solver,
+    /// Stepper.
+    pub stepping: Stepping,
+    /// Step control.
+    pub control: Control,
+    /// Points and sets of bodies that are looked at in every step.
+    pub samples: Wanted,
+    /// Field outputs per stage.
+    pub field_outputs: usize,
+    /// Profile outputs per stage.
+    pub profile_outputs: usize,
+    /// What is printed.
+    pub summary: Summary,
+}
+
+/// A plan in either dimension.
+#[derive(Debug)]
+pub enum AnyPlan {
+    /// Plane.
+    Two(Box<Plan<2>>),
+    /// Three-dimensional.
+    Three(Box<Plan<3>>),
+}
+
+impl AnyPlan {
+    /// What is printed.
+    #[must_use]
+    pub fn summary(&self) -> &Summary {
+        match self {
+            Self::Two(p) => &p.summary,
+            Self::Three(p) => &p.summary,
+        }
+    }
+
+    /// Warnings, to be given their places.
+    pub fn warnings_mut(&mut self) -> &mut [Warning] {
+        match self {
+            Self::Two(p) => &mut p.summary.warnings,
+            Self::Three(p) => &mut p.summary.warnings,
+        }
+    }
+
+    /// Field and profile outputs per stage.
+    #[must_use]
+    pub fn outputs(&self) -> (usize, usize) {
+        match self {
+            Self::Two(p) => (p.field_outputs, p.profile_outputs),
+            Self::Three(p) => (p.field_outputs, p.profile_outputs),
+        }
+    }
+}
+
+/// The plan in words and numbers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Summary {
+    /// Physics that is present, and why.
+    pub physics: Vec<String>,
+    /// Path taken, and why.
+    pub path: String,
+    /// Solver of the linear systems, and why.
+    pub solver: String,
+    /// Stepper.
+    pub stepper: String,
+    /// Remarks: bodies held by contact alone, unpaired nodes.
+    pub remarks: Vec<String>,
+    /// What probably does not mean what the author of the scene wants.
+    pub warnings: Vec<Warning>,
+    /// Where the sides of the interfaces are before the first step.
+    pub start_gaps: Vec<StartGap>,
+    /// Degrees of freedom of the bodies.
+    pub dofs: usize,
+    /// Degrees of freedom of the system a step solves.
+    pub system_dofs: usize,
+    /// State variables of friction, in bytes; absent without interfaces.
+    pub state_bytes: Option<usize>,
+    /// Estimated memory \[bytes\].
+    pub memory_bytes: usize,
+}
+
+impl std::fmt::Display for Summary {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        writeln!(f, "plan")?;
+        for line in &self.physics {
+            writeln!(f, "  physics   {line}")?;
+        }
+        writeln!(f, "  path      {}", self.path)?;
+        writeln!(f, "  solver    {}", self.solver)?;
+        writeln!(f, "  stepper   {}", self.stepper)?;
+        for start in &self.start_gaps {
+            writeln!(f, "  start     {start}")?;
+        }
+        for line in &self.remarks {
+            writeln!(f, "  note      {line}")?;
+        }
+        for warning in &self.warnings {
+            writeln!(f, "  warning   {warning}")?;
+        }
+        writeln!(
+            f,
+            "  size      {} degrees of freedom, {} in each step's system, {}about {:.0} MB",
+            self.dofs,
+            self.system_dofs,
+            self.state_bytes.map_or_else(String::new, |bytes| format!("{bytes} bytes of friction state, ")),
+            self.memory_bytes as f64 / 1e6
+        )
+    }
+}
