@@ -1,7 +1,8 @@
 //! What a run holds in memory.
 
 use crate::forecast::Counts;
-use crate::model::{CellBlock, Model};
+use crate::mechanics::{CellBlock, Model};
+use crate::model::counts;
 
 /// Bytes of the program with its libraries, and of its tables and plots: the smallest scenes take 12 MB without plots and 38 MB with them.
 const PROGRAM: usize = 38_000_000;
@@ -25,7 +26,7 @@ impl Held {
     /// Of a model, whether its cells have matrices yet or not.
     #[must_use]
     pub fn by<const D: usize>(model: &Model<D>) -> Self {
-        let counts = model.counts();
+        let counts = counts(&model.mesh);
         let of = |bytes: &dyn Fn(&Counts) -> f64, linear: bool| -> usize {
             let blocks = counts.iter().zip(&model.blocks);
             blocks.filter(|(_, b)| b.linear().is_some() == linear).map(|(c, _)| bytes(c)).sum::<f64>()

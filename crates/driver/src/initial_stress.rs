@@ -1,39 +1,7 @@
-//! The stress that a body starts with, as a field.
+//! The stress that a body of a scene starts with.
 
+use crate::mechanics::StressField;
 use crate::scene::model::{Axis, Body, InitialStress, Scene, StressKind, VaryingStress};
-
-/// A stress xx, yy, zz, xy, yz, zx \[Pa\] that varies linearly along an axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StressField {
-    /// At the level \[Pa\].
-    stress: [f64; 6],
-    /// \[Pa/m\].
-    gradient: [f64; 6],
-    axis: usize,
-    /// Coordinate along the axis \[m\].
-    level: f64,
-}
-
-impl StressField {
-    /// At a place.
-    #[must_use]
-    pub fn at(&self, x: &[f64]) -> [f64; 6] {
-        let distance = x[self.axis] - self.level;
-        std::array::from_fn(|i| self.stress[i] + self.gradient[i] * distance)
-    }
-
-    /// The traction on a face with this normal, of any length \[Pa times that\].
-    #[must_use]
-    pub fn traction<const D: usize>(&self, x: &[f64; D], normal: &[f64; D]) -> [f64; D] {
-        const ROWS: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
-        let s = self.at(x);
-        std::array::from_fn(|i| (0..D).map(|j| s[ROWS[i][j]] * normal[j]).sum())
-    }
-
-    fn uniform(stress: [f64; 6]) -> Self {
-        Self { stress, gradient: [0.0; 6], axis: 0, level: 0.0 }
-    }
-}
 
 /// The stress of a body, where it has one that is complete.
 #[must_use]
@@ -76,7 +44,7 @@ fn linear(spec: &VaryingStress) -> Option<StressField> {
         Axis::Z => 2,
     };
     let level = spec.level.as_ref()?.get_ref().0;
-    Some(StressField { stress: in_full(&stress)?, gradient: in_full(&gradient)?, axis, level })
+    Some(StressField::new(in_full(&stress)?, in_full(&gradient)?, (axis, level)))
 }
 
 /// Vertical axis of a body, and its acceleration \[m/s²\].
@@ -104,5 +72,5 @@ fn lithostatic(scene: &Scene, body: &Body, spec: &VaryingStress) -> Option<Stres
         })
     };
     let level = spec.level.as_ref()?.get_ref().0;
-    Some(StressField { stress: of(-overburden), gradient: of(-density * acceleration), axis, level })
+    Some(StressField::new(of(-overburden), of(-density * acceleration), (axis, level)))
 }

@@ -1,7 +1,8 @@
 //! `report.json`: what a run found, what it cost and where it came from.
 
 use crate::balance::InterfaceBalance;
-use crate::loading::Stage;
+use crate::cohesive;
+use crate::mechanics::Stage;
 use crate::plan::{Plan, Summary};
 use crate::views;
 use crate::warning::Warning;
@@ -236,21 +237,22 @@ impl RunReport {
 
     /// Warns of interfaces that are pressed so much at the end of a stage that their points do not resolve friction.
     pub fn resolution<const D: usize>(&mut self, plan: &Plan<D>, stage: &Stage, fields: &[InterfaceFields]) {
-        for (f, interface) in fields.iter().zip(&plan.interfaces) {
+        for (f, interface) in fields.iter().zip(&plan.problem.interfaces) {
             let largest = f.normal_traction.iter().fold(0.0_f64, |l, v| l.max(*v));
             let resolved = interface.resolved.as_ref();
-            self.warnings.extend(resolved.and_then(|r| r.warning(&interface.name, &stage.name, largest)));
+            self.warnings
+                .extend(resolved.and_then(|r| cohesive::warning(r, &interface.name, &stage.name, largest)));
         }
     }
 
     /// Adds the points and forces at the end of a stage.
     pub fn samples<const D: usize>(&mut self, plan: &Plan<D>, stage: &Stage, samples: &Samples) {
         let name = || stage.name.clone();
-        for (point, values) in plan.samples.points.iter().zip(&samples.points) {
+        for (point, values) in plan.problem.samples.points.iter().zip(&samples.points) {
             let (point, values) = (views::point_mark(point), values.clone());
             self.points.push(PointResult { point, stage: name(), values });
         }
-        for (force, value) in plan.samples.forces.iter().zip(&samples.forces) {
+        for (force, value) in plan.problem.samples.forces.iter().zip(&samples.forces) {
             let (force, unit) = (views::force_mark(force), views::force_unit(plan));
             self.forces.push(ForceResult { force, stage: name(), value: *value, unit });
         }

@@ -1,17 +1,17 @@
 //! Running a plan: stages in sequence, steps within them, observers after each.
 
-use crate::loading::Stage;
+use crate::balance::balance;
+use crate::mechanics::step::{Accepted, Cut};
+use crate::mechanics::timing::{Figures, StepLength};
+use crate::mechanics::{Assembled, LOADING, Stage};
 use crate::plan::{AnyPlan, Plan};
 use crate::report::{Outcome, Phases, RunReport};
 use crate::run_doubts;
-use crate::step::{Accepted, Cut};
 use crate::stop;
-use crate::system::Assembled;
-use crate::timing::{Figures, StepLength};
-use crate::watch;
+use crate::views;
 use asperity_contact::{Course, Watch};
 use asperity_output::OutputError;
-use asperity_output::view::{Counts, Observer, StepRecord, StepView};
+use asperity_output::view::{Counts, InterfaceFields, Observer, StepRecord, StepView};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant as Clock;
 
@@ -63,27 +63,28 @@ fn run_in<const D: usize>(
     let (counts, phases) = (Counts::default(), Phases::default());
     let mut run = Running { plan, stop, counts, phases, steps: Vec::new() };
     let clock = Clock::now();
-    let mut system = Assembled::new(plan)
-        .map_err(|reason| RunError::SetUp { stage: plan.stages[0].name.clone(), reason })?;
+    let mut system = Assembled::new(&plan.problem)
+        .map_err(|reason| RunError::SetUp { stage: plan.problem.stages[0].name.clone(), reason })?;
     run.phases.set_up += clock.elapsed().as_secs_f64();
-    observer.begin(&system.setup())?;
+    observer.begin(&views::setup(plan, system.areas()))?;
     let mut report = RunReport::new(plan);
-    for index in 0..plan.stages.len() {
+    for index in 0..plan.problem.stages.len() {
         let outcome = run.stage(index, &mut system, observer)?;
-        report.end_of_stage(&plan.stages[index], &system.interface_fields(), interface_names(plan));
-        report.resolution(plan, &plan.stages[index], &system.interface_fields());
-        report.samples(plan, &plan.stages[index], &system.samples());
-        let name = &plan.stages[index].name;
-        let found = run_doubts::after_stage(plan, name, &system.displacement(), &system.interface_fields());
+        report.end_of_stage(&plan.problem.stages[index], &interface_fields(&system), interface_names(plan));
+        report.resolution(plan, &plan.problem.stages[index], &interface_fields(&system));
+        report.samples(plan, &plan.problem.stages[index], &system.samples());
+        let name = &plan.problem.stages[index].name;
+        let found = run_doubts::after_stage(plan, name, &system.displacement(), &interface_fields(&system));
         report.warnings.extend(found);
         if let Some(failure) = outcome {
-            run.show(index, &plan.stages[index], &system, observer, true)?;
+            run.show(index, &plan.problem.stages[index], &system, observer, true)?;
             report.outcome = failure;
             break;
         }
     }
     system.add_counts(&mut run.counts);
-    report.balance = system.balances();
+    let planned = plan.problem.interfaces.iter().zip(system.interfaces());
+    report.balance = planned.map(|(p, i)| balance(&p.name, i, plan.problem.model.scale)).collect();
     report.warnings.extend(run_doubts::never_closed(&report.results));
     report.complete(run.counts, run.phases, run.steps);
     Ok(report)
@@ -106,11 +107,11 @@ impl<const D: usize> Running<'_, D> {
         system: &mut Assembled<'_, D>,
         observer: &mut dyn Observer,
     ) -> Result<Option<Outcome>, RunError> {
-        let stage = &self.plan.stages[index];
+        let stage = &self.plan.problem.stages[index];
         let clock = Clock::now();
         system.begin_stage(stage).map_err(|reason| RunError::SetUp { stage: stage.name.clone(), reason })?;
         self.phases.set_up += clock.elapsed().as_secs_f64();
-        let mut length = StepLength::new(&self.plan.control, stage, self.watches());
+        let mut length = StepLength::new(&self.plan.problem.control, stage, self.watches());
         let mut rejected = 0;
         let mut free: Option<String> = None;
         loop {
@@ -180,20 +181,20 @@ impl<const D: usize> Running<'_, D> {
     }
 
     fn beyond_loads(&self, rates: &[f64]) -> bool {
-        let loading = self.plan.stages.iter().map(Stage::largest_rate).fold(0.0, f64::max);
-        largest(rates) > watch::LOADING * loading
+        let loading = self.plan.problem.largest_rate();
+        largest(rates) > LOADING * loading
     }
 
     /// Whether the law of an interface follows rates or weakens.
     fn watches(&self) -> bool {
         let watched = |w: &Watch| w.rate.is_some() || w.course != Course::Steady;
-        self.plan.interfaces.iter().any(|i| watched(&i.watch))
+        self.plan.problem.interfaces.iter().any(|i| watched(&i.watch))
     }
 
     /// Whether an interface has a law of the slip rate. Rates of other laws are slip over the length of the step, which may be finite at
     /// any length.
     fn follows_rates(&self) -> bool {
-        self.plan.interfaces.iter().any(|i| i.law.as_ref().is_some_and(|l| !l.has_elastic_domain()))
+        self.plan.problem.interfaces.iter().any(|i| i.law.as_ref().is_some_and(|l| !l.has_elastic_domain()))
     }
 
     fn record(
@@ -232,8 +233,8 @@ impl<const D: usize> Running<'_, D> {
     ) -> Result<(), RunError> {
         let clock = Clock::now();
         let Some(record) = self.steps.last().filter(|record| record.stage == index) else { return Ok(()) };
-        let end_time = self.plan.stages.last().map_or(stage.end, |s| s.end);
-        let (interfaces, samples) = (system.interface_fields(), system.samples());
+        let end_time = self.plan.problem.stages.last().map_or(stage.end, |s| s.end);
+        let (interfaces, samples) = (interface_fields(system), system.samples());
         let view = StepView {
             record,
             stage: &stage.name,
@@ -241,7 +242,7 @@ impl<const D: usize> Running<'_, D> {
             end_time,
             interfaces: &interfaces,
             samples: &samples,
-            fields: &|| system.body_fields(),
+            fields: &|| views::body_fields(self.plan, system.blocks(), &system.displacement()),
         };
         if stopped { observer.stopped(&view) } else { observer.step(&view) }?;
         self.phases.output += clock.elapsed().as_secs_f64();
@@ -256,5 +257,10 @@ fn largest(values: &[f64]) -> f64 {
 
 /// Names of the interfaces.
 fn interface_names<const D: usize>(plan: &Plan<D>) -> impl Iterator<Item = String> + '_ {
-    plan.interfaces.iter().map(|i| i.name.clone())
+    plan.problem.interfaces.iter().map(|i| i.name.clone())
+}
+
+/// Present state of the interfaces.
+fn interface_fields<const D: usize>(system: &Assembled<'_, D>) -> Vec<InterfaceFields> {
+    system.interfaces().iter().map(views::interface_fields).collect()
 }

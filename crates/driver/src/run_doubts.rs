@@ -1,11 +1,11 @@
 //! What a run finds that its model does not describe: strain, rotation and slip beyond what small means, and contact that never was.
 
-use crate::model::{CellBlock, Model};
-use crate::plan::{Plan, PlannedInterface};
+use crate::lengths::brief;
+use crate::mechanics::{CellBlock, Model, PlannedInterface};
+use crate::plan::Plan;
 use crate::report::InterfaceResult;
-use crate::scene::check::brief;
-use crate::scene::model::Sliding;
 use crate::warning::Warning;
+use asperity_contact::Sliding;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::Cells;
 use asperity_fem::nonlinear::Kinematics;
@@ -38,16 +38,21 @@ pub fn after_stage<const D: usize>(
     fields: &[InterfaceFields],
 ) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    for body in &plan.model.bodies {
-        let largest = body.blocks.clone().map(|b| of_block(&plan.model, b, u));
+    for body in &plan.problem.model.bodies {
+        let largest = body.blocks.clone().map(|b| of_block(&plan.problem.model, b, u));
         let largest = largest.fold(Largest::default(), |a, b| Largest {
             strain: a.strain.max(b.strain),
             rotation: a.rotation.max(b.rotation),
         });
         warnings.extend(of_body(&body.name, stage, largest, body.elastic[0].young()));
     }
-    warnings
-        .extend(plan.interfaces.iter().zip(fields).filter_map(|(i, f)| dragged(&plan.model, i, stage, f)));
+    warnings.extend(
+        plan.problem
+            .interfaces
+            .iter()
+            .zip(fields)
+            .filter_map(|(i, f)| dragged(&plan.problem.model, i, stage, f)),
+    );
     warnings
 }
 
@@ -209,9 +214,9 @@ stepper = "implicit"
     /// What is told of the displacement `u` of every place.
     fn told(u: impl Fn(&[f64; 2]) -> [f64; 2]) -> (Largest, Vec<String>) {
         let AnyPlan::Two(plan) = plan(&scene::read(BAR).unwrap()).unwrap() else { panic!("a plane scene") };
-        let u: Vec<f64> = plan.model.mesh.nodes.iter().flat_map(u).collect();
+        let u: Vec<f64> = plan.problem.model.mesh.nodes.iter().flat_map(u).collect();
         let told = after_stage(&plan, "turn", &u, &[]).into_iter().map(|w| w.message).collect();
-        (of_block(&plan.model, 0, &u), told)
+        (of_block(&plan.problem.model, 0, &u), told)
     }
 
     #[test]

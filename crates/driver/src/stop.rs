@@ -1,10 +1,7 @@
 //! How a run ends that cannot go on: what is said of it, and whether it met an instability.
 
-use crate::cohesive::Resolved;
-use crate::coordinates;
+use crate::mechanics::{Assembled, Failure, coordinates};
 use crate::report::{Outcome, Stop};
-use crate::step::Failure;
-use crate::system::Assembled;
 use asperity_contact::Interface;
 use asperity_fem::term::Objection;
 use asperity_output::view::Counts;
@@ -133,7 +130,7 @@ fn unstable<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, 
 
 /// The outcome of a step in which a point would slide that its neighbours do not resolve.
 fn coarse<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, what: &str) -> Outcome {
-    let remedy = system.resolved(&met.interface).map_or_else(String::new, |r| format!("; {}", r.limit()));
+    let remedy = system.resolved(&met.interface).map_or_else(String::new, |r| format!("; {}", r.limit));
     let reason = format!(
         "less than one point stands on the length over which friction falls {}: {what}{remedy}",
         met.words::<D>()
@@ -144,7 +141,7 @@ fn coarse<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, wh
 
 /// Whether a point is pressed more than its neighbours resolve, and the scene does not allow it: what loses its strength there is a point of the mesh.
 fn is_coarse<const D: usize>(system: &Assembled<'_, D>, met: &Met) -> bool {
-    let most = system.resolved(&met.interface).and_then(Resolved::refused_beyond);
+    let most = system.resolved(&met.interface).and_then(|r| r.refused_beyond);
     let normal = |i: &Interface<D>| {
         let point = (0..i.points().normal_traction.len()).find(|&p| i.place(p) == met.position)?;
         i.points().normal_traction.get(point).copied()

@@ -1,13 +1,10 @@
 //! The model and its state as observers see them.
 
-use crate::model::CellBlock;
-use crate::plan::{Plan, PlannedInterface};
-use crate::samples::{ForceSet, Point};
-use crate::scene::model::Sliding;
+use crate::mechanics::{CellBlock, ForceSet, PlannedInterface, Point};
+use crate::plan::Plan;
 use asperity_contact::{Interface, PointFields, Status};
 use asperity_fem::block::von_mises;
 use asperity_fem::kinematics::Idealisation;
-use asperity_fem::nonlinear::Kinematics;
 use asperity_output::view::{
     BodyFields, ForceMark, InterfaceFields, InterfaceMesh, MeshView, PointMark, Setup,
 };
@@ -20,11 +17,11 @@ fn padded<const D: usize>(v: &[f64; D]) -> [f64; 3] {
 
 /// Fixed part.
 #[must_use]
-pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[(String, Vec<f64>)]) -> Setup {
-    let mesh = &plan.model.mesh;
+pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
+    let mesh = &plan.problem.model.mesh;
     let mut cells = Vec::new();
     let mut cell_body = Vec::new();
-    for (index, body) in plan.model.bodies.iter().enumerate() {
+    for (index, body) in plan.problem.model.bodies.iter().enumerate() {
         for block in &mesh.blocks[body.blocks.clone()] {
             for cell in block.connectivity.chunks_exact(block.kind.nodes()) {
                 cells.push((block.kind.vtk_type(), cell.to_vec()));
@@ -38,19 +35,20 @@ pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[(String, Vec<f64>)]) -> Se
             nodes: mesh.nodes.iter().map(padded).collect(),
             cells,
             cell_body,
-            bodies: plan.model.bodies.iter().map(|b| b.name.clone()).collect(),
+            bodies: plan.problem.model.bodies.iter().map(|b| b.name.clone()).collect(),
             dimension: D,
-            moves: moves(plan),
+            moves: plan.problem.moves(),
         },
         interfaces: plan
+            .problem
             .interfaces
             .iter()
             .zip(areas)
-            .map(|(i, (_, areas))| interface_mesh(plan, i, areas))
+            .map(|(i, areas)| interface_mesh(plan, i, areas))
             .collect(),
-        stages: plan.stages.iter().map(|s| (s.name.clone(), s.end)).collect(),
-        points: plan.samples.points.iter().map(point_mark).collect(),
-        forces: plan.samples.forces.iter().map(force_mark).collect(),
+        stages: plan.problem.stages.iter().map(|s| (s.name.clone(), s.end)).collect(),
+        points: plan.problem.samples.points.iter().map(point_mark).collect(),
+        forces: plan.problem.samples.forces.iter().map(force_mark).collect(),
         force_unit: force_unit(plan),
     }
 }
@@ -72,7 +70,7 @@ pub fn force_mark(force: &ForceSet) -> ForceMark {
 /// Unit of forces: those of bodies in plane strain and antiplane motion are per metre of thickness.
 #[must_use]
 pub fn force_unit<const D: usize>(plan: &Plan<D>) -> &'static str {
-    match plan.model.idealisation {
+    match plan.problem.model.idealisation {
         Idealisation::PlaneStrain | Idealisation::Antiplane => "N/m",
         Idealisation::PlaneStress | Idealisation::Axisymmetric | Idealisation::ThreeD => "N",
     }
@@ -85,7 +83,7 @@ fn interface_mesh<const D: usize>(
 ) -> InterfaceMesh {
     let nodes: Vec<usize> = planned.slave.iter().map(|s| s.0).collect();
     let local = |n: &usize| nodes.partition_point(|m| m < n);
-    let positions: Vec<[f64; 3]> = nodes.iter().map(|&n| padded(&plan.model.mesh.nodes[n])).collect();
+    let positions: Vec<[f64; 3]> = nodes.iter().map(|&n| padded(&plan.problem.model.mesh.nodes[n])).collect();
     InterfaceMesh {
         name: planned.name.clone(),
         labels: Vec::new(),
@@ -106,7 +104,7 @@ fn interface_mesh<const D: usize>(
 
 /// Slave nodes nearest to `count` equally spaced positions along the diagonal of the slave side's bounding box.
 fn probes(positions: &[[f64; 3]], count: usize) -> Vec<usize> {
-    let (min, max) = crate::model::bounds(positions);
+    let (min, max) = crate::mechanics::bounds(positions);
     let mut probes: Vec<usize> = (0..count)
         .map(|k| {
             let s = if count == 1 { 0.5 } else { k as f64 / (count - 1) as f64 };
@@ -175,25 +173,16 @@ pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFi
     }
 }
 
-/// Whether forces depend on where the bodies are by now: finite sliding or large deformation.
-pub fn moves<const D: usize>(plan: &Plan<D>) -> bool {
-    let deformed = |b: &CellBlock<D>| match b {
-        CellBlock::Linear(_) => false,
-        CellBlock::Nonlinear(b) => b.model().kinematics == Kinematics::UpdatedLagrangian,
-    };
-    plan.interfaces.iter().any(|i| i.sliding == Sliding::Finite) || plan.model.blocks.iter().any(deformed)
-}
-
 /// Fields of the bodies for the displacement `u` of the common mesh; `blocks` are those of the mesh in their present state.
 #[must_use]
 pub fn body_fields<const D: usize>(plan: &Plan<D>, blocks: &[CellBlock<D>], u: &[f64]) -> BodyFields {
-    let nodes = plan.model.mesh.nodes.len();
-    let displacement = (0..nodes).map(|n| plan.model.displacement(n, u)).collect();
+    let nodes = plan.problem.model.mesh.nodes.len();
+    let displacement = (0..nodes).map(|n| plan.problem.model.displacement(n, u)).collect();
     let mut fields = BodyFields { displacement, node_mises: vec![0.0; nodes], ..BodyFields::default() };
     let plastic = blocks.iter().any(|b| plastic_strain(b).is_some());
     // Sum of the blocks' nodal stresses and their number: a node between blocks of a body has their mean.
     let mut sums = vec![([0.0; 6], 0.0); nodes];
-    for (body, initial) in plan.model.bodies.iter().zip(&plan.initial_stress) {
+    for (body, initial) in plan.problem.model.bodies.iter().zip(&plan.problem.initial_stress) {
         for index in body.blocks.clone() {
             let block = &blocks[index];
             // Blocks that are not linear keep their initial stress themselves.
@@ -218,7 +207,7 @@ pub fn body_fields<const D: usize>(plan: &Plan<D>, blocks: &[CellBlock<D>], u: &
             for (node, stress) in nodal_stress(plan, block, (index, &cells), u) {
                 let (sum, count) = &mut sums[node];
                 *count += 1.0;
-                let stress = add(stress, &plan.model.mesh.nodes[node]);
+                let stress = add(stress, &plan.problem.model.mesh.nodes[node]);
                 sum.iter_mut().zip(stress).for_each(|(a, b)| *a += b);
             }
             fields.cell_mises.extend(cells.iter().map(von_mises));
@@ -246,9 +235,9 @@ fn nodal_stress<const D: usize>(
     u: &[f64],
 ) -> Vec<(usize, [f64; 6])> {
     if let CellBlock::Linear(block) = block {
-        return block.nodal_stress(&plan.model.mesh, u);
+        return block.nodal_stress(&plan.problem.model.mesh, u);
     }
-    let cells = &plan.model.mesh.blocks[index];
+    let cells = &plan.problem.model.mesh.blocks[index];
     let mut sums: BTreeMap<usize, ([f64; 6], f64)> = BTreeMap::new();
     for (cell, stress) in stresses.iter().enumerate() {
         for &node in cells.cell(cell) {

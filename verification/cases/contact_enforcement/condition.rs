@@ -17,13 +17,13 @@ pub fn of(kind: EnforcementKind, factor: f64) -> Result<f64, CaseError> {
     let AnyPlan::Two(plan) = plan::plan(&scene).map_err(|e| e.to_string())? else {
         return Err("the scene is not plane".into());
     };
-    let planned = &plan.interfaces[0];
-    let n = plan.model.dofs();
+    let planned = &plan.problem.interfaces[0];
+    let n = plan.problem.model.dofs();
     let mut interface = Interface::new(spec(&plan, planned, n)).map_err(|e| e.to_string())?;
     let total = n + planned.unknowns;
     let at = Instant { time: 1.0, dt: 1.0 };
     let mut matrix = DMatrix::<f64>::zeros(total, total);
-    let mut blocks = plan.model.blocks.clone();
+    let mut blocks = plan.problem.model.blocks.clone();
     let mut terms: Vec<&mut dyn Linearized> = blocks.iter_mut().map(|b| b.linearized()).collect();
     terms.push(&mut interface);
     for term in terms {
@@ -40,7 +40,7 @@ pub fn of(kind: EnforcementKind, factor: f64) -> Result<f64, CaseError> {
             }
         }
     }
-    let fixed = &plan.stages[0].fixed;
+    let fixed = &plan.problem.stages[0].fixed;
     let free: Vec<usize> = (0..total).filter(|d| fixed.binary_search(d).is_err()).collect();
     let singular = matrix.select_rows(&free).select_columns(&free).singular_values();
     Ok(singular.max() / singular.min())
@@ -50,7 +50,7 @@ pub fn of(kind: EnforcementKind, factor: f64) -> Result<f64, CaseError> {
 fn spec(plan: &Plan<2>, planned: &PlannedInterface, unknowns: usize) -> InterfaceSpec<2> {
     let labels = interface_nodes(planned);
     let local = |node: usize| labels.partition_point(|&n| n < node);
-    let node = |&n: &usize| SurfaceNode { position: plan.model.mesh.nodes[n], dof: 2 * n, label: n };
+    let node = |&n: &usize| SurfaceNode { position: plan.problem.model.mesh.nodes[n], dof: 2 * n, label: n };
     let segment = |face: &Vec<usize>| Segment {
         kind: SegmentKind::Seg2,
         nodes: face.iter().map(|&n| local(n)).collect(),
@@ -71,7 +71,7 @@ fn spec(plan: &Plan<2>, planned: &PlannedInterface, unknowns: usize) -> Interfac
         normal_penalty: planned.normal_penalty,
         tangential_penalty: planned.tangential_penalty,
         law: planned.law.clone(),
-        scale: plan.model.scale,
+        scale: plan.problem.model.scale,
         rate_floor: 0.0,
         rate_bounds: RateBounds { zeta: f64::INFINITY, log_rate: f64::INFINITY },
         label_rate: None,

@@ -6,6 +6,7 @@ mod graph;
 mod house;
 mod keys;
 mod problem;
+mod readers;
 mod sentences;
 mod source;
 mod text;
@@ -30,6 +31,7 @@ pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
     found.extend(keys::check(&files));
     found.extend(book::check(&files, &|path| root.join(path).exists()));
     found.extend(circles::check(&files));
+    found.extend(readers::check(&files));
     found.sort();
     found.dedup();
     Ok(found)

@@ -2,9 +2,9 @@
 
 use super::place::Place;
 use super::placed::{Placed, at};
-use crate::coordinates;
 use crate::diagnostic::Diagnostic;
-use crate::model::Model;
+use crate::mechanics::coordinates;
+use crate::model::{self, Model};
 use crate::scene::model::{Along, Fault as Spec, LawSpec, Profile, Profiled, Scene, Spanned, Station};
 use crate::warning::Warning;
 use asperity_fem::mesh::face_nodes;
@@ -205,7 +205,7 @@ pub(super) fn station<const D: usize>(
 /// Largest extent of the faces at a place \[m\].
 fn cell<const D: usize>(model: &Model<D>, spec: &Spec, place: &Place<D>) -> Result<f64, Diagnostic> {
     let mut size = 0.0_f64;
-    for side in model.sides(&spec.minus)? {
+    for side in model::sides(model, &spec.minus)? {
         let nodes = face_nodes(&model.mesh, side);
         if !nodes.contains(&place.minus) {
             continue;

@@ -1,8 +1,8 @@
 //! How sharply faults turn from one cell to the next.
 
-use crate::coordinates;
 use crate::diagnostic::Diagnostic;
-use crate::model::Model;
+use crate::mechanics::coordinates;
+use crate::model::{self, Model};
 use crate::scene::model::Fault as Spec;
 use asperity_fem::mesh::{Side, face_nodes};
 use std::collections::BTreeMap;
@@ -24,7 +24,7 @@ pub(super) fn note<const D: usize>(
         return Ok(None);
     }
     let mut around: BTreeMap<usize, Vec<[f64; 3]>> = BTreeMap::new();
-    for side in model.sides(&spec.minus)? {
+    for side in model::sides(model, &spec.minus)? {
         let (nodes, normal) = (face_nodes(&model.mesh, side), normal(model, side));
         for &node in &nodes {
             around.entry(node).or_default().push(normal);

@@ -1,7 +1,7 @@
 //! What the two sides of a fault must have in common: the same nodes wherever one covers the other.
 
-use crate::coordinates;
 use crate::diagnostic::Diagnostic;
+use crate::mechanics::coordinates;
 use crate::model::Model;
 use crate::scene::model::Fault as Spec;
 use crate::warning::Warning;

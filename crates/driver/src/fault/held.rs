@@ -2,9 +2,9 @@
 
 use super::place::Place;
 use super::point::Point;
-use crate::coordinates;
 use crate::diagnostic::Diagnostic;
-use crate::model::Model;
+use crate::mechanics::coordinates;
+use crate::model::{self, Model};
 use crate::scene::model::{Motion, Scene, Spanned};
 use asperity_fem::dof::Channel;
 use asperity_fem::jump::Jump;
@@ -76,7 +76,7 @@ impl Refusal {
                     .or(c.symmetry.as_ref().map(|s| s.span()))
                     .or(c.rotate.as_ref().map(|r| r.span()))?;
                 let set = c.set.as_ref()?;
-                let of = nodes_of_sides(&model.mesh, model.sides(set).ok()?);
+                let of = nodes_of_sides(&model.mesh, model::sides(model, set).ok()?);
                 nodes.iter().any(|n| of.binary_search(n).is_ok()).then(|| (set.get_ref().clone(), place))
             });
             found.next()

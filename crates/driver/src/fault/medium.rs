@@ -8,7 +8,7 @@
 use super::place::Place;
 use super::resolution;
 use crate::diagnostic::Diagnostic;
-use crate::model::Model;
+use crate::model::{self, Model};
 use crate::scene::model::{Fault as Spec, Scene};
 use asperity_fem::mesh::Side;
 use asperity_fem::surface;
@@ -49,7 +49,10 @@ impl Media {
     /// [`Diagnostic`] where a block has no material.
     pub fn new<const D: usize>(scene: &Scene, model: &Model<D>, spec: &Spec) -> Result<Self, Diagnostic> {
         let side = |sides| shares(scene, model, sides);
-        Ok(Self { minus: side(model.sides(&spec.minus)?)?, plus: side(model.sides(&spec.plus)?)? })
+        Ok(Self {
+            minus: side(model::sides(model, &spec.minus)?)?,
+            plus: side(model::sides(model, &spec.plus)?)?,
+        })
     }
 
     /// The medium at a place of the fault.
@@ -77,7 +80,8 @@ fn shares<const D: usize>(
     let mut all: BTreeMap<usize, Share> = BTreeMap::new();
     for (block, sides) in by_block {
         let Some(body) = model.bodies.iter().find(|b| b.blocks.contains(&block)) else { continue };
-        let (_, material) = model.material(scene, (&body.name, &scene.bodies[&body.name]), block)?;
+        let (_, material) =
+            model::material(&model.mesh, scene, (&body.name, &scene.bodies[&body.name]), block)?;
         let elastic = &body.elastic[block - body.blocks.start];
         let shear = elastic.shear();
         let stiffness = resolution::modulus(model.idealisation, shear, elastic.poisson());

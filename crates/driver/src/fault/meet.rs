@@ -5,9 +5,9 @@
 
 use super::place::{branches, directions, unit};
 use super::placed::Placed;
-use crate::coordinates;
 use crate::diagnostic::Diagnostic;
-use crate::model::Model;
+use crate::mechanics::coordinates;
+use crate::model::{self, Model};
 use crate::scene::model::{Fault as Spec, Scene};
 use asperity_fem::mesh::face_nodes;
 use std::collections::BTreeMap;
@@ -94,7 +94,7 @@ fn distinct<const D: usize>(
     for (k, &(name, spec)) in faults.iter().enumerate() {
         let own = placed.iter().filter(|p| p.fault == k).map(|p| &p.point.place);
         let plus: BTreeMap<usize, usize> = own.map(|p| (p.minus, p.plus)).collect();
-        for side in model.sides(&spec.minus)? {
+        for side in model::sides(model, &spec.minus)? {
             // Whichever side is called minus; a tip is both.
             let pair = |n: usize| {
                 let other = plus.get(&n).copied().unwrap_or(n);

@@ -1,9 +1,9 @@
 //! The points of a fault: pairs of nodes, one on each side, at one place.
 
 use super::cover::{self, TOGETHER};
-use crate::coordinates;
 use crate::diagnostic::Diagnostic;
-use crate::model::Model;
+use crate::mechanics::coordinates;
+use crate::model::{self, Model};
 use crate::scene::model::{Fault as Spec, Spanned};
 use crate::warning::Warning;
 use asperity_fem::FemError;
@@ -42,7 +42,7 @@ pub fn places<const D: usize>(
     name: &str,
     spec: &Spec,
 ) -> Result<(Vec<Place<D>>, Option<Warning>), Diagnostic> {
-    let (minus, plus) = (model.sides(&spec.minus)?, model.sides(&spec.plus)?);
+    let (minus, plus) = (model::sides(model, &spec.minus)?, model::sides(model, &spec.plus)?);
     let (pairs, doubtful) = pairs(model, name, spec, minus, plus)?;
     let no_areas =
         |e: FemError| Diagnostic::at(spec.minus.span(), format!("fault `{name}`: {e}"), WITH_AREAS);

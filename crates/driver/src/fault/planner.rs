@@ -33,7 +33,7 @@ use crate::forecast;
 use crate::held::Held;
 use crate::laws;
 use crate::loading::{self, Stage};
-use crate::model::{Model, meshes};
+use crate::model::{self, Model, meshes};
 use crate::scene::law::{self, Evolution, LawChoice};
 use crate::scene::model::{
     Creep, DampingSpec, Fault as Spec, Kinematics, Profiled, Scene, SlipSpec, Station,
@@ -112,7 +112,7 @@ fn conditions(scene: &Scene) -> Conditions {
 }
 
 fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
-    let mut model = Model::<D>::new(scene)?;
+    let mut model = model::build::<D>(scene)?;
     if let Some(body) = model.bodies.iter().find(|b| b.nonlinear.is_some()) {
         return Err(asked::not_linear(scene, &body.name));
     }
@@ -326,7 +326,7 @@ fn points_of<const D: usize>(
     })?;
     let mut placed = Vec::new();
     let media = Media::new(scene, model, spec)?;
-    let spacings = resolution::spacings(model, model.sides(&spec.minus)?);
+    let spacings = resolution::spacings(model, model::sides(model, &spec.minus)?);
     let choice = NormalChoice::of(spec);
     let stress = Prestress::new(scene, (name, spec));
     let weighs = scene.bodies.values().any(|b| b.gravity.is_some());
@@ -541,7 +541,7 @@ fn faces<const D: usize>(
     let of = |side: &Side| {
         face_nodes(&model.mesh, side).iter().map(|n| points.get(n).copied()).collect::<Option<Vec<usize>>>()
     };
-    Ok(model.sides(&spec.minus)?.iter().filter_map(of).collect())
+    Ok(model::sides(model, &spec.minus)?.iter().filter_map(of).collect())
 }
 
 /// Faults and points as outputs see them.

@@ -4,9 +4,9 @@
 //! `τ_0 = s·σn`. The bodies are taken to be in equilibrium under it at the start, whatever holds it at their outer faces: what loads and slip change comes on top.
 
 use super::place::{Place, across};
-use crate::coordinates;
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
+use crate::mechanics::coordinates;
 use crate::model::Model;
 use crate::scene::model::{Body, Fault as Spec, InitialStress, Scene, SlipSpec, Spanned};
 use std::ops::Range;

@@ -2,7 +2,7 @@
 
 use super::equations::Fault;
 use super::placed::Placed;
-use crate::coordinates;
+use crate::mechanics::coordinates;
 use crate::scene::model::{Fault as Spec, Scene, Spanned};
 use crate::warning::Warning;
 use asperity_friction::fault::FaultLaw;

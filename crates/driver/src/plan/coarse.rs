@@ -1,7 +1,7 @@
 //! Sides of interfaces with too few faces for what is asked of them.
 
-use super::PlannedInterface;
-use crate::scene::model::{Interface as Spec, Measure};
+use crate::mechanics::{Measure, PlannedInterface};
+use crate::scene::model::Interface as Spec;
 use crate::warning::Warning;
 
 /// Faces of the slave over those of the master from which a warning is given: the middle of a slave face is then two master nodes from the nearest

@@ -1,15 +1,12 @@
 //! What is doubtful in a scene once its bodies are made and its stages resolved.
 
-use super::coarse;
-use super::{PlannedInterface, StartGap, Stepping};
-use crate::cohesive;
+use super::penalty::{self, Softer};
+use super::{PlannedInterface, StartGap, Stepping, coarse, cohesive, start_gaps};
 use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
-use crate::model::{Model, sizes};
-use crate::penalty;
+use crate::model::{self, Model, sizes};
 use crate::scene::check::show;
 use crate::scene::model::Scene;
-use crate::start_gaps;
 use crate::warning::Warning;
 
 /// Share of what the conditions move that an error of slip allowed in a single step may be: beyond it nothing bounds the steps.
@@ -29,12 +26,14 @@ pub fn of<const D: usize>(
     doubts.extend(tolerance(scene, stages));
     for planned in interfaces {
         let spec = &scene.interfaces[&planned.name];
-        let sides = model.sides(&spec.slave)?;
+        let sides = model::sides(model, &spec.slave)?;
         let start = start_gaps::measure(model, stepping, planned, (spec, sides))?;
         if let Some(body) = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]) {
             let h = model.element_size(body, sides);
             let bonded = planned.law.as_ref().is_some_and(|l| l.bonded());
-            doubts.extend(penalty::doubts(&planned.name, &spec.enforcement, &planned.softer));
+            let facing = model.body_of(spec.master.get_ref()).map_or(body, |b| &model.bodies[b]);
+            let softer = Softer::of(model, (body, sides), (facing, model::sides(model, &spec.master)?));
+            doubts.extend(penalty::doubts(&planned.name, &spec.enforcement, &softer));
             doubts.extend(start_gaps::doubts(&start, (spec, bonded), stages, h));
         }
         doubts.extend(coarse::doubts(&model.mesh.nodes, planned, spec));
@@ -59,7 +58,7 @@ fn resolution<const D: usize>(
         }));
     };
     let known = cohesive::pressed(scene, model, stages, (name, spec));
-    known.map_or(Ok(None), |mean| resolved.check(name, mean))
+    known.map_or(Ok(None), |mean| cohesive::check(resolved, name, mean))
 }
 
 /// A bound on the error of slip that is as large as the motion.

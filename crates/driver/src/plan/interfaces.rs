@@ -1,17 +1,14 @@
 //! Interfaces of a scene, checked and turned into those of a plan.
 
-use super::PlannedInterface;
-use crate::cohesive::Resolved;
-use crate::coordinates;
+use super::enforcement::{enforced, in_pascal_per_metre};
+use super::penalty::{self, Softer};
+use super::{PlannedInterface, cohesive, pressed, watch};
 use crate::diagnostic::Diagnostic;
-use crate::enforcement::{Enforced, in_pascal_per_metre};
-use crate::model::Model;
-use crate::penalty::{self, Softer};
-use crate::pressed;
+use crate::mechanics::{self, coordinates};
+use crate::model::{self, Model};
 use crate::scene::law::{self, LawChoice};
 use crate::scene::model::{Interface as InterfaceSpec, LawSpec, Measure, Scene, Sliding, Spanned};
-use crate::watch;
-use asperity_contact::Watch;
+use asperity_contact::{self as contact, Watch};
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
 use asperity_friction::law::Law;
 use std::sync::Arc;
@@ -37,8 +34,8 @@ pub fn plan<const D: usize>(
              bodies as `kinematics = \"spring-slider\"`; in antiplane motion bodies have conditions on their sets",
         ));
     }
-    let slave_sides = model.sides(&spec.slave)?;
-    let master_sides = model.sides(&spec.master)?;
+    let slave_sides = model::sides(model, &spec.slave)?;
+    let master_sides = model::sides(model, &spec.master)?;
     let body = model.body_of(spec.slave.get_ref()).map(|b| &model.bodies[b]);
     let body = body.ok_or_else(|| {
         let help = "sets of bodies are named `body.set`";
@@ -62,9 +59,9 @@ pub fn plan<const D: usize>(
         }
         None => (None, Watch::default()),
     };
-    let resolved = Resolved::new(model, spec, slave_sides);
+    let resolved = cohesive::resolved(model, spec, slave_sides);
     let young_per_size = model.young_per_size(body, slave_sides);
-    let enforced = Enforced::new(&spec.enforcement, young_per_size, model.element_size(body, slave_sides));
+    let enforced = enforced(&spec.enforcement, young_per_size, model.element_size(body, slave_sides));
     let facing = model.body_of(spec.master.get_ref()).map_or(body, |b| &model.bodies[b]);
     let softer = Softer::of(model, (body, slave_sides), (facing, master_sides));
     penalty::check(name, spec, &softer)?;
@@ -75,17 +72,22 @@ pub fn plan<const D: usize>(
         slave,
         slave_faces: slave_sides.iter().map(|s| face_nodes(&model.mesh, s)).collect(),
         master_faces: master_sides.iter().map(|s| face_nodes(&model.mesh, s)).collect(),
-        measure: *spec.measure.get_ref(),
-        sliding: *spec.sliding.get_ref(),
+        measure: match spec.measure.get_ref() {
+            Measure::NodeToPoint => mechanics::Measure::NodeToPoint,
+            Measure::Mortar => mechanics::Measure::Mortar,
+        },
+        sliding: match spec.sliding.get_ref() {
+            Sliding::Small => contact::Sliding::Small,
+            Sliding::Finite => contact::Sliding::Finite,
+        },
         smoothed: spec.smoothing.is_some(),
         normal_penalty: in_pascal_per_metre(&spec.enforcement.normal, young_per_size),
         tangential_penalty: (spec.enforcement.tangential.as_ref())
             .map_or(0.0, |t| in_pascal_per_metre(t, young_per_size)),
         law,
         blamed: penalty::blamed(name, &spec.enforcement, &softer),
-        softer,
         pressed: pressed::of(scene, model, (name, spec), slave_sides)?,
-        watch: Watch { coarse_beyond: resolved.as_ref().and_then(Resolved::refused_beyond), ..watch },
+        watch: Watch { coarse_beyond: resolved.as_ref().and_then(|r| r.refused_beyond), ..watch },
         resolved,
         probes: scene.output.probes.get(name).map_or(0, |p| *p.get_ref()),
     })

@@ -1,19 +1,27 @@
 //! Plans: what will be run, as data, and how it is made from a scene.
 
-mod choices;
 mod coarse;
+mod cohesive;
 mod doubts;
-mod interface;
+mod enforcement;
 mod interfaces;
+mod linear_solver;
 mod path;
+mod penalty;
 mod planner;
+mod pressed;
+mod restraint;
+mod samples;
+mod start_balance;
 mod start_gap;
+mod start_gaps;
 mod stepping;
+mod stress_level;
 mod summary;
 mod values;
+mod watch;
 
-pub use choices::{Control, Path, Stepping};
-pub use interface::{PlannedInterface, interface_nodes};
+pub use crate::mechanics::{Path, PlannedInterface, Stepping, interface_nodes};
 pub use planner::{ScenePlan, plan, plan_scene};
 pub use start_gap::{SHARE, StartGap};
 pub use values::{AnyPlan, Plan, Summary};

@@ -2,9 +2,9 @@
 
 use super::{Path, PlannedInterface};
 use crate::diagnostic::Diagnostic;
-use crate::model::Model;
-use crate::scene::model::{Method, Path as PathChoice, Scene, Sliding};
-use crate::solver;
+use crate::mechanics::{Model, solver};
+use crate::scene::model::{Method, Path as PathChoice, Scene};
+use asperity_contact::Sliding;
 
 /// Chooses the path of a scene.
 ///

@@ -1,18 +1,16 @@
 //! Scene -> Plan: the one place where it is decided what is modelled and how. Below it nothing asks what was declared.
 
-use super::{AnyPlan, Plan, doubts, interfaces, path, stepping, summary};
+use super::{AnyPlan, Plan, doubts, interfaces, linear_solver, path, restraint, samples};
+use super::{start_balance, stepping, stress_level, summary};
+use crate::cohesive;
 use crate::diagnostic::Diagnostic;
 use crate::fault;
 use crate::forecast;
 use crate::initial_stress;
-use crate::linear_solver;
 use crate::loading::{self, Stage};
-use crate::model::{Model, sizes};
-use crate::rigid;
-use crate::samples::Wanted;
+use crate::mechanics::Problem;
+use crate::model::{self, sizes};
 use crate::scene::model::Scene;
-use crate::start_balance;
-use crate::stress_level;
 
 /// What a scene with bodies asks for.
 #[derive(Debug)]
@@ -47,7 +45,7 @@ pub fn plan(scene: &Scene) -> Result<AnyPlan, Diagnostic> {
 }
 
 fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
-    let model = Model::<D>::new(scene)?;
+    let model = model::build::<D>(scene)?;
     stress_level::check(scene, &model)?;
     let stages = loading::stages(scene, &model)?;
     let stepping = stepping::choose(scene)?;
@@ -59,30 +57,32 @@ fn plan_in<const D: usize>(scene: &Scene) -> Result<Plan<D>, Diagnostic> {
         .collect::<Result<Vec<_>, _>>()?;
     let path = path::choose(scene, &model, &interfaces)?;
     let control = stepping::control(scene, &stages);
-    let mut remarks = rigid::check(scene, &model, &stages, &interfaces)?;
+    let mut remarks = restraint::check(scene, &model, &stages, &interfaces)?;
     remarks.extend(sizes::of_files(scene, &model));
     let (start_gaps, doubts) = doubts::of(scene, &model, (&interfaces, &stages), &stepping)?;
     let (balance, unbalanced) = start_balance::of(scene, &model, (&interfaces, &stages), &stepping)?;
     remarks.extend(balance);
-    remarks.extend(interfaces.iter().filter_map(|i| Some(i.resolved.as_ref()?.remark(&i.name))));
+    remarks.extend(interfaces.iter().filter_map(|i| Some(cohesive::remark(i.resolved.as_ref()?, &i.name))));
     let solver = linear_solver::choose(scene, &model, &interfaces, &stages, path, &stepping)?;
     let mut summary = summary::of(scene, &model, &interfaces, path, &stepping, &solver, remarks);
     forecast::fits(scene, summary.memory_bytes)?;
     summary.start_gaps = start_gaps;
     summary.warnings.extend(doubts.into_iter().chain(unbalanced));
     let initial_stress = model.bodies.iter().map(|b| initial_stress::of_body(scene, &b.name)).collect();
-    let samples = Wanted::new(scene, &model)?;
+    let samples = samples::find(scene, &model)?;
     Ok(Plan {
         title: scene.title.clone(),
-        model,
-        initial_stress,
-        interfaces,
-        stages,
-        path,
-        solver,
-        stepping,
-        control,
-        samples,
+        problem: Problem {
+            model,
+            initial_stress,
+            interfaces,
+            stages,
+            path,
+            solver,
+            stepping,
+            control,
+            samples,
+        },
         field_outputs: scene.output.fields.as_ref().map_or(1, |f| *f.get_ref()),
         profile_outputs: scene.output.profiles.as_ref().map_or(10, |f| *f.get_ref()),
         summary,

@@ -1,9 +1,10 @@
 //! The stepper of a scene, and the control of its steps.
 
-use super::{Control, Stepping};
 use crate::diagnostic::Diagnostic;
-use crate::loading::Stage;
+use crate::mechanics::{Control, Stage, Stepping};
 use crate::scene::model::{Rule, Scene, Stepper};
+use asperity_contact::TimeRule;
+use asperity_friction::law::RateBounds;
 
 /// Default bound on the local error of slip per step, relative to the largest prescribed displacement.
 const SLIP_TOLERANCE: f64 = 2e-5;
@@ -28,18 +29,24 @@ const RATE_DRIFT: f64 = 1e-5;
 pub fn choose(scene: &Scene) -> Result<Stepping, Diagnostic> {
     let time = &scene.time;
     let usual = if evolves(scene) { Rule::Bdf2 } else { Rule::BackwardEuler };
-    let rule = time.rule.as_ref().map_or(usual, |r| *r.get_ref());
+    let rule = match time.rule.as_ref().map_or(usual, |r| *r.get_ref()) {
+        Rule::BackwardEuler => TimeRule::BackwardEuler,
+        Rule::Bdf2 => TimeRule::Bdf2,
+    };
     Ok(match time.stepper.get_ref() {
-        Stepper::Implicit => Stepping::Implicit { rule },
-        Stepper::StaticExplicit => Stepping::StaticExplicit {
-            rule,
-            drift: time
-                .drift
-                .as_ref()
-                .map_or(if evolves(scene) { RATE_DRIFT } else { DRIFT }, |d| *d.get_ref()),
-            rate_change: time.rate_change.as_ref().map_or(RATE_CHANGE, |r| *r.get_ref()),
-            zeta: time.zeta.as_ref().map_or(ZETA, |z| *z.get_ref()),
-        },
+        Stepper::Implicit => {
+            let bounds = RateBounds { zeta: f64::INFINITY, log_rate: f64::INFINITY };
+            Stepping { rule, bounds, drift: None }
+        }
+        Stepper::StaticExplicit => {
+            let usual = if evolves(scene) { RATE_DRIFT } else { DRIFT };
+            let drift = time.drift.as_ref().map_or(usual, |d| *d.get_ref());
+            let bounds = RateBounds {
+                zeta: time.zeta.as_ref().map_or(ZETA, |z| *z.get_ref()),
+                log_rate: time.rate_change.as_ref().map_or(RATE_CHANGE, |r| *r.get_ref()),
+            };
+            Stepping { rule, bounds, drift: Some(drift) }
+        }
         Stepper::FaultOde => {
             let help = "add `[faults.NAME]`, or use \"implicit\" or \"static-explicit\"";
             let message = "the stepper \"fault-ode\" integrates faults, and the scene has none";

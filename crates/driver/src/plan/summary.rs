@@ -1,13 +1,15 @@
 //! The plan in words.
 
+use super::Summary;
 use super::path::{finite, full_because};
-use super::{Path, PlannedInterface, Stepping, Summary, interface_nodes};
 use crate::amounts;
-use crate::enforcement::Enforced;
 use crate::held::Held;
-use crate::model::{CellBlock, Model};
-use crate::scene::model::{Formulation, Kinematics, Measure, Rule, Scene};
-use crate::solver::Solver;
+use crate::mechanics::solver::Solver;
+use crate::mechanics::{
+    CellBlock, Enforced, Measure, Model, Path, PlannedInterface, Stepping, interface_nodes,
+};
+use crate::scene::model::{Formulation, Kinematics, Scene};
+use asperity_contact::TimeRule;
 use asperity_fem::nonlinear::Material;
 
 /// The summary of a plan, but for what is found of its start.
@@ -129,17 +131,17 @@ fn counted(n: usize, one: &str, many: &str) -> String {
 }
 
 fn describe(stepping: &Stepping, limits: bool, slips: bool) -> String {
-    match stepping {
-        Stepping::Implicit { .. } if !slips => "implicit: Newton with line search".into(),
-        Stepping::Implicit { rule: Rule::BackwardEuler } => {
+    match (stepping.drift, stepping.rule) {
+        (None, _) if !slips => "implicit: Newton with line search".into(),
+        (None, TimeRule::BackwardEuler) => {
             "implicit: Newton with line search, backward Euler in slip, steps adapted to the error of slip"
                 .into()
         }
-        Stepping::Implicit { rule: Rule::Bdf2 } => {
+        (None, TimeRule::Bdf2) => {
             "implicit: Newton with line search, second-order backward differences in slip, steps adapted to errors of slip and friction"
                 .into()
         }
-        Stepping::StaticExplicit { drift, .. } => format!(
+        (Some(drift), _) => format!(
             "static-explicit: R-minimum rule{}; a residual above {drift:e} of the largest force is corrected at once, a smaller one taken \
              up by the next step",
             if limits { ", bodies limited by yield (r1), strain (r2) and rotation (r3)" } else { "" }

@@ -1,13 +1,7 @@
 //! A plan as data, and its summary as it is printed.
 
-use super::choices::{Control, Path, Stepping};
-use super::interface::PlannedInterface;
 use super::start_gap::StartGap;
-use crate::initial_stress::StressField;
-use crate::loading::Stage;
-use crate::model::Model;
-use crate::samples::Wanted;
-use crate::solver::Solver;
+use crate::mechanics::Problem;
 use crate::warning::Warning;
 use serde::Serialize;
 
@@ -16,24 +10,8 @@ use serde::Serialize;
 pub struct Plan<const D: usize> {
     /// Title of the scene.
     pub title: String,
-    /// Bodies.
-    pub model: Model<D>,
-    /// Initial stress per body.
-    pub initial_stress: Vec<Option<StressField>>,
-    /// Interfaces.
-    pub interfaces: Vec<PlannedInterface>,
-    /// Stages.
-    pub stages: Vec<Stage>,
-    /// Path.
-    pub path: Path,
-    /// How the linear systems are solved.
-    pub solver: Solver,
-    /// Stepper.
-    pub stepping: Stepping,
-    /// Step control.
-    pub control: Control,
-    /// Points and sets of bodies that are looked at in every step.
-    pub samples: Wanted,
+    /// What is computed.
+    pub problem: Problem<D>,
     /// Field outputs per stage.
     pub field_outputs: usize,
     /// Profile outputs per stage.

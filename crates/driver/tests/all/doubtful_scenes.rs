@@ -133,7 +133,7 @@ fn points_resolve_an_interface_up_to_the_normal_traction_of_the_published_length
             panic!("a plane scene")
         };
         let modulus = 80e9 / 2.5 / 0.75;
-        let one = plan.interfaces[0].resolved.as_ref().unwrap().one;
+        let one = plan.problem.interfaces[0].resolved.as_ref().unwrap().one;
         assert!((one / (modulus * length / 0.1) - 1.0).abs() < 1e-9, "{law}: {one:e}");
     }
 }

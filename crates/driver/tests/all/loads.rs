@@ -122,7 +122,7 @@ fn a_plan_models_only_what_its_scene_declares() {
     assert!(text.contains(law));
     let bytes = |plan: &AnyPlan| plan.summary().state_bytes.unwrap();
     let AnyPlan::Two(velocity) = plan_of(text) else { panic!("the sandwich is plane") };
-    assert!(velocity.interfaces[0].law.is_some());
+    assert!(velocity.problem.interfaces[0].law.is_some());
     assert_eq!(bytes(&AnyPlan::Two(velocity)), 0);
     let state = text.replace(
         law,
@@ -135,6 +135,6 @@ fn a_plan_models_only_what_its_scene_declares() {
         .replace(r#", tangential = "100 E/h""#, "")
         .replace("frictionless = [\"fault\"]\n", "");
     let AnyPlan::Two(plan) = plan_of(&frictionless) else { panic!("the sandwich is plane") };
-    assert!(plan.interfaces[0].law.is_none());
-    assert_eq!(plan.interfaces[0].tangential_penalty, 0.0);
+    assert!(plan.problem.interfaces[0].law.is_none());
+    assert_eq!(plan.problem.interfaces[0].tangential_penalty, 0.0);
 }

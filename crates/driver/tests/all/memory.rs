@@ -1,9 +1,9 @@
 //! What a plan foresees of memory is what the run takes; what no machine holds is refused before it is built.
 #![allow(clippy::disallowed_methods, clippy::print_stdout)]
 
+use asperity_driver::mechanics::solver::Prepared;
 use asperity_driver::plan::{self, AnyPlan};
 use asperity_driver::scene;
-use asperity_driver::solver::Prepared;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -76,10 +76,10 @@ fn blocks_in_space_are_foreseen_by_analysis_and_by_counts_with_either_method() {
 fn a_plan_of_a_million_cells_neither_assembles_nor_analyses() {
     let plan = plan::plan(&scene::read(&block(100, "")).unwrap()).unwrap();
     let AnyPlan::Three(plan) = plan else { panic!("a scene in space") };
-    let blocks: Vec<_> = plan.model.blocks.iter().map(|b| b.linear().unwrap()).collect();
-    assert_eq!(plan.model.mesh.blocks.iter().map(|b| b.len()).sum::<usize>(), 1_000_000);
+    let blocks: Vec<_> = plan.problem.model.blocks.iter().map(|b| b.linear().unwrap()).collect();
+    assert_eq!(plan.problem.model.mesh.blocks.iter().map(|b| b.len()).sum::<usize>(), 1_000_000);
     assert!(blocks.iter().all(|b| !b.is_made()));
-    assert!(matches!(plan.solver.prepared, Prepared::Nothing), "{:?}", plan.solver.method);
+    assert!(matches!(plan.problem.solver.prepared, Prepared::Nothing), "{:?}", plan.problem.solver.method);
     // 576 numbers a cell at least.
     assert!(plan.summary.memory_bytes > 576 * 8 * 1_000_000);
 }

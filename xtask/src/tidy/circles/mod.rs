@@ -1,7 +1,7 @@
 //! Circles of modules: files of one crate that use each other, straight or through others. They can only be read together.
 
 mod modules;
-mod paths;
+pub(super) mod paths;
 
 use super::problem::Problem;
 use super::source::{is_test_file, mask, regions};
@@ -52,7 +52,7 @@ fn inside<'a>(path: &'a str, root: &str) -> Option<&'a str> {
 }
 
 /// The masked code with the items of tests blanked.
-fn without_tests(source: &str) -> Vec<char> {
+pub(super) fn without_tests(source: &str) -> Vec<char> {
     let mut code = mask::code(source);
     for region in regions::tests(&code) {
         code[region].fill(' ');

@@ -1,11 +1,9 @@
 //! Interfaces of a plan as the contact crate takes them.
 
-use crate::model::Model;
-use crate::plan::{PlannedInterface, Stepping, interface_nodes};
-use crate::scene::model::{Measure, Sliding};
+use super::interface::{Measure, PlannedInterface, interface_nodes};
+use super::{Model, Stepping};
 use asperity_contact::{InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, SurfaceNode};
 use asperity_fem::kinematics::Idealisation;
-use asperity_friction::law::RateBounds;
 
 /// Rate below which a forward step counts a point as at rest, over the largest prescribed rate (the floor of limit r8).
 const RATE_FLOOR: f64 = 1e-12;
@@ -33,10 +31,6 @@ pub fn spec<const D: usize>(
         };
         faces.iter().map(segment).collect()
     };
-    let rate_bounds = match *stepping {
-        Stepping::StaticExplicit { rate_change, zeta, .. } => RateBounds { zeta, log_rate: rate_change },
-        Stepping::Implicit { .. } => RateBounds { zeta: f64::INFINITY, log_rate: f64::INFINITY },
-    };
     InterfaceSpec {
         name: planned.name.clone(),
         nodes,
@@ -49,10 +43,7 @@ pub fn spec<const D: usize>(
                 axisymmetric: model.idealisation == Idealisation::Axisymmetric,
             },
         },
-        sliding: match planned.sliding {
-            Sliding::Small => asperity_contact::Sliding::Small,
-            Sliding::Finite => asperity_contact::Sliding::Finite,
-        },
+        sliding: planned.sliding,
         smoothing: planned.smoothed.then(asperity_contact::Smoothing::default),
         fixed_normal: None,
         enforcement: planned.enforced.declared(unknowns),
@@ -61,7 +52,7 @@ pub fn spec<const D: usize>(
         law: planned.law.clone(),
         scale: model.scale,
         rate_floor: RATE_FLOOR * largest_rate,
-        rate_bounds,
+        rate_bounds: stepping.bounds,
         label_rate: planned.law.as_ref().filter(|l| !l.has_elastic_domain()).map(|_| largest_rate),
     }
 }

@@ -1,14 +1,9 @@
-//! What a scene asks of its bodies beside fields: displacement and stress at points, forces on sets.
+//! What is asked of bodies beside fields: displacement and stress at points, forces on sets.
 
-use crate::coordinates::in_words;
-use crate::diagnostic::Diagnostic;
-use crate::initial_stress::StressField;
-use crate::loading::Stage;
-use crate::model::{CellBlock, Model};
-use crate::scene::model::{PointSpec, Scene, Spanned};
+use super::{CellBlock, Model, Stage, StressField};
 use asperity_fem::block::von_mises;
 use asperity_fem::element::ElementKind;
-use asperity_fem::mesh::{locate, nodes_of_sides};
+use asperity_fem::mesh::{Location, Side, nodes_of_sides};
 use asperity_fem::table::Table;
 use asperity_output::view::{PointValues, Samples};
 use nalgebra::{DMatrix, DVector};
@@ -57,25 +52,6 @@ pub struct Wanted {
 pub type Beside = Vec<([f64; 3], Table)>;
 
 impl Wanted {
-    /// Finds the points and sets of a scene.
-    ///
-    /// # Errors
-    /// [`Diagnostic`] for a point outside its body and a set that does not exist.
-    pub fn new<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Self, Diagnostic> {
-        let points = scene.output.points.iter().map(|(name, spec)| point(model, name, spec));
-        let forces = scene.output.forces.iter().map(|(name, spec)| {
-            let set = &spec.get_ref().set;
-            let nodes = nodes_of_sides(&model.mesh, model.sides(set)?);
-            Ok::<_, Diagnostic>(ForceSet {
-                name: name.clone(),
-                set: set.get_ref().clone(),
-                cells: cells_with(model, &nodes),
-                nodes,
-            })
-        });
-        Ok(Self { points: points.collect::<Result<_, _>>()?, forces: forces.collect::<Result<_, _>>()? })
-    }
-
     /// Whether nothing is wanted.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -131,6 +107,29 @@ impl Wanted {
 }
 
 impl Point {
+    /// A point of a body that was found in a cell.
+    #[must_use]
+    pub fn new<const D: usize>(
+        model: &Model<D>,
+        (name, body): (&str, &str),
+        position: Vec<f64>,
+        found: &Location,
+    ) -> Self {
+        let cells = &model.mesh.blocks[found.block];
+        let shape = cells.kind.shape(found.xi);
+        let rule: Vec<[f64; 3]> =
+            model.idealisation.quadrature(cells.kind).into_iter().map(|(xi, _)| xi).collect();
+        Self {
+            name: name.to_string(),
+            body: body.to_string(),
+            position,
+            block: found.block,
+            cell: found.cell,
+            shares: cells.cell(found.cell).iter().copied().zip(shape.n).collect(),
+            weights: weights(cells.kind, &rule, &found.xi),
+        }
+    }
+
     fn displacement<const D: usize>(&self, model: &Model<D>, u: &[f64]) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for &(node, share) in &self.shares {
@@ -165,6 +164,14 @@ impl Point {
 }
 
 impl ForceSet {
+    /// A set of these faces.
+    #[must_use]
+    pub fn new<const D: usize>(model: &Model<D>, (name, set): (&str, &str), sides: &[Side]) -> Self {
+        let nodes = nodes_of_sides(&model.mesh, sides);
+        let cells = cells_with(model, &nodes);
+        Self { name: name.to_string(), set: set.to_string(), nodes, cells }
+    }
+
     /// Sum of the internal forces of the bodies at the nodes of the set.
     fn internal<const D: usize>(&self, model: &Model<D>, blocks: &[CellBlock<D>], u: &[f64]) -> [f64; 3] {
         let components = model.idealisation.components();
@@ -192,49 +199,6 @@ fn cells_with<const D: usize>(model: &Model<D>, nodes: &[usize]) -> Vec<(usize, 
             (0..cells.len()).filter(move |&c| cells.cell(c).iter().any(has)).map(move |c| (b, c))
         })
         .collect()
-}
-
-fn point<const D: usize>(
-    model: &Model<D>,
-    name: &str,
-    spec: &Spanned<PointSpec>,
-) -> Result<Point, Diagnostic> {
-    let (given, at) = (&spec.get_ref().body, &spec.get_ref().at);
-    let refuse =
-        |place: std::ops::Range<usize>, message: String, help: String| Diagnostic::at(place, message, help);
-    let body = model.bodies.iter().find(|b| b.name == *given.get_ref()).ok_or_else(|| {
-        refuse(
-            given.span(),
-            format!("there is no body `{}`", given.get_ref()),
-            "name a body of the scene".into(),
-        )
-    })?;
-    let position: Vec<f64> = at.get_ref().iter().map(|x| x.0).collect();
-    let x = <[f64; D]>::try_from(position.clone()).map_err(|_| {
-        refuse(at.span(), format!("the point `{name}` is not a place"), format!("give {D} lengths"))
-    })?;
-    let found = locate(&model.mesh, body.blocks.clone(), &x).ok_or_else(|| {
-        let nodes = &model.mesh.nodes[body.nodes.clone()];
-        let (min, max) = crate::model::bounds(nodes);
-        refuse(
-            at.span(),
-            format!("the point `{name}` at {} lies outside body `{}`", in_words(&x), body.name),
-            format!("the body lies between {} and {}", in_words(&min), in_words(&max)),
-        )
-    })?;
-    let cells = &model.mesh.blocks[found.block];
-    let shape = cells.kind.shape(found.xi);
-    let rule: Vec<[f64; 3]> =
-        model.idealisation.quadrature(cells.kind).into_iter().map(|(xi, _)| xi).collect();
-    Ok(Point {
-        name: name.to_string(),
-        body: body.name.clone(),
-        position,
-        block: found.block,
-        cell: found.cell,
-        shares: cells.cell(found.cell).iter().copied().zip(shape.n).collect(),
-        weights: weights(cells.kind, &rule, &found.xi),
-    })
 }
 
 /// Weights of values at the points of a rule that give, at `xi`, the linear polynomial in natural coordinates nearest to them in

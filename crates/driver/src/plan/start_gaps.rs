@@ -1,10 +1,8 @@
 //! Where the sides of the interfaces are before the first step: gaps, overlaps and what faces what, measured as the contact will measure.
 
-use crate::declared;
+use super::{PlannedInterface, SHARE, StartGap, Stepping};
 use crate::diagnostic::Diagnostic;
-use crate::loading::Stage;
-use crate::model::{Model, bounds};
-use crate::plan::{PlannedInterface, SHARE, StartGap, Stepping};
+use crate::mechanics::{Model, Stage, bounds, declared};
 use crate::scene::check::brief;
 use crate::scene::model::Interface as Spec;
 use crate::warning::Warning;

@@ -1,9 +1,8 @@
 //! How the linear systems of the steps are solved, as data; what is known of their matrices, and what condensation keeps.
 
-use crate::loading::Stage;
-use crate::model::{CellBlock, Model};
-use crate::plan::{PlannedInterface, Stepping, interface_nodes};
-use crate::scene::model::{Measure, Sliding};
+use super::interface::{Measure, PlannedInterface, interface_nodes};
+use super::{CellBlock, Model, Stage, Stepping};
+use asperity_contact::Sliding;
 use asperity_fem::assembly::{Analysis, Symmetry};
 use asperity_fem::condense;
 
@@ -25,8 +24,10 @@ pub struct Solver {
 /// Methods.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
-    /// Factorisation.
-    Direct,
+    /// Dense factors, of what condensation keeps.
+    Dense,
+    /// Sparse factors.
+    Sparse,
     /// Conjugate gradients with smoothed aggregation.
     Iterative {
         /// Relative residual at which a solution is accepted.
@@ -58,7 +59,7 @@ pub fn symmetry<const D: usize>(
     stepping: &Stepping,
     stage: &Stage,
 ) -> Symmetry {
-    let forward = matches!(stepping, Stepping::StaticExplicit { .. });
+    let forward = stepping.is_forward();
     let of_block = |block: &CellBlock<D>| match block {
         CellBlock::Linear(_) => true,
         CellBlock::Nonlinear(b) if forward => b.model().symmetric_rate(),

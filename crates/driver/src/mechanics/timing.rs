@@ -1,8 +1,7 @@
 //! The length of the next step.
 
-use crate::loading::Stage;
-use crate::plan::Control;
-use crate::step::Cut;
+use super::step::Cut;
+use super::{Control, Stage};
 
 /// Share of the optimal length that is tried: the usual safety of step controllers.
 const SAFETY: f64 = 0.9;

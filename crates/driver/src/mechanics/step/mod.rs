@@ -5,6 +5,9 @@ mod augmented;
 pub mod implicit;
 mod line;
 pub mod static_explicit;
+mod stepper;
+
+pub use stepper::Stepper;
 
 use asperity_fem::FemError;
 use asperity_fem::assembly::System;

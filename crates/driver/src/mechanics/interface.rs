@@ -1,13 +1,20 @@
-//! An interface of a plan, as data.
+//! An interface between bodies, as data.
 
-use crate::cohesive::Resolved;
-use crate::enforcement::Enforced;
-use crate::penalty::Softer;
-use crate::pressed::Pressed;
-use crate::scene::model::{Measure, Sliding};
-use asperity_contact::Watch;
+use super::enforced::Enforced;
+use super::pressed::Pressed;
+use super::resolved::Resolved;
+use asperity_contact::{Sliding, Watch};
 use asperity_friction::law::Law;
 use std::sync::Arc;
+
+/// How gaps are measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Slave nodes against closest points of the master.
+    NodeToPoint,
+    /// Overlaps of slave and master facets, the gap averaged to slave nodes.
+    Mortar,
+}
 
 /// A planned interface, in node numbers of the common mesh.
 #[derive(Debug)]
@@ -37,8 +44,6 @@ pub struct PlannedInterface {
     pub unknowns: usize,
     /// Friction or bond, absent where the scene declares none.
     pub law: Option<Arc<dyn Law>>,
-    /// The softer of its sides, by which penalties are measured.
-    pub softer: Softer,
     /// Its penalty in words, where that is so large that iterations suffer.
     pub blamed: Option<String>,
     /// Tractions of the initial stress, where its bodies start with one.

@@ -1,12 +1,6 @@
 //! How interfaces enforce their constraints, in SI, and what that adds to the system.
 
-use crate::scene::model::{Enforcement as Spec, EnforcementKind, Spanned};
-use crate::scene::units::{Penalty, Penetration};
 use asperity_contact::Enforcement;
-
-/// Augmentations a step may take where the scene does not say. At 1 E/h each leaves a third to a half of the penetration, at
-/// 100 E/h a hundredth; more than so many mean that the penalty is too small for the method.
-const AUGMENTATIONS: usize = 40;
 
 /// How an interface enforces its constraints.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,23 +22,6 @@ pub enum Enforced {
 }
 
 impl Enforced {
-    /// What a scene declares for a slave body of this modulus over element size \[Pa/m\] and element size \[m\].
-    #[must_use]
-    pub fn new(spec: &Spec, young_per_size: f64, size: f64) -> Self {
-        match *spec.kind.get_ref() {
-            EnforcementKind::Penalty => Self::Penalty,
-            EnforcementKind::AugmentedLagrangian => Self::AugmentedLagrangian { unit: young_per_size },
-            EnforcementKind::Uzawa => Self::Uzawa {
-                // The check of the scene has seen that it is there.
-                tolerance: spec.penetration.as_ref().map_or(0.0, |p| match *p.get_ref() {
-                    Penetration::Value(value) => value,
-                    Penetration::Sizes(factor) => factor * size,
-                }),
-                most: spec.augmentations.as_ref().map_or(AUGMENTATIONS, |m| *m.get_ref()),
-            },
-        }
-    }
-
     /// Unknowns beside the displacements, of `points` slave points with so many tractions each.
     #[must_use]
     pub fn unknowns(self, points: usize, tractions: usize) -> usize {
@@ -59,15 +36,6 @@ impl Enforced {
             Self::Uzawa { tolerance, most } => Enforcement::Uzawa { tolerance, most },
             Self::AugmentedLagrangian { unit } => Enforcement::AugmentedLagrangian { first, unit },
         }
-    }
-}
-
-/// A penalty \[Pa/m\].
-#[must_use]
-pub fn in_pascal_per_metre(penalty: &Spanned<Penalty>, young_per_size: f64) -> f64 {
-    match *penalty.get_ref() {
-        Penalty::Value(value) => value,
-        Penalty::YoungPerSize(factor) => factor * young_per_size,
     }
 }
 

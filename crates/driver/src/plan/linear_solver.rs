@@ -3,11 +3,10 @@
 use crate::amounts::{memory, size};
 use crate::diagnostic::Diagnostic;
 use crate::forecast;
-use crate::loading::Stage;
-use crate::model::{CellBlock, Model};
-use crate::plan::{Path, PlannedInterface, Stepping};
+use crate::mechanics::solver::{Method, Prepared, Solver, local, moving_mortar, retained, symmetry};
+use crate::mechanics::{CellBlock, Model, Path, PlannedInterface, Stage, Stepping};
+use crate::model::counts;
 use crate::scene::model::{Method as Asked, Scene, Spanned};
-use crate::solver::{Method, Prepared, Solver, local, moving_mortar, retained, symmetry};
 use asperity_fem::assembly::{Lower, Symmetry};
 use asperity_fem::condense;
 use asperity_fem::dof::{Constraints, Equations};
@@ -106,7 +105,7 @@ impl<const D: usize> Choice<'_, D> {
             Some(_) => "bodies by Cholesky factors, the interface by dense LU where friction acts",
         };
         Ok(Solver {
-            method: Method::Direct,
+            method: Method::Dense,
             memory: self.memory(),
             prepared,
             bytes,
@@ -169,7 +168,7 @@ impl<const D: usize> Choice<'_, D> {
         let once = self.interfaces.is_empty() && self.model.is_linear();
         let often = if once { ", once for each set of supports" } else { "" };
         Solver {
-            method: Method::Direct,
+            method: Method::Sparse,
             memory: self.memory(),
             prepared,
             bytes,
@@ -195,7 +194,7 @@ impl<const D: usize> Choice<'_, D> {
                 "use `method = \"direct\"`, or leave it out",
             ));
         }
-        let matrix = forecast::matrix_bytes(&self.model.counts(), self.model.idealisation.components());
+        let matrix = forecast::matrix_bytes(&counts(&self.model.mesh), self.model.idealisation.components());
         let bytes = HIERARCHY * matrix;
         if bytes > self.memory() {
             let what = format!("the iterative solution of {} degrees of freedom", self.model.dofs());

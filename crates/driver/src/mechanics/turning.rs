@@ -4,13 +4,23 @@
 //! angle, Rodrigues' formula moves the node by `(cos φ - 1) (r - (a·r) a) + sin φ a × r`: two channels with amplitudes
 //! that are functions of a ramp.
 
-use crate::scene::model::Rotation;
 use asperity_fem::dof::Channel;
 use asperity_fem::table::{Function, Table};
 
+/// A rotation about an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotation {
+    /// Angle at the end of the stage \[rad\].
+    pub angle: f64,
+    /// A point of the axis \[m\].
+    pub about: [f64; 3],
+    /// Unit vector along the axis.
+    pub axis: [f64; 3],
+}
+
 /// What a rotation acts on.
 #[derive(Clone, Debug)]
-pub(super) struct Turning {
+pub struct Turning {
     /// Degrees of freedom of one component.
     pub dofs: Vec<usize>,
     /// Reference positions of their nodes \[m\].
@@ -31,7 +41,7 @@ fn parts(r: &[f64; 3], a: &[f64; 3]) -> ([f64; 3], [f64; 3]) {
 
 impl Turning {
     /// Channels of the motion from `start` to `end` beyond the displacement `u0` at the start.
-    pub(super) fn channels(&self, (start, end): (f64, f64), u0: &[f64]) -> [Channel; 2] {
+    pub fn channels(&self, (start, end): (f64, f64), u0: &[f64]) -> [Channel; 2] {
         let n = self.components;
         let place = |k: usize| -> [f64; 3] {
             let first = self.dofs[k] / n * n;
@@ -56,7 +66,7 @@ impl Turning {
     }
 
     /// Largest distance of a node from the axis \[m\].
-    pub(super) fn radius(&self) -> f64 {
+    pub fn radius(&self) -> f64 {
         let distance = |x: &[f64; 3]| {
             let r = std::array::from_fn(|c| x[c] - self.rotation.about[c]);
             parts(&r, &self.rotation.axis).0.iter().map(|p| p * p).sum::<f64>().sqrt()

@@ -2,36 +2,17 @@
 //!
 //! With the stress σ and the outward normal n of the slave the force per area on the slave is σn. Both sides need the same.
 
-use crate::coordinates;
+use super::SHARE;
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
-use crate::model::{Body, Model};
-use crate::plan::SHARE;
+use crate::mechanics::{Pressed, coordinates};
+use crate::model::{self, Body, Model};
 use crate::scene::model::{Interface as Spec, Scene};
-use asperity_contact::StartTraction;
 use asperity_fem::mesh::{Side, nodes_of_sides};
 use asperity_fem::surface;
 
 /// Difference of the forces of both sides on a node over the largest up to which they balance: rounding of stresses given in a scene.
 const BALANCED: f64 = 1e-6;
-
-/// Tractions of the slave points of an interface.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pressed {
-    /// Point by point, at the node and in the mean over what it stands for \[Pa\].
-    points: Vec<([f64; 3], [f64; 3])>,
-    /// Gaps and overlaps up to this one are closed at the start \[m\].
-    pub reach: f64,
-}
-
-impl Pressed {
-    /// As the contact takes them.
-    #[must_use]
-    pub fn starts<const D: usize>(&self) -> Vec<StartTraction<D>> {
-        let cut = |v: &[f64; 3]| std::array::from_fn(|c| v[c]);
-        self.points.iter().map(|(at, mean)| StartTraction { at: cut(at), mean: cut(mean) }).collect()
-    }
-}
 
 /// The tractions of an interface that starts with them.
 ///
@@ -44,7 +25,7 @@ pub fn of<const D: usize>(
     slave: &[Side],
 ) -> Result<Option<Pressed>, Diagnostic> {
     let Some(key) = spec.initial_stress.as_ref().filter(|key| *key.get_ref()) else { return Ok(None) };
-    let master = model.sides(&spec.master)?;
+    let master = model::sides(model, &spec.master)?;
     let body = |set: &str| model.body_of(set).map(|b| &model.bodies[b]);
     let (Some(own), Some(other)) = (body(spec.slave.get_ref()), body(spec.master.get_ref())) else {
         return Ok(None);

@@ -1,7 +1,8 @@
 //! What the steps of an interface may not do: derived from its law, the bodies beside it and the loads.
 
 use crate::diagnostic::Diagnostic;
-use crate::model::Model;
+use crate::mechanics::LOADING;
+use crate::model::{self, Model};
 use crate::scene::law::{Evolution, LawChoice, State};
 use crate::scene::model::Scene;
 use asperity_contact::{Course, RateLimit, Watch};
@@ -10,9 +11,6 @@ use std::collections::BTreeSet;
 
 /// Density where a scene declares none \[kg/m³\]: crustal rock has 2500 to 3000.
 const ROCK: f64 = 2700.0;
-/// Slip rates up to so many times the largest prescribed rate are the loading's, whatever its unit of time: two e-folds beyond
-/// what velocity steps of experiments span.
-pub const LOADING: f64 = 100.0;
 /// Largest slip of an implicit step over the length along which a law weakens, as limit r8 has it.
 const ZETA: f64 = 0.1;
 /// Largest slip over L, in units of a/b: up to about a L/b the equations of a step have one solution.
@@ -88,7 +86,8 @@ fn impedance<const D: usize>(scene: &Scene, model: &Model<D>, sides: &[Side]) ->
     let mut largest = 0.0;
     for block in blocks {
         let Some(body) = model.bodies.iter().find(|b| b.blocks.contains(&block)) else { continue };
-        let (_, material) = model.material(scene, (&body.name, &scene.bodies[&body.name]), block)?;
+        let (_, material) =
+            model::material(&model.mesh, scene, (&body.name, &scene.bodies[&body.name]), block)?;
         let density = material.density.as_ref().map_or(ROCK, |d| d.get_ref().0);
         largest = f64::max(largest, (body.elastic[block - body.blocks.start].shear() * density).sqrt());
     }

@@ -1,12 +1,10 @@
 //! How far initial stress, weight, loads and interfaces are from balance before anything moves.
 
-use crate::coordinates::in_words;
-use crate::declared;
+use super::{PlannedInterface, Stepping};
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
-use crate::loading::Stage;
-use crate::model::{CellBlock, Model};
-use crate::plan::{PlannedInterface, Stepping};
+use crate::mechanics::coordinates::in_words;
+use crate::mechanics::{CellBlock, Model, Stage, declared};
 use crate::scene::model::Scene;
 use crate::warning::Warning;
 use asperity_contact::{Enforcement, Interface};
@@ -220,7 +218,7 @@ fn of_free<const D: usize>(model: &Model<D>, stage: &Stage, r: &[f64], stress: f
 
 /// Area of a face as large as a body: the largest of its bounding box; about an axis that of the full circle \[m²; m\].
 fn face<const D: usize>(model: &Model<D>, nodes: std::ops::Range<usize>) -> f64 {
-    let (min, max) = crate::model::bounds(&model.mesh.nodes[nodes]);
+    let (min, max) = crate::mechanics::bounds(&model.mesh.nodes[nodes]);
     let edge = |c: usize| max[c] - min[c];
     let longest = (0..D).map(edge).fold(0.0, f64::max);
     match D {

@@ -1,6 +1,7 @@
-//! Choices of a plan that a scene may leave open: the path, the stepper and the control of its steps.
+//! The path, the stepper and the control of its steps.
 
-use crate::scene::model::Rule;
+use asperity_contact::TimeRule;
+use asperity_friction::law::RateBounds;
 use serde::Serialize;
 
 /// Which system the steppers see.
@@ -31,32 +32,20 @@ pub struct Control {
 }
 
 /// The stepper with exactly what it needs.
-#[derive(Clone, Debug)]
-pub enum Stepping {
-    /// Newton.
-    Implicit {
-        /// Rule for the slip rate.
-        rule: Rule,
-    },
-    /// R-minimum.
-    StaticExplicit {
-        /// Rule for the slip rate.
-        rule: Rule,
-        /// Residual over the largest force that a step may leave.
-        drift: f64,
-        /// Bound on |Δ ln V| per step.
-        rate_change: f64,
-        /// ζ.
-        zeta: f64,
-    },
+#[derive(Clone, Copy, Debug)]
+pub struct Stepping {
+    /// Rule for the slip rate.
+    pub rule: TimeRule,
+    /// Bounds on slip and on the change of the slip rate in a step.
+    pub bounds: RateBounds,
+    /// Residual over the largest force that a forward step may leave; none where steps are implicit.
+    pub drift: Option<f64>,
 }
 
 impl Stepping {
-    /// Rule for the slip rate.
+    /// Whether steps are foreseen with rate tangents.
     #[must_use]
-    pub fn rule(&self) -> Rule {
-        match self {
-            Self::Implicit { rule } | Self::StaticExplicit { rule, .. } => *rule,
-        }
+    pub fn is_forward(&self) -> bool {
+        self.drift.is_some()
     }
 }

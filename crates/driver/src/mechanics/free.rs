@@ -1,7 +1,7 @@
 //! What is free to move, in words: bodies, places and components instead of equations.
 
-use crate::coordinates::in_words;
-use crate::model::Model;
+use super::Model;
+use super::coordinates::in_words;
 use asperity_fem::FemError;
 use asperity_fem::multifrontal::FreeMode;
 

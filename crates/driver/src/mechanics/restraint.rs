@@ -3,14 +3,8 @@
 //! A rigid motion is free when no fixed degree of freedom sees it. It is refused when no interface of the body could
 //! hold it either, in any stage.
 
-use crate::coordinates;
-use crate::diagnostic::Diagnostic;
-use crate::loading::Stage;
-use crate::model::Model;
-use crate::plan::PlannedInterface;
-use crate::scene::model::Scene;
+use super::{Model, PlannedInterface, Stage};
 use asperity_fem::kinematics::Idealisation;
-use asperity_fem::mesh::face_nodes;
 use nalgebra::DMatrix;
 use std::ops::Range;
 
@@ -18,76 +12,44 @@ use std::ops::Range;
 /// sum over at most 1e6 rows of order one.
 const FREE: f64 = 1e-9;
 
-/// Checks all bodies in all stages. Returns remarks on bodies that contact alone holds.
+/// A motion of a part of a body in a stage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// Number of the body.
+    pub body: usize,
+    /// First node of the part.
+    pub node: usize,
+    /// Stage.
+    pub stage: String,
+    /// The motion in words.
+    pub motion: String,
+}
+
+/// Checks all bodies in all stages. Returns the motions that contact alone holds.
 ///
 /// # Errors
-/// [`Diagnostic`] naming the body, the motion and the stage.
+/// The first motion that nothing holds.
 pub fn check<const D: usize>(
-    scene: &Scene,
     model: &Model<D>,
     stages: &[Stage],
     interfaces: &[PlannedInterface],
-) -> Result<Vec<String>, Diagnostic> {
-    let mut remarks = Vec::new();
-    for (body, nodes) in model.bodies.iter().flat_map(|b| b.parts.iter().map(move |p| (b, p))) {
-        let what = match body.parts.len() {
-            1 => format!("body `{}`", body.name),
-            _ => format!(
-                "the part of body `{}` with the node at {}",
-                body.name,
-                coordinates::in_words(&model.mesh.nodes[nodes[0]])
-            ),
-        };
+) -> Result<Vec<Motion>, Motion> {
+    let mut held = Vec::new();
+    let parts = model.bodies.iter().enumerate().flat_map(|(b, body)| body.parts.iter().map(move |p| (b, p)));
+    for (body, nodes) in parts {
         for stage in stages {
+            let found = |motion| Motion { body, node: nodes[0], stage: stage.name.clone(), motion };
             let mut rows = condition_rows(model, nodes, stage);
             let Some(motion) = free_motion::<D>(&rows, model.idealisation) else { continue };
             rows.extend(contact_rows(model, nodes, stage, interfaces));
             if let Some(loose) = free_motion::<D>(&rows, model.idealisation) {
-                return Err(Diagnostic::at(
-                    scene.bodies[&body.name].material.span(),
-                    format!("{what} is free to move in stage `{}`: nothing holds its {loose}", stage.name),
-                    remedy(model, &body.name, &loose),
-                ));
+                return Err(found(loose));
             }
-            remarks.push(format!("stage `{}`: contact alone holds the {motion} of {what}", stage.name));
+            held.push(found(motion));
         }
     }
-    Ok(remarks)
+    Ok(held)
 }
-
-/// Sets of a body that are named in a remedy; more would hide it.
-const MOST_NAMED: usize = 8;
-
-/// What would hold a body.
-fn remedy<const D: usize>(model: &Model<D>, body: &str, loose: &str) -> String {
-    let own = |set: &&String| set.strip_prefix(body).is_some_and(|rest| rest.starts_with('.'));
-    let sets: Vec<&String> = model.mesh.side_sets.keys().filter(own).collect();
-    let axis = ["x", "y", "z"].iter().position(|axis| loose == format!("translation in {axis}"));
-    let across = sets.iter().find(|set| axis.is_some_and(|axis| is_across(model, set, axis)));
-    let Some(first) = across.or(sets.first()) else {
-        return "the body has no sets: a condition needs one, such as a physical group of faces in its mesh"
-            .into();
-    };
-    let example = match loose.strip_prefix("translation in ") {
-        Some(axis) => format!("such as `{{ set = \"{first}\", {axis} = 0 }}`"),
-        None => format!("such as one on `{first}` that holds both ends of the set"),
-    };
-    let named: Vec<String> = sets.iter().take(MOST_NAMED).map(|s| format!("`{s}`")).collect();
-    let more = if sets.len() > MOST_NAMED { ", .." } else { "" };
-    format!(
-        "add a condition that prevents the {loose}, {example}, or an interface that can; its sets are {}{more}",
-        named.join(", ")
-    )
-}
-
-/// Whether the faces of a set are turned along an axis.
-fn is_across<const D: usize>(model: &Model<D>, set: &str, axis: usize) -> bool {
-    let mut faces = model.mesh.side_sets[set].iter().map(|side| face_nodes(&model.mesh, side));
-    faces.all(|face| axis < D && model.face_normal(&face)[axis].abs() > ACROSS)
-}
-
-/// Part of a normal along an axis from which a face lies across it: within 25 degrees.
-const ACROSS: f64 = 0.9;
 
 /// Rigid modes of a point, one entry a mode: translations, then rotations about the body's centre.
 type Row = Vec<f64>;
@@ -122,7 +84,7 @@ fn row<const D: usize>(x: [f64; D], axis: usize) -> Row {
 
 fn centred<const D: usize>(model: &Model<D>, nodes: &[usize]) -> impl Fn(usize) -> [f64; D] {
     let points: Vec<[f64; D]> = nodes.iter().map(|&n| model.mesh.nodes[n]).collect();
-    let (min, max) = crate::model::bounds(&points);
+    let (min, max) = super::model::bounds(&points);
     let size = (0..D).map(|c| max[c] - min[c]).fold(0.0, f64::max);
     move |node| std::array::from_fn(|c| (model.mesh.nodes[node][c] - 0.5 * (min[c] + max[c])) / size)
 }

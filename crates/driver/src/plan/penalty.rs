@@ -4,8 +4,8 @@
 //! the softer of the two sides: k = E_n h/E with its E and h. Gaps are differences of positions, which are known to eps X, X the size of the
 //! scene, so that tractions have an error of E_n eps X = k eps (X/h) E.
 
+use super::enforcement::in_pascal_per_metre;
 use crate::diagnostic::Diagnostic;
-use crate::enforcement::in_pascal_per_metre;
 use crate::model::{Body, Model};
 use crate::scene::check::brief;
 use crate::scene::model::{Enforcement, EnforcementKind, Interface as InterfaceSpec, Spanned};

@@ -1,0 +1,3 @@
+//! Lengths in words, as scenes write them.
+
+pub(crate) use crate::scene::check::brief;

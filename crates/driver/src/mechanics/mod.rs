@@ -1,0 +1,37 @@
+//! The mechanics of bodies and interfaces as values: the discrete model, loading, the system of a step, steppers. It knows no scene.
+
+mod cell_size;
+mod choices;
+pub mod coordinates;
+pub mod declared;
+mod enforced;
+mod free;
+mod interface;
+mod model;
+mod pressed;
+mod problem;
+mod resolved;
+pub mod restraint;
+mod samples;
+pub mod solver;
+mod stage;
+pub mod step;
+mod stress;
+mod system;
+pub mod timing;
+mod turning;
+
+pub use cell_size::cell_size;
+pub use choices::{Control, Path, Stepping};
+pub use enforced::Enforced;
+pub use interface::{Measure, PlannedInterface, interface_nodes};
+pub use model::{Body, CellBlock, Model, bounds};
+pub use pressed::Pressed;
+pub use problem::Problem;
+pub use resolved::Resolved;
+pub use samples::{ForceSet, Point, Wanted};
+pub use stage::{LOADING, Motion, Spring, Stage};
+pub use step::Failure;
+pub use stress::StressField;
+pub use system::Assembled;
+pub use turning::{Rotation, Turning};

@@ -1,0 +1,47 @@
+//! What is computed: bodies, interfaces and stages, with the methods chosen for them.
+
+use super::solver::Solver;
+use super::{CellBlock, Control, Model, Path, PlannedInterface, Stage, Stepping, StressField, Wanted};
+use asperity_contact::Sliding;
+use asperity_fem::nonlinear::Kinematics;
+
+/// See the module.
+#[derive(Debug)]
+pub struct Problem<const D: usize> {
+    /// Bodies.
+    pub model: Model<D>,
+    /// Initial stress per body.
+    pub initial_stress: Vec<Option<StressField>>,
+    /// Interfaces.
+    pub interfaces: Vec<PlannedInterface>,
+    /// Stages.
+    pub stages: Vec<Stage>,
+    /// Path.
+    pub path: Path,
+    /// How the linear systems are solved.
+    pub solver: Solver,
+    /// Stepper.
+    pub stepping: Stepping,
+    /// Step control.
+    pub control: Control,
+    /// Points and sets of bodies that are looked at in every step.
+    pub samples: Wanted,
+}
+
+impl<const D: usize> Problem<D> {
+    /// Whether forces depend on where the bodies are by now: finite sliding or large deformation.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        let deformed = |b: &CellBlock<D>| match b {
+            CellBlock::Linear(_) => false,
+            CellBlock::Nonlinear(b) => b.model().kinematics == Kinematics::UpdatedLagrangian,
+        };
+        self.interfaces.iter().any(|i| i.sliding == Sliding::Finite) || self.model.blocks.iter().any(deformed)
+    }
+
+    /// Largest rate that the stages prescribe \[m/s\].
+    #[must_use]
+    pub fn largest_rate(&self) -> f64 {
+        self.stages.iter().map(Stage::largest_rate).fold(0.0, f64::max)
+    }
+}

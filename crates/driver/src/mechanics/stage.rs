@@ -1,0 +1,172 @@
+//! A stage of loading: conditions on degrees of freedom of the common mesh.
+
+use super::turning::Turning;
+use asperity_fem::dof::{Channel, Constraints};
+use asperity_fem::table::Table;
+use std::ops::Range;
+
+/// Slip rates up to so many times the largest prescribed rate are the loading's, whatever its unit of time: two e-folds beyond
+/// what velocity steps of experiments span.
+pub const LOADING: f64 = 100.0;
+
+/// How a component moves during a stage.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// A displacement that is there from the start \[m\].
+    Fixed(f64),
+    /// In proportion to time, to a displacement at the end \[m\].
+    To(f64),
+    /// At a rate \[m/s\].
+    Rate(f64),
+    /// Times since the start of the stage \[s\] and displacements there \[m\].
+    Table(Vec<(f64, f64)>),
+    /// As displaced as at the start, what turns aside.
+    Hold,
+}
+
+/// The conditions in force during a stage, on degrees of freedom of the common mesh.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// Name.
+    pub name: String,
+    /// Start \[s\].
+    pub start: f64,
+    /// End \[s\].
+    pub end: f64,
+    /// Number of equal steps, where the scene says so.
+    pub steps: Option<usize>,
+    /// Names of interfaces without friction.
+    pub frictionless: Vec<String>,
+    /// Motions, with the degrees of freedom they prescribe.
+    pub motions: Vec<(Vec<usize>, Motion)>,
+    /// Components that turn with their sets.
+    pub turning: Vec<Turning>,
+    /// Loads, with the set they act on, where it is one.
+    pub loads: Vec<(Option<String>, Channel)>,
+    /// Fixed degrees of freedom, sorted.
+    pub fixed: Vec<usize>,
+    /// Sets that a spring moves as one.
+    pub springs: Vec<Spring>,
+    /// In scenes with faults, nodal forces of the weight of the bodies, which is there before the start.
+    pub weight: Vec<(usize, f64)>,
+}
+
+/// Degrees of freedom that move as one, drawn by a spring.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spring {
+    /// The degrees of freedom.
+    pub dofs: Vec<usize>,
+    /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
+    pub stiffness: f64,
+    /// Rate of its other end \[m/s\].
+    pub rate: f64,
+}
+
+impl Stage {
+    /// Constraints of the stage, given the displacement `u0` at its start \[m\].
+    #[must_use]
+    pub fn constraints(&self, u0: &[f64]) -> Constraints {
+        let mut channels: Vec<Channel> = self.loads.iter().map(|(_, channel)| channel.clone()).collect();
+        for (dofs, motion) in &self.motions {
+            self.motion_channels(dofs, motion, u0, &mut channels);
+        }
+        channels.extend(self.turning.iter().flat_map(|t| t.channels((self.start, self.end), u0)));
+        channels.retain(|c| !c.prescribed.is_empty() || !c.forces.is_empty());
+        Constraints { fixed: self.fixed.clone(), channels }
+    }
+
+    /// Loads that do not act on this set.
+    pub fn loads_beside(&self, set: &str) -> impl Iterator<Item = &Channel> {
+        self.loads.iter().filter(move |(on, _)| on.as_deref() != Some(set)).map(|(_, channel)| channel)
+    }
+
+    /// Largest prescribed rate of displacement in the stage \[m/s\].
+    #[must_use]
+    pub fn largest_rate(&self) -> f64 {
+        let duration = self.end - self.start;
+        let turning = self.turning.iter().map(|t| t.radius() * t.rotation.angle.abs() / duration);
+        let turning = turning.fold(0.0, f64::max);
+        self.motions.iter().fold(turning, |largest, (_, motion)| {
+            largest.max(match motion {
+                Motion::Rate(rate) => rate.abs(),
+                Motion::To(value) => value.abs() / duration,
+                Motion::Table(points) => points
+                    .windows(2)
+                    .map(|w| ((w[1].1 - w[0].1) / (w[1].0 - w[0].0)).abs())
+                    .fold(0.0, f64::max),
+                Motion::Fixed(_) | Motion::Hold => 0.0,
+            })
+        })
+    }
+
+    /// Largest displacement the stage prescribes beyond those before it \[m\].
+    #[must_use]
+    pub fn travel(&self) -> f64 {
+        let held =
+            self.motions.iter().map(|(_, motion)| if let Motion::Fixed(u) = motion { u.abs() } else { 0.0 });
+        held.fold(self.largest_rate() * (self.end - self.start), f64::max)
+    }
+
+    /// Whether anything but prescribed motions acts: loads, weight, initial stress or springs.
+    #[must_use]
+    pub fn is_loaded(&self) -> bool {
+        !self.springs.is_empty() || self.loads.iter().any(|(_, channel)| !channel.forces.is_empty())
+    }
+
+    /// Whether conditions hold any of some degrees of freedom along the components that are asked for.
+    #[must_use]
+    pub fn holds(&self, dofs: &Range<usize>, components: &[bool]) -> bool {
+        let fixed = self.fixed.iter().chain(self.springs.iter().flat_map(|s| &s.dofs));
+        fixed.into_iter().any(|d| dofs.contains(d) && components[d % components.len()])
+    }
+
+    /// Largest force along a direction that loads exert on some degrees of freedom at any time of the stage \[N; N/m\].
+    #[must_use]
+    pub fn largest_force(&self, dofs: &Range<usize>, along: &[f64]) -> f64 {
+        let channels = || self.loads.iter().map(|(_, channel)| channel);
+        let of = |channel: &Channel| -> f64 {
+            let own = channel.forces.iter().filter(|(d, _)| dofs.contains(d));
+            own.map(|(d, force)| force * along[d % along.len()]).sum()
+        };
+        let parts: Vec<(&Table, f64)> = channels().map(|c| (&c.amplitude, of(c))).collect();
+        let turns = parts.iter().flat_map(|(a, _)| a.times().iter().copied());
+        let within = turns.filter(|t| *t > self.start && *t < self.end);
+        let times = within.chain([self.start, self.end]);
+        times.map(|t| parts.iter().map(|(a, f)| f * a.value(t)).sum()).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Whether tractions or pressures act on sets.
+    #[must_use]
+    pub fn has_loads(&self) -> bool {
+        self.loads.iter().any(|(set, _)| set.is_some())
+    }
+
+    fn motion_channels(&self, dofs: &[usize], motion: &Motion, u0: &[f64], channels: &mut Vec<Channel>) {
+        let present = |table: Table| Channel {
+            prescribed: dofs.iter().filter(|&&d| u0[d] != 0.0).map(|&d| (d, u0[d])).collect(),
+            forces: Vec::new(),
+            amplitude: table,
+        };
+        let unit = |table: Table| Channel {
+            prescribed: dofs.iter().map(|&d| (d, 1.0)).collect(),
+            forces: Vec::new(),
+            amplitude: table,
+        };
+        let ramp = |from: f64, to: f64| Table::new(vec![self.start, self.end], vec![from, to]);
+        let constant = |value: f64| Table::constant(value);
+        match motion {
+            Motion::Fixed(value) if *value != 0.0 => channels.push(unit(constant(*value))),
+            Motion::To(value) => channels.extend([present(ramp(1.0, 0.0)), unit(ramp(0.0, *value))]),
+            Motion::Rate(rate) => {
+                channels.extend([present(constant(1.0)), unit(ramp(0.0, rate * (self.end - self.start)))])
+            }
+            Motion::Table(points) => channels.push(unit(Table::new(
+                points.iter().map(|p| self.start + p.0).collect(),
+                points.iter().map(|p| p.1).collect(),
+            ))),
+            // What a rotation adds to the place at its start is told by `turning`.
+            Motion::Hold => channels.push(present(constant(1.0))),
+            Motion::Fixed(_) => {}
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Steppers as one kind of object.
+
+use super::implicit::Implicit;
+use super::static_explicit::StaticExplicit;
+use super::{Accepted, Failure, State};
+use asperity_fem::assembly::{Symmetry, System};
+use asperity_fem::dof::Constraints;
+use asperity_fem::term::{Limited, Linearized};
+use asperity_output::view::Counts;
+
+/// A stepper, whichever it is.
+pub trait Stepper {
+    /// Goes on with another stage: what is known of its tangents, and whether all bodies are linear.
+    fn begin_stage(&mut self, symmetry: Symmetry, linear: bool);
+
+    /// Tries a step of length `dt.0`; a forward one may be shorter, for accuracy no shorter than `dt.1`.
+    ///
+    /// # Errors
+    /// [`Failure`]; the terms have dropped what they tried.
+    fn step(
+        &mut self,
+        terms: &mut [&mut dyn Limited],
+        constraints: &Constraints,
+        state: &mut State,
+        dt: (f64, f64),
+        counts: &mut Counts,
+    ) -> Result<Accepted, Failure>;
+
+    /// Steps that leave a larger error of friction coefficients are not accepted \[-\].
+    fn set_bound(&mut self, bound: f64);
+
+    /// The linear system, for its counts.
+    fn system(&self) -> &System;
+}
+
+impl Stepper for Implicit {
+    fn begin_stage(&mut self, symmetry: Symmetry, linear: bool) {
+        // Bodies with a history do not go on as before when their loads turn: a stepper with the rate of the stage before would
+        // begin far off.
+        Implicit::begin_stage(self, symmetry, linear);
+    }
+
+    fn step(
+        &mut self,
+        terms: &mut [&mut dyn Limited],
+        constraints: &Constraints,
+        state: &mut State,
+        (dt, _): (f64, f64),
+        counts: &mut Counts,
+    ) -> Result<Accepted, Failure> {
+        let mut terms: Vec<&mut dyn Linearized> =
+            terms.iter_mut().map(|term| &mut **term as &mut dyn Linearized).collect();
+        Implicit::step(self, &mut terms, constraints, state, dt, counts)
+    }
+
+    fn set_bound(&mut self, bound: f64) {
+        Implicit::set_bound(self, bound);
+    }
+
+    fn system(&self) -> &System {
+        Implicit::system(self)
+    }
+}
+
+impl Stepper for StaticExplicit {
+    fn begin_stage(&mut self, symmetry: Symmetry, _linear: bool) {
+        StaticExplicit::begin_stage(self, symmetry);
+    }
+
+    fn step(
+        &mut self,
+        terms: &mut [&mut dyn Limited],
+        constraints: &Constraints,
+        state: &mut State,
+        dt: (f64, f64),
+        counts: &mut Counts,
+    ) -> Result<Accepted, Failure> {
+        StaticExplicit::step(self, terms, constraints, state, dt, counts)
+    }
+
+    fn set_bound(&mut self, bound: f64) {
+        StaticExplicit::set_bound(self, bound);
+    }
+
+    fn system(&self) -> &System {
+        StaticExplicit::system(self)
+    }
+}

@@ -1,0 +1,27 @@
+//! The bodies of a system at work, condensed or not.
+
+use crate::mechanics::CellBlock;
+use asperity_fem::dof::Constraints;
+use asperity_fem::term::Limited;
+use asperity_output::view::Counts;
+
+/// See the module.
+pub trait Bodies<const D: usize> {
+    /// Puts the loads and motions of a stage in force; `renewed` where other degrees of freedom are fixed than before.
+    ///
+    /// # Errors
+    /// The reason in words when a body cannot be factored.
+    fn load(&mut self, constraints: &Constraints, renewed: bool) -> Result<(), String>;
+
+    /// Their terms in the system.
+    fn terms(&mut self) -> Vec<&mut dyn Limited>;
+
+    /// Displacement of all degrees of freedom of the mesh, for those of the system and the time \[s\].
+    fn displacement(&self, u: &[f64], time: f64) -> Vec<f64>;
+
+    /// Blocks of the mesh in their present state.
+    fn blocks(&self) -> &[CellBlock<D>];
+
+    /// Adds the work done outside the steps.
+    fn add_counts(&self, counts: &mut Counts);
+}

@@ -1,0 +1,117 @@
+//! Bodies that are condensed onto the degrees of freedom of their interfaces.
+
+use super::bodies::Bodies;
+use crate::mechanics::solver::{self, Prepared};
+use crate::mechanics::{CellBlock, Problem, free};
+use asperity_fem::FemError;
+use asperity_fem::condense::{Analysis, Condensation, Condensed};
+use asperity_fem::dof::{Channel, Constraints};
+use asperity_fem::term::Limited;
+use asperity_output::view::Counts;
+
+/// One term a body, on its retained degrees of freedom; none before the first stage.
+pub struct CondensedBodies<'a, const D: usize> {
+    problem: &'a Problem<D>,
+    retained: Vec<Vec<usize>>,
+    terms: Vec<Condensed>,
+    factorisations: usize,
+    solves: usize,
+}
+
+impl<'a, const D: usize> CondensedBodies<'a, D> {
+    /// The bodies of a problem, which keep these degrees of freedom.
+    #[must_use]
+    pub fn new(problem: &'a Problem<D>, retained: Vec<Vec<usize>>) -> Self {
+        Self { problem, retained, terms: Vec::new(), factorisations: 0, solves: 0 }
+    }
+
+    fn solves(&self) -> usize {
+        self.terms.iter().map(|b| b.reduction().solves()).sum()
+    }
+}
+
+impl<const D: usize> Bodies<D> for CondensedBodies<'_, D> {
+    fn load(&mut self, constraints: &Constraints, renewed: bool) -> Result<(), String> {
+        if renewed {
+            self.solves += self.solves();
+            self.terms = condense(self.problem, &self.retained, constraints)?;
+            self.factorisations += self.terms.len();
+        }
+        for (body, term) in self.problem.model.bodies.iter().zip(&mut self.terms) {
+            term.set_channels(local_channels(constraints, body.dofs.clone()));
+        }
+        Ok(())
+    }
+
+    fn terms(&mut self) -> Vec<&mut dyn Limited> {
+        self.terms.iter_mut().map(|b| b as &mut dyn Limited).collect()
+    }
+
+    fn displacement(&self, u: &[f64], time: f64) -> Vec<f64> {
+        self.terms.iter().flat_map(|b| b.recover(u, time)).collect()
+    }
+
+    fn blocks(&self) -> &[CellBlock<D>] {
+        &self.problem.model.blocks
+    }
+
+    fn add_counts(&self, counts: &mut Counts) {
+        counts.body_factorisations += self.factorisations;
+        counts.body_solves += self.solves + self.solves();
+    }
+}
+
+/// Condenses every body onto its retained degrees of freedom.
+fn condense<const D: usize>(
+    problem: &Problem<D>,
+    retained: &[Vec<usize>],
+    constraints: &Constraints,
+) -> Result<Vec<Condensed>, String> {
+    let mut first = 0;
+    let mut terms = Vec::new();
+    let prepared = match &problem.solver.prepared {
+        Prepared::Bodies(analyses) if constraints.fixed == problem.stages[0].fixed => Some(analyses),
+        _ => None,
+    };
+    let mut left = problem.solver.memory;
+    for (k, (body, retained)) in problem.model.bodies.iter().zip(retained).enumerate() {
+        let told = |e: FemError| {
+            let first = body.nodes.start;
+            let place = |dof: usize| (first + dof / D, dof % D);
+            format!("body `{}`: {}", body.name, free::unsolved(&problem.model, &e, place))
+        };
+        let stiffness = problem.model.stiffness(body);
+        let dofs = &body.dofs;
+        let analysis = match prepared {
+            Some(analyses) => analyses[k].clone(),
+            None => {
+                let (kept, fixed) = (solver::local(retained, dofs), solver::local(&constraints.fixed, dofs));
+                Analysis::new(&[&stiffness.pattern], dofs.len(), &kept, &fixed).map_err(told)?
+            }
+        };
+        let bytes = analysis.bytes();
+        let reduction = Condensation::prepared(&stiffness, analysis).factor(left).map_err(told)?;
+        left = left.saturating_sub(bytes);
+        let system: Vec<usize> = (first..first + retained.len()).collect();
+        first += retained.len();
+        terms.push(Condensed::new(format!("body `{}`", body.name), reduction, &system));
+    }
+    Ok(terms)
+}
+
+/// Channels of one body in its own numbering.
+fn local_channels(constraints: &Constraints, dofs: std::ops::Range<usize>) -> Vec<Channel> {
+    let own = |list: &[(usize, f64)]| -> Vec<(usize, f64)> {
+        list.iter().filter(|(d, _)| dofs.contains(d)).map(|&(d, v)| (d - dofs.start, v)).collect()
+    };
+    constraints
+        .channels
+        .iter()
+        .map(|c| Channel {
+            prescribed: own(&c.prescribed),
+            forces: own(&c.forces),
+            amplitude: c.amplitude.clone(),
+        })
+        .filter(|c| !c.prescribed.is_empty() || !c.forces.is_empty())
+        .collect()
+}

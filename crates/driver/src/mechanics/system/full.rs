@@ -1,0 +1,46 @@
+//! Bodies whose degrees of freedom are all in the system.
+
+use super::bodies::Bodies;
+use crate::mechanics::{CellBlock, Model};
+use asperity_fem::dof::Constraints;
+use asperity_fem::loads::ExternalForces;
+use asperity_fem::term::Limited;
+use asperity_output::view::Counts;
+
+/// Cell blocks and loads on all degrees of freedom.
+pub struct Full<const D: usize> {
+    dofs: usize,
+    blocks: Vec<CellBlock<D>>,
+    loads: ExternalForces,
+}
+
+impl<const D: usize> Full<D> {
+    /// The bodies of a model.
+    #[must_use]
+    pub fn new(model: &Model<D>) -> Self {
+        Self { dofs: model.dofs(), blocks: model.blocks.clone(), loads: ExternalForces::new(Vec::new()) }
+    }
+}
+
+impl<const D: usize> Bodies<D> for Full<D> {
+    fn load(&mut self, constraints: &Constraints, _renewed: bool) -> Result<(), String> {
+        let forces = constraints.channels.iter().map(|c| (c.forces.clone(), c.amplitude.clone()));
+        self.loads = ExternalForces::new(forces.collect());
+        Ok(())
+    }
+
+    fn terms(&mut self) -> Vec<&mut dyn Limited> {
+        let loads = std::iter::once(&mut self.loads as &mut dyn Limited);
+        self.blocks.iter_mut().map(CellBlock::limited).chain(loads).collect()
+    }
+
+    fn displacement(&self, u: &[f64], _time: f64) -> Vec<f64> {
+        u[..self.dofs].to_vec()
+    }
+
+    fn blocks(&self) -> &[CellBlock<D>] {
+        &self.blocks
+    }
+
+    fn add_counts(&self, _counts: &mut Counts) {}
+}

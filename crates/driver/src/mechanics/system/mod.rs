@@ -1,0 +1,273 @@
+//! A problem brought to life: terms, constraints, stepper and state.
+
+mod bodies;
+mod condensed;
+mod full;
+mod numbering;
+mod words;
+
+use self::bodies::Bodies;
+use self::condensed::CondensedBodies;
+use self::full::Full;
+use self::numbering::Numbering;
+use super::samples::Beside;
+use super::solver::{self, Method, Prepared};
+use super::step::implicit::Implicit;
+use super::step::static_explicit::StaticExplicit;
+use super::step::{Accepted, Failure, State, Stepper};
+use super::{CellBlock, Path, PlannedInterface, Problem, Resolved, Stage, declared};
+use asperity_contact::{Interface, TimeRule};
+use asperity_fem::assembly::{Iterative, NearNull, Storage, System};
+use asperity_fem::dof::Constraints;
+use asperity_fem::term::Limited;
+use asperity_output::view::{Counts, Samples};
+
+/// See the module.
+pub struct Assembled<'a, const D: usize> {
+    problem: &'a Problem<D>,
+    bodies: Box<dyn Bodies<D> + 'a>,
+    interfaces: Vec<Interface<D>>,
+    numbering: Numbering,
+    /// Constraints of the present stage, in system numbering.
+    constraints: Constraints,
+    /// Fixed degrees of freedom of the present stage, in mesh numbering.
+    fixed: Option<Vec<usize>>,
+    stepper: Option<Box<dyn Stepper>>,
+    state: State,
+    /// Areas of the points of each interface at the start.
+    areas: Vec<Vec<f64>>,
+    /// Loads of the present stage beside those of each set whose force is wanted.
+    beside: Vec<Beside>,
+}
+
+impl<'a, const D: usize> Assembled<'a, D> {
+    /// Builds interfaces and the numbering of the system.
+    ///
+    /// # Errors
+    /// The reason in words when an interface cannot be paired.
+    pub fn new(problem: &'a Problem<D>) -> Result<Self, String> {
+        let model = &problem.model;
+        let (bodies, numbering): (Box<dyn Bodies<D> + 'a>, _) = match problem.path {
+            Path::Condensed => {
+                let retained = solver::retained(model, &problem.interfaces);
+                let numbering = Numbering::condensed(model, &retained);
+                (Box::new(CondensedBodies::new(problem, retained)), numbering)
+            }
+            Path::Full => (Box::new(Full::new(model)), Numbering::full(model)),
+        };
+        let (mut interfaces, mut unknowns) = (Vec::new(), numbering.dofs);
+        for planned in &problem.interfaces {
+            interfaces.push(interface(problem, planned, &numbering, unknowns)?);
+            unknowns += planned.unknowns;
+        }
+        Ok(Self {
+            problem,
+            bodies,
+            areas: interfaces.iter().map(|i| i.points().area.clone()).collect(),
+            interfaces,
+            numbering,
+            constraints: Constraints::default(),
+            fixed: None,
+            stepper: None,
+            state: State { u: vec![0.0; unknowns], time: 0.0 },
+            beside: Vec::new(),
+        })
+    }
+
+    /// Puts the conditions of a stage in force. Bodies are factored again only where the set of fixed degrees of freedom
+    /// changed.
+    ///
+    /// # Errors
+    /// The reason in words when a body cannot be factored.
+    pub fn begin_stage(&mut self, stage: &Stage) -> Result<(), String> {
+        let problem = self.problem;
+        let u0 = if self.fixed.is_none() { vec![0.0; problem.model.dofs()] } else { self.displacement() };
+        let constraints = stage.constraints(&u0);
+        let renewed = self.fixed.as_ref() != Some(&stage.fixed);
+        self.bodies.load(&constraints, renewed)?;
+        self.constraints = self.numbering.constraints(&constraints);
+        if renewed {
+            self.stepper = Some(self.new_stepper()?);
+            self.fixed = Some(stage.fixed.clone());
+        }
+        self.beside = problem.samples.beside(&problem.model, stage);
+        let symmetry = solver::symmetry(&problem.model, &problem.interfaces, &problem.stepping, stage);
+        if let Some(stepper) = &mut self.stepper {
+            stepper.begin_stage(symmetry, problem.model.is_linear());
+        }
+        for (interface, planned) in self.interfaces.iter_mut().zip(&problem.interfaces) {
+            let law = if stage.frictionless.contains(&planned.name) { None } else { planned.law.clone() };
+            if interface.has_law() != law.is_some() {
+                interface.set_law(law);
+            }
+        }
+        Ok(())
+    }
+
+    fn new_stepper(&self) -> Result<Box<dyn Stepper>, String> {
+        let problem = self.problem;
+        // Forces are computed from positions in finite sliding and large deformation, which are of the size of the scene.
+        let position = if problem.moves() { problem.model.scale } else { 0.0 };
+        let travel = problem.stages.iter().map(Stage::travel).sum();
+        let newton = Implicit::new(self.linear_system()?, position, problem.model.scale, travel);
+        Ok(match problem.stepping.drift {
+            None => Box::new(newton),
+            Some(drift) => Box::new(StaticExplicit::new(newton, drift)),
+        })
+    }
+
+    /// An empty system of the method of the problem.
+    fn linear_system(&self) -> Result<System, String> {
+        let equations = self.constraints.equations(self.state.u.len());
+        let (model, solver) = (&self.problem.model, &self.problem.solver);
+        Ok(match solver.method {
+            Method::Iterative { tolerance, most_iterations } => {
+                let components = model.idealisation.components();
+                let near_null = NearNull::new(&model.mesh.nodes, components)
+                    .ok_or_else(|| format!("no rigid motions of {components} components"))?;
+                System::iterative(equations, Iterative { near_null, tolerance, most_iterations })
+            }
+            Method::Dense => System::new(equations, Storage::Dense),
+            Method::Sparse => {
+                let analysis = match &solver.prepared {
+                    Prepared::System(analysis) => Some(analysis.clone()),
+                    _ => None,
+                };
+                System::new(equations, Storage::Sparse).prepared(solver.memory, analysis)
+            }
+        })
+    }
+
+    /// Tries a step of length `dt`; a forward one may be shorter, for accuracy no shorter than `smallest`.
+    ///
+    /// # Errors
+    /// [`Failure`]; nothing was committed.
+    pub fn step(&mut self, (dt, smallest): (f64, f64), counts: &mut Counts) -> Result<Accepted, Failure> {
+        let Some(stepper) = &mut self.stepper else {
+            return Err(Failure::Refused("no stage has begun".into()));
+        };
+        let mut terms = self.bodies.terms();
+        terms.extend(self.interfaces.iter_mut().map(|i| i as &mut dyn Limited));
+        stepper.step(&mut terms, &self.constraints, &mut self.state, (dt, smallest), counts)
+    }
+
+    /// Steps that leave a larger error of friction coefficients are not accepted \[-\].
+    pub fn set_bound(&mut self, bound: f64) {
+        if let Some(stepper) = &mut self.stepper {
+            stepper.set_bound(bound);
+        }
+    }
+
+    /// Time \[s\].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// Corrects the time by rounding.
+    pub fn set_time(&mut self, time: f64) {
+        self.state.time = time;
+    }
+
+    /// Slip rates of all points of all interfaces \[m/s\].
+    #[must_use]
+    pub fn slip_rates(&self) -> Vec<f64> {
+        self.interfaces.iter().flat_map(|i| i.points().slip_rate.iter().copied()).collect()
+    }
+
+    /// Estimated error of slip of the last step: what the trapezoidal rule over the rates of both ends would slip differently \[m\]. After
+    /// backward Euler this is half the change of V times the step.
+    #[must_use]
+    pub fn slip_error(&self, before: &[f64], dt: f64) -> f64 {
+        let increments = self.interfaces.iter().flat_map(|i| i.points().signed_increments());
+        let rates = self.interfaces.iter().flat_map(|i| i.points().slip_rate.iter());
+        rates
+            .zip(before)
+            .zip(increments)
+            .map(|((now, then), slip)| (0.5 * dt * (now + then) - slip).abs())
+            .fold(0.0, f64::max)
+    }
+
+    /// Slip of the last step over the largest that the laws allow a step \[-\].
+    #[must_use]
+    pub fn slip_fill(&self) -> f64 {
+        self.interfaces.iter().map(Interface::fill).fold(0.0, f64::max)
+    }
+
+    /// The interfaces.
+    #[must_use]
+    pub fn interfaces(&self) -> &[Interface<D>] {
+        &self.interfaces
+    }
+
+    /// Largest penetration \[m\].
+    #[must_use]
+    pub fn largest_penetration(&self) -> f64 {
+        self.interfaces.iter().map(|i| i.points().largest_penetration()).fold(0.0, f64::max)
+    }
+
+    /// Displacement of all degrees of freedom of the common mesh \[m\].
+    #[must_use]
+    pub fn displacement(&self) -> Vec<f64> {
+        self.bodies.displacement(&self.state.u, self.state.time)
+    }
+
+    /// Areas of the points of each interface at the start.
+    #[must_use]
+    pub fn areas(&self) -> &[Vec<f64>] {
+        &self.areas
+    }
+
+    /// What the points of an interface of this name resolve, where friction weakens on it.
+    #[must_use]
+    pub fn resolved(&self, interface: &str) -> Option<&Resolved> {
+        self.problem.interfaces.iter().find(|i| i.name == interface)?.resolved.as_ref()
+    }
+
+    /// Blocks of the mesh in their present state.
+    #[must_use]
+    pub fn blocks(&self) -> &[CellBlock<D>] {
+        self.bodies.blocks()
+    }
+
+    /// Present values at the points and sets that are looked at; costs a solve on the condensed path.
+    #[must_use]
+    pub fn samples(&self) -> Samples {
+        let (problem, wanted) = (self.problem, &self.problem.samples);
+        if wanted.is_empty() {
+            return Samples::default();
+        }
+        let now = (self.displacement(), self.state.time);
+        let bodies = (self.blocks(), problem.initial_stress.as_slice());
+        wanted.values(&problem.model, bodies, (&now.0, now.1), &self.beside)
+    }
+
+    /// Adds the work done outside the steps.
+    pub fn add_counts(&self, counts: &mut Counts) {
+        self.bodies.add_counts(counts);
+        for work in self.interfaces.iter().map(Interface::work) {
+            counts.searches += work.searches as usize;
+            counts.searches_skipped += work.searches_skipped as usize;
+            counts.projections += work.projections as usize;
+        }
+    }
+}
+
+/// An interface as a term of the system; its multipliers that are unknowns are numbered from `unknowns`.
+fn interface<const D: usize>(
+    problem: &Problem<D>,
+    planned: &PlannedInterface,
+    numbering: &Numbering,
+    unknowns: usize,
+) -> Result<Interface<D>, String> {
+    let (number, largest_rate) = (numbering.number.as_slice(), problem.largest_rate());
+    let spec = declared::spec(&problem.model, &problem.stepping, planned, number, largest_rate, unknowns);
+    let mut interface = Interface::new(spec).map_err(|e| e.to_string())?;
+    interface.set_watch(planned.watch);
+    if let Some(pressed) = &planned.pressed {
+        interface.press(&pressed.starts(), pressed.reach);
+    }
+    let follows = planned.law.as_ref().is_some_and(|l| !l.has_elastic_domain());
+    interface.set_time_rule(if follows { problem.stepping.rule } else { TimeRule::BackwardEuler });
+    Ok(interface)
+}

@@ -1,0 +1,68 @@
+//! What stopped a step, in words.
+
+use super::Assembled;
+use crate::mechanics::{Failure, free};
+
+impl<const D: usize> Assembled<'_, D> {
+    /// A failed step in words: degrees of freedom by body and place.
+    #[must_use]
+    pub fn in_words(&self, failure: &Failure) -> String {
+        match failure {
+            Failure::Refused(why) | Failure::Violated(why) => why.clone(),
+            Failure::Inaccurate { error } => {
+                format!("friction coefficients are off by some {error:.1e} at the end of the step")
+            }
+            Failure::Objected(objection) => objection.to_string(),
+            Failure::Unsolved { error, .. } => {
+                let nodes = &self.numbering.nodes;
+                if let Some(pivot) = error.pivot()
+                    && let Some(words) = self.multiplier_in_words(pivot.equation, nodes)
+                {
+                    return words;
+                }
+                free::unsolved(&self.problem.model, error, |dof| self.node_of(dof))
+            }
+            Failure::Adrift { dof } => self
+                .multiplier_in_words(*dof, &self.numbering.nodes)
+                .unwrap_or_else(|| free::adrift(&self.problem.model, self.node_of(*dof))),
+        }
+    }
+
+    /// A penalty so large that iterations suffer, in words.
+    pub fn blamed(&self) -> Option<&str> {
+        self.problem.interfaces.iter().find_map(|i| i.blamed.as_deref())
+    }
+
+    /// What an unknown is about, where it is a multiplier.
+    fn multiplier_in_words(&self, unknown: usize, nodes: &[usize]) -> Option<String> {
+        let mut first = nodes.len() * self.problem.model.idealisation.components();
+        for (planned, interface) in self.problem.interfaces.iter().zip(&self.interfaces) {
+            if (first..first + planned.unknowns).contains(&unknown) {
+                let point = (unknown - first) / (planned.unknowns / planned.slave.len());
+                return Some(format!(
+                    "the system is singular: interface `{}` does not determine the traction at node {}",
+                    planned.name,
+                    interface.label(point)
+                ));
+            }
+            first += planned.unknowns;
+        }
+        None
+    }
+
+    /// Mesh node and component of a degree of freedom of the system.
+    fn node_of(&self, dof: usize) -> (usize, usize) {
+        let components = self.problem.model.idealisation.components();
+        (self.numbering.nodes[dof / components], dof % components)
+    }
+
+    /// The motion that the system assembled last does not resist, in words, where there is one.
+    #[must_use]
+    pub fn free_motion(&self) -> Option<String> {
+        let system = self.stepper.as_ref()?.system();
+        let nodes = &self.numbering.nodes;
+        let places: Vec<[f64; D]> = nodes.iter().map(|&n| self.problem.model.mesh.nodes[n]).collect();
+        let mode = system.free_mode(&places)?;
+        Some(free::motion(&self.problem.model, &mode, nodes))
+    }
+}

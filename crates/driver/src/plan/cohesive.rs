@@ -1,0 +1,121 @@
+//! What the points of an interface resolve, and where statics says that they are too few.
+
+use crate::cohesive::enough;
+use crate::diagnostic::Diagnostic;
+use crate::fault::{FEW, Ground, TOO_FEW, modulus, spacings};
+use crate::mechanics::{Resolved, Stage};
+use crate::model::{Body, Model};
+use crate::scene::law;
+use crate::scene::model::{Interface, Scene, UnderResolved};
+use crate::warning::Warning;
+use asperity_fem::kinematics::Idealisation;
+use asperity_fem::mesh::Side;
+use asperity_fem::surface;
+
+/// Of an interface, where its friction weakens with slip.
+pub fn resolved<const D: usize>(model: &Model<D>, spec: &Interface, slave: &[Side]) -> Option<Resolved> {
+    let law = spec.law.as_ref()?;
+    let choice = law::choose(law).ok()?;
+    let of_side = |set| {
+        let body = &model.bodies[model.body_of(set)?];
+        let elastic = body.elastic.first()?;
+        Some(modulus(model.idealisation, elastic.shear(), elastic.poisson()))
+    };
+    let (a, b) = (of_side(spec.slave.get_ref())?, of_side(spec.master.get_ref())?);
+    let modulus = 2.0 * a * b / (a + b);
+    let [zone, _] = Ground { law: &choice, normal: 1.0, modulus, in_space: D == 3 }.lengths()?;
+    let spacing = spacings(model, slave).into_values().fold(0.0, f64::max);
+    let allowed = spec.under_resolved.as_ref().map(|u| *u.get_ref()) == Some(UnderResolved::Allow);
+    let one = zone / spacing;
+    let refused_beyond = (!allowed).then_some(one / TOO_FEW);
+    Some(Resolved { one, spacing, refused_beyond, limit: limit(one, spacing), place: law.span() })
+}
+
+/// What the points resolve and what helps, where a run stops for it.
+fn limit(one: f64, spacing: f64) -> String {
+    format!(
+        "points {spacing:.4e} m apart resolve it up to {:.4} MPa: take them closer, in proportion, or a longer length of weakening (`l`, `d_c`); `under_resolved = \"allow\"` at the interface runs on",
+        one / TOO_FEW / 1e6
+    )
+}
+
+/// What helps where less than one point stands on the zone.
+fn remedy(resolved: &Resolved, normal: f64) -> String {
+    format!("{}; or `under_resolved = \"allow\"` at the interface", enough(resolved, normal))
+}
+
+/// A warning where a mean normal traction \[Pa\] that loads are known to press with leaves too few points.
+///
+/// # Errors
+/// [`Diagnostic`] where they are less than one and the scene does not allow it.
+pub fn check(resolved: &Resolved, interface: &str, mean: f64) -> Result<Option<Warning>, Diagnostic> {
+    let points = resolved.one / mean;
+    if mean <= 0.0 || points >= FEW {
+        return Ok(None);
+    }
+    let message = format!(
+        "loads press interface `{interface}` with {:.4} MPa on average, where {points:.2} points, {:.4e} m apart, stand on the cohesive zone",
+        mean / 1e6,
+        resolved.spacing
+    );
+    if points < TOO_FEW && resolved.refused_beyond.is_some() {
+        let message = format!("{message}: each point breaks by itself, and slip is that of the mesh");
+        return Err(Diagnostic::at(resolved.place.clone(), message, remedy(resolved, mean)));
+    }
+    let message = format!("{message}: fronts of slip follow the mesh");
+    Ok(Some(Warning::at(resolved.place.clone(), message, enough(resolved, mean))))
+}
+
+/// Sine of the angle between a surface and a plane below which it is flat, and of that between two directions below which they are one: rounding of coordinates.
+const FLAT: f64 = 1e-9;
+
+/// Largest mean normal traction \[Pa\] of an interface in the stages in which its friction acts, where statics alone says it: one of its bodies is pressed by
+/// loads onto a flat side, and held along its normal by nothing else.
+pub fn pressed<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    stages: &[Stage],
+    (name, spec): (&str, &Interface),
+) -> Option<f64> {
+    let touched = |body: &str| {
+        let of = |set: &str| set.split('.').next() == Some(body);
+        scene.interfaces.values().filter(|i| of(i.slave.get_ref()) || of(i.master.get_ref())).count()
+    };
+    let by = |set: &str| {
+        let body = &model.bodies[model.body_of(set)?];
+        let alone = touched(&body.name) == 1 && body.parts.len() == 1;
+        let sides = model.mesh.side_sets.get(set)?;
+        if alone { mean(model, stages, name, (body, sides)) } else { None }
+    };
+    by(spec.slave.get_ref()).or_else(|| by(spec.master.get_ref()))
+}
+
+/// Force along the outward normal of a flat side over its area, the largest of the stages in which friction acts.
+fn mean<const D: usize>(
+    model: &Model<D>,
+    stages: &[Stage],
+    interface: &str,
+    (body, sides): (&Body<D>, &[Side]),
+) -> Option<f64> {
+    if !matches!(
+        model.idealisation,
+        Idealisation::PlaneStrain | Idealisation::PlaneStress | Idealisation::ThreeD
+    ) {
+        return None;
+    }
+    let mut normal = [0.0; D];
+    for (dof, value) in
+        surface::integrate(&model.mesh, sides, model.idealisation, |p, v| v[..D].copy_from_slice(&p.normal))
+    {
+        normal[dof % D] += value;
+    }
+    let area: f64 = surface::areas(&model.mesh, sides, model.idealisation).values().sum();
+    let length = surface::length(&normal);
+    if length < (1.0 - FLAT) * area {
+        return None;
+    }
+    let normal = normal.map(|c| c / length);
+    let active = stages.iter().filter(|s| !s.frictionless.iter().any(|f| f == interface));
+    let free = active.filter(|s| !s.holds(&body.dofs, &normal.map(|c| c.abs() > FLAT)));
+    free.map(|s| s.largest_force(&body.dofs, &normal) / area).reduce(f64::max)
+}

@@ -1,0 +1,82 @@
+//! Bodies that their conditions do not hold: remarks where contact does, and what would help where nothing does.
+
+use crate::diagnostic::Diagnostic;
+use crate::mechanics::restraint::{self, Motion};
+use crate::mechanics::{Model, PlannedInterface, Stage, coordinates};
+use crate::scene::model::Scene;
+use asperity_fem::mesh::face_nodes;
+
+/// Checks all bodies in all stages. Returns remarks on bodies that contact alone holds.
+///
+/// # Errors
+/// [`Diagnostic`] naming the body, the motion and the stage.
+pub fn check<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    stages: &[Stage],
+    interfaces: &[PlannedInterface],
+) -> Result<Vec<String>, Diagnostic> {
+    let remark = |held: &Motion| {
+        let Motion { stage, motion, .. } = held;
+        format!("stage `{stage}`: contact alone holds the {motion} of {}", part(model, held))
+    };
+    match restraint::check(model, stages, interfaces) {
+        Ok(held) => Ok(held.iter().map(remark).collect()),
+        Err(loose) => {
+            let Motion { body, stage, motion, .. } = &loose;
+            let (what, name) = (part(model, &loose), &model.bodies[*body].name);
+            Err(Diagnostic::at(
+                scene.bodies[name].material.span(),
+                format!("{what} is free to move in stage `{stage}`: nothing holds its {motion}"),
+                remedy(model, name, motion),
+            ))
+        }
+    }
+}
+
+/// The part of a body that moves.
+fn part<const D: usize>(model: &Model<D>, moving: &Motion) -> String {
+    let body = &model.bodies[moving.body];
+    match body.parts.len() {
+        1 => format!("body `{}`", body.name),
+        _ => format!(
+            "the part of body `{}` with the node at {}",
+            body.name,
+            coordinates::in_words(&model.mesh.nodes[moving.node])
+        ),
+    }
+}
+
+/// Sets of a body that are named in a remedy; more would hide it.
+const MOST_NAMED: usize = 8;
+
+/// What would hold a body.
+fn remedy<const D: usize>(model: &Model<D>, body: &str, loose: &str) -> String {
+    let own = |set: &&String| set.strip_prefix(body).is_some_and(|rest| rest.starts_with('.'));
+    let sets: Vec<&String> = model.mesh.side_sets.keys().filter(own).collect();
+    let axis = ["x", "y", "z"].iter().position(|axis| loose == format!("translation in {axis}"));
+    let across = sets.iter().find(|set| axis.is_some_and(|axis| is_across(model, set, axis)));
+    let Some(first) = across.or(sets.first()) else {
+        return "the body has no sets: a condition needs one, such as a physical group of faces in its mesh"
+            .into();
+    };
+    let example = match loose.strip_prefix("translation in ") {
+        Some(axis) => format!("such as `{{ set = \"{first}\", {axis} = 0 }}`"),
+        None => format!("such as one on `{first}` that holds both ends of the set"),
+    };
+    let named: Vec<String> = sets.iter().take(MOST_NAMED).map(|s| format!("`{s}`")).collect();
+    let more = if sets.len() > MOST_NAMED { ", .." } else { "" };
+    format!(
+        "add a condition that prevents the {loose}, {example}, or an interface that can; its sets are {}{more}",
+        named.join(", ")
+    )
+}
+
+/// Whether the faces of a set are turned along an axis.
+fn is_across<const D: usize>(model: &Model<D>, set: &str, axis: usize) -> bool {
+    let mut faces = model.mesh.side_sets[set].iter().map(|side| face_nodes(&model.mesh, side));
+    faces.all(|face| axis < D && model.face_normal(&face)[axis].abs() > ACROSS)
+}
+
+/// Part of a normal along an axis from which a face lies across it: within 25 degrees.
+const ACROSS: f64 = 0.9;
