@@ -5,8 +5,8 @@
 //! under so much that less than one point stands on the zone, and the end of each stage warns of less than three.
 
 use crate::fault::{ENOUGH, FEW};
-use crate::mechanics::Resolved;
 use crate::warning::Warning;
+use asperity_mechanics::Resolved;
 
 /// What the plan says.
 #[must_use]

@@ -1,8 +1,8 @@
 //! What a run holds in memory.
 
 use crate::forecast::Counts;
-use crate::mechanics::{CellBlock, Model};
 use crate::model::counts;
+use asperity_mechanics::{CellBlock, Model};
 
 /// Bytes of the program with its libraries, and of its tables and plots: the smallest scenes take 12 MB without plots and 38 MB with them.
 const PROGRAM: usize = 38_000_000;

@@ -1,7 +1,7 @@
 //! The stress that a body of a scene starts with.
 
-use crate::mechanics::StressField;
 use crate::scene::model::{Axis, Body, InitialStress, Scene, StressKind, VaryingStress};
+use asperity_mechanics::StressField;
 
 /// The stress of a body, where it has one that is complete.
 #[must_use]

@@ -15,7 +15,6 @@ pub mod initial_stress;
 pub mod laws;
 mod lengths;
 pub mod loading;
-pub mod mechanics;
 pub mod model;
 pub mod plan;
 pub mod report;

@@ -5,8 +5,6 @@ mod shared;
 
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
-use crate::mechanics::{self, Rotation, Turning};
-pub use crate::mechanics::{Spring, Stage};
 use crate::model::{self, Model, bounds};
 use crate::scene::model::{Condition, Loading, Material, Motion, Scene, Spanned};
 use asperity_fem::block::LinearBlock;
@@ -15,6 +13,8 @@ use asperity_fem::kinematics::Formulation;
 use asperity_fem::mesh::nodes_of_sides;
 use asperity_fem::surface;
 use asperity_fem::table::Table;
+use asperity_mechanics::{self as mechanics, Rotation, Turning};
+pub use asperity_mechanics::{Spring, Stage};
 use shared::Shared;
 use std::collections::BTreeMap;
 use std::ops::Range;

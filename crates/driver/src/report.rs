@@ -2,10 +2,10 @@
 
 use crate::balance::InterfaceBalance;
 use crate::cohesive;
-use crate::mechanics::Stage;
 use crate::plan::{Plan, Summary};
 use crate::views;
 use crate::warning::Warning;
+use asperity_mechanics::Stage;
 use asperity_output::view::{
     Counts, ForceMark, InterfaceFields, PointMark, PointValues, Samples, StepRecord,
 };

@@ -1,17 +1,17 @@
 //! Running a plan: stages in sequence, steps within them, observers after each.
 
 use crate::balance::balance;
-use crate::mechanics::step::{Accepted, Cut};
-use crate::mechanics::timing::{Figures, StepLength};
-use crate::mechanics::{Assembled, LOADING, Stage};
 use crate::plan::{AnyPlan, Plan};
 use crate::report::{Outcome, Phases, RunReport};
 use crate::run_doubts;
 use crate::stop;
 use crate::views;
 use asperity_contact::{Course, Watch};
+use asperity_mechanics::step::{Accepted, Cut};
+use asperity_mechanics::timing::{Figures, StepLength};
+use asperity_mechanics::{Assembled, Counts, LOADING, Stage};
 use asperity_output::OutputError;
-use asperity_output::view::{Counts, InterfaceFields, Observer, StepRecord, StepView};
+use asperity_output::view::{InterfaceFields, Observer, StepRecord, StepView};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant as Clock;
 
@@ -61,7 +61,7 @@ fn run_in<const D: usize>(
     stop: &AtomicBool,
 ) -> Result<RunReport, RunError> {
     let (counts, phases) = (Counts::default(), Phases::default());
-    let mut run = Running { plan, stop, counts, phases, steps: Vec::new() };
+    let mut run = Running { plan, stop, counts, rejected: 0, phases, steps: Vec::new() };
     let clock = Clock::now();
     let mut system = Assembled::new(&plan.problem)
         .map_err(|reason| RunError::SetUp { stage: plan.problem.stages[0].name.clone(), reason })?;
@@ -72,7 +72,7 @@ fn run_in<const D: usize>(
         let outcome = run.stage(index, &mut system, observer)?;
         report.end_of_stage(&plan.problem.stages[index], &interface_fields(&system), interface_names(plan));
         report.resolution(plan, &plan.problem.stages[index], &interface_fields(&system));
-        report.samples(plan, &plan.problem.stages[index], &system.samples());
+        report.samples(plan, &plan.problem.stages[index], &views::samples(system.samples()));
         let name = &plan.problem.stages[index].name;
         let found = run_doubts::after_stage(plan, name, &system.displacement(), &interface_fields(&system));
         report.warnings.extend(found);
@@ -86,7 +86,8 @@ fn run_in<const D: usize>(
     let planned = plan.problem.interfaces.iter().zip(system.interfaces());
     report.balance = planned.map(|(p, i)| balance(&p.name, i, plan.problem.model.scale)).collect();
     report.warnings.extend(run_doubts::never_closed(&report.results));
-    report.complete(run.counts, run.phases, run.steps);
+    let counts = views::counts(run.steps.len(), run.rejected, &run.counts);
+    report.complete(counts, run.phases, run.steps);
     Ok(report)
 }
 
@@ -94,7 +95,10 @@ fn run_in<const D: usize>(
 struct Running<'a, const D: usize> {
     plan: &'a Plan<D>,
     stop: &'a AtomicBool,
+    /// Work of the steppers.
     counts: Counts,
+    /// Rejected trials.
+    rejected: usize,
     phases: Phases,
     steps: Vec<StepRecord>,
 }
@@ -147,12 +151,14 @@ impl<const D: usize> Running<'_, D> {
                     }
                 }
                 Err(failure) => {
-                    self.counts.rejected += 1;
+                    self.rejected += 1;
                     rejected += 1;
                     if free.is_none() && failure.is_singular() {
                         free = system.free_motion();
                     }
-                    if let Some(outcome) = stop::stalled(system, &stage.name, &failure, &self.counts) {
+                    if let Some(outcome) =
+                        stop::stalled(system, &stage.name, &failure, (self.steps.len(), self.rejected))
+                    {
                         return Ok(Some(outcome));
                     }
                     if failure.always() || !length.halve(dt) {
@@ -206,10 +212,9 @@ impl<const D: usize> Running<'_, D> {
         (rejected, reason): (usize, &str),
     ) {
         debug_assert!(system.time() <= stage.end * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE);
-        self.counts.steps += 1;
         self.steps.push(StepRecord {
             stage: index,
-            step: self.counts.steps,
+            step: self.steps.len() + 1,
             time: system.time(),
             dt: accepted.dt,
             iterations: accepted.iterations,
@@ -234,7 +239,7 @@ impl<const D: usize> Running<'_, D> {
         let clock = Clock::now();
         let Some(record) = self.steps.last().filter(|record| record.stage == index) else { return Ok(()) };
         let end_time = self.plan.problem.stages.last().map_or(stage.end, |s| s.end);
-        let (interfaces, samples) = (interface_fields(system), system.samples());
+        let (interfaces, samples) = (interface_fields(system), views::samples(system.samples()));
         let view = StepView {
             record,
             stage: &stage.name,

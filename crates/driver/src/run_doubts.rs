@@ -1,7 +1,6 @@
 //! What a run finds that its model does not describe: strain, rotation and slip beyond what small means, and contact that never was.
 
 use crate::lengths::brief;
-use crate::mechanics::{CellBlock, Model, PlannedInterface};
 use crate::plan::Plan;
 use crate::report::InterfaceResult;
 use crate::warning::Warning;
@@ -9,6 +8,7 @@ use asperity_contact::Sliding;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::Cells;
 use asperity_fem::nonlinear::Kinematics;
+use asperity_mechanics::{CellBlock, Model, PlannedInterface};
 use asperity_output::view::InterfaceFields;
 use nalgebra::{DMatrix, SymmetricEigen};
 

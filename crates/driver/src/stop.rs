@@ -1,10 +1,9 @@
 //! How a run ends that cannot go on: what is said of it, and whether it met an instability.
 
-use crate::mechanics::{Assembled, Failure, coordinates};
 use crate::report::{Outcome, Stop};
 use asperity_contact::Interface;
 use asperity_fem::term::Objection;
-use asperity_output::view::Counts;
+use asperity_mechanics::{Assembled, Failure, coordinates};
 
 /// What may be done about an instability.
 const REMEDY: &str = "the last state before it is kept. Stiffer bodies or supports, or a larger length of weakening (`l`, `d_c`), \
@@ -59,17 +58,15 @@ pub fn stalled<const D: usize>(
     system: &Assembled<'_, D>,
     stage: &str,
     failure: &Failure,
-    counts: &Counts,
+    (steps, rejected): (usize, usize),
 ) -> Option<Outcome> {
     let by_accuracy = matches!(failure, Failure::Inaccurate { .. } | Failure::Objected(_));
-    if by_accuracy || counts.rejected < STALLED || counts.steps > SELDOM * counts.rejected {
+    if by_accuracy || rejected < STALLED || steps > SELDOM * rejected {
         return None;
     }
     let blamed = system.blamed()?;
     let reason = format!(
-        "{} trials of steps failed, beside {} that stand: {blamed}. The last of them: {}",
-        counts.rejected,
-        counts.steps,
+        "{rejected} trials of steps failed, beside {steps} that stand: {blamed}. The last of them: {}",
         system.in_words(failure)
     );
     Some(Outcome::Stopped { stage: stage.to_string(), time: system.time(), reason, kind: Stop::NotConverged })

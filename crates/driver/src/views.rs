@@ -1,12 +1,14 @@
 //! The model and its state as observers see them.
 
-use crate::mechanics::{CellBlock, ForceSet, PlannedInterface, Point};
 use crate::plan::Plan;
 use asperity_contact::{Interface, PointFields, Status};
 use asperity_fem::block::von_mises;
 use asperity_fem::kinematics::Idealisation;
+use asperity_mechanics as mechanics;
+use asperity_mechanics::{CellBlock, ForceSet, PlannedInterface, Point};
 use asperity_output::view::{
-    BodyFields, ForceMark, InterfaceFields, InterfaceMesh, MeshView, PointMark, Setup,
+    BodyFields, Counts, ForceMark, InterfaceFields, InterfaceMesh, MeshView, PointMark, PointValues, Samples,
+    Setup,
 };
 use std::collections::BTreeMap;
 
@@ -104,7 +106,7 @@ fn interface_mesh<const D: usize>(
 
 /// Slave nodes nearest to `count` equally spaced positions along the diagonal of the slave side's bounding box.
 fn probes(positions: &[[f64; 3]], count: usize) -> Vec<usize> {
-    let (min, max) = crate::mechanics::bounds(positions);
+    let (min, max) = asperity_mechanics::bounds(positions);
     let mut probes: Vec<usize> = (0..count)
         .map(|k| {
             let s = if count == 1 { 0.5 } else { k as f64 / (count - 1) as f64 };
@@ -247,4 +249,37 @@ fn nodal_stress<const D: usize>(
         }
     }
     sums.into_iter().map(|(node, (sum, count))| (node, sum.map(|s| s / count))).collect()
+}
+
+/// Values at points and forces on sets.
+#[must_use]
+pub fn samples(samples: mechanics::Samples) -> Samples {
+    let point = |p: mechanics::PointValues| PointValues {
+        displacement: p.displacement,
+        stress: p.stress,
+        mises: p.mises,
+    };
+    Samples { points: samples.points.into_iter().map(point).collect(), forces: samples.forces }
+}
+
+/// Accepted steps, rejected trials and the work that they took.
+#[must_use]
+pub fn counts(steps: usize, rejected: usize, work: &mechanics::Counts) -> Counts {
+    Counts {
+        steps,
+        rejected,
+        iterations: work.iterations,
+        augmentations: work.augmentations,
+        residuals: work.residuals,
+        tangents: work.tangents,
+        factorisations: work.factorisations,
+        indefinite: work.indefinite,
+        solves: work.solves,
+        linear_iterations: work.linear_iterations,
+        body_factorisations: work.body_factorisations,
+        body_solves: work.body_solves,
+        searches: work.searches,
+        searches_skipped: work.searches_skipped,
+        projections: work.projections,
+    }
 }

@@ -7,15 +7,23 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// What each package of the workspace may depend on inside it, tests and build scripts included.
-const ALLOWED: [(&str, &[&str]); 9] = [
+const ALLOWED: [(&str, &[&str]); 10] = [
     ("asperity-friction", &[]),
     ("asperity-fem", &[]),
     ("asperity-ode", &[]),
     ("asperity-output", &[]),
     ("asperity-contact", &["asperity-fem", "asperity-friction"]),
+    ("asperity-mechanics", &["asperity-fem", "asperity-friction", "asperity-contact"]),
     (
         "asperity-driver",
-        &["asperity-fem", "asperity-friction", "asperity-ode", "asperity-output", "asperity-contact"],
+        &[
+            "asperity-fem",
+            "asperity-friction",
+            "asperity-ode",
+            "asperity-output",
+            "asperity-contact",
+            "asperity-mechanics",
+        ],
     ),
     ("asperity-verification", PROGRAMS),
     ("asperity-benches", PROGRAMS),
@@ -29,11 +37,13 @@ const PROGRAMS: &[&str] = &[
     "asperity-ode",
     "asperity-output",
     "asperity-contact",
+    "asperity-mechanics",
     "asperity-driver",
 ];
 
 /// Libraries that work on values only.
-pub const LIBRARIES: [&str; 4] = ["asperity-friction", "asperity-fem", "asperity-ode", "asperity-contact"];
+pub const LIBRARIES: [&str; 5] =
+    ["asperity-friction", "asperity-fem", "asperity-ode", "asperity-contact", "asperity-mechanics"];
 
 /// What a library of values has no use for: terminals, pictures, scene files.
 const NOT_IN_LIBRARIES: [&str; 5] = ["clap", "miette", "plotters", "indicatif", "toml"];
@@ -165,6 +175,8 @@ mod tests {
             ("asperity-ode", "asperity-friction"),
             ("asperity-fem", "asperity-ode"),
             ("asperity-output", "asperity-fem"),
+            ("asperity-mechanics", "asperity-output"),
+            ("asperity-contact", "asperity-mechanics"),
             ("asperity-driver", "asperity-verification"),
             ("xtask", "asperity-fem"),
         ] {

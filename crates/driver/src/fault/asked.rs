@@ -3,11 +3,11 @@
 use super::place::Place;
 use super::placed::{Placed, at};
 use crate::diagnostic::Diagnostic;
-use crate::mechanics::coordinates;
 use crate::model::{self, Model};
 use crate::scene::model::{Along, Fault as Spec, LawSpec, Profile, Profiled, Scene, Spanned, Station};
 use crate::warning::Warning;
 use asperity_fem::mesh::face_nodes;
+use asperity_mechanics::coordinates;
 
 /// Smallest and largest of some values.
 fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {

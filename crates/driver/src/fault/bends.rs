@@ -1,10 +1,10 @@
 //! How sharply faults turn from one cell to the next.
 
 use crate::diagnostic::Diagnostic;
-use crate::mechanics::coordinates;
 use crate::model::{self, Model};
 use crate::scene::model::Fault as Spec;
 use asperity_fem::mesh::{Side, face_nodes};
+use asperity_mechanics::coordinates;
 use std::collections::BTreeMap;
 
 /// Turn between neighbouring cells from which it is noted \[degrees\]: slip of 1 m across a corner of 2 degrees in cells of 1 km changes normal

@@ -10,7 +10,6 @@ use super::place::{Place, across};
 use super::point::Point;
 use crate::amounts;
 use crate::loading::Stage;
-use crate::mechanics::coordinates;
 use crate::model::Model;
 use asperity_fem::FemError;
 use asperity_fem::condense::{Condensation, Condensed, Loaded, Remainder, Stiffness};
@@ -18,6 +17,7 @@ use asperity_fem::dof::Channel;
 use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
 use asperity_fem::multifrontal::DirectError;
 use asperity_fem::table::Table;
+use asperity_mechanics::coordinates;
 
 /// What slip does, component by component.
 #[derive(Debug)]

@@ -1,11 +1,11 @@
 //! What the two sides of a fault must have in common: the same nodes wherever one covers the other.
 
 use crate::diagnostic::Diagnostic;
-use crate::mechanics::coordinates;
 use crate::model::Model;
 use crate::scene::model::Fault as Spec;
 use crate::warning::Warning;
 use asperity_fem::mesh::{Side, face_nodes};
+use asperity_mechanics::coordinates;
 use std::collections::BTreeSet;
 
 /// Distance of two nodes at one place over the size of the model: rounding of generated and of written coordinates.

@@ -3,12 +3,12 @@
 use super::place::Place;
 use super::point::Point;
 use crate::diagnostic::Diagnostic;
-use crate::mechanics::coordinates;
 use crate::model::{self, Model};
 use crate::scene::model::{Motion, Scene, Spanned};
 use asperity_fem::dof::Channel;
 use asperity_fem::jump::Jump;
 use asperity_fem::mesh::nodes_of_sides;
+use asperity_mechanics::coordinates;
 use std::ops::Range;
 
 /// Why bodies cannot be condensed onto faults.

@@ -6,10 +6,10 @@
 use super::place::{branches, directions, unit};
 use super::placed::Placed;
 use crate::diagnostic::Diagnostic;
-use crate::mechanics::coordinates;
 use crate::model::{self, Model};
 use crate::scene::model::{Fault as Spec, Scene};
 use asperity_fem::mesh::face_nodes;
+use asperity_mechanics::coordinates;
 use std::collections::BTreeMap;
 
 /// Joins the points that faults share; gives notes on where they do.

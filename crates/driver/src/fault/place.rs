@@ -2,7 +2,6 @@
 
 use super::cover::{self, TOGETHER};
 use crate::diagnostic::Diagnostic;
-use crate::mechanics::coordinates;
 use crate::model::{self, Model};
 use crate::scene::model::{Fault as Spec, Spanned};
 use crate::warning::Warning;
@@ -10,6 +9,7 @@ use asperity_fem::FemError;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
 use asperity_fem::surface;
+use asperity_mechanics::coordinates;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A point of a fault.

@@ -6,9 +6,9 @@
 use super::place::{Place, across};
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
-use crate::mechanics::coordinates;
 use crate::model::Model;
 use crate::scene::model::{Body, Fault as Spec, InitialStress, Scene, SlipSpec, Spanned};
+use asperity_mechanics::coordinates;
 use std::ops::Range;
 
 /// Difference of the tractions on both sides over their size up to which they balance: rounding of stresses given in the scene.

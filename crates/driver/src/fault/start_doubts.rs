@@ -2,10 +2,10 @@
 
 use super::equations::Fault;
 use super::placed::Placed;
-use crate::mechanics::coordinates;
 use crate::scene::model::{Fault as Spec, Scene, Spanned};
 use crate::warning::Warning;
 use asperity_friction::fault::FaultLaw;
+use asperity_mechanics::coordinates;
 use std::ops::Range;
 
 /// How many times larger or smaller than that of steady slip at `rate` friction at the start may be without a word. Laws of rock differ by tenths from it at any rate;

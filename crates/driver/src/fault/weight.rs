@@ -11,10 +11,10 @@ use super::placed::Placed;
 use super::prestress::{Resolved, against, strays};
 use crate::diagnostic::Diagnostic;
 use crate::loading::Stage;
-use crate::mechanics::coordinates;
 use crate::model::Model;
 use crate::scene::model::{Fault as Spec, Scene, Spanned};
 use crate::warning::Warning;
+use asperity_mechanics::coordinates;
 
 /// Share of the largest traction below which one is rounding of the condensation.
 const NOTHING: f64 = 1e-9;

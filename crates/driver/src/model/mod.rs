@@ -7,17 +7,17 @@ pub mod sizes;
 use crate::diagnostic::Diagnostic;
 use crate::forecast::{self, Counts};
 use crate::initial_stress;
-use crate::mechanics::cell_size;
 use crate::scene::model as scene;
 use crate::scene::near::suggest;
 use asperity_fem::block::{LinearBlock, von_mises};
 use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::mesh::{Cells, Mesh, Side};
 use asperity_fem::nonlinear::{self, Kinematics, Limits, Material};
+use asperity_mechanics::cell_size;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-pub use crate::mechanics::{Body, CellBlock, Model, bounds};
+pub use asperity_mechanics::{Body, CellBlock, Model, bounds};
 
 /// Makes or reads the meshes of a scene and the terms of its bodies.
 ///

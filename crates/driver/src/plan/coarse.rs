@@ -1,8 +1,8 @@
 //! Sides of interfaces with too few faces for what is asked of them.
 
-use crate::mechanics::{Measure, PlannedInterface};
 use crate::scene::model::Interface as Spec;
 use crate::warning::Warning;
+use asperity_mechanics::{Measure, PlannedInterface};
 
 /// Faces of the slave over those of the master from which a warning is given: the middle of a slave face is then two master nodes from the nearest
 /// place where penetration is seen.

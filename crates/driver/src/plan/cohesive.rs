@@ -3,7 +3,6 @@
 use crate::cohesive::enough;
 use crate::diagnostic::Diagnostic;
 use crate::fault::{FEW, Ground, TOO_FEW, modulus, spacings};
-use crate::mechanics::{Resolved, Stage};
 use crate::model::{Body, Model};
 use crate::scene::law;
 use crate::scene::model::{Interface, Scene, UnderResolved};
@@ -11,6 +10,7 @@ use crate::warning::Warning;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::Side;
 use asperity_fem::surface;
+use asperity_mechanics::{Resolved, Stage};
 
 /// Of an interface, where its friction weakens with slip.
 pub fn resolved<const D: usize>(model: &Model<D>, spec: &Interface, slave: &[Side]) -> Option<Resolved> {

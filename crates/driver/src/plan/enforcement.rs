@@ -1,8 +1,8 @@
 //! The enforcement that a scene declares, in SI.
 
-use crate::mechanics::Enforced;
 use crate::scene::model::{Enforcement as Spec, EnforcementKind, Spanned};
 use crate::scene::units::{Penalty, Penetration};
+use asperity_mechanics::Enforced;
 
 /// Augmentations a step may take where the scene does not say. At 1 E/h each leaves a third to a half of the penetration, at
 /// 100 E/h a hundredth; more than so many mean that the penalty is too small for the method.

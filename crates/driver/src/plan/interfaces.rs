@@ -4,13 +4,13 @@ use super::enforcement::{enforced, in_pascal_per_metre};
 use super::penalty::{self, Softer};
 use super::{PlannedInterface, cohesive, pressed, watch};
 use crate::diagnostic::Diagnostic;
-use crate::mechanics::{self, coordinates};
 use crate::model::{self, Model};
 use crate::scene::law::{self, LawChoice};
 use crate::scene::model::{Interface as InterfaceSpec, LawSpec, Measure, Scene, Sliding, Spanned};
 use asperity_contact::{self as contact, Watch};
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
 use asperity_friction::law::Law;
+use asperity_mechanics::{self as mechanics, coordinates};
 use std::sync::Arc;
 
 /// Share of the largest tributary area of an interface below which one is zero but for rounding.

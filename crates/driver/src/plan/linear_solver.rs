@@ -3,14 +3,14 @@
 use crate::amounts::{memory, size};
 use crate::diagnostic::Diagnostic;
 use crate::forecast;
-use crate::mechanics::solver::{Method, Prepared, Solver, local, moving_mortar, retained, symmetry};
-use crate::mechanics::{CellBlock, Model, Path, PlannedInterface, Stage, Stepping};
 use crate::model::counts;
 use crate::scene::model::{Method as Asked, Scene, Spanned};
 use asperity_fem::assembly::{Lower, Symmetry};
 use asperity_fem::condense;
 use asperity_fem::dof::{Constraints, Equations};
 use asperity_fem::term::Pattern;
+use asperity_mechanics::solver::{Method, Prepared, Solver, local, moving_mortar, retained, symmetry};
+use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface, Stage, Stepping};
 
 /// Default of `tolerance`. A Newton iteration ends at 1e-11 of the largest force; with one solution at 1e-10 linear steps end
 /// after one or two.

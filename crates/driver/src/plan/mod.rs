@@ -21,7 +21,7 @@ mod summary;
 mod values;
 mod watch;
 
-pub use crate::mechanics::{Path, PlannedInterface, Stepping, interface_nodes};
+pub use asperity_mechanics::{Path, PlannedInterface, Stepping, interface_nodes};
 pub use planner::{ScenePlan, plan, plan_scene};
 pub use start_gap::{SHARE, StartGap};
 pub use values::{AnyPlan, Plan, Summary};

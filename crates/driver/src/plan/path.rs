@@ -2,9 +2,9 @@
 
 use super::{Path, PlannedInterface};
 use crate::diagnostic::Diagnostic;
-use crate::mechanics::{Model, solver};
 use crate::scene::model::{Method, Path as PathChoice, Scene};
 use asperity_contact::Sliding;
+use asperity_mechanics::{Model, solver};
 
 /// Chooses the path of a scene.
 ///

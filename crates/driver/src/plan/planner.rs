@@ -8,9 +8,9 @@ use crate::fault;
 use crate::forecast;
 use crate::initial_stress;
 use crate::loading::{self, Stage};
-use crate::mechanics::Problem;
 use crate::model::{self, sizes};
 use crate::scene::model::Scene;
+use asperity_mechanics::Problem;
 
 /// What a scene with bodies asks for.
 #[derive(Debug)]

@@ -5,11 +5,11 @@
 use super::SHARE;
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
-use crate::mechanics::{Pressed, coordinates};
 use crate::model::{self, Body, Model};
 use crate::scene::model::{Interface as Spec, Scene};
 use asperity_fem::mesh::{Side, nodes_of_sides};
 use asperity_fem::surface;
+use asperity_mechanics::{Pressed, coordinates};
 
 /// Difference of the forces of both sides on a node over the largest up to which they balance: rounding of stresses given in a scene.
 const BALANCED: f64 = 1e-6;

@@ -1,10 +1,10 @@
 //! Bodies that their conditions do not hold: remarks where contact does, and what would help where nothing does.
 
 use crate::diagnostic::Diagnostic;
-use crate::mechanics::restraint::{self, Motion};
-use crate::mechanics::{Model, PlannedInterface, Stage, coordinates};
 use crate::scene::model::Scene;
 use asperity_fem::mesh::face_nodes;
+use asperity_mechanics::restraint::{self, Motion};
+use asperity_mechanics::{Model, PlannedInterface, Stage, coordinates};
 
 /// Checks all bodies in all stages. Returns remarks on bodies that contact alone holds.
 ///

@@ -1,11 +1,11 @@
 //! Points and sets of a scene whose values are asked for, found in the bodies.
 
 use crate::diagnostic::Diagnostic;
-use crate::mechanics::coordinates::in_words;
-use crate::mechanics::{ForceSet, Point, Wanted};
 use crate::model::{self, Model};
 use crate::scene::model::{PointSpec, Scene, Spanned};
 use asperity_fem::mesh::locate;
+use asperity_mechanics::coordinates::in_words;
+use asperity_mechanics::{ForceSet, Point, Wanted};
 
 /// Finds the points and sets of a scene.
 ///

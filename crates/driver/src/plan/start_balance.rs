@@ -3,12 +3,12 @@
 use super::{PlannedInterface, Stepping};
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
-use crate::mechanics::coordinates::in_words;
-use crate::mechanics::{CellBlock, Model, Stage, declared};
 use crate::scene::model::Scene;
 use crate::warning::Warning;
 use asperity_contact::{Enforcement, Interface};
 use asperity_friction::law::{Regime, Responses, Trials};
+use asperity_mechanics::coordinates::in_words;
+use asperity_mechanics::{CellBlock, Model, Stage, declared};
 
 /// Unbalanced forces, over the largest initial stress on a face as large as a body, from which bodies settle by more than errors of the
 /// mesh: where meshes of two bodies do not match, a stress that varies leaves some h/10H on H/h cells.
@@ -218,7 +218,7 @@ fn of_free<const D: usize>(model: &Model<D>, stage: &Stage, r: &[f64], stress: f
 
 /// Area of a face as large as a body: the largest of its bounding box; about an axis that of the full circle \[m²; m\].
 fn face<const D: usize>(model: &Model<D>, nodes: std::ops::Range<usize>) -> f64 {
-    let (min, max) = crate::mechanics::bounds(&model.mesh.nodes[nodes]);
+    let (min, max) = asperity_mechanics::bounds(&model.mesh.nodes[nodes]);
     let edge = |c: usize| max[c] - min[c];
     let longest = (0..D).map(edge).fold(0.0, f64::max);
     match D {

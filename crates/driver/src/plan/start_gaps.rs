@@ -2,13 +2,13 @@
 
 use super::{PlannedInterface, SHARE, StartGap, Stepping};
 use crate::diagnostic::Diagnostic;
-use crate::mechanics::{Model, Stage, bounds, declared};
 use crate::scene::check::brief;
 use crate::scene::model::Interface as Spec;
 use crate::warning::Warning;
 use asperity_contact::{Enforcement, Interface, PointFields};
 use asperity_fem::mesh::Side;
 use asperity_fem::surface;
+use asperity_mechanics::{Model, Stage, bounds, declared};
 use std::collections::BTreeMap;
 
 /// Rounding of a gap over the size of the scene: what the contact takes for closed without traction.

@@ -1,10 +1,10 @@
 //! The stepper of a scene, and the control of its steps.
 
 use crate::diagnostic::Diagnostic;
-use crate::mechanics::{Control, Stage, Stepping};
 use crate::scene::model::{Rule, Scene, Stepper};
 use asperity_contact::TimeRule;
 use asperity_friction::law::RateBounds;
+use asperity_mechanics::{Control, Stage, Stepping};
 
 /// Default bound on the local error of slip per step, relative to the largest prescribed displacement.
 const SLIP_TOLERANCE: f64 = 2e-5;

@@ -4,13 +4,13 @@ use super::Summary;
 use super::path::{finite, full_because};
 use crate::amounts;
 use crate::held::Held;
-use crate::mechanics::solver::Solver;
-use crate::mechanics::{
-    CellBlock, Enforced, Measure, Model, Path, PlannedInterface, Stepping, interface_nodes,
-};
 use crate::scene::model::{Formulation, Kinematics, Scene};
 use asperity_contact::TimeRule;
 use asperity_fem::nonlinear::Material;
+use asperity_mechanics::solver::Solver;
+use asperity_mechanics::{
+    CellBlock, Enforced, Measure, Model, Path, PlannedInterface, Stepping, interface_nodes,
+};
 
 /// The summary of a plan, but for what is found of its start.
 pub fn of<const D: usize>(

@@ -1,8 +1,8 @@
 //! A plan as data, and its summary as it is printed.
 
 use super::start_gap::StartGap;
-use crate::mechanics::Problem;
 use crate::warning::Warning;
+use asperity_mechanics::Problem;
 use serde::Serialize;
 
 /// What will be run.

@@ -1,12 +1,12 @@
 //! What the steps of an interface may not do: derived from its law, the bodies beside it and the loads.
 
 use crate::diagnostic::Diagnostic;
-use crate::mechanics::LOADING;
 use crate::model::{self, Model};
 use crate::scene::law::{Evolution, LawChoice, State};
 use crate::scene::model::Scene;
 use asperity_contact::{Course, RateLimit, Watch};
 use asperity_fem::mesh::Side;
+use asperity_mechanics::LOADING;
 use std::collections::BTreeSet;
 
 /// Density where a scene declares none \[kg/m³\]: crustal rock has 2500 to 3000.

@@ -1,9 +1,9 @@
 //! What a plan foresees of memory is what the run takes; what no machine holds is refused before it is built.
 #![allow(clippy::disallowed_methods, clippy::print_stdout)]
 
-use asperity_driver::mechanics::solver::Prepared;
 use asperity_driver::plan::{self, AnyPlan};
 use asperity_driver::scene;
+use asperity_mechanics::solver::Prepared;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

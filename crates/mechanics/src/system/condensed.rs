@@ -1,13 +1,13 @@
 //! Bodies that are condensed onto the degrees of freedom of their interfaces.
 
 use super::bodies::Bodies;
-use crate::mechanics::solver::{self, Prepared};
-use crate::mechanics::{CellBlock, Problem, free};
+use crate::Counts;
+use crate::solver::{self, Prepared};
+use crate::{CellBlock, Problem, free};
 use asperity_fem::FemError;
 use asperity_fem::condense::{Analysis, Condensation, Condensed};
 use asperity_fem::dof::{Channel, Constraints};
 use asperity_fem::term::Limited;
-use asperity_output::view::Counts;
 
 /// One term a body, on its retained degrees of freedom; none before the first stage.
 pub struct CondensedBodies<'a, const D: usize> {

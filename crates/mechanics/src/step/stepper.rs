@@ -3,10 +3,10 @@
 use super::implicit::Implicit;
 use super::static_explicit::StaticExplicit;
 use super::{Accepted, Failure, State};
+use crate::Counts;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{Limited, Linearized};
-use asperity_output::view::Counts;
 
 /// A stepper, whichever it is.
 pub trait Stepper {

@@ -9,10 +9,10 @@
 
 use super::implicit::Implicit;
 use super::{Accepted, Before, Cut, Failure, State, accurate, unopposed};
+use crate::Counts;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{Fraction, Instant, Limited, Linearized, Pattern};
-use asperity_output::view::Counts;
 
 /// A fraction this close to 1 does not bind: events within 1e-9 of the step's end switch with it.
 const WHOLE: f64 = 1.0 - 1e-9;

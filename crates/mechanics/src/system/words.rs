@@ -1,7 +1,7 @@
 //! What stopped a step, in words.
 
 use super::Assembled;
-use crate::mechanics::{Failure, free};
+use crate::{Failure, free};
 
 impl<const D: usize> Assembled<'_, D> {
     /// A failed step in words: degrees of freedom by body and place.

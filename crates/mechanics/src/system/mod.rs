@@ -16,11 +16,11 @@ use super::step::implicit::Implicit;
 use super::step::static_explicit::StaticExplicit;
 use super::step::{Accepted, Failure, State, Stepper};
 use super::{CellBlock, Path, PlannedInterface, Problem, Resolved, Stage, declared};
+use crate::{Counts, Samples};
 use asperity_contact::{Interface, TimeRule};
 use asperity_fem::assembly::{Iterative, NearNull, Storage, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::Limited;
-use asperity_output::view::{Counts, Samples};
 
 /// See the module.
 pub struct Assembled<'a, const D: usize> {

@@ -1,6 +1,6 @@
 //! Numbers of degrees of freedom in the system of a step.
 
-use crate::mechanics::Model;
+use crate::Model;
 use asperity_fem::dof::{Channel, Constraints};
 
 /// Numbers of those that are condensed away.

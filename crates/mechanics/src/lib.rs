@@ -1,8 +1,10 @@
-//! The mechanics of bodies and interfaces as values: the discrete model, loading, the system of a step, steppers. It knows no scene.
+#![doc = include_str!("../README.md")]
+#![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod cell_size;
 mod choices;
 pub mod coordinates;
+mod counts;
 pub mod declared;
 mod enforced;
 mod free;
@@ -23,13 +25,14 @@ mod turning;
 
 pub use cell_size::cell_size;
 pub use choices::{Control, Path, Stepping};
+pub use counts::Counts;
 pub use enforced::Enforced;
 pub use interface::{Measure, PlannedInterface, interface_nodes};
 pub use model::{Body, CellBlock, Model, bounds};
 pub use pressed::Pressed;
 pub use problem::Problem;
 pub use resolved::Resolved;
-pub use samples::{ForceSet, Point, Wanted};
+pub use samples::{ForceSet, Point, PointValues, Samples, Wanted};
 pub use stage::{LOADING, Motion, Spring, Stage};
 pub use step::Failure;
 pub use stress::StressField;

@@ -9,10 +9,10 @@ mod stepper;
 
 pub use stepper::Stepper;
 
+use crate::Counts;
 use asperity_fem::FemError;
 use asperity_fem::assembly::System;
 use asperity_fem::term::{Instant, Linearized, Objection, Refusal, Term};
-use asperity_output::view::Counts;
 
 /// Displacements of the system and where they stand in time.
 #[derive(Clone, Debug)]

@@ -8,11 +8,11 @@
 
 use super::anchor::Anchor;
 use super::{Accepted, Balance, Before, Failure, Solved, State, accurate, line, unopposed};
+use crate::Counts;
 use asperity_fem::FemError;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{Instant, Linearized};
-use asperity_output::view::Counts;
 
 /// Residual over the largest force at which an iteration has converged. Rounding leaves 1e-14 to 1e-12 (the condensed
 /// stiffness acts on displacements some hundred times the elastic ones); a Newton step below this bound squares it.

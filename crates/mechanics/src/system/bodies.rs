@@ -1,9 +1,9 @@
 //! The bodies of a system at work, condensed or not.
 
-use crate::mechanics::CellBlock;
+use crate::CellBlock;
+use crate::Counts;
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::Limited;
-use asperity_output::view::Counts;
 
 /// See the module.
 pub trait Bodies<const D: usize> {

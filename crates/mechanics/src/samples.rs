@@ -5,7 +5,6 @@ use asperity_fem::block::von_mises;
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::{Location, Side, nodes_of_sides};
 use asperity_fem::table::Table;
-use asperity_output::view::{PointValues, Samples};
 use nalgebra::{DMatrix, DVector};
 
 /// A point of a body.
@@ -45,6 +44,27 @@ pub struct Wanted {
     pub points: Vec<Point>,
     /// Sets, by name.
     pub forces: Vec<ForceSet>,
+}
+
+/// Values at a point of a body.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PointValues {
+    /// Displacement \[m\].
+    pub displacement: [f64; 3],
+    /// Cauchy stress xx, yy, zz, xy, yz, zx \[Pa\]: the linear polynomial through the quadrature points of the cell.
+    pub stress: [f64; 6],
+    /// Mises stress \[Pa\].
+    pub mises: f64,
+}
+
+/// Values at what is [`Wanted`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Samples {
+    /// One entry a point.
+    pub points: Vec<PointValues>,
+    /// Force that acts on the body through the nodes of each set \[N, or N/m of thickness in the plane\]: what holds them, what is
+    /// in contact with them, and the loads on the set.
+    pub forces: Vec<[f64; 3]>,
 }
 
 /// Loads of a stage on the nodes of a set that are not the set's own: resultant at unit amplitude \[N, or N/m of thickness\],

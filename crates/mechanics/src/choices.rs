@@ -2,11 +2,9 @@
 
 use asperity_contact::TimeRule;
 use asperity_friction::law::RateBounds;
-use serde::Serialize;
 
 /// Which system the steppers see.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Path {
     /// The interface degrees of freedom, the bodies condensed onto them.
     Condensed,

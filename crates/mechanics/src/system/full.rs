@@ -1,11 +1,11 @@
 //! Bodies whose degrees of freedom are all in the system.
 
 use super::bodies::Bodies;
-use crate::mechanics::{CellBlock, Model};
+use crate::Counts;
+use crate::{CellBlock, Model};
 use asperity_fem::dof::Constraints;
 use asperity_fem::loads::ExternalForces;
 use asperity_fem::term::Limited;
-use asperity_output::view::Counts;
 
 /// Cell blocks and loads on all degrees of freedom.
 pub struct Full<const D: usize> {

@@ -5,8 +5,8 @@
 
 use super::implicit::Implicit;
 use super::{Failure, Solved};
+use crate::Counts;
 use asperity_fem::term::{Augmented, Instant, Linearized};
-use asperity_output::view::Counts;
 
 impl Implicit {
     /// Solves the balance of forces until the terms with multipliers violate nothing beyond their tolerance.

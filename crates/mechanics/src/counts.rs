@@ -1,0 +1,32 @@
+//! Counts of the work of steppers.
+
+/// See the module.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Newton iterations, or forward solves.
+    pub iterations: usize,
+    /// Augmentations of multipliers (Uzawa's method).
+    pub augmentations: usize,
+    /// Residual evaluations.
+    pub residuals: usize,
+    /// Tangent evaluations.
+    pub tangents: usize,
+    /// Factorisations of the step's system.
+    pub factorisations: usize,
+    /// Those of them that were LU because a symmetric system was not positive definite.
+    pub indefinite: usize,
+    /// Solves with such a factorisation.
+    pub solves: usize,
+    /// Iterations of conjugate gradients, where the method is iterative.
+    pub linear_iterations: usize,
+    /// Factorisations of bodies (condensation).
+    pub body_factorisations: usize,
+    /// Right-hand sides solved with those.
+    pub body_solves: usize,
+    /// Searches of contact pairs.
+    pub searches: usize,
+    /// Searches left out because a bound on the motion proved that no pairing had changed.
+    pub searches_skipped: usize,
+    /// Projections on single segments in searches.
+    pub projections: usize,
+}
