@@ -6,6 +6,7 @@
 
 use crate::amounts::{self, size};
 use crate::diagnostic::Diagnostic;
+use crate::idealisation;
 use crate::model::meshes;
 use crate::scene::model::{Body, MeshSource, Method, Scene, Spanned};
 use asperity_fem::element::ElementKind;
@@ -146,7 +147,7 @@ fn grid(name: &str, body: &Body) -> Option<Grid> {
 /// # Errors
 /// [`Diagnostic`] at the block with the most nodes, with the counts, the need and the bound.
 pub fn admit(scene: &Scene) -> Result<(), Diagnostic> {
-    let idealisation = scene.kinematics.get_ref().idealisation();
+    let idealisation = idealisation::of(*scene.kinematics.get_ref());
     let components = idealisation.components();
     let grids: Vec<Grid> = grids(scene).collect();
     let Some(largest) = grids.iter().max_by(|a, b| a.counts.nodes.total_cmp(&b.counts.nodes)) else {
@@ -181,7 +182,7 @@ pub fn admit(scene: &Scene) -> Result<(), Diagnostic> {
 pub fn may_iterate(scene: &Scene) -> bool {
     scene.solver.method() == Method::Auto
         && scene.interfaces.is_empty()
-        && scene.kinematics.get_ref().idealisation().dimension() == 3
+        && scene.kinematics.get_ref().dimension() == 3
 }
 
 /// The generated blocks of a scene.
@@ -205,7 +206,7 @@ impl Grid {
 /// Bytes of a symmetric factorisation of all bodies; none where some are no blocks.
 #[must_use]
 pub fn factorisation(scene: &Scene) -> Option<usize> {
-    let components = scene.kinematics.get_ref().idealisation().components();
+    let components = idealisation::of(*scene.kinematics.get_ref()).components();
     let grids: Vec<Grid> = grids(scene).collect();
     let bytes = grids.iter().map(|g| g.bytes([false; 6], components)).sum::<f64>();
     (grids.len() == scene.bodies.len()).then_some(bytes as usize)
@@ -215,7 +216,7 @@ pub fn factorisation(scene: &Scene) -> Option<usize> {
 /// sides of blocks.
 #[must_use]
 pub fn condensation(scene: &Scene) -> Option<usize> {
-    let components = scene.kinematics.get_ref().idealisation().components();
+    let components = idealisation::of(*scene.kinematics.get_ref()).components();
     let sets = || scene.interfaces.values().flat_map(|i| [i.slave.get_ref(), i.master.get_ref()]);
     let mut known = 0;
     let mut bytes = 0.0;

@@ -1,5 +1,6 @@
 //! The stress that a body of a scene starts with.
 
+use crate::idealisation;
 use crate::scene::model::{Axis, Body, InitialStress, Scene, StressKind, VaryingStress};
 use asperity_mechanics::StressField;
 
@@ -49,7 +50,7 @@ fn linear(spec: &VaryingStress) -> Option<StressField> {
 
 /// Vertical axis of a body, and its acceleration \[m/s²\].
 pub(crate) fn vertical(scene: &Scene, body: &Body) -> Option<(usize, f64)> {
-    let space = scene.kinematics.get_ref().idealisation();
+    let space = idealisation::of(*scene.kinematics.get_ref());
     let gravity = body.gravity.as_ref()?.get_ref();
     let (component, acceleration) = gravity.iter().enumerate().find(|(_, g)| **g != 0.0)?;
     Some((space.axis(component), *acceleration))

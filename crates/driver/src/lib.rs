@@ -1,6 +1,6 @@
 //! The driver of asperity: from a scene file to results a person can look at.
 //!
-//! `scene` reads, `plan` decides, `run` steps; the crate `asperity-output` writes.
+//! The crate `asperity-scene` reads, `plan` decides, `run` steps; the crate `asperity-output` writes.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod amounts;
@@ -11,17 +11,21 @@ pub mod diagnostic;
 pub mod fault;
 mod forecast;
 mod held;
+mod idealisation;
 pub mod initial_stress;
 pub mod laws;
 mod lengths;
 pub mod loading;
 pub mod model;
 pub mod plan;
+mod refused;
 pub mod report;
 pub mod run;
 mod run_doubts;
-pub mod scene;
 pub mod slider;
+pub mod slider_planner;
 mod stop;
 mod views;
-pub mod warning;
+
+pub use asperity_scene as scene;
+pub use asperity_scene::warning;

@@ -2,8 +2,8 @@
 
 use super::slider::{self, Independent, MU0, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::scene::slider as scene;
 use asperity_driver::slider::{self as driver, Histories, Plan};
+use asperity_driver::slider_planner;
 use asperity_ode::Outcome;
 use std::path::PathBuf;
 
@@ -51,7 +51,7 @@ fn text(load: &str, slider: &str, law: &str, rest: &str) -> String {
 }
 
 fn plan(text: &str) -> Result<Plan, CaseError> {
-    scene::read(text).map_err(|e| e.to_string().into())
+    slider_planner::read(text).map_err(|e| e.to_string().into())
 }
 
 /// A folder that goes with its owner.

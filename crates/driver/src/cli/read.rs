@@ -6,6 +6,7 @@ use crate::fault;
 use crate::plan::{self, AnyPlan, ScenePlan};
 use crate::scene;
 use crate::slider;
+use crate::slider_planner;
 use crate::warning::Warning;
 use miette::{IntoDiagnostic, WrapErr};
 use sha2::{Digest, Sha256};
@@ -73,7 +74,7 @@ impl Source {
         let name = path.display().to_string();
         let told = |errors: &Diagnostics| report(&name, &text, errors);
         let parsed = if scene::slider::is_slider(&text) {
-            Parsed::Sliders(Box::new(scene::slider::read(&text).map_err(|errors| told(&errors))?))
+            Parsed::Sliders(Box::new(slider_planner::read(&text).map_err(|errors| told(&errors))?))
         } else {
             let folder = path.parent().unwrap_or(Path::new(""));
             let parsed = scene::read_in(&text, folder).map_err(|errors| told(&errors))?;

@@ -1,7 +1,6 @@
 //! Errors of a scene as a person sees them: the place in the file, a caret, and what would be right.
 
-use super::position::line_column;
-use super::{Diagnostic, Diagnostics};
+use super::{Diagnostic, Diagnostics, line_column};
 use miette::{
     LabeledSpan, MietteError, MietteSpanContents, NamedSource, Report, SourceCode, SourceSpan, SpanContents,
 };

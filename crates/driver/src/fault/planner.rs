@@ -143,7 +143,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic
     let Some(first) = placed.first() else {
         return Err(asked::nothing_slides(&named, &creeping));
     };
-    let at_law = |e: Failure| law::refused(&named[first.fault].1.law, &e);
+    let at_law = |e: Failure| crate::refused::refused(&named[first.fault].1.law, &e);
     asked::opens(&named, &placed, surroundings.opening.as_ref().map_or(&[], |o| o.points()))?;
     let law = friction(&named, &placed, at_law)?;
     let law = if turns { Box::new(Turning::new(law)) } else { law };

@@ -7,7 +7,7 @@ use super::place::{Place, across};
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
 use crate::model::Model;
-use crate::scene::model::{Body, Fault as Spec, InitialStress, Scene, SlipSpec, Spanned};
+use crate::scene::model::{Body, Fault as Spec, Scene, SlipSpec};
 use asperity_mechanics::coordinates;
 use std::ops::Range;
 
@@ -39,24 +39,14 @@ pub struct Resolved {
     pub across: f64,
 }
 
-/// The body of a side by the name of the side.
-pub(crate) fn body_of<'a>(scene: &'a Scene, side: &Spanned<String>) -> Option<&'a Body> {
-    scene.bodies.get(side.get_ref().split('.').next()?)
-}
-
-/// Whether stress is given with its components in the plane.
-pub(crate) fn presses(stress: &Spanned<InitialStress>) -> bool {
-    !matches!(stress.get_ref(), InitialStress::Uniform(values) if values.len() <= 2)
-}
-
 impl<'a> Prestress<'a> {
     /// That of a fault, where a body beside it has an initial stress.
     pub fn new(scene: &'a Scene, (name, spec): (&'a str, &'a Spec)) -> Option<Self> {
-        let bodies = [&spec.minus, &spec.plus].map(|side| body_of(scene, side));
+        let bodies = [&spec.minus, &spec.plus].map(|side| scene.body_of(side));
         let given = bodies.iter().flatten().find_map(|b| b.initial_stress.as_ref())?;
         let stress = |body: &Option<&Body>| body.and_then(initial_stress::uniform).unwrap_or([0.0; 6]);
         let sides = [stress(&bodies[0]), stress(&bodies[1])];
-        Some(Self { name, sides, presses: presses(given), place: given.span(), spec })
+        Some(Self { name, sides, presses: given.get_ref().presses(), place: given.span(), spec })
     }
 
     /// Tractions at a place where the fault slides freely. Where weight acts as well, only their sum is judged.

@@ -35,6 +35,18 @@ pub fn elastic(spec: &scene::Material) -> Result<Elastic, Diagnostic> {
         .map_err(|e| Diagnostic::at(spec.young.span(), e.to_string(), "0 < E and -1 < nu < 0.5"))
 }
 
+/// Refuses parameters of materials that bodies do not take.
+///
+/// # Errors
+/// [`Diagnostic`] for the first material with one.
+pub fn check(scene: &scene::Scene) -> Result<(), Diagnostic> {
+    for (name, material) in &scene.materials {
+        behaviour(material)
+            .map_err(|e| Diagnostic { message: format!("material `{name}`: {}", e.message), ..e })?;
+    }
+    Ok(())
+}
+
 /// All of it.
 ///
 /// # Errors

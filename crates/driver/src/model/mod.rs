@@ -6,6 +6,7 @@ pub mod sizes;
 
 use crate::diagnostic::Diagnostic;
 use crate::forecast::{self, Counts};
+use crate::idealisation;
 use crate::initial_stress;
 use crate::scene::model as scene;
 use crate::scene::near::suggest;
@@ -24,10 +25,11 @@ pub use asperity_mechanics::{Body, CellBlock, Model, bounds};
 /// # Errors
 /// [`Diagnostic`] naming the body whose mesh or material is not admissible.
 pub fn build<const D: usize>(scene: &scene::Scene) -> Result<Model<D>, Diagnostic> {
-    let idealisation = scene.kinematics.get_ref().idealisation();
+    let idealisation = idealisation::of(*scene.kinematics.get_ref());
     idealisation
         .check_dimension(D)
         .map_err(|e| Diagnostic::at(scene.kinematics.span(), e.to_string(), "see `kinematics`"))?;
+    materials::check(scene)?;
     forecast::admit(scene)?;
     let mut mesh = Mesh::<D>::default();
     let mut parts = Vec::new();

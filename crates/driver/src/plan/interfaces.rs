@@ -5,6 +5,7 @@ use super::penalty::{self, Softer};
 use super::{PlannedInterface, cohesive, pressed, watch};
 use crate::diagnostic::Diagnostic;
 use crate::model::{self, Model};
+use crate::refused::refused;
 use crate::scene::law::{self, LawChoice};
 use crate::scene::model::{Interface as InterfaceSpec, LawSpec, Measure, Scene, Sliding, Spanned};
 use asperity_contact::{self as contact, Watch};
@@ -192,5 +193,5 @@ fn choose_law(spec: &Spanned<LawSpec>) -> Result<LawChoice, Diagnostic> {
 }
 
 fn build_law(spec: &Spanned<LawSpec>, choice: &LawChoice) -> Result<Arc<dyn Law>, Diagnostic> {
-    crate::laws::build(choice).map_err(|e| law::refused(spec, &e))
+    crate::laws::build(choice).map_err(|e| refused(spec, &e))
 }

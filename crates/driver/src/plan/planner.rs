@@ -38,7 +38,7 @@ pub fn plan_scene(scene: &Scene) -> Result<ScenePlan, Diagnostic> {
 /// # Errors
 /// [`Diagnostic`] with the place in the scene.
 pub fn plan(scene: &Scene) -> Result<AnyPlan, Diagnostic> {
-    Ok(match scene.kinematics.get_ref().idealisation().dimension() {
+    Ok(match scene.kinematics.get_ref().dimension() {
         2 => AnyPlan::Two(Box::new(plan_in::<2>(scene)?)),
         _ => AnyPlan::Three(Box::new(plan_in::<3>(scene)?)),
     })

@@ -22,7 +22,7 @@ fn files(folder: &str) -> Vec<(String, String)> {
 
 fn errors(text: &str) -> Option<Diagnostics> {
     if scene::slider::is_slider(text) {
-        return scene::slider::read(text).err();
+        return asperity_driver::slider_planner::read(text).err();
     }
     let meshes = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/meshes");
     match scene::read_in(text, &meshes) {

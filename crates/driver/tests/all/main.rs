@@ -23,6 +23,7 @@ mod located;
 mod memory;
 mod mesh_files;
 mod meshes;
+mod names;
 mod resume;
 mod samples;
 mod slider;

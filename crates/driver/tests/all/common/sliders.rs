@@ -1,7 +1,7 @@
 //! Spring-sliders run from a text, with their files.
 
-use asperity_driver::scene::slider;
 use asperity_driver::slider::{Histories, Plan, Run, run};
+use asperity_driver::slider_planner;
 use asperity_ode::Outcome;
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use std::path::Path;
 pub const CYCLE: &str = include_str!("../../../../../scenes/spring-slider.toml");
 
 pub fn plan(text: &str) -> Plan {
-    slider::read(text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+    slider_planner::read(text).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
 pub fn relative(a: f64, b: f64) -> f64 {

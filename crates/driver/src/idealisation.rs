@@ -1,0 +1,15 @@
+//! The idealisation of space that the kinematics of a scene mean.
+
+use crate::scene::model::Kinematics;
+use asperity_fem::kinematics::Idealisation;
+
+/// What finite elements take for these kinematics.
+pub(crate) fn of(kinematics: Kinematics) -> Idealisation {
+    match kinematics {
+        Kinematics::PlaneStrain => Idealisation::PlaneStrain,
+        Kinematics::PlaneStress => Idealisation::PlaneStress,
+        Kinematics::Axisymmetric => Idealisation::Axisymmetric,
+        Kinematics::Antiplane => Idealisation::Antiplane,
+        Kinematics::ThreeD => Idealisation::ThreeD,
+    }
+}

@@ -1,0 +1,126 @@
+//! From a scene of spring-sliders to a plan.
+
+mod history;
+mod output;
+mod parts;
+mod settings;
+mod start;
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::scene::model::Spanned;
+use crate::scene::slider::{self, SliderScene};
+use crate::slider::{Output, Plan};
+use asperity_friction::slider::{History, Slider, System};
+use std::ops::Range;
+
+/// Reads, checks and plans a scene of spring-sliders.
+///
+/// # Errors
+/// All that is wrong with it, or the first thing that keeps it from being read.
+pub fn read(text: &str) -> Result<Plan, Diagnostics> {
+    let scene = slider::read(text)?;
+    let mut planner = Planner::default();
+    let plan = planner.plan(&scene);
+    let mut errors = planner.errors;
+    errors.sort_by_key(|e| (e.span.is_empty(), e.span.start));
+    match plan {
+        Some(plan) if errors.is_empty() => Ok(plan),
+        _ => Err(Diagnostics(errors)),
+    }
+}
+
+/// Turns a scene into a plan and collects what is wrong.
+#[derive(Default)]
+struct Planner {
+    errors: Vec<Diagnostic>,
+}
+
+impl Planner {
+    pub(super) fn error<T>(
+        &mut self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<T> {
+        self.errors.push(Diagnostic::at(span, message, help));
+        None
+    }
+
+    pub(super) fn plan(&mut self, scene: &SliderScene) -> Option<Plan> {
+        if *scene.schema.get_ref() != 1 {
+            let message = format!("there is no version {} of the scene format", scene.schema.get_ref());
+            self.error::<()>(scene.schema.span(), message, "this program reads `schema = 1`");
+        }
+        if scene.sliders.is_empty() {
+            return self.error(0..0, "the scene has no slider", "add a table `[sliders.NAME]`");
+        }
+        // Where slip rates are imposed and no spring leads to a load point, there is none.
+        let specs = || scene.sliders.values().map(|s| s.get_ref());
+        let driven = specs().any(|s| s.rate.is_some()) && specs().all(|s| s.stiffness.is_none());
+        let load = match &scene.load {
+            Some(load) => self.course(&load.rate, |v| v.0, "rate"),
+            None if driven => Some(History::Constant(0.0)),
+            None => self.error(0..0, "the scene has no load point", "add a table `[load]` with its `rate`"),
+        };
+        let names: Vec<String> = scene.sliders.keys().cloned().collect();
+        let sliders: Vec<Option<Slider>> = scene.sliders.values().map(|s| self.slider(s.get_ref())).collect();
+        let springs: Vec<_> = scene.springs.iter().map(|s| self.spring(s.get_ref(), &names)).collect();
+        let settings = self.settings(&scene.time);
+        let events = scene.events.as_ref().map(|e| self.events(e));
+        let rates: Vec<_> = specs().map(|s| self.imposed(s)).collect();
+        let output = match (&scene.output, settings.end) {
+            (Some(spec), Some(end)) => self.output(spec, &names, end),
+            _ => Some(Output::default()),
+        };
+        let (load, sliders) = (load?, sliders.into_iter().collect::<Option<Vec<_>>>()?);
+        let springs = springs.into_iter().collect::<Option<Vec<_>>>()?;
+        let system = match System::new(sliders, springs, load) {
+            Ok(system) => system,
+            Err(failure) => return self.error(0..0, failure.to_string(), "change that value"),
+        };
+        let system = self.impose(system, rates.into_iter().collect::<Option<Vec<_>>>()?)?;
+        self.held(scene, &system, &names)?;
+        let start = self.start(scene, &system)?;
+        let mut plan = Plan::new(system, start, settings.end?);
+        plan.title.clone_from(&scene.title);
+        plan.names = names;
+        plan.method = settings.method.unwrap_or(plan.method);
+        plan.tolerance = settings.tolerance.unwrap_or(plan.tolerance);
+        plan.most_steps = settings.most_steps.unwrap_or(plan.most_steps);
+        (plan.first_step, plan.largest_step) = (settings.first_step, settings.largest_step);
+        plan.output = output?;
+        let extremes = scene.output.as_ref().and_then(|o| o.extremes.as_ref());
+        plan.peaks = extremes.is_some_and(|e| *e.get_ref());
+        if let (Some(thresholds), Some(spec)) = (events, &scene.events) {
+            plan.events = Some(thresholds?);
+            plan.peaks = spec.peaks.unwrap_or(true);
+            plan.most_events = spec.stop_after.as_ref().map(|n| *n.get_ref());
+        }
+        self.runaways(scene, &mut plan);
+        Some(plan)
+    }
+
+    /// A count of at least one.
+    pub(super) fn count(&mut self, name: &str, value: Option<&Spanned<usize>>) -> Option<usize> {
+        let value = value?;
+        if *value.get_ref() == 0 {
+            let help = "at least 1, or leave the line out";
+            return self.error(value.span(), format!("`{name}` must be positive"), help);
+        }
+        Some(*value.get_ref())
+    }
+
+    pub(super) fn positive(
+        &mut self,
+        name: &str,
+        value: f64,
+        span: Range<usize>,
+        example: &str,
+    ) -> Option<f64> {
+        if value > 0.0 && value.is_finite() {
+            return Some(value);
+        }
+        let message = format!("`{name}` must be positive, found {value:?}");
+        self.error(span, message, format!("such as `{name} = {example}`"))
+    }
+}

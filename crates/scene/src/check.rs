@@ -1,0 +1,212 @@
+//! What can be known to be wrong with a scene before anything is built. All of it is collected.
+
+mod bodies;
+mod conditions;
+pub mod course;
+mod fault_physics;
+mod faults;
+mod interfaces;
+mod materials;
+mod meshes;
+mod output;
+mod place;
+mod solver;
+mod stress;
+mod time;
+mod unused;
+
+use super::model::{Body, Kinematics, MeshSource, Scene, Spanned};
+use super::near::suggest;
+use crate::diagnostic::Diagnostic;
+use crate::names::SIDES;
+use crate::warning::Warning;
+use std::ops::Range;
+
+/// Everything wrong in a scene, and everything doubtful, in the order of the file.
+#[must_use]
+pub fn check(scene: &Scene) -> (Vec<Diagnostic>, Vec<Warning>) {
+    let mut checker = Checker { scene, errors: Vec::new(), warnings: Vec::new() };
+    checker.schema();
+    checker.materials();
+    checker.bodies();
+    checker.interfaces();
+    checker.faults();
+    checker.place();
+    checker.stages();
+    checker.time();
+    checker.solver();
+    checker.output();
+    checker.unused();
+    let (mut errors, mut warnings) = (checker.errors, checker.warnings);
+    errors.sort_by_key(|e| (e.span.is_empty(), e.span.start));
+    warnings.sort_by_key(|w| (w.span.is_empty(), w.span.start));
+    (errors, warnings)
+}
+
+/// Axes by name.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+struct Checker<'a> {
+    scene: &'a Scene,
+    errors: Vec<Diagnostic>,
+    warnings: Vec<Warning>,
+}
+
+impl Checker<'_> {
+    fn error(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
+        self.errors.push(Diagnostic::at(span, message, help));
+    }
+
+    /// Something that runs, and probably is not meant so.
+    fn warn(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
+        self.warnings.push(Warning::at(span, message, help));
+    }
+
+    /// An error about one place that another takes part in.
+    fn conflict(
+        &mut self,
+        span: &Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+        also: (&Range<usize>, &str),
+    ) {
+        self.errors.push(Diagnostic::at(span.clone(), message, help).and(also.0.clone(), also.1));
+    }
+
+    /// A count nobody means, which would exhaust the memory.
+    fn too_many(&mut self, count: &Spanned<usize>, name: &str, most: usize) {
+        self.error(
+            count.span(),
+            format!("`{name}` is {}, more than anyone could use", count.get_ref()),
+            format!("at most {most}"),
+        );
+    }
+
+    fn dimension(&self) -> usize {
+        self.scene.kinematics.get_ref().dimension()
+    }
+
+    /// The idealisation in words.
+    fn idealisation(&self) -> &'static str {
+        self.scene.kinematics.get_ref().words()
+    }
+
+    /// Axes of space along which bodies move.
+    fn motions(&self) -> Vec<usize> {
+        if self.is_antiplane() { vec![2] } else { (0..self.dimension()).collect() }
+    }
+
+    fn is_antiplane(&self) -> bool {
+        *self.scene.kinematics.get_ref() == Kinematics::Antiplane
+    }
+
+    fn schema(&mut self) {
+        let schema = *self.scene.schema.get_ref();
+        if schema != 1 {
+            self.error(
+                self.scene.schema.span(),
+                format!("there is no version {schema} of the scene format"),
+                "this program reads `schema = 1`",
+            );
+        }
+    }
+
+    /// Names become parts of set names and of files.
+    fn name(&mut self, what: &str, name: &str, place: Range<usize>) {
+        if name.is_empty() || !name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-') {
+            self.error(
+                place,
+                format!("`{name}` cannot be the name of {what}"),
+                "names consist of letters, digits, `_` and `-`",
+            );
+        }
+    }
+
+    /// Body and axis and end (0 lower, 1 upper) of a set `body.side` of a rectangular block, where it exists. Sets of other
+    /// meshes are known only when these are made or read.
+    fn set(&mut self, set: &Spanned<String>) -> Option<(String, usize, usize)> {
+        let body = set.get_ref().split('.').next().and_then(|name| self.scene.bodies.get(name));
+        if body.is_some_and(|b| !matches!(b.mesh, MeshSource::Block(_))) && set.get_ref().contains('.') {
+            return None;
+        }
+        let found = self.block_side(set.get_ref()).map(|(body, axis, end)| (body.to_string(), axis, end));
+        if found.is_none() {
+            self.unknown_set(set);
+        }
+        found
+    }
+
+    /// Body, axis and end of a side of a rectangular block.
+    fn block_side<'s>(&self, set: &'s str) -> Option<(&'s str, usize, usize)> {
+        let is_block = |b: &Body| matches!(b.mesh, MeshSource::Block(_));
+        split(set, self.dimension()).filter(|side| self.scene.bodies.get(side.0).is_some_and(is_block))
+    }
+
+    fn unknown_set(&mut self, set: &Spanned<String>) {
+        let name = set.get_ref();
+        let sides: Vec<&str> = SIDES[..self.dimension()].iter().flatten().copied().collect();
+        let dotted = |b: &String| b.contains('.') && name.strip_prefix(b).is_some_and(|s| s.starts_with('.'));
+        if self.scene.bodies.keys().any(dotted) {
+            return; // The name of the body is the error, and is told once.
+        }
+        let Some((body, side)) = name.split_once('.') else {
+            let list = format!("a set is `body.side`, with the sides {}", sides.join(", "));
+            self.error(set.span(), format!("`{name}` names no side of a body"), list);
+            return;
+        };
+        if self.scene.bodies.contains_key(body) {
+            let help = suggest(side, "sides", sides.iter().copied());
+            let message = format!("body `{body}` has no side `{side}` in {}", self.idealisation());
+            self.error(set.span(), message, help);
+        } else {
+            let help = suggest(body, "bodies", self.scene.bodies.keys().map(String::as_str));
+            self.error(set.span(), format!("there is no body `{body}` in `{name}`"), help);
+        }
+    }
+}
+
+/// Body, axis and end of a side set of a block.
+fn split(set: &str, dimension: usize) -> Option<(&str, usize, usize)> {
+    let (body, side) = set.split_once('.')?;
+    SIDES[..dimension]
+        .iter()
+        .enumerate()
+        .find_map(|(axis, ends)| ends.iter().position(|&end| end == side).map(|end| (body, axis, end)))
+}
+
+/// A length in the unit that shows it shortest.
+#[must_use]
+pub fn show(length: f64) -> String {
+    let (factor, unit) = match length.abs() {
+        0.0 => (1.0, "m"),
+        l if l >= 1e3 => (1e-3, "km"),
+        l if l >= 1.0 => (1.0, "m"),
+        l if l * 1e3 >= 1.0 => (1e3, "mm"),
+        l if l * 1e6 >= 1.0 => (1e6, "um"),
+        _ => (1e9, "nm"),
+    };
+    let rounded: f64 = format!("{:.9e}", length * factor).parse().unwrap_or(length * factor);
+    format!("{rounded} {unit}")
+}
+
+/// A measured length: four digits of it.
+#[must_use]
+pub fn brief(length: f64) -> String {
+    show(format!("{length:.3e}").parse().unwrap_or(length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_shown_in_the_unit_that_fits() {
+        assert_eq!(show(0.00125), "1.25 mm");
+        assert_eq!(show(40.0e3), "40 km");
+        assert_eq!(show(2.0 / 1e8), "20 nm");
+        assert_eq!(show(-0.001), "-1 mm");
+        assert_eq!(show(0.0), "0 m");
+        assert_eq!(brief(2.500_000_1), "2.5 m");
+        assert_eq!(brief(-0.001_234_56), "-1.235 mm");
+    }
+}

@@ -1,0 +1,136 @@
+//! What a fault through cycles can be made of: keys that hold at interfaces and sliders would be left out without a word.
+
+use super::Checker;
+use crate::model::{Fault, Spanned};
+
+impl Checker<'_> {
+    pub(super) fn physics_of(&mut self, fault: &Fault) {
+        if let Some(limit) = &fault.law.get_ref().f_limit {
+            // At the limit friction no longer depends on the slip rate, which is what the rate is found from.
+            self.error(
+                limit.span(),
+                "a fault through cycles has no limit of the shear traction: the slip rate would not follow from friction that has reached it",
+                "remove `f_limit`; a smaller `normal` or `mu0` lowers the strength, and interfaces have limits",
+            );
+        }
+        let positive = |v: f64| v > 0.0 && v.is_finite();
+        if let Some(floor) = fault.normal_floor.as_ref().filter(|f| !positive(f.get_ref().0)) {
+            self.error(
+                floor.span(),
+                "`normal_floor` must be positive: without pressure friction has no slip rate",
+                "such as `normal_floor = \"1 MPa\"`",
+            );
+        }
+        self.opening_of(fault);
+        self.tractions_at_the_start(fault);
+    }
+
+    /// What a fault that opens needs.
+    fn opening_of(&mut self, fault: &Fault) {
+        let Some(opening) = fault.opening.as_ref().filter(|o| *o.get_ref()) else { return };
+        if self.is_antiplane() {
+            self.error(
+                opening.span(),
+                "no fault opens in antiplane motion, where bodies move out of the plane only",
+                "remove `opening`; faults open in `kinematics = \"plane-strain\"` and in \"3d\"",
+            );
+        } else if let Some(stays) = fault.normal_changes.as_ref().filter(|c| !c.get_ref()) {
+            self.conflict(
+                &opening.span(),
+                "`opening` stands beside `normal_changes = false`: a fault opens where its normal traction has gone",
+                "remove one of them",
+                (&stays.span(), "normal tractions stay"),
+            );
+        } else if fault.normal_floor.is_none() {
+            self.error(
+                opening.span(),
+                "`opening` needs a `normal_floor`: where a fault is open friction uses it, since without pressure it has no slip rate",
+                "such as `normal_floor = \"0.1 MPa\"`, little beside the normal tractions at the start",
+            );
+        }
+    }
+
+    /// Tractions at the start come from keys of the fault or from an initial stress of its bodies.
+    fn tractions_at_the_start(&mut self, fault: &Fault) {
+        let profile = |p: &Option<crate::model::Profiled>| {
+            p.as_ref().and_then(|p| p.0.first()).map(|p| p.points.span())
+        };
+        let normal = fault.normal.as_ref().map(Spanned::span).or(profile(&fault.profiles.normal));
+        let shear = fault.shear.as_ref().map(Spanned::span).or(profile(&fault.profiles.shear));
+        let bodies = [&fault.minus, &fault.plus].map(|side| self.scene.body_of(side));
+        let stress = bodies.iter().flatten().find_map(|b| b.initial_stress.as_ref());
+        let pressed = stress.is_some_and(|s| s.get_ref().presses());
+        let in_plane = !self.is_antiplane();
+        let weight = self.scene.bodies.values().find_map(|b| b.gravity.as_ref()).filter(|_| in_plane);
+        if normal.is_none() && !pressed && weight.is_none() {
+            self.error(
+                fault.minus.span(),
+                "nothing presses the fault: it has no `normal`",
+                "such as `normal = \"50 MPa\"`, `profiles.normal`, `gravity`, or an `initial_stress` of its bodies with components in the plane",
+            );
+        }
+        if let (Some(weight), Some(normal)) = (weight, &normal) {
+            self.conflict(
+                normal,
+                "`normal` stands beside `gravity`, from which the same traction follows",
+                "remove `normal` and its profile, or the `gravity` of the bodies",
+                (&weight.span(), "the gravity"),
+            );
+        }
+        let Some(stress) = stress else { return };
+        for (key, place) in [("normal", normal.filter(|_| pressed)), ("shear", shear)] {
+            let Some(place) = place else { continue };
+            self.conflict(
+                &place,
+                format!("`{key}` stands beside an initial stress, from which the same traction follows"),
+                format!("remove `{key}` and its profile, or the `initial_stress`"),
+                (&stress.span(), "the initial stress"),
+            );
+        }
+    }
+
+    /// Weight presses faults in the plane, and acts on all bodies alike.
+    pub(super) fn weight_beside_faults(&mut self) {
+        let scene = self.scene;
+        let mut weighing = scene.bodies.iter().filter_map(|(name, b)| Some((name, b.gravity.as_ref()?)));
+        let Some((name, gravity)) = weighing.next().filter(|_| !scene.faults.is_empty()) else { return };
+        if self.is_antiplane() {
+            self.error(
+                gravity.span(),
+                format!("`gravity` of body `{name}` presses no fault in antiplane motion, where bodies move out of the plane only"),
+                "leave it out and give the normal traction of the weight less the pressure of pores, such as `profiles.normal = { along = \"y\", points = \
+                 [[\"-40 km\", 672e6], [\"0 km\", 1e6]] }` at the fault",
+            );
+            return;
+        }
+        let same =
+            |b: &crate::model::Body| b.gravity.as_ref().map(Spanned::get_ref) == Some(gravity.get_ref());
+        if let Some((other, _)) = scene.bodies.iter().find(|(_, b)| !same(b)) {
+            self.error(
+                gravity.span(),
+                format!("`gravity` of body `{name}` is not that of body `{other}`"),
+                "in a scene with faults all bodies have the same `gravity`; what they weigh follows from their densities",
+            );
+        }
+    }
+
+    /// An initial stress of a body without a fault would mean nothing.
+    pub(super) fn stress_beside_faults(&mut self) {
+        let scene = self.scene;
+        if scene.faults.is_empty() {
+            return;
+        }
+        let on_fault = |name: &str| {
+            let of = |set: &Spanned<String>| set.get_ref().split('.').next() == Some(name);
+            scene.faults.values().any(|f| of(&f.minus) || of(&f.plus))
+        };
+        for (name, body) in &scene.bodies {
+            let Some(stress) = body.initial_stress.as_ref().filter(|_| !on_fault(name)) else { continue };
+            self.error(
+                stress.span(),
+                format!("the initial stress of body `{name}` presses no fault, and means nothing else in a scene with faults"),
+                "remove it",
+            );
+        }
+    }
+}

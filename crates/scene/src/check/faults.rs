@@ -1,0 +1,469 @@
+//! Faults through earthquake cycles.
+
+use super::Checker;
+use crate::law;
+use crate::model::{
+    Along, Creep, DampingSpec, Fault, Kinematics, Motion, Path, Profile, Profiled, SlipSpec, Spanned,
+    Station, Stepper,
+};
+use crate::near::suggest;
+
+/// Kinds of law whose slip rate does not follow from the traction.
+const WITHOUT_RATE: [&str; 3] = ["coulomb", "static-kinetic", "slip-weakening"];
+
+impl Checker<'_> {
+    pub(super) fn faults(&mut self) {
+        let scene = self.scene;
+        self.stepper_of_faults();
+        for (name, fault) in &scene.faults {
+            self.name("a fault", name, fault.minus.span());
+            for set in [&fault.minus, &fault.plus] {
+                self.set(set);
+            }
+            self.friction(fault);
+            self.start_of(fault);
+            self.physics_of(fault);
+            self.injection(fault);
+            for (name, profile) in [
+                ("a", &fault.profiles.a),
+                ("b", &fault.profiles.b),
+                ("l", &fault.profiles.l),
+                ("normal", &fault.profiles.normal),
+            ] {
+                for profile in profile.iter().flat_map(|Profiled(list)| list) {
+                    self.profile(name, profile, 1.0);
+                }
+            }
+            for profile in fault.profiles.shear.iter().flat_map(|Profiled(list)| list) {
+                self.profile("shear", profile, fault.rate.get_ref().0.signum());
+            }
+            self.rake(fault);
+            if let Some(creep) = &fault.creep {
+                self.creep(fault, creep);
+            }
+        }
+        self.stress_beside_faults();
+        self.weight_beside_faults();
+        self.directions_of_slip();
+        self.stations();
+        self.cadence();
+        self.events();
+        self.springs();
+        self.left_out();
+    }
+
+    /// Keys that mean nothing to faults, which would be left out without a word.
+    fn left_out(&mut self) {
+        let scene = self.scene;
+        let Some(fault) = scene.faults.values().next() else {
+            if let Some(bodies) = &scene.output.bodies {
+                self.error(
+                    bodies.span(),
+                    "`bodies` is for scenes with faults",
+                    "remove it; displacements of bodies are `fields`",
+                );
+            }
+            self.cadence_without_faults();
+            return;
+        };
+        let (output, solver) = (&scene.output, &scene.solver);
+        let mut keys = vec![
+            ("fields", output.fields.as_ref().map(Spanned::span)),
+            ("profiles", output.profiles.as_ref().map(Spanned::span)),
+            ("path", (scene.time.path != Path::Auto).then(|| scene.time.stepper.span())),
+            ("method", solver.method.as_ref().map(Spanned::span)),
+            ("tolerance", solver.tolerance.as_ref().map(Spanned::span)),
+            ("most_iterations", solver.most_iterations.as_ref().map(Spanned::span)),
+        ];
+        keys.extend(output.probes.values().map(|p| ("probes", Some(p.span()))));
+        keys.extend(output.points.values().map(|p| ("points", Some(p.span()))));
+        keys.extend(output.forces.values().map(|p| ("forces", Some(p.span()))));
+        for stage in &scene.stages {
+            keys.push(("steps", stage.steps.as_ref().map(Spanned::span)));
+            keys.extend(stage.frictionless.iter().map(|f| ("frictionless", Some(f.span()))));
+        }
+        for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
+            self.conflict(
+                &place,
+                format!("`{key}` has no meaning in a scene with faults"),
+                "remove it; outputs of faults are `stations` in `[output]`, the catalogue and profiles of slip",
+                (&fault.minus.span(), "a fault"),
+            );
+        }
+    }
+
+    /// Springs draw sides of bodies around faults only.
+    fn springs(&mut self) {
+        let scene = self.scene;
+        for condition in scene.stages.iter().flat_map(|s| &s.conditions) {
+            let c = condition.get_ref();
+            for motion in [&c.x, &c.y, &c.z].into_iter().flatten() {
+                let Motion::Spring { stiffness, rate } = *motion.get_ref() else { continue };
+                if scene.faults.is_empty() {
+                    self.error(
+                        motion.span(),
+                        "a spring draws sides in scenes with faults only",
+                        "prescribe the motion itself, such as `{ rate = \"1 um/s\" }`",
+                    );
+                }
+                if !(stiffness > 0.0 && stiffness.is_finite() && rate.is_finite()) {
+                    self.error(
+                        motion.span(),
+                        "`spring` must be positive",
+                        "a stiffness in N/m, in the plane per metre of thickness, such as `{ spring = 1.4e10, rate = \"1 um/s\" }`",
+                    );
+                }
+            }
+        }
+    }
+
+    /// Faults and the stepper "fault-ode" go together, without interfaces, in one stage.
+    fn stepper_of_faults(&mut self) {
+        let (scene, stepper) = (self.scene, &self.scene.time.stepper);
+        let ode = *stepper.get_ref() == Stepper::FaultOde;
+        match scene.faults.values().next() {
+            None if ode => self.error(
+                stepper.span(),
+                "the stepper \"fault-ode\" integrates faults, and the scene has none",
+                "add `[faults.NAME]`, or use \"implicit\" or \"static-explicit\"",
+            ),
+            Some(fault) if !ode => self.conflict(
+                &stepper.span(),
+                "faults are integrated by the stepper \"fault-ode\"",
+                "use `stepper = \"fault-ode\"`, or interfaces instead of faults",
+                (&fault.minus.span(), "a fault"),
+            ),
+            Some(fault) => {
+                if let Some((name, interface)) = scene.interfaces.iter().next() {
+                    self.conflict(
+                        &interface.slave.span(),
+                        format!("interface `{name}` stands beside faults"),
+                        "a scene has interfaces or faults",
+                        (&fault.minus.span(), "a fault"),
+                    );
+                }
+                if let Some(second) = scene.stages.get(1) {
+                    self.error(
+                        second.duration.span(),
+                        format!("a scene with faults has one stage, found {}", scene.stages.len()),
+                        "motions that change with time are tables",
+                    );
+                }
+            }
+            None => {}
+        }
+        if let Some(events) = scene.events.as_ref().filter(|_| scene.faults.is_empty()) {
+            self.error(
+                events.above.span(),
+                "events are those of faults, and the scene has none",
+                "remove `[events]`",
+            );
+        }
+    }
+
+    fn friction(&mut self, fault: &Fault) {
+        self.errors.extend(law::choose(&fault.law).err().unwrap_or_default());
+        let kind = fault.law.get_ref().kind.as_ref();
+        if let Some(kind) = kind.filter(|k| WITHOUT_RATE.contains(&k.get_ref().as_str())) {
+            self.error(
+                kind.span(),
+                format!("the slip rate of a fault does not follow from a law of kind \"{}\"", kind.get_ref()),
+                "\"rate-and-state\", or \"rate\"",
+            );
+        }
+    }
+
+    fn start_of(&mut self, fault: &Fault) {
+        let positive = |v: f64| v > 0.0 && v.is_finite();
+        if let Some(normal) = fault.normal.as_ref().filter(|n| !positive(n.get_ref().0)) {
+            self.error(normal.span(), "`normal` must be positive", "such as `normal = \"50 MPa\"`");
+        }
+        let rate = fault.rate.get_ref().0;
+        if rate == 0.0 || !rate.is_finite() {
+            self.error(
+                fault.rate.span(),
+                "`rate` must not be zero",
+                "such as `rate = \"1e-9 m/s\"`; its sign is the sense of slip",
+            );
+        }
+        if let Some(shear) = fault.shear.as_ref()
+            && !(shear.get_ref().0 * rate.signum() > 0.0 && shear.get_ref().0.is_finite())
+        {
+            self.conflict(
+                &shear.span(),
+                "`shear` must have the sign of `rate`",
+                "friction resists the motion",
+                (&fault.rate.span(), "`rate`"),
+            );
+        }
+        if let Some(damping) = &fault.damping
+            && let DampingSpec::Value(value) = *damping.get_ref()
+            && !(value >= 0.0 && value.is_finite())
+        {
+            self.error(
+                damping.span(),
+                "`damping` must not be negative",
+                "such as `damping = \"radiation\"` or `damping = \"4.6 MPa s/m\"`",
+            );
+        }
+    }
+
+    fn injection(&mut self, fault: &Fault) {
+        let Some(injection) = &fault.injection else { return };
+        let positive = |v: f64| v > 0.0 && v.is_finite();
+        if !injection.flux.get_ref().0.is_finite() || injection.flux.get_ref().0 == 0.0 {
+            self.error(
+                injection.flux.span(),
+                "`flux` must not be zero",
+                "such as `flux = \"1.25e-6 m/s\"`; negative where fluid is drawn off",
+            );
+        }
+        for (name, value, example) in [
+            ("diffusivity", &injection.diffusivity, "in m²/s, such as `diffusivity = 0.1`"),
+            ("compressibility", &injection.compressibility, "in 1/Pa, such as `compressibility = 1e-8`"),
+        ] {
+            if !positive(*value.get_ref()) {
+                self.error(value.span(), format!("`{name}` must be positive"), example);
+            }
+        }
+        let porosity = *injection.porosity.get_ref();
+        if !(positive(porosity) && porosity <= 1.0) {
+            self.error(
+                injection.porosity.span(),
+                "`porosity` must lie between 0 and 1",
+                "such as `porosity = 0.1`",
+            );
+        }
+        if let Some(until) = injection.until.as_ref().filter(|t| !positive(t.get_ref().0)) {
+            self.error(
+                until.span(),
+                "`until` must be positive",
+                "such as `until = \"100 d\"`, or leave it out",
+            );
+        }
+        if *self.scene.kinematics.get_ref() == Kinematics::ThreeD {
+            self.conflict(
+                &injection.at.span(),
+                "fluid is injected into faults in the plane only",
+                "its pressure is that of diffusion along one line",
+                (&self.scene.kinematics.span(), "the kinematics"),
+            );
+        }
+    }
+
+    fn in_space(&self) -> bool {
+        *self.scene.kinematics.get_ref() == Kinematics::ThreeD
+    }
+
+    /// In space the direction of slip is declared, in the plane there is one only.
+    fn rake(&mut self, fault: &Fault) {
+        let free = fault.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
+        match (&fault.rake, self.in_space()) {
+            (None, true) => self.error(
+                fault.minus.span(),
+                "a fault in three dimensions has no `rake`",
+                "the direction in which plus slips past minus, such as `rake = [0, 0, 1]`; slip across it is held at zero, or with `slip = \"free\"` turns from there",
+            ),
+            (Some(rake), false) => self.error(
+                rake.span(),
+                "`rake` is for three dimensions",
+                "remove it: in the plane there is one direction of slip",
+            ),
+            (Some(rake), true) => self.direction(rake),
+            (None, false) => {}
+        }
+        if let Some(slip) = fault.slip.as_ref().filter(|_| !self.in_space()) {
+            self.error(
+                slip.span(),
+                "`slip` is for three dimensions",
+                "remove it: in the plane there is one direction of slip",
+            );
+        }
+        if let Some(rake) = fault.creep.as_ref().and_then(|c| c.rake.as_ref()) {
+            self.direction(rake);
+            if !free {
+                self.conflict(
+                    &rake.span(),
+                    "creep has a direction of its own where slip may not turn",
+                    "add `slip = \"free\"` to the fault, or leave the `rake` of the creep out",
+                    (&fault.minus.span(), "the fault"),
+                );
+            }
+        }
+    }
+
+    fn direction(&mut self, rake: &Spanned<[f64; 3]>) {
+        let size = rake.get_ref().iter().map(|c| c * c).sum::<f64>();
+        if !(size > 0.0 && size.is_finite()) {
+            self.error(rake.span(), "`rake` has no direction", "such as `rake = [0, 0, 1]`");
+        }
+    }
+
+    /// All faults slip along their rakes, or all may turn.
+    fn directions_of_slip(&mut self) {
+        let scene = self.scene;
+        let kind = |f: &Fault| f.slip.as_ref().map_or(SlipSpec::AlongRake, |s| *s.get_ref());
+        let Some(first) = scene.faults.values().next() else { return };
+        if let Some(other) = scene.faults.values().find(|f| kind(f) != kind(first)) {
+            let place = |f: &Fault| f.slip.as_ref().map_or(f.minus.span(), Spanned::span);
+            self.conflict(
+                &place(other),
+                "slip of one fault may turn and that of another may not",
+                "`slip = \"free\"` for all faults of a scene, or for none",
+                (&place(first), "another fault"),
+            );
+        }
+    }
+
+    fn creep(&mut self, fault: &Fault, creep: &Creep) {
+        if !creep.rate.get_ref().0.is_finite() {
+            self.error(
+                creep.rate.span(),
+                "the rate of creep must be finite",
+                "such as `rate = \"1e-9 m/s\"`",
+            );
+        }
+        match (&creep.beyond, &creep.outside) {
+            (Some(beyond), Some(outside)) => self.conflict(
+                &outside.span(),
+                "`outside` stands beside `beyond`",
+                "one of them says where the fault creeps",
+                (&beyond.span(), "`beyond`"),
+            ),
+            (None, None) => self.error(
+                creep.rate.span(),
+                "the creep of a fault says nowhere",
+                format!("add `beyond = \"40 km\"`{}", ", or `outside = { y = { from = \"-40 km\" } }`"),
+            ),
+            (Some(beyond), None) if self.in_space() => self.error(
+                beyond.span(),
+                "there is no distance along a fault in three dimensions",
+                "use `outside = { y = { from = \"-40 km\" }, z = { from = \"-50 km\", to = \"50 km\" } }`",
+            ),
+            (Some(_), None) => {}
+            (None, Some(outside)) => {
+                let ranges = outside.get_ref().ranges();
+                if ranges.iter().all(Option::is_none) {
+                    self.error(
+                        outside.span(),
+                        "`outside` has no range",
+                        "such as `outside = { y = { from = \"-40 km\" } }`",
+                    );
+                }
+                if !self.in_space() && ranges[2].is_some() {
+                    self.error(
+                        outside.span(),
+                        "there is no coordinate z in the plane",
+                        "give ranges of x and y",
+                    );
+                }
+                for (axis, range) in ["x", "y", "z"].into_iter().zip(ranges) {
+                    let Some(range) = range else { continue };
+                    let (from, to) = (range.from.map(|l| l.0), range.to.map(|l| l.0));
+                    let ordered = from.zip(to).is_none_or(|(a, b)| a < b);
+                    if !ordered || (from.is_none() && to.is_none()) {
+                        self.conflict(
+                            &outside.span(),
+                            format!("the range of {axis} is empty or has no end"),
+                            format!(
+                                "such as `outside = {{ {axis} = {{ from = \"-40 km\", to = \"40 km\" }} }}`"
+                            ),
+                            (&fault.minus.span(), "the fault"),
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    fn profile(&mut self, name: &str, profile: &Profile, sign: f64) {
+        match (*profile.along.get_ref(), self.in_space()) {
+            (Along::Distance, true) => self.error(
+                profile.along.span(),
+                "there is no distance along a fault in three dimensions",
+                "use \"x\", \"y\" or \"z\"; of a list of profiles the largest value holds",
+            ),
+            (Along::Z, false) => self.error(
+                profile.along.span(),
+                "there is no coordinate z in the plane",
+                "use \"x\", \"y\" or \"distance\"",
+            ),
+            _ => {}
+        }
+        let points = profile.points.get_ref();
+        let example = format!(
+            "such as `profiles.{name} = {{ along = \"distance\", points = [[\"15 km\", 0.01], ..] }}`"
+        );
+        if points.is_empty() {
+            self.error(profile.points.span(), format!("the profile of `{name}` has no points"), example);
+        } else if !points.windows(2).all(|w| w[0].0.0 < w[1].0.0) {
+            self.error(
+                profile.points.span(),
+                format!("the places of the profile of `{name}` must ascend"),
+                example,
+            );
+        } else if let Some(p) = points.iter().find(|p| !(sign * p.1 > 0.0 && p.1.is_finite())) {
+            let what = if name == "shear" { "have the sign of `rate`" } else { "be positive" };
+            let message = format!("the profile of `{name}` must {what}, found {:?}", p.1);
+            self.error(profile.points.span(), message, "values are numbers in SI");
+        }
+    }
+
+    fn stations(&mut self) {
+        let scene = self.scene;
+        for (name, stations) in &scene.output.stations {
+            if !scene.faults.contains_key(name) {
+                self.error(
+                    stations.span(),
+                    format!("stations on `{name}`, but there is no such fault"),
+                    suggest(name, "faults", scene.faults.keys().map(String::as_str)),
+                );
+            }
+            let dimension = if self.in_space() { 3 } else { 2 };
+            for station in stations.get_ref() {
+                match station.get_ref() {
+                    Station::Along(_) if dimension == 3 => self.error(
+                        station.span(),
+                        "there is no distance along a fault in three dimensions",
+                        "stations are coordinates, such as [\"0 km\", \"-10 km\", \"24 km\"]",
+                    ),
+                    Station::At(at) if at.len() != dimension => self.error(
+                        station.span(),
+                        format!("a station has {dimension} coordinates here, found {}", at.len()),
+                        "such as [\"0 km\", \"-10 km\"], in three dimensions with z",
+                    ),
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    fn events(&mut self) {
+        let scene = self.scene;
+        let tolerance = scene.time.log_rate_tolerance.as_ref();
+        if let Some(t) = tolerance.filter(|t| !(*t.get_ref() > 0.0 && *t.get_ref() < 1.0)) {
+            self.error(
+                t.span(),
+                "`log_rate_tolerance` must lie between 0 and 1",
+                "such as `log_rate_tolerance = 1e-5`",
+            );
+        }
+        let Some(events) = &scene.events else { return };
+        let above = events.above.get_ref().0;
+        if !(above > 0.0 && above.is_finite()) {
+            self.error(events.above.span(), "`above` must be positive", "such as `above = \"1 mm/s\"`");
+        }
+        if let Some(below) = events.below.as_ref().filter(|b| !(b.get_ref().0 > 0.0 && b.get_ref().0 < above))
+        {
+            self.conflict(
+                &below.span(),
+                "`below` must be positive and less than `above`",
+                "an event ends at a lower rate than it begins, so that it is not counted twice",
+                (&events.above.span(), "`above`"),
+            );
+        }
+        if let Some(n) = events.stop_after.as_ref().filter(|n| *n.get_ref() == 0) {
+            self.error(n.span(), "`stop_after` must be at least 1", "or leave the line out");
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! Interfaces and their laws.
+
+use super::Checker;
+use crate::law;
+use crate::model::{Enforcement, EnforcementKind, Interface, LawSpec, Spanned, Stepper};
+use crate::names::SIDES;
+use crate::units::{Penalty, Penetration};
+
+/// Whether a law bonds its interface.
+pub(super) fn is_tied(law: &Spanned<LawSpec>) -> bool {
+    law.get_ref().kind.as_ref().is_some_and(|k| k.get_ref() == "tied")
+}
+
+/// A larger coefficient of friction is a slip of the keyboard: rock has up to 1, rubber up to 2 or 3.
+const MOST_FRICTION: f64 = 4.0;
+
+/// Body, axis and end of a side.
+type Side = (String, usize, usize);
+
+impl Checker<'_> {
+    /// What faults are told of their start, interfaces find out or are told elsewhere.
+    fn keys_of_faults(&mut self, name: &str, interface: &Interface) {
+        let tractions = "loads press an interface, or the `initial_stress` of its bodies with `initial_stress = true` in the interface, which brings normal and \
+                         shear tractions";
+        let keys = [
+            ("normal", &interface.normal, tractions),
+            ("shear", &interface.shear, tractions),
+            ("rate", &interface.rate, "the state at the start is steady at `v_initial` of the law"),
+            (
+                "profiles",
+                &interface.profiles,
+                "parameters are the same all over an interface: make two sets and an interface of each, with its own law",
+            ),
+        ];
+        for (key, place, help) in keys {
+            if let Some(place) = place {
+                self.error(
+                    place.span(),
+                    format!("interface `{name}` has no `{key}`: it is a key of faults"),
+                    help,
+                );
+            }
+        }
+    }
+
+    pub(super) fn interfaces(&mut self) {
+        for (name, interface) in &self.scene.interfaces {
+            self.name("an interface", name, interface.slave.span());
+            self.sides(name, interface);
+            self.penalty(&interface.enforcement.normal, "normal");
+            if let Some(tangential) = &interface.enforcement.tangential {
+                self.penalty(tangential, "tangential");
+            }
+            self.enforcement(name, &interface.enforcement);
+            match (&interface.law, &interface.enforcement.tangential) {
+                (Some(law), None) => self.error(
+                    interface.enforcement.normal.span(),
+                    format!(
+                        "interface `{name}` {}, but its enforcement has no tangential penalty",
+                        if is_tied(law) { "is tied" } else { "has friction" }
+                    ),
+                    "add `tangential = \"100 E/h\"` to the enforcement",
+                ),
+                (None, Some(tangential)) => self.error(
+                    tangential.span(),
+                    format!("interface `{name}` has a tangential penalty, but no friction law"),
+                    "remove `tangential`, or add a law such as `law = { kind = \"coulomb\", mu = 0.6 }`",
+                ),
+                _ => {}
+            }
+            self.keys_of_faults(name, interface);
+            if let Some(key) = interface.under_resolved.as_ref().filter(|_| interface.law.is_none()) {
+                self.error(
+                    key.span(),
+                    format!(
+                        "interface `{name}` has `under_resolved`, but no friction law that points resolve"
+                    ),
+                    "remove `under_resolved`, or add a law",
+                );
+            }
+            if let Some(spec) = &interface.law {
+                self.coefficients(spec.get_ref());
+                self.errors.extend(law::choose(spec).err().unwrap_or_default());
+                let form = &spec.get_ref().form;
+                let rate = spec.get_ref().kind.as_ref().is_some_and(|k| k.get_ref() == "rate");
+                if let Some(form) = form.as_ref().filter(|_| rate) {
+                    self.at_rest(form);
+                }
+            }
+        }
+    }
+
+    /// Coefficients of friction that are percentages, or tractions.
+    fn coefficients(&mut self, law: &LawSpec) {
+        let keys = [("mu", &law.mu), ("mu0", &law.mu0), ("mu_s", &law.mu_s), ("mu_k", &law.mu_k)];
+        for (key, given) in keys.into_iter().filter_map(|(key, given)| Some((key, given.as_ref()?))) {
+            let value = *given.get_ref();
+            if value > MOST_FRICTION {
+                let message = format!("the friction coefficient `{key}` is {value}: rocks have 0.1 to 1");
+                self.warn(given.span(), message, "it is shear over normal traction, not a percentage");
+            }
+        }
+    }
+
+    /// Keys of an enforcement that it needs, and those of others.
+    fn enforcement(&mut self, name: &str, enforcement: &Enforcement) {
+        let kind = &enforcement.kind;
+        let uzawa = *kind.get_ref() == EnforcementKind::Uzawa;
+        let keys = [
+            ("penetration", enforcement.penetration.as_ref().map(Spanned::span)),
+            ("augmentations", enforcement.augmentations.as_ref().map(Spanned::span)),
+        ];
+        if !uzawa {
+            for (key, place) in keys.into_iter().filter_map(|(key, place)| Some((key, place?))) {
+                self.conflict(
+                    &place,
+                    format!("`{key}` belongs to the enforcement \"uzawa\""),
+                    format!("remove `{key}`: what penetrates follows from the penalty, or is nothing with \"augmented-lagrangian\""),
+                    (&kind.span(), "the kind"),
+                );
+            }
+        } else if enforcement.penetration.is_none() {
+            self.error(
+                kind.span(),
+                format!("the enforcement \"uzawa\" of interface `{name}` needs `penetration`, where to end"),
+                "such as `penetration = \"1e-6 h\"`, a share of the element size, or a length",
+            );
+        }
+        if let Some(penetration) = &enforcement.penetration {
+            let (Penetration::Value(value) | Penetration::Sizes(value)) = *penetration.get_ref();
+            if value <= 0.0 {
+                self.error(
+                    penetration.span(),
+                    "`penetration` must be positive",
+                    "such as `penetration = \"1e-6 h\"`; \"augmented-lagrangian\" leaves none",
+                );
+            }
+        }
+        if let Some(most) = enforcement.augmentations.as_ref().filter(|m| *m.get_ref() == 0) {
+            self.error(most.span(), "`augmentations` must be at least 1", "or use `kind = \"penalty\"`");
+        }
+        let stepper = &self.scene.time.stepper;
+        if *kind.get_ref() != EnforcementKind::Penalty && *stepper.get_ref() == Stepper::StaticExplicit {
+            self.conflict(
+                &kind.span(),
+                "the static-explicit stepper follows rates and has no iteration that could move multipliers",
+                "use `kind = \"penalty\"`, or the stepper \"implicit\"",
+                (&stepper.span(), "the stepper"),
+            );
+        }
+    }
+
+    /// Whether a strength without state has a value where the interface starts.
+    fn at_rest(&mut self, form: &Spanned<String>) {
+        let strength = match form.get_ref().as_str() {
+            "bare" => "the bare logarithm",
+            "cut-off" => "the strength with a cut-off",
+            _ => return,
+        };
+        self.error(
+            form.span(),
+            format!("{strength} has no value at rest, and with the law \"rate\" the interface starts at rest"),
+            "use `form = \"regularised\"`, which is regular at rest; the other forms need the initial rate of a law with \
+             state, `v_initial`",
+        );
+    }
+
+    fn sides(&mut self, name: &str, interface: &Interface) {
+        let (slave, master) = (self.set(&interface.slave), self.set(&interface.master));
+        if let (Some(slave), Some(master)) = (&slave, &master) {
+            self.pairing(name, interface, slave, master);
+        }
+    }
+
+    /// Whether two sides can be in contact: of two bodies, face to face, and not paired already.
+    fn pairing(&mut self, name: &str, interface: &Interface, slave: &Side, master: &Side) {
+        let (slave_name, master_name) = (interface.slave.get_ref(), interface.master.get_ref());
+        let (place, also) = (interface.master.span(), (&interface.slave.span(), "the slave"));
+        if slave.0 == master.0 {
+            let message =
+                format!("slave and master of interface `{name}` are both sides of body `{}`", slave.0);
+            self.conflict(&place, message, "an interface lies between two bodies", also);
+        } else if slave.1 != master.1 || slave.2 == master.2 {
+            let facing = format!("{}.{}", master.0, SIDES[slave.1][1 - slave.2]);
+            let message =
+                format!("`{slave_name}` and `{master_name}` of interface `{name}` do not face each other");
+            self.conflict(&place, message, format!("`{facing}` faces `{slave_name}`"), also);
+        }
+        let pair = |i: &Interface| {
+            let (a, b) = (i.slave.get_ref().clone(), i.master.get_ref().clone());
+            if a < b { (a, b) } else { (b, a) }
+        };
+        let mut before = self.scene.interfaces.iter().take_while(|(other, _)| other.as_str() != name);
+        if let Some((other, twin)) = before.find(|(_, other)| pair(other) == pair(interface)) {
+            let message = format!("interfaces `{other}` and `{name}` lie between the same sides");
+            let help = "contact there would be counted twice: remove one of the two";
+            self.conflict(&interface.slave.span(), message, help, (&twin.slave.span(), "and here"));
+        }
+    }
+
+    fn penalty(&mut self, penalty: &Spanned<Penalty>, name: &str) {
+        let (Penalty::Value(value) | Penalty::YoungPerSize(value)) = *penalty.get_ref();
+        if value <= 0.0 {
+            self.error(
+                penalty.span(),
+                format!("the {name} penalty must be positive"),
+                format!(
+                    "such as `{name} = \"100 E/h\"`, a hundred times Young's modulus over the element size"
+                ),
+            );
+        }
+    }
+}

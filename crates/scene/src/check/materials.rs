@@ -1,0 +1,109 @@
+//! Materials.
+
+use super::Checker;
+use crate::model::{Hardening, Material, Plasticity, Spanned};
+use std::ops::{Range, RangeInclusive};
+
+/// A parameter of hardening: its key, its place where it is given, and the kinds it belongs to.
+type Key = (&'static str, Option<Range<usize>>, &'static [Hardening]);
+
+/// Densities from foam of rock to the heaviest metals, with room on both sides \[kg/m³\].
+const DENSITIES: RangeInclusive<f64> = 100.0..=30_000.0;
+
+impl Checker<'_> {
+    pub(super) fn materials(&mut self) {
+        for (name, material) in &self.scene.materials {
+            let young = material.young.get_ref().0;
+            if young <= 0.0 {
+                self.error(
+                    material.young.span(),
+                    format!("Young's modulus of `{name}` must be positive, found {young:e} Pa"),
+                    "such as `young = \"44.8 GPa\"`",
+                );
+            }
+            let nu = *material.poisson.get_ref();
+            if !(nu > -1.0 && nu < 0.5) {
+                self.error(
+                    material.poisson.span(),
+                    format!("Poisson's ratio of `{name}` must lie between -1 and 0.5, both excluded, found {nu:?}"),
+                    "such as `poisson = 0.25`; at 0.5 the material is incompressible, which these elements cannot be",
+                );
+            }
+            self.behaviour(name, material);
+            if let Some(density) = material.density.as_ref().filter(|d| d.get_ref().0 <= 0.0) {
+                self.error(
+                    density.span(),
+                    format!("the density of `{name}` must be positive"),
+                    "such as `density = \"2700 kg/m^3\"`",
+                );
+            } else if let Some(density) =
+                material.density.as_ref().filter(|d| !DENSITIES.contains(&d.get_ref().0))
+            {
+                let found = density.get_ref().0;
+                self.warn(
+                    density.span(),
+                    format!("the density of `{name}`, {found:?} kg/m^3, is that of no rock or metal"),
+                    "numbers without a unit are in kg/m^3: is it \"2.7 g/cm^3\"?",
+                );
+            }
+        }
+    }
+
+    /// What a material has beside its elasticity.
+    fn behaviour(&mut self, name: &str, material: &Material) {
+        let viscous = [
+            material.viscosity.as_ref().map(|v| ("viscosity", v.span())),
+            material.maxwell.as_ref().map(|v| ("maxwell", v.span())),
+        ];
+        if let [Some((_, first)), Some((_, second))] = &viscous {
+            let message = format!("material `{name}` has both `viscosity` and `maxwell`");
+            let help = "one Maxwell element is `viscosity`, several are `maxwell`: give one of them";
+            self.conflict(second, message, help, (first, "and here"));
+            return;
+        }
+        if let (Some(plasticity), Some((key, place))) =
+            (&material.plasticity, viscous.into_iter().flatten().next())
+        {
+            let message = format!("material `{name}` has both `plasticity` and `{key}`");
+            let help = "there is no material that is plastic and viscous: give one of them";
+            self.conflict(&place, message, help, (&plasticity.span(), "and here"));
+            return;
+        }
+        // What the parameters themselves must satisfy is known where they are used.
+        if let Some(plasticity) = &material.plasticity {
+            self.plasticity(name, plasticity);
+        }
+    }
+
+    /// Which parameters belong to a hardening.
+    fn plasticity(&mut self, name: &str, plasticity: &Spanned<Plasticity>) {
+        let p = plasticity.get_ref();
+        let keys: [Key; 5] = [
+            (
+                "yield",
+                p.initial.as_ref().map(Spanned::span),
+                &[Hardening::Perfect, Hardening::Linear, Hardening::Power],
+            ),
+            ("modulus", p.modulus.as_ref().map(Spanned::span), &[Hardening::Linear]),
+            ("strain", p.strain.as_ref().map(Spanned::span), &[Hardening::Power]),
+            ("exponent", p.exponent.as_ref().map(Spanned::span), &[Hardening::Power]),
+            ("table", p.table.as_ref().map(Spanned::span), &[Hardening::Table]),
+        ];
+        let (kind, place) = (p.hardening.get_ref(), p.hardening.span());
+        let own: Vec<&str> = keys.iter().filter(|k| k.2.contains(kind)).map(|k| k.0).collect();
+        let help = format!("the parameters of this hardening are {}", own.join(", "));
+        for (key, given, kinds) in keys {
+            match (given, kinds.contains(kind)) {
+                (None, true) => {
+                    let message = format!("the hardening of material `{name}` lacks `{key}`");
+                    self.error(place.clone(), message, help.clone());
+                }
+                (Some(given), false) => {
+                    let message = format!("`{key}` does not belong to the hardening of material `{name}`");
+                    self.conflict(&given, message, help.clone(), (&place, "the hardening"));
+                }
+                _ => {}
+            }
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! Where and when the events of a scene are said to happen.
+
+use super::Checker;
+use crate::model::{Kinematics, Place, Spanned};
+use crate::units::Angle;
+use jiff::{SignedDuration, Timestamp};
+
+impl Checker<'_> {
+    pub(super) fn place(&mut self) {
+        let Some(place) = &self.scene.place else { return };
+        if self.scene.faults.is_empty() {
+            self.error(
+                place.epoch.span(),
+                "only events of faults have a place, and the scene has no fault",
+                "remove `[place]`",
+            );
+        }
+        self.angle("latitude", &place.latitude, (-90.0, 90.0));
+        self.angle("longitude", &place.longitude, (-180.0, 360.0));
+        self.angle("strike", &place.strike, (0.0, 360.0));
+        if let Some(depth) = place.depth.as_ref().filter(|d| !d.get_ref().0.is_finite()) {
+            self.error(depth.span(), "`depth` must be finite", "such as `depth = \"5 km\"`");
+        }
+        if let Some(length) = &place.length {
+            let value = length.get_ref().0;
+            if *self.scene.kinematics.get_ref() == Kinematics::ThreeD {
+                self.error(
+                    length.span(),
+                    "`length` is the length out of the plane, and the scene is one in space",
+                    "remove it",
+                );
+            } else if !(value > 0.0 && value.is_finite()) {
+                self.error(length.span(), "`length` must be positive", "such as `length = \"100 km\"`");
+            }
+        }
+        self.axes(place);
+        self.epoch(&place.epoch);
+    }
+
+    /// Directions of space: up, and across it the one that `strike` is of.
+    fn axes(&mut self, place: &Place) {
+        let in_space = *self.scene.kinematics.get_ref() == Kinematics::ThreeD;
+        for (name, given) in [("up", &place.up), ("along", &place.along)] {
+            let Some(given) = given else { continue };
+            let size = given.get_ref().iter().map(|c| c * c).sum::<f64>();
+            if !in_space {
+                self.error(
+                    given.span(),
+                    format!("`{name}` is for three dimensions"),
+                    "remove it: in the plane y is up, and `strike` is the direction into the plane",
+                );
+            } else if !(size > 0.0 && size.is_finite()) {
+                self.error(given.span(), format!("`{name}` has no direction"), "such as `[0, 1, 0]`");
+            }
+        }
+        let (up, along) = place.axes();
+        let dot: f64 = up.iter().zip(&along).map(|(a, b)| a * b).sum();
+        let sizes = [up, along].map(|v| v.iter().map(|c| c * c).sum::<f64>().sqrt());
+        let given = place.along.as_ref().or(place.up.as_ref()).filter(|_| in_space);
+        if let Some(given) = given.filter(|_| dot.abs() > LEVEL * sizes[0] * sizes[1]) {
+            self.error(
+                given.span(),
+                "`along` is not horizontal: it must be normal to `up`",
+                "with y up and the fault along z: `up = [0, 1, 0]` and `along = [0, 0, 1]`",
+            );
+        }
+    }
+
+    fn angle(&mut self, name: &str, angle: &Spanned<Angle>, (least, most): (f64, f64)) {
+        let degrees = angle.get_ref().0.to_degrees();
+        // "90 deg" is not 90 to the last bit.
+        if !(degrees >= least - ROUNDING && degrees <= most + ROUNDING) {
+            self.error(
+                angle.span(),
+                format!("`{name}` must lie between {least} and {most} degrees, found {degrees:.6}"),
+                format!("such as `{name} = \"35 deg\"`"),
+            );
+        }
+    }
+
+    /// The calendar must reach from the epoch to the end.
+    fn epoch(&mut self, epoch: &Spanned<String>) {
+        let time = match epoch.get_ref().parse::<Timestamp>() {
+            Ok(time) => time,
+            Err(error) => {
+                self.error(
+                    epoch.span(),
+                    format!("`epoch` is no time: {error}"),
+                    "such as `epoch = \"2000-01-01T00:00:00Z\"`",
+                );
+                return;
+            }
+        };
+        let duration: f64 = self.scene.stages.iter().map(|s| s.duration.get_ref().0).sum();
+        let reached = SignedDuration::try_from_secs_f64(duration).and_then(|span| time.checked_add(span));
+        if reached.is_err() {
+            self.error(
+                epoch.span(),
+                "the calendar ends with the year 9999, before the run does",
+                "an earlier `epoch`, or a shorter run",
+            );
+        }
+    }
+}
+
+/// Sine of the angle by which `along` may differ from the horizontal: rounding of components written with seven digits.
+const LEVEL: f64 = 1e-6;
+/// Rounding of degrees.
+const ROUNDING: f64 = 1e-9;

@@ -1,0 +1,177 @@
+//! Time integration.
+
+use super::Checker;
+use crate::model::{Rule, Spanned, Stepper};
+use std::ops::Range;
+
+/// Largest residual over the largest force that scenes may leave: tractions of the pressed surface, which are of the size of the largest force over its
+/// area, then err by a percent.
+const MOST_DRIFT: f64 = 1e-2;
+
+/// Errors of friction coefficients that steps may be bounded by: Newton's method leaves 1e-11 of the largest force, which hides less, and more than
+/// a hundredth is more than what rates and states change friction by.
+const FRICTION_TOLERANCES: Range<f64> = 1e-9..1e-2;
+
+/// Kinds of law whose strength depends on slip and not on its rate, which backward differentiation of order 2 is not for.
+const OF_SLIP: [&str; 2] = ["static-kinetic", "slip-weakening"];
+
+impl Checker<'_> {
+    pub(super) fn time(&mut self) {
+        let time = &self.scene.time;
+        let stepper = *time.stepper.get_ref();
+        self.foreign_keys(stepper);
+        if let Some(tolerance) = time.tolerance.as_ref().filter(|t| t.get_ref().0 <= 0.0) {
+            self.error(
+                tolerance.span(),
+                "`tolerance` must be positive: it bounds the error of slip in each step",
+                "such as `tolerance = \"1 nm\"`",
+            );
+        }
+        for (name, step) in
+            [("first_step", &time.first_step), ("max_step", &time.max_step), ("min_step", &time.min_step)]
+        {
+            if let Some(step) = step.as_ref().filter(|s| s.get_ref().0 <= 0.0) {
+                self.error(
+                    step.span(),
+                    format!("`{name}` must be positive"),
+                    format!("such as `{name} = \"0.1 s\"`"),
+                );
+            }
+        }
+        if let Some(limit) = time.slip_rate_limit.as_ref().filter(|v| v.get_ref().0 <= 0.0) {
+            self.error(
+                limit.span(),
+                "`slip_rate_limit` must be positive: beyond it the run stops",
+                "such as `slip_rate_limit = \"1 m/s\"`; leave it out for the limit of radiation damping",
+            );
+        }
+        self.order_of_steps();
+        let numbers = [
+            ("drift", &time.drift, "1e-4"),
+            ("rate_change", &time.rate_change, "0.5"),
+            ("zeta", &time.zeta, "0.1"),
+            ("friction_tolerance", &time.friction_tolerance, "2e-6"),
+        ];
+        for (name, number, usual) in numbers {
+            if let Some(number) = number.as_ref().filter(|n| !(*n.get_ref() > 0.0 && n.get_ref().is_finite()))
+            {
+                self.error(
+                    number.span(),
+                    format!("`{name}` must be positive and finite"),
+                    format!("such as `{name} = {usual}`"),
+                );
+            }
+        }
+        if let Some(drift) = time.drift.as_ref().filter(|d| *d.get_ref() > MOST_DRIFT) {
+            self.error(
+                drift.span(),
+                "`drift` is the share of the largest force that a step may leave out of balance, and more than a hundredth shows in all tractions",
+                "at most 1e-2; the default is 1e-4",
+            );
+        }
+        if let Some(tolerance) = time
+            .friction_tolerance
+            .as_ref()
+            .filter(|t| *t.get_ref() > 0.0 && !FRICTION_TOLERANCES.contains(t.get_ref()))
+        {
+            self.error(
+                tolerance.span(),
+                "`friction_tolerance` bounds the error of friction coefficients of a step: less than 1e-9 is hidden by rounding, and 1e-2 and more \
+                 bounds nothing",
+                "between 1e-9 and 1e-2; the default is 2e-6",
+            );
+        }
+        if let Some(rule) =
+            time.rule.as_ref().filter(|r| *r.get_ref() == Rule::Bdf2 && stepper != Stepper::FaultOde)
+        {
+            self.second_order(rule);
+        }
+    }
+
+    fn order_of_steps(&mut self) {
+        let time = &self.scene.time;
+        let pairs = [
+            ("min_step", &time.min_step, "first_step", &time.first_step),
+            ("first_step", &time.first_step, "max_step", &time.max_step),
+            ("min_step", &time.min_step, "max_step", &time.max_step),
+        ];
+        for (small, a, large, b) in pairs {
+            if let (Some(a), Some(b)) = (a, b)
+                && a.get_ref().0 > b.get_ref().0
+            {
+                self.conflict(
+                    &a.span(),
+                    format!("`{small}` is larger than `{large}`"),
+                    "min_step <= first_step <= max_step",
+                    (&b.span(), large),
+                );
+                return;
+            }
+        }
+    }
+
+    fn second_order(&mut self, rule: &Spanned<Rule>) {
+        for (name, interface) in &self.scene.interfaces {
+            let kind = interface.law.as_ref().and_then(|l| l.get_ref().kind.as_ref());
+            if let Some(kind) = kind.filter(|k| OF_SLIP.contains(&k.get_ref().as_str())) {
+                self.conflict(
+                    &rule.span(),
+                    format!(
+                        "`bdf2` is for laws of the slip rate, but interface `{name}` has \"{}\"",
+                        kind.get_ref()
+                    ),
+                    "use `rule = \"backward-euler\"`, or leave it out",
+                    (&kind.span(), "the law of slip"),
+                );
+            }
+        }
+    }
+
+    /// Keys that belong to other steppers.
+    fn foreign_keys(&mut self, stepper: Stepper) {
+        use Stepper::{FaultOde, Implicit, StaticExplicit};
+        let time = &self.scene.time;
+        let place =
+            |p: Option<Range<usize>>, key: &'static str, of: &'static [Stepper]| p.map(|p| (key, p, of));
+        let keys = [
+            place(time.drift.as_ref().map(Spanned::span), "drift", &[StaticExplicit]),
+            place(time.rate_change.as_ref().map(Spanned::span), "rate_change", &[StaticExplicit]),
+            place(time.zeta.as_ref().map(Spanned::span), "zeta", &[StaticExplicit]),
+            place(time.rule.as_ref().map(Spanned::span), "rule", &[Implicit, StaticExplicit]),
+            place(time.tolerance.as_ref().map(Spanned::span), "tolerance", &[Implicit]),
+            place(
+                time.friction_tolerance.as_ref().map(Spanned::span),
+                "friction_tolerance",
+                &[Implicit, StaticExplicit],
+            ),
+            place(time.first_step.as_ref().map(Spanned::span), "first_step", &[Implicit, StaticExplicit]),
+            place(time.max_step.as_ref().map(Spanned::span), "max_step", &[Implicit, StaticExplicit]),
+            place(time.min_step.as_ref().map(Spanned::span), "min_step", &[Implicit, StaticExplicit]),
+            place(
+                time.slip_rate_limit.as_ref().map(Spanned::span),
+                "slip_rate_limit",
+                &[Implicit, StaticExplicit],
+            ),
+            place(time.method.as_ref().map(Spanned::span), "method", &[FaultOde]),
+            place(time.log_rate_tolerance.as_ref().map(Spanned::span), "log_rate_tolerance", &[FaultOde]),
+        ];
+        let own = stepper_name(stepper);
+        for (key, place, of) in keys.into_iter().flatten().filter(|(_, _, of)| !of.contains(&stepper)) {
+            let other = stepper_name(of[0]);
+            self.conflict(
+                &place,
+                format!("`{key}` belongs to the stepper \"{other}\", but the stepper is \"{own}\""),
+                format!("remove `{key}`, or use `stepper = \"{other}\"`"),
+                (&self.scene.time.stepper.span(), "the stepper"),
+            );
+        }
+    }
+}
+
+fn stepper_name(stepper: Stepper) -> &'static str {
+    match stepper {
+        Stepper::Implicit => "implicit",
+        Stepper::StaticExplicit => "static-explicit",
+        Stepper::FaultOde => "fault-ode",
+    }
+}

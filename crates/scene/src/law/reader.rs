@@ -1,0 +1,431 @@
+//! Reads the parameters of a law and collects what is wrong with them.
+
+use super::choice::{EVOLUTIONS, Evolution, FORMS, Form, Heat, LawChoice, State, Strength};
+use super::several::Several;
+use crate::diagnostic::Diagnostic;
+use crate::model::{LawSpec, Spanned};
+use crate::near;
+use crate::units::{Length, Pressure, Velocity};
+use std::ops::Range;
+
+/// State variables of a law, at most: those a slider can hold.
+const MOST_STATES: usize = 14;
+
+/// A value of the specification in SI.
+pub(super) trait Quantity: Copy {
+    fn si(self) -> f64;
+}
+
+impl Quantity for f64 {
+    fn si(self) -> f64 {
+        self
+    }
+}
+
+macro_rules! quantities {
+    ($($name:ident)*) => {$(
+        impl Quantity for $name {
+            fn si(self) -> f64 {
+                self.0
+            }
+        }
+    )*};
+}
+
+quantities!(Length Pressure Velocity);
+
+/// A value with its place.
+type Placed = (f64, Range<usize>);
+
+/// Admissible ranges.
+#[derive(Clone, Copy, PartialEq)]
+enum Bound {
+    Positive,
+    NotNegative,
+    Finite,
+}
+use Bound::{Finite, NotNegative, Positive};
+
+/// Molar gas constant \[J/(mol K)\], exact in the SI since 2019.
+const GAS: f64 = 8.314_462_618_153_24;
+
+/// See the module.
+pub(super) struct Reader {
+    pub kind: &'static str,
+    pub place: Range<usize>,
+    pub errors: Vec<Diagnostic>,
+    /// Whether `b` may be negative.
+    pub negative_b: bool,
+}
+
+impl Reader {
+    pub fn choice(&mut self, law: &LawSpec) -> Option<LawChoice> {
+        let f_limit = self.optional("f_limit", law.f_limit.as_ref(), "\"100 MPa\"", Positive);
+        match self.kind {
+            "tied" => Some(LawChoice::Tied),
+            "coulomb" => {
+                let mu = self.value("mu", law.mu.as_ref(), "0.6", NotNegative);
+                Some(LawChoice::Coulomb { mu: mu?, f_limit: f_limit? })
+            }
+            "static-kinetic" => {
+                let (mu_s, mu_k) = self.drop(law)?;
+                Some(LawChoice::StaticKinetic { mu_s, mu_k, f_limit: f_limit? })
+            }
+            "slip-weakening" => {
+                let drop = self.drop(law);
+                let d_c = self.value("d_c", law.d_c.as_ref(), "\"0.4 m\"", Positive);
+                let (mu_s, mu_k) = drop?;
+                Some(LawChoice::SlipWeakening { mu_s, mu_k, d_c: d_c?, f_limit: f_limit? })
+            }
+            "rate" => Some(LawChoice::Rate { strength: self.strength(law)?, f_limit: f_limit? }),
+            _ => self.rate_and_state(law, f_limit),
+        }
+    }
+
+    fn rate_and_state(&mut self, law: &LawSpec, f_limit: Option<Option<f64>>) -> Option<LawChoice> {
+        let strength = self.strength(law);
+        let evolution = self.evolution(law);
+        let v_initial = self.value("v_initial", law.v_initial.as_ref(), "\"1 um/s\"", Positive);
+        let states = self.states(law, evolution);
+        let normal_initial = self.normal_initial(law);
+        Some(LawChoice::RateAndState {
+            strength: strength?,
+            evolution: evolution?,
+            states: states?,
+            v_initial: v_initial?,
+            normal_initial: normal_initial?,
+            f_limit: f_limit?,
+        })
+    }
+
+    fn error(&mut self, place: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
+        self.errors.push(Diagnostic::at(place, message, help));
+    }
+
+    fn missing(&mut self, name: &str, help: impl Into<String>) {
+        let message = format!("the law \"{}\" needs `{name}`", self.kind);
+        self.error(self.place.clone(), message, help);
+    }
+
+    /// A parameter that must be given.
+    fn value<Q: Quantity>(
+        &mut self,
+        name: &str,
+        given: Option<&Spanned<Q>>,
+        example: &str,
+        bound: Bound,
+    ) -> Option<f64> {
+        let Some(given) = given else {
+            self.missing(name, format!("add it, such as `{name} = {example}`"));
+            return None;
+        };
+        self.within(name, (given.get_ref().si(), given.span()), example, bound)
+    }
+
+    /// A parameter that may be given.
+    fn optional<Q: Quantity>(
+        &mut self,
+        name: &str,
+        given: Option<&Spanned<Q>>,
+        example: &str,
+        bound: Bound,
+    ) -> Option<Option<f64>> {
+        match given {
+            None => Some(None),
+            Some(_) => self.value(name, given, example, bound).map(Some),
+        }
+    }
+
+    fn within(&mut self, name: &str, value: Placed, example: &str, bound: Bound) -> Option<f64> {
+        let (value, place) = value;
+        let admitted = value > 0.0 || (bound == NotNegative && value == 0.0) || bound == Finite;
+        if value.is_finite() && admitted {
+            return Some(value);
+        }
+        let sign = match bound {
+            Positive => " and positive",
+            NotNegative => " and not negative",
+            Finite => "",
+        };
+        let message = format!("`{name}` must be finite{sign}, found {value:?}");
+        self.error(place, message, format!("such as `{name} = {example}`"));
+        None
+    }
+
+    /// The entries of a parameter that each state variable has, with their places.
+    fn entries<Q: Quantity>(
+        &mut self,
+        name: &str,
+        given: &Spanned<Several<Q>>,
+        example: &str,
+        bound: Bound,
+    ) -> Option<Vec<Placed>> {
+        let entries = &given.get_ref().0;
+        if entries.is_empty() || entries.len() > MOST_STATES {
+            let message = format!("`{name}` has {} entries", entries.len());
+            let help = format!("1 to {MOST_STATES} state variables, such as `{name} = {example}`");
+            self.error(given.span(), message, help);
+            return None;
+        }
+        let place = |own: Range<usize>| if own.is_empty() { given.span() } else { own };
+        let placed = entries.iter().map(|e| (e.get_ref().si(), place(e.span())));
+        let read: Vec<Option<Placed>> = placed
+            .map(|(v, place)| self.within(name, (v, place.clone()), example, bound).map(|v| (v, place)))
+            .collect();
+        read.into_iter().collect()
+    }
+
+    /// The coefficients before and after: μ_s > μ_k ≥ 0, which may be equal where slip weakens.
+    fn drop(&mut self, law: &LawSpec) -> Option<(f64, f64)> {
+        let weakening = self.kind == "slip-weakening";
+        let bound = if weakening { NotNegative } else { Positive };
+        let mu_s = self.value("mu_s", law.mu_s.as_ref(), "0.6", bound);
+        let mu_k = self.value("mu_k", law.mu_k.as_ref(), "0.5", NotNegative);
+        let (mu_s, mu_k) = (mu_s?, mu_k?);
+        if mu_k < mu_s || (weakening && mu_k == mu_s) {
+            return Some((mu_s, mu_k));
+        }
+        let (words, help) = if weakening {
+            ("must not exceed", "0 <= mu_k <= mu_s; `mu_s` is the coefficient before slip")
+        } else {
+            ("must be below", "0 <= mu_k < mu_s; for a constant coefficient use `kind = \"coulomb\"`")
+        };
+        let place = |key: &Option<Spanned<f64>>| key.as_ref().map(Spanned::span).unwrap_or_default();
+        let message = format!("`mu_k` {words} `mu_s`, found {mu_k:?} and {mu_s:?}");
+        let error = Diagnostic::at(place(&law.mu_k), message, help);
+        self.errors.push(error.and(place(&law.mu_s), "`mu_s`"));
+        None
+    }
+
+    fn strength(&mut self, law: &LawSpec) -> Option<Strength> {
+        let form = self.form(law);
+        let mu0 = self.value("mu0", law.mu0.as_ref(), "0.6", Positive);
+        let a = self.direct_effect(law);
+        let v_ref = self.value("v_ref", law.v_ref.as_ref(), "\"1 um/s\"", Positive);
+        let heat = self.heat(law);
+        Some(Strength { form: form?, mu0: mu0?, a: a?, v_ref: v_ref?, heat: heat? })
+    }
+
+    fn direct_effect(&mut self, law: &LawSpec) -> Option<f64> {
+        let Some(a) = &law.a else {
+            self.missing("a", "add it, such as `a = 0.01`");
+            return None;
+        };
+        let value = *a.get_ref();
+        if value > 0.0 && value.is_finite() {
+            return Some(value);
+        }
+        let (message, help) = if value < 0.0 && value.is_finite() && self.kind == "rate" {
+            (
+                format!(
+                    "the problem is ill-posed: with a = {value:?} the strength falls with the slip rate at once, and \
+                     a quasi-static continuum has neither a state, a slip length nor inertia to bound how fast slip \
+                     grows at the shortest wavelengths, so the answer would be the mesh's"
+                ),
+                "for weakening use `kind = \"rate-and-state\"` with 0 < a < b and a slip length `l`"
+                    .to_string(),
+            )
+        } else if value < 0.0 && value.is_finite() {
+            (
+                format!(
+                    "the problem is ill-posed: a = {value:?} lets the strength fall at once with the slip rate"
+                ),
+                "a > 0; weakening comes from b > a, over the slip length `l`".to_string(),
+            )
+        } else if value == 0.0 {
+            (
+                "a = 0 leaves no direct effect, so the slip rate cannot be found from the strength"
+                    .to_string(),
+                "a > 0; for a constant coefficient use `kind = \"coulomb\"`".to_string(),
+            )
+        } else {
+            (format!("`a` must be finite, found {value:?}"), "such as `a = 0.01`".to_string())
+        };
+        self.error(a.span(), message, help);
+        None
+    }
+
+    /// Temperature: three parameters or none.
+    fn heat(&mut self, law: &LawSpec) -> Option<Option<Heat>> {
+        let given = [
+            ("activation", &law.activation, "150e3", NotNegative),
+            ("t_ref", &law.t_ref, "293.15", Positive),
+            ("temperature", &law.temperature, "573.15", Positive),
+        ];
+        let Some(first) = given.iter().find_map(|g| g.1.as_ref().map(|v| (g.0, v.span()))) else {
+            return Some(None);
+        };
+        if let Some((absent, ..)) = given.iter().find(|g| g.1.is_none()) {
+            self.error(
+                first.1,
+                format!("`{}` needs `{absent}` as well", first.0),
+                "give `activation` [J/mol], `t_ref` [K] and `temperature` [K], or none of them",
+            );
+            return None;
+        }
+        let values = given.map(|(name, v, example, bound)| self.value(name, v.as_ref(), example, bound));
+        let [Some(activation), Some(t_ref), Some(temperature)] = values else { return None };
+        let exponent = activation / GAS * (t_ref - temperature) / (t_ref * temperature);
+        if !exponent.exp().is_normal() {
+            let place = law.temperature.as_ref().map_or(first.1, Spanned::span);
+            let message = format!(
+                "at {temperature:?} K instead of {t_ref:?} K slip rates change by a factor of e^{exponent:.1}"
+            );
+            self.error(place, message, "temperatures are in K, and the energy is in J/mol");
+            return None;
+        }
+        Some(Some(Heat { activation, t_ref, temperature }))
+    }
+
+    fn form(&mut self, law: &LawSpec) -> Option<Form> {
+        let Some(form) = &law.form else { return Some(Form::Regularised) };
+        match form.get_ref().as_str() {
+            "regularised" => Some(Form::Regularised),
+            "bare" => Some(Form::Bare),
+            "cut-off" => {
+                let v_cut = self.value("v_cut", law.v_cut.as_ref(), "\"1 mm/s\"", Positive)?;
+                Some(Form::CutOff { v_cut })
+            }
+            other => self.unknown(form.span(), other, "form", &FORMS),
+        }
+    }
+
+    fn evolution(&mut self, law: &LawSpec) -> Option<Evolution> {
+        let Some(evolution) = &law.evolution else {
+            let known = EVOLUTIONS.join(", ");
+            self.missing("evolution", format!("add it, such as `evolution = \"ageing\"`; there are {known}"));
+            return None;
+        };
+        match evolution.get_ref().as_str() {
+            "ageing" => {
+                let v_cut = self.optional("v_cut_state", law.v_cut_state.as_ref(), "\"1 mm/s\"", Positive)?;
+                Some(Evolution::Ageing { v_cut })
+            }
+            "slip" => Some(Evolution::Slip),
+            "prz" => Some(Evolution::Prz),
+            "nagata" => Some(Evolution::Nagata { c: self.value("c", law.c.as_ref(), "2.0", NotNegative)? }),
+            "flash" => {
+                let mu_w = self.weakened(law);
+                let v_w = self.value("v_w", law.v_w.as_ref(), "\"0.1 m/s\"", Positive);
+                Some(Evolution::Flash { mu_w: mu_w?, v_w: v_w? })
+            }
+            other => self.unknown(evolution.span(), other, "evolution", &EVOLUTIONS),
+        }
+    }
+
+    /// 0 ≤ μ_w < μ0.
+    fn weakened(&mut self, law: &LawSpec) -> Option<f64> {
+        let mu_w = self.value("mu_w", law.mu_w.as_ref(), "0.13", NotNegative)?;
+        let (Some(place), Some(mu0)) = (&law.mu_w, &law.mu0) else { return Some(mu_w) };
+        if mu_w < *mu0.get_ref() {
+            return Some(mu_w);
+        }
+        let message = format!("`mu_w` must be below `mu0`, found {mu_w:?} and {:?}", mu0.get_ref());
+        let error = Diagnostic::at(place.span(), message, "0 <= mu_w < mu0, such as `mu_w = 0.13`");
+        self.errors.push(error.and(mu0.span(), "`mu0`"));
+        None
+    }
+
+    /// The state variables: `b`, `l` and `alpha` of each.
+    fn states(&mut self, law: &LawSpec, evolution: Option<Evolution>) -> Option<Vec<State>> {
+        for (name, absent, example) in [("b", law.b.is_none(), "0.015"), ("l", law.l.is_none(), "\"10 um\"")]
+        {
+            if absent {
+                self.missing(name, format!("add it, such as `{name} = {example}`"));
+            }
+        }
+        let bound = if self.negative_b { Finite } else { NotNegative };
+        let b = law.b.as_ref().and_then(|b| self.entries("b", b, "0.015", bound));
+        let l = law.l.as_ref().and_then(|l| self.entries("l", l, "\"10 um\"", Positive));
+        let alpha = match &law.alpha {
+            None => b.as_ref().map(|b| vec![(0.0, 0..0); b.len()]),
+            Some(alpha) => self.entries("alpha", alpha, "0.2", NotNegative),
+        };
+        let (b, l, alpha) = (b?, l?, alpha?);
+        let places = [law.b.as_ref().map(Spanned::span), law.l.as_ref().map(Spanned::span)];
+        let [b_place, l_place] = places.map(Option::unwrap_or_default);
+        let alpha_place = law.alpha.as_ref().map(Spanned::span).unwrap_or_default();
+        for (name, count, place) in [("l", l.len(), l_place), ("alpha", alpha.len(), alpha_place)] {
+            if count != b.len() {
+                let message = format!(
+                    "`{name}` and `b` are of different lengths: {count} and {}, one value for each state variable",
+                    b.len()
+                );
+                let error = Diagnostic::at(place, message, format!("give {} values of `{name}`", b.len()));
+                self.errors.push(error.and(b_place.clone(), "`b`"));
+                return None;
+            }
+        }
+        self.admitted(evolution?, b_place, &b, &alpha)?;
+        let states = b.iter().zip(&l).zip(&alpha);
+        Some(states.map(|((b, l), alpha)| State { b: b.0, l: l.0, alpha: alpha.0 }).collect())
+    }
+
+    /// Whether the evolution can have these state variables.
+    fn admitted(
+        &mut self,
+        evolution: Evolution,
+        place: Range<usize>,
+        b: &[Placed],
+        alpha: &[Placed],
+    ) -> Option<()> {
+        let single = match evolution {
+            Evolution::Nagata { .. } => Some(("nagata", "it remembers the shear traction all of them share")),
+            Evolution::Flash { .. } => Some(("flash", "its steady state is that of the whole law")),
+            _ => None,
+        };
+        if let Some((name, why)) = single.filter(|_| b.len() > 1) {
+            let message =
+                format!("the evolution \"{name}\" has one state variable, found {}: {why}", b.len());
+            self.error(place, message, "give one value of `b`, `l` and `alpha`");
+            return None;
+        }
+        let mut admitted = Some(());
+        for ((b, b_place), (alpha, alpha_place)) in b.iter().zip(alpha) {
+            // The memories act on the logarithm of θ through 1/b.
+            let lost = |memory: f64| memory != 0.0 && !(memory * (1.0 / b)).is_finite();
+            match evolution {
+                Evolution::Slip | Evolution::Flash { .. } => {}
+                Evolution::Nagata { c } if *b <= 0.0 || lost(c) => {
+                    let message = format!("with \"nagata\" `b` must be positive, found {b:?}");
+                    let help = "such as `b = 0.015`: the memory of shear traction acts through the state";
+                    self.error(b_place.clone(), message, help);
+                    admitted = None;
+                }
+                _ if lost(*alpha) => {
+                    let message = format!(
+                        "`alpha` acts through the state, which has no effect on the strength with b = {b:?}"
+                    );
+                    let error = Diagnostic::at(alpha_place.clone(), message, "alpha = 0, or b > 0");
+                    self.errors.push(error.and(b_place.clone(), "`b`"));
+                    admitted = None;
+                }
+                _ => {}
+            }
+        }
+        admitted
+    }
+
+    fn normal_initial(&mut self, law: &LawSpec) -> Option<Option<f64>> {
+        let given = law.normal_initial.as_ref();
+        match (&law.alpha, given) {
+            (None, Some(given)) => {
+                let message = "`normal_initial` has no effect without `alpha`, the memory of normal traction";
+                self.error(given.span(), message, "remove it, or add `alpha`, such as `alpha = 0.2`");
+                None
+            }
+            (Some(alpha), None) if alpha.get_ref().0.iter().any(|a| *a.get_ref() > 0.0) => {
+                let message = "`alpha` needs `normal_initial`, the normal traction under which the states are steady at first";
+                self.error(alpha.span(), message, "add it, such as `normal_initial = \"50 MPa\"`");
+                None
+            }
+            _ => self.optional("normal_initial", given, "\"50 MPa\"", Positive),
+        }
+    }
+
+    fn unknown<T>(&mut self, place: Range<usize>, name: &str, what: &str, known: &[&str]) -> Option<T> {
+        let help = near::suggest(name, "choices", known.iter().copied());
+        self.error(place, format!("there is no {what} `{name}`"), help);
+        None
+    }
+}

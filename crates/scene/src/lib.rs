@@ -1,0 +1,44 @@
+#![doc = include_str!("../README.md")]
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+pub mod check;
+pub mod diagnostic;
+mod entry;
+mod exact;
+mod explain;
+mod here;
+pub mod law;
+pub mod model;
+mod motion;
+pub mod names;
+pub mod near;
+pub mod slider;
+mod title;
+pub mod units;
+pub mod warning;
+
+pub use entry::Entry;
+
+use crate::diagnostic::Diagnostics;
+use model::Scene;
+use std::path::Path;
+
+/// Reads and checks a scene; paths of mesh files in it are relative to the present folder.
+///
+/// # Errors
+/// All that is wrong with it, or the first thing that keeps it from being read.
+pub fn read(text: &str) -> Result<Scene, Diagnostics> {
+    read_in(text, Path::new(""))
+}
+
+/// Reads and checks a scene whose mesh files are named relative to `folder`.
+///
+/// # Errors
+/// See [`read`].
+pub fn read_in(text: &str, folder: &Path) -> Result<Scene, Diagnostics> {
+    let mut scene: Scene = toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
+    scene.folder = folder.to_path_buf();
+    let (errors, warnings) = check::check(&scene);
+    scene.warnings = warnings;
+    if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
+}

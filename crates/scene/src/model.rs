@@ -1,0 +1,481 @@
+//! The scene as a value: what a scene file says, in SI units, before any decision is taken.
+//!
+//! Names that the plan looks up later are [`Spanned`], so that an error can point into the file. A scene built in Rust
+//! uses the empty span (see [`here`]), and its errors name the key instead.
+
+mod body;
+mod fault;
+mod place;
+mod solver;
+mod stress;
+
+pub use super::here::here;
+use super::law::Several;
+use super::slider::EventSpec;
+use super::units::{Angle, Length, Memory, Penalty, Penetration, Pressure, Time, Velocity};
+use crate::warning::Warning;
+pub use body::*;
+pub use fault::*;
+pub use place::Place;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+pub use serde_spanned::Spanned;
+pub use solver::*;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+pub use stress::*;
+
+/// A whole scene.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "snake_case")]
+pub struct Scene {
+    /// Version of the scene format; 1.
+    pub schema: Spanned<u32>,
+    /// Title, shown in reports: one line of characters that can be seen.
+    #[serde(deserialize_with = "crate::title::read")]
+    pub title: String,
+    /// Idealisation.
+    pub kinematics: Spanned<Kinematics>,
+    /// Materials by name.
+    pub materials: BTreeMap<String, Material>,
+    /// Bodies by name.
+    pub bodies: BTreeMap<String, Body>,
+    /// Interfaces by name.
+    #[serde(default)]
+    pub interfaces: BTreeMap<String, Interface>,
+    /// Faults by name, for the stepper "fault-ode".
+    #[serde(default)]
+    pub faults: BTreeMap<String, Fault>,
+    /// Events of faults.
+    pub events: Option<EventSpec>,
+    /// Where and when they are said to happen.
+    pub place: Option<Place>,
+    /// Stages in sequence.
+    pub stages: Vec<Stage>,
+    /// Time integration.
+    pub time: TimeControl,
+    /// Solution of the linear systems.
+    #[serde(default)]
+    pub solver: Solver,
+    /// Outputs.
+    #[serde(default)]
+    pub output: Output,
+    /// Folder of the scene file, which the paths of mesh files are relative to; empty: the present one.
+    #[serde(skip)]
+    pub folder: PathBuf,
+    /// What the check found doubtful.
+    #[serde(skip)]
+    pub warnings: Vec<Warning>,
+}
+
+impl Scene {
+    /// The body that a set `body.side` belongs to.
+    #[must_use]
+    pub fn body_of(&self, set: &Spanned<String>) -> Option<&Body> {
+        self.bodies.get(set.get_ref().split('.').next()?)
+    }
+
+    /// Names of the mesh files the scene reads.
+    pub fn mesh_files(&self) -> impl Iterator<Item = &str> {
+        self.bodies.values().filter_map(|body| match &body.mesh {
+            MeshSource::Gmsh(mesh) => Some(mesh.file.get_ref().as_str()),
+            MeshSource::Abaqus(mesh) => Some(mesh.file.get_ref().as_str()),
+            MeshSource::Block(_) | MeshSource::Quadrilateral(_) | MeshSource::Fault(_) => None,
+        })
+    }
+}
+
+/// A contact interface between two side sets.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Interface {
+    /// Slave side set, `body.set`.
+    pub slave: Spanned<String>,
+    /// Master side set, `body.set`.
+    pub master: Spanned<String>,
+    /// How gaps are measured.
+    pub measure: Spanned<Measure>,
+    /// Whether the pairing follows the motion.
+    pub sliding: Spanned<Sliding>,
+    /// Smoothing of the master surface; absent = the faces as they are.
+    pub smoothing: Option<Spanned<Smoothing>>,
+    /// How contact is enforced.
+    pub enforcement: Enforcement,
+    /// Friction; absent = frictionless.
+    pub law: Option<Spanned<LawSpec>>,
+    /// What to do where points stand too coarsely for friction that weakens; absent: the scene is refused, or the run stops.
+    pub under_resolved: Option<Spanned<UnderResolved>>,
+    /// Whether it starts with the tractions of the initial stress of its bodies; absent: it does not.
+    pub initial_stress: Option<Spanned<bool>>,
+    /// Key of a fault; refused here.
+    pub normal: Option<Spanned<IgnoredAny>>,
+    /// Key of a fault; refused here.
+    pub shear: Option<Spanned<IgnoredAny>>,
+    /// Key of a fault; refused here.
+    pub rate: Option<Spanned<IgnoredAny>>,
+    /// Key of a fault; refused here.
+    pub profiles: Option<Spanned<IgnoredAny>>,
+}
+
+/// Measures that exist.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Measure {
+    /// Slave node against the closest point of a master segment.
+    NodeToPoint,
+    /// Slave facets against master facets over their overlap, the gap averaged to slave nodes.
+    Mortar,
+}
+
+/// Sliding regimes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sliding {
+    /// Pairing fixed in the reference configuration; condensation possible.
+    Small,
+    /// Pairing and normal follow the motion.
+    Finite,
+}
+
+/// Smoothings of a master surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Smoothing {
+    /// Cubic patches that share a tangent plane at their nodes.
+    Cubic,
+}
+
+/// Enforcement of the contact constraint.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Enforcement {
+    /// Kind.
+    pub kind: Spanned<EnforcementKind>,
+    /// Normal penalty E_n \[Pa/m\].
+    pub normal: Spanned<Penalty>,
+    /// Tangential penalty E_t \[Pa/m\]; needed with friction.
+    pub tangential: Option<Spanned<Penalty>>,
+    /// Uzawa: largest penetration, and largest tangential motion without slip in a step.
+    pub penetration: Option<Spanned<Penetration>>,
+    /// Uzawa: augmentations a step may take.
+    pub augmentations: Option<Spanned<usize>>,
+}
+
+/// Enforcements that exist.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EnforcementKind {
+    /// Traction proportional to penetration.
+    Penalty,
+    /// The same about multipliers that move between solutions.
+    Uzawa,
+    /// Multipliers as unknowns of the system.
+    AugmentedLagrangian,
+}
+
+/// A friction law as written in a scene. Which parameters belong to which kind is checked by the plan.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LawSpec {
+    /// coulomb, static-kinetic, slip-weakening, rate, rate-and-state, tied.
+    pub kind: Option<Spanned<String>>,
+    /// Coulomb: friction coefficient \[-\].
+    pub mu: Option<Spanned<f64>>,
+    /// Static-kinetic, slip-weakening: coefficient before slip \[-\].
+    pub mu_s: Option<Spanned<f64>>,
+    /// Static-kinetic, slip-weakening: coefficient in or after slip \[-\].
+    pub mu_k: Option<Spanned<f64>>,
+    /// Slip-weakening: slip over which the coefficient falls \[m\].
+    pub d_c: Option<Spanned<Length>>,
+    /// Strength form: regularised (default), bare or cut-off.
+    pub form: Option<Spanned<String>>,
+    /// State evolution: ageing, slip, prz, nagata or flash.
+    pub evolution: Option<Spanned<String>>,
+    /// Reference coefficient μ0 \[-\].
+    pub mu0: Option<Spanned<f64>>,
+    /// Direct effect a \[-\].
+    pub a: Option<Spanned<f64>>,
+    /// Evolution effect b \[-\], of each state variable.
+    pub b: Option<Spanned<Several<f64>>>,
+    /// Characteristic slip L \[m\], of each state variable.
+    pub l: Option<Spanned<Several<Length>>>,
+    /// Reference slip rate Vref \[m/s\].
+    pub v_ref: Option<Spanned<Velocity>>,
+    /// Initial state: slip rate at which the point was in steady state \[m/s\].
+    pub v_initial: Option<Spanned<Velocity>>,
+    /// Form cut-off: cut-off rate V1 of the direct effect \[m/s\].
+    pub v_cut: Option<Spanned<Velocity>>,
+    /// Evolution ageing: cut-off rate V2 of the state effect \[m/s\].
+    pub v_cut_state: Option<Spanned<Velocity>>,
+    /// Memory of normal traction α \[-\], of each state variable (default 0).
+    pub alpha: Option<Spanned<Several<f64>>>,
+    /// With α > 0: normal traction under which the point was in steady state \[Pa\].
+    pub normal_initial: Option<Spanned<Pressure>>,
+    /// Evolution nagata: memory of shear traction c \[-\].
+    pub c: Option<Spanned<f64>>,
+    /// Evolution flash: fully weakened coefficient μ_w \[-\].
+    pub mu_w: Option<Spanned<f64>>,
+    /// Evolution flash: slip rate V_w at which weakening begins \[m/s\].
+    pub v_w: Option<Spanned<Velocity>>,
+    /// Activation energy Q \[J/mol\].
+    pub activation: Option<Spanned<f64>>,
+    /// Temperature for which the parameters hold \[K\].
+    pub t_ref: Option<Spanned<f64>>,
+    /// Temperature \[K\].
+    pub temperature: Option<Spanned<f64>>,
+    /// F_limit: largest shear traction \[Pa\].
+    pub f_limit: Option<Spanned<Pressure>>,
+}
+
+/// One stage of loading.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stage {
+    /// Name.
+    pub name: String,
+    /// Duration \[s\].
+    pub duration: Spanned<Time>,
+    /// Interfaces whose friction is absent during this stage.
+    #[serde(default)]
+    pub frictionless: Vec<Spanned<String>>,
+    /// Conditions that begin with this stage; those of earlier stages go on unless replaced here.
+    #[serde(default)]
+    pub conditions: Vec<Spanned<Condition>>,
+    /// Number of equal steps; overrides the adaptive choice of `[time]`.
+    pub steps: Option<Spanned<usize>>,
+}
+
+/// A condition on a set.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Condition {
+    /// The set, `body.set`.
+    pub set: Option<Spanned<String>>,
+    /// Motion in x.
+    pub x: Option<Spanned<Motion>>,
+    /// Motion in y.
+    pub y: Option<Spanned<Motion>>,
+    /// Motion in z.
+    pub z: Option<Spanned<Motion>>,
+    /// Rotation of the whole set as a rigid body.
+    pub rotate: Option<Spanned<RotationSpec>>,
+    /// Symmetry plane: no displacement along the (axis-parallel) normal of the set.
+    pub symmetry: Option<Spanned<bool>>,
+    /// Traction vector \[Pa\], one entry per component of the displacement.
+    pub traction: Option<Spanned<Vec<Loading>>>,
+    /// Pressure \[Pa\], positive into the body.
+    pub pressure: Option<Spanned<Loading>>,
+}
+
+/// How a displacement component moves during a stage.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// Held at this displacement \[m\] (a step, applied with the first increment, when it differs from the present one).
+    Fixed(f64),
+    /// Ramped linearly from the present value to this one at the end of the stage \[m\].
+    To(f64),
+    /// Moved from the present value at this rate \[m/s\].
+    Rate(f64),
+    /// Piecewise linear: (time since the stage began \[s\], displacement \[m\]).
+    Table(Vec<(f64, f64)>),
+    /// Moved as one by a spring whose other end moves at a rate.
+    Spring {
+        /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
+        stiffness: f64,
+        /// Rate of the other end \[m/s\].
+        rate: f64,
+    },
+    /// One component of a rotation that begins and ends with the stage.
+    Rotate(Rotation),
+    /// Held at the value it has.
+    Hold,
+    /// Released.
+    Free,
+}
+
+/// A rotation as a scene says it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RotationSpec {
+    /// Angle by which the set has turned at the end of the stage, from its place at the start \[rad\].
+    pub by: Spanned<Angle>,
+    /// A point of the axis \[m\].
+    pub about: Spanned<Vec<Length>>,
+    /// Direction of the axis, of any length; in two dimensions it is z and not given.
+    #[serde(default, deserialize_with = "crate::exact::optional")]
+    pub axis: Option<Spanned<[f64; 3]>>,
+}
+
+impl RotationSpec {
+    /// As a motion; a third coordinate that is not given is zero.
+    #[must_use]
+    pub fn motion(&self) -> Motion {
+        let axis = self.axis.as_ref().map_or([0.0, 0.0, 1.0], |a| *a.get_ref());
+        let size = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
+        let about = self.about.get_ref();
+        Motion::Rotate(Rotation {
+            angle: self.by.get_ref().0,
+            about: std::array::from_fn(|c| about.get(c).map_or(0.0, |l| l.0)),
+            axis: axis.map(|a| a / size),
+        })
+    }
+}
+
+/// A rotation at constant rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotation {
+    /// Angle over the whole stage \[rad\].
+    pub angle: f64,
+    /// A point of the axis \[m\].
+    pub about: [f64; 3],
+    /// Unit vector along the axis.
+    pub axis: [f64; 3],
+}
+
+/// How a traction component or pressure develops during a stage.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Loading {
+    /// Constant from the start of the stage \[Pa\].
+    Fixed(f64),
+    /// Ramped linearly from the present value to this one at the end of the stage \[Pa\].
+    To(f64),
+    /// Piecewise linear: (time since the stage began \[s\], Pa).
+    Table(Vec<(f64, f64)>),
+}
+
+/// Time integration.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "snake_case")]
+pub struct TimeControl {
+    /// The stepper.
+    pub stepper: Spanned<Stepper>,
+    /// Implicit: the rule for the slip rate.
+    #[serde(default)]
+    pub rule: Option<Spanned<Rule>>,
+    /// Whether linear bodies are condensed onto the interface.
+    #[serde(default)]
+    pub path: Path,
+    /// Implicit, adaptive: bound on the estimated local error of slip per step \[m\].
+    pub tolerance: Option<Spanned<Length>>,
+    /// Implicit, adaptive: bound on the estimated error of friction coefficients per step \[-\].
+    pub friction_tolerance: Option<Spanned<f64>>,
+    /// First step \[s\].
+    pub first_step: Option<Spanned<Time>>,
+    /// Largest step \[s\].
+    pub max_step: Option<Spanned<Time>>,
+    /// Smallest step \[s\]: below it the run stops with an outcome.
+    pub min_step: Option<Spanned<Time>>,
+    /// Slip rate beyond which a run stops \[m/s\].
+    pub slip_rate_limit: Option<Spanned<Velocity>>,
+    /// Fault-ode: method of integration.
+    pub method: Option<Spanned<String>>,
+    /// Fault-ode: error of ln V allowed in a step \[-\].
+    pub log_rate_tolerance: Option<Spanned<f64>>,
+    /// Static-explicit: residual over the largest force that a step may leave \[-\] (default 1e-4).
+    pub drift: Option<Spanned<f64>>,
+    /// Static-explicit, r8: bound on |Δ ln max(V, V_floor)| per step (default 0.5).
+    pub rate_change: Option<Spanned<f64>>,
+    /// Static-explicit, r8: ζ, slip increment per characteristic slip L (default 0.1).
+    pub zeta: Option<Spanned<f64>>,
+    /// Not readable from a file: the ends of all steps of the run, imposed \[s\].
+    #[serde(skip)]
+    pub imposed: Option<Vec<f64>>,
+}
+
+/// Steppers that exist.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stepper {
+    /// Newton with line search.
+    Implicit,
+    /// Forward steps limited by the R-minimum rule.
+    StaticExplicit,
+    /// Faults whose bodies are condensed onto them, through earthquake cycles.
+    FaultOde,
+}
+
+/// Rules of the implicit stepper for the slip rate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rule {
+    /// First order.
+    #[default]
+    BackwardEuler,
+    /// Second order, laws of the slip rate.
+    Bdf2,
+}
+
+/// Which system is solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Path {
+    /// Condensed where the scene allows it.
+    #[default]
+    Auto,
+    /// Condensed, or an error.
+    Condensed,
+    /// All degrees of freedom.
+    Full,
+}
+
+/// Outputs.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Probes per interface: this many positions, equally spaced along the slave side, at the nearest nodes.
+    #[serde(default)]
+    pub probes: BTreeMap<String, Spanned<usize>>,
+    /// Points of bodies whose displacement and stress are written at every step.
+    #[serde(default)]
+    pub points: BTreeMap<String, Spanned<PointSpec>>,
+    /// Sets whose total force is written at every step.
+    #[serde(default)]
+    pub forces: BTreeMap<String, Spanned<ForceSpec>>,
+    /// Fields are written at this many equal intervals of each stage (default 1: the end of each stage).
+    pub fields: Option<Spanned<usize>>,
+    /// Profiles are written at this many equal intervals of each stage (default 10).
+    pub profiles: Option<Spanned<usize>>,
+    /// Fault-ode: whether displacements of the bodies are written, over each event and at the end.
+    pub bodies: Option<Spanned<bool>>,
+    /// Fault-ode: stations per fault.
+    #[serde(default)]
+    pub stations: BTreeMap<String, Spanned<Vec<Spanned<Station>>>>,
+    /// Fault-ode: what makes rows of stations and of the largest slip rate due.
+    pub cadence: Option<Spanned<CadenceSpec>>,
+    /// Fault-ode: times between profiles of slip, between events and in them.
+    pub contours: Option<Spanned<[Time; 2]>>,
+    /// Fault-ode: largest size of an output file that grows.
+    pub largest_file: Option<Spanned<Memory>>,
+}
+
+/// What makes rows due.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CadenceSpec {
+    /// Change of log10 of the slip rate \[-\].
+    pub decades: Option<Spanned<f64>>,
+    /// Slip.
+    pub slip: Option<Spanned<Length>>,
+    /// Longest time between two.
+    pub longest: Option<Spanned<Time>>,
+    /// Least time between two that slip makes due.
+    pub shortest: Option<Spanned<Time>>,
+}
+
+/// A point of a body.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PointSpec {
+    /// The body.
+    pub body: Spanned<String>,
+    /// Its place in the reference configuration \[m\].
+    pub at: Spanned<Vec<Length>>,
+}
+
+/// A set whose force is wanted.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ForceSpec {
+    /// The set, `body.set`.
+    pub set: Spanned<String>,
+}

@@ -1,0 +1,493 @@
+//! Materials, bodies and meshes as a scene declares them.
+
+use super::stress::InitialStress;
+use crate::exact::{self, Exactly};
+use crate::units::{Density, Length, Pressure, Viscosity};
+use serde::Deserialize;
+use serde::de::{
+    self, Deserializer, MapAccess, SeqAccess, Visitor,
+    value::{MapAccessDeserializer, SeqAccessDeserializer},
+};
+use serde_spanned::Spanned;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// Idealisations a scene can name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Kinematics {
+    /// Two-dimensional, ε_zz = 0.
+    #[serde(rename = "plane-strain")]
+    PlaneStrain,
+    /// Two-dimensional, σ_zz = 0; a sheet of thickness 1 m.
+    #[serde(rename = "plane-stress")]
+    PlaneStress,
+    /// x is the radius, y the axis of revolution; over the full circle.
+    #[serde(rename = "axisymmetric")]
+    Axisymmetric,
+    /// Two-dimensional, u_z(x, y) alone.
+    #[serde(rename = "antiplane")]
+    Antiplane,
+    /// Three-dimensional.
+    #[serde(rename = "3d")]
+    ThreeD,
+}
+
+impl Kinematics {
+    /// Dimension of the meshes.
+    #[must_use]
+    pub fn dimension(self) -> usize {
+        if self == Self::ThreeD { 3 } else { 2 }
+    }
+
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::PlaneStrain => "plane strain",
+            Self::PlaneStress => "plane stress",
+            Self::Axisymmetric => "axial symmetry",
+            Self::Antiplane => "antiplane motion",
+            Self::ThreeD => "three dimensions",
+        }
+    }
+}
+
+/// An isotropic material: elastic, and perhaps plastic or viscous.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E \[Pa\].
+    pub young: Spanned<Pressure>,
+    /// Poisson's ratio ν \[-\].
+    pub poisson: Spanned<f64>,
+    /// Density ρ \[kg/m³\], needed only with a body force.
+    pub density: Option<Spanned<Density>>,
+    /// J2 plasticity; absent: none.
+    pub plasticity: Option<Spanned<Plasticity>>,
+    /// Maxwell material: viscosity η \[Pa s\] through which the shear stress relaxes.
+    pub viscosity: Option<Spanned<Viscosity>>,
+    /// Several Maxwell elements in parallel.
+    pub maxwell: Option<Spanned<Vec<Branch>>>,
+}
+
+impl Material {
+    /// Whether the stress follows from the strain alone, linearly.
+    #[must_use]
+    pub fn is_elastic(&self) -> bool {
+        self.plasticity.is_none() && self.viscosity.is_none() && self.maxwell.is_none()
+    }
+}
+
+/// Yield and hardening.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plasticity {
+    /// Initial yield stress Y0 \[Pa\]; not with a table.
+    #[serde(rename = "yield")]
+    pub initial: Option<Spanned<Pressure>>,
+    /// How the yield stress grows.
+    pub hardening: Spanned<Hardening>,
+    /// Linear: H = dY/de_p \[Pa\].
+    pub modulus: Option<Spanned<Pressure>>,
+    /// Power: reference plastic strain e_0 \[-\].
+    pub strain: Option<Spanned<f64>>,
+    /// Power: exponent n \[-\].
+    pub exponent: Option<Spanned<f64>>,
+    /// Table: (plastic strain \[-\], yield stress \[Pa\]).
+    #[serde(default, deserialize_with = "exact::optional_pairs")]
+    pub table: Option<Spanned<Vec<(f64, Pressure)>>>,
+}
+
+/// Hardenings that exist.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Hardening {
+    /// Y constant.
+    Perfect,
+    /// Y = Y0 + H e_p.
+    Linear,
+    /// Y = Y0 (1 + e_p/e_0)^n.
+    Power,
+    /// Piecewise linear.
+    Table,
+}
+
+/// A dashpot of a generalised Maxwell material.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Branch {
+    /// Share of the shear modulus \[-\].
+    pub share: f64,
+    /// Viscosity η \[Pa s\].
+    pub viscosity: Viscosity,
+}
+
+/// A deformable body.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Where its mesh comes from.
+    pub mesh: MeshSource,
+    /// Heights z of layers \[m\] through which a plane mesh is drawn in a scene of three dimensions.
+    pub extrude: Option<Spanned<Vec<Length>>>,
+    /// Its material, or that of each group of its cells.
+    pub material: Spanned<MaterialChoice>,
+    /// Treatment of the dilatation.
+    #[serde(default)]
+    pub formulation: Option<Spanned<Formulation>>,
+    /// Size of strains.
+    #[serde(default)]
+    pub strain: Option<Spanned<Strain>>,
+    /// Stress at the start.
+    pub initial_stress: Option<Spanned<InitialStress>>,
+    /// Acceleration acting on the body's mass \[m/s²\], one entry per component of the displacement.
+    pub gravity: Option<Spanned<Vec<f64>>>,
+}
+
+impl Body {
+    /// Whether large deformation is followed.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.strain.as_ref().is_some_and(|s| *s.get_ref() == Strain::Finite)
+    }
+
+    /// Names of its materials: each with the group it belongs to, if any, and its place.
+    pub fn materials(&self) -> impl Iterator<Item = (Option<&str>, &str, std::ops::Range<usize>)> {
+        let (one, groups) = match self.material.get_ref() {
+            MaterialChoice::One(name) => (Some((None, name.as_str(), self.material.span())), None),
+            MaterialChoice::ByGroup(groups) => (None, Some(groups)),
+        };
+        let groups = groups.into_iter().flatten();
+        one.into_iter().chain(groups.map(|(g, m)| (Some(g.as_str()), m.get_ref().as_str(), m.span())))
+    }
+}
+
+/// The material of a body.
+#[derive(Clone, Debug)]
+pub enum MaterialChoice {
+    /// One for all cells.
+    One(String),
+    /// By groups of cells.
+    ByGroup(BTreeMap<String, Spanned<String>>),
+}
+
+impl<'de> Deserialize<'de> for MaterialChoice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct ChoiceVisitor;
+        impl<'de> Visitor<'de> for ChoiceVisitor {
+            type Value = MaterialChoice;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("the name of a material, or a table of names by groups of cells")
+            }
+
+            fn visit_str<E: de::Error>(self, name: &str) -> Result<MaterialChoice, E> {
+                Ok(MaterialChoice::One(name.to_string()))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<MaterialChoice, A::Error> {
+                BTreeMap::deserialize(MapAccessDeserializer::new(map)).map(MaterialChoice::ByGroup)
+            }
+        }
+        deserializer.deserialize_any(ChoiceVisitor)
+    }
+}
+
+/// Treatments of the dilatation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Formulation {
+    /// As the shape functions give it.
+    Standard,
+    /// Projected cell by cell: does not lock near incompressibility.
+    BBar,
+}
+
+/// Sizes of strain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Strain {
+    /// On the reference geometry.
+    Small,
+    /// Updated Lagrangian, Jaumann rate of the Kirchhoff stress.
+    Finite,
+}
+
+/// Sources of meshes.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub enum MeshSource {
+    /// A generated rectangular block.
+    Block(BlockMesh),
+    /// A generated patch with four straight sides.
+    Quadrilateral(QuadrilateralMesh),
+    /// A generated box around a fault, split along it.
+    Fault(FaultMesh),
+    /// A Gmsh file, MSH 2.2 or 4.1.
+    Gmsh(GmshMesh),
+    /// An Abaqus input file.
+    Abaqus(AbaqusMesh),
+}
+
+/// A structured, possibly graded block.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BlockMesh {
+    /// Lower corner \[m\].
+    pub min: Spanned<Vec<Length>>,
+    /// Upper corner \[m\].
+    pub max: Spanned<Vec<Length>>,
+    /// Element size h \[m\]; must divide each edge. One of this, `divisions` and `spacing`.
+    pub size: Option<Spanned<Length>>,
+    /// Elements along each axis.
+    pub divisions: Option<Spanned<Vec<usize>>>,
+    /// Sizes of cells along each axis, by coordinates.
+    pub spacing: Option<Spanned<Vec<Spanned<SpacingSpec>>>>,
+    /// Ratio of the last to the first element along each axis (1 = uniform).
+    pub grading: Option<Spanned<Vec<f64>>>,
+    /// Curved sides by their names.
+    #[serde(default)]
+    pub curves: BTreeMap<String, Spanned<CurveSpec>>,
+    /// Element name.
+    pub element: Spanned<String>,
+}
+
+/// A curved side of a block.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CurveSpec {
+    /// Shape.
+    pub kind: Spanned<CurveKind>,
+    /// Radius of curvature at the apex \[m\], positive where the body is convex.
+    pub radius: Spanned<Length>,
+    /// Where the side touches that of the block.
+    pub apex: Spanned<Apex>,
+}
+
+/// Shapes of curved sides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CurveKind {
+    /// r²/(2R).
+    Parabola,
+    /// R - √(R² - r²).
+    Circle,
+}
+
+/// Coordinates of an apex along the axes a side bends over.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Apex {
+    /// \[m\].
+    pub x: Option<Length>,
+    /// \[m\].
+    pub y: Option<Length>,
+    /// \[m\].
+    pub z: Option<Length>,
+}
+
+impl Apex {
+    /// By axis.
+    #[must_use]
+    pub fn along(&self, axis: usize) -> Option<Length> {
+        [self.x, self.y, self.z][axis]
+    }
+}
+
+/// A patch with four straight sides: the unit square mapped bilinearly.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct QuadrilateralMesh {
+    /// Corners anticlockwise \[m\]: the first side is the bottom.
+    #[serde(deserialize_with = "exact::lists")]
+    pub corners: Spanned<[[Length; 2]; 4]>,
+    /// Elements from left to right and from bottom to top.
+    #[serde(deserialize_with = "exact::list")]
+    pub divisions: Spanned<[usize; 2]>,
+    /// Ratio of the last to the first element in both directions (1 = uniform).
+    #[serde(default, deserialize_with = "exact::optional")]
+    pub grading: Option<Spanned<[f64; 2]>>,
+    /// Element name.
+    pub element: Spanned<String>,
+}
+
+/// A box with one fault.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FaultMesh {
+    /// Vertices of the fault, from one tip to the other \[m\]; y points up.
+    #[serde(deserialize_with = "exact::many")]
+    pub trace: Spanned<Vec<[Length; 2]>>,
+    /// What lies between the vertices.
+    #[serde(default)]
+    pub interpolation: InterpolationSpec,
+    /// Sizes of cells along the fault.
+    pub spacing: Spanned<SpacingSpec>,
+    /// Thickness of the first cells across the fault \[m\]; absent: the smallest size along it.
+    pub thickness: Option<Spanned<Length>>,
+    /// Lower corner of the box \[m\].
+    #[serde(deserialize_with = "exact::list")]
+    pub min: Spanned<[Length; 2]>,
+    /// Upper corner of the box \[m\].
+    #[serde(deserialize_with = "exact::list")]
+    pub max: Spanned<[Length; 2]>,
+    /// Largest ratio of neighbouring sizes away from the fault \[-\].
+    pub growth: Spanned<f64>,
+    /// Element name.
+    pub element: Spanned<String>,
+}
+
+/// The line between the vertices of a trace.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum InterpolationSpec {
+    /// A smooth curve.
+    #[default]
+    Spline,
+    /// Straight lines, which meet in corners.
+    Polyline,
+}
+
+/// Sizes along a fault.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SpacingSpec {
+    /// One size \[m\].
+    Constant(Length),
+    /// One size within a zone, growing beyond.
+    Zone(Zone),
+    /// Sizes at distances along the fault \[m\].
+    Graded(Vec<[Length; 2]>),
+}
+
+/// A zone of constant size along a fault.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Zone {
+    /// Size within \[m\].
+    pub size: Length,
+    /// Begin along the fault \[m\].
+    pub from: Length,
+    /// End \[m\].
+    pub to: Length,
+    /// Largest ratio of neighbouring sizes beyond \[-\].
+    pub ratio: f64,
+}
+
+impl<'de> Deserialize<'de> for SpacingSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct SpacingVisitor;
+        impl<'de> Visitor<'de> for SpacingVisitor {
+            type Value = SpacingSpec;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a length such as \"25 m\", { size = .., from = .., to = .., ratio = .. }, or pairs [distance, size]")
+            }
+
+            fn visit_f64<E: de::Error>(self, value: f64) -> Result<SpacingSpec, E> {
+                Ok(SpacingSpec::Constant(Length(value)))
+            }
+
+            fn visit_i64<E: de::Error>(self, value: i64) -> Result<SpacingSpec, E> {
+                Ok(SpacingSpec::Constant(Length(value as f64)))
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<SpacingSpec, E> {
+                Length::deserialize(de::value::StrDeserializer::new(text)).map(SpacingSpec::Constant)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<SpacingSpec, A::Error> {
+                Zone::deserialize(MapAccessDeserializer::new(map)).map(SpacingSpec::Zone)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<SpacingSpec, A::Error> {
+                let pairs = Vec::<Exactly<Length, 2>>::deserialize(SeqAccessDeserializer::new(list))?;
+                Ok(SpacingSpec::Graded(pairs.into_iter().map(|pair| pair.0).collect()))
+            }
+        }
+        deserializer.deserialize_any(SpacingVisitor)
+    }
+}
+
+/// A mesh read from a file of Gmsh.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GmshMesh {
+    /// The file, relative to the scene's folder.
+    pub file: Spanned<String>,
+    /// Physical groups of cells the body consists of; absent: all cells.
+    pub groups: Option<Spanned<Vec<Spanned<String>>>>,
+    /// Unit of length of the file; absent: m.
+    pub unit: Option<Spanned<String>>,
+    /// Names given to groups by their numbers.
+    #[serde(default)]
+    pub tags: BTreeMap<String, Spanned<TagSpec>>,
+    /// Named internal surfaces along which the mesh is split.
+    #[serde(default)]
+    pub split: Vec<Spanned<String>>,
+}
+
+/// The number of a group.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TagSpec {
+    /// Number of the physical group, or N of a group named `material-id:N`.
+    pub tag: i64,
+    /// Dimension of its elements; absent: groups of this number on every dimension.
+    pub dimension: Option<usize>,
+}
+
+/// The long form.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TagTable {
+    tag: i64,
+    dimension: Option<usize>,
+}
+
+impl<'de> Deserialize<'de> for TagSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct TagVisitor;
+        impl<'de> Visitor<'de> for TagVisitor {
+            type Value = TagSpec;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "the number of a group such as 7, \"material-id:7\" or { tag = 7, dimension = 1 }",
+                )
+            }
+
+            fn visit_i64<E: de::Error>(self, tag: i64) -> Result<TagSpec, E> {
+                Ok(TagSpec { tag, dimension: None })
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<TagSpec, E> {
+                let number = text.strip_prefix("material-id:").and_then(|n| n.trim().parse().ok());
+                let tag = number.ok_or_else(|| E::invalid_value(de::Unexpected::Str(text), &self))?;
+                Ok(TagSpec { tag, dimension: None })
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TagSpec, A::Error> {
+                let TagTable { tag, dimension } = TagTable::deserialize(MapAccessDeserializer::new(map))?;
+                match dimension.filter(|d| *d > 3) {
+                    Some(d) => Err(de::Error::custom(format!("a group has the dimension 0 to 3, not {d}"))),
+                    None => Ok(TagSpec { tag, dimension }),
+                }
+            }
+        }
+        deserializer.deserialize_any(TagVisitor)
+    }
+}
+
+/// A mesh read from an Abaqus input file.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AbaqusMesh {
+    /// The file, relative to the scene's folder.
+    pub file: Spanned<String>,
+    /// Element sets the body consists of; absent: all elements.
+    pub elsets: Option<Spanned<Vec<Spanned<String>>>>,
+    /// Unit of length of the file; absent: m.
+    pub unit: Option<Spanned<String>>,
+    /// Named internal surfaces along which the mesh is split.
+    #[serde(default)]
+    pub split: Vec<Spanned<String>>,
+}

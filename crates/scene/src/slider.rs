@@ -1,0 +1,74 @@
+//! Scenes of spring-sliders: `kinematics = "spring-slider"`.
+
+mod course;
+mod event;
+mod spec;
+
+pub use course::Course;
+pub use event::EventSpec;
+pub use spec::{Load, OutputSpec, SliderScene, SliderSpec, SliderTime, SpringSpec, Which};
+
+use super::model::Spanned;
+use super::{explain, near};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use serde::Deserialize;
+
+/// The kinematics there are.
+const KINEMATICS: [&str; 6] =
+    ["plane-strain", "plane-stress", "axisymmetric", "antiplane", "3d", "spring-slider"];
+
+/// So much of a scene as tells of what kind it is.
+#[derive(Deserialize)]
+struct Head {
+    kinematics: Option<Spanned<toml::Value>>,
+    sliders: Option<serde::de::IgnoredAny>,
+}
+
+impl Head {
+    /// Whether there are bodies in such a scene.
+    fn bodies(&self) -> bool {
+        let known = |k: &Spanned<toml::Value>| {
+            k.get_ref().as_str().is_none_or(|k| k != "spring-slider" && KINEMATICS.contains(&k))
+        };
+        self.sliders.is_none() && self.kinematics.as_ref().is_none_or(known)
+    }
+
+    /// What is wrong with the kinematics of a scene of sliders.
+    fn error(&self) -> Option<Diagnostic> {
+        let help = "sliders belong to `kinematics = \"spring-slider\"`";
+        let Some(kinematics) = &self.kinematics else {
+            return Some(Diagnostic::at(0..1, "the key `kinematics` is missing", help));
+        };
+        let place = kinematics.span();
+        let Some(name) = kinematics.get_ref().as_str() else {
+            return Some(Diagnostic::at(place, "the kinematics is a text in quotes", help));
+        };
+        if name == "spring-slider" {
+            return None;
+        }
+        Some(if KINEMATICS.contains(&name) {
+            let message = format!("the scene has sliders, but its kinematics is \"{name}\"");
+            Diagnostic::at(place, message, help)
+        } else {
+            let help = near::suggest(name, "kinematics", KINEMATICS);
+            Diagnostic::at(place, format!("there is no kinematics `{name}`"), help)
+        })
+    }
+}
+
+/// Whether a scene file is read by [`read`]: its kinematics are spring-sliders or none that there are, or it has sliders.
+#[must_use]
+pub fn is_slider(text: &str) -> bool {
+    toml::from_str::<Head>(text).is_ok_and(|head| !head.bodies())
+}
+
+/// Reads a scene of spring-sliders.
+///
+/// # Errors
+/// The first thing that keeps it from being read.
+pub fn read(text: &str) -> Result<SliderScene, Diagnostics> {
+    if let Some(error) = toml::from_str::<Head>(text).ok().and_then(|head| head.error()) {
+        return Err(Diagnostics(vec![error]));
+    }
+    toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))
+}

@@ -1,0 +1,144 @@
+//! A scene of spring-sliders as a value: what its file says, in SI units, before any decision is taken.
+
+use super::course::Course;
+use super::event::EventSpec;
+use crate::model::{LawSpec, Spanned};
+use crate::units::{Damping, Mass, Pressure, Spring, Time, Velocity};
+use serde::Deserialize;
+use serde::de::{self, Deserializer, SeqAccess, Visitor};
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// A scene of spring-sliders.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SliderScene {
+    /// Version of the scene format; 1.
+    pub schema: Spanned<u32>,
+    /// Title, shown in reports: one line of characters that can be seen.
+    #[serde(deserialize_with = "crate::title::read")]
+    pub title: String,
+    /// "spring-slider".
+    pub kinematics: Spanned<String>,
+    /// Load point.
+    pub load: Option<Load>,
+    /// Sliders by name, in the order of the names.
+    #[serde(default)]
+    pub sliders: BTreeMap<String, Spanned<SliderSpec>>,
+    /// Springs between sliders.
+    #[serde(default)]
+    pub springs: Vec<Spanned<SpringSpec>>,
+    /// Time integration.
+    pub time: SliderTime,
+    /// Events.
+    pub events: Option<EventSpec>,
+    /// Rows of histories.
+    pub output: Option<OutputSpec>,
+}
+
+/// The load point.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// Its rate \[m/s\].
+    pub rate: Spanned<Course<Velocity>>,
+}
+
+/// A slider.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SliderSpec {
+    /// Friction.
+    pub law: Spanned<LawSpec>,
+    /// Normal traction f_n \[Pa\].
+    pub normal: Spanned<Course<Pressure>>,
+    /// Stiffness k to the load point \[Pa/m\].
+    pub stiffness: Option<Spanned<Spring>>,
+    /// Radiation damping η \[Pa s/m\].
+    pub damping: Option<Spanned<Damping>>,
+    /// Mass per area M \[kg/m²\].
+    pub mass: Option<Spanned<Mass>>,
+    /// Slip rate at time 0 \[m/s\]; without it that of the law's initial steady state.
+    pub start: Option<Spanned<Velocity>>,
+    /// Slip rate at all times \[m/s\], where it is imposed.
+    pub rate: Option<Spanned<Course<Velocity>>>,
+}
+
+/// A spring between two sliders.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpringSpec {
+    /// Names of the two sliders.
+    pub between: Spanned<Vec<Spanned<String>>>,
+    /// Stiffness \[Pa/m\].
+    pub stiffness: Spanned<Spring>,
+}
+
+/// Time integration.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SliderTime {
+    /// End \[s\].
+    pub end: Spanned<Time>,
+    /// Method.
+    pub method: Option<Spanned<String>>,
+    /// Error allowed in ln V and in what is worth as much of each state, per step \[-\].
+    pub tolerance: Option<Spanned<f64>>,
+    /// First step \[s\].
+    pub first_step: Option<Spanned<Time>>,
+    /// Largest step \[s\].
+    pub max_step: Option<Spanned<Time>>,
+    /// Steps after which to give up.
+    pub most_steps: Option<Spanned<usize>>,
+}
+
+/// Rows of histories.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OutputSpec {
+    /// Change of ln V after which a row is written \[-\].
+    pub change: Option<Spanned<f64>>,
+    /// Times of rows \[s\].
+    pub times: Option<Spanned<Vec<Spanned<Time>>>>,
+    /// Time between rows \[s\].
+    pub interval: Option<Spanned<Time>>,
+    /// Which sliders have histories.
+    pub histories: Option<Which>,
+    /// Whether the extremes of the slip rate are found and written, where the scene has no events.
+    pub extremes: Option<Spanned<bool>>,
+}
+
+/// All, none, or those named.
+#[derive(Clone, Debug)]
+pub enum Which {
+    /// All or none.
+    All(bool),
+    /// Those named.
+    Named(Vec<Spanned<String>>),
+}
+
+impl<'de> Deserialize<'de> for Which {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct WhichVisitor;
+        impl<'de> Visitor<'de> for WhichVisitor {
+            type Value = Which;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("true, false, or a list of names such as [\"left\", \"right\"]")
+            }
+
+            fn visit_bool<E: de::Error>(self, all: bool) -> Result<Which, E> {
+                Ok(Which::All(all))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Which, A::Error> {
+                let mut names = Vec::new();
+                while let Some(name) = seq.next_element()? {
+                    names.push(name);
+                }
+                Ok(Which::Named(names))
+            }
+        }
+        deserializer.deserialize_any(WhichVisitor)
+    }
+}
