@@ -4,13 +4,12 @@
 use asperity_driver::fault::{Equations, Form, Plan, plan_with};
 use asperity_driver::scene;
 use asperity_ode::{Clock, Problem};
+use asperity_vary::bp1::bp1;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 /// BP1 with cells of this size \[m\] where the fault is locked.
 fn plan(size: f64, form: Form) -> Plan {
-    let text = include_str!("../../scenes/bp1.toml")
-        .replace("156.25 m", &format!("{size} m"))
-        .replace("\"600 m\"", &format!("\"{} m\"", 600.0 / 156.25 * size));
+    let text = bp1(size).text().expect("the scene has these keys");
     let scene = scene::read(&text).expect("the scene is complete");
     plan_with(&scene, form).expect("the scene has a fault")
 }

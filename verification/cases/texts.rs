@@ -1,4 +1,4 @@
-//! Scenes of cases as texts: one file a user could run, varied by replacing parts of it, read by the public reader.
+//! Scenes of cases as texts: one file a user could run, read by the public reader.
 
 use crate::{CaseError, Cost};
 use asperity_driver::report::{Outcome, RunReport};
@@ -7,23 +7,10 @@ use asperity_output::Recorder;
 use asperity_output::view::InterfaceFields;
 use std::path::Path;
 
-/// The text with each first string of a pair, which must occur, replaced by the second.
-///
-/// # Errors
-/// When there is nothing to replace: the variant would be the scene itself.
-pub fn vary(text: &str, changes: &[(&str, &str)]) -> Result<String, CaseError> {
-    let mut text = text.to_owned();
-    for (from, to) in changes {
-        if !text.contains(from) {
-            return Err(format!("the scene does not contain `{from}`").into());
-        }
-        text = text.replace(from, to);
-    }
-    Ok(text)
-}
-
 /// A run that may have ended early.
 pub struct Done {
+    /// Scene.
+    pub scene: String,
     /// Report.
     pub report: RunReport,
     /// Histories at all slave nodes, fields of the bodies at the ends of stages.
@@ -52,7 +39,7 @@ pub fn attempt_in(text: &str, folder: &str) -> Result<Done, CaseError> {
     let (report, cost) = Cost::of(|| run::run(&plan, &mut record));
     let report = report?;
     let cost = cost.counts(&report.counts);
-    Ok(Done { report, record, cost })
+    Ok(Done { scene: text.to_owned(), report, record, cost })
 }
 
 /// Runs a scene to its end.

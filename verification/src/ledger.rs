@@ -22,6 +22,7 @@ use crate::cost::Cost;
 use crate::order::{Floor, Level, OrderTest, Plateau};
 use crate::plot::Plot;
 use serde::Serialize;
+use std::fmt::Debug;
 
 /// A table of the case's page.
 #[derive(Clone, Debug, Serialize)]
@@ -130,6 +131,9 @@ impl Ledger {
     }
 }
 
+/// Why a claim that two settings agree holds for nothing.
+const ALONE: &str = "the two settings that are to agree are the same";
+
 /// What every kind of claim states.
 #[derive(Debug)]
 struct Common {
@@ -143,6 +147,8 @@ struct Common {
     why_not_tighter: String,
     covers: Vec<Capability>,
     cost: Cost,
+    /// Whether the two settings the claim compares are one.
+    alone: bool,
 }
 
 impl Common {
@@ -158,10 +164,12 @@ impl Common {
             why_not_tighter: String::new(),
             covers: covers.to_vec(),
             cost: Cost::default(),
+            alone: false,
         }
     }
 
     fn with(self, test: Test) -> Claim {
+        let test = if self.alone { Test::NotRun { error: ALONE.into() } } else { test };
         Claim {
             quantity: self.quantity,
             unit: self.unit,
@@ -249,6 +257,13 @@ pub struct Draft<'a> {
 
 impl Draft<'_> {
     common_setters!();
+
+    /// The two settings that are to agree: scenes, their texts or their plans. Where they are the same, the claim disagrees,
+    /// since it compares a run with itself.
+    pub fn between<T: Debug + ?Sized>(mut self, one: &T, other: &T) -> Self {
+        self.common.alone |= format!("{one:?}") == format!("{other:?}");
+        self
+    }
 
     /// What the code gave.
     pub fn value(self, value: f64) -> Self {
@@ -395,6 +410,7 @@ impl OrderDraft<'_> {
             why_not_tighter: common.why_not_tighter.clone(),
             covers: common.covers.clone(),
             cost: common.cost.clone(),
+            alone: false,
         };
         common.quantity = format!("{}: order", common.quantity);
         ledger.record.claims.push(common.with(Test::Order(test)).judge());

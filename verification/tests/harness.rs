@@ -129,6 +129,15 @@ fn a_bound_below_the_rounding_of_its_value_is_caught_by_the_control() {
 }
 
 #[test]
+fn a_claim_that_two_settings_agree_disagrees_where_they_are_one() {
+    let judged = |one, other| judge(|d| d.value(1.05).equals(1.0).absolute(0.1).between(one, other));
+    assert_eq!(judged("condensed", "full").verdict, Verdict::Holds);
+    let alone = judged("full", "full");
+    assert_eq!(alone.verdict, Verdict::Disagrees);
+    assert!(alone.problem.unwrap().contains("the two settings that are to agree are the same"));
+}
+
+#[test]
 fn slack_asks_for_a_reason_and_thin_is_marked() {
     assert_eq!(judge(|d| d.value(1.005).equals(1.0).absolute(0.1)).mark, Some(Mark::SlackUnexplained));
     let explained =

@@ -5,6 +5,7 @@ use asperity_driver::report::Outcome;
 use asperity_driver::{plan, run as driver, scene};
 use asperity_output::Recorder;
 use asperity_output::view::Samples;
+use asperity_vary::SceneText;
 use std::f64::consts::{PI, SQRT_2};
 
 /// See the README.
@@ -44,16 +45,20 @@ fn simulate(text: &str) -> Result<(Samples, Cost), CaseError> {
     Ok((samples, cost.count("unknowns", report.plan.dofs as f64)))
 }
 
-/// The scene with cells of another size and element.
-fn refined(text: &str, n: u32, element: &str) -> String {
-    text.replace("0.125", &format!("{}", 1.0 / f64::from(n))).replace("quad4", element)
+/// The scene with cells of another size and element, of a mesh whose keys of both are these.
+fn refined(text: &str, [size, of_kind]: [&str; 2], n: u32, element: &str) -> Result<String, CaseError> {
+    let scene = SceneText::new(text).with_or_same(size, 1.0 / f64::from(n)).with_or_same(of_kind, element);
+    Ok(scene.text()?)
 }
+
+const FAULT: [&str; 2] = ["bodies.B.mesh.fault.spacing", "bodies.B.mesh.fault.element"];
+const BLOCK: [&str; 2] = ["bodies.B.mesh.block.size", "bodies.B.mesh.block.element"];
 
 fn crack(ledger: &mut Ledger, element: &str) -> Result<(), CaseError> {
     let mut levels = Vec::new();
     let mut finest = (Samples::default(), Cost::default());
     for n in SIZES {
-        finest = simulate(&refined(include_str!("crack.toml"), n, element))?;
+        finest = simulate(&refined(include_str!("crack.toml"), FAULT, n, element)?)?;
         levels.push((1.0 / f64::from(n), finest.0.forces[1][2] - SQRT_2));
     }
     let (samples, cost) = finest;
@@ -99,7 +104,7 @@ fn prism(ledger: &mut Ledger) -> Result<(), CaseError> {
     let exact = middle();
     let (mut levels, mut cost) = (Vec::new(), Cost::default());
     for n in SIZES {
-        let (samples, spent) = simulate(&refined(include_str!("prism.toml"), n, "quad4"))?;
+        let (samples, spent) = simulate(&refined(include_str!("prism.toml"), BLOCK, n, "quad4")?)?;
         levels.push((1.0 / f64::from(n), (samples.points[0].displacement[2] - exact).abs()));
         cost = spent;
     }

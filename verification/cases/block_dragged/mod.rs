@@ -1,7 +1,8 @@
 //! A plate dragged over a rigid plane: the tangential displacements of Code_Aster's SSNV128.
 
-use super::texts::{Done, simulate, vary};
+use super::texts::{Done, simulate};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use asperity_vary::SceneText;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -83,14 +84,13 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 fn variant(n: usize, element: &str, measure: &str) -> Result<String, CaseError> {
-    let changes = [
-        ("[32, 32]", format!("[{n}, {n}]")),
-        ("[32, 1]", format!("[{n}, 1]")),
-        ("\"quad4\"", format!("\"{element}\"")),
-        ("\"node-to-point\"", format!("\"{measure}\"")),
-    ];
-    let changes: Vec<(&str, &str)> = changes.iter().map(|(a, b)| (*a, b.as_str())).collect();
-    vary(SCENE, &changes)
+    let scene = SceneText::new(SCENE)
+        .with_or_same("bodies.plate.mesh.block.divisions", format!("[{n}, {n}]"))
+        .with_or_same("bodies.plane.mesh.block.divisions", format!("[{n}, 1]"))
+        .with_or_same("bodies.plate.mesh.block.element", element)
+        .with_or_same("bodies.plane.mesh.block.element", element)
+        .with_or_same("interfaces.contact.measure", measure);
+    Ok(scene.text()?)
 }
 
 /// Tangential displacements at the points \[um\].

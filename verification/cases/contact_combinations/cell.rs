@@ -1,10 +1,11 @@
 //! One combination: its scene, what came of it, and the strength its law gives.
 
-use super::super::texts::vary;
 use crate::CaseError;
 use asperity_driver::report::Outcome;
 use asperity_driver::{plan, run, scene};
 use asperity_output::Recorder;
+use asperity_vary::Change::{self, Add, With};
+use asperity_vary::SceneText;
 use std::path::Path;
 
 const SCENE: &str = include_str!("scene.toml");
@@ -104,13 +105,13 @@ pub const LAWS: [Law; 8] = [
 pub const ENFORCEMENTS: [&str; 3] = ["penalty", "uzawa", "augmented-lagrangian"];
 
 const UZAWA: &str =
-    "kind = \"uzawa\", normal = \"20 E/h\", tangential = \"20 E/h\", penetration = \"1e-9 h\"";
-const UNKNOWNS: &str = "kind = \"augmented-lagrangian\", normal = \"1 E/h\", tangential = \"1 E/h\"";
+    "{ kind = \"uzawa\", normal = \"20 E/h\", tangential = \"20 E/h\", penetration = \"1e-9 h\" }";
+const UNKNOWNS: &str = "{ kind = \"augmented-lagrangian\", normal = \"1 E/h\", tangential = \"1 E/h\" }";
 
 /// Steps where bodies yield, or where points close under friction within implicit steps (static-explicit ones end at each closing). No
 /// error estimate sees either. Plastic flow over half a metre of sliding errs by 1e-3 of the force in either stepper at the usual
 /// twentieth of a stage, by 4e-5 in steps of 20 ms, and by 1e-5 in these.
-const SHORT_STEPS: &str = "max_step = \"5 ms\"";
+const SHORT_STEPS: Change<'_> = Add("time.max_step", "5 ms");
 
 const MU: f64 = 0.4;
 /// F_limit of the capped laws \[Pa\]; the mean normal traction is some 20 MPa.
@@ -219,97 +220,99 @@ pub enum End {
 }
 
 /// The scene about an axis: a ring in place of the die, which grows into a tube.
-const AXIS: [(&str, &str); 8] = [
-    ("\"plane-strain\"", "\"axisymmetric\""),
-    (
-        "min = [\"0 m\", \"-0.5 m\"], max = [\"2 m\", \"0 m\"], divisions = [12, 3]",
-        "min = [\"1.4 m\", \"0 m\"], max = [\"1.9 m\", \"2 m\"], divisions = [3, 12]",
-    ),
-    (
-        "min = [\"0.5 m\", \"0 m\"], max = [\"1.3 m\", \"0.4 m\"], divisions = [5, 2]",
-        "min = [\"1 m\", \"0.5 m\"], max = [\"1.4 m\", \"1.3 m\"], divisions = [2, 5]",
-    ),
-    ("x = 0, y = { to = \"-1 mm\" }", "x = { to = \"1 mm\" }, y = 0"),
-    ("die.bottom", "die.right"),
-    ("slab.top", "slab.left"),
-    ("slab.bottom", "slab.right"),
-    ("die.top", "die.left"),
+const AXIS: [Change<'_>; 15] = [
+    With("kinematics", "axisymmetric"),
+    With("bodies.slab.mesh.block.min", r#"["1.4 m", "0 m"]"#),
+    With("bodies.slab.mesh.block.max", r#"["1.9 m", "2 m"]"#),
+    With("bodies.slab.mesh.block.divisions", "[3, 12]"),
+    With("bodies.die.mesh.block.min", r#"["1 m", "0.5 m"]"#),
+    With("bodies.die.mesh.block.max", r#"["1.4 m", "1.3 m"]"#),
+    With("bodies.die.mesh.block.divisions", "[2, 5]"),
+    With("interfaces.contact.slave", "die.right"),
+    With("interfaces.contact.master", "slab.left"),
+    With("stages[0].conditions[0].set", "slab.right"),
+    With("stages[0].conditions[1].set", "die.left"),
+    With("stages[0].conditions[1].x", r#"{ to = "1 mm" }"#),
+    With("stages[0].conditions[1].y", "0"),
+    With("stages[1].conditions[0].set", "die.left"),
+    With("output.forces.die.set", "die.left"),
 ];
 
 /// The scene in space.
-const SPACE: [(&str, &str); 8] = [
-    ("\"plane-strain\"", "\"3d\""),
-    ("\"quad4\"", "\"hex8\""),
-    ("\"-0.5 m\"]", "\"-0.5 m\", \"0 m\"]"),
-    ("\"0 m\"], divisions = [12, 3]", "\"0 m\", \"0.3 m\"], divisions = [12, 3, 1]"),
-    ("min = [\"0.5 m\", \"0 m\"]", "min = [\"0.5 m\", \"0 m\", \"0 m\"]"),
-    ("\"0.4 m\"], divisions = [5, 2]", "\"0.4 m\", \"0.3 m\"], divisions = [5, 2, 1]"),
-    ("x = 0, y = 0 }", "x = 0, y = 0, z = 0 }"),
-    ("x = 0, y = { to", "x = 0, z = 0, y = { to"),
+const SPACE: [Change<'_>; 11] = [
+    With("kinematics", "3d"),
+    With("bodies.slab.mesh.block.element", "hex8"),
+    With("bodies.slab.mesh.block.min", r#"["0 m", "-0.5 m", "0 m"]"#),
+    With("bodies.slab.mesh.block.max", r#"["2 m", "0 m", "0.3 m"]"#),
+    With("bodies.slab.mesh.block.divisions", "[12, 3, 1]"),
+    With("bodies.die.mesh.block.element", "hex8"),
+    With("bodies.die.mesh.block.min", r#"["0.5 m", "0 m", "0 m"]"#),
+    With("bodies.die.mesh.block.max", r#"["1.3 m", "0.4 m", "0.3 m"]"#),
+    With("bodies.die.mesh.block.divisions", "[5, 2, 1]"),
+    Add("stages[0].conditions[0].z", "0"),
+    Add("stages[0].conditions[1].z", "0"),
 ];
 
 impl Cell {
     /// Its scene.
     ///
     /// # Errors
-    /// When the scene lacks what is to be replaced.
+    /// When the scene lacks a key that is varied.
     pub fn text(&self) -> Result<String, CaseError> {
         let way = self.pairing.way();
-        let law = format!("law = {{ {} }}", self.law.text(way));
-        let way = format!("x = {{ to = \"{way} m\" }} }}]");
-        let mut changes = vec![
-            ("law = { kind = \"coulomb\", mu = 0.4 }", law.as_str()),
-            ("x = { to = \"0.002 m\" } }]", way.as_str()),
-        ];
-        let penalties = "kind = \"penalty\", normal = \"20 E/h\", tangential = \"20 E/h\"";
+        let mut scene = self
+            .in_space(SceneText::new(SCENE))
+            .with_or_same("interfaces.contact.law", format!("{{ {} }}", self.law.text(way)));
         match self.enforcement {
-            "uzawa" => changes.push((penalties, UZAWA)),
-            "augmented-lagrangian" => changes.push((penalties, UNKNOWNS)),
+            "uzawa" => scene = scene.with("interfaces.contact.enforcement", UZAWA),
+            "augmented-lagrangian" => scene = scene.with("interfaces.contact.enforcement", UNKNOWNS),
             _ => {}
         }
         if self.pairing.mortar {
-            changes.push(("\"node-to-point\"", "\"mortar\""));
+            scene = scene.with("interfaces.contact.measure", "mortar");
         }
         if self.pairing.follows {
-            changes.push(("sliding = \"small\"", "sliding = \"finite\""));
+            scene = scene.with("interfaces.contact.sliding", "finite");
         }
         if self.bodies.plastic {
-            let (poisson, hardening) = (
-                "young = \"10 GPa\"\npoisson = 0.25",
-                "young = \"10 GPa\"\npoisson = 0.25\nplasticity = { hardening = \"linear\", yield = \"20 MPa\", modulus = \"1 GPa\" }",
-            );
-            changes.push((poisson, hardening));
+            let hardening = r#"{ hardening = "linear", yield = "20 MPa", modulus = "1 GPa" }"#;
+            scene = scene.add("materials.soft.plasticity", hardening);
         }
         if self.bodies.finite {
-            changes.push(("material = \"soft\"", "material = \"soft\"\nstrain = \"finite\""));
-            changes.push(("material = \"hard\"", "material = \"hard\"\nstrain = \"finite\""));
-        }
-        let apex = if self.kinematics == Kinematics::Space { "x = 0.9, z = 0.15" } else { "x = 0.9" };
-        let round = format!(
-            "\"quad4\", curves.bottom = {{ kind = \"circle\", radius = \"40 m\", apex = {{ {apex} }} }} }}\n\n[interfaces"
-        );
-        if self.face == Face::Round {
-            changes.push(("\"quad4\" }\n\n[interfaces", &round));
-        }
-        let drawn = format!("y = {{ to = \"{} m\" }} }}]", self.pairing.way());
-        match self.kinematics {
-            Kinematics::PlaneStrain => {}
-            Kinematics::Axisymmetric => {
-                changes.extend(AXIS);
-                changes.push((&way, &drawn));
-            }
-            Kinematics::PlaneStress => changes.push(("\"plane-strain\"", "\"plane-stress\"")),
-            Kinematics::Space => changes.extend(SPACE),
+            scene = scene.add("bodies.slab.strain", "finite").add("bodies.die.strain", "finite");
         }
         if self.start == Start::Smooth {
-            changes.push(("name = \"press\"", "name = \"press\"\nfrictionless = [\"contact\"]"));
+            scene = scene.add("stages[0].frictionless", r#"["contact"]"#);
         }
-        let short = self.bodies.plastic || !self.forward && self.face == Face::Round;
-        let (stepper, tolerance) =
-            if self.forward { ("static-explicit", "") } else { ("implicit", "tolerance = \"10 um\"\n") };
-        let time = format!("stepper = \"{stepper}\"\n{tolerance}{}", if short { SHORT_STEPS } else { "" });
-        changes.push(("stepper = \"implicit\"\ntolerance = \"10 um\"", &time));
-        vary(SCENE, &changes)
+        if self.forward {
+            scene = scene.with("time.stepper", "static-explicit").without("time.tolerance");
+        }
+        if self.bodies.plastic || !self.forward && self.face == Face::Round {
+            scene = scene.changed(&[SHORT_STEPS]);
+        }
+        Ok(scene.text()?)
+    }
+
+    /// The scene in its kinematics, with the face and the way of the die.
+    fn in_space(&self, scene: SceneText) -> SceneText {
+        let way = format!("{{ to = \"{} m\" }}", self.pairing.way());
+        let drawn = "stages[1].conditions[0]";
+        let scene = match self.kinematics {
+            Kinematics::PlaneStrain => scene.with_or_same(&format!("{drawn}.x"), way),
+            Kinematics::PlaneStress => {
+                scene.with("kinematics", "plane-stress").with_or_same(&format!("{drawn}.x"), way)
+            }
+            Kinematics::Axisymmetric => {
+                scene.changed(&AXIS).without(&format!("{drawn}.x")).add(&format!("{drawn}.y"), way)
+            }
+            Kinematics::Space => scene.changed(&SPACE).with_or_same(&format!("{drawn}.x"), way),
+        };
+        if self.face == Face::Flat {
+            return scene;
+        }
+        let apex = if self.kinematics == Kinematics::Space { "x = 0.9, z = 0.15" } else { "x = 0.9" };
+        let circle = format!("{{ kind = \"circle\", radius = \"40 m\", apex = {{ {apex} }} }}");
+        scene.add("bodies.die.mesh.block.curves", format!("{{ bottom = {circle} }}"))
     }
 
     /// Runs the combination.

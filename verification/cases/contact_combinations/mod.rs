@@ -3,8 +3,9 @@
 pub mod cell;
 mod table;
 
-use super::texts::{simulate, vary};
+use super::texts::simulate;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use asperity_vary::SceneText;
 use cell::{Bodies, Cell, ENFORCEMENTS, Face, Kinematics, LAWS, Law, Pairing, Start};
 use table::{Table, claims, distance};
 
@@ -71,8 +72,8 @@ fn closing(ledger: &mut Ledger) -> Result<(), CaseError> {
     let exact = pressed(&Cell { forward: true, ..cell }.text()?)?;
     let mut levels = Vec::new();
     for steps in [250, 500, 1000, 2000] {
-        let equal = format!("name = \"press\"\nsteps = {steps}");
-        let text = vary(&cell.text()?, &[("name = \"press\"", &equal), ("\nmax_step = \"5 ms\"", "")])?;
+        let text =
+            SceneText::new(&cell.text()?).add("stages[0].steps", steps).without("time.max_step").text()?;
         levels.push((1.0 / f64::from(steps), distance(&exact, &pressed(&text)?)));
     }
     ledger

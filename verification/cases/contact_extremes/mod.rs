@@ -4,6 +4,7 @@ use super::contact_hard::scenes::{Done, Pair, block};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_driver::{plan, run as driver_run, scene};
 use asperity_output::Recorder;
+use asperity_vary::SceneText;
 use std::fmt::Write;
 
 /// See the README.
@@ -42,12 +43,19 @@ fn pushed(measure: &'static str, length: f64, stress: f64) -> Pair {
 
 const MEASURES: [&str; 2] = ["node-to-point", "mortar"];
 
-fn same(ledger: &mut Ledger, what: &str, one: &Done, other: &[f64], why: &str) -> Result<(), CaseError> {
+fn same(
+    ledger: &mut Ledger,
+    what: &str,
+    one: &Done,
+    (setting, other): (&str, &[f64]),
+    why: &str,
+) -> Result<(), CaseError> {
     ledger
         .claim(format!("normal tractions, {what}"))
         .unit("Pa")
         .values(other)
         .equals_each(&one.end()?.normal_traction)
+        .between(setting, &one.scene)
         .relative(1e-9)
         .evidence(Evidence::Exact, "the problem is the same")
         .because(format!(
@@ -69,7 +77,7 @@ fn invariance(ledger: &mut Ledger) -> Result<(), CaseError> {
             ledger,
             &format!("mm and MPa against m and Pa, {measure}"),
             &si,
-            &pascal,
+            (&mm.scene, &pascal),
             "numbers differ by factors",
         )?;
         ledger
@@ -82,32 +90,35 @@ fn invariance(ledger: &mut Ledger) -> Result<(), CaseError> {
             .why_not_tighter("one iteration in a hundred may differ for rounding")
             .covers(&[Capability::ContactInvariance])
             .record();
-        let swapped = Done::of(&pushed(measure, 1.0, 1.0).text().replace("lower", "x_lower"))?;
-        let swapped = swapped.end()?.normal_traction.clone();
+        let renamed = SceneText::new(&si.scene)
+            .renamed("bodies.lower", "x_lower")
+            .with("interfaces.contact.master", "x_lower.top")
+            .with("stages[0].conditions[0].set", "x_lower.bottom");
+        let swapped = Done::of(&renamed.text()?)?;
         same(
             ledger,
             &format!("bodies in the other order, {measure}"),
             &si,
-            &swapped,
+            (&swapped.scene, &swapped.end()?.normal_traction),
             "only sums change their order",
         )?;
     }
     let blocks = pushed("node-to-point", 1.0, 1.0).run()?;
-    let (filed, order) = renumbered(&pushed("node-to-point", 1.0, 1.0))?;
+    let (setting, filed, order) = renumbered(&pushed("node-to-point", 1.0, 1.0))?;
     let fields = filed.stage_ends().last().ok_or("no stage was completed")?;
     let sorted: Vec<f64> = order.iter().map(|&k| fields.interfaces[0].normal_traction[k]).collect();
     same(
         ledger,
         "nodes and cells of a mesh file in another order",
         &blocks,
-        &sorted,
+        (&setting, &sorted),
         "only sums change their order",
     )
 }
 
-/// Runs a scene with the upper block from a mesh file whose nodes and cells are shuffled. Returns the record and the slave nodes from
-/// left to right.
-fn renumbered(pair: &Pair) -> Result<(Recorder, Vec<usize>), CaseError> {
+/// Runs a scene with the upper block from a mesh file whose nodes and cells are shuffled. Returns the scene, the record and the slave
+/// nodes from left to right.
+fn renumbered(pair: &Pair) -> Result<(String, Recorder, Vec<usize>), CaseError> {
     let (nx, ny) = (8, 4);
     let number = |i: usize, j: usize| (j * (nx + 1) + i) * 17 % ((nx + 1) * (ny + 1)) + 1;
     let mut nodes = vec![String::new(); (nx + 1) * (ny + 1)];
@@ -149,7 +160,7 @@ fn renumbered(pair: &Pair) -> Result<(Recorder, Vec<usize>), CaseError> {
     let positions = &record.setup().interfaces[0].positions;
     let mut order: Vec<usize> = (0..positions.len()).collect();
     order.sort_by(|a, b| positions[*a][0].total_cmp(&positions[*b][0]));
-    Ok((record, order))
+    Ok((pair.text(), record, order))
 }
 
 /// Slave and master exchanged, and a mirror image, on meshes that match: every slave node on a vertex of the master.
@@ -165,14 +176,16 @@ fn exchange(ledger: &mut Ledger) -> Result<(), CaseError> {
         (pair.measure, pair.sliding) = (measure, "small");
         let one = pair.run()?;
         let mirrored: Vec<f64> = one.end()?.normal_traction.iter().rev().copied().collect();
-        same(ledger, &format!("read from the right, {measure}"), &one, &mirrored, "the scene is symmetric")?;
+        // One run, read twice.
+        let read = ("from the right", mirrored.as_slice());
+        same(ledger, &format!("read from the right, {measure}"), &one, read, "the scene is symmetric")?;
         pair.sets.reverse();
         let other = pair.run()?;
         same(
             ledger,
             &format!("slave and master exchanged, {measure}"),
             &one,
-            &other.end()?.normal_traction,
+            (&other.scene, &other.end()?.normal_traction),
             "node meets node with the same area",
         )?;
         (pair.sliding, pair.mu) = ("finite", Some(0.2));

@@ -1,7 +1,9 @@
 //! A round block dragged over a flat one: how friction pulses with facets, and how that falls with their size.
 
-use super::texts::{simulate, vary};
+use super::texts::simulate;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use asperity_vary::Change::{self, Add, With};
+use asperity_vary::SceneText;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -16,6 +18,9 @@ pub const CASE: Case = Case {
 const CELLS: [usize; 3] = [6, 9, 12];
 /// On which measures are compared.
 const COMPARED: usize = 9;
+const MORTAR: Change<'_> = With("interfaces.contact.measure", "mortar");
+const TETRAHEDRA: [Change<'_>; 2] =
+    [With("bodies.flat.mesh.block.element", "tet4"), With("bodies.round.mesh.block.element", "tet4")];
 const ANGLE: f64 = 25.0;
 const MU: f64 = 0.3;
 
@@ -33,7 +38,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     }
     let mut tetrahedra = Vec::new();
     for cells in CELLS {
-        let way = Way::of(cells, &[("\"hex8\"", "\"tet4\"")])?;
+        let way = Way::of(cells, &TETRAHEDRA)?;
         rows.push(way.row("node-to-point, tet4", cells));
         tetrahedra.push((1.0 / cells as f64, way.swing()));
     }
@@ -62,7 +67,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         .covers(&[Capability::PenaltyContact3d, Capability::Coulomb])
         .record();
     let plain = plain.ok_or("nothing to compare with")?;
-    let smoothed = Way::of(COMPARED, &[("\"node-to-point\"", "\"node-to-point\"\nsmoothing = \"cubic\"")])?;
+    let smoothed = Way::of(COMPARED, &[Add("interfaces.contact.smoothing", "cubic")])?;
     ledger
         .claim("distance of friction from its mean along the way, smoothed faces over plain ones on the same mesh")
         .value(smoothed.swing() / plain.swing())
@@ -74,8 +79,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         .cost(&smoothed.cost)
         .record();
     rows.push(smoothed.row("smoothed", COMPARED));
-    rows.push(Way::of(COMPARED, &[("\"node-to-point\"", "\"mortar\"")])?.row("mortar", COMPARED));
-    let both = [("\"node-to-point\"", "\"mortar\""), ("\"hex8\"", "\"tet4\"")];
+    rows.push(Way::of(COMPARED, &[MORTAR])?.row("mortar", COMPARED));
+    let both = [&[MORTAR][..], &TETRAHEDRA].concat();
     rows.push(Way::of(COMPARED, &both)?.row("mortar, tet4", COMPARED));
     let head = [
         "measure",
@@ -106,11 +111,14 @@ struct Way {
 }
 
 impl Way {
-    fn of(cells: usize, changes: &[(&str, &str)]) -> Result<Self, CaseError> {
-        let flat = format!("divisions = [{}, {}, {}]", 3 * cells / 2, cells / 3, 3 * cells / 2);
-        let round = format!("divisions = [{cells}, {}, {cells}]", cells / 2);
-        let mesh = [("divisions = [9, 2, 9]", flat.as_str()), ("divisions = [6, 3, 6]", round.as_str())];
-        let done = simulate(&vary(&vary(include_str!("scene.toml"), &mesh)?, changes)?)?;
+    fn of(cells: usize, changes: &[Change<'_>]) -> Result<Self, CaseError> {
+        let flat = format!("[{}, {}, {}]", 3 * cells / 2, cells / 3, 3 * cells / 2);
+        let round = format!("[{cells}, {}, {cells}]", cells / 2);
+        let scene = SceneText::new(include_str!("scene.toml"))
+            .with_or_same("bodies.flat.mesh.block.divisions", flat)
+            .with_or_same("bodies.round.mesh.block.divisions", round)
+            .changed(changes);
+        let done = simulate(&scene.text()?)?;
         let (s, c) = ANGLE.to_radians().sin_cos();
         let (mut along, mut across, mut normal) = (Vec::new(), Vec::new(), Vec::new());
         for (time, sample) in done.record.times().iter().zip(done.record.samples()) {

@@ -3,6 +3,7 @@
 pub mod scenes;
 
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use asperity_vary::SceneText;
 use scenes::{Done, Pair, block};
 
 /// See the README.
@@ -26,13 +27,18 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// The scene with another shear.
-fn sheared(share: f64, poisson: f64, measure: &str, sliding: &str) -> String {
-    SCENE
-        .replace("\"0.5 MPa\"", &format!("{:?}", 0.5e6 * share))
-        .replace("\"-0.5 MPa\"", &format!("{:?}", -0.5e6 * share))
-        .replace("poisson = 0.3", &format!("poisson = {poisson:?}"))
-        .replace("node-to-point", measure)
-        .replace("small", sliding)
+fn sheared(share: f64, poisson: f64, measure: &str, sliding: &str) -> Result<String, CaseError> {
+    let shear = 0.5e6 * share;
+    let scene = SceneText::new(SCENE)
+        .with("stages[1].conditions[0].traction[0].to", shear)
+        .with("stages[1].conditions[1].traction[1].to", shear)
+        .with("stages[1].conditions[2].traction[1].to", -shear)
+        .with("stages[1].conditions[3].traction[1].to", shear)
+        .with("stages[1].conditions[4].traction[1].to", -shear)
+        .with_or_same("materials.m.poisson", poisson)
+        .with_or_same("interfaces.contact.measure", measure)
+        .with_or_same("interfaces.contact.sliding", sliding);
+    Ok(scene.text()?)
 }
 
 /// Iterations of one step, with the common reason.
@@ -53,7 +59,7 @@ fn iterations(ledger: &mut Ledger, what: &str, done: &Done, bound: f64) {
 fn edge_of_slip(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (share, named) in [(1.0 - 1e-9, "a billionth below"), (1.0, "exactly at")] {
         for (measure, sliding) in [("node-to-point", "small"), ("mortar", "small")] {
-            let done = Done::of(&sheared(share, 0.0, measure, sliding))?;
+            let done = Done::of(&sheared(share, 0.0, measure, sliding)?)?;
             let what = format!("{named} the limit of friction everywhere, {measure}");
             let end = done.end()?;
             ledger
@@ -71,7 +77,7 @@ fn edge_of_slip(ledger: &mut Ledger) -> Result<(), CaseError> {
             iterations(ledger, &what, &done, 10.0);
         }
         for sliding in ["small", "finite"] {
-            let done = Done::of(&sheared(share, 0.3, "mortar", sliding))?;
+            let done = Done::of(&sheared(share, 0.3, "mortar", sliding)?)?;
             iterations(
                 ledger,
                 &format!("{named} the limit after uneven pressing, mortar, {sliding} sliding"),
@@ -86,7 +92,7 @@ fn edge_of_slip(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Beyond the limit there is no solution: the run stops there, says what slides, and keeps the last good state.
 fn limit_load(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (share, poisson) in [(1.0 + 1e-9, 0.0), (1.1, 0.0), (1.1, 0.3)] {
-        let done = Done::of(&sheared(share, poisson, "node-to-point", "small"))?;
+        let done = Done::of(&sheared(share, poisson, "node-to-point", "small")?)?;
         let (time, reason) = done.stopped()?;
         ledger
             .claim(format!("shear over friction in the last good state, load to {share}, Poisson's ratio {poisson}"))

@@ -101,6 +101,8 @@ impl Pair {
 /// A run, completed or not.
 #[derive(Debug)]
 pub struct Done {
+    /// Scene.
+    pub scene: String,
     /// Report.
     pub report: RunReport,
     /// What was recorded.
@@ -118,7 +120,7 @@ impl Done {
         let (report, cost) = Cost::of(|| run::run(&plan, &mut record));
         let report = report?;
         let cost = cost.counts(&report.counts);
-        Ok(Self { report, record, cost })
+        Ok(Self { scene: text.to_owned(), report, record, cost })
     }
 
     /// Fields at the end of the last stage.

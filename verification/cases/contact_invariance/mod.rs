@@ -2,8 +2,10 @@
 
 pub mod bodies;
 
-use super::texts::{Done, simulate_in, vary};
+use super::texts::{Done, simulate_in};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use asperity_vary::Change::{self as Vary, Add, With};
+use asperity_vary::SceneText;
 use bodies::{Change, Grid, Side};
 use std::path::PathBuf;
 
@@ -16,19 +18,20 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Measure as claims call it and as a scene says it, and sliding.
-const MEASURES: [(&str, &str, &str); 5] = [
-    ("node-to-point, small", "\"node-to-point\"", "small"),
-    ("node-to-point", "\"node-to-point\"", "finite"),
-    ("node-to-point, smoothed", "\"node-to-point\"\nsmoothing = \"cubic\"", "finite"),
-    ("mortar, small", "\"mortar\"", "small"),
-    ("mortar", "\"mortar\"", "finite"),
+/// Measure as claims call it, what a scene says for it, and sliding.
+const MEASURES: [(&str, &[Vary<'_>], &str); 5] = [
+    ("node-to-point, small", &[], "small"),
+    ("node-to-point", &[], "finite"),
+    ("node-to-point, smoothed", &[Add("interfaces.contact.smoothing", "cubic")], "finite"),
+    ("mortar, small", &[MORTAR], "small"),
+    ("mortar", &[MORTAR], "finite"),
 ];
+const MORTAR: Vary<'_> = With("interfaces.contact.measure", "mortar");
 
 const ENFORCEMENTS: [(&str, &str); 3] = [
-    ("penalty", "kind = \"penalty\", normal = \"100 E/h\", tangential = \"100 E/h\""),
-    ("Uzawa", "kind = \"uzawa\", normal = \"30 E/h\", tangential = \"30 E/h\", penetration = \"1e-9 h\""),
-    ("unknowns", "kind = \"augmented-lagrangian\", normal = \"1 E/h\", tangential = \"1 E/h\""),
+    ("penalty", "{ kind = \"penalty\", normal = \"100 E/h\", tangential = \"100 E/h\" }"),
+    ("Uzawa", "{ kind = \"uzawa\", normal = \"30 E/h\", tangential = \"30 E/h\", penetration = \"1e-9 h\" }"),
+    ("unknowns", "{ kind = \"augmented-lagrangian\", normal = \"1 E/h\", tangential = \"1 E/h\" }"),
 ];
 
 /// What must not change: normal tractions, shear tractions and forces of a run, each over the largest.
@@ -50,6 +53,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
                         ))
                         .value(found.differs(&reference))
                         .at_most(BOUND)
+                        .between(&found.setting(), &reference.setting())
                         .evidence(Evidence::Exact, "the problem is the same")
                         .because(
                             "residuals end at 1e-11 of the largest force or below, and the last Newton step squares what is left; eight steps \
@@ -77,7 +81,7 @@ struct Found {
 impl Found {
     fn of(
         space: bool,
-        (_, measure, sliding): (&str, &str, &str),
+        (name, measure, sliding): (&str, &[Vary<'_>], &str),
         enforcement: &str,
         change: &Change,
     ) -> Result<Self, CaseError> {
@@ -85,7 +89,7 @@ impl Found {
         let folder = write(space, change)?;
         let done = simulate_in(&text, &folder.to_string_lossy());
         std::fs::remove_dir_all(&folder)?;
-        let done = done.map_err(|e| format!("{}, {measure}, {enforcement}: {e}", change.name))?;
+        let done = done.map_err(|e| format!("{}, {name}, {enforcement}: {e}", change.name))?;
         let pascal = change.stress.recip();
         let end = &done.record.stage_end("drag").ok_or("no stage was completed")?.interfaces[0];
         let of = |t: &[f64]| t.iter().map(|t| t.abs() * pascal).collect();
@@ -94,6 +98,11 @@ impl Found {
         let forces = done.report.forces.iter();
         let forces = forces.flat_map(|f| change.back(f.value).map(|v| v * newton)).collect();
         Ok(Self { done, normal, shear, forces })
+    }
+
+    /// Scene and nodes.
+    fn setting(&self) -> (&str, &[[f64; 3]]) {
+        (&self.done.scene, &self.done.record.setup().mesh.nodes)
     }
 
     /// Largest difference, each kind over its largest value.
@@ -110,7 +119,7 @@ impl Found {
 
 fn scene(
     space: bool,
-    (measure, sliding): (&str, &str),
+    (measure, sliding): (&[Vary<'_>], &str),
     enforcement: &str,
     change: &Change,
 ) -> Result<String, CaseError> {
@@ -123,20 +132,19 @@ fn scene(
     // Pairs of small sliding do not follow.
     let way = if sliding == "small" { 0.01 } else { 0.15 };
     let along = if space { 0.5 * way } else { 0.0 };
-    let (young, kinematics) = (1e9 * change.stress, if space { "\"3d\"" } else { "\"plane-strain\"" });
-    vary(
-        include_str!("scene.toml"),
-        &[
-            ("young = 1e9", &format!("young = {young:?}")),
-            ("\"plane-strain\"", kinematics),
-            ("\"node-to-point\"", measure),
-            ("\"finite\"", &format!("\"{sliding}\"")),
-            ("kind = \"penalty\", normal = \"100 E/h\", tangential = \"100 E/h\"", enforcement),
-            ("HELD", &held),
-            ("PRESSED", &motion([0.0, -0.02, 0.0])),
-            ("DRAGGED", &motion([way, -0.02, along])),
-        ],
-    )
+    let scene = SceneText::new(include_str!("scene.toml"))
+        .with_or_same("materials.rock.young", 1e9 * change.stress)
+        .with_or_same("kinematics", if space { "3d" } else { "plane-strain" })
+        .changed(measure)
+        .with_or_same("interfaces.contact.sliding", sliding)
+        .with_or_same("interfaces.contact.enforcement", enforcement)
+        .with("stages[0].conditions[0]", format!("{{ set = \"flat.bottom\", {held} }}"))
+        .with("stages[0].conditions[1]", format!("{{ set = \"round.top\", {} }}", motion([0.0, -0.02, 0.0])))
+        .with(
+            "stages[1].conditions[0]",
+            format!("{{ set = \"round.top\", {} }}", motion([way, -0.02, along])),
+        );
+    Ok(scene.text()?)
 }
 
 /// Both mesh files in a folder of their own. No node of one body lies above an edge of the other.

@@ -1,7 +1,9 @@
 //! A pressed and sheared pair turned as a whole: its contact forces turn with it.
 
-use super::texts::{Done, simulate, vary};
+use super::texts::{Done, simulate};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use asperity_vary::Change::{self, Add, With};
+use asperity_vary::SceneText;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -16,21 +18,29 @@ const PLANE: &str = include_str!("scene.toml");
 const SOLID: &str = include_str!("solid.toml");
 
 /// A variant: its name, what is changed in the scene, and capabilities besides those of the case.
-type Variant = (&'static str, &'static [(&'static str, &'static str)], Capability);
+type Variant = (&'static str, &'static [Change<'static>], Capability);
 
-const MORTAR: (&str, &str) = ("\"node-to-point\"", "\"mortar\"");
-const SMOOTHED: (&str, &str) = ("\"finite\"\nenforcement", "\"finite\"\nsmoothing = \"cubic\"\nenforcement");
+const MORTAR: Change<'_> = With("interfaces.contact.measure", "mortar");
+const SMOOTHED: Change<'_> = Add("interfaces.contact.smoothing", "cubic");
 
 const PLANE_VARIANTS: [Variant; 4] = [
     ("flat segments", &[], Capability::PenaltyContact2d),
-    ("quadratic segments", &[("quad4", "quad9")], Capability::PenaltyContact2d),
+    (
+        "quadratic segments",
+        &[With("bodies.lower.mesh.block.element", "quad9"), With("bodies.upper.mesh.block.element", "quad9")],
+        Capability::PenaltyContact2d,
+    ),
     ("smoothed segments", &[SMOOTHED], Capability::PenaltyContact2d),
     ("mortar", &[MORTAR], Capability::Mortar),
 ];
 
 const SOLID_VARIANTS: [Variant; 4] = [
     ("bilinear segments", &[], Capability::PenaltyContact3d),
-    ("biquadratic segments", &[("hex8", "hex27")], Capability::PenaltyContact3d),
+    (
+        "biquadratic segments",
+        &[With("bodies.lower.mesh.block.element", "hex27"), With("bodies.upper.mesh.block.element", "hex27")],
+        Capability::PenaltyContact3d,
+    ),
     ("smoothed segments", &[SMOOTHED], Capability::PenaltyContact3d),
     ("mortar", &[MORTAR], Capability::Mortar),
 ];
@@ -42,7 +52,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         (SOLID, [1.0, 2.0, 3.0], SOLID_VARIANTS, "in space"),
     ] {
         for (name, changes, capability) in variants {
-            let done = simulate(&vary(text, changes)?)?;
+            let done = simulate(&SceneText::new(text).changed(changes).text()?)?;
             let what = format!("{name}, {space}");
             rows.push(total_form(ledger, &what, &done, axis, capability)?);
         }
@@ -143,18 +153,14 @@ fn rate_form(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// A quarter of a turn in forward steps of a degree, as a scene has them by default.
-fn quarter(
-    ledger: &mut Ledger,
-    name: &str,
-    changes: Option<(&'static str, &'static str)>,
-) -> Result<(), CaseError> {
-    let mut all = vec![
-        ("\"implicit\"", "\"static-explicit\""),
-        ("by = \"360 deg\"", "by = \"90 deg\""),
-        ("steps = 24", "steps = 90"),
-    ];
-    all.extend(changes);
-    let done = simulate(&vary(PLANE, &all)?)?;
+fn quarter(ledger: &mut Ledger, name: &str, changes: Option<Change<'static>>) -> Result<(), CaseError> {
+    let scene = SceneText::new(PLANE)
+        .with("time.stepper", "static-explicit")
+        .with("stages[2].conditions[0].rotate.by", "90 deg")
+        .with("stages[2].conditions[1].rotate.by", "90 deg")
+        .with("stages[2].steps", 90)
+        .changed(changes.as_slice());
+    let done = simulate(&scene.text()?)?;
     ledger
         .claim(format!("contact force against the turned force over a quarter of a turn, forward steps of a degree, {name}"))
         .value(deviation(&done, [0.0, 0.0, 1.0], std::f64::consts::FRAC_PI_2)?)

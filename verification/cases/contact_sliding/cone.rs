@@ -1,22 +1,23 @@
 //! A ring pushed up a cone: sliding about an axis.
 
 use super::{COEFFICIENTS, MEASURES, ratio, with_friction};
-use crate::cases::texts::{simulate, vary};
+use crate::cases::texts::simulate;
 use crate::{Capability, CaseError, Evidence, Ledger};
+use asperity_vary::Change::{self, With};
 
 const SCENE: &str = include_str!("cone.toml");
 
 /// Sides of the interface: about the mortar, whose normals are the slave's, the rigid cone has to be the slave.
-const SIDES: &str = "slave = \"ring.left\"\nmaster = \"cone.right\"";
-const SWAPPED: &str = "slave = \"cone.right\"\nmaster = \"ring.left\"";
+const SWAPPED: [Change<'_>; 2] =
+    [With("interfaces.contact.slave", "cone.right"), With("interfaces.contact.master", "ring.left")];
 
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    for (name, measure, capability) in MEASURES {
+    for (name, capability) in MEASURES {
         for mu in COEFFICIENTS {
             let entering = name == "mortar" && mu > 0.0;
-            let sides = if name == "mortar" { SWAPPED } else { SIDES };
-            let text = vary(&with_friction(SCENE, mu)?, &[("\"node-to-point\"", measure), (SIDES, sides)])?;
-            let done = simulate(&text)?;
+            let sides: &[Change<'_>] = if name == "mortar" { &SWAPPED } else { &[] };
+            let scene = with_friction(SCENE, "contact", mu).with_or_same("interfaces.contact.measure", name);
+            let done = simulate(&scene.changed(sides).text()?)?;
             let radial: Vec<f64> = done.force("contact")?.iter().map(|f| f[0]).collect();
             let pushed: Vec<f64> = done.force("pushed")?.iter().map(|f| f[1]).collect();
             // The first steps close the contact node by node.

@@ -1,26 +1,30 @@
 //! Over segments, past the end of the master, and back.
 
 use super::{MEASURES, with_friction};
-use crate::cases::texts::{Done, simulate, vary, work};
+use crate::cases::texts::{Done, simulate, work};
 use crate::{Capability, CaseError, Evidence, Ledger};
+use asperity_vary::Change::{self, Add, With};
+use asperity_vary::SceneText;
 
 const SCENE: &str = include_str!("ends.toml");
 /// Travel \[m\].
 const TRAVEL: f64 = 2.2;
-/// Other surfaces of the body below: name, and a change of the scene.
-const SURFACES: [(&str, (&str, &str)); 2] = [
+/// Other surfaces of the body below: name, and changes of the scene.
+const SURFACES: [(&str, &[Change<'_>]); 2] = [
+    ("node-to-point on smoothed facets", &[Add("interfaces.contact.smoothing", "cubic")]),
     (
-        "node-to-point on smoothed facets",
-        ("sliding = \"finite\"", "sliding = \"finite\"\nsmoothing = \"cubic\""),
+        "node-to-point on cells of second order",
+        &[With("bodies.lower.mesh.block.element", "quad9"), With("bodies.upper.mesh.block.element", "quad9")],
     ),
-    ("node-to-point on cells of second order", ("\"quad4\"", "\"quad9\"")),
 ];
 
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut rows = Vec::new();
-    for (name, measure, capability) in MEASURES {
-        let smooth = simulate(&vary(&with_friction(SCENE, 0.0)?, &[("\"node-to-point\"", measure)])?)?;
-        let rough = simulate(&vary(SCENE, &[("\"node-to-point\"", measure)])?)?;
+    for (name, capability) in MEASURES {
+        let run =
+            |scene: SceneText| simulate(&scene.with_or_same("interfaces.contact.measure", name).text()?);
+        let smooth = run(with_friction(SCENE, "contact", 0.0))?;
+        let rough = run(SceneText::new(SCENE))?;
         returns(ledger, name, &smooth, &rough, capability)?;
         let free = Cycle::second(&smooth)?;
         let rubbed = Cycle::second(&rough)?;
@@ -59,9 +63,9 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             smooth.report.counts.rejected.to_string(),
         ]);
     }
-    for (name, change) in SURFACES {
-        let smooth = simulate(&vary(&with_friction(SCENE, 0.0)?, &[change])?)?;
-        let rough = simulate(&vary(SCENE, &[change])?)?;
+    for (name, changes) in SURFACES {
+        let smooth = simulate(&with_friction(SCENE, "contact", 0.0).changed(changes).text()?)?;
+        let rough = simulate(&SceneText::new(SCENE).changed(changes).text()?)?;
         returns(ledger, name, &smooth, &rough, Capability::PenaltyContact2d)?;
     }
     ledger.table(

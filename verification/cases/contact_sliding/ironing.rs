@@ -1,7 +1,9 @@
 //! A round die drawn over a soft slab: how much the force oscillates with facets, smoothed facets, arcs and mortar.
 
-use crate::cases::texts::{Done, simulate_in, vary, work};
+use crate::cases::texts::{Done, simulate_in, work};
 use crate::{Capability, CaseError, Evidence, Ledger, Plot, Series};
+use asperity_vary::Change::{self, Add, With};
+use asperity_vary::SceneText;
 
 const SCENE: &str = include_str!("ironing.toml");
 /// Time from which the motion is steady: by then the die has moved by its own width of contact and more \[s\].
@@ -12,7 +14,7 @@ const TRAVEL: f64 = 4.0;
 /// A surface of the die: name, changes of the scene, largest oscillation claimed, why, and what it covers.
 struct Variant {
     name: &'static str,
-    changes: &'static [(&'static str, &'static str)],
+    changes: &'static [Change<'static>],
     bound: Option<(f64, &'static str)>,
     covers: &'static [Capability],
 }
@@ -26,7 +28,7 @@ const VARIANTS: [Variant; 4] = [
     },
     Variant {
         name: "smoothed facets, node-to-point",
-        changes: &[("sliding = \"finite\"", "sliding = \"finite\"\nsmoothing = \"cubic\"")],
+        changes: &[Add("interfaces.contact.smoothing", "cubic")],
         bound: Some((
             0.05,
             "about ten slave nodes carry the load, and one enters and one leaves in every step of the mesh: half of a tenth, \
@@ -37,15 +39,16 @@ const VARIANTS: [Variant; 4] = [
     Variant {
         name: "quadratic arcs on second-order cells, node-to-point",
         changes: &[
-            ("divisions = [48, 8], element = \"quad4\"", "divisions = [24, 4], element = \"quad9\""),
-            ("die.msh", "die9.msh"),
+            With("bodies.slab.mesh.block.divisions", "[24, 4]"),
+            With("bodies.slab.mesh.block.element", "quad9"),
+            With("bodies.die.mesh.gmsh.file", "die9.msh"),
         ],
         bound: Some((0.10, "as of smoothed facets, with nodes whose areas are as 1 to 2: twice that")),
         covers: &[Capability::FiniteSliding, Capability::Quadrilaterals],
     },
     Variant {
         name: "mortar",
-        changes: &[("\"node-to-point\"", "\"mortar\"")],
+        changes: &[With("interfaces.contact.measure", "mortar")],
         bound: Some((
             0.025,
             "weights of nodes that come and go begin at zero; the facets' corners remain, a twelfth of whose angle of 0.1 is \
@@ -59,7 +62,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut plot = Plot::xy("ironing: force that draws the die", "travel [m]", "F_x [kN/m]");
     let (mut rows, mut flat) = (Vec::new(), 0.0);
     for v in &VARIANTS {
-        let done = simulate_in(&vary(SCENE, v.changes)?, "contact_sliding")?;
+        let done = simulate_in(&SceneText::new(SCENE).changed(v.changes).text()?, "contact_sliding")?;
         let steady = Steady::of(&done)?;
         match v.bound {
             None => flat = steady.oscillation,

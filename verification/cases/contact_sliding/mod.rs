@@ -6,8 +6,8 @@ mod ironing;
 mod slope;
 mod wedge;
 
-use super::texts::vary;
 use crate::{Capability, Case, CaseError, Ledger};
+use asperity_vary::SceneText;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -18,11 +18,9 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Measures, as they are called and as they are written.
-const MEASURES: [(&str, &str, Capability); 2] = [
-    ("node-to-point", "\"node-to-point\"", Capability::PenaltyContact2d),
-    ("mortar", "\"mortar\"", Capability::Mortar),
-];
+/// Measures.
+const MEASURES: [(&str, Capability); 2] =
+    [("node-to-point", Capability::PenaltyContact2d), ("mortar", Capability::Mortar)];
 
 /// Coefficients of friction of the sliding problems.
 const COEFFICIENTS: [f64; 4] = [0.0, 0.1, 0.2, 0.3];
@@ -43,13 +41,14 @@ fn ratio(mu: f64) -> f64 {
     (SLOPE + mu) / (1.0 - mu * SLOPE)
 }
 
-/// A scene with another coefficient of friction; without friction where it is zero.
-fn with_friction(text: &str, mu: f64) -> Result<String, CaseError> {
-    let law = "law = { kind = \"coulomb\", mu = 0.3 }\n";
+/// A scene with another coefficient of friction on its interface; without friction where it is zero.
+fn with_friction(text: &str, interface: &str, mu: f64) -> SceneText {
+    let scene = SceneText::new(text);
+    let key = |name: &str| format!("interfaces.{interface}.{name}");
     if mu > 0.0 {
-        return vary(text, &[("mu = 0.3", &format!("mu = {mu}"))]);
+        return scene.with_or_same(&key("law.mu"), mu);
     }
-    let without: String =
-        text.lines().filter(|l| !l.starts_with("frictionless")).map(|l| format!("{l}\n")).collect();
-    vary(&without, &[(law, ""), (", tangential = \"10 E/h\"", "")])
+    let scene = scene.without(&key("law")).without(&key("enforcement.tangential"));
+    // Without friction there is none to leave out.
+    if text.contains("\nfrictionless") { scene.without("stages[0].frictionless") } else { scene }
 }

@@ -1,9 +1,10 @@
 //! A block on a plane that is tilted until it slides.
 
 use super::MEASURES;
-use crate::cases::texts::{attempt, simulate, vary};
+use crate::cases::texts::{attempt, simulate};
 use crate::{Capability, CaseError, Evidence, Ledger};
 use asperity_driver::report::Outcome;
+use asperity_vary::SceneText;
 
 const SCENE: &str = include_str!("../../../scenes/slope.toml");
 const MU: f64 = 0.3;
@@ -13,9 +14,12 @@ const BESIDE: f64 = 1e-3;
 
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let critical = MU.atan().to_degrees();
-    for (name, measure, capability) in MEASURES {
+    for (name, capability) in MEASURES {
         let tilted = |angle: f64| {
-            vary(SCENE, &[("\"node-to-point\"", measure), ("16.69 deg", &format!("{angle:?} deg"))])
+            SceneText::new(SCENE)
+                .with_or_same("interfaces.slope.measure", name)
+                .with("stages[1].conditions[0].rotate.by", format!("{angle:?} deg"))
+                .text()
         };
         let below = simulate(&tilted(critical * (1.0 - BESIDE))?)?;
         let fields = below.contact("tilt")?;

@@ -1,16 +1,17 @@
 //! A loaded wedge pushed up a slope.
 
 use super::{COEFFICIENTS, MEASURES, ratio, with_friction};
-use crate::cases::texts::{simulate, vary};
+use crate::cases::texts::simulate;
 use crate::{Capability, CaseError, Evidence, Ledger};
 
 const SCENE: &str = include_str!("wedge.toml");
 
 pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut rows = Vec::new();
-    for (name, measure, capability) in MEASURES {
+    for (name, capability) in MEASURES {
         for mu in COEFFICIENTS {
-            let done = simulate(&vary(&with_friction(SCENE, mu)?, &[("\"node-to-point\"", measure)])?)?;
+            let scene = with_friction(SCENE, "slope", mu).with_or_same("interfaces.slope.measure", name);
+            let done = simulate(&scene.text()?)?;
             // The first step turns the tractions of the loaded wedge around.
             let first = done.steps_until("load")? + 1;
             let ratios: Vec<f64> = done.force("base")?[first..].iter().map(|f| -f[0] / f[1]).collect();

@@ -1,7 +1,9 @@
 //! Two blocks sheared to and fro under Coulomb friction: force, loop, dissipated work.
 
-use super::texts::{Done, simulate, vary, work};
+use super::texts::{Done, simulate, work};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
+use asperity_vary::Change::{self, Add, With};
+use asperity_vary::SceneText;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -27,30 +29,28 @@ fn slope() -> f64 {
     1.0 / (2.0 / SHEAR + 1.0 / PENALTY)
 }
 
-const SOLID: [(&str, &str); 7] = [
-    ("\"plane-strain\"", "\"3d\""),
-    ("\"quad4\"", "\"hex8\""),
-    (
-        "min = [0, 0], max = [\"1 m\", \"1 m\"], divisions = [4, 4]",
-        "min = [0, 0, 0], max = [\"1 m\", \"1 m\", \"1 m\"], divisions = [2, 2, 2]",
-    ),
-    (
-        "min = [0, \"1 m\"], max = [\"1 m\", \"2 m\"], divisions = [4, 4]",
-        "min = [0, \"1 m\", 0], max = [\"1 m\", \"2 m\", \"1 m\"], divisions = [2, 2, 2]",
-    ),
-    ("x = 0, y = 0 }", "x = 0, y = 0, z = 0 }"),
-    ("x = 0, y = { to", "x = 0, z = 0, y = { to"),
-    ("probes.contact = 5", "probes.contact = 3"),
+const SOLID: [Change<'_>; 12] = [
+    With("kinematics", "3d"),
+    With("bodies.lower.mesh.block.element", "hex8"),
+    With("bodies.lower.mesh.block.min", "[0, 0, 0]"),
+    With("bodies.lower.mesh.block.max", r#"["1 m", "1 m", "1 m"]"#),
+    With("bodies.lower.mesh.block.divisions", "[2, 2, 2]"),
+    With("bodies.upper.mesh.block.element", "hex8"),
+    With("bodies.upper.mesh.block.min", r#"[0, "1 m", 0]"#),
+    With("bodies.upper.mesh.block.max", r#"["1 m", "2 m", "1 m"]"#),
+    With("bodies.upper.mesh.block.divisions", "[2, 2, 2]"),
+    Add("stages[0].conditions[0].z", "0"),
+    Add("stages[0].conditions[1].z", "0"),
+    With("output.probes.contact", "3"),
 ];
 
 /// A variant: its name, what is changed in the scene, and what it covers.
-type Variant<'a> = (&'a str, Vec<(&'a str, &'a str)>, &'a [Capability]);
+type Variant<'a> = (&'a str, Vec<Change<'a>>, &'a [Capability]);
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let forward = ("\"implicit\"", "\"static-explicit\"");
-    let mortar = ("\"node-to-point\"", "\"mortar\"");
-    let apart =
-        ("max = [\"1 m\", \"2 m\"], divisions = [4, 4]", "max = [\"1 m\", \"2 m\"], divisions = [3, 4]");
+    let forward = With("time.stepper", "static-explicit");
+    let mortar = With("interfaces.contact.measure", "mortar");
+    let apart = With("bodies.upper.mesh.block.divisions", "[3, 4]");
     let variants: [Variant<'_>; 5] = [
         ("node-to-point, implicit", vec![], &[Capability::PenaltyContact2d, Capability::Implicit]),
         (
@@ -72,7 +72,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     ];
     let mut rows = Vec::new();
     for (name, changes, covers) in variants {
-        let done = simulate(&vary(SCENE, &changes)?)?;
+        let done = simulate(&SceneText::new(SCENE).changed(&changes).text()?)?;
         let run = Loop::of(&done)?;
         run.force(ledger, name, covers, &done);
         // In space the records hold sizes only.

@@ -4,6 +4,7 @@ use crate::cases::dislocation::{self, Stress};
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::fault::{Event, Plan};
+use asperity_vary::SceneText;
 use nalgebra::Complex;
 
 /// See the README.
@@ -30,21 +31,24 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// The scene with cells of this size \[m\].
-fn bent(size: f64) -> String {
-    SCENE.replace("\"250 m\"", &format!("\"{size} m\""))
+fn bent(size: f64) -> SceneText {
+    SceneText::new(SCENE).with_or_same("bodies.plate.mesh.fault.spacing", format!("{size} m"))
 }
 
 /// The same without the bend, under the stress of the upper half.
-fn straight(size: f64) -> String {
+fn straight(size: f64) -> SceneText {
     bent(size)
-        .replace("[\"-7.5 km\", \"-12.990381 km\"]", "[\"0 km\", \"-15 km\"]")
-        .replace("72.516660e6", "50e6")
-        .replace("13e6", "26e6")
+        .with("bodies.plate.mesh.fault.trace[2]", "[\"0 km\", \"-15 km\"]")
+        .with("faults.main.profiles.normal.points[1][1]", "50e6")
+        .with("faults.main.profiles.shear.points[1][1]", "26e6")
 }
 
 /// The same in a box ten times as large, for the comparison with the whole plane; its cells differ away from the fault only.
 fn far(size: f64) -> Result<Plan, CaseError> {
-    seas::plan(&bent(size).replace("100 km", "1000 km"))
+    let scene = bent(size)
+        .with("bodies.plate.mesh.fault.min", "[\"-1000 km\", \"-1000 km\"]")
+        .with("bodies.plate.mesh.fault.max", "[\"1000 km\", \"1000 km\"]");
+    seas::plan(&scene.text()?)
 }
 
 /// Slip across the bend \[m\] over the distance along the fault \[m\].
@@ -191,12 +195,12 @@ fn mean(plan: &Plan, event: &Event, from: f64, to: f64) -> f64 {
 }
 
 fn events(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let plan = seas::plan(&bent(250.0))?;
+    let plan = seas::plan(&bent(250.0).text()?)?;
     let mut normal = Vec::new();
     let run = seas::found(&plan, &plan.settings, |now| {
         normal = (0..plan.points.len()).map(|p| now.normal(p)).collect();
     })?;
-    let straight = seas::plan(&straight(250.0))?;
+    let straight = seas::plan(&straight(250.0).text()?)?;
     let beside = seas::found(&straight, &straight.settings, |_| {})?;
     // Half of each half: neither the tips nor the cells at the bend.
     let (upper, lower) = ([4e3, 13e3], [17e3, 26e3]);

@@ -5,6 +5,7 @@ use crate::cases::fault_operator::matrix;
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::fault::Plan;
+use asperity_vary::SceneText;
 use dislocation::Stress;
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
@@ -248,7 +249,7 @@ const PAIRS: [Pair; 2] = [("P", 0.008, "\"radiation\"", 1000.0), ("Q", 0.013, "\
 /// Pairs of blocks, drawn past each other.
 fn blocks(pairs: &[Pair], events: usize) -> Result<Plan, CaseError> {
     let (mut parts, mut sides) = (material("rock", ROCK), String::new());
-    for (k, (name, l, damping, half)) in pairs.iter().enumerate() {
+    for (k, (name, _, damping, half)) in pairs.iter().enumerate() {
         let foot = -1e5 * (1.0 + k as f64);
         for (side, from, to) in [("l", -half, 0.0), ("r", 0.0, *half)] {
             let _ = write!(
@@ -257,20 +258,26 @@ fn blocks(pairs: &[Pair], events: usize) -> Result<Plan, CaseError> {
                 foot + 1000.0
             );
         }
-        let law = LAW.replace("a = 0.02", "a = 0.01").replace("\"8 mm\"", &l.to_string());
         let _ = write!(
             parts,
-            "[faults.{name}]\nminus = \"{name}l.right\"\nplus = \"{name}r.left\"\n{law}\ndamping = {damping}\nunder_resolved = \"allow\"\n"
+            "[faults.{name}]\nminus = \"{name}l.right\"\nplus = \"{name}r.left\"\n{LAW}\ndamping = {damping}\nunder_resolved = \"allow\"\n"
         );
         let _ = write!(
             sides,
             "{{ set = \"{name}l.left\", z = {{ rate = -0.5e-9 }} }}, {{ set = \"{name}r.right\", z = {{ rate = 0.5e-9 }} }},"
         );
     }
-    let text = scene("antiplane", &parts, &sides).replace("1 yr", "3000 yr");
-    let text =
-        format!("{text}log_rate_tolerance = 1e-7\n[events]\nabove = \"1e-4 m/s\"\nstop_after = {events}\n");
-    seas::plan(&text.replace("rate = \"1e-9 m/s\"", "rate = \"1.1e-9 m/s\""))
+    let mut scene = SceneText::new(&scene("antiplane", &parts, &sides))
+        .with("stages[0].duration", "3000 yr")
+        .add("time.log_rate_tolerance", "1e-7")
+        .add("events", format!("{{ above = \"1e-4 m/s\", stop_after = {events} }}"));
+    for (name, l, ..) in pairs {
+        scene = scene
+            .with(&format!("faults.{name}.law.a"), 0.01)
+            .with(&format!("faults.{name}.law.l"), l)
+            .with(&format!("faults.{name}.rate"), "1.1e-9 m/s");
+    }
+    seas::plan(&scene.text()?)
 }
 
 /// Onset \[yr\], largest slip rate \[m/s\] and slip \[m\] of the first events of a fault.

@@ -4,6 +4,7 @@ use crate::cases::{fault_operator, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::fault::{Form, Plan, plan_with};
 use asperity_driver::scene;
+use asperity_vary::bp1::{BP1, bp1};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -23,12 +24,11 @@ fn plan(text: &str, form: Form) -> Result<Plan, CaseError> {
 }
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let bp1 = include_str!("../../../scenes/bp1.toml");
-    let fine = bp1.replace("156.25 m", "78.125 m").replace("\"600 m\"", "\"300 m\"");
+    let fine = bp1(78.125).text()?;
     let dipping = fault_operator::through(30.0, 250.0);
     let mut rows = Vec::new();
     for (name, text) in
-        [("BP1, 156 m", bp1), ("BP1, 78 m", fine.as_str()), ("dip 30, 250 m", dipping.as_str())]
+        [("BP1, 156 m", BP1), ("BP1, 78 m", fine.as_str()), ("dip 30, 250 m", dipping.as_str())]
     {
         let dense = plan(text, Form::Dense)?;
         let (compressed, cost) = Cost::of(|| plan(text, Form::Fitting));

@@ -4,6 +4,7 @@ use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::fault::{Balance, Plan, Report, run as integrate};
 use asperity_ode::{Control, Outcome};
+use asperity_vary::SceneText;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -369,8 +370,10 @@ struct Shallow {
 }
 
 fn events(text: &str, floor: f64, opens: bool) -> Result<Shallow, CaseError> {
-    let text = text.replace("\"0.5 MPa\"", &format!("\"{floor} MPa\""));
-    let plan = seas::plan(&text.replace("opening = true", &format!("opening = {opens}")))?;
+    let scene = SceneText::new(text)
+        .with_or_same("faults.main.normal_floor", format!("{floor} MPa"))
+        .with_or_same("faults.main.opening", opens);
+    let plan = seas::plan(&scene.text()?)?;
     let mut balance = Balance::new(&plan);
     let mut look = |now: &asperity_driver::fault::Moment<'_>| {
         balance.step(now);

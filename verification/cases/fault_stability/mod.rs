@@ -4,6 +4,7 @@ use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::fault::{Equations, Layout, Moment, Plan, run as integrate};
 use asperity_ode::{Clock, Control, Outcome, Problem};
+use asperity_vary::SceneText;
 use modes::Mode;
 use nalgebra::{Complex, Matrix2};
 use std::f64::consts::PI;
@@ -67,41 +68,36 @@ const FIRST: Variant =
 
 impl Variant {
     fn plan(&self) -> Result<Plan, CaseError> {
-        let mut text = include_str!("scene.toml")
-            .replace("\"62.5 m\"", &format!("\"{} m\"", self.size))
-            .replace("quad9", self.element)
-            .replace("\"ageing\"", &format!("\"{}\"", self.evolution))
-            .replace("damping = 0.0", &format!("damping = {:e}", self.damping));
-        let (left, right) = (
-            r#"{ set = "A.left", z = { rate = "-0.5 um/s" } }"#,
-            r#"{ set = "B.right", z = { rate = "0.5 um/s" } }"#,
-        );
-        match self.sides {
-            Sides::Held => {}
+        let scene = SceneText::new(include_str!("scene.toml"))
+            .with_or_same("bodies.A.mesh.block.size", format!("{} m", self.size))
+            .with_or_same("bodies.B.mesh.block.size", format!("{} m", self.size))
+            .with_or_same("bodies.A.mesh.block.element", self.element)
+            .with_or_same("bodies.B.mesh.block.element", self.element)
+            .with_or_same("faults.main.law.evolution", self.evolution)
+            .with_or_same("faults.main.damping", format!("{:e}", self.damping));
+        let scene = match self.sides {
+            Sides::Held => scene,
             // The traction stays as it is while B moves as a whole.
-            Sides::OneFree => {
-                text = text
-                    .replace(left, r#"{ set = "A.left", z = 0 }"#)
-                    .replace(&format!("    {right},\n"), "");
-            }
+            Sides::OneFree => scene.with("stages[0].conditions[0].z", 0).without("stages[0].conditions[1]"),
             Sides::Plane => {
-                let ends: String = ["A.bottom", "A.top", "B.bottom", "B.top"]
-                    .map(|set| format!("    {{ set = \"{set}\", x = 0 }},\n"))
-                    .concat();
-                text = text
-                    .replace("antiplane", "plane-strain")
-                    .replace("\"-1 km\"", "\"-2 km\"")
-                    .replace("[\"1 km\"", "[\"2 km\"")
-                    .replace(left, r#"{ set = "A.left", x = 0, y = { rate = "-0.5 um/s" } }"#)
-                    .replace(
-                        &format!("    {right},\n"),
-                        &format!(
-                            "    {{ set = \"B.right\", x = 0, y = {{ rate = \"0.5 um/s\" }} }},\n{ends}"
-                        ),
+                let held = scene
+                    .with("kinematics", "plane-strain")
+                    .with("bodies.A.mesh.block.min[0]", "-2 km")
+                    .with("bodies.B.mesh.block.max[0]", "2 km")
+                    .with(
+                        "stages[0].conditions[0]",
+                        r#"{ set = "A.left", x = 0, y = { rate = "-0.5 um/s" } }"#,
+                    )
+                    .with(
+                        "stages[0].conditions[1]",
+                        r#"{ set = "B.right", x = 0, y = { rate = "0.5 um/s" } }"#,
                     );
+                ["A.bottom", "A.top", "B.bottom", "B.top"].iter().fold(held, |scene, set| {
+                    scene.push("stages[0].conditions", format!("{{ set = \"{set}\", x = 0 }}"))
+                })
             }
-        }
-        seas::plan(&text)
+        };
+        seas::plan(&scene.text()?)
     }
 
     /// Stiffness of the bodies to slip of mode `n` \[Pa/m\].

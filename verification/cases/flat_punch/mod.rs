@@ -3,6 +3,7 @@
 use super::hertz::{self, Tractions};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::scene::model::{Measure, Scene, Sliding};
+use asperity_vary::SceneText;
 use std::f64::consts::PI;
 
 /// See the README.
@@ -52,13 +53,22 @@ fn solve(scene: &Scene) -> Result<(f64, Cost), CaseError> {
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let uniform = include_str!("scene.toml");
     // Cells eight times as fine where the edge is.
-    let graded = uniform
-        .replace("{ size = \"0.05 mm\", from = \"0 mm\", to = \"2 mm\"", "{ size = \"0.00625 mm\", from = \"0.9 mm\", to = \"1.1 mm\"")
-        .replace("{ size = \"0.05 mm\", from = \"-2 mm\"", "{ size = \"0.00625 mm\", from = \"-0.1 mm\"")
-        .replace(
-            "{ size = \"0.05 mm\", from = \"0 mm\", to = \"1 mm\", ratio = 1.2 },\n    { size = \"0.05 mm\", from = \"0 mm\", to = \"1 mm\"",
-            "{ size = \"0.00625 mm\", from = \"0.9 mm\", to = \"1 mm\", ratio = 1.2 },\n    { size = \"0.00625 mm\", from = \"0 mm\", to = \"0.1 mm\"",
-        );
+    let edge = |axis: usize, body: &str, from: &str, to: &str| {
+        let spacing = |key: &str| format!("bodies.{body}.mesh.block.spacing[{axis}].{key}");
+        [("size", "0.00625 mm"), ("from", from), ("to", to)]
+            .map(|(key, value)| (spacing(key), value.to_owned()))
+    };
+    let finer = [
+        edge(0, "ground", "0.9 mm", "1.1 mm"),
+        edge(1, "ground", "-0.1 mm", "0 mm"),
+        edge(0, "punch", "0.9 mm", "1 mm"),
+        edge(1, "punch", "0 mm", "0.1 mm"),
+    ];
+    let graded = finer.iter().flatten().fold(SceneText::new(uniform), |scene, (key, value)| {
+        // One end of some of the parts stays where it is.
+        scene.with_or_same(key, value)
+    });
+    let graded = graded.text()?;
     for (name, measure, capability) in MEASURES {
         let mut levels = Vec::new();
         let mut last = None;

@@ -1,7 +1,8 @@
 //! A bar pushed over a foundation that rubs: slip front, displacement, loop.
 
-use super::texts::{Done, simulate, vary, work};
+use super::texts::{Done, simulate, work};
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
+use asperity_vary::SceneText;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -36,17 +37,18 @@ fn displacement(x: f64) -> f64 {
 }
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    for (name, measure, capability) in [
-        ("node-to-point", "\"node-to-point\"", Capability::PenaltyContact2d),
-        ("mortar", "\"mortar\"", Capability::Mortar),
-    ] {
+    for (name, capability) in
+        [("node-to-point", Capability::PenaltyContact2d), ("mortar", Capability::Mortar)]
+    {
         let mut levels = Vec::new();
         let mut rows = Vec::new();
         let mut finest = None;
         for n in LEVELS {
-            let changes = [("[30, 1]", format!("[{n}, 1]")), ("\"node-to-point\"", measure.to_owned())];
-            let changes: Vec<(&str, &str)> = changes.iter().map(|(a, b)| (*a, b.as_str())).collect();
-            let done = simulate(&vary(pushed()?.as_str(), &changes)?)?;
+            let scene = pushed()
+                .with_or_same("bodies.bar.mesh.block.divisions", format!("[{n}, 1]"))
+                .with_or_same("bodies.base.mesh.block.divisions", format!("[{n}, 1]"))
+                .with_or_same("interfaces.contact.measure", name);
+            let done = simulate(&scene.text()?)?;
             let profile = Profile::of(&done)?;
             levels.push((LENGTH / n as f64, profile.error()));
             rows.push([
@@ -78,10 +80,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// The scene until the end of pushing.
-fn pushed() -> Result<String, CaseError> {
-    let (before, rest) = SCENE.split_once("[[stages]]\nname = \"draw\"").ok_or("the scene draws the bar")?;
-    let (_, after) = rest.split_once("[time]").ok_or("the scene has a stepper")?;
-    Ok(format!("{before}[time]{after}"))
+fn pushed() -> SceneText {
+    SceneText::new(SCENE).without("stages[4]").without("stages[3]").without("stages[2]")
 }
 
 /// Displacements of the bar's underside after pushing.

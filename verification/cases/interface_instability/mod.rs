@@ -1,7 +1,7 @@
 //! A rigid block on a spring, as bodies and interfaces: where quasi-static equilibrium ends, and when.
 
 use super::slider;
-use super::texts::{Done, attempt, simulate, vary};
+use super::texts::{Done, attempt, simulate};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_driver::report::{Outcome, Stop};
 use asperity_driver::slider::{self as driver, Thresholds};
@@ -10,6 +10,8 @@ use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider};
 use asperity_friction::strength::{Parameters, regularised::Regularised};
 use asperity_ode::Method;
+use asperity_vary::Change::{self, Add};
+use asperity_vary::SceneText;
 use std::sync::Arc;
 
 /// See the README.
@@ -48,16 +50,13 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// A scene with this stiffness of the bond \[Pa/m\], law, duration of shear \[s\] and keys of time.
-fn scene(spring: f64, law: &str, duration: f64, time: &str) -> Result<String, CaseError> {
-    vary(
-        SCENE,
-        &[
-            ("SPRING", &format!("{spring:e}")),
-            ("LAW", law),
-            ("DURATION", &format!("{duration}")),
-            ("tolerance = \"TOLERANCE\"", time),
-        ],
-    )
+fn scene(spring: f64, law: &str, duration: f64, time: &[Change<'_>]) -> Result<String, CaseError> {
+    let scene = SceneText::new(SCENE)
+        .add("interfaces.spring.enforcement.tangential", format!("{spring:e} Pa/m"))
+        .add("interfaces.fault.law", law)
+        .add("stages[1].duration", format!("{duration} s"))
+        .changed(time);
+    Ok(scene.text()?)
 }
 
 /// What the block feels: measured where friction holds it.
@@ -70,7 +69,7 @@ struct System {
 
 impl System {
     fn measured() -> Result<Self, CaseError> {
-        let done = simulate(&scene(PROBE, "{ kind = \"coulomb\", mu = 1e3 }", 100.0, "")?)?;
+        let done = simulate(&scene(PROBE, "{ kind = \"coulomb\", mu = 1e3 }", 100.0, &[])?)?;
         let [normal, shear] = tractions(&done)?;
         Ok(Self { normal, compliance: 100.0 * LOAD / shear - 1.0 / PROBE })
     }
@@ -111,13 +110,15 @@ fn states(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
         slider::MU0,
         slider::V_REF
     );
-    let limit = format!("slip_rate_limit = {LIMIT:e}");
+    let limit = format!("{LIMIT:e}");
+    let limit = [Add("time.slip_rate_limit", &limit)];
     // Loading takes some 500 s; then 150 L of slip.
-    let at = |ratio: f64, time: &str| attempt(&scene(system.bond(ratio * critical), &law, 2000.0, time)?);
-    let fine = format!("{limit}\nmax_step = \"0.5 s\"");
+    let at =
+        |ratio: f64, time: &[Change<'_>]| attempt(&scene(system.bond(ratio * critical), &law, 2000.0, time)?);
+    let fine = [limit[0], Add("time.max_step", "0.5 s")];
     let mut found = Vec::new();
     let mut cost = None;
-    for (ratio, time) in [(0.85, &limit), (1.15, &limit), (0.98, &limit), (1.08, &fine)] {
+    for (ratio, time) in [(0.85, &limit[..]), (1.15, &limit), (0.98, &limit), (1.08, &fine)] {
         let done = at(ratio, time)?;
         found.push(told(onset(&done)?));
         cost = Some(done.cost);
@@ -177,7 +178,7 @@ fn by_slider(normal: f64, stiffness: f64) -> Result<f64, CaseError> {
 fn weakening(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
     let rate = system.normal * (MU_S - MU_K) / D_C;
     let law = format!("{{ kind = \"slip-weakening\", mu_s = {MU_S}, mu_k = {MU_K}, d_c = {D_C:e} }}");
-    let at = |ratio: f64| attempt(&scene(system.bond(ratio * rate), &law, 500.0, "")?);
+    let at = |ratio: f64| attempt(&scene(system.bond(ratio * rate), &law, 500.0, &[])?);
     let (soft, stiff) = (at(0.98)?, at(1.02)?);
     let found = [&soft, &stiff].map(onset);
     let [soft_onset, stiff_onset] = found;
@@ -227,7 +228,7 @@ fn weakening(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
 fn dropping(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
     let law = format!("{{ kind = \"static-kinetic\", mu_s = {MU_S}, mu_k = {MU_K} }}");
     let stiffness = 2e10;
-    let done = attempt(&scene(system.bond(stiffness), &law, 500.0, "")?)?;
+    let done = attempt(&scene(system.bond(stiffness), &law, 500.0, &[])?)?;
     let yields = MU_S * system.normal / (stiffness * LOAD);
     let [normal, shear] = tractions(&done)?;
     ledger

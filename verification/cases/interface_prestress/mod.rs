@@ -1,7 +1,9 @@
 //! Bodies that start with the stress of their weight, and interfaces that start with its tractions.
 
-use super::texts::{Done, simulate_in, vary};
+use super::texts::{Done, simulate_in};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use asperity_vary::Change::{self, Add, With};
+use asperity_vary::SceneText;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -36,25 +38,35 @@ const ROUNDING: f64 = 1e-10;
 const MOHR: &str =
     "stresses on Mohr's circle: f_n = v (cos² + K0 sin²), t = v (1 - K0) sin cos, v = rho g depth";
 
-type Changes = &'static [(&'static str, &'static str)];
-const MORTAR: (&str, &str) = ("\"node-to-point\"", "\"mortar\"");
-const FINITE: (&str, &str) = ("sliding = \"small\"", "sliding = \"finite\"");
-const EXPLICIT: (&str, &str) = ("\"implicit\"", "\"static-explicit\"");
-const UZAWA: (&str, &str) = ("kind = \"penalty\"", "kind = \"uzawa\", penetration = \"1e-6 h\"");
-const UNKNOWNS: (&str, &str) = ("kind = \"penalty\"", "kind = \"augmented-lagrangian\"");
-const LARGE: (&str, &str) =
-    ("material = \"rock\"\ngravity", "material = \"rock\"\nstrain = \"finite\"\ngravity");
-const RATE: (&str, &str) = (
-    "{ kind = \"coulomb\", mu = 0.6 }",
+type Changes = &'static [Change<'static>];
+const MORTAR: Change<'_> = With("interfaces.fault.measure", "mortar");
+const FINITE: Change<'_> = With("interfaces.fault.sliding", "finite");
+const EXPLICIT: Change<'_> = With("time.stepper", "static-explicit");
+const UZAWA: [Change<'_>; 2] = [
+    With("interfaces.fault.enforcement.kind", "uzawa"),
+    Add("interfaces.fault.enforcement.penetration", "1e-6 h"),
+];
+const UNKNOWNS: Change<'_> = With("interfaces.fault.enforcement.kind", "augmented-lagrangian");
+const LARGE: [Change<'_>; 2] = [Add("bodies.left.strain", "finite"), Add("bodies.right.strain", "finite")];
+const QUAD8: [Change<'_>; 2] = [
+    With("bodies.left.mesh.quadrilateral.element", "quad8"),
+    With("bodies.right.mesh.quadrilateral.element", "quad8"),
+];
+const RATE: Change<'_> = With(
+    "interfaces.fault.law",
     "{ kind = \"rate-and-state\", evolution = \"ageing\", mu0 = 0.6, a = 0.01, b = 0.005, l = \"1 mm\", v_ref = \"1 um/s\", v_initial = \"1e-9 m/s\" }",
 );
-const SPACE: [(&str, &str); 4] = [
-    ("\"plane-strain\"", "\"3d\""),
-    ("material = \"rock\"", "material = \"rock\"\nextrude = [0, 250, 500]"),
-    ("[0, -9.81]", "[0, -9.81, 0]"),
-    (
-        "conditions = [",
-        "conditions = [{ set = \"left.back\", z = 0 }, { set = \"left.front\", z = 0 }, { set = \"right.back\", z = 0 }, { set = \"right.front\", z = 0 }, ",
+const SPACE: [Change<'_>; 6] = [
+    With("kinematics", "3d"),
+    Add("bodies.left.extrude", "[0, 250, 500]"),
+    Add("bodies.right.extrude", "[0, 250, 500]"),
+    With("bodies.left.gravity", "[0, -9.81, 0]"),
+    With("bodies.right.gravity", "[0, -9.81, 0]"),
+    With(
+        "stages[0].conditions",
+        "[{ set = \"left.back\", z = 0 }, { set = \"left.front\", z = 0 }, { set = \"right.back\", z = 0 }, \
+          { set = \"right.front\", z = 0 }, { set = \"left.left\", x = 0 }, { set = \"right.right\", x = 0 }, \
+          { set = \"left.bottom\", y = 0 }, { set = \"right.bottom\", y = 0 }]",
     ),
 ];
 
@@ -67,11 +79,11 @@ const PLANE: [(&str, Changes, bool); 14] = [
     ("node-to-point, static-explicit", &[EXPLICIT], false),
     ("mortar, static-explicit", &[MORTAR, EXPLICIT], false),
     ("mortar, finite sliding, static-explicit", &[MORTAR, FINITE, EXPLICIT], true),
-    ("node-to-point, Uzawa", &[UZAWA], false),
+    ("node-to-point, Uzawa", &UZAWA, false),
     ("mortar, augmented Lagrangian", &[MORTAR, UNKNOWNS], false),
-    ("node-to-point, finite strain", &[LARGE], false),
-    ("mortar, finite strain, static-explicit", &[MORTAR, LARGE, EXPLICIT], false),
-    ("mortar, quad8", &[MORTAR, ("\"quad4\"", "\"quad8\"")], true),
+    ("node-to-point, finite strain", &LARGE, false),
+    ("mortar, finite strain, static-explicit", &[MORTAR, LARGE[0], LARGE[1], EXPLICIT], false),
+    ("mortar, quad8", &[MORTAR, QUAD8[0], QUAD8[1]], true),
     ("node-to-point, rate and state", &[RATE], false),
     ("mortar, rate and state, static-explicit", &[MORTAR, RATE, EXPLICIT], false),
 ];
@@ -144,8 +156,8 @@ fn blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut rows = Vec::new();
     let (mut moved, mut slipped, mut errors) = (0.0_f64, 0.0_f64, [0.0_f64; 2]);
     for ((name, changes, at_nodes), space) in plane.chain(IN_SPACE.iter().map(|v| (v, true))) {
-        let text = if space { vary(BLOCKS, &SPACE)? } else { BLOCKS.to_owned() };
-        let rest = rest(&vary(&text, changes)?).map_err(|e| format!("{name}: {e}"))?;
+        let scene = SceneText::new(BLOCKS).changed(if space { &SPACE } else { &[] });
+        let rest = rest(&scene.changed(changes).text()?).map_err(|e| format!("{name}: {e}"))?;
         let error = wrong(&rest, *at_nodes, space);
         (moved, slipped) = (moved.max(rest.moved), slipped.max(rest.slipped));
         let kind = &mut errors[usize::from(changes.contains(&UNKNOWNS))];
@@ -205,10 +217,10 @@ fn blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Cells on the one side that are not those on the other.
 fn meshes_that_do_not_match(ledger: &mut Ledger) -> Result<(), CaseError> {
     let refined = |own: usize, other: usize, changes: Changes| -> Result<Rest, CaseError> {
-        let right = "[1377.3502691896257, 0]], divisions = [6, 8]";
-        let text = vary(BLOCKS, &[(right, &right.replace("[6, 8]", &format!("[6,  {other}]")))])?;
-        let text = vary(&vary(&text, &[("[6, 8]", &format!("[6, {own}]"))])?, changes)?;
-        rest(&text)
+        let scene = SceneText::new(BLOCKS)
+            .with_or_same("bodies.left.mesh.quadrilateral.divisions", format!("[6, {own}]"))
+            .with("bodies.right.mesh.quadrilateral.divisions", format!("[6, {other}]"));
+        rest(&scene.changed(changes).text()?)
     };
     let mut levels = Vec::new();
     for k in [1, 2, 4] {
@@ -238,8 +250,11 @@ fn meshes_that_do_not_match(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 fn wedge(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let lithostatic = "initial_stress = { kind = \"lithostatic\", level = 0, k0 = 0.5 }\n";
-    let settled = rest(&vary(WEDGE, &[("initial_stress = true\n", ""), (lithostatic, "")])?)?;
+    let relaxed = SceneText::new(WEDGE)
+        .without("interfaces.fault.initial_stress")
+        .without("bodies.base.initial_stress")
+        .without("bodies.wedge.initial_stress");
+    let settled = rest(&relaxed.text()?)?;
     ledger
         .claim("displacement of a wedge that starts without stress (how far it settles otherwise)")
         .unit("m")
@@ -257,7 +272,7 @@ fn wedge(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("mortar", &[MORTAR][..]),
         ("node-to-point, static-explicit", &[EXPLICIT][..]),
     ] {
-        let still = rest(&vary(WEDGE, changes)?)?;
+        let still = rest(&SceneText::new(WEDGE).changed(changes).text()?)?;
         ledger
             .claim(format!(
                 "largest slip or displacement of a wedge over its settling without initial stress, {name}"
@@ -275,13 +290,13 @@ fn wedge(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Tractions that the stress brings act like those that loads bring: what comes later finds no difference.
 fn as_pressed_by_loads(ledger: &mut Ledger) -> Result<(), CaseError> {
     // Uniaxial strain under 5 MPa: the sides bear nu/(1 - nu) of it.
-    let stress = format!("initial_stress = [{0:e}, -5e6, {0:e}, 0, 0, 0]", -5e6 / 3.0);
-    let starts = [
-        ("# lower starts", stress.as_str()),
-        ("# upper starts", stress.as_str()),
-        ("# presses", "initial_stress = true"),
-    ];
-    let by_stress = vary(PRESSED, &starts)?;
+    let stress = format!("[{0:e}, -5e6, {0:e}, 0, 0, 0]", -5e6 / 3.0);
+    let by_loads = SceneText::new(PRESSED);
+    let by_stress = SceneText::new(PRESSED)
+        .add("bodies.lower.initial_stress", &stress)
+        .add("bodies.upper.initial_stress", &stress)
+        .add("interfaces.fault.initial_stress", true)
+        .with("stages[0].conditions[5].traction[1]", -5e6);
     let rounding = (1e-9, "the same equations for both, to rounding");
     let displaced = (
         1e-4,
@@ -292,8 +307,8 @@ fn as_pressed_by_loads(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("mortar, finite sliding", &[MORTAR, FINITE][..], displaced),
         ("node-to-point, static-explicit", &[EXPLICIT][..], rounding),
     ] {
-        let one = simulate_in(&vary(&vary(&by_stress, &[("LOAD", "-5e6")])?, changes)?, FOLDER)?;
-        let other = simulate_in(&vary(&vary(PRESSED, &[("LOAD", "{ to = -5e6 }")])?, changes)?, FOLDER)?;
+        let one = simulate_in(&by_stress.clone().changed(changes).text()?, FOLDER)?;
+        let other = simulate_in(&by_loads.clone().changed(changes).text()?, FOLDER)?;
         let (a, b) = (one.contact("shear")?, other.contact("shear")?);
         ledger
             .claim(format!(
@@ -302,6 +317,7 @@ fn as_pressed_by_loads(ledger: &mut Ledger) -> Result<(), CaseError> {
             .unit("Pa")
             .values(&a.normal_traction)
             .equals_each(&b.normal_traction)
+            .between(&one.scene, &other.scene)
             .relative(bound)
             .evidence(Evidence::Exact, "linear bodies: the same blocks pressed by a load in a first stage")
             .because(because)
@@ -312,6 +328,7 @@ fn as_pressed_by_loads(ledger: &mut Ledger) -> Result<(), CaseError> {
             .unit("m")
             .values(&a.slip)
             .equals_each(&b.slip)
+            .between(&one.scene, &other.scene)
             .relative(bound)
             .evidence(Evidence::Exact, "linear bodies: the same blocks pressed by a load in a first stage")
             .because(because)

@@ -1,7 +1,7 @@
 //! A column that slides on a base, whose equations are those of a slider on a spring: rate-and-state friction through an interface.
 
 use super::slider::{self, Kind};
-use super::texts::{self, Done, vary};
+use super::texts::{self, Done};
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
 use asperity_driver::report::{Outcome, Stop};
 use asperity_driver::slider::{self as driver, Now, Output, Plan, Thresholds};
@@ -10,6 +10,8 @@ use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding};
 use asperity_friction::strength::{Parameters, regularised::Regularised};
 use asperity_ode::Method;
+use asperity_vary::Change::{self, Add};
+use asperity_vary::SceneText;
 use std::sync::Arc;
 
 /// See the README.
@@ -72,7 +74,7 @@ fn in_time(ledger: &mut Ledger, space: &str, scene: &str) -> Result<(), CaseErro
         let (mut found, mut cost) = (Vec::new(), None);
         for measure in ["node-to-point", "mortar"] {
             for sliding in ["small", "finite"] {
-                let done = texts::simulate(&with(scene, kind, measure, sliding, "")?)?;
+                let done = texts::simulate(&with(SceneText::new(scene), kind, measure, sliding, &[])?)?;
                 found.push(error(&done, &reference(kind, stiffness(HEIGHT), &done)?));
                 cost.get_or_insert(done.cost);
             }
@@ -96,12 +98,12 @@ fn in_time(ledger: &mut Ledger, space: &str, scene: &str) -> Result<(), CaseErro
 
 /// Static-explicit steps at the default of scenes.
 fn forward(ledger: &mut Ledger, space: &str, scene: &str) -> Result<(), CaseError> {
-    let scene = vary(scene, &[("stepper = \"implicit\"", "stepper = \"static-explicit\"")])?;
+    let scene = SceneText::new(scene).with("time.stepper", "static-explicit");
     for kind in KINDS {
         let (mut found, mut cost) = (Vec::new(), None);
         for measure in ["node-to-point", "mortar"] {
             for sliding in ["small", "finite"] {
-                let done = texts::simulate(&with(&scene, kind, measure, sliding, "")?)?;
+                let done = texts::simulate(&with(scene.clone(), kind, measure, sliding, &[])?)?;
                 found.push(error(&done, &reference(kind, stiffness(HEIGHT), &done)?));
                 cost.get_or_insert(done.cost);
             }
@@ -125,21 +127,17 @@ fn forward(ledger: &mut Ledger, space: &str, scene: &str) -> Result<(), CaseErro
 
 /// A base of the same rock, half as high as the column, whose compliance adds to that of the column.
 fn elastic_base(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let scene = vary(
-        PLANE,
-        &[
-            (
-                "min = [\"-0.05 m\", \"-0.05 m\"], max = [\"0.15 m\", \"0 m\"], divisions = [5, 1]",
-                "min = [\"0 m\", \"-0.1 m\"], max = [\"0.1 m\", \"0 m\"], divisions = [2, 1]",
-            ),
-            ("set = \"base.top\", x = 0,", "set = \"base.top\","),
-            ("set = \"base.left\", x = 0,", "set = \"base.left\","),
-            ("set = \"base.right\", x = 0,", "set = \"base.right\","),
-        ],
-    )?;
+    let scene = SceneText::new(PLANE)
+        .with("bodies.base.mesh.block.min", r#"["0 m", "-0.1 m"]"#)
+        .with("bodies.base.mesh.block.max", r#"["0.1 m", "0 m"]"#)
+        .with("bodies.base.mesh.block.divisions", "[2, 1]")
+        // Top, left and right of the base.
+        .without("stages[0].conditions[0].x")
+        .without("stages[0].conditions[2].x")
+        .without("stages[0].conditions[3].x");
     let (mut found, mut cost) = (Vec::new(), None);
     for measure in ["node-to-point", "mortar"] {
-        let done = texts::simulate(&with(&scene, Kind::Ageing, measure, "small", "")?)?;
+        let done = texts::simulate(&with(scene.clone(), Kind::Ageing, measure, "small", &[])?)?;
         found.push(error(&done, &reference(Kind::Ageing, stiffness(1.5 * HEIGHT), &done)?));
         cost.get_or_insert(done.cost);
     }
@@ -158,19 +156,16 @@ fn elastic_base(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Equal steps through the tenfold velocity step.
 fn orders(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let from = PLANE.find("[[stages]]\nname = \"down\"").ok_or("no stage `down`")?;
-    let until = PLANE.find("[time]").ok_or("no times")?;
-    let scene = format!("{}{}", &PLANE[..from], &PLANE[until..]);
+    let scene = SceneText::new(PLANE).without("stages[5]").without("stages[4]").without("stages[3]");
     let rules = [("bdf2", "second-order differences", 2.0), ("backward-euler", "backward Euler", 1.0)];
     let mut rows = Vec::new();
     for kind in KINDS {
         for (rule, name, order) in rules {
             let (mut levels, mut cost) = (Vec::new(), None);
             for steps in [800u16, 1600, 3200, 6400] {
-                let equal = format!("duration = \"20 s\"\nsteps = {steps}");
-                let scene = vary(&scene, &[("duration = \"20 s\"", &equal)])?;
-                let time = format!("rule = \"{rule}\"");
-                let done = texts::simulate(&with(&scene, kind, "node-to-point", "small", &time)?)?;
+                let scene = scene.clone().add("stages[2].steps", steps);
+                let time = [Add("time.rule", rule)];
+                let done = texts::simulate(&with(scene, kind, "node-to-point", "small", &time)?)?;
                 let reference = reference(kind, stiffness(HEIGHT), &done)?;
                 let error = error_since(PRESSED + STAGES[0].0, &done, &reference);
                 levels.push((20.0 / f64::from(steps), error));
@@ -206,16 +201,17 @@ fn orders(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Time at which a column below the critical stiffness runs away.
 fn onset(ledger: &mut Ledger) -> Result<(), CaseError> {
     for kind in KINDS {
-        let scene = vary(
-            PLANE,
-            &[("\"0.2 m\"]", &format!("\"{SOFT} m\"]")), ("duration = \"600 s\"", "duration = \"5000 s\"")],
-        )?;
+        let scene = SceneText::new(PLANE)
+            .with("bodies.column.mesh.block.max[1]", format!("{SOFT} m"))
+            .with("stages[1].duration", "5000 s");
+        let limit = format!("{LIMIT:e}");
         let reference = by_slider(kind, stiffness(SOFT))?;
         let mut times = Vec::new();
         let mut cost = None;
-        for tolerance in ["", "friction_tolerance = 2e-5", "friction_tolerance = 2e-7"] {
-            let time = format!("slip_rate_limit = {LIMIT:e}\n{tolerance}");
-            let done = texts::attempt(&with(&scene, kind, "node-to-point", "small", &time)?)?;
+        for tolerance in [None, Some("2e-5"), Some("2e-7")] {
+            let mut time = vec![Add("time.slip_rate_limit", &limit)];
+            time.extend(tolerance.map(|t| Add("time.friction_tolerance", t)));
+            let done = texts::attempt(&with(scene.clone(), kind, "node-to-point", "small", &time)?)?;
             let Outcome::Stopped { time, kind: Stop::Instability { .. }, .. } = done.report.outcome else {
                 return Err("it did not stop".into());
             };
@@ -253,8 +249,10 @@ fn work(ledger: &mut Ledger) -> Result<(), CaseError> {
         for (rule, finest) in [("bdf2", 8), ("backward-euler", 6)] {
             let mut points = Vec::new();
             for power in 3..=finest {
-                let time = format!("rule = \"{rule}\"\nfriction_tolerance = 2e-{power}");
-                let done = texts::simulate(&with(PLANE, kind, "node-to-point", "small", &time)?)?;
+                let tolerance = format!("2e-{power}");
+                let time = [Add("time.rule", rule), Add("time.friction_tolerance", &tolerance)];
+                let scene = SceneText::new(PLANE);
+                let done = texts::simulate(&with(scene, kind, "node-to-point", "small", &time)?)?;
                 let error = error(&done, &reference(kind, stiffness(HEIGHT), &done)?);
                 let counts = &done.report.counts;
                 points.push((error, counts.iterations as f64));
@@ -302,16 +300,18 @@ fn at(points: &[(f64, f64)], error: f64) -> Option<f64> {
 }
 
 /// A scene with keys of time.
-fn with(scene: &str, kind: Kind, measure: &str, sliding: &str, time: &str) -> Result<String, CaseError> {
-    vary(
-        scene,
-        &[
-            ("MEASURE", measure),
-            ("SLIDING", sliding),
-            ("EVOLUTION", word(kind)),
-            ("\nTIME", &format!("\n{time}")),
-        ],
-    )
+fn with(
+    scene: SceneText,
+    kind: Kind,
+    measure: &str,
+    sliding: &str,
+    time: &[Change<'_>],
+) -> Result<String, CaseError> {
+    let scene = scene
+        .add("interfaces.fault.measure", measure)
+        .add("interfaces.fault.sliding", sliding)
+        .add("interfaces.fault.law.evolution", word(kind));
+    Ok(scene.changed(time).text()?)
 }
 
 /// Stiffness of a column of some height \[m\] and the penalty in series \[Pa/m\].

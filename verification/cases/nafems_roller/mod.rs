@@ -14,7 +14,7 @@ pub const CASE: Case = Case {
 };
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let mut peaks = Vec::new();
+    let (mut peaks, mut settings) = (Vec::new(), Vec::new());
     let mut rows = Vec::new();
     for (what, measure, sliding, capability) in [
         ("mortar, small sliding", Measure::Mortar, Sliding::Small, Capability::Mortar),
@@ -31,6 +31,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             scene.stages[0].steps = Some(here(4));
         }
         let done = hertz::simulate(&scene)?;
+        settings.push(format!("{:?}", scene.interfaces));
         let at = done.tractions("press")?;
         // Half of the roller.
         let load = 2.0 * at.load[1];
@@ -75,6 +76,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         .claim("largest pressure over that of Hertz, mortar: finite against small sliding")
         .value(peaks[1])
         .equals(peaks[0])
+        .between(&settings[1], &settings[0])
         .absolute(0.0157)
         .evidence(Evidence::ConvergedSelf, "the same mesh with pairs fixed in the reference configuration")
         .because("what fixed normals and reference areas leave out is of the order (a/R)^2 = 1.57 %")

@@ -170,6 +170,7 @@ fn steps(ledger: &mut Ledger) -> Result<(), CaseError> {
         .unit("Pa")
         .values(&one.at.q)
         .equals_each(&many.at.q)
+        .between(&one.done.report.counts.steps, &many.done.report.counts.steps)
         .relative(1e-6)
         .evidence(Evidence::Exact, "slip that never turns back leaves the law a function of the total slip")
         .because("residuals of 1e-11 of the largest force in every step, over the compliance of the penalty")

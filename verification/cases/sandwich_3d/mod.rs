@@ -71,11 +71,11 @@ fn layer(ledger: &mut Ledger, two: &Run, three: &Run, cost: &Cost) -> Result<(),
 /// The same scene on one and on two threads.
 fn threads(ledger: &mut Ledger) -> Result<(), CaseError> {
     let scene: Scene = sandwich::equal_steps(sandwich::size(sandwich::base()?, 1.25), 60);
-    let with = |n: usize| -> Result<Run, CaseError> {
+    let with = |n: usize| -> Result<(Run, usize), CaseError> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build()?;
-        pool.install(|| sandwich::simulate(&scene))
+        Ok((pool.install(|| sandwich::simulate(&scene))?, pool.current_num_threads()))
     };
-    let (one, two) = (with(1)?, with(2)?);
+    let ((one, alone), (two, together)) = (with(1)?, with(2)?);
     let mut different = 0_u64;
     for (a, b) in one.record.stage_ends().iter().zip(two.record.stage_ends()) {
         let (a, b) = (&a.interfaces[0], &b.interfaces[0]);
@@ -88,6 +88,7 @@ fn threads(ledger: &mut Ledger) -> Result<(), CaseError> {
     ledger
         .claim("values of slip, normal traction and slip rate that differ in any bit between one and two threads")
         .count(different, 0)
+        .between(&alone, &together)
         .evidence(Evidence::Exact, "tasks of a fixed size, sums in a fixed order")
         .because("nothing may depend on the number of threads")
         .covers(&[Capability::Determinism])

@@ -5,6 +5,7 @@ use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_driver::fault::{Dense, Event, Loading, Moment, Plan, run as integrate};
 use asperity_fem::table::Table;
 use asperity_ode::Control;
+use asperity_vary::SceneText;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -15,6 +16,7 @@ pub const CASE: Case = Case {
     run,
 };
 
+const SCENE: &str = include_str!("../../../scenes/sandwich-state.toml");
 /// The independent implementation.
 const SOURCE: &str =
     "verification/independent/sandwich_state.py: scipy's sparse solver and DOP853 on the same elements";
@@ -25,19 +27,19 @@ const LOAD: f64 = 1e-6;
 
 /// The scene with elements of this size \[mm\].
 fn block(size: f64, events: usize) -> Result<Plan, CaseError> {
-    read(
-        &include_str!("../../../scenes/sandwich-state.toml").replace("1.25 mm", &format!("{size} mm")),
-        events,
-    )
+    let scene = SceneText::new(SCENE)
+        .with_or_same("bodies.A.mesh.block.size", format!("{size} mm"))
+        .with_or_same("bodies.B.mesh.block.size", format!("{size} mm"));
+    read(&scene.text()?, events)
 }
 
 /// The same with L = 10 um and a soft machine: all of the face slides together.
 fn small_block(events: usize) -> Result<Plan, CaseError> {
-    let text = include_str!("../../../scenes/sandwich-state.toml")
-        .replace("l = \"0.5 um\"", "l = \"10 um\"")
-        .replace("spring = 1.4e10", "spring = 2e9")
-        .replace("1400 s", "4000 s");
-    read(&text, events)
+    let scene = SceneText::new(SCENE)
+        .with("faults.face.law.l", "10 um")
+        .with("stages[0].conditions[3].y.spring", "2e9")
+        .with("stages[0].duration", "4000 s");
+    read(&scene.text()?, events)
 }
 
 fn read(text: &str, events: usize) -> Result<Plan, CaseError> {

@@ -256,19 +256,21 @@ fn work_precision(
 
 /// The condensed and the full system are the same problem.
 fn paths(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let slips = |path: Path| -> Result<(Vec<f64>, Cost), CaseError> {
+    let slips = |path: Path| -> Result<_, CaseError> {
         let mut scene = sandwich::equal_steps(base()?, 50);
         scene.time.path = path;
         let (run, cost) = Cost::of(|| sandwich::simulate(&scene));
         let run = run?;
-        Ok((run.end("shear")?.slip.clone(), cost.counts(&run.report.counts)))
+        let cost = cost.counts(&run.report.counts);
+        Ok((run.end("shear")?.slip.clone(), cost, run.report.plan.path.clone()))
     };
-    let (condensed, _) = slips(Path::Condensed)?;
-    let (full, cost) = slips(Path::Full)?;
+    let (condensed, _, one) = slips(Path::Condensed)?;
+    let (full, cost, other) = slips(Path::Full)?;
     let largest = full.iter().map(|s| s.abs()).fold(0.0, f64::max);
     let difference = condensed.iter().zip(&full).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest;
     ledger
         .claim("difference of slip between the condensed and the full system")
+        .between(&one, &other)
         .value(difference)
         .at_most(1e-9)
         .evidence(Evidence::Exact, "block elimination of the interior")

@@ -4,6 +4,8 @@ use crate::cases::seas::{self, CONVERGED, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_driver::fault::{Moment, Plan};
 use asperity_ode::Method;
+use asperity_vary::SceneText;
+use asperity_vary::bp1::{SIZE, bp1};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -17,20 +19,11 @@ pub const CASE: Case = Case {
 /// Events looked at.
 const EVENTS: usize = 3;
 
-/// Size of the scene's cells \[m\].
-const SIZE: f64 = 156.25;
 /// Error of ln V in a step where runs are compared that differ by less than the default's error.
 const FAR_TOLERANCE: f64 = 1e-6;
 
-/// The scene with all cells down to the creeping part smaller in proportion; `size` \[m\] is that of the smallest.
-fn scene(size: f64) -> String {
-    include_str!("../../../scenes/bp1.toml")
-        .replace("156.25 m", &format!("{size} m"))
-        .replace("\"600 m\"", &format!("\"{} m\"", 600.0 / SIZE * size))
-}
-
 fn plan(size: f64) -> Result<Plan, CaseError> {
-    let mut plan = seas::plan(&scene(size))?;
+    let mut plan = seas::plan(&bp1(size).text()?)?;
     plan.settings.most_events = Some(EVENTS);
     Ok(plan)
 }
@@ -183,6 +176,7 @@ fn methods(ledger: &mut Ledger, plan: &Plan, default: &Found) -> Result<(), Case
         .unit("yr")
         .value(error(default))
         .at_most(0.01)
+        .between(&(plan.settings.method, plan.settings.tolerance), &(Method::Dop853, 1e-8))
         .evidence(Evidence::ConvergedSelf, "dop853 with a tolerance of 1e-8 on the same cells")
         .because("a tenth of what cells of 78 m leave")
         .covers(&[Capability::FaultCycles, Capability::Integrators])
@@ -192,17 +186,24 @@ fn methods(ledger: &mut Ledger, plan: &Plan, default: &Found) -> Result<(), Case
 }
 
 /// The scene with its far borders, and the cells there, at half the distance.
-fn nearer(text: &str) -> String {
-    text.replace("8000 km", "4000 km").replace("1600 km", "800 km")
+fn nearer(scene: SceneText) -> SceneText {
+    let mesh = |key: &str| format!("bodies.crust.mesh.fault.{key}");
+    scene
+        .with(&mesh("trace[4][1]"), "-4000 km")
+        .with(&mesh("spacing[4]"), "[\"4000 km\", \"800 km\"]")
+        .with(&mesh("min"), "[\"-4000 km\", \"-4000 km\"]")
+        .with(&mesh("max[0]"), "4000 km")
 }
 
 /// How far the far borders lie: half as far, first event and first interval change as they would three times over from twice as far on,
 /// since the influence falls with the square of the distance.
 fn far_field(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let mut runs = Vec::new();
-    for text in [scene(SIZE), nearer(&scene(SIZE))] {
+    let (mut runs, mut texts) = (Vec::new(), Vec::new());
+    for scene in [bp1(SIZE), nearer(bp1(SIZE))] {
+        let text = scene.text()?;
         let mut plan = seas::plan(&text)?;
         plan.settings.most_events = Some(2);
+        texts.push(text);
         runs.push(found(&plan, plan.settings.method, FAR_TOLERANCE, |_| {})?);
     }
     let interval = |run: &Found| run.onsets[1] - run.onsets[0];
@@ -215,6 +216,7 @@ fn far_field(ledger: &mut Ledger) -> Result<(), CaseError> {
             .claim(format!("share by which {name} changes where the borders lie at 4000 instead of 8000 km"))
             .value(((a - b) / a).abs())
             .at_most(1e-4)
+            .between(&texts[0], &texts[1])
             .evidence(
                 Evidence::ConvergedSelf,
                 "the same cells where the fault slips, borders at both distances",

@@ -2,6 +2,8 @@
 
 use crate::cases::seas::{self, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use asperity_vary::SceneText;
+use asperity_vary::bp1::{AT_CREEP, BP1, SIZE, sized};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -17,8 +19,6 @@ pub struct Law {
     /// Name of the evolution.
     pub name: &'static str,
     scene: &'static str,
-    /// Size of the cells of that scene \[m\].
-    cells: f64,
     /// Onsets \[yr\].
     pub onsets: [f64; 2],
     /// Largest slip rates \[m/s\].
@@ -35,8 +35,7 @@ const LIMIT: &str =
 pub const LAWS: [Law; 2] = [
     Law {
         name: "ageing",
-        scene: include_str!("../../../scenes/bp1.toml"),
-        cells: 156.25,
+        scene: BP1,
         onsets: [271.219, 413.675],
         peaks: [4.4570, 4.3531],
         uncertainty: 0.02,
@@ -44,7 +43,6 @@ pub const LAWS: [Law; 2] = [
     Law {
         name: "slip",
         scene: include_str!("../../../scenes/bp1-slip.toml"),
-        cells: 78.125,
         onsets: [255.382, 378.602],
         peaks: [3.9884, 3.8792],
         uncertainty: 0.04,
@@ -52,19 +50,17 @@ pub const LAWS: [Law; 2] = [
 ];
 
 /// The scene of a law with this L and cells of `size` \[m\].
-pub fn text(law: &Law, size: f64) -> String {
-    law.scene
-        .replace("l = \"8 mm\"", "l = \"16 mm\"")
-        .replace(&format!("{} m", law.cells), &format!("{size} m"))
-        .replace(
-            &format!("\"{} m\"", 600.0 / 156.25 * law.cells),
-            &format!("\"{} m\"", 600.0 / 156.25 * size),
-        )
+///
+/// # Errors
+/// When the scene lacks a key that is varied.
+pub fn text(law: &Law, size: f64) -> Result<String, CaseError> {
+    let scene = SceneText::new(law.scene).with("faults.main.law.l", "16 mm");
+    Ok(sized(scene, size, AT_CREEP / SIZE * size).text()?)
 }
 
 /// The first two events with cells of this size \[m\].
 fn found(law: &Law, size: f64) -> Result<Found, CaseError> {
-    let plan = seas::plan(&text(law, size))?;
+    let plan = seas::plan(&text(law, size)?)?;
     let mut settings = plan.settings;
     settings.most_events = Some(2);
     seas::found(&plan, &settings, |_| {})

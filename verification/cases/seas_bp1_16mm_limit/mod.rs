@@ -29,7 +29,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn limit(ledger: &mut Ledger, law: &Law) -> Result<(), CaseError> {
     let (mut onsets, mut rows, mut cost) = (Vec::new(), Vec::new(), Cost::default());
     for size in SIZES {
-        let plan = seas::plan(&text(law, size))?;
+        let plan = seas::plan(&text(law, size)?)?;
         let mut settings = plan.settings;
         (settings.method, settings.tolerance, settings.most_events) = (Method::Dop853, TIGHT, Some(2));
         let found = seas::found(&plan, &settings, |_| {})?;

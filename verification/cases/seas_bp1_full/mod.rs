@@ -4,6 +4,8 @@ use crate::cases::seas::{self, CONVERGED, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_driver::fault::Plan;
 use asperity_ode::Method;
+use asperity_vary::SceneText;
+use asperity_vary::bp1::{BP1, sized};
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -25,10 +27,7 @@ const TIGHT: f64 = 1e-8;
 /// # Errors
 /// What the reader or the plan refuse.
 pub fn plan(size: f64) -> Result<Plan, CaseError> {
-    let text = include_str!("../../../scenes/bp1.toml")
-        .replace("156.25 m", &format!("{size} m"))
-        .replace("\"600 m\"", &format!("\"{} m\"", 2.0 * size));
-    let mut plan = seas::plan(&text)?;
+    let mut plan = seas::plan(&sized(SceneText::new(BP1), size, 2.0 * size).text()?)?;
     (plan.settings.thresholds.on, plan.settings.thresholds.off) = (1e-3, 0.999e-3);
     plan.settings.most_events = None;
     Ok(plan)

@@ -4,6 +4,7 @@ use crate::cases::seas::{self, YEAR};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_driver::fault::{Moment, Plan, run as integrate};
 use asperity_ode::{Control, Method, Outcome};
+use asperity_vary::bp1::BP1;
 use std::time::Instant;
 
 mod factorising;
@@ -58,7 +59,7 @@ struct Curve {
 }
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let mut plan = seas::plan(include_str!("../../../scenes/bp1.toml"))?;
+    let mut plan = seas::plan(BP1)?;
     plan.settings.most_events = Some(EVENTS);
     (plan.settings.thresholds.on, plan.settings.thresholds.off) = (ABOVE, 0.999 * ABOVE);
     let exact = setting(&plan, Method::Dop853, 1e-9)??;

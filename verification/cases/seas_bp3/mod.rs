@@ -3,6 +3,7 @@
 use crate::cases::seas::{self, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_driver::fault::{Moment, Plan};
+use asperity_vary::SceneText;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -59,54 +60,34 @@ const GROWTH: f64 = 1.12;
 
 /// The scene of a thrust of dip 60 degrees, with another dip and sense; `size` of cells \[m\], borders at `far` \[km\].
 fn text((dip, sense): Faulting, size: f64, far: f64) -> Result<String, CaseError> {
-    let scene = include_str!("../../../scenes/bp3.toml");
     let (s, c) = dip.to_radians().sin_cos();
     let point = |along: f64| format!("[\"{:.9} km\", \"{:.9} km\"]", along * c, -along * s);
     let trace = [0.0, 15.0, 18.0, 40.0].map(point).join(", ");
     let bottom = far * c / s;
     let mesh = format!(
-        "mesh.fault = {{ trace = [{trace}, [\"{bottom:.9} km\", \"-{far} km\"]], spacing = [[\"0 km\", \"{size} m\"], [\"18 km\", \"{size} m\"], [\"40 km\", \"{} m\"], [\"60 km\", \"3 km\"], [\"{:.0} km\", \"{} km\"]], thickness = \"{size} m\", min = [\"-{far} km\", \"-{far} km\"], max = [\"{:.0} km\", \"0 km\"], growth = {GROWTH}, element = \"quad9\" }}",
+        "{{ trace = [{trace}, [\"{bottom:.9} km\", \"-{far} km\"]], spacing = [[\"0 km\", \"{size} m\"], [\"18 km\", \"{size} m\"], [\"40 km\", \"{} m\"], [\"60 km\", \"3 km\"], [\"{:.0} km\", \"{} km\"]], thickness = \"{size} m\", min = [\"-{far} km\", \"-{far} km\"], max = [\"{:.0} km\", \"0 km\"], growth = {GROWTH}, element = \"quad9\" }}",
         2.0 * size,
         far / s,
         far / 5.0,
         far + bottom
     );
     let half = 0.5e-9 * sense.sign();
-    let motion = |side: f64| {
+    let moved = |set: &str, side: f64| {
         format!(
-            "x = {{ rate = \"{:.12e} m/s\" }}, y = {{ rate = \"{:.12e} m/s\" }} }}",
+            "{{ set = \"{set}\", x = {{ rate = \"{:.12e} m/s\" }}, y = {{ rate = \"{:.12e} m/s\" }} }}",
             -side * half * c,
             side * half * s
         )
     };
-    let left = format!("    {{ set = \"crust.left\", {},", motion(-1.0));
-    let right = format!("    {{ set = \"crust.right\", {},", motion(1.0));
     let minus = if sense == Sense::Normal { "-" } else { "" };
-    let shear = format!("shear = \"{minus}26.5461223651 MPa\"");
-    let rate = format!("rate = \"{minus}1e-9 m/s\"");
-    let creep = format!("creep = {{ beyond = \"40 km\", rate = \"{minus}1e-9 m/s\" }}");
-    let replacements = [
-        ("mesh.fault", mesh.as_str()),
-        ("{ set = \"crust.left\"", &left),
-        ("{ set = \"crust.right\"", &right),
-        ("shear =", &shear),
-        ("rate =", &rate),
-        ("creep =", &creep),
-    ];
-    let mut replaced = 0;
-    let lines: Vec<&str> = scene
-        .lines()
-        .map(|line| {
-            let new = replacements.into_iter().find(|(old, _)| line.trim_start().starts_with(old));
-            replaced += usize::from(new.is_some());
-            new.map_or(line, |(_, new)| new)
-        })
-        .collect();
-    if replaced == replacements.len() {
-        Ok(lines.join("\n"))
-    } else {
-        Err("the scene of BP3 has changed".into())
-    }
+    let scene = SceneText::new(include_str!("../../../scenes/bp3.toml"))
+        .with_or_same("bodies.crust.mesh.fault", mesh)
+        .with_or_same("stages[0].conditions[0]", moved("crust.left", -1.0))
+        .with_or_same("stages[0].conditions[1]", moved("crust.right", 1.0))
+        .with_or_same("faults.main.shear", format!("{minus}26.5461223651 MPa"))
+        .with_or_same("faults.main.rate", format!("{minus}1e-9 m/s"))
+        .with_or_same("faults.main.creep.rate", format!("{minus}1e-9 m/s"));
+    Ok(scene.text()?)
 }
 
 /// The plan of a dip and sense, cells of `size` \[m\] and borders at `far` \[km\].

@@ -3,6 +3,7 @@
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::fault::{Moment, Plan};
+use asperity_vary::SceneText;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -37,25 +38,15 @@ const SCENES: [(&str, &str); 2] = [
 /// The upper half cut off: a half-space below the plane of symmetry, which is free in antiplane motion; `size` \[m\] of the cells.
 fn half(scene: &str, size: f64) -> Result<Plan, CaseError> {
     let mesh = format!(
-        "mesh.fault = {{ trace = [[\"0 km\", \"0 km\"], [\"0 km\", \"-20 km\"]], spacing = [[\"0 km\", \"{size} m\"], [\"7 km\", \"{size} m\"], [\"20 km\", \"{} m\"]], thickness = \"{size} m\", min = [\"-500 km\", \"-500 km\"], max = [\"500 km\", \"0 km\"], growth = 1.25, element = \"quad9\" }}",
+        "{{ trace = [[\"0 km\", \"0 km\"], [\"0 km\", \"-20 km\"]], spacing = [[\"0 km\", \"{size} m\"], [\"7 km\", \"{size} m\"], [\"20 km\", \"{} m\"]], thickness = \"{size} m\", min = [\"-500 km\", \"-500 km\"], max = [\"500 km\", \"0 km\"], growth = 1.25, element = \"quad9\" }}",
         5.0 * size
     );
-    let mut replaced = 0;
-    let lines: Vec<&str> = scene
-        .lines()
-        .map(|line| {
-            // Stations are those of the whole fault.
-            let new = [("mesh.fault", mesh.as_str()), ("at = \"20 km\"", "at = \"0 km\""), ("stations.", "")]
-                .into_iter()
-                .find(|(old, _)| line.starts_with(old));
-            replaced += usize::from(new.is_some());
-            new.map_or(line, |(_, new)| new)
-        })
-        .collect();
-    if replaced != 3 {
-        return Err("the scene of BP6 has changed".into());
-    }
-    seas::plan(&lines.join("\n"))
+    let scene = SceneText::new(scene)
+        .with("bodies.rock.mesh.fault", mesh)
+        .with("faults.main.injection.at", "0 km")
+        // Stations are those of the whole fault.
+        .without("output.stations");
+    seas::plan(&scene.text()?)
 }
 
 /// What a run showed.

@@ -1,7 +1,9 @@
 //! Forces that jump under static-explicit steps.
 
-use super::texts::{self, vary};
+use super::texts;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use asperity_vary::Change::{self, Add};
+use asperity_vary::SceneText;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -33,40 +35,42 @@ const HELD: &str = "{ set = \"column.left\", symmetry = true }, { set = \"column
 /// What acts on a column, and the displacement of its upper edge \[m\].
 struct Jump {
     name: &'static str,
-    body: &'static str,
+    body: &'static [Change<'static>],
     /// Conditions of the stages.
     stages: &'static [&'static str],
     moved: f64,
 }
 
+const GRAVITY: Change<'_> = Add("bodies.column.gravity", "[0, -9.81]");
+
 const JUMPS: [Jump; 5] = [
     Jump {
         name: "weight",
-        body: "gravity = [0, -9.81]",
+        body: &[GRAVITY],
         stages: &[""],
         moved: -WEIGHT * HEIGHT * HEIGHT / (2.0 * MODULUS),
     },
     Jump {
         name: "initial stress of -5 MPa along the column",
-        body: "initial_stress = [0, \"-5 MPa\", 0]",
+        body: &[Add("bodies.column.initial_stress", "[0, \"-5 MPa\", 0]")],
         stages: &[""],
         moved: 5e6 * HEIGHT / MODULUS,
     },
     Jump {
         name: "pressure of 2 MPa at once, after weight",
-        body: "gravity = [0, -9.81]",
+        body: &[GRAVITY],
         stages: &["", "{ set = \"column.top\", traction = [0, \"-2 MPa\"] }"],
         moved: -(WEIGHT * HEIGHT * HEIGHT / 2.0 + 2e6 * HEIGHT) / MODULUS,
     },
     Jump {
         name: "displacement of 1 mm at once",
-        body: "",
+        body: &[],
         stages: &["{ set = \"column.top\", y = \"-1 mm\" }"],
         moved: -1e-3,
     },
     Jump {
         name: "release under weight",
-        body: "gravity = [0, -9.81]",
+        body: &[GRAVITY],
         stages: &[
             "{ set = \"column.top\", y = { to = \"-1 mm\" } }",
             "{ set = \"column.top\", y = \"free\" }",
@@ -87,11 +91,11 @@ fn column(ledger: &mut Ledger, jump: &Jump) -> Result<(), CaseError> {
     let stage = |(k, conditions): (usize, &&str)| {
         let held = if k == 0 { HELD } else { "" };
         let both = if held.is_empty() || conditions.is_empty() { "" } else { ", " };
-        format!("[[stages]]\nname = \"{k}\"\nduration = \"1 s\"\nconditions = [{held}{both}{conditions}]\n")
+        format!("{{ name = \"{k}\", duration = \"1 s\", conditions = [{held}{both}{conditions}] }}")
     };
-    let stages: String = jump.stages.iter().enumerate().map(stage).collect();
-    let done =
-        texts::simulate(&vary(COLUMN, &[("\nBODY", &format!("\n{}", jump.body)), ("\nSTAGES", &stages)])?)?;
+    let stages: Vec<String> = jump.stages.iter().enumerate().map(stage).collect();
+    let scene = SceneText::new(COLUMN).changed(jump.body).add("stages", format!("[{}]", stages.join(", ")));
+    let done = texts::simulate(&scene.text()?)?;
     ledger
         .claim(format!("{}: displacement of the upper edge over that of uniaxial strain", jump.name))
         .value(done.displacement("top")?[1] / jump.moved)
@@ -139,15 +143,13 @@ fn plate(ledger: &mut Ledger) -> Result<(), CaseError> {
             for sliding in ["small", "finite"] {
                 for start in [-0.1, 0.1] {
                     let of = |stepper: &str| -> Result<_, CaseError> {
-                        let start = format!("{start}");
-                        let changes = [
-                            ("START", start.as_str()),
-                            ("MEASURE", measure),
-                            ("SLIDING", sliding),
-                            ("LAW", law),
-                            ("STEPPER", stepper),
-                        ];
-                        let done = texts::simulate(&vary(PLATE, &changes)?)?;
+                        let scene = SceneText::new(PLATE)
+                            .with("bodies.plate.mesh.block.min[1]", format!("{start} mm"))
+                            .add("interfaces.fault.measure", measure)
+                            .add("interfaces.fault.sliding", sliding)
+                            .add("interfaces.fault.law", law)
+                            .add("time.stepper", stepper);
+                        let done = texts::simulate(&scene.text()?)?;
                         let last = |name| done.force(name).map(|all| all[all.len() - 1]);
                         let forces = (last("pushed")?[0], last("below")?[1]);
                         Ok((forces, done.cost))

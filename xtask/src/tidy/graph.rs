@@ -7,12 +7,13 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// What each package of the workspace may depend on inside it, tests and build scripts included.
-const ALLOWED: [(&str, &[&str]); 11] = [
+const ALLOWED: [(&str, &[&str]); 12] = [
     ("asperity-friction", &[]),
     ("asperity-fem", &[]),
     ("asperity-ode", &[]),
     ("asperity-scene", &[]),
     ("asperity-output", &[]),
+    ("asperity-vary", &[]),
     ("asperity-contact", &["asperity-fem", "asperity-friction"]),
     ("asperity-mechanics", &["asperity-fem", "asperity-friction", "asperity-contact"]),
     (
@@ -25,6 +26,7 @@ const ALLOWED: [(&str, &[&str]); 11] = [
             "asperity-output",
             "asperity-contact",
             "asperity-mechanics",
+            "asperity-vary",
         ],
     ),
     ("asperity-verification", PROGRAMS),
@@ -42,16 +44,18 @@ const PROGRAMS: &[&str] = &[
     "asperity-contact",
     "asperity-mechanics",
     "asperity-driver",
+    "asperity-vary",
 ];
 
 /// Libraries that work on values only.
-pub const LIBRARIES: [&str; 6] = [
+pub const LIBRARIES: [&str; 7] = [
     "asperity-friction",
     "asperity-fem",
     "asperity-ode",
     "asperity-scene",
     "asperity-contact",
     "asperity-mechanics",
+    "asperity-vary",
 ];
 
 /// What a library of values has no use for: terminals, pictures, scene files.

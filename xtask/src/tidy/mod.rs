@@ -11,6 +11,7 @@ mod sentences;
 mod source;
 mod text;
 mod tree;
+mod variation;
 
 use crate::stage::Failure;
 use problem::Problem;
@@ -32,6 +33,7 @@ pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
     found.extend(book::check(&files, &|path| root.join(path).exists()));
     found.extend(circles::check(&files));
     found.extend(readers::check(&files));
+    found.extend(variation::check(&files));
     found.sort();
     found.dedup();
     Ok(found)

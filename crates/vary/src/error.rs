@@ -1,0 +1,59 @@
+//! What keeps a scene from being varied.
+
+/// A change that would not make another scene.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum VaryError {
+    /// The scene is no TOML.
+    #[error("the scene cannot be read: {0}")]
+    Text(toml_edit::TomlError),
+    /// The path is no path.
+    #[error("`{path}` is no path of keys: write it like stages[0].conditions[1].x")]
+    Path {
+        /// The path.
+        path: String,
+    },
+    /// Nothing is at the path.
+    #[error("the scene has no `{path}`: {near}")]
+    Absent {
+        /// The path.
+        path: String,
+        /// The nearest key there is.
+        near: String,
+    },
+    /// The key is there already.
+    #[error("the scene has `{path}` already: replace its value")]
+    Present {
+        /// The path.
+        path: String,
+    },
+    /// The value is the one that is there.
+    #[error("`{path}` has this value already: the variant would be the scene itself")]
+    Same {
+        /// The path.
+        path: String,
+    },
+    /// The value is neither TOML nor a plain string.
+    #[error("the value for `{path}` cannot be read: {source}")]
+    Value {
+        /// The path.
+        path: String,
+        /// What TOML says of it.
+        source: toml_edit::TomlError,
+    },
+    /// A table was needed.
+    #[error("`{path}` needs a table, not a value of the kind {kind}")]
+    NoTable {
+        /// The path.
+        path: String,
+        /// What there is.
+        kind: &'static str,
+    },
+    /// A list was needed.
+    #[error("`{path}` is no list but of the kind {kind}")]
+    NoList {
+        /// The path.
+        path: String,
+        /// What there is.
+        kind: &'static str,
+    },
+}
