@@ -1,6 +1,4 @@
-//! The driver of asperity: from a scene file to results a person can look at.
-//!
-//! The crate `asperity-scene` reads, `plan` decides, `run` steps; the crate `asperity-output` writes.
+#![doc = include_str!("../README.md")]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod amounts;
