@@ -12,7 +12,6 @@ mod held;
 mod idealisation;
 pub mod initial_stress;
 pub mod laws;
-mod lengths;
 pub mod loading;
 pub mod model;
 pub mod plan;
@@ -26,4 +25,4 @@ mod stop;
 mod views;
 
 pub use asperity_scene as scene;
-pub use asperity_scene::warning;
+pub use asperity_scene::{lengths, warning};

@@ -8,6 +8,7 @@ mod exact;
 mod explain;
 mod here;
 pub mod law;
+pub mod lengths;
 pub mod model;
 mod motion;
 pub mod names;

@@ -159,6 +159,46 @@ pub fn claims(ledger: &mut Ledger, table: Table) {
         .evidence(Evidence::Exact, "every combination has a solution: the slab bears the die, and no law but the drop of static-kinetic friction weakens faster than the bodies unload it")
         .because("what runs is right and what cannot run is refused beforehand")
         .record();
+    strengths(ledger, &table);
+    ledger
+        .claim(format!(
+            "largest difference of the force on the die between static-explicit and implicit steps, at the ends of both stages, over its size, {} pairs",
+            table.apart.len()
+        ))
+        .value(largest(&table.apart))
+        .at_most(APART)
+        .evidence(Evidence::SemiAnalytic, "implicit steps, whose balance holds to 1e-11")
+        .because("a forward step may leave 1e-4 of the largest force out of balance, and what steps leave is taken up by the next")
+        .why_not_tighter("the residual is measured at a node, the force is that of the whole die")
+        .covers(&[Capability::StaticExplicit])
+        .record();
+    ledger
+        .claim("largest residual left by a step over the largest force, all runs")
+        .value(table.residual)
+        .at_most(1e-4)
+        .evidence(Evidence::Exact, "balance of forces")
+        .because("what exceeds `drift`, 1e-4 by default, is corrected at once")
+        .why_not_tighter("smaller residuals are carried into the next step")
+        .covers(&[Capability::StaticExplicit])
+        .record();
+    let mut head = vec!["bodies and contact", "enforcement", "stepper"];
+    head.extend(LAWS.iter().map(|law| law.name()));
+    ledger.table(
+        "distance of shear tractions from the strength; of static-explicit steps also of their forces from implicit ones",
+        &head,
+        table.rows,
+    );
+    for (k, reason) in table.reasons.iter().enumerate() {
+        ledger.note(format!("({}) {reason}", k + 1));
+    }
+    ledger.note(format!(
+        "{} combinations ran, {} were refused, {} ended at an event.",
+        table.ran, table.refused, table.events
+    ));
+}
+
+/// Claims on the tractions of points that slide.
+fn strengths(ledger: &mut Ledger, table: &Table) {
     let own = "mu f_n, F_limit, or the law's closed form at the rate and state that the outputs show";
     for (tractions, runs, bound, because) in [
         (
@@ -197,39 +237,4 @@ pub fn claims(ledger: &mut Ledger, table: Table) {
         .because("states are steady to e^-20, and the rate changes by what bodies move beside the die")
         .why_not_tighter("a slip rate that still changes by a percent a length is off its steady strength by (a - b) times as much")
         .record();
-    ledger
-        .claim(format!(
-            "largest difference of the force on the die between static-explicit and implicit steps, at the ends of both stages, over its size, {} pairs",
-            table.apart.len()
-        ))
-        .value(largest(&table.apart))
-        .at_most(APART)
-        .evidence(Evidence::SemiAnalytic, "implicit steps, whose balance holds to 1e-11")
-        .because("a forward step may leave 1e-4 of the largest force out of balance, and what steps leave is taken up by the next")
-        .why_not_tighter("the residual is measured at a node, the force is that of the whole die")
-        .covers(&[Capability::StaticExplicit])
-        .record();
-    ledger
-        .claim("largest residual left by a step over the largest force, all runs")
-        .value(table.residual)
-        .at_most(1e-4)
-        .evidence(Evidence::Exact, "balance of forces")
-        .because("what exceeds `drift`, 1e-4 by default, is corrected at once")
-        .why_not_tighter("smaller residuals are carried into the next step")
-        .covers(&[Capability::StaticExplicit])
-        .record();
-    let mut head = vec!["bodies and contact", "enforcement", "stepper"];
-    head.extend(LAWS.iter().map(|law| law.name()));
-    ledger.table(
-        "distance of shear tractions from the strength; of static-explicit steps also of their forces from implicit ones",
-        &head,
-        table.rows,
-    );
-    for (k, reason) in table.reasons.iter().enumerate() {
-        ledger.note(format!("({}) {reason}", k + 1));
-    }
-    ledger.note(format!(
-        "{} combinations ran, {} were refused, {} ended at an event.",
-        table.ran, table.refused, table.events
-    ));
 }

@@ -5,6 +5,7 @@ mod circles;
 mod graph;
 mod house;
 mod keys;
+mod lints;
 mod problem;
 mod readers;
 mod sentences;
@@ -30,6 +31,7 @@ pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
     }
     found.extend(house::check(&files));
     found.extend(keys::check(&files));
+    found.extend(lints::check(&files));
     found.extend(book::check(&files, &|path| root.join(path).exists()));
     found.extend(circles::check(&files));
     found.extend(readers::check(&files));

@@ -1,8 +1,8 @@
 //! Sizes of bodies whose meshes come from files, where a unit that was not said makes them a thousand times too large.
 
 use super::{Body, Model, bounds};
+use crate::lengths::brief;
 use crate::loading::Stage;
-use crate::scene::check::brief;
 use crate::scene::model::{MeshSource, Scene, Spanned};
 use crate::warning::Warning;
 use std::ops::Range;

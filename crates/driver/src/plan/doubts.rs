@@ -3,9 +3,9 @@
 use super::penalty::{self, Softer};
 use super::{PlannedInterface, StartGap, Stepping, coarse, cohesive, start_gaps};
 use crate::diagnostic::Diagnostic;
+use crate::lengths::show;
 use crate::loading::Stage;
 use crate::model::{self, Model, sizes};
-use crate::scene::check::show;
 use crate::scene::model::Scene;
 use crate::warning::Warning;
 

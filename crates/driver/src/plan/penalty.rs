@@ -6,8 +6,8 @@
 
 use super::enforcement::in_pascal_per_metre;
 use crate::diagnostic::Diagnostic;
+use crate::lengths::brief;
 use crate::model::{Body, Model};
-use crate::scene::check::brief;
 use crate::scene::model::{Enforcement, EnforcementKind, Interface as InterfaceSpec, Spanned};
 use crate::scene::units::Penalty;
 use crate::warning::Warning;

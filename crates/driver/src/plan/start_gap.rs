@@ -1,6 +1,6 @@
 //! Where the sides of an interface are before the first step, as data.
 
-use crate::scene::check::brief;
+use crate::lengths::brief;
 use serde::Serialize;
 use std::fmt;
 

@@ -2,7 +2,7 @@
 
 use super::{PlannedInterface, SHARE, StartGap, Stepping};
 use crate::diagnostic::Diagnostic;
-use crate::scene::check::brief;
+use crate::lengths::brief;
 use crate::scene::model::Interface as Spec;
 use crate::warning::Warning;
 use asperity_contact::{Enforcement, Interface, PointFields};

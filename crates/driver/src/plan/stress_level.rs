@@ -2,8 +2,8 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress::vertical;
+use crate::lengths::brief;
 use crate::model::{Model, bounds};
-use crate::scene::check::brief;
 use crate::scene::model::{InitialStress, Scene, Spanned, StressKind};
 
 /// Heights above the level of a lithostatic stress that are rounding, over the size of the scene.

@@ -1,7 +1,6 @@
 //! The bodies of a system at work, condensed or not.
 
-use crate::CellBlock;
-use crate::Counts;
+use crate::{CellBlock, Counts};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::Limited;
 

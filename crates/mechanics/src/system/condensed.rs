@@ -1,9 +1,8 @@
 //! Bodies that are condensed onto the degrees of freedom of their interfaces.
 
 use super::bodies::Bodies;
-use crate::Counts;
 use crate::solver::{self, Prepared};
-use crate::{CellBlock, Problem, free};
+use crate::{CellBlock, Counts, Problem, free};
 use asperity_fem::FemError;
 use asperity_fem::condense::{Analysis, Condensation, Condensed};
 use asperity_fem::dof::{Channel, Constraints};

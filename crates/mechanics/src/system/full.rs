@@ -1,8 +1,7 @@
 //! Bodies whose degrees of freedom are all in the system.
 
 use super::bodies::Bodies;
-use crate::Counts;
-use crate::{CellBlock, Model};
+use crate::{CellBlock, Counts, Model};
 use asperity_fem::dof::Constraints;
 use asperity_fem::loads::ExternalForces;
 use asperity_fem::term::Limited;

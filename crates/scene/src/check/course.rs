@@ -1,6 +1,6 @@
 //! How a prescribed value develops in a stage, as far as it is known before anything is built.
 
-use super::show;
+use crate::lengths::show;
 use crate::model::Motion;
 
 /// Differences of displacement below this share of the larger one come from rounding: a rate times a duration against

@@ -40,10 +40,14 @@ impl Checker<'_> {
                 material.density.as_ref().filter(|d| !DENSITIES.contains(&d.get_ref().0))
             {
                 let found = density.get_ref().0;
+                let help = match DENSITIES.contains(&(1e3 * found)) {
+                    true => format!("numbers without a unit are in kg/m^3: is it \"{found:?} g/cm^3\"?"),
+                    false => "rocks have 2000 to 3500 kg/m^3: is the unit right?".to_owned(),
+                };
                 self.warn(
                     density.span(),
                     format!("the density of `{name}`, {found:?} kg/m^3, is that of no rock or metal"),
-                    "numbers without a unit are in kg/m^3: is it \"2.7 g/cm^3\"?",
+                    help,
                 );
             }
         }

@@ -1,6 +1,7 @@
 //! Meshes: what can be known of them before they are made or read.
 
-use super::{AXES, Checker, show};
+use super::{AXES, Checker};
+use crate::lengths::show;
 use crate::model::{
     BlockMesh, Body, FaultMesh, Kinematics, MeshSource, QuadrilateralMesh, SpacingSpec, Spanned,
 };

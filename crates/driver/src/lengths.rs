@@ -1,3 +1,0 @@
-//! Lengths in words, as scenes write them.
-
-pub(crate) use crate::scene::check::brief;
