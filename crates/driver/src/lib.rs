@@ -3,6 +3,7 @@
 
 mod amounts;
 pub mod balance;
+pub mod checkpoint;
 pub mod cli;
 pub mod cohesive;
 pub mod diagnostic;

@@ -1,7 +1,7 @@
 //! What is in an output directory, and whether a run may begin there.
 
 use super::begin::{Begin, LOCK, REPORT};
-use crate::fault;
+use crate::checkpoint;
 use crate::report::Status;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde::Deserialize;
@@ -15,7 +15,7 @@ const FILES: [&str; 18] = [
     REPORT,
     LOCK,
     ".writable",
-    fault::CHECKPOINT,
+    checkpoint::FILE,
     "fields.pvd",
     "bodies.pvd",
     "events.pvd",
@@ -143,7 +143,7 @@ impl Contents {
         let other = foreign_in(path, |name, entry| Ok((!plain(name)).then(|| entry.to_path_buf())));
         let nothing = other.into_diagnostic().wrap_err_with(told)?.is_none()
             && report.as_ref().is_none_or(|r| r.status != Status::Completed);
-        Ok(Self { foreign, report, checkpoint: path.join(fault::CHECKPOINT).exists(), nothing })
+        Ok(Self { foreign, report, checkpoint: path.join(checkpoint::FILE).exists(), nothing })
     }
 
     /// Whether a run can go on from there.

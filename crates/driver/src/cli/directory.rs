@@ -2,7 +2,7 @@
 
 use super::begin::{Begin, LOCK, REPORT};
 use super::contents::{self, Contents};
-use crate::fault;
+use crate::checkpoint;
 use crate::report::{Origin, Status, commit};
 use asperity_output::atomic;
 use miette::{IntoDiagnostic, WrapErr, miette};
@@ -126,7 +126,7 @@ impl Directory {
         // What cannot be tidied up adds nothing to the error that is reported.
         let _ = match &self.room {
             Room::Used => {
-                let resumable = self.path.join(fault::CHECKPOINT).exists();
+                let resumable = self.path.join(checkpoint::FILE).exists();
                 let status = if resumable { Status::Interrupted } else { Status::Stopped };
                 self.sketch(status, Some(error.to_string()))
             }

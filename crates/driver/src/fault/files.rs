@@ -3,12 +3,12 @@
 //! Rows come by change and by simulated time, not by step, so that files grow with what happens.
 
 use super::cadence::{Cadence, Gauge, RATE_CHANGE, Reading, warning};
-use super::checkpoint::{Checkpoint, ResumeError};
 use super::plan::Plan;
 use super::position::Position;
 use super::run::{Moment, Watcher};
 use super::snapshots::{self, Snapshots};
 use super::stations;
+use crate::checkpoint::{self, ResumeError};
 use crate::warning::Warning;
 use asperity_ode::{Clock, Control};
 use asperity_output::decimals::{fixed, scientific};
@@ -105,7 +105,7 @@ impl<'a> Files<'a> {
     pub fn resume(out: &Path, plan: &'a Plan, from: &Position) -> Result<Self, ResumeError> {
         let (mut rows, heads) = (Vec::new(), Self::heads(out, plan));
         if heads.len() != from.gauges.len() {
-            return Err(Checkpoint::foreign(out, "it has not the output files of this scene"));
+            return Err(checkpoint::foreign(out, "it has not the output files of this scene"));
         }
         for ((path, _), &gauge) in heads.into_iter().zip(&from.gauges) {
             rows.push(Rows::reopen(path, gauge)?);

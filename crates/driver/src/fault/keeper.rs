@@ -1,12 +1,13 @@
 //! Keeps what a run leaves behind: its files, its sums, what a person waiting sees, and the checkpoints.
 
 use super::balance::Balance;
-use super::checkpoint::{Checkpoint, FILE, ResumeError, Stand};
+use super::checkpoint::{Checkpoint, Stand};
 use super::files::Files;
 use super::identity;
 use super::plan::Plan;
 use super::run::{Moment, Run, Watcher};
 use super::words::time;
+use crate::checkpoint::{self, Contents as _, FILE, ResumeError};
 use crate::warning::Warning;
 use asperity_ode::Control;
 use asperity_output::{OutputError, Progress};
@@ -59,7 +60,7 @@ impl<'a> Keeper<'a> {
         physics: &str,
         pauses: Pauses,
     ) -> Result<(Self, Run), ResumeError> {
-        Checkpoint::remove(out)?;
+        checkpoint::remove(out)?;
         let files = Files::create(out, plan)?;
         let faults: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
         let thresholds = plan.settings.thresholds;
@@ -80,7 +81,7 @@ impl<'a> Keeper<'a> {
     ) -> Result<Option<(Self, Run)>, ResumeError> {
         let Some(read) = Checkpoint::read(out, physics)? else { return Ok(None) };
         if read.last.run.unknowns.len() != plan.start.len() {
-            return Err(Checkpoint::foreign(out, "it has not the unknowns of this scene"));
+            return Err(checkpoint::foreign(out, "it has not the unknowns of this scene"));
         }
         let Some((from, before)) = Self::from(out, plan, read)? else { return Ok(None) };
         let files = Files::resume(out, plan, &from.files)?;

@@ -58,7 +58,7 @@ pub use bodies::{Bodies, BodiesView};
 pub use both::Both;
 pub use cadence::Cadence;
 pub use catalogue::{Catalogue, Event, Part, Thresholds};
-pub use checkpoint::{Checkpoint, FILE as CHECKPOINT, ResumeError, Stand};
+pub use checkpoint::{Checkpoint, Stand};
 pub use collections::write as write_fields;
 pub use condense::{Surroundings, Tractions, Weight, condense};
 pub use displacements::write as write_bodies;

@@ -1,0 +1,84 @@
+//! Why a run cannot be resumed.
+
+use asperity_output::OutputError;
+use std::path::PathBuf;
+
+/// See the module.
+#[derive(Debug, thiserror::Error)]
+pub enum ResumeError {
+    /// The checkpoint or an output file cannot be read.
+    #[error("cannot read {path}: {source}")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// The file is no checkpoint, or not what was written.
+    #[error("the checkpoint {path} is damaged: {reason}; run without --resume to begin again")]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// Written by another version of the program.
+    #[error(
+        "the checkpoint {path} has version {found}, and this program reads version {reads}; go on with the program that wrote it, or run without --resume to begin again"
+    )]
+    Version {
+        /// The file.
+        path: PathBuf,
+        /// Its version.
+        found: String,
+        /// The version that this program reads.
+        reads: &'static str,
+    },
+    /// The scene is not the one that was run.
+    #[error(
+        "the checkpoint {path} is of another scene: the scene file or a mesh file has changed since in more than {allowed}; restore it, or run without --resume to begin again"
+    )]
+    Scene {
+        /// The file.
+        path: PathBuf,
+        /// What may change.
+        allowed: &'static str,
+    },
+    /// The loads until then are not those that acted.
+    #[error(
+        "the checkpoint {path} is of other loads: with another duration of the last stage they are not what they were until {until:e} s; prescribe rates instead of values at its end, or run without --resume to begin again"
+    )]
+    Loads {
+        /// The file.
+        path: PathBuf,
+        /// How far the run has got \[s\].
+        until: f64,
+    },
+    /// The run has got farther than the scene now asks for.
+    #[error(
+        "the checkpoint {path} lies beyond what the scene asks for: it is at {at:e} s with {events} events; ask for more, or run without --resume to begin again"
+    )]
+    Beyond {
+        /// The file.
+        path: PathBuf,
+        /// Its time \[s\].
+        at: f64,
+        /// Its events.
+        events: usize,
+    },
+    /// An output file lacks rows that were there.
+    #[error(
+        "{path} has {found} bytes and had {expected} at the checkpoint; restore it, or run without --resume to begin again"
+    )]
+    Shorter {
+        /// The file.
+        path: PathBuf,
+        /// Bytes it has.
+        found: u64,
+        /// Bytes it had.
+        expected: u64,
+    },
+    /// A file cannot be written.
+    #[error(transparent)]
+    Observe(#[from] OutputError),
+}

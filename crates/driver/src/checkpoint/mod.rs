@@ -1,0 +1,110 @@
+//! A run's checkpoint: one file that holds all there is to know to resume it.
+//!
+//! ```text
+//! asperity checkpoint of faults, version 2
+//! <SHA-256 of the rest>
+//! <JSON>
+//! ```
+//!
+//! Decimals of the JSON are the shortest that read back as the same numbers. The file is on the disc under a temporary name before it
+//! takes the place of the one before it.
+
+mod error;
+
+pub use error::ResumeError;
+
+use asperity_output::{OutputError, atomic};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use sha2::{Digest, Sha256};
+use std::fs;
+use std::io::ErrorKind;
+use std::path::Path;
+
+/// Name of the file in the output directory.
+pub const FILE: &str = "checkpoint";
+
+/// What the first line of every checkpoint begins with.
+const KIND: &str = "asperity checkpoint of ";
+
+/// Contents of the checkpoints of one kind of run.
+pub trait Contents: Serialize + DeserializeOwned {
+    /// The kind of run in the plural.
+    const OF: &'static str;
+    /// Version of the contents.
+    const VERSION: &'static str;
+    /// What may change in a scene between two parts of its run.
+    const ALLOWED: &'static str;
+
+    /// Hash of what must not change between two parts of a run.
+    fn physics(&self) -> &str;
+
+    /// Writes the checkpoint into `out`.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    fn write(&self, out: &Path) -> Result<(), OutputError> {
+        let path = out.join(FILE);
+        let contents = serde_json::to_string(self).map_err(|e| OutputError::write(&path, e.into()))?;
+        let (of, version, sum) = (Self::OF, Self::VERSION, sha256(contents.as_bytes()));
+        let text = format!("{KIND}{of}, version {version}\n{sum}\n{contents}\n");
+        atomic::write_durably(&path, text.as_bytes())
+    }
+
+    /// Reads the checkpoint of `out`; none where there is none.
+    ///
+    /// # Errors
+    /// Where it is damaged, of another version, or of another scene than that of `physics`.
+    fn read(out: &Path, physics: &str) -> Result<Option<Self>, ResumeError> {
+        let path = out.join(FILE);
+        let bytes = match fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
+            Err(source) => return Err(ResumeError::Read { path, source }),
+        };
+        let damaged = |reason: &str| ResumeError::Damaged { path: path.clone(), reason: reason.into() };
+        let text = String::from_utf8(bytes).map_err(|_| damaged("it is no text"))?;
+        let mut lines = text.splitn(3, '\n');
+        let kind = lines.next().and_then(|line| line.strip_prefix(KIND));
+        let (of, version) = kind
+            .and_then(|kind| kind.split_once(", version "))
+            .ok_or_else(|| damaged("its first line is that of no checkpoint"))?;
+        if of != Self::OF {
+            return Err(damaged(&format!("it is of a run of {of}, and the scene is of {}", Self::OF)));
+        }
+        if version != Self::VERSION {
+            return Err(ResumeError::Version { path, found: version.into(), reads: Self::VERSION });
+        }
+        let sum = lines.next().unwrap_or_default();
+        let contents = lines.next().and_then(|rest| rest.strip_suffix('\n')).unwrap_or_default();
+        if sha256(contents.as_bytes()) != sum {
+            return Err(damaged("its contents do not have the sum written beside them"));
+        }
+        let read: Self = serde_json::from_str(contents).map_err(|e| damaged(&e.to_string()))?;
+        if read.physics() != physics {
+            return Err(ResumeError::Scene { path, allowed: Self::ALLOWED });
+        }
+        Ok(Some(read))
+    }
+}
+
+/// An error about contents that do not fit the run.
+pub fn foreign(out: &Path, reason: &str) -> ResumeError {
+    ResumeError::Damaged { path: out.join(FILE), reason: reason.into() }
+}
+
+/// Removes the checkpoint of an earlier run from `out`.
+///
+/// # Errors
+/// When there is one that cannot be removed.
+pub fn remove(out: &Path) -> Result<(), OutputError> {
+    let path = out.join(FILE);
+    match fs::remove_file(&path) {
+        Err(e) if e.kind() != ErrorKind::NotFound => Err(OutputError::write(&path, e)),
+        _ => Ok(()),
+    }
+}
+
+fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
+}
