@@ -136,7 +136,8 @@ impl<const D: usize> Running<'_, D> {
                         slip: system.slip_error(&before, accepted.dt),
                         friction: accepted.error,
                         fill: system.slip_fill(),
-                        iterations: accepted.iterations,
+                        // Rounds of multipliers solve anew from where the last one ended: a step is hard where one solution is.
+                        iterations: accepted.iterations.div_ceil(accepted.augmentations + 1),
                     };
                     length.accepted((accepted.dt, accepted.cut), figures);
                     self.record(index, stage, system, &accepted, (rejected, length.reason()));

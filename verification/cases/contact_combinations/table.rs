@@ -3,6 +3,7 @@
 use super::cell::{Cell, ENFORCEMENTS, End, Face, Kinematics, LAWS, Law, Start};
 use crate::{Capability, CaseError, Evidence, Ledger};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Bound on forces of forward against implicit steps, over their size: twice what a forward step may leave unbalanced.
 const APART: f64 = 2e-4;
@@ -14,6 +15,9 @@ const MISSED: f64 = 1e-12;
 const SOLVED: f64 = 5e-11;
 /// Bound on tractions against the strength in the steady state, over the largest.
 const UNSTEADY: f64 = 2e-4;
+
+/// Long tables print a line after so many combinations.
+const PROGRESS: usize = 200;
 
 /// The enforcement whose multipliers are unknowns.
 const UNKNOWNS: &str = ENFORCEMENTS[2];
@@ -45,8 +49,20 @@ impl Table {
     /// # Errors
     /// When a run cannot be set up after its plan was accepted.
     pub fn of(cells: &[Cell]) -> Result<Self, CaseError> {
+        let done = AtomicUsize::new(0);
         let both = |cell: &Cell| {
-            [false, true].map(|forward| Cell { forward, ..*cell }.end().map_err(|e| e.to_string()))
+            let ends =
+                [false, true].map(|forward| Cell { forward, ..*cell }.end().map_err(|e| e.to_string()));
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            if done.is_multiple_of(PROGRESS) {
+                eprintln!(
+                    "  {done} of {} combinations, the last: {}, {}",
+                    cells.len(),
+                    in_words(cell),
+                    cell.law.name()
+                );
+            }
+            ends
         };
         let ends: Vec<_> = cells.par_iter().map(both).collect();
         let mut table = Self::default();

@@ -228,6 +228,33 @@ fn slip_across_coplanar_segments_is_the_sum_of_the_path() {
 }
 
 #[test]
+fn a_point_that_hangs_over_the_rim_slides_along_it_from_segment_to_segment() {
+    // A strip of three squares; the slave starts on its long rim and leaves it by up to 1.3e-3 of a square.
+    let mut x: Vec<[f64; 3]> = (0..8).map(|k| [f64::from(k / 2), f64::from(k % 2), 0.0]).collect();
+    x.push([0.5, 0.0, 0.0]);
+    let quad = |k: usize| Segment { kind: SegmentKind::Quad4, nodes: vec![k, k + 2, k + 3, k + 1] };
+    let master = [0, 2, 4].map(quad).into();
+    let mut interface = Interface::new(spec(&x, &[8], master, Sliding::Finite, None)).unwrap();
+    for k in 1..=17 {
+        let mut u = vec![0.0; 27];
+        u[24] = 0.1 * f64::from(k);
+        // At first less than what the search takes for rounding.
+        let hangs = |k: i32| -1e-8 * (2f64.powi(k) - 1.0);
+        (u[25], u[26]) = (hangs(k), -0.01);
+        interface.prepare(&u).unwrap();
+        residual(&mut interface, &u);
+        // As after an iteration of Newton's method: the pairing is asked for once more before the step is accepted.
+        interface.prepare(&u).unwrap();
+        interface.accept();
+        let points = interface.points();
+        assert_relative_eq!(points.gap[0], -0.01, max_relative = 1e-12);
+        // Rounding of positions of the size 1 m.
+        assert_relative_eq!(points.slip_increment[0][0], 0.1, epsilon = 1e-14);
+        assert_relative_eq!(points.slip_increment[0][1], hangs(k) - hangs(k - 1), epsilon = 1e-14);
+    }
+}
+
+#[test]
 fn restoring_saved_history_continues_bit_by_bit() {
     fn check<const D: usize>(make: impl Fn() -> (Interface<D>, Vec<f64>, Vec<f64>, Vec<[f64; D]>)) {
         let (mut first, a, b, _) = make();

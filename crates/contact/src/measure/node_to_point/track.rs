@@ -133,16 +133,22 @@ impl<const D: usize> Tracker<'_, D> {
         };
         let (segment, projection) =
             if point.leaving { self.entering(held, segment, found, projections) } else { (segment, found) };
-        if self.surface.on_rim(segment, projection.outcome) && self.off_normal(segment, &projection) {
-            return (held.filter(|h| self.keeps(h)), 0.0);
-        }
-        let place = Place { segment, xi: projection.xi };
         if projection.outcome == Outcome::None {
             return (None, 0.0);
         }
+        let place = Place { segment, xi: projection.xi };
         // Next to a corner that stands out the closest point is the corner, and the foot lies outside.
         let foot = self.foot(&place).filter(|f| self.keeps(f));
-        (Some(place), foot.map_or(0.0, |f| self.certain(&f)))
+        let radius = foot.map_or(0.0, |f| self.certain(&f));
+        if foot.is_some() && point.place.is_some_and(|h| h.segment == segment) {
+            return (point.place, radius);
+        }
+        if self.surface.on_rim(segment, projection.outcome) && self.off_normal(segment, &projection) {
+            // A point that hangs over the rim slides along it from segment to segment.
+            let slides = foot.filter(|_| point.place.is_some());
+            return (slides.or(held.filter(|h| self.keeps(h))), 0.0);
+        }
+        (Some(place), radius)
     }
 
     /// The foot on the continued segment of `place`.
