@@ -23,8 +23,8 @@ impl<'de> Deserialize<'de> for Motion {
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str(
-                    "a motion: a displacement such as \"1 mm\" or 0, \"hold\", \"free\", { to = .. }, { rate = .. }, \
-                     { spring = .., rate = .. } or { table = [[time, displacement], ..] }",
+                    "a motion such as \"1 mm\", 0, \"hold\", \"free\", {to = ..}, {rate = ..}, \
+                     {spring = .., rate = ..} or {table = [[time, displacement], ..]}",
                 )
             }
 
@@ -79,8 +79,8 @@ impl<'de> Deserialize<'de> for SideSpring {
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str(
-                    "the stiffness of a spring that draws the whole side, a number in N/m without quotes (in the plane per metre \
-                     of thickness, which is Pa)",
+                    "a number of N/m without quotes, the stiffness of a spring that draws the whole side (in the plane Pa: \
+                     per metre of thickness)",
                 )
             }
 

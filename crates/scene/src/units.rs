@@ -233,7 +233,7 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, String> {
     if !same {
         return match (wanted, unit.dimension) {
             (Dimension::Spring | Dimension::Stiffness, Dimension::Pressure) => refuse(
-                "a pressure; a stiffness is one per length: a modulus over the length that it strains, such as \"30 GPa/km\"",
+                "a pressure. A stiffness is a modulus over the length that it strains, such as \"30 GPa/km\"",
             ),
             (_, found) => refuse(found.name()),
         };

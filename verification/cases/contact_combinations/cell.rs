@@ -110,8 +110,10 @@ const UNKNOWNS: &str = "{ kind = \"augmented-lagrangian\", normal = \"1 E/h\", t
 
 /// Steps where bodies yield, or where points close under friction within implicit steps (static-explicit ones end at each closing). No
 /// error estimate sees either. Plastic flow over half a metre of sliding errs by 1e-3 of the force in either stepper at the usual
-/// twentieth of a stage, by 4e-5 in steps of 20 ms, and by 1e-5 in these.
+/// twentieth of a stage, by 4e-5 in steps of 20 ms, and by 1e-5 in steps of 5 ms.
 const SHORT_STEPS: Change<'_> = Add("time.max_step", "5 ms");
+/// The same of plastic bodies in space, where a step costs ten times as much.
+const SHORT_STEPS_IN_SPACE: Change<'_> = Add("time.max_step", "20 ms");
 
 const MU: f64 = 0.4;
 /// F_limit of the capped laws \[Pa\]; the mean normal traction is some 20 MPa.
@@ -287,8 +289,11 @@ impl Cell {
         if self.forward {
             scene = scene.with("time.stepper", "static-explicit").without("time.tolerance");
         }
-        if self.bodies.plastic || !self.forward && self.face == Face::Round {
+        let closes = !self.forward && self.face == Face::Round && self.start == Start::Rough;
+        if closes || self.bodies.plastic && self.kinematics != Kinematics::Space {
             scene = scene.changed(&[SHORT_STEPS]);
+        } else if self.bodies.plastic {
+            scene = scene.changed(&[SHORT_STEPS_IN_SPACE]);
         }
         Ok(scene.text()?)
     }

@@ -27,11 +27,16 @@ pub fn check(file: &File) -> Vec<Problem> {
     found
 }
 
-/// Paragraphs and entries of lists, each with its first line from 1, without code.
+/// Paragraphs, entries of lists and quotes, each with its first line from 1, without code.
 fn paragraphs(text: &str) -> Vec<(usize, String)> {
     let (mut found, mut fenced, mut open) = (Vec::<(usize, String)>::new(), false, false);
+    let mut quoted = false;
     for (number, line) in text.lines().enumerate() {
-        let words = line.trim_start();
+        let quote = line.strip_prefix("> ");
+        let words = quote.unwrap_or(line).trim_start();
+        // A quoted message and what it advises are read one after the other.
+        open &= quoted == quote.is_some() && !(quoted && words.starts_with("help: "));
+        quoted = quote.is_some();
         let fence = words.starts_with("```");
         fenced ^= fence;
         if fenced || fence || words.is_empty() || words.starts_with(['|', '#', '!', '<']) {
@@ -99,5 +104,15 @@ mod tests {
         assert!(found.iter().all(|problem| problem.warning));
         assert_eq!(found.iter().map(|problem| problem.line).collect::<Vec<_>>(), [4, 13]);
         assert_eq!(check(&File { path: "CHANGELOG.md".to_owned(), text }), []);
+    }
+
+    #[test]
+    fn a_quoted_message_and_its_advice_are_read_one_after_the_other() {
+        let half = "word ".repeat(20);
+        let lines = |quote: &str| {
+            let text = format!("- {half}\n{quote}{half}\n{quote}help: {half}\n");
+            check(&File { path: "docs/src/a.md".to_owned(), text }).len()
+        };
+        assert_eq!((lines("> "), lines("  ")), (0, 1));
     }
 }

@@ -143,7 +143,7 @@ pub fn check(name: &str, spec: &InterfaceSpec, softer: &Softer) -> Result<(), Di
             Diagnostic::at(
                 given.penalty.span(),
                 format!(
-                    "{}: rounding of positions, 2e-16 of the {} of the scene, is an error of {error:.1e} E in the tractions, above {MOST_ROUNDING:.0e}",
+                    "{}. Rounding of positions, 2e-16 of the {} of the scene, is then an error of {error:.1e} E in the tractions, and {MOST_ROUNDING:.0e} E is allowed",
                     given.words(softer),
                     brief(softer.extent * softer.size)
                 ),

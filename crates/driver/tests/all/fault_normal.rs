@@ -5,6 +5,8 @@ use asperity_driver::fault::{Balance, Moment, Plan, Report, Run, run};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Outcome};
+use asperity_vary::Change::{Add, With, Without};
+use asperity_vary::SceneText;
 
 /// A fault of this trace below a free surface, with these keys, that plates draw along the first leg of the trace in the sense of `sign`.
 fn dipping(trace: &str, direction: [f64; 2], sign: f64, keys: &str) -> String {
@@ -233,47 +235,42 @@ fn points_are_counted_along_the_cohesive_zone_and_few_are_warned_of_or_refused()
 /// What weight refuses, each with the remedy that it names.
 #[test]
 fn scenes_that_weight_makes_impossible_are_accepted_with_the_remedy_of_their_refusal() {
-    let file = |name: &str| {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_scenes").join(name);
-        std::fs::read_to_string(path).unwrap()
-    };
-    let shear = "profiles.shear = { along = \"y\", points = [[\"-20 km\", 80e6], [\"0 km\", 1e5]] }\nrate = ";
-    let stress = |s: &str| format!("initial_stress = {s}\ngravity = ");
-    for (name, from, to) in [
-        (
-            "fault_weight_presses_nothing.toml",
-            "rate = \"-1e-9",
-            "normal_floor = \"1 MPa\"\nrate = \"-1e-9".to_string(),
-        ),
-        ("fault_weight_presses_nothing.toml", "gravity = ", stress("[\"-1 MPa\", \"-3 MPa\", 0]")),
-        ("fault_weight_against_rate.toml", "rate = \"", format!("{shear}\"")),
-        ("fault_weight_against_rate.toml", "gravity = ", stress("[\"-200 MPa\", \"-10 MPa\", 0]")),
-        ("fault_weight_against_rate.toml", "rate = \"1e-9", "rate = \"-1e-9".into()),
-        ("fault_weight_and_normal.toml", "normal = \"50 MPa\"", String::new()),
-        ("fault_weight_and_normal.toml", "gravity = [0, -9.81]", String::new()),
-        ("fault_gravity.toml", "gravity = [-9.81]", String::new()),
-        ("fault_weight_of_one_body.toml", "[bodies.B]", "[bodies.B]\ngravity = [0, -9.81]".into()),
+    let presses_nothing = "fault-weight: weight presses nothing";
+    let against_rate = "fault-weight: weight against rate";
+    let and_normal = "fault-weight: weight and normal";
+    let stress = "bodies.crust.initial_stress";
+    let shear = "{ shear = { along = \"y\", points = [[\"-20 km\", 80e6], [\"0 km\", 1e5]] } }";
+    for (name, change) in [
+        (presses_nothing, Add("faults.main.normal_floor", "1 MPa")),
+        (presses_nothing, Add(stress, "[\"-1 MPa\", \"-3 MPa\", 0]")),
+        (against_rate, Add("faults.main.profiles", shear)),
+        (against_rate, Add(stress, "[\"-200 MPa\", \"-10 MPa\", 0]")),
+        (against_rate, With("faults.main.rate", "-1e-9 m/s")),
+        (and_normal, Without("faults.main.normal")),
+        (and_normal, Without("bodies.crust.gravity")),
+        ("faults: gravity", Without("bodies.A.gravity")),
+        ("faults-in-space: weight of one body", Add("bodies.B.gravity", "[0, -9.81]")),
     ] {
-        let text = file(name);
-        let change = |text: &str| {
+        let told = |text: &str| {
             scene::read(text).map_err(|e| e.to_string()).and_then(|s| plan_scene(&s).map_err(|e| e.message))
         };
-        assert!(text.contains(from) && change(&text).is_err(), "{name}");
-        let mended =
-            text.replacen(from, &to, 1).replace("rate = \"", "under_resolved = \"allow\"\nrate = \"");
-        // A vertical fault between two blocks is not sheared by weight.
-        let mended =
-            mended.replace("rate = 1e-9\n", "normal_floor = \"1 MPa\"\nshear = \"20 MPa\"\nrate = 1e-9\n");
-        assert!(change(&mended).is_ok(), "{name} {to}: {:?}", change(&mended).err());
+        let text = crate::messages::text(name);
+        assert!(told(&text).is_err(), "{name}");
+        let mut mended = SceneText::new(&text).changed(&[change]).add("faults.main.under_resolved", "allow");
+        if name.ends_with("of one body") {
+            // A vertical fault between two blocks is not sheared by weight.
+            mended = mended.add("faults.main.normal_floor", "1 MPa").add("faults.main.shear", "20 MPa");
+        }
+        let mended = mended.text().unwrap();
+        assert!(told(&mended).is_ok(), "{name} {change:?}: {:?}", told(&mended).err());
     }
 }
 
 /// Conditions on the lower end of blocks that move as the creep has it say nothing new, and count once.
 #[test]
 fn conditions_that_say_the_same_as_creep_count_once() {
-    let file =
-        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_scenes/fault_creep_and_sides.toml");
-    let text = std::fs::read_to_string(file).unwrap().replace("rate = 3e-9", "rate = 1e-9");
+    let refused = crate::messages::text("faults-in-space: creep and sides");
+    let text = SceneText::new(&refused).with("faults.main.creep.rate", "1e-9").text().unwrap();
     let plan = planned(&text).unwrap();
     assert!(plan.warnings.is_empty(), "{:?}", plan.warnings);
     // Blocks that slip everywhere at the rate of the creep move rigidly.

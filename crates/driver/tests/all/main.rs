@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod antiplane;
-mod bad_scenes;
+
 mod bodies;
 mod command;
 mod common;
@@ -23,9 +23,11 @@ mod located;
 mod memory;
 mod mesh_files;
 mod meshes;
+mod messages;
 mod names;
 mod resume;
 mod samples;
+mod scenes;
 mod slider;
 mod slider_outputs;
 mod snapshot;

@@ -218,9 +218,9 @@ impl Reader {
         let (message, help) = if value < 0.0 && value.is_finite() && self.kind == "rate" {
             (
                 format!(
-                    "the problem is ill-posed: with a = {value:?} the strength falls with the slip rate at once, and \
-                     a quasi-static continuum has neither a state, a slip length nor inertia to bound how fast slip \
-                     grows at the shortest wavelengths, so the answer would be the mesh's"
+                    "the problem is ill-posed: with a = {value:?} the strength falls at once as the slip rate grows. \
+                     Without a state, a slip length or inertia nothing bounds the growth of slip at the shortest \
+                     wavelengths, and the answer would depend on the mesh"
                 ),
                 "for weakening use `kind = \"rate-and-state\"` with 0 < a < b and a slip length `l`"
                     .to_string(),

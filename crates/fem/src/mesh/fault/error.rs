@@ -64,8 +64,8 @@ pub enum FaultMeshError {
     },
     /// A smooth curve through the vertices that overshoots.
     #[error(
-        "the smooth curve through the vertices of the trace turns flat or leaves the box at ({:.6}, {:.6}) m, in segment {segment}: more vertices \
-         where the trace bends, or straight lines between them, are needed", .at[0], .at[1]
+        "the smooth curve through the vertices of the trace turns flat or leaves the box at ({:.6}, {:.6}) m, in segment {segment}. \
+         Add vertices where the trace bends, or join them by straight lines", .at[0], .at[1]
     )]
     Curve {
         /// Where \[m\].
