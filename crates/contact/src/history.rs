@@ -1,105 +1,180 @@
-//! Committed history of an interface as plain numbers.
+//! Committed history of an interface as values.
 
 use crate::interface::Interface;
-use asperity_fem::term::Saved;
+use crate::measure::saved::MeasureState;
+use crate::observe::Work;
+use crate::shear::Shear;
+use asperity_fem::term::{Saved, Term as _};
 use asperity_friction::law::Regime;
+use serde::{Deserialize, Serialize};
 
-/// Reads numbers one after another.
-struct Reader<'a> {
-    from: &'a [f64],
+/// See the module. Fields that follow from others are not in it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct InterfaceState {
+    /// Length of the last step under the present law \[s\], on which two-step differences look back.
+    previous_dt: Option<f64>,
+    /// Displacements of the nodes \[m\], one after another.
+    displacements: Vec<f64>,
+    /// Whether each point is closed.
+    closed: Vec<bool>,
+    /// Normal tractions \[Pa\], which are the multipliers of the next step where there are any.
+    normal_traction: Vec<f64>,
+    /// Relative tangential displacement \[m\].
+    relative: Vec<[f64; 2]>,
+    /// Slip \[m\].
+    slip: Vec<[f64; 2]>,
+    /// Slip increment of the last step \[m\].
+    step: Vec<[f64; 2]>,
+    /// Friction, where a law acts.
+    shear: Option<ShearState>,
+    /// Multipliers that are unknowns of the system, at the last commit.
+    unknowns: Vec<f64>,
+    /// Gaps at which points were bonded \[m\], none at points without a partner.
+    tied: Option<Vec<Option<f64>>>,
+    /// Whether tractions of an initial stress still act.
+    pressed: bool,
+    /// Pairing.
+    measure: MeasureState,
+    /// Normal and frame of points without a partner: those of the place where they lost it.
+    lost: Vec<(usize, Vec<f64>)>,
+    /// The point that lost strength in the trial dropped last.
+    soft: Option<usize>,
+    /// Counts of work.
+    work: Work,
 }
 
-impl<'a> Reader<'a> {
-    fn take(&mut self, n: usize) -> &'a [f64] {
-        let (head, tail) = self.from.split_at(n);
-        self.from = tail;
-        head
+/// Friction at all points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct ShearState {
+    /// Shear tractions \[Pa\].
+    traction: Vec<[f64; 2]>,
+    /// Slip rates \[m/s\].
+    rate: Vec<f64>,
+    /// Whether each point slips.
+    slips: Vec<bool>,
+    /// State variables, point-major.
+    states: Vec<f64>,
+    /// Slopes of the law in the last trial, which tell the point that weakens where the next one is refused at once.
+    slopes: Vec<f64>,
+}
+
+impl ShearState {
+    fn of(shear: &Shear) -> Self {
+        let c = &shear.committed;
+        Self {
+            traction: c.traction.clone(),
+            rate: c.rate.clone(),
+            slips: c.regime.iter().map(|r| *r == Regime::Slip).collect(),
+            states: c.states.clone(),
+            slopes: shear.points.iter().map(|p| p.d_trial).collect(),
+        }
     }
 
-    fn one(&mut self) -> f64 {
-        self.take(1)[0]
+    fn fits(&self, shear: &Shear) -> bool {
+        let (c, n) = (&shear.committed, shear.points.len());
+        let lengths = [self.traction.len(), self.rate.len(), self.slips.len(), self.slopes.len()];
+        lengths.iter().all(|l| *l == n) && self.states.len() == c.states.len()
     }
 
-    fn vectors<const N: usize>(&mut self, out: &mut [[f64; N]]) {
-        for o in out {
-            o.copy_from_slice(self.take(N));
+    fn put(&self, shear: &mut Shear) {
+        let c = &mut shear.committed;
+        c.traction.copy_from_slice(&self.traction);
+        c.rate.copy_from_slice(&self.rate);
+        c.states.copy_from_slice(&self.states);
+        for (regime, slips) in c.regime.iter_mut().zip(&self.slips) {
+            *regime = if *slips { Regime::Slip } else { Regime::Stick };
+        }
+        for (point, slope) in shear.points.iter_mut().zip(&self.slopes) {
+            point.d_trial = *slope;
         }
     }
 }
 
 impl<const D: usize> Interface<D> {
-    /// Unknowns beside the displacements.
-    fn unknown(&self) -> usize {
-        self.unknowns.as_ref().map_or(0, |u| u.committed.len())
+    /// Normal and frame of points without a partner.
+    fn lost(&self) -> Vec<(usize, Vec<f64>)> {
+        let g = &self.geometry;
+        let alone = (0..self.slave.len()).filter(|&p| !g.paired[p]);
+        alone.map(|p| (p, [g.normal[p], g.frame[p][0], g.frame[p][1]].concat())).collect()
     }
 
-    fn saved_length(&self) -> usize {
+    fn fits(&self, saved: &InterfaceState) -> bool {
         let n = self.slave.len();
-        let shear = self.shear.as_ref().map_or(0, |s| n * (4 + s.states()));
-        1 + self.nodes.len() * D + 2 * n + 6 * n + shear + self.unknown() + self.measure.saved()
+        let of_points = [saved.relative.len(), saved.slip.len(), saved.step.len(), saved.closed.len()];
+        let shear = match (&saved.shear, &self.shear) {
+            (Some(saved), Some(own)) => saved.fits(own),
+            (saved, own) => saved.is_none() && own.is_none(),
+        };
+        of_points.iter().all(|l| *l == n)
+            && saved.normal_traction.len() == n
+            && saved.displacements.len() == self.nodes.len() * D
+            && saved.unknowns.len() == self.unknowns.as_ref().map_or(0, |u| u.committed.len())
+            && saved.tied.as_ref().is_none_or(|t| t.len() == n)
+            && saved.lost.iter().all(|(p, v)| *p < n && v.len() == 3 * D)
+            && shear
     }
 }
 
 impl<const D: usize> Saved for Interface<D> {
-    fn save(&self) -> Vec<f64> {
-        let mut out = Vec::with_capacity(self.saved_length());
-        out.push(self.previous_dt.unwrap_or(0.0));
-        out.extend(self.u.committed.iter().flatten());
-        for c in &self.contact.committed {
-            out.extend_from_slice(&[f64::from(u8::from(c.closed)), c.traction]);
+    type State = InterfaceState;
+
+    fn save(&self) -> InterfaceState {
+        let (contact, motion) = (&self.contact.committed, &self.motion.committed);
+        let bond = |gap: &f64| gap.is_finite().then_some(*gap);
+        InterfaceState {
+            previous_dt: self.previous_dt,
+            displacements: self.u.committed.iter().flatten().copied().collect(),
+            closed: contact.iter().map(|c| c.closed).collect(),
+            normal_traction: contact.iter().map(|c| c.traction).collect(),
+            relative: motion.relative.clone(),
+            slip: motion.slip.clone(),
+            step: motion.step.clone(),
+            shear: self.shear.as_ref().map(ShearState::of),
+            unknowns: self.unknowns.as_ref().map_or_else(Vec::new, |u| u.committed.clone()),
+            tied: self.tied.as_ref().map(|t| t.iter().map(bond).collect()),
+            pressed: self.pressed.is_some(),
+            measure: self.measure.save(),
+            lost: self.lost(),
+            soft: self.soft,
+            work: self.work,
         }
-        let m = &self.motion.committed;
-        for v in [&m.relative, &m.slip, &m.step] {
-            out.extend(v.iter().flatten());
-        }
-        if let Some(shear) = &self.shear {
-            let c = &shear.committed;
-            out.extend(c.traction.iter().flatten());
-            out.extend_from_slice(&c.rate);
-            out.extend(c.regime.iter().map(|r| f64::from(u8::from(*r == Regime::Slip))));
-            out.extend_from_slice(&c.states);
-        }
-        if let Some(unknowns) = &self.unknowns {
-            out.extend_from_slice(&unknowns.committed);
-        }
-        self.measure.save(&mut out);
-        out
     }
 
-    fn restore(&mut self, saved: &[f64]) -> bool {
-        if saved.len() != self.saved_length() {
+    fn restore(&mut self, saved: &InterfaceState) -> bool {
+        if !self.fits(saved) || !self.measure.restore(&saved.measure) {
             return false;
         }
-        let mut r = Reader { from: saved };
-        let dt = r.one();
-        self.previous_dt = (dt > 0.0).then_some(dt);
-        r.vectors(&mut self.u.committed);
-        for c in &mut self.contact.committed {
-            c.closed = r.one() > 0.0;
-            c.traction = r.one();
-            c.stiffness = if c.closed { self.penalty.stiffness } else { 0.0 };
+        self.previous_dt = saved.previous_dt;
+        for (u, saved) in self.u.committed.iter_mut().zip(saved.displacements.chunks_exact(D)) {
+            u.copy_from_slice(saved);
         }
-        let m = &mut self.motion.committed;
-        for v in [&mut m.relative, &mut m.slip, &mut m.step] {
-            r.vectors(v);
+        let contact = saved.closed.iter().zip(&saved.normal_traction);
+        for (c, (&closed, &traction)) in self.contact.committed.iter_mut().zip(contact) {
+            (c.closed, c.traction) = (closed, traction);
+            c.stiffness = if closed { self.penalty.stiffness } else { 0.0 };
         }
-        if let Some(shear) = &mut self.shear {
-            let c = &mut shear.committed;
-            r.vectors(&mut c.traction);
-            let n = c.rate.len();
-            c.rate.copy_from_slice(r.take(n));
-            for regime in &mut c.regime {
-                *regime = if r.one() > 0.0 { Regime::Slip } else { Regime::Stick };
-            }
-            let states = c.states.len();
-            c.states.copy_from_slice(r.take(states));
+        let motion = &mut self.motion.committed;
+        motion.relative.copy_from_slice(&saved.relative);
+        motion.slip.copy_from_slice(&saved.slip);
+        motion.step.copy_from_slice(&saved.step);
+        self.tied = saved.tied.as_ref().map(|t| t.iter().map(|g| g.unwrap_or(f64::INFINITY)).collect());
+        self.pressed = self.pressed.take().filter(|_| saved.pressed);
+        if let Some((shear, saved)) = self.shear.as_mut().zip(saved.shear.as_ref()) {
+            saved.put(shear);
         }
         if let Some(unknowns) = &mut self.unknowns {
-            let n = unknowns.committed.len();
-            unknowns.committed.copy_from_slice(r.take(n));
+            unknowns.committed.copy_from_slice(&saved.unknowns);
+            unknowns.present.copy_from_slice(&saved.unknowns);
+            unknowns.renew(self.measure.as_ref(), true);
         }
-        self.measure.restore(r.from);
-        asperity_fem::term::Term::reject(self);
+        self.reject();
+        for (p, values) in &saved.lost {
+            let (normal, frame) = values.split_at(D);
+            self.geometry.normal[*p].copy_from_slice(normal);
+            self.geometry.frame[*p][0].copy_from_slice(&frame[..D]);
+            self.geometry.frame[*p][1].copy_from_slice(&frame[D..]);
+        }
+        (self.soft, self.work) = (saved.soft, saved.work);
         self.refresh();
         true
     }

@@ -27,6 +27,7 @@ pub mod watch;
 
 pub use enforce::Enforcement;
 pub use error::ContactError;
+pub use history::InterfaceState;
 pub use interface::Interface;
 pub use observe::{Balance, PointFields, Work};
 pub use press::StartTraction;

@@ -2,6 +2,7 @@
 
 use crate::status::Status;
 use crate::vector::{dot, norm};
+use serde::{Deserialize, Serialize};
 
 /// Committed fields, one value a slave point.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -123,7 +124,7 @@ pub struct Balance<const D: usize> {
 }
 
 /// Counts of work since construction.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Work {
     /// Searches (evaluations of the pairing).
     pub searches: u64,

@@ -199,11 +199,14 @@ pub trait Limited: Linearized {
     }
 }
 
-/// Writes and reads committed history.
+/// Gives and takes committed history as plain values.
 pub trait Saved {
-    /// Committed history as plain numbers.
-    fn save(&self) -> Vec<f64>;
+    /// The values.
+    type State;
 
-    /// Restores what [`Saved::save`] wrote. Returns false, changing nothing, when the length does not fit.
-    fn restore(&mut self, saved: &[f64]) -> bool;
+    /// Committed history, and all else that decides how the term answers what follows, to the last bit.
+    fn save(&self) -> Self::State;
+
+    /// Restores what [`Saved::save`] gave. Returns false, changing nothing, when the sizes do not fit.
+    fn restore(&mut self, saved: &Self::State) -> bool;
 }

@@ -1,7 +1,9 @@
 //! Counts of the work of steppers.
 
+use serde::{Deserialize, Serialize};
+
 /// See the module.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
     /// Newton iterations, or forward solves.
     pub iterations: usize,

@@ -9,7 +9,7 @@ use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::{Mesh, Side};
 use asperity_fem::nonlinear;
 use asperity_fem::surface;
-use asperity_fem::term::{Limited, Linearized, Pattern};
+use asperity_fem::term::{Limited, Linearized, Pattern, Saved as _};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -29,6 +29,23 @@ impl<const D: usize> CellBlock<D> {
         match self {
             Self::Linear(block) => Some(block),
             Self::Nonlinear(_) => None,
+        }
+    }
+
+    /// The block of large strain or with a history, where it is one.
+    pub fn nonlinear_mut(&mut self) -> Option<&mut nonlinear::Block<D>> {
+        match self {
+            Self::Linear(_) => None,
+            Self::Nonlinear(block) => Some(block),
+        }
+    }
+
+    /// Its history; none where there is nothing to remember.
+    #[must_use]
+    pub fn history(&self) -> Option<Vec<f64>> {
+        match self {
+            Self::Linear(_) => None,
+            Self::Nonlinear(block) => Some(block.save()),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::step::Cut;
 use super::{Control, Stage};
+use serde::{Deserialize, Serialize};
 
 /// Share of the optimal length that is tried: the usual safety of step controllers.
 const SAFETY: f64 = 0.9;
@@ -40,6 +41,15 @@ pub struct Figures {
     pub fill: f64,
     /// Newton iterations.
     pub iterations: usize,
+}
+
+/// What the choice of step lengths keeps from step to step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StepLengthState {
+    /// Length wanted next \[s\]; none where imposed ends alone decide.
+    wanted: Option<f64>,
+    /// Whether the last trial failed.
+    failed: bool,
 }
 
 /// Chooses step lengths within one stage.
@@ -172,6 +182,18 @@ impl StepLength {
     #[must_use]
     pub fn exhausted(&self) -> Option<(f64, f64)> {
         self.needed.map(|needed| (needed, self.smallest))
+    }
+
+    /// What it keeps from step to step.
+    #[must_use]
+    pub fn save(&self) -> StepLengthState {
+        StepLengthState { wanted: self.dt.is_finite().then_some(self.dt), failed: self.failed }
+    }
+
+    /// The same, with what one of the same stage kept.
+    #[must_use]
+    pub fn restored(self, saved: &StepLengthState) -> Self {
+        Self { dt: saved.wanted.unwrap_or(f64::INFINITY), failed: saved.failed, ..self }
     }
 
     /// Smallest step \[s\].

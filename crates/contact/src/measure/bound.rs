@@ -1,5 +1,6 @@
 //! How far nodes may move before a search has to be made again.
 
+use super::saved::Proved;
 use crate::vector::{dot, sub};
 
 /// What a search proved: its result stays while no node moves by as much as `radius` from `x`.
@@ -9,12 +10,29 @@ pub(super) struct Bound<const D: usize> {
     radius: f64,
 }
 
+/// Whether what was proved is about so many nodes, or nothing was.
+pub(super) fn fits<const D: usize>(saved: &Proved, nodes: usize) -> bool {
+    saved.positions.is_empty() || saved.positions.len() == nodes * D
+}
+
 impl<const D: usize> Bound<D> {
     /// A search at positions `x` holds within `radius` \[m\].
     pub(super) fn prove(&mut self, x: &[[f64; D]], radius: f64) {
         self.x.clear();
         self.x.extend_from_slice(x);
         self.radius = radius;
+    }
+
+    /// As values.
+    pub(super) fn save(&self) -> Proved {
+        let positions = self.x.iter().flatten().copied().collect();
+        Proved { positions, radius: self.radius.is_finite().then_some(self.radius) }
+    }
+
+    /// From values.
+    pub(super) fn of(saved: &Proved) -> Self {
+        let x = saved.positions.as_chunks::<D>().0.to_vec();
+        Self { x, radius: saved.radius.unwrap_or(f64::INFINITY) }
     }
 
     /// Whether the result is certain at positions `x`.

@@ -10,6 +10,7 @@
 //!
 //! T the two tangents as columns. M is unsymmetric in slip through its last part.
 
+use crate::measure::saved::MeasureState;
 use crate::measure::{Attachment, Exit, Geometry, Measure, NormalPoint, ShearPoint, Slides, Tractions};
 use crate::spec::SurfaceNode;
 use crate::vector::{axpy, dot, scaled, sub, unit};
@@ -272,20 +273,18 @@ impl<const D: usize> Measure<D> for Fixed<D> {
         false
     }
 
-    fn save(&self, out: &mut Vec<f64>) {
-        for pair in &self.pairs {
-            out.extend_from_slice(&pair.committed);
-        }
+    fn save(&self) -> MeasureState {
+        MeasureState::Fixed(self.pairs.iter().map(|pair| pair.committed).collect())
     }
 
-    fn saved(&self) -> usize {
-        2 * self.pairs.len()
-    }
-
-    fn restore(&mut self, from: &[f64]) {
-        for (pair, c) in self.pairs.iter_mut().zip(from.chunks_exact(2)) {
-            pair.committed = [c[0], c[1]];
-            pair.present = pair.committed;
+    fn restore(&mut self, saved: &MeasureState) -> bool {
+        let MeasureState::Fixed(committed) = saved else { return false };
+        if committed.len() != self.pairs.len() {
+            return false;
         }
+        for (pair, c) in self.pairs.iter_mut().zip(committed) {
+            (pair.committed, pair.present) = (*c, *c);
+        }
+        true
     }
 }

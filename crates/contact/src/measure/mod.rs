@@ -8,8 +8,10 @@ mod bound;
 pub mod fixed;
 pub mod mortar;
 pub mod node_to_point;
+pub mod saved;
 
 use asperity_fem::term::Pattern;
+use saved::MeasureState;
 use std::fmt;
 
 /// Present geometry of all slave points.
@@ -166,12 +168,9 @@ pub trait Measure<const D: usize>: Send + Sync + fmt::Debug {
     /// Whether forces act on the current configuration (moments are then taken there).
     fn follows(&self) -> bool;
 
-    /// Committed history as numbers.
-    fn save(&self, out: &mut Vec<f64>);
+    /// Committed history, pairing, and what the last search proved.
+    fn save(&self) -> MeasureState;
 
-    /// Length of what `save` writes.
-    fn saved(&self) -> usize;
-
-    /// Restores; `from` has the length of `saved`.
-    fn restore(&mut self, from: &[f64]);
+    /// Restores what a measure of the same interface saved. Returns false, changing nothing, where it does not fit.
+    fn restore(&mut self, saved: &MeasureState) -> bool;
 }

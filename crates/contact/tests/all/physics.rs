@@ -261,7 +261,6 @@ fn restoring_saved_history_continues_bit_by_bit() {
         step(&mut first, &a);
         let saved = first.save();
         let (mut second, ..) = make();
-        assert!(!second.restore(&saved[1..]));
         assert!(second.restore(&saved));
         assert_eq!(first.points(), second.points());
         assert_eq!(step(&mut first, &b), step(&mut second, &b));
@@ -270,6 +269,14 @@ fn restoring_saved_history_continues_bit_by_bit() {
     check(|| line_scene(Sliding::Small));
     check(|| line_scene(Sliding::Finite));
     check(|| plate_scene(SegmentKind::Quad4, Sliding::Finite));
+}
+
+#[test]
+fn the_history_of_another_measure_is_refused() {
+    let (mut small, ..) = line_scene(Sliding::Small);
+    let (mut finite, ..) = line_scene(Sliding::Finite);
+    assert!(!small.restore(&finite.save()));
+    assert!(!finite.restore(&small.save()));
 }
 
 #[test]

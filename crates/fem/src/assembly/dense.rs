@@ -4,7 +4,7 @@
 //! what is factored anew in each iteration is the rest.
 
 use super::eliminated::{Eliminated, Entry, ROUNDING, lower};
-use super::known::{Symmetry, Version};
+use super::known::{Left, Symmetry, Version};
 use super::symmetric::SymmetricPart;
 use crate::dof::Equations;
 use crate::error::FemError;
@@ -33,6 +33,8 @@ pub(super) struct DenseStore {
     symmetric: Option<bool>,
     changing: Changing,
     eliminated: Option<Eliminated>,
+    /// What is left over in a run that is resumed, until the constant terms are there.
+    remembered: Option<Left>,
     factor: Option<Factor>,
 }
 
@@ -69,8 +71,21 @@ impl DenseStore {
             symmetric: None,
             changing: Changing { touched: vec![false; n], ..Changing::default() },
             eliminated: None,
+            remembered: None,
             factor: None,
         }
+    }
+
+    /// What is left over.
+    pub fn left(&self) -> Option<Left> {
+        let (eliminated, made_of) = (self.eliminated.as_ref()?, self.made_of.as_ref()?);
+        let constant = made_of.iter().map(Option::is_some).collect();
+        Some(Left { constant, equations: eliminated.rest().to_vec() })
+    }
+
+    /// Eliminates all but what was left over as soon as there is something to eliminate.
+    pub fn remember(&mut self, left: Left) {
+        self.remembered = Some(left);
     }
 
     /// Prepares an assembly of terms of which these are constant.
@@ -79,6 +94,9 @@ impl DenseStore {
         self.changing.clear();
         self.renewing = self.made_of.as_ref() != Some(&constant);
         if self.renewing {
+            // Other constant terms than those of the memory are eliminated as if there were none.
+            let same = |left: &Left| left.constant.iter().copied().eq(constant.iter().map(Option::is_some));
+            self.remembered = self.remembered.take().filter(same);
             self.made_of = Some(constant);
             self.constant.fill(0.0);
             self.symmetric = None;
@@ -153,6 +171,11 @@ impl DenseStore {
     /// Sees to it that what is untouched is eliminated; false where that does not pay or cannot be done.
     fn eliminate(&mut self) -> bool {
         let n = self.constant.nrows();
+        if let Some(left) = self.remembered.take() {
+            let mut kept = vec![false; n];
+            left.equations.iter().for_each(|&k| kept[k] = true);
+            self.eliminated = Eliminated::new(&self.constant, &kept);
+        }
         let pays = |kept: &[bool]| {
             let gone = kept.iter().filter(|&&k| !k).count();
             gone as f64 >= WORTHWHILE * n as f64

@@ -7,6 +7,7 @@ mod eliminated;
 mod held;
 mod iterative;
 mod known;
+mod memory;
 mod symmetric;
 
 use crate::dof::Equations;
@@ -20,6 +21,7 @@ use iterative::IterativeStore;
 pub use iterative::{Iterative, NearNull};
 pub use known::Symmetry;
 use known::{Version, version};
+pub use memory::Memory;
 use rayon::prelude::*;
 use std::convert::Infallible;
 

@@ -292,16 +292,19 @@ impl<const D: usize> Block<D> {
 }
 
 impl<const D: usize> Saved for Block<D> {
+    /// Displacements, then the numbers kept at the quadrature points.
+    type State = Vec<f64>;
+
     fn save(&self) -> Vec<f64> {
         [&self.u, &self.state].iter().flat_map(|two| two.committed.iter().copied()).collect()
     }
 
-    fn restore(&mut self, saved: &[f64]) -> bool {
+    fn restore(&mut self, saved: &Vec<f64>) -> bool {
         let parts = [&mut self.u, &mut self.state];
         if saved.len() != parts.iter().map(|p| p.committed.len()).sum::<usize>() {
             return false;
         }
-        let mut rest = saved;
+        let mut rest = saved.as_slice();
         for part in parts {
             let (own, others) = rest.split_at(part.committed.len());
             part.committed.copy_from_slice(own);

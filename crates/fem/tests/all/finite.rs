@@ -498,7 +498,7 @@ fn saved_history_continues_the_path() {
     follow(&mut one, &mesh, (1..4).map(path));
     let saved = one.save();
     let mut other = block(&mesh, options);
-    assert!(other.restore(&saved) && !other.restore(&saved[..5]));
+    assert!(other.restore(&saved) && !other.restore(&saved[..5].to_vec()));
     assert_eq!(residual(&mut one, &path(5)), residual(&mut other, &path(5)));
     assert_eq!(one.stress_at_points(), other.stress_at_points());
     other.reject();

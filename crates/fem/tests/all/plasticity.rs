@@ -411,7 +411,7 @@ fn a_saved_block_continues_as_if_nothing_had_happened() {
     block.accept();
     let saved = block.save();
     let mut other = Block::new(&mesh, 0, options).unwrap();
-    assert!(!other.restore(&saved[1..]));
+    assert!(!other.restore(&saved[1..].to_vec()));
     assert!(other.restore(&saved));
     let w: Vec<f64> = u.iter().map(|x| 1.3 * x).collect();
     assert_eq!(residual(&mut block, &w), residual(&mut other, &w));

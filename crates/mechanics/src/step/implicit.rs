@@ -7,7 +7,7 @@
 //! holds it is open or slips there, is held by weak springs for that iteration ([`super::anchor`]).
 
 use super::anchor::Anchor;
-use super::{Accepted, Balance, Before, Failure, Solved, State, accurate, line, unopposed};
+use super::{Accepted, Balance, Before, Failure, Solved, State, StepperState, accurate, line, unopposed};
 use crate::Counts;
 use asperity_fem::FemError;
 use asperity_fem::assembly::{Symmetry, System};
@@ -114,6 +114,21 @@ impl Implicit {
         if !goes_on {
             self.last = None;
         }
+    }
+
+    /// What it keeps from step to step.
+    pub(super) fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState {
+        StepperState { last: self.last.clone(), left: Vec::new(), system: self.system.memory(terms) }
+    }
+
+    /// Takes up what a stepper of the same system kept; whether it fits.
+    pub(super) fn restore(&mut self, saved: &StepperState, terms: &mut [&mut dyn Linearized]) -> bool {
+        let dofs = self.system.equations().number.len();
+        if saved.last.as_ref().is_some_and(|(increment, _)| increment.len() != dofs) {
+            return false;
+        }
+        self.last.clone_from(&saved.last);
+        self.system.restore(&saved.system, terms)
     }
 
     /// Tries a step of length `dt`. On success the terms have accepted and `state` has advanced.

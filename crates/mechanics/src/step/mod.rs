@@ -4,9 +4,11 @@ mod anchor;
 mod augmented;
 pub mod implicit;
 mod line;
+mod saved;
 pub mod static_explicit;
 mod stepper;
 
+pub use saved::StepperState;
 pub use stepper::Stepper;
 
 use crate::Counts;

@@ -8,7 +8,7 @@
 //! forces: the drift. A small one is carried into the next step, a larger one is removed by Newton's method before the step stands.
 
 use super::implicit::Implicit;
-use super::{Accepted, Before, Cut, Failure, State, accurate, unopposed};
+use super::{Accepted, Before, Cut, Failure, State, StepperState, accurate, unopposed};
 use crate::Counts;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
@@ -58,6 +58,21 @@ impl StaticExplicit {
     /// Goes on with another stage.
     pub fn begin_stage(&mut self, symmetry: Symmetry) {
         self.newton.begin_stage(symmetry, false);
+    }
+
+    /// What it keeps from step to step.
+    pub(super) fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState {
+        StepperState { left: self.left.clone(), ..self.newton.save(terms) }
+    }
+
+    /// Takes up what a stepper of the same system kept; whether it fits.
+    pub(super) fn restore(&mut self, saved: &StepperState, terms: &mut [&mut dyn Linearized]) -> bool {
+        let dofs = self.system().equations().number.len();
+        if !saved.left.is_empty() && saved.left.len() != dofs {
+            return false;
+        }
+        self.left.clone_from(&saved.left);
+        self.newton.restore(saved, terms)
     }
 
     /// Takes a step of at most `dt.0`; where accuracy asks for less than `dt.1`, one of that length.

@@ -2,7 +2,7 @@
 
 use super::implicit::Implicit;
 use super::static_explicit::StaticExplicit;
-use super::{Accepted, Failure, State};
+use super::{Accepted, Failure, State, StepperState};
 use crate::Counts;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
@@ -31,6 +31,12 @@ pub trait Stepper {
 
     /// The linear system, for its counts.
     fn system(&self) -> &System;
+
+    /// What it keeps from step to step of these terms.
+    fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState;
+
+    /// Takes up what a stepper of the same terms kept; whether it fits.
+    fn restore(&mut self, saved: &StepperState, terms: &mut [&mut dyn Linearized]) -> bool;
 }
 
 impl Stepper for Implicit {
@@ -60,6 +66,14 @@ impl Stepper for Implicit {
     fn system(&self) -> &System {
         Implicit::system(self)
     }
+
+    fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState {
+        Implicit::save(self, terms)
+    }
+
+    fn restore(&mut self, saved: &StepperState, terms: &mut [&mut dyn Linearized]) -> bool {
+        Implicit::restore(self, saved, terms)
+    }
 }
 
 impl Stepper for StaticExplicit {
@@ -84,5 +98,13 @@ impl Stepper for StaticExplicit {
 
     fn system(&self) -> &System {
         StaticExplicit::system(self)
+    }
+
+    fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState {
+        StaticExplicit::save(self, terms)
+    }
+
+    fn restore(&mut self, saved: &StepperState, terms: &mut [&mut dyn Linearized]) -> bool {
+        StaticExplicit::restore(self, saved, terms)
     }
 }

@@ -3,6 +3,18 @@
 use crate::{CellBlock, Counts};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::Limited;
+use serde::{Deserialize, Serialize};
+
+/// The state of bodies.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BodiesState {
+    /// History of each block that has one.
+    pub(super) histories: Vec<Vec<f64>>,
+    /// Factorisations so far.
+    pub(super) factorisations: usize,
+    /// Right-hand sides solved with them.
+    pub(super) solves: usize,
+}
 
 /// See the module.
 pub trait Bodies<const D: usize> {
@@ -23,4 +35,10 @@ pub trait Bodies<const D: usize> {
 
     /// Adds the work done outside the steps.
     fn add_counts(&self, counts: &mut Counts);
+
+    /// Committed histories, and counts of work.
+    fn save(&self) -> BodiesState;
+
+    /// Takes up what the same bodies saved; whether it fits.
+    fn restore(&mut self, saved: &BodiesState) -> bool;
 }

@@ -1,6 +1,6 @@
 //! Bodies that are condensed onto the degrees of freedom of their interfaces.
 
-use super::bodies::Bodies;
+use super::bodies::{Bodies, BodiesState};
 use crate::solver::{self, Prepared};
 use crate::{CellBlock, Counts, Problem, free};
 use asperity_fem::FemError;
@@ -57,6 +57,18 @@ impl<const D: usize> Bodies<D> for CondensedBodies<'_, D> {
     fn add_counts(&self, counts: &mut Counts) {
         counts.body_factorisations += self.factorisations;
         counts.body_solves += self.solves + self.solves();
+    }
+
+    fn save(&self) -> BodiesState {
+        let solves = self.solves + self.solves();
+        BodiesState { histories: Vec::new(), factorisations: self.factorisations, solves }
+    }
+
+    fn restore(&mut self, saved: &BodiesState) -> bool {
+        self.factorisations = saved.factorisations;
+        // Those of the present factors have been made before.
+        self.solves = saved.solves.saturating_sub(self.solves());
+        saved.histories.is_empty()
     }
 }
 

@@ -1,10 +1,10 @@
 //! Bodies whose degrees of freedom are all in the system.
 
-use super::bodies::Bodies;
+use super::bodies::{Bodies, BodiesState};
 use crate::{CellBlock, Counts, Model};
 use asperity_fem::dof::Constraints;
 use asperity_fem::loads::ExternalForces;
-use asperity_fem::term::Limited;
+use asperity_fem::term::{Limited, Saved as _};
 
 /// Cell blocks and loads on all degrees of freedom.
 pub struct Full<const D: usize> {
@@ -42,4 +42,19 @@ impl<const D: usize> Bodies<D> for Full<D> {
     }
 
     fn add_counts(&self, _counts: &mut Counts) {}
+
+    fn save(&self) -> BodiesState {
+        let histories = self.blocks.iter().filter_map(CellBlock::history).collect();
+        BodiesState { histories, ..BodiesState::default() }
+    }
+
+    fn restore(&mut self, saved: &BodiesState) -> bool {
+        let mut histories = saved.histories.iter();
+        let nonlinear = self.blocks.iter_mut().filter_map(CellBlock::nonlinear_mut);
+        let mut fit = true;
+        for block in nonlinear {
+            fit &= histories.next().is_some_and(|history| block.restore(history));
+        }
+        fit && histories.next().is_none()
+    }
 }

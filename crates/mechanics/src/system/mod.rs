@@ -4,12 +4,14 @@ mod bodies;
 mod condensed;
 mod full;
 mod numbering;
+mod saved;
 mod words;
 
 use self::bodies::Bodies;
 use self::condensed::CondensedBodies;
 use self::full::Full;
 use self::numbering::Numbering;
+pub use self::saved::{Mismatch, SystemState};
 use super::samples::Beside;
 use super::solver::{self, Method, Prepared};
 use super::step::implicit::Implicit;
@@ -34,6 +36,8 @@ pub struct Assembled<'a, const D: usize> {
     fixed: Option<Vec<usize>>,
     stepper: Option<Box<dyn Stepper>>,
     state: State,
+    /// Displacements of the mesh at the start of the present stage \[m\].
+    begin: Vec<f64>,
     /// Areas of the points of each interface at the start.
     areas: Vec<Vec<f64>>,
     /// Loads of the present stage beside those of each set whose force is wanted.
@@ -70,6 +74,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
             fixed: None,
             stepper: None,
             state: State { u: vec![0.0; unknowns], time: 0.0 },
+            begin: Vec::new(),
             beside: Vec::new(),
         })
     }
@@ -80,9 +85,16 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// # Errors
     /// The reason in words when a body cannot be factored.
     pub fn begin_stage(&mut self, stage: &Stage) -> Result<(), String> {
+        let start = self.fixed.is_none();
+        let u0 = if start { vec![0.0; self.problem.model.dofs()] } else { self.displacement() };
+        self.begin_from(stage, u0)
+    }
+
+    /// The same from the displacements `u0` of the mesh.
+    fn begin_from(&mut self, stage: &Stage, u0: Vec<f64>) -> Result<(), String> {
         let problem = self.problem;
-        let u0 = if self.fixed.is_none() { vec![0.0; problem.model.dofs()] } else { self.displacement() };
         let constraints = stage.constraints(&u0);
+        self.begin = u0;
         let renewed = self.fixed.as_ref() != Some(&stage.fixed);
         self.bodies.load(&constraints, renewed)?;
         self.constraints = self.numbering.constraints(&constraints);

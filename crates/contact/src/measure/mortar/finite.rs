@@ -23,8 +23,9 @@ use super::scalar::Dual;
 use super::sides::{Beside, Sides, node_at};
 use super::small::FACED;
 use super::state::{Cell, Finite, Point};
-use crate::measure::bound::Bound;
+use crate::measure::bound::{Bound, fits};
 use crate::measure::fixed::fixed_frame;
+use crate::measure::saved::{Facing, MeasureState};
 use crate::measure::{Attachment, Exit, Geometry, Measure, Slides, Tractions};
 use crate::shape::shape;
 use crate::spec::{Segment, SlavePoint, SurfaceNode};
@@ -70,7 +71,6 @@ impl<const D: usize> Finite<D> {
             order,
             pattern: Pattern::default(),
             scratch: Vec::new(),
-            restored: false,
             found: Vec::new(),
             bound: Bound::default(),
         };
@@ -292,6 +292,15 @@ impl<const D: usize> Finite<D> {
     }
 }
 
+impl<const D: usize> Finite<D> {
+    /// Whether all nodes of a pair of facets are in the blocks of its points.
+    fn beside_blocks(&self, [facet, master]: &[usize; 2], points: &[Facing]) -> bool {
+        let (own, other) = (&self.sides.facets[*facet], &self.sides.master[*master]);
+        let mut nodes = own.nodes.iter().chain(&other.nodes);
+        nodes.all(|n| own.weighting.points.iter().all(|&p| points[p].nodes.contains(n)))
+    }
+}
+
 impl Point {
     /// Whether it faces the master.
     fn faces(&self) -> bool {
@@ -345,13 +354,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
 
     fn measure(&mut self, u: &[[f64; D]], out: &mut Geometry<D>) {
         self.configure(u);
-        if self.restored {
-            self.pair(&mut 0);
-        }
         self.weigh();
-        if std::mem::take(&mut self.restored) {
-            self.points.iter_mut().filter(|p| p.anchored).for_each(Point::keep);
-        }
         let mut locals = std::mem::take(&mut self.locals);
         let indexed = locals.par_iter_mut().enumerate().with_min_len(CHUNK);
         indexed.for_each(|(p, local)| *local = self.local(p));
@@ -453,19 +456,43 @@ impl<const D: usize> Measure<D> for Finite<D> {
         true
     }
 
-    fn save(&self, out: &mut Vec<f64>) {
-        out.extend(self.points.iter().map(|p| f64::from(u8::from(p.anchored))));
-    }
-
-    fn saved(&self) -> usize {
-        self.points.len()
-    }
-
-    fn restore(&mut self, from: &[f64]) {
-        for (point, v) in self.points.iter_mut().zip(from) {
-            point.anchored = *v > 0.0;
-            point.fresh = false;
+    fn save(&self) -> MeasureState {
+        let facing = |point: &Point| Facing {
+            nodes: point.nodes.clone(),
+            slaves: point.slaves,
+            then: point.then.clone(),
+            anchored: point.anchored,
+        };
+        MeasureState::Mortar {
+            points: self.points.iter().map(facing).collect(),
+            pairs: self.cells.iter().map(|c| [c.facet, c.master]).collect(),
+            proved: self.bound.save(),
         }
-        self.restored = true;
+    }
+
+    fn restore(&mut self, saved: &MeasureState) -> bool {
+        let MeasureState::Mortar { points, pairs, proved } = saved else { return false };
+        let (facets, masters) = (self.sides.facets.len(), self.sides.master.len());
+        let exist = |p: &Facing| {
+            p.nodes.iter().all(|&n| n < self.x.len())
+                && p.then.len() == p.nodes.len()
+                && p.slaves <= p.nodes.len()
+        };
+        let fit = points.len() == self.points.len()
+            && points.iter().all(exist)
+            && pairs.iter().all(|p| p[0] < facets && p[1] < masters && self.beside_blocks(p, points))
+            && fits::<D>(proved, self.x.len());
+        if !fit {
+            return false;
+        }
+        for (point, saved) in self.points.iter_mut().zip(points) {
+            point.nodes.clone_from(&saved.nodes);
+            point.then.clone_from(&saved.then);
+            point.weights = vec![0.0; saved.nodes.len()];
+            (point.slaves, point.anchored, point.fresh) = (saved.slaves, saved.anchored, false);
+        }
+        self.tabulate(&pairs.iter().map(|p| (p[0], p[1])).collect::<Vec<_>>());
+        self.bound = Bound::of(proved);
+        true
     }
 }

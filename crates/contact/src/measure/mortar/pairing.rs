@@ -66,7 +66,7 @@ impl<const D: usize> Finite<D> {
     }
 
     /// Places of the cells' nodes in the blocks, and the pattern.
-    fn tabulate(&mut self, pairs: &[(usize, usize)]) {
+    pub(super) fn tabulate(&mut self, pairs: &[(usize, usize)]) {
         self.cells.clear();
         self.places.clear();
         self.first.clear();

@@ -62,8 +62,6 @@ pub(super) struct Finite<const D: usize> {
     pub(super) pattern: Pattern,
     /// What the tangent adds up, by piece.
     pub(super) scratch: Vec<Scratch<D>>,
-    /// The committed weights must be found from the configuration measured next.
-    pub(super) restored: bool,
     /// What the search finds, facet by facet in pieces.
     pub(super) found: Vec<Found>,
     /// How long it holds.

@@ -22,7 +22,8 @@
 use super::kernel::{Columns, Friction, Kernel};
 use super::local::Local;
 use super::track::{CHUNK, Place, Point, track};
-use crate::measure::bound::Bound;
+use crate::measure::bound::{Bound, fits};
+use crate::measure::saved::{MeasureState, Tracked};
 use crate::measure::{Attachment, Exit, Geometry, Measure, Slides, Tractions};
 use crate::search::project::{BORDER, depth, margins};
 use crate::search::smooth::MOST_SUPPORT;
@@ -91,7 +92,7 @@ impl<const D: usize> Finite<D> {
         self.surface.configure(&self.x);
     }
 
-    /// Rebuilds the blocks when a point's segments changed; the version changes with them.
+    /// Builds the blocks anew when a point's segments changed.
     fn rebuild(&mut self) {
         let mut changed = false;
         for point in &mut self.points {
@@ -99,9 +100,13 @@ impl<const D: usize> Finite<D> {
             changed |= key != point.key;
             point.key = key;
         }
-        if !changed {
-            return;
+        if changed {
+            self.build();
         }
+    }
+
+    /// Builds the blocks of the points' segments; the version changes with them.
+    fn build(&mut self) {
         self.nodes.clear();
         let mut pattern = Pattern { version: self.pattern.version + 1, starts: vec![0], dofs: Vec::new() };
         for (p, point) in self.points.iter().enumerate() {
@@ -469,31 +474,36 @@ impl<const D: usize> Measure<D> for Finite<D> {
         true
     }
 
-    fn save(&self, out: &mut Vec<f64>) {
-        for point in &self.points {
-            match point.anchor {
-                #[expect(clippy::cast_precision_loss, reason = "segment numbers are far below 2^53")]
-                Some(a) => out.extend_from_slice(&[a.segment as f64, a.xi[0], a.xi[1]]),
-                None => out.extend_from_slice(&[-1.0, 0.0, 0.0]),
-            }
-            out.push(f64::from(u8::from(point.leaving)));
+    fn save(&self) -> MeasureState {
+        let tracked = |point: &Point| Tracked {
+            anchor: point.anchor.map(|a| (a.segment, a.xi)),
+            leaving: point.leaving,
+            block: point.key,
+        };
+        MeasureState::NodeToPoint {
+            points: self.points.iter().map(tracked).collect(),
+            proved: self.bound.save(),
         }
     }
 
-    fn saved(&self) -> usize {
-        4 * self.points.len()
-    }
-
-    fn restore(&mut self, from: &[f64]) {
-        for (point, v) in self.points.iter_mut().zip(from.chunks_exact(4)) {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "written by save")]
-            let anchor = (v[0] >= 0.0).then(|| Place { segment: v[0] as usize, xi: [v[1], v[2]] });
-            point.anchor = anchor;
-            point.place = anchor;
-            point.fresh = false;
-            point.leaving = v[3] > 0.0;
+    fn restore(&mut self, saved: &MeasureState) -> bool {
+        let MeasureState::NodeToPoint { points, proved } = saved else { return false };
+        let segments = self.surface.segments().len();
+        let exist = |t: &Tracked| {
+            t.anchor.is_none_or(|a| a.0 < segments)
+                && t.block.is_none_or(|(a, b)| a < segments && b < segments)
+        };
+        if points.len() != self.points.len() || !points.iter().all(exist) || !fits::<D>(proved, self.x.len())
+        {
+            return false;
         }
-        self.forget();
-        self.rebuild();
+        for (point, saved) in self.points.iter_mut().zip(points) {
+            point.anchor = saved.anchor.map(|(segment, xi)| Place { segment, xi });
+            (point.place, point.fresh) = (point.anchor, false);
+            (point.leaving, point.key) = (saved.leaving, saved.block);
+        }
+        self.bound = Bound::of(proved);
+        self.build();
+        true
     }
 }
