@@ -21,6 +21,26 @@ pub enum OutputError {
         /// The system's reason.
         source: std::io::Error,
     },
+    /// A table that is to grow on cannot be opened.
+    #[error("cannot read {path}: {source}")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// A table lacks rows that it had.
+    #[error(
+        "{path} has {found} bytes and had {expected} at the checkpoint; restore it, or run without --resume to begin again"
+    )]
+    Shorter {
+        /// The file.
+        path: PathBuf,
+        /// Bytes it has.
+        found: u64,
+        /// Bytes it had.
+        expected: u64,
+    },
     /// A plot could not be drawn.
     #[error("cannot draw {path}: {reason}")]
     Draw {

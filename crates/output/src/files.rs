@@ -10,10 +10,11 @@ use super::schedule::{Due, FieldSchedule};
 use super::view::{BodyFields, InterfaceFields, InterfaceMesh, MeshView, Observer, Setup, StepView};
 use super::vtu::{Array, Grid, PvdEntry, Values, pvd};
 use crate::error::{OutputError, expect_length};
+use crate::growing::Growing;
 use crate::names::stems;
 use crate::{atomic, table};
+use serde::{Deserialize, Serialize};
 use std::fs;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Streams fields, profiles and probes into a directory. Each file appears whole; a table of probes grows by whole rows.
@@ -33,6 +34,8 @@ pub struct Files {
     written: [Option<f64>; 2],
     profile_number: usize,
     setup: Setup,
+    /// Where to resume, until the run begins.
+    resumed: Option<FilesState>,
 }
 
 /// The bodies' fixed part.
@@ -54,26 +57,18 @@ struct Part {
     probes: Option<Growing>,
 }
 
-/// A table that grows by whole rows.
-#[derive(Debug)]
-struct Growing {
-    path: PathBuf,
-    file: fs::File,
-}
-
-impl Growing {
-    fn create(path: PathBuf, header: &[u8]) -> Result<Self, OutputError> {
-        atomic::write(&path, header)?;
-        match fs::OpenOptions::new().append(true).open(&path) {
-            Ok(file) => Ok(Self { path, file }),
-            Err(source) => Err(OutputError::write(&path, source)),
-        }
-    }
-
-    /// One write per row: a run that is killed leaves whole rows.
-    fn push(&mut self, row: &[u8]) -> Result<(), OutputError> {
-        self.file.write_all(row).map_err(|source| OutputError::write(&self.path, source))
-    }
+/// Where the files of a run stand.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FilesState {
+    /// Intervals of each stage that have fields and profiles.
+    passed: [Vec<usize>; 2],
+    /// Numbers of the fields and profiles written last.
+    numbers: [usize; 2],
+    /// Times of the profiles and fields written last \[s\].
+    written: [Option<f64>; 2],
+    collection: Vec<PvdEntry>,
+    /// Bytes of the tables, those of probes first, then of points and of forces.
+    bytes: Vec<u64>,
 }
 
 impl Files {
@@ -97,7 +92,40 @@ impl Files {
             written: [None; 2],
             profile_number: 0,
             setup: Setup::default(),
+            resumed: None,
         })
+    }
+
+    /// The same, of a run that is resumed where its files stood so: what was written after that is cut off.
+    #[must_use]
+    pub fn resumed(self, from: FilesState) -> Self {
+        Self { resumed: Some(from), ..self }
+    }
+
+    /// Where the files stand.
+    #[must_use]
+    pub fn state(&self) -> FilesState {
+        FilesState {
+            passed: [self.fields_due.passed().to_vec(), self.profiles_due.passed().to_vec()],
+            numbers: [self.field_number, self.profile_number],
+            written: self.written,
+            collection: self.collection.clone(),
+            bytes: self.tables().map(Growing::bytes).collect(),
+        }
+    }
+
+    /// Waits until all rows are on the disc.
+    ///
+    /// # Errors
+    /// When something could not be written.
+    pub fn settle(&self) -> Result<(), OutputError> {
+        self.tables().try_for_each(Growing::settle)
+    }
+
+    /// All tables.
+    fn tables(&self) -> impl Iterator<Item = &Growing> {
+        let probes = self.interfaces.iter().filter_map(|part| part.probes.as_ref());
+        probes.chain(&self.points).chain(&self.forces)
     }
 
     /// The directory.
@@ -173,16 +201,31 @@ impl Files {
         Ok(())
     }
 
-    /// Begins the tables of points and forces.
-    fn begin_samples(&mut self, setup: &Setup) -> Result<(), OutputError> {
-        let begin = |folder: &str, names: Vec<&str>, header: &[u8]| -> Result<Vec<Growing>, OutputError> {
-            if names.is_empty() {
-                return Ok(Vec::new());
+    /// Begins the tables, or reopens them at so many bytes each.
+    fn begin_tables(&mut self, setup: &Setup, bytes: Option<Vec<u64>>) -> Result<(), OutputError> {
+        let (mut left, reopens) = (bytes.iter().flatten(), bytes.is_some());
+        let mut table = |path: PathBuf, header: &[u8]| match left.next() {
+            Some(bytes) => Growing::reopen(path, *bytes),
+            None if reopens => {
+                Err(OutputError::Shape { what: "tables of the checkpoint".into(), expected: 1, found: 0 })
             }
-            atomic::create_dir(&self.out.join(folder))?;
-            let file = |stem: String| Growing::create(self.out.join(format!("{folder}/{stem}.csv")), header);
-            stems(names.into_iter()).into_iter().map(file).collect()
+            None => Growing::create(path, header),
         };
+        for (part, mesh) in self.interfaces.iter_mut().zip(&setup.interfaces) {
+            if !mesh.probes.is_empty() {
+                let path = self.out.join(format!("probes/{}.csv", part.stem));
+                part.probes = Some(table(path, &table::probe_header(mesh))?);
+            }
+        }
+        let mut begin =
+            |folder: &str, names: Vec<&str>, header: &[u8]| -> Result<Vec<Growing>, OutputError> {
+                if names.is_empty() {
+                    return Ok(Vec::new());
+                }
+                atomic::create_dir(&self.out.join(folder))?;
+                let file = |stem: String| table(self.out.join(format!("{folder}/{stem}.csv")), header);
+                stems(names.into_iter()).into_iter().map(file).collect()
+            };
         let points = setup.points.iter().map(|p| p.name.as_str()).collect();
         let forces = setup.forces.iter().map(|f| f.name.as_str()).collect();
         let points = begin("points", points, &table::point_header())?;
@@ -193,14 +236,36 @@ impl Files {
 
     /// Removes what an earlier run of these interfaces left, so that its files are not taken for this run's.
     fn remove_earlier(&self) -> Result<(), OutputError> {
-        let stems: Vec<&str> = self.interfaces.iter().map(|part| part.stem.as_str()).collect();
-        remove_numbered(&self.out.join("profiles"), &stems, "csv")?;
-        let with_bodies: Vec<&str> = stems.iter().copied().chain(["bodies"]).collect();
-        remove_numbered(&self.out.join("fields"), &with_bodies, "vtu")?;
+        self.remove_beyond([0; 2])?;
         let mut once: Vec<PathBuf> =
-            stems.iter().map(|stem| self.out.join(format!("probes/{stem}.csv"))).collect();
+            self.interfaces.iter().map(|part| self.out.join(format!("probes/{}.csv", part.stem))).collect();
         once.push(self.out.join("fields.pvd"));
         once.iter().filter(|path| path.exists()).try_for_each(|path| remove(path))
+    }
+
+    /// Removes fields and profiles with larger numbers than these.
+    fn remove_beyond(&self, [fields, profiles]: [usize; 2]) -> Result<(), OutputError> {
+        let stems: Vec<&str> = self.interfaces.iter().map(|part| part.stem.as_str()).collect();
+        remove_numbered(&self.out.join("profiles"), &stems, ("csv", profiles))?;
+        let with_bodies: Vec<&str> = stems.iter().copied().chain(["bodies"]).collect();
+        remove_numbered(&self.out.join("fields"), &with_bodies, ("vtu", fields))
+    }
+
+    /// Takes up the files where they stood, and cuts off what was written after that.
+    fn reopen(&mut self, from: FilesState) -> Result<Vec<u64>, OutputError> {
+        let FilesState { passed: [fields, profiles], numbers, written, collection, bytes } = from;
+        self.fields_due = std::mem::take(&mut self.fields_due).from(fields);
+        self.profiles_due = std::mem::take(&mut self.profiles_due).from(profiles);
+        [self.field_number, self.profile_number] = numbers;
+        (self.written, self.collection) = (written, collection);
+        self.remove_beyond(numbers)?;
+        let path = self.out.join("fields.pvd");
+        if !self.collection.is_empty() {
+            atomic::write(&path, &pvd(&self.collection))?;
+        } else if path.exists() {
+            remove(&path)?;
+        }
+        Ok(bytes)
     }
 }
 
@@ -224,7 +289,10 @@ impl Observer for Files {
                 Part { stem, grid, states, probes: None }
             })
             .collect();
-        self.remove_earlier()?;
+        let bytes = match self.resumed.take() {
+            Some(from) => Some(self.reopen(from)?),
+            None => self.remove_earlier().map(|()| None)?,
+        };
         let wanted = [
             ("fields", self.schedule.fields > 0 && self.bodies.is_some()),
             ("profiles", self.schedule.profiles > 0 && !setup.interfaces.is_empty()),
@@ -233,13 +301,7 @@ impl Observer for Files {
         for (folder, _) in wanted.iter().filter(|(_, wanted)| *wanted) {
             atomic::create_dir(&self.out.join(folder))?;
         }
-        for (part, mesh) in self.interfaces.iter_mut().zip(&setup.interfaces) {
-            if !mesh.probes.is_empty() {
-                let path = self.out.join(format!("probes/{}.csv", part.stem));
-                part.probes = Some(Growing::create(path, &table::probe_header(mesh))?);
-            }
-        }
-        self.begin_samples(setup)
+        self.begin_tables(setup, bytes)
     }
 
     fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
@@ -361,8 +423,8 @@ fn check_bodies(mesh: &MeshView, fields: &BodyFields) -> Result<(), OutputError>
     }
 }
 
-/// Removes `<stem>_<digits>.<extension>` for the given stems, and nothing else.
-fn remove_numbered(dir: &Path, stems: &[&str], extension: &str) -> Result<(), OutputError> {
+/// Removes `<stem>_<digits>.<extension>` for the given stems where the digits are a larger number than this, and nothing else.
+fn remove_numbered(dir: &Path, stems: &[&str], (extension, most): (&str, usize)) -> Result<(), OutputError> {
     let Ok(entries) = fs::read_dir(dir) else { return Ok(()) };
     for entry in entries {
         let path = entry.map_err(|source| OutputError::write(dir, source))?.path();
@@ -372,7 +434,9 @@ fn remove_numbered(dir: &Path, stems: &[&str], extension: &str) -> Result<(), Ou
                 .and_then(|stem| stem.to_str())
                 .and_then(|stem| stem.rsplit_once('_'))
                 .is_some_and(|(stem, digits)| {
-                    stems.contains(&stem) && digits.bytes().all(|byte| byte.is_ascii_digit())
+                    stems.contains(&stem)
+                        && digits.bytes().all(|byte| byte.is_ascii_digit())
+                        && digits.parse::<usize>().map_or(true, |number| number > most)
                 });
         if ours {
             remove(&path)?;

@@ -2,32 +2,41 @@
 
 use super::view::{BodyFields, InterfaceFields, Observer, Samples, Setup, StepRecord, StepView};
 use crate::error::{OutputError, expect_length};
+use crate::numbers;
+use serde::{Deserialize, Serialize};
 
 /// Histories at one slave node, one value a step (see [`InterfaceFields`] for signs).
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct PointHistory {
     /// Index of the slave node in the interface.
     pub node: usize,
     /// Its reference position \[m\].
     pub position: [f64; 3],
     /// Relative tangential displacement \[m\].
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub relative_displacement: Vec<f64>,
     /// Slip \[m\].
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub slip: Vec<f64>,
     /// Slip rate \[m/s\].
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub slip_rate: Vec<f64>,
     /// Friction coefficient \[-\].
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub friction: Vec<f64>,
     /// Normal traction \[Pa\].
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub normal_traction: Vec<f64>,
     /// Shear traction \[Pa\].
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub shear_traction: Vec<f64>,
     /// Area the node stands for \[m², m\].
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub area: Vec<f64>,
 }
 
 /// Histories at the recorded points of one interface.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct InterfaceHistory {
     /// Name of the interface.
     pub name: String,
@@ -36,7 +45,7 @@ pub struct InterfaceHistory {
 }
 
 /// The state at the end of a stage.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct StageEnd {
     /// Stage number, from 0.
     pub stage: usize,
@@ -51,10 +60,12 @@ pub struct StageEnd {
 }
 
 /// Keeps a run in memory.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Recorder {
     all_nodes: bool,
     with_bodies: bool,
+    /// What a run announces whenever it begins or is resumed.
+    #[serde(skip)]
     setup: Setup,
     records: Vec<StepRecord>,
     times: Vec<f64>,
@@ -82,6 +93,17 @@ impl Recorder {
     pub fn at_all_nodes(mut self) -> Self {
         self.all_nodes = true;
         self
+    }
+
+    /// Goes on with a run that is resumed, and announces this again.
+    ///
+    /// # Errors
+    /// When it is not the run that is kept.
+    pub fn resume(&mut self, setup: &Setup) -> Result<(), OutputError> {
+        check_probes(setup)?;
+        expect_length("interfaces kept", setup.interfaces.len(), self.histories.len())?;
+        self.setup = setup.clone();
+        Ok(())
     }
 
     /// What the run announced before its first step.

@@ -61,6 +61,16 @@ impl Due {
         Self { intervals, passed: vec![0; spans.len()], stages: spans }
     }
 
+    /// Intervals of each stage already passed.
+    pub(super) fn passed(&self) -> &[usize] {
+        &self.passed
+    }
+
+    /// The same with so many intervals of each stage passed.
+    pub(super) fn from(self, passed: Vec<usize>) -> Self {
+        Self { passed: if passed.len() == self.passed.len() { passed } else { self.passed }, ..self }
+    }
+
     /// Whether the step that ends at `time` passes a due time not yet passed.
     pub(super) fn take(&mut self, stage: usize, time: f64, ends_stage: bool) -> bool {
         let Some(&(start, end)) = self.stages.get(stage) else { return self.intervals > 0 && ends_stage };

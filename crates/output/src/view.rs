@@ -1,7 +1,8 @@
 //! What a run shows its observers: plain slices, free of the dimension of the scene (vectors are padded to three
 //! components), so that writers and plots exist once.
 
-use serde::Serialize;
+use crate::numbers;
+use serde::{Deserialize, Serialize};
 
 /// The mesh of a run, for writers of fields. Written once.
 #[derive(Clone, Debug, Default)]
@@ -42,36 +43,46 @@ pub struct InterfaceMesh {
 }
 
 /// State of an interface after a step, one value a slave node.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct InterfaceFields {
     /// Normal gap g_n \[m\], negative when penetrating; infinite where the node has no partner, which files write as NaN beside a mask.
+    #[serde(deserialize_with = "numbers::or_infinite")]
     pub gap: Vec<f64>,
     /// Normal traction f_n \[Pa\].
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub normal_traction: Vec<f64>,
     /// Shear traction \[Pa\]: signed along (n_y, -n_x), n the outward normal of the master, in two dimensions, magnitude in three.
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub shear_traction: Vec<f64>,
     /// Normal traction averaged around the node, with the weights of a mortar interface; of node-to-point contact, the traction
     /// itself \[Pa\].
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub mean_normal_traction: Vec<f64>,
     /// Shear traction averaged in the same way, with the sign of the shear traction \[Pa\].
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub mean_shear_traction: Vec<f64>,
     /// Relative tangential displacement (slave relative to master) \[m\]: elastic part and slip together, with the sign of
     /// the shear traction in two dimensions, magnitude in three, since the law began to act.
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub relative_displacement: Vec<f64>,
     /// Slip (plastic part) \[m\], signed in two dimensions, magnitude in three, since the law began to act.
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub slip: Vec<f64>,
     /// Slip of the slave relative to the master as a vector \[m\]; empty but in three dimensions.
     pub slip_vector: Vec<[f64; 3]>,
     /// Shear traction as a vector, the one that the slave exerts on the master: along slip \[Pa\]; empty but in three dimensions.
     pub shear_vector: Vec<[f64; 3]>,
     /// Slip rate V \[m/s\].
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub slip_rate: Vec<f64>,
     /// Friction coefficient |t|/f_n \[-\]; 0 where open or frictionless.
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub friction: Vec<f64>,
     /// 0 open, 1 stick, 2 slip.
     pub status: Vec<u8>,
     /// Areas the nodes stand for \[m², or m per metre of thickness\]: under finite sliding those of a mortar interface follow the
     /// overlap of the two sides.
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub area: Vec<f64>,
     /// State variables of the law, one after the other with a value a node; none where no law with states acts.
     pub states: Vec<Vec<f64>>,
@@ -98,22 +109,25 @@ impl InterfaceFields {
 }
 
 /// Nodal fields of the bodies, recovered only when asked for.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BodyFields {
     /// Displacement per node \[m\].
     pub displacement: Vec<[f64; 3]>,
     /// Cauchy stress per cell, averaged over its quadrature points: xx, yy, zz, xy, yz, zx \[Pa\].
     pub cell_stress: Vec<[f64; 6]>,
     /// Mises stress per cell \[Pa\].
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub cell_mises: Vec<f64>,
     /// Equivalent plastic strain per cell \[-\], averaged over its quadrature points; empty where nothing is plastic.
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub cell_plastic_strain: Vec<f64>,
     /// Mises stress per node, averaged within each body \[Pa\].
+    #[serde(deserialize_with = "numbers::or_nan")]
     pub node_mises: Vec<f64>,
 }
 
 /// A point of a body that is looked at in every step.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointMark {
     /// Name in the scene.
     pub name: String,
@@ -124,7 +138,7 @@ pub struct PointMark {
 }
 
 /// A set whose force is looked at in every step.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ForceMark {
     /// Name in the scene.
     pub name: String,
@@ -133,7 +147,7 @@ pub struct ForceMark {
 }
 
 /// Values at a point of a body.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointValues {
     /// Displacement \[m\].
     pub displacement: [f64; 3],
@@ -144,7 +158,7 @@ pub struct PointValues {
 }
 
 /// Values at the points and sets of [`Setup::points`] and [`Setup::forces`] after a step.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Samples {
     /// One entry a point.
     pub points: Vec<PointValues>,
@@ -154,7 +168,7 @@ pub struct Samples {
 }
 
 /// What the report keeps of one step.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepRecord {
     /// Stage number, from 0.
     pub stage: usize,

@@ -1,0 +1,58 @@
+//! A table that grows by whole rows.
+
+use crate::atomic;
+use crate::error::OutputError;
+use std::fs;
+use std::io::Write as _;
+use std::path::PathBuf;
+
+/// See the module.
+#[derive(Debug)]
+pub(crate) struct Growing {
+    path: PathBuf,
+    file: fs::File,
+    /// Bytes written so far.
+    bytes: u64,
+}
+
+impl Growing {
+    /// A new one, with its header.
+    pub(crate) fn create(path: PathBuf, header: &[u8]) -> Result<Self, OutputError> {
+        atomic::write(&path, header)?;
+        match fs::OpenOptions::new().append(true).open(&path) {
+            Ok(file) => Ok(Self { path, file, bytes: header.len() as u64 }),
+            Err(source) => Err(OutputError::write(&path, source)),
+        }
+    }
+
+    /// One that had so many bytes; later ones are cut off.
+    pub(crate) fn reopen(path: PathBuf, expected: u64) -> Result<Self, OutputError> {
+        let file = fs::OpenOptions::new().append(true).open(&path);
+        let found = file.and_then(|file| Ok((file.metadata()?.len(), file)));
+        let (found, file) = match found {
+            Ok(found) => found,
+            Err(source) => return Err(OutputError::Read { path, source }),
+        };
+        if found < expected {
+            return Err(OutputError::Shorter { path, found, expected });
+        }
+        file.set_len(expected).map_err(|source| OutputError::write(&path, source))?;
+        Ok(Self { path, file, bytes: expected })
+    }
+
+    /// One write per row: a run that is killed leaves whole rows.
+    pub(crate) fn push(&mut self, row: &[u8]) -> Result<(), OutputError> {
+        self.bytes += row.len() as u64;
+        self.file.write_all(row).map_err(|source| OutputError::write(&self.path, source))
+    }
+
+    /// Bytes written so far.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// Waits until its rows are on the disc.
+    pub(crate) fn settle(&self) -> Result<(), OutputError> {
+        self.file.sync_data().map_err(|source| OutputError::write(&self.path, source))
+    }
+}

@@ -1,0 +1,18 @@
+//! Numbers read back from JSON, which has no infinite numbers and none that are not numbers: both are written as `null`.
+
+use serde::{Deserialize, Deserializer};
+
+/// Numbers of which those that are not finite were infinite.
+pub(crate) fn or_infinite<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
+    filled(from, f64::INFINITY)
+}
+
+/// Numbers of which those that are not finite were none.
+pub(crate) fn or_nan<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
+    filled(from, f64::NAN)
+}
+
+fn filled<'de, D: Deserializer<'de>>(from: D, other: f64) -> Result<Vec<f64>, D::Error> {
+    let read = Vec::<Option<f64>>::deserialize(from)?;
+    Ok(read.into_iter().map(|v| v.unwrap_or(other)).collect())
+}
