@@ -5,7 +5,7 @@ use crate::cohesive;
 use crate::plan::{Plan, Summary};
 use crate::views;
 use crate::warning::Warning;
-use asperity_mechanics::Stage;
+use asperity_mechanics::{PlannedInterface, Stage};
 use asperity_output::view::{
     Counts, ForceMark, InterfaceFields, PointMark, PointValues, Samples, StepRecord,
 };
@@ -30,12 +30,14 @@ pub enum Outcome {
         /// What kind of end it is.
         kind: Stop,
     },
-    /// A signal ended it; everything before `time` stands.
+    /// A signal or its wall time ended it; everything before `time` stands.
     Interrupted {
         /// Stage.
         stage: String,
         /// Time of the last state \[s\].
         time: f64,
+        /// Why.
+        reason: String,
     },
 }
 
@@ -102,7 +104,7 @@ pub struct Phases {
 }
 
 /// Figures of an interface at the end of a stage.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct InterfaceResult {
     /// Interface.
     pub interface: String,
@@ -125,7 +127,7 @@ pub struct InterfaceResult {
 }
 
 /// Values at a point of a body at the end of a stage.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointResult {
     /// The point.
     #[serde(flatten)]
@@ -138,7 +140,7 @@ pub struct PointResult {
 }
 
 /// Force on a set at the end of a stage.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ForceResult {
     /// The set.
     #[serde(flatten)]
@@ -148,7 +150,7 @@ pub struct ForceResult {
     /// What acts on the body through the nodes of the set.
     pub value: [f64; 3],
     /// Its unit: N, or N/m of thickness.
-    pub unit: &'static str,
+    pub unit: String,
 }
 
 /// What may differ from machine to machine and from run to run.
@@ -213,51 +215,6 @@ impl RunReport {
         }
     }
 
-    /// Adds the results at the end of a stage. `interfaces` gives the name of each.
-    pub fn end_of_stage(
-        &mut self,
-        stage: &Stage,
-        fields: &[InterfaceFields],
-        interfaces: impl Iterator<Item = String>,
-    ) {
-        for (f, interface) in fields.iter().zip(interfaces) {
-            self.results.push(InterfaceResult {
-                interface,
-                stage: stage.name.clone(),
-                mean_normal_traction: mean(&f.normal_traction, &f.area),
-                mean_shear_traction: mean(&f.shear_traction, &f.area),
-                mid_normal_traction: f.normal_traction.get(f.area.len() / 2).copied().unwrap_or(0.0),
-                slip: range(&f.slip),
-                slip_rate: range(&f.slip_rate),
-                friction: range(&f.friction),
-                status: [0, 1, 2].map(|s| f.status.iter().filter(|&&x| x == s).count()),
-            });
-        }
-    }
-
-    /// Warns of interfaces that are pressed so much at the end of a stage that their points do not resolve friction.
-    pub fn resolution<const D: usize>(&mut self, plan: &Plan<D>, stage: &Stage, fields: &[InterfaceFields]) {
-        for (f, interface) in fields.iter().zip(&plan.problem.interfaces) {
-            let largest = f.normal_traction.iter().fold(0.0_f64, |l, v| l.max(*v));
-            let resolved = interface.resolved.as_ref();
-            self.warnings
-                .extend(resolved.and_then(|r| cohesive::warning(r, &interface.name, &stage.name, largest)));
-        }
-    }
-
-    /// Adds the points and forces at the end of a stage.
-    pub fn samples<const D: usize>(&mut self, plan: &Plan<D>, stage: &Stage, samples: &Samples) {
-        let name = || stage.name.clone();
-        for (point, values) in plan.problem.samples.points.iter().zip(&samples.points) {
-            let (point, values) = (views::point_mark(point), values.clone());
-            self.points.push(PointResult { point, stage: name(), values });
-        }
-        for (force, value) in plan.problem.samples.forces.iter().zip(&samples.forces) {
-            let (force, unit) = (views::force_mark(force), views::force_unit(plan));
-            self.forces.push(ForceResult { force, stage: name(), value: *value, unit });
-        }
-    }
-
     /// How the run stands.
     #[must_use]
     pub fn status(&self) -> Status {
@@ -276,6 +233,63 @@ impl RunReport {
         self.run.commit = commit().to_string();
         self.steps = steps;
     }
+}
+
+/// Results of the interfaces at the end of a stage. `interfaces` gives the name of each.
+pub(crate) fn results(
+    stage: &Stage,
+    fields: &[InterfaceFields],
+    interfaces: impl Iterator<Item = String>,
+) -> Vec<InterfaceResult> {
+    let of = |(f, interface): (&InterfaceFields, String)| InterfaceResult {
+        interface,
+        stage: stage.name.clone(),
+        mean_normal_traction: mean(&f.normal_traction, &f.area),
+        mean_shear_traction: mean(&f.shear_traction, &f.area),
+        mid_normal_traction: f.normal_traction.get(f.area.len() / 2).copied().unwrap_or(0.0),
+        slip: range(&f.slip),
+        slip_rate: range(&f.slip_rate),
+        friction: range(&f.friction),
+        status: [0, 1, 2].map(|s| f.status.iter().filter(|&&x| x == s).count()),
+    };
+    fields.iter().zip(interfaces).map(of).collect()
+}
+
+/// Warns of interfaces that are pressed so much at the end of a stage that their points do not resolve friction.
+pub(crate) fn resolution<const D: usize>(
+    plan: &Plan<D>,
+    stage: &Stage,
+    fields: &[InterfaceFields],
+) -> Vec<Warning> {
+    let of = |(f, interface): (&InterfaceFields, &PlannedInterface)| {
+        let largest = f.normal_traction.iter().fold(0.0_f64, |l, v| l.max(*v));
+        let resolved = interface.resolved.as_ref()?;
+        cohesive::warning(resolved, &interface.name, &stage.name, largest)
+    };
+    fields.iter().zip(&plan.problem.interfaces).filter_map(of).collect()
+}
+
+/// Values at the points of bodies at the end of a stage.
+pub(crate) fn points<const D: usize>(plan: &Plan<D>, stage: &Stage, samples: &Samples) -> Vec<PointResult> {
+    let all = plan.problem.samples.points.iter().zip(&samples.points);
+    all.map(|(point, values)| PointResult {
+        point: views::point_mark(point),
+        stage: stage.name.clone(),
+        values: values.clone(),
+    })
+    .collect()
+}
+
+/// Forces on sets at the end of a stage.
+pub(crate) fn forces<const D: usize>(plan: &Plan<D>, stage: &Stage, samples: &Samples) -> Vec<ForceResult> {
+    let all = plan.problem.samples.forces.iter().zip(&samples.forces);
+    all.map(|(force, value)| ForceResult {
+        force: views::force_mark(force),
+        stage: stage.name.clone(),
+        value: *value,
+        unit: views::force_unit(plan).to_string(),
+    })
+    .collect()
 }
 
 /// Area-weighted mean; 0 of no area.

@@ -1,18 +1,26 @@
 //! Running a plan: stages in sequence, steps within them, observers after each.
 
+mod keeper;
+mod stand;
+
+pub use keeper::{Checkpoint, Keeper, Kept};
+pub use stand::Stand;
+
 use crate::balance::balance;
 use crate::plan::{AnyPlan, Plan};
-use crate::report::{Outcome, Phases, RunReport};
+use crate::report::{self, Outcome, Phases, RunReport};
 use crate::run_doubts;
 use crate::stop;
 use crate::views;
+use crate::warning::Warning;
 use asperity_contact::{Course, Watch};
-use asperity_mechanics::step::{Accepted, Cut};
+use asperity_mechanics::step::{Accepted, Cut, Failure};
 use asperity_mechanics::timing::{Figures, StepLength};
-use asperity_mechanics::{Assembled, Counts, LOADING, Stage};
+use asperity_mechanics::{Assembled, LOADING, Mismatch, Stage};
 use asperity_output::OutputError;
 use asperity_output::view::{InterfaceFields, Observer, StepRecord, StepView};
-use std::sync::atomic::{AtomicBool, Ordering};
+use keeper::Unkept;
+use stand::{Found, Said, Work};
 use std::time::Instant as Clock;
 
 /// Why a run could not be completed.
@@ -26,6 +34,9 @@ pub enum RunError {
         /// Reason.
         reason: String,
     },
+    /// The run that is to be resumed is another.
+    #[error("the run that is to be resumed is another: {0}")]
+    Foreign(#[from] Mismatch),
     /// An observer could not write.
     #[error(transparent)]
     Observe(#[from] OutputError),
@@ -37,144 +48,221 @@ pub enum RunError {
 /// # Errors
 /// [`RunError`] when the system cannot be set up or an output cannot be written.
 pub fn run(plan: &AnyPlan, observer: &mut dyn Observer) -> Result<RunReport, RunError> {
-    run_until(plan, observer, &AtomicBool::new(false))
+    run_kept(plan, &mut Unkept(observer), None)
 }
 
-/// Runs a plan until its end, or until after the step in which `stop` is set: the outcome is then that it was interrupted.
+/// Runs a plan from its start, or from where it stood, until its end or until `keeper` interrupts it.
 ///
 /// # Errors
-/// See [`run`].
-pub fn run_until(
-    plan: &AnyPlan,
-    observer: &mut dyn Observer,
-    stop: &AtomicBool,
-) -> Result<RunReport, RunError> {
+/// See [`run`]; [`RunError::Foreign`] where the run that stood there was not one of this plan.
+pub fn run_kept(plan: &AnyPlan, keeper: &mut dyn Keeper, from: Option<Stand>) -> Result<RunReport, RunError> {
     match plan {
-        AnyPlan::Two(plan) => run_in(plan, observer, stop),
-        AnyPlan::Three(plan) => run_in(plan, observer, stop),
+        AnyPlan::Two(plan) => run_in(plan, keeper, from),
+        AnyPlan::Three(plan) => run_in(plan, keeper, from),
     }
 }
 
 fn run_in<const D: usize>(
     plan: &Plan<D>,
-    observer: &mut dyn Observer,
-    stop: &AtomicBool,
+    keeper: &mut dyn Keeper,
+    from: Option<Stand>,
 ) -> Result<RunReport, RunError> {
-    let (counts, phases) = (Counts::default(), Phases::default());
-    let mut run = Running { plan, stop, counts, rejected: 0, phases, steps: Vec::new() };
     let clock = Clock::now();
     let mut system = Assembled::new(&plan.problem)
         .map_err(|reason| RunError::SetUp { stage: plan.problem.stages[0].name.clone(), reason })?;
-    run.phases.set_up += clock.elapsed().as_secs_f64();
-    observer.begin(&views::setup(plan, system.areas()))?;
-    let mut report = RunReport::new(plan);
-    for index in 0..plan.problem.stages.len() {
-        let outcome = run.stage(index, &mut system, observer)?;
-        report.end_of_stage(&plan.problem.stages[index], &interface_fields(&system), interface_names(plan));
-        report.resolution(plan, &plan.problem.stages[index], &interface_fields(&system));
-        report.samples(plan, &plan.problem.stages[index], &views::samples(system.samples()));
-        let name = &plan.problem.stages[index].name;
-        let found = run_doubts::after_stage(plan, name, &system.displacement(), &interface_fields(&system));
-        report.warnings.extend(found);
-        if let Some(failure) = outcome {
-            run.show(index, &plan.problem.stages[index], &system, observer, true)?;
-            report.outcome = failure;
+    let phases = Phases { set_up: clock.elapsed().as_secs_f64(), ..Phases::default() };
+    let (work, found) = (Work::default(), Found::default());
+    let mut run = Running { plan, work, found, phases, moved: false };
+    keeper.begin(&views::setup(plan, system.areas()))?;
+    let first = from.as_ref().map_or(0, |stand| stand.stage);
+    let (mut from, mut outcome) = (from, Outcome::Completed);
+    for index in first..plan.problem.stages.len() {
+        let ended = run.stage(index, &mut system, keeper, from.take())?;
+        run.end_of_stage(&plan.problem.stages[index], &system);
+        if let Some(early) = ended {
+            run.show(index, &plan.problem.stages[index], &system, keeper, true)?;
+            outcome = early;
             break;
         }
     }
-    system.add_counts(&mut run.counts);
-    let planned = plan.problem.interfaces.iter().zip(system.interfaces());
-    report.balance = planned.map(|(p, i)| balance(&p.name, i, plan.problem.model.scale)).collect();
-    report.warnings.extend(run_doubts::never_closed(&report.results));
-    let counts = views::counts(run.steps.len(), run.rejected, &run.counts);
-    report.complete(counts, run.phases, run.steps);
-    Ok(report)
+    Ok(run.report(&system, outcome))
 }
 
 /// A run in progress.
 struct Running<'a, const D: usize> {
     plan: &'a Plan<D>,
-    stop: &'a AtomicBool,
-    /// Work of the steppers.
-    counts: Counts,
-    /// Rejected trials.
-    rejected: usize,
+    work: Work,
+    found: Found,
     phases: Phases,
-    steps: Vec<StepRecord>,
+    /// Whether a step has been tried since the run began or was resumed.
+    moved: bool,
+}
+
+/// Where a run stands within a stage.
+struct InStage {
+    index: usize,
+    length: StepLength,
+    /// Trials thrown away since the last accepted step.
+    rejected: usize,
+    /// A motion that the first of them found free, in words.
+    free: Option<String>,
 }
 
 impl<const D: usize> Running<'_, D> {
-    /// Runs one stage; a failure of the stepper is returned as an outcome.
+    /// Runs one stage, from where it stood where it is resumed; an early end is returned as an outcome.
     fn stage(
         &mut self,
         index: usize,
         system: &mut Assembled<'_, D>,
-        observer: &mut dyn Observer,
+        keeper: &mut dyn Keeper,
+        from: Option<Stand>,
     ) -> Result<Option<Outcome>, RunError> {
         let stage = &self.plan.problem.stages[index];
         let clock = Clock::now();
-        system.begin_stage(stage).map_err(|reason| RunError::SetUp { stage: stage.name.clone(), reason })?;
+        let mut here = self.enter(index, system, from)?;
         self.phases.set_up += clock.elapsed().as_secs_f64();
-        let mut length = StepLength::new(&self.plan.problem.control, stage, self.watches());
-        let mut rejected = 0;
-        let mut free: Option<String> = None;
         loop {
-            let Some(dt) = length.next(system.time()) else { return Ok(None) };
-            if self.stop.load(Ordering::Relaxed) {
-                let stage = stage.name.clone();
-                return Ok(Some(Outcome::Interrupted { stage, time: system.time() }));
+            let Some(dt) = here.length.next(system.time()) else { return Ok(None) };
+            if let Some(reason) = keeper.pause(self.moved, &mut || self.stand(&here, system))? {
+                let (stage, reason) = (stage.name.clone(), reason.to_string());
+                return Ok(Some(Outcome::Interrupted { stage, time: system.time(), reason }));
             }
+            self.moved = true;
             let clock = Clock::now();
             let before = system.slip_rates();
-            system.set_bound(length.bound(dt));
-            let trial = system.step((dt, length.smallest()), &mut self.counts);
+            system.set_bound(here.length.bound(dt));
+            let trial = system.step((dt, here.length.smallest()), &mut self.work.counts);
             self.phases.steps += clock.elapsed().as_secs_f64();
-            match trial {
+            let ended = match trial {
                 Ok(accepted) => {
-                    system.set_time(length.snap(system.time()));
-                    let figures = Figures {
-                        slip: system.slip_error(&before, accepted.dt),
-                        friction: accepted.error,
-                        fill: system.slip_fill(),
-                        // Rounds of multipliers solve anew from where the last one ended: a step is hard where one solution is.
-                        iterations: accepted.iterations.div_ceil(accepted.augmentations + 1),
-                    };
-                    length.accepted((accepted.dt, accepted.cut), figures);
-                    self.record(index, stage, system, &accepted, (rejected, length.reason()));
-                    self.show(index, stage, system, observer, false)?;
-                    (rejected, free) = (0, None);
-                    if let Some(lengths) = length.exhausted().filter(|_| self.follows_rates()) {
-                        let faster = self.faster(&before, &system.slip_rates());
-                        // Where slip only just begins, shorter forward steps would follow rates that matter to nothing.
-                        if faster || accepted.cut != Cut::Accuracy {
-                            return Ok(Some(stop::exhausted(system, &stage.name, lengths, faster)));
-                        }
-                    }
+                    self.accepted(&mut here, system, &before, &accepted);
+                    self.show(index, stage, system, keeper, false)?;
+                    self.outruns(&here, system, &before, accepted.cut)
                 }
-                Err(failure) => {
-                    self.rejected += 1;
-                    rejected += 1;
-                    if free.is_none() && failure.is_singular() {
-                        free = system.free_motion();
-                    }
-                    if let Some(outcome) =
-                        stop::stalled(system, &stage.name, &failure, (self.steps.len(), self.rejected))
-                    {
-                        return Ok(Some(outcome));
-                    }
-                    if failure.always() || !length.halve(dt) {
-                        return Ok(Some(stop::failed(
-                            system,
-                            &stage.name,
-                            &failure,
-                            dt,
-                            free,
-                            self.fast(system),
-                        )));
-                    }
-                }
+                Err(failure) => self.rejected(&mut here, system, &failure, dt),
+            };
+            if ended.is_some() {
+                return Ok(ended);
             }
         }
+    }
+
+    /// Begins a stage, or takes up a run within it.
+    fn enter(
+        &mut self,
+        index: usize,
+        system: &mut Assembled<'_, D>,
+        from: Option<Stand>,
+    ) -> Result<InStage, RunError> {
+        let stage = &self.plan.problem.stages[index];
+        let length = StepLength::new(&self.plan.problem.control, stage, self.watches());
+        let Some(from) = from else {
+            let told = |reason| RunError::SetUp { stage: stage.name.clone(), reason };
+            system.begin_stage(stage).map_err(told)?;
+            return Ok(InStage { index, length, rejected: 0, free: None });
+        };
+        system.restore(stage, &from.system)?;
+        (self.work, self.found) = (from.work, from.found);
+        let length = length.restored(&from.length);
+        Ok(InStage { index, length, rejected: from.rejected, free: from.free })
+    }
+
+    /// Where the run stands.
+    fn stand(&self, here: &InStage, system: &mut Assembled<'_, D>) -> Stand {
+        Stand {
+            stage: here.index,
+            system: system.save(),
+            length: here.length.save(),
+            rejected: here.rejected,
+            free: here.free.clone(),
+            work: self.work.clone(),
+            found: self.found.clone(),
+        }
+    }
+
+    /// Takes note of an accepted step; `before` are the slip rates before it.
+    fn accepted(
+        &mut self,
+        here: &mut InStage,
+        system: &mut Assembled<'_, D>,
+        before: &[f64],
+        accepted: &Accepted,
+    ) {
+        system.set_time(here.length.snap(system.time()));
+        let figures = Figures {
+            slip: system.slip_error(before, accepted.dt),
+            friction: accepted.error,
+            fill: system.slip_fill(),
+            // Rounds of multipliers solve anew from where the last one ended: a step is hard where one solution is.
+            iterations: accepted.iterations.div_ceil(accepted.augmentations + 1),
+        };
+        here.length.accepted((accepted.dt, accepted.cut), figures);
+        self.record(here, system, accepted);
+        (here.rejected, here.free) = (0, None);
+    }
+
+    /// The outcome of a run whose slip cannot be followed, where it cannot.
+    fn outruns(
+        &self,
+        here: &InStage,
+        system: &Assembled<'_, D>,
+        before: &[f64],
+        cut: Cut,
+    ) -> Option<Outcome> {
+        let lengths = here.length.exhausted().filter(|_| self.follows_rates())?;
+        let faster = self.faster(before, &system.slip_rates());
+        // Where slip only just begins, shorter forward steps would follow rates that matter to nothing.
+        let name = &self.plan.problem.stages[here.index].name;
+        (faster || cut != Cut::Accuracy).then(|| stop::exhausted(system, name, lengths, faster))
+    }
+
+    /// Takes note of a failed trial of length `dt` \[s\]; the outcome of a run that cannot go on.
+    fn rejected(
+        &mut self,
+        here: &mut InStage,
+        system: &Assembled<'_, D>,
+        failure: &Failure,
+        dt: f64,
+    ) -> Option<Outcome> {
+        self.work.rejected += 1;
+        here.rejected += 1;
+        if here.free.is_none() && failure.is_singular() {
+            here.free = system.free_motion();
+        }
+        let name = &self.plan.problem.stages[here.index].name;
+        let tried = (self.work.steps.len(), self.work.rejected);
+        stop::stalled(system, name, failure, tried).or_else(|| {
+            let over = failure.always() || !here.length.halve(dt);
+            over.then(|| stop::failed(system, name, failure, dt, here.free.take(), self.fast(system)))
+        })
+    }
+
+    /// Adds what is found at the end of a stage.
+    fn end_of_stage(&mut self, stage: &Stage, system: &Assembled<'_, D>) {
+        let (plan, fields) = (self.plan, interface_fields(system));
+        self.found.results.extend(report::results(stage, &fields, interface_names(plan)));
+        let resolution = report::resolution(plan, stage, &fields);
+        let samples = views::samples(system.samples());
+        self.found.points.extend(report::points(plan, stage, &samples));
+        self.found.forces.extend(report::forces(plan, stage, &samples));
+        let doubts = run_doubts::after_stage(plan, &stage.name, &system.displacement(), &fields);
+        self.found.warnings.extend(resolution.into_iter().chain(doubts).map(Said::from));
+    }
+
+    /// The report of the run.
+    fn report(self, system: &Assembled<'_, D>, outcome: Outcome) -> RunReport {
+        let Self { plan, mut work, found, phases, .. } = self;
+        system.add_counts(&mut work.counts);
+        let planned = plan.problem.interfaces.iter().zip(system.interfaces());
+        let balance = planned.map(|(p, i)| balance(&p.name, i, plan.problem.model.scale)).collect();
+        let Found { results, points, forces, warnings } = found;
+        let mut warnings: Vec<Warning> = warnings.into_iter().map(Warning::from).collect();
+        warnings.extend(run_doubts::never_closed(&results));
+        let mut report =
+            RunReport { outcome, warnings, results, points, forces, balance, ..RunReport::new(plan) };
+        let counts = views::counts(work.steps.len(), work.rejected, &work.counts);
+        report.complete(counts, phases, work.steps);
+        report
     }
 
     /// Whether the largest slip rate has grown beyond what loads drive.
@@ -204,27 +292,22 @@ impl<const D: usize> Running<'_, D> {
         self.plan.problem.interfaces.iter().any(|i| i.law.as_ref().is_some_and(|l| !l.has_elastic_domain()))
     }
 
-    fn record(
-        &mut self,
-        index: usize,
-        stage: &Stage,
-        system: &mut Assembled<'_, D>,
-        accepted: &Accepted,
-        (rejected, reason): (usize, &str),
-    ) {
-        debug_assert!(system.time() <= stage.end * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE);
-        self.steps.push(StepRecord {
-            stage: index,
-            step: self.steps.len() + 1,
+    fn record(&mut self, here: &InStage, system: &Assembled<'_, D>, accepted: &Accepted) {
+        let end = self.plan.problem.stages[here.index].end;
+        debug_assert!(system.time() <= end * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE);
+        let reason = || here.length.reason().to_string();
+        self.work.steps.push(StepRecord {
+            stage: here.index,
+            step: self.work.steps.len() + 1,
             time: system.time(),
             dt: accepted.dt,
             iterations: accepted.iterations,
             augmentations: accepted.augmentations,
-            rejected,
+            rejected: here.rejected,
             residual_ratio: accepted.residual_ratio,
             drift: accepted.drift,
             penetration: system.largest_penetration(),
-            limited_by: accepted.limited_by.clone().unwrap_or_else(|| reason.to_string()),
+            limited_by: accepted.limited_by.clone().unwrap_or_else(reason),
         });
     }
 
@@ -234,11 +317,13 @@ impl<const D: usize> Running<'_, D> {
         index: usize,
         stage: &Stage,
         system: &Assembled<'_, D>,
-        observer: &mut dyn Observer,
+        observer: &mut dyn Keeper,
         stopped: bool,
     ) -> Result<(), RunError> {
         let clock = Clock::now();
-        let Some(record) = self.steps.last().filter(|record| record.stage == index) else { return Ok(()) };
+        let Some(record) = self.work.steps.last().filter(|record| record.stage == index) else {
+            return Ok(());
+        };
         let end_time = self.plan.problem.stages.last().map_or(stage.end, |s| s.end);
         let (interfaces, samples) = (interface_fields(system), views::samples(system.samples()));
         let view = StepView {

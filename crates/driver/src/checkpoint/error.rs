@@ -24,7 +24,7 @@ pub enum ResumeError {
     },
     /// Written by another version of the program.
     #[error(
-        "the checkpoint {path} has version {found}, and this program reads version {reads}; go on with the program that wrote it, or run without --resume to begin again"
+        "the checkpoint {path} has version {found}, and this program reads version {reads}; resume it with the program that wrote it, or run without --resume to begin again"
     )]
     Version {
         /// The file.

@@ -10,8 +10,11 @@
 //! takes the place of the one before it.
 
 mod error;
+mod pauses;
+pub mod scene;
 
 pub use error::ResumeError;
+pub use pauses::Pauses;
 
 use asperity_output::{OutputError, atomic};
 use serde::Serialize;

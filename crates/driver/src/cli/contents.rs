@@ -5,6 +5,7 @@ use crate::checkpoint;
 use crate::report::Status;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::fs;
 use std::io::ErrorKind;
@@ -98,6 +99,8 @@ fn foreign_in(
 struct Report {
     title: String,
     scene_sha256: String,
+    #[serde(default)]
+    meshes_sha256: BTreeMap<String, String>,
     /// Absent in reports of old, which were written at the end.
     #[serde(default = "completed")]
     status: Status,
@@ -156,6 +159,12 @@ impl Contents {
         self.nothing
     }
 
+    /// Whether a run of the scene and the mesh files of these hashes has come to its end there.
+    pub fn is_complete(&self, scene: &str, meshes: &BTreeMap<String, String>) -> bool {
+        let same = |r: &Report| r.scene_sha256 == scene && r.meshes_sha256 == *meshes;
+        !self.checkpoint && self.report.as_ref().is_some_and(|r| r.status == Status::Completed && same(r))
+    }
+
     /// Refuses a run where something would be lost that may be wanted.
     pub fn refuse(&self, path: &Path, begin: &Begin) -> miette::Result<()> {
         let path = path.display();
@@ -185,7 +194,7 @@ impl Contents {
         }
         if self.checkpoint && matches!(report.status, Status::Running | Status::Interrupted) {
             return Err(miette!(
-                "{path} holds an unfinished run with a checkpoint: go on with it with --resume, or move it to {path}.previous with --force and begin again"
+                "{path} holds an unfinished run with a checkpoint: resume it with --resume, or move it to {path}.previous with --force and begin again"
             ));
         }
         Ok(())

@@ -10,9 +10,10 @@ mod read;
 mod signals;
 mod work;
 
-use asperity_output::Pulse;
+use asperity_output::{Pulse, printing};
 use begin::Begin;
 use clap::{Parser, Subcommand};
+use contents::Contents;
 use directory::Directory;
 pub use end::End;
 use miette::miette;
@@ -70,12 +71,19 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
         Command::Run { scene, out, no_plots, force, pauses } => {
             let out = out.clone().unwrap_or_else(|| default_output(scene));
             let source = Source::read(scene)?;
-            if (pauses.resume || pauses.wall_time.is_some()) && !source.has_faults() {
+            if (pauses.resume || pauses.wall_time.is_some()) && source.is_slider() {
                 return Err(miette!(
-                    "only runs of faults have checkpoints: leave out --resume and --wall-time"
+                    "runs of spring-sliders have no checkpoints: leave out --resume and --wall-time"
                 ));
             }
             let begin = Begin { resume: pauses.resume, force: *force, ..source.begin(scene) };
+            if begin.resume
+                && let Some(meshes) = source.meshes_of_bodies()
+                && Contents::of(&out)?.is_complete(&begin.hash, &meshes)
+            {
+                printing::out(format_args!("the run in {} is complete: nothing to resume\n", out.display()));
+                return Ok(End::Done);
+            }
             let mut directory = Directory::claim(&out, begin)?;
             let ended = run(source, &mut directory, !no_plots, pauses);
             if let Err(error) = &ended {
@@ -94,7 +102,7 @@ fn run(source: Source, directory: &mut Directory, drawn: bool, pauses: &Pausing)
     };
     print::plan(&ready.plan);
     match &ready.plan {
-        Planned::Bodies(plan) => run_bodies(plan, &ready, directory, drawn),
+        Planned::Bodies(plan) => run_bodies(plan, &ready, directory, drawn, pauses),
         Planned::Sliders(plan) => run_sliders(plan, &ready, directory, drawn),
         Planned::Faults(plan) => run_faults(plan, &ready, directory, drawn, pauses),
     }

@@ -6,17 +6,17 @@ use serde::Deserialize;
 use serde::de::value::StrDeserializer;
 use std::time::Duration;
 
-/// When a run of faults is interrupted, and how it goes on.
+/// When a run is interrupted, and how it is resumed.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Pausing {
-    /// Go on from the checkpoint in the output directory (runs of faults), also to more events or a longer last stage; from the start
-    /// where there is none.
+    /// Resume the run in the output directory from its checkpoint; begin at the start where there is none. Runs of faults go on to more
+    /// events or a longer last stage as well.
     #[arg(long)]
     pub resume: bool,
-    /// Wall time after which to end with a checkpoint (runs of faults), such as "2 h".
+    /// Wall time after which to end with a checkpoint, such as "2 h".
     #[arg(long, value_parser = duration)]
     pub wall_time: Option<Duration>,
-    /// Wall time between checkpoints (runs of faults).
+    /// Wall time between checkpoints.
     #[arg(long, value_parser = duration, default_value = "10 s")]
     pub checkpoint_every: Duration,
 }

@@ -1,6 +1,7 @@
 //! From a scene file to its plan.
 
 use super::begin::Begin;
+use crate::checkpoint;
 use crate::diagnostic::{Diagnostics, report};
 use crate::fault;
 use crate::plan::{self, AnyPlan, ScenePlan};
@@ -83,9 +84,18 @@ impl Source {
         Ok(Self { name, text, parsed, clock })
     }
 
-    /// Whether it is a scene of faults.
-    pub fn has_faults(&self) -> bool {
-        matches!(&self.parsed, Parsed::Bodies(scene) if !scene.faults.is_empty())
+    /// Whether it is a scene of spring-sliders.
+    pub fn is_slider(&self) -> bool {
+        matches!(&self.parsed, Parsed::Sliders(_))
+    }
+
+    /// SHA-256 of the mesh files of bodies without faults, whose runs have an end that no change of the scene moves; none where they cannot
+    /// be read, or of other scenes.
+    pub fn meshes_of_bodies(&self) -> Option<BTreeMap<String, String>> {
+        match &self.parsed {
+            Parsed::Bodies(scene) if scene.faults.is_empty() => mesh_hashes(scene).ok(),
+            _ => None,
+        }
     }
 
     /// What a run of it, read from `path`, is begun with.
@@ -112,22 +122,31 @@ impl Source {
                         return Err(report(&name, &text, &Diagnostics::from(error)));
                     }
                 };
-                for file in scene.mesh_files() {
-                    let bytes = std::fs::read(scene.folder.join(file))
-                        .into_diagnostic()
-                        .wrap_err_with(|| format!("cannot read the mesh file {file}"))?;
-                    meshes.insert(file.to_string(), sha256(&bytes));
-                }
+                meshes = mesh_hashes(&scene)?;
                 plan
             }
         };
         for warning in plan.warnings_mut() {
             warning.locate(&text);
         }
-        let physics = fault::physics(&text, meshes.values().map(String::as_str));
+        let hashes = meshes.values().map(String::as_str);
+        let physics = match &plan {
+            Planned::Faults(_) => fault::physics(&text, hashes),
+            Planned::Bodies(_) | Planned::Sliders(_) => checkpoint::scene::of_bodies(&text, hashes),
+        };
         let hash = sha256(text.as_bytes());
         Ok(Ready { plan, hash, physics, meshes, seconds: clock.elapsed().as_secs_f64() })
     }
+}
+
+/// SHA-256 of the mesh files of a scene, by their names in it.
+fn mesh_hashes(scene: &scene::model::Scene) -> miette::Result<BTreeMap<String, String>> {
+    let hash = |file: &str| {
+        let bytes = std::fs::read(scene.folder.join(file)).into_diagnostic();
+        let bytes = bytes.wrap_err_with(|| format!("cannot read the mesh file {file}"))?;
+        Ok((file.to_string(), sha256(&bytes)))
+    };
+    scene.mesh_files().map(hash).collect()
 }
 
 fn sha256(bytes: &[u8]) -> String {

@@ -5,17 +5,18 @@ use super::end::End;
 use super::pausing::Pausing;
 use super::read::Ready;
 use super::{print, signals};
+use crate::checkpoint::{self, Contents as _, Pauses};
 use crate::fault;
 use crate::forecast;
 use crate::plan::AnyPlan;
 use crate::report::{Outcome, Status};
-use crate::run;
+use crate::run::{self, RunError};
 use crate::slider;
 use asperity_output::printing::{err, out};
 use asperity_output::{
-    FieldSchedule, Files, Multi, Observer, OutputError, Progress, Recorder, atomic, plots, stems,
+    FieldSchedule, Files, Observer, OutputError, Progress, Recorder, atomic, plots, stems,
 };
-use miette::IntoDiagnostic;
+use miette::{IntoDiagnostic, miette};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,17 +28,20 @@ pub(super) fn run_bodies(
     ready: &Ready,
     directory: &mut Directory,
     drawn: bool,
+    pausing: &Pausing,
 ) -> miette::Result<End> {
-    let (fields, profiles) = plan.outputs();
-    let mut files = Files::create(directory.path(), FieldSchedule { fields, profiles }).into_diagnostic()?;
-    let mut recorder = drawn.then(|| Recorder::new().with_bodies());
-    let mut progress = Progress::new();
-    let mut all = vec![&mut files as &mut dyn Observer, &mut progress];
-    all.extend(recorder.as_mut().map(|r| r as &mut dyn Observer));
-    let stop = signals::watched().into_diagnostic()?;
+    let pauses = pauses(pausing)?;
+    let (kept, from) = kept(plan, ready, directory, drawn, (pausing.resume, pauses))?;
+    let mut kept = kept.shown();
     directory.computes()?;
-    let mut report = run::run_until(plan, &mut Multi::new(all), &stop).into_diagnostic()?;
-    progress.finish();
+    let ended = run::run_kept(plan, &mut kept, from);
+    let mut report = match ended {
+        Err(RunError::Foreign(why)) => {
+            Err(checkpoint::foreign(directory.path(), &why.to_string())).into_diagnostic()
+        }
+        other => other.into_diagnostic(),
+    }?;
+    let recorder = kept.finish(report.status() == Status::Completed).into_diagnostic()?;
     report.scene_sha256.clone_from(&ready.hash);
     report.meshes_sha256.clone_from(&ready.meshes);
     report.run.seconds.plan = ready.seconds;
@@ -57,10 +61,64 @@ pub(super) fn run_bodies(
         Outcome::Stopped { stage, time, reason, .. } => {
             End::Stopped(format!("stage `{stage}` at {time:.6e} s: {reason}"))
         }
-        Outcome::Interrupted { stage, time } => {
-            End::Interrupted(format!("interrupted by a signal in stage `{stage}` at {time:.6e} s"))
+        Outcome::Interrupted { stage, time, reason } => {
+            let step = report.counts.steps;
+            End::Interrupted(format!(
+                "interrupted: {reason} in stage `{stage}` at {time:.6e} s, step {step}; {RESUMES}"
+            ))
         }
     })
+}
+
+/// What is said of a run that was interrupted.
+const RESUMES: &str = "the same command with --resume resumes it there";
+
+/// When the run is interrupted, from now on.
+fn pauses(pausing: &Pausing) -> miette::Result<Pauses> {
+    let stop = signals::watched().into_diagnostic()?;
+    Ok(Pauses { every: pausing.checkpoint_every, wall: pausing.wall_time, stop, begun: Instant::now() })
+}
+
+/// Begins a run of bodies, or resumes the one in the directory.
+fn kept(
+    plan: &AnyPlan,
+    ready: &Ready,
+    directory: &Directory,
+    drawn: bool,
+    (resume, pauses): (bool, Pauses),
+) -> miette::Result<(run::Kept, Option<run::Stand>)> {
+    let (path, (fields, profiles)) = (directory.path(), plan.outputs());
+    let files = Files::create(path, FieldSchedule { fields, profiles }).into_diagnostic()?;
+    let read = if resume { run::Checkpoint::read(path, &ready.physics).into_diagnostic()? } else { None };
+    let Some(read) = read else {
+        if resume {
+            nothing_to_resume(path);
+        }
+        let recorder = drawn.then(|| Recorder::new().with_bodies());
+        let kept = run::Kept::begin(path, &ready.physics, files, recorder, pauses).into_diagnostic()?;
+        return Ok((kept, None));
+    };
+    if drawn && !read.draws() {
+        out(format_args!("no plots: the run was begun with --no-plots\n"));
+    }
+    remove_plots(&path.join("plots"))?;
+    let (kept, stand) = run::Kept::resume(path, read, files, drawn, pauses);
+    out(format_args!("resumed at {:.6e} s, step {}\n", stand.time(), stand.steps()));
+    Ok((kept, Some(stand)))
+}
+
+/// Removes the plots of the part before, which are drawn again at the end.
+fn remove_plots(folder: &Path) -> miette::Result<()> {
+    match std::fs::remove_dir_all(folder) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
+            Err(miette!("cannot remove {}: {e}", folder.display()))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn nothing_to_resume(path: &Path) {
+    out(format_args!("nothing to resume in {}: begins at the start\n", path.display()));
 }
 
 /// Says what memory was taken, and where the results are.
@@ -145,8 +203,7 @@ pub(super) fn run_faults(
     drawn: bool,
     pausing: &Pausing,
 ) -> miette::Result<End> {
-    let stop = signals::watched().into_diagnostic()?;
-    let pauses = fault::Pauses { every: pausing.checkpoint_every, wall: pausing.wall_time, stop };
+    let pauses = pauses(pausing)?;
     let (mut keeper, start) = keeper(plan, ready, directory, pausing.resume, pauses)?;
     directory.computes()?;
     let clock = Instant::now();
@@ -177,10 +234,9 @@ pub(super) fn run_faults(
     written(directory);
     let (step, time) = (report.counts.steps, report.end);
     Ok(match (status, report.stopped) {
-        (Status::Interrupted, why) => End::Interrupted(format!(
-            "{} at {time:.6e} s, step {step}; the same command with --resume goes on from there",
-            why.unwrap_or_default()
-        )),
+        (Status::Interrupted, why) => {
+            End::Interrupted(format!("{} at {time:.6e} s, step {step}; {RESUMES}", why.unwrap_or_default()))
+        }
         (_, Some(reason)) => End::Stopped(format!("at {time:.6e} s: {reason}")),
         (_, None) => End::Done,
     })
@@ -192,7 +248,7 @@ fn keeper<'a>(
     ready: &Ready,
     directory: &Directory,
     resume: bool,
-    pauses: fault::Pauses,
+    pauses: Pauses,
 ) -> miette::Result<(fault::Keeper<'a>, fault::Run)> {
     let (path, physics) = (directory.path(), &ready.physics);
     if resume {
@@ -202,7 +258,7 @@ fn keeper<'a>(
                 return Ok((keeper, run));
             }
             None => {
-                out(format_args!("nothing to go on from in {}: begins at the start\n", path.display()));
+                nothing_to_resume(path);
             }
         }
     }

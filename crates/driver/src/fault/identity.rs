@@ -1,22 +1,16 @@
 //! What makes two runs of faults parts of one: the same physics, whether or not one of them is to go on for longer.
 
 use super::plan::Plan;
-use sha2::{Digest, Sha256};
 
 /// Hash of the physics of the scene `text` and of mesh files with these hashes. Left out is what only decides how far a run goes, or what
 /// is said about its events afterwards: `events.stop_after`, the duration of the last stage and `[place]`; and how the file is laid out.
 /// What the duration does to the loads until then is compared by itself, see [`loads`].
 #[must_use]
 pub fn physics<'a>(text: &str, meshes: impl Iterator<Item = &'a str>) -> String {
-    let mut hash = Sha256::new();
-    let table = toml::from_str::<toml::Table>(text).ok().map(without_extent);
-    // Tables are sorted by their keys. What has been read as a scene can be read as a table; if not, every byte counts.
-    hash.update(table.and_then(|table| serde_json::to_string(&table).ok()).unwrap_or_else(|| text.into()));
-    meshes.for_each(|mesh| hash.update(mesh));
-    hash.finalize().iter().map(|b| format!("{b:02x}")).collect()
+    crate::checkpoint::scene::hash(text, without_extent, meshes)
 }
 
-fn without_extent(mut scene: toml::Table) -> toml::Table {
+fn without_extent(scene: &mut toml::Table) {
     scene.remove("place");
     if let Some(events) = scene.get_mut("events").and_then(toml::Value::as_table_mut) {
         events.remove("stop_after");
@@ -25,7 +19,6 @@ fn without_extent(mut scene: toml::Table) -> toml::Table {
     if let Some(last) = stages.and_then(|stages| stages.last_mut()).and_then(toml::Value::as_table_mut) {
         last.remove("duration");
     }
-    scene
 }
 
 /// The loads until `at`, between changes of them: when each part ends (where that is before `at`) and, of the rates of shear and of normal

@@ -7,25 +7,12 @@ use super::identity;
 use super::plan::Plan;
 use super::run::{Moment, Run, Watcher};
 use super::words::time;
-use crate::checkpoint::{self, Contents as _, FILE, ResumeError};
+use crate::checkpoint::{self, Contents as _, FILE, Pauses, ResumeError};
 use crate::warning::Warning;
 use asperity_ode::Control;
 use asperity_output::{OutputError, Progress};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
-
-/// When checkpoints are written and when a run is interrupted.
-#[derive(Clone, Debug, Default)]
-pub struct Pauses {
-    /// Wall time between two checkpoints.
-    pub every: Duration,
-    /// Wall time of the integration after which to interrupt it.
-    pub wall: Option<Duration>,
-    /// Set from outside to interrupt it.
-    pub stop: Arc<AtomicBool>,
-}
+use std::time::Instant;
 
 /// Where a run restarted last, if it did.
 type Before = Option<Box<Stand>>;
@@ -39,7 +26,6 @@ pub struct Keeper<'a> {
     balance: Balance<'a>,
     progress: Progress,
     pauses: Pauses,
-    started: Instant,
     /// When the last checkpoint was written.
     written: Instant,
     steps: u64,
@@ -120,7 +106,6 @@ impl<'a> Keeper<'a> {
         pauses: Pauses,
         steps: u64,
     ) -> Self {
-        let now = Instant::now();
         Self {
             out: out.to_path_buf(),
             physics: physics.to_string(),
@@ -129,21 +114,12 @@ impl<'a> Keeper<'a> {
             balance,
             progress: Progress::new(),
             pauses,
-            started: now,
-            written: now,
+            written: Instant::now(),
             steps,
             before: None,
             interrupted: None,
             failure: None,
         }
-    }
-
-    /// Why the run is to be interrupted now.
-    fn reason(&self) -> Option<&'static str> {
-        if self.pauses.stop.load(Ordering::Relaxed) {
-            return Some("a signal asked for it");
-        }
-        self.pauses.wall.is_some_and(|wall| self.started.elapsed() >= wall).then_some("its wall time is over")
     }
 
     /// Where a run stands.
@@ -207,7 +183,7 @@ impl Watcher for Keeper<'_> {
     }
 
     fn pause(&mut self, run: &Run) -> Control {
-        self.interrupted = self.reason();
+        self.interrupted = self.pauses.reason(true);
         let now = self.stand(run);
         if self.interrupted.is_none() && self.written.elapsed() < self.pauses.every {
             self.before = Some(Box::new(now));

@@ -70,7 +70,7 @@ pub use floor_use::FloorUse;
 pub use held::Refusal;
 pub use hierarchical::{Geometry, Hierarchical, Sizes};
 pub use identity::physics;
-pub use keeper::{Keeper, Pauses};
+pub use keeper::Keeper;
 pub use loading::Loading;
 pub use opened::{Opened, OpenedFault};
 pub use opening::{Crack, Opening};

@@ -215,10 +215,11 @@ fn grown(child: &mut Child, file: &Path, size: u64) {
 }
 
 #[test]
-fn a_signal_ends_runs_without_checkpoints_with_what_was_computed() {
+fn a_signal_ends_runs_of_bodies_and_sliders_with_what_was_computed() {
     let fine = SANDWICH.replace("1 nm", "0.01 nm");
     let long = SLIDER.replace("stop_after = 10", "stop_after = 100000").replace("4000 s", "1e9 s");
-    for (text, file) in [(&fine, "probes/fault.csv"), (&long, "history/block.csv")] {
+    let bodies = (&fine, "probes/fault.csv", "interrupted: a signal asked for it in stage");
+    for (text, file, said) in [bodies, (&long, "history/block.csv", "interrupted by a signal")] {
         let folder = scene(text);
         let folder = folder.path();
         let mut child = command(folder, &["run", "s.toml", "--no-plots"]).spawn().unwrap();
@@ -227,7 +228,7 @@ fn a_signal_ends_runs_without_checkpoints_with_what_was_computed() {
         assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(3), "{}", told(&output));
-        assert!(told(&output).contains("interrupted by a signal"), "{}", told(&output));
+        assert!(told(&output).contains(said), "{}", told(&output));
         let report = report(&folder.join("out/s"));
         assert_eq!(report["status"], "interrupted");
         assert!(report["counts"]["steps"].as_u64().unwrap() > 0);

@@ -26,6 +26,7 @@ mod meshes;
 mod messages;
 mod names;
 mod resume;
+mod resume_bodies;
 mod samples;
 mod scenes;
 mod slider;

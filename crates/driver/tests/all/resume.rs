@@ -22,28 +22,28 @@ fn start(folder: &Path, out: &str, arguments: &[&str]) -> Child {
     command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-fn run(folder: &Path, out: &str, arguments: &[&str]) -> Output {
+pub fn run(folder: &Path, out: &str, arguments: &[&str]) -> Output {
     start(folder, out, arguments).wait_with_output().unwrap()
 }
 
-fn folder(scene: &str) -> tempfile::TempDir {
+pub fn folder(scene: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("s.toml"), scene).unwrap();
     folder
 }
 
-fn text(bytes: &[u8]) -> String {
+pub fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
 /// Standard error without the breaks of lines that the renderer makes.
-fn told(output: &Output) -> String {
+pub fn told(output: &Output) -> String {
     let text = text(&output.stderr).replace(['\n', '│', '×'], " ");
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// All files below `out` by their paths in it; of the report what does not depend on the machine.
-fn files(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+pub fn files(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut folders = vec![out.to_path_buf()];
     while let Some(folder) = folders.pop() {
@@ -65,7 +65,7 @@ fn files(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     found
 }
 
-fn assert_same(folder: &Path, out: &str) {
+pub fn assert_same(folder: &Path, out: &str) {
     let (expected, found) = (files(&folder.join("whole")), files(&folder.join(out)));
     assert_eq!(found.keys().collect::<Vec<_>>(), expected.keys().collect::<Vec<_>>());
     for (path, bytes) in &expected {
@@ -304,9 +304,9 @@ fn what_does_not_fit_the_checkpoint_is_refused() {
 }
 
 #[test]
-fn runs_without_faults_say_that_they_have_no_checkpoints() {
+fn runs_of_spring_sliders_say_that_they_have_no_checkpoints() {
     let folder = folder(include_str!("../../../../scenes/spring-slider.toml"));
     let output = run(folder.path(), "out", &["--resume"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(text(&output.stderr).contains("only runs of faults"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("spring-sliders have no checkpoints"), "{}", text(&output.stderr));
 }

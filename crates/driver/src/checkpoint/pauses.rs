@@ -1,0 +1,30 @@
+//! When checkpoints are written and when a run is interrupted.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub struct Pauses {
+    /// Wall time between two checkpoints.
+    pub every: Duration,
+    /// Wall time after which to interrupt the run.
+    pub wall: Option<Duration>,
+    /// Set from outside to interrupt it.
+    pub stop: Arc<AtomicBool>,
+    /// When the run began, or was resumed.
+    pub begun: Instant,
+}
+
+impl Pauses {
+    /// Why a run is to be interrupted now; one that has not `moved` yet only where it is asked to, so that each part of a run gets on.
+    #[must_use]
+    pub fn reason(&self, moved: bool) -> Option<&'static str> {
+        if self.stop.load(Ordering::Relaxed) {
+            return Some("a signal asked for it");
+        }
+        let over = self.wall.is_some_and(|wall| self.begun.elapsed() >= wall);
+        (moved && over).then_some("its wall time is over")
+    }
+}

@@ -1,0 +1,44 @@
+//! What makes two scenes the same for a run that is resumed.
+
+use sha2::{Digest, Sha256};
+
+/// Hash of the scene `text` without what `leave_out` removes, and of mesh files with these hashes. How the file is laid out does not count.
+#[must_use]
+pub fn hash<'a>(
+    text: &str,
+    leave_out: impl FnOnce(&mut toml::Table),
+    meshes: impl Iterator<Item = &'a str>,
+) -> String {
+    let mut hash = Sha256::new();
+    let table = toml::from_str::<toml::Table>(text).ok().map(|mut table| {
+        leave_out(&mut table);
+        table
+    });
+    // Tables are sorted by their keys. What has been read as a scene can be read as a table; if not, every byte counts.
+    hash.update(table.and_then(|table| serde_json::to_string(&table).ok()).unwrap_or_else(|| text.into()));
+    meshes.for_each(|mesh| hash.update(mesh));
+    hash.finalize().iter().map(|b| format!("{b:02x}")).collect()
+}
+
+/// Hash of a scene of bodies: all of it but its title.
+#[must_use]
+pub fn of_bodies<'a>(text: &str, meshes: impl Iterator<Item = &'a str>) -> String {
+    hash(text, |scene| drop(scene.remove("title")), meshes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_of_a_scene_counts_but_its_title_and_layout() {
+        let of = |text: &str, mesh: &str| of_bodies(text, [mesh].into_iter());
+        let scene = of("title = \"a\"\nx = 1\n[time]\nmin_step = 2\n", "m");
+        assert_eq!(scene, of("# b\ntime.min_step=2\nx=1\ntitle='b'\n", "m"));
+        for (text, mesh) in
+            [("x = 2\ntime.min_step = 2", "m"), ("x = 1", "m"), ("x = 1\ntime.min_step = 2", "n")]
+        {
+            assert_ne!(scene, of(text, mesh), "{text}");
+        }
+    }
+}
