@@ -1,7 +1,9 @@
 //! What slip does to tractions, dense and compressed, and a right-hand side of a fault; with the bytes an operator holds.
 #![allow(missing_docs)]
 
-use asperity_driver::fault::{Equations, Form, Plan, plan_with};
+use asperity_cycles::Equations;
+use asperity_cycles::operator::Form;
+use asperity_driver::fault::{Plan, plan_with};
 use asperity_driver::scene;
 use asperity_ode::{Clock, Problem};
 use asperity_vary::bp1::bp1;
@@ -24,9 +26,9 @@ fn products(c: &mut Criterion) {
             let n = plan.points.len();
             let slip: Vec<f64> = (0..n).map(|k| (k as f64).sin()).collect();
             let mut shear = vec![0.0; n];
-            group.throughput(Throughput::Bytes(plan.fault.operator.bytes() as u64));
+            group.throughput(Throughput::Bytes(plan.problem.fault.operator.bytes() as u64));
             group.bench_function(BenchmarkId::new(name, n), |b| {
-                b.iter(|| plan.fault.operator.shear(&slip, &mut shear));
+                b.iter(|| plan.problem.fault.operator.shear(&slip, &mut shear));
             });
         }
     }
@@ -37,12 +39,12 @@ fn rates(c: &mut Criterion) {
     let mut group = c.benchmark_group("fault/right-hand side");
     for size in SIZES {
         let plan = plan(size, Form::Fitting);
-        let (shear, normal) = plan.loading.rates(1.0, plan.points.len(), false);
-        let equations = Equations::new(&plan.fault, shear, normal);
-        let mut dy = vec![0.0; plan.start.len()];
+        let (shear, normal) = plan.problem.loading.rates(1.0, plan.points.len(), false);
+        let equations = Equations::new(&plan.problem.fault, shear, normal);
+        let mut dy = vec![0.0; plan.problem.start.len()];
         group.throughput(Throughput::Elements(plan.points.len() as u64));
         group.bench_function(BenchmarkId::from_parameter(plan.points.len()), |b| {
-            b.iter(|| equations.rates(Clock::new(0.0, 0.0), &plan.start, &mut dy));
+            b.iter(|| equations.rates(Clock::new(0.0, 0.0), &plan.problem.start, &mut dy));
         });
     }
     group.finish();

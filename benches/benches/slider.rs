@@ -1,7 +1,7 @@
 //! Earthquake cycles of spring-sliders.
 #![allow(missing_docs, clippy::print_stdout)]
 
-use asperity_driver::slider::{self, Plan, Thresholds};
+use asperity_cycles::slider::{self, Problem, Thresholds};
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding, Spring, System};
@@ -54,7 +54,7 @@ const AIM: f64 = 1e-8;
 /// Events of the reference cycle.
 const EVENTS: usize = 10;
 
-fn plan(set: &Set, events: usize) -> Plan {
+fn plan(set: &Set, events: usize) -> Problem {
     let form = Regularised(Parameters::new(0.6, set.a, 1e-6).expect("admissible"));
     let ageing = Ageing::new(set.b, set.length, 1e-6).expect("admissible");
     let law = RateLaw::new(form, ageing, set.load, None).expect("admissible");
@@ -70,14 +70,14 @@ fn plan(set: &Set, events: usize) -> Plan {
     let system = System::new(vec![slider], vec![], History::Constant(set.load)).expect("admissible");
     let start = system.start(&[1.1 * set.load], &[steady]).expect("a start");
     // Longer than any of the cycles takes.
-    let mut plan = Plan::new(system, start, 1e12);
+    let mut plan = Problem::new(system, start, 1e12);
     plan.events = Some(Thresholds { on: 1e-3, off: 1e-4 });
     plan.most_events = Some(events);
     plan
 }
 
 /// Onset of the last event and the time since the one before \[s\].
-fn last(plan: &Plan) -> (f64, f64) {
+fn last(plan: &Problem) -> (f64, f64) {
     let run = slider::run(plan, &mut ()).expect("a run");
     let event = run.catalogue.events.last().expect("an event");
     println!("    {:?}", run.counts);
@@ -102,12 +102,12 @@ fn cycles(c: &mut Criterion) {
 fn reference(c: &mut Criterion) {
     let mut group = c.benchmark_group("ten events of the reference cycle");
     group.sample_size(20);
-    let exact = Plan { method: Method::Dop853, tolerance: 1e-13, ..plan(&REFERENCE, EVENTS) };
+    let exact = Problem { method: Method::Dop853, tolerance: 1e-13, ..plan(&REFERENCE, EVENTS) };
     let (onset, interval) = last(&exact);
     for method in [Method::Switching, Method::Dop853, Method::Tsit5, Method::Tsit45] {
         let candidates = (16..48).map(|quarter| 10f64.powf(-0.25 * f64::from(quarter)));
         let mut tried = candidates.map(|tolerance| {
-            let plan = Plan { method, tolerance, ..exact.clone() };
+            let plan = Problem { method, tolerance, ..exact.clone() };
             let error = (last(&plan).0 - onset).abs() / interval;
             (plan, error)
         });
@@ -119,7 +119,7 @@ fn reference(c: &mut Criterion) {
 }
 
 /// Sliders in a chain, or each on a spring to each other one, through two events of the first.
-fn coupled(count: usize, chain: bool) -> Plan {
+fn coupled(count: usize, chain: bool) -> Problem {
     let set = Set { length: 8e-3, stiffness: 1e6, ..REFERENCE };
     let one = plan(&set, 2);
     let slider = one.system.sliders()[0].clone();
@@ -133,7 +133,7 @@ fn coupled(count: usize, chain: bool) -> Plan {
     let rates: Vec<f64> =
         (0..count).map(|i| set.load * (1.0 + 0.5 * ((37 * i) % count) as f64 / count as f64)).collect();
     let start = system.start(&rates, &vec![states; count]).expect("a start");
-    let mut plan = Plan::new(system, start, one.end);
+    let mut plan = Problem::new(system, start, one.end);
     (plan.events, plan.most_events, plan.peaks) = (one.events, Some(2), true);
     plan
 }

@@ -1,7 +1,8 @@
 //! What the cases of balances share: a run of a fault with its report, and with one of the places where it restarts.
 
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::{Balance, Event, Moment, Plan, Report, Run, Settings, Watcher, resume};
+use asperity_cycles::{Balance, Event, Moment, Run, Settings, Watcher, resume};
+use asperity_driver::fault::{Plan, Report};
 use asperity_ode::{Control, Outcome};
 
 /// Sums works, and keeps one of the places where the run restarts.
@@ -44,7 +45,7 @@ impl Followed {
     /// # Errors
     /// Where they do not come.
     pub fn new(plan: &Plan) -> Result<Self, CaseError> {
-        Self::with(plan, plan.settings.tolerance)
+        Self::with(plan, plan.problem.settings.tolerance)
     }
 
     /// The same with another tolerance of ln V.
@@ -52,13 +53,14 @@ impl Followed {
     /// # Errors
     /// As [`Followed::new`].
     pub fn with(plan: &Plan, tolerance: f64) -> Result<Self, CaseError> {
-        let settings = Settings { tolerance, ..plan.settings };
-        Self::from(plan, settings, Run::new(plan.start.clone(), settings.thresholds))
+        let settings = Settings { tolerance, ..plan.problem.settings };
+        Self::from(plan, settings, Run::new(plan.problem.start.clone(), settings.thresholds))
     }
 
     fn from(plan: &Plan, settings: Settings, start: Run) -> Result<Self, CaseError> {
-        let mut look = Look { balance: Balance::new(plan), wait: 3, kept: None };
-        let (run, cost) = Cost::of(|| resume(&plan.fault, &plan.loading, start, &settings, &mut look));
+        let mut look = Look { balance: Balance::new(&plan.problem), wait: 3, kept: None };
+        let (run, cost) =
+            Cost::of(|| resume(&plan.problem.fault, &plan.problem.loading, start, &settings, &mut look));
         if run.outcome != Outcome::Stopped {
             return Err(format!("the run did not end with its events: {:?}", run.outcome).into());
         }
@@ -85,7 +87,7 @@ impl Followed {
     /// Where the run never restarted.
     pub fn restarted(&self, ledger: &mut Ledger, plan: &Plan, tolerance: f64) -> Result<(), CaseError> {
         let kept = self.kept.clone().ok_or("the run never restarted")?;
-        let again = Self::from(plan, Settings { tolerance, ..plan.settings }, kept)?;
+        let again = Self::from(plan, Settings { tolerance, ..plan.problem.settings }, kept)?;
         let (a, b) = (self.bits(), again.bits());
         let differ = a.iter().zip(&b).filter(|(a, b)| a != b).count() + a.len().abs_diff(b.len());
         ledger

@@ -1,7 +1,8 @@
 //! What the cases of earthquake cycles share: a scene's plan, and its events with what they cost.
 
 use crate::{CaseError, Cost};
-use asperity_driver::fault::{Event, Moment, Plan, Settings, run as integrate};
+use asperity_cycles::{Event, Moment, Settings, run as integrate};
+use asperity_driver::fault::Plan;
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Outcome};
@@ -70,8 +71,15 @@ pub fn found(
         look(now);
         Control::Go
     };
-    let (out, cost) =
-        Cost::of(|| integrate(&plan.fault, &plan.loading, plan.start.clone(), settings, &mut watch));
+    let (out, cost) = Cost::of(|| {
+        integrate(
+            &plan.problem.fault,
+            &plan.problem.loading,
+            plan.problem.start.clone(),
+            settings,
+            &mut watch,
+        )
+    });
     let events = out.catalogue.events().to_vec();
     if let Outcome::Failed { reason } = &out.outcome {
         return Err(reason.to_string().into());
@@ -94,7 +102,7 @@ pub fn found(
 #[must_use]
 pub fn drift(plan: &Plan, steps: u64) -> f64 {
     let smallest = plan.points.iter().map(|p| p.area).fold(f64::INFINITY, f64::min);
-    let length = plan.fault.law.length(0).unwrap_or(f64::NAN);
-    (steps as f64).sqrt() * plan.settings.tolerance * length * plan.points[0].shear_modulus
-        / (smallest * plan.fault.normal[0])
+    let length = plan.problem.fault.law.length(0).unwrap_or(f64::NAN);
+    (steps as f64).sqrt() * plan.problem.settings.tolerance * length * plan.points[0].shear_modulus
+        / (smallest * plan.problem.fault.normal[0])
 }

@@ -1,7 +1,7 @@
 //! What the cases of spring-sliders share: parameter sets, laws, runs, and the references of the second implementation.
 
 use crate::CaseError;
-use asperity_driver::slider::{self, Now, Plan, Run, Thresholds};
+use asperity_cycles::slider::{self, Now, Problem, Run, Thresholds};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding, System};
@@ -135,7 +135,7 @@ impl Set {
     ///
     /// # Errors
     /// Parameters out of range.
-    pub fn plan(&self, kind: Kind, factor: f64, end: f64) -> Result<Plan, CaseError> {
+    pub fn plan(&self, kind: Kind, factor: f64, end: f64) -> Result<Problem, CaseError> {
         plan(self.slider(self.law(kind)?), History::Constant(self.load), self.load, factor, end)
     }
 }
@@ -144,19 +144,19 @@ impl Set {
 ///
 /// # Errors
 /// Parameters out of range.
-pub fn plan(slider: Slider, load: History, steady: f64, factor: f64, end: f64) -> Result<Plan, CaseError> {
+pub fn plan(slider: Slider, load: History, steady: f64, factor: f64, end: f64) -> Result<Problem, CaseError> {
     let mut states = vec![0.0; slider.law.states()];
     slider.law.steady(steady.ln(), &mut states);
     let inertial = slider.mass.is_some();
     let system = System::new(vec![slider], vec![], load)?;
     let start = system.start(&[factor * steady], &[states])?;
-    let mut plan = Plan::new(system, start, end);
+    let mut plan = Problem::new(system, start, end);
     plan.tolerance = if inertial { TIGHT_INERTIAL } else { TIGHT };
     Ok(plan)
 }
 
 /// Wants this many events above 1 mm/s, with their peaks.
-pub fn events(plan: &mut Plan, number: usize) {
+pub fn events(plan: &mut Problem, number: usize) {
     plan.events = Some(Thresholds { on: 1e-3, off: 1e-4 });
     plan.most_events = Some(number);
     plan.peaks = true;
@@ -173,7 +173,7 @@ pub fn work(counts: &Counts, unknowns: usize) -> f64 {
 ///
 /// # Errors
 /// When it fails.
-pub fn finish(plan: &Plan) -> Result<Run, CaseError> {
+pub fn finish(plan: &Problem) -> Result<Run, CaseError> {
     let run = slider::run(plan, &mut ())?;
     match &run.outcome {
         Outcome::Failed { reason } => Err(format!(
@@ -190,11 +190,11 @@ pub fn finish(plan: &Plan) -> Result<Run, CaseError> {
 ///
 /// # Errors
 /// When a run fails.
-pub fn at_times(plan: &Plan, times: &[f64]) -> Result<Vec<(f64, f64)>, CaseError> {
+pub fn at_times(plan: &Problem, times: &[f64]) -> Result<Vec<(f64, f64)>, CaseError> {
     times
         .iter()
         .map(|&time| {
-            let until = Plan { end: time, events: None, peaks: false, most_events: None, ..plan.clone() };
+            let until = Problem { end: time, events: None, peaks: false, most_events: None, ..plan.clone() };
             let run = finish(&until)?;
             let (speed, mu) = plan.system.sliders()[0].law.slip(plan.system.of(0, &run.unknowns));
             Ok((speed.rate, mu))
@@ -207,9 +207,9 @@ pub fn at_times(plan: &Plan, times: &[f64]) -> Result<Vec<(f64, f64)>, CaseError
 ///
 /// # Errors
 /// When a run fails.
-pub fn largest_friction(plan: &Plan, after: f64) -> Result<f64, CaseError> {
+pub fn largest_friction(plan: &Problem, after: f64) -> Result<f64, CaseError> {
     let mut seen: Vec<(f64, f64)> = Vec::new();
-    let mut look = |_: &Plan, now: &Now<'_>| {
+    let mut look = |_: &Problem, now: &Now<'_>| {
         if now.at.seconds() > after {
             seen.push((now.at.seconds(), now.conditions[0].friction));
         }

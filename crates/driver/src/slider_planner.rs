@@ -9,7 +9,8 @@ mod start;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::scene::model::Spanned;
 use crate::scene::slider::{self, SliderScene};
-use crate::slider::{Output, Plan};
+use crate::slider::Plan;
+use asperity_cycles::slider::{Problem, Rows};
 use asperity_friction::slider::{History, Slider, System};
 use std::ops::Range;
 
@@ -70,7 +71,7 @@ impl Planner {
         let rates: Vec<_> = specs().map(|s| self.imposed(s)).collect();
         let output = match (&scene.output, settings.end) {
             (Some(spec), Some(end)) => self.output(spec, &names, end),
-            _ => Some(Output::default()),
+            _ => Some(Rows::default()),
         };
         let (load, sliders) = (load?, sliders.into_iter().collect::<Option<Vec<_>>>()?);
         let springs = springs.into_iter().collect::<Option<Vec<_>>>()?;
@@ -81,21 +82,22 @@ impl Planner {
         let system = self.impose(system, rates.into_iter().collect::<Option<Vec<_>>>()?)?;
         self.held(scene, &system, &names)?;
         let start = self.start(scene, &system)?;
-        let mut plan = Plan::new(system, start, settings.end?);
-        plan.title.clone_from(&scene.title);
-        plan.names = names;
-        plan.method = settings.method.unwrap_or(plan.method);
-        plan.tolerance = settings.tolerance.unwrap_or(plan.tolerance);
-        plan.most_steps = settings.most_steps.unwrap_or(plan.most_steps);
-        (plan.first_step, plan.largest_step) = (settings.first_step, settings.largest_step);
-        plan.output = output?;
+        let mut problem = Problem::new(system, start, settings.end?);
+        problem.title.clone_from(&scene.title);
+        problem.names = names;
+        problem.method = settings.method.unwrap_or(problem.method);
+        problem.tolerance = settings.tolerance.unwrap_or(problem.tolerance);
+        problem.most_steps = settings.most_steps.unwrap_or(problem.most_steps);
+        (problem.first_step, problem.largest_step) = (settings.first_step, settings.largest_step);
+        problem.output = output?;
         let extremes = scene.output.as_ref().and_then(|o| o.extremes.as_ref());
-        plan.peaks = extremes.is_some_and(|e| *e.get_ref());
+        problem.peaks = extremes.is_some_and(|e| *e.get_ref());
         if let (Some(thresholds), Some(spec)) = (events, &scene.events) {
-            plan.events = Some(thresholds?);
-            plan.peaks = spec.peaks.unwrap_or(true);
-            plan.most_events = spec.stop_after.as_ref().map(|n| *n.get_ref());
+            problem.events = Some(thresholds?);
+            problem.peaks = spec.peaks.unwrap_or(true);
+            problem.most_events = spec.stop_after.as_ref().map(|n| *n.get_ref());
         }
+        let mut plan = Plan::from(problem);
         self.runaways(scene, &mut plan);
         Some(plan)
     }

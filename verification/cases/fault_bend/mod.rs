@@ -3,7 +3,8 @@
 use crate::cases::dislocation::{self, Stress};
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::{Event, Plan};
+use asperity_cycles::Event;
+use asperity_driver::fault::Plan;
 use asperity_vary::SceneText;
 use nalgebra::Complex;
 
@@ -110,8 +111,8 @@ fn found(plan: &Plan) -> Tractions {
     let along: Vec<f64> = plan.points.iter().map(|p| p.along).collect();
     let values: Vec<f64> = along.iter().map(|&s| slip(s)).collect();
     let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-    plan.fault.operator.shear(&values, &mut shear);
-    plan.fault.operator.normal(&values, &mut normal);
+    plan.problem.fault.operator.shear(&values, &mut shear);
+    plan.problem.fault.operator.normal(&values, &mut normal);
     Tractions { along, shear, normal }
 }
 
@@ -197,11 +198,11 @@ fn mean(plan: &Plan, event: &Event, from: f64, to: f64) -> f64 {
 fn events(ledger: &mut Ledger) -> Result<(), CaseError> {
     let plan = seas::plan(&bent(250.0).text()?)?;
     let mut normal = Vec::new();
-    let run = seas::found(&plan, &plan.settings, |now| {
+    let run = seas::found(&plan, &plan.problem.settings, |now| {
         normal = (0..plan.points.len()).map(|p| now.normal(p)).collect();
     })?;
     let straight = seas::plan(&straight(250.0).text()?)?;
-    let beside = seas::found(&straight, &straight.settings, |_| {})?;
+    let beside = seas::found(&straight, &straight.problem.settings, |_| {})?;
     // Half of each half: neither the tips nor the cells at the bend.
     let (upper, lower) = ([4e3, 13e3], [17e3, 26e3]);
     let ratio =
@@ -264,7 +265,7 @@ fn average(plan: &Plan, values: &[f64], from: f64, to: f64) -> f64 {
 
 /// The motion of the sides presses the lower half together, and the run leaves it so.
 fn clamped(ledger: &mut Ledger, plan: &Plan, normal: &[f64], cost: &Cost) {
-    let (shear, pressing) = plan.loading.rates(1.0, plan.points.len(), true);
+    let (shear, pressing) = plan.problem.loading.rates(1.0, plan.points.len(), true);
     ledger
         .claim("rate of normal traction of the lower half over that of shear traction of the upper one, by the motion of the sides")
         .value(average(plan, &pressing, 16e3, 29e3) / average(plan, &shear, 1e3, 14e3))
@@ -275,7 +276,7 @@ fn clamped(ledger: &mut Ledger, plan: &Plan, normal: &[f64], cost: &Cost) {
         .covers(&[Capability::PlaneStrain])
         .cost(cost)
         .record();
-    let start = average(plan, &plan.fault.normal, 17e3, 26e3);
+    let start = average(plan, &plan.problem.fault.normal, 17e3, 26e3);
     ledger
         .claim("normal traction of the lower half at the end over that at the start")
         .value(average(plan, normal, 17e3, 26e3) / start)

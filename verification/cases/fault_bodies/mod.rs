@@ -115,7 +115,7 @@ fn interface(ledger: &mut Ledger) -> Result<(), CaseError> {
         .record();
     let z = MODULI.map(|g| (g * 2700.0_f64).sqrt());
     let eta = z[0] * z[1] / (z[0] + z[1]);
-    let off = mixed.fault.damping.iter().map(|d| (d / eta - 1.0).abs()).fold(0.0, f64::max);
+    let off = mixed.problem.fault.damping.iter().map(|d| (d / eta - 1.0).abs()).fold(0.0, f64::max);
     ledger
         .claim("radiation damping between media of 10 and 40 GPa, relative error")
         .value(off)
@@ -199,7 +199,7 @@ fn interaction(plan: &Plan) -> [f64; 2] {
         slip[p] = bump(-plan.points[p].at[1]);
     }
     let mut shear = vec![0.0; n];
-    plan.fault.operator.shear(&slip, &mut shear);
+    plan.problem.fault.operator.shear(&slip, &mut shear);
     [(own, 0.0), (other, APART)].map(|(points, distance)| {
         let exact: Vec<f64> = points.clone().map(|p| screws(distance, -plan.points[p].at[1], bump)).collect();
         let largest = exact.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
@@ -282,7 +282,7 @@ fn blocks(pairs: &[Pair], events: usize) -> Result<Plan, CaseError> {
 
 /// Onset \[yr\], largest slip rate \[m/s\] and slip \[m\] of the first events of a fault.
 fn first_event(plan: &Plan, fault: &str) -> Result<([f64; 3], Cost), CaseError> {
-    let found = seas::found(plan, &plan.settings, |_| {})?;
+    let found = seas::found(plan, &plan.problem.settings, |_| {})?;
     let points = plan.faults.iter().find(|f| f.name == fault).map(|f| f.points.clone()).ok_or("no fault")?;
     let k =
         found.events.iter().position(|e| points.contains(&e.hypocentre)).ok_or("no event on the fault")?;
@@ -399,8 +399,8 @@ fn arc_errors(plan: &Plan) -> [f64; 2] {
     let angle = |p: usize| (-plan.points[p].at[1]).atan2(RADIUS - plan.points[p].at[0]);
     let slip: Vec<f64> = (0..n).map(|p| on_arc(angle(p) * RADIUS)).collect();
     let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-    plan.fault.operator.shear(&slip, &mut shear);
-    plan.fault.operator.normal(&slip, &mut normal);
+    plan.problem.fault.operator.shear(&slip, &mut shear);
+    plan.problem.fault.operator.normal(&slip, &mut normal);
     let (mut worst, mut scale) = ([0.0_f64; 2], 0.0_f64);
     // At the surface and at the tip tractions are averages over half as much.
     for p in (0..n).filter(|&p| angle(p) * RADIUS > 1e3 && angle(p) * RADIUS < 15e3) {

@@ -2,7 +2,8 @@
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::{Layout, Plan};
+use asperity_cycles::Layout;
+use asperity_driver::fault::Plan;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -94,21 +95,27 @@ const WEIGHS: &str = "gravity = [0, -9.81]";
 
 /// τ_0 of a point \[Pa\].
 fn shear(plan: &Plan, point: usize, rates: &[f64]) -> f64 {
-    let fault = &plan.fault;
-    fault.normal[point] * fault.law.scale(point) * plan.start[point] + fault.damping[point] * rates[point]
+    let fault = &plan.problem.fault;
+    fault.normal[point] * fault.law.scale(point) * plan.problem.start[point]
+        + fault.damping[point] * rates[point]
 }
 
 /// Largest errors of f_n and of τ_0 over the largest f_n; the point at the surface, which friction takes from its floor, has no τ_0 of the weight.
 fn errors(plan: &Plan, exact: impl Fn(f64) -> [f64; 2]) -> [f64; 2] {
-    let layout = Layout::of(&plan.fault);
+    let layout = Layout::of(&plan.problem.fault);
     let mut rates = vec![0.0; plan.points.len()];
-    plan.fault.law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rates);
-    let largest = plan.fault.normal.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+    plan.problem.fault.law.slip_rates(
+        0,
+        &plan.problem.start[layout.m()],
+        &plan.problem.start[layout.states()],
+        &mut rates,
+    );
+    let largest = plan.problem.fault.normal.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
     let mut worst = [0.0_f64; 2];
     for (p, point) in plan.points.iter().enumerate() {
         let depth = -point.at[1];
         let [normal, along] = exact(depth);
-        worst[0] = worst[0].max((plan.fault.normal[p] - normal).abs() / largest);
+        worst[0] = worst[0].max((plan.problem.fault.normal[p] - normal).abs() / largest);
         if depth > 0.0 {
             worst[1] = worst[1].max((shear(plan, p, &rates) - along).abs() / largest);
         }
@@ -188,7 +195,7 @@ fn with_stress(ledger: &mut Ledger) -> Result<(), CaseError> {
     };
     exact(ledger, "dip 60, with an initial stress", &errors(&plan, sum), &cost);
     let light = Dipping { body: "initial_stress = [\"-10 MPa\", \"-30 MPa\", \"0 MPa\"]", ..case }.plan()?;
-    let rates = |plan: &Plan| plan.loading.rates(1.0, plan.points.len(), true);
+    let rates = |plan: &Plan| plan.problem.loading.rates(1.0, plan.points.len(), true);
     let ((a, an), (b, bn)) = (rates(&plan), rates(&light));
     let size = a.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let off = a.iter().chain(&an).zip(b.iter().chain(&bn)).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
@@ -251,8 +258,8 @@ stepper = "fault-ode"
     );
     let (plan, cost) = Cost::of(|| seas::plan(&text));
     let plan = plan?;
-    let largest = plan.fault.normal.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-    let off = plan.points.iter().zip(&plan.fault.normal).map(|(point, normal)| {
+    let largest = plan.problem.fault.normal.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+    let off = plan.points.iter().zip(&plan.problem.fault.normal).map(|(point, normal)| {
         (normal + poisson / (1.0 - poisson) * DENSITY * GRAVITY * point.at[1]).abs() / largest
     });
     exact(ledger, "a vertical fault in space, nu 0.3", &[off.fold(0.0, f64::max)], &cost);

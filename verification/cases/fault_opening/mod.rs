@@ -2,7 +2,8 @@
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::{Balance, Plan, Report, run as integrate};
+use asperity_cycles::{Balance, run as integrate};
+use asperity_driver::fault::{Plan, Report};
 use asperity_ode::{Control, Outcome};
 use asperity_vary::SceneText;
 
@@ -116,7 +117,7 @@ method = "stabilised"
     );
     let plan = seas::plan(&text)?;
     let mut opening = Vec::new();
-    seas::found(&plan, &plan.settings, |now| {
+    seas::found(&plan, &plan.problem.settings, |now| {
         opening = (0..plan.points.len()).filter_map(|p| now.opening(p)).collect();
     })?;
     Ok(opening.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), o| (l.min(*o), m.max(*o))))
@@ -193,21 +194,28 @@ fn pulled(plan: &Plan) -> Result<Pulled, CaseError> {
     let at: Vec<f64> = plan.points.iter().map(|p| p.along - 2.0 * A).collect();
     let n = at.len();
     let middle = (0..n).min_by(|&i, &j| at[i].abs().total_cmp(&at[j].abs())).ok_or("no points")?;
-    let mut balance = Balance::new(plan);
+    let mut balance = Balance::new(&plan.problem);
     let (mut opening, mut slip, mut fronts) = (Vec::new(), Vec::new(), Vec::new());
     let mut shear = [f64::NAN; 2];
-    let mut look = |now: &asperity_driver::fault::Moment<'_>| {
+    let mut look = |now: &asperity_cycles::Moment<'_>| {
         balance.step(now);
         opening = (0..n).map(|p| now.opening(p).unwrap_or(f64::NAN)).collect();
         slip = now.slip().to_vec();
         let open = (0..n).filter(|&p| opening[p] > 0.0).map(|p| at[p].abs());
         fronts.extend(open.reduce(f64::max).map(|front| (now.at.seconds(), front)));
-        let friction = now.normal(middle) * plan.fault.law.scale(middle) * now.unknowns[middle];
+        let friction = now.normal(middle) * plan.problem.fault.law.scale(middle) * now.unknowns[middle];
         shear = [if shear[0].is_nan() { friction } else { shear[0] }, friction];
         Control::Go
     };
-    let (out, cost) =
-        Cost::of(|| integrate(&plan.fault, &plan.loading, plan.start.clone(), &plan.settings, &mut look));
+    let (out, cost) = Cost::of(|| {
+        integrate(
+            &plan.problem.fault,
+            &plan.problem.loading,
+            plan.problem.start.clone(),
+            &plan.problem.settings,
+            &mut look,
+        )
+    });
     if out.outcome != Outcome::Completed {
         return Err(format!("{:?}", out.outcome).into());
     }
@@ -374,13 +382,20 @@ fn events(text: &str, floor: f64, opens: bool) -> Result<Shallow, CaseError> {
         .with_or_same("faults.main.normal_floor", format!("{floor} MPa"))
         .with_or_same("faults.main.opening", opens);
     let plan = seas::plan(&scene.text()?)?;
-    let mut balance = Balance::new(&plan);
-    let mut look = |now: &asperity_driver::fault::Moment<'_>| {
+    let mut balance = Balance::new(&plan.problem);
+    let mut look = |now: &asperity_cycles::Moment<'_>| {
         balance.step(now);
         Control::Go
     };
-    let (out, cost) =
-        Cost::of(|| integrate(&plan.fault, &plan.loading, plan.start.clone(), &plan.settings, &mut look));
+    let (out, cost) = Cost::of(|| {
+        integrate(
+            &plan.problem.fault,
+            &plan.problem.loading,
+            plan.problem.start.clone(),
+            &plan.problem.settings,
+            &mut look,
+        )
+    });
     let report = Report::new(&plan, &out, &mut balance);
     if report.events.len() < 3 {
         return Err(format!("only {} events: {:?}", report.events.len(), out.outcome).into());

@@ -72,9 +72,9 @@ pub(crate) fn matrix(plan: &Plan, normal: bool) -> DMatrix<f64> {
     for k in 0..n {
         unit[k] = 1.0;
         if normal {
-            plan.fault.operator.normal(&unit, &mut column);
+            plan.problem.fault.operator.normal(&unit, &mut column);
         } else {
-            plan.fault.operator.shear(&unit, &mut column);
+            plan.problem.fault.operator.shear(&unit, &mut column);
         }
         all.column_mut(k).copy_from_slice(&column);
         unit[k] = 0.0;
@@ -120,8 +120,11 @@ fn slip(plan: &Plan) -> Result<Slip, CaseError> {
         let n = plan.points.len();
         let shear = matrix(plan, false);
         let slip = shear.lu().solve(&DVector::repeat(n, -1.0)).ok_or("the operator is singular")?;
-        let change =
-            if plan.fault.operator.couples_normal() { (matrix(plan, true) * &slip).amax() } else { 0.0 };
+        let change = if plan.problem.fault.operator.couples_normal() {
+            (matrix(plan, true) * &slip).amax()
+        } else {
+            0.0
+        };
         Ok((slip, change))
     });
     let (slip, normal) = found?;
@@ -234,14 +237,14 @@ fn plates(ledger: &mut Ledger) -> Result<(), CaseError> {
         let (plan, cost) = Cost::of(|| seas::plan(&through(dip, SIZE)));
         let plan = plan?;
         let n = plan.points.len();
-        let couples = plan.fault.operator.couples_normal();
-        let (mut shear, mut normal) = plan.loading.rates(1.0, n, couples);
+        let couples = plan.problem.fault.operator.couples_normal();
+        let (mut shear, mut normal) = plan.problem.loading.rates(1.0, n, couples);
         let scale = shear.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
         let mut exerted = vec![0.0; n];
-        plan.fault.operator.shear(&vec![1e-9; n], &mut exerted);
+        plan.problem.fault.operator.shear(&vec![1e-9; n], &mut exerted);
         shear.iter_mut().zip(&exerted).for_each(|(s, e)| *s += e);
         if couples {
-            plan.fault.operator.normal(&vec![1e-9; n], &mut exerted);
+            plan.problem.fault.operator.normal(&vec![1e-9; n], &mut exerted);
             normal.iter_mut().zip(&exerted).for_each(|(s, e)| *s += e);
         }
         let largest = shear.iter().chain(&normal).fold(0.0_f64, |m, v| m.max(v.abs()));
@@ -308,8 +311,8 @@ fn errors(plan: &Plan, dip: f64, slip: impl Fn(f64) -> f64 + Copy) -> [f64; 2] {
     let n = plan.points.len();
     let values: Vec<f64> = plan.points.iter().map(|p| slip(p.along)).collect();
     let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-    plan.fault.operator.shear(&values, &mut shear);
-    plan.fault.operator.normal(&values, &mut normal);
+    plan.problem.fault.operator.shear(&values, &mut shear);
+    plan.problem.fault.operator.normal(&values, &mut normal);
     let (mut worst, mut scale) = ([0.0_f64; 2], 0.0_f64);
     for (p, point) in plan.points.iter().enumerate().filter(|(_, p)| p.along > BELOW && p.along < DEEPEST) {
         let (t, f) = tractions(dip, slip, PIECE, DEEPEST, point.along);

@@ -141,7 +141,7 @@ fn against_plane(ledger: &mut Ledger, motion: &str, (plane, solid): (&Plan, &Pla
         let (flat, full) = (matrix(plane, normal), matrix(solid, normal));
         let same = |p: usize, q: usize| (plane.points[p].at[1] - solid.points[q].at[1]).abs() < 1.0;
         let uniform = DMatrix::from_fn(full.nrows(), flat.ncols(), |q, p| f64::from(u8::from(same(p, q))));
-        let couples = plane.fault.operator.couples_normal() || !normal;
+        let couples = plane.problem.fault.operator.couples_normal() || !normal;
         let expected = if couples { flat } else { 0.0 * flat };
         let kind = if normal { "normal" } else { "shear" };
         ledger
@@ -217,7 +217,7 @@ fn gaussian(ledger: &mut Ledger) -> Result<(), CaseError> {
             .map(|p| (-0.5 * (p.at[1].powi(2) + p.at[2].powi(2)) / WIDTH.powi(2)).exp())
             .collect();
         let mut found = vec![0.0; slip.len()];
-        plan.fault.operator.shear(&slip, &mut found);
+        plan.problem.fault.operator.shear(&slip, &mut found);
         let near = plan.points.iter().zip(&found).filter(|(p, _)| p.at[1].hypot(p.at[2]) < 2.5 * WIDTH);
         let errors = near.map(|(p, t)| (t - waves(p.at[1], p.at[2])).abs());
         levels.push((WIDTH / part, errors.fold(0.0, f64::max) / middle.abs()));
@@ -316,7 +316,7 @@ fn blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
         ..plane
     };
     let (plane, solid) = (plane.plan()?, solid.plan()?);
-    let first = |plan: &Plan| seas::found(plan, &plan.settings, |_| {});
+    let first = |plan: &Plan| seas::found(plan, &plan.problem.settings, |_| {});
     let (a, b) = (first(&plane)?, first(&solid)?);
     let moment = |plan: &Plan, slip: &[f64]| -> f64 {
         slip.iter().zip(&plan.points).map(|(s, p)| s * p.area * p.shear_modulus).sum()

@@ -2,7 +2,8 @@
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::{Equations, Layout, Moment, Plan, run as integrate};
+use asperity_cycles::{Equations, Layout, Moment, run as integrate};
+use asperity_driver::fault::Plan;
 use asperity_ode::{Clock, Control, Outcome, Problem};
 use asperity_vary::SceneText;
 use modes::Mode;
@@ -141,17 +142,19 @@ const KICK: f64 = 1e-5;
 
 /// Growth rates over V/L of a mode from the rates of the equations, and what they do beside the mode, over V/L.
 fn linearised(plan: &Plan, mode: &Mode) -> ([Complex<f64>; 2], f64) {
-    let (shear, normal) = plan.loading.rates(1.0, plan.points.len(), plan.fault.operator.couples_normal());
-    let equations = Equations::new(&plan.fault, shear, normal);
+    let (shear, normal) =
+        plan.problem.loading.rates(1.0, plan.points.len(), plan.problem.fault.operator.couples_normal());
+    let equations = Equations::new(&plan.problem.fault, shear, normal);
     let layout = equations.layout();
-    let (mut y, mut up, mut down) = (plan.start.clone(), vec![0.0; layout.size()], vec![0.0; layout.size()]);
+    let (mut y, mut up, mut down) =
+        (plan.problem.start.clone(), vec![0.0; layout.size()], vec![0.0; layout.size()]);
     let mut matrix = Matrix2::zeros();
     let mut beside = 0.0_f64;
     let parts = [layout.m(), layout.states()];
     for (column, part) in parts.iter().enumerate() {
         let scale = scale(plan, column);
         for (sign, out) in [(1.0, &mut up), (-1.0, &mut down)] {
-            y.copy_from_slice(&plan.start);
+            y.copy_from_slice(&plan.problem.start);
             y[part.clone()].iter_mut().zip(&mode.shape).for_each(|(y, c)| *y += sign * KICK * scale * c);
             equations.rates(Clock::new(0.0, 0.0), &y, out);
         }
@@ -168,7 +171,7 @@ fn linearised(plan: &Plan, mode: &Mode) -> ([Complex<f64>; 2], f64) {
 
 /// A change of ln V by one in m, or in the state.
 fn scale(plan: &Plan, part: usize) -> f64 {
-    if part == 0 { 1.0 } else { plan.fault.law.state_scale(0) }
+    if part == 0 { 1.0 } else { plan.problem.fault.law.state_scale(0) }
 }
 
 /// Largest error of growth rates over V/L of these modes.
@@ -378,18 +381,23 @@ struct Flow {
 /// Growth rates of the modes from the integration.
 fn flow(variant: &Variant) -> Result<Vec<Flow>, CaseError> {
     let mut plan = variant.plan()?;
-    plan.settings.end = FOLLOWED * length() / RATE;
+    plan.problem.settings.end = FOLLOWED * length() / RATE;
     let modes = modes::of(&plan, HIGHEST + 1)?;
-    let layout = Layout::of(&plan.fault);
+    let layout = Layout::of(&plan.problem.fault);
     let parts = [layout.m(), layout.states()];
     let end = |column: usize, sign: f64| -> Result<Vec<f64>, CaseError> {
-        let mut start = plan.start.clone();
+        let mut start = plan.problem.start.clone();
         for mode in &modes {
             let seed = sign * SEED * scale(&plan, column);
             start[parts[column].clone()].iter_mut().zip(&mode.shape).for_each(|(y, c)| *y += seed * c);
         }
-        let out =
-            integrate(&plan.fault, &plan.loading, start, &plan.settings, &mut |_: &Moment<'_>| Control::Go);
+        let out = integrate(
+            &plan.problem.fault,
+            &plan.problem.loading,
+            start,
+            &plan.problem.settings,
+            &mut |_: &Moment<'_>| Control::Go,
+        );
         match out.outcome {
             Outcome::Completed => Ok(out.unknowns),
             other => Err(format!("the integration ended early: {other:?}").into()),

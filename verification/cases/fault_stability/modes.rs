@@ -37,7 +37,7 @@ pub fn of(plan: &Plan, count: usize) -> Result<Vec<Mode>, CaseError> {
     let mut matrix = DMatrix::zeros(n, n);
     for j in 0..n {
         unit[j] = 1.0;
-        plan.fault.operator.shear(&unit, &mut column);
+        plan.problem.fault.operator.shear(&unit, &mut column);
         unit[j] = 0.0;
         for (i, (traction, r)) in column.iter().zip(&root).enumerate() {
             matrix[(i, j)] = -r * traction / root[j];

@@ -1,7 +1,8 @@
 //! A fault whose slip may turn, by slip and state: a slider on a spring that is as stiff in both directions, or points with an operator.
 
 use crate::CaseError;
-use asperity_driver::fault::{Operator, Plan};
+use asperity_cycles::operator::Operator;
+use asperity_driver::fault::Plan;
 use asperity_ode::{Clock, Control, Method, Occurrence, Options, Outcome, Problem, Sink, Step, integrate};
 
 /// Friction of the scene: f0, a, b, L \[m\] and V0 \[m/s\].
@@ -70,15 +71,15 @@ impl<'a> Fault<'a> {
     /// The points of a plan, with its operator, loads and thresholds, and with a of each point.
     pub fn of(plan: &'a Plan, a: impl Fn(usize) -> f64) -> Self {
         let n = plan.points.len();
-        let pull = plan.loading.rates(1.0, n, false).0;
-        Self::new(plan, Elastic::Body(plan.fault.operator.as_ref(), pull), (0..n).map(a).collect())
+        let pull = plan.problem.loading.rates(1.0, n, false).0;
+        Self::new(plan, Elastic::Body(plan.problem.fault.operator.as_ref(), pull), (0..n).map(a).collect())
     }
 
     fn new(plan: &Plan, elastic: Elastic<'a>, a: Vec<f64>) -> Self {
         let damping = 0.5 * (MODULUS * DENSITY).sqrt();
         // The state is steady where V0 theta/L = V0/V.
         let first = |a: &f64| NORMAL * friction(*a, START.ln(), (V0 / STEADY).ln()).0 + damping * START;
-        let thresholds = [plan.settings.thresholds.on, plan.settings.thresholds.off];
+        let thresholds = [plan.problem.settings.thresholds.on, plan.problem.settings.thresholds.off];
         Self { elastic, first: a.iter().map(first).collect(), a, damping, thresholds }
     }
 

@@ -3,8 +3,8 @@
 use super::slider;
 use super::texts::{Done, attempt, simulate};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use asperity_cycles::slider::{self as cycles, Thresholds};
 use asperity_driver::report::{Outcome, Stop};
-use asperity_driver::slider::{self as driver, Thresholds};
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider};
@@ -170,7 +170,7 @@ fn by_slider(normal: f64, stiffness: f64) -> Result<f64, CaseError> {
     plan.events = Some(Thresholds { on: LIMIT, off: 0.1 * LIMIT });
     plan.most_events = Some(1);
     // Nothing ends what follows: the run fails once the limit has been passed.
-    let run = driver::run(&plan, &mut ())?;
+    let run = cycles::run(&plan, &mut ())?;
     Ok(run.catalogue.events.first().ok_or("the slider did not pass the limit")?.onset)
 }
 

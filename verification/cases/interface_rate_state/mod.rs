@@ -3,8 +3,8 @@
 use super::slider::{self, Kind};
 use super::texts::{self, Done};
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
+use asperity_cycles::slider::{self as cycles, Now, Problem, Rows, Thresholds};
 use asperity_driver::report::{Outcome, Stop};
-use asperity_driver::slider::{self as driver, Now, Output, Plan, Thresholds};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding};
@@ -335,7 +335,7 @@ fn law(kind: Kind) -> Result<Arc<dyn Sliding>, CaseError> {
 }
 
 /// A slider whose spring is slack.
-fn slack(kind: Kind, stiffness: f64, load: History, end: f64) -> Result<Plan, CaseError> {
+fn slack(kind: Kind, stiffness: f64, load: History, end: f64) -> Result<Problem, CaseError> {
     let slider =
         Slider { law: law(kind)?, stiffness, damping: 0.0, mass: None, normal: History::Constant(NORMAL) };
     let mut plan = slider::plan(slider, load, LOAD, 1.0, end)?;
@@ -355,14 +355,14 @@ fn reference(kind: Kind, stiffness: f64, done: &Done) -> Result<Vec<f64>, CaseEr
         from = end;
     }
     let mut plan = slack(kind, stiffness, History::table(table)?, from)?;
-    plan.output = Output { change: None, times, interval: None, histories: None };
+    plan.output = Rows { change: None, times, interval: None, histories: None };
     let mut friction = Vec::new();
-    let mut look = |_: &Plan, now: &Now<'_>| {
+    let mut look = |_: &Problem, now: &Now<'_>| {
         if now.asked {
             friction.push(now.conditions[0].friction);
         }
     };
-    driver::run(&plan, &mut look)?;
+    cycles::run(&plan, &mut look)?;
     Ok(friction)
 }
 
@@ -372,7 +372,7 @@ fn by_slider(kind: Kind, stiffness: f64) -> Result<f64, CaseError> {
     plan.events = Some(Thresholds { on: LIMIT, off: 0.1 * LIMIT });
     plan.most_events = Some(1);
     // Nothing ends what follows: the run fails once the limit has been passed.
-    let run = driver::run(&plan, &mut ())?;
+    let run = cycles::run(&plan, &mut ())?;
     Ok(run.catalogue.events.first().ok_or("the slider did not pass the limit")?.onset)
 }
 

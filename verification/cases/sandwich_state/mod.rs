@@ -2,7 +2,9 @@
 
 use crate::cases::seas::{self, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_driver::fault::{Dense, Event, Loading, Moment, Plan, run as integrate};
+use asperity_cycles::operator::Dense;
+use asperity_cycles::{Event, Loading, Moment, run as integrate};
+use asperity_driver::fault::Plan;
 use asperity_fem::table::Table;
 use asperity_ode::Control;
 use asperity_vary::SceneText;
@@ -44,7 +46,7 @@ fn small_block(events: usize) -> Result<Plan, CaseError> {
 
 fn read(text: &str, events: usize) -> Result<Plan, CaseError> {
     let mut plan = seas::plan(text)?;
-    plan.settings.most_events = Some(events);
+    plan.problem.settings.most_events = Some(events);
     Ok(plan)
 }
 
@@ -90,7 +92,7 @@ fn stick_slip(ledger: &mut Ledger, size: f64, elements: u64) -> Result<(), CaseE
     let plan = block(size, 11)?;
     let mut at_onset: Vec<f64> = Vec::new();
     let mut open = false;
-    let found = seas::found(&plan, &plan.settings, |now| {
+    let found = seas::found(&plan, &plan.problem.settings, |now| {
         let begins = now.catalogue.under_way().is_some();
         if begins && !open {
             at_onset.push(mean(&plan, now.slip()));
@@ -192,7 +194,7 @@ fn one_slider(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut plan = small_block(3)?;
     let mut uniform = f64::INFINITY;
     let mut last = 0.0;
-    let found = seas::found(&plan, &plan.settings, |now| {
+    let found = seas::found(&plan, &plan.problem.settings, |now| {
         // The first step after the passing of 1 mm/s.
         if now.largest >= 1e-3 && last < 1e-3 {
             let slowest = now.rate.iter().fold(f64::INFINITY, |m, v| m.min(v.abs()));
@@ -234,23 +236,24 @@ fn one_slider(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn slider(plan: &mut Plan) -> Result<Vec<f64>, CaseError> {
     let n = plan.points.len();
     let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-    plan.fault.operator.shear(&vec![1.0; n], &mut shear);
-    plan.fault.operator.normal(&vec![1.0; n], &mut normal);
+    plan.problem.fault.operator.shear(&vec![1.0; n], &mut shear);
+    plan.problem.fault.operator.normal(&vec![1.0; n], &mut normal);
     let means = |response: &[f64]| -> Vec<f64> {
         let stiffness = mean(plan, response);
         (0..n * n).map(|k| stiffness * plan.points[k % n].area / FACE).collect()
     };
     let operator = Dense::new(n, means(&shear), Some(means(&normal)));
-    let (pull, press) = plan.loading.rates(1.0, n, true);
-    let end = plan.settings.end;
+    let (pull, press) = plan.problem.loading.rates(1.0, n, true);
+    let end = plan.problem.settings.end;
     let mut loading = Loading::new(1);
     loading.add(
         Table::new(vec![0.0, end], vec![0.0, end]),
         vec![mean(plan, &pull); n],
         vec![mean(plan, &press); n],
     );
-    plan.fault.operator = Box::new(operator);
+    plan.problem.fault.operator = Box::new(operator);
     let mut go = |_: &Moment<'_>| Control::Go;
-    let out = integrate(&plan.fault, &loading, plan.start.clone(), &plan.settings, &mut go);
+    let out =
+        integrate(&plan.problem.fault, &loading, plan.problem.start.clone(), &plan.problem.settings, &mut go);
     Ok(out.catalogue.events().iter().map(|e| e.onset.seconds()).collect())
 }

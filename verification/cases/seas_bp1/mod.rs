@@ -2,7 +2,8 @@
 
 use crate::cases::seas::{self, CONVERGED, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_driver::fault::{Moment, Plan};
+use asperity_cycles::Moment;
+use asperity_driver::fault::Plan;
 use asperity_ode::Method;
 use asperity_vary::SceneText;
 use asperity_vary::bp1::{SIZE, bp1};
@@ -24,7 +25,7 @@ const FAR_TOLERANCE: f64 = 1e-6;
 
 fn plan(size: f64) -> Result<Plan, CaseError> {
     let mut plan = seas::plan(&bp1(size).text()?)?;
-    plan.settings.most_events = Some(EVENTS);
+    plan.problem.settings.most_events = Some(EVENTS);
     Ok(plan)
 }
 
@@ -34,7 +35,7 @@ fn found(
     tolerance: f64,
     look: impl FnMut(&Moment<'_>),
 ) -> Result<Found, CaseError> {
-    let mut settings = plan.settings;
+    let mut settings = plan.problem.settings;
     (settings.method, settings.tolerance) = (method, tolerance);
     seas::found(plan, &settings, look)
 }
@@ -51,34 +52,37 @@ impl Balance {
     fn new(plan: &Plan) -> Self {
         let n = plan.points.len();
         let rate = 1e-9;
-        let first = (0..n).map(|p| Self::strength(plan, p, plan.start[p]) + plan.fault.damping[p] * rate);
+        let first = (0..n)
+            .map(|p| Self::strength(plan, p, plan.problem.start[p]) + plan.problem.fault.damping[p] * rate);
         Self {
             first: first.collect(),
-            load: plan.loading.rates(1.0, n, false).0,
+            load: plan.problem.loading.rates(1.0, n, false).0,
             exerted: vec![0.0; n],
             worst: 0.0,
         }
     }
 
     fn strength(plan: &Plan, p: usize, m: f64) -> f64 {
-        plan.fault.normal[p] * plan.fault.law.scale(p) * m
+        plan.problem.fault.normal[p] * plan.problem.fault.law.scale(p) * m
     }
 
     fn look(&mut self, plan: &Plan, now: &Moment<'_>) {
-        plan.fault.operator.shear(now.slip(), &mut self.exerted);
+        plan.problem.fault.operator.shear(now.slip(), &mut self.exerted);
         for p in 0..self.first.len() {
             let driving = self.first[p] + self.exerted[p] + self.load[p] * now.at.seconds();
-            let resisting = Self::strength(plan, p, now.unknowns[p]) + plan.fault.damping[p] * now.rate[p];
-            self.worst = self.worst.max((driving - resisting).abs() / plan.fault.normal[p]);
+            let resisting =
+                Self::strength(plan, p, now.unknowns[p]) + plan.problem.fault.damping[p] * now.rate[p];
+            self.worst = self.worst.max((driving - resisting).abs() / plan.problem.fault.normal[p]);
         }
     }
 }
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let coarse = plan(SIZE)?;
-    let tolerance = coarse.settings.tolerance;
+    let tolerance = coarse.problem.settings.tolerance;
     let mut balance = Balance::new(&coarse);
-    let at_coarse = found(&coarse, coarse.settings.method, tolerance, |now| balance.look(&coarse, now))?;
+    let at_coarse =
+        found(&coarse, coarse.problem.settings.method, tolerance, |now| balance.look(&coarse, now))?;
     first_event(
         ledger,
         &at_coarse,
@@ -87,7 +91,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         "the error of boundary elements with as many unknowns (QDYN, 78 m)",
     );
     let fine = plan(78.125)?;
-    let at_fine = found(&fine, fine.settings.method, tolerance, |_| {})?;
+    let at_fine = found(&fine, fine.problem.settings.method, tolerance, |_| {})?;
     first_event(ledger, &at_fine, "78 m", 0.098, "0.05 %, four cells to the process zone of 340 m");
     later_events(ledger, &at_fine);
     ledger
@@ -176,7 +180,7 @@ fn methods(ledger: &mut Ledger, plan: &Plan, default: &Found) -> Result<(), Case
         .unit("yr")
         .value(error(default))
         .at_most(0.01)
-        .between(&(plan.settings.method, plan.settings.tolerance), &(Method::Dop853, 1e-8))
+        .between(&(plan.problem.settings.method, plan.problem.settings.tolerance), &(Method::Dop853, 1e-8))
         .evidence(Evidence::ConvergedSelf, "dop853 with a tolerance of 1e-8 on the same cells")
         .because("a tenth of what cells of 78 m leave")
         .covers(&[Capability::FaultCycles, Capability::Integrators])
@@ -201,8 +205,8 @@ fn far_field(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut runs = Vec::new();
     for scene in [bp1(SIZE), nearer(bp1(SIZE))] {
         let mut plan = seas::plan(&scene.text()?)?;
-        plan.settings.most_events = Some(2);
-        runs.push(found(&plan, plan.settings.method, FAR_TOLERANCE, |_| {})?);
+        plan.problem.settings.most_events = Some(2);
+        runs.push(found(&plan, plan.problem.settings.method, FAR_TOLERANCE, |_| {})?);
     }
     let interval = |run: &Found| run.onsets[1] - run.onsets[0];
     let (far, near) = (&runs[0], &runs[1]);

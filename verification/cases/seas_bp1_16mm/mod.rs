@@ -61,7 +61,7 @@ pub fn text(law: &Law, size: f64) -> Result<String, CaseError> {
 /// The first two events with cells of this size \[m\].
 fn found(law: &Law, size: f64) -> Result<Found, CaseError> {
     let plan = seas::plan(&text(law, size)?)?;
-    let mut settings = plan.settings;
+    let mut settings = plan.problem.settings;
     settings.most_events = Some(2);
     seas::found(&plan, &settings, |_| {})
 }

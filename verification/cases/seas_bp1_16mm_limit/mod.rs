@@ -30,7 +30,7 @@ fn limit(ledger: &mut Ledger, law: &Law) -> Result<(), CaseError> {
     let (mut onsets, mut rows, mut cost) = (Vec::new(), Vec::new(), Cost::default());
     for size in SIZES {
         let plan = seas::plan(&text(law, size)?)?;
-        let mut settings = plan.settings;
+        let mut settings = plan.problem.settings;
         (settings.method, settings.tolerance, settings.most_events) = (Method::Dop853, TIGHT, Some(2));
         let found = seas::found(&plan, &settings, |_| {})?;
         let peaks: Vec<String> = found.events.iter().map(|e| format!("{:.4}", e.peak)).collect();

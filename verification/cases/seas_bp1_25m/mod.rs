@@ -19,7 +19,7 @@ const SHARE: f64 = 1e-4;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let plan = seas_bp1_full::plan(SIZE)?;
-    let found = seas::found(&plan, &plan.settings, |_| {})?;
+    let found = seas::found(&plan, &plan.problem.settings, |_| {})?;
     seas_bp1_full::cycle(ledger, SIZE, SHARE, &found);
     ledger.table("3000 years", &seas_bp1_full::HEAD, [seas_bp1_full::row(SIZE, &plan, &found)]);
     Ok(())

@@ -28,8 +28,8 @@ const TIGHT: f64 = 1e-8;
 /// What the reader or the plan refuse.
 pub fn plan(size: f64) -> Result<Plan, CaseError> {
     let mut plan = seas::plan(&sized(SceneText::new(BP1), size, 2.0 * size).text()?)?;
-    (plan.settings.thresholds.on, plan.settings.thresholds.off) = (1e-3, 0.999e-3);
-    plan.settings.most_events = None;
+    (plan.problem.settings.thresholds.on, plan.problem.settings.thresholds.off) = (1e-3, 0.999e-3);
+    plan.problem.settings.most_events = None;
     Ok(plan)
 }
 
@@ -38,10 +38,10 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     // Shares of the first event: what boundary elements of half the size leave (QDYN: .07 % at 78 m, .02 % at 39 m).
     for (size, share) in [(156.25, 8e-4), (78.125, 2e-4), (39.0625, 1.5e-4)] {
         let plan = plan(size)?;
-        let all = seas::found(&plan, &plan.settings, |_| {})?;
+        let all = seas::found(&plan, &plan.problem.settings, |_| {})?;
         cycle(ledger, size, share, &all);
         rows.push(row(size, &plan, &all));
-        let mut settings = plan.settings;
+        let mut settings = plan.problem.settings;
         (settings.method, settings.tolerance, settings.most_events) = (Method::Dop853, TIGHT, Some(1));
         let first = seas::found(&plan, &settings, |_| {})?;
         onsets.push(first.onsets[0]);

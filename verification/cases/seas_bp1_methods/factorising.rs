@@ -3,7 +3,8 @@
 use super::{ABOVE, EVENTS};
 use crate::cases::seas::YEAR;
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::{Equations, Plan};
+use asperity_cycles::Equations;
+use asperity_driver::fault::Plan;
 use asperity_ode::{Clock, Control, Method, Occurrence, Options, Problem, Sink, Step};
 use std::time::Instant;
 
@@ -82,9 +83,9 @@ struct Reached {
 }
 
 fn reach(plan: &Plan, method: Method, limit: f64) -> Reached {
-    let (shear, normal) = plan.loading.rates(1.0, plan.points.len(), false);
-    let problem = Differenced(Equations::new(&plan.fault, shear.clone(), normal.clone()));
-    let watched = Equations::new(&plan.fault, shear, normal);
+    let (shear, normal) = plan.problem.loading.rates(1.0, plan.points.len(), false);
+    let problem = Differenced(Equations::new(&plan.problem.fault, shear.clone(), normal.clone()));
+    let watched = Equations::new(&plan.problem.fault, shear, normal);
     let mut sink = Follow {
         equations: &watched,
         rate: vec![0.0; plan.points.len()],
@@ -98,13 +99,13 @@ fn reach(plan: &Plan, method: Method, limit: f64) -> Reached {
         method,
         // Rounding of the unknowns beside the tolerance.
         rtol: 1e-15,
-        atol: watched.tolerances(plan.settings.tolerance),
+        atol: watched.tolerances(plan.problem.settings.tolerance),
         first_step: None,
         largest_step: None,
         most_steps: 100_000,
     };
-    let (start, end) = (Clock::new(0.0, 0.0), plan.settings.end);
-    let out = asperity_ode::integrate(&problem, start, &plan.start, end, &options, &mut sink);
+    let (start, end) = (Clock::new(0.0, 0.0), plan.problem.settings.end);
+    let out = asperity_ode::integrate(&problem, start, &plan.problem.start, end, &options, &mut sink);
     let (at, wall) = sink.trace.last().copied().unwrap_or((0.0, limit));
     let row = [
         method.name().to_string(),
@@ -122,7 +123,7 @@ fn reach(plan: &Plan, method: Method, limit: f64) -> Reached {
 
 /// The default and the methods that factorise at the default's tolerance on the same cells.
 pub(super) fn compare(ledger: &mut Ledger, plan: &Plan) -> Result<(), CaseError> {
-    let default = reach(plan, plan.settings.method, f64::INFINITY);
+    let default = reach(plan, plan.problem.settings.method, f64::INFINITY);
     let mut least = f64::INFINITY;
     let mut rows = vec![default.row];
     for method in [Method::Bdf, Method::TrBdf2, Method::Esdirk34, Method::Radau5] {
@@ -137,8 +138,8 @@ pub(super) fn compare(ledger: &mut Ledger, plan: &Plan) -> Result<(), CaseError>
     ledger.table(
         format!(
             "methods that factorise, {} unknowns, tolerance {:.0e}: to the third onset or for {LIMIT} s",
-            plan.start.len(),
-            plan.settings.tolerance
+            plan.problem.start.len(),
+            plan.problem.settings.tolerance
         ),
         &[
             "method",

@@ -2,7 +2,8 @@
 
 use crate::cases::seas::{self, YEAR};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::fault::{Moment, Plan, run as integrate};
+use asperity_cycles::{Moment, run as integrate};
+use asperity_driver::fault::Plan;
 use asperity_ode::{Control, Method, Outcome};
 use asperity_vary::bp1::BP1;
 use std::time::Instant;
@@ -60,8 +61,8 @@ struct Curve {
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut plan = seas::plan(BP1)?;
-    plan.settings.most_events = Some(EVENTS);
-    (plan.settings.thresholds.on, plan.settings.thresholds.off) = (ABOVE, 0.999 * ABOVE);
+    plan.problem.settings.most_events = Some(EVENTS);
+    (plan.problem.settings.thresholds.on, plan.problem.settings.thresholds.off) = (ABOVE, 0.999 * ABOVE);
     let exact = setting(&plan, Method::Dop853, 1e-9)??;
     let near = setting(&plan, Method::Dop853, 1e-8)??;
     ledger
@@ -99,11 +100,17 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Runs a setting, or tells why it failed.
 fn setting(plan: &Plan, method: Method, tolerance: f64) -> Result<Result<Setting, String>, CaseError> {
-    let mut settings = plan.settings;
+    let mut settings = plan.problem.settings;
     (settings.method, settings.tolerance) = (method, tolerance);
     let clock = Instant::now();
     let mut watch = |_: &Moment<'_>| Control::Go;
-    let out = integrate(&plan.fault, &plan.loading, plan.start.clone(), &settings, &mut watch);
+    let out = integrate(
+        &plan.problem.fault,
+        &plan.problem.loading,
+        plan.problem.start.clone(),
+        &settings,
+        &mut watch,
+    );
     let wall = clock.elapsed().as_secs_f64();
     if let Outcome::Failed { reason } = out.outcome {
         return Ok(Err(reason.to_string()));
@@ -191,7 +198,7 @@ fn needed<'a>(curve: &'a Curve, exact: &Setting, error: f64) -> Option<&'a Setti
 }
 
 fn judge(ledger: &mut Ledger, plan: &Plan, curves: &[Curve], exact: &Setting) -> Result<(), CaseError> {
-    let default = plan.settings.method.name();
+    let default = plan.problem.settings.method.name();
     let mut rows = Vec::new();
     for mark in MARKS {
         let found: Vec<(&str, Option<&Setting>)> =

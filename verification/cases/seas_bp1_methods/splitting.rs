@@ -5,7 +5,8 @@
 
 use super::{ABOVE, EVENTS, Setting};
 use crate::cases::seas::YEAR;
-use asperity_driver::fault::{Equations, Plan};
+use asperity_cycles::Equations;
+use asperity_driver::fault::Plan;
 use asperity_ode::{Clock, Problem};
 use std::time::Instant;
 
@@ -30,14 +31,14 @@ fn aged(state: f64, rate: f64, dt: f64) -> f64 {
 pub(super) fn setting(plan: &Plan, tolerance: f64) -> Result<Setting, String> {
     let clock = Instant::now();
     let n = plan.points.len();
-    let (shear, normal) = plan.loading.rates(1.0, n, false);
-    let equations = Equations::new(&plan.fault, shear, normal);
+    let (shear, normal) = plan.problem.loading.rates(1.0, n, false);
+    let equations = Equations::new(&plan.problem.fault, shear, normal);
     let layout = equations.layout();
     let (m, states, slip) = (layout.m(), layout.states(), layout.slip());
     let scale = equations.tolerances(tolerance);
-    let zeros = || vec![0.0; plan.start.len()];
+    let zeros = || vec![0.0; plan.problem.start.len()];
     let (mut y, mut f, mut first, mut g, mut second) =
-        (plan.start.clone(), zeros(), zeros(), zeros(), zeros());
+        (plan.problem.start.clone(), zeros(), zeros(), zeros(), zeros());
     let at = Clock::new(0.0, 0.0);
     let mut found =
         Setting { tolerance, onsets: Vec::new(), peak: 0.0, wall: 0.0, steps: 0, rejected: 0, rates: 1 };

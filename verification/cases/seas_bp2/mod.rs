@@ -2,7 +2,8 @@
 
 use crate::cases::seas::{self, Found, YEAR};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_driver::fault::{Event, Plan};
+use asperity_cycles::Event;
+use asperity_driver::fault::Plan;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -19,7 +20,7 @@ const LARGE: f64 = 0.3;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let plan = seas::plan(include_str!("../../../scenes/bp2.toml"))?;
-    let found = seas::found(&plan, &plan.settings, |_| {})?;
+    let found = seas::found(&plan, &plan.problem.settings, |_| {})?;
     let large: Vec<bool> = found.events.iter().map(|e| e.slip[0].abs() > LARGE).collect();
     let settled = &large[1..];
     let in_turn = settled.windows(2).filter(|w| w[0] != w[1]).count();
@@ -49,7 +50,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         .because("0.2 yr in 100: cells of 156 m leave as much in BP1, and artificial events change cycles by years")
         .cost(&found.cost)
         .record();
-    ledger.note(format!("Integrated to {:.1} yr.", plan.settings.end / YEAR));
+    ledger.note(format!("Integrated to {:.1} yr.", plan.problem.settings.end / YEAR));
     Ok(())
 }
 

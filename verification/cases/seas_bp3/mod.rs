@@ -2,7 +2,8 @@
 
 use crate::cases::seas::{self, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_driver::fault::{Moment, Plan};
+use asperity_cycles::Moment;
+use asperity_driver::fault::Plan;
 use asperity_vary::SceneText;
 
 /// See the README.
@@ -99,7 +100,7 @@ pub fn plan(faulting: Faulting, size: f64, far: f64) -> Result<Plan, CaseError> 
 }
 
 fn found(plan: &Plan, events: usize, look: impl FnMut(&Moment<'_>)) -> Result<Found, CaseError> {
-    let mut settings = plan.settings;
+    let mut settings = plan.problem.settings;
     settings.most_events = Some(events);
     seas::found(plan, &settings, look)
 }
@@ -155,7 +156,7 @@ fn vertical(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Largest relative change of normal traction.
 pub fn normal_change(plan: &Plan, now: &Moment<'_>) -> f64 {
-    let of = |p: usize| (now.normal(p) / plan.fault.normal[p] - 1.0).abs();
+    let of = |p: usize| (now.normal(p) / plan.problem.fault.normal[p] - 1.0).abs();
     (0..plan.points.len()).map(of).fold(0.0, f64::max)
 }
 

@@ -78,9 +78,10 @@ pub const HEAD: [&str; 9] = [
 /// Where the integration fails.
 pub fn integrate(fault: Faulting, size: f64) -> Result<Cycles, CaseError> {
     let mut plan = plan(fault, size, FAR)?;
-    plan.settings.most_events = None;
+    plan.problem.settings.most_events = None;
     let mut normal = 0.0_f64;
-    let found = seas::found(&plan, &plan.settings, |now| normal = normal.max(normal_change(&plan, now)))?;
+    let found =
+        seas::found(&plan, &plan.problem.settings, |now| normal = normal.max(normal_change(&plan, now)))?;
     Ok(Cycles { found, normal, points: plan.points.len() })
 }
 
@@ -210,8 +211,8 @@ fn mirrored(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut onsets = Vec::new();
     for sense in [Sense::Thrust, Sense::Normal] {
         let mut plan = plan((90.0, sense), SIZES[0], FAR)?;
-        plan.settings.most_events = Some(1);
-        onsets.push(seas::found(&plan, &plan.settings, |_| {})?.onsets[0]);
+        plan.problem.settings.most_events = Some(1);
+        onsets.push(seas::found(&plan, &plan.problem.settings, |_| {})?.onsets[0]);
     }
     ledger
         .claim("first onset of a vertical fault that slips the other way, difference")

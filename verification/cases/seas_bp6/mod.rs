@@ -2,7 +2,8 @@
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::{Moment, Plan};
+use asperity_cycles::Moment;
+use asperity_driver::fault::Plan;
 use asperity_vary::SceneText;
 
 /// See the README.
@@ -86,9 +87,9 @@ impl Seen {
 /// Runs a plan whose points see `share` of the fluid.
 fn seen(plan: &Plan, share: f64) -> Result<Seen, CaseError> {
     let mut out = Seen { least: f64::INFINITY, ..Seen::default() };
-    let pressure = plan.fault.pressure.as_ref().ok_or("the scene injects nothing")?;
+    let pressure = plan.problem.fault.pressure.as_ref().ok_or("the scene injects nothing")?;
     let mut exerted = vec![0.0; plan.points.len()];
-    let found = seas::found(plan, &plan.settings, |now| {
+    let found = seas::found(plan, &plan.problem.settings, |now| {
         out.peak = out.peak.max(now.largest);
         if now.at.seconds() <= OFF {
             out.slip[0] = now.slip().to_vec();
@@ -112,10 +113,10 @@ fn seen(plan: &Plan, share: f64) -> Result<Seen, CaseError> {
 
 /// Largest difference of what the bodies exert and what friction and damping resist, over the normal traction at the start.
 fn imbalance(plan: &Plan, now: &Moment<'_>, exerted: &mut [f64]) -> f64 {
-    plan.fault.operator.shear(now.slip(), exerted);
+    plan.problem.fault.operator.shear(now.slip(), exerted);
     let of = |p: usize| {
-        let strength = now.normal(p) * plan.fault.law.scale(p) * now.unknowns[p];
-        (SHEAR + exerted[p] - strength - plan.fault.damping[p] * now.rate[p]).abs() / NORMAL
+        let strength = now.normal(p) * plan.problem.fault.law.scale(p) * now.unknowns[p];
+        (SHEAR + exerted[p] - strength - plan.problem.fault.damping[p] * now.rate[p]).abs() / NORMAL
     };
     (0..exerted.len()).map(of).fold(0.0, f64::max)
 }

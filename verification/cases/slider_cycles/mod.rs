@@ -2,7 +2,8 @@
 
 use super::slider::{self, Independent, Kind, Set};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::slider::{self as driver, Event, Now, Plan, Report};
+use asperity_cycles::slider::{self as cycles, Event, Now, Problem};
+use asperity_driver::slider::Report;
 use asperity_ode::Method;
 
 /// See the README.
@@ -115,7 +116,7 @@ fn against_qdyn(ledger: &mut Ledger) -> Result<(), CaseError> {
     ];
     for (name, kind, [period, fastest, slowest]) in printed {
         let plan = slider::MILD.plan(kind, 1.5, 1.0)?;
-        let (events, cost) = cycle(&slider::MILD, kind, plan.method, driver::DEFAULT_TOLERANCE, 10)?;
+        let (events, cost) = cycle(&slider::MILD, kind, plan.method, cycles::DEFAULT_TOLERANCE, 10)?;
         let last = events.last().ok_or("no event")?;
         let interval = last.interval.ok_or("one event only")?;
         ledger
@@ -178,10 +179,10 @@ fn picture(ledger: &mut Ledger) -> Result<(), CaseError> {
     ] {
         let mut plan = set.plan(kind, 1.5, 1e12)?;
         slider::events(&mut plan, 3);
-        plan.tolerance = driver::DEFAULT_TOLERANCE;
+        plan.tolerance = cycles::DEFAULT_TOLERANCE;
         let mut curve = Vec::new();
-        let mut look = |_: &Plan, now: &Now<'_>| curve.push((now.at.seconds(), now.conditions[0].rate));
-        let run = driver::run(&plan, &mut look)?;
+        let mut look = |_: &Problem, now: &Now<'_>| curve.push((now.at.seconds(), now.conditions[0].rate));
+        let run = cycles::run(&plan, &mut look)?;
         let recurrence = run.catalogue.events.last().and_then(|e| e.interval).ok_or("no recurrence")?;
         let scaled: Vec<(f64, f64)> = curve.iter().map(|(t, v)| (t / recurrence, *v)).collect();
         plot = plot.series(Series::line(name, &scaled));

@@ -2,7 +2,7 @@
 
 use super::slider::{MU0, V_REF, plan, work};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::slider::{self as driver, Event, Plan};
+use asperity_cycles::slider::{self as cycles, Event, Problem};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding};
@@ -92,7 +92,7 @@ impl Set {
         })
     }
 
-    fn plan(&self, method: Method, tolerance: f64, most_steps: usize) -> Result<Plan, CaseError> {
+    fn plan(&self, method: Method, tolerance: f64, most_steps: usize) -> Result<Problem, CaseError> {
         let slider = Slider {
             law: self.law()?,
             stiffness: self.stiffness,
@@ -119,7 +119,7 @@ fn events_within(
     tolerance: f64,
     most_steps: usize,
 ) -> Result<Option<(Vec<Event>, Counts)>, CaseError> {
-    let run = driver::run(&set.plan(method, tolerance, most_steps)?, &mut ())?;
+    let run = cycles::run(&set.plan(method, tolerance, most_steps)?, &mut ())?;
     let events: Vec<Event> = run.catalogue.of(0).cloned().collect();
     let whole = !matches!(run.outcome, Outcome::Failed { .. }) && events.len() == EVENTS;
     Ok(whole.then_some((events, run.counts)))
@@ -146,7 +146,7 @@ fn independent(ledger: &mut Ledger) -> Result<(), CaseError> {
             mass: number(&entry["M"])?,
             load: number(&entry["load"])?,
         };
-        let (found, cost) = Cost::of(|| events(&set, driver::DEFAULT_METHOD, driver::DEFAULT_TOLERANCE));
+        let (found, cost) = Cost::of(|| events(&set, cycles::DEFAULT_METHOD, cycles::DEFAULT_TOLERANCE));
         let (found, _) = found?.ok_or("an independent set does not come to its end")?;
         let given = entry["events"].as_array().ok_or("no events")?;
         let mut ratios = Vec::new();
@@ -189,13 +189,13 @@ struct Errors {
 fn errors(set: &Set) -> Result<Errors, CaseError> {
     let mut errors = Errors::default();
     let reference = events(set, Method::Radau5, 1e-11)?;
-    for tolerance in [1e-6, driver::DEFAULT_TOLERANCE, 1e-12] {
-        let own = events(set, driver::DEFAULT_METHOD, tolerance)?;
+    for tolerance in [1e-6, cycles::DEFAULT_TOLERANCE, 1e-12] {
+        let own = events(set, cycles::DEFAULT_METHOD, tolerance)?;
         let (Some((own, _)), Some((other, _))) = (own, &reference) else {
             errors.unfinished.push(tolerance);
             continue;
         };
-        if tolerance == driver::DEFAULT_TOLERANCE {
+        if tolerance == cycles::DEFAULT_TOLERANCE {
             errors.interval = (last_interval(&own) / last_interval(other) - 1.0).abs();
             let peaks = own.iter().zip(other).map(|(a, b)| (a.peak_rate / b.peak_rate).ln().abs());
             errors.peak = peaks.fold(0.0, f64::max);
@@ -281,7 +281,7 @@ const RIVALS: [Method; 3] = [Method::Radau5, Method::Esdirk34, Method::Bdf];
 fn works(set: &Set) -> Result<[f64; 4], CaseError> {
     let Some((reference, _)) = events(set, Method::Radau5, 1e-11)? else { return Ok([f64::INFINITY; 4]) };
     let reference = last_interval(&reference);
-    let own = needed(set, driver::DEFAULT_METHOD, reference, MOST_STEPS)?;
+    let own = needed(set, cycles::DEFAULT_METHOD, reference, MOST_STEPS)?;
     let most_steps = if own < MOST_STEPS as f64 { own.ceil() as usize } else { MOST_STEPS };
     let mut all = [own; 4];
     for (work, method) in all[1..].iter_mut().zip(RIVALS) {

@@ -2,7 +2,7 @@
 
 use super::slider::{self, Independent, MU0, Set, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::slider::Plan;
+use asperity_cycles::slider::Problem;
 use asperity_friction::component::Component;
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
@@ -39,7 +39,7 @@ fn law(alpha: f64) -> Result<Arc<RateLaw<Regularised, Ageing>>, CaseError> {
 }
 
 /// A steady slider at twice the critical stiffness under a normal traction.
-fn plan(alpha: f64, normal: History) -> Result<Plan, CaseError> {
+fn plan(alpha: f64, normal: History) -> Result<Problem, CaseError> {
     let set = slider::MILD.at(2.0);
     let block = Slider { normal, ..set.slider(law(alpha)?) };
     slider::plan(block, History::Constant(set.load), set.load, 1.0, 1.0)
@@ -126,7 +126,7 @@ fn unloading(ledger: &mut Ledger) -> Result<(), CaseError> {
     for alpha in [0.0, 0.3] {
         let normal = History::table(vec![(1.0, 5e6), (11.0, least)])?;
         // The memory drives ln theta to 600 and mu/a to 1000: a tolerance below 1e-12 would be rounding.
-        let plan = Plan { end: 12.0, tolerance: 1e-9, ..plan(alpha, normal)? };
+        let plan = Problem { end: 12.0, tolerance: 1e-9, ..plan(alpha, normal)? };
         let (run, cost) = Cost::of(|| slider::finish(&plan));
         let run = run?;
         let condition = plan.system.segment(11.5).condition(0, 12.0, &run.unknowns);

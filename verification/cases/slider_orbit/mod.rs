@@ -2,7 +2,8 @@
 
 use super::slider::{self, Independent, Set, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::slider::{self as driver, Now, Plan, Thresholds};
+use asperity_cycles::slider::{self as cycles, Now, Problem, Thresholds};
+use asperity_driver::slider::Report;
 use asperity_friction::evolution::slip::Slip;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::History;
@@ -27,7 +28,7 @@ fn base() -> Set {
 }
 
 /// A plan with the bare logarithm, the law of the theory.
-fn plan(set: &Set, mu0: f64, kick: f64, end: f64) -> Result<Plan, CaseError> {
+fn plan(set: &Set, mu0: f64, kick: f64, end: f64) -> Result<Problem, CaseError> {
     let form = Bare(Parameters::new(mu0, set.a, V_REF)?);
     let law = RateLaw::new(form, Slip::new(set.b, set.length, V_REF)?, set.load, None)?;
     slider::plan(set.slider(Arc::new(law)), History::Constant(set.load), set.load, kick.exp(), end)
@@ -70,15 +71,15 @@ fn orbit(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> 
     let steady = slider::MU0;
     let first = conserved(&set, KICK, set.a * KICK);
     let (mut drift, mut curve): (f64, Vec<(f64, f64)>) = (0.0, Vec::new());
-    let mut look = |_: &Plan, now: &Now<'_>| {
+    let mut look = |_: &Problem, now: &Now<'_>| {
         let c = now.conditions[0];
         let (x, f) = (c.log_rate - set.load.ln(), c.friction - steady);
         drift = drift.max((conserved(&set, x, f) / first - 1.0).abs());
         curve.push((x, f * 1e3));
     };
-    let (run, cost) = Cost::of(|| driver::run(&plan, &mut look));
+    let (run, cost) = Cost::of(|| cycles::run(&plan, &mut look));
     let run = run?;
-    let cost = cost.counts(&driver::Report::new(&plan, &run).counts);
+    let cost = cost.counts(&Report::new(&plan, &run).counts);
     ledger
         .claim("conserved quantity over eight closed orbits, largest relative change")
         .value(drift)
@@ -150,13 +151,13 @@ fn runs_away(set: &Set, kick: f64) -> Result<bool, CaseError> {
         let on = set.load * (level as f64).exp();
         plan.events = Some(Thresholds { on, off: 0.5 * on });
         let (mut turned, mut reached) = (false, None);
-        let mut look = |_: &Plan, now: &Now<'_>| {
+        let mut look = |_: &Problem, now: &Now<'_>| {
             turned |= now.conditions[0].log_rate < turning;
             if reached.is_none() && now.conditions[0].rate >= on * (1.0 - 1e-9) {
                 reached = Some(now.unknowns.to_vec());
             }
         };
-        let run = driver::run(&plan, &mut look)?;
+        let run = cycles::run(&plan, &mut look)?;
         let Some(unknowns) = reached.filter(|_| !turned) else {
             return match run.outcome {
                 Outcome::Failed { reason } => Err(reason.to_string().into()),

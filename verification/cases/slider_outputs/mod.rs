@@ -2,7 +2,8 @@
 
 use super::slider::{self, Independent, MU0, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::slider::{self as driver, Histories, Plan};
+use asperity_cycles::slider::{self as cycles, Problem};
+use asperity_driver::slider::{Histories, Plan, csv};
 use asperity_driver::slider_planner;
 use asperity_ode::Outcome;
 use std::path::PathBuf;
@@ -50,8 +51,12 @@ fn text(load: &str, slider: &str, law: &str, rest: &str) -> String {
     )
 }
 
-fn plan(text: &str) -> Result<Plan, CaseError> {
+fn planned(text: &str) -> Result<Plan, CaseError> {
     slider_planner::read(text).map_err(|e| e.to_string().into())
+}
+
+fn plan(text: &str) -> Result<Problem, CaseError> {
+    Ok(planned(text)?.problem)
 }
 
 /// A folder that goes with its owner.
@@ -71,17 +76,17 @@ fn table(text: &str, first: usize) -> Vec<Vec<f64>> {
 }
 
 /// The rows of the history and of the catalogue that a scene leaves.
-fn files(name: &str, plan: &Plan) -> Result<[Vec<Vec<f64>>; 2], CaseError> {
+fn files(name: &str, plan: &Problem) -> Result<[Vec<Vec<f64>>; 2], CaseError> {
     let folder = Folder(std::env::temp_dir().join(format!("asperity-outputs-{name}-{}", std::process::id())));
     std::fs::create_dir_all(&folder.0)?;
     let mut histories = Histories::create(&folder.0, plan)?;
-    let run = driver::run(plan, &mut histories)?;
+    let run = cycles::run(plan, &mut histories)?;
     if let Outcome::Failed { reason } = run.outcome {
         return Err(reason.to_string().into());
     }
     histories.finish()?;
     let history = std::fs::read_to_string(folder.0.join("history/block.csv"))?;
-    Ok([table(&history, 0), table(&driver::csv(&run.catalogue.events, &plan.names), 1)])
+    Ok([table(&history, 0), table(&csv(&run.catalogue.events, &plan.names), 1)])
 }
 
 /// mu of the regularised form.
@@ -351,7 +356,7 @@ fn stiffness(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut look = |law: &str, more: &str, critical: f64| -> Result<(), CaseError> {
         let slider = format!("stiffness = {stiff:e}\n{more}");
         let scene = text("[load]\nrate = \"1 um/s\"", &slider, law, "[time]\nend = \"1 s\"");
-        let [ratio, found] = printed(&plan(&scene)?.summary())?;
+        let [ratio, found] = printed(&planned(&scene)?.summary())?;
         ratios.extend([found / critical, ratio]);
         expected.extend([1.0, stiff / critical]);
         Ok(())

@@ -2,7 +2,7 @@
 
 use super::slider::{self, Kind, Set, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::slider::{Plan, critical_stiffness};
+use asperity_cycles::slider::{Problem, critical_stiffness};
 use asperity_friction::component::Component;
 use asperity_friction::evolution::{Evolution, ageing::Ageing, nagata::Nagata, slip::Slip};
 use asperity_friction::rate::RateLaw;
@@ -60,11 +60,11 @@ fn theory(set: &Set, a: f64, b: f64) -> Vec<Complex<f64>> {
 
 /// Eigenvalues from the time integration, in units of V/L: those of the flow over `time`, found from perturbed starts of both
 /// signs.
-fn measured(plan: &Plan, set: &Set, time: f64) -> Result<Vec<Complex<f64>>, CaseError> {
+fn measured(plan: &Problem, set: &Set, time: f64) -> Result<Vec<Complex<f64>>, CaseError> {
     let n = plan.start.len();
     let scales = plan.system.scales();
     let ends = |column: usize, sign: f64| -> Result<Vec<f64>, CaseError> {
-        let mut plan = Plan { end: time, ..plan.clone() };
+        let mut plan = Problem { end: time, ..plan.clone() };
         plan.start[column] += sign * KICK * scales[column];
         Ok(slider::finish(&plan)?.unknowns)
     };

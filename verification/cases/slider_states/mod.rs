@@ -2,7 +2,8 @@
 
 use super::slider::{self, Independent, Kind, MU0, Set, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::slider::{Plan, Report};
+use asperity_cycles::slider::Problem;
+use asperity_driver::slider::Report;
 use asperity_friction::component::Component;
 use asperity_friction::evolution::slip::Slip;
 use asperity_friction::rate::RateLaw;
@@ -106,7 +107,7 @@ fn neutral(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError
 }
 
 /// Two sliders of the mild set with softer springs to the load point and one between them.
-fn pair(factors: [f64; 2], law: Kind) -> Result<Plan, CaseError> {
+fn pair(factors: [f64; 2], law: Kind) -> Result<Problem, CaseError> {
     let set = Set { stiffness: 0.8e9, ..slider::MILD };
     let law = set.law(law)?;
     let sliders: Vec<Slider> = (0..2).map(|_| set.slider(law.clone())).collect();
@@ -115,7 +116,7 @@ fn pair(factors: [f64; 2], law: Kind) -> Result<Plan, CaseError> {
     let spring = Spring { between: [0, 1], stiffness: 0.3e9 };
     let system = System::new(sliders, vec![spring], History::Constant(set.load))?;
     let start = system.start(&factors.map(|f| f * set.load), &[states.clone(), states])?;
-    let mut plan = Plan::new(system, start, 1e6);
+    let mut plan = Problem::new(system, start, 1e6);
     plan.tolerance = slider::TIGHT;
     Ok(plan)
 }

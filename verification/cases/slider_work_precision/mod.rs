@@ -2,7 +2,8 @@
 
 use super::slider::{self, Kind, Set};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_driver::slider::{self as driver, Event, Plan};
+use asperity_cycles::slider::{self as cycles, Event, Problem};
+use asperity_driver::slider::Report;
 use asperity_ode::{Method, Outcome};
 use std::time::Instant;
 
@@ -52,7 +53,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     defaults(ledger)
 }
 
-fn plan(set: &Set, kind: Kind, events: usize, method: Method, tolerance: f64) -> Result<Plan, CaseError> {
+fn plan(set: &Set, kind: Kind, events: usize, method: Method, tolerance: f64) -> Result<Problem, CaseError> {
     let mut plan = set.plan(kind, 1.5, 1e12)?;
     slider::events(&mut plan, events);
     (plan.method, plan.tolerance, plan.most_steps) = (method, tolerance, MOST_STEPS);
@@ -60,9 +61,9 @@ fn plan(set: &Set, kind: Kind, events: usize, method: Method, tolerance: f64) ->
 }
 
 /// Runs a setting: its last event and the recurrence, or why it failed.
-fn setting(plan: &Plan, events: usize) -> Result<Result<(Event, f64, f64), String>, CaseError> {
+fn setting(plan: &Problem, events: usize) -> Result<Result<(Event, f64, f64), String>, CaseError> {
     let clock = Instant::now();
-    let run = driver::run(plan, &mut ())?;
+    let run = cycles::run(plan, &mut ())?;
     let wall = clock.elapsed().as_secs_f64();
     if let Outcome::Failed { reason } = run.outcome {
         return Ok(Err(reason.to_string()));
@@ -83,7 +84,7 @@ fn cycle(
 ) -> Result<Vec<Curve>, CaseError> {
     let (method, tolerance) = slider::method(set);
     let reference = plan(set, kind, events, method, tolerance)?;
-    let reference = slider::finish(&Plan { most_steps: driver::MOST_STEPS, ..reference })?;
+    let reference = slider::finish(&Problem { most_steps: cycles::MOST_STEPS, ..reference })?;
     let last = reference.catalogue.of(0).last().ok_or("no event")?.clone();
     let recurrence = last.interval.ok_or("one event only")?;
     let mut curves = Vec::new();
@@ -174,7 +175,7 @@ fn worst(cycles: &[Vec<Curve>], method: Method) -> f64 {
 }
 
 fn judge(ledger: &mut Ledger, cycles: &[Vec<Curve>]) {
-    let best = driver::DEFAULT_METHOD;
+    let best = cycles::DEFAULT_METHOD;
     let own = worst(cycles, best);
     let rivals: Vec<(Method, f64)> =
         Method::ALL.into_iter().filter(|&m| m != best).map(|m| (m, worst(cycles, m))).collect();
@@ -213,11 +214,11 @@ fn defaults(ledger: &mut Ledger) -> Result<(), CaseError> {
         let mut tight = set.plan(Kind::Ageing, 1.5, 1e12)?;
         slider::events(&mut tight, 4);
         let reference = slider::finish(&tight)?;
-        let fresh = Plan::new(tight.system.clone(), tight.start.clone(), tight.end);
-        let loose = Plan { events: tight.events, most_events: tight.most_events, peaks: true, ..fresh };
+        let fresh = Problem::new(tight.system.clone(), tight.start.clone(), tight.end);
+        let loose = Problem { events: tight.events, most_events: tight.most_events, peaks: true, ..fresh };
         let (run, cost) = Cost::of(|| slider::finish(&loose));
         let run = run?;
-        let cost = cost.counts(&driver::Report::new(&loose, &run).counts);
+        let cost = cost.counts(&Report::new(&loose, &run).counts);
         let (Some(a), Some(b)) = (run.catalogue.of(0).nth(3), reference.catalogue.of(0).nth(3)) else {
             return Err(format!("{name}: less than four events").into());
         };

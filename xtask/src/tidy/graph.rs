@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// What each package of the workspace may depend on inside it, tests and build scripts included.
-const ALLOWED: [(&str, &[&str]); 12] = [
+const ALLOWED: [(&str, &[&str]); 13] = [
     ("asperity-friction", &[]),
     ("asperity-fem", &[]),
     ("asperity-ode", &[]),
@@ -16,6 +16,7 @@ const ALLOWED: [(&str, &[&str]); 12] = [
     ("asperity-vary", &[]),
     ("asperity-contact", &["asperity-fem", "asperity-friction"]),
     ("asperity-mechanics", &["asperity-fem", "asperity-friction", "asperity-contact"]),
+    ("asperity-cycles", &["asperity-fem", "asperity-friction", "asperity-ode"]),
     (
         "asperity-driver",
         &[
@@ -26,6 +27,7 @@ const ALLOWED: [(&str, &[&str]); 12] = [
             "asperity-output",
             "asperity-contact",
             "asperity-mechanics",
+            "asperity-cycles",
             "asperity-vary",
         ],
     ),
@@ -43,18 +45,20 @@ const PROGRAMS: &[&str] = &[
     "asperity-output",
     "asperity-contact",
     "asperity-mechanics",
+    "asperity-cycles",
     "asperity-driver",
     "asperity-vary",
 ];
 
 /// Libraries that work on values only.
-pub const LIBRARIES: [&str; 7] = [
+pub const LIBRARIES: [&str; 8] = [
     "asperity-friction",
     "asperity-fem",
     "asperity-ode",
     "asperity-scene",
     "asperity-contact",
     "asperity-mechanics",
+    "asperity-cycles",
     "asperity-vary",
 ];
 
@@ -194,6 +198,9 @@ mod tests {
             ("asperity-output", "asperity-fem"),
             ("asperity-mechanics", "asperity-output"),
             ("asperity-contact", "asperity-mechanics"),
+            ("asperity-cycles", "asperity-mechanics"),
+            ("asperity-cycles", "asperity-scene"),
+            ("asperity-mechanics", "asperity-cycles"),
             ("asperity-driver", "asperity-verification"),
             ("xtask", "asperity-fem"),
         ] {

@@ -101,7 +101,7 @@ impl Source {
     /// What a run of it, read from `path`, is begun with.
     pub fn begin(&self, path: &Path) -> Begin {
         let title = match &self.parsed {
-            Parsed::Sliders(plan) => &plan.title,
+            Parsed::Sliders(plan) => &plan.problem.title,
             Parsed::Bodies(scene) => &scene.title,
         };
         Begin::now(path, title, &sha256(self.text.as_bytes()))

@@ -12,6 +12,7 @@ use crate::plan::AnyPlan;
 use crate::report::{Outcome, Status};
 use crate::run::{self, RunError};
 use crate::slider;
+use asperity_cycles::slider::{Both, Now, Problem, WatchError, Watcher};
 use asperity_output::printing::{err, out};
 use asperity_output::{
     FieldSchedule, Files, Observer, OutputError, Progress, Recorder, atomic, plots, stems,
@@ -139,9 +140,9 @@ fn draw(out: &Path, recorder: Option<&Recorder>) -> miette::Result<()> {
 /// Ends a run of sliders where a signal asks for it.
 struct Until<'a>(slider::Show<'a>, Arc<AtomicBool>);
 
-impl slider::Watcher for Until<'_> {
-    fn now(&mut self, plan: &slider::Plan, now: &slider::Now<'_>) -> Result<(), OutputError> {
-        self.0.now(plan, now)
+impl Watcher for Until<'_> {
+    fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError> {
+        self.0.now(problem, now)
     }
 
     fn stops(&self) -> bool {
@@ -156,7 +157,8 @@ pub(super) fn run_sliders(
     directory: &mut Directory,
     drawn: bool,
 ) -> miette::Result<End> {
-    let mut histories = slider::Histories::create(directory.path(), plan).into_diagnostic()?;
+    let problem = &plan.problem;
+    let mut histories = slider::Histories::create(directory.path(), problem).into_diagnostic()?;
     if drawn {
         histories = histories.traced();
     }
@@ -166,19 +168,20 @@ pub(super) fn run_sliders(
     let clock = Instant::now();
     let ended = {
         let mut show = Until(slider::Show::to(vec![&mut progress as &mut dyn Observer]), stop);
-        let mut both = slider::Both(&mut histories, &mut show);
-        slider::run(plan, &mut both).into_diagnostic()?
+        let mut both = Both(&mut histories, &mut show);
+        asperity_cycles::slider::run(problem, &mut both).into_diagnostic()?
     };
     progress.finish();
     histories.finish().into_diagnostic()?;
-    let mut report = slider::Report::new(plan, &ended);
+    let mut report = slider::Report::new(problem, &ended);
+    report.warnings.clone_from(&plan.warnings);
     report.scene_sha256.clone_from(&ready.hash);
     report.run.seconds = clock.elapsed().as_secs_f64();
     report.run.origin.clone_from(directory.origin());
     report.run.peak_bytes = forecast::most_so_far();
-    let drawn = if drawn { histories.draw(directory.path(), plan).map(|_| ()) } else { Ok(()) };
-    if plan.events.is_some() {
-        let events = slider::csv(&report.events, &plan.names);
+    let drawn = if drawn { histories.draw(directory.path(), problem).map(|_| ()) } else { Ok(()) };
+    if problem.events.is_some() {
+        let events = slider::csv(&report.events, &problem.names);
         asperity_output::atomic::write(&directory.path().join("events.csv"), events.as_bytes())
             .into_diagnostic()?;
     }
@@ -207,7 +210,9 @@ pub(super) fn run_faults(
     let (mut keeper, start) = keeper(plan, ready, directory, pausing.resume, pauses)?;
     directory.computes()?;
     let clock = Instant::now();
-    let run = fault::resume(&plan.fault, &plan.loading, start, &plan.settings, &mut keeper);
+    let problem = &plan.problem;
+    let run =
+        asperity_cycles::resume(&problem.fault, &problem.loading, start, &problem.settings, &mut keeper);
     let coarse = keeper.warning();
     let (mut balance, interrupted) = keeper.finish(&run).into_diagnostic()?;
     let mut report = fault::Report::new(plan, &run, &mut balance);
@@ -249,7 +254,7 @@ fn keeper<'a>(
     directory: &Directory,
     resume: bool,
     pauses: Pauses,
-) -> miette::Result<(fault::Keeper<'a>, fault::Run)> {
+) -> miette::Result<(fault::Keeper<'a>, asperity_cycles::Run)> {
     let (path, physics) = (directory.path(), &ready.physics);
     if resume {
         match fault::Keeper::resume(path, plan, physics, pauses.clone()).into_diagnostic()? {
@@ -268,7 +273,7 @@ fn keeper<'a>(
 /// What is written of a run of faults at its end, beside the report.
 fn write_faults(
     path: &Path,
-    (plan, run, report): (&fault::Plan, &fault::Run, &fault::Report),
+    (plan, run, report): (&fault::Plan, &asperity_cycles::Run, &fault::Report),
     hash: &str,
     drawn: bool,
 ) -> miette::Result<()> {

@@ -5,7 +5,6 @@
 //! forth: it never passes its largest size, and goes on for long.
 
 use super::words::YEAR;
-use crate::scene::model::Output;
 use crate::warning::Warning;
 use serde::{Deserialize, Serialize};
 
@@ -54,23 +53,34 @@ pub struct Cadence {
     pub largest_file: u64,
 }
 
+/// What is asked for; what is not has defaults.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Asked {
+    /// See [`Cadence`].
+    pub decades: Option<f64>,
+    /// \[m\].
+    pub slip: Option<f64>,
+    /// \[s\].
+    pub longest: Option<f64>,
+    /// \[s\].
+    pub shortest: Option<f64>,
+    /// \[s\].
+    pub contours: Option<[f64; 2]>,
+    /// \[bytes\].
+    pub largest_file: Option<f64>,
+}
+
 impl Cadence {
-    /// What the scene asks for, in a run of this length \[s\] whose events begin at `on` \[m/s\]; `length` is the smallest characteristic slip.
-    pub(super) fn new(output: &Output, end: f64, on: f64, length: Option<f64>) -> Self {
-        let asked = output.cadence.as_ref().map(|c| c.get_ref());
-        let longest = asked.and_then(|c| c.longest.as_ref()).map(|t| t.get_ref().0);
-        let shortest = asked.and_then(|c| c.shortest.as_ref()).map(|t| t.get_ref().0);
-        let slip = asked.and_then(|c| c.slip.as_ref()).map(|s| s.get_ref().0);
+    /// What is asked for, in a run of this length \[s\] whose events begin at `on` \[m/s\]; `length` is the smallest characteristic slip.
+    pub(super) fn new(asked: Asked, end: f64, on: f64, length: Option<f64>) -> Self {
         let between = BETWEEN.min(end / LEAST_PROFILES);
-        let contours = output.contours.as_ref().map(|c| [c.get_ref()[0].0, c.get_ref()[1].0]);
-        let bytes = output.largest_file.as_ref().map_or(LARGEST_FILE, |m| m.get_ref().0);
         Self {
-            decades: asked.and_then(|c| c.decades.as_ref()).map_or(DECADES, |d| *d.get_ref()),
-            slip: slip.or(length.map(|l| SLIP * l)).unwrap_or(f64::INFINITY),
-            longest: longest.unwrap_or(LONGEST.min(end / LEAST_ROWS)),
-            shortest: shortest.unwrap_or(SHORTEST.min(end / LEAST_ROWS)),
-            contours: contours.unwrap_or([between, (PROFILE_SLIP / on).min(between)]),
-            largest_file: bytes as u64,
+            decades: asked.decades.unwrap_or(DECADES),
+            slip: asked.slip.or(length.map(|l| SLIP * l)).unwrap_or(f64::INFINITY),
+            longest: asked.longest.unwrap_or(LONGEST.min(end / LEAST_ROWS)),
+            shortest: asked.shortest.unwrap_or(SHORTEST.min(end / LEAST_ROWS)),
+            contours: asked.contours.unwrap_or([between, (PROFILE_SLIP / on).min(between)]),
+            largest_file: asked.largest_file.unwrap_or(LARGEST_FILE) as u64,
         }
     }
 
@@ -301,7 +311,7 @@ mod tests {
 
     #[test]
     fn slow_slip_makes_profiles_as_far_apart_as_its_slip() {
-        let of = |on: f64| Cadence::new(&Output::default(), 3000.0 * YEAR, on, Some(8e-3));
+        let of = |on: f64| Cadence::new(Asked::default(), 3000.0 * YEAR, on, Some(8e-3));
         assert_eq!(of(1e-3).contours, [5.0 * YEAR, 1.0]);
         assert!((of(1e-8).contours[1] - 1e5).abs() < 1e-3);
         assert_eq!(of(1e-3).contours.map(time), ["5 yr", "1 s"]);

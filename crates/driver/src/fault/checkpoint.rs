@@ -1,9 +1,8 @@
 //! The checkpoint of a run of faults.
 
-use super::balance::Sums;
 use super::position::Position;
-use super::run::Run;
 use crate::checkpoint::Contents;
+use asperity_cycles::{Run, Sums};
 use serde::{Deserialize, Serialize};
 
 /// Where a run stands.
@@ -47,7 +46,7 @@ impl Contents for Checkpoint {
 mod tests {
     use super::*;
     use crate::checkpoint::{FILE, ResumeError, remove};
-    use crate::fault::catalogue::{Crossing, Thresholds};
+    use asperity_cycles::{Crossing, Thresholds};
     use std::fs;
 
     fn sample() -> Checkpoint {

@@ -3,8 +3,8 @@
 use super::fields::{Field, along, grid, put, state};
 use super::figures::each;
 use super::plan::Plan;
-use super::run::Run;
 use super::snapshots;
+use asperity_cycles::Run;
 use asperity_output::vtu::{PvdEntry, pvd};
 use asperity_output::{OutputError, atomic};
 use std::path::Path;

@@ -1,9 +1,7 @@
 //! Displacements of the bodies, as VTU.
 
-use super::equations::Layout;
-use super::opening::Crack;
 use super::plan::Plan;
-use super::run::Run;
+use asperity_cycles::{Crack, Layout, Run};
 use asperity_output::vtu::{Array, Grid, PvdEntry, pvd};
 use asperity_output::{OutputError, atomic};
 use std::path::Path;
@@ -29,8 +27,8 @@ pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), OutputError> {
         let displacement = view.bodies.vectors(&[event.slip.as_slice(), &event.opening].concat(), 0.0);
         put(format!("bodies_event_{k:03}.vtu"), event.onset.seconds(), &displacement)?;
     }
-    let slip = &run.unknowns[Layout::of(&plan.fault).slip()];
-    let opening = plan.fault.pressed(run.at, &run.unknowns, &mut Crack::default()).opening;
+    let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
+    let opening = plan.problem.fault.pressed(run.at, &run.unknowns, &mut Crack::default()).opening;
     let end = run.at.seconds();
     put("bodies_end.vtu".into(), end, &view.bodies.vectors(&[slip, &opening].concat(), end))?;
     atomic::write(&out.join("bodies.pvd"), &pvd(&entries))

@@ -1,8 +1,7 @@
 //! Fields on faults in space as VTU: states in the course of a run and at its end, and slip and fall of traction of each event.
 
-use super::equations::{Layout, size};
-use super::opening::Crack;
 use super::plan::{FaultView, Plan};
+use asperity_cycles::{Crack, Layout, size};
 use asperity_ode::Clock;
 use asperity_output::vtu::{Array, Grid, Values};
 use asperity_output::{OutputError, atomic};
@@ -37,7 +36,7 @@ impl Field {
 /// Values along slip; where slip may turn their size, and the vector in space as `NAME_vector`.
 pub(super) fn along(plan: &Plan, fault: &FaultView, name: &'static str, values: &[f64]) -> Vec<Field> {
     let points = || fault.points.clone();
-    if plan.fault.law.components() == 1 {
+    if plan.problem.fault.law.components() == 1 {
         return vec![Field::Scalar(name.into(), values[points()].to_vec())];
     }
     let sizes = points().map(|p| size(values, plan.points.len(), p)).collect();
@@ -47,11 +46,11 @@ pub(super) fn along(plan: &Plan, fault: &FaultView, name: &'static str, values: 
 
 /// Slip \[m\], log10 of the slip rate \[m/s\], friction and normal traction \[Pa\], and the states of the law.
 pub(super) fn state(plan: &Plan, fault: &FaultView, at: Clock, y: &[f64]) -> Vec<Field> {
-    let layout = Layout::of(&plan.fault);
-    let (law, n) = (&plan.fault.law, plan.points.len());
+    let layout = Layout::of(&plan.problem.fault);
+    let (law, n) = (&plan.problem.fault.law, plan.points.len());
     let mut rate = vec![0.0; layout.m().end];
     law.slip_rates(0, &y[layout.m()], &y[layout.states()], &mut rate);
-    let pressed = plan.fault.pressed(at, y, &mut Crack::default());
+    let pressed = plan.problem.fault.pressed(at, y, &mut Crack::default());
     let normal = |p: usize| pressed.normal[p];
     let shear: Vec<f64> = layout.m().map(|i| normal(i % n) * law.scale(i % n) * y[i]).collect();
     let speeds = fault.points.clone().map(|p| size(&rate, n, p).log10()).collect();

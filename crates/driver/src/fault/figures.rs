@@ -2,8 +2,8 @@
 //! read row by row, as often as a plot needs them, and never stand in memory as a whole.
 
 use super::cadence::time;
-use super::plan::Plan;
-use super::run::Run;
+use super::plan::{FaultView, Plan};
+use asperity_cycles::Run;
 use asperity_output::OutputError;
 use asperity_output::plots::{self, Cycles, Line, Rows, Table};
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// When a file cannot be read or written.
 pub fn draw(out: &Path, plan: &Plan, run: &Run) -> Result<Vec<PathBuf>, OutputError> {
-    let line = |fault: &super::FaultView| {
+    let line = |fault: &FaultView| {
         let along: Vec<f64> = plan.points[fault.points.clone()].iter().map(|p| p.along).collect();
         let ascends = along.windows(2).all(|w| w[0] < w[1]) && along.len() > 1;
         ascends.then(|| Line { name: fault.name.clone(), columns: fault.points.clone(), along })

@@ -5,11 +5,11 @@
 use super::cadence::{Cadence, Gauge, RATE_CHANGE, Reading, warning};
 use super::plan::Plan;
 use super::position::Position;
-use super::run::{Moment, Watcher};
 use super::snapshots::{self, Snapshots};
 use super::stations;
 use crate::checkpoint::{self, ResumeError};
 use crate::warning::Warning;
+use asperity_cycles::{Moment, Watcher};
 use asperity_ode::{Clock, Control};
 use asperity_output::decimals::{fixed, scientific};
 use asperity_output::{OutputError, atomic};
@@ -150,7 +150,7 @@ impl<'a> Files<'a> {
             let head = format!("time [s]{along}\n");
             heads.push((out.join("slip_profiles.csv"), head.clone()));
             heads.push((out.join("rate_profiles.csv"), head.clone()));
-            if plan.fault.opening.is_some() {
+            if plan.problem.fault.opening.is_some() {
                 heads.push((out.join("opening_profiles.csv"), head));
             }
         }
@@ -188,7 +188,7 @@ impl<'a> Files<'a> {
     /// Profiles of slip and of slip rates along lines.
     fn profiles(&mut self, now: &Moment<'_>) -> Result<(), OutputError> {
         let (time, cadence) = (now.at.seconds(), &self.plan.cadence);
-        let fast = usize::from(now.largest >= self.plan.settings.thresholds.on);
+        let fast = usize::from(now.largest >= self.plan.problem.settings.thresholds.on);
         let (reading, interval) = (Reading { time, rate: now.largest }, cadence.contours[fast]);
         if self.rows[1].gauge.profile(reading, interval, f64::INFINITY) {
             let row = profile(time, now.slip(), |slip| scientific(slip, 6));
@@ -198,7 +198,9 @@ impl<'a> Files<'a> {
             let row = profile(time, now.rate, |rate| fixed(rate.abs().log10(), 3));
             self.rows[2].push(&row, cadence, time)?;
         }
-        if self.plan.fault.opening.is_some() && self.rows[3].gauge.profile(reading, interval, f64::INFINITY) {
+        if self.plan.problem.fault.opening.is_some()
+            && self.rows[3].gauge.profile(reading, interval, f64::INFINITY)
+        {
             let row = profile(time, &now.pressed.opening, |opening| scientific(opening, 6));
             self.rows[3].push(&row, cadence, time)?;
         }
@@ -269,7 +271,7 @@ fn means(plan: &Plan, now: &Moment<'_>) -> (f64, f64) {
     let (mut area, mut shear, mut slip) = (0.0, 0.0, 0.0);
     for (p, point) in plan.points.iter().enumerate() {
         area += point.area;
-        shear += point.area * now.normal(p) * plan.fault.law.scale(p) * now.unknowns[p];
+        shear += point.area * now.normal(p) * plan.problem.fault.law.scale(p) * now.unknowns[p];
         slip += point.area * now.slip()[p];
     }
     (shear / area, slip / area)

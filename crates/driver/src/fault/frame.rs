@@ -1,12 +1,26 @@
 //! Where and when the origin of a scene lies.
 
-use crate::scene::model::Place;
 use asperity_output::located::Spot;
 use jiff::{SignedDuration, Timestamp};
 use nalgebra::{Matrix3, Vector3};
 
 /// Mean radius of the Earth \[m\] (IUGG): places lie on a sphere, which is enough over the extent of a fault.
 const EARTH: f64 = 6_371_008.8;
+
+/// A place on Earth and a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Origin {
+    /// Time zero.
+    pub epoch: Timestamp,
+    /// Degrees north.
+    pub latitude: f64,
+    /// Degrees east.
+    pub longitude: f64,
+    /// Depth of the origin of coordinates \[m\].
+    pub depth: f64,
+    /// Length out of the plane \[m\]; 1 in space.
+    pub length: Option<f64>,
+}
 
 /// Where and when the origin of a scene lies.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,17 +40,13 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Of a scene in the plane, seen along the strike: x to the right of it, y up; or in space, with the directions up and along the strike
-    /// that the place gives.
-    ///
-    /// # Errors
-    /// What is wrong with the time.
-    pub fn new(place: &Place, in_space: bool) -> Result<Self, jiff::Error> {
-        let (sine, cosine) = place.strike.get_ref().0.sin_cos();
+    /// Of a scene in the plane, seen along the strike: x to the right of it, y up; or in space, with the directions up and along the strike.
+    #[must_use]
+    pub(super) fn new(origin: &Origin, strike: f64, vertical: Option<[[f64; 3]; 2]>) -> Self {
+        let (sine, cosine) = strike.sin_cos();
         let (right, along, up) =
             (Vector3::new(cosine, -sine, 0.0), Vector3::new(sine, cosine, 0.0), Vector3::z());
-        let axes = if in_space {
-            let (vertical, level) = place.axes();
+        let axes = if let Some([vertical, level]) = vertical {
             let (vertical, level) = (Vector3::from(vertical).normalize(), Vector3::from(level).normalize());
             // What of a vector points to the right, along and up.
             let parts = Matrix3::from_columns(&[level.cross(&vertical), level, vertical]);
@@ -44,14 +54,8 @@ impl Frame {
         } else {
             Matrix3::from_columns(&[right, up, -along])
         };
-        Ok(Self {
-            epoch: place.epoch.get_ref().parse()?,
-            latitude: place.latitude.get_ref().0.to_degrees(),
-            longitude: place.longitude.get_ref().0.to_degrees(),
-            depth: place.depth.as_ref().map_or(0.0, |d| d.get_ref().0),
-            axes,
-            length: if in_space { Some(1.0) } else { place.length.as_ref().map(|l| l.get_ref().0) },
-        })
+        let Origin { epoch, latitude, longitude, depth, length } = *origin;
+        Self { epoch, latitude, longitude, depth, axes, length }
     }
 
     /// The time of so many seconds after the epoch, to the microsecond.

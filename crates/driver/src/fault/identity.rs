@@ -25,13 +25,13 @@ fn without_extent(scene: &mut toml::Table) {
 /// tractions, sums that tell them from others \[s, Pa/s\].
 #[must_use]
 pub fn loads(plan: &Plan, at: f64) -> Vec<[f64; 3]> {
-    let end = plan.settings.end;
-    let mut ends = plan.loading.breaks(0.0, end);
+    let end = plan.problem.settings.end;
+    let mut ends = plan.problem.loading.breaks(0.0, end);
     ends.push(end);
     let mut parts = Vec::new();
     let mut begin = 0.0;
     for end in ends {
-        let rates = plan.loading.rates(0.5 * (begin + end), plan.points.len(), true);
+        let rates = plan.problem.loading.rates(0.5 * (begin + end), plan.points.len(), true);
         // Weights that differ from point to point: a load that moves is another.
         let sum = |rates: &[f64]| rates.iter().enumerate().map(|(i, r)| r * (1.0 + (i as f64).sin())).sum();
         parts.push([if end < at { end } else { f64::MAX }, sum(&rates.0), sum(&rates.1)]);

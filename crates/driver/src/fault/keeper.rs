@@ -1,14 +1,13 @@
 //! Keeps what a run leaves behind: its files, its sums, what a person waiting sees, and the checkpoints.
 
-use super::balance::Balance;
 use super::checkpoint::{Checkpoint, Stand};
 use super::files::Files;
 use super::identity;
 use super::plan::Plan;
-use super::run::{Moment, Run, Watcher};
 use super::words::time;
 use crate::checkpoint::{self, Contents as _, FILE, Pauses, ResumeError};
 use crate::warning::Warning;
+use asperity_cycles::{Balance, Moment, Run, Watcher};
 use asperity_ode::Control;
 use asperity_output::{OutputError, Progress};
 use std::path::{Path, PathBuf};
@@ -49,9 +48,9 @@ impl<'a> Keeper<'a> {
         checkpoint::remove(out)?;
         let files = Files::create(out, plan)?;
         let faults: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
-        let thresholds = plan.settings.thresholds;
-        let run = Run::new(plan.start.clone(), thresholds).of_faults(&faults, thresholds);
-        Ok((Self::new(out, plan, physics, (files, Balance::new(plan)), pauses, 0), run))
+        let thresholds = plan.problem.settings.thresholds;
+        let run = Run::new(plan.problem.start.clone(), thresholds).of_faults(&faults, thresholds);
+        Ok((Self::new(out, plan, physics, (files, Balance::new(&plan.problem)), pauses, 0), run))
     }
 
     /// Goes on from the checkpoint in `out`, also to a later end or to more events than it was written for; none where there is none,
@@ -66,12 +65,12 @@ impl<'a> Keeper<'a> {
         pauses: Pauses,
     ) -> Result<Option<(Self, Run)>, ResumeError> {
         let Some(read) = Checkpoint::read(out, physics)? else { return Ok(None) };
-        if read.last.run.unknowns.len() != plan.start.len() {
+        if read.last.run.unknowns.len() != plan.problem.start.len() {
             return Err(checkpoint::foreign(out, "it has not the unknowns of this scene"));
         }
         let Some((from, before)) = Self::from(out, plan, read)? else { return Ok(None) };
         let files = Files::resume(out, plan, &from.files)?;
-        let balance = Balance::resume(plan, from.sums);
+        let balance = Balance::resume(&plan.problem, from.sums);
         let mut keeper = Self::new(out, plan, physics, (files, balance), pauses, from.run.counts.steps);
         keeper.before = before;
         Ok(Some((keeper, from.run)))
@@ -79,10 +78,10 @@ impl<'a> Keeper<'a> {
 
     /// Where to go on from, and where the run restarted last until then.
     fn from(out: &Path, plan: &Plan, read: Checkpoint) -> Result<Option<(Stand, Before)>, ResumeError> {
-        let (path, end) = (out.join(FILE), plan.settings.end);
+        let (path, end) = (out.join(FILE), plan.problem.settings.end);
         let run = &read.last.run;
         let (at, events) = (run.at.seconds(), run.catalogue.events().len());
-        if at > end || plan.settings.most_events.is_some_and(|most| events > most) {
+        if at > end || plan.problem.settings.most_events.is_some_and(|most| events > most) {
             return Err(ResumeError::Beyond { path, at, events });
         }
         if !identity::same(&read.loads, &identity::loads(plan, at)) {
@@ -130,7 +129,7 @@ impl<'a> Keeper<'a> {
     fn save(&mut self, last: Stand, before: Before) -> Result<(), OutputError> {
         self.files.settle()?;
         let loads = identity::loads(self.plan, last.run.at.seconds());
-        let (physics, end) = (self.physics.clone(), self.plan.settings.end);
+        let (physics, end) = (self.physics.clone(), self.plan.problem.settings.end);
         Checkpoint { physics, end, loads, last, before }.write(&self.out)?;
         self.written = Instant::now();
         Ok(())
@@ -169,7 +168,7 @@ impl Watcher for Keeper<'_> {
     fn now(&mut self, moment: &Moment<'_>) -> Control {
         self.steps += u64::from(moment.dt > 0.0);
         self.balance.step(moment);
-        let (part, steps) = (moment.at.seconds() / self.plan.settings.end, self.steps);
+        let (part, steps) = (moment.at.seconds() / self.plan.problem.settings.end, self.steps);
         self.progress.show(part, || {
             format!(
                 "t = {}, max V = {:.3e} m/s, step {steps} of {:.3e} s, {} events",

@@ -1,9 +1,8 @@
 //! Simulated events as values for catalogues of real ones, for scenes that say where and when they lie.
 
-use super::catalogue::Event;
-use super::equations::size;
 use super::frame::Frame;
 use super::plan::Plan;
+use asperity_cycles::{Event, size};
 use asperity_output::located::{Located, Tensor, magnitude};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;

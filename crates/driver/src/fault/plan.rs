@@ -1,15 +1,12 @@
-//! What is integrated of a scene with faults.
+//! What is integrated, and what outputs see of it.
 
 use super::bodies::BodiesView;
 use super::cadence::Cadence;
-use super::equations::{Fault, Layout};
-use super::floor::NormalChoice;
 use super::frame::Frame;
-use super::loading::Loading;
+use super::normal::NormalChoice;
 use super::resolution::Resolution;
-use super::run::Settings;
-use crate::scene::model::{Kinematics, Station};
 use crate::warning::Warning;
+use asperity_cycles::{Layout, Problem};
 use std::fmt::Write as _;
 
 /// A point of a fault as outputs see it.
@@ -33,6 +30,15 @@ pub struct PointView {
     pub theta: Option<(f64, f64)>,
 }
 
+/// Where a station is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Station {
+    /// Distance along a plane fault from its upper end \[m\].
+    Along(f64),
+    /// Coordinates \[m\].
+    At(Vec<f64>),
+}
+
 /// A fault as outputs see it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaultView {
@@ -48,7 +54,7 @@ pub struct FaultView {
     pub faces: Vec<Vec<usize>>,
 }
 
-/// What is to be integrated.
+/// What is to be integrated, and what outputs see of it.
 #[derive(Debug)]
 pub struct Plan {
     /// Title.
@@ -57,14 +63,8 @@ pub struct Plan {
     pub faults: Vec<FaultView>,
     /// Their points, fault by fault, along a plane one from its upper end.
     pub points: Vec<PointView>,
-    /// Friction and bodies.
-    pub fault: Fault,
-    /// Loads.
-    pub loading: Loading,
-    /// Unknowns at the start.
-    pub start: Vec<f64>,
-    /// Integration.
-    pub settings: Settings,
+    /// What is integrated.
+    pub problem: Problem,
     /// When outputs are due.
     pub cadence: Cadence,
     /// Degrees of freedom of the bodies.
@@ -89,13 +89,21 @@ pub struct Plan {
     pub notes: Vec<String>,
 }
 
-impl Plan {
-    /// Whether the faults are surfaces in space, not lines in the plane.
-    #[must_use]
-    pub fn in_space(&self) -> bool {
-        self.kinematics == Kinematics::ThreeD.words()
-    }
+impl std::ops::Deref for Plan {
+    type Target = Problem;
 
+    fn deref(&self) -> &Problem {
+        &self.problem
+    }
+}
+
+impl std::ops::DerefMut for Plan {
+    fn deref_mut(&mut self) -> &mut Problem {
+        &mut self.problem
+    }
+}
+
+impl Plan {
     /// The vector in space \[m; m/s; Pa\] of components at a point that stand component by component, as slip does.
     #[must_use]
     pub fn vector(&self, values: &[f64], point: usize) -> [f64; 3] {
@@ -118,7 +126,7 @@ impl Plan {
             format!("linear elasticity, small strain, {}, condensed onto the faults", self.kinematics),
         );
         for fault in &self.faults {
-            let law = &self.fault.law;
+            let law = &self.problem.fault.law;
             line(
                 "physics",
                 format!(
@@ -134,42 +142,42 @@ impl Plan {
         if self.creeping > 0 {
             line("physics", format!("{} points creep at a prescribed rate", self.creeping));
         }
-        let uncoupled = Layout::of(&self.fault).normal().is_empty();
+        let uncoupled = Layout::of(&self.problem.fault).normal().is_empty();
         let chosen = |f: &FaultView| !f.normal.changes || f.normal.floor.is_some();
         if uncoupled && !self.faults.iter().any(chosen) {
             line("physics", "slip leaves normal tractions as they are".into());
         } else {
             self.faults.iter().for_each(|f| line("physics", f.normal.words(&f.name)));
         }
-        if self.fault.pressure.is_some() {
+        if self.problem.fault.pressure.is_some() {
             line(
                 "physics",
                 "fluid is injected and diffuses along the fault; its pressure is known at all times".into(),
             );
         }
         for fault in &self.faults {
-            if let Some(damping) = range(&self.fault.damping[fault.points.clone()]) {
+            if let Some(damping) = range(&self.problem.fault.damping[fault.points.clone()]) {
                 line("physics", format!("fault `{}`: radiation damping {damping} Pa s/m", fault.name));
             }
         }
-        let s = &self.settings;
+        let s = &self.problem.settings;
         line("stepper", format!("fault-ode: {} with tolerance {:e} in ln V", s.method.name(), s.tolerance));
         line(
             "size",
             format!(
                 "{} degrees of freedom, {} unknowns, about {:.0} MB",
                 self.dofs,
-                self.start.len(),
+                self.problem.start.len(),
                 self.memory_bytes as f64 / 1e6
             ),
         );
-        line("operator", self.fault.operator.words());
-        if let Some(opening) = &self.fault.opening {
+        line("operator", self.problem.fault.operator.words());
+        if let Some(opening) = &self.problem.fault.opening {
             line("operator", opening.words());
         }
         line("output", self.cadence.words());
         for resolution in &self.resolution {
-            line("points", resolution.words(self.in_space()));
+            line("points", resolution.words(self.in_space));
         }
         for note in &self.notes {
             line("note", note.clone());

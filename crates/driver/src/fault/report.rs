@@ -1,18 +1,14 @@
 //! `report.json` of a fault through cycles, and its events as CSV.
 
-use super::balance::{Balance, Energy, Mark, steady};
-use super::catalogue::{Event, Part};
-use super::equations::size;
-use super::floor_use::{FloorUse, uses};
+use super::floors::{FloorUse, uses};
 use super::located::locate;
-use super::opened::{OpenedFault, openings};
-use super::opening::Crack;
+use super::openings::{OpenedFault, openings};
 use super::plan::{FaultView, Plan};
 use super::resolution::Resolution;
-use super::run::Run;
 use super::words::{length, time};
 use crate::report::Origin;
 use crate::warning::Warning;
+use asperity_cycles::{Balance, Crack, Energy, Event, Layout, Mark, Part, Run, size, steady};
 use asperity_ode::Outcome;
 use asperity_output::decimals::fixed;
 use asperity_output::located::Located;
@@ -75,7 +71,8 @@ impl Entry {
             slipped.iter().map(|&p| value(p) * plan.points[p].area).sum::<f64>()
         };
         let (area, potency) = (over(&|_| 1.0), over(&slip));
-        let turning = (plan.fault.law.components() > 1).then(|| Turned::new(plan, &event.slip, &slipped));
+        let turning =
+            (plan.problem.fault.law.components() > 1).then(|| Turned::new(plan, &event.slip, &slipped));
         let moment =
             turning.as_ref().map_or_else(|| over(&|p| plan.points[p].shear_modulus * slip(p)), |t| t.moment);
         // A fall is positive where traction that drives the slip becomes less.
@@ -312,7 +309,7 @@ fn why(plan: &Plan, run: &Run, reason: &str) -> String {
              friction uses where there is less, with `opening = true` where its sides may part, or `normal_changes = false`, or raise `normal` there"
         );
     }
-    if plan.fault.damping.contains(&0.0) {
+    if plan.problem.fault.damping.contains(&0.0) {
         return format!(
             "{reason}: in an instability slip rates grow without bound where nothing is radiated; add `damping = \"radiation\"` to the fault"
         );
@@ -329,11 +326,11 @@ impl Report {
             Outcome::Failed { reason } => Some(why(plan, run, &reason.to_string())),
         };
         let events = run.catalogue.events();
-        let slip = &run.unknowns[super::Layout::of(&plan.fault).slip()];
-        let opening = plan.fault.pressed(run.at, &run.unknowns, &mut Crack::default()).opening;
+        let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
+        let opening = plan.problem.fault.pressed(run.at, &run.unknowns, &mut Crack::default()).opening;
         let energy = balance.energy(slip, &opening).into();
         let marks = balance.marks();
-        let driven = if marks.len() > 1 { steady(plan) } else { None };
+        let driven = if marks.len() > 1 { steady(&plan.problem) } else { None };
         let driven = driven.map(|rate| rate.iter().zip(&plan.points).map(|(v, p)| v * p.area).sum());
         let cycle = |(pair, event): (&[Mark], &Event)| Cycle::new(pair, event, plan, driven);
         let cycles = marks.windows(2).zip(events.iter().skip(1)).map(cycle).collect();
@@ -350,14 +347,14 @@ impl Report {
             resolution: plan.resolution.clone(),
             floors: uses(plan, balance.floors()),
             openings: openings(plan, balance.opened(), &opening),
-            method: plan.settings.method.name().to_string(),
-            tolerance: plan.settings.tolerance,
+            method: plan.problem.settings.method.name().to_string(),
+            tolerance: plan.problem.settings.tolerance,
             stopped,
             end: run.at.seconds(),
             events: entries(plan, events, &(0..plan.points.len())),
             under_way: run.catalogue.under_way().map(|at| at.seconds()),
             faults: plan.faults.iter().zip(&run.parts).map(of_fault).collect(),
-            unit: if plan.in_space() { "J" } else { "J/m" },
+            unit: if plan.in_space { "J" } else { "J/m" },
             energy,
             cycles,
             counts: Work {

@@ -1,31 +1,7 @@
-//! How finely the points of a fault stand beside the lengths over which friction falls and over which slip nucleates.
-//!
-//! With the weakening `w = Σ b_i/L_i` of the coefficient with slip just behind a rupture front, the normal traction f_n and the modulus
-//! G' (G in antiplane motion and in space, where that is the shorter of both modes, G/(1 - ν) in plane strain):
-//!
-//! * the cohesive zone of a slow front is `L_b = G'/(f_n w)`, which is G' L/(b f_n) for one state: J. R. Rice, "Spatio-temporal complexity of slip
-//!   on a fault", JGR 98 (1993), 9885-9907; the SEAS benchmarks take it so;
-//! * slip of the ageing law nucleates over `2 L_b/[π (1 - a/b)²]`, and in the plane over 2.75 L_b where a/b is small: A. M. Rubin, J.-P. Ampuero, "Earthquake
-//!   nucleation on (aging) rate and state faults", JGR 110 (2005), B11312; in space over π²/4 times as much: T. Chen, N. Lapusta, JGR 114 (2009), B01311;
-//! * a front of linear slip weakening loses its strength over `9π/32 G'/(f_n w)` at rest, w = (μ_s - μ_k)/d_c: A. C. Palmer, J. R. Rice, Proc. R. Soc. A 332 (1973),
-//!   527-548, as S. M. Day et al., JGR 110 (2005), B12307, have it; its slip nucleates over 1.158 G'/(f_n w): K. Uenishi, J. R. Rice, JGR 108 (2003), 2042;
-//! * of laws that do not age, half the critical wavelength `π G' b/(f_n w (b - a))` of linear stability: J. R. Rice, A. L. Ruina, "Stability of
-//!   steady frictional slipping", J. Appl. Mech. 50 (1983), 343-349.
-//!
-//! Only points that weaken, b > a, count. f_n is that at the start.
+//! How finely the points of a fault resolve the lengths of its friction.
 
-use super::place::Place;
 use super::words::length;
-use crate::diagnostic::Diagnostic;
-use crate::model::Model;
-use crate::scene::law::{Evolution, LawChoice};
-use crate::scene::model::{Fault as Spec, UnderResolved};
-use crate::warning::Warning;
-use asperity_fem::kinematics::Idealisation;
-use asperity_fem::mesh::{Side, face_nodes};
 use serde::Serialize;
-use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
 /// Points to a cohesive zone below which a plan warns: three, to the digit that is printed; about as many are needed (S. M. Day et al., JGR 110 (2005), B12307).
 pub const FEW: f64 = 2.95;
@@ -33,15 +9,6 @@ pub const FEW: f64 = 2.95;
 pub const ENOUGH: f64 = 3.0;
 /// Points to a cohesive zone below which a scene is refused: each point then breaks by itself, and events are those of the mesh (Rice 1993).
 pub const TOO_FEW: f64 = 1.0;
-/// Half the length of nucleation over L_b where a/b is small (Rubin and Ampuero 2005).
-const SMALL_RATIO: f64 = 1.3774;
-/// Length at the tip of a front at rest over which linear slip weakening loses its strength, over G'/(f_n w): 9π/32.
-const BREAKDOWN: f64 = 9.0 * PI / 32.0;
-/// Length over which slip that weakens linearly nucleates, over G'/(f_n w) (Uenishi and Rice 2003).
-const UNSTABLE: f64 = 1.158;
-/// By how much a front of the slip law, and of flash weakening, is narrower than L_b at least. Strength falls there over L whatever the drop, so that the zone
-/// narrows with the logarithm of the rise of V; with BP1 4.4 points to L_b make events in the afterslip that 8.8 do not (case `seas_bp1_16mm`).
-const NARROWS: f64 = 2.0;
 
 /// A length of friction at the point where the points stand coarsest beside it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -69,126 +36,6 @@ pub struct Resolution {
     pub nucleation: Coarsest,
 }
 
-/// What a point is made of.
-#[derive(Clone, Copy, Debug)]
-pub struct Ground<'a> {
-    /// Friction.
-    pub law: &'a LawChoice,
-    /// Normal traction \[Pa\].
-    pub normal: f64,
-    /// G' \[Pa\].
-    pub modulus: f64,
-    /// Whether slip is that of a surface in space.
-    pub in_space: bool,
-}
-
-impl Ground<'_> {
-    /// Cohesive zone and length of nucleation \[m\]; none where friction does not weaken.
-    #[must_use]
-    pub fn lengths(&self) -> Option<[f64; 2]> {
-        if let LawChoice::SlipWeakening { mu_s, mu_k, d_c, .. } = self.law {
-            let length = self.modulus * d_c / (self.normal * (mu_s - mu_k));
-            return (mu_s > mu_k).then_some([BREAKDOWN * length, UNSTABLE * length]);
-        }
-        let LawChoice::RateAndState { strength, evolution, states, .. } = self.law else { return None };
-        let a = strength.a;
-        let mut b: f64 = states.iter().map(|s| s.b).sum();
-        let mut weakening: f64 = states.iter().map(|s| s.b / s.l).sum();
-        let (ages, narrows) = match evolution {
-            Evolution::Ageing { .. } | Evolution::Prz | Evolution::Nagata { .. } => (true, 1.0),
-            Evolution::Slip => (false, NARROWS),
-            Evolution::Flash { mu_w, .. } => {
-                // Weakening at high rates goes down to the weakened coefficient.
-                let drop = (strength.mu0 - mu_w).max(0.0);
-                b += drop;
-                weakening += states.iter().map(|s| drop / s.l).fold(0.0, f64::max);
-                (false, NARROWS)
-            }
-        };
-        if !(b > a && weakening > 0.0) {
-            return None;
-        }
-        let zone = self.modulus / (self.normal * weakening);
-        let nucleation = if ages {
-            let half = (PI * (1.0 - a / b).powi(2)).recip();
-            // In space the estimate that benchmarks are given with has no other branch.
-            2.0 * zone * if self.in_space { 0.25 * PI * PI * half } else { half.max(SMALL_RATIO) }
-        } else {
-            0.5 * PI * zone * b / (b - a)
-        };
-        Some([zone / narrows, nucleation])
-    }
-}
-
-/// Distance of each node of a side from the farthest of its neighbours along the edges of its faces \[m\].
-pub fn spacings<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<usize, f64> {
-    let mut largest: BTreeMap<usize, f64> = BTreeMap::new();
-    for side in sides {
-        let nodes = face_nodes(&model.mesh, side);
-        for (i, j) in links(nodes.len(), D) {
-            let (a, b) = (nodes[i], nodes[j]);
-            let (x, y) = (&model.mesh.nodes[a], &model.mesh.nodes[b]);
-            let square: f64 = x.iter().zip(y).map(|(x, y)| (x - y).powi(2)).sum();
-            for node in [a, b] {
-                let distance = largest.entry(node).or_insert(0.0);
-                *distance = distance.max(square.sqrt());
-            }
-        }
-    }
-    largest
-}
-
-/// Neighbours among the nodes of a face: corners first, then those between them, then the one in the middle.
-fn links(nodes: usize, dimension: usize) -> Vec<(usize, usize)> {
-    if dimension == 2 {
-        return if nodes == 2 { vec![(0, 1)] } else { vec![(0, 2), (2, 1)] };
-    }
-    let corners = if matches!(nodes, 3 | 6) { 3 } else { 4 };
-    let edges = (0..corners).map(|k| (k, (k + 1) % corners));
-    if nodes == corners {
-        return edges.collect();
-    }
-    let halves = edges.flat_map(|(k, next)| [(k, corners + k), (corners + k, next)]);
-    let middle = (2 * corners..nodes).flat_map(|m| (corners..2 * corners).map(move |k| (m, k)));
-    halves.chain(middle).collect()
-}
-
-/// The resolution of a fault from its points that slide freely, with their spacing; none where friction weakens nowhere.
-#[must_use]
-pub fn of_points<'a, const D: usize>(
-    fault: &str,
-    points: impl Iterator<Item = (&'a Place<D>, Ground<'a>, f64)>,
-) -> Option<Resolution> {
-    let mut worst: [Option<Coarsest>; 2] = [None; 2];
-    for (place, ground, spacing) in points {
-        let Some(lengths) = ground.lengths() else { continue };
-        for (worst, length) in worst.iter_mut().zip(lengths) {
-            let here = Coarsest {
-                length,
-                spacing,
-                points: length / spacing,
-                at: std::array::from_fn(|c| place.at.get(c).copied().unwrap_or(0.0)),
-                along: place.along,
-            };
-            if worst.is_none_or(|w| here.points < w.points) {
-                *worst = Some(here);
-            }
-        }
-    }
-    let [Some(cohesive_zone), Some(nucleation)] = worst else { return None };
-    Some(Resolution { fault: fault.to_string(), cohesive_zone, nucleation })
-}
-
-/// G' of a side \[Pa\]: G/(1 - ν) where slip is in the plane, else G.
-#[must_use]
-pub fn modulus(idealisation: Idealisation, shear: f64, poisson: f64) -> f64 {
-    if idealisation.dimension() == 2 && idealisation.components() == 2 {
-        shear / (1.0 - poisson)
-    } else {
-        shear
-    }
-}
-
 impl Resolution {
     /// In words, for the plan.
     #[must_use]
@@ -204,142 +51,15 @@ impl Resolution {
             length(nucleation.length)
         )
     }
-
-    /// A warning where points are few.
-    ///
-    /// # Errors
-    /// [`Diagnostic`] where they are too few and the scene does not allow it.
-    pub fn check(&self, spec: &Spec, in_space: bool) -> Result<Option<Warning>, Diagnostic> {
-        let zone = &self.cohesive_zone;
-        if zone.points >= FEW {
-            return Ok(None);
-        }
-        let message = format!(
-            "fault `{}` has {:.2} points to the cohesive zone, which is {} long at {}, with points {} apart",
-            self.fault,
-            zone.points,
-            length(zone.length),
-            zone.place(in_space),
-            length(zone.spacing)
-        );
-        let enough = format!(
-            "{} give three, with elements of second order cells of twice that; a larger `l` or a smaller `normal` makes the zone longer",
-            length(zone.length / ENOUGH)
-        );
-        let place = spec.law.span();
-        let allowed = spec.under_resolved.as_ref().map(|u| *u.get_ref()) == Some(UnderResolved::Allow);
-        if zone.points < TOO_FEW && !allowed {
-            let message = format!("{message}: each point breaks by itself, and events are those of the mesh");
-            let help = format!("{enough}; or `under_resolved = \"allow\"` at the fault");
-            return Err(Diagnostic::at(place, message, help));
-        }
-        Ok(Some(Warning::at(place, format!("{message}: fronts follow the mesh"), enough)))
-    }
 }
 
 impl Coarsest {
-    fn place(&self, in_space: bool) -> String {
+    pub(super) fn place(&self, in_space: bool) -> String {
         let [x, y, z] = self.at;
         if in_space {
             format!("({}, {}, {})", length(x), length(y), length(z))
         } else {
             format!("{} along it", length(self.along))
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used)]
-    use super::*;
-    use crate::scene::law::{Form, State, Strength};
-
-    fn law(evolution: Evolution, a: f64, states: &[(f64, f64)]) -> LawChoice {
-        LawChoice::RateAndState {
-            strength: Strength { form: Form::Regularised, mu0: 0.6, a, v_ref: 1e-6, heat: None },
-            evolution,
-            states: states.iter().map(|&(b, l)| State { b, l, alpha: 0.0 }).collect(),
-            v_initial: 1e-9,
-            normal_initial: None,
-            f_limit: None,
-        }
-    }
-
-    const AGEING: Evolution = Evolution::Ageing { v_cut: None };
-    const G: f64 = 32.038_120_32e9;
-
-    fn lengths(law: &LawChoice, normal: f64, in_space: bool) -> [f64; 2] {
-        Ground { law, normal, modulus: G, in_space }.lengths().unwrap()
-    }
-
-    #[test]
-    fn lengths_are_those_published_with_the_benchmarks() {
-        // BP1 "process zone 340 m, nucleation 2 km", BP2 170 m and 1 km, BP5 5.98 km and 12.5 km, BP4 1.97 km and 12.4 km, BP7 64 m and 280 m:
-        // to the digits given.
-        for (a, b, l, normal, in_space, zone, nucleation, share) in [
-            (0.010, 0.015, 0.008, 50e6, false, 340.0, 2e3, 0.03),
-            (0.010, 0.015, 0.004, 50e6, false, 170.0, 1e3, 0.03),
-            (0.004, 0.030, 0.140, 25e6, true, 5.98e3, 12.5e3, 2e-3),
-            (0.0065, 0.013, 0.040, 50e6, true, 1.97e3, 12.4e3, 2e-3),
-            (0.004, 0.010, 0.0005, 25e6, true, 64.0, 280.0, 2e-3),
-        ] {
-            let found = lengths(&law(AGEING, a, &[(b, l)]), normal, in_space);
-            assert!((found[0] / zone - 1.0).abs() < share, "{found:?} {zone}");
-            assert!((found[1] / nucleation - 1.0).abs() < share, "{found:?} {nucleation}");
-        }
-    }
-
-    #[test]
-    fn the_zone_of_slip_weakening_is_that_of_the_dynamic_rupture_benchmark() {
-        // Day et al. (2005), version 3: 620 m in mode III and 827 m in mode II.
-        let law = LawChoice::SlipWeakening { mu_s: 0.677, mu_k: 0.525, d_c: 0.4, f_limit: None };
-        for (modulus, zone) in [(32.04e9, 620.0), (32.04e9 / 0.75, 827.0)] {
-            let found = Ground { law: &law, normal: 120e6, modulus, in_space: false }.lengths().unwrap();
-            assert!((found[0] / zone - 1.0).abs() < 2e-3, "{found:?}");
-        }
-        let steady = LawChoice::SlipWeakening { mu_s: 0.6, mu_k: 0.6, d_c: 0.4, f_limit: None };
-        assert!(Ground { law: &steady, normal: 120e6, modulus: 32e9, in_space: false }.lengths().is_none());
-    }
-
-    #[test]
-    fn two_equal_states_are_one_of_their_sum() {
-        let (one, two) = (law(AGEING, 0.01, &[(0.015, 0.01)]), law(AGEING, 0.01, &[(0.0075, 0.01); 2]));
-        for (a, b) in lengths(&one, 5e7, false).iter().zip(lengths(&two, 5e7, false)) {
-            assert!((a / b - 1.0).abs() < 1e-14);
-        }
-    }
-
-    #[test]
-    fn friction_that_strengthens_has_no_lengths() {
-        let law = law(AGEING, 0.02, &[(0.015, 0.01)]);
-        assert!(Ground { law: &law, normal: 5e7, modulus: G, in_space: false }.lengths().is_none());
-    }
-
-    #[test]
-    fn the_slip_law_has_a_shorter_zone_and_half_the_critical_wavelength() {
-        let (ageing, slip) =
-            (law(AGEING, 0.01, &[(0.015, 0.008)]), law(Evolution::Slip, 0.01, &[(0.015, 0.008)]));
-        let [zone, nucleation] = lengths(&slip, 5e7, false);
-        // Half of L_b, from the cells that BP1 needs with this law.
-        assert!((lengths(&ageing, 5e7, false)[0] / zone - 2.0).abs() < 1e-14);
-        assert!((2.0 * nucleation / (PI * G * 0.008 / (5e7 * 0.005)) - 1.0).abs() < 1e-14);
-    }
-
-    #[test]
-    fn flash_weakening_adds_its_drop_to_what_is_lost_over_l() {
-        let flash = Evolution::Flash { v_w: 0.1, mu_w: 0.13 };
-        let [zone, nucleation] = lengths(&law(flash, 0.01, &[(0.014, 0.02)]), 5e7, false);
-        let lost = 0.014 + 0.6 - 0.13;
-        assert!((zone / (0.5 * G * 0.02 / (5e7 * lost)) - 1.0).abs() < 1e-14);
-        assert!((2.0 * nucleation / (PI * G * 0.02 / (5e7 * (lost - 0.01))) - 1.0).abs() < 1e-14);
-    }
-
-    #[test]
-    fn faces_link_each_node_with_its_neighbours() {
-        assert_eq!(links(3, 2), [(0, 2), (2, 1)]);
-        assert_eq!(links(3, 3), [(0, 1), (1, 2), (2, 0)]);
-        assert_eq!(links(4, 3).len(), 4);
-        assert_eq!(links(6, 3).len(), 6);
-        assert_eq!(links(9, 3).len(), 12);
     }
 }

@@ -3,7 +3,7 @@
 use super::cadence::{Gauge, RATE_CHANGE, Reading};
 use super::fields;
 use super::plan::Plan;
-use super::run::Moment;
+use asperity_cycles::Moment;
 use asperity_output::decimals::fixed;
 use asperity_output::vtu::Grid;
 use asperity_output::{OutputError, atomic};
@@ -71,7 +71,7 @@ impl Snapshots {
     /// When a file cannot be written.
     pub fn take(&mut self, plan: &Plan, now: &Moment<'_>) -> Result<Option<String>, OutputError> {
         let time = now.at.seconds();
-        let fast = now.largest >= plan.settings.thresholds.on;
+        let fast = now.largest >= plan.problem.settings.thresholds.on;
         let [between, within] = plan.cadence.contours;
         let interval = if fast { (IN_EVENTS * within).min(between) } else { between };
         if !self.taken.gauge.profile(Reading { time, rate: now.largest }, interval, RATE_CHANGE) {

@@ -1,10 +1,8 @@
 //! Files of stations in the format of the SEAS community, one for each.
 
 use super::cadence::NO_RATE;
-use super::equations::size;
-use super::plan::Plan;
-use super::run::Moment;
-use crate::scene::model::Station;
+use super::plan::{Plan, Station};
+use asperity_cycles::{Moment, size};
 use asperity_output::seas::{Head, Row};
 use std::path::PathBuf;
 
@@ -61,7 +59,7 @@ fn opens(plan: &Plan, point: usize) -> bool {
 
 /// The row of a station.
 pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
-    let (states, n) = (plan.fault.law.states(), plan.points.len());
+    let (states, n) = (plan.problem.fault.law.states(), plan.points.len());
     let normal = now.normal(point);
     let theta = plan.points[point]
         .theta
@@ -75,7 +73,7 @@ pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
         slip: components().map(|i| now.slip()[i]).collect(),
         rate: components().map(rate).collect(),
         // The traction that friction resists with: what drives less the damping.
-        shear: components().map(|i| normal * plan.fault.law.scale(point) * now.unknowns[i]).collect(),
+        shear: components().map(|i| normal * plan.problem.fault.law.scale(point) * now.unknowns[i]).collect(),
         log_state: theta,
         normal,
         opening: now.opening(point).filter(|_| opens(plan, point)),

@@ -1,7 +1,7 @@
 //! Plots of sliders: over time, and against displacement.
 
-use super::plan::Plan;
 use super::thin::Row;
+use asperity_cycles::slider::Problem;
 use asperity_output::plots::{Chart, Measure};
 
 /// What plots show of a slider.
@@ -47,16 +47,16 @@ fn measure(column: usize) -> Measure {
 }
 
 /// The charts of a run. Those over a displacement that stays where it is are left out.
-pub(super) fn charts(plan: &Plan, traces: &[&Trace]) -> Vec<Chart> {
+pub(super) fn charts(problem: &Problem, traces: &[&Trace]) -> Vec<Chart> {
     let moves = |column: usize| traces.iter().any(|t| t.rows.iter().any(|r| r[column] != t.rows[0][column]));
     let drawn = DRAWINGS.iter().filter(|d| moves(d.1));
     drawn
         .map(|&(file, along, x, up, y)| Chart {
             file: format!("sliders_{file}"),
-            title: plan.title.clone(),
+            title: problem.title.clone(),
             x: (x, measure(along)),
             y: (y, measure(up)),
-            curves: plan
+            curves: problem
                 .names
                 .iter()
                 .zip(traces)

@@ -1,9 +1,8 @@
 //! Histories as CSV, a row of a slider where something changed or where the plan asks for one; and what plots show of them.
 
 use super::figures::Trace;
-use super::plan::Plan;
-use super::run::{Now, Watcher};
 use super::thin::{Row, Thin};
+use asperity_cycles::slider::{Now, Problem, WatchError, Watcher};
 use asperity_output::{OutputError, atomic, plots};
 use std::fs;
 use std::io::Write as _;
@@ -30,13 +29,13 @@ impl Histories {
     ///
     /// # Errors
     /// When a file cannot be written.
-    pub fn create(out: &Path, plan: &Plan) -> Result<Self, OutputError> {
+    pub fn create(out: &Path, problem: &Problem) -> Result<Self, OutputError> {
         atomic::writable_dir(out)?;
         let folder = out.join("history");
-        let stems = asperity_output::stems(plan.names.iter().map(String::as_str));
+        let stems = asperity_output::stems(problem.names.iter().map(String::as_str));
         let mut sliders = Vec::new();
-        for (i, (stem, slider)) in stems.iter().zip(plan.system.sliders()).enumerate() {
-            let file = if plan.output.writes(i) {
+        for (i, (stem, slider)) in stems.iter().zip(problem.system.sliders()).enumerate() {
+            let file = if problem.output.writes(i) {
                 atomic::create_dir(&folder)?;
                 Some(begun(folder.join(format!("{stem}.csv")), slider.law.states())?)
             } else {
@@ -70,9 +69,9 @@ impl Histories {
     ///
     /// # Errors
     /// When a file cannot be written or a drawing fails.
-    pub fn draw(&self, out: &Path, plan: &Plan) -> Result<Vec<PathBuf>, OutputError> {
+    pub fn draw(&self, out: &Path, problem: &Problem) -> Result<Vec<PathBuf>, OutputError> {
         let traces: Vec<&Trace> = self.sliders.iter().map(|k| &k.trace).collect();
-        plots::draw_charts(&out.join("plots"), &super::figures::charts(plan, &traces))
+        plots::draw_charts(&out.join("plots"), &super::figures::charts(problem, &traces))
     }
 }
 
@@ -106,32 +105,32 @@ impl Kept {
 }
 
 impl Watcher for Histories {
-    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), OutputError> {
+    fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError> {
         let time = now.at.seconds();
         for (i, kept) in self.sliders.iter_mut().enumerate() {
             if kept.file.is_none() && !self.traced {
                 continue;
             }
-            let states = plan.system.sliders()[i].law.states();
+            let states = problem.system.sliders()[i].law.states();
             let row = Row {
                 time,
                 dt: now.dt,
                 condition: now.conditions[i],
                 slip: now.slip[i],
                 load: now.load,
-                states: plan.system.of(i, now.unknowns)[1..=states].to_vec(),
+                states: problem.system.of(i, now.unknowns)[1..=states].to_vec(),
             };
-            for row in kept.thin.next(row, now.asked, plan.output.change, plan.end).iter().flatten() {
+            for row in kept.thin.next(row, now.asked, problem.output.change, problem.end).iter().flatten() {
                 kept.add(row, self.traced)?;
             }
         }
         Ok(())
     }
 
-    fn marked(&mut self, slider: usize) -> Result<(), OutputError> {
+    fn marked(&mut self, slider: usize) -> Result<(), WatchError> {
         let kept = &mut self.sliders[slider];
         match kept.thin.mark() {
-            Some(row) => kept.add(&row, self.traced),
+            Some(row) => Ok(kept.add(&row, self.traced)?),
             None => Ok(()),
         }
     }

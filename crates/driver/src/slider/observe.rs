@@ -1,12 +1,11 @@
 //! Shows a run of sliders to the observers of runs with bodies: plots and progress. The sliders are the points of one
 //! interface without a mesh.
 
-use super::plan::Plan;
-use super::run::{Now, Watcher};
+use asperity_cycles::slider::{Now, Problem, WatchError, Watcher};
+use asperity_output::Observer;
 use asperity_output::view::{
     BodyFields, InterfaceFields, InterfaceMesh, Samples, Setup, StepRecord, StepView,
 };
-use asperity_output::{Observer, OutputError};
 
 /// The stage there is.
 const STAGE: &str = "run";
@@ -24,32 +23,32 @@ impl<'a> Show<'a> {
         Self { observers, begun: false }
     }
 
-    fn setup(plan: &Plan) -> Setup {
-        let n = plan.names.len();
+    fn setup(problem: &Problem) -> Setup {
+        let n = problem.names.len();
         let sliders = InterfaceMesh {
             in_space: false,
             states: 0,
             name: "sliders".into(),
             positions: vec![[0.0; 3]; n],
-            labels: plan.names.clone(),
+            labels: problem.names.clone(),
             areas: vec![1.0; n],
             faces: Vec::new(),
             probes: (0..n).collect(),
         };
         Setup {
-            title: plan.title.clone(),
+            title: problem.title.clone(),
             interfaces: vec![sliders],
-            stages: vec![(STAGE.into(), plan.end)],
+            stages: vec![(STAGE.into(), problem.end)],
             ..Setup::default()
         }
     }
 }
 
 impl Watcher for Show<'_> {
-    fn now(&mut self, plan: &Plan, now: &Now<'_>) -> Result<(), OutputError> {
+    fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError> {
         if !self.begun {
             self.begun = true;
-            let setup = Self::setup(plan);
+            let setup = Self::setup(problem);
             self.observers.iter_mut().try_for_each(|o| o.begin(&setup))?;
         }
         let time = now.at.seconds();
@@ -78,11 +77,11 @@ impl Watcher for Show<'_> {
             record: &record,
             stage: STAGE,
             ends_stage: false,
-            end_time: plan.end,
+            end_time: problem.end,
             interfaces: &[fields],
             samples: &Samples::default(),
             fields: &BodyFields::default,
         };
-        self.observers.iter_mut().try_for_each(|o| o.step(&view))
+        Ok(self.observers.iter_mut().try_for_each(|o| o.step(&view))?)
     }
 }

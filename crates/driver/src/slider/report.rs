@@ -1,10 +1,8 @@
 //! `report.json` of a spring-slider.
 
-use super::catalogue::Event;
-use super::plan::{Plan, Thresholds};
-use super::run::Run;
 use crate::report::{Origin, Status};
 use crate::warning::Warning;
+use asperity_cycles::slider::{Event, Problem, Run, Thresholds};
 use asperity_ode::{Counts, Outcome};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -100,7 +98,7 @@ pub struct Report {
     pub dynamics: String,
     /// Sliders by name.
     pub sliders: Vec<String>,
-    /// Warnings of the plan.
+    /// Warnings of the problem.
     pub warnings: Vec<Warning>,
     /// Method of integration.
     pub method: String,
@@ -123,9 +121,9 @@ pub struct Report {
 }
 
 impl Report {
-    /// The report of a run of a plan.
+    /// The report of a run of a problem.
     #[must_use]
-    pub fn new(plan: &Plan, run: &Run) -> Self {
+    pub fn new(problem: &Problem, run: &Run) -> Self {
         let outcome = match &run.outcome {
             Outcome::Completed => End::Completed,
             Outcome::Stopped if run.interrupted => End::Interrupted,
@@ -134,9 +132,9 @@ impl Report {
                 End::Stopped { reason: run.hint.clone().unwrap_or_else(|| reason.to_string()) }
             }
         };
-        let segment = plan.system.segment(run.at.seconds());
-        let last = plan.names.iter().zip(plan.system.sliders()).enumerate().map(|(i, (name, s))| {
-            let y = plan.system.of(i, &run.unknowns);
+        let segment = problem.system.segment(run.at.seconds());
+        let last = problem.names.iter().zip(problem.system.sliders()).enumerate().map(|(i, (name, s))| {
+            let y = problem.system.of(i, &run.unknowns);
             let (speed, friction) = segment.slip(i, run.at.seconds(), &run.unknowns);
             Final {
                 slider: name.clone(),
@@ -146,15 +144,15 @@ impl Report {
             }
         });
         Self {
-            title: plan.title.clone(),
+            title: problem.title.clone(),
             version: env!("CARGO_PKG_VERSION").to_string(),
             scene_sha256: String::new(),
-            dynamics: plan.dynamics().to_string(),
-            sliders: plan.names.clone(),
-            warnings: plan.warnings.clone(),
-            method: plan.method.name().to_string(),
-            tolerance: plan.tolerance,
-            thresholds: plan.events,
+            dynamics: problem.dynamics().to_string(),
+            sliders: problem.names.clone(),
+            warnings: Vec::new(),
+            method: problem.method.name().to_string(),
+            tolerance: problem.tolerance,
+            thresholds: problem.events,
             outcome,
             end: run.at.seconds(),
             last: last.collect(),

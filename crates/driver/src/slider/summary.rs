@@ -1,19 +1,20 @@
 //! A plan in words.
 
 use super::plan::Plan;
-use super::stability;
+use asperity_cycles::slider::stability;
 use std::fmt::Write as _;
 
 impl Plan {
     /// What a person should see before the run.
     #[must_use]
     pub fn summary(&self) -> String {
-        let mut text = format!("plan: {}\n", self.title);
+        let problem = &self.problem;
+        let mut text = format!("plan: {}\n", problem.title);
         let mut line = |name: &str, value: String| {
             let _ = writeln!(text, "  {name:<18}{value}");
         };
-        line("kinematics", format!("spring-slider, {}", self.dynamics()));
-        for (name, s) in self.names.iter().zip(self.system.sliders()) {
+        line("kinematics", format!("spring-slider, {}", problem.dynamics()));
+        for (name, s) in problem.names.iter().zip(problem.system.sliders()) {
             let states = match s.law.states() {
                 0 => "no state".to_string(),
                 1 => "1 state variable".to_string(),
@@ -21,17 +22,20 @@ impl Plan {
             };
             line(name, format!("{}, {states}, k = {:.6e} Pa/m", s.law.name(), s.stiffness));
         }
-        for (name, words) in self.names.iter().zip(stability::words(self)) {
+        for (name, words) in problem.names.iter().zip(stability::words(problem)) {
             words.into_iter().for_each(|words| line(name, words));
         }
-        for spring in self.system.springs() {
-            let [a, b] = spring.between.map(|i| self.names[i].as_str());
+        for spring in problem.system.springs() {
+            let [a, b] = spring.between.map(|i| problem.names[i].as_str());
             line("spring", format!("{a} to {b}, k = {:.6e} Pa/m", spring.stiffness));
         }
-        line("unknowns", format!("{}: friction over a, states{}", self.start.len(), self.inertial_words()));
-        line("method", format!("{} with tolerance {:e}", self.method.name(), self.tolerance));
+        line(
+            "unknowns",
+            format!("{}: friction over a, states{}", problem.start.len(), self.inertial_words()),
+        );
+        line("method", format!("{} with tolerance {:e}", problem.method.name(), problem.tolerance));
         line("end", self.end_words());
-        for remark in stability::remarks(self) {
+        for remark in stability::remarks(problem) {
             line("note", remark);
         }
         for warning in &self.warnings {
@@ -41,14 +45,15 @@ impl Plan {
     }
 
     fn inertial_words(&self) -> &'static str {
-        if self.system.sliders().iter().any(|s| s.mass.is_some()) { ", net traction" } else { "" }
+        if self.problem.system.sliders().iter().any(|s| s.mass.is_some()) { ", net traction" } else { "" }
     }
 
     fn end_words(&self) -> String {
-        match (&self.events, self.most_events) {
-            (Some(t), Some(n)) => format!("{} s, or {n} events above {:e} m/s", self.end, t.on),
-            (Some(t), None) => format!("{} s; events above {:e} m/s", self.end, t.on),
-            (None, _) => format!("{} s", self.end),
+        let problem = &self.problem;
+        match (&problem.events, problem.most_events) {
+            (Some(t), Some(n)) => format!("{} s, or {n} events above {:e} m/s", problem.end, t.on),
+            (Some(t), None) => format!("{} s; events above {:e} m/s", problem.end, t.on),
+            (None, _) => format!("{} s", problem.end),
         }
     }
 }

@@ -3,10 +3,10 @@
 use super::Planner;
 use crate::scene::near;
 use crate::scene::slider::{OutputSpec, Which};
-use crate::slider::Output;
+use asperity_cycles::slider::Rows;
 
 impl Planner {
-    pub(super) fn output(&mut self, spec: &OutputSpec, names: &[String], end: f64) -> Option<Output> {
+    pub(super) fn output(&mut self, spec: &OutputSpec, names: &[String], end: f64) -> Option<Rows> {
         let change = match &spec.change {
             Some(change) => Some(self.positive("change", *change.get_ref(), change.span(), "0.05")?),
             None => None,
@@ -33,9 +33,9 @@ impl Planner {
         let times = times?;
         // Where times are given, they are the rows, unless a change is given as well.
         let by_change = times.is_empty() && interval.is_none();
-        let default = Output::default();
+        let default = Rows::default();
         let change = change.or(default.change.filter(|_| by_change));
-        Some(Output { change, times, interval, histories })
+        Some(Rows { change, times, interval, histories })
     }
 
     /// Times within the run, in order.

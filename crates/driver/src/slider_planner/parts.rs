@@ -8,8 +8,9 @@ use crate::scene::law::{self, LawChoice};
 use crate::scene::model::{LawSpec, Spanned};
 use crate::scene::near;
 use crate::scene::slider::{SliderScene, SliderSpec, SpringSpec};
-use crate::slider::{Plan, stability};
+use crate::slider::Plan;
 use crate::warning::Warning;
+use asperity_cycles::slider::stability;
 use asperity_friction::slider::{History, Slider, Sliding, Spring, System};
 use std::sync::Arc;
 
@@ -62,8 +63,8 @@ impl Planner {
 
     /// Warns of sliders whose run ends where quasi-static equilibrium does.
     pub(super) fn runaways(&mut self, scene: &SliderScene, plan: &mut Plan) {
-        for (i, ratio) in stability::runaways(plan) {
-            let name = &plan.names[i];
+        for (i, ratio) in stability::runaways(&plan.problem) {
+            let name = &plan.problem.names[i];
             let spec = scene.sliders[name].get_ref();
             let place = spec.stiffness.as_ref().map_or(spec.law.span(), Spanned::span);
             let message = format!(

@@ -1,6 +1,8 @@
 //! Faults through cycles: the community's benchmark BP1 on coarse meshes.
 
-use asperity_driver::fault::{Balance, Both, Dense, Event, Moment, Operator, Plan, Report, run};
+use asperity_cycles::operator::{Both, Dense, Operator};
+use asperity_cycles::{Balance, Event, Moment, run};
+use asperity_driver::fault::{Plan, Report};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Method, Outcome};
@@ -20,10 +22,10 @@ fn bp1(size: f64) -> Plan {
 
 /// The events \[onsets in yr\] of a run that ends after so many.
 fn events(plan: &Plan, method: Method, tolerance: f64, most: usize) -> (Vec<f64>, Vec<Event>) {
-    let mut settings = plan.settings;
+    let mut settings = plan.problem.settings;
     (settings.method, settings.tolerance, settings.most_events) = (method, tolerance, Some(most));
     let mut go = |_: &Moment<'_>| Control::Go;
-    let out = run(&plan.fault, &plan.loading, plan.start.clone(), &settings, &mut go);
+    let out = run(&plan.problem.fault, &plan.problem.loading, plan.problem.start.clone(), &settings, &mut go);
     assert_eq!(out.outcome, Outcome::Stopped);
     let events = out.catalogue.events().to_vec();
     (events.iter().map(|e| e.onset.seconds() / YEAR).collect(), events)
@@ -59,25 +61,25 @@ fn onsets_converge_with_the_tolerance_and_agree_between_methods() {
 fn friction_balances_what_the_bodies_exert() {
     let plan = bp1(312.5);
     let n = plan.points.len();
-    let (shear_rate, _) = plan.loading.rates(1.0, n, false);
+    let (shear_rate, _) = plan.problem.loading.rates(1.0, n, false);
     let mut worst = 0.0_f64;
-    let mut settings = plan.settings;
+    let mut settings = plan.problem.settings;
     (settings.tolerance, settings.most_events) = (1e-6, Some(1));
-    let law = &plan.fault.law;
-    let strength = |p: usize, m: f64| plan.fault.normal[p] * law.scale(p) * m;
+    let law = &plan.problem.fault.law;
+    let strength = |p: usize, m: f64| plan.problem.fault.normal[p] * law.scale(p) * m;
     let first: Vec<f64> =
-        (0..n).map(|p| strength(p, plan.start[p]) + plan.fault.damping[p] * PLATE).collect();
+        (0..n).map(|p| strength(p, plan.problem.start[p]) + plan.problem.fault.damping[p] * PLATE).collect();
     let mut look = |now: &Moment<'_>| {
         let mut exerted = vec![0.0; n];
-        plan.fault.operator.shear(now.slip(), &mut exerted);
+        plan.problem.fault.operator.shear(now.slip(), &mut exerted);
         for p in 0..n {
             let driving = first[p] + exerted[p] + shear_rate[p] * now.at.seconds();
-            let resisting = strength(p, now.unknowns[p]) + plan.fault.damping[p] * now.rate[p];
-            worst = worst.max((driving - resisting).abs() / plan.fault.normal[p]);
+            let resisting = strength(p, now.unknowns[p]) + plan.problem.fault.damping[p] * now.rate[p];
+            worst = worst.max((driving - resisting).abs() / plan.problem.fault.normal[p]);
         }
         Control::Go
     };
-    run(&plan.fault, &plan.loading, plan.start.clone(), &settings, &mut look);
+    run(&plan.problem.fault, &plan.problem.loading, plan.problem.start.clone(), &settings, &mut look);
     // An error of ln V of 1e-6 a step moves friction by a times that, and a hundred steps go by within an e-fold of ln V.
     assert!(worst < 1e-6, "{worst:e}");
 }
@@ -103,22 +105,28 @@ fn injected(flux: f64) -> Plan {
 /// Largest imbalance of tractions over f_n, and the lowest f_n \[Pa\], with a tolerance.
 fn under_fluid(tolerance: f64) -> (f64, f64) {
     let mut plan = injected(1.25e-6);
-    plan.settings.tolerance = tolerance;
+    plan.problem.settings.tolerance = tolerance;
     let n = plan.points.len();
     let (mut worst, mut lowest) = (0.0_f64, f64::INFINITY);
     let mut exerted = vec![0.0; n];
     let mut look = |now: &Moment<'_>| {
-        plan.fault.operator.shear(now.slip(), &mut exerted);
+        plan.problem.fault.operator.shear(now.slip(), &mut exerted);
         for (p, exerted) in exerted.iter().enumerate() {
             let normal = now.normal(p);
             lowest = lowest.min(normal);
-            let resisting =
-                normal * plan.fault.law.scale(p) * now.unknowns[p] + plan.fault.damping[p] * now.rate[p];
+            let resisting = normal * plan.problem.fault.law.scale(p) * now.unknowns[p]
+                + plan.problem.fault.damping[p] * now.rate[p];
             worst = worst.max((29.2e6 + exerted - resisting).abs() / 50e6);
         }
         Control::Go
     };
-    let out = run(&plan.fault, &plan.loading, plan.start.clone(), &plan.settings, &mut look);
+    let out = run(
+        &plan.problem.fault,
+        &plan.problem.loading,
+        plan.problem.start.clone(),
+        &plan.problem.settings,
+        &mut look,
+    );
     assert_eq!(out.outcome, Outcome::Completed);
     (worst, lowest)
 }
@@ -140,14 +148,20 @@ fn friction_balances_under_the_pressure_of_fluid_that_comes_and_goes() {
 fn a_fault_that_fluid_opens_ends_at_its_last_good_state_and_names_the_point() {
     let plan = injected(1e-5);
     let mut go = |_: &Moment<'_>| Control::Go;
-    let out = run(&plan.fault, &plan.loading, plan.start.clone(), &plan.settings, &mut go);
+    let out = run(
+        &plan.problem.fault,
+        &plan.problem.loading,
+        plan.problem.start.clone(),
+        &plan.problem.settings,
+        &mut go,
+    );
     assert!(matches!(out.outcome, Outcome::Failed { .. }), "{:?}", out.outcome);
     assert_eq!(out.opens, Some(0));
     assert!(out.unknowns.iter().all(|y| y.is_finite()));
     // Pressure reaches 50 MPa where q/(beta phi) sqrt(t/(pi alpha)) does.
     let expected = (50e6 * 1e-9 / 1e-5_f64).powi(2) * std::f64::consts::PI * 0.1;
     assert!((out.at.seconds() / expected - 1.0).abs() < 0.01, "{} {expected}", out.at.seconds());
-    let report = Report::new(&plan, &out, &mut Balance::new(&plan));
+    let report = Report::new(&plan, &out, &mut Balance::new(&plan.problem));
     assert!(report.stopped.is_some_and(|s| s.contains("falls to zero")));
 }
 

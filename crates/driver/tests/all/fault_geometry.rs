@@ -1,8 +1,9 @@
 //! Sides, segments, traces and supports of faults: what must not matter, what is refused and what is warned of.
 
+use asperity_cycles::{Moment, run};
 use asperity_driver::diagnostic;
 use asperity_driver::diagnostic::Diagnostic;
-use asperity_driver::fault::{Moment, Plan, run};
+use asperity_driver::fault::Plan;
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Outcome};
@@ -180,9 +181,9 @@ fn responses(plan: &Plan) -> Vec<Vec<f64>> {
         let mut slip = vec![0.0; n];
         slip[p] = 1.0;
         let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-        plan.fault.operator.shear(&slip, &mut shear);
-        if plan.fault.operator.couples_normal() {
-            plan.fault.operator.normal(&slip, &mut normal);
+        plan.problem.fault.operator.shear(&slip, &mut shear);
+        if plan.problem.fault.operator.couples_normal() {
+            plan.problem.fault.operator.normal(&slip, &mut normal);
         }
         order.iter().map(|&p| shear[p]).chain(order.iter().map(|&p| normal[p])).collect()
     };
@@ -195,7 +196,7 @@ fn same(a: &Plan, b: &Plan) {
     let n = a.points.len();
     assert_eq!(n, b.points.len());
     let (p, q) = (order(a), order(b));
-    let load = |plan: &Plan| plan.loading.rates(1.0, n, plan.fault.operator.couples_normal());
+    let load = |plan: &Plan| plan.problem.loading.rates(1.0, n, plan.problem.fault.operator.couples_normal());
     let (of_a, of_b) = (load(a), load(b));
     let strongest = of_a.0.iter().fold(0.0_f64, |l, v| l.max(v.abs()));
     for (&i, &j) in p.iter().zip(&q) {
@@ -205,8 +206,8 @@ fn same(a: &Plan, b: &Plan) {
         assert!(x.at == y.at && (along.abs() - 1.0).abs() < 1e-12, "{x:?} {y:?}");
         close(x.area, y.area, x.area);
         close(of_a.0[i], of_b.0[j], strongest);
-        close(a.fault.normal[i], b.fault.normal[j], 50e6);
-        close(a.start[i], b.start[j], a.start[i].abs());
+        close(a.problem.fault.normal[i], b.problem.fault.normal[j], 50e6);
+        close(a.problem.start[i], b.problem.start[j], a.problem.start[i].abs());
     }
     let (x, y) = (responses(a), responses(b));
     let strongest = x.iter().flatten().fold(0.0_f64, |l, v| l.max(v.abs()));
@@ -216,7 +217,13 @@ fn same(a: &Plan, b: &Plan) {
 /// Onsets of the first two events \[s\].
 fn onsets(plan: &Plan) -> Vec<f64> {
     let mut go = |_: &Moment<'_>| Control::Go;
-    let out = run(&plan.fault, &plan.loading, plan.start.clone(), &plan.settings, &mut go);
+    let out = run(
+        &plan.problem.fault,
+        &plan.problem.loading,
+        plan.problem.start.clone(),
+        &plan.problem.settings,
+        &mut go,
+    );
     assert_eq!(out.outcome, Outcome::Stopped);
     out.catalogue.events().iter().map(|e| e.onset.seconds()).collect()
 }
@@ -516,8 +523,8 @@ fn a_listric_fault_of_few_vertices_is_that_of_many() {
         let bump = |p: usize| (std::f64::consts::PI * plan.points[p].along / length).sin().powi(4);
         let slip: Vec<f64> = (0..n).map(bump).collect();
         let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);
-        plan.fault.operator.shear(&slip, &mut shear);
-        plan.fault.operator.normal(&slip, &mut normal);
+        plan.problem.fault.operator.shear(&slip, &mut shear);
+        plan.problem.fault.operator.normal(&slip, &mut normal);
         let work = |t: &[f64]| (0..n).map(|p| plan.points[p].area * t[p] * slip[p]).sum::<f64>();
         (work(&shear), work(&normal), normal.iter().fold(0.0_f64, |l, v| l.max(v.abs())))
     };

@@ -1,7 +1,8 @@
 //! Normal tractions of faults: floors, tractions that stay, initial stress, and how finely points stand beside lengths of friction.
 
+use asperity_cycles::{Balance, Moment, Run, run};
 use asperity_driver::diagnostic::Diagnostic;
-use asperity_driver::fault::{Balance, Moment, Plan, Report, Run, run};
+use asperity_driver::fault::{Plan, Report};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Outcome};
@@ -76,28 +77,29 @@ fn planned(text: &str) -> Result<Plan, Diagnostic> {
 /// through the operator, and friction uses the larger of what they press and `floor`.
 fn followed(plan: &Plan, floor: f64) -> (Run, Report, f64) {
     let n = plan.points.len();
-    let couples = plan.fault.operator.couples_normal();
-    let (shear_rate, normal_rate) = plan.loading.rates(1.0, n, couples);
-    let (law, damping) = (&plan.fault.law, &plan.fault.damping);
+    let couples = plan.problem.fault.operator.couples_normal();
+    let (shear_rate, normal_rate) = plan.problem.loading.rates(1.0, n, couples);
+    let (law, damping) = (&plan.problem.fault.law, &plan.problem.fault.damping);
     let mut rate = vec![0.0; n];
-    let layout = asperity_driver::fault::Layout::of(&plan.fault);
-    law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rate);
+    let layout = asperity_cycles::Layout::of(&plan.problem.fault);
+    law.slip_rates(0, &plan.problem.start[layout.m()], &plan.problem.start[layout.states()], &mut rate);
     let friction =
         |p: usize, pressed: f64, m: f64, v: f64| pressed.max(floor) * law.scale(p) * m + damping[p] * v;
-    let first: Vec<f64> = (0..n).map(|p| friction(p, plan.fault.normal[p], plan.start[p], rate[p])).collect();
-    let scale = plan.fault.normal.iter().fold(0.0_f64, |l, f| l.max(*f));
+    let first: Vec<f64> =
+        (0..n).map(|p| friction(p, plan.problem.fault.normal[p], plan.problem.start[p], rate[p])).collect();
+    let scale = plan.problem.fault.normal.iter().fold(0.0_f64, |l, f| l.max(*f));
     let (mut shear, mut press, mut worst) = (vec![0.0; n], vec![0.0; n], 0.0_f64);
-    let mut balance = Balance::new(plan);
+    let mut balance = Balance::new(&plan.problem);
     let mut look = |now: &Moment<'_>| {
         balance.step(now);
-        plan.fault.operator.shear(now.slip(), &mut shear);
+        plan.problem.fault.operator.shear(now.slip(), &mut shear);
         if couples {
-            plan.fault.operator.normal(now.slip(), &mut press);
+            plan.problem.fault.operator.normal(now.slip(), &mut press);
         }
         let time = now.at.seconds();
         for p in 0..n {
             let load = if couples { normal_rate[p] * time } else { 0.0 };
-            let pressed = plan.fault.normal[p] + press[p] + load;
+            let pressed = plan.problem.fault.normal[p] + press[p] + load;
             let resisting = friction(p, pressed, now.unknowns[p], now.rate[p]);
             worst = worst.max((first[p] + shear[p] + shear_rate[p] * time - resisting).abs() / scale);
             // What outputs show; an unknown itself, which a does not make smaller.
@@ -106,7 +108,13 @@ fn followed(plan: &Plan, floor: f64) -> (Run, Report, f64) {
         }
         Control::Go
     };
-    let out = run(&plan.fault, &plan.loading, plan.start.clone(), &plan.settings, &mut look);
+    let out = run(
+        &plan.problem.fault,
+        &plan.problem.loading,
+        plan.problem.start.clone(),
+        &plan.problem.settings,
+        &mut look,
+    );
     let report = Report::new(plan, &out, &mut balance);
     (out, report, worst)
 }
@@ -114,7 +122,7 @@ fn followed(plan: &Plan, floor: f64) -> (Run, Report, f64) {
 /// A bound of the imbalance of tractions over f_n: errors of ln V within the tolerance in the mean over all unknowns, four a point, move friction by a (0.025 at
 /// most) times as much, and add up over the steps like a random walk.
 fn drift(plan: &Plan, out: &Run) -> f64 {
-    let most = (4.0 * plan.points.len() as f64).sqrt() * plan.settings.tolerance;
+    let most = (4.0 * plan.points.len() as f64).sqrt() * plan.problem.settings.tolerance;
     0.025 * most * (out.counts.steps as f64).sqrt()
 }
 
@@ -142,7 +150,7 @@ fn a_shallow_normal_fault_ends_where_it_would_open_and_goes_on_with_a_choice() {
     assert!(used.time_share > 0.0 && used.time_share < 1.0 && used.slip_share < 0.1, "{used:?}");
 
     let stays = normal_fault("normal_changes = false");
-    assert!(!planned(&stays).unwrap().fault.operator.couples_normal());
+    assert!(!planned(&stays).unwrap().problem.fault.operator.couples_normal());
     through(&stays, 0.0);
 }
 
@@ -173,7 +181,7 @@ fn where_slip_presses_nothing_it_does_not_matter_whether_it_may() {
     let onsets = |keys: &str| {
         let text = dipping(trace, [0.0, -1.0], 1.0, &format!("normal = \"50 MPa\"\n{keys}"));
         let mut plan = planned(&text).unwrap();
-        plan.settings.tolerance = 1e-8;
+        plan.problem.settings.tolerance = 1e-8;
         let (_, report, worst) = followed(&plan, 0.0);
         assert!(worst < 1e-6, "{worst:e}");
         report.events.iter().map(|e| e.onset).collect::<Vec<_>>()
@@ -197,12 +205,18 @@ fn an_initial_stress_resolves_onto_the_fault_as_on_mohrs_circle() {
     // The normal points 30 degrees up from x.
     let (sine, cosine) = 60f64.to_radians().sin_cos();
     let expected = [-(mean + half * cosine + shear * sine), -half * sine + shear * cosine];
-    let layout = asperity_driver::fault::Layout::of(&plan.fault);
+    let layout = asperity_cycles::Layout::of(&plan.problem.fault);
     let mut rate = vec![0.0; plan.points.len()];
-    plan.fault.law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rate);
+    plan.problem.fault.law.slip_rates(
+        0,
+        &plan.problem.start[layout.m()],
+        &plan.problem.start[layout.states()],
+        &mut rate,
+    );
     for (p, rate) in rate.iter().enumerate() {
-        let normal = plan.fault.normal[p];
-        let traction = normal * plan.fault.law.scale(p) * plan.start[p] + plan.fault.damping[p] * rate;
+        let normal = plan.problem.fault.normal[p];
+        let traction = normal * plan.problem.fault.law.scale(p) * plan.problem.start[p]
+            + plan.problem.fault.damping[p] * rate;
         // Coordinates of the trace have nine digits.
         assert!((normal / expected[0] - 1.0).abs() < 1e-8, "{normal:e} {expected:?}");
         assert!((traction / expected[1] - 1.0).abs() < 1e-8, "{traction:e} {expected:?}");
@@ -275,9 +289,9 @@ fn conditions_that_say_the_same_as_creep_count_once() {
     assert!(plan.warnings.is_empty(), "{:?}", plan.warnings);
     // Blocks that slip everywhere at the rate of the creep move rigidly.
     let n = plan.points.len();
-    let (load, _) = plan.loading.rates(1.0, n, false);
+    let (load, _) = plan.problem.loading.rates(1.0, n, false);
     let mut slip = vec![0.0; n];
-    plan.fault.operator.shear(&vec![1e-9; n], &mut slip);
+    plan.problem.fault.operator.shear(&vec![1e-9; n], &mut slip);
     let size = slip.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let off = load.iter().zip(&slip).fold(0.0_f64, |m, (a, b)| m.max((a + b).abs()));
     assert!(off < 1e-9 * size, "{off:e} {size:e}");

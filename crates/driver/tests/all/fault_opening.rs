@@ -1,6 +1,7 @@
 //! Faults that open: tractions balance, energy closes, and what never opens is as it was.
 
-use asperity_driver::fault::{Balance, Layout, Moment, Plan, Report, Run, run};
+use asperity_cycles::{Balance, Layout, Moment, Run, run};
+use asperity_driver::fault::{Plan, Report};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Outcome};
@@ -31,18 +32,19 @@ struct Found {
 /// Follows a run whose loads have one rate. Tractions follow from slip and openings through the operators: along the fault they are friction's, across it what presses less fluid, nothing
 /// where it is open.
 fn followed(plan: &Plan) -> Found {
-    let (n, fault) = (plan.points.len(), &plan.fault);
+    let (n, fault) = (plan.points.len(), &plan.problem.fault);
     let (law, opening) = (&fault.law, fault.opening.as_ref().unwrap());
     let floor = plan.faults[0].normal.floor.unwrap();
-    let (shear_rate, normal_rate) = plan.loading.rates(1.0, n, true);
+    let (shear_rate, normal_rate) = plan.problem.loading.rates(1.0, n, true);
     let layout = Layout::of(fault);
     let mut rate = vec![0.0; n];
-    law.slip_rates(0, &plan.start[layout.m()], &plan.start[layout.states()], &mut rate);
+    law.slip_rates(0, &plan.problem.start[layout.m()], &plan.problem.start[layout.states()], &mut rate);
     let friction = |p: usize, f: f64, m: f64, v: f64| f * law.scale(p) * m + fault.damping[p] * v;
-    let first: Vec<f64> = (0..n).map(|p| friction(p, fault.normal[p], plan.start[p], rate[p])).collect();
+    let first: Vec<f64> =
+        (0..n).map(|p| friction(p, fault.normal[p], plan.problem.start[p], rate[p])).collect();
     let scale = fault.normal.iter().fold(0.0_f64, |l, f| l.max(*f));
     let (mut along, mut across, mut most) = (0.0_f64, 0.0_f64, 0);
-    let mut balance = Balance::new(plan);
+    let mut balance = Balance::new(&plan.problem);
     let mut look = |now: &Moment<'_>| {
         balance.step(now);
         let time = now.at.seconds();
@@ -64,7 +66,8 @@ fn followed(plan: &Plan) -> Found {
         most = most.max(by.iter().filter(|o| **o > 0.0).count());
         Control::Go
     };
-    let out = run(fault, &plan.loading, plan.start.clone(), &plan.settings, &mut look);
+    let out =
+        run(fault, &plan.problem.loading, plan.problem.start.clone(), &plan.problem.settings, &mut look);
     let report = Report::new(plan, &out, &mut balance);
     Found { run: out, report, along, across, most }
 }
@@ -73,7 +76,7 @@ impl Found {
     /// Tractions and energies are in balance: errors within the tolerance in the mean over all unknowns, four a point, add up over the steps like a random walk. They are of ln V, and
     /// move friction by a (`direct` at most) times as much, and f_n by as much of itself.
     fn balances(&self, plan: &Plan, direct: f64) {
-        let most = (4.0 * plan.points.len() as f64).sqrt() * plan.settings.tolerance;
+        let most = (4.0 * plan.points.len() as f64).sqrt() * plan.problem.settings.tolerance;
         let drift = direct * most * (self.run.counts.steps as f64).sqrt();
         assert!(self.along < drift && self.across < drift, "{:e} {:e} {drift:e}", self.along, self.across);
         // Ten times the tolerance, of the largest part.
@@ -121,7 +124,13 @@ fn a_fault_that_never_opens_is_the_same_to_the_last_bit_as_one_that_may_not() {
     let deep = INJECTED.replace("normal = \"10 MPa\"", "normal = \"100 MPa\"").replace("4 MPa", "40 MPa");
     let end = |text: &str| {
         let plan = planned(text);
-        run(&plan.fault, &plan.loading, plan.start.clone(), &plan.settings, &mut |_: &Moment<'_>| Control::Go)
+        run(
+            &plan.problem.fault,
+            &plan.problem.loading,
+            plan.problem.start.clone(),
+            &plan.problem.settings,
+            &mut |_: &Moment<'_>| Control::Go,
+        )
     };
     let (with, without) = (end(&deep), end(&deep.replace("opening = true\n", "")));
     assert_eq!((with.unknowns, with.counts), (without.unknowns, without.counts));
@@ -131,8 +140,8 @@ fn a_fault_that_never_opens_is_the_same_to_the_last_bit_as_one_that_may_not() {
 fn sides_of_a_fault_lie_as_far_apart_as_it_is_open() {
     let plan = planned(&format!("{INJECTED}bodies = true\n").replace("until = \"5 d\"", "until = \"20 d\""));
     let found = followed(&plan);
-    let end = plan.fault.pressed(found.run.at, &found.run.unknowns, &mut Default::default());
-    let slip = &found.run.unknowns[Layout::of(&plan.fault).slip()];
+    let end = plan.problem.fault.pressed(found.run.at, &found.run.unknowns, &mut Default::default());
+    let slip = &found.run.unknowns[Layout::of(&plan.problem.fault).slip()];
     let view = plan.bodies.as_ref().unwrap();
     let moved = view.bodies.vectors(&[slip, &end.opening].concat(), found.run.at.seconds());
     let largest = slip.iter().chain(&end.opening).fold(0.0_f64, |l, v| l.max(v.abs()));
@@ -156,7 +165,7 @@ fn the_plan_says_what_opens_and_counts_its_memory() {
         "{text}"
     );
     let closed = planned(&INJECTED.replace("opening = true\n", ""));
-    let opening = plan.fault.opening.as_ref().unwrap();
+    let opening = plan.problem.fault.opening.as_ref().unwrap();
     let n = plan.points.len();
     assert_eq!((opening.points().len(), opening.bytes()), (n, 2 * n * n * size_of::<f64>()));
     assert!(plan.memory_bytes >= closed.memory_bytes);

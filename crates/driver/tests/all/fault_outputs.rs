@@ -2,7 +2,8 @@
 #![allow(clippy::disallowed_methods)]
 
 use crate::common::cycles::SCENE;
-use asperity_driver::fault::{Event, Files, Moment, Plan, Position, Report, Run, Watcher, draw, resume};
+use asperity_cycles::{Event, Moment, Run, Watcher, resume};
+use asperity_driver::fault::{Files, Plan, Position, Report, draw};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::Control;
@@ -45,10 +46,10 @@ fn run<'a>(plan: &'a Plan, out: &Path) -> (Seen<'a>, Run) {
     let largest = vec![0.0; stations.len() + 1];
     let files = Files::create(out, plan).unwrap();
     let mut seen = Seen { files, stations, largest, steps: 0, sizes: Vec::new() };
-    let begin = Run::new(plan.start.clone(), plan.settings.thresholds);
+    let begin = Run::new(plan.problem.start.clone(), plan.problem.settings.thresholds);
     let points: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
-    let begin = begin.of_faults(&points, plan.settings.thresholds);
-    let run = resume(&plan.fault, &plan.loading, begin, &plan.settings, &mut seen);
+    let begin = begin.of_faults(&points, plan.problem.settings.thresholds);
+    let run = resume(&plan.problem.fault, &plan.problem.loading, begin, &plan.problem.settings, &mut seen);
     (seen, run)
 }
 
@@ -200,7 +201,7 @@ fn each_fault_of_several_has_the_catalogue_it_has_alone() {
     let out = folder.path().join("both");
     fs::create_dir(&out).unwrap();
     let (_, ended) = run(&both, &out);
-    let mut balance = asperity_driver::fault::Balance::new(&both);
+    let mut balance = asperity_cycles::Balance::new(&both.problem);
     let report = Report::new(&both, &ended, &mut balance);
     assert_eq!(report.faults.len(), 2);
     for (fault, pair) in report.faults.iter().zip(all) {
@@ -208,7 +209,7 @@ fn each_fault_of_several_has_the_catalogue_it_has_alone() {
         let out = folder.path().join(pair.0);
         fs::create_dir(&out).unwrap();
         let (_, ended) = run(&alone, &out);
-        let mut balance = asperity_driver::fault::Balance::new(&alone);
+        let mut balance = asperity_cycles::Balance::new(&alone.problem);
         let alone = Report::new(&alone, &ended, &mut balance);
         assert!(alone.faults.is_empty());
         assert_eq!(fault.fault, pair.0);

@@ -113,7 +113,7 @@ fn uniform(text: &str, slip: f64) -> Located {
 
 /// The same with all components of slip.
 fn slipped(text: &str, components: &[f64]) -> Located {
-    use asperity_driver::fault::Event;
+    use asperity_cycles::Event;
     use asperity_driver::plan::{ScenePlan, plan_scene};
     use asperity_ode::Clock;
     let plan = match plan_scene(&asperity_driver::scene::read(text).unwrap()).unwrap() {

@@ -1,9 +1,10 @@
 //! Spring-sliders from scenes: events, histories, run-away, prescribed histories, and the same answers from library calls.
 
 use crate::common::sliders::{CYCLE, history, plan, relative, written};
+use asperity_cycles::slider::{Both, DEFAULT_METHOD, Now, Problem, Rows, Run, Thresholds, run};
 use asperity_driver::laws;
 use asperity_driver::scene::law::{Evolution, Form, LawChoice, State, Strength};
-use asperity_driver::slider::{Both, DEFAULT_METHOD, Now, Output, Plan, Report, Run, Show, Thresholds, run};
+use asperity_driver::slider::{Report, Show};
 use asperity_friction::slider::{Condition, History, Slider, Spring, System};
 use asperity_ode::{Failure, Method, Outcome};
 use asperity_output::{Observer, Recorder};
@@ -72,9 +73,9 @@ struct Row {
     load: f64,
 }
 
-fn watched(plan: &Plan) -> (Run, Vec<Row>) {
+fn watched(plan: &Problem) -> (Run, Vec<Row>) {
     let mut rows = Vec::new();
-    let mut look = |_: &Plan, now: &Now<'_>| {
+    let mut look = |_: &Problem, now: &Now<'_>| {
         rows.push(Row {
             time: now.at.seconds(),
             dt: now.dt,
@@ -167,7 +168,7 @@ fn rows_of_histories_follow_the_slip_rate_closely() {
 fn histories_keep_the_balance_of_the_springs() {
     let mut plan = plan(COUPLED);
     // By change each slider has rows of its own.
-    plan.output = Output { change: None, interval: Some(0.5), ..Output::default() };
+    plan.output = Rows { change: None, interval: Some(0.5), ..Rows::default() };
     let (folder, _) = written(&plan);
     let (left, right) = (history(folder.path(), "left.csv"), history(folder.path(), "right.csv"));
     assert!(left.len() > 1000 && left.len() == right.len());
@@ -379,7 +380,7 @@ fn observers_see_what_a_watcher_sees() {
     let mut recorder = Recorder::new();
     let mut count = 0;
     {
-        let mut look = |_: &Plan, _: &Now<'_>| count += 1;
+        let mut look = |_: &Problem, _: &Now<'_>| count += 1;
         let mut show = Show::to(vec![&mut recorder as &mut dyn Observer]);
         run(&plan, &mut Both(&mut show, &mut look)).unwrap();
     }
@@ -424,7 +425,7 @@ fn steady(system: &System, slider: usize) -> Vec<f64> {
     states
 }
 
-fn same(mut call: Plan, text: &str) {
+fn same(mut call: Problem, text: &str) {
     let scene = plan(text);
     assert_eq!(call.names.len(), scene.names.len());
     (call.title, call.names) = (scene.title.clone(), scene.names.clone());
@@ -440,7 +441,7 @@ fn a_library_call_and_a_scene_of_one_slider_give_the_same_bits() {
     let slider = block(&state_law(Evolution::Ageing { v_cut: None }), 1.25e9, History::Constant(5e6));
     let system = System::new(vec![slider], Vec::new(), History::Constant(1e-6)).unwrap();
     let start = system.start(&[1.5e-6], &[steady(&system, 0)]).unwrap();
-    let mut call = Plan::new(system, start, 4000.0);
+    let mut call = Problem::new(system, start, 4000.0);
     call.events = Some(Thresholds { on: 1e-3, off: 0.1 * 1e-3 });
     (call.most_events, call.peaks) = (Some(10), true);
     same(call, CYCLE);
@@ -455,7 +456,7 @@ fn a_library_call_and_a_scene_of_two_sliders_give_the_same_bits() {
     let springs = vec![Spring { between: [0, 1], stiffness: 0.5e9 }];
     let system = System::new(sliders, springs, History::Constant(1e-6)).unwrap();
     let start = system.start(&[1.5e-6, 1e-6], &[steady(&system, 0), steady(&system, 1)]).unwrap();
-    let mut call = Plan::new(system, start, 900.0);
+    let mut call = Problem::new(system, start, 900.0);
     call.tolerance = 1e-9;
     call.events = Some(Thresholds { on: 1e-4, off: 2e-5 });
     call.peaks = true;

@@ -1,7 +1,8 @@
 //! What runs of spring-sliders report: events of both directions, rows at times and at peaks, imposed slip rates, stability.
 
-use crate::common::sliders::{CYCLE, history, plan, relative, written};
-use asperity_driver::slider::{Event, Now, Plan, Stability, critical_stiffness, csv, run};
+use crate::common::sliders::{CYCLE, history, plan, planned, relative, written};
+use asperity_cycles::slider::{Event, Now, Problem, Stability, critical_stiffness, run};
+use asperity_driver::slider::csv;
 use asperity_ode::Method;
 use nalgebra::DMatrix;
 
@@ -61,7 +62,7 @@ fn the_mirrored_problem_has_the_mirrored_catalogue() {
 #[test]
 fn every_rise_through_the_threshold_is_an_event_whichever_way() {
     let mut rates = Vec::new();
-    let mut look = |_: &Plan, now: &Now<'_>| rates.push(now.conditions[0].rate);
+    let mut look = |_: &Problem, now: &Now<'_>| rates.push(now.conditions[0].rate);
     let found = run(&plan(&reversing("")), &mut look).unwrap().catalogue.events;
     for way in [1.0, -1.0] {
         // From below a tenth of the threshold to above it, seen at the steps.
@@ -289,8 +290,8 @@ fn stability_at_any_stiffness_is_that_of_the_jacobian() {
             let k = 1e5 * 10f64.powf(f64::from(power) / 30.0);
             let slider = format!("stiffness = {k:e}\n{more}");
             let text = scene("[load]\nrate = \"1 um/s\"", &slider, &law, "[time]\nend = \"1 s\"");
-            let plan = plan(&text);
-            let unstable = Stability::new(&plan.system.sliders()[0], 1e-6, 5e6).unstable(k);
+            let plan = planned(&text);
+            let unstable = Stability::new(&plan.problem.system.sliders()[0], 1e-6, 5e6).unstable(k);
             assert_eq!(unstable, growth(&text) > 0.0, "{law} {more} {k:e}");
             if unstable != last {
                 seen.push(unstable);
@@ -351,17 +352,17 @@ fn critical_stiffness_is_where_growth_changes_sign() {
 
 #[test]
 fn the_plan_names_the_stiffness_ratio_and_warns_of_what_runs_away() {
-    let damped = plan(CYCLE);
+    let damped = planned(CYCLE);
     // k_c = f_n (b - a - eta V/f_n)/L with eta V/f_n of 1e-6.
     assert!(damped.summary().contains("k/k_c = 0.500100"), "{}", damped.summary());
     assert!(damped.warnings.is_empty() && !damped.summary().contains("note"));
     let text = CYCLE.lines().filter(|l| !l.starts_with("damping")).collect::<Vec<_>>().join("\n");
-    let mut undamped = plan(&text);
+    let mut undamped = planned(&text);
     assert_eq!(undamped.warnings.len(), 1);
     undamped.warnings[0].locate(&text);
     let place = undamped.warnings[0].place.unwrap();
     assert!(text.lines().nth(place.line - 1).unwrap().starts_with("stiffness"), "{place:?}");
-    let stiff = plan(&text.replace("1.25 GPa/m", "2.6 GPa/m"));
+    let stiff = planned(&text.replace("1.25 GPa/m", "2.6 GPa/m"));
     assert!(stiff.warnings.is_empty());
     assert!(stiff.summary().contains("events come from the start alone"), "{}", stiff.summary());
 }

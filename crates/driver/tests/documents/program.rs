@@ -1,4 +1,4 @@
-use asperity_driver::slider::{Plan, Thresholds, run};
+use asperity_cycles::slider::{Problem, Thresholds, run};
 use asperity_friction::evolution::{Evolution, ageing::Ageing};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, System};
@@ -20,11 +20,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let state = ageing.steady(f64::ln(load));
     let start = system.start(&[1.5 * load], &[vec![state]])?;
 
-    let mut plan = Plan::new(system, start, 4000.0);
-    plan.events = Some(Thresholds { on: 1e-3, off: 1e-4 });
-    plan.most_events = Some(10);
-    plan.peaks = true;
-    let found = run(&plan, &mut ())?;
+    let mut problem = Problem::new(system, start, 4000.0);
+    problem.events = Some(Thresholds { on: 1e-3, off: 1e-4 });
+    problem.most_events = Some(10);
+    problem.peaks = true;
+    let found = run(&problem, &mut ())?;
     for event in found.catalogue.of(0) {
         println!("{:.6} s, {:?}, {:e} m/s", event.onset, event.interval, event.peak_rate);
     }

@@ -1,6 +1,7 @@
 //! Spring-sliders run from a text, with their files.
 
-use asperity_driver::slider::{Histories, Plan, Run, run};
+use asperity_cycles::slider::{Problem, Run, run};
+use asperity_driver::slider::{Histories, Plan};
 use asperity_driver::slider_planner;
 use asperity_ode::Outcome;
 use std::path::Path;
@@ -8,8 +9,12 @@ use std::path::Path;
 /// The scene of the book: a slider through ten events.
 pub const CYCLE: &str = include_str!("../../../../../scenes/spring-slider.toml");
 
-pub fn plan(text: &str) -> Plan {
+pub fn planned(text: &str) -> Plan {
     slider_planner::read(text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+pub fn plan(text: &str) -> Problem {
+    planned(text).problem
 }
 
 pub fn relative(a: f64, b: f64) -> f64 {
@@ -17,7 +22,7 @@ pub fn relative(a: f64, b: f64) -> f64 {
 }
 
 /// Runs a plan, with its histories in a folder.
-pub fn written(plan: &Plan) -> (tempfile::TempDir, Run) {
+pub fn written(plan: &Problem) -> (tempfile::TempDir, Run) {
     let folder = tempfile::tempdir().unwrap();
     let mut files = Histories::create(folder.path(), plan).unwrap();
     let run = run(plan, &mut files).unwrap();

@@ -1,0 +1,432 @@
+//! Works along a run: what becomes of the work that loads do on slip.
+//!
+//! Where slip turns, products of slip and tractions are those of vectors. With areas A, slip s, friction f, the initial tractions and those of the loads together τ_l, and the stiffness S of the bodies at the
+//! jumps, `f + η V = τ_l - S s/A` times V, summed over points and integrated over time, is
+//!
+//! ```text
+//! ∫ Σ A τ_l V dt  =  s·S s/2  +  ∫ Σ A f V dt  +  ∫ Σ A η V² dt
+//!     loads           elastic         friction         radiated
+//! ```
+//!
+//! Where faults open by o, the loads, which take their normal tractions at the start and change them to N_l, and fluid of the pressure p do `∫ Σ A (p - N_l) do` as well, and the
+//! elastic energy is that of slip and of openings since the start.
+//!
+//! The integrals run over cubic polynomials with the values and rates of both ends of each step, for slip as for tractions; the elastic
+//! energy comes from slip through the operator. The integrator knows none of them, and what the balance lacks is an error of its own
+//! kind: of slip, against the friction that was carried along.
+
+use super::below::Used;
+use super::equations::{Fault, Layout, Pressed};
+use super::opened::Opened;
+use super::opening::Crack;
+use super::operator::Operator;
+use super::problem::Problem;
+use super::run::{Ends, Moment};
+use asperity_ode::Clock;
+use serde::{Deserialize, Serialize};
+
+/// Share of a step by which its end may lie beyond the end of an injection: rounding of times.
+const ROUNDING: f64 = 1e-9;
+
+/// Works and energies \[J; J per metre of thickness in the plane\].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Energy {
+    /// Work of the initial tractions and of the loads on slip.
+    pub loads: f64,
+    /// Energy that slip stores in the bodies.
+    pub elastic: f64,
+    /// Work against friction.
+    pub friction: f64,
+    /// Work against radiation damping.
+    pub radiated: f64,
+    /// Work of fluid, of loads and of the normal tractions at the start on openings.
+    #[serde(default, skip_serializing_if = "nothing")]
+    pub opening: f64,
+    /// What that work came to step by step, in sizes: openings give back what they take.
+    #[serde(default, skip_serializing_if = "nothing")]
+    pub exchanged: f64,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn nothing(value: &f64) -> bool {
+    *value == 0.0
+}
+
+impl Energy {
+    /// What the balance lacks over the largest of its parts \[-\].
+    #[must_use]
+    pub fn imbalance(&self) -> f64 {
+        let parts = [self.loads, self.elastic, self.friction, self.radiated, self.opening, self.exchanged];
+        let largest = parts.iter().fold(0.0_f64, |l, v| l.max(v.abs()));
+        if largest == 0.0 {
+            return 0.0;
+        }
+        (self.loads + self.opening - self.elastic - self.friction - self.radiated).abs() / largest
+    }
+}
+
+/// The run when an event had just ended.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mark {
+    /// When \[s\].
+    pub time: f64,
+    /// Slip, where it may turn along the rake, over the area since the start \[m³; m²\].
+    pub potency: f64,
+    /// Works until then.
+    pub energy: Energy,
+}
+
+/// What is summed along a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Sums {
+    /// Works until now; the elastic energy is not among them.
+    works: Energy,
+    /// One for each event.
+    marks: Vec<Mark>,
+    /// Changes of the loads passed.
+    leg: usize,
+    /// When the last of them was \[s\].
+    since: f64,
+    /// Initial tractions and those of the loads then, component by component \[Pa\].
+    traction: Vec<f64>,
+    /// Use of floors.
+    floors: Used,
+    /// Openings.
+    #[serde(default)]
+    opened: Opened,
+    /// Where points may open: normal tractions at the start and those of the loads, at the last change of the loads \[Pa\].
+    #[serde(default)]
+    pressing: Vec<f64>,
+}
+
+/// Sums works along a run.
+#[derive(Debug)]
+pub struct Balance<'a> {
+    problem: &'a Problem,
+    sums: Sums,
+    /// Times at which loads change, and the end \[s\].
+    breaks: Vec<f64>,
+    /// Rates of the loads' tractions now \[Pa/s\].
+    rate: Vec<f64>,
+    /// The same of normal tractions.
+    normal_rate: Vec<f64>,
+    /// Openings at the start \[m\]; no values where no point may open.
+    first: Vec<f64>,
+    crack: Crack,
+    /// a of all points.
+    scale: Vec<f64>,
+    scratch: Vec<f64>,
+}
+
+impl<'a> Balance<'a> {
+    /// From the start of a run.
+    #[must_use]
+    pub fn new(problem: &'a Problem) -> Self {
+        let fault = &problem.fault;
+        let (n, layout) = (problem.areas.len(), Layout::of(fault));
+        let mut rate = vec![0.0; layout.m().end];
+        fault.law.slip_rates(0, &problem.start[layout.m()], &problem.start[layout.states()], &mut rate);
+        let pressed = at_start(problem);
+        let first = |i: usize| {
+            let p = i % n;
+            pressed.normal[p] * fault.law.scale(p) * problem.start[i] + fault.damping[p] * rate[i]
+        };
+        let traction = layout.m().map(first).collect();
+        let mut pressing = Vec::new();
+        if let Some(opening) = &fault.opening {
+            pressing.clone_from(&fault.normal);
+            opening.pressing(&pressed.opening, &mut pressing);
+        }
+        Self::resume(problem, Sums { traction, pressing, ..Sums::default() })
+    }
+
+    /// Goes on with sums.
+    #[must_use]
+    pub fn resume(problem: &'a Problem, sums: Sums) -> Self {
+        let mut breaks = problem.loading.breaks(0.0, problem.settings.end);
+        breaks.push(problem.settings.end);
+        let n = problem.areas.len();
+        let scale = (0..n).map(|p| problem.fault.law.scale(p)).collect();
+        let mut balance = Self {
+            problem,
+            sums,
+            breaks,
+            rate: Vec::new(),
+            normal_rate: Vec::new(),
+            first: at_start(problem).opening,
+            crack: Crack::default(),
+            scale,
+            scratch: vec![0.0; Layout::of(&problem.fault).m().end],
+        };
+        balance.load();
+        balance
+    }
+
+    /// The sums until now.
+    #[must_use]
+    pub fn sums(&self) -> &Sums {
+        &self.sums
+    }
+
+    /// Use of floors until now.
+    #[must_use]
+    pub fn floors(&self) -> &Used {
+        &self.sums.floors
+    }
+
+    /// Openings until now.
+    #[must_use]
+    pub fn opened(&self) -> &Opened {
+        &self.sums.opened
+    }
+
+    /// The run when each of its events had just ended.
+    #[must_use]
+    pub fn marks(&self) -> &[Mark] {
+        &self.sums.marks
+    }
+
+    /// Rates of the tractions of the present loads.
+    fn load(&mut self) {
+        let end = self.breaks.get(self.sums.leg).copied().unwrap_or(self.problem.settings.end);
+        let within = 0.5 * (self.sums.since + end);
+        let (n, couples) = (self.problem.areas.len(), self.problem.fault.operator.couples_normal());
+        (self.rate, self.normal_rate) = self.problem.loading.rates(within, n, couples);
+    }
+
+    /// Works at the end of a step, with the energy that `slip` and openings store.
+    pub fn energy(&mut self, slip: &[f64], opening: &[f64]) -> Energy {
+        let apart: Vec<f64> = opening.iter().zip(&self.first).map(|(b, a)| b - a).collect();
+        let elastic = elastic(self.problem, slip, &mut self.scratch) + parting(self.problem, slip, &apart);
+        Energy { elastic, ..self.sums.works }
+    }
+
+    /// Takes note of a step.
+    pub fn step(&mut self, moment: &Moment<'_>) {
+        if moment.step.is_some() {
+            self.add(moment);
+        }
+        let ended = moment.catalogue.events().len() > self.sums.marks.len();
+        self.sums.floors.step(self.problem, moment, ended);
+        self.sums.opened.step(self.problem, moment);
+        if ended {
+            let energy = self.energy(moment.slip(), &moment.pressed.opening);
+            // The first components come first.
+            let potency = moment.slip().iter().zip(&self.problem.areas).map(|(s, area)| s * area).sum();
+            self.sums.marks.push(Mark { time: moment.at.seconds(), potency, energy });
+        }
+    }
+
+    fn add(&mut self, moment: &Moment<'_>) {
+        let Some(step) = &moment.step else { return };
+        let (h, end) = (moment.dt, moment.at.seconds());
+        while self.breaks.get(self.sums.leg).is_some_and(|&b| end - 0.5 * h > b) {
+            let until = self.breaks[self.sums.leg];
+            let span = until - self.sums.since;
+            self.sums.traction.iter_mut().zip(&self.rate).for_each(|(t, r)| *t += span * r);
+            self.sums.pressing.iter_mut().zip(&self.normal_rate).for_each(|(t, r)| *t += span * r);
+            (self.sums.since, self.sums.leg) = (until, self.sums.leg + 1);
+            self.load();
+        }
+        let (fault, layout) = (&self.problem.fault, moment.layout);
+        let (slips, normals) = (layout.slip().start, layout.normal());
+        let after = end - self.sums.since;
+        let mut works = self.sums.works;
+        let pressing = self.pressing(moment, step);
+        let parted = self.parted(moment, step, &pressing);
+        works.opening += parted;
+        works.exchanged += parted.abs();
+        let pressed = [&step.start_pressed.normal, &moment.pressed.normal];
+        let points =
+            layout.m().zip(self.problem.areas.iter().cycle()).map(|(i, area)| (i, i % layout.points(), area));
+        for (i, p, area) in points {
+            // Friction a m f_n and its rate.
+            let friction = |y: &[f64], dy: &[f64], time: f64, last: usize| {
+                if let Some(rates) = pressing.get(last) {
+                    let (normal, change) = (pressed[last][p], rates[0][p]);
+                    return [
+                        self.scale[p] * normal * y[i],
+                        self.scale[p] * h * (normal * dy[i] + change * y[i]),
+                    ];
+                }
+                let (total, growth) = if normals.is_empty() {
+                    (fault.normal[p], 0.0)
+                } else {
+                    (y[normals.start + p], dy[normals.start + p])
+                };
+                let (pressure, rise) =
+                    fault.pressure.as_ref().map_or((0.0, 0.0), |f| f.felt(p, time, end - ROUNDING * h));
+                let floor = fault.floor.as_ref().map_or(f64::NEG_INFINITY, |f| f.at(p));
+                let (normal, change) =
+                    if total - pressure < floor { (floor, 0.0) } else { (total - pressure, growth - rise) };
+                [self.scale[p] * normal * y[i], self.scale[p] * h * (normal * dy[i] + change * y[i])]
+            };
+            let way = Way {
+                by: moment.unknowns[slips + i] - step.start[slips + i],
+                rates: [h * step.start_rates[slips + i], h * step.end_rates[slips + i]],
+            };
+            let (first, last) = (
+                friction(step.start, step.start_rates, end - h, 0),
+                friction(moment.unknowns, step.end_rates, end, 1),
+            );
+            let (traction, rate) = (self.sums.traction[i], self.rate[i]);
+            let load = |t: f64| [traction + t * rate, h * rate];
+            works.friction += area * way.work(first, last);
+            works.loads += area * way.work(load(after - h), load(after));
+            works.radiated += area * fault.damping[p] * way.square() / h;
+        }
+        self.sums.works = works;
+    }
+
+    /// Where points may open, rates of f_n as friction uses it and of openings at both ends of a step.
+    fn pressing(&mut self, moment: &Moment<'_>, step: &Ends<'_>) -> Vec<[Vec<f64>; 2]> {
+        let fault: &Fault = &self.problem.fault;
+        if fault.opening.is_none() {
+            return Vec::new();
+        }
+        let (h, end) = (moment.dt, moment.at.seconds());
+        let until = end - ROUNDING * h;
+        let ends = [(end - h, step.start, step.start_rates), (end, moment.unknowns, step.end_rates)];
+        ends.map(|(time, y, dy)| fault.pressing(time, until, y, dy, &mut self.crack)).into()
+    }
+
+    /// Work on openings over a step.
+    fn parted(&self, moment: &Moment<'_>, step: &Ends<'_>, pressing: &[[Vec<f64>; 2]]) -> f64 {
+        let (Some(opening), [first, last]) = (&self.problem.fault.opening, pressing) else { return 0.0 };
+        let (h, end) = (moment.dt, moment.at.seconds());
+        let work = |&p: &usize| {
+            let way = Way {
+                by: moment.pressed.opening[p] - step.start_pressed.opening[p],
+                rates: [h * first[1][p], h * last[1][p]],
+            };
+            let apart = |time: f64| {
+                let fluid = self.problem.fault.pressure.as_ref();
+                let (pressure, rise) = fluid.map_or((0.0, 0.0), |f| f.felt(p, time, end - ROUNDING * h));
+                let load = self.normal_rate.get(p).copied().unwrap_or(0.0);
+                let against = self.sums.pressing[p] + (time - self.sums.since) * load;
+                [pressure - against, h * (rise - load)]
+            };
+            self.problem.areas[p] * way.work(apart(end - h), apart(end))
+        };
+        opening.points().iter().map(work).sum()
+    }
+}
+
+/// What presses the points at the start.
+fn at_start(problem: &Problem) -> Pressed {
+    problem.fault.pressed(Clock::new(0.0, 0.0), &problem.start, &mut Crack::default())
+}
+
+/// Energy that openings since the start store, beside that of slip: by themselves and by the tractions they cause on slip.
+fn parting(problem: &Problem, slip: &[f64], apart: &[f64]) -> f64 {
+    let Some(opening) = &problem.fault.opening else { return 0.0 };
+    let (mut normal, mut shear) = (vec![0.0; problem.areas.len()], vec![0.0; slip.len()]);
+    opening.pressing(apart, &mut normal);
+    opening.sheared(apart, &mut shear);
+    let areas = || problem.areas.iter().cycle();
+    let own: f64 = apart.iter().zip(&normal).zip(areas()).map(|((o, t), area)| 0.5 * area * o * t).sum();
+    let on_slip: f64 = slip.iter().zip(&shear).zip(areas()).map(|((s, t), area)| area * s * t).sum();
+    own - on_slip
+}
+
+/// Energy that `slip` stores in the bodies.
+fn elastic(problem: &Problem, slip: &[f64], traction: &mut [f64]) -> f64 {
+    problem.fault.operator.shear(slip, traction);
+    let areas = problem.areas.iter().cycle();
+    let work = slip.iter().zip(&*traction).zip(areas).map(|((s, t), area)| -0.5 * area * s * t);
+    work.sum()
+}
+
+/// Slip over a step of length 1: a cubic polynomial by its ends.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    /// Slip over the step.
+    by: f64,
+    /// Rates at its ends.
+    rates: [f64; 2],
+}
+
+impl Way {
+    /// `∫ τ ds` for the cubic polynomial τ with these values and rates at the ends.
+    #[inline]
+    fn work(&self, [t0, d0]: [f64; 2], [t1, d1]: [f64; 2]) -> f64 {
+        let (by, [v0, v1]) = (self.by, self.rates);
+        0.5 * (t0 + t1) * by + 0.1 * ((d0 - d1) * by + (t0 - t1) * (v0 - v1)) + (d1 * v0 - d0 * v1) / 60.0
+    }
+
+    /// `∫ (ds/dx)² dx`.
+    #[inline]
+    fn square(&self) -> f64 {
+        let (by, [v0, v1]) = (self.by, self.rates);
+        1.2 * by * by - 0.2 * by * (v0 + v1) + (2.0 * (v0 * v0 + v1 * v1) - v0 * v1) / 15.0
+    }
+}
+
+/// Most iterations of [`steady`], in numbers of points.
+const MOST_ITERATIONS: usize = 10;
+/// Residual over that of the start at which [`steady`] ends: rounding of a few hundred sums.
+const SMALL: f64 = 1e-12;
+
+/// Slip rates, component by component, under which the loads change no traction, where loads pull at constant rates and slip changes no normal
+/// traction: those of whole cycles in the mean \[m/s\]. By conjugate gradients, since the operator times areas is symmetric and negative
+/// definite.
+#[must_use]
+pub fn steady(problem: &Problem) -> Option<Vec<f64>> {
+    let operator: &dyn Operator = problem.fault.operator.as_ref();
+    let n = problem.areas.len() * operator.components();
+    let (end, couples) = (problem.settings.end, operator.couples_normal());
+    if couples || !problem.loading.breaks(0.0, end).is_empty() {
+        return None;
+    }
+    let areas: Vec<f64> = problem.areas.iter().cycle().take(n).copied().collect();
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let load = problem.loading.rates(0.5 * end, problem.areas.len(), couples).0;
+    let mut residual: Vec<f64> = load.iter().zip(&areas).map(|(l, a)| l * a).collect();
+    let (mut rate, mut direction, mut image) = (vec![0.0; n], residual.clone(), vec![0.0; n]);
+    let first = dot(&residual, &residual);
+    let mut square = first;
+    for _ in 0..MOST_ITERATIONS * n {
+        if square <= SMALL * SMALL * first {
+            return Some(rate);
+        }
+        operator.shear(&direction, &mut image);
+        image.iter_mut().zip(&areas).for_each(|(i, a)| *i *= -a);
+        let share = square / dot(&direction, &image);
+        for p in 0..n {
+            rate[p] += share * direction[p];
+            residual[p] -= share * image[p];
+        }
+        let next = dot(&residual, &residual);
+        direction.iter_mut().zip(&residual).for_each(|(d, r)| *d = r + next / square * *d);
+        square = next;
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn works_of_cubic_polynomials_are_exact() {
+        // s = 2 x - 3 x² + 5 x³, τ = 7 - x + 4 x² - 2 x³: ∫ τ s' dx by the powers of x.
+        let way = Way { by: 4.0, rates: [2.0, 11.0] };
+        let slope = [2.0, -6.0, 15.0];
+        let traction = [7.0, -1.0, 4.0, -2.0];
+        let mut work = 0.0;
+        for (i, t) in traction.iter().enumerate() {
+            for (j, s) in slope.iter().enumerate() {
+                work += t * s / (i + j + 1) as f64;
+            }
+        }
+        let found = way.work([7.0, -1.0], [8.0, 1.0]);
+        assert!((found - work).abs() < 1e-13, "{found} {work}");
+        let mut square = 0.0;
+        for (i, a) in slope.iter().enumerate() {
+            for (j, b) in slope.iter().enumerate() {
+                square += a * b / (i + j + 1) as f64;
+            }
+        }
+        assert!((way.square() - square).abs() < 1e-13, "{} {square}", way.square());
+    }
+}

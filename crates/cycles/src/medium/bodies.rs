@@ -1,0 +1,67 @@
+//! Displacements of the bodies around faults: what slip and loads do there, by one solution with the factor of the condensation.
+
+use asperity_fem::condense::Condensed;
+use asperity_fem::jump::Jumps;
+
+/// Displacements from unknowns of which some are jumps.
+trait Jumping: Send + Sync + std::fmt::Debug {
+    /// In place.
+    fn displace(&self, unknowns: &mut [f64]);
+}
+
+impl<const C: usize> Jumping for Jumps<C> {
+    fn displace(&self, unknowns: &mut [f64]) {
+        self.displacement(unknowns);
+    }
+}
+
+/// The condensed bodies, kept.
+#[derive(Debug)]
+pub struct Bodies {
+    condensed: Condensed,
+    /// Ties of sides that machines draw, then the faults: in the order in which they are undone.
+    jumps: [Box<dyn Jumping>; 2],
+    /// Retained unknown of the first component of slip of each point.
+    rows: Vec<usize>,
+    /// Components of displacement.
+    components: usize,
+}
+
+impl Bodies {
+    /// Of bodies with the jumps of their faults and the ties of sides that machines draw; `rows` are the retained unknowns of the first
+    /// component of slip of each point.
+    pub(super) fn new<const C: usize>(
+        condensed: Condensed,
+        jumps: Jumps<C>,
+        ties: Jumps<1>,
+        rows: Vec<usize>,
+    ) -> Self {
+        Self { condensed, jumps: [Box::new(ties), Box::new(jumps)], rows, components: C }
+    }
+
+    /// Displacements of all nodes \[m\], node by node, for slip of all points \[m\], component by component, openings after it where points may open, and the loads at
+    /// `time` \[s\].
+    #[must_use]
+    pub fn displacement(&self, slip: &[f64], time: f64) -> Vec<f64> {
+        let mut retained = vec![0.0; self.condensed.reduction().retained().len()];
+        let n = self.rows.len();
+        for (i, s) in slip.iter().enumerate() {
+            retained[self.rows[i % n] + i / n] = *s;
+        }
+        let mut all = self.condensed.recover(&retained, time);
+        self.jumps.iter().for_each(|jumps| jumps.displace(&mut all));
+        all
+    }
+
+    /// The same in space.
+    #[must_use]
+    pub fn vectors(&self, slip: &[f64], time: f64) -> Vec<[f64; 3]> {
+        let all = self.displacement(slip, time);
+        let vector = |u: &[f64]| match u {
+            // Antiplane motion.
+            [z] => [0.0, 0.0, *z],
+            _ => std::array::from_fn(|c| u.get(c).copied().unwrap_or(0.0)),
+        };
+        all.chunks_exact(self.components).map(vector).collect()
+    }
+}

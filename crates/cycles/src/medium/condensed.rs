@@ -1,0 +1,416 @@
+//! Bodies condensed onto the jumps of their faults: what slip and loads do to tractions.
+
+use super::bodies::Bodies;
+use super::held;
+use super::machine::{Machine, Spring};
+use super::place::{Place, across};
+use super::point::Point;
+use super::refusal::Refusal;
+use crate::loading::Loading;
+use crate::opening::Opening;
+use crate::operator::Dense;
+use asperity_fem::FemError;
+use asperity_fem::condense::{Condensation, Condensed, Loaded, Remainder, Stiffness};
+use asperity_fem::dof::{Channel, Constraints};
+use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
+use asperity_fem::multifrontal::DirectError;
+use asperity_fem::table::Table;
+
+/// What slip does, component by component.
+#[derive(Debug)]
+pub enum Tractions {
+    /// Slip along one direction.
+    One(Dense),
+    /// Slip along two: of each component along itself, and of the second along the first and of the first along the second,
+    /// where they load across.
+    Two {
+        /// With normal tractions.
+        along: Box<[Dense; 2]>,
+        /// Without.
+        across: Option<Box<[Dense; 2]>>,
+    },
+}
+
+/// Tractions at the start that the weight of the bodies causes where no point has slipped yet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weight {
+    /// Component by component \[Pa\].
+    pub shear: Vec<f64>,
+    /// Compression positive \[Pa\].
+    pub normal: Vec<f64>,
+}
+
+/// Bodies, condensed.
+#[derive(Debug)]
+pub struct Surroundings {
+    /// Tractions that slip causes.
+    pub operator: Tractions,
+    /// Tractions that openings cause, where points may open.
+    pub opening: Option<Opening>,
+    /// Tractions that loads and creep cause.
+    pub loading: Loading,
+    /// Of these, rates of shear tractions that creep causes by itself, component by component \[Pa/s\].
+    pub creep: Option<Vec<f64>>,
+    /// Tractions of their weight, where they have any.
+    pub weight: Option<Weight>,
+    /// Memory of the condensation at its worst \[bytes\].
+    pub bytes: usize,
+    /// The bodies, where they are kept.
+    pub bodies: Option<Bodies>,
+}
+
+/// Change of normal traction, or of shear traction across slip, over that along slip below which there is none: rounding of the
+/// condensation, far above 1e-16 and far below any effect of geometry.
+const UNCOUPLED: f64 = 1e-9;
+
+/// What acts on the bodies.
+#[derive(Clone, Debug)]
+pub struct Loads {
+    /// Motions and loads.
+    pub constraints: Constraints,
+    /// Sets that a spring moves as one.
+    pub springs: Vec<Spring>,
+    /// Nodal forces of the weight of the bodies, which is there before the start.
+    pub weight: Vec<(usize, f64)>,
+    /// When the run ends \[s\].
+    pub end: f64,
+}
+
+/// How to condense.
+#[derive(Clone, Copy, Debug)]
+pub struct Conditions {
+    /// Components of displacement.
+    pub components: usize,
+    /// Directions along which points slide freely.
+    pub tangents: usize,
+    /// Memory it may take \[bytes\].
+    pub memory: usize,
+    /// Whether to keep the bodies, for their displacements.
+    pub keep: bool,
+}
+
+/// Condenses bodies of this stiffness onto the points that slide freely. Tractions are nodal forces over tributary areas: the interface mass is lumped.
+///
+/// # Errors
+/// A [`Refusal`] where the bodies need more than `memory` bytes, are not held, or a support does not agree with the fault.
+pub fn condense<const D: usize>(
+    bodies: Stiffness,
+    loads: &Loads,
+    points: &[Point<D>],
+    conditions: Conditions,
+) -> Result<Surroundings, Refusal> {
+    match conditions.components {
+        1 => with_components::<D, 1>(bodies, loads, points, conditions, |_| [[1.0]]),
+        2 => with_components::<D, 2>(bodies, loads, points, conditions, |p| {
+            let n = &p.normal;
+            [[-n[1], n[0]], [n[0], n[1]]]
+        }),
+        _ => with_components::<D, 3>(bodies, loads, points, conditions, |p| {
+            let (s, n) = (in_space(&p.rake), in_space(&p.normal));
+            [s, across(&n, &s), n]
+        }),
+    }
+}
+
+/// Components x, y, z.
+fn in_space<const D: usize>(v: &[f64; D]) -> [f64; 3] {
+    std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0))
+}
+
+/// Components of a jump that are retained, from the first of a point on: slip along the tangents, and the opening, which is the last.
+fn kept<const C: usize>(tangents: usize) -> impl Iterator<Item = usize> {
+    (0..C).filter(move |&c| c < tangents || c == C - 1)
+}
+
+/// Components that are held at zero: in space slip across the rake, where it may not turn.
+fn held<const C: usize>(tangents: usize) -> impl Iterator<Item = usize> {
+    tangents..C.saturating_sub(1).max(tangents)
+}
+
+fn with_components<const D: usize, const C: usize>(
+    bodies: Stiffness,
+    loads: &Loads,
+    points: &[Point<D>],
+    Conditions { tangents, memory, keep, .. }: Conditions,
+    frame: impl Fn(&Place<D>) -> [[f64; C]; C],
+) -> Result<Surroundings, Refusal> {
+    let (constraints, end) = (&loads.constraints, loads.end);
+    let machine = Machine::new(&loads.springs);
+    let drawn = |node: usize| (C * node..C * (node + 1)).any(|d| machine.draws(d));
+    let both = |p: &Point<D>| drawn(p.place.minus) && drawn(p.place.plus);
+    if let Some(point) = points.iter().position(both) {
+        return Err(Refusal::Drawn { point });
+    }
+    let jump = |p: &Point<D>| held::jump(p, frame(&p.place), &constraints.fixed, drawn);
+    let list: Vec<Jump<C>> = points.iter().map(jump).collect();
+    // The opening is the last component; where it may change normal tractions it is retained, at zero.
+    let slip: Vec<usize> = list.iter().map(|j| j.plus).collect();
+    let jumps = Jumps::new(list);
+    let across = jumps.stiffness(&bodies);
+    drop(bodies);
+    let body = machine.stiffness(across);
+    let oblique = |e: ObliqueConstraint| Refusal::Oblique { dof: e.plus };
+    let free: Vec<usize> = (0..points.len()).filter(|&k| points[k].creep.is_none()).collect();
+    let mut retained: Vec<usize> = free
+        .iter()
+        .flat_map(|&k| kept::<C>(tangents).map(move |c| (k, c)))
+        .map(|(k, c)| slip[k] + c)
+        .collect();
+    retained.sort_unstable();
+    let mut fixed = jumps.fixed(&constraints.fixed).map_err(oblique)?;
+    let is_fixed = |dof: usize| fixed.binary_search(&dof).is_ok();
+    let along_slip = |&k: &usize| (0..tangents).find(|c| is_fixed(slip[k] + c)).map(|c| (k, c));
+    if let Some((k, c)) = free.iter().find_map(along_slip) {
+        let component = held::most(&frame(&points[k].place)[c]);
+        return Err(Refusal::AlongSlip { point: k, component });
+    }
+    let mut channels = Vec::new();
+    for channel in &constraints.channels {
+        channels.push(machine.channel(&jumps.channel(channel, &constraints.fixed).map_err(oblique)?)?);
+    }
+    let creeping = held::creep((points, &slip), &fixed, &channels, (tangents, end), &frame)?;
+    let supported: Vec<bool> = free.iter().map(|&k| C > 1 && is_fixed(slip[k] + C - 1)).collect();
+    for (point, &dof) in points.iter().zip(&slip) {
+        if point.creep.is_some() {
+            fixed.extend(dof..dof + C);
+        } else {
+            fixed.extend(held::<C>(tangents).map(|c| dof + c));
+        }
+    }
+    fixed.extend(machine.tied());
+    fixed.sort_unstable();
+    fixed.dedup();
+    let creep = (!creeping.is_empty()).then_some(channels.len());
+    if creep.is_some() {
+        let amplitude = Table::new(vec![0.0, end], vec![0.0, end]);
+        channels.push(Channel { prescribed: creeping, forces: Vec::new(), amplitude });
+    }
+    channels.extend(machine.pulls(end));
+    let weighs = C > 1 && !loads.weight.is_empty();
+    if weighs {
+        channels.push(machine.channel(&jumps.channel(&weight(loads), &constraints.fixed).map_err(oblique)?)?);
+    }
+    let rows: Vec<usize> = free.iter().map(|&k| retained.partition_point(|&d| d < slip[k])).collect();
+    let keeps = |k: usize, supported: bool| supported || !points[k].normal_changes;
+    let bearing = |(&k, &s): (&usize, &bool)| Bearing {
+        area: points[k].place.area,
+        keeps: keeps(k, s),
+        opens: points[k].opens && !keeps(k, s),
+    };
+    let bearings: Vec<Bearing> = free.iter().zip(&supported).map(bearing).collect();
+    let opens = bearings.iter().filter(|b| b.opens).count();
+    let operator = operator_bytes::<C>(tangents, free.len()) + Opening::memory(opens, free.len(), tangents);
+    let (left, bytes) = Left::of(body, (&retained, &fixed), channels, (memory, operator), keep)
+        .map_err(|e| refused(&jumps, &e))?;
+    let found = tractions::<C>(&left, tangents, &rows, &bearings, (creep, weighs));
+    let ties = machine.ties().clone();
+    let bodies = left.kept().map(|condensed| Bodies::new(condensed, jumps, ties, rows));
+    Ok(Surroundings { bytes, bodies, ..found })
+}
+
+/// The weight of the bodies. What it does to them was there before the start, so that its amplitude is zero in the course of the run.
+fn weight(loads: &Loads) -> Channel {
+    Channel { prescribed: Vec::new(), forces: loads.weight.clone(), amplitude: Table::constant(0.0) }
+}
+
+/// What elimination leaves of the bodies.
+enum Left {
+    /// Condensed forces only.
+    Alone(Remainder),
+    /// With the factor, for displacements.
+    Kept(Box<Condensed>),
+}
+
+impl Left {
+    /// Of a body, onto `retained` degrees of freedom where others are `fixed`, and the memory it takes \[bytes\]. What is left stands
+    /// beside the operator made from it for a while.
+    fn of(
+        body: Stiffness,
+        (retained, fixed): (&[usize], &[usize]),
+        channels: Vec<Channel>,
+        (memory, operator): (usize, usize),
+        keep: bool,
+    ) -> Result<(Self, usize), FemError> {
+        if !keep {
+            let rows = retained.len() + channels.len();
+            let analysis = Loaded::analyse(body, retained, fixed, channels)?;
+            let eliminating = analysis.bytes(analysis.threads(memory)?);
+            let bytes = eliminating.max(rows.pow(2) * size_of::<f64>() + operator);
+            admit(bytes, memory, rows)?;
+            return Ok((Self::Alone(analysis.eliminate(memory)?), bytes));
+        }
+        let analysis = Condensation::analyse(&body, retained, fixed)?;
+        let bytes = analysis.bytes() + operator;
+        admit(bytes, memory, retained.len())?;
+        let system: Vec<usize> = (0..retained.len()).collect();
+        let mut condensed = Condensed::new("bodies".into(), analysis.factor(memory)?, &system);
+        condensed.set_channels(channels);
+        Ok((Self::Kept(Box::new(condensed)), bytes))
+    }
+
+    /// Forces on the retained degrees of freedom by displacement k, which are those on k: symmetric.
+    fn row(&self, k: usize) -> &[f64] {
+        match self {
+            Self::Alone(remainder) => remainder.row(k),
+            Self::Kept(condensed) => {
+                let reduction = condensed.reduction();
+                let width = reduction.retained().len();
+                &reduction.schur()[k * width..][..width]
+            }
+        }
+    }
+
+    /// Amplitude of each load, and the forces it causes.
+    fn channels(&self) -> Vec<(&Table, &[f64])> {
+        match self {
+            Self::Alone(remainder) => remainder.channels().collect(),
+            Self::Kept(condensed) => condensed.channels().collect(),
+        }
+    }
+
+    /// The bodies, where they are kept.
+    fn kept(self) -> Option<Condensed> {
+        match self {
+            Self::Alone(_) => None,
+            Self::Kept(condensed) => Some(*condensed),
+        }
+    }
+}
+
+/// Memory of the dense operator \[bytes\]: of each direction of slip the tractions along all of them, and its normal tractions.
+fn operator_bytes<const C: usize>(tangents: usize, points: usize) -> usize {
+    let normal = usize::from(C > 1);
+    tangents * (tangents + normal) * points.pow(2) * size_of::<f64>()
+}
+
+/// Refuses what needs more than `allowed` bytes.
+fn admit(needed: usize, allowed: usize, equations: usize) -> Result<(), FemError> {
+    if needed <= allowed { Ok(()) } else { Err(DirectError::Memory { needed, allowed, equations }.into()) }
+}
+
+/// What forces of a point act on.
+#[derive(Clone, Copy, Debug)]
+struct Bearing {
+    /// Tributary area \[m²; m per metre of thickness\].
+    area: f64,
+    /// Whether its normal traction stays: supports that hold both sides against the opening take what changes of its force, or the scene
+    /// says so.
+    keeps: bool,
+    /// Whether it opens where nothing presses it.
+    opens: bool,
+}
+
+impl Bearing {
+    /// Traction per force: of slip, which the bodies drive with the opposite of what holds it, and of the opening.
+    fn per_force(&self, opening: bool) -> f64 {
+        match (opening, self.keeps) {
+            (false, _) => -1.0 / self.area,
+            (true, true) => 0.0,
+            (true, false) => 1.0 / self.area,
+        }
+    }
+}
+
+/// What an error of the condensation says of the bodies.
+fn refused<const C: usize>(jumps: &Jumps<C>, error: &FemError) -> Refusal {
+    if let FemError::Direct(DirectError::Memory { needed, allowed, .. }) = *error {
+        return Refusal::Memory { needed, allowed, points: jumps.list().len() };
+    }
+    let Some(pivot) = error.pivot() else { return Refusal::Other(error.to_string()) };
+    // A jump stands at the degrees of freedom of one of its nodes.
+    let (dof, node) = (pivot.equation, pivot.equation / C);
+    Refusal::Loose { dof, jumps: jumps.list().iter().any(|j| j.plus / C == node) }
+}
+
+/// What the condensation onto so many points of displacements with `components`, some of which may open, takes at least \[bytes\]: what is left of the bodies, and
+/// the operator that is made of it.
+#[must_use]
+pub fn least_bytes(components: usize, tangents: usize, points: usize, opening: usize) -> usize {
+    let rows = points * (tangents + usize::from(components > 1));
+    let operator = match components {
+        1 => operator_bytes::<1>(tangents, points),
+        _ => operator_bytes::<2>(tangents, points),
+    };
+    rows.pow(2) * size_of::<f64>() + operator + Opening::memory(opening, points, tangents)
+}
+
+/// Tractions from the condensed forces; `rows` are those of the slip of each point, in motion of more than one component its opening stands next to it. A force
+/// is what must act on a jump to hold it there: the bodies drive slip with its opposite, and where it holds the sides apart they
+/// press on each other, in compression. `creep` is the number of the channel of
+/// creep; where the bodies weigh, their weight is the last one.
+fn tractions<const C: usize>(
+    left: &Left,
+    tangents: usize,
+    rows: &[usize],
+    bearings: &[Bearing],
+    (creep, weighs): (Option<usize>, bool),
+) -> Surroundings {
+    let n = rows.len();
+    // Traction of a component, the opening after the tangents, that slip of a component causes.
+    let part = |component: usize, slip: usize| -> Vec<f64> {
+        let mut matrix = Vec::with_capacity(n * n);
+        for (&row, bearing) in rows.iter().zip(bearings) {
+            let (per_area, forces) = (bearing.per_force(component == tangents), left.row(row + component));
+            matrix.extend(rows.iter().map(|&c| per_area * forces[c + slip]));
+        }
+        matrix
+    };
+    let largest = |m: &[f64]| m.iter().fold(0.0, |l: f64, v| l.max(v.abs()));
+    let over_area = |forces: &[f64], component: usize| -> Vec<f64> {
+        let per_force = |b: &Bearing| b.per_force(component == tangents);
+        rows.iter().zip(bearings).map(|(&r, b)| per_force(b) * forces[r + component]).collect()
+    };
+    let shear_of = |forces: &[f64]| (0..tangents).flat_map(|c| over_area(forces, c)).collect::<Vec<f64>>();
+    // Loads may change normal tractions where slip does not.
+    let mut channels = left.channels();
+    let weight = channels.pop_if(|_| weighs).map(|(_, forces)| Weight {
+        shear: shear_of(forces),
+        normal: rows.iter().zip(bearings).map(|(&r, b)| forces[r + tangents] / b.area).collect(),
+    });
+    let creep = creep.map(|c| shear_of(channels[c].1));
+    let shear_load = channels.iter().map(|(_, f)| largest(&shear_of(f))).fold(0.0, f64::max);
+    let loaded =
+        C > 1 && channels.iter().any(|(_, f)| largest(&over_area(f, tangents)) > UNCOUPLED * shear_load);
+    let along = |c: usize| {
+        let shear = part(c, c);
+        let normal = if C == 1 { None } else { Some(part(tangents, c)) };
+        let normal = normal.filter(|m| loaded || largest(m) > UNCOUPLED * largest(&shear));
+        Dense::new(n, shear, normal)
+    };
+    let operator = if tangents == 1 {
+        Tractions::One(along(0))
+    } else {
+        let along = Box::new([along(0), along(1)]);
+        let least = UNCOUPLED * largest(along[0].matrix());
+        let across = [part(0, 1), part(1, 0)];
+        let loads = across.iter().any(|m| largest(m) > least);
+        Tractions::Two {
+            along,
+            across: loads.then(|| Box::new(across.map(|shear| Dense::new(n, shear, None)))),
+        }
+    };
+    let opens: Vec<usize> = (0..n).filter(|&p| C > 1 && bearings[p].opens).collect();
+    let forces = |&p: &usize| left.row(rows[p] + tangents);
+    let columns = [
+        opens.iter().map(|p| over_area(forces(p), tangents)).collect(),
+        opens.iter().map(|p| shear_of(forces(p))).collect(),
+    ];
+    let opening = opening(opens, bearings, columns);
+    let mut loading = Loading::new(tangents);
+    for (amplitude, forces) in channels {
+        let change = if C == 1 { Vec::new() } else { over_area(forces, tangents) };
+        loading.add(Table::clone(amplitude), shear_of(forces), change);
+    }
+    Surroundings { operator, opening, loading, creep, weight, bytes: 0, bodies: None }
+}
+
+/// What openings of these points do, where there are any, from the normal and the shear tractions of all points that each of them causes.
+fn opening(points: Vec<usize>, bearings: &[Bearing], [normal, shear]: [Vec<Vec<f64>>; 2]) -> Option<Opening> {
+    if points.is_empty() {
+        return None;
+    }
+    let largest = |columns: &[Vec<f64>]| columns.iter().flatten().fold(0.0_f64, |l, v| l.max(v.abs()));
+    let shears = largest(&shear) > UNCOUPLED * largest(&normal);
+    let areas = points.iter().map(|&p| bearings[p].area).collect();
+    Some(Opening::new(points, areas, normal, shears.then_some(shear)))
+}

@@ -1,0 +1,90 @@
+//! Conditions that reach the sides of a fault: which node of a point gives way to its jump, and what cannot be held.
+
+use super::place::Place;
+use super::point::Point;
+use super::refusal::Refusal;
+use asperity_fem::dof::Channel;
+use asperity_fem::jump::Jump;
+
+/// Components of a node that are prescribed; `fixed` is sorted.
+fn held<const C: usize>(node: usize, fixed: &[usize]) -> [bool; C] {
+    std::array::from_fn(|c| fixed.binary_search(&(C * node + c)).is_ok())
+}
+
+/// The jump of a point, of which that node gives way that has fewer conditions: what holds one side alone leaves the jump free. A node
+/// that a spring draws, of which `drawn` tells, does not give way.
+pub(super) fn jump<const D: usize, const C: usize>(
+    point: &Point<D>,
+    frame: [[f64; C]; C],
+    fixed: &[usize],
+    drawn: impl Fn(usize) -> bool,
+) -> Jump<C> {
+    let [minus, plus] = [point.place.minus, point.place.plus];
+    let (on_minus, on_plus): ([bool; C], [bool; C]) = (held(minus, fixed), held(plus, fixed));
+    let within = |a: &[bool; C], b: &[bool; C]| a.iter().zip(b).all(|(a, b)| !a || *b);
+    let swap = drawn(plus) || (!drawn(minus) && !within(&on_plus, &on_minus) && within(&on_minus, &on_plus));
+    if swap {
+        // What plus does relative to minus is the opposite of what minus does relative to plus.
+        return Jump { minus: C * plus, plus: C * minus, frame: frame.map(|axis| axis.map(|c| -c)) };
+    }
+    Jump { minus: C * minus, plus: C * plus, frame }
+}
+
+/// The component of displacement that an axis has most of.
+pub(super) fn most<const C: usize>(axis: &[f64; C]) -> usize {
+    let larger = |&a: &usize, &b: &usize| axis[a].abs().total_cmp(&axis[b].abs());
+    (0..C).max_by(larger).unwrap_or(0)
+}
+
+/// Share of the motions up to which two of them are the same: rounding of rates and durations.
+const AGREES: f64 = 1e-9;
+
+/// Rates of creep \[m/s\] by degree of freedom until `end`, of jumps along so many tangents, where conditions, which fix the jumps of `fixed`, do not prescribe them already.
+///
+/// # Errors
+/// A [`Refusal`] where conditions prescribe another motion of both sides of a point that creeps, or move its sides apart.
+pub(super) fn creep<const D: usize, const C: usize>(
+    (points, first): (&[Point<D>], &[usize]),
+    fixed: &[usize],
+    channels: &[Channel],
+    (tangents, end): (usize, f64),
+    frame: &impl Fn(&Place<D>) -> [[f64; C]; C],
+) -> Result<Vec<(usize, f64)>, Refusal> {
+    let value = |channel: &Channel, dof: usize| {
+        channel.prescribed.iter().find(|(d, _)| *d == dof).map_or(0.0, |(_, value)| *value)
+    };
+    let moved = |dof: usize, time: f64| -> f64 {
+        channels.iter().map(|c| value(c, dof) * c.amplitude.value(time)).sum()
+    };
+    let mut times: Vec<f64> = channels.iter().flat_map(|c| c.amplitude.times().iter().copied()).collect();
+    times.retain(|t| *t < end);
+    times.push(end);
+    let farthest = |c: &Channel| {
+        c.prescribed.iter().fold(0.0_f64, |m, (_, v)| m.max((v * c.amplitude.value(end)).abs()))
+    };
+    let travel = channels.iter().map(farthest).fold(0.0, f64::max);
+    let mut rates = Vec::new();
+    for (k, (point, &dof)) in points.iter().zip(first).enumerate() {
+        let Some(creep) = point.creep else { continue };
+        // What does not slide does not creep, and nothing opens.
+        let along = creep.into_iter().take(tangents).chain(std::iter::repeat(0.0));
+        for (c, rate) in along.take(C).enumerate() {
+            if fixed.binary_search(&(dof + c)).is_err() {
+                rates.extend((rate != 0.0).then_some((dof + c, rate)));
+                continue;
+            }
+            let scale = travel.max((rate * end).abs());
+            let differs = |t: &&f64| (moved(dof + c, **t) - rate * **t).abs() > AGREES * scale;
+            if let Some(&t) = times.iter().find(differs) {
+                return Err(Refusal::Moved {
+                    point: k,
+                    component: most(&frame(&point.place)[c]),
+                    rate: (c < tangents).then_some(rate),
+                    way: moved(dof + c, t),
+                    time: t,
+                });
+            }
+        }
+    }
+    Ok(rates)
+}

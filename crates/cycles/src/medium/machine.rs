@@ -1,0 +1,82 @@
+//! The machine that loads a laboratory specimen: sides that move as one, drawn by springs of finite stiffness.
+//!
+//! The first degree of freedom of a side stands for the motion of all, `u_i = q + d_i` with `d_i` held at zero, which is a jump
+//! from one degree of freedom to another; the spring adds its stiffness k there and pulls with k times the way of its other end.
+
+use asperity_fem::condense::Stiffness;
+use asperity_fem::dof::Channel;
+use asperity_fem::jump::{Jump, Jumps};
+use asperity_fem::table::Table;
+
+/// Degrees of freedom that move as one, drawn by a spring.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spring {
+    /// The degrees of freedom.
+    pub dofs: Vec<usize>,
+    /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
+    pub stiffness: f64,
+    /// Rate of its other end \[m/s\].
+    pub rate: f64,
+}
+
+/// See the module.
+#[derive(Debug)]
+pub(super) struct Machine<'a> {
+    springs: &'a [Spring],
+    ties: Jumps<1>,
+}
+
+impl<'a> Machine<'a> {
+    pub fn new(springs: &'a [Spring]) -> Self {
+        let ties = springs.iter().flat_map(|spring| {
+            let rest = spring.dofs.get(1..).unwrap_or_default();
+            rest.iter().map(|&dof| Jump { minus: spring.dofs[0], plus: dof, frame: [[1.0]] })
+        });
+        Self { springs, ties: Jumps::new(ties.collect()) }
+    }
+
+    /// Whether a spring moves this degree of freedom.
+    pub fn draws(&self, dof: usize) -> bool {
+        self.springs.iter().any(|s| s.dofs.contains(&dof))
+    }
+
+    /// Stiffness with the sides moving as one, and that of the springs.
+    pub fn stiffness(&self, body: Stiffness) -> Stiffness {
+        let mut all = if self.ties.list().is_empty() { body } else { self.ties.stiffness(&body) };
+        for spring in self.springs {
+            if let Some(&first) = spring.dofs.first() {
+                all.pattern.dofs.push(first);
+                all.pattern.starts.push(all.pattern.dofs.len());
+                all.values.push(spring.stiffness);
+            }
+        }
+        all
+    }
+
+    /// The sides that move as one.
+    pub fn ties(&self) -> &Jumps<1> {
+        &self.ties
+    }
+
+    /// Degrees of freedom that do not move beside the first of their side.
+    pub fn tied(&self) -> impl Iterator<Item = usize> {
+        self.ties.list().iter().map(|tie| tie.plus)
+    }
+
+    /// A channel of forces and displacements with the sides moving as one.
+    ///
+    /// # Errors
+    /// A message where a displacement on a side that is drawn is prescribed.
+    pub fn channel(&self, channel: &Channel) -> Result<Channel, String> {
+        self.ties.channel(channel, &[]).map_err(|e| e.to_string())
+    }
+
+    /// What the springs pull with until `end` \[s\].
+    pub fn pulls(&self, end: f64) -> impl Iterator<Item = Channel> {
+        self.springs.iter().filter_map(move |spring| {
+            let amplitude = Table::new(vec![0.0, end], vec![0.0, spring.rate * end]);
+            let forces = vec![(*spring.dofs.first()?, spring.stiffness)];
+            Some(Channel { prescribed: Vec::new(), forces, amplitude })
+        })
+    }
+}

@@ -1,0 +1,18 @@
+//! What surrounds sliding points: bodies condensed onto the points of faults, and springs between sliders.
+
+mod bodies;
+mod condensed;
+mod held;
+mod machine;
+mod place;
+mod point;
+mod refusal;
+mod springs;
+
+pub use bodies::Bodies;
+pub use condensed::{Conditions, Loads, Surroundings, Tractions, Weight, condense, least_bytes};
+pub use machine::Spring;
+pub use place::{Place, across, unit};
+pub use point::Point;
+pub use refusal::Refusal;
+pub(crate) use springs::Slips;

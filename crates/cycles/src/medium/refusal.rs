@@ -1,0 +1,75 @@
+//! Why bodies cannot be condensed onto faults.
+
+use asperity_fem::FemError;
+
+/// Why bodies cannot be condensed onto faults. Points are numbers among those that were given.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Refusal {
+    /// A spring draws both sides of a point as one.
+    #[error("a spring draws both sides of point {point} as one")]
+    Drawn {
+        /// The point.
+        point: usize,
+    },
+    /// The frame of a jump cannot express a condition.
+    #[error("a condition on degree of freedom {dof} does not agree with a fault")]
+    Oblique {
+        /// Its degree of freedom.
+        dof: usize,
+    },
+    /// Conditions prescribe the motion of both sides of a point along its slip.
+    #[error("conditions prescribe the motion of both sides of point {point} along its slip")]
+    AlongSlip {
+        /// The point.
+        point: usize,
+        /// The component of displacement that is most along it.
+        component: usize,
+    },
+    /// Conditions move the sides of a point that creeps otherwise than its creep, or apart.
+    #[error("conditions move the sides of point {point} by {way:e} m in {time:e} s, where it creeps")]
+    Moved {
+        /// The point.
+        point: usize,
+        /// The component of displacement that is most along that axis.
+        component: usize,
+        /// Rate of creep along it \[m/s\]; none across the fault.
+        rate: Option<f64>,
+        /// By how much \[m\].
+        way: f64,
+        /// In what time \[s\].
+        time: f64,
+    },
+    /// The condensation needs more memory than is allowed.
+    #[error("the condensation needs {needed} bytes, and {allowed} are allowed")]
+    Memory {
+        /// What it needs \[bytes\].
+        needed: usize,
+        /// What is allowed \[bytes\].
+        allowed: usize,
+        /// Points of the faults.
+        points: usize,
+    },
+    /// A body moves without resistance.
+    #[error("nothing holds degree of freedom {dof}")]
+    Loose {
+        /// Where that was found.
+        dof: usize,
+        /// Whether it is a component of a jump.
+        jumps: bool,
+    },
+    /// Something else.
+    #[error("{0}")]
+    Other(String),
+}
+
+impl From<String> for Refusal {
+    fn from(message: String) -> Self {
+        Self::Other(message)
+    }
+}
+
+impl From<FemError> for Refusal {
+    fn from(error: FemError) -> Self {
+        Self::Other(error.to_string())
+    }
+}

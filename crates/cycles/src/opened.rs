@@ -1,0 +1,70 @@
+//! What came of openings in the course of a run.
+
+use super::problem::Problem;
+use super::run::Moment;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// What came of openings until now, point by point.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Opened {
+    /// Time open \[s\].
+    time: Vec<f64>,
+    /// Largest opening \[m\].
+    largest: Vec<f64>,
+    /// When it was \[s\].
+    when: Vec<f64>,
+    /// Whole time \[s\].
+    duration: f64,
+}
+
+impl Opened {
+    /// Takes note of a step, over which openings are taken to be linear.
+    pub(crate) fn step(&mut self, problem: &Problem, moment: &Moment<'_>) {
+        let Some(opening) = &problem.fault.opening else { return };
+        for list in [&mut self.time, &mut self.largest, &mut self.when] {
+            list.resize(problem.areas.len(), 0.0);
+        }
+        self.duration += moment.dt;
+        let before = moment.step.as_ref().map_or(moment.pressed, |step| step.start_pressed);
+        for &p in opening.points() {
+            let ends = [before.opening[p], moment.pressed.opening[p]];
+            let open = ends.iter().filter(|o| **o > 0.0).count();
+            self.time[p] += 0.5 * open as f64 * moment.dt;
+            if ends[1] > self.largest[p] {
+                (self.largest[p], self.when[p]) = (ends[1], moment.at.seconds());
+            }
+        }
+    }
+
+    /// What came of these points.
+    #[must_use]
+    pub fn of(&self, points: Range<usize>) -> Widest {
+        let of = |list: &[f64], p: usize| list.get(p).copied().unwrap_or(0.0);
+        let points = || points.clone();
+        let point = points().max_by(|&a, &b| of(&self.largest, a).total_cmp(&of(&self.largest, b)));
+        let longest = points().map(|p| of(&self.time, p)).fold(0.0, f64::max);
+        Widest {
+            points: points().filter(|&p| of(&self.largest, p) > 0.0).count(),
+            point,
+            largest: point.map_or(0.0, |p| of(&self.largest, p)),
+            when: point.map_or(0.0, |p| of(&self.when, p)),
+            time_share: if self.duration > 0.0 { longest / self.duration } else { 0.0 },
+        }
+    }
+}
+
+/// How far some points opened.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Widest {
+    /// Points that were open at any time.
+    pub points: usize,
+    /// The point that opened farthest.
+    pub point: Option<usize>,
+    /// How far that was \[m\].
+    pub largest: f64,
+    /// When it was \[s\].
+    pub when: f64,
+    /// Largest share of the time that a point was open.
+    pub time_share: f64,
+}

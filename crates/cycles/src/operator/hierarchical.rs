@@ -1,0 +1,574 @@
+//! Tractions that slip causes, compressed: blocks between points that lie apart have low rank.
+//!
+//! Forces on jumps, whose matrix is symmetric in shear, are what is compressed; tractions are forces over tributary areas. The blocks
+//! stand one after the other in the order in which a product reads them, once; a symmetric matrix has those above the diagonal only.
+
+use super::cluster::{Cluster, Tree};
+use super::low_rank::{GROUP, LowRank, low_rank};
+use super::{Operator, columns};
+use nalgebra::DMatrix;
+use pulp::{Arch, Simd, WithSimd};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
+
+/// Columns of a block.
+#[derive(Clone, Debug)]
+struct Block {
+    rows: Range<usize>,
+    columns: Range<usize>,
+    /// Columns of its two factors; none where it is dense.
+    rank: Option<usize>,
+    /// Whether its transpose acts as well.
+    mirrored: bool,
+    values: Range<usize>,
+}
+
+/// Blocks for one task, with a place for its sums.
+#[derive(Debug)]
+struct Task {
+    blocks: Range<usize>,
+    sums: Mutex<Vec<f64>>,
+}
+
+/// A compressed matrix in the order of a tree.
+#[derive(Debug)]
+struct Compressed {
+    size: usize,
+    blocks: Vec<Block>,
+    values: Vec<f64>,
+    tasks: Vec<Task>,
+}
+
+/// Values of a task: fixed, so that sums do not depend on the number of threads; above, a product is worth the start of tasks.
+const TASK: usize = 100_000;
+
+/// Largest rank tried: blocks between points that lie apart need less than half of it, and the search goes with its square.
+const MOST_RANK: usize = 64;
+/// The same for points that touch: along a line that takes 20; on a surface it would be hundreds, and their parts do better.
+const MOST_RANK_NEAR: usize = 24;
+/// Difference of two entries that symmetry makes the same over the largest: rounding of the condensation, far above 1e-16.
+const SYMMETRIC: f64 = 1e-9;
+
+/// A block before it stands in the order of products.
+struct Part {
+    rows: Range<usize>,
+    columns: Range<usize>,
+    content: Content,
+}
+
+enum Content {
+    /// Row by row.
+    Dense(Vec<f64>),
+    Low(LowRank),
+}
+
+impl Part {
+    fn values(&self) -> usize {
+        match &self.content {
+            Content::Dense(values) => values.len(),
+            Content::Low(low) => low.left.ncols() * (self.rows.len() + self.columns.len()),
+        }
+    }
+}
+
+/// What is compressed.
+struct Source<'a> {
+    tree: &'a Tree,
+    /// Row by row, in the order of the points.
+    matrix: &'a [f64],
+    /// Factor of each row.
+    rows: &'a [f64],
+    /// Whether blocks below the diagonal follow from those above.
+    symmetric: bool,
+    /// Error of an entry, in the mean of a block.
+    error: f64,
+}
+
+impl Source<'_> {
+    fn entry(&self, i: usize, j: usize) -> f64 {
+        let (p, q) = (self.tree.order[i], self.tree.order[j]);
+        let n = self.rows.len();
+        if self.symmetric {
+            // Rounding makes the two differ.
+            0.5 * (self.matrix[p * n + q] * self.rows[p] + self.matrix[q * n + p] * self.rows[q])
+        } else {
+            self.matrix[p * n + q] * self.rows[p]
+        }
+    }
+
+    fn dense(&self, rows: &Range<usize>, columns: &Range<usize>) -> Part {
+        let values = rows.clone().flat_map(|i| columns.clone().map(move |j| (i, j)));
+        let content = Content::Dense(values.map(|(i, j)| self.entry(i, j)).collect());
+        Part { rows: rows.clone(), columns: columns.clone(), content }
+    }
+
+    /// The blocks of two clusters, whichever take fewer values: one of low rank, or those of their parts.
+    fn between(&self, a: &Cluster, b: &Cluster) -> Vec<Part> {
+        let (rows, columns) = (&a.range, &b.range);
+        let (m, n) = (rows.len(), columns.len());
+        let block = DMatrix::from_fn(m, n, |i, j| self.entry(rows.start + i, columns.start + j));
+        let tried = if a.far_from(b) { MOST_RANK } else { MOST_RANK_NEAR };
+        let most = (m * n / (m + n)).min(tried) / GROUP * GROUP;
+        let low = low_rank(block, self.error * ((m * n) as f64).sqrt(), most);
+        let whole = |low: LowRank| {
+            vec![Part { rows: rows.clone(), columns: columns.clone(), content: Content::Low(low) }]
+        };
+        match low {
+            Some(low) if a.far_from(b) => whole(low),
+            low => {
+                let clusters = &self.tree.clusters;
+                let parts = match (a.parts, b.parts) {
+                    (Some(p), Some(q)) => {
+                        let pairs = [(p[0], q[0]), (p[0], q[1]), (p[1], q[0]), (p[1], q[1])];
+                        pairs.iter().flat_map(|&(i, j)| self.between(&clusters[i], &clusters[j])).collect()
+                    }
+                    (Some(p), None) => p.iter().flat_map(|&i| self.between(&clusters[i], b)).collect(),
+                    (None, Some(q)) => q.iter().flat_map(|&j| self.between(a, &clusters[j])).collect(),
+                    (None, None) => vec![self.dense(rows, columns)],
+                };
+                let values: usize = parts.iter().map(Part::values).sum();
+                match low {
+                    Some(low) if low.left.ncols() * (m + n) <= values => whole(low),
+                    _ => parts,
+                }
+            }
+        }
+    }
+
+    /// The blocks of a cluster with itself.
+    fn within(&self, a: &Cluster) -> Vec<Part> {
+        let Some([p, q]) = a.parts else { return vec![self.dense(&a.range, &a.range)] };
+        let (p, q) = (&self.tree.clusters[p], &self.tree.clusters[q]);
+        let between = || {
+            let mut parts = self.between(p, q);
+            if !self.symmetric {
+                parts.extend(self.between(q, p));
+            }
+            parts
+        };
+        let (mut first, (second, between)) =
+            rayon::join(|| self.within(p), || rayon::join(|| self.within(q), between));
+        first.extend(second);
+        first.extend(between);
+        first
+    }
+}
+
+impl Compressed {
+    fn new(source: &Source<'_>) -> Self {
+        let parts = source.tree.clusters.first().map_or_else(Vec::new, |root| source.within(root));
+        let mut all = Self {
+            size: source.rows.len(),
+            blocks: Vec::with_capacity(parts.len()),
+            values: Vec::with_capacity(parts.iter().map(Part::values).sum()),
+            tasks: Vec::new(),
+        };
+        for Part { rows, columns, content } in parts {
+            let first = all.values.len();
+            let rank = match content {
+                Content::Dense(values) => {
+                    all.values.extend(values);
+                    None
+                }
+                Content::Low(low) => {
+                    // Group by group, the columns on the left and then those on the right.
+                    for k in (0..low.left.ncols()).step_by(GROUP) {
+                        for side in [&low.left, &low.right] {
+                            let columns = (k..k + GROUP).flat_map(|c| (0..side.nrows()).map(move |i| (i, c)));
+                            all.values.extend(columns.map(|at| side[at]));
+                        }
+                    }
+                    Some(low.left.ncols())
+                }
+            };
+            let mirrored = source.symmetric && rows != columns;
+            all.blocks.push(Block { rows, columns, rank, mirrored, values: first..all.values.len() });
+        }
+        all.part();
+        all
+    }
+
+    /// Parts the blocks into tasks.
+    fn part(&mut self) {
+        let mut first = 0;
+        for k in 0..self.blocks.len() {
+            let values = self.blocks[k].values.end - self.blocks[first].values.start;
+            if values >= TASK || k + 1 == self.blocks.len() {
+                self.tasks.push(Task { blocks: first..k + 1, sums: Mutex::new(vec![0.0; self.size]) });
+                first = k + 1;
+            }
+        }
+    }
+
+    /// y = A x.
+    fn product(&self, arch: Arch, x: &[f64], y: &mut [f64]) {
+        let work = |task: &Task| {
+            let mut sums = task.sums.lock().unwrap_or_else(PoisonError::into_inner);
+            sums.fill(0.0);
+            arch.dispatch(Product {
+                blocks: &self.blocks[task.blocks.clone()],
+                values: &self.values,
+                x,
+                sums: &mut sums,
+            });
+        };
+        match self.tasks.as_slice() {
+            [one] => work(one),
+            many => many.par_iter().for_each(work),
+        }
+        y.fill(0.0);
+        for task in &self.tasks {
+            let sums = task.sums.lock().unwrap_or_else(PoisonError::into_inner);
+            y.iter_mut().zip(sums.iter()).for_each(|(y, s)| *y += s);
+        }
+    }
+}
+
+/// Products of blocks with a vector: not a closure, which pulp calls through a function of its own that is compiled without the
+/// vector units asked for.
+struct Product<'a> {
+    blocks: &'a [Block],
+    values: &'a [f64],
+    x: &'a [f64],
+    sums: &'a mut [f64],
+}
+
+impl WithSimd for Product<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for block in self.blocks {
+            block.add(&self.values[block.values.clone()], self.x, self.sums);
+        }
+    }
+}
+
+impl Block {
+    /// Adds its product with `x` to `y`.
+    #[inline(always)]
+    fn add(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
+        let (m, n) = (self.rows.len(), self.columns.len());
+        let Some(_) = self.rank else {
+            for (i, row) in values.chunks_exact(n).enumerate() {
+                let at = self.rows.start + i;
+                y[at] += dot(row, &x[self.columns.clone()]);
+                if self.mirrored {
+                    add(&mut y[self.columns.clone()], x[at], row);
+                }
+            }
+            return;
+        };
+        for group in values.chunks_exact(GROUP * (m + n)) {
+            let (left, right) = group.split_at(GROUP * m);
+            let t = dots(right, &x[self.columns.clone()]);
+            let s = if self.mirrored { dots(left, &x[self.rows.clone()]) } else { [0.0; GROUP] };
+            adds(&mut y[self.rows.clone()], &t, left);
+            if self.mirrored {
+                adds(&mut y[self.columns.clone()], &s, right);
+            }
+        }
+    }
+}
+
+/// Partial sums: always as many, so that results are the same on every machine.
+const LANES: usize = 8;
+
+#[inline(always)]
+fn dot(a: &[f64], x: &[f64]) -> f64 {
+    let (a_lanes, a_rest) = a.as_chunks::<LANES>();
+    let (x_lanes, x_rest) = x.as_chunks::<LANES>();
+    let mut sums = [0.0; LANES];
+    for (a, x) in a_lanes.iter().zip(x_lanes) {
+        for k in 0..LANES {
+            sums[k] += a[k] * x[k];
+        }
+    }
+    for ((sum, a), x) in sums.iter_mut().zip(a_rest).zip(x_rest) {
+        *sum += a * x;
+    }
+    let [a, b, c, d, e, f, g, h] = sums;
+    ((a + e) + (c + g)) + ((b + f) + (d + h))
+}
+
+/// Scalar products of the columns of a group with `x`: one after the other, since compilers mix the columns where they may, to no good, and
+/// leave `array::from_fn` without vector units.
+#[inline(always)]
+fn dots(group: &[f64], x: &[f64]) -> [f64; GROUP] {
+    let n = x.len();
+    let (a, b) = group.split_at(2 * n);
+    let ((a, b), (c, d)) = (a.split_at(n), b.split_at(n));
+    [dot(a, x), dot(b, x), dot(c, x), dot(d, x)]
+}
+
+#[inline(always)]
+fn add(y: &mut [f64], factor: f64, a: &[f64]) {
+    for (y, a) in y.iter_mut().zip(a) {
+        *y += factor * a;
+    }
+}
+
+/// Adds multiples of the columns of a group to `y`.
+#[inline(always)]
+fn adds(y: &mut [f64], factors: &[f64; GROUP], group: &[f64]) {
+    let n = y.len();
+    let (a, b) = group.split_at(2 * n);
+    let ((a, b), (c, d)) = (a.split_at(n), b.split_at(n));
+    let [f, g, h, k] = *factors;
+    for ((((y, a), b), c), d) in y.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+        *y += (f * a + g * b) + (h * c + k * d);
+    }
+}
+
+/// Vectors in the order of the tree.
+#[derive(Debug, Default)]
+struct Ordered {
+    slip: Vec<f64>,
+    force: Vec<f64>,
+}
+
+/// Compressed matrices.
+#[derive(Debug)]
+pub struct Hierarchical {
+    order: Vec<usize>,
+    /// Inverse tributary areas, with the sign of tractions.
+    per_area: Vec<f64>,
+    shear: Compressed,
+    normal: Option<Compressed>,
+    stiffness: Vec<f64>,
+    tolerance: f64,
+    ordered: Mutex<Ordered>,
+    arch: Arch,
+}
+
+/// What a compressed matrix has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sizes {
+    /// Values kept.
+    pub values: usize,
+    /// Blocks of low rank and dense ones.
+    pub blocks: [usize; 2],
+    /// Largest rank.
+    pub rank: usize,
+}
+
+/// Where the points are.
+#[derive(Clone, Copy, Debug)]
+pub struct Geometry<'a> {
+    /// Places \[m\].
+    pub places: &'a [[f64; 3]],
+    /// Points of each fault, in order.
+    pub faults: &'a [Range<usize>],
+    /// Tributary areas \[m², or m per metre of thickness\].
+    pub areas: &'a [f64],
+}
+
+impl Hierarchical {
+    /// Compresses matrices of tractions per slip \[Pa/m\], row by row. The error of the forces, in Frobenius' norm, is at most
+    /// `tolerance` times the largest entry of the matrix of shear forces, which is below its spectral norm.
+    #[must_use]
+    pub fn new(shear: &[f64], normal: Option<&[f64]>, geometry: &Geometry<'_>, tolerance: f64) -> Self {
+        let rows = shear.chunks_exact(geometry.places.len()).zip(geometry.areas);
+        let forces = rows.flat_map(|(row, a)| row.iter().map(move |v| (v * a).abs()));
+        Self::of_scale(shear, normal, geometry, tolerance, forces.fold(0.0, f64::max))
+    }
+
+    /// The same with an error of at most `tolerance` times the force `largest`.
+    #[must_use]
+    pub fn of_scale(
+        shear: &[f64],
+        normal: Option<&[f64]>,
+        geometry: &Geometry<'_>,
+        tolerance: f64,
+        largest: f64,
+    ) -> Self {
+        let n = geometry.places.len();
+        let tree = Tree::new(geometry.places, geometry.faults);
+        let rows = geometry.areas;
+        let error = tolerance * largest / n as f64;
+        let off = |i: usize, j: usize| (shear[i * n + j] * rows[i] - shear[j * n + i] * rows[j]).abs();
+        let symmetric = (0..n).all(|i| (0..i).all(|j| off(i, j) <= SYMMETRIC * largest));
+        let source = |matrix, symmetric| Source { tree: &tree, matrix, rows, symmetric, error };
+        let compressed = |matrix, symmetric| Compressed::new(&source(matrix, symmetric));
+        let vectors = || vec![0.0; n];
+        Self {
+            stiffness: columns(n, &std::iter::once(shear).chain(normal).collect::<Vec<_>>()),
+            tolerance,
+            shear: compressed(shear, symmetric),
+            normal: normal.map(|matrix| compressed(matrix, false)),
+            per_area: tree.order.iter().map(|&p| 1.0 / rows[p]).collect(),
+            ordered: Mutex::new(Ordered { slip: vectors(), force: vectors() }),
+            arch: Arch::new(),
+            order: tree.order,
+        }
+    }
+
+    /// What the matrices of shear and of normal tractions have.
+    #[must_use]
+    pub fn sizes(&self) -> Vec<Sizes> {
+        let sizes = |c: &Compressed| {
+            let low = c.blocks.iter().filter_map(|b| b.rank);
+            let dense = c.blocks.len() - low.clone().count();
+            Sizes {
+                values: c.values.len(),
+                blocks: [c.blocks.len() - dense, dense],
+                rank: low.max().unwrap_or(0),
+            }
+        };
+        std::iter::once(&self.shear).chain(&self.normal).map(sizes).collect()
+    }
+
+    fn tractions(&self, matrix: &Compressed, slip: &[f64], tractions: &mut [f64]) {
+        let mut ordered = self.ordered.lock().unwrap_or_else(PoisonError::into_inner);
+        let Ordered { slip: x, force } = &mut *ordered;
+        for (x, &p) in x.iter_mut().zip(&self.order) {
+            *x = slip[p];
+        }
+        matrix.product(self.arch, x, force);
+        for ((&p, force), per_area) in self.order.iter().zip(force.iter()).zip(&self.per_area) {
+            tractions[p] = force * per_area;
+        }
+    }
+}
+
+impl Operator for Hierarchical {
+    fn points(&self) -> usize {
+        self.order.len()
+    }
+
+    fn couples_normal(&self) -> bool {
+        self.normal.is_some()
+    }
+
+    fn shear(&self, slip: &[f64], shear: &mut [f64]) {
+        self.tractions(&self.shear, slip, shear);
+    }
+
+    fn normal(&self, slip: &[f64], normal: &mut [f64]) {
+        if let Some(matrix) = &self.normal {
+            self.tractions(matrix, slip, normal);
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        self.sizes().iter().map(|s| s.values * size_of::<f64>()).sum()
+    }
+
+    fn stiffness(&self) -> &[f64] {
+        &self.stiffness
+    }
+
+    fn words(&self) -> String {
+        let sizes = self.sizes();
+        let sum = |of: fn(&Sizes) -> usize| sizes.iter().map(of).sum::<usize>();
+        let dense = sizes.len() * self.order.len().pow(2) * size_of::<f64>();
+        format!(
+            "operator compressed to {:.1} kB of {:.1} at a tolerance of {:e}: {} blocks of rank {} at most, {} dense ones",
+            self.bytes() as f64 / 1e3,
+            dense as f64 / 1e3,
+            self.tolerance,
+            sum(|s| s.blocks[0]),
+            sizes.iter().map(|s| s.rank).max().unwrap_or(0),
+            sum(|s| s.blocks[1])
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::{Geometry, Hierarchical};
+    use crate::operator::{Dense, Operator};
+
+    const TOLERANCE: f64 = 1e-9;
+
+    /// Two faults of cells that grow, with forces of slip that fall with the square of the distance; normal ones are not
+    /// symmetric.
+    struct Example {
+        places: Vec<[f64; 3]>,
+        areas: Vec<f64>,
+        shear: Vec<f64>,
+        normal: Vec<f64>,
+    }
+
+    impl Example {
+        fn new(n: usize) -> Self {
+            let along = |k: usize| k as f64 * (1.0 + k as f64 / n as f64);
+            let places: Vec<[f64; 3]> = (0..n)
+                .map(|k| if k % 3 == 0 { [along(k), 7.0, 0.0] } else { [along(k), 0.0, 0.0] })
+                .collect();
+            let mut places = places;
+            // Fault by fault.
+            places.sort_by(|a, b| b[1].total_cmp(&a[1]));
+            let areas: Vec<f64> = (0..n).map(|k| 1.0 + 0.5 * (k % 2) as f64).collect();
+            let (mut shear, mut normal) = (vec![0.0; n * n], vec![0.0; n * n]);
+            for i in 0..n {
+                for j in 0..n {
+                    let d: [f64; 3] = std::array::from_fn(|c| places[i][c] - places[j][c]);
+                    let r2: f64 = d.iter().map(|v| v * v).sum();
+                    shear[i * n + j] = areas[j] / (0.1 + r2);
+                    normal[i * n + j] = areas[j] * d[0] / (1.0 + r2).powi(2);
+                }
+            }
+            Self { places, areas, shear, normal }
+        }
+
+        fn compressed(&self) -> Hierarchical {
+            let n = self.places.len();
+            let first = self.places.partition_point(|p| p[1] > 0.0);
+            let faults = [0..first, first..n];
+            let geometry = Geometry { places: &self.places, faults: &faults, areas: &self.areas };
+            Hierarchical::new(&self.shear, Some(&self.normal), &geometry, TOLERANCE)
+        }
+    }
+
+    fn slip(n: usize) -> Vec<f64> {
+        (0..n).map(|k| ((k * 7919) % 1000) as f64 / 1000.0 - 0.3).collect()
+    }
+
+    #[test]
+    fn forces_have_the_error_asked_for() {
+        let n = 700;
+        let example = Example::new(n);
+        let compressed = example.compressed();
+        let dense = Dense::new(n, example.shear.clone(), Some(example.normal.clone()));
+        assert!(compressed.bytes() < dense.bytes() / 3, "{}", compressed.words());
+        let x = slip(n);
+        let largest = 1.5 * 1.5 / 0.1;
+        let bound = TOLERANCE * largest * x.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let (mut a, mut b) = (vec![0.0; n], vec![0.0; n]);
+        for normal in [false, true] {
+            if normal {
+                dense.normal(&x, &mut a);
+                compressed.normal(&x, &mut b);
+            } else {
+                dense.shear(&x, &mut a);
+                compressed.shear(&x, &mut b);
+            }
+            let off = a.iter().zip(&b).zip(&example.areas).map(|((a, b), area)| (a - b) * area);
+            let error = off.map(|v| v * v).sum::<f64>().sqrt();
+            assert!(error <= bound, "normal {normal}: {error} above {bound}");
+            assert!(error > 0.0 && a.iter().any(|v| v.abs() > 1e-3));
+        }
+    }
+
+    #[test]
+    fn products_are_the_same_bits_on_one_thread_and_on_two() {
+        let n = 1500;
+        let example = Example::new(n);
+        let x = slip(n);
+        let product = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let mut y = vec![0.0; 2 * n];
+            pool.install(|| {
+                let operator = example.compressed();
+                assert!(operator.normal.as_ref().unwrap().tasks.len() > 1);
+                operator.shear(&x, &mut y[..n]);
+                operator.normal(&x, &mut y[n..]);
+            });
+            y
+        };
+        assert!(product(1) == product(2));
+    }
+}

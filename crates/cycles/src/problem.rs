@@ -1,0 +1,20 @@
+//! What is integrated: faults in their surroundings, what loads them, where they start, and how.
+
+use super::equations::Fault;
+use super::loading::Loading;
+use super::run::Settings;
+
+/// See the module.
+#[derive(Debug)]
+pub struct Problem {
+    /// Friction and bodies.
+    pub fault: Fault,
+    /// Tributary areas of the points \[m²; m per metre of thickness\].
+    pub areas: Vec<f64>,
+    /// Loads.
+    pub loading: Loading,
+    /// Unknowns at the start.
+    pub start: Vec<f64>,
+    /// Integration.
+    pub settings: Settings,
+}

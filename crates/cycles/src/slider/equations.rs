@@ -1,0 +1,152 @@
+//! A segment of the equations as a problem of the integrator, with its event functions.
+
+use super::problem::Problem;
+use asperity_friction::evolution::Speed;
+use asperity_friction::slider::Segment;
+use asperity_ode::{self as ode, Clock};
+use std::cell::RefCell;
+
+/// ln(|V|/threshold) of a slider that stands or slides the other way: below any threshold, and finite.
+const AT_REST: f64 = -1e3;
+
+/// A direction of slip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Way {
+    Forwards,
+    Backwards,
+}
+
+impl Way {
+    fn is_of(self, rate: f64) -> bool {
+        match self {
+            Self::Forwards => rate > 0.0,
+            Self::Backwards => rate < 0.0,
+        }
+    }
+}
+
+/// What an event function is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// |V| of a slider in a direction against the rate above which an event begins.
+    On(usize, Way),
+    /// |V| of a slider in a direction against the rate below which it ends.
+    Off(usize, Way),
+    /// dV/dt of a slider.
+    Acceleration(usize),
+}
+
+/// Event functions of a problem, in the order of their numbers.
+pub(super) fn kinds(problem: &Problem) -> Vec<Kind> {
+    let mut kinds = Vec::new();
+    for i in 0..problem.names.len() {
+        if problem.events.is_some() {
+            for way in [Way::Forwards, Way::Backwards] {
+                kinds.extend([Kind::On(i, way), Kind::Off(i, way)]);
+            }
+        }
+        // Extremes of what is imposed are no findings.
+        if problem.peaks && problem.system.imposed(i).is_none() {
+            kinds.push(Kind::Acceleration(i));
+        }
+    }
+    kinds
+}
+
+/// The equations between two breaks.
+pub(crate) struct Piece<'a> {
+    pub problem: &'a Problem,
+    pub segment: Segment<'a>,
+    pub kinds: &'a [Kind],
+    rates: RefCell<Vec<f64>>,
+}
+
+impl<'a> Piece<'a> {
+    pub fn new(problem: &'a Problem, within: f64, kinds: &'a [Kind]) -> Self {
+        let segment = problem.system.segment(within);
+        Self { problem, segment, kinds, rates: RefCell::new(vec![0.0; problem.system.size()]) }
+    }
+}
+
+impl Piece<'_> {
+    /// A slip rate against a threshold.
+    fn against(&self, kind: Kind, speed: Speed) -> f64 {
+        let (way, threshold) = match (kind, self.problem.events) {
+            (Kind::On(_, way), Some(t)) => (way, t.on),
+            (Kind::Off(_, way), Some(t)) => (way, t.off),
+            // `kinds` makes thresholds only where the plan has them.
+            _ => return AT_REST,
+        };
+        if way.is_of(speed.rate) { (speed.log - threshold.ln()).max(AT_REST) } else { AT_REST }
+    }
+}
+
+impl ode::Problem for Piece<'_> {
+    fn size(&self) -> usize {
+        self.problem.system.size()
+    }
+
+    fn rates(&self, at: Clock, y: &[f64], dy: &mut [f64]) {
+        self.segment.rates(at.seconds(), y, dy);
+    }
+
+    fn jacobian(&self, at: Clock, y: &[f64], jac: &mut [f64]) {
+        self.segment.jacobian(at.seconds(), y, jac);
+    }
+
+    fn places(&self) -> Option<Vec<(usize, usize)>> {
+        Some(self.problem.system.places())
+    }
+
+    fn entries(&self, at: Clock, y: &[f64], values: &mut [f64]) {
+        let mut values = values.iter_mut();
+        self.segment.entries(at.seconds(), y, |_, entry| {
+            if let Some(value) = values.next() {
+                *value = entry;
+            }
+        });
+    }
+
+    fn events(&self) -> usize {
+        self.kinds.len()
+    }
+
+    fn event(&self, at: Clock, y: &[f64], g: &mut [f64]) {
+        let mut rates = self.rates.borrow_mut();
+        if self.problem.peaks {
+            self.segment.rates(at.seconds(), y, &mut rates);
+        }
+        // The functions of a slider stand side by side.
+        let mut seen: Option<(usize, Speed)> = None;
+        let mut speed = |i: usize| match seen {
+            Some((slider, speed)) if slider == i => speed,
+            _ => {
+                let (speed, _) = self.segment.slip(i, at.seconds(), y);
+                seen = Some((i, speed));
+                speed
+            }
+        };
+        for (g, kind) in g.iter_mut().zip(self.kinds) {
+            *g = match *kind {
+                Kind::On(i, _) | Kind::Off(i, _) => self.against(*kind, speed(i)),
+                Kind::Acceleration(i) => self.segment.acceleration(i, y, &rates),
+            };
+        }
+    }
+
+    fn one_event(&self, event: usize, at: Clock, y: &[f64]) -> f64 {
+        let kind = self.kinds[event];
+        match kind {
+            Kind::On(i, _) | Kind::Off(i, _) => self.against(kind, self.segment.slip(i, at.seconds(), y).0),
+            Kind::Acceleration(i) => {
+                let mut rates = self.rates.borrow_mut();
+                self.segment.rates_of(i, at.seconds(), y, &mut rates);
+                self.segment.acceleration(i, y, &rates)
+            }
+        }
+    }
+
+    fn extreme(&self, event: usize) -> bool {
+        matches!(self.kinds[event], Kind::Acceleration(_))
+    }
+}

@@ -1,0 +1,19 @@
+//! Spring-sliders: what is integrated, the run and its catalogue of events.
+//!
+//! The equations are those of [`asperity_friction::slider`]; the integrator is [`asperity_ode`].
+
+mod catalogue;
+mod equations;
+mod error;
+mod problem;
+mod rows;
+mod run;
+pub mod stability;
+
+pub use catalogue::{Catalogue, Edge, Event};
+pub(crate) use equations::Piece;
+pub use error::{RunError, WatchError};
+pub use problem::{DEFAULT_METHOD, DEFAULT_TOLERANCE, MOST_STEPS, Problem, Thresholds};
+pub use rows::{DEFAULT_CHANGE, Rows};
+pub use run::{Both, Now, Run, Watcher, run};
+pub use stability::{Stability, critical_stiffness};

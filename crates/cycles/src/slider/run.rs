@@ -1,0 +1,485 @@
+//! Integration from break to break of the prescribed histories.
+
+use super::catalogue::{Catalogue, Edge};
+use super::equations::{Kind, Piece, kinds};
+use super::error::{RunError, WatchError};
+use super::problem::Problem;
+use super::rows::Due;
+use crate::medium::Slips;
+use asperity_friction::slider::{Condition, Slider};
+use asperity_ode::{Clock, Control, Counts, Failure, Method, Occurrence, Outcome, Sink, Step};
+
+/// The sliders at an instant.
+#[derive(Clone, Debug)]
+pub struct Now<'a> {
+    /// When.
+    pub at: Clock,
+    /// Length of the step that ended \[s\].
+    pub dt: f64,
+    /// Number of the step, from 0 at the start.
+    pub step: usize,
+    /// Unknowns.
+    pub unknowns: &'a [f64],
+    /// Of each slider: what it is doing.
+    pub conditions: &'a [Condition],
+    /// Of each slider: slip since time 0 \[m\].
+    pub slip: &'a [f64],
+    /// Displacement of the load point since time 0 \[m\].
+    pub load: f64,
+    /// Whether the plan asks for a row at this time.
+    pub asked: bool,
+}
+
+/// Watches a run.
+pub trait Watcher {
+    /// At the start and after each step.
+    ///
+    /// # Errors
+    /// When something cannot be written.
+    fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError>;
+
+    /// Whether the run is to end after the present step, as if interrupted.
+    fn stops(&self) -> bool {
+        false
+    }
+
+    /// What was shown last is the onset, the end or an extreme of an event of this slider.
+    ///
+    /// # Errors
+    /// When something cannot be written.
+    fn marked(&mut self, _slider: usize) -> Result<(), WatchError> {
+        Ok(())
+    }
+
+    /// Whether it looks at all: what nobody looks at is not computed.
+    fn watches(&self) -> bool {
+        true
+    }
+}
+
+impl Watcher for () {
+    fn watches(&self) -> bool {
+        false
+    }
+
+    fn now(&mut self, _: &Problem, _: &Now<'_>) -> Result<(), WatchError> {
+        Ok(())
+    }
+}
+
+impl<F: FnMut(&Problem, &Now<'_>)> Watcher for F {
+    fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError> {
+        self(problem, now);
+        Ok(())
+    }
+}
+
+/// Two watchers, the first one first.
+pub struct Both<'a>(pub &'a mut dyn Watcher, pub &'a mut dyn Watcher);
+
+impl Watcher for Both<'_> {
+    fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError> {
+        self.0.now(problem, now)?;
+        self.1.now(problem, now)
+    }
+
+    fn stops(&self) -> bool {
+        self.0.stops() || self.1.stops()
+    }
+
+    fn marked(&mut self, slider: usize) -> Result<(), WatchError> {
+        self.0.marked(slider)?;
+        self.1.marked(slider)
+    }
+}
+
+/// A step is halved so often at most: a slider that passes rest changes ln V without bound.
+const MOST_HALVES: u32 = 8;
+
+/// A step below this share of the time is not resolved: where an undamped slider takes [`MOST_UNRESOLVED`] of them, its slip rate
+/// grows beyond bounds in finite time. Explicit methods end there by themselves; methods that solve equations may step over that
+/// time onto a branch that is no solution, and would go on.
+const UNRESOLVED: f64 = 1e-26;
+/// So many steps in a row are no accident: the step before an event may be as short.
+const MOST_UNRESOLVED: u32 = 10;
+
+/// Friction over a at which a slider has none left, and V is what it is at rest; the steps would go on to shrink towards zero.
+const SPENT: f64 = 1e-3;
+
+/// What a run found.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// When.
+    pub at: Clock,
+    /// Unknowns then.
+    pub unknowns: Vec<f64>,
+    /// Events.
+    pub catalogue: Catalogue,
+    /// Work.
+    pub counts: Counts,
+    /// Why a run that failed may have failed, in terms of the scene.
+    pub hint: Option<String>,
+    /// Whether its watcher ended it.
+    pub interrupted: bool,
+}
+
+/// Runs a problem. An integration that fails is no error: the outcome says so, and all found until then stands.
+///
+/// # Errors
+/// [`RunError`].
+pub fn run(problem: &Problem, watcher: &mut dyn Watcher) -> Result<Run, RunError> {
+    let kinds = kinds(problem);
+    let options = problem.options();
+    let mut slips = Slips::new(problem)?;
+    let mut breaks = problem.system.breaks(0.0, problem.end);
+    breaks.push(problem.end);
+    let mut piece = Piece::new(problem, 0.5 * breaks[0], &kinds);
+    let mut state = Following::new(problem, watcher);
+    let (mut at, mut unknowns) = (Clock::new(0.0, 0.0), problem.start.clone());
+    let mut counts = Counts::default();
+    let mut outcome = Outcome::Completed;
+    for (k, &end) in breaks.iter().enumerate() {
+        if k > 0 {
+            let next = Piece::new(problem, 0.5 * (breaks[k - 1] + end), &kinds);
+            problem.system.jump(breaks[k - 1], &piece.segment, &next.segment, &mut unknowns)?;
+            piece = next;
+        }
+        slips.enter(at);
+        let mut sink = Running { piece: &piece, slips: &slips, state: &mut state };
+        sink.begin(at, &unknowns);
+        if sink.state.failure.is_some() {
+            break;
+        }
+        let duration = Clock::new(end, 0.0).since(&at);
+        let finished = asperity_ode::integrate(&piece, at, &unknowns, duration, &options, &mut sink);
+        slips.leave(&piece, finished.at);
+        (at, unknowns, outcome) = (finished.at, finished.state, finished.outcome);
+        add(&mut counts, &finished.counts);
+        if let Some(reason) = state.senseless.take() {
+            outcome = Outcome::Failed { reason };
+        }
+        if outcome != Outcome::Completed {
+            break;
+        }
+    }
+    let (catalogue, failure, interrupted) = (state.catalogue, state.failure, state.interrupted);
+    if let Some(failure) = failure {
+        return Err(RunError::Observe(failure));
+    }
+    let hint = match outcome {
+        // Other failures say themselves what is wrong.
+        Outcome::Failed { reason: Failure::StepTooSmall { .. } | Failure::Ends } => {
+            hint(problem, &piece, at, &unknowns)
+        }
+        Outcome::Failed { reason: Failure::TooManySteps { most } } => restarts(problem, most),
+        _ => None,
+    };
+    Ok(Run { outcome, at, unknowns, catalogue, counts, hint, interrupted })
+}
+
+fn add(sum: &mut Counts, part: &Counts) {
+    sum.steps += part.steps;
+    sum.rejected += part.rejected;
+    sum.rates += part.rates;
+    sum.jacobians += part.jacobians;
+    sum.factorisations += part.factorisations;
+    sum.solves += part.solves;
+    sum.newton_failures += part.newton_failures;
+    sum.restarts += part.restarts;
+}
+
+/// The first slider that nothing keeps from running away, and that is faster than the load point, with its slip rate.
+fn running(piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<(usize, f64)> {
+    let load = piece.segment.load().at(at.seconds()).0.abs();
+    piece.problem.system.sliders().iter().enumerate().find_map(|(i, s)| {
+        let rate = piece.segment.condition(i, at.seconds(), unknowns).rate;
+        let free = s.damping == 0.0 && s.mass.is_none() && piece.problem.system.imposed(i).is_none();
+        (free && rate.abs() > load).then_some((i, rate))
+    })
+}
+
+/// The first slider without friction whose form has no value at rest.
+fn spent(problem: &Problem, unknowns: &[f64]) -> Option<usize> {
+    let stands = |(i, s): &(usize, &Slider)| !s.law.reverses() && problem.system.of(*i, unknowns)[0] < SPENT;
+    problem.system.sliders().iter().enumerate().find(stands).map(|(i, _)| i)
+}
+
+/// What it means that no step is short enough, where friction reaches zero or a quasi-static slider runs away.
+fn hint(problem: &Problem, piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<String> {
+    if let Some(i) = spent(problem, unknowns) {
+        return Some(format!(
+            "friction of `{}` falls to zero, where its form has no value; `form = \"regularised\"` passes through rest",
+            problem.names[i]
+        ));
+    }
+    running(piece, at, unknowns).map(|(i, rate)| {
+        format!(
+            "`{}` slides at {rate:.3e} m/s and faster and faster: quasi-static equilibrium ends here; give it `damping` or `mass`",
+            problem.names[i]
+        )
+    })
+}
+
+/// What it means that a method with a memory of several steps does not come to its end.
+fn restarts(problem: &Problem, most: usize) -> Option<String> {
+    let rests = problem.system.sliders().iter().any(|s| s.mass.is_some());
+    (problem.method == Method::Bdf && problem.peaks && rests).then(|| {
+        format!(
+            "the end is not reached in {most} steps: `bdf` begins anew at each extreme of the slip rate, of which rounding makes many where \
+             a mass rests; take `method = \"switching\"`, or `peaks = false`"
+        )
+    })
+}
+
+/// What goes on from piece to piece.
+struct Following<'a> {
+    problem: &'a Problem,
+    watcher: &'a mut dyn Watcher,
+    catalogue: Catalogue,
+    failure: Option<WatchError>,
+    /// Whether the watcher ended the run.
+    interrupted: bool,
+    step: usize,
+    /// Steps in a row that time does not resolve.
+    unresolved: u32,
+    /// Why it makes no sense to go on: a slider has run away, or its friction has come to zero.
+    senseless: Option<Failure>,
+    /// Times of rows still to come.
+    due: Due,
+}
+
+impl<'a> Following<'a> {
+    fn new(problem: &'a Problem, watcher: &'a mut dyn Watcher) -> Self {
+        let catalogue = Catalogue::new(problem.names.len());
+        Self {
+            problem,
+            watcher,
+            catalogue,
+            failure: None,
+            interrupted: false,
+            step: 0,
+            unresolved: 0,
+            senseless: None,
+            due: Due::default(),
+        }
+    }
+}
+
+/// The sink of one piece.
+struct Running<'a, 'b> {
+    piece: &'a Piece<'a>,
+    slips: &'a Slips,
+    state: &'a mut Following<'b>,
+}
+
+impl Running<'_, '_> {
+    /// Shows the first state, and that after a jump.
+    fn begin(&mut self, at: Clock, unknowns: &[f64]) {
+        let asked = self.state.due.next(&self.state.problem.output, at.seconds()).is_some();
+        self.show(at, 0.0, unknowns, asked);
+        self.sees(at, unknowns);
+        let Some(thresholds) = self.state.problem.events else { return };
+        let (load, conditions) = self.look(at, unknowns);
+        let slip = self.slips.slip(self.piece, at, load, &conditions);
+        for (i, c) in conditions.iter().enumerate() {
+            // A run that begins within an event, or a jump into one.
+            if c.rate.abs() > thresholds.on {
+                self.state.catalogue.begins(i, at, c.rate, self.edge(i, unknowns, c, slip[i]));
+            } else if c.rate.abs() < thresholds.off {
+                self.state.catalogue.ends(i, at, self.edge(i, unknowns, c, slip[i]));
+            }
+        }
+    }
+
+    /// A slider at the onset or the end of an event.
+    fn edge(&self, i: usize, unknowns: &[f64], condition: &Condition, slip: f64) -> Edge {
+        let system = &self.piece.problem.system;
+        Edge {
+            slip,
+            traction: condition.traction,
+            friction: condition.friction,
+            states: system.of(i, unknowns)[1..=system.sliders()[i].law.states()].to_vec(),
+        }
+    }
+
+    /// Shows what lies within a step, from the dense output: so that curves are smooth where steps are long, and at the times asked
+    /// for. Returns whether the end of the step is one of them.
+    fn between(&mut self, step: &Step<'_>) -> bool {
+        let problem = self.state.problem;
+        let start = self.sample(step, 0.0);
+        let mut samples = Vec::new();
+        if problem.output.change.is_some() {
+            let end = self.sample(step, 1.0);
+            // The middle is looked at in any case: what rises and falls within a step may be at its end what it was at its start.
+            let middle = self.sample(step, 0.5);
+            self.halves(step, [&start, &middle], 1, &mut samples);
+            samples.push(middle.clone());
+            self.halves(step, [&middle, &end], 1, &mut samples);
+            samples.push(end);
+        }
+        let ends_asked = self.asked(step, &mut samples);
+        // Those between which ln V changes by less are left out.
+        let resolution = problem.output.change.unwrap_or(f64::INFINITY);
+        let mut last = start;
+        for (k, sample) in samples.iter().enumerate() {
+            let next = samples.get(k + 1).is_some_and(|next| next.change(&last) >= resolution);
+            let within = sample.fraction < 1.0;
+            if within && (next || sample.asked.is_some()) {
+                let length = (sample.fraction - last.fraction) * step.length();
+                let at = sample.asked.unwrap_or(step.start.later(sample.fraction * step.length()));
+                self.show(at, length, &sample.unknowns, sample.asked.is_some());
+                last = sample.clone();
+            }
+        }
+        ends_asked
+    }
+
+    /// The sliders at a share of a step.
+    fn sample(&self, step: &Step<'_>, fraction: f64) -> Sample {
+        let mut unknowns = step.state.to_vec();
+        if fraction < 1.0 {
+            step.at(fraction, &mut unknowns);
+        }
+        let time = step.start.later(fraction * step.length()).seconds();
+        let each = 0..self.state.problem.names.len();
+        let logs = each.map(|i| self.piece.segment.slip(i, time, &unknowns).0.log).collect();
+        Sample { fraction, asked: None, unknowns, logs }
+    }
+
+    /// Adds the times asked for in a step to its samples. Returns whether its end is one of them.
+    fn asked(&mut self, step: &Step<'_>, samples: &mut Vec<Sample>) -> bool {
+        let problem = self.state.problem;
+        let (end, mut ends_asked) = (step.end.seconds(), false);
+        while let Some(time) = self.state.due.next(&problem.output, end) {
+            let at = Clock::new(time, 0.0);
+            let fraction = at.since(&step.start) / step.length();
+            if time == end || fraction >= 1.0 {
+                ends_asked = true;
+                continue;
+            }
+            let place = samples.partition_point(|s| s.fraction < fraction);
+            let sample = self.sample(step, fraction.max(0.0));
+            samples.insert(place, Sample { asked: Some(at), ..sample });
+        }
+        ends_asked
+    }
+
+    /// Samples between two, so that ln V changes little from each to the next.
+    fn halves(&self, step: &Step<'_>, ends: [&Sample; 2], depth: u32, samples: &mut Vec<Sample>) {
+        let resolution = self.state.problem.output.change.unwrap_or(f64::INFINITY);
+        if depth == MOST_HALVES || ends[1].change(ends[0]) < 0.5 * resolution {
+            return;
+        }
+        let middle = self.sample(step, 0.5 * (ends[0].fraction + ends[1].fraction));
+        self.halves(step, [ends[0], &middle], depth + 1, samples);
+        samples.push(middle.clone());
+        self.halves(step, [&middle, ends[1]], depth + 1, samples);
+    }
+
+    fn look(&self, at: Clock, unknowns: &[f64]) -> (f64, Vec<Condition>) {
+        let time = at.seconds();
+        let conditions = (0..self.state.problem.names.len())
+            .map(|i| self.piece.segment.condition(i, time, unknowns))
+            .collect();
+        (self.slips.load_at(self.piece, at), conditions)
+    }
+
+    fn show(&mut self, at: Clock, dt: f64, unknowns: &[f64], asked: bool) {
+        if !self.state.watcher.watches() || self.state.failure.is_some() {
+            return;
+        }
+        let problem = self.state.problem;
+        let (load, conditions) = self.look(at, unknowns);
+        let slip = self.slips.slip(self.piece, at, load, &conditions);
+        let step = self.state.step;
+        let now = Now { at, dt, step, unknowns, conditions: &conditions, slip: &slip, load, asked };
+        if let Err(failure) = self.state.watcher.now(problem, &now) {
+            self.state.failure = Some(failure);
+        }
+    }
+}
+
+impl Running<'_, '_> {
+    /// Whether a slider runs away in steps that time does not resolve.
+    fn runs_away(&mut self, step: &Step<'_>) -> bool {
+        let length = step.length();
+        let short = length < UNRESOLVED * step.end.seconds().abs();
+        if !short || running(self.piece, step.end, step.state).is_none() {
+            self.state.unresolved = 0;
+            return false;
+        }
+        self.state.unresolved += 1;
+        self.state.unresolved == MOST_UNRESOLVED
+    }
+
+    /// Tells the catalogue of the slip rates at the end of a step.
+    fn sees(&mut self, at: Clock, unknowns: &[f64]) {
+        for i in 0..self.state.problem.names.len() {
+            self.state.catalogue.sees(i, self.piece.segment.slip(i, at.seconds(), unknowns).0.rate);
+        }
+    }
+}
+
+/// The sliders within a step.
+#[derive(Clone, Debug)]
+struct Sample {
+    /// Share of the step that is over.
+    fraction: f64,
+    /// The time, where it is one that is asked for.
+    asked: Option<Clock>,
+    unknowns: Vec<f64>,
+    /// ln |V| of each slider.
+    logs: Vec<f64>,
+}
+
+impl Sample {
+    /// Largest change of ln |V| from another.
+    fn change(&self, other: &Self) -> f64 {
+        self.logs.iter().zip(&other.logs).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+}
+
+impl Sink for Running<'_, '_> {
+    fn accepted(&mut self, step: &Step<'_>) -> Control {
+        self.state.step += 1;
+        let asked = self.state.watcher.watches() && self.between(step);
+        self.show(step.end, step.length(), step.state, asked);
+        self.sees(step.end, step.state);
+        if self.runs_away(step) {
+            self.state.senseless = Some(Failure::StepTooSmall { length: step.length() });
+        } else if spent(self.state.problem, step.state).is_some() {
+            self.state.senseless = Some(Failure::Ends);
+        }
+        if self.state.senseless.is_some() || self.state.failure.is_some() {
+            return Control::Stop;
+        }
+        self.state.interrupted = self.state.watcher.stops();
+        if self.state.interrupted { Control::Stop } else { Control::Go }
+    }
+
+    fn occurred(&mut self, o: &Occurrence) -> Control {
+        let kind = self.piece.kinds[o.event];
+        let (Kind::On(i, _) | Kind::Off(i, _) | Kind::Acceleration(i)) = kind;
+        let (load, conditions) = self.look(o.at, &o.state);
+        let rate = conditions[i].rate;
+        if let Kind::On(..) | Kind::Off(..) = kind {
+            let slip = self.slips.slip(self.piece, o.at, load, &conditions);
+            let edge = self.edge(i, &o.state, &conditions[i], slip[i]);
+            match (kind, o.rising) {
+                (Kind::On(..), true) => self.state.catalogue.begins(i, o.at, rate, edge),
+                (Kind::Off(..), false) => self.state.catalogue.ends(i, o.at, edge),
+                _ => {}
+            }
+        }
+        self.state.catalogue.sees(i, rate);
+        if let Err(failure) = self.state.watcher.marked(i) {
+            self.state.failure.get_or_insert(failure);
+        }
+        let enough = self.state.problem.most_events;
+        // The last event counts when it is over, so that its peak and slip are known.
+        let reached = enough.is_some_and(|n| self.state.catalogue.over(0) >= n);
+        if reached || self.state.failure.is_some() { Control::Stop } else { Control::Go }
+    }
+}

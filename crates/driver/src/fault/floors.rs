@@ -1,0 +1,72 @@
+//! How far the floors of normal traction were used in a run.
+
+use super::plan::Plan;
+use asperity_cycles::Used;
+use serde::Serialize;
+
+/// How far the floor of a fault was used.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FloorUse {
+    /// Fault.
+    pub fault: String,
+    /// The floor \[Pa\].
+    pub floor: f64,
+    /// Points that were below it at any time.
+    pub points: usize,
+    /// Of so many.
+    pub of: usize,
+    /// Largest share of the time that a point was below it.
+    pub time_share: f64,
+    /// Where that point is \[m\].
+    pub at: [f64; 3],
+    /// Share of all slip, over the area, that came about below it.
+    pub slip_share: f64,
+    /// Least normal traction that the bodies exerted \[Pa\]: below zero they pulled.
+    pub least: f64,
+    /// Events, of all faults, in which points of any fault were below.
+    pub events: usize,
+}
+
+/// The use of the floors of all faults.
+#[must_use]
+pub fn uses(plan: &Plan, used: &Used) -> Vec<FloorUse> {
+    let with_floor = plan.faults.iter().filter_map(|f| Some((f, f.normal.floor?)));
+    with_floor
+        .map(|(fault, floor)| {
+            let below = used.of(fault.points.clone(), &plan.problem.areas);
+            FloorUse {
+                fault: fault.name.clone(),
+                floor,
+                points: below.points,
+                of: fault.points.len(),
+                time_share: below.time_share,
+                at: below.longest.map_or([0.0; 3], |p| plan.points[p].at),
+                slip_share: below.slip_share,
+                least: floor - below.deepest,
+                events: below.events,
+            }
+        })
+        .collect()
+}
+
+impl FloorUse {
+    /// In words, for the results.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let (name, floor) = (&self.fault, self.floor / 1e6);
+        if self.points == 0 {
+            return format!("floor of fault `{name}` ({floor} MPa): not used");
+        }
+        let [x, y, z] = self.at;
+        format!(
+            "floor of fault `{name}` ({floor} MPa): used at {} of {} points in {} events, for up to {:.3} % of the time (at x = {x:e} m, y = {y:e} m, z = {z:e} m) and {:.3} % of \
+             the slip; the bodies pressed with {:.4} MPa at least",
+            self.points,
+            self.of,
+            self.events,
+            100.0 * self.time_share,
+            100.0 * self.slip_share,
+            self.least / 1e6
+        )
+    }
+}

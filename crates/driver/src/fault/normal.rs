@@ -1,0 +1,35 @@
+//! What normal tractions do on a fault.
+
+/// What normal tractions do on a fault.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalChoice {
+    /// Whether slip and loads change them.
+    pub changes: bool,
+    /// The least that friction uses \[Pa\].
+    pub floor: Option<f64>,
+    /// Whether the fault opens where nothing presses it.
+    pub opens: bool,
+}
+
+impl NormalChoice {
+    /// In words, where they may change.
+    pub(super) fn words(self, fault: &str) -> String {
+        let changes = if self.changes {
+            "slip and loads change normal tractions"
+        } else {
+            "slip and loads leave normal tractions as they are, since `normal_changes = false`"
+        };
+        let below = match self.floor {
+            Some(floor) if self.opens => format!(
+                "; the fault opens where they would pull, and friction uses {:?} MPa where they are less",
+                floor / 1e6
+            ),
+            Some(floor) => {
+                format!("; friction uses {:?} MPa where they are less, and they go on below", floor / 1e6)
+            }
+            None if self.changes => "; the run ends where one falls to zero".into(),
+            None => String::new(),
+        };
+        format!("fault `{fault}`: {changes}{below}")
+    }
+}

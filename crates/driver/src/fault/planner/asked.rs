@@ -1,0 +1,251 @@
+//! Whether what a scene asks of a fault takes any of its points: creep, profiles, stations.
+
+use super::placed::{Placed, at};
+use crate::diagnostic::Diagnostic;
+use crate::model::{self, Model};
+use crate::scene::model::{Along, Fault as Spec, LawSpec, Profile, Profiled, Scene, Spanned, Station};
+use crate::warning::Warning;
+use asperity_cycles::medium::Place;
+use asperity_fem::mesh::face_nodes;
+use asperity_mechanics::coordinates;
+
+/// Smallest and largest of some values.
+fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+}
+
+/// The extent of some places in words: along a plane fault, by coordinates in space.
+fn extent<'a, const D: usize>(places: impl Iterator<Item = &'a Place<D>> + Clone) -> String {
+    if D == 2 {
+        let [low, high] = range(places.map(|p| p.along));
+        return format!("from {low} m to {high} m along it");
+    }
+    let axis = |c: usize| {
+        let [low, high] = range(places.clone().map(|p| p.at[c]));
+        format!("{} from {low} m to {high} m", ["x", "y", "z"][c])
+    };
+    (0..D).map(axis).collect::<Vec<_>>().join(", ")
+}
+
+/// Refuses creep that takes no point of its fault.
+///
+/// # Errors
+/// [`Diagnostic`] at the border of the creep.
+pub(super) fn creep<const D: usize>(
+    (name, spec): (&str, &Spec),
+    placed: &[Placed<D>],
+) -> Result<(), Diagnostic> {
+    let Some(creep) = spec.creep.as_ref().filter(|_| placed.iter().all(|p| p.point.creep.is_none())) else {
+        return Ok(());
+    };
+    let border = creep.beyond.as_ref().map(Spanned::span).or(creep.outside.as_ref().map(Spanned::span));
+    let extent = extent(placed.iter().map(|p| &p.point.place));
+    Err(Diagnostic::at(
+        border.unwrap_or_else(|| creep.rate.span()),
+        format!("creep takes no point of fault `{name}`, whose points lie {extent}"),
+        "move the border of the creep onto the fault, or leave `creep` out",
+    ))
+}
+
+/// Refuses faults that are to open where none of their points may; `points` are those that may, among `placed`.
+///
+/// # Errors
+/// [`Diagnostic`] at the key.
+pub(super) fn opens<const D: usize>(
+    faults: &[(&String, &Spec)],
+    placed: &[Placed<D>],
+    points: &[usize],
+) -> Result<(), Diagnostic> {
+    for (k, (name, spec)) in faults.iter().enumerate() {
+        let Some(opening) = spec.opening.as_ref().filter(|o| *o.get_ref()) else { continue };
+        if !points.iter().any(|&p| placed[p].fault == k) {
+            return Err(Diagnostic::at(
+                opening.span(),
+                format!(
+                    "no point of fault `{name}` can open: where it does not creep, conditions hold both of its sides across it"
+                ),
+                "leave these conditions out on one of the sides, or remove `opening`",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The refusal of faults of which nothing is left to slide.
+pub(super) fn nothing_slides<const D: usize>(
+    faults: &[(&String, &Spec)],
+    placed: &[Placed<D>],
+) -> Diagnostic {
+    let of = |k: usize| placed.iter().filter(move |p| p.fault == k).map(|p| &p.point.place);
+    let mut all = faults.iter().enumerate().filter_map(|(k, f)| Some((f.0, of(k), f.1.creep.as_ref()?)));
+    let Some((name, places, creep)) = all.next() else {
+        return Diagnostic::at(
+            faults.first().map_or(0..0, |f| f.1.minus.span()),
+            "no point of the faults is free to slide",
+            "`minus` and `plus` are two sides that can part",
+        );
+    };
+    let border = creep.beyond.as_ref().map(Spanned::span).or(creep.outside.as_ref().map(Spanned::span));
+    Diagnostic::at(
+        border.unwrap_or_else(|| creep.rate.span()),
+        format!(
+            "no point of the faults is free to slide: creep takes all {} points of fault `{name}`, which lie {}",
+            places.clone().count(),
+            extent(places)
+        ),
+        "a part of a fault must slide by its law: move the border of the creep",
+    )
+}
+
+/// Warnings of profiles that do not vary over the sliding part of their fault, or are below others of their list everywhere.
+pub(super) fn profiles<const D: usize>(
+    (name, spec): (&str, &Spec),
+    placed: &[Placed<D>],
+    warnings: &mut Vec<Warning>,
+) {
+    let free: Vec<&Place<D>> =
+        placed.iter().filter(|p| p.point.creep.is_none()).map(|p| &p.point.place).collect();
+    if free.is_empty() {
+        return;
+    }
+    let all = &spec.profiles;
+    for (key, list) in
+        [("a", &all.a), ("b", &all.b), ("l", &all.l), ("normal", &all.normal), ("shear", &all.shear)]
+    {
+        let Some(Profiled(list)) = list else { continue };
+        warnings.extend(list.iter().filter_map(|p| constant((name, key), p, &free)));
+        for (k, profile) in list.iter().enumerate().filter(|_| list.len() > 1) {
+            let others = |place: &Place<D>| {
+                let others = list.iter().enumerate().filter(|(j, _)| *j != k);
+                others.map(|(_, p)| at(p, place)).fold(f64::NEG_INFINITY, f64::max)
+            };
+            if !free.iter().any(|place| at(profile, place) >= others(place)) {
+                warnings.push(Warning::at(
+                    profile.points.span(),
+                    format!(
+                        "this profile of `{key}` takes no point of fault `{name}`: others of its list are larger everywhere"
+                    ),
+                    "of a list of profiles the largest value holds; remove it, or mend its values",
+                ));
+            }
+        }
+    }
+}
+
+/// The warning of a profile whose places all lie beyond the fault.
+fn constant<const D: usize>(
+    (name, key): (&str, &str),
+    profile: &Profile,
+    free: &[&Place<D>],
+) -> Option<Warning> {
+    let points = profile.points.get_ref();
+    let (first, last) = (points.first()?, points.last()?);
+    let along = *profile.along.get_ref();
+    let coordinate = |p: &&Place<D>| match along {
+        Along::X => p.at[0],
+        Along::Y => p.at[1],
+        Along::Z => p.at[D - 1],
+        Along::Distance => p.along,
+    };
+    let [low, high] = range(free.iter().map(coordinate));
+    let varies = points.windows(2).any(|w| w[0].1 != w[1].1);
+    if !varies || (low < last.0.0 && high > first.0.0) {
+        return None;
+    }
+    let axis = match along {
+        Along::X => "x",
+        Along::Y => "y",
+        Along::Z => "z",
+        Along::Distance => "distance",
+    };
+    Some(Warning::at(
+        profile.points.span(),
+        format!(
+            "the profile of `{key}` does not vary over fault `{name}`: its places go from {} m to {} m along {axis}, the sliding points from {low} m \
+             to {high} m",
+            first.0.0, last.0.0
+        ),
+        "check the unit and the sign of its places, or give the one value in the law",
+    ))
+}
+
+/// Refuses a station farther than a cell from the nearest point that slides, number `point` of `placed`.
+///
+/// # Errors
+/// [`Diagnostic`] at the station.
+pub(super) fn station<const D: usize>(
+    model: &Model<D>,
+    (name, spec): (&str, &Spec),
+    asked: &Spanned<Station>,
+    (placed, point): (&[Placed<D>], usize),
+) -> Result<(), Diagnostic> {
+    let place = &placed[point].point.place;
+    let (off, wanted, found) = match asked.get_ref() {
+        Station::Along(s) => ((place.along - s).abs(), format!("{s} m along"), format!("{} m", place.along)),
+        Station::At(x) => {
+            let squares = x.iter().zip(&place.at).map(|(a, b)| (a - b).powi(2));
+            let coordinates: Vec<String> = x.iter().map(f64::to_string).collect();
+            let wanted = format!("({}) m on", coordinates.join(", "));
+            (squares.sum::<f64>().sqrt(), wanted, coordinates::in_words(&place.at))
+        }
+    };
+    if off <= cell(model, spec, place)? {
+        return Ok(());
+    }
+    let extent = extent(placed.iter().map(|p| &p.point.place));
+    Err(Diagnostic::at(
+        asked.span(),
+        format!(
+            "the station at {wanted} fault `{name}` lies off its sliding points, which lie {extent}: the nearest one is at {found}, {off} m away"
+        ),
+        "a place on the part of the fault that slides freely",
+    ))
+}
+
+/// Largest extent of the faces at a place \[m\].
+fn cell<const D: usize>(model: &Model<D>, spec: &Spec, place: &Place<D>) -> Result<f64, Diagnostic> {
+    let mut size = 0.0_f64;
+    for side in model::sides(model, &spec.minus)? {
+        let nodes = face_nodes(&model.mesh, side);
+        if !nodes.contains(&place.minus) {
+            continue;
+        }
+        for (k, &a) in nodes.iter().enumerate() {
+            for &b in &nodes[..k] {
+                let (a, b) = (&model.mesh.nodes[a], &model.mesh.nodes[b]);
+                size = size.max(a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt());
+            }
+        }
+    }
+    Ok(size)
+}
+
+/// The refusal of a body that no fault can be in.
+pub(super) fn not_linear(scene: &Scene, body: &str) -> Diagnostic {
+    let spec = &scene.bodies[body];
+    let strain = spec.strain.as_ref().filter(|_| spec.is_finite());
+    let place = strain.map_or_else(|| spec.material.span(), Spanned::span);
+    let help = "an elastic material and small strain";
+    Diagnostic::at(place, format!("body `{body}` is not linear: faults need linear bodies"), help)
+}
+
+/// The refusal of more stages than one, or of none.
+pub(super) fn stages(scene: &Scene) -> Diagnostic {
+    let place = scene.stages.get(1).map_or_else(|| scene.time.stepper.span(), |s| s.duration.span());
+    let found = format!("a scene with faults has one stage, found {}", scene.stages.len());
+    Diagnostic::at(place, found, "loads that change in time are tables of one stage")
+}
+
+/// The refusal of a law of which nothing else is said.
+pub(super) fn incomplete(law: &Spanned<LawSpec>) -> Diagnostic {
+    Diagnostic::at(law.span(), "the law is not complete", "see the laws of friction")
+}
+
+/// The refusal of a law that faults cannot follow.
+pub(super) fn another_law(law: &Spanned<LawSpec>) -> Diagnostic {
+    Diagnostic::at(
+        law.span(),
+        "a fault through cycles needs a law that depends on the slip rate",
+        "\"rate\" or \"rate-and-state\" is such a kind",
+    )
+}

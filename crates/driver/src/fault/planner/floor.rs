@@ -1,0 +1,38 @@
+//! What the scene says of normal tractions.
+
+use super::super::normal::NormalChoice;
+use crate::scene::model::Fault as Spec;
+use crate::warning::Warning;
+
+/// What normal tractions do on a fault.
+pub(super) fn choice(spec: &Spec) -> NormalChoice {
+    NormalChoice {
+        changes: spec.normal_changes.as_ref().is_none_or(|c| *c.get_ref()),
+        floor: spec.normal_floor.as_ref().map(|f| f.get_ref().0),
+        opens: spec.opening.as_ref().is_some_and(|o| *o.get_ref()),
+    }
+}
+
+/// A warning where a floor lies above what presses a fault at the start: it decides friction there, not what is pressed. Of faults that weight presses, which
+/// does not press a free surface, it may do so at up to half of the points: the plan notes how many there are.
+pub(super) fn above_start(
+    name: &str,
+    spec: &Spec,
+    weighs: bool,
+    normals: impl Iterator<Item = f64>,
+) -> Option<Warning> {
+    let floor = spec.normal_floor.as_ref()?;
+    let (mut below, mut all) = (0, 0);
+    for normal in normals {
+        all += 1;
+        below += usize::from(normal < floor.get_ref().0);
+    }
+    let allowed = if weighs { all / 2 } else { 0 };
+    (below > allowed).then(|| {
+        Warning::at(
+            floor.span(),
+            format!("the floor of fault `{name}` lies above its normal traction at the start at {below} of {all} points"),
+            "a floor is for what slip takes away: choose it below the normal tractions at the start",
+        )
+    })
+}

@@ -1,0 +1,26 @@
+//! Where and when a scene lies on Earth.
+
+use super::super::frame::{Frame, Origin};
+use crate::diagnostic::Diagnostic;
+use crate::scene::model::Scene;
+use jiff::Timestamp;
+
+/// Of a scene that has a place.
+///
+/// # Errors
+/// [`Diagnostic`] at the epoch.
+pub(super) fn of(scene: &Scene, in_space: bool) -> Result<Option<Frame>, Diagnostic> {
+    let Some(place) = &scene.place else { return Ok(None) };
+    let wrong = |e: jiff::Error| {
+        Diagnostic::at(place.epoch.span(), e.to_string(), "such as \"2000-01-01T00:00:00Z\"")
+    };
+    let origin = Origin {
+        epoch: place.epoch.get_ref().parse::<Timestamp>().map_err(wrong)?,
+        latitude: place.latitude.get_ref().0.to_degrees(),
+        longitude: place.longitude.get_ref().0.to_degrees(),
+        depth: place.depth.as_ref().map_or(0.0, |d| d.get_ref().0),
+        length: if in_space { Some(1.0) } else { place.length.as_ref().map(|l| l.get_ref().0) },
+    };
+    let vertical = in_space.then(|| <[_; 2]>::from(place.axes()));
+    Ok(Some(Frame::new(&origin, place.strike.get_ref().0, vertical)))
+}

@@ -1,0 +1,582 @@
+//! From a scene with faults to what is integrated, and how.
+
+mod asked;
+mod bends;
+mod cover;
+mod floor;
+mod frame;
+mod held;
+mod medium;
+mod meet;
+mod place;
+mod placed;
+mod plates;
+mod prestress;
+mod resolution;
+mod sense;
+mod start_doubts;
+mod weight;
+
+pub use place::places;
+pub use resolution::{Ground, modulus, spacings};
+
+use super::bodies::BodiesView;
+use super::cadence::{self, Cadence};
+use super::plan::{FaultView, Plan, PointView, Station};
+use super::resolution::Resolution;
+use crate::amounts;
+use crate::diagnostic::Diagnostic;
+use crate::forecast;
+use crate::held::Held;
+use crate::laws;
+use crate::loading::{self, Stage};
+use crate::model::{self, Model, meshes};
+use crate::scene::law::{self, Evolution, LawChoice};
+use crate::scene::model::{
+    Creep, DampingSpec, Fault as Spec, Kinematics, Profiled, Scene, SlipSpec, Station as Asking,
+};
+use crate::warning::Warning;
+use asperity_cycles::medium::{
+    Conditions, Loads, Place, Point, Refusal, Spring, Surroundings, Tractions, across, condense, least_bytes,
+};
+use asperity_cycles::operator::{Form, Geometry, Operator, in_form};
+use asperity_cycles::{Crack, Fault, Floor, Injection, Layout, Pressure, Problem, Settings, Thresholds};
+use asperity_fem::mesh::{Side, face_nodes};
+use asperity_friction::Failure;
+use asperity_friction::fault::FaultLaw;
+use asperity_friction::turning::Turning;
+use asperity_ode::{Clock, Method};
+use held::Asked;
+use medium::{Media, Medium};
+use placed::{Placed, at, components, in_space, slides};
+use prestress::Prestress;
+use std::collections::BTreeMap;
+
+/// Method of scenes that name none: of the explicit ones it takes the fewest evaluations for an error of 1e-5 of the recurrence
+/// in the first events of BP1.
+const DEFAULT_METHOD: Method = Method::Tsit5;
+/// Error of ln V in a step, where the scene gives none: errors of the onsets of BP1's first events are then some 1e-5 of the recurrence. Ten
+/// times more saves a tenth to a sixth of the work, but steps lie at the end of the stability region then, where errors of the fastest modes do not
+/// average out: on cells of 25 m slip of a cycle was 0.24 % off what the loads drive, and its length 0.1 %.
+const DEFAULT_TOLERANCE: f64 = 1e-5;
+/// Steps after which a run is given up: a hundred times those of BP1 at full length.
+const MOST_STEPS: usize = 20_000_000;
+/// An event begins where nothing is said \[m/s\]: radiation damping begins to matter there for rock under crustal stress.
+const EVENT: f64 = 1e-3;
+/// Share of the slip rate that begins an event at which it ends, where nothing is said.
+const EVENT_ENDS: f64 = 0.1;
+
+/// Plans a scene whose stepper is "fault-ode".
+///
+/// # Errors
+/// [`Diagnostic`] with the place in the scene.
+pub fn plan(scene: &Scene) -> Result<Plan, Diagnostic> {
+    plan_with(scene, Form::Fitting)
+}
+
+/// Plans such a scene with the operator in a given form.
+///
+/// # Errors
+/// [`Diagnostic`] with the place in the scene.
+pub fn plan_with(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
+    match scene.kinematics.get_ref() {
+        Kinematics::Antiplane | Kinematics::PlaneStrain => plan_in::<2>(scene, form),
+        Kinematics::ThreeD => plan_in::<3>(scene, form),
+        other => Err(Diagnostic::at(
+            scene.kinematics.span(),
+            format!("faults in {} are not integrated yet", other.words()),
+            "\"antiplane\", \"plane-strain\" and \"3d\" are",
+        )),
+    }
+}
+
+/// Refuses faults of so many points that what the bodies are condensed to alone is too much, before cells have matrices.
+fn admit<const D: usize>(asked: Asked<'_, D>, conditions: Conditions) -> Result<(), Diagnostic> {
+    let points = asked.points;
+    let free = points.iter().filter(|p| p.creep.is_none()).count();
+    let opening = points.iter().filter(|p| p.creep.is_none() && p.opens).count();
+    let needed = least_bytes(conditions.components, conditions.tangents, free, opening);
+    forecast::fits(asked.scene, needed)?;
+    if needed > conditions.memory {
+        return Err(asked.error(&Refusal::Memory { needed, allowed: conditions.memory, points: free }));
+    }
+    Ok(())
+}
+
+/// What acts on the bodies during a stage.
+fn loads<const D: usize>(model: &Model<D>, stage: &Stage) -> Loads {
+    let spring = |s: &loading::Spring| Spring { dofs: s.dofs.clone(), stiffness: s.stiffness, rate: s.rate };
+    Loads {
+        constraints: stage.constraints(&vec![0.0; model.dofs()]),
+        springs: stage.springs.iter().map(spring).collect(),
+        weight: stage.weight.clone(),
+        end: stage.end,
+    }
+}
+
+/// How the bodies of a scene are condensed.
+fn conditions(scene: &Scene, components: usize) -> Conditions {
+    // All faults of a scene have the same, which the check has seen to.
+    let free = |s: &Spec| s.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
+    let turns = scene.faults.values().any(free);
+    let keep = scene.output.bodies.as_ref().is_some_and(|b| *b.get_ref());
+    let tangents = if turns { 2 } else { 1 };
+    Conditions { components, tangents, memory: amounts::memory(scene), keep }
+}
+
+fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
+    let mut model = model::build::<D>(scene)?;
+    if let Some(body) = model.bodies.iter().find(|b| b.nonlinear.is_some()) {
+        return Err(asked::not_linear(scene, &body.name));
+    }
+    let stages = loading::stages(scene, &model)?;
+    let [stage] = stages.as_slice() else {
+        return Err(asked::stages(scene));
+    };
+    let mut warnings = scene.warnings.clone();
+    let (placed, mut notes) = all_points(scene, &model, &mut warnings)?;
+    let points: Vec<Point<D>> = placed.iter().map(|p| p.point.clone()).collect();
+    let named: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    if points.iter().all(|p| p.creep.is_some()) {
+        return Err(asked::nothing_slides(&named, &placed));
+    }
+    // Under weight normal tractions are known once the bodies are condensed.
+    let early = if stage.weight.is_empty() { Some(resolved(scene, &placed, &mut warnings)?) } else { None };
+    let held = Held::by(&model);
+    let conditions = conditions(scene, model.idealisation.components());
+    let loads = loads(&model, stage);
+    admit(Asked { scene, model: &model, loads: &loads, points: &points }, conditions)?;
+    let bodies = model.take_stiffness();
+    let turns = conditions.tangents > 1;
+    let asked = Asked { scene, model: &model, loads: &loads, points: &points };
+    let surroundings = condense(bodies, &loads, &points, conditions).map_err(|e| asked.error(&e))?;
+    let (creeping, mut placed): (Vec<_>, Vec<_>) = placed.into_iter().partition(|p| p.point.creep.is_some());
+    warnings.extend(doubts(scene, (&model, stage), (&placed, &creeping), &surroundings));
+    notes.extend(weight::press(scene, (&model, stage), surroundings.weight.as_ref(), &mut placed)?);
+    let resolution = early.map_or_else(|| resolved(scene, &placed, &mut warnings), Ok)?;
+    let Some(first) = placed.first() else {
+        return Err(asked::nothing_slides(&named, &creeping));
+    };
+    let at_law = |e: Failure| crate::refused::refused(&named[first.fault].1.law, &e);
+    asked::opens(&named, &placed, surroundings.opening.as_ref().map_or(&[], |o| o.points()))?;
+    let law = friction(&named, &placed, at_law)?;
+    let law = if turns { Box::new(Turning::new(law)) } else { law };
+    let fault = Fault {
+        operator: operator(surroundings.operator, &placed, form),
+        law,
+        damping: placed.iter().map(|p| p.damping).collect(),
+        normal: placed.iter().map(|p| p.normal).collect(),
+        pressure: pressure(scene, &placed)?,
+        floor: Floor::new(placed.iter().map(|p| p.floor)),
+        opening: surroundings.opening,
+    };
+    let start = start(scene, &placed, &fault).map_err(at_law)?;
+    warnings.extend(start_doubts::check(scene, &placed, &fault));
+    let (faults, views) = views(scene, &model, &placed, turns)?;
+    let sides = || placed.iter().map(|p| [p.point.place.minus, p.point.place.plus]).collect();
+    let bodies = surroundings.bodies.map(|bodies| BodiesView::new(bodies, &model, sides()));
+    let areas = placed.iter().map(|p| p.point.place.area).collect();
+    let settings = settings(scene, stage.end)?;
+    Ok(Plan {
+        title: scene.title.clone(),
+        faults,
+        points: views,
+        cadence: cadence(scene, &fault, stage.end),
+        problem: Problem { fault, areas, loading: surroundings.loading, start, settings },
+        dofs: model.dofs(),
+        creeping: points.len() - placed.len(),
+        memory_bytes: held.with_faults(surroundings.bytes),
+        bodies,
+        frame: frame::of(scene, D == 3)?,
+        in_space: D == 3,
+        kinematics: scene.kinematics.get_ref().words(),
+        resolution,
+        warnings,
+        notes,
+    })
+}
+
+/// The laws of all points, which are of one kind.
+fn friction<const D: usize>(
+    faults: &[(&String, &Spec)],
+    placed: &[Placed<D>],
+    at_law: impl Fn(Failure) -> Diagnostic,
+) -> Result<Box<dyn FaultLaw>, Diagnostic> {
+    let (first, rest) = (&placed[0], &placed[1..]);
+    let spec = |p: &Placed<D>| &faults[p.fault].1.law;
+    if let Some(other) = rest.iter().find(|p| !first.law.same_kind(&p.law)) {
+        return Err(Diagnostic::at(
+            spec(other).span(),
+            "the faults have laws of different kinds",
+            "one form, one evolution and as many states for all faults of a scene; parameters may differ",
+        ));
+    }
+    let choices: Vec<LawChoice> = rest.iter().map(|p| p.law.clone()).collect();
+    laws::build_fault(&first.law, &choices).map_err(at_law)?.ok_or_else(|| asked::another_law(spec(first)))
+}
+
+/// What is doubtful in how loads and creep drive faults, whose points slide or creep.
+fn doubts<const D: usize>(
+    scene: &Scene,
+    (model, stage): (&Model<D>, &Stage),
+    (placed, creeping): (&[Placed<D>], &[Placed<D>]),
+    surroundings: &Surroundings,
+) -> Vec<Warning> {
+    let mut all = sense::check(scene, (placed, creeping), &surroundings.loading, stage.end);
+    if all.is_empty() {
+        // One cause, one warning.
+        all.extend(plates::check(scene, (model, stage), (placed, creeping), surroundings));
+    }
+    all.extend(weight::hangs(scene, model, stage));
+    all
+}
+
+/// The points of all faults, and what is to be said of them.
+fn all_points<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    warnings: &mut Vec<Warning>,
+) -> Result<(Vec<Placed<D>>, Vec<String>), Diagnostic> {
+    let mut placed: Vec<Placed<D>> = Vec::new();
+    for (k, (name, spec)) in scene.faults.iter().enumerate() {
+        placed.extend(points_of(scene, model, (name, spec), k, warnings)?);
+    }
+    let mut notes = meshes::notes(scene)?;
+    for fault in &scene.faults {
+        notes.extend(bends::note(model, (fault.0, fault.1))?);
+    }
+    notes.extend(meet::join(scene, model, &mut placed)?);
+    Ok((placed, notes))
+}
+
+/// How each fault is resolved on which friction weakens.
+fn resolved<const D: usize>(
+    scene: &Scene,
+    placed: &[Placed<D>],
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Resolution>, Diagnostic> {
+    let mut all = Vec::new();
+    for (fault, (name, spec)) in scene.faults.iter().enumerate() {
+        let points = || placed.iter().filter(|p| p.fault == fault && p.point.creep.is_none());
+        let weighs = scene.bodies.values().any(|b| b.gravity.is_some());
+        warnings.extend(floor::above_start(name, spec, weighs, points().map(|p| p.normal)));
+        let with_ground = points().map(|p| {
+            let (law, modulus) = (&p.law, p.medium.stiffness);
+            (&p.point.place, Ground { law, normal: p.pressed(), modulus, in_space: D == 3 }, p.spacing)
+        });
+        if let Some(found) = resolution::of_points(name, with_ground) {
+            warnings.extend(resolution::check(&found, spec, D == 3)?);
+            all.push(found);
+        }
+    }
+    Ok(all)
+}
+
+/// The operator in its form.
+fn operator<const D: usize>(tractions: Tractions, placed: &[Placed<D>], form: Form) -> Box<dyn Operator> {
+    let places: Vec<[f64; 3]> = placed.iter().map(|p| in_space(&p.point.place.at)).collect();
+    let areas: Vec<f64> = placed.iter().map(|p| p.point.place.area).collect();
+    let last = placed.last().map_or(0, |p| p.fault);
+    let first = |fault: usize| placed.partition_point(|p| p.fault < fault);
+    let faults: Vec<_> = (0..=last).map(|f| first(f)..first(f + 1)).filter(|r| !r.is_empty()).collect();
+    in_form(tractions, &Geometry { places: &places, faults: &faults, areas: &areas }, form)
+}
+
+fn points_of<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    (name, spec): (&str, &Spec),
+    fault: usize,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Placed<D>>, Diagnostic> {
+    let base = law::choose(&spec.law).map_err(|errors| {
+        let first = errors.into_iter().next();
+        first.unwrap_or_else(|| asked::incomplete(&spec.law))
+    })?;
+    let mut placed = Vec::new();
+    let media = Media::new(scene, model, spec)?;
+    let spacings = resolution::spacings(model, model::sides(model, &spec.minus)?);
+    let choice = floor::choice(spec);
+    let stress = Prestress::new(scene, (name, spec));
+    let weighs = scene.bodies.values().any(|b| b.gravity.is_some());
+    let (places, doubtful) = place::places(model, name, spec)?;
+    warnings.extend(doubtful);
+    for place in places {
+        let value = |profile: &Option<Profiled>| profile.as_ref().map(|p| largest(p, &place));
+        let creep = spec.creep.as_ref().filter(|c| creeps(c, &place, CLOSE * model.scale));
+        let medium = media.at(&place);
+        let given = stress.as_ref().filter(|_| creep.is_none());
+        let given = given.map(|s| s.start(model, &place, weighs)).transpose()?;
+        let shear = value(&spec.profiles.shear).or(spec.shear.as_ref().map(|s| s.get_ref().0));
+        // The check has seen to one of them; nobody asks where the fault creeps.
+        let normal = value(&spec.profiles.normal).or(spec.normal.as_ref().map(|n| n.get_ref().0));
+        placed.push(Placed {
+            fault,
+            medium,
+            damping: damping(spec, &medium)?,
+            normal: given.and_then(|g| g.normal).or(normal).unwrap_or_default(),
+            shear: given.map(|g| g.shear).or(shear),
+            prestress: given.unwrap_or_default(),
+            spacing: spacings.get(&place.minus).copied().unwrap_or_default(),
+            floor: choice.floor,
+            law: varied(&base, value(&spec.profiles.a), value(&spec.profiles.b), value(&spec.profiles.l)),
+            creep: creep.map(|c| c.rate.get_ref().0),
+            components: model.idealisation.components(),
+            point: Point {
+                creep: creep.map(|c| components(&place, c.rate.get_ref().0)),
+                normal_changes: choice.changes,
+                opens: choice.opens,
+                place,
+            },
+        });
+    }
+    asked::creep((name, spec), &placed)?;
+    asked::profiles((name, spec), &placed, warnings);
+    Ok(placed)
+}
+
+/// Distance over the size of the model within which a point lies on the border of the creeping part: rounding.
+const CLOSE: f64 = 1e-12;
+
+/// Whether slip is prescribed at a place; at the border, to within `close` \[m\], it is.
+fn creeps<const D: usize>(creep: &Creep, place: &Place<D>, close: f64) -> bool {
+    if let Some(beyond) = &creep.beyond {
+        return place.along >= beyond.get_ref().0 - close;
+    }
+    let ranges = creep.outside.as_ref().map(|o| o.get_ref().ranges()).unwrap_or_default();
+    place.at.iter().zip(ranges).any(|(x, range)| {
+        let (from, to) = range.map_or((None, None), |r| (r.from, r.to));
+        from.is_some_and(|l| *x <= l.0 + close) || to.is_some_and(|l| *x >= l.0 - close)
+    })
+}
+
+/// Largest value of some profiles at a place.
+fn largest<const D: usize>(profiles: &Profiled, place: &Place<D>) -> f64 {
+    profiles.0.iter().map(|p| at(p, place)).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// A law with other parameters.
+fn varied(base: &LawChoice, a: Option<f64>, b: Option<f64>, l: Option<f64>) -> LawChoice {
+    let mut law = base.clone();
+    match &mut law {
+        LawChoice::Rate { strength, .. } => strength.a = a.unwrap_or(strength.a),
+        LawChoice::RateAndState { strength, states, .. } => {
+            strength.a = a.unwrap_or(strength.a);
+            for state in states {
+                state.b = b.unwrap_or(state.b);
+                state.l = l.unwrap_or(state.l);
+            }
+        }
+        _ => {}
+    }
+    law
+}
+
+/// η at a point \[Pa s/m\].
+fn damping(spec: &Spec, medium: &Medium) -> Result<f64, Diagnostic> {
+    let Some(given) = &spec.damping else { return Ok(0.0) };
+    match given.get_ref() {
+        DampingSpec::Value(value) => Ok(*value),
+        DampingSpec::Radiation => medium.radiation.ok_or_else(|| {
+            Diagnostic::at(
+                given.span(),
+                "radiation damping needs the density of the materials at the fault",
+                "add `density = \"2670 kg/m^3\"` to them, or give the damping in Pa s/m",
+            )
+        }),
+    }
+}
+
+/// Pressure of the fluid that is injected.
+fn pressure<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Option<Pressure>, Diagnostic> {
+    let mut pressure: Option<Pressure> = None;
+    for (fault, (name, spec)) in scene.faults.iter().enumerate() {
+        let Some(injection) = &spec.injection else { continue };
+        let points = placed.iter().filter(|p| p.fault == fault);
+        let at = injection.at.get_ref().0;
+        let along: Vec<f64> = points.map(|p| p.point.place.along).collect();
+        let (least, most) = along.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), s| (l.min(*s), m.max(*s)));
+        if !(least <= at && at <= most) {
+            return Err(Diagnostic::at(
+                injection.at.span(),
+                format!("fault `{name}` does not slide at {at} m along it, where fluid is injected"),
+                format!("it slides from {least} to {most} m"),
+            ));
+        }
+        let until = injection.until.as_ref().map_or(f64::INFINITY, |t| t.get_ref().0);
+        let injected = Injection {
+            flux: injection.flux.get_ref().0,
+            diffusivity: *injection.diffusivity.get_ref(),
+            porosity: *injection.porosity.get_ref(),
+            compressibility: *injection.compressibility.get_ref(),
+            during: [0.0, until],
+        };
+        let first = placed.partition_point(|p| p.fault < fault);
+        let distances = along.iter().map(|s| s - at).collect();
+        pressure.get_or_insert_default().add(injected, first, distances);
+    }
+    Ok(pressure)
+}
+
+/// Unknowns at the start: every point slides at the rate of its fault.
+fn start<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>, Failure> {
+    let layout = Layout::of(fault);
+    let n = fault.law.states();
+    let mut y = vec![0.0; layout.size()];
+    let specs: Vec<&Spec> = scene.faults.values().collect();
+    if !layout.normal().is_empty() {
+        let normal = layout.normal();
+        y[normal].iter_mut().zip(placed).for_each(|(f, point)| *f = point.normal);
+    }
+    let pressed = fault.pressed(Clock::new(0.0, 0.0), &y, &mut Crack::default());
+    for (p, point) in placed.iter().enumerate() {
+        let spec = specs[point.fault];
+        let rate = spec.rate.get_ref().0;
+        let states = layout.states().start + p * n..layout.states().start + (p + 1) * n;
+        let initial = match &point.law {
+            LawChoice::RateAndState { v_initial, .. } => *v_initial,
+            _ => rate.abs(),
+        };
+        let law: &dyn FaultLaw = fault.law.as_ref();
+        law.steady(p, initial.ln(), &mut y[states.clone()]);
+        if let Some(shear) = point.shear {
+            // Friction is odd in the rate: its size is found for a positive one.
+            let mu = (shear - fault.damping[p] * rate) * rate.signum() / pressed.normal[p];
+            law.states_for(p, rate.abs(), mu, &mut y[states.clone()])?;
+            y[p] = mu * rate.signum() / law.scale(p);
+        } else {
+            y[p] = law.at_rate(p, rate, &y[states])?;
+        }
+    }
+    Ok(y)
+}
+
+fn settings(scene: &Scene, end: f64) -> Result<Settings, Diagnostic> {
+    let time = &scene.time;
+    let method = match &time.method {
+        None => DEFAULT_METHOD,
+        Some(name) => match name.get_ref().parse::<Method>() {
+            Ok(method) if Method::EXPLICIT.contains(&method) => method,
+            _ => {
+                let those = Method::EXPLICIT.map(|m| format!("\"{}\"", m.name())).join(", ");
+                return Err(Diagnostic::at(
+                    name.span(),
+                    format!("the method \"{}\" does not integrate faults", name.get_ref()),
+                    format!("those without a Jacobian do: {those}"),
+                ));
+            }
+        },
+    };
+    let events = scene.events.as_ref();
+    let on = events.map_or(EVENT, |e| e.above.get_ref().0);
+    let off = events.and_then(|e| e.below.as_ref()).map_or(EVENT_ENDS * on, |b| b.get_ref().0);
+    Ok(Settings {
+        method,
+        tolerance: time.log_rate_tolerance.as_ref().map_or(DEFAULT_TOLERANCE, |t| *t.get_ref()),
+        end,
+        thresholds: Thresholds { on, off },
+        most_events: events.and_then(|e| e.stop_after.as_ref()).map(|n| *n.get_ref()),
+        most_steps: MOST_STEPS,
+    })
+}
+
+/// When outputs are due.
+fn cadence(scene: &Scene, fault: &Fault, end: f64) -> Cadence {
+    let lengths = (0..fault.law.points()).filter_map(|p| fault.law.length(p));
+    let on = scene.events.as_ref().map_or(EVENT, |e| e.above.get_ref().0);
+    let output = &scene.output;
+    let asked = output.cadence.as_ref().map(|c| c.get_ref());
+    let asked = cadence::Asked {
+        decades: asked.and_then(|c| c.decades.as_ref()).map(|d| *d.get_ref()),
+        slip: asked.and_then(|c| c.slip.as_ref()).map(|s| s.get_ref().0),
+        longest: asked.and_then(|c| c.longest.as_ref()).map(|t| t.get_ref().0),
+        shortest: asked.and_then(|c| c.shortest.as_ref()).map(|t| t.get_ref().0),
+        contours: output.contours.as_ref().map(|c| [c.get_ref()[0].0, c.get_ref()[1].0]),
+        largest_file: output.largest_file.as_ref().map(|m| m.get_ref().0),
+    };
+    Cadence::new(asked, end, on, lengths.reduce(f64::min))
+}
+
+/// How θ follows from the state variable of a law with one state.
+fn theta(law: &LawChoice) -> Option<(f64, f64)> {
+    let LawChoice::RateAndState { strength, evolution, states, .. } = law else { return None };
+    let [state] = states.as_slice() else { return None };
+    let time = state.l / strength.v_ref;
+    match evolution {
+        Evolution::Slip if state.b > 0.0 => Some((time, 1.0 / state.b)),
+        Evolution::Ageing { .. } | Evolution::Prz | Evolution::Nagata { .. } => Some((time, 1.0)),
+        Evolution::Slip | Evolution::Flash { .. } => None,
+    }
+}
+
+/// Faces of the minus side between these points, by their numbers.
+fn faces<const D: usize>(
+    model: &Model<D>,
+    spec: &Spec,
+    placed: &[Placed<D>],
+) -> Result<Vec<Vec<usize>>, Diagnostic> {
+    let points = placed.iter().enumerate().map(|(p, placed)| (placed.point.place.minus, p));
+    let points: BTreeMap<usize, usize> = points.collect();
+    let of = |side: &Side| {
+        face_nodes(&model.mesh, side).iter().map(|n| points.get(n).copied()).collect::<Option<Vec<usize>>>()
+    };
+    Ok(model::sides(model, &spec.minus)?.iter().filter_map(of).collect())
+}
+
+/// Faults and points as outputs see them.
+fn views<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    placed: &[Placed<D>],
+    turns: bool,
+) -> Result<(Vec<FaultView>, Vec<PointView>), Diagnostic> {
+    let points: Vec<PointView> = placed
+        .iter()
+        .map(|p| {
+            let place = &p.point.place;
+            let (at, normal): ([f64; 3], [f64; 3]) = (in_space(&place.at), in_space(&place.normal));
+            let slides = slides(p);
+            let (along, area, theta) = (place.along, place.area, theta(&p.law));
+            let shear_modulus = p.medium.shear_modulus;
+            PointView {
+                at,
+                along,
+                normal,
+                slides,
+                across: turns.then(|| across(&normal, &slides)),
+                area,
+                shear_modulus,
+                theta,
+            }
+        })
+        .collect();
+    let mut faults = Vec::new();
+    for (k, (name, spec)) in scene.faults.iter().enumerate() {
+        let first = placed.partition_point(|p| p.fault < k);
+        let last = placed.partition_point(|p| p.fault <= k);
+        let asked = scene.output.stations.get(name);
+        let off = |p: usize, s: &Asking| match s {
+            Asking::Along(s) => (points[p].along - s).abs(),
+            Asking::At(at) => at.iter().zip(&points[p].at).map(|(a, b)| (a - b).powi(2)).sum(),
+        };
+        let nearest = |s: &Asking| (first..last).min_by(|&a, &b| off(a, s).total_cmp(&off(b, s)));
+        let mut stations = Vec::new();
+        for asked in asked.iter().flat_map(|a| a.get_ref()) {
+            let Some(point) = nearest(asked.get_ref()) else { continue };
+            asked::station(model, (name, spec), asked, (&placed[first..last], point - first))?;
+            let station = match asked.get_ref() {
+                Asking::Along(s) => Station::Along(*s),
+                Asking::At(at) => Station::At(at.clone()),
+            };
+            stations.push((station, point));
+        }
+        faults.push(FaultView {
+            name: name.clone(),
+            points: first..last,
+            normal: floor::choice(spec),
+            stations,
+            faces: faces(model, spec, &placed[first..last])?,
+        });
+    }
+    Ok((faults, points))
+}

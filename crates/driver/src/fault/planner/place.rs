@@ -1,0 +1,204 @@
+//! The points of a fault: pairs of nodes, one on each side, at one place.
+
+use super::cover::{self, TOGETHER};
+use crate::diagnostic::Diagnostic;
+use crate::model::{self, Model};
+use crate::scene::model::{Fault as Spec, Spanned};
+use crate::warning::Warning;
+use asperity_cycles::medium::{Place, unit};
+use asperity_fem::FemError;
+use asperity_fem::kinematics::Idealisation;
+use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
+use asperity_fem::surface;
+use asperity_mechanics::coordinates;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The points of a fault, along a plane one from its upper end, and what is doubtful about its sides.
+///
+/// # Errors
+/// [`Diagnostic`] where the sides do not lie on each other node by node, where more than two meet, or a point has no area.
+pub fn places<const D: usize>(
+    model: &Model<D>,
+    name: &str,
+    spec: &Spec,
+) -> Result<(Vec<Place<D>>, Option<Warning>), Diagnostic> {
+    let (minus, plus) = (model::sides(model, &spec.minus)?, model::sides(model, &spec.plus)?);
+    let (pairs, doubtful) = pairs(model, name, spec, minus, plus)?;
+    let no_areas =
+        |e: FemError| Diagnostic::at(spec.minus.span(), format!("fault `{name}`: {e}"), WITH_AREAS);
+    let areas = model.tributary_areas(minus).map_err(no_areas)?;
+    let normals = normals(model, minus);
+    let along = if D == 2 { distances(model, minus) } else { BTreeMap::new() };
+    let mut places = Vec::with_capacity(pairs.len());
+    for (minus, plus) in pairs {
+        let area = areas.get(&minus).copied().unwrap_or(0.0);
+        if area <= 0.0 {
+            return Err(Diagnostic::at(
+                spec.minus.span(),
+                format!(
+                    "a node of fault `{name}` at {} has no positive area",
+                    coordinates::in_words(&model.mesh.nodes[minus])
+                ),
+                WITH_AREAS,
+            ));
+        }
+        let normal = unit(normals[&minus]);
+        let at = model.mesh.nodes[minus];
+        let [rake, creeps] = directions((name, spec), &at, &normal)?;
+        places.push(Place {
+            minus,
+            plus,
+            at,
+            area,
+            normal,
+            rake,
+            creeps,
+            along: along.get(&minus).copied().unwrap_or(0.0),
+        });
+    }
+    places.sort_by(|a, b| a.along.total_cmp(&b.along).then(a.minus.cmp(&b.minus)));
+    Ok((places, doubtful))
+}
+
+/// Directions of slip and of creep at a place of a fault.
+///
+/// # Errors
+/// [`Diagnostic`] at a rake that is normal to the fault.
+pub(super) fn directions<const D: usize>(
+    (name, spec): (&str, &Spec),
+    at: &[f64; D],
+    normal: &[f64; D],
+) -> Result<[[f64; D]; 2], Diagnostic> {
+    let within = |rake: &Spanned<[f64; 3]>| {
+        along_rake(rake.get_ref(), normal).ok_or_else(|| {
+            Diagnostic::at(
+                rake.span(),
+                format!("`rake` is normal to fault `{name}` at {}", coordinates::in_words(at)),
+                "a direction along the fault",
+            )
+        })
+    };
+    let rake = spec.rake.as_ref().map_or(Ok([0.0; D]), &within)?;
+    let creeps = spec.creep.as_ref().and_then(|c| c.rake.as_ref()).map_or(Ok(rake), &within)?;
+    Ok([rake, creeps])
+}
+
+/// Elements with which every node of a fault has an area.
+const WITH_AREAS: &str = "use an element whose faces have positive nodal areas: quad4, quad8, quad9, tri3, tri6; hex8, hex27, wedge6, tet4";
+/// Sine of the angle between rake and normal below which there is no direction in the fault: a hundredth of a degree.
+const NORMAL_RAKE: f64 = 2e-4;
+
+/// What of a direction lies in the plane of a normal, as a unit vector; none where that is next to nothing.
+fn along_rake<const D: usize>(rake: &[f64; 3], normal: &[f64; D]) -> Option<[f64; D]> {
+    let rake: [f64; D] = std::array::from_fn(|c| rake[c]);
+    let across: f64 = rake.iter().zip(normal).map(|(r, n)| r * n).sum();
+    let within: [f64; D] = std::array::from_fn(|c| rake[c] - across * normal[c]);
+    (surface::length(&within) > NORMAL_RAKE * surface::length(&rake)).then(|| unit(within))
+}
+
+/// Nodes of both sides at one place; tips, where both sides are one node, are left out.
+type Pairs = Vec<(usize, usize)>;
+
+fn pairs<const D: usize>(
+    model: &Model<D>,
+    name: &str,
+    spec: &Spec,
+    minus: &[Side],
+    plus: &[Side],
+) -> Result<(Pairs, Option<Warning>), Diagnostic> {
+    let close = TOGETHER * model.scale;
+    let nodes = |sides: &[Side]| nodes_of_sides(&model.mesh, sides);
+    let (on_minus, mut on_plus) = (nodes(minus), nodes(plus));
+    let x = |n: &usize| model.mesh.nodes[*n];
+    // Sorted by the first coordinate: candidates lie in a narrow band.
+    on_plus.sort_by(|a, b| x(a)[0].total_cmp(&x(b)[0]));
+    let mut partner: BTreeMap<usize, usize> = BTreeMap::new();
+    let mut taken = BTreeSet::new();
+    for m in &on_minus {
+        let from = on_plus.partition_point(|p| x(p)[0] < x(m)[0] - close);
+        let candidates = on_plus[from..].iter().take_while(|p| x(p)[0] <= x(m)[0] + close);
+        let near = candidates.filter(|p| (0..D).all(|c| (x(p)[c] - x(m)[c]).abs() <= close));
+        let near: Vec<usize> = near.copied().collect();
+        match near.as_slice() {
+            [p] if taken.insert(*p) => partner.insert(*m, *p),
+            [] => {
+                return Err(Diagnostic::at(
+                    spec.plus.span(),
+                    format!(
+                        "the sides of fault `{name}` do not lie on each other: the node of the minus side at {} has none on the plus side",
+                        coordinates::in_words(&x(m))
+                    ),
+                    "both sides need the same nodes, as splitting a mesh along a surface makes them",
+                ));
+            }
+            _ => return Err(branches(&format!("fault `{name}` branches"), &x(m), spec)),
+        };
+    }
+    let alone: Vec<usize> = on_plus.into_iter().filter(|p| !taken.contains(p)).collect();
+    cover::partners(model, (name, spec), minus, &alone)?;
+    let doubtful = cover::same_faces(model, (name, spec), (minus, plus), |m| partner.get(&m).copied());
+    let pairs: Pairs = partner.into_iter().filter(|(m, p)| m != p).collect();
+    if pairs.is_empty() {
+        return Err(Diagnostic::at(
+            spec.plus.span(),
+            format!("both sides of fault `{name}` are the same nodes: nothing can slide there"),
+            "a fault lies between two sides that can part: two bodies, or a mesh that is split along a surface, whose sides are \
+             `body.SURFACE.minus` and `body.SURFACE.plus`",
+        ));
+    }
+    Ok((pairs, doubtful))
+}
+
+/// The refusal of a place where more than two sides meet.
+pub(super) fn branches<const D: usize>(what: &str, at: &[f64; D], spec: &Spec) -> Diagnostic {
+    Diagnostic::at(
+        spec.minus.span(),
+        format!("{what} at {}: more than two sides meet there", coordinates::in_words(at)),
+        "a point of a fault has two sides; leave the faces of a branch that touch the other fault out of its surface, so that it ends one cell away \
+         from it, or leave the branch out",
+    )
+}
+
+/// Integral of the outward normal of the minus side with the shape function of each node.
+fn normals<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<usize, [f64; D]> {
+    // One force for each axis of space.
+    let idealisation = Idealisation::of_dimension(D);
+    let forces = surface::integrate(&model.mesh, sides, idealisation, |point, out| {
+        out[..D].copy_from_slice(&point.normal);
+    });
+    let mut normals: BTreeMap<usize, [f64; D]> = BTreeMap::new();
+    for (dof, value) in forces {
+        normals.entry(dof / D).or_insert([0.0; D])[dof % D] = value;
+    }
+    normals
+}
+
+/// Distance of each node along the faces of a plane side from its upper end.
+fn distances<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<usize, f64> {
+    // Corners first, middle nodes last: in order along the face.
+    let ordered = |side: &Side| {
+        let mut nodes = face_nodes(&model.mesh, side);
+        nodes[1..].rotate_left(1);
+        nodes
+    };
+    let mut links: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for side in sides {
+        for w in ordered(side).windows(2) {
+            links.entry(w[0]).or_default().push(w[1]);
+            links.entry(w[1]).or_default().push(w[0]);
+        }
+    }
+    let height = |n: &usize| model.mesh.nodes[*n][D - 1];
+    let ends = links.iter().filter(|(_, next)| next.len() == 1).map(|(n, _)| *n);
+    let mut result = BTreeMap::new();
+    let Some(mut node) = ends.max_by(|a, b| height(a).total_cmp(&height(b))) else { return result };
+    let mut along = 0.0;
+    result.insert(node, along);
+    while let Some(&next) = links[&node].iter().find(|n| !result.contains_key(*n)) {
+        let step: [f64; D] = std::array::from_fn(|c| model.mesh.nodes[next][c] - model.mesh.nodes[node][c]);
+        along += surface::length(&step);
+        result.insert(next, along);
+        node = next;
+    }
+    result
+}

@@ -1,0 +1,87 @@
+//! A point of a fault while a scene is planned.
+
+use super::medium::Medium;
+use super::prestress::Resolved;
+use crate::scene::law::LawChoice;
+use crate::scene::model::{Along, Profile};
+use asperity_cycles::medium::{Place, Point, across};
+
+/// A point with its fault and law.
+pub(super) struct Placed<const D: usize> {
+    pub point: Point<D>,
+    pub fault: usize,
+    /// Normal traction at the start \[Pa\].
+    pub normal: f64,
+    pub medium: Medium,
+    pub damping: f64,
+    /// Distance to the farthest neighbour \[m\].
+    pub spacing: f64,
+    /// Least normal traction that friction uses \[Pa\].
+    pub floor: Option<f64>,
+    /// Shear traction at the start, where it is given \[Pa\].
+    pub shear: Option<f64>,
+    /// What the bodies exert at the start.
+    pub prestress: Resolved,
+    pub law: LawChoice,
+    /// Rate of creep, where there is any \[m/s\].
+    pub creep: Option<f64>,
+    /// Components of displacement of the bodies.
+    pub components: usize,
+}
+
+impl<const D: usize> Placed<D> {
+    /// Turns the creep to the directions of the place, which have changed.
+    pub fn redirect(&mut self) {
+        self.point.creep = self.creep.map(|rate| components(&self.point.place, rate));
+    }
+}
+
+impl<const D: usize> Placed<D> {
+    /// f_n as friction uses it at the start \[Pa\].
+    pub fn pressed(&self) -> f64 {
+        self.floor.map_or(self.normal, |floor| self.normal.max(floor))
+    }
+}
+
+/// Value of a profile at a place: linear between its points, constant beyond.
+pub(super) fn at<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
+    let x = match profile.along.get_ref() {
+        Along::X => place.at[0],
+        Along::Y => place.at[1],
+        // The check refuses it in the plane.
+        Along::Z => place.at[D - 1],
+        Along::Distance => place.along,
+    };
+    let points = profile.points.get_ref();
+    let k = points.partition_point(|p| p.0.0 <= x);
+    if k == 0 || k == points.len() {
+        return points[k.min(points.len() - 1)].1;
+    }
+    let (a, b) = (&points[k - 1], &points[k]);
+    let s = (x - a.0.0) / (b.0.0 - a.0.0);
+    (1.0 - s) * a.1 + s * b.1
+}
+
+/// Direction in which plus moves where slip is positive: out of the plane, along the fault in it, or along the rake.
+pub(super) fn slides<const D: usize>(placed: &Placed<D>) -> [f64; 3] {
+    let normal = in_space(&placed.point.place.normal);
+    match placed.components {
+        1 => [0.0, 0.0, 1.0],
+        2 => [-normal[1], normal[0], 0.0],
+        _ => in_space(&placed.point.place.rake),
+    }
+}
+
+/// A rate of creep along the rake and across it.
+pub(super) fn components<const D: usize>(place: &Place<D>, rate: f64) -> [f64; 2] {
+    if place.creeps == place.rake {
+        return [rate, 0.0];
+    }
+    let (rake, creeps) = (in_space(&place.rake), in_space(&place.creeps));
+    let axes = [rake, across(&in_space(&place.normal), &rake)];
+    axes.map(|axis| rate * axis.iter().zip(&creeps).map(|(a, b)| a * b).sum::<f64>())
+}
+
+pub(super) fn in_space<const D: usize>(at: &[f64; D]) -> [f64; 3] {
+    std::array::from_fn(|c| if c < D { at[c] } else { 0.0 })
+}

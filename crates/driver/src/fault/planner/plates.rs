@@ -1,0 +1,143 @@
+//! Whether the sides of the bodies move as the creep of a fault has it.
+//!
+//! Where plane faults cut the bodies right through, creep and the motion of the sides say the same thing twice: plates that slip everywhere at the rate of the creep
+//! move rigidly and are not strained. With the forces along slip that the sides cause, F_w, that creep causes, F_c, and that slip of all other points at the rate of the creep
+//! would, F_s, plates that agree have `F_w + F_c + F_s = 0`, and the sides move past each other at `-F_w/(F_c + F_s)` times the creep otherwise.
+
+use super::placed::{Placed, slides};
+use crate::loading::Stage;
+use crate::model::Model;
+use crate::scene::model::{Creep, Fault as Spec, Scene};
+use crate::warning::Warning;
+use asperity_cycles::medium::{Surroundings, Tractions};
+use asperity_cycles::operator::Operator as _;
+
+/// Share of the creep by which sides may move differently without a word: a hundred times what rates are usually given to.
+const AGREES: f64 = 0.01;
+/// Share of the force of slip below which sides and creep exert none: sides that are free.
+const NOTHING: f64 = 1e-6;
+/// How far the product of unit vectors along one direction is from 1: rounding of coordinates.
+const PARALLEL: f64 = 1e-9;
+
+/// Warnings of sides that move against the slip of a fault, or not as its creep.
+pub(super) fn check<const D: usize>(
+    scene: &Scene,
+    (model, stage): (&Model<D>, &Stage),
+    (placed, creeping): (&[Placed<D>], &[Placed<D>]),
+    surroundings: &Surroundings,
+) -> Option<Warning> {
+    let creep = surroundings.creep.as_ref()?;
+    let total = surroundings.loading.mean(stage.end, placed.len());
+    let sides: Vec<f64> = total.iter().zip(creep).map(|(all, creep)| all - creep).collect();
+    if !stage.has_loads() && judged(scene, model, placed, creeping) {
+        return of_plates(scene, placed, (&sides, creep), &surroundings.operator);
+    }
+    let faults = scene.faults.iter().enumerate();
+    faults.filter_map(|(k, fault)| against(fault, k, placed, (&sides, creep))).next()
+}
+
+/// Whether faults are plane, parallel, slip one way, creep, and cut the bodies right through.
+fn judged<const D: usize>(
+    scene: &Scene,
+    model: &Model<D>,
+    placed: &[Placed<D>],
+    creeping: &[Placed<D>],
+) -> bool {
+    let all = || placed.iter().chain(creeping);
+    let Some(first) = all().next() else { return false };
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>().abs();
+    let along = slides(first);
+    let parallel = |p: &Placed<D>| {
+        dot(&p.point.place.normal, &first.point.place.normal) > 1.0 - PARALLEL
+            && dot(&slides(p), &along) > 1.0 - PARALLEL
+    };
+    let part = |node: usize| {
+        let of = |parts: &Vec<Vec<usize>>| parts.iter().position(|p| p.binary_search(&node).is_ok());
+        let body = model.bodies.iter().position(|b| b.nodes.contains(&node));
+        body.map(|b| (b, of(&model.bodies[b].parts)))
+    };
+    let cut = |p: &Placed<D>| part(p.point.place.minus) != part(p.point.place.plus);
+    let one_way = |p: &Placed<D>| p.point.creep.is_none_or(|c| c[0] != 0.0 && c[1] == 0.0);
+    scene.faults.values().all(|f| f.creep.is_some()) && all().all(|p| parallel(p) && one_way(p) && cut(p))
+}
+
+/// Sum of tractions along slip over the areas of points.
+fn force<const D: usize>(placed: &[Placed<D>], tractions: &[f64]) -> f64 {
+    placed.iter().zip(tractions).map(|(p, t)| p.point.place.area * t).sum()
+}
+
+fn rate(spec: &Spec) -> Option<f64> {
+    spec.creep.as_ref().map(|c| c.rate.get_ref().0)
+}
+
+/// The warning of sides that do not move as the creep of the faults between them.
+fn of_plates<const D: usize>(
+    scene: &Scene,
+    placed: &[Placed<D>],
+    (sides, creep): (&[f64], &[f64]),
+    operator: &Tractions,
+) -> Option<Warning> {
+    let faults: Vec<(&String, &Spec)> = scene.faults.iter().collect();
+    let slip: Vec<f64> = placed.iter().map(|p| rate(faults[p.fault].1).unwrap_or_default()).collect();
+    let mut exerted = vec![0.0; slip.len()];
+    match operator {
+        Tractions::One(dense) => dense.shear(&slip, &mut exerted),
+        Tractions::Two { along, .. } => along[0].shear(&slip, &mut exerted),
+    }
+    let (by_sides, by_slip) = (force(placed, sides), force(placed, &exerted));
+    let by_creep = force(placed, creep) + by_slip;
+    let most = by_sides.abs().max(by_creep.abs());
+    if most <= NOTHING * by_slip.abs() || (by_sides + by_creep).abs() <= AGREES * most {
+        return None;
+    }
+    let (name, spec) = faults[placed.first()?.fault];
+    let Creep { rate, .. } = spec.creep.as_ref()?;
+    let creeps = rate.get_ref().0;
+    let moves = -by_sides / by_creep * creeps;
+    let what = if moves.abs() <= AGREES * creeps.abs() {
+        "do not move past each other".to_string()
+    } else {
+        format!("move past each other at {moves:.4e} m/s")
+    };
+    Some(Warning::at(
+        rate.span(),
+        format!(
+            "fault `{name}` creeps at {creeps:.4e} m/s, and the sides of the bodies {what} along its slip: the difference strains the bodies for as long as the run lasts"
+        ),
+        format!(
+            "sides that move with the plates differ by the creep, such as {:e} and {:e} m/s along the slip",
+            -0.5 * creeps,
+            0.5 * creeps
+        ),
+    ))
+}
+
+/// The warning of a fault that the sides of the bodies drive against `rate`, and creep more strongly along it.
+fn against<const D: usize>(
+    (name, spec): (&String, &Spec),
+    fault: usize,
+    placed: &[Placed<D>],
+    (sides, creep): (&[f64], &[f64]),
+) -> Option<Warning> {
+    let own = |tractions: &[f64]| -> [f64; 2] {
+        let of = placed.iter().zip(tractions).filter(|(p, _)| p.fault == fault);
+        of.fold([0.0; 2], |[sum, size], (p, t)| {
+            let force = p.point.place.area * t;
+            [sum + force, size + force.abs()]
+        })
+    };
+    let sense = spec.rate.get_ref().0.signum();
+    let ([by_sides, size], [by_creep, _]) = (own(sides), own(creep));
+    let opposed = by_sides * sense < -AGREES * size && by_creep * sense > 0.0;
+    // Where sides prevail the loads as a whole drive it against `rate`, which is warned of elsewhere.
+    (opposed && (by_sides + by_creep) * sense > 0.0).then(|| {
+        Warning::at(
+            spec.rate.span(),
+            format!(
+                "the sides of the bodies drive fault `{name}` against `rate`, with {:.3} of the force with which its creep drives it along",
+                (by_sides / by_creep).abs()
+            ),
+            "turn the sign of the motions of the sides, or those of `rate`, `shear` and creep",
+        )
+    })
+}

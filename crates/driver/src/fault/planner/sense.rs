@@ -1,0 +1,74 @@
+//! Whether loads and creep drive faults in the sense in which they are to slip.
+
+use super::placed::{Placed, slides};
+use crate::scene::model::{Fault as Spec, Scene};
+use crate::warning::Warning;
+use asperity_cycles::Loading;
+
+/// Share of the sizes of its parts below which a sum is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Warnings of creep against `rate`, and of loads that drive a fault against it; `placed` are the points that slide, `creeping` those that
+/// creep, until `end` \[s\].
+pub(super) fn check<const D: usize>(
+    scene: &Scene,
+    (placed, creeping): (&[Placed<D>], &[Placed<D>]),
+    loading: &Loading,
+    end: f64,
+) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    for (k, (name, spec)) in scene.faults.iter().enumerate() {
+        let sense = spec.rate.get_ref().0.signum();
+        let against = |p: &&Placed<D>| p.fault == k && p.point.creep.is_some_and(|c| c[0] * sense < 0.0);
+        if let Some(creep) = spec.creep.as_ref().filter(|_| creeping.iter().any(|p| against(&p))) {
+            warnings.push(Warning::at(
+                creep.rate.span(),
+                format!("fault `{name}` creeps against its `rate`"),
+                "creep and `rate` have one sign where the fault is driven one way",
+            ));
+        }
+        warnings.extend(driven((name, spec), placed, k, loading, end));
+    }
+    warnings
+}
+
+/// The warning of a fault that loads drive against `rate` when they first drive it.
+fn driven<const D: usize>(
+    (name, spec): (&str, &Spec),
+    placed: &[Placed<D>],
+    fault: usize,
+    loading: &Loading,
+    end: f64,
+) -> Option<Warning> {
+    let mut ends = loading.breaks(0.0, end);
+    ends.push(end);
+    let mut from = 0.0;
+    for until in ends {
+        let (shear, normal) = loading.rates(0.5 * (from + until), placed.len(), true);
+        from = until;
+        let own = placed.iter().zip(shear.iter().zip(&normal)).filter(|(p, _)| p.fault == fault);
+        let forces = own.map(|(p, (s, n))| [s, n].map(|rate| p.point.place.area * rate));
+        let [force, size] = forces.fold([0.0; 2], |sum, [s, n]| [sum[0] + s, sum[1] + s.abs() + n.abs()]);
+        let area: f64 = placed.iter().filter(|p| p.fault == fault).map(|p| p.point.place.area).sum();
+        if force.abs() <= ROUNDING * size || size == 0.0 {
+            continue;
+        }
+        let sense = spec.rate.get_ref().0.signum();
+        if force * sense > 0.0 {
+            return None;
+        }
+        let first = placed.iter().find(|p| p.fault == fault)?;
+        let [x, y, z] = slides(first).map(|c| c * sense);
+        return Some(Warning::at(
+            spec.rate.span(),
+            format!(
+                "the loads drive fault `{name}` against `rate`: shear traction changes by {:.3e} Pa/s on average, and `rate` has the plus side `{}` \
+                 slip along ({x:.3}, {y:.3}, {z:.3})",
+                force / area,
+                spec.plus.get_ref()
+            ),
+            "turn the sign of the motions that load it, or those of `rate`, `shear` and creep",
+        ));
+    }
+    None
+}

@@ -1,0 +1,62 @@
+//! Whether the tractions at the start are those of friction at the slip rate of the start.
+
+use super::placed::Placed;
+use crate::scene::model::{Fault as Spec, Scene, Spanned};
+use crate::warning::Warning;
+use asperity_cycles::Fault;
+use asperity_friction::fault::FaultLaw;
+use asperity_mechanics::coordinates;
+use std::ops::Range;
+
+/// How many times larger or smaller than that of steady slip at `rate` friction at the start may be without a word. Laws of rock differ by tenths from it at any rate;
+/// a wrong unit, or stress that hardly shears the fault, by far more.
+const FAR: f64 = 5.0;
+
+/// Where the shear traction of a fault at the start comes from.
+fn source<'a>(scene: &'a Scene, spec: &'a Spec) -> (&'static str, Range<usize>) {
+    if let Some(shear) = &spec.shear {
+        return ("`shear`", shear.span());
+    }
+    if let Some(profile) = spec.profiles.shear.as_ref().and_then(|p| p.0.first()) {
+        return ("`profiles.shear`", profile.points.span());
+    }
+    let of = |side: &Spanned<String>| scene.body_of(side);
+    let bodies = [of(&spec.minus), of(&spec.plus)];
+    let stress = bodies.iter().flatten().find_map(|b| b.initial_stress.as_ref()).map(Spanned::span);
+    match bodies.iter().flatten().find_map(|b| b.gravity.as_ref()) {
+        Some(gravity) => ("the weight", gravity.span()),
+        None => ("the initial stress", stress.unwrap_or_default()),
+    }
+}
+
+/// A warning for each fault whose friction at the start is far from that of steady slip at `rate`.
+pub(super) fn check<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> Vec<Warning> {
+    let law: &dyn FaultLaw = fault.law.as_ref();
+    let mut states = vec![0.0; law.states()];
+    let mut worst: Vec<Option<(f64, f64, f64, String)>> = vec![None; scene.faults.len()];
+    let specs: Vec<&Spec> = scene.faults.values().collect();
+    for (p, point) in placed.iter().enumerate() {
+        let Some(shear) = point.shear else { continue };
+        let rate = specs[point.fault].rate.get_ref().0.abs();
+        law.steady(p, rate.ln(), &mut states);
+        let Ok(m) = law.at_rate(p, rate, &states) else { continue };
+        let steady = law.scale(p) * m;
+        let found = (shear.abs() - fault.damping[p] * rate) / point.pressed();
+        let off = (found / steady).max(steady / found);
+        if off > FAR && worst[point.fault].as_ref().is_none_or(|w| off > w.0) {
+            worst[point.fault] = Some((off, found, steady, coordinates::in_words(&point.point.place.at)));
+        }
+    }
+    let told = worst.into_iter().zip(&scene.faults).filter_map(|(w, fault)| Some((w?, fault)));
+    told.map(|((_, found, steady, at), (name, spec))| {
+        let (what, place) = source(scene, spec);
+        Warning::at(
+            place,
+            format!(
+                "{what} makes friction of {found:.3} on fault `{name}` at the start at {at}, where steady slip at `rate` has {steady:.3}: the state that this takes changes at once"
+            ),
+            "check the unit of the shear and of the normal traction",
+        )
+    })
+    .collect()
+}
