@@ -38,7 +38,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             name.to_string(),
             dense.points.len().to_string(),
             dense.fault.operator.bytes().to_string(),
-            compressed.fault.operator.words(),
+            kept(&compressed),
         ]);
         if name == "BP1, 156 m" {
             first_event(ledger, dense, compressed)?;
@@ -102,6 +102,7 @@ fn products(ledger: &mut Ledger, name: &str, dense: &Plan, compressed: &Plan, co
                     .value(off / a.iter().fold(0.0, |m: f64, v| m.max(v.abs())))
                     .at_most(1e-8)
                     .evidence(Evidence::Exact, "the dense operator from the same condensation")
+                    .between(&kept(dense), &kept(compressed))
                     .because(
                         "slip over 10 km loads a point a hundredth to a thousandth as much as slip of that point alone, by which the \
                          tolerance is measured, and errors of entries add up over hundreds of points like their root",
@@ -119,6 +120,7 @@ fn products(ledger: &mut Ledger, name: &str, dense: &Plan, compressed: &Plan, co
             .value(worst)
             .at_most(TOLERANCE)
             .evidence(Evidence::Exact, "the dense operator from the same condensation")
+            .between(&kept(dense), &kept(compressed))
             .because(
                 "the tolerance bounds Frobenius' norm of the error, which bounds the error of any product",
             )
@@ -129,7 +131,13 @@ fn products(ledger: &mut Ledger, name: &str, dense: &Plan, compressed: &Plan, co
     }
 }
 
+/// How the operator of a plan is kept.
+fn kept(plan: &Plan) -> String {
+    plan.fault.operator.words()
+}
+
 fn first_event(ledger: &mut Ledger, dense: Plan, compressed: Plan) -> Result<(), CaseError> {
+    let forms = (kept(&dense), kept(&compressed));
     let mut onsets = [0.0; 2];
     let mut total = None;
     for (onset, mut plan) in onsets.iter_mut().zip([dense, compressed]) {
@@ -145,6 +153,7 @@ fn first_event(ledger: &mut Ledger, dense: Plan, compressed: Plan) -> Result<(),
         .value((onsets[1] - onsets[0]).abs())
         .at_most(1e-5)
         .evidence(Evidence::ConvergedSelf, "the dense operator, both with a tolerance of 1e-6 in ln V")
+        .between(&forms.0, &forms.1)
         .because("what the integration leaves at this tolerance; errors of 1e-9 in tractions shift no event by as much")
         .why_not_tighter("other roundings make other steps")
         .covers(&[Capability::FaultCycles]);
