@@ -258,6 +258,10 @@ impl Files {
         self.profiles_due = std::mem::take(&mut self.profiles_due).from(profiles);
         [self.field_number, self.profile_number] = numbers;
         (self.written, self.collection) = (written, collection);
+        for PvdEntry { file, .. } in &self.collection {
+            let path = self.out.join(file);
+            fs::metadata(&path).map_err(|source| OutputError::Read { path, source })?;
+        }
         self.remove_beyond(numbers)?;
         let path = self.out.join("fields.pvd");
         if !self.collection.is_empty() {
