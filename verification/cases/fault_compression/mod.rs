@@ -2,7 +2,8 @@
 
 use crate::cases::{fault_operator, seas};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_driver::fault::{Form, Plan, plan_with};
+use asperity_cycles::operator::Form;
+use asperity_driver::fault::{Plan, plan_with};
 use asperity_driver::scene;
 use asperity_vary::bp1::{BP1, bp1};
 
@@ -37,7 +38,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         rows.push([
             name.to_string(),
             dense.points.len().to_string(),
-            dense.fault.operator.bytes().to_string(),
+            dense.problem.fault.operator.bytes().to_string(),
             kept(&compressed),
         ]);
         if name == "BP1, 156 m" {
@@ -66,9 +67,9 @@ fn slips(plan: &Plan) -> [(&'static str, Vec<f64>); 4] {
 fn tractions(plan: &Plan, slip: &[f64], normal: bool) -> Vec<f64> {
     let mut out = vec![0.0; slip.len()];
     if normal {
-        plan.fault.operator.normal(slip, &mut out);
+        plan.problem.fault.operator.normal(slip, &mut out);
     } else {
-        plan.fault.operator.shear(slip, &mut out);
+        plan.problem.fault.operator.shear(slip, &mut out);
     }
     out
 }
@@ -84,7 +85,7 @@ fn products(ledger: &mut Ledger, name: &str, dense: &Plan, compressed: &Plan, co
         largest = largest.max((tractions(dense, &unit, false)[p] * area(p)).abs());
         unit[p] = 0.0;
     }
-    let kinds: &[(&str, bool)] = if dense.fault.operator.couples_normal() {
+    let kinds: &[(&str, bool)] = if dense.problem.fault.operator.couples_normal() {
         &[("shear", false), ("normal", true)]
     } else {
         &[("shear", false)]
@@ -133,7 +134,7 @@ fn products(ledger: &mut Ledger, name: &str, dense: &Plan, compressed: &Plan, co
 
 /// How the operator of a plan is kept.
 fn kept(plan: &Plan) -> String {
-    plan.fault.operator.words()
+    plan.problem.fault.operator.words()
 }
 
 fn first_event(ledger: &mut Ledger, dense: Plan, compressed: Plan) -> Result<(), CaseError> {
@@ -141,9 +142,9 @@ fn first_event(ledger: &mut Ledger, dense: Plan, compressed: Plan) -> Result<(),
     let mut onsets = [0.0; 2];
     let mut total = None;
     for (onset, mut plan) in onsets.iter_mut().zip([dense, compressed]) {
-        plan.settings.most_events = Some(1);
-        plan.settings.tolerance = 1e-6;
-        let found = seas::found(&plan, &plan.settings, |_| {})?;
+        plan.problem.settings.most_events = Some(1);
+        plan.problem.settings.tolerance = 1e-6;
+        let found = seas::found(&plan, &plan.problem.settings, |_| {})?;
         *onset = found.onsets[0];
         total = Some(found.cost);
     }

@@ -25,7 +25,6 @@ mod snapshots;
 mod stations;
 mod words;
 
-pub use asperity_cycles::operator::Form;
 pub use bodies::BodiesView;
 pub use cadence::Cadence;
 pub use checkpoint::{Checkpoint, Stand};

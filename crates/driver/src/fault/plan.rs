@@ -89,20 +89,6 @@ pub struct Plan {
     pub notes: Vec<String>,
 }
 
-impl std::ops::Deref for Plan {
-    type Target = Problem;
-
-    fn deref(&self) -> &Problem {
-        &self.problem
-    }
-}
-
-impl std::ops::DerefMut for Plan {
-    fn deref_mut(&mut self) -> &mut Problem {
-        &mut self.problem
-    }
-}
-
 impl Plan {
     /// The vector in space \[m; m/s; Pa\] of components at a point that stand component by component, as slip does.
     #[must_use]
