@@ -54,6 +54,7 @@ impl Table {
             let ends =
                 [false, true].map(|forward| Cell { forward, ..*cell }.end().map_err(|e| e.to_string()));
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            #[expect(clippy::print_stderr, reason = "a table of half an hour shows that it lives")]
             if done.is_multiple_of(PROGRESS) {
                 eprintln!(
                     "  {done} of {} combinations, the last: {}, {}",
