@@ -3,15 +3,15 @@
 //! The sum of the constant terms is kept. Of the equations that no other term touches most are eliminated once ([`Eliminated`]);
 //! what is factored anew in each iteration is the rest.
 
-use super::eliminated::{Eliminated, Entry, ROUNDING, lower};
+use super::dense_factor::{Cholesky, DenseFactor, Lu, Refused, copied};
+use super::eliminated::{Eliminated, Entry, ROUNDING};
 use super::known::{Left, Symmetry, Version};
 use super::symmetric::SymmetricPart;
 use crate::dof::Equations;
 use crate::error::FemError;
 use crate::multifrontal::{DirectError, Pivot};
 use crate::term::Pattern;
-use faer::linalg::solvers::{Llt, PartialPivLu, SolveCore};
-use faer::{Conj, Mat, MatMut};
+use faer::Mat;
 
 /// Difference of mirrored entries, over the largest entry, that is rounding of the sums they are.
 const MIRRORED: f64 = 1e-12;
@@ -36,6 +36,8 @@ pub(super) struct DenseStore {
     /// What is left over in a run that is resumed, until the constant terms are there.
     remembered: Option<Left>,
     factor: Option<Factor>,
+    /// Memory of the last factor.
+    memory: Option<Mat<f64>>,
 }
 
 /// Terms that are not constant.
@@ -56,12 +58,6 @@ enum Factor {
     Rest(DenseFactor),
 }
 
-#[derive(Debug)]
-enum DenseFactor {
-    Cholesky(Llt<f64>),
-    Lu(PartialPivLu<f64>),
-}
-
 impl DenseStore {
     pub fn new(n: usize) -> Self {
         Self {
@@ -73,6 +69,7 @@ impl DenseStore {
             eliminated: None,
             remembered: None,
             factor: None,
+            memory: None,
         }
     }
 
@@ -90,7 +87,9 @@ impl DenseStore {
 
     /// Prepares an assembly of terms of which these are constant.
     pub fn begin(&mut self, constant: Vec<Option<Version>>) {
-        self.factor = None;
+        if let Some(Factor::Whole(factor) | Factor::Rest(factor)) = self.factor.take() {
+            self.memory = Some(factor.into_memory());
+        }
         self.changing.clear();
         self.renewing = self.made_of.as_ref() != Some(&constant);
         if self.renewing {
@@ -127,7 +126,12 @@ impl DenseStore {
 
     /// The matrix.
     pub fn matrix(&self) -> Mat<f64> {
-        let mut matrix = self.constant.clone();
+        self.matrix_in(None)
+    }
+
+    /// The matrix, in `memory` where that fits.
+    fn matrix_in(&self, memory: Option<Mat<f64>>) -> Mat<f64> {
+        let mut matrix = copied(&self.constant, memory);
         for &(row, col, value) in &self.changing.entries {
             matrix[(row, col)] += value;
         }
@@ -163,7 +167,7 @@ impl DenseStore {
             self.factor = Some(Factor::Rest(factor));
             return Ok(false);
         }
-        let (factor, indefinite) = factor_whole(&self.matrix(), symmetry)?;
+        let (factor, indefinite) = self.factor_whole(symmetry)?;
         self.factor = Some(Factor::Whole(factor));
         Ok(indefinite)
     }
@@ -206,16 +210,41 @@ impl DenseStore {
     }
 
     /// None where the rest is not positive definite although it should be: the whole matrix then tells why.
-    fn factor_rest(&self, symmetry: Symmetry) -> Option<DenseFactor> {
+    fn factor_rest(&mut self, symmetry: Symmetry) -> Option<DenseFactor> {
         let eliminated = self.eliminated.as_ref()?;
-        let matrix = eliminated.with(&self.changing.entries);
+        let matrix = eliminated.with(&self.changing.entries, self.memory.take());
         if symmetry == Symmetry::General {
-            return Some(DenseFactor::Lu(matrix.partial_piv_lu()));
+            return Some(DenseFactor::Lu(Lu::new(matrix)));
         }
         let diagonal = self.diagonal();
         let smallest = ROUNDING * (diagonal.len() as f64).sqrt();
-        let factor = lower(&matrix, |k| smallest * diagonal[eliminated.rest()[k]]);
+        let factor = Cholesky::new(matrix, |k| smallest * diagonal[eliminated.rest()[k]]);
         factor.ok().map(DenseFactor::Cholesky)
+    }
+
+    /// Factors the whole matrix; the second says whether LU had to stand in for Cholesky.
+    fn factor_whole(&mut self, symmetry: Symmetry) -> Result<(DenseFactor, bool), FemError> {
+        let memory = self.memory.take();
+        let matrix = self.matrix_in(memory);
+        if symmetry == Symmetry::General {
+            return Ok((DenseFactor::Lu(Lu::new(matrix)), false));
+        }
+        let diagonal = self.diagonal();
+        let smallest = ROUNDING * (diagonal.len() as f64).sqrt();
+        let Refused { memory, equation, pivot } = match Cholesky::new(matrix, |k| smallest * diagonal[k]) {
+            Ok(factor) => return Ok((DenseFactor::Cholesky(factor), false)),
+            Err(refused) => refused,
+        };
+        let matrix = self.matrix_in(Some(memory));
+        // The factorisation of sparse matrices tells a singular matrix from one with negative modes.
+        let diagonal = diagonal[equation];
+        let why = SymmetricPart::of_dense(&matrix).factor().err();
+        match why.unwrap_or(DirectError::NotPositive(Pivot { equation, pivot, diagonal })) {
+            DirectError::NotPositive(_) if symmetry == Symmetry::Symmetric => {
+                Ok((DenseFactor::Lu(Lu::new(matrix)), true))
+            }
+            why => Err(why.into()),
+        }
     }
 
     /// Solves in place; false without a factor.
@@ -273,17 +302,6 @@ impl Changing {
     }
 }
 
-impl DenseFactor {
-    fn solve(&self, rhs: &mut [f64]) {
-        let n = rhs.len();
-        let columns = MatMut::from_column_major_slice_mut(rhs, n, 1);
-        match self {
-            DenseFactor::Lu(f) => f.solve_in_place_with_conj(Conj::No, columns),
-            DenseFactor::Cholesky(f) => f.solve_in_place_with_conj(Conj::No, columns),
-        }
-    }
-}
-
 fn add_block(matrix: &mut Mat<f64>, numbers: &[usize], values: &[f64]) {
     let n = numbers.len();
     for (j, &col) in numbers.iter().enumerate().filter(|(_, k)| **k != Equations::FIXED) {
@@ -301,30 +319,4 @@ fn mirrored(matrix: &Mat<f64>) -> bool {
         column[..j].iter().enumerate().all(|(i, v)| (v - matrix[(j, i)]).abs() <= MIRRORED * largest)
     };
     columns().enumerate().all(agree)
-}
-
-/// Factors a whole matrix; the second says whether LU had to stand in for Cholesky.
-fn factor_whole(matrix: &Mat<f64>, symmetry: Symmetry) -> Result<(DenseFactor, bool), FemError> {
-    let general = || DenseFactor::Lu(matrix.partial_piv_lu());
-    if symmetry == Symmetry::General {
-        return Ok((general(), false));
-    }
-    match cholesky(matrix) {
-        Ok(factor) => Ok((DenseFactor::Cholesky(factor), false)),
-        Err(DirectError::NotPositive(_)) if symmetry == Symmetry::Symmetric => Ok((general(), true)),
-        Err(error) => Err(error.into()),
-    }
-}
-
-/// Cholesky, and where that fails the reason from the factorisation that tells a singular matrix from one with negative modes.
-fn cholesky(matrix: &Mat<f64>) -> Result<Llt<f64>, DirectError> {
-    let smallest = ROUNDING * (matrix.nrows() as f64).sqrt();
-    match lower(matrix, |k| smallest * matrix[(k, k)]) {
-        Ok(factor) => Ok(factor),
-        Err((equation, pivot)) => {
-            SymmetricPart::of_dense(matrix).factor()?;
-            let diagonal = matrix[(equation, equation)];
-            Err(DirectError::NotPositive(Pivot { equation, pivot, diagonal }))
-        }
-    }
 }

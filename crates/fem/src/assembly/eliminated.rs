@@ -3,11 +3,11 @@
 //! With g for those gone and r for the rest, `K_gg = L Lᵀ` and `X = L⁻¹ K_gr`, the rest is left with `S = K_rr - Xᵀ X`, to which the
 //! terms that change are added. Contact changes the rows of closed points only, in most models a small part of an interface.
 
+use super::dense_factor::{Cholesky, column, copied};
 use crate::dof::Equations;
 use faer::linalg::matmul::matmul;
-use faer::linalg::solvers::{Llt, LltError};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
-use faer::{Accum, Mat, MatMut, Par, Side};
+use faer::{Accum, Mat, Par};
 
 /// Rounding of a pivot relative to its diagonal entry, times the square root of the number of pivots, as in the sparse
 /// factorisation.
@@ -22,7 +22,7 @@ pub(super) struct Eliminated {
     rest: Vec<usize>,
     /// Place of each equation in `rest`, or [`Equations::FIXED`].
     place: Vec<usize>,
-    factor: Llt<f64>,
+    factor: Cholesky,
     /// X.
     coupling: Mat<f64>,
     /// S.
@@ -40,12 +40,11 @@ impl Eliminated {
         let part = |rows: &[usize], cols: &[usize]| {
             Mat::from_fn(rows.len(), cols.len(), |i, j| constant[(rows[i], cols[j])])
         };
-        let own = part(&gone, &gone);
         let smallest = ROUNDING * (gone.len() as f64).sqrt();
-        let factor = lower(&own, |k| smallest * own[(k, k)]).ok()?;
-        drop(own);
+        let bound = |k: usize| smallest * constant[(gone[k], gone[k])];
+        let factor = Cholesky::new(part(&gone, &gone), bound).ok()?;
         let mut coupling = part(&gone, &rest);
-        solve_lower_triangular_in_place(factor.L(), coupling.as_mut(), Par::Seq);
+        solve_lower_triangular_in_place(factor.lower(), coupling.as_mut(), Par::Seq);
         let mut schur = part(&rest, &rest);
         matmul(schur.as_mut(), Accum::Add, coupling.transpose(), coupling.as_ref(), -1.0, Par::Seq);
         Some(Self { gone, rest, place, factor, coupling, schur })
@@ -61,9 +60,9 @@ impl Eliminated {
         equations.all(|e| self.place[e] != Equations::FIXED)
     }
 
-    /// The matrix of the rest with what changes, all of which is in its rows and columns.
-    pub fn with(&self, changing: &[Entry]) -> Mat<f64> {
-        let mut matrix = self.schur.clone();
+    /// The matrix of the rest with what changes, all of which is in its rows and columns; in `memory` where that fits.
+    pub fn with(&self, changing: &[Entry], memory: Option<Mat<f64>>) -> Mat<f64> {
+        let mut matrix = copied(&self.schur, memory);
         for &(row, col, value) in changing {
             matrix[(self.place[row], self.place[col])] += value;
         }
@@ -74,30 +73,13 @@ impl Eliminated {
     pub fn solve(&self, rhs: &mut [f64], solve: impl FnOnce(&mut [f64])) {
         let mut own: Vec<f64> = self.gone.iter().map(|&k| rhs[k]).collect();
         let mut rest: Vec<f64> = self.rest.iter().map(|&k| rhs[k]).collect();
-        solve_lower_triangular_in_place(self.factor.L(), column(&mut own), Par::Seq);
+        solve_lower_triangular_in_place(self.factor.lower(), column(&mut own), Par::Seq);
         matmul(column(&mut rest), Accum::Add, self.coupling.transpose(), column(&mut own), -1.0, Par::Seq);
         solve(&mut rest);
         matmul(column(&mut own), Accum::Add, self.coupling.as_ref(), column(&mut rest), -1.0, Par::Seq);
-        solve_upper_triangular_in_place(self.factor.L().transpose(), column(&mut own), Par::Seq);
+        solve_upper_triangular_in_place(self.factor.lower().transpose(), column(&mut own), Par::Seq);
         for (list, values) in [(&self.gone, own), (&self.rest, rest)] {
             list.iter().zip(values).for_each(|(&k, value)| rhs[k] = value);
         }
-    }
-}
-
-fn column(values: &mut [f64]) -> MatMut<'_, f64> {
-    let n = values.len();
-    MatMut::from_column_major_slice_mut(values, n, 1)
-}
-
-/// Cholesky of the lower triangle with pivots above a bound each, or the pivot that is not and its value.
-pub(super) fn lower(matrix: &Mat<f64>, bound: impl Fn(usize) -> f64) -> Result<Llt<f64>, (usize, f64)> {
-    let factor = matrix.llt(Side::Lower).map_err(|e| match e {
-        LltError::NonPositivePivot { index } => (index, f64::NAN),
-    })?;
-    let l = factor.L();
-    match (0..matrix.nrows()).map(|k| (k, l[(k, k)].powi(2))).find(|&(k, p)| p <= bound(k)) {
-        Some(failed) => Err(failed),
-        None => Ok(factor),
     }
 }

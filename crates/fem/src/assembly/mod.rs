@@ -2,6 +2,7 @@
 //! factorisation, or by conjugate gradients.
 
 mod dense;
+mod dense_factor;
 mod direct;
 mod eliminated;
 mod held;
