@@ -116,6 +116,8 @@ const SHORT_STEPS: Change<'_> = Add("time.max_step", "5 ms");
 const SHORT_STEPS_IN_SPACE: Change<'_> = Add("time.max_step", "20 ms");
 
 const MU: f64 = 0.4;
+/// Static friction of the law that drops.
+const STATIC: f64 = 0.44;
 /// F_limit of the capped laws \[Pa\]; the mean normal traction is some 20 MPa.
 const CAP: f64 = 5e6;
 /// a and b.
@@ -149,9 +151,9 @@ impl Law {
         match self {
             Self::Coulomb => format!("kind = \"coulomb\", mu = {MU}"),
             Self::Capped => format!("kind = \"coulomb\", mu = {MU}, f_limit = \"5 MPa\""),
-            Self::Kinetic => format!("kind = \"static-kinetic\", mu_s = 0.44, mu_k = {MU}"),
+            Self::Kinetic => format!("kind = \"static-kinetic\", mu_s = {STATIC}, mu_k = {MU}"),
             Self::Weakening => {
-                format!("kind = \"slip-weakening\", mu_s = 0.44, mu_k = {MU}, d_c = \"{} m\"", way / 10.0)
+                format!("kind = \"slip-weakening\", mu_s = {STATIC}, mu_k = {MU}, d_c = \"{} m\"", way / 10.0)
             }
             Self::Rate => format!("kind = \"rate\", {rate}"),
             Self::RateCapped => format!("kind = \"rate\", {rate}, f_limit = \"5 MPa\""),
@@ -178,6 +180,16 @@ impl Law {
             Self::Capped => (MU * normal).min(CAP),
             Self::RateCapped => (friction * normal).min(CAP),
             Self::Rate | Self::Ageing | Self::Slip => friction * normal,
+        }
+    }
+
+    /// Distance of a shear traction from the strength. A point at rest bears anything up to the static strength, and under a law that
+    /// drops a point comes to rest again while others slide.
+    fn distance(self, shear: f64, strength: f64, normal: f64, rests: bool) -> f64 {
+        if self == Self::Kinetic && rests {
+            (shear - STATIC * normal).max(0.0)
+        } else {
+            (shear - strength).abs()
         }
     }
 
@@ -348,7 +360,7 @@ impl Cell {
             let state = fields.states.first().map(|s| s[k]);
             let (rate, shear) = (fields.slip_rate[k].abs(), fields.shear_traction[k].abs());
             let [own, steady] = [state, None].map(|s| self.law.strength(normal, rate, s));
-            missed = missed.max((shear - own).abs());
+            missed = missed.max(self.law.distance(shear, own, normal, fields.status[k] == 1));
             unsteady = unsteady.max((shear - steady).abs());
             largest = largest.max(own);
         }

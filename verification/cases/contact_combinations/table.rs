@@ -216,7 +216,7 @@ pub fn claims(ledger: &mut Ledger, table: Table) {
 
 /// Claims on the tractions of points that slide.
 fn strengths(ledger: &mut Ledger, table: &Table) {
-    let own = "mu f_n, F_limit, or the law's closed form at the rate and state that the outputs show";
+    let own = "mu f_n, F_limit, or the law's closed form at the rate and state that the outputs show; at rest under static-kinetic friction at most mu_s f_n";
     for (tractions, runs, bound, because) in [
         (
             "a shear traction",
