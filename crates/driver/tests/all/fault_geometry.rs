@@ -1,6 +1,6 @@
 //! Sides, segments, traces and supports of faults: what must not matter, what is refused and what is warned of.
 
-use asperity_cycles::{Moment, run};
+use asperity_cycles::Moment;
 use asperity_driver::diagnostic;
 use asperity_driver::diagnostic::Diagnostic;
 use asperity_driver::fault::Plan;
@@ -217,13 +217,7 @@ fn same(a: &Plan, b: &Plan) {
 /// Onsets of the first two events \[s\].
 fn onsets(plan: &Plan) -> Vec<f64> {
     let mut go = |_: &Moment<'_>| Control::Go;
-    let out = run(
-        &plan.problem.fault,
-        &plan.problem.loading,
-        plan.problem.start.clone(),
-        &plan.problem.settings,
-        &mut go,
-    );
+    let out = plan.problem.run(&plan.problem.settings, &mut go);
     assert_eq!(out.outcome, Outcome::Stopped);
     out.catalogue.events().iter().map(|e| e.onset.seconds()).collect()
 }
@@ -359,11 +353,11 @@ fn nodes_of_one_side_alone_are_refused_whichever_side_it_is() {
     for swapped in [false, true] {
         let message = refused(10, 20, swapped);
         let own = if swapped { "minus" } else { "plus" };
-        assert!(message.contains(&format!("the node of the {own} side at (0, ")), "{message}");
+        assert!(message.contains(&format!(" of the {own} side ")), "{message}");
         refused(20, 10, swapped);
     }
     // Every second of the 21 nodes.
-    assert!(refused(10, 20, false).contains("with 10 of its nodes"));
+    assert!(refused(10, 20, false).contains("10 of them, the first at (0, -"));
     // A plus side that reaches deeper than the minus side is free there.
     let deeper = plan(&text("antiplane", &blocks(10, 12, 24, false), SIDES));
     assert_eq!(deeper.points.len(), 11);

@@ -89,7 +89,7 @@ pub(super) fn nothing_slides<const D: usize>(
     Diagnostic::at(
         border.unwrap_or_else(|| creep.rate.span()),
         format!(
-            "no point of the faults is free to slide: creep takes all {} points of fault `{name}`, which lie {}",
+            "no point of the faults is free to slide: creep takes all {} points of fault `{name}`. They lie {}",
             places.clone().count(),
             extent(places)
         ),

@@ -36,10 +36,10 @@ pub(super) fn partners<const D: usize>(
     Err(Diagnostic::at(
         spec.plus.span(),
         format!(
-            "the sides of fault `{name}` do not lie on each other: the node of the plus side at {} lies between nodes of the minus side and has none \
-             there; so it is with {} of its nodes",
+            "the sides of fault `{name}` do not lie on each other: nodes of the plus side lie between nodes of the minus \
+             side, {} of them, the first at {}",
+            covered.len(),
             coordinates::in_words(x(first)),
-            covered.len()
         ),
         "both sides need the same nodes: equal sizes of cells on both, or one mesh that is split along the fault",
     ))

@@ -111,8 +111,8 @@ fn distinct<const D: usize>(
                 spec.minus.span(),
                 format!("faults `{other}` and `{name}` both have the face at {at}"),
                 format!(
-                    "a face belongs to one fault: parameters that vary along one are `profiles`, other laws need surfaces of their own, which may \
-                     meet at their borders: take the faces of one of `{other}` and `{name}` out of the other's sets"
+                    "a face belongs to one fault: take the faces of one of `{other}` and `{name}` out of the other's sets. Parameters that vary \
+                     along a fault are `profiles`; other laws need surfaces of their own, which may meet at their borders"
                 ),
             ));
         }

@@ -167,7 +167,7 @@ pub(super) fn check(found: &Resolution, spec: &Spec, in_space: bool) -> Result<O
         return Ok(None);
     }
     let message = format!(
-        "fault `{}` has {:.2} points to the cohesive zone, which is {} long at {}, with points {} apart",
+        "fault `{}` has {:.2} points to the cohesive zone, which is {} long at {}. Points are {} apart",
         found.fault,
         zone.points,
         length(zone.length),
@@ -181,11 +181,11 @@ pub(super) fn check(found: &Resolution, spec: &Spec, in_space: bool) -> Result<O
     let place = spec.law.span();
     let allowed = spec.under_resolved.as_ref().map(|u| *u.get_ref()) == Some(UnderResolved::Allow);
     if zone.points < TOO_FEW && !allowed {
-        let message = format!("{message}: each point breaks by itself, and events are those of the mesh");
+        let message = format!("{message}, so that each breaks by itself: events are those of the mesh");
         let help = format!("{enough}; or `under_resolved = \"allow\"` at the fault");
         return Err(Diagnostic::at(place, message, help));
     }
-    Ok(Some(Warning::at(place, format!("{message}: fronts follow the mesh"), enough)))
+    Ok(Some(Warning::at(place, format!("{message}, so that fronts follow the mesh"), enough)))
 }
 
 #[cfg(test)]

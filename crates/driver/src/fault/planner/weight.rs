@@ -43,7 +43,8 @@ pub(super) fn press<const D: usize>(
     add(scene, weight, placed).map_err(|e| match hangs(scene, model, stage) {
         // What hangs from its sides is pressed by no one's intention.
         Some(Warning { message, help, .. }) => {
-            Diagnostic { message: format!("{}: {message}", e.message), help, ..e }
+            let carry = help.map(|help| format!("{message}. To carry them, {help}"));
+            Diagnostic { help: carry, ..e }
         }
         None => e,
     })
@@ -181,7 +182,7 @@ pub(super) fn hangs<const D: usize>(scene: &Scene, model: &Model<D>, stage: &Sta
         Warning::at(
             given.span(),
             format!(
-                "nothing carries the bodies from below: they are not held along their weight at their lowest places, such as {}, and hang from their sides, which shears the faults",
+                "the bodies hang from their sides, which shears the faults: nothing carries them from below, such as at {}",
                 coordinates::in_words(&model.mesh.nodes[first])
             ),
             "hold the lower side along the weight, such as `{ set = \"crust.bottom\", y = 0 }`, and leave that component of the sides free",
