@@ -1,7 +1,7 @@
 //! What the cases of earthquake cycles share: a scene's plan, and its events with what they cost.
 
 use crate::{CaseError, Cost};
-use asperity_cycles::{Event, Moment, Settings, run as integrate};
+use asperity_cycles::{Event, Moment, Settings};
 use asperity_driver::fault::Plan;
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
@@ -71,15 +71,7 @@ pub fn found(
         look(now);
         Control::Go
     };
-    let (out, cost) = Cost::of(|| {
-        integrate(
-            &plan.problem.fault,
-            &plan.problem.loading,
-            plan.problem.start.clone(),
-            settings,
-            &mut watch,
-        )
-    });
+    let (out, cost) = Cost::of(|| plan.problem.run(settings, &mut watch));
     let events = out.catalogue.events().to_vec();
     if let Outcome::Failed { reason } = &out.outcome {
         return Err(reason.to_string().into());

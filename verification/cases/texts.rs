@@ -59,6 +59,7 @@ pub fn simulate_in(text: &str, folder: &str) -> Result<Done, CaseError> {
     match &done.report.outcome {
         Outcome::Completed => Ok(done),
         Outcome::Stopped { stage, time, reason, .. } => {
+            let stage = stage.as_deref().unwrap_or_default();
             Err(format!("stopped in stage `{stage}` at {time} s: {reason}").into())
         }
         Outcome::Interrupted { .. } => Err("interrupted".into()),

@@ -23,13 +23,14 @@ use super::operator::Operator;
 use super::problem::Problem;
 use super::run::{Ends, Moment};
 use asperity_ode::Clock;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Share of a step by which its end may lie beyond the end of an injection: rounding of times.
 const ROUNDING: f64 = 1e-9;
 
 /// Works and energies \[J; J per metre of thickness in the plane\].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Energy {
     /// Work of the initial tractions and of the loads on slip.
     pub loads: f64,

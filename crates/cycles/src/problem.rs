@@ -2,7 +2,7 @@
 
 use super::equations::Fault;
 use super::loading::Loading;
-use super::run::Settings;
+use super::run::{self, Run, Settings, Watcher};
 
 /// See the module.
 #[derive(Debug)]
@@ -17,4 +17,11 @@ pub struct Problem {
     pub start: Vec<f64>,
     /// Integration.
     pub settings: Settings,
+}
+
+impl Problem {
+    /// Integrates it from its start, with its own settings or others. An integration that fails is no error: the outcome says so.
+    pub fn run(&self, settings: &Settings, watcher: &mut dyn Watcher) -> Run {
+        run::run(&self.fault, &self.loading, self.start.clone(), settings, watcher)
+    }
 }

@@ -1,10 +1,11 @@
 //! Forces and moments that an interface exerts on both of its sides.
 
 use asperity_contact::Interface;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Force balance of an interface at the end of the run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct InterfaceBalance {
     /// Interface.
     pub interface: String,

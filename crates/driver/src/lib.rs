@@ -20,6 +20,7 @@ mod refused;
 pub mod report;
 pub mod run;
 mod run_doubts;
+mod sha256;
 pub mod slider;
 pub mod slider_planner;
 mod stop;

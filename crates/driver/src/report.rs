@@ -1,4 +1,7 @@
-//! `report.json`: what a run found, what it cost and where it came from.
+//! `report.json` of bodies: what a run found and what it cost. What every report has is in [`common`].
+
+pub mod common;
+pub mod schema;
 
 use crate::balance::InterfaceBalance;
 use crate::cohesive;
@@ -9,102 +12,13 @@ use asperity_mechanics::{PlannedInterface, Stage};
 use asperity_output::view::{
     Counts, ForceMark, InterfaceFields, PointMark, PointValues, Samples, StepRecord,
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
-/// How a run ended.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Outcome {
-    /// All stages were completed.
-    #[default]
-    Completed,
-    /// The stepper could not go on; everything before `time` stands.
-    Stopped {
-        /// Stage.
-        stage: String,
-        /// Time of the last good state \[s\].
-        time: f64,
-        /// Why.
-        reason: String,
-        /// What kind of end it is.
-        kind: Stop,
-    },
-    /// A signal or its wall time ended it; everything before `time` stands.
-    Interrupted {
-        /// Stage.
-        stage: String,
-        /// Time of the last state \[s\].
-        time: f64,
-        /// Why.
-        reason: String,
-    },
-}
-
-/// Why a stepper could not go on.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Stop {
-    /// No solution was found in steps of any length.
-    NotConverged,
-    /// The accuracy asked for needs steps below the smallest allowed.
-    SmallestStep,
-    /// A point was about to slide where less than one point stands on the length over which a front of slip loses strength.
-    UnderResolved {
-        /// Interface.
-        interface: String,
-        /// The point \[m\].
-        position: [f64; 3],
-    },
-    /// No quasi-static state follows the last one.
-    Instability {
-        /// Interface.
-        interface: String,
-        /// Point at which it was met \[m\].
-        position: [f64; 3],
-        /// Slip rate there in the state that was not accepted \[m/s\].
-        slip_rate: f64,
-    },
-}
-
-/// How a run stands, in every report under the same key.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Status {
-    /// It goes on, or was killed.
-    Running,
-    /// It ended as asked.
-    Completed,
-    /// It could not go on.
-    Stopped,
-    /// A signal or its wall time ended it.
-    Interrupted,
-}
-
-/// What a run was begun from.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Origin {
-    /// Path of the scene file.
-    pub scene: String,
-    /// When it was begun, or resumed.
-    pub started: String,
-}
-
-/// Wall time per phase \[s\].
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Phases {
-    /// Meshes and stiffness.
-    pub plan: f64,
-    /// Condensation, pairing, factorisations of bodies.
-    pub set_up: f64,
-    /// Steps.
-    pub steps: f64,
-    /// Observers and recovery of fields.
-    pub output: f64,
-}
+pub use common::{Kind, Outcome, Phases, Results, Status, Stop};
 
 /// Figures of an interface at the end of a stage.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct InterfaceResult {
     /// Interface.
     pub interface: String,
@@ -127,7 +41,7 @@ pub struct InterfaceResult {
 }
 
 /// Values at a point of a body at the end of a stage.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PointResult {
     /// The point.
     #[serde(flatten)]
@@ -140,7 +54,7 @@ pub struct PointResult {
 }
 
 /// Force on a set at the end of a stage.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ForceResult {
     /// The set.
     #[serde(flatten)]
@@ -153,34 +67,9 @@ pub struct ForceResult {
     pub unit: String,
 }
 
-/// What may differ from machine to machine and from run to run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Provenance {
-    /// Wall time per phase \[s\].
-    pub seconds: Phases,
-    /// Threads.
-    pub threads: usize,
-    /// Commit of the program, "unknown" outside a checkout; with `-dirty` where its sources had changed since.
-    pub commit: String,
-    /// Most memory the process had \[bytes\]; absent where the system does not say.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub peak_bytes: Option<usize>,
-    /// What it was begun from.
-    #[serde(flatten)]
-    pub origin: Origin,
-}
-
 /// The report of a run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct RunReport {
-    /// Title of the scene.
-    pub title: String,
-    /// Version of the program.
-    pub version: String,
-    /// SHA-256 of the scene file.
-    pub scene_sha256: String,
-    /// SHA-256 of the mesh files it reads, by their names in the scene.
-    pub meshes_sha256: BTreeMap<String, String>,
     /// Plan.
     pub plan: Summary,
     /// How it ended.
@@ -199,38 +88,34 @@ pub struct RunReport {
     pub counts: Counts,
     /// Every step.
     pub steps: Vec<StepRecord>,
-    /// Machine-dependent.
-    pub run: Provenance,
+    /// Wall time per phase.
+    #[serde(skip)]
+    pub seconds: Phases,
+}
+
+impl Results for RunReport {
+    const KIND: Kind = Kind::Bodies;
+
+    fn outcome(&self) -> &Outcome {
+        &self.outcome
+    }
+
+    fn seconds(&self) -> Phases {
+        self.seconds
+    }
 }
 
 impl RunReport {
     /// An empty report of a plan.
     #[must_use]
     pub fn new<const D: usize>(plan: &Plan<D>) -> Self {
-        Self {
-            title: plan.title.clone(),
-            version: env!("CARGO_PKG_VERSION").to_string(),
-            plan: plan.summary.clone(),
-            ..Self::default()
-        }
-    }
-
-    /// How the run stands.
-    #[must_use]
-    pub fn status(&self) -> Status {
-        match self.outcome {
-            Outcome::Completed => Status::Completed,
-            Outcome::Stopped { .. } => Status::Stopped,
-            Outcome::Interrupted { .. } => Status::Interrupted,
-        }
+        Self { plan: plan.summary.clone(), ..Self::default() }
     }
 
     /// Fills in what is known at the end.
     pub fn complete(&mut self, counts: Counts, phases: Phases, steps: Vec<StepRecord>) {
         self.counts = counts;
-        self.run.seconds = phases;
-        self.run.threads = rayon::current_num_threads();
-        self.run.commit = commit().to_string();
+        self.seconds = phases;
         self.steps = steps;
     }
 }
@@ -306,9 +191,4 @@ fn range(values: &[f64]) -> [f64; 2] {
     let min = values.iter().copied().fold(f64::INFINITY, f64::min);
     let max = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if values.is_empty() { [0.0, 0.0] } else { [min, max] }
-}
-
-/// Commit of the program, "unknown" outside a checkout.
-pub(crate) fn commit() -> &'static str {
-    option_env!("ASPERITY_COMMIT").unwrap_or("unknown")
 }

@@ -125,7 +125,7 @@ impl<const D: usize> Running<'_, D> {
             let Some(dt) = here.length.next(system.time()) else { return Ok(None) };
             if let Some(reason) = keeper.pause(self.moved, &mut || self.stand(&here, system))? {
                 let (stage, reason) = (stage.name.clone(), reason.to_string());
-                return Ok(Some(Outcome::Interrupted { stage, time: system.time(), reason }));
+                return Ok(Some(Outcome::Interrupted { stage: Some(stage), time: system.time(), reason }));
             }
             self.moved = true;
             let clock = Clock::now();

@@ -50,7 +50,7 @@ pub fn failed<const D: usize>(
     if let Some(free) = free {
         reason += &format!("; {free}");
     }
-    Outcome::Stopped { stage, time, reason, kind: Stop::NotConverged }
+    Outcome::Stopped { stage: Some(stage), time, reason, kind: Stop::NotConverged }
 }
 
 /// The outcome of a run whose iterations fail again and again for a penalty that is far too large, where they do.
@@ -69,7 +69,12 @@ pub fn stalled<const D: usize>(
         "{rejected} trials of steps failed, beside {steps} that stand: {blamed}. The last of them: {}",
         system.in_words(failure)
     );
-    Some(Outcome::Stopped { stage: stage.to_string(), time: system.time(), reason, kind: Stop::NotConverged })
+    Some(Outcome::Stopped {
+        stage: Some(stage.to_string()),
+        time: system.time(),
+        reason,
+        kind: Stop::NotConverged,
+    })
 }
 
 /// The outcome of a run whose error of slip asks for steps of `needed` \[s\], below the smallest allowed. `faster` tells whether slip
@@ -94,7 +99,7 @@ pub fn exhausted<const D: usize>(
             let place =
                 at.map_or_else(String::new, |at| format!("; the fastest point is {}", at.words::<D>()));
             let reason = format!("{reason}{place}; allow shorter ones, or a larger `tolerance`");
-            Outcome::Stopped { stage, time: system.time(), reason, kind: Stop::SmallestStep }
+            Outcome::Stopped { stage: Some(stage), time: system.time(), reason, kind: Stop::SmallestStep }
         }
     }
 }
@@ -122,7 +127,12 @@ fn unstable<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, 
     let time = system.time();
     let reason = format!("instability {}: {what}; {REMEDY}", met.words::<D>());
     let Met { interface, position, slip_rate } = met;
-    Outcome::Stopped { stage, time, reason, kind: Stop::Instability { interface, position, slip_rate } }
+    Outcome::Stopped {
+        stage: Some(stage),
+        time,
+        reason,
+        kind: Stop::Instability { interface, position, slip_rate },
+    }
 }
 
 /// The outcome of a step in which a point would slide that its neighbours do not resolve.
@@ -133,7 +143,12 @@ fn coarse<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, wh
         met.words::<D>()
     );
     let Met { interface, position, .. } = met;
-    Outcome::Stopped { stage, time: system.time(), reason, kind: Stop::UnderResolved { interface, position } }
+    Outcome::Stopped {
+        stage: Some(stage),
+        time: system.time(),
+        reason,
+        kind: Stop::UnderResolved { interface, position },
+    }
 }
 
 /// Whether a point is pressed more than its neighbours resolve, and the scene does not allow it: what loses its strength there is a point of the mesh.

@@ -4,11 +4,11 @@ use crate::atomic;
 use crate::error::OutputError;
 use std::fs;
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// See the module.
 #[derive(Debug)]
-pub(crate) struct Growing {
+pub struct Growing {
     path: PathBuf,
     file: fs::File,
     /// Bytes written so far.
@@ -17,7 +17,10 @@ pub(crate) struct Growing {
 
 impl Growing {
     /// A new one, with its header.
-    pub(crate) fn create(path: PathBuf, header: &[u8]) -> Result<Self, OutputError> {
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn create(path: PathBuf, header: &[u8]) -> Result<Self, OutputError> {
         atomic::write(&path, header)?;
         match fs::OpenOptions::new().append(true).open(&path) {
             Ok(file) => Ok(Self { path, file, bytes: header.len() as u64 }),
@@ -26,7 +29,10 @@ impl Growing {
     }
 
     /// One that had so many bytes; later ones are cut off.
-    pub(crate) fn reopen(path: PathBuf, expected: u64) -> Result<Self, OutputError> {
+    ///
+    /// # Errors
+    /// When the file is missing, shorter than that, or cannot be written.
+    pub fn reopen(path: PathBuf, expected: u64) -> Result<Self, OutputError> {
         let file = fs::OpenOptions::new().append(true).open(&path);
         let found = file.and_then(|file| Ok((file.metadata()?.len(), file)));
         let (found, file) = match found {
@@ -41,18 +47,31 @@ impl Growing {
     }
 
     /// One write per row: a run that is killed leaves whole rows.
-    pub(crate) fn push(&mut self, row: &[u8]) -> Result<(), OutputError> {
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn push(&mut self, row: &[u8]) -> Result<(), OutputError> {
         self.bytes += row.len() as u64;
         self.file.write_all(row).map_err(|source| OutputError::write(&self.path, source))
     }
 
     /// Bytes written so far.
-    pub(crate) fn bytes(&self) -> u64 {
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
         self.bytes
     }
 
+    /// The file.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Waits until its rows are on the disc.
-    pub(crate) fn settle(&self) -> Result<(), OutputError> {
+    ///
+    /// # Errors
+    /// When they could not be written.
+    pub fn settle(&self) -> Result<(), OutputError> {
         self.file.sync_data().map_err(|source| OutputError::write(&self.path, source))
     }
 }

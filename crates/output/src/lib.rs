@@ -25,6 +25,7 @@ pub mod vtu;
 
 pub use error::OutputError;
 pub use files::{Files, FilesState};
+pub use growing::Growing;
 pub use multi::Multi;
 pub use names::stems;
 pub use progress::Progress;

@@ -2,6 +2,7 @@
 //! components), so that writers and plots exist once.
 
 use crate::numbers;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The mesh of a run, for writers of fields. Written once.
@@ -127,7 +128,7 @@ pub struct BodyFields {
 }
 
 /// A point of a body that is looked at in every step.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PointMark {
     /// Name in the scene.
     pub name: String,
@@ -138,7 +139,7 @@ pub struct PointMark {
 }
 
 /// A set whose force is looked at in every step.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ForceMark {
     /// Name in the scene.
     pub name: String,
@@ -147,7 +148,7 @@ pub struct ForceMark {
 }
 
 /// Values at a point of a body.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PointValues {
     /// Displacement \[m\].
     pub displacement: [f64; 3],
@@ -168,7 +169,7 @@ pub struct Samples {
 }
 
 /// What the report keeps of one step.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StepRecord {
     /// Stage number, from 0.
     pub stage: usize,
@@ -195,7 +196,7 @@ pub struct StepRecord {
 }
 
 /// Operation counts of a run.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Counts {
     /// Accepted steps.
     pub steps: usize,

@@ -1,12 +1,13 @@
 //! Warnings: what a scene says that runs, and probably does not mean what its author wants.
 
 use crate::diagnostic::line_column;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 use std::ops::Range;
 
 /// Where a warning is about, counted from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Place {
     /// Line of the scene file.
     pub line: usize,
@@ -15,7 +16,7 @@ pub struct Place {
 }
 
 /// A warning of a plan.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Warning {
     /// What is doubtful.
     pub message: String,

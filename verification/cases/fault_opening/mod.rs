@@ -2,7 +2,7 @@
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::{Balance, run as integrate};
+use asperity_cycles::Balance;
 use asperity_driver::fault::{Plan, Report};
 use asperity_ode::{Control, Outcome};
 use asperity_vary::SceneText;
@@ -207,15 +207,7 @@ fn pulled(plan: &Plan) -> Result<Pulled, CaseError> {
         shear = [if shear[0].is_nan() { friction } else { shear[0] }, friction];
         Control::Go
     };
-    let (out, cost) = Cost::of(|| {
-        integrate(
-            &plan.problem.fault,
-            &plan.problem.loading,
-            plan.problem.start.clone(),
-            &plan.problem.settings,
-            &mut look,
-        )
-    });
+    let (out, cost) = Cost::of(|| plan.problem.run(&plan.problem.settings, &mut look));
     if out.outcome != Outcome::Completed {
         return Err(format!("{:?}", out.outcome).into());
     }
@@ -387,15 +379,7 @@ fn events(text: &str, floor: f64, opens: bool) -> Result<Shallow, CaseError> {
         balance.step(now);
         Control::Go
     };
-    let (out, cost) = Cost::of(|| {
-        integrate(
-            &plan.problem.fault,
-            &plan.problem.loading,
-            plan.problem.start.clone(),
-            &plan.problem.settings,
-            &mut look,
-        )
-    });
+    let (out, cost) = Cost::of(|| plan.problem.run(&plan.problem.settings, &mut look));
     let report = Report::new(&plan, &out, &mut balance);
     if report.events.len() < 3 {
         return Err(format!("only {} events: {:?}", report.events.len(), out.outcome).into());

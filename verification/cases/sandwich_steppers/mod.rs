@@ -80,7 +80,7 @@ fn measure(scene: &Scene, step: f64, reference: &Reference) -> Result<(Setting, 
     let (run, cost) = Cost::of(|| sandwich::simulate(scene));
     let run = run?;
     let error = reference.error(&run)?;
-    let wall = run.report.run.seconds.steps;
+    let wall = run.report.seconds.steps;
     let setting = Setting { step, error, wall, solves: run.report.counts.solves as f64 };
     let cost = cost.counts(&run.report.counts);
     Ok((setting, run, cost))

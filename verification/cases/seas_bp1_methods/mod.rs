@@ -2,7 +2,7 @@
 
 use crate::cases::seas::{self, YEAR};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_cycles::{Moment, run as integrate};
+use asperity_cycles::Moment;
 use asperity_driver::fault::Plan;
 use asperity_ode::{Control, Method, Outcome};
 use asperity_vary::bp1::BP1;
@@ -104,13 +104,7 @@ fn setting(plan: &Plan, method: Method, tolerance: f64) -> Result<Result<Setting
     (settings.method, settings.tolerance) = (method, tolerance);
     let clock = Instant::now();
     let mut watch = |_: &Moment<'_>| Control::Go;
-    let out = integrate(
-        &plan.problem.fault,
-        &plan.problem.loading,
-        plan.problem.start.clone(),
-        &settings,
-        &mut watch,
-    );
+    let out = plan.problem.run(&settings, &mut watch);
     let wall = clock.elapsed().as_secs_f64();
     if let Outcome::Failed { reason } = out.outcome {
         return Ok(Err(reason.to_string()));

@@ -15,4 +15,4 @@ pub use machine::Spring;
 pub use place::{Place, across, unit};
 pub use point::Point;
 pub use refusal::Refusal;
-pub(crate) use springs::Slips;
+pub(crate) use springs::{Slips, Travelled};

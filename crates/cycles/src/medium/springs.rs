@@ -7,6 +7,7 @@ use faer::linalg::solvers::SolveCore;
 use faer::sparse::linalg::solvers::Llt;
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Side};
+use serde::{Deserialize, Serialize};
 
 /// See the module.
 pub(crate) struct Slips {
@@ -16,14 +17,29 @@ pub(crate) struct Slips {
     equations: Vec<Option<usize>>,
     /// Tractions at time 0 \[Pa\].
     first: Vec<f64>,
-    /// Displacement of the load point, and slip of the sliders whose rate is imposed, when the present piece began, and when that was.
+    travelled: Travelled,
+}
+
+/// How far what is prescribed had come when the present piece of the histories began.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Travelled {
+    /// Displacement of the load point \[m\].
     load: f64,
+    /// Slip of the sliders whose rate is imposed \[m\].
     imposed: Vec<f64>,
+    /// When that was.
     entered: Clock,
 }
 
+impl Travelled {
+    /// So many sliders at time 0.
+    pub fn nowhere(sliders: usize) -> Self {
+        Self { load: 0.0, imposed: vec![0.0; sliders], entered: Clock::new(0.0, 0.0) }
+    }
+}
+
 impl Slips {
-    pub fn new(problem: &Problem) -> Result<Self, RunError> {
+    pub fn new(problem: &Problem, travelled: Travelled) -> Result<Self, RunError> {
         let system = &problem.system;
         let n = problem.names.len();
         let mut count = 0;
@@ -53,34 +69,33 @@ impl Slips {
         };
         let segment = system.segment(0.0);
         let first = (0..n).map(|i| segment.condition(i, 0.0, &problem.start).traction).collect();
-        Ok(Self {
-            stiffness,
-            equations,
-            first,
-            load: 0.0,
-            imposed: vec![0.0; n],
-            entered: Clock::new(0.0, 0.0),
-        })
+        Ok(Self { stiffness, equations, first, travelled })
     }
 
     pub fn enter(&mut self, at: Clock) {
-        self.entered = at;
+        self.travelled.entered = at;
     }
 
     pub fn leave(&mut self, piece: &Piece<'_>, at: Clock) {
-        self.load = self.load_at(piece, at);
-        self.imposed = (0..self.imposed.len()).map(|i| self.imposed_at(piece, i, at)).collect();
+        let load = self.load_at(piece, at);
+        let imposed = (0..self.equations.len()).map(|i| self.imposed_at(piece, i, at)).collect();
+        self.travelled = Travelled { load, imposed, ..self.travelled };
+    }
+
+    pub fn travelled(&self) -> &Travelled {
+        &self.travelled
     }
 
     pub fn load_at(&self, piece: &Piece<'_>, at: Clock) -> f64 {
-        self.load + piece.segment.load().integral(self.entered.seconds(), at.since(&self.entered))
+        let Travelled { load, entered, .. } = &self.travelled;
+        load + piece.segment.load().integral(entered.seconds(), at.since(entered))
     }
 
     fn imposed_at(&self, piece: &Piece<'_>, i: usize, at: Clock) -> f64 {
-        let since = |rate: &asperity_friction::slider::Piece| {
-            rate.integral(self.entered.seconds(), at.since(&self.entered))
-        };
-        self.imposed[i] + piece.segment.imposed(i).map_or(0.0, since)
+        let Travelled { imposed, entered, .. } = &self.travelled;
+        let since =
+            |rate: &asperity_friction::slider::Piece| rate.integral(entered.seconds(), at.since(entered));
+        imposed[i] + piece.segment.imposed(i).map_or(0.0, since)
     }
 
     pub fn slip(&self, piece: &Piece<'_>, at: Clock, load: f64, conditions: &[Condition]) -> Vec<f64> {

@@ -1,10 +1,11 @@
 //! Events of the sliders: when each began and ended, which way and how far it slipped, how fast, and what it released.
 
 use asperity_ode::Clock;
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// A slider at the onset or at the end of an event.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Edge {
     /// Slip since time 0 \[m\].
     pub slip: f64,
@@ -17,7 +18,7 @@ pub struct Edge {
 }
 
 /// An event: |V| above the upper threshold in one direction, until it falls through the lower one.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Event {
     /// Number of the slider.
     pub slider: usize,
@@ -44,7 +45,7 @@ pub struct Event {
 }
 
 /// Events in the order of their onsets.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Catalogue {
     /// Events so far.
     pub events: Vec<Event>,
@@ -53,7 +54,7 @@ pub struct Catalogue {
 }
 
 /// What the catalogue knows of a slider.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Track {
     /// Clock of its last onset.
     onset: Option<Clock>,

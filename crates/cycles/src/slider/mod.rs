@@ -15,5 +15,5 @@ pub(crate) use equations::Piece;
 pub use error::{RunError, WatchError};
 pub use problem::{DEFAULT_METHOD, DEFAULT_TOLERANCE, MOST_STEPS, Problem, Thresholds};
 pub use rows::{DEFAULT_CHANGE, Rows};
-pub use run::{Both, Now, Run, Watcher, run};
+pub use run::{Both, Now, RESTART, Run, Watcher, resume, run};
 pub use stability::{Stability, critical_stiffness};

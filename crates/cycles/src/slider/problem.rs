@@ -3,6 +3,7 @@
 use super::rows::Rows;
 use asperity_friction::slider::System;
 use asperity_ode::{Method, Options};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Method of scenes that name none: in the cycles of the case `slider_work_precision` no other needs fewer right-hand sides by
@@ -22,7 +23,7 @@ const RELATIVE: f64 = 1e-3;
 pub const MOST_STEPS: usize = 20_000_000;
 
 /// When a slider is in an event.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Thresholds {
     /// Slip rate above which an event begins \[m/s\].
     pub on: f64,

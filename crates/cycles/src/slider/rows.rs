@@ -1,5 +1,7 @@
 //! Which rows a run writes.
 
+use serde::{Deserialize, Serialize};
+
 /// Change of ln V of which outputs show what lies between, where a scene says nothing: a twentieth of an e-fold is less than a hair
 /// on a plot over sixteen decades.
 pub const DEFAULT_CHANGE: f64 = 0.05;
@@ -32,7 +34,7 @@ impl Rows {
 }
 
 /// The times asked for, one after the other.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Due {
     /// Of the list: the next.
     listed: usize,

@@ -1,13 +1,17 @@
 //! Integration from break to break of the prescribed histories.
+//!
+//! The integration also restarts after every [`RESTART`] accepted steps, whether or not somebody keeps what it restarts from: a run that is
+//! resumed there takes the same steps, bit for bit, as one that was never interrupted.
 
 use super::catalogue::{Catalogue, Edge};
 use super::equations::{Kind, Piece, kinds};
 use super::error::{RunError, WatchError};
 use super::problem::Problem;
 use super::rows::Due;
-use crate::medium::Slips;
+use crate::medium::{Slips, Travelled};
 use asperity_friction::slider::{Condition, Slider};
 use asperity_ode::{Clock, Control, Counts, Failure, Method, Occurrence, Outcome, Sink, Step};
+use serde::{Deserialize, Serialize};
 
 /// The sliders at an instant.
 #[derive(Clone, Debug)]
@@ -38,9 +42,12 @@ pub trait Watcher {
     /// When something cannot be written.
     fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError>;
 
-    /// Whether the run is to end after the present step, as if interrupted.
-    fn stops(&self) -> bool {
-        false
+    /// Where the integration restarts, after the step there was shown: [`resume`] goes on from this.
+    ///
+    /// # Errors
+    /// When something cannot be written.
+    fn pause(&mut self, _run: &Run) -> Result<Control, WatchError> {
+        Ok(Control::Go)
     }
 
     /// What was shown last is the onset, the end or an extreme of an event of this slider.
@@ -83,8 +90,9 @@ impl Watcher for Both<'_> {
         self.1.now(problem, now)
     }
 
-    fn stops(&self) -> bool {
-        self.0.stops() || self.1.stops()
+    fn pause(&mut self, run: &Run) -> Result<Control, WatchError> {
+        let controls = [self.0.pause(run)?, self.1.pause(run)?];
+        Ok(if controls.contains(&Control::Stop) { Control::Stop } else { Control::Go })
     }
 
     fn marked(&mut self, slider: usize) -> Result<(), WatchError> {
@@ -106,10 +114,14 @@ const MOST_UNRESOLVED: u32 = 10;
 /// Friction over a at which a slider has none left, and V is what it is at rest; the steps would go on to shrink towards zero.
 const SPENT: f64 = 1e-3;
 
-/// What a run found.
-#[derive(Clone, Debug)]
+/// Accepted steps after which the integration restarts: methods with a memory lose some twenty steps by that.
+pub const RESTART: u64 = 4096;
+
+/// What a run found, or has found so far: where it restarts this is all there is to know to resume it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// How it ended.
+    #[serde(skip, default = "completed")]
     pub outcome: Outcome,
     /// When.
     pub at: Clock,
@@ -120,9 +132,49 @@ pub struct Run {
     /// Work.
     pub counts: Counts,
     /// Why a run that failed may have failed, in terms of the scene.
+    #[serde(skip)]
     pub hint: Option<String>,
-    /// Whether its watcher ended it.
-    pub interrupted: bool,
+    /// Breaks of the prescribed histories it has passed.
+    passed: usize,
+    /// The step to try next, where it restarts between two breaks.
+    next_step: Option<NextStep>,
+    travelled: Travelled,
+    /// Times of rows still to come.
+    due: Due,
+    /// Steps in a row that time does not resolve.
+    unresolved: u32,
+}
+
+/// The step to try next.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct NextStep {
+    /// Its length \[s\]; chosen from the rates where absent.
+    length: Option<f64>,
+}
+
+impl Run {
+    /// A run that begins at time 0.
+    #[must_use]
+    pub fn new(problem: &Problem) -> Self {
+        let sliders = problem.names.len();
+        Self {
+            outcome: completed(),
+            at: Clock::new(0.0, 0.0),
+            unknowns: problem.start.clone(),
+            catalogue: Catalogue::new(sliders),
+            counts: Counts::default(),
+            hint: None,
+            passed: 0,
+            next_step: None,
+            travelled: Travelled::nowhere(sliders),
+            due: Due::default(),
+            unresolved: 0,
+        }
+    }
+}
+
+fn completed() -> Outcome {
+    Outcome::Completed
 }
 
 /// Runs a problem. An integration that fails is no error: the outcome says so, and all found until then stands.
@@ -130,53 +182,59 @@ pub struct Run {
 /// # Errors
 /// [`RunError`].
 pub fn run(problem: &Problem, watcher: &mut dyn Watcher) -> Result<Run, RunError> {
+    resume(problem, Run::new(problem), watcher)
+}
+
+/// Resumes a run, see [`Watcher::pause`].
+///
+/// # Errors
+/// [`RunError`].
+pub fn resume(problem: &Problem, run: Run, watcher: &mut dyn Watcher) -> Result<Run, RunError> {
     let kinds = kinds(problem);
-    let options = problem.options();
-    let mut slips = Slips::new(problem)?;
-    let mut breaks = problem.system.breaks(0.0, problem.end);
+    let mut slips = Slips::new(problem, run.travelled.clone())?;
+    let mut breaks = vec![0.0];
+    breaks.extend(problem.system.breaks(0.0, problem.end));
     breaks.push(problem.end);
-    let mut piece = Piece::new(problem, 0.5 * breaks[0], &kinds);
-    let mut state = Following::new(problem, watcher);
-    let (mut at, mut unknowns) = (Clock::new(0.0, 0.0), problem.start.clone());
-    let mut counts = Counts::default();
-    let mut outcome = Outcome::Completed;
-    for (k, &end) in breaks.iter().enumerate() {
-        if k > 0 {
-            let next = Piece::new(problem, 0.5 * (breaks[k - 1] + end), &kinds);
-            problem.system.jump(breaks[k - 1], &piece.segment, &next.segment, &mut unknowns)?;
-            piece = next;
+    let piece = |k: usize| Piece::new(problem, 0.5 * (breaks[k] + breaks[k + 1]), &kinds);
+    let mut state = Following::new(problem, watcher, run);
+    while state.run.passed + 1 < breaks.len() {
+        let k = state.run.passed;
+        let present = piece(k);
+        if state.run.next_step.is_none() {
+            if k > 0 {
+                let before = piece(k - 1);
+                let unknowns = &mut state.run.unknowns;
+                problem.system.jump(breaks[k], &before.segment, &present.segment, unknowns)?;
+            }
+            slips.enter(state.run.at);
+            state.run.travelled = slips.travelled().clone();
         }
-        slips.enter(at);
-        let mut sink = Running { piece: &piece, slips: &slips, state: &mut state };
-        sink.begin(at, &unknowns);
-        if sink.state.failure.is_some() {
+        if !state.through(&present, &slips, breaks[k + 1]) {
+            state.run.hint = why(problem, &present, &state.run);
             break;
         }
-        let duration = Clock::new(end, 0.0).since(&at);
-        let finished = asperity_ode::integrate(&piece, at, &unknowns, duration, &options, &mut sink);
-        slips.leave(&piece, finished.at);
-        (at, unknowns, outcome) = (finished.at, finished.state, finished.outcome);
-        add(&mut counts, &finished.counts);
-        if let Some(reason) = state.senseless.take() {
-            outcome = Outcome::Failed { reason };
-        }
-        if outcome != Outcome::Completed {
+        slips.leave(&present, state.run.at);
+        (state.run.passed, state.run.travelled) = (k + 1, slips.travelled().clone());
+        if k + 2 < breaks.len() && !state.pauses() {
             break;
         }
     }
-    let (catalogue, failure, interrupted) = (state.catalogue, state.failure, state.interrupted);
-    if let Some(failure) = failure {
-        return Err(RunError::Observe(failure));
+    match state.failure {
+        Some(failure) => Err(RunError::Observe(failure)),
+        None => Ok(state.run),
     }
-    let hint = match outcome {
+}
+
+/// Why a run that failed may have failed, in terms of the scene.
+fn why(problem: &Problem, piece: &Piece<'_>, run: &Run) -> Option<String> {
+    match run.outcome {
         // Other failures say themselves what is wrong.
         Outcome::Failed { reason: Failure::StepTooSmall { .. } | Failure::Ends } => {
-            hint(problem, &piece, at, &unknowns)
+            hint(problem, piece, run.at, &run.unknowns)
         }
         Outcome::Failed { reason: Failure::TooManySteps { most } } => restarts(problem, most),
         _ => None,
-    };
-    Ok(Run { outcome, at, unknowns, catalogue, counts, hint, interrupted })
+    }
 }
 
 fn add(sum: &mut Counts, part: &Counts) {
@@ -233,37 +291,78 @@ fn restarts(problem: &Problem, most: usize) -> Option<String> {
     })
 }
 
-/// What goes on from piece to piece.
+/// A run that is followed.
 struct Following<'a> {
     problem: &'a Problem,
     watcher: &'a mut dyn Watcher,
-    catalogue: Catalogue,
+    run: Run,
     failure: Option<WatchError>,
-    /// Whether the watcher ended the run.
-    interrupted: bool,
-    step: usize,
-    /// Steps in a row that time does not resolve.
-    unresolved: u32,
+    /// Accepted steps since the last restart.
+    steps: u64,
     /// Why it makes no sense to go on: a slider has run away, or its friction has come to zero.
     senseless: Option<Failure>,
-    /// Times of rows still to come.
-    due: Due,
 }
 
 impl<'a> Following<'a> {
-    fn new(problem: &'a Problem, watcher: &'a mut dyn Watcher) -> Self {
-        let catalogue = Catalogue::new(problem.names.len());
-        Self {
-            problem,
-            watcher,
-            catalogue,
-            failure: None,
-            interrupted: false,
-            step: 0,
-            unresolved: 0,
-            senseless: None,
-            due: Due::default(),
+    fn new(problem: &'a Problem, watcher: &'a mut dyn Watcher, run: Run) -> Self {
+        Self { problem, watcher, run, failure: None, steps: 0, senseless: None }
+    }
+
+    /// Integrates a piece from restart to restart; whether it came to its end.
+    fn through(&mut self, piece: &Piece<'_>, slips: &Slips, end: f64) -> bool {
+        let (mut options, earlier) = (self.problem.options(), self.run.counts.steps);
+        loop {
+            let (at, unknowns) = (self.run.at, self.run.unknowns.clone());
+            let resumed = self.run.next_step.take();
+            self.steps = 0;
+            let mut sink = Running { piece, slips, state: self, paused: None };
+            match resumed {
+                Some(NextStep { length }) => options.first_step = length,
+                None => sink.begin(at, &unknowns),
+            }
+            if sink.state.failure.is_some() {
+                return false;
+            }
+            let duration = Clock::new(end, 0.0).since(&at).max(0.0);
+            let finished = asperity_ode::integrate(piece, at, &unknowns, duration, &options, &mut sink);
+            let paused = sink.paused;
+            (self.run.at, self.run.unknowns, self.run.outcome) =
+                (finished.at, finished.state, finished.outcome);
+            add(&mut self.run.counts, &finished.counts);
+            if let Some(reason) = self.senseless.take() {
+                self.run.outcome = Outcome::Failed { reason };
+            }
+            if let Outcome::Failed { reason: Failure::TooManySteps { most } } = &mut self.run.outcome {
+                *most = self.problem.most_steps;
+            }
+            let over = self.run.outcome != Outcome::Stopped || self.failure.is_some() || self.enough();
+            let Some(next) = paused.filter(|_| !over) else {
+                return self.run.outcome == Outcome::Completed && self.failure.is_none();
+            };
+            self.run.next_step = Some(next);
+            if !self.pauses() {
+                return false;
+            }
+            let taken = usize::try_from(self.run.counts.steps - earlier).unwrap_or(usize::MAX);
+            options.most_steps = self.problem.most_steps.saturating_sub(taken);
         }
+    }
+
+    /// Shows the watcher where the run restarts; whether it goes on.
+    fn pauses(&mut self) -> bool {
+        self.run.outcome = Outcome::Completed;
+        match self.watcher.pause(&self.run) {
+            Ok(Control::Go) => return true,
+            Ok(Control::Stop) => self.run.outcome = Outcome::Stopped,
+            Err(failure) => self.failure = Some(failure),
+        }
+        false
+    }
+
+    /// Whether all events asked for are over.
+    fn enough(&self) -> bool {
+        // The last event counts when it is over, so that its peak and slip are known.
+        self.problem.most_events.is_some_and(|n| self.run.catalogue.over(0) >= n)
     }
 }
 
@@ -272,12 +371,14 @@ struct Running<'a, 'b> {
     piece: &'a Piece<'a>,
     slips: &'a Slips,
     state: &'a mut Following<'b>,
+    /// Where the integration restarts: the length to try after the last step.
+    paused: Option<NextStep>,
 }
 
 impl Running<'_, '_> {
     /// Shows the first state, and that after a jump.
     fn begin(&mut self, at: Clock, unknowns: &[f64]) {
-        let asked = self.state.due.next(&self.state.problem.output, at.seconds()).is_some();
+        let asked = self.state.run.due.next(&self.state.problem.output, at.seconds()).is_some();
         self.show(at, 0.0, unknowns, asked);
         self.sees(at, unknowns);
         let Some(thresholds) = self.state.problem.events else { return };
@@ -286,9 +387,9 @@ impl Running<'_, '_> {
         for (i, c) in conditions.iter().enumerate() {
             // A run that begins within an event, or a jump into one.
             if c.rate.abs() > thresholds.on {
-                self.state.catalogue.begins(i, at, c.rate, self.edge(i, unknowns, c, slip[i]));
+                self.state.run.catalogue.begins(i, at, c.rate, self.edge(i, unknowns, c, slip[i]));
             } else if c.rate.abs() < thresholds.off {
-                self.state.catalogue.ends(i, at, self.edge(i, unknowns, c, slip[i]));
+                self.state.run.catalogue.ends(i, at, self.edge(i, unknowns, c, slip[i]));
             }
         }
     }
@@ -352,7 +453,7 @@ impl Running<'_, '_> {
     fn asked(&mut self, step: &Step<'_>, samples: &mut Vec<Sample>) -> bool {
         let problem = self.state.problem;
         let (end, mut ends_asked) = (step.end.seconds(), false);
-        while let Some(time) = self.state.due.next(&problem.output, end) {
+        while let Some(time) = self.state.run.due.next(&problem.output, end) {
             let at = Clock::new(time, 0.0);
             let fraction = at.since(&step.start) / step.length();
             if time == end || fraction >= 1.0 {
@@ -393,7 +494,7 @@ impl Running<'_, '_> {
         let problem = self.state.problem;
         let (load, conditions) = self.look(at, unknowns);
         let slip = self.slips.slip(self.piece, at, load, &conditions);
-        let step = self.state.step;
+        let step = usize::try_from(self.state.run.counts.steps + self.state.steps).unwrap_or(usize::MAX);
         let now = Now { at, dt, step, unknowns, conditions: &conditions, slip: &slip, load, asked };
         if let Err(failure) = self.state.watcher.now(problem, &now) {
             self.state.failure = Some(failure);
@@ -407,17 +508,17 @@ impl Running<'_, '_> {
         let length = step.length();
         let short = length < UNRESOLVED * step.end.seconds().abs();
         if !short || running(self.piece, step.end, step.state).is_none() {
-            self.state.unresolved = 0;
+            self.state.run.unresolved = 0;
             return false;
         }
-        self.state.unresolved += 1;
-        self.state.unresolved == MOST_UNRESOLVED
+        self.state.run.unresolved += 1;
+        self.state.run.unresolved == MOST_UNRESOLVED
     }
 
     /// Tells the catalogue of the slip rates at the end of a step.
     fn sees(&mut self, at: Clock, unknowns: &[f64]) {
         for i in 0..self.state.problem.names.len() {
-            self.state.catalogue.sees(i, self.piece.segment.slip(i, at.seconds(), unknowns).0.rate);
+            self.state.run.catalogue.sees(i, self.piece.segment.slip(i, at.seconds(), unknowns).0.rate);
         }
     }
 }
@@ -443,7 +544,7 @@ impl Sample {
 
 impl Sink for Running<'_, '_> {
     fn accepted(&mut self, step: &Step<'_>) -> Control {
-        self.state.step += 1;
+        self.state.steps += 1;
         let asked = self.state.watcher.watches() && self.between(step);
         self.show(step.end, step.length(), step.state, asked);
         self.sees(step.end, step.state);
@@ -455,8 +556,11 @@ impl Sink for Running<'_, '_> {
         if self.state.senseless.is_some() || self.state.failure.is_some() {
             return Control::Stop;
         }
-        self.state.interrupted = self.state.watcher.stops();
-        if self.state.interrupted { Control::Stop } else { Control::Go }
+        if self.state.steps < RESTART {
+            return Control::Go;
+        }
+        self.paused = Some(NextStep { length: step.next_length() });
+        Control::Stop
     }
 
     fn occurred(&mut self, o: &Occurrence) -> Control {
@@ -468,18 +572,15 @@ impl Sink for Running<'_, '_> {
             let slip = self.slips.slip(self.piece, o.at, load, &conditions);
             let edge = self.edge(i, &o.state, &conditions[i], slip[i]);
             match (kind, o.rising) {
-                (Kind::On(..), true) => self.state.catalogue.begins(i, o.at, rate, edge),
-                (Kind::Off(..), false) => self.state.catalogue.ends(i, o.at, edge),
+                (Kind::On(..), true) => self.state.run.catalogue.begins(i, o.at, rate, edge),
+                (Kind::Off(..), false) => self.state.run.catalogue.ends(i, o.at, edge),
                 _ => {}
             }
         }
-        self.state.catalogue.sees(i, rate);
+        self.state.run.catalogue.sees(i, rate);
         if let Err(failure) = self.state.watcher.marked(i) {
             self.state.failure.get_or_insert(failure);
         }
-        let enough = self.state.problem.most_events;
-        // The last event counts when it is over, so that its peak and slip are known.
-        let reached = enough.is_some_and(|n| self.state.catalogue.over(0) >= n);
-        if reached || self.state.failure.is_some() { Control::Stop } else { Control::Go }
+        if self.state.enough() || self.state.failure.is_some() { Control::Stop } else { Control::Go }
     }
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 /// See the module.
 #[derive(Debug, thiserror::Error)]
 pub enum ResumeError {
-    /// The checkpoint or an output file cannot be read.
+    /// The checkpoint cannot be read.
     #[error("cannot read {path}: {source}")]
     Read {
         /// The file.
@@ -21,6 +21,18 @@ pub enum ResumeError {
         path: PathBuf,
         /// What is wrong.
         reason: String,
+    },
+    /// The checkpoint of another kind of run.
+    #[error(
+        "the checkpoint {path} is of a run of {found}, and the scene is of {scene}; choose another output directory, or run without --resume to begin again"
+    )]
+    Kind {
+        /// The file.
+        path: PathBuf,
+        /// What was run.
+        found: String,
+        /// What the scene has.
+        scene: &'static str,
     },
     /// Written by another version of the program.
     #[error(
@@ -66,19 +78,7 @@ pub enum ResumeError {
         /// Its events.
         events: usize,
     },
-    /// An output file lacks rows that were there.
-    #[error(
-        "{path} has {found} bytes and had {expected} at the checkpoint; restore it, or run without --resume to begin again"
-    )]
-    Shorter {
-        /// The file.
-        path: PathBuf,
-        /// Bytes it has.
-        found: u64,
-        /// Bytes it had.
-        expected: u64,
-    },
-    /// A file cannot be written.
+    /// An output file cannot be written, or is not as it was at the checkpoint.
     #[error(transparent)]
-    Observe(#[from] OutputError),
+    Output(#[from] OutputError),
 }

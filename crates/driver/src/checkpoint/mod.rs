@@ -16,10 +16,10 @@ pub mod scene;
 pub use error::ResumeError;
 pub use pauses::Pauses;
 
+use crate::sha256::sha256;
 use asperity_output::{OutputError, atomic};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use sha2::{Digest, Sha256};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -49,7 +49,7 @@ pub trait Contents: Serialize + DeserializeOwned {
     fn write(&self, out: &Path) -> Result<(), OutputError> {
         let path = out.join(FILE);
         let contents = serde_json::to_string(self).map_err(|e| OutputError::write(&path, e.into()))?;
-        let (of, version, sum) = (Self::OF, Self::VERSION, sha256(contents.as_bytes()));
+        let (of, version, sum) = (Self::OF, Self::VERSION, sha256([&contents]));
         let text = format!("{KIND}{of}, version {version}\n{sum}\n{contents}\n");
         atomic::write_durably(&path, text.as_bytes())
     }
@@ -73,14 +73,14 @@ pub trait Contents: Serialize + DeserializeOwned {
             .and_then(|kind| kind.split_once(", version "))
             .ok_or_else(|| damaged("its first line is that of no checkpoint"))?;
         if of != Self::OF {
-            return Err(damaged(&format!("it is of a run of {of}, and the scene is of {}", Self::OF)));
+            return Err(ResumeError::Kind { path, found: of.into(), scene: Self::OF });
         }
         if version != Self::VERSION {
             return Err(ResumeError::Version { path, found: version.into(), reads: Self::VERSION });
         }
         let sum = lines.next().unwrap_or_default();
         let contents = lines.next().and_then(|rest| rest.strip_suffix('\n')).unwrap_or_default();
-        if sha256(contents.as_bytes()) != sum {
+        if sha256([contents]) != sum {
             return Err(damaged("its contents do not have the sum written beside them"));
         }
         let read: Self = serde_json::from_str(contents).map_err(|e| damaged(&e.to_string()))?;
@@ -106,8 +106,4 @@ pub fn remove(out: &Path) -> Result<(), OutputError> {
         Err(e) if e.kind() != ErrorKind::NotFound => Err(OutputError::write(&path, e)),
         _ => Ok(()),
     }
-}
-
-fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
 }

@@ -4,6 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+/// Wall time between checkpoints over the wall time that the last one took, at least: what they cost stays below 2 %.
+const SHARE: u32 = 50;
+
 /// See the module.
 #[derive(Clone, Debug)]
 pub struct Pauses {
@@ -18,6 +21,13 @@ pub struct Pauses {
 }
 
 impl Pauses {
+    /// Whether the next checkpoint is due; `written` is when the last one was, and how long that took.
+    #[must_use]
+    pub fn are_due(&self, written: (Instant, Duration)) -> bool {
+        let (at, cost) = written;
+        at.elapsed() >= self.every.max(cost * SHARE)
+    }
+
     /// Why a run is to be interrupted now; one that has not `moved` yet only where it is asked to, so that each part of a run gets on.
     #[must_use]
     pub fn reason(&self, moved: bool) -> Option<&'static str> {

@@ -1,6 +1,6 @@
 //! What makes two scenes the same for a run that is resumed.
 
-use sha2::{Digest, Sha256};
+use crate::sha256::sha256;
 
 /// Hash of the scene `text` without what `leave_out` removes, and of mesh files with these hashes. How the file is laid out does not count.
 #[must_use]
@@ -9,15 +9,13 @@ pub fn hash<'a>(
     leave_out: impl FnOnce(&mut toml::Table),
     meshes: impl Iterator<Item = &'a str>,
 ) -> String {
-    let mut hash = Sha256::new();
     let table = toml::from_str::<toml::Table>(text).ok().map(|mut table| {
         leave_out(&mut table);
         table
     });
     // Tables are sorted by their keys. What has been read as a scene can be read as a table; if not, every byte counts.
-    hash.update(table.and_then(|table| serde_json::to_string(&table).ok()).unwrap_or_else(|| text.into()));
-    meshes.for_each(|mesh| hash.update(mesh));
-    hash.finalize().iter().map(|b| format!("{b:02x}")).collect()
+    let scene = table.and_then(|table| serde_json::to_string(&table).ok()).unwrap_or_else(|| text.into());
+    sha256(std::iter::once(scene.as_str()).chain(meshes.map(|mesh| mesh as &str)))
 }
 
 /// Hash of a scene of bodies: all of it but its title.

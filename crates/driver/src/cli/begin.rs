@@ -1,6 +1,6 @@
 //! What a run is begun with, and the names of the files that say so.
 
-use crate::report::Origin;
+use crate::report::common::{Kind, Origin};
 use jiff::Timestamp;
 use std::fs;
 use std::path::Path;
@@ -13,6 +13,7 @@ pub(super) const LOCK: &str = ".lock";
 /// What a run is begun with.
 #[derive(Clone, Debug)]
 pub(super) struct Begin {
+    pub kind: Kind,
     pub title: String,
     /// SHA-256 of the scene file.
     pub hash: String,
@@ -25,9 +26,9 @@ pub(super) struct Begin {
 
 impl Begin {
     /// Of a scene file that is read now.
-    pub fn now(scene: &Path, title: &str, hash: &str) -> Self {
+    pub fn now(kind: Kind, scene: &Path, title: &str, hash: &str) -> Self {
         let path = fs::canonicalize(scene).unwrap_or_else(|_| scene.to_path_buf());
         let origin = Origin { scene: path.display().to_string(), started: Timestamp::now().to_string() };
-        Self { title: title.into(), hash: hash.into(), origin, resume: false, force: false }
+        Self { kind, title: title.into(), hash: hash.into(), origin, resume: false, force: false }
     }
 }

@@ -3,39 +3,15 @@
 use super::begin::{Begin, LOCK, REPORT};
 use super::contents::{self, Contents};
 use crate::checkpoint;
-use crate::report::{Origin, Status, commit};
+use crate::forecast;
+use crate::report::common::{Phases, Provenance, Report, Results, SCHEMA, Sketch, Status, commit};
 use asperity_output::atomic;
 use miette::{IntoDiagnostic, WrapErr, miette};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-
-/// A report with how its run stands.
-#[derive(Serialize)]
-struct Stated<'a, R> {
-    status: Status,
-    #[serde(flatten)]
-    report: &'a R,
-}
-
-/// What is known of a run before it has ended, or where it ended without results.
-#[derive(Serialize)]
-struct Sketch<'a> {
-    title: &'a str,
-    version: &'a str,
-    scene_sha256: &'a str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<String>,
-    run: Provenance<'a>,
-}
-
-#[derive(Serialize)]
-struct Provenance<'a> {
-    commit: &'a str,
-    #[serde(flatten)]
-    origin: &'a Origin,
-}
 
 /// What was done to make room, so that it can be undone until the run begins to compute.
 #[derive(Debug)]
@@ -99,11 +75,6 @@ impl Directory {
         &self.path
     }
 
-    /// What the run was begun from.
-    pub fn origin(&self) -> &Origin {
-        &self.begin.origin
-    }
-
     /// From now on there is something to lose: what was made room of before the last result is removed.
     pub fn computes(&mut self) -> miette::Result<()> {
         match std::mem::replace(&mut self.room, Room::Used) {
@@ -114,9 +85,32 @@ impl Directory {
         }
     }
 
-    /// The last report.
-    pub fn write(&self, status: Status, report: &impl Serialize) -> miette::Result<()> {
-        let text = serde_json::to_string_pretty(&Stated { status, report }).into_diagnostic()?;
+    /// The last report, with the hashes of the mesh files.
+    pub fn write<P: Results>(&self, results: &P, meshes: &BTreeMap<String, String>) -> miette::Result<()> {
+        self.report(results.outcome().status(), Some(results.seconds()), Some(meshes), results)
+    }
+
+    fn report(
+        &self,
+        status: Status,
+        seconds: Option<Phases>,
+        meshes_sha256: Option<&BTreeMap<String, String>>,
+        results: impl Serialize,
+    ) -> miette::Result<()> {
+        let Begin { title, hash: scene_sha256, origin, kind, .. } = &self.begin;
+        let (threads, peak_bytes) = (rayon::current_num_threads(), forecast::most_so_far());
+        let report = Report {
+            schema: SCHEMA,
+            kind: *kind,
+            status,
+            title,
+            version: env!("CARGO_PKG_VERSION"),
+            scene_sha256,
+            meshes_sha256,
+            run: Provenance { seconds, threads, commit: commit(), peak_bytes, origin },
+            results,
+        };
+        let text = serde_json::to_string_pretty(&report).into_diagnostic()?;
         atomic::write(&self.path.join(REPORT), text.as_bytes())
             .map_err(|e| miette!("cannot write the report: {e}"))
     }
@@ -156,10 +150,7 @@ impl Directory {
     }
 
     fn sketch(&self, status: Status, reason: Option<String>) -> miette::Result<()> {
-        let Begin { title, hash, origin, .. } = &self.begin;
-        let version = env!("CARGO_PKG_VERSION");
-        let run = Provenance { commit: commit(), origin };
-        self.write(status, &Sketch { title, version, scene_sha256: hash, reason, run })
+        self.report(status, None, None, Sketch { reason })
     }
 }
 

@@ -1,4 +1,4 @@
-//! The commands of the binary: `run` and `check`.
+//! The commands of the binary: `run`, `check` and `schema`.
 
 mod begin;
 mod contents;
@@ -10,13 +10,14 @@ mod read;
 mod signals;
 mod work;
 
+use crate::report::schema::schema;
 use asperity_output::{Pulse, printing};
 use begin::Begin;
-use clap::{Parser, Subcommand};
+use clap::{Parser, Subcommand, ValueEnum};
 use contents::Contents;
 use directory::Directory;
 pub use end::End;
-use miette::miette;
+use miette::IntoDiagnostic;
 pub use pausing::Pausing;
 use read::{Planned, Source};
 use std::path::{Path, PathBuf};
@@ -56,6 +57,18 @@ pub enum Command {
         /// Scene file (TOML).
         scene: PathBuf,
     },
+    /// Print the JSON Schema of a file.
+    Schema {
+        /// The file.
+        of: Schema,
+    },
+}
+
+/// Files that have a schema.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Schema {
+    /// `report.json`.
+    Report,
 }
 
 /// Executes a command.
@@ -68,17 +81,17 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
             print::plan(&Source::read(scene)?.plan()?.plan);
             Ok(End::Done)
         }
+        Command::Schema { of: Schema::Report } => {
+            let schema = serde_json::to_string_pretty(&schema()).into_diagnostic()?;
+            printing::out(format_args!("{schema}\n"));
+            Ok(End::Done)
+        }
         Command::Run { scene, out, no_plots, force, pauses } => {
             let out = out.clone().unwrap_or_else(|| default_output(scene));
             let source = Source::read(scene)?;
-            if (pauses.resume || pauses.wall_time.is_some()) && source.is_slider() {
-                return Err(miette!(
-                    "runs of spring-sliders have no checkpoints: leave out --resume and --wall-time"
-                ));
-            }
             let begin = Begin { resume: pauses.resume, force: *force, ..source.begin(scene) };
             if begin.resume
-                && let Some(meshes) = source.meshes_of_bodies()
+                && let Some(meshes) = source.meshes_of_whole()
                 && Contents::of(&out)?.is_complete(&begin.hash, &meshes)
             {
                 printing::out(format_args!("the run in {} is complete: nothing to resume\n", out.display()));
@@ -103,7 +116,7 @@ fn run(source: Source, directory: &mut Directory, drawn: bool, pauses: &Pausing)
     print::plan(&ready.plan);
     match &ready.plan {
         Planned::Bodies(plan) => run_bodies(plan, &ready, directory, drawn, pauses),
-        Planned::Sliders(plan) => run_sliders(plan, &ready, directory, drawn),
+        Planned::Sliders(plan) => run_sliders(plan, &ready, directory, drawn, pauses),
         Planned::Faults(plan) => run_faults(plan, &ready, directory, drawn, pauses),
     }
 }

@@ -59,7 +59,7 @@ pub(super) fn results(report: &RunReport) {
         c.factorisations,
         c.body_solves
     ));
-    let s = &report.run.seconds;
+    let s = &report.seconds;
     out(format_args!(
         "  seconds: plan {:.2}, set-up {:.2}, steps {:.2}, output {:.2}\n",
         s.plan, s.set_up, s.steps, s.output

@@ -5,12 +5,13 @@ use crate::checkpoint;
 use crate::diagnostic::{Diagnostics, report};
 use crate::fault;
 use crate::plan::{self, AnyPlan, ScenePlan};
+use crate::report::Kind;
 use crate::scene;
+use crate::sha256::sha256;
 use crate::slider;
 use crate::slider_planner;
 use crate::warning::Warning;
 use miette::{IntoDiagnostic, WrapErr};
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
@@ -84,27 +85,24 @@ impl Source {
         Ok(Self { name, text, parsed, clock })
     }
 
-    /// Whether it is a scene of spring-sliders.
-    pub fn is_slider(&self) -> bool {
-        matches!(&self.parsed, Parsed::Sliders(_))
-    }
-
-    /// SHA-256 of the mesh files of bodies without faults, whose runs have an end that no change of the scene moves; none where they cannot
-    /// be read, or of other scenes.
-    pub fn meshes_of_bodies(&self) -> Option<BTreeMap<String, String>> {
+    /// SHA-256 of the mesh files of a scene whose run has an end that no change of the scene moves, which are all but those of faults; none
+    /// of the others, or where they cannot be read.
+    pub fn meshes_of_whole(&self) -> Option<BTreeMap<String, String>> {
         match &self.parsed {
+            Parsed::Sliders(_) => Some(BTreeMap::new()),
             Parsed::Bodies(scene) if scene.faults.is_empty() => mesh_hashes(scene).ok(),
-            _ => None,
+            Parsed::Bodies(_) => None,
         }
     }
 
     /// What a run of it, read from `path`, is begun with.
     pub fn begin(&self, path: &Path) -> Begin {
-        let title = match &self.parsed {
-            Parsed::Sliders(plan) => &plan.problem.title,
-            Parsed::Bodies(scene) => &scene.title,
+        let (kind, title) = match &self.parsed {
+            Parsed::Sliders(plan) => (Kind::Sliders, &plan.problem.title),
+            Parsed::Bodies(scene) if scene.faults.is_empty() => (Kind::Bodies, &scene.title),
+            Parsed::Bodies(scene) => (Kind::Faults, &scene.title),
         };
-        Begin::now(path, title, &sha256(self.text.as_bytes()))
+        Begin::now(kind, path, title, &sha256([&self.text]))
     }
 
     /// Plans it.
@@ -134,7 +132,7 @@ impl Source {
             Planned::Faults(_) => fault::physics(&text, hashes),
             Planned::Bodies(_) | Planned::Sliders(_) => checkpoint::scene::of_bodies(&text, hashes),
         };
-        let hash = sha256(text.as_bytes());
+        let hash = sha256([&text]);
         Ok(Ready { plan, hash, physics, meshes, seconds: clock.elapsed().as_secs_f64() })
     }
 }
@@ -144,11 +142,7 @@ fn mesh_hashes(scene: &scene::model::Scene) -> miette::Result<BTreeMap<String, S
     let hash = |file: &str| {
         let bytes = std::fs::read(scene.folder.join(file)).into_diagnostic();
         let bytes = bytes.wrap_err_with(|| format!("cannot read the mesh file {file}"))?;
-        Ok((file.to_string(), sha256(&bytes)))
+        Ok((file.to_string(), sha256([&bytes])))
     };
     scene.mesh_files().map(hash).collect()
-}
-
-fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
 }

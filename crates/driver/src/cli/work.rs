@@ -12,15 +12,10 @@ use crate::plan::AnyPlan;
 use crate::report::{Outcome, Status};
 use crate::run::{self, RunError};
 use crate::slider;
-use asperity_cycles::slider::{Both, Now, Problem, WatchError, Watcher};
 use asperity_output::printing::{err, out};
-use asperity_output::{
-    FieldSchedule, Files, Observer, OutputError, Progress, Recorder, atomic, plots, stems,
-};
+use asperity_output::{FieldSchedule, Files, OutputError, Recorder, atomic, plots, stems};
 use miette::{IntoDiagnostic, miette};
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Runs bodies.
@@ -42,33 +37,37 @@ pub(super) fn run_bodies(
         }
         other => other.into_diagnostic(),
     }?;
-    let recorder = kept.finish(report.status() == Status::Completed).into_diagnostic()?;
-    report.scene_sha256.clone_from(&ready.hash);
-    report.meshes_sha256.clone_from(&ready.meshes);
-    report.run.seconds.plan = ready.seconds;
-    report.run.origin.clone_from(directory.origin());
-    report.run.peak_bytes = forecast::most_so_far();
+    let recorder = kept.finish(report.outcome.status() == Status::Completed).into_diagnostic()?;
+    report.seconds.plan = ready.seconds;
     // The report comes last, but comes also where something beside it cannot be written.
     let drawn = draw(directory.path(), recorder.as_ref());
-    directory.write(report.status(), &report)?;
+    directory.write(&report, &ready.meshes)?;
     drawn?;
     print::results(&report);
     written(directory);
     for warning in &report.warnings {
         err(format_args!("warning: {warning}\n"));
     }
-    Ok(match report.outcome {
+    Ok(end(report.outcome, Some(report.counts.steps)))
+}
+
+/// What a person is told last; `step` is the number of steps that were taken.
+fn end(outcome: Outcome, step: Option<usize>) -> End {
+    let place = |stage: Option<String>, time: f64| {
+        let stage = stage.map_or(String::new(), |stage| format!("stage `{stage}` "));
+        format!("{stage}at {time:.6e} s")
+    };
+    match outcome {
         Outcome::Completed => End::Done,
         Outcome::Stopped { stage, time, reason, .. } => {
-            End::Stopped(format!("stage `{stage}` at {time:.6e} s: {reason}"))
+            End::Stopped(format!("{}: {reason}", place(stage, time)))
         }
         Outcome::Interrupted { stage, time, reason } => {
-            let step = report.counts.steps;
-            End::Interrupted(format!(
-                "interrupted: {reason} in stage `{stage}` at {time:.6e} s, step {step}; {RESUMES}"
-            ))
+            let step = step.map_or(String::new(), |step| format!(", step {step}"));
+            let within = if stage.is_some() { " in" } else { "" };
+            End::Interrupted(format!("interrupted: {reason}{within} {}{step}; {RESUMES}", place(stage, time)))
         }
-    })
+    }
 }
 
 /// What is said of a run that was interrupted.
@@ -99,17 +98,18 @@ fn kept(
         let kept = run::Kept::begin(path, &ready.physics, files, recorder, pauses).into_diagnostic()?;
         return Ok((kept, None));
     };
-    if drawn && !read.draws() {
-        out(format_args!("no plots: the run was begun with --no-plots\n"));
-    }
-    remove_plots(&path.join("plots"))?;
+    draws_again(path, drawn, read.draws())?;
     let (kept, stand) = run::Kept::resume(path, read, files, drawn, pauses);
     out(format_args!("resumed at {:.6e} s, step {}\n", stand.time(), stand.steps()));
     Ok((kept, Some(stand)))
 }
 
-/// Removes the plots of the part before, which are drawn again at the end.
-fn remove_plots(folder: &Path) -> miette::Result<()> {
+/// Removes the plots of the part before, which are drawn again at the end where they are asked for and the run was begun with plots.
+fn draws_again(path: &Path, asked: bool, begun_with: bool) -> miette::Result<()> {
+    if asked && !begun_with {
+        out(format_args!("no plots: the run was begun with --no-plots\n"));
+    }
+    let folder = &path.join("plots");
     match std::fs::remove_dir_all(folder) {
         Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
             Err(miette!("cannot remove {}: {e}", folder.display()))
@@ -137,65 +137,62 @@ fn draw(out: &Path, recorder: Option<&Recorder>) -> miette::Result<()> {
     Ok(())
 }
 
-/// Ends a run of sliders where a signal asks for it.
-struct Until<'a>(slider::Show<'a>, Arc<AtomicBool>);
-
-impl Watcher for Until<'_> {
-    fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError> {
-        self.0.now(problem, now)
-    }
-
-    fn stops(&self) -> bool {
-        self.1.load(Ordering::Relaxed)
-    }
-}
-
 /// Runs spring-sliders.
 pub(super) fn run_sliders(
     plan: &slider::Plan,
     ready: &Ready,
     directory: &mut Directory,
     drawn: bool,
+    pausing: &Pausing,
 ) -> miette::Result<End> {
     let problem = &plan.problem;
-    let mut histories = slider::Histories::create(directory.path(), problem).into_diagnostic()?;
-    if drawn {
-        histories = histories.traced();
-    }
-    let mut progress = Progress::new();
-    let stop = signals::watched().into_diagnostic()?;
+    let pauses = pauses(pausing)?;
+    let (keeper, start) = slider_keeper(plan, ready, directory, drawn, (pausing.resume, pauses))?;
+    let mut keeper = keeper.shown();
     directory.computes()?;
     let clock = Instant::now();
-    let ended = {
-        let mut show = Until(slider::Show::to(vec![&mut progress as &mut dyn Observer]), stop);
-        let mut both = Both(&mut histories, &mut show);
-        asperity_cycles::slider::run(problem, &mut both).into_diagnostic()?
-    };
-    progress.finish();
-    histories.finish().into_diagnostic()?;
+    let ended = asperity_cycles::slider::resume(problem, start, &mut keeper).into_diagnostic()?;
+    let interrupted = keeper.interrupted();
     let mut report = slider::Report::new(problem, &ended);
+    if let Some(why) = interrupted {
+        report.outcome = Outcome::Interrupted { stage: None, time: report.end, reason: why.into() };
+    }
+    let histories = keeper.finish(report.outcome.status() == Status::Completed).into_diagnostic()?;
     report.warnings.clone_from(&plan.warnings);
-    report.scene_sha256.clone_from(&ready.hash);
-    report.run.seconds = clock.elapsed().as_secs_f64();
-    report.run.origin.clone_from(directory.origin());
-    report.run.peak_bytes = forecast::most_so_far();
+    (report.seconds.plan, report.seconds.steps) = (ready.seconds, clock.elapsed().as_secs_f64());
     let drawn = if drawn { histories.draw(directory.path(), problem).map(|_| ()) } else { Ok(()) };
     if problem.events.is_some() {
         let events = slider::csv(&report.events, &problem.names);
-        asperity_output::atomic::write(&directory.path().join("events.csv"), events.as_bytes())
-            .into_diagnostic()?;
+        atomic::write(&directory.path().join("events.csv"), events.as_bytes()).into_diagnostic()?;
     }
-    directory.write(report.status(), &report)?;
+    directory.write(&report, &ready.meshes)?;
     drawn.into_diagnostic()?;
     out(format_args!("{}", report.text()));
     written(directory);
-    Ok(match report.outcome {
-        slider::End::Stopped { reason } => End::Stopped(format!("at {:.6e} s: {reason}", report.end)),
-        slider::End::Completed | slider::End::EnoughEvents => End::Done,
-        slider::End::Interrupted => {
-            End::Interrupted(format!("interrupted by a signal at {:.6e} s", report.end))
+    let step = usize::try_from(report.counts.steps).ok();
+    Ok(end(report.outcome, step))
+}
+
+/// Begins a run of spring-sliders, or resumes the one in the directory.
+fn slider_keeper(
+    plan: &slider::Plan,
+    ready: &Ready,
+    directory: &Directory,
+    drawn: bool,
+    (resume, pauses): (bool, Pauses),
+) -> miette::Result<(slider::Keeper, asperity_cycles::slider::Run)> {
+    let (path, problem, physics) = (directory.path(), &plan.problem, &ready.physics);
+    if resume {
+        match slider::Keeper::resume(path, problem, physics, pauses.clone()).into_diagnostic()? {
+            Some((keeper, run)) => {
+                draws_again(path, drawn, keeper.draws())?;
+                out(format_args!("resumed at {:.6e} s, step {}\n", run.at.seconds(), run.counts.steps));
+                return Ok((keeper, run));
+            }
+            None => nothing_to_resume(path),
         }
-    })
+    }
+    slider::Keeper::begin(path, problem, physics, drawn, pauses).into_diagnostic()
 }
 
 /// Runs faults.
@@ -216,35 +213,21 @@ pub(super) fn run_faults(
     let coarse = keeper.warning();
     let (mut balance, interrupted) = keeper.finish(&run).into_diagnostic()?;
     let mut report = fault::Report::new(plan, &run, &mut balance);
-    report.scene_sha256.clone_from(&ready.hash);
-    (report.run.set_up_seconds, report.run.seconds) = (ready.seconds, clock.elapsed().as_secs_f64());
-    report.run.origin.clone_from(directory.origin());
-    report.run.peak_bytes = forecast::most_so_far();
+    (report.seconds.plan, report.seconds.steps) = (ready.seconds, clock.elapsed().as_secs_f64());
     report.warnings.extend(coarse.clone());
-    let status = match (interrupted, &report.stopped) {
-        (Some(why), _) => {
-            report.stopped = Some(format!("interrupted: {why}"));
-            Status::Interrupted
-        }
-        (None, Some(_)) => Status::Stopped,
-        (None, None) => Status::Completed,
-    };
+    if let Some(why) = interrupted {
+        report.outcome = Outcome::Interrupted { stage: None, time: report.end, reason: why.into() };
+    }
     let rest = write_faults(directory.path(), (plan, &run, &report), &ready.hash, drawn);
-    directory.write(status, &report)?;
+    directory.write(&report, &ready.meshes)?;
     rest?;
     out(format_args!("{}", report.text()));
     if let Some(warning) = coarse {
         out(format_args!("  warning: {warning}\n"));
     }
     written(directory);
-    let (step, time) = (report.counts.steps, report.end);
-    Ok(match (status, report.stopped) {
-        (Status::Interrupted, why) => {
-            End::Interrupted(format!("{} at {time:.6e} s, step {step}; {RESUMES}", why.unwrap_or_default()))
-        }
-        (_, Some(reason)) => End::Stopped(format!("at {time:.6e} s: {reason}")),
-        (_, None) => End::Done,
-    })
+    let step = usize::try_from(report.counts.steps).ok();
+    Ok(end(report.outcome, step))
 }
 
 /// Begins a run of faults, or goes on with the one in the directory.

@@ -12,52 +12,33 @@ use crate::warning::Warning;
 use asperity_cycles::{Moment, Watcher};
 use asperity_ode::{Clock, Control};
 use asperity_output::decimals::{fixed, scientific};
-use asperity_output::{OutputError, atomic};
-use std::fs;
-use std::io::Write;
+use asperity_output::{Growing, OutputError, atomic};
 use std::path::{Path, PathBuf};
 
 /// Columns of the largest slip rate; means are weighted with areas, and along the rake where slip may turn.
 const LARGEST_HEAD: &str = "time [s],log10 slip_rate [m/s],point,mean shear_traction [Pa],mean slip [m]\n";
 
-/// A file that grows by whole rows.
+/// A file that grows by whole rows, and when the next is due.
 #[derive(Debug)]
 struct Rows {
-    path: PathBuf,
-    file: fs::File,
+    file: Growing,
     gauge: Gauge,
 }
 
 impl Rows {
     fn create(path: PathBuf, head: &str) -> Result<Self, OutputError> {
-        atomic::write(&path, head.as_bytes())?;
-        let file = fs::OpenOptions::new().append(true).open(&path);
-        let file = file.map_err(|source| OutputError::write(&path, source))?;
-        Ok(Self { path, file, gauge: Gauge::of(head.len() as u64) })
+        Ok(Self { file: Growing::create(path, head.as_bytes())?, gauge: Gauge::of(head.len() as u64) })
     }
 
-    /// Goes on with a file that had so many bytes; later ones are cut off.
-    fn reopen(path: PathBuf, gauge: Gauge) -> Result<Self, ResumeError> {
-        let expected = gauge.bytes;
-        let file = fs::OpenOptions::new().append(true).open(&path);
-        let found = file.and_then(|file| Ok((file.metadata()?.len(), file)));
-        let (found, file) = found.map_err(|source| ResumeError::Read { path: path.clone(), source })?;
-        if found < expected {
-            return Err(ResumeError::Shorter { path, found, expected });
-        }
-        file.set_len(expected).map_err(|source| OutputError::write(&path, source))?;
-        Ok(Self { path, file, gauge })
+    /// Resumes a file that had as many bytes as its gauge says; later ones are cut off.
+    fn reopen(path: PathBuf, gauge: Gauge) -> Result<Self, OutputError> {
+        Ok(Self { file: Growing::reopen(path, gauge.bytes)?, gauge })
     }
 
-    /// One write for a row of this time: a run that is killed leaves whole rows.
+    /// Writes a row for a time.
     fn push(&mut self, row: &str, cadence: &Cadence, time: f64) -> Result<(), OutputError> {
         self.gauge.spend(row.len() as u64, cadence.largest_file, time);
-        self.file.write_all(row.as_bytes()).map_err(|source| OutputError::write(&self.path, source))
-    }
-
-    /// Waits until the rows are on the disc.
-    fn settle(&self) -> Result<(), OutputError> {
-        self.file.sync_data().map_err(|source| OutputError::write(&self.path, source))
+        self.file.push(row.as_bytes())
     }
 }
 
@@ -128,13 +109,14 @@ impl<'a> Files<'a> {
     /// # Errors
     /// When something could not be written.
     pub fn settle(&self) -> Result<(), OutputError> {
-        self.rows.iter().try_for_each(Rows::settle)
+        self.rows.iter().try_for_each(|rows| rows.file.settle())
     }
 
     /// What is to be said of files that have become coarse.
     #[must_use]
     pub fn warning(&self) -> Option<Warning> {
-        let name = |r: &Rows| r.path.file_name().map_or(String::new(), |n| n.to_string_lossy().into_owned());
+        let name =
+            |r: &Rows| r.file.path().file_name().map_or(String::new(), |n| n.to_string_lossy().into_owned());
         let mut files: Vec<(String, Gauge)> = self.rows.iter().map(|r| (name(r), r.gauge)).collect();
         files.extend(self.snapshots.as_ref().map(|s| ("fields".to_string(), s.taken().gauge)));
         warning(&files, self.plan.cadence.largest_file)

@@ -2,10 +2,11 @@
 
 use super::plan::Plan;
 use asperity_cycles::Used;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// How far the floor of a fault was used.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FloorUse {
     /// Fault.
     pub fault: String,

@@ -3,10 +3,11 @@
 use super::plan::Plan;
 use super::words::time;
 use asperity_cycles::Opened;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// How far a fault opened.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct OpenedFault {
     /// Fault.
     pub fault: String,

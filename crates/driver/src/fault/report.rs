@@ -6,19 +6,20 @@ use super::openings::{OpenedFault, openings};
 use super::plan::{FaultView, Plan};
 use super::resolution::Resolution;
 use super::words::{length, time};
-use crate::report::Origin;
+use crate::report::{Kind, Outcome, Phases, Results, Stop};
 use crate::warning::Warning;
 use asperity_cycles::{Balance, Crack, Energy, Event, Layout, Mark, Part, Run, size, steady};
-use asperity_ode::Outcome;
+use asperity_ode::Outcome as Finish;
 use asperity_output::decimals::fixed;
 use asperity_output::located::Located;
 use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::ops::Range;
 
 /// An event in the catalogue.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Entry {
     /// When it began \[s\].
     pub onset: f64,
@@ -110,7 +111,7 @@ fn entries(plan: &Plan, events: &[Event], points: &Range<usize>) -> Vec<Entry> {
 }
 
 /// The catalogue of one fault of several: events by its own fastest point, with its own slip.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FaultEvents {
     /// The fault.
     pub fault: String,
@@ -148,7 +149,7 @@ impl Turned {
 }
 
 /// Works with what their balance lacks.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct EnergyBalance {
     /// Works \[J; J per metre of thickness in the plane\].
     #[serde(flatten)]
@@ -164,7 +165,7 @@ impl From<Energy> for EnergyBalance {
 }
 
 /// A cycle: from the end of an event to that of the next.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Cycle {
     /// How long it was \[s\].
     pub duration: f64,
@@ -213,7 +214,7 @@ impl Cycle {
 }
 
 /// Work, in operations that do not depend on the machine.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Work {
     /// Accepted steps.
     pub steps: u64,
@@ -225,32 +226,11 @@ pub struct Work {
     pub points: usize,
 }
 
-/// What may differ from machine to machine and from run to run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Provenance {
-    /// Wall time of reading and condensing \[s\].
-    pub set_up_seconds: f64,
-    /// Wall time of the integration, its outputs included \[s\].
-    pub seconds: f64,
-    /// Commit of the program.
-    pub commit: String,
-    /// Most memory the process had \[bytes\]; absent where the system does not say.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub peak_bytes: Option<usize>,
-    /// What it was begun from.
-    #[serde(flatten)]
-    pub origin: Origin,
-}
-
 /// The report of a run.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Report {
-    /// Title of the scene.
-    pub title: String,
-    /// Version of the program.
-    pub version: String,
-    /// SHA-256 of the scene file.
-    pub scene_sha256: String,
+    /// How the run ended.
+    pub outcome: Outcome,
     /// Warnings of the plan.
     pub warnings: Vec<Warning>,
     /// How faults are resolved on which friction weakens.
@@ -265,8 +245,6 @@ pub struct Report {
     pub method: String,
     /// Error of ln V allowed in a step.
     pub tolerance: f64,
-    /// Why the run ended before its time, where it did.
-    pub stopped: Option<String>,
     /// When \[s\].
     pub end: f64,
     /// Events of all faults together, by the fastest point of all.
@@ -284,8 +262,21 @@ pub struct Report {
     pub cycles: Vec<Cycle>,
     /// Work.
     pub counts: Work,
-    /// Machine-dependent.
-    pub run: Provenance,
+    /// Wall time.
+    #[serde(skip)]
+    pub seconds: Phases,
+}
+
+impl Results for Report {
+    const KIND: Kind = Kind::Faults;
+
+    fn outcome(&self) -> &Outcome {
+        &self.outcome
+    }
+
+    fn seconds(&self) -> Phases {
+        self.seconds
+    }
 }
 
 /// Why an integration failed, as far as the fault tells.
@@ -321,9 +312,12 @@ impl Report {
     /// The report of a run of a plan.
     #[must_use]
     pub fn new(plan: &Plan, run: &Run, balance: &mut Balance<'_>) -> Self {
-        let stopped = match &run.outcome {
-            Outcome::Completed | Outcome::Stopped => None,
-            Outcome::Failed { reason } => Some(why(plan, run, &reason.to_string())),
+        let outcome = match &run.outcome {
+            Finish::Completed | Finish::Stopped => Outcome::Completed,
+            Finish::Failed { reason } => {
+                let (time, reason) = (run.at.seconds(), why(plan, run, &reason.to_string()));
+                Outcome::Stopped { stage: None, time, reason, kind: Stop::Integration }
+            }
         };
         let events = run.catalogue.events();
         let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
@@ -340,16 +334,13 @@ impl Report {
             under_way: part.catalogue.under_way().map(|at| at.seconds()),
         };
         Self {
-            title: plan.title.clone(),
-            version: env!("CARGO_PKG_VERSION").to_string(),
-            scene_sha256: String::new(),
+            outcome,
             warnings: plan.warnings.clone(),
             resolution: plan.resolution.clone(),
             floors: uses(plan, balance.floors()),
             openings: openings(plan, balance.opened(), &opening),
             method: plan.problem.settings.method.name().to_string(),
             tolerance: plan.problem.settings.tolerance,
-            stopped,
             end: run.at.seconds(),
             events: entries(plan, events, &(0..plan.points.len())),
             under_way: run.catalogue.under_way().map(|at| at.seconds()),
@@ -363,7 +354,7 @@ impl Report {
                 right_hand_sides: run.counts.rates,
                 points: plan.points.len(),
             },
-            run: Provenance { commit: crate::report::commit().to_string(), ..Provenance::default() },
+            seconds: Phases::default(),
         }
     }
 
@@ -481,8 +472,8 @@ impl Report {
             "  {} steps ({} rejected), {} right-hand sides of {} points",
             c.steps, c.rejected, c.right_hand_sides, c.points
         );
-        let r = &self.run;
-        let _ = writeln!(text, "  seconds: set-up {:.2}, integration {:.2}", r.set_up_seconds, r.seconds);
+        let Phases { plan, steps, .. } = self.seconds;
+        let _ = writeln!(text, "  seconds: plan {plan:.2}, steps {steps:.2}");
         text
     }
 }

@@ -1,6 +1,7 @@
 //! How finely the points of a fault resolve the lengths of its friction.
 
 use super::words::length;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Points to a cohesive zone below which a plan warns: three, to the digit that is printed; about as many are needed (S. M. Day et al., JGR 110 (2005), B12307).
@@ -11,7 +12,7 @@ pub const ENOUGH: f64 = 3.0;
 pub const TOO_FEW: f64 = 1.0;
 
 /// A length of friction at the point where the points stand coarsest beside it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Coarsest {
     /// The length \[m\].
     pub length: f64,
@@ -26,7 +27,7 @@ pub struct Coarsest {
 }
 
 /// How a fault is resolved, where friction weakens on it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Resolution {
     /// Fault.
     pub fault: String,

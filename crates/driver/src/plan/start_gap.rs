@@ -1,6 +1,7 @@
 //! Where the sides of an interface are before the first step, as data.
 
 use crate::lengths::brief;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
@@ -9,7 +10,7 @@ use std::fmt;
 pub const SHARE: f64 = 0.1;
 
 /// The start of an interface.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct StartGap {
     /// Interface.
     pub interface: String,

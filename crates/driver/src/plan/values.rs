@@ -3,6 +3,7 @@
 use super::start_gap::StartGap;
 use crate::warning::Warning;
 use asperity_mechanics::Problem;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// What will be run.
@@ -58,7 +59,7 @@ impl AnyPlan {
 }
 
 /// The plan in words and numbers.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Summary {
     /// Physics that is present, and why.
     pub physics: Vec<String>,

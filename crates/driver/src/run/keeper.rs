@@ -76,9 +76,6 @@ impl Contents for Checkpoint {
     }
 }
 
-/// Wall time between checkpoints over the wall time that the last one took, at least: what they cost stays below 2 %.
-const SHARE: u32 = 50;
-
 /// Keeps a run in its directory: files, what is drawn at the end, progress, and checkpoints.
 pub struct Kept {
     out: PathBuf,
@@ -193,8 +190,7 @@ impl Keeper for Kept {
         stand: &mut dyn FnMut() -> Stand,
     ) -> Result<Option<&'static str>, OutputError> {
         let reason = self.pauses.reason(moved);
-        let every = self.pauses.every.max(self.written.1 * SHARE);
-        if reason.is_some() || moved && self.written.0.elapsed() >= every {
+        if reason.is_some() || moved && self.pauses.are_due(self.written) {
             self.save(stand())?;
         }
         Ok(reason)

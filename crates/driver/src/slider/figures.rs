@@ -3,9 +3,10 @@
 use super::thin::Row;
 use asperity_cycles::slider::Problem;
 use asperity_output::plots::{Chart, Measure};
+use serde::{Deserialize, Serialize};
 
 /// What plots show of a slider.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Trace {
     /// Time \[s\], slip \[m\], displacement of the load point \[m\], slip rate \[m/s\], friction \[-\], traction \[Pa\].
     rows: Vec<[f64; 6]>,

@@ -3,9 +3,8 @@
 use super::figures::Trace;
 use super::thin::{Row, Thin};
 use asperity_cycles::slider::{Now, Problem, WatchError, Watcher};
-use asperity_output::{OutputError, atomic, plots};
-use std::fs;
-use std::io::Write as _;
+use asperity_output::{Growing, OutputError, atomic, plots};
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// Streams `history/<slider>.csv`; each grows by whole rows.
@@ -19,9 +18,26 @@ pub struct Histories {
 /// What is kept of a slider.
 #[derive(Debug, Default)]
 struct Kept {
-    file: Option<(PathBuf, fs::File)>,
+    file: Option<Growing>,
     thin: Thin,
     trace: Trace,
+}
+
+/// Where the history of a slider stands.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Position {
+    /// Bytes of its file, where it has one.
+    bytes: Option<u64>,
+    thin: Thin,
+    trace: Trace,
+}
+
+/// Where all histories stand, in a checkpoint.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Positions {
+    sliders: Vec<Position>,
+    /// Whether plots will be drawn.
+    traced: bool,
 }
 
 impl Histories {
@@ -30,6 +46,29 @@ impl Histories {
     /// # Errors
     /// When a file cannot be written.
     pub fn create(out: &Path, problem: &Problem) -> Result<Self, OutputError> {
+        Self::of(out, problem, |path, header, _| Growing::create(path, header))
+    }
+
+    /// Resumes the files from where they stood; later rows are cut off.
+    ///
+    /// # Errors
+    /// When a file is missing, shorter than it was, or cannot be written.
+    pub fn resume(out: &Path, problem: &Problem, from: Positions) -> Result<Self, OutputError> {
+        let bytes = |i: usize| from.sliders.get(i).and_then(|p| p.bytes).unwrap_or_default();
+        let mut resumed = Self::of(out, problem, |path, _, i| Growing::reopen(path, bytes(i)))?;
+        for (kept, Position { thin, trace, .. }) in resumed.sliders.iter_mut().zip(from.sliders) {
+            (kept.thin, kept.trace) = (thin, trace);
+        }
+        resumed.traced = from.traced;
+        Ok(resumed)
+    }
+
+    /// With files that `open` gives, by their paths, headers and the numbers of their sliders.
+    fn of(
+        out: &Path,
+        problem: &Problem,
+        open: impl Fn(PathBuf, &[u8], usize) -> Result<Growing, OutputError>,
+    ) -> Result<Self, OutputError> {
         atomic::writable_dir(out)?;
         let folder = out.join("history");
         let stems = asperity_output::stems(problem.names.iter().map(String::as_str));
@@ -37,7 +76,8 @@ impl Histories {
         for (i, (stem, slider)) in stems.iter().zip(problem.system.sliders()).enumerate() {
             let file = if problem.output.writes(i) {
                 atomic::create_dir(&folder)?;
-                Some(begun(folder.join(format!("{stem}.csv")), slider.law.states())?)
+                let header = header(slider.law.states());
+                Some(open(folder.join(format!("{stem}.csv")), header.as_bytes(), i)?)
             } else {
                 None
             };
@@ -46,11 +86,36 @@ impl Histories {
         Ok(Self { sliders, traced: false })
     }
 
+    /// Where they stand.
+    #[must_use]
+    pub fn positions(&self) -> Positions {
+        let of = |kept: &Kept| Position {
+            bytes: kept.file.as_ref().map(Growing::bytes),
+            thin: kept.thin.clone(),
+            trace: kept.trace.clone(),
+        };
+        Positions { sliders: self.sliders.iter().map(of).collect(), traced: self.traced }
+    }
+
+    /// Waits until all rows are on the disc.
+    ///
+    /// # Errors
+    /// When something could not be written.
+    pub fn settle(&self) -> Result<(), OutputError> {
+        self.sliders.iter().filter_map(|kept| kept.file.as_ref()).try_for_each(Growing::settle)
+    }
+
     /// Keeps what plots show.
     #[must_use]
     pub fn traced(mut self) -> Self {
         self.traced = true;
         self
+    }
+
+    /// Whether what plots show is kept.
+    #[must_use]
+    pub fn are_traced(&self) -> bool {
+        self.traced
     }
 
     /// Writes the last state, if its row is not there yet.
@@ -75,16 +140,12 @@ impl Histories {
     }
 }
 
-/// A file with its header, to be appended to.
-fn begun(path: PathBuf, states: usize) -> Result<(PathBuf, fs::File), OutputError> {
+/// Header of the history of a slider.
+fn header(states: usize) -> String {
     let head =
         "time [s],step [s],slip [m],slip_rate [m/s],friction [-],traction [Pa],normal_traction [Pa],load [m]";
     let states: String = (1..=states).map(|i| format!(",state_{i}")).collect();
-    atomic::write(&path, format!("{head}{states}\n").as_bytes())?;
-    match fs::OpenOptions::new().append(true).open(&path) {
-        Ok(file) => Ok((path, file)),
-        Err(source) => Err(OutputError::write(&path, source)),
-    }
+    format!("{head}{states}\n")
 }
 
 impl Kept {
@@ -92,15 +153,14 @@ impl Kept {
         if traced {
             self.trace.push(row);
         }
-        let Some((path, file)) = &mut self.file else { return Ok(()) };
+        let Some(file) = &mut self.file else { return Ok(()) };
         let states: String = row.states.iter().map(|s| format!(",{s:e}")).collect();
         let Row { time, dt, condition: c, slip, load, .. } = row;
         let line = format!(
             "{time},{dt:e},{slip:e},{:e},{},{},{},{load:e}{states}\n",
             c.rate, c.friction, c.traction, c.normal
         );
-        // One write per row: a run that is killed leaves whole rows.
-        file.write_all(line.as_bytes()).map_err(|source| OutputError::write(path, source))
+        file.push(line.as_bytes())
     }
 }
 

@@ -3,6 +3,7 @@
 mod events;
 mod figures;
 mod files;
+mod keeper;
 mod observe;
 mod plan;
 mod report;
@@ -10,7 +11,8 @@ mod summary;
 mod thin;
 
 pub use events::csv;
-pub use files::Histories;
+pub use files::{Histories, Positions};
+pub use keeper::{Checkpoint, Keeper};
 pub use observe::Show;
 pub use plan::Plan;
-pub use report::{End, Report};
+pub use report::Report;

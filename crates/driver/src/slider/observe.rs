@@ -10,17 +10,23 @@ use asperity_output::view::{
 /// The stage there is.
 const STAGE: &str = "run";
 
-/// Passes a run on to observers.
-pub struct Show<'a> {
-    observers: Vec<&'a mut dyn Observer>,
+/// Passes a run on to an observer.
+pub struct Show<O> {
+    observer: O,
     begun: bool,
 }
 
-impl<'a> Show<'a> {
-    /// To these observers.
+impl<O: Observer> Show<O> {
+    /// To this observer.
     #[must_use]
-    pub fn to(observers: Vec<&'a mut dyn Observer>) -> Self {
-        Self { observers, begun: false }
+    pub fn to(observer: O) -> Self {
+        Self { observer, begun: false }
+    }
+
+    /// The observer.
+    #[must_use]
+    pub fn observer(self) -> O {
+        self.observer
     }
 
     fn setup(problem: &Problem) -> Setup {
@@ -44,12 +50,11 @@ impl<'a> Show<'a> {
     }
 }
 
-impl Watcher for Show<'_> {
+impl<O: Observer> Watcher for Show<O> {
     fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError> {
         if !self.begun {
             self.begun = true;
-            let setup = Self::setup(problem);
-            self.observers.iter_mut().try_for_each(|o| o.begin(&setup))?;
+            self.observer.begin(&Self::setup(problem))?;
         }
         let time = now.at.seconds();
         let record = StepRecord { step: now.step, time, dt: now.dt, ..StepRecord::default() };
@@ -82,6 +87,6 @@ impl Watcher for Show<'_> {
             samples: &Samples::default(),
             fields: &BodyFields::default,
         };
-        Ok(self.observers.iter_mut().try_for_each(|o| o.step(&view))?)
+        Ok(self.observer.step(&view)?)
     }
 }

@@ -1,14 +1,15 @@
 //! `report.json` of a spring-slider.
 
-use crate::report::{Origin, Status};
+use crate::report::{Kind, Outcome, Phases, Results, Stop};
 use crate::warning::Warning;
 use asperity_cycles::slider::{Event, Problem, Run, Thresholds};
-use asperity_ode::{Counts, Outcome};
+use asperity_ode::{Counts, Outcome as Finish};
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;
 
 /// Work, in operations that do not depend on the machine.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Work {
     /// Accepted steps.
     pub steps: u64,
@@ -40,40 +41,8 @@ impl From<Counts> for Work {
     }
 }
 
-/// How a run ended.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum End {
-    /// At the end asked for.
-    Completed,
-    /// After the events asked for.
-    EnoughEvents,
-    /// Before; everything until then stands.
-    Stopped {
-        /// Why.
-        reason: String,
-    },
-    /// A signal ended it; everything until then stands.
-    Interrupted,
-}
-
-/// What may differ from machine to machine and from run to run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Provenance {
-    /// Wall time of the integration, its outputs included \[s\].
-    pub seconds: f64,
-    /// Commit of the program.
-    pub commit: String,
-    /// Most memory the process had \[bytes\]; absent where the system does not say.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub peak_bytes: Option<usize>,
-    /// What it was begun from.
-    #[serde(flatten)]
-    pub origin: Origin,
-}
-
 /// A slider at the end.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Final {
     /// Name.
     pub slider: String,
@@ -86,14 +55,8 @@ pub struct Final {
 }
 
 /// The report of a run.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Report {
-    /// Title of the scene.
-    pub title: String,
-    /// Version of the program.
-    pub version: String,
-    /// SHA-256 of the scene file.
-    pub scene_sha256: String,
     /// Dynamics in words.
     pub dynamics: String,
     /// Sliders by name.
@@ -107,7 +70,7 @@ pub struct Report {
     /// Thresholds of events.
     pub thresholds: Option<Thresholds>,
     /// How it ended.
-    pub outcome: End,
+    pub outcome: Outcome,
     /// When \[s\].
     pub end: f64,
     /// The sliders then.
@@ -116,20 +79,33 @@ pub struct Report {
     pub events: Vec<Event>,
     /// Work.
     pub counts: Work,
-    /// Machine-dependent.
-    pub run: Provenance,
+    /// Wall time.
+    #[serde(skip)]
+    pub seconds: Phases,
+}
+
+impl Results for Report {
+    const KIND: Kind = Kind::Sliders;
+
+    fn outcome(&self) -> &Outcome {
+        &self.outcome
+    }
+
+    fn seconds(&self) -> Phases {
+        self.seconds
+    }
 }
 
 impl Report {
     /// The report of a run of a problem.
     #[must_use]
     pub fn new(problem: &Problem, run: &Run) -> Self {
+        let time = run.at.seconds();
         let outcome = match &run.outcome {
-            Outcome::Completed => End::Completed,
-            Outcome::Stopped if run.interrupted => End::Interrupted,
-            Outcome::Stopped => End::EnoughEvents,
-            Outcome::Failed { reason } => {
-                End::Stopped { reason: run.hint.clone().unwrap_or_else(|| reason.to_string()) }
+            Finish::Completed | Finish::Stopped => Outcome::Completed,
+            Finish::Failed { reason } => {
+                let reason = run.hint.clone().unwrap_or_else(|| reason.to_string());
+                Outcome::Stopped { stage: None, time, reason, kind: Stop::Integration }
             }
         };
         let segment = problem.system.segment(run.at.seconds());
@@ -144,9 +120,6 @@ impl Report {
             }
         });
         Self {
-            title: problem.title.clone(),
-            version: env!("CARGO_PKG_VERSION").to_string(),
-            scene_sha256: String::new(),
             dynamics: problem.dynamics().to_string(),
             sliders: problem.names.clone(),
             warnings: Vec::new(),
@@ -158,17 +131,7 @@ impl Report {
             last: last.collect(),
             events: run.catalogue.events.clone(),
             counts: run.counts.into(),
-            run: Provenance { commit: crate::report::commit().to_string(), ..Provenance::default() },
-        }
-    }
-
-    /// How the run stands.
-    #[must_use]
-    pub fn status(&self) -> Status {
-        match self.outcome {
-            End::Completed | End::EnoughEvents => Status::Completed,
-            End::Stopped { .. } => Status::Stopped,
-            End::Interrupted => Status::Interrupted,
+            seconds: Phases::default(),
         }
     }
 
@@ -203,7 +166,7 @@ impl Report {
             "  {} steps ({} rejected), {} right-hand sides, {} Jacobians, {} factorisations",
             c.steps, c.rejected, c.right_hand_sides, c.jacobians, c.factorisations
         );
-        let _ = writeln!(text, "  seconds: {:.3}", self.run.seconds);
+        let _ = writeln!(text, "  seconds: {:.3}", self.seconds.steps);
         text
     }
 }

@@ -1,6 +1,7 @@
 //! Which of the rows of a slider are worth keeping.
 
 use asperity_friction::slider::Condition;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// Rows are kept at this share of the run at least.
 const SHARE: f64 = 1e-3;
@@ -9,13 +10,14 @@ const SHARE: f64 = 1e-3;
 const FRICTION: f64 = 0.05;
 
 /// A slider at an instant.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Row {
     /// When \[s\].
     pub time: f64,
     /// Length of the step, or time since the row before where it lies within one; 0 at the start and after a jump \[s\].
     pub dt: f64,
     /// What the slider is doing.
+    #[serde(with = "StoredCondition")]
     pub condition: Condition,
     /// Slip since time 0 \[m\].
     pub slip: f64,
@@ -25,11 +27,36 @@ pub(super) struct Row {
     pub states: Vec<f64>,
 }
 
+/// A [`Condition`] as checkpoints have it.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Condition")]
+struct StoredCondition {
+    rate: f64,
+    #[serde(deserialize_with = "or_none")]
+    log_rate: f64,
+    friction: f64,
+    normal: f64,
+    traction: f64,
+}
+
+/// ln |V|, which JSON does not have of a slider at rest: what is not finite differs from every other value, see [`differs`].
+fn or_none<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or(f64::NAN))
+}
+
+/// What is compared of the last row kept.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Last {
+    time: f64,
+    #[serde(deserialize_with = "or_none")]
+    log_rate: f64,
+    friction: f64,
+}
+
 /// The rows of a slider, as they come.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Thin {
-    /// Time, ln V and friction of the last row kept.
-    last: Option<[f64; 3]>,
+    last: Option<Last>,
     /// The row that came last, where it was not kept.
     pending: Option<Row>,
 }
@@ -40,7 +67,7 @@ impl Thin {
     pub fn next(&mut self, row: Row, asked: bool, change: Option<f64>, end: f64) -> [Option<Row>; 2] {
         let Some(change) = change else { return [None, asked.then_some(row)] };
         let by = |share: f64| self.last.is_some_and(|last| differs(&row, last, share * change));
-        let late = self.last.is_none_or(|last| row.time - last[0] >= SHARE * end);
+        let late = self.last.is_none_or(|last| row.time - last.time >= SHARE * end);
         // A jump is drawn from where it began.
         let jumped = row.dt == 0.0 || by(2.0);
         let keep = asked || late || jumped || by(1.0);
@@ -63,12 +90,13 @@ impl Thin {
 
     fn keep(&mut self, row: &Row) {
         self.pending = None;
-        self.last = Some([row.time, row.condition.log_rate, row.condition.friction]);
+        let Condition { log_rate, friction, .. } = row.condition;
+        self.last = Some(Last { time: row.time, log_rate, friction });
     }
 }
 
 /// Whether ln V or friction differ by so much. A slider at rest has no ln V to compare.
-fn differs(row: &Row, [_, log, friction]: [f64; 3], by: f64) -> bool {
-    let moved = (row.condition.log_rate - log).abs();
+fn differs(row: &Row, Last { log_rate, friction, .. }: Last, by: f64) -> bool {
+    let moved = (row.condition.log_rate - log_rate).abs();
     moved >= by || moved.is_nan() || (row.condition.friction - friction).abs() >= FRICTION * by
 }

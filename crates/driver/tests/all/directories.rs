@@ -219,7 +219,8 @@ fn a_signal_ends_runs_of_bodies_and_sliders_with_what_was_computed() {
     let fine = SANDWICH.replace("1 nm", "0.01 nm");
     let long = SLIDER.replace("stop_after = 10", "stop_after = 100000").replace("4000 s", "1e9 s");
     let bodies = (&fine, "probes/fault.csv", "interrupted: a signal asked for it in stage");
-    for (text, file, said) in [bodies, (&long, "history/block.csv", "interrupted by a signal")] {
+    for (text, file, said) in [bodies, (&long, "history/block.csv", "interrupted: a signal asked for it at")]
+    {
         let folder = scene(text);
         let folder = folder.path();
         let mut child = command(folder, &["run", "s.toml", "--no-plots"]).spawn().unwrap();

@@ -1,7 +1,7 @@
 //! Faults through cycles: the community's benchmark BP1 on coarse meshes.
 
 use asperity_cycles::operator::{Both, Dense, Operator};
-use asperity_cycles::{Balance, Event, Moment, run};
+use asperity_cycles::{Balance, Event, Moment};
 use asperity_driver::fault::{Plan, Report};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
@@ -25,7 +25,7 @@ fn events(plan: &Plan, method: Method, tolerance: f64, most: usize) -> (Vec<f64>
     let mut settings = plan.problem.settings;
     (settings.method, settings.tolerance, settings.most_events) = (method, tolerance, Some(most));
     let mut go = |_: &Moment<'_>| Control::Go;
-    let out = run(&plan.problem.fault, &plan.problem.loading, plan.problem.start.clone(), &settings, &mut go);
+    let out = plan.problem.run(&settings, &mut go);
     assert_eq!(out.outcome, Outcome::Stopped);
     let events = out.catalogue.events().to_vec();
     (events.iter().map(|e| e.onset.seconds() / YEAR).collect(), events)
@@ -79,7 +79,7 @@ fn friction_balances_what_the_bodies_exert() {
         }
         Control::Go
     };
-    run(&plan.problem.fault, &plan.problem.loading, plan.problem.start.clone(), &settings, &mut look);
+    plan.problem.run(&settings, &mut look);
     // An error of ln V of 1e-6 a step moves friction by a times that, and a hundred steps go by within an e-fold of ln V.
     assert!(worst < 1e-6, "{worst:e}");
 }
@@ -120,13 +120,7 @@ fn under_fluid(tolerance: f64) -> (f64, f64) {
         }
         Control::Go
     };
-    let out = run(
-        &plan.problem.fault,
-        &plan.problem.loading,
-        plan.problem.start.clone(),
-        &plan.problem.settings,
-        &mut look,
-    );
+    let out = plan.problem.run(&plan.problem.settings, &mut look);
     assert_eq!(out.outcome, Outcome::Completed);
     (worst, lowest)
 }
@@ -148,13 +142,7 @@ fn friction_balances_under_the_pressure_of_fluid_that_comes_and_goes() {
 fn a_fault_that_fluid_opens_ends_at_its_last_good_state_and_names_the_point() {
     let plan = injected(1e-5);
     let mut go = |_: &Moment<'_>| Control::Go;
-    let out = run(
-        &plan.problem.fault,
-        &plan.problem.loading,
-        plan.problem.start.clone(),
-        &plan.problem.settings,
-        &mut go,
-    );
+    let out = plan.problem.run(&plan.problem.settings, &mut go);
     assert!(matches!(out.outcome, Outcome::Failed { .. }), "{:?}", out.outcome);
     assert_eq!(out.opens, Some(0));
     assert!(out.unknowns.iter().all(|y| y.is_finite()));
@@ -162,7 +150,7 @@ fn a_fault_that_fluid_opens_ends_at_its_last_good_state_and_names_the_point() {
     let expected = (50e6 * 1e-9 / 1e-5_f64).powi(2) * std::f64::consts::PI * 0.1;
     assert!((out.at.seconds() / expected - 1.0).abs() < 0.01, "{} {expected}", out.at.seconds());
     let report = Report::new(&plan, &out, &mut Balance::new(&plan.problem));
-    assert!(report.stopped.is_some_and(|s| s.contains("falls to zero")));
+    assert!(report.outcome.reason().is_some_and(|s| s.contains("falls to zero")));
 }
 
 /// An entry that no other has.

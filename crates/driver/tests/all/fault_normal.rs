@@ -1,6 +1,6 @@
 //! Normal tractions of faults: floors, tractions that stay, initial stress, and how finely points stand beside lengths of friction.
 
-use asperity_cycles::{Balance, Moment, Run, run};
+use asperity_cycles::{Balance, Moment, Run};
 use asperity_driver::diagnostic::Diagnostic;
 use asperity_driver::fault::{Plan, Report};
 use asperity_driver::plan::{ScenePlan, plan_scene};
@@ -108,13 +108,7 @@ fn followed(plan: &Plan, floor: f64) -> (Run, Report, f64) {
         }
         Control::Go
     };
-    let out = run(
-        &plan.problem.fault,
-        &plan.problem.loading,
-        plan.problem.start.clone(),
-        &plan.problem.settings,
-        &mut look,
-    );
+    let out = plan.problem.run(&plan.problem.settings, &mut look);
     let report = Report::new(plan, &out, &mut balance);
     (out, report, worst)
 }
@@ -141,7 +135,7 @@ fn through(text: &str, floor: f64) -> Report {
 fn a_shallow_normal_fault_ends_where_it_would_open_and_goes_on_with_a_choice() {
     let plan = planned(&normal_fault("")).unwrap();
     let (out, report, _) = followed(&plan, 0.0);
-    let stopped = report.stopped.unwrap();
+    let stopped = report.outcome.reason().unwrap();
     assert!(matches!(out.outcome, Outcome::Failed { .. }) && out.opens == Some(0), "{:?}", out.opens);
     assert!(stopped.contains("normal_floor") && stopped.contains("normal_changes = false"), "{stopped}");
 

@@ -1,6 +1,6 @@
 //! Faults that open: tractions balance, energy closes, and what never opens is as it was.
 
-use asperity_cycles::{Balance, Layout, Moment, Run, run};
+use asperity_cycles::{Balance, Layout, Moment, Run};
 use asperity_driver::fault::{Plan, Report};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
@@ -66,8 +66,7 @@ fn followed(plan: &Plan) -> Found {
         most = most.max(by.iter().filter(|o| **o > 0.0).count());
         Control::Go
     };
-    let out =
-        run(fault, &plan.problem.loading, plan.problem.start.clone(), &plan.problem.settings, &mut look);
+    let out = plan.problem.run(&plan.problem.settings, &mut look);
     let report = Report::new(plan, &out, &mut balance);
     Found { run: out, report, along, across, most }
 }
@@ -124,13 +123,7 @@ fn a_fault_that_never_opens_is_the_same_to_the_last_bit_as_one_that_may_not() {
     let deep = INJECTED.replace("normal = \"10 MPa\"", "normal = \"100 MPa\"").replace("4 MPa", "40 MPa");
     let end = |text: &str| {
         let plan = planned(text);
-        run(
-            &plan.problem.fault,
-            &plan.problem.loading,
-            plan.problem.start.clone(),
-            &plan.problem.settings,
-            &mut |_: &Moment<'_>| Control::Go,
-        )
+        plan.problem.run(&plan.problem.settings, &mut |_: &Moment<'_>| Control::Go)
     };
     let (with, without) = (end(&deep), end(&deep.replace("opening = true\n", "")));
     assert_eq!((with.unknowns, with.counts), (without.unknowns, without.counts));

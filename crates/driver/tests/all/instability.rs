@@ -70,7 +70,7 @@ impl Sandwich {
         else {
             panic!("{self:?}: {:?}", report.outcome)
         };
-        assert_eq!((stage.as_str(), interface.as_str()), ("shear", "fault"));
+        assert_eq!((stage.as_deref().unwrap(), interface.as_str()), ("shear", "fault"));
         assert!(
             reason.starts_with("instability at (0.025, ") && reason.contains("spring-slider"),
             "{reason}"

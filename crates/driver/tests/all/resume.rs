@@ -302,11 +302,3 @@ fn what_does_not_fit_the_checkpoint_is_refused() {
     let output = run(folder, "out", &["--resume"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
 }
-
-#[test]
-fn runs_of_spring_sliders_say_that_they_have_no_checkpoints() {
-    let folder = folder(include_str!("../../../../scenes/spring-slider.toml"));
-    let output = run(folder.path(), "out", &["--resume"]);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(text(&output.stderr).contains("spring-sliders have no checkpoints"), "{}", text(&output.stderr));
-}

@@ -7,7 +7,7 @@ use asperity_driver::scene::law::{Evolution, Form, LawChoice, State, Strength};
 use asperity_driver::slider::{Report, Show};
 use asperity_friction::slider::{Condition, History, Slider, Spring, System};
 use asperity_ode::{Failure, Method, Outcome};
-use asperity_output::{Observer, Recorder};
+use asperity_output::{Multi, Observer, Recorder};
 use nalgebra::Complex;
 
 /// A slider a third stiffer than the critical stiffness, under these prescribed histories.
@@ -381,7 +381,7 @@ fn observers_see_what_a_watcher_sees() {
     let mut count = 0;
     {
         let mut look = |_: &Problem, _: &Now<'_>| count += 1;
-        let mut show = Show::to(vec![&mut recorder as &mut dyn Observer]);
+        let mut show = Show::to(Multi::new(vec![&mut recorder as &mut dyn Observer]));
         run(&plan, &mut Both(&mut show, &mut look)).unwrap();
     }
     assert_eq!(recorder.setup().interfaces[0].labels, ["left", "right"]);

@@ -2,10 +2,11 @@
 
 use super::tensor::{Plane, Tensor};
 use jiff::Timestamp;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A place on Earth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Spot {
     /// Degrees north.
     pub latitude: f64,
@@ -16,7 +17,7 @@ pub struct Spot {
 }
 
 /// What seismologists tell of an event.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Located {
     /// Onset, UTC.
     pub time: String,

@@ -4,14 +4,15 @@
 //! right of it, rake from the strike in the plane of the fault, of the hanging wall relative to the foot wall.
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A symmetric tensor in the axes up, south, east: Mrr, Mtt, Mpp, Mrt, Mrp, Mtp \[N m\].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Tensor(pub [f64; 6]);
 
 /// A nodal plane \[degrees\].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Plane {
     /// Clockwise from north, 0 to 360.
     pub strike: f64,

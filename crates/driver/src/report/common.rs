@@ -1,0 +1,204 @@
+//! What every `report.json` has, whatever was run: its schema, how the run ended, and where it came from.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Version of the form of `report.json`. It grows where a key changes its meaning or goes, not where one is added.
+pub const SCHEMA: u32 = 1;
+
+/// What was run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Bodies with interfaces, through stages.
+    Bodies,
+    /// Faults through cycles.
+    Faults,
+    /// Spring-sliders.
+    Sliders,
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// At the end or after the events asked for.
+    #[default]
+    Completed,
+    /// The run could not go on; everything before `time` stands.
+    Stopped {
+        /// Stage, where the scene has several.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        stage: Option<String>,
+        /// Time of the last good state \[s\].
+        time: f64,
+        /// Why.
+        reason: String,
+        /// What kind of end it is.
+        kind: Stop,
+    },
+    /// A signal or its wall time ended it; everything before `time` stands.
+    Interrupted {
+        /// Stage, where the scene has several.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        stage: Option<String>,
+        /// Time of the last state \[s\].
+        time: f64,
+        /// Why.
+        reason: String,
+    },
+}
+
+impl Outcome {
+    /// How the run stands.
+    #[must_use]
+    pub fn status(&self) -> Status {
+        match self {
+            Self::Completed => Status::Completed,
+            Self::Stopped { .. } => Status::Stopped,
+            Self::Interrupted { .. } => Status::Interrupted,
+        }
+    }
+
+    /// Why the run ended before its end, where it did.
+    #[must_use]
+    pub fn reason(&self) -> Option<&str> {
+        match self {
+            Self::Completed => None,
+            Self::Stopped { reason, .. } | Self::Interrupted { reason, .. } => Some(reason),
+        }
+    }
+}
+
+/// Why a run could not go on.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Stop {
+    /// No solution was found in steps of any length.
+    NotConverged,
+    /// The accuracy asked for needs steps below the smallest allowed.
+    SmallestStep,
+    /// The rates have no integral beyond this time, or not in so many steps.
+    Integration,
+    /// A point was about to slide where less than one point stands on the length over which a front of slip loses strength.
+    UnderResolved {
+        /// Interface.
+        interface: String,
+        /// The point \[m\].
+        position: [f64; 3],
+    },
+    /// No quasi-static state follows the last one.
+    Instability {
+        /// Interface.
+        interface: String,
+        /// Point at which it was met \[m\].
+        position: [f64; 3],
+        /// Slip rate there in the state that was not accepted \[m/s\].
+        slip_rate: f64,
+    },
+}
+
+/// How a run stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// It goes on, or was killed.
+    Running,
+    /// It ended as asked.
+    Completed,
+    /// It could not go on.
+    Stopped,
+    /// A signal or its wall time ended it.
+    Interrupted,
+}
+
+/// What a run was begun from.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
+pub struct Origin {
+    /// Path of the scene file.
+    pub scene: String,
+    /// When it was begun, or resumed.
+    pub started: String,
+}
+
+/// Wall time per phase \[s\]; what a kind of run does not tell apart belongs to its steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
+pub struct Phases {
+    /// Reading, meshes, stiffness; of faults also the condensation.
+    pub plan: f64,
+    /// Condensation, pairing, factorisations of bodies.
+    pub set_up: f64,
+    /// Steps.
+    pub steps: f64,
+    /// Observers and recovery of fields.
+    pub output: f64,
+}
+
+/// What may differ from machine to machine and from run to run.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Provenance<'a> {
+    /// Wall time; absent until the run has ended.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<Phases>,
+    /// Threads.
+    pub threads: usize,
+    /// Commit of the program, "unknown" outside a checkout; with `-dirty` where its sources had changed since.
+    pub commit: &'static str,
+    /// Most memory the process had until then \[bytes\]; absent where the system does not say.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak_bytes: Option<usize>,
+    /// What it was begun from.
+    #[serde(flatten)]
+    pub origin: &'a Origin,
+}
+
+/// A report as it is written.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Report<'a, P> {
+    /// Version of its form.
+    pub schema: u32,
+    /// What was run.
+    pub kind: Kind,
+    /// How the run stands.
+    pub status: Status,
+    /// Title of the scene.
+    pub title: &'a str,
+    /// Version of the program.
+    pub version: &'static str,
+    /// SHA-256 of the scene file.
+    pub scene_sha256: &'a str,
+    /// SHA-256 of the mesh files it reads, by their names in the scene; absent until they are read.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub meshes_sha256: Option<&'a BTreeMap<String, String>>,
+    /// Machine-dependent.
+    pub run: Provenance<'a>,
+    /// What its kind has of its own.
+    #[serde(flatten)]
+    pub results: P,
+}
+
+/// What there is to say of a run that has not ended, or ended without results.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Sketch {
+    /// The error with which it ended; absent while it goes on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+/// What a kind of run has of its own in its report.
+pub trait Results: Serialize {
+    /// Its kind.
+    const KIND: Kind;
+
+    /// How the run ended.
+    fn outcome(&self) -> &Outcome;
+
+    /// Wall time.
+    fn seconds(&self) -> Phases;
+}
+
+/// Commit of the program, "unknown" outside a checkout.
+pub(crate) fn commit() -> &'static str {
+    option_env!("ASPERITY_COMMIT").unwrap_or("unknown")
+}

@@ -1,0 +1,40 @@
+//! The JSON Schema of `report.json`.
+
+use super::RunReport;
+use super::common::{Kind, Report, Results, SCHEMA, Sketch};
+use crate::{fault, slider};
+use schemars::generate::{SchemaGenerator, SchemaSettings};
+use schemars::{JsonSchema, Schema};
+use serde_json::{Value, json};
+
+/// The schema, of draft 2020-12: a report is that of one of the kinds of runs, or of a run that has no results.
+#[must_use]
+pub fn schema() -> Value {
+    let mut generator = SchemaSettings::draft2020_12().for_serialize().into_generator();
+    let kinds = [
+        of::<RunReport>(&mut generator, Some(RunReport::KIND)),
+        of::<fault::Report>(&mut generator, Some(fault::Report::KIND)),
+        of::<slider::Report>(&mut generator, Some(slider::Report::KIND)),
+        of::<Sketch>(&mut generator, None),
+    ];
+    json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "report.json of asperity",
+        "description": "Numbers are in SI units; a number that is infinite or is none stands as null.",
+        "oneOf": kinds,
+        "$defs": generator.take_definitions(true),
+    })
+}
+
+/// The schema of the report of one kind of run, with no key beside those it names.
+fn of<R: JsonSchema>(generator: &mut SchemaGenerator, kind: Option<Kind>) -> Schema {
+    let mut schema = Report::<R>::json_schema(generator);
+    if let Some(Value::Object(properties)) = schema.get_mut("properties") {
+        properties.insert("schema".into(), json!({ "const": SCHEMA }));
+        if let Some(kind) = kind {
+            properties.insert("kind".into(), json!({ "const": kind }));
+        }
+    }
+    schema.insert("unevaluatedProperties".into(), Value::Bool(false));
+    schema
+}

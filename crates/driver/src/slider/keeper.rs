@@ -1,0 +1,155 @@
+//! Keeps a run of spring-sliders in its directory: histories, progress, and checkpoints.
+
+use super::files::{Histories, Positions};
+use super::observe::Show;
+use crate::checkpoint::{self, Contents, Pauses, ResumeError};
+use asperity_cycles::slider::{Now, Problem, Run, WatchError, Watcher};
+use asperity_ode::Control;
+use asperity_output::{OutputError, Progress};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// All there is to know to resume a run of spring-sliders.
+#[derive(Serialize, Deserialize)]
+pub struct Checkpoint {
+    /// Hash of the scene.
+    physics: String,
+    run: Run,
+    histories: Positions,
+}
+
+impl Contents for Checkpoint {
+    const OF: &'static str = "spring-sliders";
+    const VERSION: &'static str = "1";
+    const ALLOWED: &'static str = "its title and its layout";
+
+    fn physics(&self) -> &str {
+        &self.physics
+    }
+}
+
+/// See the module.
+pub struct Keeper {
+    out: PathBuf,
+    physics: String,
+    histories: Histories,
+    progress: Option<Show<Progress>>,
+    pauses: Pauses,
+    /// When the last checkpoint was written, and how long that took.
+    written: (Instant, Duration),
+    interrupted: Option<&'static str>,
+}
+
+impl Keeper {
+    /// Begins a run with outputs in `out`.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn begin(
+        out: &Path,
+        problem: &Problem,
+        physics: &str,
+        drawn: bool,
+        pauses: Pauses,
+    ) -> Result<(Self, Run), OutputError> {
+        checkpoint::remove(out)?;
+        let histories = Histories::create(out, problem)?;
+        let histories = if drawn { histories.traced() } else { histories };
+        Ok((Self::new(out, physics, histories, pauses), Run::new(problem)))
+    }
+
+    /// Resumes the run of the checkpoint in `out`; none where there is none.
+    ///
+    /// # Errors
+    /// When the checkpoint is damaged or of another scene, or a file cannot be read or written.
+    pub fn resume(
+        out: &Path,
+        problem: &Problem,
+        physics: &str,
+        pauses: Pauses,
+    ) -> Result<Option<(Self, Run)>, ResumeError> {
+        let Some(Checkpoint { run, histories, .. }) = Checkpoint::read(out, physics)? else {
+            return Ok(None);
+        };
+        if run.unknowns.len() != problem.start.len() {
+            return Err(checkpoint::foreign(out, "it has other unknowns than this scene"));
+        }
+        let histories = Histories::resume(out, problem, histories)?;
+        Ok(Some((Self::new(out, physics, histories, pauses), run)))
+    }
+
+    fn new(out: &Path, physics: &str, histories: Histories, pauses: Pauses) -> Self {
+        Self {
+            out: out.to_path_buf(),
+            physics: physics.to_string(),
+            histories,
+            progress: None,
+            pauses,
+            written: (Instant::now(), Duration::ZERO),
+            interrupted: None,
+        }
+    }
+
+    /// The same, for a person who waits.
+    #[must_use]
+    pub fn shown(self) -> Self {
+        Self { progress: Some(Show::to(Progress::new())), ..self }
+    }
+
+    /// Whether the run is to draw anything at its end.
+    #[must_use]
+    pub fn draws(&self) -> bool {
+        self.histories.are_traced()
+    }
+
+    /// Why the run was interrupted.
+    #[must_use]
+    pub fn interrupted(&self) -> Option<&'static str> {
+        self.interrupted
+    }
+
+    /// Ends the histories, and removes the checkpoint of a run that has reached its end.
+    ///
+    /// # Errors
+    /// When a file cannot be written or removed.
+    pub fn finish(mut self, completed: bool) -> Result<Histories, OutputError> {
+        if let Some(progress) = self.progress {
+            progress.observer().finish();
+        }
+        // Rows after the checkpoint are cut off where the run is resumed.
+        self.histories.finish()?;
+        if completed {
+            checkpoint::remove(&self.out)?;
+        }
+        Ok(self.histories)
+    }
+
+    fn save(&mut self, run: &Run) -> Result<(), OutputError> {
+        let begun = Instant::now();
+        self.histories.settle()?;
+        let (physics, histories) = (self.physics.clone(), self.histories.positions());
+        Checkpoint { physics, run: run.clone(), histories }.write(&self.out)?;
+        self.written = (Instant::now(), begun.elapsed());
+        Ok(())
+    }
+}
+
+impl Watcher for Keeper {
+    fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError> {
+        self.histories.now(problem, now)?;
+        self.progress.as_mut().map_or(Ok(()), |progress| progress.now(problem, now))
+    }
+
+    fn marked(&mut self, slider: usize) -> Result<(), WatchError> {
+        self.histories.marked(slider)
+    }
+
+    fn pause(&mut self, run: &Run) -> Result<Control, WatchError> {
+        self.interrupted = self.pauses.reason(true);
+        if self.interrupted.is_some() || self.pauses.are_due(self.written) {
+            self.save(run)?;
+        }
+        Ok(if self.interrupted.is_some() { Control::Stop } else { Control::Go })
+    }
+}

@@ -1,0 +1,193 @@
+//! Runs of spring-sliders that are interrupted at each restart and resumed: what they leave is what a run leaves that was left alone, bit
+//! for bit.
+#![allow(clippy::disallowed_methods)]
+
+use crate::common::sliders::{CYCLE, plan};
+use crate::resume::{assert_same, files, folder, run, text, told};
+use asperity_cycles::slider::{Problem, Run, resume};
+use asperity_driver::checkpoint::Pauses;
+use asperity_driver::slider::Keeper;
+use asperity_ode::{Method, Outcome};
+use asperity_vary::Change::{self, Add, With, WithOrSame};
+use asperity_vary::SceneText;
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
+
+/// A second block on a spring to the first one.
+const CHAIN: [Change<'_>; 2] = [
+    Add(
+        "sliders.far",
+        r#"{ normal = "4 MPa", stiffness = "0.8 GPa/m", damping = "5 MPa s/m", law = { kind = "rate-and-state", evolution = "slip", mu0 = 0.6, a = 0.010, b = 0.014, l = "20 um", v_ref = "1 um/s", v_initial = "1 um/s" }, start = "0.5 um/s" }"#,
+    ),
+    Add("springs", r#"[{ between = ["block", "far"], stiffness = "0.3 GPa/m" }]"#),
+];
+/// Jumps of the rate of the load point: the integration begins anew at each of them, and the displacement goes on.
+const JUMPS: Change<'_> = With(
+    "load.rate",
+    r#"{ table = [["0 s", "1 um/s"], ["600 s", "1 um/s"], ["600 s", "3 um/s"], ["1200 s", "3 um/s"], ["1200 s", "0.5 um/s"]] }"#,
+);
+const IMPOSED: [Change<'_>; 2] = [
+    Add(
+        "sliders.machine",
+        r#"{ normal = "1 MPa", rate = { mean = "1 um/s", amplitude = "0.5 um/s", period = "90 s" }, law = { kind = "rate", mu0 = 0.6, a = 0.01, v_ref = "1 um/s" } }"#,
+    ),
+    Add("springs", r#"[{ between = ["block", "machine"], stiffness = "0.5 GPa/m" }]"#),
+];
+const ROWS: Change<'_> = Add("output", r#"{ interval = "12.5 s", times = ["7 s", "1111 s"], change = 0.5 }"#);
+const RESTS: Change<'_> = Add("sliders.block.mass", "3000 kg/m^2");
+const MANY: [Change<'_>; 3] =
+    [With("time.end", "60000 s"), With("events.stop_after", "40"), Add("time.tolerance", "1e-10")];
+
+fn scene(changes: &[&[Change<'_>]]) -> String {
+    let varied = changes.iter().fold(SceneText::new(CYCLE), |scene, changes| scene.changed(changes));
+    varied.text().unwrap()
+}
+
+fn pauses(wall: Option<Duration>) -> Pauses {
+    let stop = Arc::new(AtomicBool::new(false));
+    Pauses { every: Duration::MAX, wall, stop, begun: Instant::now() }
+}
+
+/// Runs a part of a run into `out`, until the next restart or without an end: the run, and whether it was interrupted.
+fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<(Run, bool), String> {
+    let resumed = Keeper::resume(out, problem, "", pauses(wall)).map_err(|e| e.to_string())?;
+    let (mut keeper, from) = match resumed {
+        Some(resumed) => resumed,
+        None => Keeper::begin(out, problem, "", true, pauses(wall)).unwrap(),
+    };
+    let ended = resume(problem, from, &mut keeper).map_err(|e| e.to_string())?;
+    let interrupted = keeper.interrupted().is_some();
+    keeper.finish(!interrupted).unwrap().draw(out, problem).unwrap();
+    Ok((ended, interrupted))
+}
+
+/// Runs a scene in one part and in as many as it has restarts, and compares; the number of parts.
+fn interrupted_everywhere(name: &str, text: &str) -> usize {
+    let problem = plan(text);
+    let folder = tempfile::tempdir().unwrap();
+    let [whole, parts] = ["whole", "parts"].map(|name| folder.path().join(name));
+    let (expected, _) = part(&problem, &whole, None).unwrap();
+    assert!(!matches!(expected.outcome, Outcome::Failed { .. }), "{name}: {:?}", expected.outcome);
+    let mut count = 1;
+    let found = loop {
+        let (run, interrupted) = part(&problem, &parts, Some(Duration::ZERO)).unwrap();
+        if !interrupted {
+            break run;
+        }
+        count += 1;
+    };
+    assert_eq!(format!("{found:?}"), format!("{expected:?}"), "{name}");
+    assert_eq!(files(&parts), files(&whole), "{name}");
+    count
+}
+
+#[test]
+fn every_method_resumes_bit_for_bit() {
+    for method in Method::ALL {
+        // Pairs of low order take so many steps at any tolerance.
+        let tolerance = if matches!(method, Method::TrBdf2 | Method::Esdirk34) { "1e-6" } else { "1e-10" };
+        let method = Add("time.method", &format!("\"{}\"", method.name()));
+        let text = scene(&[&MANY, &[method, WithOrSame("time.tolerance", tolerance)]]);
+        let parts = interrupted_everywhere(&format!("{method:?}"), &text);
+        assert!(parts >= 2, "{method:?}: {parts} parts");
+    }
+}
+
+#[test]
+fn chains_breaks_imposed_rates_and_rows_at_times_resume_bit_for_bit() {
+    for (name, changes, least) in [
+        ("chain", [&MANY[..], &CHAIN, &[]], 3),
+        ("jumps", [&MANY, &[JUMPS], &[]], 4),
+        ("imposed", [&MANY, &IMPOSED, &[ROWS]], 2),
+        ("rows", [&MANY, &[JUMPS, ROWS], &CHAIN], 4),
+        ("mass", [&MANY, &[RESTS, ROWS], &[]], 3),
+    ] {
+        let parts = interrupted_everywhere(name, &scene(&changes));
+        assert!(parts >= least, "{name}: {parts} parts");
+    }
+}
+
+/// Lets the checkpoint in `out` forget the value at a path.
+fn forget(out: &Path, pointer: &str, value: Value) {
+    let file = out.join("checkpoint");
+    let before = fs::read_to_string(&file).unwrap();
+    let [kind, _, contents] = before.splitn(3, '\n').collect::<Vec<_>>()[..] else { panic!("{before}") };
+    let mut json: Value = serde_json::from_str(contents).unwrap();
+    let place = json.pointer_mut(pointer).unwrap_or_else(|| panic!("no {pointer} in {contents}"));
+    assert!(*place != value, "{pointer} is {value} already");
+    *place = value;
+    let contents = json.to_string();
+    let sum: String = Sha256::digest(&contents).iter().map(|b| format!("{b:02x}")).collect();
+    fs::write(&file, format!("{kind}\n{sum}\n{contents}\n")).unwrap();
+}
+
+#[test]
+fn what_a_checkpoint_holds_is_needed() {
+    let problem = plan(&scene(&[&MANY, &[JUMPS, ROWS]]));
+    let folder = tempfile::tempdir().unwrap();
+    let whole = folder.path().join("whole");
+    let (expected, _) = part(&problem, &whole, None).unwrap();
+    let expected = (format!("{expected:?}"), files(&whole));
+    let forgotten: [(&str, Value); 8] = [
+        ("/run/next_step/length", 1e-3.into()),
+        ("/run/travelled/load", 0.into()),
+        ("/run/due/interval", 0.into()),
+        ("/run/due/listed", 0.into()),
+        ("/run/counts/steps", 0.into()),
+        ("/run/catalogue/tracks/0/least", 1.into()),
+        ("/histories/sliders/0/thin/last", Value::Null),
+        ("/histories/sliders/0/trace/rows", Vec::<Value>::new().into()),
+    ];
+    for (i, (pointer, value)) in forgotten.into_iter().enumerate() {
+        let out = folder.path().join(i.to_string());
+        // Beyond the jumps, and then to a restart between two of them.
+        loop {
+            assert!(part(&problem, &out, Some(Duration::ZERO)).unwrap().1, "{pointer}");
+            let contents = fs::read_to_string(out.join("checkpoint")).unwrap();
+            let json: Value = serde_json::from_str(contents.lines().nth(2).unwrap()).unwrap();
+            if json["run"]["passed"] == 2 && !json["run"]["next_step"].is_null() {
+                break;
+            }
+        }
+        forget(&out, pointer, value);
+        let left = part(&problem, &out, None).map(|(run, _)| (format!("{run:?}"), files(&out)));
+        assert!(left.is_err() || left.is_ok_and(|left| left != expected), "{pointer} is not needed");
+    }
+}
+
+#[test]
+fn the_command_interrupts_and_resumes_spring_sliders() {
+    let longer: [&[Change<'_>]; 3] =
+        [&MANY, &CHAIN, &[With("events.stop_after", "300"), With("time.end", "1e6 s")]];
+    let (scene, pressed) =
+        (scene(&longer), scene(&[longer[0], longer[1], longer[2], &[With("sliders.far.normal", "4.5 MPa")]]));
+    let folder = folder(&scene);
+    let folder = folder.path();
+    let output = run(folder, "whole", &[]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let output = run(folder, "out", &["--wall-time", "0.05 s"]);
+    assert_eq!(output.status.code(), Some(3), "{}", text(&output.stderr));
+    assert!(told(&output).contains("the same command with --resume"), "{}", told(&output));
+    // Another scene, and another kind of run.
+    fs::write(folder.join("s.toml"), pressed).unwrap();
+    let output = run(folder, "out", &["--resume"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(told(&output).contains("is of another scene"), "{}", told(&output));
+    fs::write(folder.join("s.toml"), crate::common::cycles::SCENE).unwrap();
+    let output = run(folder, "out", &["--resume"]);
+    assert_eq!(output.status.code(), Some(1));
+    let why = "is of a run of spring-sliders, and the scene is of faults";
+    assert!(told(&output).contains(why), "{}", told(&output));
+    fs::write(folder.join("s.toml"), scene).unwrap();
+    let output = run(folder, "out", &["--resume"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("resumed at"), "{}", text(&output.stdout));
+    assert_same(folder, "out");
+    let output = run(folder, "out", &["--resume"]);
+    assert!(text(&output.stdout).contains("is complete: nothing to resume"), "{}", text(&output.stdout));
+}
