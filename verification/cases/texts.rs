@@ -82,7 +82,7 @@ impl Done {
         Ok(last.points[k].displacement)
     }
 
-    /// Friction on the slave side after each step, along the measure of shear tractions, of a plane scene \[N, N/m\].
+    /// Friction on the slave side after each step, along the tangent of the interface, of a plane scene \[N, N/m\].
     pub fn friction(&self) -> Vec<f64> {
         let points = &self.record.histories()[0].points;
         let at = |k: usize| points.iter().map(|p| p.area[k] * p.shear_traction[k]).sum();

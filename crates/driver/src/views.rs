@@ -129,35 +129,32 @@ fn nearest(positions: &[[f64; 3]], target: [f64; 3]) -> usize {
 fn mean_shear<const D: usize>(p: &PointFields<D>) -> Vec<f64> {
     let inner = |a: &[f64; D], b: &[f64; D]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let each = p.mean_shear.iter().zip(&p.tangent);
-    each.map(|(t, e)| if D == 2 { -inner(t, e) } else { inner(t, t).sqrt() }).collect()
+    each.map(|(t, e)| if D == 2 { inner(t, e) } else { inner(t, t).sqrt() }).collect()
 }
 
-/// State of an interface. In two dimensions tangential quantities are measured along (n_y, -n_x), n the outward normal of
-/// the master: the direction in which the slave side is walked with its body to the left. That is minus the first tangent of
-/// the contact crate, which walks along the master side. In three dimensions they are magnitudes, beside vectors: the tangents that
-/// components count along differ from measure to measure.
+/// State of an interface. In two dimensions tangential quantities are measured along the first tangent (-n_y, n_x), n the outward
+/// normal of the master. In three dimensions they are magnitudes, beside vectors: the tangents that components count along differ from
+/// measure to measure.
 #[must_use]
 pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFields {
     let p = interface.points();
-    let measure =
-        |field: &[f64]| -> Vec<f64> { field.iter().map(|v| if D == 2 { -v } else { *v }).collect() };
     let length = |v: &[f64; D]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
     let tangential = |vectors: &[[f64; D]], along: &[f64]| -> Vec<f64> {
-        if D == 2 { measure(along) } else { vectors.iter().map(length).collect() }
+        if D == 2 { along.to_vec() } else { vectors.iter().map(length).collect() }
     };
     let in_space =
         |vectors: &[[f64; D]]| if D == 3 { vectors.iter().map(padded).collect() } else { Vec::new() };
     InterfaceFields {
         gap: p.gap.clone(),
         normal_traction: p.normal_traction.clone(),
-        shear_traction: measure(&p.shear_measure),
+        shear_traction: p.shear_measure.clone(),
         mean_normal_traction: p.mean_normal.clone(),
         mean_shear_traction: mean_shear(p),
         relative_displacement: tangential(&p.relative, &p.relative_measure),
         slip: tangential(&p.slip, &p.slip_measure),
         slip_vector: in_space(&p.slip),
         shear_vector: in_space(&p.shear),
-        slip_rate: measure(&p.slip_rate),
+        slip_rate: p.slip_rate.clone(),
         friction: p.friction.clone(),
         status: p
             .status

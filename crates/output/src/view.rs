@@ -52,7 +52,7 @@ pub struct InterfaceFields {
     /// Normal traction f_n \[Pa\].
     #[serde(deserialize_with = "numbers::or_nan")]
     pub normal_traction: Vec<f64>,
-    /// Shear traction \[Pa\]: signed along (n_y, -n_x), n the outward normal of the master, in two dimensions, magnitude in three.
+    /// Shear traction \[Pa\]: signed along (-n_y, n_x), n the outward normal of the master, in two dimensions, magnitude in three.
     #[serde(deserialize_with = "numbers::or_nan")]
     pub shear_traction: Vec<f64>,
     /// Normal traction averaged around the node, with the weights of a mortar interface; of node-to-point contact, the traction
@@ -73,7 +73,7 @@ pub struct InterfaceFields {
     pub slip_vector: Vec<[f64; 3]>,
     /// Shear traction as a vector, the one that the slave exerts on the master: along slip \[Pa\]; empty but in three dimensions.
     pub shear_vector: Vec<[f64; 3]>,
-    /// Slip rate V \[m/s\].
+    /// Slip rate V \[m/s\], with the sign of slip.
     #[serde(deserialize_with = "numbers::or_nan")]
     pub slip_rate: Vec<f64>,
     /// Friction coefficient |t|/f_n \[-\]; 0 where open or frictionless.

@@ -187,8 +187,8 @@ fn cycles(ledger: &mut Ledger) -> Result<(), CaseError> {
     let done = simulate(SCENE)?;
     let from = done.steps_until("draw")? - 1;
     let times = &done.record.times()[from..];
-    // What holds the bar against friction is the hand that moves its end.
-    let hand = done.friction();
+    // What holds the bar against friction is the hand that moves its end, along x: against the tangent of a master below.
+    let hand: Vec<f64> = done.friction().iter().map(|f| -f).collect();
     let way: Vec<f64> =
         times.iter().map(|t| REACH * (2.0 * ((t - 2.0).rem_euclid(2.0) - 1.0).abs() - 1.0)).collect();
     let put: f64 = work(&hand[from..], &way).iter().sum();

@@ -136,16 +136,16 @@ fn depth(y: f64, at_nodes: bool) -> f64 {
 }
 
 /// Largest error of normal and shear tractions over the largest normal traction.
-fn wrong(rest: &Rest, at_nodes: bool, space: bool) -> f64 {
+fn wrong(rest: &Rest, at_nodes: bool) -> f64 {
     let (sin, cos) = std::f64::consts::FRAC_PI_3.sin_cos();
     let (normal, shear) = (cos * cos + K0 * sin * sin, (1.0 - K0) * sin * cos);
     let points = &rest.done.record.histories()[0].points;
     let last = |v: &[f64]| v.last().copied().unwrap_or(f64::NAN);
     let errors = points.iter().map(|p| {
         let vertical = WEIGHT * depth(p.position[1], at_nodes);
-        // In the plane the left block is driven up along the interface, against the direction in which its side is walked.
-        let t = if space { shear } else { -shear };
-        let (f, t) = (last(&p.normal_traction) - normal * vertical, last(&p.shear_traction) - t * vertical);
+        // The left block hangs over the right one and is driven down, along the tangent.
+        let (f, t) =
+            (last(&p.normal_traction) - normal * vertical, last(&p.shear_traction) - shear * vertical);
         f.abs().max(t.abs())
     });
     errors.fold(0.0, f64::max) / (normal * WEIGHT * HEIGHT)
@@ -158,7 +158,7 @@ fn blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
     for ((name, changes, at_nodes), space) in plane.chain(IN_SPACE.iter().map(|v| (v, true))) {
         let scene = SceneText::new(BLOCKS).changed(if space { &SPACE } else { &[] });
         let rest = rest(&scene.changed(changes).text()?).map_err(|e| format!("{name}: {e}"))?;
-        let error = wrong(&rest, *at_nodes, space);
+        let error = wrong(&rest, *at_nodes);
         (moved, slipped) = (moved.max(rest.moved), slipped.max(rest.slipped));
         let kind = &mut errors[usize::from(changes.contains(&UNKNOWNS))];
         *kind = kind.max(error);

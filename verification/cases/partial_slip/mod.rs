@@ -64,6 +64,12 @@ fn scene(n: f64, measure: Measure) -> Result<Scene, CaseError> {
     Ok(hertz::measured(hertz::refined(hertz::sheared()?, n / N), measure, Sliding::Small))
 }
 
+/// Shear tractions along x, in which the cylinder is drawn: the tangent of the flat below it points along -x.
+fn along_x(mut at: Tractions) -> Tractions {
+    at.q.iter_mut().for_each(|q| *q = -*q);
+    at
+}
+
 struct Sheared {
     done: Done,
     at: Tractions,
@@ -75,7 +81,7 @@ struct Sheared {
 impl Sheared {
     fn of(scene: &Scene, stage: &str) -> Result<Self, CaseError> {
         let done = hertz::simulate(scene)?;
-        let at = done.tractions(stage)?;
+        let at = along_x(done.tractions(stage)?);
         let exact = Hertz::line(at.load[1], 0.1, compliance([(210e9, 0.3); 2]));
         let c = exact.a * (1.0 - at.load[0] / (MU * at.load[1])).max(0.0).sqrt();
         Ok(Self { done, at, exact, c })
@@ -192,7 +198,7 @@ fn reversal(ledger: &mut Ledger) -> Result<(), CaseError> {
         }
         scene.stages.push(back);
         let done = hertz::simulate(&scene)?;
-        let (loaded, at) = (done.tractions("shear")?, done.tractions("back")?);
+        let (loaded, at) = (done.tractions("shear")?, along_x(done.tractions("back")?));
         let exact = Hertz::line(at.load[1], 0.1, compliance([(210e9, 0.3); 2]));
         let part = |q: f64| exact.a * (1.0 - q / (MU * at.load[1])).max(0.0).sqrt();
         let (c, back) = (part(loaded.load[0]), part(0.5 * (loaded.load[0] - at.load[0])));

@@ -62,7 +62,7 @@ fn mean(fields: &InterfaceFields, values: impl Iterator<Item = f64>) -> f64 {
 }
 
 #[test]
-fn in_the_plane_slip_is_positive_where_the_slave_is_walked_with_its_body_to_the_left() {
+fn in_the_plane_slip_is_positive_to_the_left_of_the_normal_of_the_master() {
     for (measure, sliding) in WAYS {
         for push in [1e-3, -1e-3] {
             let f = pushed("x", push, measure, sliding, false);
@@ -70,7 +70,8 @@ fn in_the_plane_slip_is_positive_where_the_slave_is_walked_with_its_body_to_the_
                 [&f.slip, &f.shear_traction, &f.mean_shear_traction, &f.relative_displacement, &f.slip_rate]
             {
                 let mean = mean(&f, values.iter().copied());
-                assert!(mean * push > 0.0, "{measure}, {sliding}: {mean} for {push}");
+                // The normal of the lower body points up.
+                assert!(mean * push < 0.0, "{measure}, {sliding}: {mean} for {push}");
             }
             assert!(f.slip_vector.is_empty() && f.shear_vector.is_empty());
         }
