@@ -3,6 +3,7 @@
 /// A position \[m\].
 #[must_use]
 pub fn in_words<const D: usize>(x: &[f64; D]) -> String {
-    let coordinates: Vec<String> = x.iter().map(|c| c.to_string()).collect();
+    // Adding zero turns -0 into 0.
+    let coordinates: Vec<String> = x.iter().map(|c| (c + 0.0).to_string()).collect();
     format!("({}) m", coordinates.join(", "))
 }

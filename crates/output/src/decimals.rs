@@ -1,4 +1,4 @@
-//! Decimals for readers: what rounds to zero has no sign.
+//! Decimals for readers: what rounds to zero has no sign. All numbers of text files that may be negative are written here.
 
 /// With so many decimals.
 #[must_use]
@@ -17,6 +17,18 @@ pub fn scientific(value: f64, decimals: usize) -> String {
     format!("{:.decimals$e}", value + 0.0)
 }
 
+/// The shortest decimal that reads back as the same number.
+#[must_use]
+pub fn shortest(value: f64) -> String {
+    format!("{}", value + 0.0)
+}
+
+/// The same with an exponent.
+#[must_use]
+pub fn shortest_scientific(value: f64) -> String {
+    format!("{:e}", value + 0.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -30,5 +42,7 @@ mod tests {
         assert_eq!(fixed(f64::NEG_INFINITY, 2), "-inf");
         assert_eq!(scientific(-0.0, 3), "0.000e0");
         assert_eq!(scientific(-1e-30, 1), "-1.0e-30");
+        assert_eq!([shortest(-0.0), shortest_scientific(-0.0)], ["0", "0e0"]);
+        assert_eq!([shortest(-0.25), shortest_scientific(-1e-30)], ["-0.25", "-1e-30"]);
     }
 }

@@ -1,5 +1,6 @@
 //! Tables as CSV: profiles along an interface at one time, and histories at its probes.
 
+use super::decimals::{shortest, shortest_scientific};
 use super::view::{InterfaceFields, InterfaceMesh, PointValues};
 
 /// One column of an interface's table: its name with unit, and how to read it.
@@ -49,10 +50,9 @@ fn columns(table: &'static [Column], mesh: &InterfaceMesh) -> impl Iterator<Item
 fn number(value: f64) -> String {
     // Outside these decades positional notation is mostly zeros.
     if value == 0.0 {
-        // Without the sign of -0.
         return "0".into();
     }
-    if (1e-2..1e6).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
+    if (1e-2..1e6).contains(&value.abs()) { shortest(value) } else { shortest_scientific(value) }
 }
 
 /// Names of the columns of the state variables of an interface's law.

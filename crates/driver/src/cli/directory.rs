@@ -2,6 +2,7 @@
 
 use super::begin::{Begin, LOCK, REPORT};
 use super::contents::{self, Contents};
+use super::json;
 use crate::checkpoint;
 use crate::forecast;
 use crate::report::common::{Phases, Provenance, Report, Results, SCHEMA, Sketch, Status, commit};
@@ -110,7 +111,7 @@ impl Directory {
             run: Provenance { seconds, threads, commit: commit(), peak_bytes, origin },
             results,
         };
-        let text = serde_json::to_string_pretty(&report).into_diagnostic()?;
+        let text = json::pretty(&report).into_diagnostic()?;
         atomic::write(&self.path.join(REPORT), text.as_bytes())
             .map_err(|e| miette!("cannot write the report: {e}"))
     }

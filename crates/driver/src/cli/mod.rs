@@ -4,6 +4,7 @@ mod begin;
 mod contents;
 mod directory;
 mod end;
+mod json;
 mod pausing;
 mod print;
 mod read;

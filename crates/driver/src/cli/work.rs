@@ -4,7 +4,7 @@ use super::directory::Directory;
 use super::end::End;
 use super::pausing::Pausing;
 use super::read::Ready;
-use super::{print, signals};
+use super::{json, print, signals};
 use crate::checkpoint::{self, Contents as _, Pauses};
 use crate::fault;
 use crate::forecast;
@@ -261,7 +261,7 @@ fn write_faults(
     drawn: bool,
 ) -> miette::Result<()> {
     write_catalogues(path, report).into_diagnostic()?;
-    let events = serde_json::to_string_pretty(&report.events).into_diagnostic()?;
+    let events = json::pretty(&report.events).into_diagnostic()?;
     atomic::write(&path.join("events.json"), events.as_bytes()).into_diagnostic()?;
     write_located(path, plan, report, hash)?;
     if drawn {

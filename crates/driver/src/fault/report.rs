@@ -10,7 +10,7 @@ use crate::report::{Kind, Outcome, Phases, Results, Stop};
 use crate::warning::Warning;
 use asperity_cycles::{Balance, Crack, Energy, Event, Layout, Mark, Part, Run, size, steady};
 use asperity_ode::Outcome as Finish;
-use asperity_output::decimals::fixed;
+use asperity_output::decimals::{fixed, shortest};
 use asperity_output::located::Located;
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
@@ -383,19 +383,20 @@ impl Report {
                 e.duration,
                 e.peak_rate,
                 e.fault,
-                e.hypocentre_along.map(|s| s.to_string()).unwrap_or_default(),
-                e.hypocentre[0],
-                e.hypocentre[1],
-                e.hypocentre[2],
+                e.hypocentre_along.map(shortest).unwrap_or_default(),
+                shortest(e.hypocentre[0]),
+                shortest(e.hypocentre[1]),
+                shortest(e.hypocentre[2]),
                 e.largest_slip,
                 e.mean_slip,
                 e.area,
                 e.moment,
-                e.stress_drop,
+                shortest(e.stress_drop),
                 e.duration_above
             );
-            if let Some(([x, y, z], turned)) = e.direction.zip(e.turned) {
-                let _ = write!(text, ",{x},{y},{z},{turned}");
+            for value in e.direction.iter().flatten().chain(&e.turned) {
+                text.push(',');
+                text.push_str(&shortest(*value));
             }
             text.push('\n');
         }

@@ -1,6 +1,7 @@
 //! Events of sliders as a table.
 
 use asperity_cycles::slider::Event;
+use asperity_output::decimals::shortest_scientific;
 use std::fmt::Write as _;
 
 /// Events as CSV, with the names of the sliders; what is not known is empty.
@@ -15,7 +16,7 @@ pub fn csv(events: &[Event], names: &[String]) -> String {
         (1..=states).for_each(|i| text.push_str(&format!(",state_{i}_{edge}")));
     }
     text.push('\n');
-    let known = |value: Option<f64>| value.map(|v| format!("{v:e}")).unwrap_or_default();
+    let known = |value: Option<f64>| value.map(shortest_scientific).unwrap_or_default();
     for e in events {
         let _ = write!(
             text,

@@ -3,6 +3,7 @@
 use super::figures::Trace;
 use super::thin::{Row, Thin};
 use asperity_cycles::slider::{Now, Problem, WatchError, Watcher};
+use asperity_output::decimals::{shortest, shortest_scientific};
 use asperity_output::{Growing, OutputError, atomic, plots};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -154,11 +155,16 @@ impl Kept {
             self.trace.push(row);
         }
         let Some(file) = &mut self.file else { return Ok(()) };
-        let states: String = row.states.iter().map(|s| format!(",{s:e}")).collect();
+        let states: String = row.states.iter().map(|s| format!(",{}", shortest_scientific(*s))).collect();
         let Row { time, dt, condition: c, slip, load, .. } = row;
         let line = format!(
-            "{time},{dt:e},{slip:e},{:e},{},{},{},{load:e}{states}\n",
-            c.rate, c.friction, c.traction, c.normal
+            "{time},{dt:e},{},{},{},{},{},{}{states}\n",
+            shortest_scientific(*slip),
+            shortest_scientific(c.rate),
+            shortest(c.friction),
+            shortest(c.traction),
+            c.normal,
+            shortest_scientific(*load)
         );
         file.push(line.as_bytes())
     }

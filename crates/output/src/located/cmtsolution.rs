@@ -4,6 +4,7 @@
 //! onset (shift zero), and the half duration half the time above the thresholds.
 
 use super::event::Located;
+use crate::decimals::{fixed, scientific};
 use jiff::tz::TimeZone;
 use std::fmt::Write as _;
 
@@ -22,16 +23,16 @@ pub fn cmtsolution(title: &str, events: &[Located]) -> Option<String> {
         let shift = f64::from(time.subsec_nanosecond() % HUNDREDTH) / 1e9;
         let _ = writeln!(
             text,
-            " SIM {:04} {:02} {:02} {:02} {:02} {:02}.{hundredths:02} {:9.4} {:9.4} {:5.1} {magnitude:.1} {magnitude:.1} SIMULATED",
+            " SIM {:04} {:02} {:02} {:02} {:02} {:02}.{hundredths:02} {:>9} {:>9} {:>5} {magnitude:.1} {magnitude:.1} SIMULATED",
             time.year(),
             time.month(),
             time.day(),
             time.hour(),
             time.minute(),
             time.second(),
-            spot.latitude,
-            spot.longitude,
-            spot.depth / 1e3,
+            fixed(spot.latitude, 4),
+            fixed(spot.longitude, 4),
+            fixed(spot.depth / 1e3, 1),
         );
         let mut line = |name: &str, value: &str| {
             let _ = writeln!(text, "{name}{value:>width$}", width = WIDTH - name.len());
@@ -39,9 +40,9 @@ pub fn cmtsolution(title: &str, events: &[Located]) -> Option<String> {
         line("event name:", &format!("{}-{}", word(title), k + 1));
         line("time shift:", &format!("{shift:.6}"));
         line("half duration:", &format!("{:.4}", 0.5 * event.duration));
-        line("latitude:", &format!("{:.4}", centroid.latitude));
-        line("longitude:", &format!("{:.4}", centroid.longitude));
-        line("depth:", &format!("{:.4}", centroid.depth / 1e3));
+        line("latitude:", &fixed(centroid.latitude, 4));
+        line("longitude:", &fixed(centroid.longitude, 4));
+        line("depth:", &fixed(centroid.depth / 1e3, 4));
         for (name, value) in ["rr", "tt", "pp", "rt", "rp", "tp"].iter().zip(event.tensor.0) {
             line(&format!("M{name}:"), &exponential(value * DYNE_CM));
         }
@@ -57,8 +58,8 @@ const WIDTH: usize = 28;
 
 /// With six decimals and an exponent of a sign and two digits, as Fortran writes it.
 fn exponential(value: f64) -> String {
-    let text = format!("{value:.6E}");
-    let Some((digits, exponent)) = text.split_once('E') else { return text };
+    let text = scientific(value, 6);
+    let Some((digits, exponent)) = text.split_once('e') else { return text };
     let exponent: i32 = exponent.parse().unwrap_or(0);
     format!("{digits}E{}{:02}", if exponent < 0 { '-' } else { '+' }, exponent.abs())
 }
@@ -76,6 +77,6 @@ mod tests {
     fn numbers_have_a_signed_exponent_of_two_digits() {
         assert_eq!(exponential(1.0e27), "1.000000E+27");
         assert_eq!(exponential(-3.5e-7), "-3.500000E-07");
-        assert_eq!(exponential(0.0), "0.000000E+00");
+        assert_eq!([exponential(0.0), exponential(-0.0)], ["0.000000E+00"; 2]);
     }
 }

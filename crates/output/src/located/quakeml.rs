@@ -2,6 +2,7 @@
 
 use super::event::{Located, Spot};
 use super::tensor::{Plane, Tensor};
+use crate::decimals::shortest_scientific;
 use crate::vtu::admitted;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
@@ -56,7 +57,7 @@ fn quantity(xml: &mut Xml, name: &str, value: &str) -> io::Result<()> {
 }
 
 fn number(xml: &mut Xml, name: &str, value: f64) -> io::Result<()> {
-    quantity(xml, name, &format!("{value:e}"))
+    quantity(xml, name, &shortest_scientific(value))
 }
 
 fn event(xml: &mut Xml, title: &str, id: &str, located: &Located) -> io::Result<()> {

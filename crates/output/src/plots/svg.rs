@@ -5,6 +5,7 @@ use super::super::vtu::escape;
 use super::colour::{PAPER, Rgb};
 use super::figure::{Anchor, Figure, Image, Point, Shape, Text};
 use super::png;
+use crate::decimals::fixed;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write as _;
@@ -44,7 +45,7 @@ fn hex([r, g, b]: Rgb) -> String {
 
 /// Points to hundredths of a unit: finer than any screen shows.
 fn list(points: &[Point]) -> String {
-    points.iter().map(|(x, y)| format!("{x:.2},{y:.2}")).collect::<Vec<_>>().join(" ")
+    points.iter().map(|(x, y)| format!("{},{}", fixed(*x, 2), fixed(*y, 2))).collect::<Vec<_>>().join(" ")
 }
 
 fn label(text: &Text) -> String {

@@ -1,0 +1,73 @@
+//! JSON for readers: zero has no sign.
+
+use serde::Serialize;
+use serde_json::ser::{Formatter, PrettyFormatter, Serializer};
+use std::io::{self, Write};
+
+/// A value as text, with indents.
+pub(super) fn pretty(value: &impl Serialize) -> serde_json::Result<String> {
+    let mut text = Vec::new();
+    value.serialize(&mut Serializer::with_formatter(&mut text, Unsigned::default()))?;
+    String::from_utf8(text).map_err(serde::ser::Error::custom)
+}
+
+/// The pretty formatter but for zero.
+#[derive(Default)]
+struct Unsigned(PrettyFormatter<'static>);
+
+impl Formatter for Unsigned {
+    fn write_f64<W: ?Sized + Write>(&mut self, to: &mut W, value: f64) -> io::Result<()> {
+        // Adding zero turns -0 into 0.
+        self.0.write_f64(to, value + 0.0)
+    }
+
+    fn begin_array<W: ?Sized + Write>(&mut self, to: &mut W) -> io::Result<()> {
+        self.0.begin_array(to)
+    }
+
+    fn end_array<W: ?Sized + Write>(&mut self, to: &mut W) -> io::Result<()> {
+        self.0.end_array(to)
+    }
+
+    fn begin_array_value<W: ?Sized + Write>(&mut self, to: &mut W, first: bool) -> io::Result<()> {
+        self.0.begin_array_value(to, first)
+    }
+
+    fn end_array_value<W: ?Sized + Write>(&mut self, to: &mut W) -> io::Result<()> {
+        self.0.end_array_value(to)
+    }
+
+    fn begin_object<W: ?Sized + Write>(&mut self, to: &mut W) -> io::Result<()> {
+        self.0.begin_object(to)
+    }
+
+    fn end_object<W: ?Sized + Write>(&mut self, to: &mut W) -> io::Result<()> {
+        self.0.end_object(to)
+    }
+
+    fn begin_object_key<W: ?Sized + Write>(&mut self, to: &mut W, first: bool) -> io::Result<()> {
+        self.0.begin_object_key(to, first)
+    }
+
+    fn begin_object_value<W: ?Sized + Write>(&mut self, to: &mut W) -> io::Result<()> {
+        self.0.begin_object_value(to)
+    }
+
+    fn end_object_value<W: ?Sized + Write>(&mut self, to: &mut W) -> io::Result<()> {
+        self.0.end_object_value(to)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn json_is_that_of_the_library_but_for_the_sign_of_zero() {
+        let value = json!({ "a": [1.5, -2e-30, {}, []], "b": { "c": null, "d": [[0.0], "-0.0"] } });
+        assert_eq!(pretty(&value).unwrap(), serde_json::to_string_pretty(&value).unwrap());
+        assert_eq!(pretty(&[-0.0]).unwrap(), "[\n  0.0\n]");
+        assert_eq!(pretty(&f64::NAN).unwrap(), "null");
+    }
+}
