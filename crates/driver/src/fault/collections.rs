@@ -32,7 +32,7 @@ pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), OutputError> {
         states
             .extend(taken.iter().enumerate().map(|(k, &time)| entry(&snapshots::name(&fault.name, k), time)));
         for (k, event) in run.catalogue.events().iter().enumerate() {
-            let mut fields = along(plan, fault, "slip", &event.slip);
+            let mut fields = Vec::from(along(plan, fault, "slip", &event.slip));
             fields.extend(along(plan, fault, "stress_drop", &event.drop));
             if fault.normal.opens {
                 fields.push(Field::Scalar("opening".into(), event.opening[fault.points.clone()].to_vec()));

@@ -33,15 +33,16 @@ impl Field {
     }
 }
 
-/// Values along slip; where slip may turn their size, and the vector in space as `NAME_vector`.
-pub(super) fn along(plan: &Plan, fault: &FaultView, name: &'static str, values: &[f64]) -> Vec<Field> {
+/// Values along `rake`, or where slip may turn their size; and the vector in space as `NAME_vector`.
+pub(super) fn along(plan: &Plan, fault: &FaultView, name: &'static str, values: &[f64]) -> [Field; 2] {
     let points = || fault.points.clone();
-    if plan.problem.fault.law.components() == 1 {
-        return vec![Field::Scalar(name.into(), values[points()].to_vec())];
-    }
-    let sizes = points().map(|p| size(values, plan.points.len(), p)).collect();
+    let scalars = if plan.problem.fault.law.components() == 1 {
+        values[points()].to_vec()
+    } else {
+        points().map(|p| size(values, plan.points.len(), p)).collect()
+    };
     let vectors = points().map(|p| plan.vector(values, p)).collect();
-    vec![Field::Scalar(name.into(), sizes), Field::Vector(format!("{name}_vector"), vectors)]
+    [Field::Scalar(name.into(), scalars), Field::Vector(format!("{name}_vector"), vectors)]
 }
 
 /// Slip \[m\], log10 of the slip rate \[m/s\], friction and normal traction \[Pa\], and the states of the law.
@@ -54,12 +55,10 @@ pub(super) fn state(plan: &Plan, fault: &FaultView, at: Clock, y: &[f64]) -> Vec
     let normal = |p: usize| pressed.normal[p];
     let shear: Vec<f64> = layout.m().map(|i| normal(i % n) * law.scale(i % n) * y[i]).collect();
     let speeds = fault.points.clone().map(|p| size(&rate, n, p).log10()).collect();
-    let mut fields = along(plan, fault, "slip", &y[layout.slip()]);
+    let vectors = fault.points.clone().map(|p| plan.vector(&rate, p)).collect();
+    let mut fields = Vec::from(along(plan, fault, "slip", &y[layout.slip()]));
     fields.push(Field::Scalar("log10_slip_rate".into(), speeds));
-    if law.components() > 1 {
-        let vectors = fault.points.clone().map(|p| plan.vector(&rate, p)).collect();
-        fields.push(Field::Vector("slip_rate_vector".into(), vectors));
-    }
+    fields.push(Field::Vector("slip_rate_vector".into(), vectors));
     fields.extend(along(plan, fault, "shear_traction", &shear));
     fields.push(Field::Scalar("normal_traction".into(), fault.points.clone().map(normal).collect()));
     if fault.normal.opens {
