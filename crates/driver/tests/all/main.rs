@@ -31,6 +31,7 @@ mod resume_bodies;
 mod resume_sliders;
 mod samples;
 mod scenes;
+mod signs;
 mod slider;
 mod slider_outputs;
 mod snapshot;

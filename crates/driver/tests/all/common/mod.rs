@@ -2,6 +2,7 @@
 
 pub mod cycles;
 pub mod sliders;
+pub mod written;
 
 use asperity_driver::plan::{self, AnyPlan};
 use asperity_driver::report::{Outcome, RunReport};
