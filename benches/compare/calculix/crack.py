@@ -16,6 +16,7 @@ import tempfile
 from pathlib import Path
 
 from timed import run
+from varied import Scene
 
 YOUNG, POISSON, COMPRESSION, HALF, GROWTH = 25e9, 0.25, 100e6, 20.0, 1.1
 SIN, COS = math.sin(math.pi / 9), math.cos(math.pi / 9)
@@ -25,9 +26,13 @@ SLIP = 4 * (1 - POISSON**2) / YOUNG * COMPRESSION * SIN * (COS - SIN * FRICTION)
 METHODS = {"surface": ("SURFACE TO SURFACE", "LINEAR", 100.0), "node": ("NODE TO SURFACE", "LINEAR", 10.0), "mortar": ("MORTAR", "HARD", 100.0)}
 
 
-def ours(program, text, n, folder):
-    text = re.sub(r"spacing = .*", f'spacing = "{1 / n:.17g} m"', text).replace("100 m", f"{HALF:g} m")
-    (folder / "crack.toml").write_text(text)
+def ours(program, text, measure, n, folder):
+    varied = Scene(text)
+    varied.put("interfaces.crack.measure", measure)
+    varied.put("bodies.plane.mesh.fault.spacing", f"{1 / n:.17g} m")
+    varied.put("bodies.plane.mesh.fault.min", [f"-{HALF:g} m"] * 2)
+    varied.put("bodies.plane.mesh.fault.max", [f"{HALF:g} m"] * 2)
+    (folder / "crack.toml").write_text(varied.text())
     said, user, wall = run([program, "run", "crack.toml", "--out", "out"], folder, 600)
     rows = list(csv.DictReader(open(sorted((folder / "out/profiles").glob("*.csv"))[-1])))
     middle = min(rows, key=lambda r: abs(float(r["y [m]"])))
@@ -139,7 +144,7 @@ def main():
         for measure in ("mortar", "node-to-point"):
             folder = root / measure
             folder.mkdir()
-            line(f"asperity {measure}", n, *ours(program, text.replace("mortar", measure), n, folder))
+            line(f"asperity {measure}", n, *ours(program, text, measure, n, folder))
         for method in given.methods:
             folder = root / f"ccx-{method}"
             folder.mkdir()

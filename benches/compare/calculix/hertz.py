@@ -22,6 +22,7 @@ from pathlib import Path
 import numpy as np
 
 from timed import run
+from varied import Scene
 
 YOUNG, POISSON, RADIUS, FRICTION = 210e3, 0.3, 100.0, 0.3  # N, mm
 
@@ -78,14 +79,17 @@ def arrays(path):
 
 
 def scene(text, n, shear):
-    h = f"{1 / n:.17g}"
-    text = text.replace('size = "0.05 mm"', f'size = "{h} mm"')
-    text = re.sub(r'"4\.2e8 MPa/mm"', f'"{100 * YOUNG * n:.17g} MPa/mm"', text)
+    varied, cell = Scene(text), f"{1 / n:.17g} mm"
+    for body in ("flat", "cylinder"):
+        for axis in (0, 1):
+            varied.put(f"bodies.{body}.mesh.block.spacing[{axis}].size", cell)
+    stiffness = ("normal", "tangential") if shear else ("normal",)
+    for key in stiffness:
+        varied.put(f"interfaces.contact.enforcement.{key}", f"{100 * YOUNG * n:.17g} MPa/mm")
     if not shear:
-        text = re.sub(r'\[\[stages\]\]\s+name = "shear".*?\[time\]', "[time]", text, flags=re.S)
-        text = text.replace('frictionless = ["contact"]\n', "").replace(re.search(r"law = .*\n", text)[0], "")
-        text = re.sub(r", tangential = \"[^\"]*\"", "", text)
-    return text
+        for path in ("stages[1]", "stages[0].frictionless", "interfaces.contact.law", "interfaces.contact.enforcement.tangential"):
+            varied.remove(path)
+    return varied.text()
 
 
 def ours(program, text, folder):

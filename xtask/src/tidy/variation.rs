@@ -20,40 +20,8 @@ const NO_SCENES: [(&str, &str); 7] = [
     ("crates/fem/tests/all/gmsh.rs", "mesh files of Gmsh"),
 ];
 
-/// Tests that still replace text in scenes, and how often. What is converted leaves the list.
-const LEFT: [(&str, usize); 24] = [
-    ("crates/driver/tests/all/antiplane.rs", 4),
-    ("crates/driver/tests/all/bodies.rs", 9),
-    ("crates/driver/tests/all/command.rs", 6),
-    ("crates/driver/tests/all/directories.rs", 10),
-    ("crates/driver/tests/all/documents.rs", 3),
-    ("crates/driver/tests/all/doubtful_scenes.rs", 14),
-    ("crates/driver/tests/all/enforcement.rs", 1),
-    ("crates/driver/tests/all/fault.rs", 7),
-    ("crates/driver/tests/all/fault_geometry.rs", 7),
-    ("crates/driver/tests/all/fault_normal.rs", 3),
-    ("crates/driver/tests/all/fault_opening.rs", 9),
-    ("crates/driver/tests/all/fault_outputs.rs", 6),
-    ("crates/driver/tests/all/instability.rs", 9),
-    ("crates/driver/tests/all/laws.rs", 2),
-    ("crates/driver/tests/all/loads.rs", 5),
-    ("crates/driver/tests/all/located.rs", 3),
-    ("crates/driver/tests/all/mesh_files.rs", 2),
-    ("crates/driver/tests/all/meshes.rs", 4),
-    ("crates/driver/tests/all/resume.rs", 19),
-    ("crates/driver/tests/all/samples.rs", 2),
-    ("crates/driver/tests/all/slider.rs", 9),
-    ("crates/driver/tests/all/slider_outputs.rs", 13),
-    ("crates/driver/tests/all/snapshot.rs", 1),
-    ("crates/driver/tests/all/solvers.rs", 2),
-];
-
 /// Checks the sources of the suite, the benches and the tests.
 pub fn check(files: &[File]) -> Vec<Problem> {
-    check_against(files, &LEFT)
-}
-
-fn check_against(files: &[File], left: &[(&str, usize)]) -> Vec<Problem> {
     let mut found = Vec::new();
     for file in files.iter().filter(|file| varies_scenes(&file.path)) {
         if NO_SCENES.iter().any(|(path, _)| *path == file.path) {
@@ -61,15 +29,7 @@ fn check_against(files: &[File], left: &[(&str, usize)]) -> Vec<Problem> {
         }
         let code = mask::code(&file.text);
         let places: Vec<usize> = CALLS.iter().flat_map(|call| regions::occurrences(&code, call)).collect();
-        let allowed = left.iter().find(|(path, _)| *path == file.path).map_or(0, |(_, n)| *n);
-        if places.len() < allowed {
-            let message =
-                format!("{} of {allowed} replacements are left: say so in tidy/variation.rs", places.len());
-            found.push(Problem::new(&file.path, 0, message));
-        }
-        if places.len() > allowed {
-            found.extend(places.iter().map(|&at| Problem::new(&file.path, regions::line_of(&code, at), WHY)));
-        }
+        found.extend(places.iter().map(|&at| Problem::new(&file.path, regions::line_of(&code, at), WHY)));
     }
     found
 }
@@ -84,7 +44,7 @@ fn varies_scenes(path: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{File, NO_SCENES, check, check_against};
+    use super::{File, NO_SCENES, check};
 
     fn file(path: &str, text: &str) -> File {
         File { path: path.to_owned(), text: text.to_owned() }
@@ -110,12 +70,5 @@ mod tests {
         let other = "// text.replace(a, b)\nfn f() { std::mem::replace(a, b); \".replace(\"; }\n";
         assert_eq!(lines("verification/cases/a/mod.rs", other), [0usize; 0]);
         assert_eq!(lines(NO_SCENES[0].0, "fn f() { page.replace(a, b); }\n"), [0usize; 0]);
-    }
-
-    #[test]
-    fn what_is_left_to_convert_shrinks_only() {
-        let (path, text) = ("crates/a/tests/b.rs", "fn f() { a.replace(b, c).replace(d, e); }\n");
-        let found = |n| check_against(&[file(path, text)], &[(path, n)]).len();
-        assert_eq!([found(1), found(2), found(3)], [2, 0, 1]);
     }
 }

@@ -1,6 +1,7 @@
 //! Bodies in antiplane motion end to end, against closed forms.
 
-use crate::common::{close, displacements, fields, planned, simulate};
+use crate::common::{close, displacements, fields, planned, simulate, varied};
+use asperity_vary::Change::{Add, With, WithOrSame};
 
 /// G for E = 10 GPa and a Poisson's ratio of a quarter.
 const SHEAR: f64 = 4e9;
@@ -93,7 +94,8 @@ fn stages_ramp_hold_and_release_a_motion_along_z() {
         stage("free", 1, r#"{ set = "B.right", z = "free" }"#),
     ];
     for (stepper, stages) in [("implicit", &stages[..]), ("static-explicit", &stages[..2])] {
-        let text = scene("quad4", "", "", &stages.join("\n")).replace("implicit", stepper);
+        let text =
+            varied(&scene("quad4", "", "", &stages.join("\n")), &[WithOrSame("time.stepper", stepper)]);
         let (_, record) = simulate(&text);
         let stress: Vec<f64> =
             record.stage_ends().iter().map(|s| s.bodies.as_ref().unwrap().cell_stress[0][5]).collect();
@@ -128,11 +130,14 @@ fn a_mesh_from_a_file_moves_along_z() {
         "",
         &stage("shear", 1, r#"{ set = "B.bottom", z = 0 }, { set = "B.top", traction = ["4 MPa"] }"#),
     );
-    let block = text.lines().find(|l| l.starts_with("mesh.block")).unwrap();
-    let text = text
-        .replace(block, "mesh.gmsh = { file = \"mixed.msh\" }")
-        .replace("material = \"m\"", "material = { lower = \"m\", upper = \"n\" }")
-        .replace("[bodies.B]", "[materials.n]\nyoung = \"1 GPa\"\npoisson = 0.25\n[bodies.B]");
+    let text = varied(
+        &text,
+        &[
+            With("bodies.B.mesh", "{ gmsh = { file = \"mixed.msh\" } }"),
+            With("bodies.B.material", "{ lower = \"m\", upper = \"n\" }"),
+            Add("materials.n", "{ young = \"1 GPa\", poisson = 0.25 }"),
+        ],
+    );
     let (_, record) = simulate(&text);
     for (_, u) in displacements(&record, |x| x[1] == 1.0) {
         close(u[2], 4e6 / SHEAR * 11.0, 1e-11);

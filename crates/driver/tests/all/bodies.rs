@@ -1,7 +1,8 @@
 //! Idealisations, formulations and materials end to end, against closed forms.
 
-use crate::common::{close, displacements, fields, planned, simulate};
+use crate::common::{close, displacements, fields, planned, simulate, varied};
 use asperity_output::Recorder;
+use asperity_vary::Change::{Add, With, Without};
 
 const YOUNG: f64 = 10e9;
 
@@ -29,7 +30,10 @@ material = "m"
 
 const ROLLERS: &str = r#"{ set = "B.left", symmetry = true }, { set = "B.bottom", symmetry = true }"#;
 const IMPLICIT: &str = "stepper = \"implicit\"";
-const BAR: &str = r#"min = [0, 0], max = [2, 1], divisions = [2, 1], element = "quad4""#;
+
+fn bar(element: &str) -> String {
+    format!("min = [0, 0], max = [2, 1], divisions = [2, 1], element = \"{element}\"")
+}
 
 fn stage(steps: usize, condition: &str) -> String {
     format!(
@@ -41,8 +45,7 @@ fn stage(steps: usize, condition: &str) -> String {
 fn a_sheet_under_tension_stretches_by_youngs_modulus_alone() {
     let load = stage(1, r#"{ set = "B.right", traction = ["5 MPa", 0] }"#);
     for element in ["quad4", "quad8", "quad9", "tri3", "tri6"] {
-        let bar = BAR.replace("quad4", element);
-        let (_, record) = simulate(&block("plane-stress", "", "", &bar, &load, IMPLICIT));
+        let (_, record) = simulate(&block("plane-stress", "", "", &bar(element), &load, IMPLICIT));
         let strain = 5e6 / YOUNG;
         for (x, u) in displacements(&record, |x| x[0] > 0.0 && x[1] > 0.0) {
             close(u[0], strain * x[0], 1e-11);
@@ -95,10 +98,13 @@ path = "{path}"
 fn cylinders_pressed_together_have_uniform_pressure() {
     // Elements of second order have no area on the axis: they are tried on a pipe, whose inner side is free.
     let pipe = |text: String| {
-        let free = text
-            .replace("    { set = \"A.left\", symmetry = true },\n", "")
-            .replace("    { set = \"B.left\", symmetry = true },\n", "");
-        free.replace("min = [0,", "min = [0.5,")
+        let changes = [
+            Without("stages[0].conditions[1]"),
+            Without("stages[0].conditions[0]"),
+            With("bodies.A.mesh.block.min[0]", "0.5"),
+            With("bodies.B.mesh.block.min[0]", "0.5"),
+        ];
+        varied(&text, &changes)
     };
     let pi = std::f64::consts::PI;
     for path in ["condensed", "full"] {
@@ -137,7 +143,7 @@ fn a_plastic_bar_follows_its_tangent_modulus() {
             let bar = if kinematics == "axisymmetric" {
                 "min = [0, 0], max = [1, 2], divisions = [1, 2], element = \"quad4\""
             } else {
-                BAR
+                &bar("quad4")
             };
             let stages = if kinematics == "axisymmetric" {
                 stage(steps, r#"{ set = "B.top", y = { to = "10 mm" } }"#)
@@ -161,7 +167,7 @@ fn a_forward_step_ends_where_the_bar_begins_to_yield() {
         "plane-stress",
         PLASTIC,
         "",
-        BAR,
+        &bar("quad4"),
         &stage(1, r#"{ set = "B.right", x = { to = "10 mm" } }"#),
         "stepper = \"static-explicit\"",
     );
@@ -191,7 +197,8 @@ fn hardenings_are_those_of_their_formulas() {
         ),
     ] {
         let stages = stage(5, r#"{ set = "B.right", x = { to = "10 mm" } }"#);
-        let text = block("plane-stress", &format!("plasticity = {hardening}"), "", BAR, &stages, IMPLICIT);
+        let text =
+            block("plane-stress", &format!("plasticity = {hardening}"), "", &bar("quad4"), &stages, IMPLICIT);
         let (_, record) = simulate(&text);
         let fields = fields(&record);
         let (stress, e) = (fields.cell_stress[0][0], fields.cell_plastic_strain[0]);
@@ -269,9 +276,9 @@ fn b_bar_bears_incompressible_bending_that_locks_the_standard_element() {
     let stages = "[[stages]]\nname = \"bend\"\nduration = 1\nsteps = 1\nconditions = [{ set = \"B.left\", x = 0, y = 0 }, \
                   { set = \"B.right\", traction = [0, \"1 kPa\"] }]\n";
     let tip = |formulation: &str| {
-        let text =
-            block("plane-strain", "", &format!("formulation = \"{formulation}\""), beam, stages, IMPLICIT)
-                .replace("poisson = 0.25", "poisson = 0.4999");
+        let formulation = format!("formulation = \"{formulation}\"");
+        let text = block("plane-strain", "", &formulation, beam, stages, IMPLICIT);
+        let text = varied(&text, &[With("materials.m.poisson", "0.4999")]);
         let (_, record) = simulate(&text);
         displacements(&record, |x| x[0] == 10.0 && x[1] == 0.0)[0].1[1]
     };
@@ -283,10 +290,10 @@ fn b_bar_bears_incompressible_bending_that_locks_the_standard_element() {
 
 #[test]
 fn a_plan_says_which_bodies_are_not_linear_and_takes_the_full_path() {
-    let text = cylinders("auto", "quad4").replacen("material = \"m\"", "material = \"p\"", 1).replace(
-        "[bodies.A]",
-        "[materials.p]\nyoung = \"10 GPa\"\npoisson = 0.25\nplasticity = { yield = \"1 GPa\", hardening = \"perfect\" }\n[bodies.A]",
-    );
+    let plastic =
+        r#"{ young = "10 GPa", poisson = 0.25, plasticity = { yield = "1 GPa", hardening = "perfect" } }"#;
+    let text =
+        varied(&cylinders("auto", "quad4"), &[With("bodies.A.material", "p"), Add("materials.p", plastic)]);
     let plan = planned(&text);
     let summary = plan.summary();
     assert!(summary.path.contains("full: in body `A` its material is not elastic"), "{}", summary.path);
@@ -308,7 +315,7 @@ fn the_thick_walled_cylinder_yields_from_the_inside() {
         nodes.iter().zip(u).find(|(x, _)| x[0] > 0.2 - 1e-12).unwrap().1[0]
     };
     // Below the yield pressure Lame's solution.
-    let (_, elastic) = simulate(&text.replace("180 MPa", "100 MPa"));
+    let (_, elastic) = simulate(&varied(text, &[With("stages[0].conditions[2].pressure.to", "100 MPa")]));
     let lame = 2.0 * 100e6 * a * a * b * (1.0 - poisson * poisson) / (young * (b * b - a * a));
     close(outer(&elastic, 0), lame, 1e-6);
     assert!(outer(&elastic, 1).abs() < 1e-9 * lame);
@@ -378,6 +385,6 @@ fn forward_steps_of_plastic_bodies_in_contact_reach_the_implicit_traction() {
         assert!(planned(text).summary().path.starts_with("full"));
         report.results[0].mean_normal_traction
     };
-    let implicit = LAYERS.replace("static-explicit", "implicit");
+    let implicit = varied(LAYERS, &[With("time.stepper", "implicit")]);
     close(mean(LAYERS), mean(&implicit), 1e-3);
 }

@@ -1,18 +1,14 @@
 //! The command line: exit codes, messages, and what is left behind.
 #![allow(clippy::disallowed_methods)]
 
+use crate::common::{SANDWICH, coarse_sandwich as coarse, varied};
+use asperity_vary::Change::{Add, With};
+use asperity_vary::SceneText;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const SANDWICH: &str = include_str!("../../../../scenes/sandwich.toml");
-
 fn asperity(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_asperity")).current_dir(folder).args(arguments).output().unwrap()
-}
-
-/// A coarse sandwich, so that the tests are quick.
-fn coarse() -> String {
-    SANDWICH.replace("1.25 mm", "5 mm").replace("1 nm", "20 nm")
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -136,7 +132,8 @@ fn check_prints_the_plan_and_writes_nothing() {
 #[test]
 fn a_bad_scene_is_refused_with_its_line_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("s.toml"), coarse().replace("44.8 GPa", "-44.8 GPa")).unwrap();
+    let negative = varied(&coarse(), &[With("materials.granite.young", "-44.8 GPa")]);
+    std::fs::write(folder.path().join("s.toml"), negative).unwrap();
     let output = asperity(folder.path(), &["run", "s.toml"]);
     assert_eq!(output.status.code(), Some(1));
     let line = SANDWICH.lines().position(|l| l.contains("44.8 GPa")).unwrap() + 1;
@@ -159,11 +156,11 @@ fn an_output_directory_that_cannot_be_written_is_named_before_anything_is_comput
 fn a_run_that_cannot_go_on_keeps_its_last_good_state_and_says_so() {
     // The law weakens by sigma (b - a)/L = 2e13 Pa/m, twenty times the stiffness of the blocks: quasi-static equilibrium
     // ceases to exist when slip begins.
-    let weak = coarse().replace(
-            r#"law = { kind = "rate", form = "regularised", mu0 = 0.6, a = 0.01, v_ref = "1e-3 mm/s" }"#,
-            r#"law = { kind = "rate-and-state", evolution = "slip", mu0 = 0.6, a = 0.005, b = 0.2, l = "0.1 um", v_ref = "1e-3 mm/s", v_initial = "1e-6 mm/s" }"#,
+    let law = r#"{ kind = "rate-and-state", evolution = "slip", mu0 = 0.6, a = 0.005, b = 0.2, l = "0.1 um", v_ref = "1e-3 mm/s", v_initial = "1e-6 mm/s" }"#;
+    let weak = varied(
+        &coarse(),
+        &[With("interfaces.fault.law", law), Add("interfaces.fault.under_resolved", "allow")],
     );
-    let weak = weak.replace("enforcement = {", "under_resolved = \"allow\"\nenforcement = {");
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("s.toml"), weak).unwrap();
     let output = asperity(folder.path(), &["run", "s.toml"]);
@@ -226,7 +223,19 @@ fn a_bad_output_directory_of_a_spring_slider_is_named_before_anything_is_compute
 fn a_block_that_friction_cannot_hold_stops_at_its_limit_with_that_state_in_the_files() {
     let folder = tempfile::tempdir().unwrap();
     let scene = include_str!("../../../../verification/cases/contact_hard/scene.toml");
-    std::fs::write(folder.path().join("s.toml"), scene.replace("0.5 MPa", "0.55 MPa")).unwrap();
+    // The shear tractions of the sides, which balance.
+    let more = [
+        ("[0].traction[0].to", "0.55 MPa"),
+        ("[1].traction[1].to", "0.55 MPa"),
+        ("[2].traction[1].to", "-0.55 MPa"),
+        ("[3].traction[1].to", "0.55 MPa"),
+        ("[4].traction[1].to", "-0.55 MPa"),
+    ];
+    let beyond = |scene: SceneText, (path, value): (&str, &str)| {
+        scene.with(&format!("stages[1].conditions{path}"), value)
+    };
+    let scene = more.into_iter().fold(SceneText::new(scene), beyond).text().unwrap();
+    std::fs::write(folder.path().join("s.toml"), scene).unwrap();
     let output = asperity(folder.path(), &["run", "s.toml"]);
     assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
     let told = text(&output.stderr);

@@ -2,6 +2,9 @@
 #![allow(clippy::disallowed_methods)]
 #![cfg(unix)]
 
+use crate::common::{SANDWICH, coarse_sandwich, told, varied};
+use asperity_vary::Change::With;
+use asperity_vary::SceneText;
 use serde_json::Value;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -9,7 +12,6 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 const SLIDER: &str = include_str!("../../../../scenes/spring-slider.toml");
-const SANDWICH: &str = include_str!("../../../../scenes/sandwich.toml");
 
 fn command(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_asperity"));
@@ -24,12 +26,6 @@ fn run(folder: &Path, arguments: &[&str]) -> Output {
 fn succeeds(folder: &Path, arguments: &[&str]) {
     let output = run(folder, arguments);
     assert!(output.status.success(), "{arguments:?}: {}", told(&output));
-}
-
-/// Standard error without the breaks of lines that the renderer makes.
-fn told(output: &Output) -> String {
-    let text = String::from_utf8_lossy(&output.stderr).replace(['\n', '│', '×'], " ");
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// A run that is refused for these reasons, and changes nothing.
@@ -97,8 +93,7 @@ fn the_result_of_another_scene_is_not_replaced_unless_that_is_asked_for() {
     let folder = scene(SLIDER);
     let folder = folder.path();
     succeeds(folder, &["s.toml", "--out", "result"]);
-    let title = SLIDER.lines().find(|l| l.starts_with("title")).unwrap();
-    fs::write(folder.join("s.toml"), SLIDER.replace(title, "title = \"another\"")).unwrap();
+    fs::write(folder.join("s.toml"), varied(SLIDER, &[With("title", "another")])).unwrap();
     refused(folder, &["s.toml", "--out", "result"], &["result of another scene", "--force"]);
     // A file elsewhere with the same title.
     fs::create_dir(folder.join("elsewhere")).unwrap();
@@ -134,8 +129,12 @@ fn a_run_that_was_killed_is_kept_as_the_one_before() {
     let folder = folder.path();
     succeeds(folder, &["s.toml"]);
     let path = folder.join("out/s/report.json");
-    let killed = fs::read_to_string(&path).unwrap().replacen("\"completed\"", "\"running\"", 1);
-    fs::write(&path, killed).unwrap();
+    let kill = || {
+        let mut report: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+        report["status"] = "running".into();
+        fs::write(&path, report.to_string()).unwrap();
+    };
+    kill();
     succeeds(folder, &["s.toml"]);
     assert_eq!(report(&folder.join("out/s.previous"))["status"], "running");
     // One that had computed nothing takes the place of nothing.
@@ -146,7 +145,7 @@ fn a_run_that_was_killed_is_kept_as_the_one_before() {
             fs::remove_file(file).unwrap();
         }
     }
-    fs::write(&path, fs::read_to_string(&path).unwrap().replacen("\"completed\"", "\"running\"", 1)).unwrap();
+    kill();
     fs::write(folder.join("out/s.previous/report.json"), fs::read(&path).unwrap()).unwrap();
     let kept = everything(&folder.join("out/s.previous"));
     succeeds(folder, &["s.toml"]);
@@ -193,7 +192,7 @@ const FAULT: &str = include_str!("../../../../verification/cases/fault_turning/s
 
 #[test]
 fn whatever_runs_leave_is_known_to_be_theirs() {
-    let coarse = SANDWICH.replace("1.25 mm", "5 mm").replace("1 nm", "20 nm");
+    let coarse = coarse_sandwich();
     let turning =
         format!("{FAULT}\n[output]\nbodies = true\nstations.main = [[0, \"0.5 km\", \"0.5 km\"]]\n");
     for text in [&coarse, SLIDER, include_str!("../../../../scenes/cook.toml"), &turning] {
@@ -216,8 +215,8 @@ fn grown(child: &mut Child, file: &Path, size: u64) {
 
 #[test]
 fn a_signal_ends_runs_of_bodies_and_sliders_with_what_was_computed() {
-    let fine = SANDWICH.replace("1 nm", "0.01 nm");
-    let long = SLIDER.replace("stop_after = 10", "stop_after = 100000").replace("4000 s", "1e9 s");
+    let fine = varied(SANDWICH, &[With("time.tolerance", "0.01 nm")]);
+    let long = varied(SLIDER, &[With("events.stop_after", "100000"), With("time.end", "1e9 s")]);
     let bodies = (&fine, "probes/fault.csv", "interrupted: a signal asked for it in stage");
     for (text, file, said) in [bodies, (&long, "history/block.csv", "interrupted: a signal asked for it at")]
     {
@@ -263,7 +262,8 @@ fn a_closed_or_full_stream_does_not_end_a_run() {
 
 #[test]
 fn an_error_far_along_a_line_is_shown() {
-    let folder = scene(&SLIDER.replace("title = ", &format!("\"{}\" = ", "x".repeat(70_000))));
+    let far = SceneText::new(SLIDER).renamed("title", &"x".repeat(70_000)).text().unwrap();
+    let folder = scene(&far);
     let output = run(folder.path(), &["s.toml"]);
     assert_eq!(output.status.code(), Some(1), "{}", told(&output));
     let folder = scene(&format!("schema = 1\nlist = [{}oops]\n", " ".repeat(70_000)));

@@ -1,12 +1,15 @@
 //! Every file of `doubtful_scenes` is planned with one warning, where and as its first line says: `# warn: LINE:COLUMN part of the message`.
 //! Then what runs find that their models do not describe.
 
+use crate::common::{SANDWICH, varied};
 use asperity_driver::plan::{self, ScenePlan};
 use asperity_driver::report::{Outcome, RunReport, Stop};
 use asperity_driver::run;
 use asperity_driver::scene;
 use asperity_driver::warning::{Place, Warning};
 use asperity_output::Recorder;
+use asperity_vary::Change::{Add, With, WithOrSame, Without};
+use asperity_vary::SceneText;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
@@ -59,10 +62,11 @@ fn every_doubtful_scene_is_warned_of_once_at_its_place() {
 }
 
 /// The sandwich with cells of 5 mm under some 10 MPa, and a law.
-fn sandwich(law: &str, key: &str) -> RunReport {
-    let rate = "{ kind = \"rate\", form = \"regularised\", mu0 = 0.6, a = 0.01, v_ref = \"1e-3 mm/s\" }";
-    let text = include_str!("../../../../scenes/sandwich.toml").replace("1.25 mm", "5 mm");
-    let text = text.replace(rate, law).replace("enforcement = {", &format!("{key}\nenforcement = {{"));
+fn sandwich(law: &str, allowed: bool) -> RunReport {
+    let sizes = ["bodies.A.mesh.block.size", "bodies.B.mesh.block.size"].map(|path| With(path, "5 mm"));
+    let text = SceneText::new(SANDWICH).changed(&sizes).with("interfaces.fault.law", law);
+    let text = if allowed { text.add("interfaces.fault.under_resolved", "allow") } else { text };
+    let text = text.text().unwrap();
     let plan = plan::plan(&scene::read(&text).unwrap()).unwrap();
     run::run(&plan, &mut Recorder::new()).unwrap()
 }
@@ -79,7 +83,7 @@ fn an_interface_pressed_beyond_what_its_points_resolve_stops_before_it_slides() 
     let weakening = |d_c| format!("{{ kind = \"slip-weakening\", mu_s = 0.6, mu_k = 0.3, d_c = \"{d_c}\" }}");
     // Under 10 MPa 1 mm to the zone of L = 10 nm, and 3 mm to that of d_c = 0.5 um; it slides after some 5 s.
     for (law, wide) in [(ageing("10 nm"), ageing("5 um")), (weakening("0.5 um"), weakening("50 um"))] {
-        let report = sandwich(&law, "");
+        let report = sandwich(&law, false);
         let Outcome::Stopped { stage, time, reason, kind: Stop::UnderResolved { interface, position } } =
             &report.outcome
         else {
@@ -98,14 +102,14 @@ fn an_interface_pressed_beyond_what_its_points_resolve_stops_before_it_slides() 
             r.warnings.iter().filter(|w| w.message.contains("at the end of stage `press`")).count()
         };
         assert_eq!(few(&report), 1, "{:?}", report.warnings);
-        let allowed = sandwich(&law, "under_resolved = \"allow\"");
+        let allowed = sandwich(&law, true);
         assert!(
             !matches!(allowed.outcome, Outcome::Stopped { kind: Stop::UnderResolved { .. }, .. }),
             "{:?}",
             allowed.outcome
         );
         assert_eq!(few(&allowed), 1);
-        let resolved = sandwich(&wide, "");
+        let resolved = sandwich(&wide, false);
         assert_eq!(
             (resolved.outcome.clone(), few(&resolved)),
             (Outcome::Completed, 0),
@@ -126,9 +130,11 @@ fn points_resolve_an_interface_up_to_the_normal_traction_of_the_published_length
         ),
     ] {
         let text = file("interface_few_points.toml");
-        let from = text.find("law = ").unwrap();
-        let to = from + text[from..].find('\n').unwrap();
-        let text = text.replace(&text[from..to], &format!("under_resolved = \"allow\"\nlaw = {law}"));
+        let text = SceneText::new(&text)
+            .with("interfaces.gouge.law", &law)
+            .add("interfaces.gouge.under_resolved", "allow")
+            .text()
+            .unwrap();
         let plan::AnyPlan::Two(plan) = plan::plan(&scene::read(&text).unwrap()).unwrap() else {
             panic!("a plane scene")
         };
@@ -146,35 +152,43 @@ fn found(text: &str) -> Vec<String> {
 }
 
 fn bar(strain: &str, to: &str) -> String {
-    file("tolerance_without_interface.toml")
-        .replace("\"1 mm\"", to)
-        .replace("tolerance = \"1 nm\"", "")
-        .replace("material = \"rock\"", &format!("material = \"rock\"\nstrain = \"{strain}\""))
+    varied(
+        &file("tolerance_without_interface.toml"),
+        &[
+            With("stages[0].conditions[2].x.to", to),
+            Without("time.tolerance"),
+            Add("bodies.A.strain", strain),
+        ],
+    )
 }
 
 #[test]
 fn strain_beyond_a_few_per_cent_is_told_where_it_is_taken_as_small() {
     // A bar of 4 m drawn by 0.4 m is strained by a tenth, by 0.1 m by a fortieth.
-    let told = found(&bar("small", "\"400 mm\""));
+    let told = found(&bar("small", "400 mm"));
     assert!(told.len() == 1 && told[0].contains("body `A` is strained by 0.100 in stage `pull`"), "{told:?}");
-    assert_eq!(found(&bar("small", "\"100 mm\"")), Vec::<String>::new());
-    assert_eq!(found(&bar("finite", "\"400 mm\"")), Vec::<String>::new());
+    assert_eq!(found(&bar("small", "100 mm")), Vec::<String>::new());
+    assert_eq!(found(&bar("finite", "400 mm")), Vec::<String>::new());
 }
 
 /// Two blocks with cells of 1 m; the second is driven past the first for 50 s.
 fn driven(sliding: &str, rate: &str) -> String {
-    file("material_of_no_body.toml")
-        .replace("sliding = \"small\"", &format!("sliding = \"{sliding}\""))
-        .replace("\"-1 um/s\"", rate)
-        .replace("tolerance = \"1 nm\"", "")
+    varied(
+        &file("material_of_no_body.toml"),
+        &[
+            WithOrSame("interfaces.fault.sliding", sliding),
+            With("stages[1].conditions[1].y.rate", rate),
+            Without("time.tolerance"),
+        ],
+    )
 }
 
 #[test]
 fn a_side_dragged_off_its_partners_is_told_where_the_pairing_does_not_follow() {
-    let told = found(&driven("small", "\"-30 mm/s\""));
+    let told = found(&driven("small", "-30 mm/s"));
     assert!(told.len() == 1 && told[0].contains("interface `fault` slides by 1.49"), "{told:?}");
     assert!(told[0].contains("beyond some 1 m nodes bear on faces that they have left"), "{told:?}");
-    assert_eq!(found(&driven("small", "\"-10 mm/s\"")), Vec::<String>::new());
+    assert_eq!(found(&driven("small", "-10 mm/s")), Vec::<String>::new());
 }
 
 #[test]
@@ -191,10 +205,15 @@ fn the_start_of_an_interface_is_measured_by_either_measure() {
     // Bodies 3 mm apart; the master overhangs by 1 m at both ends, and faces 5 nodes over 4 m.
     for measure in ["node-to-point", "mortar"] {
         for sliding in ["small", "finite"] {
-            let text = file("material_of_no_body.toml")
-                .replace("node-to-point", measure)
-                .replace("\"small\"", &format!("\"{sliding}\""))
-                .replace("[\"2 m\", \"-1 m\"], max = [\"4 m\"", "[2.003, \"-1 m\"], max = [4.003");
+            let text = varied(
+                &file("material_of_no_body.toml"),
+                &[
+                    WithOrSame("interfaces.fault.measure", measure),
+                    WithOrSame("interfaces.fault.sliding", sliding),
+                    With("bodies.B.mesh.block.min[0]", "2.003"),
+                    With("bodies.B.mesh.block.max[0]", "4.003"),
+                ],
+            );
             let plan = plan::plan(&scene::read(&text).unwrap()).unwrap();
             let [start] = &plan.summary().start_gaps[..] else { panic!("one interface") };
             assert_eq!((start.points, start.facing, start.unpaired), (5, 5, 0), "{measure}, {sliding}");
@@ -210,7 +229,7 @@ fn the_start_of_an_interface_is_measured_by_either_measure() {
 #[test]
 fn half_a_side_without_partner_is_counted() {
     // The master ends in the middle of the slave: nodes at 0 and 1 m have no partner, that at 2 m is at the rim.
-    let text = file("material_of_no_body.toml").replace("[\"2 m\", \"-1 m\"]", "[\"2 m\", \"2 m\"]");
+    let text = varied(&file("material_of_no_body.toml"), &[With("bodies.B.mesh.block.min[1]", "2 m")]);
     let plan = plan::plan(&scene::read(&text).unwrap()).unwrap();
     let start = &plan.summary().start_gaps[0];
     assert_eq!((start.facing, start.unpaired), (3, 2));

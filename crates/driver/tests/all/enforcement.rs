@@ -1,9 +1,10 @@
 //! Multipliers and bonded interfaces end to end: scenes with closed forms.
 
-use crate::common::{close, displacements, fields, planned, simulate};
+use crate::common::{close, displacements, fields, planned, simulate, varied};
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::run;
 use asperity_output::Recorder;
+use asperity_vary::Change::With;
 
 /// Young's modulus over the element size of the upper block \[Pa/m\].
 const UNIT: f64 = 4000.0;
@@ -360,7 +361,9 @@ fn a_tied_interface_keeps_the_gap_it_was_tied_at() {
     let text = |law| {
         let blocks =
             Blocks { enforcement: MIXED, law, measure: "mortar", conditions: PULL, ..Blocks::default() };
-        blocks.text().replace("min = [0, 1], max = [1, 2]", "min = [0, 1.001], max = [1, 2.001]")
+        let box_ = "bodies.upper.mesh.block";
+        let [min, max] = ["min[1]", "max[1]"].map(|end| format!("{box_}.{end}"));
+        varied(&blocks.text(), &[With(&min, "1.001"), With(&max, "2.001")])
     };
     let (_, record) = simulate(&text(TIED));
     normal(&record).iter().for_each(|p| close(*p, -EXACT, 1e-9));

@@ -1,19 +1,22 @@
 //! Faults through cycles: the community's benchmark BP1 on coarse meshes.
 
+use crate::common::varied;
 use asperity_cycles::operator::{Both, Dense, Operator};
 use asperity_cycles::{Balance, Event, Moment};
 use asperity_driver::fault::{Plan, Report};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Method, Outcome};
+use asperity_vary::Change::{With, WithOrSame, Without};
+use asperity_vary::SceneText;
+use asperity_vary::bp1::{AT_CREEP, BP1, sized};
 
 const YEAR: f64 = 365.25 * 86400.0;
 const PLATE: f64 = 1e-9;
-const BP1: &str = include_str!("../../../../scenes/bp1.toml");
 
 /// BP1 with cells of this size \[m\] where the fault is locked.
 fn bp1(size: f64) -> Plan {
-    let text = BP1.replace("156.25 m", &format!("{size} m"));
+    let text = sized(SceneText::new(BP1), size, AT_CREEP).text().unwrap();
     match plan_scene(&scene::read(&text).unwrap()).unwrap() {
         ScenePlan::Faults(plan) => *plan,
         ScenePlan::Bodies(_) => panic!("the scene has faults"),
@@ -86,16 +89,17 @@ fn friction_balances_what_the_bodies_exert() {
 
 /// BP6 by its lower half with cells of 1 km, and this flux of fluid \[m/s\].
 fn injected(flux: f64) -> Plan {
-    let text = include_str!("../../../../scenes/bp6-a.toml")
-        .replace("[\"0 km\", \"20 km\"], ", "")
-        .replace(
-            "[[\"0 km\", \"500 m\"], [\"13 km\", \"100 m\"], [\"27 km\", \"100 m\"], [\"40 km\", \"500 m\"]]",
-            "\"1 km\"",
-        )
-        .replace("max = [\"500 km\", \"500 km\"]", "max = [\"500 km\", \"0 km\"]")
-        .replace("at = \"20 km\"", "at = \"0 km\"")
-        .replace(", \"20 km\", \"20.5 km\", \"21 km\", \"21.5 km\", \"22.5 km\", \"25 km\"]", "]")
-        .replace("1.25e-6 m/s", &format!("{flux:e} m/s"));
+    let text = varied(
+        include_str!("../../../../scenes/bp6-a.toml"),
+        &[
+            Without("bodies.rock.mesh.fault.trace[0]"),
+            With("bodies.rock.mesh.fault.spacing", "1 km"),
+            With("bodies.rock.mesh.fault.max[1]", "0 km"),
+            With("faults.main.injection.at", "0 km"),
+            With("output.stations.main", r#"["15 km", "17.5 km", "18.5 km", "19 km", "19.5 km"]"#),
+            WithOrSame("faults.main.injection.flux", &format!("{flux:e} m/s")),
+        ],
+    );
     match plan_scene(&scene::read(&text).unwrap()).unwrap() {
         ScenePlan::Faults(plan) => *plan,
         ScenePlan::Bodies(_) => panic!("the scene has faults"),

@@ -1,5 +1,6 @@
 //! Sides, segments, traces and supports of faults: what must not matter, what is refused and what is warned of.
 
+use crate::common::varied;
 use asperity_cycles::Moment;
 use asperity_driver::diagnostic;
 use asperity_driver::diagnostic::Diagnostic;
@@ -7,6 +8,8 @@ use asperity_driver::fault::Plan;
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Outcome};
+use asperity_vary::Change::With;
+use asperity_vary::SceneText;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -156,15 +159,18 @@ fn of_lines(kinematics: &str, lines: &[(&str, Vec<Vec<usize>>)], more: &str) -> 
         );
     }
     parts += more;
-    // Younger states than those of steady sliding, which would leave that unstable balance by rounding alone.
-    let parts = parts.replace("v_initial = \"1e-9 m/s\"", "v_initial = \"1e-8 m/s\"");
     let moves = if kinematics == "antiplane" { "z" } else { "x = 0, y" };
     let conditions = format!(
         "{{ set = \"B.left\", {moves} = {{ rate = \"-0.5e-9 m/s\" }} }}, {{ set = \"B.right\", {moves} = {{ rate = \"0.5e-9 m/s\" }} }}"
     );
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("grid.msh"), grid.file(&faces)).unwrap();
-    planned(&text(kinematics, &parts, &conditions), folder.path())
+    // Younger states than those of steady sliding, which would leave that unstable balance by rounding alone.
+    let younger = |scene: SceneText, (name, _): &(&str, _)| {
+        scene.with(&format!("faults.{name}.law.v_initial"), "1e-8 m/s")
+    };
+    let scene = SceneText::new(&text(kinematics, &parts, &conditions));
+    planned(&lines.iter().fold(scene, younger).text().unwrap(), folder.path())
 }
 
 /// Points of a plan in the order of their coordinates.
@@ -365,8 +371,8 @@ fn nodes_of_one_side_alone_are_refused_whichever_side_it_is() {
 
 #[test]
 fn sides_of_one_set_of_nodes_are_refused_with_words() {
-    let parts = blocks(10, 10, 20, false).replace("plus = \"B.left\"", "plus = \"A.right\"");
-    let error = planned(&text("antiplane", &parts, SIDES), Path::new(".")).unwrap_err();
+    let text = text("antiplane", &blocks(10, 10, 20, false), SIDES);
+    let error = planned(&varied(&text, &[With("faults.main.plus", "A.right")]), Path::new(".")).unwrap_err();
     assert!(error.message.contains("both sides of fault `main` are the same nodes"), "{error}");
 }
 
@@ -453,19 +459,17 @@ fn loads_and_creep_against_the_sense_of_slip_are_warned_of() {
     let creep = "creep = { beyond = \"15 km\", rate = \"1e-9 m/s\" }\n";
     let parts = blocks(10, 10, 20, false) + creep;
     assert_eq!(warnings(&text("antiplane", &parts, SIDES)), []);
-    let against = SIDES.replace("-0.5e-9", "5e-9").replace("\"0.5e-9", "\"-5e-9");
-    let found = warnings(&text("antiplane", &parts, &against));
+    let with = text("antiplane", &parts, SIDES);
+    let against = ["5e-9 m/s", "-5e-9 m/s"];
+    let [left, right] = [0, 1].map(|k| format!("stages[0].conditions[{k}].z.rate"));
+    let found = warnings(&varied(&with, &[With(&left, against[0]), With(&right, against[1])]));
     assert!(
         found.len() == 1 && found[0].0.contains("the loads drive fault `main` against `rate`"),
         "{found:?}"
     );
     assert!(found[0].0.contains("the plus side `B.left` slip along (0.000, 0.000, 1.000)"), "{found:?}");
     assert_eq!(found[0].1, "\"1e-9 m/s\"");
-    let found = warnings(&text(
-        "antiplane",
-        &parts.replace("rate = \"1e-9 m/s\" }", "rate = \"-1e-12 m/s\" }"),
-        SIDES,
-    ));
+    let found = warnings(&varied(&with, &[With("faults.main.creep.rate", "-1e-12 m/s")]));
     assert!(found.len() == 1 && found[0].0.contains("fault `main` creeps against its `rate`"), "{found:?}");
     assert_eq!(found[0].1, "\"-1e-12 m/s\"");
 }
@@ -501,11 +505,9 @@ fn listric(segments: usize, more: &str) -> Plan {
          [faults.main]\nminus = \"B.fault.minus\"\nplus = \"B.fault.plus\"\n{LAW}",
         trace.join(", ")
     );
-    let parts = parts
-        .replace("rate = \"1e-9 m/s\"\n", "rate = \"-1e-9 m/s\"\n")
-        .replace("l = \"30 mm\"", "l = \"60 mm\"");
     let conditions = r#"{ set = "B.left", x = { rate = "-0.5e-9 m/s" }, y = 0 }, { set = "B.right", x = { rate = "0.5e-9 m/s" }, y = 0 }"#;
-    plan(&text("plane-strain", &parts, conditions))
+    let text = text("plane-strain", &parts, conditions);
+    plan(&varied(&text, &[With("faults.main.rate", "-1e-9 m/s"), With("faults.main.law.l", "60 mm")]))
 }
 
 #[test]

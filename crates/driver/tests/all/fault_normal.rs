@@ -1,13 +1,15 @@
 //! Normal tractions of faults: floors, tractions that stay, initial stress, and how finely points stand beside lengths of friction.
 
+use crate::common::varied;
 use asperity_cycles::{Balance, Moment, Run};
 use asperity_driver::diagnostic::Diagnostic;
 use asperity_driver::fault::{Plan, Report};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Outcome};
-use asperity_vary::Change::{Add, With, Without};
+use asperity_vary::Change::{self, Add, With, Without};
 use asperity_vary::SceneText;
+use asperity_vary::bp1::{AT_CREEP, BP1, sized};
 
 /// A fault of this trace below a free surface, with these keys, that plates draw along the first leg of the trace in the sense of `sign`.
 fn dipping(trace: &str, direction: [f64; 2], sign: f64, keys: &str) -> String {
@@ -190,9 +192,9 @@ fn where_slip_presses_nothing_it_does_not_matter_whether_it_may() {
 
 #[test]
 fn an_initial_stress_resolves_onto_the_fault_as_on_mohrs_circle() {
-    let text = dipping(DIP_60, [0.5, -(0.75_f64.sqrt())], 1.0, "").replace(
-        "material = \"rock\"\n",
-        "material = \"rock\"\ninitial_stress = [\"-100 MPa\", \"-50 MPa\", \"5 MPa\"]\n",
+    let text = varied(
+        &dipping(DIP_60, [0.5, -(0.75_f64.sqrt())], 1.0, ""),
+        &[Add("bodies.crust.initial_stress", "[\"-100 MPa\", \"-50 MPa\", \"5 MPa\"]")],
     );
     let plan = planned(&text).unwrap();
     let (mean, half, shear) = (-75e6, -25e6, 5e6);
@@ -220,11 +222,10 @@ fn an_initial_stress_resolves_onto_the_fault_as_on_mohrs_circle() {
 
 #[test]
 fn points_are_counted_along_the_cohesive_zone_and_few_are_warned_of_or_refused() {
-    let bp1 = |size: &str, key: &str| {
-        let text = include_str!("../../../../scenes/bp1.toml").replace("156.25 m", size);
-        planned(&text.replace("damping = \"radiation\"", &format!("damping = \"radiation\"\n{key}")))
+    let bp1 = |size: f64, keys: &[Change<'_>]| {
+        planned(&sized(SceneText::new(BP1), size, AT_CREEP).changed(keys).text().unwrap())
     };
-    let plan = bp1("156.25 m", "").unwrap();
+    let plan = bp1(156.25, &[]).unwrap();
     let zone = plan.resolution[0].cohesive_zone;
     // G L/(b f_n), with two points to a cell of second order; cells are at most as large as asked for.
     let length = 32.038_120_32e9 * 0.008 / (0.015 * 50e6);
@@ -233,11 +234,11 @@ fn points_are_counted_along_the_cohesive_zone_and_few_are_warned_of_or_refused()
         "{zone:?}"
     );
     assert!(plan.warnings.is_empty(), "{:?}", plan.warnings);
-    let few = bp1("312.5 m", "").unwrap();
+    let few = bp1(312.5, &[]).unwrap();
     assert!(few.warnings.len() == 1 && few.warnings[0].message.contains("2.1"), "{:?}", few.warnings);
-    let refused = bp1("781.25 m", "").unwrap_err();
+    let refused = bp1(781.25, &[]).unwrap_err();
     assert!(refused.message.contains("cohesive zone") && refused.help.unwrap().contains("under_resolved"));
-    assert_eq!(bp1("781.25 m", "under_resolved = \"allow\"").unwrap().warnings.len(), 1);
+    assert_eq!(bp1(781.25, &[Add("faults.main.under_resolved", "allow")]).unwrap().warnings.len(), 1);
 }
 
 /// What weight refuses, each with the remedy that it names.

@@ -1,10 +1,12 @@
 //! Faults that open: tractions balance, energy closes, and what never opens is as it was.
 
+use crate::common::varied;
 use asperity_cycles::{Balance, Layout, Moment, Run};
 use asperity_driver::fault::{Plan, Report};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::{Control, Outcome};
+use asperity_vary::Change::{Add, With, Without};
 
 /// A fault below a free surface that fluid opens; it closes when the injection ends.
 const INJECTED: &str = include_str!("../../../../scenes/fault-opening.toml");
@@ -99,7 +101,7 @@ fn a_fault_that_fluid_opens_balances_and_closes_when_the_injection_ends() {
 /// Nothing slips under so high a floor: what the opening takes it gives back.
 #[test]
 fn an_opening_without_slip_gives_back_what_it_takes() {
-    let plan = planned(&INJECTED.replace("\"0.1 MPa\"", "\"20 MPa\""));
+    let plan = planned(&varied(INJECTED, &[With("faults.main.normal_floor", "20 MPa")]));
     let found = followed(&plan);
     let energy = &found.report.energy;
     assert!(found.most >= 3 && found.report.openings[0].open == 0);
@@ -120,18 +122,22 @@ fn a_shallow_thrust_runs_through_events_that_open_it() {
 
 #[test]
 fn a_fault_that_never_opens_is_the_same_to_the_last_bit_as_one_that_may_not() {
-    let deep = INJECTED.replace("normal = \"10 MPa\"", "normal = \"100 MPa\"").replace("4 MPa", "40 MPa");
+    let deep =
+        varied(INJECTED, &[With("faults.main.normal", "100 MPa"), With("faults.main.shear", "40 MPa")]);
     let end = |text: &str| {
         let plan = planned(text);
         plan.problem.run(&plan.problem.settings, &mut |_: &Moment<'_>| Control::Go)
     };
-    let (with, without) = (end(&deep), end(&deep.replace("opening = true\n", "")));
+    let (with, without) = (end(&deep), end(&varied(&deep, &[Without("faults.main.opening")])));
     assert_eq!((with.unknowns, with.counts), (without.unknowns, without.counts));
 }
 
 #[test]
 fn sides_of_a_fault_lie_as_far_apart_as_it_is_open() {
-    let plan = planned(&format!("{INJECTED}bodies = true\n").replace("until = \"5 d\"", "until = \"20 d\""));
+    let plan = planned(&varied(
+        INJECTED,
+        &[Add("output.bodies", "true"), With("faults.main.injection.until", "20 d")],
+    ));
     let found = followed(&plan);
     let end = plan.problem.fault.pressed(found.run.at, &found.run.unknowns, &mut Default::default());
     let slip = &found.run.unknowns[Layout::of(&plan.problem.fault).slip()];
@@ -157,7 +163,7 @@ fn the_plan_says_what_opens_and_counts_its_memory() {
         text.contains("that slide and open") && text.contains("the fault opens where they would pull"),
         "{text}"
     );
-    let closed = planned(&INJECTED.replace("opening = true\n", ""));
+    let closed = planned(&varied(INJECTED, &[Without("faults.main.opening")]));
     let opening = plan.problem.fault.opening.as_ref().unwrap();
     let n = plan.points.len();
     assert_eq!((opening.points().len(), opening.bytes()), (n, 2 * n * n * size_of::<f64>()));
@@ -168,11 +174,13 @@ fn the_plan_says_what_opens_and_counts_its_memory() {
 /// The sides pull a fault apart and shear it by rounding only.
 #[test]
 fn loads_that_only_pull_do_not_drive_a_fault_against_its_rate() {
-    let trace = "trace = [[\"0 km\", \"2 km\"], [\"0 km\", \"-2 km\"]]";
-    let pulled = INJECTED
-        .replace("trace = [[\"0 km\", \"0 km\"], [\"2 km\", \"-3.4641016 km\"]]", trace)
-        .replace("\"0 km\"], growth", "\"20 km\"], growth")
-        .replace("right\", x = 0 }", "right\", x = { rate = \"1e-9 m/s\" } }");
-    assert!(pulled.contains(trace) && pulled.contains("x = { rate"));
+    let pulled = varied(
+        INJECTED,
+        &[
+            With("bodies.crust.mesh.fault.trace", "[[\"0 km\", \"2 km\"], [\"0 km\", \"-2 km\"]]"),
+            With("bodies.crust.mesh.fault.max[1]", "20 km"),
+            With("stages[0].conditions[1].x", "{ rate = \"1e-9 m/s\" }"),
+        ],
+    );
     assert!(planned(&pulled).warnings.is_empty(), "{:?}", planned(&pulled).warnings);
 }

@@ -2,11 +2,13 @@
 #![allow(clippy::disallowed_methods)]
 
 use crate::common::cycles::SCENE;
+use crate::common::varied;
 use asperity_cycles::{Event, Moment, Run, Watcher, resume};
 use asperity_driver::fault::{Files, Plan, Position, Report, draw};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
 use asperity_ode::Control;
+use asperity_vary::Change::{Add, With, WithOrSame};
 use std::fs;
 use std::path::Path;
 
@@ -98,16 +100,20 @@ fn rows_do_not_follow_steps_where_events_begin_at_slow_rates() {
     let folder = tempfile::tempdir().unwrap();
     let count = |above: &str, name: &str| {
         // Four hundred years, with the first events.
-        let text = SCENE.replace("\"1e-3 m/s\"", above).replace("\"3000 yr\"", "\"400 yr\"");
-        let plan = plan(&text.replace("stop_after = 3", "stop_after = 1000"));
+        let changes = [
+            WithOrSame("events.above", above),
+            With("stages[0].duration", "400 yr"),
+            With("events.stop_after", "1000"),
+        ];
+        let plan = plan(&varied(SCENE, &changes));
         let out = folder.path().join(name);
         fs::create_dir(&out).unwrap();
         let (seen, _) = run(&plan, &out);
         let profiles = fs::read_to_string(out.join("slip_profiles.csv")).unwrap().lines().count();
         (rates(&out.join("largest_rate.csv"), 1).len() as f64, profiles as f64, seen.steps as f64)
     };
-    let (rows, _, _) = count("\"1e-3 m/s\"", "fast");
-    let (slow, profiles, steps) = count("\"1.2e-9 m/s\"", "slow");
+    let (rows, _, _) = count("1e-3 m/s", "fast");
+    let (slow, profiles, steps) = count("1.2e-9 m/s", "slow");
     // What makes rows due does not depend on what counts as an event.
     assert!((slow / rows - 1.0).abs() < 0.1, "{slow} {rows}");
     assert!(profiles < 0.25 * steps, "{profiles} profiles of {steps} steps");
@@ -115,7 +121,7 @@ fn rows_do_not_follow_steps_where_events_begin_at_slow_rates() {
 
 #[test]
 fn files_stay_below_their_largest_size_and_the_run_says_so() {
-    let text = SCENE.replace("[output]\n", "[output]\nlargest_file = \"20 kB\"\n");
+    let text = varied(SCENE, &[Add("output.largest_file", "20 kB")]);
     let (plan, folder) = (plan(&text), tempfile::tempdir().unwrap());
     let (seen, run) = run(&plan, folder.path());
     for size in sizes(folder.path()).into_iter().chain(sizes(&folder.path().join("stations"))) {
@@ -136,7 +142,7 @@ fn files_stay_below_their_largest_size_and_the_run_says_so() {
 #[test]
 fn no_number_of_the_files_is_minus_zero() {
     let (plan, folder) =
-        (plan(&SCENE.replace("stop_after = 3", "stop_after = 1")), tempfile::tempdir().unwrap());
+        (plan(&varied(SCENE, &[With("events.stop_after", "1")])), tempfile::tempdir().unwrap());
     run(&plan, folder.path());
     let mut files =
         vec!["largest_rate.csv".to_string(), "slip_profiles.csv".into(), "rate_profiles.csv".into()];
@@ -153,12 +159,11 @@ fn no_number_of_the_files_is_minus_zero() {
 fn time_above_the_rate_does_not_depend_on_the_rate_that_ends_events() {
     let folder = tempfile::tempdir().unwrap();
     let of = |below: &str, name: &str| -> Vec<Event> {
-        let plan =
-            plan(&SCENE.replace("above = \"1e-3 m/s\"", &format!("above = \"1e-3 m/s\"\nbelow = {below}")));
+        let plan = plan(&varied(SCENE, &[Add("events.below", below)]));
         fs::create_dir(folder.path().join(name)).unwrap();
         run(&plan, &folder.path().join(name)).1.catalogue.events().to_vec()
     };
-    let (wide, narrow) = (of("\"1e-4 m/s\"", "wide"), of("\"0.9999e-3 m/s\"", "narrow"));
+    let (wide, narrow) = (of("1e-4 m/s", "wide"), of("0.9999e-3 m/s", "narrow"));
     for (w, n) in wide.iter().zip(&narrow) {
         let whole = |e: &Event| e.end.since(&e.onset);
         // With one rate for both the duration is the time above it, but for the ten-thousandth between the two.

@@ -1,12 +1,12 @@
 //! Interfaces that become unstable: a run stops there, says so, and keeps the last good state; stable neighbours run to their end.
 
-use crate::common::planned;
+use crate::common::{SANDWICH, planned};
 use asperity_driver::report::{Outcome, RunReport, Stop};
 use asperity_driver::run;
 use asperity_output::Recorder;
+use asperity_vary::Change::{Add, With};
+use asperity_vary::{Change, SceneText};
 
-const SCENE: &str = include_str!("../../../../scenes/sandwich.toml");
-const RATE: &str = "{ kind = \"rate\", form = \"regularised\", mu0 = 0.6, a = 0.01, v_ref = \"1e-3 mm/s\" }";
 /// Largest a f_n/eta of the scenes \[m/s\]: 0.005, peaks of normal traction at corners under ten times 40 MPa, eta of granite with 2700 kg/m^3.
 const BOUND: f64 = 0.005 * 400e6 / 3.6e6;
 
@@ -19,8 +19,9 @@ struct Sandwich {
     duration: &'static str,
     explicit: bool,
     mortar: bool,
-    enforcement: &'static str,
-    time: &'static str,
+    enforcement: &'static [Change<'static>],
+    /// Changes of the steps.
+    time: &'static [Change<'static>],
 }
 
 impl Sandwich {
@@ -32,28 +33,28 @@ impl Sandwich {
             duration: "50 s",
             explicit: false,
             mortar: false,
-            enforcement: "kind = \"penalty\"",
-            time: "",
+            enforcement: &[],
+            time: &[],
         }
     }
 
     fn text(&self) -> String {
         // Where equilibrium ends is asked for, not how fronts of slip run, which some of these cells are too large for.
-        let mut text = SCENE
-            .replace("enforcement = {", "under_resolved = \"allow\"\nenforcement = {")
-            .replace(RATE, &self.law)
-            .replace("1.25 mm", self.size)
-            .replace("0.00966 mm", self.push)
-            .replace("\"50 s\"", &format!("\"{}\"", self.duration))
-            .replace("kind = \"penalty\"", self.enforcement);
+        let mut text = SceneText::new(SANDWICH)
+            .add("interfaces.fault.under_resolved", "allow")
+            .with_or_same("interfaces.fault.law", &self.law)
+            .with_or_same("bodies.A.mesh.block.size", self.size)
+            .with_or_same("bodies.B.mesh.block.size", self.size)
+            .with_or_same("stages[0].conditions[0].x.to", self.push)
+            .with_or_same("stages[1].duration", self.duration)
+            .changed(self.enforcement);
         if self.mortar {
-            text = text.replace("measure = \"node-to-point\"", "measure = \"mortar\"");
+            text = text.with("interfaces.fault.measure", "mortar");
         }
         if self.explicit {
-            text =
-                text.replace("stepper = \"implicit\"\ntolerance = \"1 nm\"", "stepper = \"static-explicit\"");
+            text = text.with("time.stepper", "static-explicit").without("time.tolerance");
         }
-        text.replace("[output]", &format!("{}\n[output]", self.time))
+        text.changed(self.time).text().unwrap()
     }
 
     fn run(&self) -> (RunReport, Recorder) {
@@ -147,10 +148,12 @@ fn unstable_scenes_stop_on_finer_cells_and_under_ten_times_the_pressure() {
 fn the_onset_does_not_depend_on_the_length_of_the_stage_or_the_settings_of_steps() {
     for explicit in [false, true] {
         let law = state("\"ageing\"", 0.005, 0.02, "0.2 um");
-        let of = |duration, time| Sandwich { duration, explicit, time, ..Sandwich::new(&law) }.onset();
-        let mut onsets = vec![of("50 s", "max_step = \"0.02 s\"")];
-        onsets.extend(["62 s", "100 s", "150 s", "200 s"].map(|duration| of(duration, "")));
-        onsets.push(of("62 s", "first_step = \"5 s\"\nmax_step = \"20 s\""));
+        let of = |duration, time: &'static [Change<'static>]| {
+            Sandwich { duration, explicit, time, ..Sandwich::new(&law) }.onset()
+        };
+        let mut onsets = vec![of("50 s", &[Add("time.max_step", "0.02 s")])];
+        onsets.extend(["62 s", "100 s", "150 s", "200 s"].map(|duration| of(duration, &[])));
+        onsets.push(of("62 s", &[Add("time.first_step", "5 s"), Add("time.max_step", "20 s")]));
         // One in a hundred: the slip of a step is up to a tenth of L, which is a hundredth of the travel.
         let worst = onsets.iter().map(|t| (t / onsets[0] - 1.0).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-2, "{onsets:?}");
@@ -181,8 +184,8 @@ fn stable_neighbours_run_to_their_end() {
 #[test]
 fn a_smallest_step_or_a_limit_of_the_scene_stops_the_run_earlier() {
     let law = state("\"ageing\"", 0.005, 0.02, "0.2 um");
-    let of = |time| Sandwich { time, ..Sandwich::new(&law) }.run().0;
-    for report in [of("min_step = \"1 ms\""), of("slip_rate_limit = \"10 um/s\"")] {
+    let of = |time: &'static [Change<'static>]| Sandwich { time, ..Sandwich::new(&law) }.run().0;
+    for report in [of(&[Add("time.min_step", "1 ms")]), of(&[Add("time.slip_rate_limit", "10 um/s")])] {
         // Steps may become too short before slip is much faster than the loads, while nothing tells yet that it will be.
         let Outcome::Stopped { kind: Stop::Instability { .. } | Stop::SmallestStep, reason, .. } =
             &report.outcome
@@ -200,7 +203,11 @@ fn a_smallest_step_or_a_limit_of_the_scene_stops_the_run_earlier() {
 fn every_enforcement_and_cell_size_names_the_instability() {
     let law = state("\"ageing\"", 0.005, 0.02, "0.2 um");
     let slip = state("\"slip\"", 0.005, 0.02, "0.2 um");
-    let enforced = ["kind = \"augmented-lagrangian\"", "kind = \"uzawa\", penetration = \"1 nm\""];
+    const KIND: &str = "interfaces.fault.enforcement.kind";
+    const MIXED: [Change<'_>; 1] = [With(KIND, "augmented-lagrangian")];
+    const UZAWA: [Change<'_>; 2] =
+        [With(KIND, "uzawa"), Add("interfaces.fault.enforcement.penetration", "1 nm")];
+    let enforced: [&[Change<'_>]; 2] = [&MIXED, &UZAWA];
     for law in [&law, &slip] {
         for size in ["5 mm", "2.5 mm", "1.25 mm"] {
             Sandwich { size, ..Sandwich::new(law) }.onset();

@@ -1,9 +1,11 @@
 //! Loads and stages end to end, against closed forms.
 
+use crate::common::{SANDWICH, varied};
 use asperity_driver::plan::{self, AnyPlan};
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::{run, scene};
 use asperity_output::Recorder;
+use asperity_vary::Change::{Push, With, Without};
 
 /// A 1 x 2 m column of E = 10 GPa, nu = 0.25, rollers at the sides and the bottom, with one more condition.
 fn column(element: &str, extra_body: &str, condition: &str) -> String {
@@ -101,12 +103,10 @@ fn an_initial_stress_in_balance_with_its_traction_moves_nothing() {
 #[test]
 fn a_released_column_springs_back_and_a_held_one_stays() {
     let stage = |last: &str| {
-        column("quad4", "", r#"{ set = "C.top", y = { to = "-1 mm" } },"#).replace(
-            "[time]",
-            &format!(
-                "[[stages]]\nname = \"after\"\nduration = 1\nsteps = 1\nconditions = [{{ set = \"C.top\", y = {last} }}]\n[time]"
-            ),
-        )
+        let column = column("quad4", "", r#"{ set = "C.top", y = { to = "-1 mm" } },"#);
+        let conditions = format!("[{{ set = \"C.top\", y = {last} }}]");
+        let after = format!("{{ name = \"after\", duration = 1, steps = 1, conditions = {conditions} }}");
+        varied(&column, &[Push("stages", &after)])
     };
     let (_, held) = simulate(&stage("\"hold\""));
     assert!(top(&held).iter().all(|u| (u + 1e-3).abs() < 1e-17));
@@ -116,24 +116,24 @@ fn a_released_column_springs_back_and_a_held_one_stays() {
 
 #[test]
 fn a_plan_models_only_what_its_scene_declares() {
-    let text = include_str!("../../../../scenes/sandwich.toml");
+    let text = SANDWICH;
     let plan_of = |text: &str| plan::plan(&scene::read(text).unwrap()).unwrap();
-    let law = r#"law = { kind = "rate", form = "regularised", mu0 = 0.6, a = 0.01, v_ref = "1e-3 mm/s" }"#;
-    assert!(text.contains(law));
     let bytes = |plan: &AnyPlan| plan.summary().state_bytes.unwrap();
     let AnyPlan::Two(velocity) = plan_of(text) else { panic!("the sandwich is plane") };
     assert!(velocity.problem.interfaces[0].law.is_some());
     assert_eq!(bytes(&AnyPlan::Two(velocity)), 0);
-    let state = text.replace(
-        law,
-        r#"law = { kind = "rate-and-state", evolution = "slip", mu0 = 0.6, a = 0.01, b = 0.005, l = "5 um", v_ref = "1e-3 mm/s", v_initial = "1e-3 mm/s" }"#,
-    );
+    let law = r#"{ kind = "rate-and-state", evolution = "slip", mu0 = 0.6, a = 0.01, b = 0.005, l = "5 um", v_ref = "1e-3 mm/s", v_initial = "1e-3 mm/s" }"#;
+    let state = varied(text, &[With("interfaces.fault.law", law)]);
     // One state variable, committed and trial, at each of 41 points.
     assert_eq!(bytes(&plan_of(&state)), 2 * 8 * 41);
-    let frictionless = text
-        .replace(law, "")
-        .replace(r#", tangential = "100 E/h""#, "")
-        .replace("frictionless = [\"fault\"]\n", "");
+    let frictionless = varied(
+        text,
+        &[
+            Without("interfaces.fault.law"),
+            Without("interfaces.fault.enforcement.tangential"),
+            Without("stages[0].frictionless"),
+        ],
+    );
     let AnyPlan::Two(plan) = plan_of(&frictionless) else { panic!("the sandwich is plane") };
     assert!(plan.problem.interfaces[0].law.is_none());
     assert_eq!(plan.problem.interfaces[0].tangential_penalty, 0.0);

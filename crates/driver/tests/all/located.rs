@@ -1,8 +1,10 @@
 //! Catalogues as seismologists exchange them, against files of real events: `catalogues/events.ndk` and `catalogues/CMTSOLUTION` are the
 //! examples that ObsPy's readers are tested with, solutions of the Global CMT project.
 
+use crate::common::varied;
 use asperity_driver::fault::located::locate;
 use asperity_output::located::{Located, Plane, Spot, Tensor, cmtsolution, quakeml};
+use asperity_vary::Change::{Add, With, Without};
 
 const NDK: &str = include_str!("../catalogues/events.ndk");
 const CMT: &str = include_str!("../catalogues/CMTSOLUTION");
@@ -234,16 +236,16 @@ fn mechanisms_in_space_follow_the_directions_the_scene_gives() {
             && (east + along * 43f64.to_radians().sin()).abs() < 1e-3
     );
     // Plus, the left side, goes up.
-    let thrust = uniform(&UPRIGHT.replace("rake = [0, 0, 1]", "rake = [0, 1, 0]"), 1.0);
+    let thrust = uniform(&varied(UPRIGHT, &[With("faults.main.rake", "[0, 1, 0]")]), 1.0);
     assert_plane(&thrust, Plane { strike: 317.0, dip: 90.0, rake: -90.0 });
     // Free slip: along z, and across it down, normal x rake.
-    let free = UPRIGHT.replace("rake = [0, 0, 1]", "rake = [0, 0, 1]\nslip = \"free\"");
+    let free = varied(UPRIGHT, &[Add("faults.main.slip", "free")]);
     let (sine, cosine) = 30f64.to_radians().sin_cos();
     assert_plane(
         &slipped(&free, &[2.0 * cosine, 2.0 * sine]),
         Plane { strike: 317.0, dip: 90.0, rake: 150.0 },
     );
     // Without its directions z is up and y along the strike: then slip along z is up the dip, and plus lies to the right.
-    let usual = UPRIGHT.replace("up = [0, 2, 0]\nalong = [0, 0, 1]\n", "");
+    let usual = varied(UPRIGHT, &[Without("place.up"), Without("place.along")]);
     assert_plane(&uniform(&usual, 1.0), Plane { strike: 317.0, dip: 90.0, rake: 90.0 });
 }

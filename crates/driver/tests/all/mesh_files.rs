@@ -1,9 +1,10 @@
 //! Every sample mesh through a scene: good ones carry a load, bad ones are refused with their reason.
 
-use crate::common::{close, displacements, simulate};
+use crate::common::{close, displacements, simulate, varied};
 use asperity_driver::diagnostic::Diagnostics;
 use asperity_driver::plan;
 use asperity_driver::scene;
+use asperity_vary::Change::With;
 use std::path::Path;
 
 /// A body of rock without lateral contraction, or several, with conditions.
@@ -116,16 +117,17 @@ forces.fault = {{ set = "A.fault_minus" }}
 
 #[test]
 fn groups_without_names_are_named_by_number_and_dimension_in_the_scene() {
-    let pull = r#"{ set = "B.foot", y = 0 }, { set = "B.foot", x = 0 }, { set = "B.head", traction = [0, "4 MPa"] }"#;
-    let pull = pull.replacen("y = 0 }, { set = \"B.foot\", x = 0", "x = 0, y = 0", 1);
+    let pull = r#"{ set = "B.foot", x = 0, y = 0 }, { set = "B.head", traction = [0, "4 MPa"] }"#;
     // Bottom and top of the unit square are groups 1 and 2 of lines, its cells group 7.
     for tags in [
         "foot = 1, head = 2, rocks = 7",
         "foot = { tag = 1, dimension = 1 }, head = { tag = 2, dimension = 1 }, rocks = { tag = 7, dimension = 2 }",
     ] {
         let more = format!(", groups = [\"rocks\"], tags = {{ {tags} }}");
-        let text = scene("plane-strain", &body("unit_unnamed_tags.msh", &more), &pull)
-            .replace("material = \"rock\"", "material = { rocks = \"rock\" }");
+        let text = varied(
+            &scene("plane-strain", &body("unit_unnamed_tags.msh", &more), pull),
+            &[With("bodies.B.material", "{ rocks = \"rock\" }")],
+        );
         let (_, record) = simulate(&text);
         let top = displacements(&record, |x| (x[1] - 1.0).abs() < 1e-12 && x[0] > 0.4);
         assert!(!top.is_empty());

@@ -1,7 +1,8 @@
 //! Bodies from mesh files and generators end to end, against closed forms.
 
-use crate::common::{close, displacements, fields, planned, simulate};
+use crate::common::{close, displacements, fields, planned, simulate, varied};
 use asperity_output::Recorder;
+use asperity_vary::Change::{Add, With};
 
 /// Modulus of uniaxial strain over Young's modulus for a Poisson's ratio of a quarter.
 const UNIAXIAL: f64 = 0.75 / (1.25 * 0.5);
@@ -76,17 +77,17 @@ fn lengths_of_a_file_have_its_unit() {
     }
 }
 
-const INTERFACE: &str = r#"
+fn interface(slave: &str, master: &str) -> String {
+    format!(
+        r#"
 [interfaces.joint]
-slave = "SLAVE"
-master = "MASTER"
+slave = "{slave}"
+master = "{master}"
 measure = "node-to-point"
 sliding = "small"
-enforcement = { kind = "penalty", normal = "1e13 Pa/m" }
-"#;
-
-fn interface(slave: &str, master: &str) -> String {
-    INTERFACE.replace("SLAVE", slave).replace("MASTER", master)
+enforcement = {{ kind = "penalty", normal = "1e13 Pa/m" }}
+"#
+    )
 }
 
 #[test]
@@ -118,7 +119,7 @@ fn a_split_body_is_held_together_by_contact_alone() {
     let remarks = &plan.summary().remarks;
     assert!(remarks.iter().any(|r| r.contains("contact alone holds the translation in y")), "{remarks:?}");
     for path in ["condensed", "full"] {
-        let text = text.replace("stepper =", &format!("path = \"{path}\"\nstepper ="));
+        let text = varied(&text, &[Add("time.path", path)]);
         let (_, record) = simulate(&text);
         assert_pressed(&record, 1);
     }
@@ -131,7 +132,7 @@ fn an_abaqus_mesh_is_a_body_with_its_element_sets() {
         "[bodies.B]\nmesh.abaqus = { file = \"cube.inp\", elsets = [\"body\"] }\nmaterial = \"rock\"\n";
     let conditions =
         r#"{ set = "B.low", x = 0, y = 0, z = 0 }, { set = "B.high", traction = ["4 MPa", 0, 0] }"#;
-    let text = scene("3d", body, conditions).replace("poisson = 0.25", "poisson = 0");
+    let text = varied(&scene("3d", body, conditions), &[With("materials.rock.poisson", "0")]);
     let (_, record) = simulate(&text);
     for (x, u) in displacements(&record, |x| x[0] > 0.0) {
         close(u[0], 4e6 / 10e9 * x[0], 1e-10);

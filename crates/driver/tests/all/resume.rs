@@ -2,6 +2,8 @@
 #![allow(clippy::disallowed_methods)]
 #![cfg(unix)]
 
+use crate::common::{told, varied};
+use asperity_vary::Change::{Add, With, Without};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,9 +13,16 @@ use std::time::{Duration, Instant};
 
 /// The scene of cycles through twelve events.
 static SCENE: LazyLock<String> = LazyLock::new(|| {
-    let more = crate::common::cycles::SCENE.replace("stop_after = 3", "stop_after = 12");
-    more.replace("stepper = \"fault-ode\"\n", "stepper = \"fault-ode\"\nlog_rate_tolerance = 1e-6\n")
+    varied(
+        crate::common::cycles::SCENE,
+        &[With("events.stop_after", "12"), Add("time.log_rate_tolerance", "1e-6")],
+    )
 });
+
+/// The scene through so many events.
+fn events(most: usize) -> String {
+    varied(&SCENE, &[With("events.stop_after", &most.to_string())])
+}
 
 /// Begins a run of `s.toml` in `folder` with outputs in `out`.
 fn start(folder: &Path, out: &str, arguments: &[&str]) -> Child {
@@ -34,12 +43,6 @@ pub fn folder(scene: &str) -> tempfile::TempDir {
 
 pub fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
-}
-
-/// Standard error without the breaks of lines that the renderer makes.
-pub fn told(output: &Output) -> String {
-    let text = text(&output.stderr).replace(['\n', '│', '×'], " ");
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// All files below `out` by their paths in it; of the report what does not depend on the machine.
@@ -134,15 +137,15 @@ fn broken_off_at_every_restart(scene: &str) -> u32 {
 
 #[test]
 fn a_run_broken_off_at_every_restart_leaves_the_same_files_and_says_how_to_go_on() {
-    let breaks = broken_off_at_every_restart(&SCENE.replace("stop_after = 12", "stop_after = 2"));
+    let breaks = broken_off_at_every_restart(&events(2));
     assert!(breaks > 3, "{breaks}");
 }
 
 #[test]
 fn files_that_become_coarse_are_the_same_after_breaks() {
-    let scene = SCENE.replace("stop_after = 12", "stop_after = 2");
-    let amounts = "[output]\nlargest_file = \"20 kB\"\ncadence = { decades = 0.05, slip = \"1 mm\" }\n";
-    let breaks = broken_off_at_every_restart(&scene.replace("[output]\n", amounts));
+    let amounts =
+        [Add("output.largest_file", "20 kB"), Add("output.cadence", r#"{ decades = 0.05, slip = "1 mm" }"#)];
+    let breaks = broken_off_at_every_restart(&varied(&events(2), &amounts));
     assert!(breaks > 3, "{breaks}");
 }
 
@@ -156,8 +159,11 @@ fn a_fault_in_space_whose_slip_turns_is_gone_on_with_as_well() {
 
 #[test]
 fn a_fault_that_opens_and_closes_is_gone_on_with_as_well() {
-    let scene = include_str!("../../../../scenes/fault-opening.toml").replace("\"100 m\"", "\"200 m\"");
-    let breaks = broken_off_at_every_restart(&(scene + "bodies = true\n"));
+    let scene = varied(
+        include_str!("../../../../scenes/fault-opening.toml"),
+        &[With("bodies.crust.mesh.fault.spacing", "200 m"), Add("output.bodies", "true")],
+    );
+    let breaks = broken_off_at_every_restart(&scene);
     assert!(breaks > 3, "{breaks}");
 }
 
@@ -188,7 +194,7 @@ fn a_signal_ends_a_run_with_a_checkpoint_and_its_own_exit_code() {
 
 #[test]
 fn an_unfinished_run_is_not_overwritten_unless_that_is_asked_for() {
-    let folder = folder(&SCENE.replace("stop_after = 12", "stop_after = 1"));
+    let folder = folder(&events(1));
     let folder = folder.path();
     assert_eq!(run(folder, "out", &["--wall-time", "0 s"]).status.code(), Some(3));
     let checkpoint = fs::read(folder.join("out/checkpoint")).unwrap();
@@ -203,7 +209,6 @@ fn an_unfinished_run_is_not_overwritten_unless_that_is_asked_for() {
 
 #[test]
 fn a_run_extended_to_more_events_leaves_the_files_of_one_that_had_them_from_the_start() {
-    let events = |n: usize| SCENE.replace("stop_after = 12", &format!("stop_after = {n}"));
     let folder = folder(&events(3));
     let folder = folder.path();
     assert!(run(folder, "extended", &[]).status.success());
@@ -225,8 +230,8 @@ fn a_run_extended_to_more_events_leaves_the_files_of_one_that_had_them_from_the_
 fn a_run_extended_in_time_goes_on_from_its_last_restart_before_the_end() {
     // Powers of two: the rates of the loads have no rounding that depends on the duration.
     let lasting = |seconds: u64| {
-        let scene = SCENE.replace("3000 yr", &format!("{seconds} s"));
-        scene.replace("stop_after = 12\n", "")
+        let duration = format!("{seconds} s");
+        varied(&SCENE, &[With("stages[0].duration", &duration), Without("events.stop_after")])
     };
     let folder = folder(&lasting(1 << 34));
     let folder = folder.path();
@@ -241,7 +246,7 @@ fn a_run_extended_in_time_goes_on_from_its_last_restart_before_the_end() {
     for (scene, part) in [
         (lasting(1 << 34), "lies beyond"),
         (
-            lasting(1 << 36).replace("z = { rate = \"0.5e-9 m/s\" }", "z = { to = \"17 m\" }"),
+            varied(&lasting(1 << 36), &[With("stages[0].conditions[1].z", r#"{ to = "17 m" }"#)]),
             "of another scene",
         ),
     ] {
@@ -256,10 +261,15 @@ fn a_run_extended_in_time_goes_on_from_its_last_restart_before_the_end() {
 #[test]
 fn a_load_that_reaches_its_value_at_the_end_cannot_be_extended() {
     let lasting = |years: u32| {
-        let scene = SCENE.replace("3000 yr", &format!("{years} yr")).replace("stop_after = 12\n", "");
-        scene
-            .replace("z = { rate = \"-0.5e-9 m/s\" }", "z = { to = \"-1 m\" }")
-            .replace("z = { rate = \"0.5e-9 m/s\" }", "z = { to = \"1 m\" }")
+        varied(
+            &SCENE,
+            &[
+                With("stages[0].duration", &format!("{years} yr")),
+                Without("events.stop_after"),
+                With("stages[0].conditions[0].z", r#"{ to = "-1 m" }"#),
+                With("stages[0].conditions[1].z", r#"{ to = "1 m" }"#),
+            ],
+        )
     };
     let folder = folder(&lasting(60));
     let folder = folder.path();
@@ -273,7 +283,7 @@ fn a_load_that_reaches_its_value_at_the_end_cannot_be_extended() {
 
 #[test]
 fn what_does_not_fit_the_checkpoint_is_refused() {
-    let scene = SCENE.replace("stop_after = 12", "stop_after = 1");
+    let scene = events(1);
     let folder = folder(&scene);
     let folder = folder.path();
     let broken = run(folder, "out", &["--wall-time", "0 s"]);
@@ -284,14 +294,15 @@ fn what_does_not_fit_the_checkpoint_is_refused() {
         assert_eq!(output.status.code(), Some(1), "{told}");
         assert!(told.contains(part), "{part} is not in\n{told}");
     };
-    fs::write(folder.join("s.toml"), scene.replace("normal = \"50 MPa\"", "normal = \"51 MPa\"")).unwrap();
+    fs::write(folder.join("s.toml"), varied(&scene, &[With("faults.main.normal", "51 MPa")])).unwrap();
     refused("of another scene");
     fs::write(folder.join("s.toml"), &scene).unwrap();
     let path = folder.join("out/checkpoint");
     let good = fs::read_to_string(&path).unwrap();
     fs::write(&path, &good[..good.len() / 2]).unwrap();
     refused("is damaged");
-    fs::write(&path, good.replacen("version 2", "version 99", 1)).unwrap();
+    let (head, rest) = good.split_once("version 2").unwrap();
+    fs::write(&path, format!("{head}version 99{rest}")).unwrap();
     refused("has version 99");
     fs::write(&path, good).unwrap();
     let rows = folder.join("out/stations/main_dp075");

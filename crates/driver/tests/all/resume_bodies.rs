@@ -3,7 +3,8 @@
 #![allow(clippy::disallowed_methods)]
 
 use crate::common::planned;
-use crate::resume::{assert_same, files, folder, run, text, told};
+use crate::common::told;
+use crate::resume::{assert_same, files, folder, run, text};
 use asperity_driver::checkpoint::{Contents as _, Pauses};
 use asperity_driver::plan::AnyPlan;
 use asperity_driver::report::{Outcome, RunReport};

@@ -3,7 +3,8 @@
 #![allow(clippy::disallowed_methods)]
 
 use crate::common::sliders::{CYCLE, plan};
-use crate::resume::{assert_same, files, folder, run, text, told};
+use crate::common::told;
+use crate::resume::{assert_same, files, folder, run, text};
 use asperity_cycles::slider::{Problem, Run, resume};
 use asperity_driver::checkpoint::Pauses;
 use asperity_driver::slider::Keeper;

@@ -1,9 +1,10 @@
 //! Points of bodies and forces on sets end to end, against closed forms.
 
-use crate::common::{close, planned, simulate};
+use crate::common::{close, planned, simulate, varied};
 use asperity_driver::run;
 use asperity_output::view::{PointValues, Samples};
 use asperity_output::{FieldSchedule, Files, Multi, Observer, Recorder};
+use asperity_vary::Change::With;
 
 const YOUNG: f64 = 10e9;
 
@@ -143,7 +144,7 @@ fn forces_balance_under_large_deformation_and_about_an_axis() {
     let conditions =
         r#"{ set = "B.bottom", x = 0, y = 0 }, { set = "B.top", x = { to = 0.3 }, y = { to = 0.2 } }"#;
     let text = scene("plane-strain", "", &format!("{bar}strain = \"finite\""), conditions, ALL_SIDES);
-    let (_, record) = simulate(&text.replace("steps = 2", "steps = 20"));
+    let (_, record) = simulate(&varied(&text, &[With("stages[0].steps", "20")]));
     let [top, bottom] = ["top", "bottom"].map(|name| force(&record, name));
     assert!(top[0] > 1e8 && top[1] > 1e8, "{top:?}");
     (0..2).for_each(|c| close(bottom[c], -top[c], 1e-9));
@@ -194,7 +195,7 @@ forces.below = { set = "A.bottom" }
 #[test]
 fn both_paths_give_the_same_points_and_the_force_of_the_contact() {
     let (report, condensed) = simulate(CONTACT);
-    let (_, full) = simulate(&CONTACT.replace("condensed", "full"));
+    let (_, full) = simulate(&varied(CONTACT, &[With("time.path", "full")]));
     let (a, b) = (at(&condensed, "middle"), at(&full, "middle"));
     (0..2).for_each(|c| close(a.displacement[c], b.displacement[c], 1e-8));
     [0, 1, 3].iter().for_each(|&c| close(a.stress[c], b.stress[c], 1e-7));

@@ -1,6 +1,7 @@
 //! Spring-sliders from scenes: events, histories, run-away, prescribed histories, and the same answers from library calls.
 
 use crate::common::sliders::{CYCLE, history, plan, relative, written};
+use crate::common::varied;
 use asperity_cycles::slider::{Both, DEFAULT_METHOD, Now, Problem, Rows, Run, Thresholds, run};
 use asperity_driver::laws;
 use asperity_driver::scene::law::{Evolution, Form, LawChoice, State, Strength};
@@ -8,6 +9,7 @@ use asperity_driver::slider::{Report, Show};
 use asperity_friction::slider::{Condition, History, Slider, Spring, System};
 use asperity_ode::{Failure, Method, Outcome};
 use asperity_output::{Multi, Observer, Recorder};
+use asperity_vary::Change::{Add, With, Without};
 use nalgebra::Complex;
 
 /// A slider a third stiffer than the critical stiffness, under these prescribed histories.
@@ -32,7 +34,7 @@ end = "300 s"
 
 /// A stable scene that runs until what the start or a change did has gone, as e^(-t/40 s).
 fn settled(text: &str) -> String {
-    text.replace("\"300 s\"", "\"1000 s\"")
+    varied(text, &[With("time.end", "1000 s")])
 }
 
 /// Two sliders, one with a state and one without, between them a spring.
@@ -200,9 +202,14 @@ fn mean(v0: f64, v1: f64) -> f64 {
 
 #[test]
 fn slip_is_the_integral_of_the_slip_rate() {
-    let inertial =
-        CYCLE.replace("damping = \"5 MPa s/m\"", "damping = \"0.2 MPa s/m\"\nmass = \"3000 kg/m^2\"");
-    let inertial = inertial.replace("stop_after = 10", "stop_after = 2");
+    let inertial = varied(
+        CYCLE,
+        &[
+            With("sliders.block.damping", "0.2 MPa s/m"),
+            Add("sliders.block.mass", "3000 kg/m^2"),
+            With("events.stop_after", "2"),
+        ],
+    );
     for text in [CYCLE, &inertial, COUPLED] {
         let (run, rows) = watched(&plan(text));
         assert!(!matches!(run.outcome, Outcome::Failed { .. }), "{run:?}");
@@ -353,8 +360,14 @@ fn ramps_and_oscillations_of_the_normal_traction_are_as_written() {
 
 #[test]
 fn a_run_that_is_watched_is_the_same_to_the_bit() {
-    let inertial = CYCLE.replace("damping = \"5 MPa s/m\"", "mass = \"3000 kg/m^2\"");
-    let inertial = inertial.replace("stop_after = 10", "stop_after = 1");
+    let inertial = varied(
+        CYCLE,
+        &[
+            Without("sliders.block.damping"),
+            Add("sliders.block.mass", "3000 kg/m^2"),
+            With("events.stop_after", "1"),
+        ],
+    );
     for text in [CYCLE, &inertial, COUPLED] {
         for method in Method::ALL {
             let mut plan = plan(text);
@@ -466,7 +479,7 @@ fn a_library_call_and_a_scene_of_two_sliders_give_the_same_bits() {
 #[test]
 fn the_method_is_the_default_unless_the_scene_says_otherwise() {
     assert_eq!(plan(CYCLE).method, DEFAULT_METHOD);
-    assert_eq!(plan(&CYCLE.replace("[time]", "[time]\nmethod = \"bdf\"")).method, Method::Bdf);
+    assert_eq!(plan(&varied(CYCLE, &[Add("time.method", "bdf")])).method, Method::Bdf);
 }
 
 #[test]
@@ -542,7 +555,14 @@ fn inertial_sliders_come_to_rest_and_start_again() {
 #[test]
 fn a_method_that_begins_anew_at_each_extreme_says_what_to_take_instead() {
     let law = "form = \"bare\", evolution = \"ageing\", a = 0.006";
-    let text = inertial(law, "2.8125 MPa/m", "71.24 kg/m^2", "bdf").replace("e-9 m/s", "e-7 m/s");
+    let text = varied(
+        &inertial(law, "2.8125 MPa/m", "71.24 kg/m^2", "bdf"),
+        &[
+            With("load.rate", "1e-7 m/s"),
+            With("sliders.block.law.v_initial", "1e-7 m/s"),
+            With("sliders.block.start", "1.5e-7 m/s"),
+        ],
+    );
     let mut plan = plan(&text);
     // Whether it stalls is a matter of rounding; so few steps are not enough in any case.
     (plan.tolerance, plan.most_steps) = (1e-7, 500);
@@ -556,17 +576,20 @@ fn a_method_that_begins_anew_at_each_extreme_says_what_to_take_instead() {
 
 #[test]
 fn a_form_without_a_value_at_rest_ends_where_friction_does() {
-    for form in ["form = \"bare\"", "form = \"cut-off\", v_cut = \"1 cm/s\""] {
+    let (bare, cut_off) = (
+        [Add("sliders.block.law.form", "bare")],
+        [Add("sliders.block.law.form", "cut-off"), Add("sliders.block.law.v_cut", "1 cm/s")],
+    );
+    for form in [&bare[..], &cut_off] {
         for mass in ["", "mass = \"2000 kg/m^2\""] {
             for method in ["switching", "radau5"] {
                 let reversed =
                     "{ table = [[\"0 s\", \"1 um/s\"], [\"10 s\", \"1 um/s\"], [\"10 s\", \"-10 um/s\"]] }";
-                let text = stable(reversed, "\"5 MPa\"", &format!("damping = \"5 MPa s/m\"\n{mass}"))
-                    .replace("evolution =", &format!("{form}, evolution ="))
-                    .replace("[time]", &format!("[time]\nmethod = \"{method}\""));
+                let text = stable(reversed, "\"5 MPa\"", &format!("damping = \"5 MPa s/m\"\n{mass}"));
+                let text = varied(&varied(&text, form), &[Add("time.method", method)]);
                 let plan = plan(&text);
                 let run = run(&plan, &mut ()).unwrap();
-                let what = format!("{form} {mass} {method}: {:?} {:?}", run.outcome, run.hint);
+                let what = format!("{form:?} {mass} {method}: {:?} {:?}", run.outcome, run.hint);
                 assert_eq!(run.outcome, Outcome::Failed { reason: Failure::Ends }, "{what}");
                 assert!(run.hint.unwrap().contains("friction of `block` falls to zero"), "{what}");
                 // 0.5 to 0.6 f_n over k at 10 um/s.

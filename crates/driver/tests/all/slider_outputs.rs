@@ -1,9 +1,11 @@
 //! What runs of spring-sliders report: events of both directions, rows at times and at peaks, imposed slip rates, stability.
 
 use crate::common::sliders::{CYCLE, history, plan, planned, relative, written};
+use crate::common::varied;
 use asperity_cycles::slider::{Event, Now, Problem, Stability, critical_stiffness, run};
 use asperity_driver::slider::csv;
 use asperity_ode::Method;
+use asperity_vary::Change::{Add, With, Without};
 use nalgebra::DMatrix;
 
 const MU0: f64 = 0.6;
@@ -12,8 +14,13 @@ const V_REF: f64 = 1e-6;
 const L: f64 = 1e-5;
 
 fn law(evolution: &str, b: f64) -> String {
+    law_with(evolution, &b.to_string(), "\"10 um\"", "")
+}
+
+/// A law of one state or several, with more parameters.
+fn law_with(evolution: &str, b: &str, l: &str, more: &str) -> String {
     format!(
-        "{{ kind = \"rate-and-state\", evolution = \"{evolution}\", mu0 = 0.6, a = 0.01, b = {b}, l = \"10 um\", v_ref = \"1 um/s\", v_initial = \"1 um/s\" }}"
+        "{{ kind = \"rate-and-state\", evolution = \"{evolution}\", mu0 = 0.6, a = 0.01, b = {b}, l = {l}, v_ref = \"1 um/s\", v_initial = \"1 um/s\"{more} }}"
     )
 }
 
@@ -38,9 +45,7 @@ fn reversing(sign: &str) -> String {
 
 #[test]
 fn the_mirrored_problem_has_the_mirrored_catalogue() {
-    let backwards = CYCLE
-        .replace("[load]\nrate = \"1 um/s\"", "[load]\nrate = \"-1 um/s\"")
-        .replace("start = \"1.5 um/s\"", "start = \"-1.5 um/s\"");
+    let backwards = varied(CYCLE, &[With("load.rate", "-1 um/s"), With("sliders.block.start", "-1.5 um/s")]);
     for (there, back) in [(CYCLE.to_string(), backwards), (reversing(""), reversing("-"))] {
         let [there, back] = [there, back].map(|t| run(&plan(&t), &mut ()).unwrap().catalogue.events);
         assert!(there.len() >= 10 && there.len() == back.len(), "{} and {}", there.len(), back.len());
@@ -165,8 +170,9 @@ fn rows_stand_at_the_times_asked_for_with_the_digits_of_the_method() {
 
 #[test]
 fn rows_at_intervals_begin_at_zero_and_need_no_events() {
-    let text = format!("{CYCLE}\n[output]\ninterval = \"12.5 s\"\n");
-    let rows = rows(&text.replace("stop_after = 10", "").replace("4000 s", "400 s"));
+    let changes =
+        [Add("output", "{ interval = \"12.5 s\" }"), Without("events.stop_after"), With("time.end", "400 s")];
+    let rows = rows(&varied(CYCLE, &changes));
     let exact: Vec<f64> = (0..=32).map(|k| 12.5 * f64::from(k)).collect();
     assert_eq!(rows.iter().map(|r| r[0]).collect::<Vec<_>>(), exact);
     let both = format!("{CYCLE}\n[output]\nchange = 0.05\ntimes = [\"200 s\"]\n");
@@ -179,7 +185,8 @@ fn histories_are_thinned_or_left_out() {
     let count = |output: &str| rows(&format!("{CYCLE}\n[output]\n{output}\n")).len();
     let (fine, coarse) = (count("change = 0.05"), count("change = 0.5"));
     assert!(coarse < fine / 3, "{coarse} and {fine}");
-    let two = CYCLE.replace("[time]", "[sliders.other]\nnormal = \"5 MPa\"\nstiffness = \"5 GPa/m\"\nlaw = { kind = \"rate\", mu0 = 0.6, a = 0.01, v_ref = \"1 um/s\" }\n[time]");
+    let other = r#"{ normal = "5 MPa", stiffness = "5 GPa/m", law = { kind = "rate", mu0 = 0.6, a = 0.01, v_ref = "1 um/s" } }"#;
+    let two = varied(CYCLE, &[Add("sliders.other", other)]);
     let (folder, _) = written(&plan(&format!("{two}\n[output]\nhistories = [\"other\"]\n")));
     let names: Vec<_> =
         std::fs::read_dir(folder.path().join("history")).unwrap().map(|e| e.unwrap().file_name()).collect();
@@ -250,8 +257,16 @@ fn an_imposed_rate_may_turn_round() {
 
 #[test]
 fn a_slider_on_a_spring_to_an_imposed_one_is_a_slider_on_a_load_point() {
-    let machine = CYCLE.replace("stiffness = \"1.25 GPa/m\"", "#");
-    let machine = machine.replace("[load]\nrate = \"1 um/s\"", "[sliders.machine]\nnormal = \"1 MPa\"\nrate = \"1 um/s\"\nlaw = { kind = \"rate\", mu0 = 0.6, a = 0.01, v_ref = \"1 um/s\" }\n[[springs]]\nbetween = [\"block\", \"machine\"]\nstiffness = \"1.25 GPa/m\"");
+    let imposed = r#"{ normal = "1 MPa", rate = "1 um/s", law = { kind = "rate", mu0 = 0.6, a = 0.01, v_ref = "1 um/s" } }"#;
+    let machine = varied(
+        CYCLE,
+        &[
+            Without("sliders.block.stiffness"),
+            Without("load"),
+            Add("sliders.machine", imposed),
+            Add("springs", r#"[{ between = ["block", "machine"], stiffness = "1.25 GPa/m" }]"#),
+        ],
+    );
     let [alone, pulled] = [CYCLE, &machine].map(|t| run(&plan(t), &mut ()).unwrap().catalogue.events);
     assert_eq!((alone.len(), pulled.len()), (10, 10));
     for (a, p) in alone.iter().zip(&pulled) {
@@ -275,21 +290,21 @@ fn growth(text: &str) -> f64 {
 
 /// A law of several states.
 fn states(evolution: &str, b: &str, l: &str) -> String {
-    law(evolution, 0.015).replace("b = 0.015, l = \"10 um\"", &format!("b = {b}, l = {l}"))
+    law_with(evolution, b, l, "")
 }
 
 #[test]
 fn stability_at_any_stiffness_is_that_of_the_jacobian() {
     // A state that weakens soon and one that strengthens late: with a mass, soft springs are stable again.
     let late = states("slip", "[0.015, -0.010]", "[\"10 um\", \"1 mm\"]");
-    let laws = [late, states("slip", "[0.012, 0.003]", "[\"10 um\", \"100 um\"]"), law("nagata", 0.015)];
+    let soon = states("slip", "[0.012, 0.003]", "[\"10 um\", \"100 um\"]");
+    let laws = [late, soon, law_with("nagata", "0.015", "\"10 um\"", ", c = 0.5")];
     for (law, more) in laws.iter().flat_map(|l| [(l, ""), (l, "mass = 4e13")]) {
-        let law = law.replace("evolution = \"nagata\"", "evolution = \"nagata\", c = 0.5");
         let (mut seen, mut last) = (Vec::new(), true);
         for power in 0..=220 {
             let k = 1e5 * 10f64.powf(f64::from(power) / 30.0);
             let slider = format!("stiffness = {k:e}\n{more}");
-            let text = scene("[load]\nrate = \"1 um/s\"", &slider, &law, "[time]\nend = \"1 s\"");
+            let text = scene("[load]\nrate = \"1 um/s\"", &slider, law, "[time]\nend = \"1 s\"");
             let plan = planned(&text);
             let unstable = Stability::new(&plan.problem.system.sliders()[0], 1e-6, 5e6).unstable(k);
             assert_eq!(unstable, growth(&text) > 0.0, "{law} {more} {k:e}");
@@ -313,16 +328,16 @@ fn stability_at_any_stiffness_is_that_of_the_jacobian() {
 
 #[test]
 fn critical_stiffness_is_where_growth_changes_sign() {
+    let one = |evolution, more| law_with(evolution, "0.015", "\"10 um\"", more);
     let laws = [
         law("ageing", 0.015),
         law("slip", 0.015),
         law("prz", 0.015),
-        law("ageing", 0.015)
-            .replace("mu0", "form = \"cut-off\", v_cut = \"3 um/s\", v_cut_state = \"20 um/s\", mu0"),
-        law("flash", 0.015).replace("mu0", "mu_w = 0.2, v_w = \"0.1 m/s\", mu0"),
+        one("ageing", ", form = \"cut-off\", v_cut = \"3 um/s\", v_cut_state = \"20 um/s\""),
+        one("flash", ", mu_w = 0.2, v_w = \"0.1 m/s\""),
         states("slip", "[0.012, 0.003]", "[\"10 um\", \"100 um\"]"),
         states("ageing", "[0.006, 0.005, 0.008]", "[\"10 um\", \"30 um\", \"15 um\"]"),
-        law("nagata", 0.015).replace("mu0", "c = 2.0, mu0"),
+        one("nagata", ", c = 2.0"),
     ];
     // Mass for which inertia raises k_c: n = M V^2/(f_n L) of the size of a.
     for more in ["", "damping = \"1e10 Pa s/m\"", "mass = 1e11", "damping = \"1e10 Pa s/m\"\nmass = 1e11"] {
@@ -362,7 +377,7 @@ fn the_plan_names_the_stiffness_ratio_and_warns_of_what_runs_away() {
     undamped.warnings[0].locate(&text);
     let place = undamped.warnings[0].place.unwrap();
     assert!(text.lines().nth(place.line - 1).unwrap().starts_with("stiffness"), "{place:?}");
-    let stiff = planned(&text.replace("1.25 GPa/m", "2.6 GPa/m"));
+    let stiff = planned(&varied(&text, &[With("sliders.block.stiffness", "2.6 GPa/m")]));
     assert!(stiff.warnings.is_empty());
     assert!(stiff.summary().contains("events come from the start alone"), "{}", stiff.summary());
 }

@@ -1,11 +1,13 @@
 //! Regression, not evidence: the plan and the counts of a run whose control flow cannot depend on the last bits.
 
+use crate::common::{SANDWICH, varied};
 use asperity_driver::{plan, run, scene};
 use asperity_output::Recorder;
+use asperity_vary::Change::Add;
 
 #[test]
 fn the_plan_of_the_sandwich_reads_as_before() {
-    let scene = scene::read(include_str!("../../../../scenes/sandwich.toml")).unwrap();
+    let scene = scene::read(SANDWICH).unwrap();
     let plan = plan::plan(&scene).unwrap();
     insta::assert_snapshot!(plan.summary().to_string(), @r"
     plan
@@ -21,8 +23,7 @@ fn the_plan_of_the_sandwich_reads_as_before() {
 
 #[test]
 fn a_linear_stage_of_fixed_steps_costs_what_it_did() {
-    let text = include_str!("../../../../scenes/sandwich.toml")
-        .replace("duration = \"9.66 s\"", "duration = \"9.66 s\"\nsteps = 4");
+    let text = varied(SANDWICH, &[Add("stages[0].steps", "4")]);
     let mut scene = scene::read(&text).unwrap();
     scene.stages.truncate(1);
     let plan = plan::plan(&scene).unwrap();

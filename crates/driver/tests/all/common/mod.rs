@@ -9,7 +9,31 @@ use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::{run, scene};
 use asperity_output::Recorder;
 use asperity_output::view::BodyFields;
+use asperity_vary::Change::{self, With};
+use asperity_vary::SceneText;
 use std::path::Path;
+use std::process::Output;
+
+/// The scene of the README.
+pub const SANDWICH: &str = include_str!("../../../../../scenes/sandwich.toml");
+
+/// The text of a scene with these changes, each of which must be one.
+#[track_caller]
+pub fn varied(scene: &str, changes: &[Change<'_>]) -> String {
+    SceneText::new(scene).changed(changes).text().unwrap_or_else(|e| panic!("{e}\n{scene}"))
+}
+
+/// The scene of the README on coarse cells, so that tests are quick.
+pub fn coarse_sandwich() -> String {
+    let sizes = ["bodies.A.mesh.block.size", "bodies.B.mesh.block.size"].map(|path| With(path, "5 mm"));
+    varied(SANDWICH, &[sizes[0], sizes[1], With("time.tolerance", "20 nm")])
+}
+
+/// Standard error of a command without the breaks of lines that the renderer makes.
+pub fn told(output: &Output) -> String {
+    let text = String::from_utf8_lossy(&output.stderr);
+    text.split(['\n', '│', '×', ' ']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+}
 
 /// A plan; mesh files are those of the tests.
 pub fn planned(text: &str) -> AnyPlan {
