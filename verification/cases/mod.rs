@@ -108,6 +108,7 @@ mod seas_bp3_25m;
 mod seas_bp3_full;
 mod seas_bp6;
 pub mod slider;
+mod slider_balance;
 mod slider_cycles;
 mod slider_inertia;
 mod slider_inertia_all;
@@ -187,6 +188,7 @@ pub const ALL: &[Case] = &[
     seas_bp3_25m::CASE,
     seas_bp3_full::CASE,
     seas_bp6::CASE,
+    slider_balance::CASE,
     slider_cycles::CASE,
     slider_inertia::CASE,
     slider_inertia_all::CASE,

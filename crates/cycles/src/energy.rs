@@ -29,17 +29,20 @@ use serde::{Deserialize, Serialize};
 /// Share of a step by which its end may lie beyond the end of an injection: rounding of times.
 const ROUNDING: f64 = 1e-9;
 
-/// Works and energies \[J; J per metre of thickness in the plane\].
+/// Energy budget \[J; J per metre of thickness in the plane; J/m² of spring-sliders\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Energy {
     /// Work of the initial tractions and of the loads on slip.
     pub loads: f64,
-    /// Energy that slip stores in the bodies.
+    /// Energy that slip stores in the bodies or the springs.
     pub elastic: f64,
     /// Work against friction.
     pub friction: f64,
     /// Work against radiation damping.
     pub radiated: f64,
+    /// Kinetic energy beyond that at the start.
+    #[serde(default, skip_serializing_if = "nothing")]
+    pub kinetic: f64,
     /// Work of fluid, of loads and of the normal tractions at the start on openings.
     #[serde(default, skip_serializing_if = "nothing")]
     pub opening: f64,
@@ -57,12 +60,28 @@ impl Energy {
     /// What the balance lacks over the largest of its parts \[-\].
     #[must_use]
     pub fn imbalance(&self) -> f64 {
-        let parts = [self.loads, self.elastic, self.friction, self.radiated, self.opening, self.exchanged];
-        let largest = parts.iter().fold(0.0_f64, |l, v| l.max(v.abs()));
+        let moved = [self.kinetic, self.opening, self.exchanged];
+        let parts = [self.loads, self.elastic, self.friction, self.radiated].into_iter().chain(moved);
+        let largest = parts.fold(0.0_f64, |l, v| l.max(v.abs()));
         if largest == 0.0 {
             return 0.0;
         }
-        (self.loads + self.opening - self.elastic - self.friction - self.radiated).abs() / largest
+        let lacks = self.loads + self.opening - self.elastic - self.friction - self.radiated - self.kinetic;
+        lacks.abs() / largest
+    }
+
+    /// Returns what was added after `before`.
+    #[must_use]
+    pub fn since(&self, before: &Self) -> Self {
+        Self {
+            loads: self.loads - before.loads,
+            elastic: self.elastic - before.elastic,
+            friction: self.friction - before.friction,
+            radiated: self.radiated - before.radiated,
+            kinetic: self.kinetic - before.kinetic,
+            opening: self.opening - before.opening,
+            exchanged: self.exchanged - before.exchanged,
+        }
     }
 }
 

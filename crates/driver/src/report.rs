@@ -15,7 +15,7 @@ use asperity_output::view::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use common::{Kind, Outcome, Phases, Results, Status, Stop};
+pub use common::{EnergyBalance, Kind, Outcome, Phases, Results, Status, Stop};
 
 /// Figures of an interface at the end of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -72,6 +72,11 @@ impl Slips {
         Ok(Self { stiffness, equations, first, travelled })
     }
 
+    /// Traction of a slider at time 0 \[Pa\]; none where its slip rate is imposed.
+    pub fn first(&self, slider: usize) -> Option<f64> {
+        self.equations[slider].map(|_| self.first[slider])
+    }
+
     pub fn enter(&mut self, at: Clock) {
         self.travelled.entered = at;
     }

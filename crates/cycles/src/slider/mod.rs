@@ -2,6 +2,7 @@
 //!
 //! The equations are those of [`asperity_friction::slider`]; the integrator is [`asperity_ode`].
 
+mod budget;
 mod catalogue;
 mod equations;
 mod error;
@@ -10,6 +11,7 @@ mod rows;
 mod run;
 pub mod stability;
 
+pub use budget::Budget;
 pub use catalogue::{Catalogue, Edge, Event};
 pub(crate) use equations::Piece;
 pub use error::{RunError, WatchError};

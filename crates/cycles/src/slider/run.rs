@@ -3,6 +3,7 @@
 //! The integration also restarts after every [`RESTART`] accepted steps, whether or not somebody keeps what it restarts from: a run that is
 //! resumed there takes the same steps, bit for bit, as one that was never interrupted.
 
+use super::budget::Budget;
 use super::catalogue::{Catalogue, Edge};
 use super::equations::{Kind, Piece, kinds};
 use super::error::{RunError, WatchError};
@@ -131,6 +132,8 @@ pub struct Run {
     pub catalogue: Catalogue,
     /// Work.
     pub counts: Counts,
+    /// Energy budget; none of a run that nobody watched.
+    pub budget: Option<Budget>,
     /// Why a run that failed may have failed, in terms of the scene.
     #[serde(skip)]
     pub hint: Option<String>,
@@ -163,6 +166,7 @@ impl Run {
             unknowns: problem.start.clone(),
             catalogue: Catalogue::new(sliders),
             counts: Counts::default(),
+            budget: None,
             hint: None,
             passed: 0,
             next_step: None,
@@ -548,6 +552,9 @@ impl Sink for Running<'_, '_> {
         let asked = self.state.watcher.watches() && self.between(step);
         self.show(step.end, step.length(), step.state, asked);
         self.sees(step.end, step.state);
+        if self.state.watcher.watches() {
+            self.state.run.budget.get_or_insert_default().advance(self.piece, self.slips, step);
+        }
         if self.runs_away(step) {
             self.state.senseless = Some(Failure::StepTooSmall { length: step.length() });
         } else if spent(self.state.problem, step.state).is_some() {

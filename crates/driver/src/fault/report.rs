@@ -6,9 +6,9 @@ use super::openings::{OpenedFault, openings};
 use super::plan::{FaultView, Plan};
 use super::resolution::Resolution;
 use super::words::{length, time};
-use crate::report::{Kind, Outcome, Phases, Results, Stop};
+use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop};
 use crate::warning::Warning;
-use asperity_cycles::{Balance, Crack, Energy, Event, Layout, Mark, Part, Run, size, steady};
+use asperity_cycles::{Balance, Crack, Event, Layout, Mark, Part, Run, size, steady};
 use asperity_ode::Outcome as Finish;
 use asperity_output::decimals::{fixed, shortest};
 use asperity_output::located::Located;
@@ -148,22 +148,6 @@ impl Turned {
     }
 }
 
-/// Works with what their balance lacks.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct EnergyBalance {
-    /// Works \[J; J per metre of thickness in the plane\].
-    #[serde(flatten)]
-    pub parts: Energy,
-    /// |loads + opening - elastic - friction - radiated| over the largest of them \[-\].
-    pub imbalance: f64,
-}
-
-impl From<Energy> for EnergyBalance {
-    fn from(parts: Energy) -> Self {
-        Self { parts, imbalance: parts.imbalance() }
-    }
-}
-
 /// A cycle: from the end of an event to that of the next.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Cycle {
@@ -187,21 +171,13 @@ impl Cycle {
     fn new(marks: &[Mark], event: &Event, plan: &Plan, driven: Option<f64>) -> Self {
         let (a, b) = (&marks[0], &marks[1]);
         let seismic: f64 = event.slip.iter().zip(&plan.points).map(|(s, p)| s * p.area).sum();
-        let energy = Energy {
-            loads: b.energy.loads - a.energy.loads,
-            elastic: b.energy.elastic - a.energy.elastic,
-            friction: b.energy.friction - a.energy.friction,
-            radiated: b.energy.radiated - a.energy.radiated,
-            opening: b.energy.opening - a.energy.opening,
-            exchanged: b.energy.exchanged - a.energy.exchanged,
-        };
         let duration = b.time - a.time;
         Self {
             duration,
             seismic,
             aseismic: b.potency - a.potency - seismic,
             driven: driven.map(|rate| rate * duration),
-            energy: energy.into(),
+            energy: b.energy.since(&a.energy).into(),
         }
     }
 

@@ -1,5 +1,6 @@
 //! What every `report.json` has, whatever was run: its schema, how the run ended, and where it came from.
 
+use asperity_cycles::Energy;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -201,4 +202,20 @@ pub trait Results: Serialize {
 /// Commit of the program, "unknown" outside a checkout.
 pub(crate) fn commit() -> &'static str {
     option_env!("ASPERITY_COMMIT").unwrap_or("unknown")
+}
+
+/// Energy budget with its imbalance.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct EnergyBalance {
+    /// Energy budget \[J; J per metre of thickness in the plane; J/m² of spring-sliders\].
+    #[serde(flatten)]
+    pub parts: Energy,
+    /// |loads + opening - elastic - friction - radiated - kinetic| over the largest of them \[-\].
+    pub imbalance: f64,
+}
+
+impl From<Energy> for EnergyBalance {
+    fn from(parts: Energy) -> Self {
+        Self { parts, imbalance: parts.imbalance() }
+    }
 }

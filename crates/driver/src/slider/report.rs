@@ -1,6 +1,6 @@
 //! `report.json` of a spring-slider.
 
-use crate::report::{Kind, Outcome, Phases, Results, Stop};
+use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop};
 use crate::warning::Warning;
 use asperity_cycles::slider::{Event, Problem, Run, Thresholds};
 use asperity_ode::{Counts, Outcome as Finish};
@@ -77,6 +77,9 @@ pub struct Report {
     pub last: Vec<Final>,
     /// Events.
     pub events: Vec<Event>,
+    /// Energy budget \[J/m²\], the sum over the sliders; none of a run that was not observed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy: Option<EnergyBalance>,
     /// Work.
     pub counts: Work,
     /// Wall time.
@@ -130,6 +133,7 @@ impl Report {
             end: run.at.seconds(),
             last: last.collect(),
             events: run.catalogue.events.clone(),
+            energy: run.budget.as_ref().map(|budget| budget.energy().into()),
             counts: run.counts.into(),
             seconds: Phases::default(),
         }
@@ -158,6 +162,15 @@ impl Report {
                 text,
                 "  `{}` at the end, {:.6} s: V = {:.6e} m/s, friction {:.6}",
                 l.slider, self.end, l.slip_rate, l.friction
+            );
+        }
+        if let Some(EnergyBalance { parts: e, imbalance }) = &self.energy {
+            let kinetic =
+                if e.kinetic == 0.0 { String::new() } else { format!(", kinetic {:.6e}", e.kinetic) };
+            let _ = writeln!(
+                text,
+                "  energy: loads {:.6e}, elastic {:.6e}, friction {:.6e}, radiated {:.6e}{kinetic} J/m²; lacks {imbalance:.1e} of the largest",
+                e.loads, e.elastic, e.friction, e.radiated
             );
         }
         let c = &self.counts;

@@ -74,6 +74,10 @@ fn interrupted_everywhere(name: &str, text: &str) -> usize {
     let [whole, parts] = ["whole", "parts"].map(|name| folder.path().join(name));
     let (expected, _) = part(&problem, &whole, None).unwrap();
     assert!(!matches!(expected.outcome, Outcome::Failed { .. }), "{name}: {:?}", expected.outcome);
+    // Errors of one tolerance in ln V in each step, by a/f of a sixtieth, if all have one sign.
+    let imbalance = expected.budget.unwrap().energy().imbalance();
+    let most = problem.tolerance / 60.0 * expected.counts.steps as f64;
+    assert!(imbalance < most, "{name}: energy lacks {imbalance:e} of {most:e}");
     let mut count = 1;
     let found = loop {
         let (run, interrupted) = part(&problem, &parts, Some(Duration::ZERO)).unwrap();
@@ -134,12 +138,14 @@ fn what_a_checkpoint_holds_is_needed() {
     let whole = folder.path().join("whole");
     let (expected, _) = part(&problem, &whole, None).unwrap();
     let expected = (format!("{expected:?}"), files(&whole));
-    let forgotten: [(&str, Value); 8] = [
+    let forgotten: [(&str, Value); 10] = [
         ("/run/next_step/length", 1e-3.into()),
         ("/run/travelled/load", 0.into()),
         ("/run/due/interval", 0.into()),
         ("/run/due/listed", 0.into()),
         ("/run/counts/steps", 0.into()),
+        ("/run/budget/driven", 0.into()),
+        ("/run/budget/energy/radiated", 0.into()),
         ("/run/catalogue/tracks/0/least", 1.into()),
         ("/histories/sliders/0/thin/last", Value::Null),
         ("/histories/sliders/0/trace/rows", Vec::<Value>::new().into()),
