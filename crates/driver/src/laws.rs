@@ -1,12 +1,15 @@
 //! From a law's parameters to the law.
 
-use crate::scene::law::{Evolution, Form, LawChoice, State, Strength};
+use crate::diagnostic::Diagnostic;
+use crate::scene::law::{
+    self, Bound, Evolution, EvolutionRow, Form, LawChoice, Laws, ParameterRow, State, Strength,
+};
+use crate::scene::model::{LawSpec, Spanned};
 use asperity_friction::Failure;
 use asperity_friction::component::Component;
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::evolution::{
-    self, ageing::Ageing, flash::Flash, flash::Weakening, nagata::Nagata, prz::Prz, slip::Slip,
-    stateless::Stateless,
+    self, Common, Defined, Definition, Variable, Visit, stateless::Stateless,
 };
 use asperity_friction::fault::{FaultLaw, Points};
 use asperity_friction::law::Law;
@@ -18,7 +21,52 @@ use asperity_friction::strength::{
     self, Parameters, arrhenius::Arrhenius, bare::Bare, cut_off::CutOff, regularised::Regularised,
 };
 use asperity_friction::tied::Tied;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
+
+/// Returns the laws that scenes may name.
+#[must_use]
+pub fn known() -> &'static Laws {
+    static KNOWN: LazyLock<Laws> =
+        LazyLock::new(|| Laws { evolutions: evolution::definitions().into_iter().map(row).collect() });
+    &KNOWN
+}
+
+/// What a scene has to know of an evolution.
+fn row(definition: &Definition) -> EvolutionRow {
+    let parameter = |p: &evolution::Parameter| ParameterRow {
+        key: p.key,
+        bound: match p.bound {
+            evolution::Bound::Positive => Bound::Positive,
+            evolution::Bound::NotNegative => Bound::NotNegative,
+            evolution::Bound::BelowReference => Bound::BelowReference,
+        },
+        optional: p.optional,
+        example: p.example,
+    };
+    EvolutionRow {
+        name: definition.name,
+        parameters: definition.parameters.iter().map(parameter).collect(),
+        one_state: definition.one_state,
+        of_logarithm: matches!(definition.variable, Variable::Logarithm { .. }),
+        memory: definition.memory,
+    }
+}
+
+/// Chooses the law of a specification.
+///
+/// # Errors
+/// Every parameter that is missing, belongs to another law, or is out of range.
+pub fn choose(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<Diagnostic>> {
+    law::choose(spec, known())
+}
+
+/// Chooses the law of a slider, whose evolution effect `b` may be negative.
+///
+/// # Errors
+/// As [`choose`].
+pub fn choose_sliding(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<Diagnostic>> {
+    law::choose_sliding(spec, known())
+}
 
 /// Builds the law a scene chose.
 ///
@@ -66,7 +114,7 @@ enum Parts<'a> {
 /// The states of a law and where they start from.
 struct History<'a> {
     /// None without states.
-    evolution: Option<Evolution>,
+    evolution: Option<&'a Evolution>,
     states: &'a [State],
     v_initial: f64,
     normal_initial: f64,
@@ -102,7 +150,7 @@ fn parts(choice: &LawChoice) -> Parts<'_> {
             Parts::Sliding(
                 strength,
                 History {
-                    evolution: Some(*evolution),
+                    evolution: Some(evolution),
                     states,
                     v_initial: *v_initial,
                     // Nothing depends on it without a memory of normal traction.
@@ -183,18 +231,33 @@ fn with_evolution<M: Finish, F: strength::Form + 'static>(
     made: M,
     form: impl Fn(&Strength) -> Result<F, Failure>,
 ) -> Result<M::Made, Failure> {
-    match list.first.1.evolution {
-        None => assemble(list, made, form, |_, _| Ok(Stateless)),
-        Some(Evolution::Ageing { v_cut }) => assemble(list, made, form, |s, p| {
-            let ageing = Ageing::new(p.b, p.l, s.v_ref)?;
-            v_cut.map_or(Ok(ageing), |v| ageing.with_cut_off(v))
-        }),
-        Some(Evolution::Slip) => assemble(list, made, form, |s, p| Slip::new(p.b, p.l, s.v_ref)),
-        Some(Evolution::Prz) => assemble(list, made, form, |s, p| Prz::new(p.b, p.l, s.v_ref)),
-        Some(Evolution::Nagata { c }) => assemble(list, made, form, |s, p| Nagata::new(p.b, p.l, s.v_ref, c)),
-        Some(Evolution::Flash { mu_w, v_w }) => assemble(list, made, form, |s, p| {
-            Flash::new(Weakening { mu0: s.mu0, a: s.a, b: p.b, v_ref: s.v_ref, mu_w, v_w }, p.l)
-        }),
+    let Some(chosen) = list.first.1.evolution else {
+        return assemble(list, made, form, |_, _| Ok(Stateless));
+    };
+    let admissible = "an evolution of the table";
+    let unknown = Failure::Parameter { name: "evolution", value: f64::NAN, admissible };
+    evolution::with(chosen.name, OfEvolution { list, made, form, own: &chosen.own }).ok_or(unknown)?
+}
+
+/// Assembles laws of the evolution that is visited.
+struct OfEvolution<'a, M, F> {
+    list: &'a List<'a>,
+    made: M,
+    form: F,
+    own: &'a [Option<f64>],
+}
+
+impl<M: Finish, F: strength::Form + 'static, B: Fn(&Strength) -> Result<F, Failure>> Visit
+    for OfEvolution<'_, M, B>
+{
+    type Made = Result<M::Made, Failure>;
+
+    fn visit<E: Defined + 'static>(self) -> Self::Made {
+        let Self { list, made, form, own } = self;
+        assemble(list, made, form, |s, p| {
+            let common = Common { mu0: s.mu0, a: s.a, v_ref: s.v_ref, b: p.b, length: p.l };
+            E::build(&common, own)
+        })
     }
 }
 

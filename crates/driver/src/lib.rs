@@ -20,11 +20,11 @@ mod refused;
 pub mod report;
 pub mod run;
 mod run_doubts;
+pub mod scene;
 mod sha256;
 pub mod slider;
 pub mod slider_planner;
 mod stop;
 mod views;
 
-pub use asperity_scene as scene;
 pub use asperity_scene::{lengths, warning};

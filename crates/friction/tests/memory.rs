@@ -1,13 +1,18 @@
 //! What states remember: of changes of normal traction (Linker & Dieterich), of shear traction (Nagata), and of each other.
 #![allow(clippy::unwrap_used)]
 
+#[path = "usual/mod.rs"]
+mod usual;
+
 use asperity_friction::Failure;
 use asperity_friction::component::Component;
+use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::{Flash, Weakening};
-use asperity_friction::evolution::{Evolution, ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip};
+use asperity_friction::evolution::{Common, Evolution, ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip};
 use asperity_friction::law::{Drives, Law, Rated, Regime, Responses, Trials};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};
+use usual::usual;
 
 const V_REF: f64 = 1e-6;
 const LENGTH: f64 = 1e-5;
@@ -19,6 +24,10 @@ const REFERENCE: f64 = 8e6;
 
 fn parameters() -> Parameters {
     Parameters::new(0.6, A, V_REF).unwrap()
+}
+
+fn common() -> Common {
+    Common { mu0: 0.6, a: A, v_ref: V_REF, b: B, length: LENGTH }
 }
 
 fn slip() -> Slip {
@@ -106,11 +115,7 @@ fn a_sudden_change_of_normal_traction_lowers_friction_by_its_logarithm() {
             assert!((jump - expected).abs() < 1e-14, "{} {ratio}: {jump} {expected}", E::NAME);
         }
     }
-    check(&slip());
-    check(&ageing());
-    check(&Prz::new(B, LENGTH, V_REF).unwrap());
-    check(&flash());
-    check(&Nagata::new(B, LENGTH, V_REF, 2.0).unwrap());
+    each_evolution!(Law => check(&usual::<Law>(common())));
 }
 
 /// μ - μ_ss = -α ln(f_2/f_1) e^(-δ/L) with the slip law; θ = L/V + (θ_1 - L/V) e^(-δ/L), θ_1 = (L/V)(f_2/f_1)^(-α/b), with the
@@ -284,11 +289,7 @@ fn an_open_point_keeps_its_memory() {
         }
         assert_eq!(slide(&law, 0.0, 1e-6, 10.0, &old), old, "{}", E::NAME);
     }
-    check(&slip());
-    check(&ageing());
-    check(&Prz::new(B, LENGTH, V_REF).unwrap());
-    check(&flash());
-    check(&Nagata::new(B, LENGTH, V_REF, 2.0).unwrap());
+    each_evolution!(Law => check(&usual::<Law>(common())));
     // A state without that memory evolves at the rate of free slip.
     let law = with_form(Regularised(parameters()), &[(ageing(), ALPHA), (ageing(), 0.0)], 1e-7);
     let old = initial(&law);
@@ -413,9 +414,7 @@ fn rates_of_the_states_are_the_slopes_of_their_steps() {
     fn check_all<F: Form>(form: &F) {
         check(form.clone(), &[(slip(), ALPHA), (Slip::new(0.003, 1e-4, V_REF).unwrap(), 0.1)]);
         check(form.clone(), &[(ageing(), ALPHA), (Ageing::new(0.003, 1e-4, V_REF).unwrap(), 0.0)]);
-        check(form.clone(), &[(Prz::new(B, LENGTH, V_REF).unwrap(), 0.02)]);
-        check(form.clone(), &[(flash(), ALPHA)]);
-        check(form.clone(), &[(Nagata::new(B, LENGTH, V_REF, 2.0).unwrap(), 0.1)]);
+        each_evolution!(Law => check(form.clone(), &[(usual::<Law>(common()), 0.02)]));
     }
     check_all(&Bare(parameters()));
     check_all(&Regularised(parameters()));

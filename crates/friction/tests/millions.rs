@@ -3,10 +3,14 @@
 #![allow(clippy::unwrap_used)]
 
 use asperity_friction::Failure;
+#[path = "usual/mod.rs"]
+mod usual;
+
 use asperity_friction::component::Component;
+use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::{Flash, Weakening};
 use asperity_friction::evolution::{
-    Evolution, ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip, stateless::Stateless,
+    Common, Defined, Evolution, ageing::Ageing, slip::Slip, stateless::Stateless,
 };
 use asperity_friction::law::{Drives, Rated};
 use asperity_friction::point::{Point, Solution, Solver};
@@ -14,6 +18,7 @@ use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{
     Form, Parameters, arrhenius::Arrhenius, bare::Bare, cut_off::CutOff, regularised::Regularised,
 };
+use usual::usual;
 
 const V_REF: f64 = 1e-6;
 const DRAWS: usize = 250_000;
@@ -165,23 +170,15 @@ fn the_slip_law_balances_in_few_iterations() {
 }
 
 #[test]
-fn the_other_evolutions_balance_in_few_iterations() {
-    implicit(
-        "PRZ",
+fn every_evolution_balances_in_few_iterations() {
+    each_evolution!(Law => implicit(
+        <Law as Defined>::DEFINITION.name,
         |a| Regularised(parameters(a)),
-        |r, _| {
+        |r, a| {
             let (b, length) = effects(r);
-            vec![Prz::new(b, length, V_REF).unwrap()]
+            vec![usual::<Law>(Common { mu0: 0.6, a, v_ref: V_REF, b, length })]
         },
-    );
-    implicit(
-        "Nagata",
-        |a| Regularised(parameters(a)),
-        |r, _| {
-            let (b, length) = effects(r);
-            vec![Nagata::new(b, length, V_REF, 2.0).unwrap()]
-        },
-    );
+    ));
     implicit(
         "flash heating",
         |a| Regularised(parameters(a)),

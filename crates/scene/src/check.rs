@@ -18,14 +18,15 @@ mod unused;
 use super::model::{Body, Kinematics, MeshSource, Scene, Spanned};
 use super::near::suggest;
 use crate::diagnostic::Diagnostic;
+use crate::law::Laws;
 use crate::names::SIDES;
 use crate::warning::Warning;
 use std::ops::Range;
 
 /// Everything wrong in a scene, and everything doubtful, in the order of the file.
 #[must_use]
-pub fn check(scene: &Scene) -> (Vec<Diagnostic>, Vec<Warning>) {
-    let mut checker = Checker { scene, errors: Vec::new(), warnings: Vec::new() };
+pub fn check(scene: &Scene, laws: &Laws) -> (Vec<Diagnostic>, Vec<Warning>) {
+    let mut checker = Checker { scene, laws, errors: Vec::new(), warnings: Vec::new() };
     checker.schema();
     checker.materials();
     checker.bodies();
@@ -48,6 +49,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 
 struct Checker<'a> {
     scene: &'a Scene,
+    laws: &'a Laws,
     errors: Vec<Diagnostic>,
     warnings: Vec<Warning>,
 }

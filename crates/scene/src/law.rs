@@ -1,20 +1,23 @@
 //! Which friction law a scene means, complete and in range.
 
 mod choice;
+mod given;
 mod reader;
 mod several;
+mod table;
 
 pub use choice::{Evolution, Form, Heat, LawChoice, State, Strength};
+pub use given::given;
 pub use several::Several;
+pub use table::{Bound, EvolutionRow, Laws, ParameterRow};
 
 use super::model::{LawSpec, Spanned};
 use super::near;
 use crate::diagnostic::Diagnostic;
-use choice::{EVOLUTIONS, FORMS};
+use choice::FORMS;
 use reader::Reader;
-use std::ops::Range;
 
-/// Kinds of law with the parameters of each.
+/// Kinds of law with the parameters of each; evolutions have more of their own.
 const KINDS: [(&str, &[&str]); 6] = [
     ("tied", &[]),
     ("coulomb", &["mu", "f_limit"]),
@@ -33,12 +36,8 @@ const KINDS: [(&str, &[&str]); 6] = [
             "v_ref",
             "v_initial",
             "v_cut",
-            "v_cut_state",
             "alpha",
             "normal_initial",
-            "c",
-            "mu_w",
-            "v_w",
             "activation",
             "t_ref",
             "temperature",
@@ -47,48 +46,42 @@ const KINDS: [(&str, &[&str]); 6] = [
     ),
 ];
 
-/// Parameters of one form or evolution only.
-const PARTICULAR: [(&str, &str, &str); 5] = [
-    ("v_cut", "form", "cut-off"),
-    ("v_cut_state", "evolution", "ageing"),
-    ("c", "evolution", "nagata"),
-    ("mu_w", "evolution", "flash"),
-    ("v_w", "evolution", "flash"),
-];
+/// The kind of law whose state evolves.
+const EVOLVES: &str = "rate-and-state";
 
-/// The law of a specification.
+/// The law of a specification, of those that the program knows.
 ///
 /// # Errors
 /// Every parameter that is missing, belongs to another law, or is out of range.
-pub fn choose(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<Diagnostic>> {
-    choose_with(spec, false)
+pub fn choose(spec: &Spanned<LawSpec>, laws: &Laws) -> Result<LawChoice, Vec<Diagnostic>> {
+    choose_with(spec, laws, false)
 }
 
 /// The law of a slider, whose evolution effect `b` may be negative.
 ///
 /// # Errors
 /// As [`choose`].
-pub fn choose_sliding(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<Diagnostic>> {
-    choose_with(spec, true)
+pub fn choose_sliding(spec: &Spanned<LawSpec>, laws: &Laws) -> Result<LawChoice, Vec<Diagnostic>> {
+    choose_with(spec, laws, true)
 }
 
-fn choose_with(spec: &Spanned<LawSpec>, negative_b: bool) -> Result<LawChoice, Vec<Diagnostic>> {
+fn choose_with(spec: &Spanned<LawSpec>, laws: &Laws, negative_b: bool) -> Result<LawChoice, Vec<Diagnostic>> {
     let law = spec.get_ref();
     let kinds = || KINDS.iter().map(|k| k.0);
     let Some(kind) = &law.kind else {
         let help = format!("add `kind = ..`; the kinds are {}", kinds().collect::<Vec<_>>().join(", "));
         return Err(vec![Diagnostic::at(spec.span(), "the law has no kind", help)]);
     };
-    let Some((name, parameters)) = KINDS.iter().find(|k| k.0 == kind.get_ref()) else {
+    let Some((name, _)) = KINDS.iter().find(|k| k.0 == kind.get_ref()) else {
         return Err(vec![Diagnostic::at(
             kind.span(),
             format!("there is no law of kind `{}`", kind.get_ref()),
             near::suggest(kind.get_ref(), "kinds", kinds()),
         )]);
     };
-    let mut errors = foreign(law, name, parameters);
-    errors.extend(particular(law, parameters));
-    let mut reader = Reader { kind: name, place: spec.span(), errors, negative_b };
+    let mut errors = foreign(law, name, laws);
+    errors.extend(particular(law, name, laws));
+    let mut reader = Reader { kind: name, place: spec.span(), errors, negative_b, laws };
     let choice = reader.choice(law);
     match choice {
         Some(choice) if reader.errors.is_empty() => Ok(choice),
@@ -96,34 +89,30 @@ fn choose_with(spec: &Spanned<LawSpec>, negative_b: bool) -> Result<LawChoice, V
     }
 }
 
-/// Keys with their places where they are given.
-macro_rules! places {
-    ($law:ident: $($key:ident)*) => {
-        [$((stringify!($key), $law.$key.as_ref().map(Spanned::span))),*]
-    };
+/// Parameters of a kind of law, those of its evolutions last.
+fn parameters(kind: &str, laws: &Laws) -> Vec<&'static str> {
+    let mut all: Vec<&str> = KINDS.iter().filter(|k| k.0 == kind).flat_map(|k| k.1).copied().collect();
+    if kind == EVOLVES {
+        all.extend(laws.evolutions.iter().flat_map(|row| &row.parameters).map(|p| p.key));
+    }
+    all
 }
 
-/// Parameters given, with their places, in the order of the specification.
-#[must_use]
-pub fn given(law: &LawSpec) -> Vec<(&'static str, Range<usize>)> {
-    let places = places!(law: mu mu_s mu_k d_c form evolution mu0 a b l v_ref v_initial v_cut v_cut_state alpha normal_initial
-                         c mu_w v_w activation t_ref temperature f_limit);
-    places.into_iter().filter_map(|(name, place)| place.map(|p| (name, p))).collect()
-}
-
-fn foreign(law: &LawSpec, kind: &str, parameters: &[&str]) -> Vec<Diagnostic> {
+fn foreign(law: &LawSpec, kind: &str, laws: &Laws) -> Vec<Diagnostic> {
+    let parameters = parameters(kind, laws);
     let strange = given(law).into_iter().filter(|(name, _)| !parameters.contains(name));
     strange
         .map(|(name, place)| {
-            let owners: Vec<String> =
-                KINDS.iter().filter(|k| k.1.contains(&name)).map(|k| format!("\"{}\"", k.0)).collect();
+            let owns = |kind: &&str| self::parameters(kind, laws).contains(&name);
+            let owners = KINDS.iter().map(|k| k.0).filter(owns).map(|k| format!("\"{k}\""));
+            let owners: Vec<String> = owners.collect();
             Diagnostic::at(
                 place,
                 format!(
                     "`{name}` is not a parameter of the law \"{kind}\"; it belongs to {}",
                     owners.join(" and ")
                 ),
-                match parameters {
+                match &parameters[..] {
                     [] => format!("remove it; \"{kind}\" has no parameters"),
                     _ => format!("remove it; \"{kind}\" has {}", parameters.join(", ")),
                 },
@@ -133,14 +122,18 @@ fn foreign(law: &LawSpec, kind: &str, parameters: &[&str]) -> Vec<Diagnostic> {
 }
 
 /// Parameters of a form or evolution other than the chosen one.
-fn particular(law: &LawSpec, parameters: &[&str]) -> Vec<Diagnostic> {
+fn particular(law: &LawSpec, kind: &str, laws: &Laws) -> Vec<Diagnostic> {
+    let parameters = parameters(kind, laws);
     let form = law.form.as_ref().map_or(FORMS[0], |f| f.get_ref());
     let evolution = law.evolution.as_ref().map_or("", |e| e.get_ref());
     let mut errors = Vec::new();
     for (name, place) in given(law).into_iter().filter(|(name, _)| parameters.contains(name)) {
-        let Some((_, what, owner)) = PARTICULAR.iter().find(|p| p.0 == name) else { continue };
-        let (chosen, known) = if *what == "form" { (form, &FORMS[..]) } else { (evolution, &EVOLUTIONS[..]) };
-        if chosen != *owner && known.contains(&chosen) {
+        let (what, owner, chosen, known) = match laws.owner(name) {
+            Some(owner) => ("evolution", owner, evolution, laws.evolution(evolution).is_some()),
+            None if name == "v_cut" => ("form", "cut-off", form, FORMS.contains(&form)),
+            None => continue,
+        };
+        if chosen != owner && known {
             let message =
                 format!("`{name}` is not a parameter of the {what} \"{chosen}\"; it belongs to \"{owner}\"");
             errors.push(Diagnostic::at(place, message, format!("remove it, or use `{what} = \"{owner}\"`")));

@@ -21,25 +21,18 @@ pub mod warning;
 pub use entry::Entry;
 
 use crate::diagnostic::Diagnostics;
+use law::Laws;
 use model::Scene;
 use std::path::Path;
 
-/// Reads and checks a scene; paths of mesh files in it are relative to the present folder.
+/// Reads and checks a scene whose mesh files are named relative to `folder`, with the friction laws that the program knows.
 ///
 /// # Errors
 /// All that is wrong with it, or the first thing that keeps it from being read.
-pub fn read(text: &str) -> Result<Scene, Diagnostics> {
-    read_in(text, Path::new(""))
-}
-
-/// Reads and checks a scene whose mesh files are named relative to `folder`.
-///
-/// # Errors
-/// See [`read`].
-pub fn read_in(text: &str, folder: &Path) -> Result<Scene, Diagnostics> {
+pub fn read(text: &str, folder: &Path, laws: &Laws) -> Result<Scene, Diagnostics> {
     let mut scene: Scene = toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
     scene.folder = folder.to_path_buf();
-    let (errors, warnings) = check::check(&scene);
+    let (errors, warnings) = check::check(&scene, laws);
     scene.warnings = warnings;
     if errors.is_empty() { Ok(scene) } else { Err(Diagnostics(errors)) }
 }

@@ -37,6 +37,7 @@ const ROWS: [Row; 1] = [Row {
         "lib.rs",
         "loading.rs",
         "refused.rs",
+        "scene.rs",
         "slider_planner.rs",
     ],
     reason: "plans are made from the scene, and what lies below them works on values",

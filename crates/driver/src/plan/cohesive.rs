@@ -3,8 +3,8 @@
 use crate::cohesive::enough;
 use crate::diagnostic::Diagnostic;
 use crate::fault::{FEW, Ground, TOO_FEW, modulus, spacings};
+use crate::laws;
 use crate::model::{Body, Model};
-use crate::scene::law;
 use crate::scene::model::{Interface, Scene, UnderResolved};
 use crate::warning::Warning;
 use asperity_fem::kinematics::Idealisation;
@@ -15,7 +15,7 @@ use asperity_mechanics::{Resolved, Stage};
 /// Of an interface, where its friction weakens with slip.
 pub fn resolved<const D: usize>(model: &Model<D>, spec: &Interface, slave: &[Side]) -> Option<Resolved> {
     let law = spec.law.as_ref()?;
-    let choice = law::choose(law).ok()?;
+    let choice = laws::choose(law).ok()?;
     let of_side = |set| {
         let body = &model.bodies[model.body_of(set)?];
         let elastic = body.elastic.first()?;

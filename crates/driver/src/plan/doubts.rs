@@ -6,8 +6,9 @@ use crate::diagnostic::Diagnostic;
 use crate::lengths::show;
 use crate::loading::Stage;
 use crate::model::{self, Model, sizes};
-use crate::scene::model::Scene;
+use crate::scene::model::{Interface, Scene};
 use crate::warning::Warning;
+use asperity_friction::evolution;
 
 /// Share of what the conditions move that an error of slip allowed in a single step may be: beyond it nothing bounds the steps.
 const BOUNDS_NOTHING: f64 = 0.1;
@@ -37,10 +38,24 @@ pub fn of<const D: usize>(
             doubts.extend(start_gaps::doubts(&start, (spec, bonded), stages, h));
         }
         doubts.extend(coarse::doubts(&model.mesh.nodes, planned, spec));
+        doubts.extend(first_order(&planned.name, spec));
         starts.push(start);
         doubts.extend(resolution(scene, model, stages, planned)?);
     }
     Ok((starts, doubts))
+}
+
+/// An evolution whose steps are of first order, which the estimate of their error takes to be of second.
+fn first_order(name: &str, spec: &Interface) -> Option<Warning> {
+    let evolution = spec.law.as_ref()?.get_ref().evolution.as_ref()?;
+    evolution::definition(evolution.get_ref())?.memory?;
+    let message = format!(
+        "with the evolution \"{}\" steps of interface `{name}` are of first order in time: friction errs by some twenty times \
+         what `friction_tolerance` allows",
+        evolution.get_ref()
+    );
+    let help = "lower `friction_tolerance` in proportion, and compare with a run at half of it";
+    Some(Warning::at(evolution.span(), message, help))
 }
 
 /// Few points for friction under what loads are known to press with, and a key that has nothing to decide.

@@ -6,7 +6,7 @@ use super::{PlannedInterface, cohesive, pressed, watch};
 use crate::diagnostic::Diagnostic;
 use crate::model::{self, Model};
 use crate::refused::refused;
-use crate::scene::law::{self, LawChoice};
+use crate::scene::law::LawChoice;
 use crate::scene::model::{Interface as InterfaceSpec, LawSpec, Measure, Scene, Sliding, Spanned};
 use asperity_contact::{self as contact, Watch};
 use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
@@ -184,7 +184,7 @@ fn check_faces<const D: usize>(
 }
 
 fn choose_law(spec: &Spanned<LawSpec>) -> Result<LawChoice, Diagnostic> {
-    law::choose(spec).map_err(|errors| {
+    crate::laws::choose(spec).map_err(|errors| {
         let first = errors.into_iter().next();
         let incomplete =
             || Diagnostic::at(spec.span(), "the law is not complete", "see the laws of friction");

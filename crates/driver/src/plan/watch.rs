@@ -6,6 +6,7 @@ use crate::scene::law::{Evolution, LawChoice, State};
 use crate::scene::model::Scene;
 use asperity_contact::{Course, RateLimit, Watch};
 use asperity_fem::mesh::Side;
+use asperity_friction::evolution::{self, Front};
 use asperity_mechanics::LOADING;
 use std::collections::BTreeSet;
 
@@ -63,17 +64,18 @@ fn course(law: &LawChoice) -> Course {
             }
         }
         LawChoice::RateAndState { strength, evolution, states, .. } => {
-            by_state(strength.a, *evolution, states)
+            by_state(strength.a, evolution, states)
         }
     }
 }
 
-fn by_state(a: f64, evolution: Evolution, states: &[State]) -> Course {
+fn by_state(a: f64, evolution: &Evolution, states: &[State]) -> Course {
     let b: f64 = states.iter().map(|s| s.b).sum();
     let length = states.iter().map(|s| s.l).fold(f64::INFINITY, f64::min);
-    // What flash heating takes off has no b.
-    let flash = matches!(evolution, Evolution::Flash { .. });
-    if (b > a || flash) && length.is_finite() {
+    // What is lost at high rates beyond the steady state, as to flash heating, has no b.
+    let front = evolution::definition(evolution.name).map(|row| row.front);
+    let weakened = matches!(front, Some(Front::Slip { weakened: Some(_) }));
+    if (b > a || weakened) && length.is_finite() {
         Course::State { most: ZETA.min(UNIQUE * a / b) * length }
     } else {
         Course::Steady

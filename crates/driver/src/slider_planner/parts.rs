@@ -4,7 +4,7 @@ use super::Planner;
 use crate::diagnostic::Diagnostic;
 use crate::laws;
 use crate::refused::refused;
-use crate::scene::law::{self, LawChoice};
+use crate::scene::law::LawChoice;
 use crate::scene::model::{LawSpec, Spanned};
 use crate::scene::near;
 use crate::scene::slider::{SliderScene, SliderSpec, SpringSpec};
@@ -77,7 +77,7 @@ impl Planner {
     }
 
     fn law(&mut self, spec: &Spanned<LawSpec>) -> Option<Arc<dyn Sliding>> {
-        let choice: LawChoice = match law::choose_sliding(spec) {
+        let choice: LawChoice = match laws::choose_sliding(spec) {
             Ok(choice) => choice,
             Err(errors) => {
                 self.errors.extend(errors);

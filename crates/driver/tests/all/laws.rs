@@ -1,7 +1,7 @@
 //! Every law a scene can express is built, and an interface and a slider get what the scene says.
 
 use asperity_driver::laws;
-use asperity_driver::scene::law::{self, LawChoice, State};
+use asperity_driver::scene::law::{LawChoice, State};
 use asperity_driver::scene::model::{LawSpec, Spanned, here};
 use asperity_driver::scene::units::{Length, Velocity};
 use asperity_friction::coulomb::Coulomb;
@@ -15,7 +15,7 @@ struct Holder {
 
 fn choose(law: &str) -> LawChoice {
     let holder: Holder = toml::from_str(&format!("law = {{ {law} }}")).unwrap();
-    law::choose(&holder.law).unwrap_or_else(|errors| panic!("{law}: {errors:?}"))
+    laws::choose(&holder.law).unwrap_or_else(|errors| panic!("{law}: {errors:?}"))
 }
 
 /// The friction coefficient of the initial state at a rate \[m/s\] under 50 MPa.
@@ -172,10 +172,10 @@ fn a_law_is_written_in_rust_as_in_a_file() {
         ..LawSpec::default()
     };
     let law = format!("kind = \"rate-and-state\", {STRENGTH}, v_initial = 1e-6, evolution = \"slip\", {TWO}");
-    assert_eq!(law::choose(&here(spec.clone())), Ok(choose(&law)));
+    assert_eq!(laws::choose(&here(spec.clone())), Ok(choose(&law)));
     let one = LawSpec { b: Some(here(0.015.into())), l: Some(here(Length(10e-6).into())), ..spec };
     let law = format!("kind = \"rate-and-state\", {STRENGTH}, v_initial = 1e-6, evolution = \"slip\", {ONE}");
-    assert_eq!(law::choose(&here(one)), Ok(choose(&law)));
+    assert_eq!(laws::choose(&here(one)), Ok(choose(&law)));
 }
 
 /// What the scene lets pass, the law admits: parameters at the ends of the range of numbers, and beyond.
@@ -237,7 +237,7 @@ fn a_law_that_is_chosen_can_be_built() {
             }
         }
         let holder: Holder = toml::from_str(&format!("law = {{ {law} }}")).unwrap();
-        match law::choose(&holder.law) {
+        match laws::choose(&holder.law) {
             Err(errors) => refused += usize::from(!errors.is_empty()),
             Ok(choice) => {
                 passed[kind] += 1;

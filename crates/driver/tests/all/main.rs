@@ -17,6 +17,7 @@ mod fault_opening;
 mod fault_outputs;
 mod instability;
 mod interface_signs;
+mod law_tables;
 mod laws;
 mod loads;
 mod located;

@@ -414,7 +414,8 @@ fn strength() -> Strength {
     Strength { form: Form::Regularised, mu0: 0.6, a: 0.01, v_ref: 1e-6, heat: None }
 }
 
-fn state_law(evolution: Evolution) -> LawChoice {
+fn state_law(name: &'static str, own: Vec<Option<f64>>) -> LawChoice {
+    let evolution = Evolution { name, own };
     LawChoice::RateAndState {
         strength: strength(),
         evolution,
@@ -451,7 +452,7 @@ fn same(mut call: Problem, text: &str) {
 
 #[test]
 fn a_library_call_and_a_scene_of_one_slider_give_the_same_bits() {
-    let slider = block(&state_law(Evolution::Ageing { v_cut: None }), 1.25e9, History::Constant(5e6));
+    let slider = block(&state_law("ageing", vec![None]), 1.25e9, History::Constant(5e6));
     let system = System::new(vec![slider], Vec::new(), History::Constant(1e-6)).unwrap();
     let start = system.start(&[1.5e-6], &[steady(&system, 0)]).unwrap();
     let mut call = Problem::new(system, start, 4000.0);
@@ -464,8 +465,10 @@ fn a_library_call_and_a_scene_of_one_slider_give_the_same_bits() {
 fn a_library_call_and_a_scene_of_two_sliders_give_the_same_bits() {
     let normal = History::sine(8e6, 1e6, 70.0, 0.0).unwrap();
     let rate = LawChoice::Rate { strength: strength(), f_limit: None };
-    let sliders =
-        vec![block(&state_law(Evolution::Slip), 1.25e9, History::Constant(5e6)), block(&rate, 0.0, normal)];
+    let sliders = vec![
+        block(&state_law("slip", Vec::new()), 1.25e9, History::Constant(5e6)),
+        block(&rate, 0.0, normal),
+    ];
     let springs = vec![Spring { between: [0, 1], stiffness: 0.5e9 }];
     let system = System::new(sliders, springs, History::Constant(1e-6)).unwrap();
     let start = system.start(&[1.5e-6, 1e-6], &[steady(&system, 0), steady(&system, 1)]).unwrap();

@@ -3,7 +3,9 @@
 //! With a cut-off rate V2 (Okubo 1989) the contribution levels off at high rates: φ = b ln(1 + V2 θ/L).
 
 use super::relaxation::decay;
-use super::{Evolution, Evolved, Rate, Speed};
+use super::{
+    Bound, Common, Defined, Definition, Evolution, Evolved, Front, Parameter, Rate, Speed, Unit, Variable,
+};
 
 /// Below this x the series of x/(e^x - 1) - 1 is exact to rounding (its fifth term is x^7/604800 of the first), and above it
 /// the closed form loses two digits at most.
@@ -53,6 +55,30 @@ impl Ageing {
     /// The same law without a cut-off and with the clock of θ running slower by `1/(1 + c)`: see [`super::nagata`].
     pub(super) fn slowed(&self, state: f64, dt: f64, c: f64) -> (f64, f64, f64) {
         self.start(state, dt / (1.0 + c))
+    }
+}
+
+impl Defined for Ageing {
+    const DEFINITION: Definition = Definition {
+        name: "ageing",
+        equation: "dθ/dt = 1 - Vθ/L",
+        parameters: &[Parameter {
+            key: "v_cut_state",
+            unit: Unit::Velocity,
+            bound: Bound::Positive,
+            optional: true,
+            example: "\"1 mm/s\"",
+            meaning: "φ = b ln(1 + `v_cut_state` θ/L)",
+        }],
+        one_state: None,
+        memory: None,
+        variable: Variable::Logarithm { lengths: 1.0 },
+        front: Front::Ageing,
+    };
+
+    fn build(p: &Common, own: &[Option<f64>]) -> Result<Self, crate::Failure> {
+        let law = Self::new(p.b, p.length, p.v_ref)?;
+        own.first().copied().flatten().map_or(Ok(law), |v_cut| law.with_cut_off(v_cut))
     }
 }
 

@@ -5,8 +5,11 @@
 //! φ_ss is the bare logarithm's, which differs from that of the regularised strength by a e^(-2μ_ss/a) and exists for every
 //! rate. As a bare function of V such a weakening would be ill-posed; as the aim of an evolving state over L it is not.
 
+use super::definition::needed;
 use super::relaxation::{self, Steady};
-use super::{Evolution, Evolved, Rate, Speed};
+use super::{
+    Bound, Common, Defined, Definition, Evolution, Evolved, Front, Parameter, Rate, Speed, Unit, Variable,
+};
 
 /// Exponent of the transition (Dunham et al. 2011).
 const POWER: f64 = 8.0;
@@ -35,6 +38,41 @@ pub struct Flash {
     length: f64,
     log_v_ref: f64,
     log_v_w: f64,
+}
+
+impl Defined for Flash {
+    const DEFINITION: Definition = Definition {
+        name: "flash",
+        equation: "slip law towards a steady state weakened by flash heating",
+        parameters: &[
+            Parameter {
+                key: "mu_w",
+                unit: Unit::None,
+                bound: Bound::BelowReference,
+                optional: false,
+                example: "0.13",
+                meaning: "",
+            },
+            Parameter {
+                key: "v_w",
+                unit: Unit::Velocity,
+                bound: Bound::Positive,
+                optional: false,
+                example: "\"0.1 m/s\"",
+                meaning: "",
+            },
+        ],
+        one_state: Some("its steady state is that of the whole law"),
+        memory: None,
+        variable: Variable::Contribution { has_theta: false },
+        front: Front::Slip { weakened: Some(0) },
+    };
+
+    fn build(p: &Common, own: &[Option<f64>]) -> Result<Self, crate::Failure> {
+        let (mu_w, v_w) = (needed(own, 0, "mu_w")?, needed(own, 1, "v_w")?);
+        let &Common { mu0, a, v_ref, b, length } = p;
+        Self::new(Weakening { mu0, a, b, v_ref, mu_w, v_w }, length)
+    }
 }
 
 impl Flash {

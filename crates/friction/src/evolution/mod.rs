@@ -1,15 +1,21 @@
 //! Evolution of the state: one law per file. Each has its exact step at constant V and keeps a variable in which thirty
 //! decades of state cost nothing.
 //!
-//! A new law is one short file: the contribution φ(s) of its variable s, the steady state, the rate, and the step.
+//! A new law is one short file: its row of the table ([`Definition`]), the contribution φ(s) of its variable s, the steady state, the rate,
+//! and the step. Its type then stands in [`each_evolution`](crate::each_evolution).
 
 pub mod ageing;
+mod definition;
 pub mod flash;
 pub mod nagata;
 pub mod prz;
 mod relaxation;
 pub mod slip;
 pub mod stateless;
+mod table;
+
+pub use definition::{Bound, Common, Defined, Definition, Front, Parameter, Unit, Variable};
+pub use table::{Visit, definition, definitions, with};
 
 /// ln V of a point at rest: e^z and z e^z vanish, and products of z stay finite.
 pub(crate) const AT_REST: f64 = f64::MIN;

@@ -7,7 +7,10 @@
 //! slowed clock is the definition.
 
 use super::ageing::Ageing;
-use super::{Evolution, Evolved, Rate, Speed};
+use super::definition::needed;
+use super::{
+    Bound, Common, Defined, Definition, Evolution, Evolved, Front, Parameter, Rate, Speed, Unit, Variable,
+};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +31,29 @@ impl Nagata {
         // The jump turns φ into ψ.
         let b = crate::positive("b", b)?;
         Ok(Self { ageing: Ageing::new(b, length, v_ref)?, c })
+    }
+}
+
+impl Defined for Nagata {
+    const DEFINITION: Definition = Definition {
+        name: "nagata",
+        equation: "ageing with a memory of shear traction; `b` > 0",
+        parameters: &[Parameter {
+            key: "c",
+            unit: Unit::None,
+            bound: Bound::NotNegative,
+            optional: false,
+            example: "2.0",
+            meaning: "",
+        }],
+        one_state: Some("it remembers the shear traction all of them share"),
+        memory: Some(0),
+        variable: Variable::Logarithm { lengths: 1.0 },
+        front: Front::Ageing,
+    };
+
+    fn build(p: &Common, own: &[Option<f64>]) -> Result<Self, crate::Failure> {
+        Self::new(p.b, p.length, p.v_ref, needed(own, 0, "c")?)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Perrin, Rice & Zheng (1995): dθ/dt = 1 - (V θ/2L)², φ = b ψ with ψ = ln(Vref θ/2L). It heals like the ageing law and
 //! weakens from a jump like neither of the two classical laws; u = V θ/2L obeys du/dx = 1 - u² with x = V t/2L.
 
-use super::{Evolution, Evolved, Rate, Speed};
+use super::{Common, Defined, Definition, Evolution, Evolved, Front, Rate, Speed, Variable};
 
 /// Below this x four terms of the series of tanh x/x and of x/(sinh x cosh x) - 1 are exact to rounding.
 const SMALL: f64 = 1e-2;
@@ -34,6 +34,22 @@ impl Prz {
             v_ref: crate::positive("v_ref", v_ref)?,
             log_v_ref: v_ref.ln(),
         })
+    }
+}
+
+impl Defined for Prz {
+    const DEFINITION: Definition = Definition {
+        name: "prz",
+        equation: "dθ/dt = 1 - (Vθ/2L)²",
+        parameters: &[],
+        one_state: None,
+        memory: None,
+        variable: Variable::Logarithm { lengths: 2.0 },
+        front: Front::Ageing,
+    };
+
+    fn build(p: &Common, _: &[Option<f64>]) -> Result<Self, crate::Failure> {
+        Self::new(p.b, p.length, p.v_ref)
     }
 }
 

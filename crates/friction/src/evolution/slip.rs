@@ -1,7 +1,7 @@
 //! Slip law (Ruina 1983): dφ/dt = -(V/L)(φ + b ln(V/Vref)). The state variable is φ itself.
 
 use super::relaxation::{self, Steady};
-use super::{Evolution, Evolved, Rate, Speed};
+use super::{Common, Defined, Definition, Evolution, Evolved, Front, Rate, Speed, Variable};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +26,22 @@ impl Slip {
 
     fn towards(&self, log_rate: f64) -> Steady {
         Steady { value: self.steady(log_rate), slope: -self.b, curvature: 0.0 }
+    }
+}
+
+impl Defined for Slip {
+    const DEFINITION: Definition = Definition {
+        name: "slip",
+        equation: "dθ/dt = -(Vθ/L) ln(Vθ/L)",
+        parameters: &[],
+        one_state: None,
+        memory: None,
+        variable: Variable::Contribution { has_theta: true },
+        front: Front::Slip { weakened: None },
+    };
+
+    fn build(p: &Common, _: &[Option<f64>]) -> Result<Self, crate::Failure> {
+        Self::new(p.b, p.length, p.v_ref)
     }
 }
 

@@ -1,9 +1,11 @@
 //! The rate form: its linearisation, and the limits r6 and r8.
 
+use super::usual::usual;
 use asperity_friction::component::Component;
 use asperity_friction::coulomb::Coulomb;
+use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::{Flash, Weakening};
-use asperity_friction::evolution::{Evolution, ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip};
+use asperity_friction::evolution::{Common, Defined, Evolution, ageing::Ageing, nagata::Nagata, slip::Slip};
 use asperity_friction::law::{
     Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
 };
@@ -142,23 +144,20 @@ fn agrees_to_second_order<E: Evolution>(evolution: &E, other: Option<&E>) {
 }
 
 #[test]
-fn forward_and_implicit_steps_part_at_second_order_with_the_slip_law() {
-    let slip = |b, l| Slip::new(b, l, V_REF).unwrap();
-    agrees_to_second_order(&slip(0.015, LENGTH), Some(&slip(0.004, 8.0 * LENGTH)));
+fn forward_and_implicit_steps_part_at_second_order_with_every_evolution() {
+    let common = |b, length| Common { mu0: 0.6, a: 0.01, v_ref: V_REF, b, length };
+    each_evolution!(Law => {
+        let other = usual::<Law>(common(0.004, 8.0 * LENGTH));
+        let several = <Law as Defined>::DEFINITION.one_state.is_none();
+        agrees_to_second_order(&usual::<Law>(common(0.015, LENGTH)), several.then_some(&other));
+    });
 }
 
 #[test]
-fn forward_and_implicit_steps_part_at_second_order_with_the_ageing_law() {
+fn forward_and_implicit_steps_part_at_second_order_with_a_cut_off_of_the_ageing_law() {
     let ageing = |b, l| Ageing::new(b, l, V_REF).unwrap();
-    agrees_to_second_order(&ageing(0.015, LENGTH), Some(&ageing(0.004, 8.0 * LENGTH)));
     let cut = |b, l| ageing(b, l).with_cut_off(4e-7).unwrap();
     agrees_to_second_order(&cut(0.015, LENGTH), Some(&cut(0.004, 8.0 * LENGTH)));
-}
-
-#[test]
-fn forward_and_implicit_steps_part_at_second_order_with_the_prz_law() {
-    let prz = |b, l| Prz::new(b, l, V_REF).unwrap();
-    agrees_to_second_order(&prz(0.015, LENGTH), Some(&prz(0.004, 8.0 * LENGTH)));
 }
 
 #[test]

@@ -1,12 +1,16 @@
 //! The point return and the rate form, over the whole admissible range.
 
+use super::usual::usual;
 use asperity_friction::Failure;
 use asperity_friction::component::Component;
 use asperity_friction::coulomb::Coulomb;
+use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::{Flash, Weakening};
 use asperity_friction::evolution::nagata::Nagata;
 use asperity_friction::evolution::prz::Prz;
-use asperity_friction::evolution::{Evolution, ageing::Ageing, slip::Slip, stateless::Stateless};
+use asperity_friction::evolution::{
+    Common, Defined, Evolution, ageing::Ageing, slip::Slip, stateless::Stateless,
+};
 use asperity_friction::law::{Lag, Law, Present, Rates, Regime, Responses, Trials};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::arrhenius::Arrhenius;
@@ -130,11 +134,13 @@ fn laws_with_state() -> Vec<(String, Box<dyn Law>)> {
     };
     for alpha in [0.0, 0.2] {
         let name = |kind: &str| format!("{kind}, alpha {alpha}");
-        add(&mut laws, &name("ageing"), &[(ageing(0.015, 1e-5), alpha)]);
+        let common = Common { mu0: 0.6, a: 0.01, v_ref: 1e-6, b: 0.015, length: 1e-5 };
+        each_evolution!(Law => {
+            let law = <Law as Defined>::DEFINITION.name;
+            add(&mut laws, &name(law), &[(usual::<Law>(common), alpha)]);
+        });
         add(&mut laws, &name("ageing with cut-off"), &[(cut(0.015, 1e-5), alpha)]);
-        add(&mut laws, &name("slip"), &[(slip(0.015, 1e-5), alpha)]);
-        add(&mut laws, &name("PRZ"), &[(prz(0.015, 1e-5), alpha)]);
-        add(&mut laws, &name("flash"), &[(flash(0.5, 1e-5), alpha)]);
+        add(&mut laws, &name("flash from 3 um/s"), &[(flash(0.5, 1e-5), alpha)]);
         for c in [0.5, 3.0] {
             let nagata = Nagata::new(0.015, 1e-5, 1e-6, c).unwrap();
             add(&mut laws, &name(&format!("Nagata {c}")), &[(nagata, alpha)]);

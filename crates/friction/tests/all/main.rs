@@ -6,4 +6,6 @@ mod laws;
 mod point;
 mod slider;
 mod two_step;
+#[path = "../usual/mod.rs"]
+mod usual;
 mod yield_laws;

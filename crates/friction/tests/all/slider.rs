@@ -1,8 +1,9 @@
 //! The equations of spring-sliders: balance of tractions, Jacobian, jumps, reversal.
 
+use super::usual::usual;
 use asperity_friction::component::Component;
-use asperity_friction::evolution::flash::{Flash, Weakening};
-use asperity_friction::evolution::{ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip};
+use asperity_friction::each_evolution;
+use asperity_friction::evolution::{Common, Defined, ageing::Ageing, nagata::Nagata, slip::Slip};
 use asperity_friction::law::Rated;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding, Spring, System};
@@ -22,6 +23,10 @@ fn regularised() -> Regularised {
     Regularised(parameters())
 }
 
+fn named(name: &str) -> Arc<dyn Sliding> {
+    laws().into_iter().find(|law| law.0 == name).unwrap().1
+}
+
 /// Every kind of law, by name.
 fn laws() -> Vec<(&'static str, Arc<dyn Sliding>)> {
     let ageing = || Ageing::new(B, L, V_REF).unwrap();
@@ -31,22 +36,19 @@ fn laws() -> Vec<(&'static str, Arc<dyn Sliding>)> {
         Component::new(slip(0.012, L), 0.1).unwrap(),
         Component::new(slip(0.003, 10.0 * L), 0.0).unwrap(),
     ];
-    let nagata = Nagata::new(B, L, V_REF, 2.0).unwrap();
-    let nagata = vec![Component::new(nagata, 0.2).unwrap()];
-    let w = Weakening { mu0: 0.6, a: A, b: B, v_ref: V_REF, mu_w: 0.2, v_w: 0.1 };
-    let flash = Flash::new(w, L).unwrap();
     let cut = CutOff::new(parameters(), 1e-4).unwrap();
-    vec![
-        ("ageing", Arc::new(RateLaw::new(regularised(), ageing(), 1e-6, None).unwrap())),
-        ("slip", Arc::new(RateLaw::new(regularised(), slip(B, L), 1e-6, None).unwrap())),
+    let mut laws: Vec<(&'static str, Arc<dyn Sliding>)> = vec![
         ("bare", Arc::new(RateLaw::new(Bare(parameters()), ageing(), 1e-6, None).unwrap())),
         ("memory", Arc::new(RateLaw::with_parts(regularised(), memory, 1e-6, 5e6, None).unwrap())),
         ("two", Arc::new(RateLaw::with_parts(regularised(), two, 1e-6, 5e6, None).unwrap())),
-        ("nagata", Arc::new(RateLaw::with_parts(regularised(), nagata, 1e-6, 5e6, None).unwrap())),
-        ("prz", Arc::new(RateLaw::new(regularised(), Prz::new(B, L, V_REF).unwrap(), 1e-6, None).unwrap())),
-        ("flash", Arc::new(RateLaw::new(regularised(), flash, 1e-6, None).unwrap())),
         ("cut-off", Arc::new(RateLaw::new(cut, ageing().with_cut_off(1e-2).unwrap(), 1e-6, None).unwrap())),
-    ]
+    ];
+    let common = Common { mu0: 0.6, a: A, v_ref: V_REF, b: B, length: L };
+    each_evolution!(Law => {
+        let law = RateLaw::new(regularised(), usual::<Law>(common), 1e-6, None).unwrap();
+        laws.push((<Law as Defined>::DEFINITION.name, Arc::new(law)));
+    });
+    laws
 }
 
 fn slider(law: &Arc<dyn Sliding>, damping: f64, mass: Option<f64>) -> Slider {
@@ -172,13 +174,13 @@ fn a_step_of_normal_traction_keeps_what_cannot_jump() {
         }
     }
     // Without damping and memory μ falls as 1/f_n, and ln V by its change over a, at constant state.
-    let (_, law) = laws().swap_remove(2);
+    let law = named("bare");
     let mut y = [80.0, 0.4];
     law.jump(&mut y, 5e6, 5.5e6, 0.0, false).unwrap();
     approx::assert_relative_eq!(y[0], 80.0 / 1.1, max_relative = 1e-14);
     assert_eq!(y[1], 0.4);
     // With memory α the state contribution falls by α ln 1.1.
-    let (_, law) = laws().swap_remove(3);
+    let law = named("memory");
     let mut y = [80.0, 0.4];
     law.jump(&mut y, 5e6, 5.5e6, 0.0, false).unwrap();
     approx::assert_relative_eq!(B * (0.4 - y[1]), 0.3 * 1.1f64.ln(), max_relative = 1e-12);
@@ -267,7 +269,7 @@ fn histories_have_their_values_slopes_and_integrals() {
 
 #[test]
 fn sliders_out_of_range_are_refused() {
-    let (_, law) = laws().swap_remove(0);
+    let law = named("ageing");
     let good = || Slider { normal: History::Constant(5e6), ..slider(&law, 0.0, None) };
     let refused = |s: Slider| System::new(vec![s], vec![], History::Constant(0.0)).is_err();
     assert!(!refused(good()));
@@ -279,7 +281,7 @@ fn sliders_out_of_range_are_refused() {
     let spring = Spring { between: [0, 3], stiffness: 1.0 };
     assert!(System::new(vec![good()], vec![spring], History::Constant(0.0)).is_err());
     // The bare logarithm has no rest.
-    let (_, bare) = laws().swap_remove(2);
+    let bare = named("bare");
     assert!(bare.at_rate(0.0, &[0.0]).is_err() && bare.at_rate(-1.0, &[0.0]).is_err());
     assert_eq!(Bare(parameters()).rest_slope(0.0), None);
 }

@@ -1,18 +1,26 @@
 //! What holds of every evolution: derivatives, composition of steps, steady states, bounds.
 
 use super::common::*;
+use super::usual::usual;
+use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::Flash;
-use asperity_friction::evolution::{Evolution, Speed, ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip};
+use asperity_friction::evolution::{Common, Defined, Evolution, Speed, Variable};
+use asperity_friction::evolution::{ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip};
 
-/// Calls a function with every evolution of one state variable and with values of φ/b to start from.
+/// Calls a function with every evolution of the table, and with values of its state variable to start from.
 macro_rules! with_every_evolution {
     ($check:ident, $of_log:expr, $of_phi:expr) => {
-        $check(&Ageing::new(B, LENGTH, V_REF).unwrap(), &$of_log);
+        each_evolution!(Law => {
+            let states: &[f64] = match <Law as Defined>::DEFINITION.variable {
+                Variable::Logarithm { .. } => &$of_log,
+                Variable::Contribution { .. } => &$of_phi,
+            };
+            let common = Common { mu0: 0.6, a: 0.01, v_ref: V_REF, b: B, length: LENGTH };
+            $check(&usual::<Law>(common), states);
+        });
+        // What usual parameters do not reach.
         $check(&Ageing::new(B, LENGTH, V_REF).unwrap().with_cut_off(1e-2).unwrap(), &$of_log);
         $check(&Ageing::new(B, LENGTH, V_REF).unwrap().with_cut_off(1e-8).unwrap(), &$of_log);
-        $check(&Prz::new(B, LENGTH, V_REF).unwrap(), &$of_log);
-        $check(&Nagata::new(B, LENGTH, V_REF, 2.0).unwrap(), &$of_log);
-        $check(&Slip::new(B, LENGTH, V_REF).unwrap(), &$of_phi);
         $check(&Flash::new(weakening(0.01), LENGTH).unwrap(), &$of_phi);
         $check(&Flash::new(weakening(0.02), LENGTH).unwrap(), &$of_phi);
     };

@@ -6,3 +6,5 @@ mod common;
 mod evolution;
 mod refusals;
 mod strength;
+#[path = "../usual/mod.rs"]
+mod usual;

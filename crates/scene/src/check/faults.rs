@@ -162,7 +162,7 @@ impl Checker<'_> {
     }
 
     fn friction(&mut self, fault: &Fault) {
-        self.errors.extend(law::choose(&fault.law).err().unwrap_or_default());
+        self.errors.extend(law::choose(&fault.law, self.laws).err().unwrap_or_default());
         let kind = fault.law.get_ref().kind.as_ref();
         if let Some(kind) = kind.filter(|k| WITHOUT_RATE.contains(&k.get_ref().as_str())) {
             self.error(

@@ -80,7 +80,7 @@ impl Checker<'_> {
             }
             if let Some(spec) = &interface.law {
                 self.coefficients(spec.get_ref());
-                self.errors.extend(law::choose(spec).err().unwrap_or_default());
+                self.errors.extend(law::choose(spec, self.laws).err().unwrap_or_default());
                 let form = &spec.get_ref().form;
                 let rate = spec.get_ref().kind.as_ref().is_some_and(|k| k.get_ref() == "rate");
                 if let Some(form) = form.as_ref().filter(|_| rate) {

@@ -41,29 +41,12 @@ pub struct Strength {
 }
 
 /// Evolution of the state.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Evolution {
-    /// dθ/dt = 1 - V θ/L.
-    Ageing {
-        /// Cut-off rate V2 of the state effect \[m/s\].
-        v_cut: Option<f64>,
-    },
-    /// dθ/dt = -(V θ/L) ln(V θ/L).
-    Slip,
-    /// Perrin-Rice-Zheng: dθ/dt = 1 - (V θ/2L)².
-    Prz,
-    /// Ageing with a memory of shear traction.
-    Nagata {
-        /// c \[-\].
-        c: f64,
-    },
-    /// The slip law towards a steady state weakened by flash heating.
-    Flash {
-        /// Fully weakened coefficient \[-\].
-        mu_w: f64,
-        /// Slip rate at which weakening begins \[m/s\].
-        v_w: f64,
-    },
+#[derive(Clone, Debug, PartialEq)]
+pub struct Evolution {
+    /// Name.
+    pub name: &'static str,
+    /// Values of its own parameters in SI, in the order of its row in [`Laws`](super::Laws).
+    pub own: Vec<Option<f64>>,
 }
 
 /// A state variable.
@@ -150,6 +133,5 @@ impl LawChoice {
     }
 }
 
-/// Forms and evolutions.
+/// Forms.
 pub(super) const FORMS: [&str; 3] = ["regularised", "bare", "cut-off"];
-pub(super) const EVOLUTIONS: [&str; 5] = ["ageing", "slip", "prz", "nagata", "flash"];

@@ -1,64 +1,35 @@
 //! Reads the parameters of a law and collects what is wrong with them.
 
-use super::choice::{EVOLUTIONS, Evolution, FORMS, Form, Heat, LawChoice, State, Strength};
+use super::choice::{Evolution, FORMS, Form, Heat, LawChoice, State, Strength};
+use super::given::{Quantity, scalar};
 use super::several::Several;
+use super::table::Bound::{self, BelowReference, Finite, NotNegative, Positive};
+use super::table::{EvolutionRow, Laws, ParameterRow};
 use crate::diagnostic::Diagnostic;
 use crate::model::{LawSpec, Spanned};
 use crate::near;
-use crate::units::{Length, Pressure, Velocity};
 use std::ops::Range;
 
 /// State variables of a law, at most: those a slider can hold.
 const MOST_STATES: usize = 14;
 
-/// A value of the specification in SI.
-pub(super) trait Quantity: Copy {
-    fn si(self) -> f64;
-}
-
-impl Quantity for f64 {
-    fn si(self) -> f64 {
-        self
-    }
-}
-
-macro_rules! quantities {
-    ($($name:ident)*) => {$(
-        impl Quantity for $name {
-            fn si(self) -> f64 {
-                self.0
-            }
-        }
-    )*};
-}
-
-quantities!(Length Pressure Velocity);
-
 /// A value with its place.
 type Placed = (f64, Range<usize>);
-
-/// Admissible ranges.
-#[derive(Clone, Copy, PartialEq)]
-enum Bound {
-    Positive,
-    NotNegative,
-    Finite,
-}
-use Bound::{Finite, NotNegative, Positive};
 
 /// Molar gas constant \[J/(mol K)\], exact in the SI since 2019.
 const GAS: f64 = 8.314_462_618_153_24;
 
 /// See the module.
-pub(super) struct Reader {
+pub(super) struct Reader<'a> {
     pub kind: &'static str,
     pub place: Range<usize>,
     pub errors: Vec<Diagnostic>,
     /// Whether `b` may be negative.
     pub negative_b: bool,
+    pub laws: &'a Laws,
 }
 
-impl Reader {
+impl<'a> Reader<'a> {
     pub fn choice(&mut self, law: &LawSpec) -> Option<LawChoice> {
         let f_limit = self.optional("f_limit", law.f_limit.as_ref(), "\"100 MPa\"", Positive);
         match self.kind {
@@ -86,11 +57,11 @@ impl Reader {
         let strength = self.strength(law);
         let evolution = self.evolution(law);
         let v_initial = self.value("v_initial", law.v_initial.as_ref(), "\"1 um/s\"", Positive);
-        let states = self.states(law, evolution);
+        let states = self.states(law, evolution.as_ref());
         let normal_initial = self.normal_initial(law);
         Some(LawChoice::RateAndState {
             strength: strength?,
-            evolution: evolution?,
+            evolution: evolution.map(|(_, evolution)| evolution)?,
             states: states?,
             v_initial: v_initial?,
             normal_initial: normal_initial?,
@@ -138,13 +109,14 @@ impl Reader {
 
     fn within(&mut self, name: &str, value: Placed, example: &str, bound: Bound) -> Option<f64> {
         let (value, place) = value;
-        let admitted = value > 0.0 || (bound == NotNegative && value == 0.0) || bound == Finite;
+        let zero = matches!(bound, NotNegative | BelowReference) && value == 0.0;
+        let admitted = value > 0.0 || zero || bound == Finite;
         if value.is_finite() && admitted {
             return Some(value);
         }
         let sign = match bound {
             Positive => " and positive",
-            NotNegative => " and not negative",
+            NotNegative | BelowReference => " and not negative",
             Finite => "",
         };
         let message = format!("`{name}` must be finite{sign}, found {value:?}");
@@ -290,44 +262,47 @@ impl Reader {
         }
     }
 
-    fn evolution(&mut self, law: &LawSpec) -> Option<Evolution> {
+    fn evolution(&mut self, law: &LawSpec) -> Option<(&'a EvolutionRow, Evolution)> {
+        let known: Vec<&str> = self.laws.names().collect();
         let Some(evolution) = &law.evolution else {
-            let known = EVOLUTIONS.join(", ");
+            let known = known.join(", ");
             self.missing("evolution", format!("add it, such as `evolution = \"ageing\"`; there are {known}"));
             return None;
         };
-        match evolution.get_ref().as_str() {
-            "ageing" => {
-                let v_cut = self.optional("v_cut_state", law.v_cut_state.as_ref(), "\"1 mm/s\"", Positive)?;
-                Some(Evolution::Ageing { v_cut })
-            }
-            "slip" => Some(Evolution::Slip),
-            "prz" => Some(Evolution::Prz),
-            "nagata" => Some(Evolution::Nagata { c: self.value("c", law.c.as_ref(), "2.0", NotNegative)? }),
-            "flash" => {
-                let mu_w = self.weakened(law);
-                let v_w = self.value("v_w", law.v_w.as_ref(), "\"0.1 m/s\"", Positive);
-                Some(Evolution::Flash { mu_w: mu_w?, v_w: v_w? })
-            }
-            other => self.unknown(evolution.span(), other, "evolution", &EVOLUTIONS),
-        }
+        let Some(row) = self.laws.evolution(evolution.get_ref()) else {
+            return self.unknown(evolution.span(), evolution.get_ref(), "evolution", &known);
+        };
+        let own: Vec<Option<Option<f64>>> = row.parameters.iter().map(|p| self.own(law, p)).collect();
+        Some((row, Evolution { name: row.name, own: own.into_iter().collect::<Option<_>>()? }))
     }
 
-    /// 0 ≤ μ_w < μ0.
-    fn weakened(&mut self, law: &LawSpec) -> Option<f64> {
-        let mu_w = self.value("mu_w", law.mu_w.as_ref(), "0.13", NotNegative)?;
-        let (Some(place), Some(mu0)) = (&law.mu_w, &law.mu0) else { return Some(mu_w) };
-        if mu_w < *mu0.get_ref() {
-            return Some(mu_w);
+    /// A parameter of an evolution.
+    fn own(&mut self, law: &LawSpec, row: &ParameterRow) -> Option<Option<f64>> {
+        let &ParameterRow { key, bound, optional, example } = row;
+        let Some((value, place)) = scalar(law, key) else {
+            if optional {
+                return Some(None);
+            }
+            self.missing(key, format!("add it, such as `{key} = {example}`"));
+            return None;
+        };
+        let value = self.within(key, (value, place.clone()), example, bound)?;
+        let reference = law.mu0.as_ref().filter(|mu0| bound == BelowReference && value >= *mu0.get_ref());
+        if let Some(mu0) = reference {
+            let message = format!("`{key}` must be below `mu0`, found {value:?} and {:?}", mu0.get_ref());
+            let help = format!("0 <= {key} < mu0, such as `{key} = {example}`");
+            self.errors.push(Diagnostic::at(place, message, help).and(mu0.span(), "`mu0`"));
+            return None;
         }
-        let message = format!("`mu_w` must be below `mu0`, found {mu_w:?} and {:?}", mu0.get_ref());
-        let error = Diagnostic::at(place.span(), message, "0 <= mu_w < mu0, such as `mu_w = 0.13`");
-        self.errors.push(error.and(mu0.span(), "`mu0`"));
-        None
+        Some(Some(value))
     }
 
     /// The state variables: `b`, `l` and `alpha` of each.
-    fn states(&mut self, law: &LawSpec, evolution: Option<Evolution>) -> Option<Vec<State>> {
+    fn states(
+        &mut self,
+        law: &LawSpec,
+        evolution: Option<&(&EvolutionRow, Evolution)>,
+    ) -> Option<Vec<State>> {
         for (name, absent, example) in [("b", law.b.is_none(), "0.015"), ("l", law.l.is_none(), "\"10 um\"")]
         {
             if absent {
@@ -361,46 +336,38 @@ impl Reader {
         Some(states.map(|((b, l), alpha)| State { b: b.0, l: l.0, alpha: alpha.0 }).collect())
     }
 
-    /// Whether the evolution can have these state variables.
+    /// Checks that the evolution can have these state variables.
     fn admitted(
         &mut self,
-        evolution: Evolution,
+        (row, evolution): &(&EvolutionRow, Evolution),
         place: Range<usize>,
         b: &[Placed],
         alpha: &[Placed],
     ) -> Option<()> {
-        let single = match evolution {
-            Evolution::Nagata { .. } => Some(("nagata", "it remembers the shear traction all of them share")),
-            Evolution::Flash { .. } => Some(("flash", "its steady state is that of the whole law")),
-            _ => None,
-        };
-        if let Some((name, why)) = single.filter(|_| b.len() > 1) {
+        let name = row.name;
+        if let Some(why) = row.one_state.filter(|_| b.len() > 1) {
             let message =
                 format!("the evolution \"{name}\" has one state variable, found {}: {why}", b.len());
             self.error(place, message, "give one value of `b`, `l` and `alpha`");
             return None;
         }
+        let memory = row.memory.and_then(|k| evolution.own.get(k).copied().flatten());
         let mut admitted = Some(());
-        for ((b, b_place), (alpha, alpha_place)) in b.iter().zip(alpha) {
+        for ((b, b_place), (alpha, alpha_place)) in b.iter().zip(alpha).filter(|_| row.of_logarithm) {
             // The memories act on the logarithm of θ through 1/b.
             let lost = |memory: f64| memory != 0.0 && !(memory * (1.0 / b)).is_finite();
-            match evolution {
-                Evolution::Slip | Evolution::Flash { .. } => {}
-                Evolution::Nagata { c } if *b <= 0.0 || lost(c) => {
-                    let message = format!("with \"nagata\" `b` must be positive, found {b:?}");
-                    let help = "such as `b = 0.015`: the memory of shear traction acts through the state";
-                    self.error(b_place.clone(), message, help);
-                    admitted = None;
-                }
-                _ if lost(*alpha) => {
-                    let message = format!(
-                        "`alpha` acts through the state, which has no effect on the strength with b = {b:?}"
-                    );
-                    let error = Diagnostic::at(alpha_place.clone(), message, "alpha = 0, or b > 0");
-                    self.errors.push(error.and(b_place.clone(), "`b`"));
-                    admitted = None;
-                }
-                _ => {}
+            if memory.is_some_and(|memory| *b <= 0.0 || lost(memory)) {
+                let message = format!("with \"{name}\" `b` must be positive, found {b:?}");
+                let help = "such as `b = 0.015`: the memory of shear traction acts through the state";
+                self.error(b_place.clone(), message, help);
+                admitted = None;
+            } else if lost(*alpha) {
+                let message = format!(
+                    "`alpha` acts through the state, which has no effect on the strength with b = {b:?}"
+                );
+                let error = Diagnostic::at(alpha_place.clone(), message, "alpha = 0, or b > 0");
+                self.errors.push(error.and(b_place.clone(), "`b`"));
+                admitted = None;
             }
         }
         admitted

@@ -31,7 +31,7 @@ use crate::held::Held;
 use crate::laws;
 use crate::loading::{self, Stage};
 use crate::model::{self, Model, meshes};
-use crate::scene::law::{self, Evolution, LawChoice};
+use crate::scene::law::LawChoice;
 use crate::scene::model::{
     Creep, DampingSpec, Fault as Spec, Kinematics, Profiled, Scene, SlipSpec, Station as Asking,
 };
@@ -43,6 +43,7 @@ use asperity_cycles::operator::{Form, Geometry, Operator, in_form};
 use asperity_cycles::{Crack, Fault, Floor, Injection, Layout, Pressure, Problem, Settings, Thresholds};
 use asperity_fem::mesh::{Side, face_nodes};
 use asperity_friction::Failure;
+use asperity_friction::evolution;
 use asperity_friction::fault::FaultLaw;
 use asperity_friction::turning::Turning;
 use asperity_ode::{Clock, Method};
@@ -289,7 +290,7 @@ fn points_of<const D: usize>(
     fault: usize,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Placed<D>>, Diagnostic> {
-    let base = law::choose(&spec.law).map_err(|errors| {
+    let base = laws::choose(&spec.law).map_err(|errors| {
         let first = errors.into_iter().next();
         first.unwrap_or_else(|| asked::incomplete(&spec.law))
     })?;
@@ -501,12 +502,7 @@ fn cadence(scene: &Scene, fault: &Fault, end: f64) -> Cadence {
 fn theta(law: &LawChoice) -> Option<(f64, f64)> {
     let LawChoice::RateAndState { strength, evolution, states, .. } = law else { return None };
     let [state] = states.as_slice() else { return None };
-    let time = state.l / strength.v_ref;
-    match evolution {
-        Evolution::Slip if state.b > 0.0 => Some((time, 1.0 / state.b)),
-        Evolution::Ageing { .. } | Evolution::Prz | Evolution::Nagata { .. } => Some((time, 1.0)),
-        Evolution::Slip | Evolution::Flash { .. } => None,
-    }
+    evolution::definition(evolution.name)?.variable.theta(state.b, state.l, strength.v_ref)
 }
 
 /// Faces of the minus side between these points, by their numbers.

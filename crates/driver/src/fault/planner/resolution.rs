@@ -18,12 +18,13 @@ use super::super::resolution::{Coarsest, ENOUGH, FEW, Resolution, TOO_FEW};
 use super::super::words::length;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
-use crate::scene::law::{Evolution, LawChoice};
+use crate::scene::law::LawChoice;
 use crate::scene::model::{Fault as Spec, UnderResolved};
 use crate::warning::Warning;
 use asperity_cycles::medium::Place;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::{Side, face_nodes};
+use asperity_friction::evolution::{self, Front};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -62,14 +63,15 @@ impl Ground<'_> {
         let a = strength.a;
         let mut b: f64 = states.iter().map(|s| s.b).sum();
         let mut weakening: f64 = states.iter().map(|s| s.b / s.l).sum();
-        let (ages, narrows) = match evolution {
-            Evolution::Ageing { .. } | Evolution::Prz | Evolution::Nagata { .. } => (true, 1.0),
-            Evolution::Slip => (false, NARROWS),
-            Evolution::Flash { mu_w, .. } => {
-                // Weakening at high rates goes down to the weakened coefficient.
-                let drop = (strength.mu0 - mu_w).max(0.0);
-                b += drop;
-                weakening += states.iter().map(|s| drop / s.l).fold(0.0, f64::max);
+        let (ages, narrows) = match evolution::definition(evolution.name)?.front {
+            Front::Ageing => (true, 1.0),
+            Front::Slip { weakened } => {
+                if let Some(weakened) = weakened.and_then(|k| evolution.own.get(k).copied().flatten()) {
+                    // Weakening at high rates goes down to the weakened coefficient.
+                    let drop = (strength.mu0 - weakened).max(0.0);
+                    b += drop;
+                    weakening += states.iter().map(|s| drop / s.l).fold(0.0, f64::max);
+                }
                 (false, NARROWS)
             }
         };
@@ -192,9 +194,10 @@ pub(super) fn check(found: &Resolution, spec: &Spec, in_space: bool) -> Result<O
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::scene::law::{Form, State, Strength};
+    use crate::scene::law::{Evolution, Form, State, Strength};
 
-    fn law(evolution: Evolution, a: f64, states: &[(f64, f64)]) -> LawChoice {
+    fn law((name, own): (&'static str, &[Option<f64>]), a: f64, states: &[(f64, f64)]) -> LawChoice {
+        let evolution = Evolution { name, own: own.to_vec() };
         LawChoice::RateAndState {
             strength: Strength { form: Form::Regularised, mu0: 0.6, a, v_ref: 1e-6, heat: None },
             evolution,
@@ -205,7 +208,7 @@ mod tests {
         }
     }
 
-    const AGEING: Evolution = Evolution::Ageing { v_cut: None };
+    const AGEING: (&str, &[Option<f64>]) = ("ageing", &[None]);
     const G: f64 = 32.038_120_32e9;
 
     fn lengths(law: &LawChoice, normal: f64, in_space: bool) -> [f64; 2] {
@@ -258,7 +261,7 @@ mod tests {
     #[test]
     fn the_slip_law_has_a_shorter_zone_and_half_the_critical_wavelength() {
         let (ageing, slip) =
-            (law(AGEING, 0.01, &[(0.015, 0.008)]), law(Evolution::Slip, 0.01, &[(0.015, 0.008)]));
+            (law(AGEING, 0.01, &[(0.015, 0.008)]), law(("slip", &[]), 0.01, &[(0.015, 0.008)]));
         let [zone, nucleation] = lengths(&slip, 5e7, false);
         // Half of L_b, from the cells that BP1 needs with this law.
         assert!((lengths(&ageing, 5e7, false)[0] / zone - 2.0).abs() < 1e-14);
@@ -267,8 +270,8 @@ mod tests {
 
     #[test]
     fn flash_weakening_adds_its_drop_to_what_is_lost_over_l() {
-        let flash = Evolution::Flash { v_w: 0.1, mu_w: 0.13 };
-        let [zone, nucleation] = lengths(&law(flash, 0.01, &[(0.014, 0.02)]), 5e7, false);
+        let flash = [Some(0.13), Some(0.1)];
+        let [zone, nucleation] = lengths(&law(("flash", &flash), 0.01, &[(0.014, 0.02)]), 5e7, false);
         let lost = 0.014 + 0.6 - 0.13;
         assert!((zone / (0.5 * G * 0.02 / (5e7 * lost)) - 1.0).abs() < 1e-14);
         assert!((2.0 * nucleation / (PI * G * 0.02 / (5e7 * (lost - 0.01))) - 1.0).abs() < 1e-14);

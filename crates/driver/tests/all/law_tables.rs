@@ -1,0 +1,104 @@
+//! The tables of laws in the book are those of the program: with `UPDATE_TABLES` in the environment they are written.
+#![allow(clippy::disallowed_methods)]
+
+use asperity_driver::laws;
+use asperity_driver::scene::law::given;
+use asperity_driver::scene::model::{LawSpec, Spanned};
+use asperity_friction::evolution::{self, Bound, Definition, Parameter, Unit, Variable};
+use serde::Deserialize;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+const BEGIN: &str = "<!-- evolutions, written by the test `law_tables` from the table of the program -->\n";
+const END: &str = "<!-- end -->";
+
+fn parameter(p: &Parameter) -> String {
+    let unit = match p.unit {
+        Unit::None => "",
+        Unit::Velocity => " \\[m/s\\]",
+    };
+    let bound = match p.bound {
+        Bound::Positive => format!("`{}`{unit}", p.key),
+        Bound::NotNegative => format!("`{}`{unit} ≥ 0", p.key),
+        Bound::BelowReference => format!("0 ≤ `{}`{unit} < `mu0`", p.key),
+    };
+    let optional = if p.optional { ", optional" } else { "" };
+    let meaning = if p.meaning.is_empty() { String::new() } else { format!(": {}", p.meaning) };
+    format!("{bound}{optional}{meaning}")
+}
+
+fn row(d: &Definition) -> String {
+    let parameters: Vec<String> = d.parameters.iter().map(parameter).collect();
+    let states = if d.one_state.is_some() { "one" } else { "several" };
+    let variable = match d.variable {
+        Variable::Logarithm { .. } => "ln θ",
+        Variable::Contribution { .. } => "φ",
+    };
+    format!("| `\"{}\"` | {} | {} | {variable}, {states} |\n", d.name, d.equation, parameters.join(", "))
+}
+
+#[test]
+fn the_table_of_evolutions_in_the_book_is_that_of_the_program() {
+    let mut table =
+        "| `evolution` | state | further parameters | state variables |\n|---|---|---|---|\n".to_string();
+    for definition in evolution::definitions() {
+        let _ = write!(table, "{}", row(definition));
+    }
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/scene/laws.md");
+    let text = fs::read_to_string(&page).unwrap();
+    let (head, rest) = text.split_once(BEGIN).unwrap();
+    let (found, tail) = rest.split_once(END).unwrap();
+    if std::env::var_os("UPDATE_TABLES").is_some() {
+        fs::write(&page, format!("{head}{BEGIN}{table}{END}{tail}")).unwrap();
+    } else {
+        assert_eq!(found, table, "the table is stale: run the test with UPDATE_TABLES=1");
+    }
+}
+
+#[derive(Deserialize)]
+struct Holder {
+    law: Spanned<LawSpec>,
+}
+
+/// A scene with an evolution as its row says.
+fn scene(row: &Definition) -> String {
+    let own = row.parameters.iter().map(|p| format!(", {} = {}", p.key, p.example));
+    format!(
+        "law = {{ kind = \"rate-and-state\", evolution = \"{}\", mu0 = 0.6, a = 0.01, b = 0.015, l = \"10 um\", v_ref = \"1 um/s\", v_initial = \"1 um/s\"{} }}",
+        row.name,
+        own.collect::<String>()
+    )
+}
+
+#[test]
+fn every_row_of_the_table_is_read_and_built() {
+    for row in evolution::definitions() {
+        let text = scene(row);
+        let holder: Holder = toml::from_str(&text).unwrap();
+        // A key that the specification does not read would be lost.
+        let given = given(holder.law.get_ref());
+        assert!(row.parameters.iter().all(|p| given.iter().any(|g| g.0 == p.key)), "{text}");
+        let choice = laws::choose(&holder.law).unwrap_or_else(|e| panic!("{text}: {e:?}"));
+        let law = laws::build(&choice).unwrap_or_else(|e| panic!("{text}: {e}"));
+        assert_eq!(law.states(), 1, "{text}");
+        assert!(laws::build_sliding(&choice).unwrap().is_some(), "{text}");
+    }
+}
+
+/// θ in stations and fields: in the steady state it is L/V, with the law of Perrin, Rice and Zheng 2L/V.
+#[test]
+fn theta_of_the_steady_state_is_the_time_to_slide_over_its_length() {
+    let (b, length, v_ref, rate) = (0.015, 8e-3, 1e-6, 1e-9_f64);
+    for (name, lengths) in [("ageing", 1.0), ("slip", 1.0), ("prz", 2.0), ("nagata", 1.0)] {
+        let row = evolution::definition(name).unwrap();
+        let holder: Holder = toml::from_str(&scene(row)).unwrap();
+        let law = laws::build_sliding(&laws::choose(&holder.law).unwrap()).unwrap().unwrap();
+        let mut state = [0.0];
+        law.steady(rate.ln(), &mut state);
+        let (time, factor) = row.variable.theta(b, length, v_ref).unwrap();
+        let theta = time * (factor * state[0]).exp();
+        assert!((theta * rate / (lengths * length) - 1.0).abs() < 1e-12, "{name}: {theta:e}");
+    }
+    assert!(evolution::definition("flash").unwrap().variable.theta(b, length, v_ref).is_none());
+}

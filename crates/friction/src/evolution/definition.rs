@@ -1,0 +1,131 @@
+//! Rows of the table of evolution laws: what a scene says, what the book says, and what planning needs to know of each.
+
+use super::Evolution;
+use crate::Failure;
+
+/// Unit of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// A plain number.
+    None,
+    /// m/s.
+    Velocity,
+}
+
+/// Admissible values of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// Above zero.
+    Positive,
+    /// Zero or above.
+    NotNegative,
+    /// Zero or above, and below the reference coefficient μ0.
+    BelowReference,
+}
+
+/// A parameter that one evolution has and others have not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// Key of scenes.
+    pub key: &'static str,
+    /// Unit.
+    pub unit: Unit,
+    /// Admissible values.
+    pub bound: Bound,
+    /// Whether the law does without it.
+    pub optional: bool,
+    /// A usual value, as in scenes.
+    pub example: &'static str,
+    /// Meaning, in Markdown.
+    pub meaning: &'static str,
+}
+
+/// State variable s of an evolution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Variable {
+    /// s = ln(Vref θ/(n L)), on which memories act through 1/b.
+    Logarithm {
+        /// n \[-\].
+        lengths: f64,
+    },
+    /// s = φ, the contribution to μ.
+    Contribution {
+        /// Whether φ = b ln(Vref θ/L) defines a θ.
+        has_theta: bool,
+    },
+}
+
+impl Variable {
+    /// Returns t \[s\] and c of `θ = t exp(c s)`, where the law has a θ; lengths in m, slip rates in m/s.
+    #[must_use]
+    pub fn theta(self, b: f64, length: f64, v_ref: f64) -> Option<(f64, f64)> {
+        match self {
+            Self::Logarithm { lengths } => Some((lengths * length / v_ref, 1.0)),
+            Self::Contribution { has_theta } => (has_theta && b > 0.0).then(|| (length / v_ref, 1.0 / b)),
+        }
+    }
+}
+
+/// Loss of strength at the front of a rupture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Front {
+    /// Strength falls over a slip that grows with the rise of the slip rate, as with the ageing law.
+    Ageing,
+    /// Strength falls over L whatever the drop, as with the slip law.
+    Slip {
+        /// Index of the parameter to which μ falls at high rates, where that is below the steady state of b.
+        weakened: Option<usize>,
+    },
+}
+
+/// A row of the table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Definition {
+    /// Name in scenes.
+    pub name: &'static str,
+    /// Evolution of the state, in Markdown.
+    pub equation: &'static str,
+    /// Parameters of this law alone.
+    pub parameters: &'static [Parameter],
+    /// Reason why it has one state variable, where it may not have several.
+    pub one_state: Option<&'static str>,
+    /// Index of the parameter that is a memory of shear traction, which acts through the state and needs b > 0.
+    pub memory: Option<usize>,
+    /// State variable.
+    pub variable: Variable,
+    /// Front of a rupture.
+    pub front: Front,
+}
+
+/// Parameters that all evolutions share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Common {
+    /// μ0 of the strength \[-\].
+    pub mu0: f64,
+    /// a of the strength \[-\].
+    pub a: f64,
+    /// Vref \[m/s\].
+    pub v_ref: f64,
+    /// b \[-\].
+    pub b: f64,
+    /// L \[m\].
+    pub length: f64,
+}
+
+/// An evolution of the table.
+pub trait Defined: Evolution {
+    /// Its row.
+    const DEFINITION: Definition;
+
+    /// Builds the law; `own` holds the values of its own parameters, in the order of the row.
+    ///
+    /// # Errors
+    /// [`Failure::Parameter`].
+    fn build(common: &Common, own: &[Option<f64>]) -> Result<Self, Failure>;
+}
+
+/// Returns the value of a parameter that the law needs.
+pub(super) fn needed(own: &[Option<f64>], index: usize, name: &'static str) -> Result<f64, Failure> {
+    let absent = Failure::Parameter { name, value: f64::NAN, admissible: "a value" };
+    own.get(index).copied().flatten().ok_or(absent)
+}

@@ -1,0 +1,50 @@
+//! The table of evolution laws: scenes, the book, the factory and the tests of acceptance read it.
+
+use super::definition::{Defined, Definition};
+
+/// Evaluates an expression once for each evolution of the table, which it names by the given type.
+#[macro_export]
+macro_rules! each_evolution {
+    ($law:ident => $do:expr) => {
+        $crate::each_evolution!($law => $do; ageing::Ageing, slip::Slip, prz::Prz, nagata::Nagata, flash::Flash)
+    };
+    ($law:ident => $do:expr; $($module:ident::$name:ident),*) => {
+        $({
+            type $law = $crate::evolution::$module::$name;
+            $do
+        })*
+    };
+}
+
+/// Does something with the type of an evolution.
+pub trait Visit {
+    /// Result.
+    type Made;
+
+    /// Visits the type.
+    fn visit<E: Defined + 'static>(self) -> Self::Made;
+}
+
+/// Returns the rows of the table.
+#[must_use]
+pub fn definitions() -> Vec<&'static Definition> {
+    let mut rows = Vec::new();
+    each_evolution!(Law => rows.push(&<Law as Defined>::DEFINITION));
+    rows
+}
+
+/// Returns the row of this name.
+#[must_use]
+pub fn definition(name: &str) -> Option<&'static Definition> {
+    definitions().into_iter().find(|row| row.name == name)
+}
+
+/// Visits the type of this name; none where the table has no such name.
+pub fn with<V: Visit>(name: &str, visit: V) -> Option<V::Made> {
+    each_evolution!(Law => {
+        if <Law as Defined>::DEFINITION.name == name {
+            return Some(visit.visit::<Law>());
+        }
+    });
+    None
+}

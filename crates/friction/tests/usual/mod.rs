@@ -1,0 +1,20 @@
+//! Laws of the table with the parameters that their rows call usual.
+
+use asperity_friction::evolution::{Common, Defined, Parameter};
+
+/// Value of the example of a parameter in SI.
+fn example(parameter: &Parameter) -> f64 {
+    let mut words = parameter.example.trim_matches('"').split(' ');
+    let value: f64 = words.next().unwrap().parse().unwrap();
+    match words.next() {
+        None | Some("m/s") => value,
+        Some("mm/s") => 1e-3 * value,
+        Some(unit) => panic!("no unit {unit}"),
+    }
+}
+
+/// The law of these common parameters, without what it may do without.
+pub fn usual<E: Defined>(common: Common) -> E {
+    let own = E::DEFINITION.parameters.iter().map(|p| (!p.optional).then(|| example(p)));
+    E::build(&common, &own.collect::<Vec<_>>()).unwrap()
+}
