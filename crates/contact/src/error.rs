@@ -1,6 +1,6 @@
 //! What can be wrong with an interface before it is ever evaluated.
 
-use crate::spec::SegmentKind;
+use crate::SegmentKind;
 
 /// Why an interface could not be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -2,7 +2,6 @@
 
 use crate::enforce::Enforcement;
 use asperity_friction::law::{Law, RateBounds};
-use std::fmt;
 use std::sync::Arc;
 
 /// A node of either side.
@@ -25,75 +24,12 @@ pub struct SlavePoint {
     pub area: f64,
 }
 
-/// Kinds of segment. Node orders: corners first, then mid-nodes of the edges 12, 23, ..., then the centre.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum SegmentKind {
-    /// Straight line of 2 nodes.
-    Seg2,
-    /// Line of 3 nodes (ends, middle).
-    Seg3,
-    /// Flat triangle.
-    Tri3,
-    /// Triangle of 6 nodes.
-    Tri6,
-    /// Bilinear quadrilateral.
-    Quad4,
-    /// Serendipity quadrilateral of 8 nodes.
-    Quad8,
-    /// Biquadratic quadrilateral of 9 nodes.
-    Quad9,
-}
-
-impl SegmentKind {
-    /// Number of nodes.
-    #[must_use]
-    pub fn nodes(self) -> usize {
-        match self {
-            Self::Seg2 => 2,
-            Self::Seg3 | Self::Tri3 => 3,
-            Self::Quad4 => 4,
-            Self::Tri6 => 6,
-            Self::Quad8 => 8,
-            Self::Quad9 => 9,
-        }
-    }
-
-    /// Dimension of the space whose boundary it is part of.
-    #[must_use]
-    pub fn space(self) -> usize {
-        match self {
-            Self::Seg2 | Self::Seg3 => 2,
-            Self::Tri3 | Self::Tri6 | Self::Quad4 | Self::Quad8 | Self::Quad9 => 3,
-        }
-    }
-
-    /// Whether its edges are straight.
-    #[must_use]
-    pub fn first_order(self) -> bool {
-        matches!(self, Self::Seg2 | Self::Tri3 | Self::Quad4)
-    }
-}
-
-impl fmt::Display for SegmentKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Seg2 => "seg2",
-            Self::Seg3 => "seg3",
-            Self::Tri3 => "tri3",
-            Self::Tri6 => "tri6",
-            Self::Quad4 => "quad4",
-            Self::Quad8 => "quad8",
-            Self::Quad9 => "quad9",
-        })
-    }
-}
-
 /// A segment of a surface. Its nodes run so that the outward normal is `(e_y, -e_x)/|e|` with `e = x_2 - x_1` in two dimensions
 /// (the body lies to the left of the edge), and along `e_1 × e_2` in three (counter-clockwise seen from outside).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Segment {
     /// Kind.
-    pub kind: SegmentKind,
+    pub kind: crate::SegmentKind,
     /// Indices into the nodes of the interface, in the order of the kind.
     pub nodes: Vec<usize>,
 }

@@ -7,6 +7,7 @@ use crate::warning::Warning;
 use asperity_contact::Sliding;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::Cells;
+use asperity_fem::mesh::MeshFace;
 use asperity_fem::nonlinear::Kinematics;
 use asperity_mechanics::{CellBlock, Model, PlannedInterface};
 use asperity_output::view::InterfaceFields;
@@ -159,9 +160,9 @@ fn dragged<const D: usize>(
 }
 
 /// Mean distance of the first two corners of faces \[m\].
-fn face_size<const D: usize>(model: &Model<D>, faces: &[Vec<usize>]) -> f64 {
-    let edge = |face: &Vec<usize>| {
-        let (a, b) = (model.mesh.nodes[face[0]], model.mesh.nodes[face[1]]);
+fn face_size<const D: usize>(model: &Model<D>, faces: &[MeshFace]) -> f64 {
+    let edge = |face: &MeshFace| {
+        let (a, b) = (model.mesh.nodes[face.nodes[0]], model.mesh.nodes[face.nodes[1]]);
         (0..D).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()
     };
     faces.iter().map(edge).sum::<f64>() / faces.len().max(1) as f64

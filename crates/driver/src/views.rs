@@ -94,6 +94,7 @@ fn interface_mesh<const D: usize>(
         faces: planned
             .slave_faces
             .iter()
+            .map(|face| &face.nodes)
             .filter(|f| f.iter().all(|n| nodes.binary_search(n).is_ok()))
             .map(|f| f.iter().map(local).collect())
             .collect(),

@@ -1,8 +1,8 @@
 //! Integrals over faces of cells.
 
-use crate::element::ElementKind;
+use crate::element::FaceKind;
 use crate::kinematics::Idealisation;
-use crate::mesh::{Mesh, Side};
+use crate::mesh::{Mesh, MeshFace, Side};
 use crate::quadrature;
 use std::collections::BTreeMap;
 
@@ -18,40 +18,27 @@ pub struct FacePoint<const D: usize> {
     pub normal: [f64; D],
 }
 
-/// Element of a face of `nodes` nodes of a body in three dimensions.
-fn face_kind(nodes: usize) -> ElementKind {
-    match nodes {
-        3 => ElementKind::Tri3,
-        4 => ElementKind::Quad4,
-        6 => ElementKind::Tri6,
-        8 => ElementKind::Quad8,
-        _ => ElementKind::Quad9,
-    }
-}
-
-/// Quadrature on a face of `nodes` nodes of a `D`-dimensional body. Exact for shape functions times normals times r, curved
-/// faces included: degree 3 on two-node lines, 5 on three-node lines; 2 on tri3, 4 on tri6; 3 and 5 in each variable on quad4
-/// and on quad8, quad9.
-fn rule<const D: usize>(nodes: usize) -> Vec<RulePoint> {
-    if D == 2 {
-        return quadrature::gauss(if nodes == 2 { 2 } else { 3 }, 1)
-            .into_iter()
-            .map(|(x, w)| line(nodes, x[0], w))
-            .collect();
-    }
-    let kind = face_kind(nodes);
-    kind.mass_quadrature()
+/// Quadrature on a face. Exact for shape functions times normals times r, curved faces included: degree 3 on two-node lines, 5 on
+/// three-node lines; 2 on tri3, 4 on tri6; 3 and 5 in each variable on quad4 and on quad8, quad9.
+fn rule(kind: FaceKind) -> Vec<RulePoint> {
+    let Some(element) = kind.element() else {
+        let points = quadrature::gauss(kind.nodes(), 1);
+        return points.into_iter().map(|(x, w)| line(kind, x[0], w)).collect();
+    };
+    let nodes = kind.nodes();
+    element
+        .mass_quadrature()
         .into_iter()
         .map(|(xi, w)| {
-            let s = kind.shape(xi);
+            let s = element.shape(xi);
             (s.n[..nodes].to_vec(), s.dn[..nodes].iter().map(|d| [d[0], d[1]]).collect(), w)
         })
         .collect()
 }
 
 /// Linear or quadratic line: ends, then the middle.
-fn line(nodes: usize, x: f64, w: f64) -> RulePoint {
-    if nodes == 2 {
+fn line(kind: FaceKind, x: f64, w: f64) -> RulePoint {
+    if kind == FaceKind::Seg2 {
         (vec![0.5 * (1.0 - x), 0.5 * (1.0 + x)], vec![[-0.5, 0.0], [0.5, 0.0]], w)
     } else {
         (
@@ -114,10 +101,10 @@ fn for_each_point<const D: usize>(
     idealisation: Idealisation,
     mut visit: impl FnMut(&[usize], &[f64], f64, &FacePoint<D>),
 ) {
-    let mut rules: BTreeMap<usize, Vec<RulePoint>> = BTreeMap::new();
+    let mut rules: BTreeMap<FaceKind, Vec<RulePoint>> = BTreeMap::new();
     for side in sides {
-        let nodes = crate::mesh::face_nodes(mesh, side);
-        for (n, dn, weight) in rules.entry(nodes.len()).or_insert_with(|| rule::<D>(nodes.len())).iter() {
+        let MeshFace { kind, nodes } = MeshFace::new(mesh, side);
+        for (n, dn, weight) in rules.entry(kind).or_insert_with(|| rule(kind)).iter() {
             let mut e = [[0.0; D]; 2];
             let mut position = [0.0; D];
             for (a, &node) in nodes.iter().enumerate() {

@@ -2,8 +2,9 @@
 
 use super::interface::{Measure, PlannedInterface, interface_nodes};
 use super::{Model, Stepping};
-use asperity_contact::{InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, SurfaceNode};
+use asperity_contact::{InterfaceSpec, MeasureKind, Segment, SlavePoint, SurfaceNode};
 use asperity_fem::kinematics::Idealisation;
+use asperity_fem::mesh::MeshFace;
 
 /// Rate below which a forward step counts a point as at rest, over the largest prescribed rate (the floor of limit r8).
 const RATE_FLOOR: f64 = 1e-12;
@@ -24,10 +25,10 @@ pub fn spec<const D: usize>(
         .iter()
         .map(|&n| SurfaceNode { position: model.mesh.nodes[n], dof: number[n * D], label: n })
         .collect();
-    let segments = |faces: &[Vec<usize>]| -> Vec<Segment> {
-        let segment = |face: &Vec<usize>| Segment {
-            kind: segment_kind::<D>(face.len()),
-            nodes: face.iter().map(|&n| local(n)).collect(),
+    let segments = |faces: &[MeshFace]| -> Vec<Segment> {
+        let segment = |face: &MeshFace| Segment {
+            kind: face.kind,
+            nodes: face.nodes.iter().map(|&n| local(n)).collect(),
         };
         faces.iter().map(segment).collect()
     };
@@ -54,17 +55,5 @@ pub fn spec<const D: usize>(
         rate_floor: RATE_FLOOR * largest_rate,
         rate_bounds: stepping.bounds,
         label_rate: planned.law.as_ref().filter(|l| !l.has_elastic_domain()).map(|_| largest_rate),
-    }
-}
-
-fn segment_kind<const D: usize>(nodes: usize) -> SegmentKind {
-    match (D, nodes) {
-        (2, 2) => SegmentKind::Seg2,
-        (2, _) => SegmentKind::Seg3,
-        (_, 3) => SegmentKind::Tri3,
-        (_, 4) => SegmentKind::Quad4,
-        (_, 6) => SegmentKind::Tri6,
-        (_, 8) => SegmentKind::Quad8,
-        (_, _) => SegmentKind::Quad9,
     }
 }

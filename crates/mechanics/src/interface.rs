@@ -4,6 +4,7 @@ use super::enforced::Enforced;
 use super::pressed::Pressed;
 use super::resolved::Resolved;
 use asperity_contact::{Sliding, Watch};
+use asperity_fem::mesh::MeshFace;
 use asperity_friction::law::Law;
 use std::sync::Arc;
 
@@ -25,9 +26,9 @@ pub struct PlannedInterface {
     /// own from the overlap, and these are ones.
     pub slave: Vec<(usize, f64)>,
     /// Slave faces, as lists of mesh nodes.
-    pub slave_faces: Vec<Vec<usize>>,
+    pub slave_faces: Vec<MeshFace>,
     /// Master faces, as lists of mesh nodes.
-    pub master_faces: Vec<Vec<usize>>,
+    pub master_faces: Vec<MeshFace>,
     /// How gaps are measured.
     pub measure: Measure,
     /// Whether the pairing follows the motion.
@@ -59,8 +60,8 @@ pub struct PlannedInterface {
 /// Mesh nodes of an interface, ascending.
 #[must_use]
 pub fn interface_nodes(interface: &PlannedInterface) -> Vec<usize> {
-    let mut nodes: Vec<usize> =
-        interface.slave_faces.iter().chain(&interface.master_faces).flatten().copied().collect();
+    let faces = interface.slave_faces.iter().chain(&interface.master_faces);
+    let mut nodes: Vec<usize> = faces.flat_map(|face| &face.nodes).copied().collect();
     nodes.sort_unstable();
     nodes.dedup();
     nodes

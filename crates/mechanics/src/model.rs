@@ -235,7 +235,7 @@ impl<const D: usize> Model<D> {
     pub fn tributary_areas(&self, sides: &[Side]) -> Result<BTreeMap<usize, f64>, FemError> {
         for side in sides {
             let kind = self.mesh.blocks[side.block].kind;
-            if D == 3 && matches!(kind.faces()[side.face].len(), 6 | 8) {
+            if !kind.faces()[side.face].kind.shares_area() {
                 return Err(FemError::NodalAreas { element: kind.name() });
             }
         }

@@ -5,6 +5,7 @@
 
 use super::{Model, PlannedInterface, Stage};
 use asperity_fem::kinematics::Idealisation;
+use asperity_fem::mesh::MeshFace;
 use nalgebra::DMatrix;
 use std::ops::Range;
 
@@ -110,7 +111,7 @@ fn contact_rows<const D: usize>(
     let mut rows = Vec::new();
     for interface in interfaces {
         let friction = interface.law.is_some() && !stage.frictionless.contains(&interface.name);
-        for face in interface.slave_faces.iter().chain(&interface.master_faces) {
+        for MeshFace { nodes: face, .. } in interface.slave_faces.iter().chain(&interface.master_faces) {
             if nodes.binary_search(&face[0]).is_err() {
                 continue;
             }

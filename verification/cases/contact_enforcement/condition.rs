@@ -2,11 +2,11 @@
 
 use crate::CaseError;
 use asperity_contact::{
-    Enforcement, Interface, InterfaceSpec, MeasureKind, Segment, SegmentKind, SlavePoint, Sliding,
-    SurfaceNode,
+    Enforcement, Interface, InterfaceSpec, MeasureKind, Segment, SlavePoint, Sliding, SurfaceNode,
 };
 use asperity_driver::plan::{self, AnyPlan, Plan, PlannedInterface, interface_nodes};
 use asperity_driver::scene::model::{EnforcementKind, Measure};
+use asperity_fem::mesh::MeshFace;
 use asperity_fem::term::{Instant, Linearized};
 use asperity_friction::law::RateBounds;
 use nalgebra::DMatrix;
@@ -51,10 +51,8 @@ fn spec(plan: &Plan<2>, planned: &PlannedInterface, unknowns: usize) -> Interfac
     let labels = interface_nodes(planned);
     let local = |node: usize| labels.partition_point(|&n| n < node);
     let node = |&n: &usize| SurfaceNode { position: plan.problem.model.mesh.nodes[n], dof: 2 * n, label: n };
-    let segment = |face: &Vec<usize>| Segment {
-        kind: SegmentKind::Seg2,
-        nodes: face.iter().map(|&n| local(n)).collect(),
-    };
+    let segment =
+        |face: &MeshFace| Segment { kind: face.kind, nodes: face.nodes.iter().map(|&n| local(n)).collect() };
     InterfaceSpec {
         name: planned.name.clone(),
         nodes: labels.iter().map(node).collect(),

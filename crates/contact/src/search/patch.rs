@@ -3,8 +3,8 @@
 //! A segment is either the polynomial of its own nodes or, on smoothed surfaces, a cubic Bézier patch on control points
 //! that are linear in nodal positions (see [`super::smooth`]). Both are evaluated here from their points.
 
+use crate::SegmentKind;
 use crate::shape::{MOST_NODES, corners, shape};
-use crate::spec::SegmentKind;
 use crate::vector::axpy;
 
 /// Most points a form has: those of a bicubic patch.

@@ -5,8 +5,8 @@
 //! projected on edge by edge.
 
 use super::patch::{Form, Patch, evaluate};
+use crate::SegmentKind;
 use crate::shape::{MOST_NODES, Shape, corners};
-use crate::spec::SegmentKind;
 use crate::vector::{axpy, dot, solve_tangential, sub};
 
 /// Natural coordinates this near to a border count as on it: rounding of a projection is 1e-16 times the aspect ratio of

@@ -179,7 +179,7 @@ impl<const D: usize> Surface<D> {
     pub fn weights<const M: usize>(&self, segment: usize, xi: [f64; 2]) -> Weights<M> {
         let mut w = Weights { value: [0.0; M], first: [[0.0; M]; 2] };
         let form = self.form(segment);
-        if form == Form::Nodes(crate::spec::SegmentKind::Seg2) {
+        if form == Form::Nodes(crate::SegmentKind::Seg2) {
             w.value[..2].copy_from_slice(&[0.5 * (1.0 - xi[0]), 0.5 * (1.0 + xi[0])]);
             w.first[0][..2].copy_from_slice(&[-0.5, 0.5]);
             return w;

@@ -2,6 +2,7 @@
 
 use crate::scene::model::Interface as Spec;
 use crate::warning::Warning;
+use asperity_fem::mesh::MeshFace;
 use asperity_mechanics::{Measure, PlannedInterface};
 
 /// Faces of the slave over those of the master from which a warning is given: the middle of a slave face is then two master nodes from the nearest
@@ -30,7 +31,8 @@ fn single(planned: &PlannedInterface, spec: &Spec) -> Option<Warning> {
 
 /// Slave nodes so far apart that the master passes between them.
 fn coarser<const D: usize>(nodes: &[[f64; D]], planned: &PlannedInterface, spec: &Spec) -> Option<Warning> {
-    let of = |faces: &[Vec<usize>]| faces.iter().map(|f| extent(nodes, f)).sum::<f64>() / faces.len() as f64;
+    let of =
+        |faces: &[MeshFace]| faces.iter().map(|f| extent(nodes, &f.nodes)).sum::<f64>() / faces.len() as f64;
     let ratio = of(&planned.slave_faces) / of(&planned.master_faces);
     (planned.measure == Measure::NodeToPoint && ratio > COARSER).then(|| {
         let message = format!(

@@ -9,7 +9,7 @@ use crate::refused::refused;
 use crate::scene::law::LawChoice;
 use crate::scene::model::{Interface as InterfaceSpec, LawSpec, Measure, Scene, Sliding, Spanned};
 use asperity_contact::{self as contact, Watch};
-use asperity_fem::mesh::{Side, face_nodes, nodes_of_sides};
+use asperity_fem::mesh::{MeshFace, Side, face_kind, nodes_of_sides};
 use asperity_friction::law::Law;
 use asperity_mechanics::{self as mechanics, coordinates};
 use std::sync::Arc;
@@ -71,8 +71,8 @@ pub fn plan<const D: usize>(
         enforced,
         unknowns: enforced.unknowns(slave.len(), if law.is_some() { D } else { 1 }),
         slave,
-        slave_faces: slave_sides.iter().map(|s| face_nodes(&model.mesh, s)).collect(),
-        master_faces: master_sides.iter().map(|s| face_nodes(&model.mesh, s)).collect(),
+        slave_faces: slave_sides.iter().map(|s| MeshFace::new(&model.mesh, s)).collect(),
+        master_faces: master_sides.iter().map(|s| MeshFace::new(&model.mesh, s)).collect(),
         measure: match spec.measure.get_ref() {
             Measure::NodeToPoint => mechanics::Measure::NodeToPoint,
             Measure::Mortar => mechanics::Measure::Mortar,
@@ -135,10 +135,7 @@ fn check_faces<const D: usize>(
     slave: &[Side],
     master: &[Side],
 ) -> Result<(), Diagnostic> {
-    let linear = |side: &Side| {
-        let nodes = face_nodes(&model.mesh, side).len();
-        if D == 2 { nodes == 2 } else { nodes <= 4 }
-    };
+    let linear = |side: &Side| face_kind(&model.mesh, side).first_order();
     if let Some(smoothing) = &spec.smoothing
         && let Some(side) = master.iter().find(|s| !linear(s))
     {

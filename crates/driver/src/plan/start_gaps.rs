@@ -6,6 +6,7 @@ use crate::lengths::brief;
 use crate::scene::model::Interface as Spec;
 use crate::warning::Warning;
 use asperity_contact::{Enforcement, Interface, PointFields};
+use asperity_fem::mesh::MeshFace;
 use asperity_fem::mesh::Side;
 use asperity_fem::surface;
 use asperity_mechanics::{Model, Stage, bounds, declared};
@@ -70,7 +71,7 @@ fn looks_at<const D: usize>(slave: &[f64; D], points: &PointFields<D>, p: usize)
 /// Sums of the outward normals of the slave faces at their nodes.
 fn slave_normals<const D: usize>(model: &Model<D>, planned: &PlannedInterface) -> BTreeMap<usize, [f64; D]> {
     let mut normals: BTreeMap<usize, [f64; D]> = BTreeMap::new();
-    for face in &planned.slave_faces {
+    for MeshFace { nodes: face, .. } in &planned.slave_faces {
         let normal = model.face_normal(face);
         for &node in face {
             normals.entry(node).or_insert([0.0; D]).iter_mut().zip(&normal).for_each(|(s, n)| *s += n);

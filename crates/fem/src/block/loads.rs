@@ -110,7 +110,7 @@ impl<const D: usize> LinearBlock<D> {
     pub fn tributary_areas(&self, mesh: &Mesh<D>, sides: &[Side]) -> Result<BTreeMap<usize, f64>, FemError> {
         for side in sides {
             let kind = mesh.blocks[side.block].kind;
-            if D == 3 && matches!(kind.faces()[side.face].len(), 6 | 8) {
+            if !kind.faces()[side.face].kind.shares_area() {
                 return Err(FemError::NodalAreas { element: kind.name() });
             }
         }

@@ -3,20 +3,42 @@
 //!
 //! As [`super::quad8`], it holds all quadratic polynomials of the positions only where it is a parallelepiped.
 
-use super::Shape;
+use super::definition::{Definition, Face, Foreign};
+use super::face::FaceKind;
+use super::kind::ElementKind;
+use super::shape::Shape;
+use crate::quadrature;
 
-pub(super) const NODES: &[[f64; 3]] = super::hex27::NODES.split_at(20).0;
+pub(super) const DEFINITION: Definition = Definition {
+    name: "hex20",
+    dimension: 3,
+    order: 2,
+    linear: ElementKind::Hex8,
+    corners: 8,
+    nodes: NODES,
+    faces: FACES,
+    reversed: &[],
+    shape,
+    quadrature: || quadrature::gauss(3, 3),
+    mass_quadrature: || quadrature::gauss(3, 3),
+    vtk: 25,
+    gmsh: Foreign { names: 17, order: super::hex27::GMSH.split_at(20).0 },
+    abaqus: Foreign { names: (Some("20"), &[]), order: &[] },
+    abaqus_faces: super::hex8::DEFINITION.abaqus_faces,
+};
 
-pub(super) const FACES: &[&[usize]] = &[
-    &[0, 3, 2, 1, 11, 10, 9, 8],
-    &[4, 5, 6, 7, 12, 13, 14, 15],
-    &[0, 1, 5, 4, 8, 17, 12, 16],
-    &[1, 2, 6, 5, 9, 18, 13, 17],
-    &[2, 3, 7, 6, 10, 19, 14, 18],
-    &[3, 0, 4, 7, 11, 16, 15, 19],
+const NODES: &[[f64; 3]] = super::hex27::NODES.split_at(20).0;
+
+const FACES: &[Face] = &[
+    Face { kind: FaceKind::Quad8, nodes: &[0, 3, 2, 1, 11, 10, 9, 8] },
+    Face { kind: FaceKind::Quad8, nodes: &[4, 5, 6, 7, 12, 13, 14, 15] },
+    Face { kind: FaceKind::Quad8, nodes: &[0, 1, 5, 4, 8, 17, 12, 16] },
+    Face { kind: FaceKind::Quad8, nodes: &[1, 2, 6, 5, 9, 18, 13, 17] },
+    Face { kind: FaceKind::Quad8, nodes: &[2, 3, 7, 6, 10, 19, 14, 18] },
+    Face { kind: FaceKind::Quad8, nodes: &[3, 0, 4, 7, 11, 16, 15, 19] },
 ];
 
-pub(super) fn shape(x: [f64; 3]) -> Shape {
+fn shape(x: [f64; 3]) -> Shape {
     let mut s = Shape::default();
     for (a, node) in NODES.iter().enumerate() {
         let f: [f64; 3] = std::array::from_fn(|m| 1.0 + node[m] * x[m]);

@@ -4,13 +4,37 @@
 //! The space holds all quadratic polynomials of the natural coordinates, and of the positions only where the element is a
 //! parallelogram (Arnold, Boffi, Falk 2002): on general quadrilaterals the order falls to that of quad4.
 
-use super::Shape;
+use super::definition::{Definition, Face, Foreign};
+use super::kind::ElementKind;
+use super::shape::Shape;
+use crate::quadrature;
 
-pub(super) const NODES: &[[f64; 3]] = super::quad9::NODES.split_at(8).0;
+pub(super) const DEFINITION: Definition = Definition {
+    name: "quad8",
+    dimension: 2,
+    order: 2,
+    linear: ElementKind::Quad4,
+    corners: 4,
+    nodes: NODES,
+    faces: FACES,
+    reversed: &[0, 3, 2, 1, 7, 6, 5, 4],
+    shape,
+    quadrature: || quadrature::gauss(3, 2),
+    mass_quadrature: || quadrature::gauss(3, 2),
+    vtk: 23,
+    gmsh: Foreign { names: 16, order: &[] },
+    abaqus: Foreign {
+        names: (Some("8"), &["S8R", "S8R5", "SFM3D8", "SFM3D8R", "M3D8", "M3D8R"]),
+        order: &[],
+    },
+    abaqus_faces: super::quad4::DEFINITION.abaqus_faces,
+};
 
-pub(super) const FACES: &[&[usize]] = super::quad9::FACES;
+const NODES: &[[f64; 3]] = super::quad9::NODES.split_at(8).0;
 
-pub(super) fn shape([x, y, _]: [f64; 3]) -> Shape {
+const FACES: &[Face] = super::quad9::FACES;
+
+fn shape([x, y, _]: [f64; 3]) -> Shape {
     let mut s = Shape::default();
     for (a, &[xa, ya, _]) in NODES.iter().enumerate() {
         let (fx, fy) = (1.0 + xa * x, 1.0 + ya * y);

@@ -1,14 +1,40 @@
 //! Quadratic triangle: corners, then mid-nodes of edges 01, 12, 20. With area coordinates λ, corners have λ(2λ-1) and
 //! mid-nodes 4 λ_i λ_j.
 
-use super::Shape;
+use super::definition::{Definition, Face, Foreign};
+use super::face::FaceKind;
+use super::kind::ElementKind;
+use super::shape::Shape;
+use crate::quadrature;
 
-pub(super) const NODES: &[[f64; 3]] =
+pub(super) const DEFINITION: Definition = Definition {
+    name: "tri6",
+    dimension: 2,
+    order: 2,
+    linear: ElementKind::Tri3,
+    corners: 3,
+    nodes: NODES,
+    faces: FACES,
+    reversed: &[0, 2, 1, 5, 4, 3],
+    shape,
+    quadrature: quadrature::triangle_3,
+    mass_quadrature: quadrature::triangle_6,
+    vtk: 22,
+    gmsh: Foreign { names: 9, order: &[] },
+    abaqus: Foreign { names: (Some("6"), &["STRI65", "SFM3D6", "M3D6"]), order: &[] },
+    abaqus_faces: super::tri3::DEFINITION.abaqus_faces,
+};
+
+const NODES: &[[f64; 3]] =
     &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.0]];
 
-pub(super) const FACES: &[&[usize]] = &[&[0, 1, 3], &[1, 2, 4], &[2, 0, 5]];
+const FACES: &[Face] = &[
+    Face { kind: FaceKind::Seg3, nodes: &[0, 1, 3] },
+    Face { kind: FaceKind::Seg3, nodes: &[1, 2, 4] },
+    Face { kind: FaceKind::Seg3, nodes: &[2, 0, 5] },
+];
 
-pub(super) fn shape([x, y, _]: [f64; 3]) -> Shape {
+fn shape([x, y, _]: [f64; 3]) -> Shape {
     let l = [1.0 - x - y, x, y];
     let dl = [[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]];
     let mut s = Shape::default();

@@ -4,7 +4,29 @@
 //!
 //! As [`super::quad8`], it holds all quadratic polynomials of the positions only where it is an affine image of the reference.
 
-use super::Shape;
+use super::definition::{Definition, Face, Foreign};
+use super::face::FaceKind;
+use super::kind::ElementKind;
+use super::shape::Shape;
+use crate::quadrature;
+
+pub(super) const DEFINITION: Definition = Definition {
+    name: "wedge15",
+    dimension: 3,
+    order: 2,
+    linear: ElementKind::Wedge6,
+    corners: 6,
+    nodes: NODES,
+    faces: FACES,
+    reversed: &[],
+    shape,
+    quadrature: || quadrature::wedge(quadrature::triangle_6(), 3),
+    mass_quadrature: || quadrature::wedge(quadrature::triangle_6(), 3),
+    vtk: 26,
+    gmsh: Foreign { names: 18, order: &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11] },
+    abaqus: Foreign { names: (Some("15"), &[]), order: &[] },
+    abaqus_faces: &[&[0, 1, 2], &[3, 5, 4], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]],
+};
 
 pub(super) const NODES: &[[f64; 3]] = &[
     [0.0, 0.0, -1.0],
@@ -24,15 +46,15 @@ pub(super) const NODES: &[[f64; 3]] = &[
     [0.0, 1.0, 0.0],
 ];
 
-pub(super) const FACES: &[&[usize]] = &[
-    &[0, 2, 1, 8, 7, 6],
-    &[3, 4, 5, 9, 10, 11],
-    &[0, 1, 4, 3, 6, 13, 9, 12],
-    &[1, 2, 5, 4, 7, 14, 10, 13],
-    &[2, 0, 3, 5, 8, 12, 11, 14],
+const FACES: &[Face] = &[
+    Face { kind: FaceKind::Tri6, nodes: &[0, 2, 1, 8, 7, 6] },
+    Face { kind: FaceKind::Tri6, nodes: &[3, 4, 5, 9, 10, 11] },
+    Face { kind: FaceKind::Quad8, nodes: &[0, 1, 4, 3, 6, 13, 9, 12] },
+    Face { kind: FaceKind::Quad8, nodes: &[1, 2, 5, 4, 7, 14, 10, 13] },
+    Face { kind: FaceKind::Quad8, nodes: &[2, 0, 3, 5, 8, 12, 11, 14] },
 ];
 
-pub(super) fn shape([x, y, z]: [f64; 3]) -> Shape {
+fn shape([x, y, z]: [f64; 3]) -> Shape {
     let l = [1.0 - x - y, x, y];
     let dl = [[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]];
     let bubble = 1.0 - z * z;

@@ -1,13 +1,41 @@
 //! Linear wedge (prism): the triangle ξ, η ≥ 0, ξ + η ≤ 1 times -1 ≤ ζ ≤ 1. Nodes 0, 1, 2 at the lower end run
 //! counter-clockwise seen from the upper one, nodes 3, 4, 5 lie above them: N = λ_i (1 ± ζ)/2.
 
-use super::Shape;
+use super::definition::{Definition, Face, Foreign};
+use super::face::FaceKind;
+use super::kind::ElementKind;
+use super::shape::Shape;
+use crate::quadrature;
 
-pub(super) const NODES: &[[f64; 3]] = super::wedge15::NODES.split_at(6).0;
+pub(super) const DEFINITION: Definition = Definition {
+    name: "wedge6",
+    dimension: 3,
+    order: 1,
+    linear: ElementKind::Wedge6,
+    corners: 6,
+    nodes: NODES,
+    faces: FACES,
+    reversed: &[],
+    shape,
+    quadrature: || quadrature::wedge(quadrature::triangle_3(), 2),
+    mass_quadrature: || quadrature::wedge(quadrature::triangle_3(), 2),
+    vtk: 13,
+    gmsh: Foreign { names: 6, order: &[] },
+    abaqus: Foreign { names: (Some("6"), &[]), order: &[] },
+    abaqus_faces: super::wedge15::DEFINITION.abaqus_faces,
+};
 
-pub(super) const FACES: &[&[usize]] = &[&[0, 2, 1], &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]];
+const NODES: &[[f64; 3]] = super::wedge15::NODES.split_at(6).0;
 
-pub(super) fn shape([x, y, z]: [f64; 3]) -> Shape {
+const FACES: &[Face] = &[
+    Face { kind: FaceKind::Tri3, nodes: &[0, 2, 1] },
+    Face { kind: FaceKind::Tri3, nodes: &[3, 4, 5] },
+    Face { kind: FaceKind::Quad4, nodes: &[0, 1, 4, 3] },
+    Face { kind: FaceKind::Quad4, nodes: &[1, 2, 5, 4] },
+    Face { kind: FaceKind::Quad4, nodes: &[2, 0, 3, 5] },
+];
+
+fn shape([x, y, z]: [f64; 3]) -> Shape {
     let l = [1.0 - x - y, x, y];
     let dl = [[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]];
     let mut s = Shape::default();

@@ -165,9 +165,9 @@ impl Template {
         let nodes = nodes.ok_or(ExtrudeError::Element(plane.name()))?;
         let face_with = |want: &dyn Fn((usize, usize)) -> bool| {
             let all = |f: &[usize]| f.iter().all(|&a| want(nodes[a]));
-            kind.faces().iter().position(|f| all(f)).ok_or(ExtrudeError::Element(plane.name()))
+            kind.faces().iter().position(|f| all(f.nodes)).ok_or(ExtrudeError::Element(plane.name()))
         };
-        let sides = plane.faces().iter().map(|edge| face_with(&|(local, _)| edge.contains(&local)));
+        let sides = plane.faces().iter().map(|edge| face_with(&|(local, _)| edge.nodes.contains(&local)));
         let sides = sides.collect::<Result<Vec<_>, _>>()?;
         let ends = [face_with(&|(_, level)| level == 0)?, face_with(&|(_, level)| level == 2)?];
         Ok(Self { kind, nodes, sides, ends })

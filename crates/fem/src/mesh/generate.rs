@@ -185,7 +185,7 @@ impl<const D: usize> Grid<D> {
                     let nodes = block.cell(cell);
                     for (face, local) in block.kind.faces().iter().enumerate() {
                         // Ends of a line are placed exactly, so that equality is meant.
-                        if local.iter().all(|&a| mesh.nodes[nodes[a]][axis] == value) {
+                        if local.nodes.iter().all(|&a| mesh.nodes[nodes[a]][axis] == value) {
                             sides.push(Side { block: 0, cell, face });
                         }
                     }

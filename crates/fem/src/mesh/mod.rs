@@ -17,7 +17,7 @@ pub use error::{GroupName, Holder, MeshError, Part, Place};
 pub use locate::{Location, locate};
 pub use raw::{GroupTag, Options, RawBlock, RawGroup, RawMesh, RawNode, RawSide, Shape};
 
-use crate::element::ElementKind;
+use crate::element::{ElementKind, FaceKind};
 use std::collections::BTreeMap;
 
 /// Cells of one kind.
@@ -103,7 +103,30 @@ impl<const D: usize> Mesh<D> {
 pub fn face_nodes<const D: usize>(mesh: &Mesh<D>, side: &Side) -> Vec<usize> {
     let block = &mesh.blocks[side.block];
     let cell = block.cell(side.cell);
-    block.kind.faces()[side.face].iter().map(|&a| cell[a]).collect()
+    block.kind.faces()[side.face].nodes.iter().map(|&a| cell[a]).collect()
+}
+
+/// A face of a mesh.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeshFace {
+    /// Kind.
+    pub kind: FaceKind,
+    /// Nodes in the order of the kind.
+    pub nodes: Vec<usize>,
+}
+
+impl MeshFace {
+    /// The face of a side.
+    #[must_use]
+    pub fn new<const D: usize>(mesh: &Mesh<D>, side: &Side) -> Self {
+        Self { kind: face_kind(mesh, side), nodes: face_nodes(mesh, side) }
+    }
+}
+
+/// Kind of a face.
+#[must_use]
+pub fn face_kind<const D: usize>(mesh: &Mesh<D>, side: &Side) -> FaceKind {
+    mesh.blocks[side.block].kind.faces()[side.face].kind
 }
 
 /// Nodes of a set of faces, ascending, without repetition.

@@ -36,7 +36,7 @@ fn conforms<const D: usize>(kind: ElementKind) {
     let mut faces: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
     for cell in 0..cells.len() {
         for face in kind.faces() {
-            let mut nodes: Vec<usize> = face.iter().map(|&a| cells.cell(cell)[a]).collect();
+            let mut nodes: Vec<usize> = face.nodes.iter().map(|&a| cells.cell(cell)[a]).collect();
             nodes.sort_unstable();
             *faces.entry(nodes).or_default() += 1;
         }

@@ -1,6 +1,6 @@
 //! Shape functions, faces, quadrature.
 
-use asperity_fem::element::{ElementKind, Point};
+use asperity_fem::element::{ElementKind, Point, face};
 use asperity_fem::quadrature;
 
 /// Places inside every reference element.
@@ -109,22 +109,13 @@ fn second_order_nodes_lie_between_the_corners_vtk_names() {
 const HEX_EDGES: [[usize; 2]; 12] =
     [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]];
 
-/// Corners of a face with that many nodes.
-fn corners(dimension: usize, nodes: usize) -> usize {
-    match (dimension, nodes) {
-        (2, _) => 2,
-        (_, 3 | 6) => 3,
-        _ => 4,
-    }
-}
-
 #[test]
 fn faces_have_corners_first_and_middles_in_their_order() {
     for kind in ElementKind::ALL {
         let x = kind.node_coordinates();
         for (face, linear) in kind.faces().iter().zip(kind.linear().faces()) {
-            let n = corners(kind.dimension(), face.len());
-            assert_eq!(face[..n], **linear, "{}", kind.name());
+            let (n, face, linear) = (face.kind.corners(), face.nodes, linear.nodes);
+            assert_eq!(face[..n], *linear, "{}", kind.name());
             if kind.order() == 1 {
                 assert_eq!(face.len(), n);
                 continue;
@@ -143,12 +134,34 @@ fn faces_have_corners_first_and_middles_in_their_order() {
     }
 }
 
+/// On a face the functions of its nodes are those of its kind, and no others are left.
+#[test]
+fn faces_are_of_the_kind_they_say() {
+    for element in ElementKind::ALL {
+        let x = element.node_coordinates();
+        for face in element.faces() {
+            assert_eq!((face.nodes.len(), face.kind.space()), (face.kind.nodes(), element.dimension()));
+            for xi in [[0.1, 0.2], [0.3, 0.6], [0.0, 0.5]] {
+                let own = face::shape(face.kind, xi).value;
+                let at: [f64; 3] = std::array::from_fn(|c| {
+                    face.nodes.iter().zip(&own).map(|(&a, n)| n * x[a][c]).sum::<f64>()
+                });
+                let all = element.shape(at).n;
+                for (a, n) in all.iter().enumerate() {
+                    let expected = face.nodes.iter().position(|&f| f == a).map_or(0.0, |k| own[k]);
+                    assert!((n - expected).abs() < 1e-15, "{} {face:?} {a}", element.name());
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn every_edge_of_the_surface_is_run_through_once_each_way() {
     for kind in ElementKind::ALL.into_iter().filter(|k| k.dimension() == 3) {
         let mut edges = Vec::new();
         for face in kind.faces() {
-            let n = corners(3, face.len());
+            let (n, face) = (face.kind.corners(), face.nodes);
             edges.extend((0..n).map(|k| (face[k], face[(k + 1) % n])));
         }
         for &(a, b) in &edges {

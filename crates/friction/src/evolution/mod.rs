@@ -2,7 +2,7 @@
 //! decades of state cost nothing.
 //!
 //! A new law is one short file: its row of the table ([`Definition`]), the contribution φ(s) of its variable s, the steady state, the rate,
-//! and the step. Its type then stands in [`each_evolution`](crate::each_evolution) below.
+//! and the step. Its type then stands in [`each_evolution`](crate::each_evolution).
 
 pub mod ageing;
 mod definition;
@@ -16,20 +16,6 @@ mod table;
 
 pub use definition::{Bound, Common, Defined, Definition, Front, Parameter, Unit, Variable};
 pub use table::{Visit, definition, definitions, with};
-
-/// Evaluates an expression once for each evolution of the table, which it names by the given type.
-#[macro_export]
-macro_rules! each_evolution {
-    ($law:ident => $do:expr) => {
-        $crate::each_evolution!($law => $do; ageing::Ageing, slip::Slip, prz::Prz, nagata::Nagata, flash::Flash)
-    };
-    ($law:ident => $do:expr; $($module:ident::$name:ident),*) => {
-        $({
-            type $law = $crate::evolution::$module::$name;
-            $do
-        })*
-    };
-}
 
 /// ln V of a point at rest: e^z and z e^z vanish, and products of z stay finite.
 pub(crate) const AT_REST: f64 = f64::MIN;

@@ -1,7 +1,20 @@
 //! The table of evolution laws: scenes, the book, the factory and the tests of acceptance read it.
 
 use super::definition::{Defined, Definition};
-use crate::each_evolution;
+
+/// Evaluates an expression once for each evolution of the table, which it names by the given type.
+#[macro_export]
+macro_rules! each_evolution {
+    ($law:ident => $do:expr) => {
+        $crate::each_evolution!($law => $do; ageing::Ageing, slip::Slip, prz::Prz, nagata::Nagata, flash::Flash)
+    };
+    ($law:ident => $do:expr; $($module:ident::$name:ident),*) => {
+        $({
+            type $law = $crate::evolution::$module::$name;
+            $do
+        })*
+    };
+}
 
 /// Does something with the type of an evolution.
 pub trait Visit {

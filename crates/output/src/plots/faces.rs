@@ -62,11 +62,11 @@ fn flat_cells(mesh: &MeshView) -> Vec<Face> {
     };
     let cells = mesh.cells.iter().zip(&mesh.cell_body);
     let face = |((kind, nodes), &body): (&(u8, Vec<usize>), &usize)| {
-        let (ring, centre) = match (kind, nodes.len()) {
-            (5, 3) | (9, 4) => (nodes.clone(), None),
-            (22, 6) => (ring(nodes, 3), None),
-            (23, 8) => (ring(nodes, 4), None),
-            (28, 9) => (ring(nodes, 4), Some(nodes[8])),
+        let (ring, centre) = match kind {
+            5 | 9 => (nodes.clone(), None),
+            22 => (ring(nodes, 3), None),
+            23 => (ring(nodes, 4), None),
+            28 => (ring(nodes, 4), Some(nodes[8])),
             _ => return None,
         };
         Some(Face { ring, centre, body })

@@ -9,8 +9,8 @@ use super::clip::{Polygon, twice_area};
 use super::rule::Rule;
 use super::scalar::Scalar;
 use super::weighting::Weighting;
+use crate::SegmentKind;
 use crate::shape::{MOST_NODES, Shape, shape};
-use crate::spec::SegmentKind;
 use crate::vector::dot;
 
 /// Newton iterations for natural coordinates: those of facets without re-entrant corners converge in 3 to 6.

@@ -12,7 +12,7 @@
 use super::clip::twice_area;
 use super::polygon::{Corner, Crossing, Polygon};
 use super::rule::Rule;
-use crate::spec::SegmentKind;
+use crate::SegmentKind;
 use crate::vector::{axpy, cross, dot, norm, scaled, sub, unit};
 
 /// Most nodes of a facet of first order.

@@ -113,10 +113,11 @@ impl<const D: usize> Finite<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SegmentKind;
     use crate::measure::mortar::cell::{Sums, integrate};
     use crate::measure::mortar::sides::Sides;
     use crate::shape::MOST_NODES;
-    use crate::spec::{Segment, SegmentKind, SlavePoint};
+    use crate::spec::{Segment, SlavePoint};
     use proptest::prelude::*;
     use proptest::test_runner::TestRng;
 

@@ -1,7 +1,7 @@
 //! Quadrature on the pieces of an overlap.
 
+use crate::SegmentKind;
 use crate::shape::shape;
-use crate::spec::SegmentKind;
 use crate::vector::{axpy, cross, dot, norm};
 use asperity_fem::quadrature::{triangle_1, triangle_3, triangle_6};
 

@@ -3,9 +3,10 @@
 use super::cell::Frozen;
 use super::rule::{self, Rule, Rules};
 use super::weighting::Weighting;
+use crate::SegmentKind;
 use crate::search::tree::{Aabb, Tree};
 use crate::shape::{MOST_NODES, shape};
-use crate::spec::{Segment, SegmentKind, SlavePoint};
+use crate::spec::{Segment, SlavePoint};
 use crate::vector::{axpy, dot, norm, perpendicular, scaled, sub};
 
 /// Facets whose normals enclose less than about 96 degrees with each other do not face: along the slave's normal the

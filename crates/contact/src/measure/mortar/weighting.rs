@@ -8,8 +8,9 @@
 //! Any partition of unity transmits a uniform pressure exactly, because `Σ_A ψ_A p = p`; one that is nowhere negative
 //! makes tensile tractions impossible between the nodes too.
 
+use crate::SegmentKind;
 use crate::shape::{MOST_NODES, Shape};
-use crate::spec::{Segment, SegmentKind, SlavePoint};
+use crate::spec::{Segment, SlavePoint};
 
 /// ψ_a = Σ_B c_aB N_B on one facet, one row for each of its points.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::model::{self, Model};
 use crate::scene::model::Fault as Spec;
-use asperity_fem::mesh::{Side, face_nodes};
+use asperity_fem::mesh::{MeshFace, Side, face_nodes};
 use asperity_mechanics::coordinates;
 use std::collections::BTreeMap;
 
@@ -67,7 +67,7 @@ fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
 
 /// A normal of a face between its corners, of any length.
 fn normal<const D: usize>(model: &Model<D>, side: &Side) -> [f64; 3] {
-    let nodes = face_nodes(&model.mesh, side);
+    let MeshFace { kind, nodes } = MeshFace::new(&model.mesh, side);
     let x = |k: usize| -> [f64; 3] {
         std::array::from_fn(|c| model.mesh.nodes[nodes[k]].get(c).copied().unwrap_or(0.0))
     };
@@ -76,8 +76,8 @@ fn normal<const D: usize>(model: &Model<D>, side: &Side) -> [f64; 3] {
         let [dx, dy, _] = minus(x(1), x(0));
         return [dy, -dx, 0.0];
     }
-    match nodes.len() {
-        3 | 6 => cross(&minus(x(1), x(0)), &minus(x(2), x(0))),
+    match kind.corners() {
+        3 => cross(&minus(x(1), x(0)), &minus(x(2), x(0))),
         _ => cross(&minus(x(2), x(0)), &minus(x(3), x(1))),
     }
 }

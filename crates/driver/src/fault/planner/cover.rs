@@ -4,7 +4,7 @@ use crate::diagnostic::Diagnostic;
 use crate::model::Model;
 use crate::scene::model::Fault as Spec;
 use crate::warning::Warning;
-use asperity_fem::mesh::{Side, face_nodes};
+use asperity_fem::mesh::{MeshFace, Side, face_nodes};
 use asperity_mechanics::coordinates;
 use std::collections::BTreeSet;
 
@@ -92,10 +92,10 @@ fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
 impl<const D: usize> Face<D> {
     /// The parts of a side.
     fn of(model: &Model<D>, side: &Side) -> Vec<Self> {
-        let nodes = face_nodes(&model.mesh, side);
-        let parts: &[&[usize]] = match (D, nodes.len()) {
-            (2, _) => &[&[0, 1]],
-            (_, 3 | 6) => &[&[0, 1, 2]],
+        let MeshFace { kind, nodes } = MeshFace::new(&model.mesh, side);
+        let parts: &[&[usize]] = match kind.corners() {
+            2 => &[&[0, 1]],
+            3 => &[&[0, 1, 2]],
             _ => &[&[0, 1, 2], &[0, 2, 3]],
         };
         parts.iter().map(|p| Self::new(p.iter().map(|&k| model.mesh.nodes[nodes[k]]).collect())).collect()

@@ -22,8 +22,9 @@ use crate::scene::law::LawChoice;
 use crate::scene::model::{Fault as Spec, UnderResolved};
 use crate::warning::Warning;
 use asperity_cycles::medium::Place;
+use asperity_fem::element::FaceKind;
 use asperity_fem::kinematics::Idealisation;
-use asperity_fem::mesh::{Side, face_nodes};
+use asperity_fem::mesh::{MeshFace, Side};
 use asperity_friction::evolution::{self, Front};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -94,8 +95,8 @@ impl Ground<'_> {
 pub fn spacings<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<usize, f64> {
     let mut largest: BTreeMap<usize, f64> = BTreeMap::new();
     for side in sides {
-        let nodes = face_nodes(&model.mesh, side);
-        for (i, j) in links(nodes.len(), D) {
+        let MeshFace { kind, nodes } = MeshFace::new(&model.mesh, side);
+        for (i, j) in links(kind) {
             let (a, b) = (nodes[i], nodes[j]);
             let (x, y) = (&model.mesh.nodes[a], &model.mesh.nodes[b]);
             let square: f64 = x.iter().zip(y).map(|(x, y)| (x - y).powi(2)).sum();
@@ -109,17 +110,16 @@ pub fn spacings<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<us
 }
 
 /// Neighbours among the nodes of a face: corners first, then those between them, then the one in the middle.
-fn links(nodes: usize, dimension: usize) -> Vec<(usize, usize)> {
-    if dimension == 2 {
-        return if nodes == 2 { vec![(0, 1)] } else { vec![(0, 2), (2, 1)] };
-    }
-    let corners = if matches!(nodes, 3 | 6) { 3 } else { 4 };
-    let edges = (0..corners).map(|k| (k, (k + 1) % corners));
+fn links(kind: FaceKind) -> Vec<(usize, usize)> {
+    let (nodes, corners) = (kind.nodes(), kind.corners());
+    // A line has one edge, other faces as many as corners.
+    let count = if corners == 2 { 1 } else { corners };
+    let edges = (0..count).map(|k| (k, (k + 1) % corners));
     if nodes == corners {
         return edges.collect();
     }
     let halves = edges.flat_map(|(k, next)| [(k, corners + k), (corners + k, next)]);
-    let middle = (2 * corners..nodes).flat_map(|m| (corners..2 * corners).map(move |k| (m, k)));
+    let middle = (corners + count..nodes).flat_map(|m| (corners..corners + count).map(move |k| (m, k)));
     halves.chain(middle).collect()
 }
 
@@ -279,10 +279,12 @@ mod tests {
 
     #[test]
     fn faces_link_each_node_with_its_neighbours() {
-        assert_eq!(links(3, 2), [(0, 2), (2, 1)]);
-        assert_eq!(links(3, 3), [(0, 1), (1, 2), (2, 0)]);
-        assert_eq!(links(4, 3).len(), 4);
-        assert_eq!(links(6, 3).len(), 6);
-        assert_eq!(links(9, 3).len(), 12);
+        assert_eq!(links(FaceKind::Seg2), [(0, 1)]);
+        assert_eq!(links(FaceKind::Seg3), [(0, 2), (2, 1)]);
+        assert_eq!(links(FaceKind::Tri3), [(0, 1), (1, 2), (2, 0)]);
+        assert_eq!(links(FaceKind::Quad4).len(), 4);
+        assert_eq!(links(FaceKind::Tri6).len(), 6);
+        assert_eq!(links(FaceKind::Quad8).len(), 8);
+        assert_eq!(links(FaceKind::Quad9).len(), 12);
     }
 }

@@ -117,7 +117,7 @@ fn shortest_edges<const D: usize>(mesh: &Mesh<D>) -> Vec<f64> {
     for block in &mesh.blocks {
         for cell in 0..block.len() {
             let nodes = block.cell(cell);
-            for face in block.kind.faces() {
+            for face in block.kind.faces().iter().map(|face| face.nodes) {
                 for k in 0..face.len() {
                     let (a, b) = (nodes[face[k]], nodes[face[(k + 1) % face.len()]]);
                     let d = distance(&mesh.nodes[a], &mesh.nodes[b]);

@@ -5,24 +5,12 @@ use crate::mesh::raw::Shape;
 
 /// The shape of a type that is read.
 pub(super) fn shape(kind: i64) -> Option<Shape> {
-    Some(match kind {
-        1 => Shape::Line2,
-        2 => Shape::Cell(ElementKind::Tri3),
-        3 => Shape::Cell(ElementKind::Quad4),
-        4 => Shape::Cell(ElementKind::Tet4),
-        5 => Shape::Cell(ElementKind::Hex8),
-        6 => Shape::Cell(ElementKind::Wedge6),
-        8 => Shape::Line3,
-        9 => Shape::Cell(ElementKind::Tri6),
-        10 => Shape::Cell(ElementKind::Quad9),
-        11 => Shape::Cell(ElementKind::Tet10),
-        12 => Shape::Cell(ElementKind::Hex27),
-        15 => Shape::Point,
-        16 => Shape::Cell(ElementKind::Quad8),
-        17 => Shape::Cell(ElementKind::Hex20),
-        18 => Shape::Cell(ElementKind::Wedge15),
-        _ => return None,
-    })
+    match kind {
+        1 => Some(Shape::Line2),
+        8 => Some(Shape::Line3),
+        15 => Some(Shape::Point),
+        _ => ElementKind::ALL.into_iter().find(|e| e.definition().gmsh.names == kind).map(Shape::Cell),
+    }
 }
 
 /// What a type is called, for those that are not read.
@@ -56,15 +44,5 @@ pub(super) fn name(kind: i64) -> String {
 /// For each node in the order of VTK, its place in the order of Gmsh; empty where both agree. Both run through the mid-nodes
 /// of edges, but through the edges in different orders; the tests compare them with the midpoints.
 pub(super) fn order(shape: Shape) -> &'static [usize] {
-    match shape {
-        Shape::Cell(ElementKind::Tet10) => &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8],
-        Shape::Cell(ElementKind::Hex20) => &HEX27[..20],
-        Shape::Cell(ElementKind::Hex27) => &HEX27,
-        Shape::Cell(ElementKind::Wedge15) => &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11],
-        _ => &[],
-    }
+    shape.element().map_or(&[], |element| element.definition().gmsh.order)
 }
-
-/// Corners, edges, faces, centre; the first 20 are those of the hexahedron of 20 nodes.
-const HEX27: [usize; 27] =
-    [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26];

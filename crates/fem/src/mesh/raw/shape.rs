@@ -70,14 +70,7 @@ impl Shape {
     /// The order of nodes that turns a plane shape over: the same corners, run through in the other sense.
     #[must_use]
     pub fn reversed(self) -> &'static [usize] {
-        match self {
-            Self::Cell(ElementKind::Tri3) => &[0, 2, 1],
-            Self::Cell(ElementKind::Tri6) => &[0, 2, 1, 5, 4, 3],
-            Self::Cell(ElementKind::Quad4) => &[0, 3, 2, 1],
-            Self::Cell(ElementKind::Quad8) => &[0, 3, 2, 1, 7, 6, 5, 4],
-            Self::Cell(ElementKind::Quad9) => &[0, 3, 2, 1, 7, 6, 5, 4, 8],
-            _ => &[],
-        }
+        self.element().map_or(&[], |element| element.definition().reversed)
     }
 
     /// Puts the nodes of an element into another order: `order` gives for each its place in the old one, and is empty where

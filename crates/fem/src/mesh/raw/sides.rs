@@ -79,9 +79,9 @@ impl RawMesh {
             for (cell, &tag) in cells[b].iter().enumerate() {
                 let nodes = block.cell(cell);
                 for (face, local) in block.kind.faces().iter().enumerate() {
-                    let all: Vec<usize> = local.iter().map(|&a| nodes[a]).collect();
+                    let all: Vec<usize> = local.nodes.iter().map(|&a| nodes[a]).collect();
                     let side = Side { block: b, cell, face };
-                    collect(&mut wanted, &all, corners::<D>(local.len()), tag, side, &mut sets)?;
+                    collect(&mut wanted, &all, local.kind.corners(), tag, side, &mut sets)?;
                 }
             }
         }
@@ -110,15 +110,6 @@ impl RawMesh {
             }
         }
         wanted
-    }
-}
-
-/// Corners of a face of so many nodes.
-fn corners<const D: usize>(nodes: usize) -> usize {
-    match (D, nodes) {
-        (2, _) => 2,
-        (_, 3 | 6) => 3,
-        _ => 4,
     }
 }
 

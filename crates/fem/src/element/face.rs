@@ -1,23 +1,113 @@
-//! Shape functions of master segments with their first and second derivatives.
+//! Faces of elements: their kinds, and shape functions with first and second derivatives.
 //!
 //! Natural coordinates: ξ in [-1, 1] on lines and quadrilaterals, ξ_1, ξ_2 ≥ 0 with ξ_1 + ξ_2 ≤ 1 on triangles.
 
-use crate::spec::SegmentKind;
+use super::kind::ElementKind;
+use std::fmt;
 
-/// Most nodes a segment has.
+/// Kinds of face of an element. Node orders: corners first, then mid-nodes of the edges 12, 23, ..., then the centre.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FaceKind {
+    /// Straight line of 2 nodes.
+    Seg2,
+    /// Line of 3 nodes (ends, middle).
+    Seg3,
+    /// Flat triangle.
+    Tri3,
+    /// Triangle of 6 nodes.
+    Tri6,
+    /// Bilinear quadrilateral.
+    Quad4,
+    /// Serendipity quadrilateral of 8 nodes.
+    Quad8,
+    /// Biquadratic quadrilateral of 9 nodes.
+    Quad9,
+}
+
+impl FaceKind {
+    /// Number of nodes.
+    #[must_use]
+    pub fn nodes(self) -> usize {
+        match self {
+            Self::Seg2 => 2,
+            Self::Seg3 | Self::Tri3 => 3,
+            Self::Quad4 => 4,
+            Self::Tri6 => 6,
+            Self::Quad8 => 8,
+            Self::Quad9 => 9,
+        }
+    }
+
+    /// Number of corners: the first of the nodes.
+    #[must_use]
+    pub fn corners(self) -> usize {
+        match self {
+            Self::Seg2 | Self::Seg3 => 2,
+            Self::Tri3 | Self::Tri6 => 3,
+            Self::Quad4 | Self::Quad8 | Self::Quad9 => 4,
+        }
+    }
+
+    /// The plane element of the same nodes; none of a line.
+    #[must_use]
+    pub fn element(self) -> Option<ElementKind> {
+        match self {
+            Self::Seg2 | Self::Seg3 => None,
+            Self::Tri3 => Some(ElementKind::Tri3),
+            Self::Tri6 => Some(ElementKind::Tri6),
+            Self::Quad4 => Some(ElementKind::Quad4),
+            Self::Quad8 => Some(ElementKind::Quad8),
+            Self::Quad9 => Some(ElementKind::Quad9),
+        }
+    }
+
+    /// Returns whether the integrals of all its shape functions are positive, so that its nodes can stand for areas. A flat tri6 has zero at
+    /// its corners, a quad8 -1/12 of its area.
+    #[must_use]
+    pub fn shares_area(self) -> bool {
+        !matches!(self, Self::Tri6 | Self::Quad8)
+    }
+
+    /// Dimension of the space whose boundary it is part of.
+    #[must_use]
+    pub fn space(self) -> usize {
+        match self {
+            Self::Seg2 | Self::Seg3 => 2,
+            Self::Tri3 | Self::Tri6 | Self::Quad4 | Self::Quad8 | Self::Quad9 => 3,
+        }
+    }
+
+    /// Returns whether its edges are straight.
+    #[must_use]
+    pub fn first_order(self) -> bool {
+        matches!(self, Self::Seg2 | Self::Tri3 | Self::Quad4)
+    }
+}
+
+impl fmt::Display for FaceKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Seg2 => "seg2",
+            Self::Seg3 => "seg3",
+            Self::Tri3 => "tri3",
+            Self::Tri6 => "tri6",
+            Self::Quad4 => "quad4",
+            Self::Quad8 => "quad8",
+            Self::Quad9 => "quad9",
+        })
+    }
+}
+
+/// Most nodes a face has.
 pub const MOST_NODES: usize = 9;
 
 /// Corners of `kind`.
 #[must_use]
-pub fn corners(kind: SegmentKind) -> usize {
-    match kind {
-        SegmentKind::Seg2 | SegmentKind::Seg3 => 2,
-        SegmentKind::Tri3 | SegmentKind::Tri6 => 3,
-        SegmentKind::Quad4 | SegmentKind::Quad8 | SegmentKind::Quad9 => 4,
-    }
+pub fn corners(kind: FaceKind) -> usize {
+    kind.corners()
 }
 
-/// Values and derivatives at one point; entries beyond the segment's nodes are zero.
+/// Values and derivatives at one point; entries beyond the nodes of the face are zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {
     /// N_γ.
@@ -47,20 +137,20 @@ const QUAD: [[usize; 2]; 9] = [[0, 0], [1, 0], [1, 1], [0, 1], [2, 0], [1, 2], [
 
 /// Shape functions of `kind` at `xi`.
 #[must_use]
-pub fn shape(kind: SegmentKind, xi: [f64; 2]) -> Shape {
+pub fn shape(kind: FaceKind, xi: [f64; 2]) -> Shape {
     let mut s = Shape { value: [0.0; 9], first: [[0.0; 9]; 2], second: [[0.0; 9]; 3] };
     match kind {
-        SegmentKind::Seg2 => line(&mut s, &linear(xi[0]), 2),
-        SegmentKind::Seg3 => line(&mut s, &quadratic(xi[0]), 3),
-        SegmentKind::Quad4 => product(&mut s, &linear(xi[0]), &linear(xi[1]), 4),
-        SegmentKind::Quad9 => product(&mut s, &quadratic(xi[0]), &quadratic(xi[1]), 9),
-        SegmentKind::Tri3 => {
+        FaceKind::Seg2 => line(&mut s, &linear(xi[0]), 2),
+        FaceKind::Seg3 => line(&mut s, &quadratic(xi[0]), 3),
+        FaceKind::Quad4 => product(&mut s, &linear(xi[0]), &linear(xi[1]), 4),
+        FaceKind::Quad9 => product(&mut s, &quadratic(xi[0]), &quadratic(xi[1]), 9),
+        FaceKind::Tri3 => {
             s.value[..3].copy_from_slice(&[1.0 - xi[0] - xi[1], xi[0], xi[1]]);
             s.first[0][..3].copy_from_slice(&[-1.0, 1.0, 0.0]);
             s.first[1][..3].copy_from_slice(&[-1.0, 0.0, 1.0]);
         }
-        SegmentKind::Tri6 => triangle(&mut s, xi),
-        SegmentKind::Quad8 => serendipity(&mut s, xi),
+        FaceKind::Tri6 => triangle(&mut s, xi),
+        FaceKind::Quad8 => serendipity(&mut s, xi),
     }
     s
 }

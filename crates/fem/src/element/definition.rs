@@ -1,0 +1,59 @@
+//! What an element is, in one place: each element has a file with its definition.
+
+use super::face::FaceKind;
+use super::kind::ElementKind;
+use super::shape::{Point, Shape};
+
+/// A face of an element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Face {
+    /// Kind.
+    pub kind: FaceKind,
+    /// Local nodes in the order of the kind. The body lies to the left of an edge; a face runs counter-clockwise seen from outside.
+    pub nodes: &'static [usize],
+}
+
+/// An element in the meshes of another program.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foreign<N: 'static> {
+    /// Its numbers or names.
+    pub names: N,
+    /// For each node in the order of VTK, its place in the order of the other program; empty where both agree.
+    pub order: &'static [usize],
+}
+
+/// An element.
+#[derive(Clone, Copy, Debug)]
+pub struct Definition {
+    /// Name as a scene spells it.
+    pub name: &'static str,
+    /// Dimension.
+    pub dimension: usize,
+    /// Degree of the complete polynomials the shape functions hold: 1 or 2.
+    pub order: usize,
+    /// The element of first order on the same corners.
+    pub linear: ElementKind,
+    /// Number of corners: the first of the nodes.
+    pub corners: usize,
+    /// Natural coordinates of the nodes.
+    pub nodes: &'static [[f64; 3]],
+    /// Faces.
+    pub faces: &'static [Face],
+    /// Order of nodes that turns a plane element over: the same corners, run through in the other sense.
+    pub reversed: &'static [usize],
+    /// Shape functions and their natural derivatives.
+    pub shape: fn([f64; 3]) -> Shape,
+    /// Quadrature that integrates the stiffness of the undistorted element exactly.
+    pub quadrature: fn() -> Vec<Point>,
+    /// Quadrature that integrates products N_a N_b over the undistorted element exactly.
+    pub mass_quadrature: fn() -> Vec<Point>,
+    /// Cell type number of VTK, whose order of nodes is that of this crate.
+    pub vtk: u8,
+    /// Type number of Gmsh.
+    pub gmsh: Foreign<i64>,
+    /// Number after the family in types of Abaqus (CPE, CPS and CAX in the plane, C3D in space), and types of shells, membranes and rigid
+    /// faces.
+    pub abaqus: Foreign<(Option<&'static str>, &'static [&'static str])>,
+    /// Corners of the faces S1, S2, ... of Abaqus.
+    pub abaqus_faces: &'static [&'static [usize]],
+}
