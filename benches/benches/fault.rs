@@ -1,4 +1,4 @@
-//! What slip does to tractions, dense and compressed, and a right-hand side of a fault; with the bytes an operator holds.
+//! Tractions due to slip, dense and compressed, and a right-hand side of a fault; with the bytes an operator holds.
 #![allow(missing_docs)]
 
 use asperity_cycles::Equations;

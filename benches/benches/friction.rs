@@ -38,7 +38,7 @@ const DT: f64 = 1e-5;
 struct Case<F, E: Evolution> {
     name: &'static str,
     law: RateLaw<F, E>,
-    /// What a law with a memory of shear traction keeps beside its state.
+    /// Amount that a law with a memory of shear traction keeps beside its state.
     kept: f64,
 }
 

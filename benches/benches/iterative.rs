@@ -162,7 +162,7 @@ fn main() {
     }
 }
 
-/// What can be asked for.
+/// Methods that can be chosen.
 const METHODS: &[&str] = &["amg", "jacobi", "direct"];
 
 /// Relative residual of the table.

@@ -138,7 +138,7 @@ fn coupled(count: usize, chain: bool) -> Problem {
     plan
 }
 
-/// What more sliders cost.
+/// Times sliders coupled in chains, and each to each.
 fn chains(c: &mut Criterion) {
     let mut group = c.benchmark_group("two events of coupled sliders");
     group.sample_size(10);

@@ -11,7 +11,7 @@ use asperity_fem::sparse::{Part, ScatterMap};
 /// Stiffness of the case `2d:N` or `3d:N`, a square or cube with about N equations.
 ///
 /// # Errors
-/// When the case has another form.
+/// If the case has another form.
 pub fn stiffness(case: &str) -> Result<ScatterMap, String> {
     let wrong = || format!("`{case}` is no case: 2d:N or 3d:N");
     let (dimension, size) = case.split_once(':').ok_or_else(wrong)?;

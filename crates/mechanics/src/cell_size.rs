@@ -26,7 +26,7 @@ pub fn cell_size<const D: usize>(mesh: &Mesh<D>, block: usize, cell: usize) -> f
     }
 }
 
-/// Where edges are taken; those of simplices are the same everywhere.
+/// Position at which edges are taken; those of simplices are the same everywhere.
 fn centre(kind: ElementKind) -> [f64; 3] {
     if kind == ElementKind::Wedge6 { [1.0 / 3.0, 1.0 / 3.0, 0.0] } else { [0.0; 3] }
 }

@@ -12,7 +12,7 @@ pub enum Path {
     Full,
 }
 
-/// How the length of implicit steps is chosen.
+/// Choice of the length of implicit steps.
 #[derive(Clone, Debug)]
 pub struct Control {
     /// Bound on the estimated local error of slip per step \[m\].
@@ -41,7 +41,7 @@ pub struct Stepping {
 }
 
 impl Stepping {
-    /// Whether steps are foreseen with rate tangents.
+    /// Returns whether the steps are forward steps with rate tangents.
     #[must_use]
     pub fn is_forward(&self) -> bool {
         self.drift.is_some()

@@ -1,8 +1,8 @@
-//! How interfaces enforce their constraints, in SI, and what that adds to the system.
+//! Enforcement of the constraints of interfaces, in SI, and the unknowns that it adds to the system.
 
 use asperity_contact::Enforcement;
 
-/// How an interface enforces its constraints.
+/// Enforcement of the constraints of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Enforced {
     /// A penalty.

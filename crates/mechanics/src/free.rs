@@ -1,4 +1,4 @@
-//! What is free to move, in words: bodies, places and components instead of equations.
+//! Free motions in words: bodies, positions and components instead of equations.
 
 use super::Model;
 use super::coordinates::in_words;

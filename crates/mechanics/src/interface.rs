@@ -8,7 +8,7 @@ use asperity_fem::mesh::MeshFace;
 use asperity_friction::law::Law;
 use std::sync::Arc;
 
-/// How gaps are measured.
+/// Measure of gaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// Slave nodes against closest points of the master.
@@ -29,17 +29,17 @@ pub struct PlannedInterface {
     pub slave_faces: Vec<MeshFace>,
     /// Master faces, as lists of mesh nodes.
     pub master_faces: Vec<MeshFace>,
-    /// How gaps are measured.
+    /// Measure of its gaps.
     pub measure: Measure,
-    /// Whether the pairing follows the motion.
+    /// Sliding, finite where the pairing follows the motion.
     pub sliding: Sliding,
-    /// Whether the master surface is smoothed.
+    /// True if the master surface is smoothed.
     pub smoothed: bool,
     /// E_n \[Pa/m\].
     pub normal_penalty: f64,
     /// E_t \[Pa/m\]; 0 without friction.
     pub tangential_penalty: f64,
-    /// How the constraints are enforced.
+    /// Enforcement of the constraints.
     pub enforced: Enforced,
     /// Multipliers that are unknowns of the system.
     pub unknowns: usize,
@@ -49,9 +49,9 @@ pub struct PlannedInterface {
     pub blamed: Option<String>,
     /// Tractions of the initial stress, where its bodies start with one.
     pub pressed: Option<Pressed>,
-    /// What its points resolve, where friction weakens with slip.
+    /// Resolution of the cohesive zone by its points, where friction weakens with slip.
     pub resolved: Option<Resolved>,
-    /// What steps may not do.
+    /// Conditions that steps must meet.
     pub watch: Watch,
     /// Probe positions.
     pub probes: usize,

@@ -125,7 +125,7 @@ pub struct Body<const D: usize> {
 pub struct Model<const D: usize> {
     /// All bodies in one mesh; sets are named `body.set`.
     pub mesh: Mesh<D>,
-    /// What the blocks of the mesh are, in its order.
+    /// Cells of the blocks of the mesh, in its order.
     pub blocks: Vec<CellBlock<D>>,
     /// The bodies, in the order of their names.
     pub bodies: Vec<Body<D>>,
@@ -145,7 +145,7 @@ impl<const D: usize> Model<D> {
     /// Degree of freedom of a node along an axis of space.
     ///
     /// # Panics
-    /// When no displacement points there, which the check of a scene refuses.
+    /// If no displacement points there, which the check of a scene refuses.
     #[must_use]
     pub fn dof(&self, node: usize, axis: usize) -> usize {
         let component =
@@ -164,7 +164,7 @@ impl<const D: usize> Model<D> {
         displacement
     }
 
-    /// Whether all bodies are linear.
+    /// Returns whether all bodies are linear.
     #[must_use]
     pub fn is_linear(&self) -> bool {
         self.bodies.iter().all(|b| b.nonlinear.is_none())

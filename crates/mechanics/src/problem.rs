@@ -1,4 +1,4 @@
-//! What is computed: bodies, interfaces and stages, with the methods chosen for them.
+//! Problem to be solved: bodies, interfaces and stages, with the methods chosen for them.
 
 use super::solver::Solver;
 use super::{CellBlock, Control, Model, Path, PlannedInterface, Stage, Stepping, StressField, Wanted};
@@ -18,7 +18,7 @@ pub struct Problem<const D: usize> {
     pub stages: Vec<Stage>,
     /// Path.
     pub path: Path,
-    /// How the linear systems are solved.
+    /// Solver of the linear systems.
     pub solver: Solver,
     /// Stepper.
     pub stepping: Stepping,
@@ -29,7 +29,7 @@ pub struct Problem<const D: usize> {
 }
 
 impl<const D: usize> Problem<D> {
-    /// Whether forces depend on where the bodies are by now: finite sliding or large deformation.
+    /// Returns whether forces depend on the current position of the bodies: finite sliding or large deformation.
     #[must_use]
     pub fn moves(&self) -> bool {
         let deformed = |b: &CellBlock<D>| match b {

@@ -1,4 +1,4 @@
-//! What the slave points of an interface resolve of the zone in which friction loses its strength.
+//! Resolution, by the slave points of an interface, of the zone in which friction loses its strength.
 
 use std::ops::Range;
 
@@ -7,11 +7,11 @@ use std::ops::Range;
 pub struct Resolved {
     /// Normal traction under which the cohesive zone is as long as the largest distance between points \[Pa\].
     pub one: f64,
-    /// That distance \[m\].
+    /// Largest distance between points \[m\].
     pub spacing: f64,
     /// Normal traction under which no point may slide \[Pa\]; none where any may.
     pub refused_beyond: Option<f64>,
-    /// What the points resolve and what helps, where a run stops for it.
+    /// Resolution in words with a remedy, for a run that stops because of it.
     pub limit: String,
     /// Bytes of the description that warnings point at.
     pub place: Range<usize>,

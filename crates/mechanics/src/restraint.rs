@@ -1,4 +1,4 @@
-//! Whether every body, and every part of one that is split, is held: by its conditions, by symmetry, or by contact alone.
+//! Restraint of every body, and of every part of a split one: by its conditions, by symmetry, or by contact alone.
 //!
 //! A rigid motion is free when no fixed degree of freedom sees it. It is refused when no interface of the body could
 //! hold it either, in any stage.

@@ -1,4 +1,4 @@
-//! What is asked of bodies beside fields: displacement and stress at points, forces on sets.
+//! Outputs of bodies beside fields: displacement and stress at points, forces on sets.
 
 use super::{CellBlock, Model, Stage, StressField};
 use asperity_fem::block::von_mises;
@@ -20,7 +20,7 @@ pub struct Point {
     cell: usize,
     /// Nodes of its cell, with the values of their shape functions there.
     shares: Vec<(usize, f64)>,
-    /// What each quadrature point of its cell contributes to the stress there.
+    /// Weight of each quadrature point of its cell in the stress there.
     weights: Vec<f64>,
 }
 
@@ -37,7 +37,7 @@ pub struct ForceSet {
     cells: Vec<(usize, usize)>,
 }
 
-/// What is wanted.
+/// Points and sets of bodies whose values are requested.
 #[derive(Clone, Debug, Default)]
 pub struct Wanted {
     /// Points, by name.
@@ -72,7 +72,7 @@ pub struct Samples {
 pub type Beside = Vec<([f64; 3], Table)>;
 
 impl Wanted {
-    /// Whether nothing is wanted.
+    /// Returns whether nothing is requested.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.points.is_empty() && self.forces.is_empty()

@@ -1,4 +1,4 @@
-//! How the linear systems of the steps are solved, as data; what is known of their matrices, and what condensation keeps.
+//! Choice of the solver of the steps' linear systems, as data; properties of their matrices, and the extent of condensation.
 
 use super::interface::{Measure, PlannedInterface, interface_nodes};
 use super::{CellBlock, Model, Stage, Stepping};
@@ -6,14 +6,14 @@ use asperity_contact::Sliding;
 use asperity_fem::assembly::{Analysis, Symmetry};
 use asperity_fem::condense;
 
-/// How the linear systems are solved.
+/// Solver of the linear systems.
 #[derive(Debug)]
 pub struct Solver {
     /// Method.
     pub method: Method,
     /// Bytes a factorisation may take.
     pub memory: usize,
-    /// What was analysed to know the memory.
+    /// Analyses from which the memory was predicted.
     pub prepared: Prepared,
     /// Bytes the method is predicted to take.
     pub bytes: usize,
@@ -48,10 +48,10 @@ pub enum Prepared {
     System(Analysis),
 }
 
-/// What is known of the tangents in a stage. This is the one place where it is decided: bodies say whether their tangent is
-/// symmetric, and contact without a law or tied is; friction couples shear traction to normal traction in one direction only.
-/// Mortar contact that follows the motion is not: its forces are the averages of the pressure, not the gradient of an energy of
-/// gaps. Multipliers that are unknowns have zeros on the diagonal, for which Cholesky would be tried in vain.
+/// Returns the symmetry of the tangents in a stage, which is decided here alone. Bodies say whether their tangent is symmetric;
+/// contact that is tied or without a law has a symmetric one. Friction couples shear traction to normal traction in one direction only.
+/// Mortar contact that follows the motion is not symmetric: its forces are the averages of the pressure, not the gradient of an
+/// energy of gaps. Multipliers that are unknowns have zeros on the diagonal, for which Cholesky would be tried in vain.
 #[must_use]
 pub fn symmetry<const D: usize>(
     model: &Model<D>,

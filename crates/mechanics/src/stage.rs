@@ -9,7 +9,7 @@ use std::ops::Range;
 /// what velocity steps of experiments span.
 pub const LOADING: f64 = 100.0;
 
-/// How a component moves during a stage.
+/// Motion of a component during a stage.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
     /// A displacement that is there from the start \[m\].
@@ -107,13 +107,13 @@ impl Stage {
         held.fold(self.largest_rate() * (self.end - self.start), f64::max)
     }
 
-    /// Whether anything but prescribed motions acts: loads, weight, initial stress or springs.
+    /// Returns whether anything but prescribed motions acts: loads, weight, initial stress or springs.
     #[must_use]
     pub fn is_loaded(&self) -> bool {
         !self.springs.is_empty() || self.loads.iter().any(|(_, channel)| !channel.forces.is_empty())
     }
 
-    /// Whether conditions hold any of some degrees of freedom along the components that are asked for.
+    /// Returns whether conditions hold any of some degrees of freedom along the given components.
     #[must_use]
     pub fn holds(&self, dofs: &Range<usize>, components: &[bool]) -> bool {
         let fixed = self.fixed.iter().chain(self.springs.iter().flat_map(|s| &s.dofs));
@@ -135,7 +135,7 @@ impl Stage {
         times.map(|t| parts.iter().map(|(a, f)| f * a.value(t)).sum()).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Whether tractions or pressures act on sets.
+    /// Returns whether tractions or pressures act on sets.
     #[must_use]
     pub fn has_loads(&self) -> bool {
         self.loads.iter().any(|(set, _)| set.is_some())

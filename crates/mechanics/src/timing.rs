@@ -30,7 +30,7 @@ const STANDS: f64 = 2.0;
 /// A remainder below this share of the step is not worth a step of its own.
 const REMAINDER: f64 = 1e-9;
 
-/// What an accepted step tells of the length of the next.
+/// Figures of an accepted step from which the length of the next is chosen.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Figures {
     /// Estimated error of slip \[m\].
@@ -43,12 +43,12 @@ pub struct Figures {
     pub iterations: usize,
 }
 
-/// What the choice of step lengths keeps from step to step.
+/// State that the choice of step lengths keeps from step to step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StepLengthState {
     /// Length wanted next \[s\]; none where imposed ends alone decide.
     wanted: Option<f64>,
-    /// Whether the last trial failed.
+    /// True if the last trial failed.
     failed: bool,
 }
 
@@ -65,7 +65,7 @@ pub struct StepLength {
     friction: Option<f64>,
     /// Ends of imposed steps still to come, last first.
     imposed: Option<Vec<f64>>,
-    /// Whether the last trial failed: the next step does not grow, since it would fail again.
+    /// True if the last trial failed: the next step does not grow, since it would fail again.
     failed: bool,
     /// Length the error of slip asked for, where it lies below the smallest.
     needed: Option<f64>,
@@ -184,13 +184,13 @@ impl StepLength {
         self.needed.map(|needed| (needed, self.smallest))
     }
 
-    /// What it keeps from step to step.
+    /// Returns the state kept from step to step.
     #[must_use]
     pub fn save(&self) -> StepLengthState {
         StepLengthState { wanted: self.dt.is_finite().then_some(self.dt), failed: self.failed }
     }
 
-    /// The same, with what one of the same stage kept.
+    /// Restores the state that another choice kept for the same stage.
     #[must_use]
     pub fn restored(self, saved: &StepLengthState) -> Self {
         Self { dt: saved.wanted.unwrap_or(f64::INFINITY), failed: saved.failed, ..self }
@@ -202,7 +202,7 @@ impl StepLength {
         self.smallest
     }
 
-    /// What set the length of the last step.
+    /// Returns the limit that set the length of the last step.
     #[must_use]
     pub fn reason(&self) -> &'static str {
         self.reason

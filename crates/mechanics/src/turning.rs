@@ -18,7 +18,7 @@ pub struct Rotation {
     pub axis: [f64; 3],
 }
 
-/// What a rotation acts on.
+/// Degrees of freedom on which a rotation acts.
 #[derive(Clone, Debug)]
 pub struct Turning {
     /// Degrees of freedom of one component.

@@ -1,4 +1,4 @@
-//! What keeps a scene from being varied.
+//! Errors in a variation of a scene.
 
 /// A change that would not make another scene.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -37,7 +37,7 @@ pub enum VaryError {
     Value {
         /// The path.
         path: String,
-        /// What TOML says of it.
+        /// Error of the TOML reader.
         source: toml_edit::TomlError,
     },
     /// A table was needed.
@@ -45,7 +45,7 @@ pub enum VaryError {
     NoTable {
         /// The path.
         path: String,
-        /// What there is.
+        /// Kind of the value that is there.
         kind: &'static str,
     },
     /// A list was needed.
@@ -53,7 +53,7 @@ pub enum VaryError {
     NoList {
         /// The path.
         path: String,
-        /// What there is.
+        /// Kind of the value that is there.
         kind: &'static str,
     },
 }

@@ -49,7 +49,7 @@ impl Path {
         Some((Self { whole: self.whole.clone(), steps: list.to_vec() }, *k))
     }
 
-    /// What is at the path.
+    /// Returns the item at the path.
     pub fn find<'a>(&self, scene: &'a mut Item) -> Result<&'a mut Item, VaryError> {
         let mut item = scene;
         for (depth, step) in self.steps.iter().enumerate() {

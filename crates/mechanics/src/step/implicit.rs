@@ -116,12 +116,12 @@ impl Implicit {
         }
     }
 
-    /// What it keeps from step to step.
+    /// Returns the values kept from step to step.
     pub(super) fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState {
         StepperState { last: self.last.clone(), left: Vec::new(), system: self.system.memory(terms) }
     }
 
-    /// Takes up what a stepper of the same system kept; whether it fits.
+    /// Restores the values kept by a stepper of the same system, and returns whether they fit.
     pub(super) fn restore(&mut self, saved: &StepperState, terms: &mut [&mut dyn Linearized]) -> bool {
         let dofs = self.system.equations().number.len();
         if saved.last.as_ref().is_some_and(|(increment, _)| increment.len() != dofs) {
@@ -285,8 +285,8 @@ impl Implicit {
         self.evaluate(terms, u, at, counts)
     }
 
-    /// Whether `u` is in balance; `moved` where the loads of the step have been answered by an iteration. A residual that no
-    /// longer falls is in balance when it is rounding of the forces it is the sum of.
+    /// Returns whether `u` is in balance; `moved` where an iteration has responded to the loads of the step.
+    /// A residual that no longer falls is in balance when it is rounding of the forces it is the sum of.
     fn has_converged(&self, norm: f64, u: &[f64], progress: &Progress, moved: bool) -> bool {
         let settled = progress.moved <= SETTLED * largest(u).max(self.position);
         norm == 0.0
@@ -298,7 +298,7 @@ impl Implicit {
         CONVERGED.max(self.system.tolerance())
     }
 
-    /// Pairs at `u`; whether that changed anything. The residual is then the one of the new pairing.
+    /// Pairs at `u`, and returns whether that changed anything. The residual is then the one of the new pairing.
     fn pairs_anew(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -533,7 +533,7 @@ pub(super) struct Corrected {
 /// A direction.
 struct Direction {
     along: Vec<f64>,
-    /// Whether springs had to hold it.
+    /// True if springs had to hold it.
     free: bool,
 }
 
@@ -544,18 +544,18 @@ struct Trial {
     slope: f64,
 }
 
-/// How an iteration gets on: full steps on trust for a while, back to the best iterate and shortened steps for a while where they
-/// did not lead anywhere, and so on.
+/// Progress of an iteration. Full steps are trusted for a while. Where they lead nowhere, the iteration returns to the best iterate
+/// and shortens its steps for a while; then it trusts full steps again, and so on.
 struct Progress {
     /// Least residual so far.
     best: f64,
-    /// Where it was.
+    /// Displacement with that residual.
     best_u: Vec<f64>,
     /// Iterations since it was last halved.
     since: usize,
-    /// What the last iteration moved \[m\].
+    /// Largest change of displacement in the last iteration \[m\].
     moved: f64,
-    /// Whether some iterate was not held, or left the model.
+    /// True if some iterate was not held, or left the model.
     adrift: bool,
 }
 
@@ -572,12 +572,12 @@ impl Progress {
         }
     }
 
-    /// Whether full steps are taken that raise the residual.
+    /// Returns whether full steps that raise the residual are accepted.
     fn trusts(&self) -> bool {
         self.since % (2 * PATIENCE) < PATIENCE
     }
 
-    /// Whether they were until now.
+    /// Returns whether they were accepted until now.
     fn gives_up_trust(&self) -> bool {
         self.since % (2 * PATIENCE) == PATIENCE
     }

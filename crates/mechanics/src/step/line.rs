@@ -1,4 +1,4 @@
-//! Where along a direction the work of the residual changes sign.
+//! Length along a direction at which the work of the residual changes sign.
 //!
 //! With d a direction and r(s) the residual at `u + s d`, `g(s) = d.r(s)` is the slope of the energy along d where there is
 //! one, and where friction leaves none it is still what resists the motion along d. A pair that closes or slips makes g rise

@@ -37,7 +37,7 @@ pub enum Failure {
     Unsolved {
         /// Why.
         error: FemError,
-        /// Whether it is the same in steps of any length, so that a shorter one does not help.
+        /// True if it fails in steps of any length, so that a shorter one does not help.
         always: bool,
     },
     /// The iteration leaves the model: next to nothing resists the motion that has its largest part in a degree of freedom.
@@ -55,7 +55,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Whether shorter steps fail as well.
+    /// Returns whether shorter steps fail as well.
     #[must_use]
     pub fn always(&self) -> bool {
         match self {
@@ -66,7 +66,7 @@ impl Failure {
         }
     }
 
-    /// Whether a motion was found free.
+    /// Returns whether a motion was found free.
     #[must_use]
     pub fn is_singular(&self) -> bool {
         matches!(self, Self::Unsolved { error, .. } if error.is_singular())
@@ -143,7 +143,7 @@ pub struct Accepted {
     pub error: f64,
     /// The same as a forward step left it, before it was corrected \[-\].
     pub drift: f64,
-    /// What set the length, where the stepper itself did.
+    /// Limit that set the length, where the stepper itself did.
     pub limited_by: Option<String>,
     /// Why the stepper shortened the step.
     pub cut: Cut,

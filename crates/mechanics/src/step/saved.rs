@@ -1,4 +1,4 @@
-//! What steppers keep from step to step, as values.
+//! Values that steppers keep from step to step.
 
 use asperity_fem::assembly::Memory;
 use serde::{Deserialize, Serialize};

@@ -60,12 +60,12 @@ impl StaticExplicit {
         self.newton.begin_stage(symmetry, false);
     }
 
-    /// What it keeps from step to step.
+    /// Returns the values kept from step to step.
     pub(super) fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState {
         StepperState { left: self.left.clone(), ..self.newton.save(terms) }
     }
 
-    /// Takes up what a stepper of the same system kept; whether it fits.
+    /// Restores the values kept by a stepper of the same system, and returns whether they fit.
     pub(super) fn restore(&mut self, saved: &StepperState, terms: &mut [&mut dyn Linearized]) -> bool {
         let dofs = self.system().equations().number.len();
         if !saved.left.is_empty() && saved.left.len() != dofs {

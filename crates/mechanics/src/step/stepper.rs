@@ -32,10 +32,10 @@ pub trait Stepper {
     /// The linear system, for its counts.
     fn system(&self) -> &System;
 
-    /// What it keeps from step to step of these terms.
+    /// Returns the values kept from step to step for these terms.
     fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState;
 
-    /// Takes up what a stepper of the same terms kept; whether it fits.
+    /// Restores the values kept by a stepper of the same terms, and returns whether they fit.
     fn restore(&mut self, saved: &StepperState, terms: &mut [&mut dyn Linearized]) -> bool;
 }
 

@@ -230,7 +230,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
         &self.areas
     }
 
-    /// What the points of an interface of this name resolve, where friction weakens on it.
+    /// Resolution of the cohesive zone by the points of the interface of this name, where friction weakens on it.
     #[must_use]
     pub fn resolved(&self, interface: &str) -> Option<&Resolved> {
         self.problem.interfaces.iter().find(|i| i.name == interface)?.resolved.as_ref()

@@ -38,7 +38,7 @@ impl Numbering {
         Self { number, nodes, dofs }
     }
 
-    /// What constraints prescribe of the system; forces act on the bodies.
+    /// Prescribed values of the system under constraints; forces act on the bodies.
     #[must_use]
     pub fn constraints(&self, constraints: &Constraints) -> Constraints {
         let map = |dof: usize| Some(self.number[dof]).filter(|&n| n != NONE);

@@ -1,4 +1,4 @@
-//! What stopped a step, in words.
+//! Descriptions of failed steps.
 
 use super::Assembled;
 use crate::{Failure, free};
@@ -33,7 +33,7 @@ impl<const D: usize> Assembled<'_, D> {
         self.problem.interfaces.iter().find_map(|i| i.blamed.as_deref())
     }
 
-    /// What an unknown is about, where it is a multiplier.
+    /// Describes the traction that an unknown stands for, where it is a multiplier.
     fn multiplier_in_words(&self, unknown: usize, nodes: &[usize]) -> Option<String> {
         let mut first = nodes.len() * self.problem.model.idealisation.components();
         for (planned, interface) in self.problem.interfaces.iter().zip(&self.interfaces) {
