@@ -22,6 +22,10 @@ const RELATIVE: f64 = 1e-3;
 /// Steps after which a run is given up, where the scene says nothing: a thousand cycles of the hardest case.
 pub const MOST_STEPS: usize = 20_000_000;
 
+/// Accepted steps after which the integration restarts. Methods with a memory lose some twenty steps by that, and one that switches may lose
+/// thousands where a mass comes to rest.
+pub const RESTART: u64 = 65_536;
+
 /// When a slider is in an event.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Thresholds {
@@ -52,6 +56,8 @@ pub struct Problem {
     pub largest_step: Option<f64>,
     /// Steps after which to give up.
     pub most_steps: usize,
+    /// Accepted steps after which the integration restarts, which is where it can be interrupted.
+    pub restart: u64,
     /// End \[s\].
     pub end: f64,
     /// Events, where they are wanted.
@@ -78,6 +84,7 @@ impl Problem {
             first_step: None,
             largest_step: None,
             most_steps: MOST_STEPS,
+            restart: RESTART,
             end,
             events: None,
             most_events: None,

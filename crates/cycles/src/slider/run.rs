@@ -1,6 +1,6 @@
 //! Integration from break to break of the prescribed histories.
 //!
-//! The integration also restarts after every [`RESTART`] accepted steps, whether or not somebody keeps what it restarts from: a run that is
+//! The integration also restarts after as many accepted steps as the problem says, whether or not somebody keeps what it restarts from: a run that is
 //! resumed there takes the same steps, bit for bit, as one that was never interrupted.
 
 use super::budget::Budget;
@@ -114,9 +114,6 @@ const MOST_UNRESOLVED: u32 = 10;
 
 /// Friction over a at which a slider has none left, and V is what it is at rest; the steps would go on to shrink towards zero.
 const SPENT: f64 = 1e-3;
-
-/// Accepted steps after which the integration restarts: methods with a memory lose some twenty steps by that.
-pub const RESTART: u64 = 4096;
 
 /// What a run found, or has found so far: where it restarts this is all there is to know to resume it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -563,7 +560,7 @@ impl Sink for Running<'_, '_> {
         if self.state.senseless.is_some() || self.state.failure.is_some() {
             return Control::Stop;
         }
-        if self.state.steps < RESTART {
+        if self.state.steps < self.state.problem.restart {
             return Control::Go;
         }
         self.paused = Some(NextStep { length: step.next_length() });
