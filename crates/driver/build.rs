@@ -6,7 +6,7 @@
 use std::path::Path;
 use std::process::Command;
 
-/// What the program is built from, relative to this package.
+/// Sources of the program, relative to this package.
 const SOURCES: [&str; 11] = [
     "src",
     "build.rs",
@@ -47,7 +47,7 @@ fn watch(path: &Path) {
     }
 }
 
-/// What git prints, without the end of the line; none where it fails or is not there. It takes no lock that another git may want.
+/// Output of git, without the end of the line; none where it fails or is not there. It takes no lock that another git may want.
 fn git(arguments: &[&str]) -> Option<String> {
     let git = Command::new("git").env("GIT_OPTIONAL_LOCKS", "0").args(arguments).output();
     let output = git.ok().filter(|o| o.status.success())?;

@@ -317,19 +317,19 @@ pub fn level<const D: usize>(
     Ok(Level { h, errors, nodal, stress, unknowns: solved.unknowns, cost })
 }
 
-/// What a study claims.
+/// Claims of a study.
 pub struct Orders {
     /// Orders of displacement and gradient in theory.
     pub expected: [f64; 2],
-    /// How far observed orders may deviate.
+    /// Deviation allowed for observed orders.
     pub within: [f64; 2],
-    /// Whether higher ones are fine.
+    /// True if higher ones are fine.
     pub or_better: bool,
-    /// Whether loads drive the body: see [`COMPLIANCE`].
+    /// True if loads drive the body: see [`COMPLIANCE`].
     pub loaded: bool,
-    /// Why these orders.
+    /// Reason why these orders.
     pub because: String,
-    /// What it is evidence for.
+    /// Subject of the evidence.
     pub covers: Vec<Capability>,
     /// Kind of evidence and its source.
     pub evidence: (Evidence, &'static str),
@@ -341,11 +341,11 @@ pub struct Orders {
 /// Nitsche gives the order but no sharp constant; 2 is chosen.
 const CEA: [f64; 2] = [2.0, 1.9];
 
-/// Why [`CEA`].
+/// Reason why [`CEA`].
 const CEA_REASON: &str = "interpolation of the exact field on the same mesh, computed before the solution, times 1.9 \
      in H1 (Cea: sqrt((lambda+2G)/G) = 1.87 for nu = 0.3) and 2 in L2 (duality gives the order; the factor is chosen)";
 
-/// What a load adds to the bound in L2: it works on a displacement that is too small by the square of the relative energy error
+/// Addition of a load to the bound in L2: it works on a displacement that is too small by the square of the relative energy error
 /// (Galerkin), everywhere in the body at once.
 const COMPLIANCE: &str =
     "; and, as a load drives the body, the square of the bound in H1: by that share its work is too small";

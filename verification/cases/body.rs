@@ -1,4 +1,4 @@
-//! What the cases of nonlinear bodies share: meshes, one block with its displacements, implicit and forward steps.
+//! Tools common to the cases of nonlinear bodies: meshes, one block with its displacements, implicit and forward steps.
 
 use crate::CaseError;
 use asperity_fem::assembly::{Storage, Symmetry, System};
@@ -124,7 +124,7 @@ pub struct Work {
     pub factorisations: u64,
 }
 
-/// How a forward step ended.
+/// End of a forward step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Forward {
     /// Fraction of the step taken.
@@ -155,7 +155,7 @@ pub struct Body<const D: usize> {
     pub work: Work,
     /// Time at the end of the last step \[s\].
     pub time: f64,
-    /// Whether a forward step takes up the force that the one before left unbalanced.
+    /// True if a forward step takes up the force that the one before left unbalanced.
     pub carry: bool,
     /// Forces of the block less the loads after the last forward step, where they are carried.
     left: Vec<f64>,

@@ -1,9 +1,9 @@
-//! What the cases of balances share: a run of a fault with its report, and with one of the places where it restarts.
+//! Parts common to the cases of energy budgets: a run of a fault with its report, and with one of the places where it restarts.
 
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::{Balance, Event, Moment, Run, Settings, Watcher, resume};
+use asperity_cycles::{Balance, Event, Faults, Moment, Run, Settings, resume};
 use asperity_driver::fault::{Plan, Report};
-use asperity_ode::{Control, Outcome};
+use asperity_ode::{Control, ObserveError, Observer, Outcome};
 
 /// Sums works, and keeps one of the places where the run restarts.
 struct Look<'a> {
@@ -13,18 +13,18 @@ struct Look<'a> {
     kept: Option<Run>,
 }
 
-impl Watcher for Look<'_> {
-    fn now(&mut self, moment: &Moment<'_>) -> Control {
+impl Observer<Faults> for Look<'_> {
+    fn step(&mut self, moment: &Moment<'_>) -> Result<Control, ObserveError> {
         self.balance.step(moment);
-        Control::Go
+        Ok(Control::Go)
     }
 
-    fn pause(&mut self, run: &Run) -> Control {
+    fn pause(&mut self, run: &mut dyn FnMut() -> Run) -> Result<Option<&'static str>, ObserveError> {
         if self.wait == 0 && self.kept.is_none() {
-            self.kept = Some(run.clone());
+            self.kept = Some(run());
         }
         self.wait = self.wait.saturating_sub(1);
-        Control::Go
+        Ok(None)
     }
 }
 
@@ -43,7 +43,7 @@ impl Followed {
     /// From the start of a plan until the events it asks for have ended.
     ///
     /// # Errors
-    /// Where they do not come.
+    /// If they do not come.
     pub fn new(plan: &Plan) -> Result<Self, CaseError> {
         Self::with(plan, plan.problem.settings.tolerance)
     }
@@ -61,6 +61,7 @@ impl Followed {
         let mut look = Look { balance: Balance::new(&plan.problem), wait: 3, kept: None };
         let (run, cost) =
             Cost::of(|| resume(&plan.problem.fault, &plan.problem.loading, start, &settings, &mut look));
+        let run = run?;
         if run.outcome != Outcome::Stopped {
             return Err(format!("the run did not end with its events: {:?}", run.outcome).into());
         }
@@ -84,7 +85,7 @@ impl Followed {
     /// Claims that a run from the restart that was kept ends with the same bits.
     ///
     /// # Errors
-    /// Where the run never restarted.
+    /// If the run never restarted.
     pub fn restarted(&self, ledger: &mut Ledger, plan: &Plan, tolerance: f64) -> Result<(), CaseError> {
         let kept = self.kept.clone().ok_or("the run never restarted")?;
         let again = Self::from(plan, Settings { tolerance, ..plan.problem.settings }, kept)?;

@@ -44,7 +44,7 @@ impl Rectangle {
         if c.abs() < VERTICAL { (s.signum(), 0.0) } else { (s, c) }
     }
 
-    /// What stands between Chinnery's bars, times 2π.
+    /// Value between Chinnery's bars, times 2π.
     fn corner(&self, xi: f64, eta: f64, q: f64) -> [f64; 3] {
         let (s, c) = self.sine_cosine();
         let (y, d) = (eta * c + q * s, eta * s - q * c);

@@ -1,4 +1,4 @@
-//! What the cases of earthquake cycles share: a scene's plan, and its events with what they cost.
+//! Parts common to the cases of earthquake cycles: a scene's plan, and its events with their cost.
 
 use crate::{CaseError, Cost};
 use asperity_cycles::{Event, Moment, Settings};
@@ -19,7 +19,7 @@ pub const INDEPENDENT: &str = "cycles.py: boundary elements of constant slip, ln
 /// Onsets \[yr\] that the second implementation found for a problem with cells of `size` \[m\].
 ///
 /// # Errors
-/// Where it has no such run.
+/// If it has no such run.
 pub fn independent(problem: &str, size: f64) -> Result<Vec<f64>, CaseError> {
     let all: serde_json::Value = serde_json::from_str(include_str!("../independent/cycles.json"))?;
     let same = |run: &&serde_json::Value| {
@@ -35,7 +35,7 @@ pub fn independent(problem: &str, size: f64) -> Result<Vec<f64>, CaseError> {
 /// The plan of a scene with faults.
 ///
 /// # Errors
-/// What the reader or the plan refuse.
+/// Refusals of the reader or the plan.
 pub fn plan(text: &str) -> Result<Plan, CaseError> {
     let scene = scene::read(text).map_err(|e| e.to_string())?;
     match plan_scene(&scene).map_err(|e| e.to_string())? {
@@ -44,7 +44,7 @@ pub fn plan(text: &str) -> Result<Plan, CaseError> {
     }
 }
 
-/// What a run found.
+/// Findings of a run.
 pub struct Found {
     /// \[yr\].
     pub onsets: Vec<f64>,
@@ -61,7 +61,7 @@ pub struct Found {
 /// Integrates until the events `settings` asks for have ended; `look` sees each step.
 ///
 /// # Errors
-/// Where fewer events come.
+/// If fewer events come.
 pub fn found(
     plan: &Plan,
     settings: &Settings,
@@ -72,6 +72,7 @@ pub fn found(
         Control::Go
     };
     let (out, cost) = Cost::of(|| plan.problem.run(settings, &mut watch));
+    let out = out?;
     let events = out.catalogue.events().to_vec();
     if let Outcome::Failed { reason } = &out.outcome {
         return Err(reason.to_string().into());

@@ -1,4 +1,4 @@
-//! What the cases of spring-sliders share: parameter sets, laws, runs, and the references of the second implementation.
+//! Parts common to the cases of spring-sliders: parameter sets, laws, runs, and the references of the second implementation.
 
 use crate::CaseError;
 use asperity_cycles::slider::{self, Now, Problem, Run, Thresholds};
@@ -172,7 +172,7 @@ pub fn work(counts: &Counts, unknowns: usize) -> f64 {
 /// Runs a plan to its end.
 ///
 /// # Errors
-/// When it fails.
+/// If it fails.
 pub fn finish(plan: &Problem) -> Result<Run, CaseError> {
     let run = slider::run(plan, &mut ())?;
     match &run.outcome {
@@ -189,7 +189,7 @@ pub fn finish(plan: &Problem) -> Result<Run, CaseError> {
 /// Slip rate and friction of the first slider at the given times, each the end of a run of its own pieces.
 ///
 /// # Errors
-/// When a run fails.
+/// If a run fails.
 pub fn at_times(plan: &Problem, times: &[f64]) -> Result<Vec<(f64, f64)>, CaseError> {
     times
         .iter()
@@ -206,10 +206,10 @@ pub fn at_times(plan: &Problem, times: &[f64]) -> Result<Vec<(f64, f64)>, CaseEr
 /// that end there.
 ///
 /// # Errors
-/// When a run fails.
+/// If a run fails.
 pub fn largest_friction(plan: &Problem, after: f64) -> Result<f64, CaseError> {
     let mut seen: Vec<(f64, f64)> = Vec::new();
-    let mut look = |_: &Problem, now: &Now<'_>| {
+    let mut look = |now: &Now<'_>| {
         if now.at.seconds() > after {
             seen.push((now.at.seconds(), now.conditions[0].friction));
         }
@@ -243,7 +243,7 @@ impl Independent {
     /// Reads them.
     ///
     /// # Errors
-    /// When they are not JSON.
+    /// If they are not JSON.
     pub fn read() -> Result<Self, CaseError> {
         Ok(Self(serde_json::from_str(include_str!("../independent/spring_slider.json"))?))
     }
@@ -251,7 +251,7 @@ impl Independent {
     /// A list of numbers.
     ///
     /// # Errors
-    /// When there is no such list.
+    /// If there is no such list.
     pub fn numbers(&self, case: &str, key: &str) -> Result<Vec<f64>, CaseError> {
         let value = self.0[case]["quantities"][key].clone();
         serde_json::from_value(value).map_err(|_| format!("no list `{key}` of `{case}`").into())
@@ -260,7 +260,7 @@ impl Independent {
     /// A number.
     ///
     /// # Errors
-    /// When there is no such number.
+    /// If there is no such number.
     pub fn number(&self, case: &str, key: &str) -> Result<f64, CaseError> {
         self.0[case]["quantities"][key]
             .as_f64()

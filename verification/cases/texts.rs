@@ -22,7 +22,7 @@ pub struct Done {
 /// Runs a scene to wherever it ends.
 ///
 /// # Errors
-/// When it is refused or cannot be set up.
+/// If it is refused or cannot be set up.
 pub fn attempt(text: &str) -> Result<Done, CaseError> {
     attempt_in(text, "")
 }
@@ -30,7 +30,7 @@ pub fn attempt(text: &str) -> Result<Done, CaseError> {
 /// Runs a scene whose mesh files lie in this folder of `cases` to wherever it ends.
 ///
 /// # Errors
-/// When it is refused or cannot be set up.
+/// If it is refused or cannot be set up.
 pub fn attempt_in(text: &str, folder: &str) -> Result<Done, CaseError> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(folder);
     let scene = scene::read_in(text, &folder).map_err(|e| format!("{e}\nin\n{text}"))?;
@@ -45,7 +45,7 @@ pub fn attempt_in(text: &str, folder: &str) -> Result<Done, CaseError> {
 /// Runs a scene to its end.
 ///
 /// # Errors
-/// When it is refused or stops.
+/// If it is refused or stops.
 pub fn simulate(text: &str) -> Result<Done, CaseError> {
     simulate_in(text, "")
 }
@@ -53,7 +53,7 @@ pub fn simulate(text: &str) -> Result<Done, CaseError> {
 /// Runs a scene whose mesh files lie in this folder of `cases` to its end.
 ///
 /// # Errors
-/// When it is refused or stops.
+/// If it is refused or stops.
 pub fn simulate_in(text: &str, folder: &str) -> Result<Done, CaseError> {
     let done = attempt_in(text, folder)?;
     match &done.report.outcome {

@@ -1,4 +1,4 @@
-//! What the product can do, as the rows of the coverage matrix.
+//! Capabilities of the product, as the rows of the coverage matrix.
 
 use serde::Serialize;
 

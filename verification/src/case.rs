@@ -5,7 +5,7 @@ use crate::ledger::{Ledger, Record};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-/// Why a case could not run to its end: any error, so that `?` works on all of them.
+/// Reason why a case could not run to its end: any error, so that `?` works on all of them.
 pub type CaseError = Box<dyn std::error::Error + Send + Sync>;
 
 /// A case of the suite.
@@ -17,18 +17,18 @@ pub struct Case {
     pub readme: &'static str,
     /// Capabilities its claims are evidence for, unless a claim names its own.
     pub covers: &'static [Capability],
-    /// Whether it belongs to the quick suite (seconds); the others run with `--full` only.
+    /// True if it belongs to the quick suite (seconds); the others run with `--full` only.
     pub quick: bool,
     /// Computes and claims.
     pub run: fn(&mut Ledger) -> Result<(), CaseError>,
 }
 
-/// What came out of running a case.
+/// Result of running a case.
 #[derive(Debug)]
 pub struct Outcome {
     /// The case.
     pub case: Case,
-    /// What it recorded.
+    /// Its record.
     pub record: Record,
     /// Wall time \[s\].
     pub wall: f64,

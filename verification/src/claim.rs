@@ -15,7 +15,7 @@ pub const SLACK_BELOW: f64 = 0.1;
 /// Above this ratio of error to bound a claim is thin.
 pub const THIN_ABOVE: f64 = 0.8;
 
-/// How many bounds the negative control moves a value by.
+/// Factor of the bound by which the negative control moves a value.
 pub const CONTROL_BOUNDS: f64 = 3.0;
 
 /// The kind of evidence a reference rests on.
@@ -60,7 +60,7 @@ impl Evidence {
     }
 }
 
-/// How the differences of several values become one error.
+/// Norm that makes the differences of several values one error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Norm {
@@ -84,42 +84,42 @@ impl Norm {
     }
 }
 
-/// What is tested.
+/// Test of the claim.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Test {
     /// ‖values − references‖ ≤ bound, in the unit of the values.
     Absolute {
-        /// What the code gave.
+        /// Value of the code.
         values: Vec<f64>,
-        /// What it should give.
+        /// Reference value.
         references: Vec<f64>,
-        /// How differences become an error.
+        /// Norm of differences.
         norm: Norm,
         /// Largest allowed error.
         bound: f64,
     },
     /// ‖values − references‖ ≤ bound ‖references‖.
     Relative {
-        /// What the code gave.
+        /// Value of the code.
         values: Vec<f64>,
-        /// What it should give.
+        /// Reference value.
         references: Vec<f64>,
-        /// How differences become an error.
+        /// Norm of differences.
         norm: Norm,
         /// Largest allowed relative error \[-\].
         bound: f64,
     },
     /// value ≤ bound, with a positive bound.
     AtMost {
-        /// What the code gave.
+        /// Value of the code.
         value: f64,
         /// The limit from above.
         bound: f64,
     },
     /// value ≥ bound, with a positive bound.
     AtLeast {
-        /// What the code gave.
+        /// Value of the code.
         value: f64,
         /// The limit from below.
         bound: f64,
@@ -128,9 +128,9 @@ pub enum Test {
     Order(OrderTest),
     /// An exact count.
     Count {
-        /// What the code gave.
+        /// Value of the code.
         value: u64,
-        /// What it should give.
+        /// Reference value.
         expected: u64,
     },
     /// A case that could not be run, with what went wrong.
@@ -291,7 +291,7 @@ pub enum Mark {
     Thin,
 }
 
-/// What a case states.
+/// Statement of a case.
 #[derive(Clone, Debug, Serialize)]
 pub struct Claim {
     /// The quantity, with its conditions.
@@ -300,21 +300,21 @@ pub struct Claim {
     pub unit: String,
     /// The norm in words, where it is not the plain one.
     pub norm: String,
-    /// What is tested.
+    /// Test of the claim.
     pub test: Test,
     /// Kind of evidence; a claim without one disagrees.
     pub evidence: Option<Evidence>,
-    /// Where the reference comes from.
+    /// Source of the reference.
     pub source: String,
     /// Uncertainty of the reference, in its unit.
     pub uncertainty: f64,
-    /// Why the bound is what it is; a claim without a reason disagrees.
+    /// Reason why the bound is what it is; a claim without a reason disagrees.
     pub because: String,
-    /// Why the bound may not be tighter, when the error is far below it.
+    /// Reason why the bound may not be tighter, when the error is far below it.
     pub why_not_tighter: String,
     /// Capabilities this claim is evidence for.
     pub covers: Vec<Capability>,
-    /// What the run behind it cost.
+    /// Cost of the run behind it.
     pub cost: Cost,
 }
 
@@ -330,7 +330,7 @@ pub struct Judged {
     pub verdict: Verdict,
     /// The remark on the bound.
     pub mark: Option<Mark>,
-    /// Why it disagrees, in a sentence.
+    /// Reason why it disagrees, in a sentence.
     pub problem: Option<String>,
 }
 
@@ -360,7 +360,7 @@ impl Claim {
         self.incomplete().or_else(|| self.control())
     }
 
-    /// What the claim fails to state.
+    /// Part that the claim fails to state.
     fn incomplete(&self) -> Option<String> {
         if self.evidence.is_none() || self.source.trim().is_empty() {
             return Some("the kind of evidence or its source is missing".into());

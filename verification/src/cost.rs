@@ -1,4 +1,4 @@
-//! What a result cost: wall time, which differs from machine to machine, and work counts, which do not.
+//! Cost of a result: wall time, which differs from machine to machine, and work counts, which do not.
 
 use serde::Serialize;
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! Matching case names: `*` for any run of characters, `?` for one.
 
-/// Whether `name` matches `pattern` as a whole.
+/// True if `name` matches `pattern` as a whole.
 pub fn matches(pattern: &str, name: &str) -> bool {
     let pattern: Vec<char> = pattern.chars().collect();
     let name: Vec<char> = name.chars().collect();

@@ -1,4 +1,4 @@
-//! What a case writes into: claims, order studies, plots, tables, notes.
+//! Record that a case writes into: claims, order studies, plots, tables, notes.
 //!
 //! ```
 //! # use asperity_verification::{Cost, Evidence, Ledger};
@@ -114,7 +114,7 @@ impl Ledger {
         &self.record.claims
     }
 
-    /// Whether no claim was recorded.
+    /// True if no claim was recorded.
     pub fn is_empty(&self) -> bool {
         self.record.claims.is_empty()
     }
@@ -125,16 +125,16 @@ impl Ledger {
         self.record.claims.push(claim.judge());
     }
 
-    /// What was recorded.
+    /// Record.
     pub fn finish(self) -> Record {
         self.record
     }
 }
 
-/// Why a claim that two settings agree holds for nothing.
+/// Reason why a claim that two settings agree holds for nothing.
 const ALONE: &str = "the two settings that are to agree are the same";
 
-/// What every kind of claim states.
+/// Parts of every kind of claim.
 #[derive(Debug)]
 struct Common {
     quantity: String,
@@ -147,7 +147,7 @@ struct Common {
     why_not_tighter: String,
     covers: Vec<Capability>,
     cost: Cost,
-    /// Whether the two settings the claim compares are one.
+    /// True if the two settings the claim compares are one.
     alone: bool,
 }
 
@@ -207,13 +207,13 @@ macro_rules! common_setters {
             self
         }
 
-        /// Why the bound is what it is.
+        /// Reason why the bound is what it is.
         pub fn because(mut self, reason: impl Into<String>) -> Self {
             self.common.because = reason.into();
             self
         }
 
-        /// Why the bound may not be tighter although the error is below a tenth of it.
+        /// Reason why the bound may not be tighter although the error is below a tenth of it.
         pub fn why_not_tighter(mut self, reason: impl Into<String>) -> Self {
             self.common.why_not_tighter = reason.into();
             self
@@ -225,7 +225,7 @@ macro_rules! common_setters {
             self
         }
 
-        /// What the run behind the claim cost.
+        /// Cost of the run behind the claim.
         pub fn cost(mut self, cost: &Cost) -> Self {
             self.common.cost = cost.clone();
             self
@@ -233,7 +233,7 @@ macro_rules! common_setters {
     };
 }
 
-/// How far a drafted claim has come: what the last call chose to test.
+/// State of a drafted claim: what the last call chose to test.
 #[derive(Clone, Copy, Debug)]
 enum Choice {
     Absolute(f64),
@@ -265,23 +265,23 @@ impl Draft<'_> {
         self
     }
 
-    /// What the code gave.
+    /// Value of the code.
     pub fn value(self, value: f64) -> Self {
         self.values(&[value])
     }
 
-    /// What the code gave, several values under one norm.
+    /// Values of the code, several under one norm.
     pub fn values(mut self, values: &[f64]) -> Self {
         self.values = values.to_vec();
         self
     }
 
-    /// What it should give.
+    /// Reference value.
     pub fn equals(self, reference: f64) -> Self {
         self.equals_each(&[reference])
     }
 
-    /// What they should be, value by value.
+    /// Reference values, one by one.
     pub fn equals_each(mut self, references: &[f64]) -> Self {
         self.references = references.to_vec();
         self

@@ -17,7 +17,7 @@ impl From<(f64, f64)> for Level {
     }
 }
 
-/// What an error may bottom out on.
+/// Floor of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Floor {
@@ -55,7 +55,7 @@ pub struct Plateau {
     pub level: f64,
 }
 
-/// How many of the finest levels above the plateau the order is fitted to: enough that one lucky level does not decide, few
+/// Number of the finest levels above the plateau that the order is fitted to: enough that one lucky level does not decide, few
 /// enough that levels far from the asymptotic range do not either.
 pub const FITTED_LEVELS: usize = 3;
 
@@ -68,14 +68,14 @@ pub struct OrderTest {
     pub expected: f64,
     /// Largest deviation of the observed order.
     pub tolerance: f64,
-    /// Whether a higher order than expected is fine.
+    /// True if a higher order than expected is fine.
     pub or_better: bool,
     /// The plateau allowed.
     pub plateau: Option<Plateau>,
 }
 
 impl OrderTest {
-    /// Whether the level stands on the plateau.
+    /// True if the level stands on the plateau.
     pub fn on_plateau(&self, level: &Level) -> bool {
         self.plateau.as_ref().is_some_and(|p| level.error <= p.level)
     }
@@ -84,7 +84,7 @@ impl OrderTest {
     /// the plateau.
     ///
     /// # Errors
-    /// When the levels do not form a study: too few, not refined, not positive.
+    /// If the levels do not form a study: too few, not refined, not positive.
     pub fn observed(&self) -> Result<f64, String> {
         if self.levels.len() < FITTED_LEVELS {
             return Err(format!("an order needs {FITTED_LEVELS} levels, here are {}", self.levels.len()));
@@ -114,7 +114,7 @@ impl OrderTest {
         Ok(slope(&above[above.len().saturating_sub(FITTED_LEVELS)..]))
     }
 
-    /// How far an observed order is from what is claimed \[-\].
+    /// Distance of an observed order from what is claimed \[-\].
     pub fn deviation(&self, observed: f64) -> f64 {
         let short = self.expected - observed;
         if self.or_better { short.max(0.0) } else { short.abs() }

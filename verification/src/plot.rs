@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// How an axis is divided.
+/// Division of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Axis {
@@ -15,9 +15,9 @@ pub enum Axis {
 /// A setting that failed: drawn at the top of its plot with the reason in the caption.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Failed {
-    /// Where on the horizontal axis.
+    /// Position on the horizontal axis.
     pub x: f64,
-    /// Why it failed.
+    /// Reason why it failed.
     pub reason: String,
 }
 
@@ -28,9 +28,9 @@ pub struct Series {
     pub name: String,
     /// Points.
     pub points: Vec<(f64, f64)>,
-    /// Whether points are joined.
+    /// True if points are joined.
     pub line: bool,
-    /// Whether points are marked.
+    /// True if points are marked.
     pub markers: bool,
     /// Settings that failed.
     pub failed: Vec<Failed>,
@@ -128,7 +128,7 @@ impl Plot {
         Plot { caption: text.into(), ..self }
     }
 
-    /// Whether a point can be drawn on these axes.
+    /// True if a point can be drawn on these axes.
     pub fn drawable(&self, (x, y): (f64, f64)) -> bool {
         let fits = |axis: Axis, v: f64| v.is_finite() && (axis == Axis::Linear || v > 0.0);
         fits(self.x_axis, x) && fits(self.y_axis, y)

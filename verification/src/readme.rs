@@ -10,7 +10,7 @@ pub const HEADINGS: [&str; 6] = [
     "Literature",
 ];
 
-/// What is wrong with a README, one sentence each; empty when nothing is.
+/// Faults of a README, one sentence each; empty when there are none.
 pub fn problems(text: &str) -> Vec<String> {
     let mut found = Vec::new();
     if !text.starts_with("# ") {

@@ -9,7 +9,7 @@ use std::fmt;
 /// Which cases to run.
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
-    /// Whether the long cases run, too.
+    /// True if the long cases run, too.
     pub full: bool,
     /// Only cases whose name matches.
     pub glob: Option<String>,
@@ -41,7 +41,7 @@ impl Selection {
     /// The chosen cases, in the order of the list.
     ///
     /// # Errors
-    /// When none is left.
+    /// If none is left.
     pub fn of<'a>(&self, cases: &'a [Case]) -> Result<Vec<&'a Case>, SelectionError> {
         if cases.is_empty() {
             return Err(SelectionError::NoCases);
@@ -104,7 +104,7 @@ impl Summary {
         Summary::of(outcomes.iter().flat_map(|outcome| &outcome.record.claims))
     }
 
-    /// Whether the suite passes: something was claimed, and nothing disagrees.
+    /// True if the suite passes: something was claimed, and nothing disagrees.
     pub fn passes(&self) -> bool {
         self.disagree == 0 && self.hold > 0
     }

@@ -1,4 +1,4 @@
-//! What came of floors of normal traction in a run.
+//! Use of floors of normal traction in a run.
 
 use super::equations::size;
 use super::problem::Problem;
@@ -6,18 +6,18 @@ use super::run::Moment;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// What came of floors until now, point by point.
+/// Use of floors until now, point by point.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Used {
     /// Time below the floor \[s\].
     time: Vec<f64>,
     /// Slip below it \[m\].
     slip: Vec<f64>,
-    /// How far below it the bodies pressed at least \[Pa\].
+    /// Lowest excess pressure of the bodies below it \[Pa\].
     below: Vec<f64>,
     /// Events in which a point was below its floor.
     events: usize,
-    /// Whether one was in the event under way.
+    /// True if one was in the event under way.
     now: bool,
     /// Whole slip \[m\].
     whole: Vec<f64>,
@@ -62,7 +62,7 @@ impl Used {
         }
     }
 
-    /// What came of the floor of these points, which have the tributary areas `areas` among those of all.
+    /// Use of the floor of these points, which have the tributary areas `areas` among those of all.
     #[must_use]
     pub fn of(&self, points: Range<usize>, areas: &[f64]) -> Below {
         let of = |list: &[f64], p: usize| list.get(p).copied().unwrap_or(0.0);
@@ -81,7 +81,7 @@ impl Used {
     }
 }
 
-/// What came of the floor of some points.
+/// Use of the floor of some points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Below {
     /// Points that were below it at any time.
@@ -92,7 +92,7 @@ pub struct Below {
     pub time_share: f64,
     /// Share of all slip, over the area, that came about below it.
     pub slip_share: f64,
-    /// How far below it the bodies pressed at least \[Pa\].
+    /// Lowest excess pressure of the bodies below it \[Pa\].
     pub deepest: f64,
     /// Events, of all faults, in which any point was below.
     pub events: usize,

@@ -18,9 +18,9 @@ pub struct Thresholds {
 /// An event.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Event {
-    /// When it began.
+    /// Time of onset.
     pub onset: Clock,
-    /// When it ended.
+    /// Time of its end.
     pub end: Clock,
     /// Time between the two in which the fastest point was faster than the rate that begins events \[s\].
     pub above: f64,
@@ -80,7 +80,7 @@ impl Catalogue {
         self.open.as_ref().map(|o| o.onset)
     }
 
-    /// What the largest slip rate after a step \[m/s\] says has happened within it, first things first.
+    /// Crossing within a step, told by the largest slip rate after it \[m/s\], the first one first.
     #[must_use]
     pub(crate) fn crossing(&self, largest: f64) -> Option<Crossing> {
         let Thresholds { on, off } = self.thresholds;

@@ -1,6 +1,6 @@
 //! Works along a run: what becomes of the work that loads do on slip.
 //!
-//! Where slip turns, products of slip and tractions are those of vectors. With areas A, slip s, friction f, the initial tractions and those of the loads together τ_l, and the stiffness S of the bodies at the
+//! Products of slip and tractions are those of vectors where slip turns. With areas A, slip s, friction f, the initial tractions and those of the loads together τ_l, and the stiffness S of the bodies at the
 //! jumps, `f + η V = τ_l - S s/A` times V, summed over points and integrated over time, is
 //!
 //! ```text
@@ -8,7 +8,7 @@
 //!     loads           elastic         friction         radiated
 //! ```
 //!
-//! Where faults open by o, the loads, which take their normal tractions at the start and change them to N_l, and fluid of the pressure p do `∫ Σ A (p - N_l) do` as well, and the
+//! Openings o, where faults have them, add work: the loads, which take their normal tractions at the start and change them to N_l, and fluid of the pressure p do `∫ Σ A (p - N_l) do` as well, and the
 //! elastic energy is that of slip and of openings since the start.
 //!
 //! The integrals run over cubic polynomials with the values and rates of both ends of each step, for slip as for tractions; the elastic
@@ -46,7 +46,7 @@ pub struct Energy {
     /// Work of fluid, of loads and of the normal tractions at the start on openings.
     #[serde(default, skip_serializing_if = "nothing")]
     pub opening: f64,
-    /// What that work came to step by step, in sizes: openings give back what they take.
+    /// Sum of the sizes of that work step by step: openings give back what they take.
     #[serde(default, skip_serializing_if = "nothing")]
     pub exchanged: f64,
 }
@@ -57,7 +57,7 @@ fn nothing(value: &f64) -> bool {
 }
 
 impl Energy {
-    /// What the balance lacks over the largest of its parts \[-\].
+    /// Imbalance over the largest part \[-\].
     #[must_use]
     pub fn imbalance(&self) -> f64 {
         let moved = [self.kinetic, self.opening, self.exchanged];
@@ -88,7 +88,7 @@ impl Energy {
 /// The run when an event had just ended.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
-    /// When \[s\].
+    /// Time \[s\].
     pub time: f64,
     /// Slip, where it may turn along the rake, over the area since the start \[m³; m²\].
     pub potency: f64,
@@ -96,7 +96,7 @@ pub struct Mark {
     pub energy: Energy,
 }
 
-/// What is summed along a run.
+/// Sums along a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sums {
     /// Works until now; the elastic energy is not among them.
@@ -105,7 +105,7 @@ pub struct Sums {
     marks: Vec<Mark>,
     /// Changes of the loads passed.
     leg: usize,
-    /// When the last of them was \[s\].
+    /// Time of the last of them \[s\].
     since: f64,
     /// Initial tractions and those of the loads then, component by component \[Pa\].
     traction: Vec<f64>,
@@ -114,7 +114,7 @@ pub struct Sums {
     /// Openings.
     #[serde(default)]
     opened: Opened,
-    /// Where points may open: normal tractions at the start and those of the loads, at the last change of the loads \[Pa\].
+    /// Normal tractions at the start and those of the loads, at the last change of the loads, where points may open \[Pa\].
     #[serde(default)]
     pressing: Vec<f64>,
 }
@@ -298,7 +298,7 @@ impl<'a> Balance<'a> {
         self.sums.works = works;
     }
 
-    /// Where points may open, rates of f_n as friction uses it and of openings at both ends of a step.
+    /// Rates of f_n as friction uses it and of openings at both ends of a step, where points may open.
     fn pressing(&mut self, moment: &Moment<'_>, step: &Ends<'_>) -> Vec<[Vec<f64>; 2]> {
         let fault: &Fault = &self.problem.fault;
         if fault.opening.is_none() {
@@ -332,7 +332,7 @@ impl<'a> Balance<'a> {
     }
 }
 
-/// What presses the points at the start.
+/// Normal tractions and openings of the points at the start.
 fn at_start(problem: &Problem) -> Pressed {
     problem.fault.pressed(Clock::new(0.0, 0.0), &problem.start, &mut Crack::default())
 }

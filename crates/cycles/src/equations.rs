@@ -33,10 +33,10 @@ pub struct Fault {
     pub opening: Option<Opening>,
 }
 
-/// What presses the points of a fault at a moment.
+/// Normal tractions and openings of the points of a fault at a moment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pressed {
-    /// What the bodies press with, less the pressure of fluid; nothing where a point is open \[Pa\].
+    /// Normal traction of the bodies, less the pressure of fluid; 0 where a point is open \[Pa\].
     pub bodies: Vec<f64>,
     /// f_n as friction uses it: the same, and not less than the floor \[Pa\].
     pub normal: Vec<f64>,
@@ -45,7 +45,7 @@ pub struct Pressed {
 }
 
 impl Fault {
-    /// What presses the points at a moment. Whatever `crack` was last, the result is the same; where it does not settle, which the integration refuses, it is the last that was
+    /// Computes the normal tractions of the points at a moment. Whatever `crack` was last, the result is the same; where it does not settle, which the integration refuses, it is the last that was
     /// tried.
     #[must_use]
     pub fn pressed(&self, at: Clock, unknowns: &[f64], crack: &mut Crack) -> Pressed {
@@ -102,7 +102,7 @@ impl Fault {
     }
 }
 
-/// Where the unknowns stand.
+/// Layout of the unknowns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
     points: usize,
@@ -190,7 +190,7 @@ struct Scratch {
     normal_rate: Vec<f64>,
     /// f_n as friction uses it, where that is not what bodies press with.
     normal: Vec<f64>,
-    /// What is open.
+    /// Points that are open.
     crack: Crack,
 }
 
@@ -202,7 +202,7 @@ pub struct Equations<'a> {
     /// Rates of the tractions of the loads \[Pa/s\].
     shear_load: Vec<f64>,
     normal_load: Vec<f64>,
-    /// When the next change of loading or pressure comes \[s\].
+    /// Time of the next change of loading or pressure \[s\].
     until: f64,
     scratch: RefCell<Scratch>,
     /// The point whose normal traction was found not to be positive since the last call of [`Equations::opened`].
@@ -245,7 +245,7 @@ impl<'a> Equations<'a> {
         Self { until: end, ..self }
     }
 
-    /// Where the unknowns stand.
+    /// Layout of the unknowns.
     #[must_use]
     pub fn layout(&self) -> Layout {
         self.layout

@@ -1,9 +1,8 @@
-//! Why a run could not begin, or not be observed.
+//! Reasons why a run cannot begin or cannot be observed.
 
-/// Why a watcher could not go on.
-pub type WatchError = Box<dyn std::error::Error + Send + Sync>;
+use asperity_ode::ObserveError;
 
-/// Why a run could not begin, or not be observed.
+/// Reason why a run cannot begin or cannot be observed.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// Nothing holds a slider.
@@ -12,7 +11,7 @@ pub enum RunError {
     /// A law has no answer at a jump of the normal traction.
     #[error(transparent)]
     Law(#[from] asperity_friction::Failure),
-    /// A watcher could not go on.
+    /// An observer cannot go on.
     #[error("{0}")]
-    Observe(#[source] WatchError),
+    Observe(#[from] ObserveError),
 }

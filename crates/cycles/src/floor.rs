@@ -1,6 +1,6 @@
 //! The least normal traction that friction uses.
 //!
-//! Where slip and loads change normal tractions they may fall to zero, near a free surface first, and friction has no slip rate there. With a floor,
+//! Normal tractions that slip and loads change may fall to zero, near a free surface first, and friction has no slip rate there. With a floor,
 //! friction uses `max(f_n, floor)` and its rate, which is zero below: what bodies press, f_n, goes on below the floor as an unknown of its own and comes back the way it
 //! went. The product `f_n μ` stays continuous, so that no unknown jumps; its rate does, and steps that cross the floor are shortened by the control of errors.
 //! Memories of normal traction follow what friction uses.

@@ -1,18 +1,18 @@
-//! What came of openings in the course of a run.
+//! Use of openings in the course of a run.
 
 use super::problem::Problem;
 use super::run::Moment;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// What came of openings until now, point by point.
+/// Use of openings until now, point by point.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Opened {
     /// Time open \[s\].
     time: Vec<f64>,
     /// Largest opening \[m\].
     largest: Vec<f64>,
-    /// When it was \[s\].
+    /// Time \[s\].
     when: Vec<f64>,
     /// Whole time \[s\].
     duration: f64,
@@ -37,7 +37,7 @@ impl Opened {
         }
     }
 
-    /// What came of these points.
+    /// Use of these points.
     #[must_use]
     pub fn of(&self, points: Range<usize>) -> Widest {
         let of = |list: &[f64], p: usize| list.get(p).copied().unwrap_or(0.0);
@@ -54,16 +54,16 @@ impl Opened {
     }
 }
 
-/// How far some points opened.
+/// Opening of some points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Widest {
     /// Points that were open at any time.
     pub points: usize,
     /// The point that opened farthest.
     pub point: Option<usize>,
-    /// How far that was \[m\].
+    /// The opening \[m\].
     pub largest: f64,
-    /// When it was \[s\].
+    /// Time \[s\].
     pub when: f64,
     /// Largest share of the time that a point was open.
     pub time_share: f64,

@@ -1,6 +1,6 @@
 //! Openings of faults as unknowns.
 //!
-//! What bodies press with where nothing opens, less the pressure of fluid, is N; openings o add `C o`, with the normal tractions C per opening of the condensed bodies. Where a
+//! N is the pressure of the bodies where nothing opens, less that of fluid; openings o add `C o`, with the normal tractions C per opening of the condensed bodies. Where a
 //! fault may open
 //!
 //! ```text
@@ -26,7 +26,7 @@ const PATIENCE: usize = 10;
 /// Exchanges after which the search is given up, beside ten for each point; problems of a positive definite matrix take some ten in all.
 const MOST_EXCHANGES: usize = 100;
 
-/// What openings do to the tractions of all points.
+/// Effect of openings on the tractions of all points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opening {
     /// Points that may open, ascending.
@@ -181,7 +181,7 @@ impl Opening {
         (0..self.points.len()).filter(violates).collect()
     }
 
-    /// Whether no point is within rounding of the other state.
+    /// True if no point is within rounding of the other state.
     fn clear(&self, crack: &Crack, pressed: &[f64], scale: f64) -> bool {
         let apart = crack.apart(self.points.len());
         let traction = |k: usize| match apart[k] {

@@ -24,7 +24,7 @@ pub struct Injection {
     pub porosity: f64,
     /// Compressibility β of fluid and pores \[1/Pa\].
     pub compressibility: f64,
-    /// When it begins and ends \[s\].
+    /// Times of its beginning and end \[s\].
     pub during: [f64; 2],
 }
 

@@ -1,8 +1,10 @@
-//! What is integrated: faults in their surroundings, what loads them, where they start, and how.
+//! The problem to integrate: faults in their surroundings, their loads, the start, and the settings.
 
 use super::equations::Fault;
+use super::error::RunError;
 use super::loading::Loading;
-use super::run::{self, Run, Settings, Watcher};
+use super::run::{self, Faults, Run, Settings};
+use asperity_ode::Observer;
 
 /// See the module.
 #[derive(Debug)]
@@ -21,7 +23,10 @@ pub struct Problem {
 
 impl Problem {
     /// Integrates it from its start, with its own settings or others. An integration that fails is no error: the outcome says so.
-    pub fn run(&self, settings: &Settings, watcher: &mut dyn Watcher) -> Run {
-        run::run(&self.fault, &self.loading, self.start.clone(), settings, watcher)
+    ///
+    /// # Errors
+    /// If the observer cannot go on.
+    pub fn run(&self, settings: &Settings, observer: &mut dyn Observer<Faults>) -> Result<Run, RunError> {
+        run::run(&self.fault, &self.loading, self.start.clone(), settings, observer)
     }
 }

@@ -5,22 +5,24 @@
 
 use super::catalogue::{Catalogue, Part, Thresholds};
 use super::equations::{Equations, Fault, Layout, Pressed, size};
+use super::error::RunError;
 use super::loading::Loading;
 use super::opening::Crack;
 use asperity_ode::{
-    Clock, Control, Counts, Failure, Finished, Method, Occurrence, Options, Outcome, Sink, Step,
+    Clock, Control, Counts, Failure, Finished, Kind, Method, ObserveError, Observer, Occurrence, Options,
+    Outcome, Sink, Step,
 };
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// How to integrate.
+/// Settings of the integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Explicit method.
     pub method: Method,
     /// Error of ln V allowed in a step.
     pub tolerance: f64,
-    /// When to end \[s\].
+    /// End \[s\].
     pub end: f64,
     /// Events.
     pub thresholds: Thresholds,
@@ -33,19 +35,19 @@ pub struct Settings {
 /// A fault at the end of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment<'a> {
-    /// When.
+    /// Time.
     pub at: Clock,
     /// Length of the step \[s\]; 0 at the start.
     pub dt: f64,
     /// Unknowns.
     pub unknowns: &'a [f64],
-    /// Where they stand.
+    /// Their layout.
     pub layout: Layout,
     /// Slip rates of all points, component by component \[m/s\].
     pub rate: &'a [f64],
     /// Largest slip rate \[m/s\].
     pub largest: f64,
-    /// What presses the points.
+    /// Normal tractions and openings.
     pub pressed: &'a Pressed,
     /// Events until now.
     pub catalogue: &'a Catalogue,
@@ -58,7 +60,7 @@ pub struct Moment<'a> {
 pub struct Ends<'a> {
     /// Unknowns at its start.
     pub start: &'a [f64],
-    /// What pressed the points then.
+    /// Normal tractions and openings then.
     pub start_pressed: &'a Pressed,
     /// Their rates.
     pub start_rates: &'a [f64],
@@ -110,30 +112,23 @@ impl Moment<'_> {
     }
 }
 
-/// Watches a run.
-pub trait Watcher {
-    /// At the start and after each step.
-    fn now(&mut self, moment: &Moment<'_>) -> Control;
+/// Runs of faults.
+#[derive(Clone, Copy, Debug)]
+pub struct Faults;
 
-    /// Where the integration restarts, after the step there was shown: [`resume`] goes on from this.
-    fn pause(&mut self, _run: &Run) -> Control {
-        Control::Go
-    }
+impl Kind for Faults {
+    type Setup = ();
+    type Moment<'a> = Moment<'a>;
+    type Stand = Run;
 }
 
-impl<F: FnMut(&Moment<'_>) -> Control> Watcher for F {
-    fn now(&mut self, moment: &Moment<'_>) -> Control {
-        self(moment)
-    }
-}
-
-/// What a run found, or has found so far: where it restarts this is all there is to know to go on.
+/// Results of a run, or its results so far: where it restarts this is all there is to know to resume it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run {
-    /// How it ended.
+    /// Outcome.
     #[serde(skip, default = "completed")]
     pub outcome: Outcome,
-    /// When.
+    /// Time.
     pub at: Clock,
     /// Unknowns then.
     pub unknowns: Vec<f64>,
@@ -145,7 +140,7 @@ pub struct Run {
     pub parts: Vec<Part>,
     /// Work.
     pub counts: Counts,
-    /// Where the integration failed: the point whose normal traction falls to zero there.
+    /// Place where the integration failed: the point whose normal traction falls to zero there.
     #[serde(skip)]
     pub opens: Option<usize>,
 }
@@ -191,24 +186,31 @@ pub const RESTART: u64 = 256;
 const ROUNDING: f64 = 1e-15;
 
 /// Integrates `fault` from `unknowns` at time 0. An integration that fails is no error: the outcome says so.
+///
+/// # Errors
+/// If the observer cannot go on.
 pub fn run(
     fault: &Fault,
     loading: &Loading,
     unknowns: Vec<f64>,
     settings: &Settings,
-    watcher: &mut dyn Watcher,
-) -> Run {
-    resume(fault, loading, Run::new(unknowns, settings.thresholds), settings, watcher)
+    observer: &mut dyn Observer<Faults>,
+) -> Result<Run, RunError> {
+    resume(fault, loading, Run::new(unknowns, settings.thresholds), settings, observer)
 }
 
-/// Goes on with a run, see [`Watcher::pause`]. One that had ended is returned as it is.
+/// Resumes a run, see [`Observer::pause`]. One that had ended is returned as it is.
+///
+/// # Errors
+/// If the observer cannot go on.
 pub fn resume(
     fault: &Fault,
     loading: &Loading,
     mut run: Run,
     settings: &Settings,
-    watcher: &mut dyn Watcher,
-) -> Run {
+    observer: &mut dyn Observer<Faults>,
+) -> Result<Run, RunError> {
+    observer.begin(&())?;
     run.outcome = if enough(&run, settings) { Outcome::Stopped } else { Outcome::Completed };
     let breaks = breaks(fault, loading, settings.end);
     for end in breaks {
@@ -221,12 +223,12 @@ pub fn resume(
         let within = 0.5 * (run.at.seconds() + end);
         let (shear, normal) = loading.rates(within, fault.law.points(), fault.operator.couples_normal());
         let equations = Equations::new(fault, shear, normal).until(end);
-        leg(&equations, fault, end, settings, watcher, &mut run);
+        leg(&equations, fault, end, settings, observer, &mut run)?;
     }
-    run
+    Ok(run)
 }
 
-/// Whether all events asked for have ended.
+/// True if all events asked for have ended.
 fn enough(run: &Run, settings: &Settings) -> bool {
     settings.most_events.is_some_and(|most| run.catalogue.events().len() >= most)
 }
@@ -247,27 +249,28 @@ fn leg(
     fault: &Fault,
     end: f64,
     settings: &Settings,
-    watcher: &mut dyn Watcher,
+    observer: &mut dyn Observer<Faults>,
     run: &mut Run,
-) {
+) -> Result<(), ObserveError> {
     let mut options = Options {
         method: settings.method,
         rtol: ROUNDING,
         atol: equations.tolerances(settings.tolerance),
         first_step: None,
+        begin_stiff: false,
         largest_step: None,
         most_steps: settings.most_steps,
     };
     loop {
         let taken = usize::try_from(run.counts.steps).unwrap_or(usize::MAX);
         (options.first_step, options.most_steps) = (run.next_step, settings.most_steps.saturating_sub(taken));
-        if !piece(equations, fault, end, (settings, &options), watcher, run) {
-            return;
+        if !piece(equations, fault, end, (settings, &options), observer, run)? {
+            return Ok(());
         }
         run.outcome = Outcome::Completed;
-        if watcher.pause(run) == Control::Stop {
+        if observer.pause(&mut || run.clone())?.is_some() {
             run.outcome = Outcome::Stopped;
-            return;
+            return Ok(());
         }
     }
 }
@@ -278,14 +281,15 @@ fn piece(
     fault: &Fault,
     end: f64,
     (settings, options): (&Settings, &Options),
-    watcher: &mut dyn Watcher,
+    observer: &mut dyn Observer<Faults>,
     run: &mut Run,
-) -> bool {
+) -> Result<bool, ObserveError> {
     let vectors = equations.layout().m().end;
     let mut follow = Follow {
         equations,
         fault,
-        watcher,
+        observer,
+        failure: None,
         catalogue: &mut run.catalogue,
         parts: &mut run.parts,
         steps: 0,
@@ -301,7 +305,7 @@ fn piece(
     follow.pressed = fault.pressed(run.at, &run.unknowns, &mut follow.crack);
     if run.counts.steps == 0 && follow.begin(run.at, &run.unknowns) == Control::Stop {
         run.outcome = Outcome::Stopped;
-        return false;
+        return follow.failure.map_or(Ok(false), Err);
     }
     let duration = Clock::new(end, 0.0).since(&run.at);
     let mut options = options.clone();
@@ -313,6 +317,9 @@ fn piece(
     let duration = Clock::new(end, 0.0).since(&run.at);
     let Finished { outcome, at, state, counts } =
         asperity_ode::integrate(equations, run.at, &run.unknowns, duration, &options, &mut follow);
+    if let Some(failure) = follow.failure {
+        return Err(failure);
+    }
     let paused = follow.paused;
     run.next_step = follow.next_step;
     (run.outcome, run.at, run.unknowns) = (outcome, at, state);
@@ -328,9 +335,9 @@ fn piece(
             }
             run.opens = equations.opened().or_else(|| nearly_open(fault, run));
         }
-        Outcome::Stopped => return paused && !enough(run, settings),
+        Outcome::Stopped => return Ok(paused && !enough(run, settings)),
     }
-    false
+    Ok(false)
 }
 
 /// Share of f_n at the start below which a point is about to open: the rate of friction there grows as 1/f_n and steps vanish before a
@@ -350,14 +357,16 @@ fn nearly_open(fault: &Fault, run: &Run) -> Option<usize> {
 struct Follow<'a> {
     equations: &'a Equations<'a>,
     fault: &'a Fault,
-    watcher: &'a mut dyn Watcher,
+    observer: &'a mut dyn Observer<Faults>,
+    /// Reason why the observer cannot go on.
+    failure: Option<ObserveError>,
     catalogue: &'a mut Catalogue,
     parts: &'a mut [Part],
     /// Accepted steps since the last restart.
     steps: u64,
     /// Length to try after the next one \[s\].
     next_step: Option<f64>,
-    /// Whether it was ended for a restart.
+    /// True if it was ended for a restart.
     paused: bool,
     rate: Vec<f64>,
     shear: Vec<f64>,
@@ -365,9 +374,9 @@ struct Follow<'a> {
     between: Vec<f64>,
     /// Largest slip rate at the end of the last step \[m/s\].
     largest: f64,
-    /// What is open.
+    /// Points that are open.
     crack: Crack,
-    /// What presses the points at the end of the last step.
+    /// Normal tractions and openings at the end of the last step.
     pressed: Pressed,
 }
 
@@ -402,10 +411,14 @@ impl Follow<'_> {
         let layout = self.equations.layout();
         let (rate, catalogue, pressed) = (self.rate.as_slice(), &*self.catalogue, &self.pressed);
         let largest = self.largest;
-        self.watcher.now(&Moment { at, dt, unknowns, layout, rate, largest, pressed, catalogue, step })
+        let moment = Moment { at, dt, unknowns, layout, rate, largest, pressed, catalogue, step };
+        self.observer.step(&moment).unwrap_or_else(|failure| {
+            self.failure = Some(failure);
+            Control::Stop
+        })
     }
 
-    /// When the fastest of these points passes a threshold within the step, and which it is: by halving, since the fastest point
+    /// Finds the time at which the fastest of these points passes a threshold within the step, and that point: by halving, since the fastest point
     /// changes. Leaves the unknowns and the tractions of that time, and returns openings.
     fn locate(
         &mut self,

@@ -1,4 +1,4 @@
-//! What the readers of meshes understand of files, as JSON for other programs to compare (`interop/check_meshes.py`).
+//! Prints the content of mesh files as their readers understand it, as JSON for other programs to compare (`interop/check_meshes.py`).
 //!
 //! `mesh_summary OUT FILE...` writes to OUT an object with an entry for each file name: `nodes`, their number; `cells`, by element the
 //! positions of the nodes of each cell in the order of VTK; `cell_sets`, `side_sets`, `node_sets`, by name the number of cells,

@@ -19,7 +19,7 @@ pub fn size(bytes: usize) -> String {
     }
 }
 
-/// What factorisations of a scene may take \[bytes\].
+/// Memory that factorisations of a scene may take \[bytes\].
 #[must_use]
 pub fn memory(scene: &Scene) -> usize {
     scene.solver.memory.as_ref().map_or(MEMORY, |m| m.get_ref().0) as usize

@@ -1,4 +1,4 @@
-//! How finely the points of an interface of bodies stand beside the cohesive zone of its friction.
+//! Spacing of the points of an interface of bodies beside the cohesive zone of its friction.
 //!
 //! The zone is as long as f_n is small ([`crate::fault::Ground`]), and f_n is known once bodies are pressed: the plan says up to which f_n the points
 //! resolve it. Where loads alone press a flat interface their mean is known before, and judged then. Otherwise a run stops where a point slides
@@ -8,7 +8,7 @@ use crate::fault::{ENOUGH, FEW};
 use crate::warning::Warning;
 use asperity_mechanics::Resolved;
 
-/// What the plan says.
+/// Content of the plan.
 #[must_use]
 pub fn remark(resolved: &Resolved, interface: &str) -> String {
     format!(
@@ -36,7 +36,7 @@ pub fn warning(resolved: &Resolved, interface: &str, stage: &str, largest: f64) 
     })
 }
 
-/// What gives three points.
+/// Expression of three points.
 #[must_use]
 pub fn enough(resolved: &Resolved, normal: f64) -> String {
     format!("points {:.4e} m apart give three", resolved.spacing * resolved.one / normal / ENOUGH)

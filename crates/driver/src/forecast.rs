@@ -109,7 +109,7 @@ struct Grid {
     counts: Counts,
     /// Nodes along each axis.
     nodes: [usize; 3],
-    /// Where the scene says how fine it is.
+    /// Line of the scene that sets the resolution.
     place: Range<usize>,
 }
 
@@ -178,7 +178,7 @@ pub fn admit(scene: &Scene) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// Whether linear systems without a factor are a choice that the plan may take by itself.
+/// True if linear systems without a factor are a choice that the plan may take by itself.
 pub fn may_iterate(scene: &Scene) -> bool {
     scene.solver.method() == Method::Auto
         && scene.interfaces.is_empty()
@@ -334,7 +334,7 @@ mod tests {
     use asperity_fem::assembly::Lower;
     use asperity_fem::dof::Constraints;
     use asperity_fem::mesh::generate::Grid as Lines;
-    use asperity_fem::term::Pattern;
+    use asperity_fem::term::{Blocks, Pattern};
 
     /// Bytes of the factor's values, and of the factorisation, that the analysis finds.
     fn analysed<const D: usize>(cells: [usize; D], kind: ElementKind) -> [f64; 2] {
@@ -342,11 +342,9 @@ mod tests {
         let mesh = Lines { lines, kind }.mesh().unwrap();
         let block = &mesh.blocks[0];
         let dofs = |cell: usize| block.cell(cell).iter().flat_map(|n| (0..D).map(move |c| n * D + c));
-        let mut pattern = Pattern { dofs: Vec::new(), starts: vec![0], version: 0 };
-        for cell in 0..block.len() {
-            pattern.dofs.extend(dofs(cell));
-            pattern.starts.push(pattern.dofs.len());
-        }
+        let mut cells = Blocks::default();
+        (0..block.len()).for_each(|cell| cells.push(dofs(cell)));
+        let pattern = Pattern::new(cells);
         let constraints = Constraints { fixed: Vec::new(), channels: Vec::new() };
         let equations = constraints.equations(mesh.nodes.len() * D);
         let analysis = Lower::new(&[&pattern], &equations).analyse().unwrap();

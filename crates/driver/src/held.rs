@@ -1,4 +1,4 @@
-//! What a run holds in memory.
+//! Memory of a run.
 
 use crate::forecast::Counts;
 use crate::model::counts;
@@ -9,7 +9,7 @@ const PROGRAM: usize = 38_000_000;
 /// Bytes of the buffers in which dense kernels pack what they multiply, for each thread.
 const PACKED: usize = 10_000_000;
 
-/// What a model holds when it is run \[bytes\].
+/// Memory of a model when it is run \[bytes\].
 #[derive(Clone, Copy, Debug)]
 pub struct Held {
     /// Its mesh.

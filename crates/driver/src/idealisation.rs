@@ -3,7 +3,7 @@
 use crate::scene::model::Kinematics;
 use asperity_fem::kinematics::Idealisation;
 
-/// What finite elements take for these kinematics.
+/// Idealisation for these kinematics.
 pub(crate) fn of(kinematics: Kinematics) -> Idealisation {
     match kinematics {
         Kinematics::PlaneStrain => Idealisation::PlaneStrain,

@@ -31,7 +31,7 @@ pub fn known() -> &'static Laws {
     &KNOWN
 }
 
-/// What a scene has to know of an evolution.
+/// Facts a scene has to know of an evolution.
 fn row(definition: &Definition) -> EvolutionRow {
     let parameter = |p: &evolution::Parameter| ParameterRow {
         key: p.key,
@@ -103,7 +103,7 @@ pub fn build_fault(first: &LawChoice, rest: &[LawChoice]) -> Result<Option<Box<d
     with_form(&List { first, rest: rest.iter().filter_map(sliding).collect() }, EachPoint).map(Some)
 }
 
-/// What laws consist of.
+/// Parts of laws.
 enum Parts<'a> {
     /// A law with an elastic domain.
     Elastic(Result<Arc<dyn Law>, Failure>),
@@ -162,7 +162,7 @@ fn parts(choice: &LawChoice) -> Parts<'_> {
     }
 }
 
-/// What is made of laws of one kind, whichever it is.
+/// Product of laws of one kind, whichever it is.
 trait Finish {
     type Made;
 

@@ -81,7 +81,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
     Ok(stages)
 }
 
-/// What an earlier stage's conditions become in the next one: targets reached are held.
+/// Conditions of an earlier stage in the next one: targets reached are held.
 fn settle(held: &mut BTreeMap<(String, usize), Motion>, loads: &mut BTreeMap<(String, usize), Loading>) {
     for motion in held.values_mut() {
         if matches!(motion, Motion::To(_) | Motion::Table(_) | Motion::Rotate(_)) {

@@ -61,7 +61,7 @@ pub struct ForceResult {
     pub force: ForceMark,
     /// Stage.
     pub stage: String,
-    /// What acts on the body through the nodes of the set.
+    /// Action on the body through the nodes of the set.
     pub value: [f64; 3],
     /// Its unit: N, or N/m of thickness.
     pub unit: String,
@@ -72,9 +72,9 @@ pub struct ForceResult {
 pub struct RunReport {
     /// Plan.
     pub plan: Summary,
-    /// How it ended.
+    /// Outcome.
     pub outcome: Outcome,
-    /// What the run found that its model does not describe; what is doubtful in the scene stands in the plan.
+    /// Findings of the run that its model does not describe; doubts about the scene stand in the plan.
     pub warnings: Vec<Warning>,
     /// Results per interface and stage.
     pub results: Vec<InterfaceResult>,

@@ -3,7 +3,7 @@
 mod keeper;
 mod stand;
 
-pub use keeper::{Checkpoint, Keeper, Kept};
+pub use keeper::{Bodies, Checkpoint, Kept};
 pub use stand::Stand;
 
 use crate::balance::balance;
@@ -17,13 +17,14 @@ use asperity_contact::{Course, Watch};
 use asperity_mechanics::step::{Accepted, Cut, Failure};
 use asperity_mechanics::timing::{Figures, StepLength};
 use asperity_mechanics::{Assembled, LOADING, Mismatch, Stage};
-use asperity_output::OutputError;
-use asperity_output::view::{InterfaceFields, Observer, StepRecord, StepView};
+use asperity_ode::{ObserveError, Observer};
+use asperity_output::Writer;
+use asperity_output::view::{InterfaceFields, StepRecord, StepView};
 use keeper::Unkept;
 use stand::{Found, Said, Work};
 use std::time::Instant as Clock;
 
-/// Why a run could not be completed.
+/// Reason why a run could not be completed.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// Nothing was computed: the system could not be set up.
@@ -38,8 +39,8 @@ pub enum RunError {
     #[error("the run that is to be resumed is another: {0}")]
     Foreign(#[from] Mismatch),
     /// An observer could not write.
-    #[error(transparent)]
-    Observe(#[from] OutputError),
+    #[error("{0}")]
+    Observe(#[from] ObserveError),
 }
 
 /// Runs a plan. A stepper that does not converge is no error: the report's outcome says so and everything computed
@@ -47,24 +48,28 @@ pub enum RunError {
 ///
 /// # Errors
 /// [`RunError`] when the system cannot be set up or an output cannot be written.
-pub fn run(plan: &AnyPlan, observer: &mut dyn Observer) -> Result<RunReport, RunError> {
-    run_kept(plan, &mut Unkept(observer), None)
+pub fn run(plan: &AnyPlan, writer: &mut dyn Writer) -> Result<RunReport, RunError> {
+    run_kept(plan, &mut Unkept(writer), None)
 }
 
-/// Runs a plan from its start, or from where it stood, until its end or until `keeper` interrupts it.
+/// Runs a plan from its start, or from where it stood, until its end or until `observer` interrupts it.
 ///
 /// # Errors
 /// See [`run`]; [`RunError::Foreign`] where the run that stood there was not one of this plan.
-pub fn run_kept(plan: &AnyPlan, keeper: &mut dyn Keeper, from: Option<Stand>) -> Result<RunReport, RunError> {
+pub fn run_kept(
+    plan: &AnyPlan,
+    observer: &mut dyn Observer<Bodies>,
+    from: Option<Stand>,
+) -> Result<RunReport, RunError> {
     match plan {
-        AnyPlan::Two(plan) => run_in(plan, keeper, from),
-        AnyPlan::Three(plan) => run_in(plan, keeper, from),
+        AnyPlan::Two(plan) => run_in(plan, observer, from),
+        AnyPlan::Three(plan) => run_in(plan, observer, from),
     }
 }
 
 fn run_in<const D: usize>(
     plan: &Plan<D>,
-    keeper: &mut dyn Keeper,
+    observer: &mut dyn Observer<Bodies>,
     from: Option<Stand>,
 ) -> Result<RunReport, RunError> {
     let clock = Clock::now();
@@ -72,15 +77,15 @@ fn run_in<const D: usize>(
         .map_err(|reason| RunError::SetUp { stage: plan.problem.stages[0].name.clone(), reason })?;
     let phases = Phases { set_up: clock.elapsed().as_secs_f64(), ..Phases::default() };
     let (work, found) = (Work::default(), Found::default());
-    let mut run = Running { plan, work, found, phases, moved: false };
-    keeper.begin(&views::setup(plan, system.areas()))?;
+    let mut run = Running { plan, work, found, phases };
+    observer.begin(&views::setup(plan, system.areas()))?;
     let first = from.as_ref().map_or(0, |stand| stand.stage);
     let (mut from, mut outcome) = (from, Outcome::Completed);
     for index in first..plan.problem.stages.len() {
-        let ended = run.stage(index, &mut system, keeper, from.take())?;
+        let ended = run.stage(index, &mut system, observer, from.take())?;
         run.end_of_stage(&plan.problem.stages[index], &system);
         if let Some(early) = ended {
-            run.show(index, &plan.problem.stages[index], &system, keeper, true)?;
+            run.show(index, &plan.problem.stages[index], &system, observer, true)?;
             outcome = early;
             break;
         }
@@ -94,11 +99,9 @@ struct Running<'a, const D: usize> {
     work: Work,
     found: Found,
     phases: Phases,
-    /// Whether a step has been tried since the run began or was resumed.
-    moved: bool,
 }
 
-/// Where a run stands within a stage.
+/// State of a run within a stage.
 struct InStage {
     index: usize,
     length: StepLength,
@@ -114,7 +117,7 @@ impl<const D: usize> Running<'_, D> {
         &mut self,
         index: usize,
         system: &mut Assembled<'_, D>,
-        keeper: &mut dyn Keeper,
+        observer: &mut dyn Observer<Bodies>,
         from: Option<Stand>,
     ) -> Result<Option<Outcome>, RunError> {
         let stage = &self.plan.problem.stages[index];
@@ -123,11 +126,10 @@ impl<const D: usize> Running<'_, D> {
         self.phases.set_up += clock.elapsed().as_secs_f64();
         loop {
             let Some(dt) = here.length.next(system.time()) else { return Ok(None) };
-            if let Some(reason) = keeper.pause(self.moved, &mut || self.stand(&here, system))? {
+            if let Some(reason) = observer.pause(&mut || self.stand(&here, system))? {
                 let (stage, reason) = (stage.name.clone(), reason.to_string());
                 return Ok(Some(Outcome::Interrupted { stage: Some(stage), time: system.time(), reason }));
             }
-            self.moved = true;
             let clock = Clock::now();
             let before = system.slip_rates();
             system.set_bound(here.length.bound(dt));
@@ -136,7 +138,7 @@ impl<const D: usize> Running<'_, D> {
             let ended = match trial {
                 Ok(accepted) => {
                     self.accepted(&mut here, system, &before, &accepted);
-                    self.show(index, stage, system, keeper, false)?;
+                    self.show(index, stage, system, observer, false)?;
                     self.outruns(&here, system, &before, accepted.cut)
                 }
                 Err(failure) => self.rejected(&mut here, system, &failure, dt),
@@ -167,7 +169,7 @@ impl<const D: usize> Running<'_, D> {
         Ok(InStage { index, length, rejected: from.rejected, free: from.free })
     }
 
-    /// Where the run stands.
+    /// State of the run.
     fn stand(&self, here: &InStage, system: &mut Assembled<'_, D>) -> Stand {
         Stand {
             stage: here.index,
@@ -265,12 +267,12 @@ impl<const D: usize> Running<'_, D> {
         report
     }
 
-    /// Whether the largest slip rate has grown beyond what loads drive.
+    /// True if the largest slip rate has grown beyond what loads drive.
     fn faster(&self, before: &[f64], now: &[f64]) -> bool {
         largest(now) > largest(before) && self.beyond_loads(now)
     }
 
-    /// Whether a law follows rates, and the largest is beyond what loads drive.
+    /// True if a law follows rates, and the largest is beyond what loads drive.
     fn fast(&self, system: &Assembled<'_, D>) -> bool {
         self.follows_rates() && self.beyond_loads(&system.slip_rates())
     }
@@ -280,13 +282,13 @@ impl<const D: usize> Running<'_, D> {
         largest(rates) > LOADING * loading
     }
 
-    /// Whether the law of an interface follows rates or weakens.
+    /// True if the law of an interface follows rates or weakens.
     fn watches(&self) -> bool {
         let watched = |w: &Watch| w.rate.is_some() || w.course != Course::Steady;
         self.plan.problem.interfaces.iter().any(|i| watched(&i.watch))
     }
 
-    /// Whether an interface has a law of the slip rate. Rates of other laws are slip over the length of the step, which may be finite at
+    /// True if an interface has a law of the slip rate. Rates of other laws are slip over the length of the step, which may be finite at
     /// any length.
     fn follows_rates(&self) -> bool {
         self.plan.problem.interfaces.iter().any(|i| i.law.as_ref().is_some_and(|l| !l.has_elastic_domain()))
@@ -317,7 +319,7 @@ impl<const D: usize> Running<'_, D> {
         index: usize,
         stage: &Stage,
         system: &Assembled<'_, D>,
-        observer: &mut dyn Keeper,
+        observer: &mut dyn Observer<Bodies>,
         stopped: bool,
     ) -> Result<(), RunError> {
         let clock = Clock::now();
@@ -335,7 +337,11 @@ impl<const D: usize> Running<'_, D> {
             samples: &samples,
             fields: &|| views::body_fields(self.plan, system.blocks(), &system.displacement()),
         };
-        if stopped { observer.stopped(&view) } else { observer.step(&view) }?;
+        if stopped {
+            observer.end(&view)?;
+        } else {
+            observer.step(&view)?;
+        }
         self.phases.output += clock.elapsed().as_secs_f64();
         Ok(())
     }

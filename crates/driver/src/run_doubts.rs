@@ -1,4 +1,4 @@
-//! What a run finds that its model does not describe: strain, rotation and slip beyond what small means, and contact that never was.
+//! Findings of a run that its model does not describe: strain, rotation and slip beyond what small means, and contact that never was.
 
 use crate::lengths::brief;
 use crate::plan::Plan;
@@ -30,7 +30,7 @@ struct Largest {
     rotation: f64,
 }
 
-/// What is doubtful at the end of a stage, given the displacement of all degrees of freedom.
+/// Doubts at the end of a stage, given the displacement of all degrees of freedom.
 #[must_use]
 pub fn after_stage<const D: usize>(
     plan: &Plan<D>,
@@ -212,7 +212,7 @@ conditions = [{ set = "A.left", x = 0, y = 0 }]
 stepper = "implicit"
 "#;
 
-    /// What is told of the displacement `u` of every place.
+    /// Words about the displacement `u` of every place.
     fn told(u: impl Fn(&[f64; 2]) -> [f64; 2]) -> (Largest, Vec<String>) {
         let AnyPlan::Two(plan) = plan(&scene::read(BAR).unwrap()).unwrap() else { panic!("a plane scene") };
         let u: Vec<f64> = plan.problem.model.mesh.nodes.iter().flat_map(u).collect();

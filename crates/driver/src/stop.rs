@@ -1,11 +1,11 @@
-//! How a run ends that cannot go on: what is said of it, and whether it met an instability.
+//! End of a run that cannot go on: the words about it, and if it met an instability.
 
 use crate::report::{Outcome, Stop};
 use asperity_contact::Interface;
 use asperity_fem::term::Objection;
 use asperity_mechanics::{Assembled, Failure, coordinates};
 
-/// What may be done about an instability.
+/// Remedies for an instability.
 const REMEDY: &str = "the last state before it is kept. Stiffer bodies or supports, or a larger length of weakening (`l`, `d_c`), \
     are stable; events are followed where waves or inertia carry them: `[faults.NAME]`, or `kinematics = \"spring-slider\"` with \
     `damping` or `mass`";
@@ -104,7 +104,7 @@ pub fn exhausted<const D: usize>(
     }
 }
 
-/// Where an instability was met.
+/// Place of an instability.
 struct Met {
     interface: String,
     position: [f64; 3],
@@ -151,7 +151,7 @@ fn coarse<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, wh
     }
 }
 
-/// Whether a point is pressed more than its neighbours resolve, and the scene does not allow it: what loses its strength there is a point of the mesh.
+/// True if a point is pressed more than its neighbours resolve, and the scene does not allow it: what loses its strength there is a point of the mesh.
 fn is_coarse<const D: usize>(system: &Assembled<'_, D>, met: &Met) -> bool {
     let most = system.resolved(&met.interface).and_then(|r| r.refused_beyond);
     let normal = |i: &Interface<D>| {

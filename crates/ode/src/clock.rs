@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct Clock {
     /// Leading part of the base \[s\].
     pub base: f64,
-    /// What the leading part of the base cannot hold \[s\]: below half a unit in its last place.
+    /// Part of a time that the base cannot hold \[s\]: below half a unit in its last place.
     carry: f64,
     /// Seconds since the base.
     pub local: f64,

@@ -1,6 +1,6 @@
 //! The methods of the library diffsol, behind the interface of the others. Nothing else names the library.
 //!
-//! What it leaves to its users is done here: values that are not finite are rejected (its error norm drops them), steps are
+//! Work that it leaves to its users is done here: values that are not finite are rejected (its error norm drops them), steps are
 //! bounded by stop times, after which the factorisation is renewed where it shortened a step (the library would go on with the
 //! old one and with the convergence measured for it, and accept a wrong solution), and failures of Newton's method are not limited in number, since the library counts them over the
 //! whole run.
@@ -153,7 +153,7 @@ where
         }
     }
 
-    /// Whether the method uses several steps: it begins anew with order 1, and its rates are approximate.
+    /// True if the method uses several steps: it begins anew with order 1, and its rates are approximate.
     fn multistep(&self) -> bool {
         self.method == Method::Bdf
     }

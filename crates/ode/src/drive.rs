@@ -42,12 +42,12 @@ struct Still {
     first: f64,
 }
 
-/// Where a step ends that was cut at an event.
+/// End of a step that was cut at an event.
 struct Landing {
     t: f64,
     /// Share of the stepper's step that is kept.
     share: f64,
-    /// Whether the stepper itself ends there.
+    /// True if the stepper itself ends there.
     exact: bool,
 }
 

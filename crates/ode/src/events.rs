@@ -35,7 +35,7 @@ pub(super) struct Watch {
     middle: Vec<f64>,
     end: Vec<f64>,
     state: Vec<f64>,
-    /// Whether no step has been seen yet.
+    /// True if no step has been seen yet.
     fresh: bool,
 }
 
@@ -61,7 +61,7 @@ impl Watch {
         }
     }
 
-    /// Whether there is nothing to watch.
+    /// True if there is nothing to watch.
     pub fn idle(&self) -> bool {
         self.functions.is_empty()
     }

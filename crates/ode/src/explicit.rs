@@ -1,4 +1,4 @@
-//! What the explicit Runge-Kutta methods share.
+//! Parts common to the explicit Runge-Kutta methods.
 
 /// Writes `y0 + h sum_j weights_j k_j` into `y`; `k` holds the rates of the stages one after the other.
 #[inline(always)]
@@ -48,7 +48,7 @@ fn combine_fixed<const N: usize, const S: usize>(
 
 /// Control of step lengths by the last two steps, in two ways.
 ///
-/// Where errors change little from step to step, the trend of the lengths is expected to go on (predictive control, K. Gustafsson,
+/// The trend of the lengths is expected to go on where errors change little from step to step (predictive control, K. Gustafsson,
 /// ACM Trans. Math. Softw. 20 (1994) 496): a slider that speeds up towards an instability needs steps that shrink by one factor
 /// each, and one that heals needs steps that grow so; control by the errors alone tries every second step in vain there. Where
 /// errors jump, as they do at the end of the stability region, the errors alone decide (E. Hairer, G. Wanner, "Solving Ordinary

@@ -11,6 +11,7 @@ mod explicit;
 mod lu;
 mod matrices;
 mod method;
+mod observer;
 mod own;
 mod pair;
 mod problem;
@@ -27,6 +28,7 @@ mod tsit5;
 
 pub use clock::Clock;
 pub use method::{Method, Options, UnknownMethod};
+pub use observer::{Kind, ObserveError, Observer, Observers};
 pub use problem::Problem;
 pub use report::{Control, Counts, Failure, Finished, Occurrence, Outcome};
 pub use sink::{Sink, Step};
@@ -39,7 +41,7 @@ use stepper::Stepper;
 
 /// Integrates `problem` from `state` at `at` until `until` \[s\] later.
 ///
-/// What is returned is the last good state and its time, however the integration ends: every state told to the sink is finite.
+/// The result is the last good state and its time, however the integration ends: every state told to the sink is finite.
 pub fn integrate(
     problem: &dyn Problem,
     at: Clock,
@@ -68,13 +70,14 @@ pub fn integrate(
     let mut run = |stepper: &mut dyn Stepper| {
         Drive::new(&system, stepper, sink, state, target, options.most_steps).run(options.first_step)
     };
+    let stiff = options.begin_stiff;
     match options.method {
         Method::Dop853 => run(&mut OneStep::new(dop853::Dop853::new(size), size, largest)),
         Method::Tsit5 => run(&mut OneStep::new(tsit5::Tsit5::new(size), size, largest)),
         Method::Radau5 => run(&mut OneStep::new(radau5::Radau5::new(size), size, largest)),
         Method::Rkc2 => run(&mut OneStep::new(rkc::Rkc2::new(size), size, largest)),
-        Method::Stabilised => run(&mut OneStep::new(stabilised::Stabilised::new(size), size, largest)),
-        Method::Switching => run(&mut OneStep::new(switching::Switching::new(size), size, largest)),
+        Method::Stabilised => run(&mut OneStep::new(stabilised::Stabilised::new(size, stiff), size, largest)),
+        Method::Switching => run(&mut OneStep::new(switching::Switching::new(size, stiff), size, largest)),
         Method::Bdf | Method::TrBdf2 | Method::Esdirk34 | Method::Tsit45 => {
             match diffsol::with_stepper(options.method, &system, state, largest, &mut run) {
                 Ok(finished) => finished,
@@ -87,7 +90,7 @@ pub fn integrate(
     }
 }
 
-/// Whether sizes and tolerances make sense.
+/// Checks that sizes and tolerances make sense.
 fn fit(problem: &dyn Problem, state: &[f64], until: f64, options: &Options) -> Result<(), Failure> {
     let positive = |value: f64| value > 0.0 && value.is_finite();
     if problem.size() == 0 || state.len() != problem.size() {

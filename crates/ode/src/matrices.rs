@@ -81,7 +81,7 @@ impl Matrices {
         }
     }
 
-    /// Whether [`Matrices::spectral_radius`] is below `limit` \[1/s\], without it where bounds of it tell as much.
+    /// True if [`Matrices::spectral_radius`] is below `limit` \[1/s\], without it where bounds of it tell as much.
     pub fn slower_than(&self, limit: f64) -> bool {
         if let Self::Sparse(sparse) = self {
             let [least, most] = sparse.bounds();
@@ -136,7 +136,7 @@ pub(super) struct Sparse {
     symbolic: SymbolicLu<usize>,
     /// Of each entry the problem gives: where it is added.
     slots: Vec<usize>,
-    /// Where the entries of the diagonal stand.
+    /// Indices of the entries of the diagonal.
     diagonal: Vec<usize>,
     given: Vec<f64>,
     values: Vec<f64>,

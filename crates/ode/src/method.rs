@@ -60,7 +60,7 @@ impl Method {
         }
     }
 
-    /// Whether the method solves equations with the Jacobian, and so takes long steps in stiff problems.
+    /// True if the method solves equations with the Jacobian, and so takes long steps in stiff problems.
     #[must_use]
     pub const fn implicit(self) -> bool {
         matches!(self, Self::Bdf | Self::TrBdf2 | Self::Esdirk34 | Self::Radau5 | Self::Switching)
@@ -84,7 +84,7 @@ impl FromStr for Method {
     }
 }
 
-/// How to integrate.
+/// Settings of the integration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The method.
@@ -95,6 +95,8 @@ pub struct Options {
     pub atol: Vec<f64>,
     /// Length of the first step tried \[s\]; chosen from the rates where absent.
     pub first_step: Option<f64>,
+    /// True where a pair of methods begins with the one for stiff equations: see [`Step::next_stiff`](crate::Step::next_stiff).
+    pub begin_stiff: bool,
     /// Length no step exceeds \[s\].
     pub largest_step: Option<f64>,
     /// Accepted steps after which to give up.

@@ -17,7 +17,7 @@ pub(super) struct Span {
     pub f1: Vec<f64>,
 }
 
-/// What became of a step that was tried.
+/// Result of a step that was tried.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Trial {
     /// Its error over the tolerance; NaN where a value is not finite. At 1 and below both ends are complete.
@@ -49,6 +49,11 @@ pub(super) trait Formula {
     /// Forgets what was learnt from steps before.
     fn forget(&mut self);
 
+    /// True where a pair of methods takes the next step with the one for stiff equations.
+    fn next_stiff(&self) -> bool {
+        false
+    }
+
     /// The state at `fraction` of the step last tried.
     fn interpolate(&self, system: &System<'_>, span: &Span, fraction: f64, y: &mut [f64]);
 
@@ -65,7 +70,7 @@ pub(super) struct OneStep<F> {
     /// Length to try next \[s\].
     next: f64,
     largest: f64,
-    /// Whether the span is a step taken, from whose end to go on.
+    /// True if the span is a step taken, from whose end to go on.
     taken: bool,
     rejected: u64,
 }
@@ -198,6 +203,10 @@ impl<F: Formula> Stepper for OneStep<F> {
 
     fn next_length(&self) -> Option<f64> {
         Some(self.next)
+    }
+
+    fn next_stiff(&self) -> bool {
+        self.formula.next_stiff()
     }
 
     fn shift(&mut self, by: f64) {

@@ -1,5 +1,5 @@
 //! Two methods of which one takes the steps: a usual one where accuracy limits them, one for stiff equations where stability does.
-//! What tells which is a [`Criterion`]; a method that takes over begins anew.
+//! A [`Criterion`] decides which; a method that takes over starts fresh.
 
 use super::own::{Formula, Span, Trial};
 use super::problem::System;
@@ -7,14 +7,14 @@ use super::report::Counts;
 
 /// Which of two methods is to go on.
 pub(super) trait Criterion {
-    /// Where accuracy limits steps.
+    /// Method where accuracy limits steps.
     type Usual: Formula;
-    /// Where stability does.
+    /// Method where stability does.
     type Stiff: Formula;
-    /// What against the usual and against the stiff method is enough for the other to go on.
+    /// Evidence against the usual and against the stiff method that is enough for the other to take over.
     const ENOUGH: [f64; 2];
 
-    /// What speaks against the method at work after the step just accepted, where it was `before`; `stiff` says which it is.
+    /// Evidence against the method at work after the step just accepted, where it was `before`; `stiff` says which it is.
     fn against(
         methods: (&mut Self::Usual, &mut Self::Stiff),
         stiff: bool,
@@ -29,16 +29,17 @@ pub(super) trait Criterion {
 pub(super) struct Pair<C: Criterion> {
     usual: C::Usual,
     other: C::Stiff,
-    /// Whether the step last tried is of the stiff method, and whether the next is.
+    /// True if the step last tried, and then if the next one, is of the stiff method.
     stiff: bool,
     next_stiff: bool,
-    /// What speaks against it.
+    /// Evidence against it.
     against: f64,
 }
 
 impl<C: Criterion> Pair<C> {
-    pub fn of(usual: C::Usual, other: C::Stiff) -> Self {
-        Self { usual, other, stiff: false, next_stiff: false, against: 0.0 }
+    /// A pair that begins with the stiff method or with the usual one.
+    pub fn of(usual: C::Usual, other: C::Stiff, stiff: bool) -> Self {
+        Self { usual, other, stiff, next_stiff: stiff, against: 0.0 }
     }
 
     fn active(&mut self) -> &mut dyn Formula {
@@ -84,6 +85,10 @@ impl<C: Criterion> Formula for Pair<C> {
         // What was learnt of stiffness holds beyond an event; a jump of the forcing shows within a few steps.
         self.usual.forget();
         self.other.forget();
+    }
+
+    fn next_stiff(&self) -> bool {
+        self.next_stiff
     }
 
     fn interpolate(&self, system: &System<'_>, span: &Span, fraction: f64, y: &mut [f64]) {

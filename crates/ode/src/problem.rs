@@ -1,4 +1,4 @@
-//! What is integrated.
+//! The problem to integrate.
 
 use super::clock::Clock;
 use std::cell::Cell;
@@ -44,7 +44,7 @@ pub trait Problem {
         g[event]
     }
 
-    /// Whether the event is an extreme of something else, the only matter of interest there: the time may be wrong by what the dense
+    /// True if the event is an extreme of something else, the only matter of interest there: the time may be wrong by what the dense
     /// output is, since that changes the extreme by the square of it.
     fn extreme(&self, _event: usize) -> bool {
         false

@@ -24,7 +24,7 @@ const GROWTH: f64 = 10.0;
 #[derive(Debug)]
 pub(super) struct Radau5 {
     matrices: Matrices,
-    /// Whether the Jacobian is that of the beginning of the step.
+    /// True if the Jacobian is that of the beginning of the step.
     ///
     /// It is never kept for the next. Rates of relaxation go as 1/V where a mass acts, and fall by many decades while a slider
     /// speeds up. With the large ones of before, the iteration moves the fast unknowns by next to nothing, passes for converged,
@@ -78,7 +78,7 @@ impl Radau5 {
         }
     }
 
-    /// Whether an estimate of the largest |λ| of the Jacobian, which is never below it, is below `limit` \[1/s\].
+    /// True if an estimate of the largest |λ| of the Jacobian, which is never below it, is below `limit` \[1/s\].
     pub fn slower_than(&self, limit: f64) -> bool {
         self.matrices.slower_than(limit)
     }
@@ -188,7 +188,7 @@ impl Radau5 {
     }
 }
 
-/// Whether the iterations left will not reach the tolerance.
+/// True if the iterations left will not reach the tolerance.
 fn hopeless(rate: f64, norm: f64, iteration: usize, tolerance: f64) -> bool {
     let left = i32::try_from(MOST_ITERATIONS - iteration).unwrap_or(1);
     rate >= 1.0 || rate.powi(left) / (1.0 - rate) * norm > tolerance

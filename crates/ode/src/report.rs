@@ -1,4 +1,4 @@
-//! What an integration tells while it runs and at its end.
+//! Results of an integration while it runs and at its end.
 
 use super::clock::Clock;
 use serde::{Deserialize, Serialize};
@@ -8,15 +8,15 @@ use serde::{Deserialize, Serialize};
 pub struct Occurrence {
     /// Number of the event function.
     pub event: usize,
-    /// Whether the function went from negative to positive.
+    /// True if the function went from negative to positive.
     pub rising: bool,
-    /// When.
+    /// Time.
     pub at: Clock,
     /// The unknowns then.
     pub state: Vec<f64>,
 }
 
-/// Whether to go on.
+/// Decision to go on or to stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Control {
     /// Go on.
@@ -25,7 +25,7 @@ pub enum Control {
     Stop,
 }
 
-/// What an integration took.
+/// Cost of an integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
     /// Accepted steps.
@@ -46,21 +46,21 @@ pub struct Counts {
     pub restarts: u64,
 }
 
-/// How an integration ended.
+/// End of an integration.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// At the end asked for.
     Completed,
-    /// Where the sink wanted.
+    /// At the request of the sink.
     Stopped,
     /// Before, at the last good state.
     Failed {
-        /// Why.
+        /// Reason.
         reason: Failure,
     },
 }
 
-/// Why an integration cannot go on.
+/// Reason why an integration cannot go on.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Failure {
     /// The tolerance, or rates that are not finite, would need a shorter step than time resolves.
@@ -84,7 +84,7 @@ pub enum Failure {
     /// Sizes or tolerances that make no sense.
     #[error("{0}")]
     Unfit(&'static str),
-    /// What the solver says.
+    /// Words of the solver.
     #[error("the solver reports: {0}")]
     Solver(String),
 }
@@ -92,12 +92,12 @@ pub enum Failure {
 /// The end of an integration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finished {
-    /// How it ended.
+    /// Outcome.
     pub outcome: Outcome,
-    /// When: the time of the last good state.
+    /// Time of the last good state.
     pub at: Clock,
     /// The last good state.
     pub state: Vec<f64>,
-    /// What it took.
+    /// Cost.
     pub counts: Counts,
 }

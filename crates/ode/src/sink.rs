@@ -1,4 +1,4 @@
-//! What an integration tells while it runs.
+//! Interface to the consumer of an integration.
 
 use super::clock::Clock;
 use super::problem::System;
@@ -16,9 +16,9 @@ pub trait Sink {
 
 /// An accepted step.
 pub struct Step<'a> {
-    /// When it began.
+    /// Time of onset.
     pub start: Clock,
-    /// When it ended.
+    /// Time of its end.
     pub end: Clock,
     /// The unknowns at its end.
     pub state: &'a [f64],
@@ -53,6 +53,14 @@ impl Step<'_> {
     #[must_use]
     pub fn next_length(&self) -> Option<f64> {
         self.stepper.next_length()
+    }
+
+    /// True where a pair of methods would take the next step with the one for stiff equations. An integration that restarts here begins
+    /// with it ([`Options::begin_stiff`](crate::Options::begin_stiff)): where a mass comes to rest, finding that out again takes
+    /// thousands of steps.
+    #[must_use]
+    pub fn next_stiff(&self) -> bool {
+        self.stepper.next_stiff()
     }
 
     /// Writes the unknowns at `fraction` of the step, from 0 to 1, into `y`.

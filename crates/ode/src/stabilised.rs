@@ -43,7 +43,7 @@ impl Criterion for Stretch {
 pub(super) type Stabilised = Pair<Stretch>;
 
 impl Stabilised {
-    pub fn new(size: usize) -> Self {
-        Self::of(Tsit5::new(size), Rkc2::new(size))
+    pub fn new(size: usize, stiff: bool) -> Self {
+        Self::of(Tsit5::new(size), Rkc2::new(size), stiff)
     }
 }

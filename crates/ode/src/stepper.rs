@@ -1,4 +1,4 @@
-//! What the loop needs of a method.
+//! Requirements of the loop on a method.
 
 use super::problem::System;
 use super::report::{Counts, Failure};
@@ -35,6 +35,11 @@ pub(super) trait Stepper {
     /// Length it would like to take next \[s\], where it is worth something after a restart.
     fn next_length(&self) -> Option<f64>;
 
+    /// True where a pair of methods would take the next step with the one for stiff equations.
+    fn next_stiff(&self) -> bool {
+        false
+    }
+
     /// Moves the zero of local time `by` seconds later.
     fn shift(&mut self, by: f64);
 
@@ -45,7 +50,7 @@ pub(super) trait Stepper {
     fn tally(&self, counts: &mut Counts);
 }
 
-/// What is left of the time below this share of it is nothing: the base of the clock resolves 1e-32 of it.
+/// Share of the time below which nothing is left of it: the base of the clock resolves 1e-32 of it.
 pub(super) const NOTHING_LEFT: f64 = 1e-26;
 /// A step shorter than this is too short \[s\]. It has nothing to do with the time: a block that a mass carries to rest loses an
 /// e-fold of V in M V/(f_n a), and V falls to 1e-60 m/s. Steps that the clock does not resolve move the state all the same, and

@@ -52,7 +52,7 @@ impl Criterion for Boundary {
 pub(super) type Switching = Pair<Boundary>;
 
 impl Switching {
-    pub fn new(size: usize) -> Self {
-        Self::of(Dop853::new(size), Radau5::new(size))
+    pub fn new(size: usize, stiff: bool) -> Self {
+        Self::of(Dop853::new(size), Radau5::new(size), stiff)
     }
 }

@@ -1,8 +1,8 @@
-//! Why an output could not be made.
+//! Reason why an output could not be made.
 
 use std::path::{Path, PathBuf};
 
-/// Why an output could not be made.
+/// Reason why an output could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     /// A directory could not be made.
@@ -46,7 +46,7 @@ pub enum OutputError {
     Draw {
         /// The plot.
         path: PathBuf,
-        /// What the plotting library says.
+        /// Words of the plotting library.
         reason: String,
     },
     /// The step shows something else than the set-up announced.

@@ -7,7 +7,7 @@
 
 use super::record::{check_interfaces, check_probes, check_samples};
 use super::schedule::{Due, FieldSchedule};
-use super::view::{BodyFields, InterfaceFields, InterfaceMesh, MeshView, Observer, Setup, StepView};
+use super::view::{BodyFields, InterfaceFields, InterfaceMesh, MeshView, Setup, StepView, Writer};
 use super::vtu::{Array, Grid, PvdEntry, Values, pvd};
 use crate::error::{OutputError, expect_length};
 use crate::growing::Growing;
@@ -34,7 +34,7 @@ pub struct Files {
     written: [Option<f64>; 2],
     profile_number: usize,
     setup: Setup,
-    /// Where to resume, until the run begins.
+    /// Position to resume from, until the run begins.
     resumed: Option<FilesState>,
 }
 
@@ -57,7 +57,7 @@ struct Part {
     probes: Option<Growing>,
 }
 
-/// Where the files of a run stand.
+/// Positions in the files of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FilesState {
     /// Intervals of each stage that have fields and profiles.
@@ -75,7 +75,7 @@ impl Files {
     /// Makes the directory and makes sure that it can be written to; writes nothing else yet.
     ///
     /// # Errors
-    /// When the directory cannot be made or written to.
+    /// If the directory cannot be made or written to.
     pub fn create(out: &Path, schedule: FieldSchedule) -> Result<Self, OutputError> {
         atomic::writable_dir(out)?;
         Ok(Self {
@@ -102,7 +102,7 @@ impl Files {
         Self { resumed: Some(from), ..self }
     }
 
-    /// Where the files stand.
+    /// Positions in the files.
     #[must_use]
     pub fn state(&self) -> FilesState {
         FilesState {
@@ -117,7 +117,7 @@ impl Files {
     /// Waits until all rows are on the disc.
     ///
     /// # Errors
-    /// When something could not be written.
+    /// If something could not be written.
     pub fn settle(&self) -> Result<(), OutputError> {
         self.tables().try_for_each(Growing::settle)
     }
@@ -273,7 +273,7 @@ impl Files {
     }
 }
 
-impl Observer for Files {
+impl Writer for Files {
     fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
         check_probes(setup)?;
         self.setup = setup.clone();
@@ -324,7 +324,7 @@ impl Observer for Files {
     }
 
     /// The last good state is written whether or not it was due.
-    fn stopped(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
+    fn end(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         let now = Some(view.record.time);
         if self.schedule.profiles > 0 && self.written[0] != now {
             self.write_profiles(view)?;

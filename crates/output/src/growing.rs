@@ -19,7 +19,7 @@ impl Growing {
     /// A new one, with its header.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// If the file cannot be written.
     pub fn create(path: PathBuf, header: &[u8]) -> Result<Self, OutputError> {
         atomic::write(&path, header)?;
         match fs::OpenOptions::new().append(true).open(&path) {
@@ -31,7 +31,7 @@ impl Growing {
     /// One that had so many bytes; later ones are cut off.
     ///
     /// # Errors
-    /// When the file is missing, shorter than that, or cannot be written.
+    /// If the file is missing, shorter than that, or cannot be written.
     pub fn reopen(path: PathBuf, expected: u64) -> Result<Self, OutputError> {
         let file = fs::OpenOptions::new().append(true).open(&path);
         let found = file.and_then(|file| Ok((file.metadata()?.len(), file)));
@@ -49,7 +49,7 @@ impl Growing {
     /// One write per row: a run that is killed leaves whole rows.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// If the file cannot be written.
     pub fn push(&mut self, row: &[u8]) -> Result<(), OutputError> {
         self.bytes += row.len() as u64;
         self.file.write_all(row).map_err(|source| OutputError::write(&self.path, source))
@@ -70,7 +70,7 @@ impl Growing {
     /// Waits until its rows are on the disc.
     ///
     /// # Errors
-    /// When they could not be written.
+    /// If they could not be written.
     pub fn settle(&self) -> Result<(), OutputError> {
         self.file.sync_data().map_err(|source| OutputError::write(&self.path, source))
     }

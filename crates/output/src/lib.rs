@@ -32,4 +32,4 @@ pub use progress::Progress;
 pub use pulse::Pulse;
 pub use record::{InterfaceHistory, PointHistory, Recorder, StageEnd};
 pub use schedule::FieldSchedule;
-pub use view::Observer;
+pub use view::Writer;

@@ -1,30 +1,30 @@
 //! One observer that forwards to several.
 
 use super::OutputError;
-use super::view::{BodyFields, Observer, Setup, StepView};
+use super::view::{BodyFields, Setup, StepView, Writer};
 use std::cell::OnceCell;
 
 /// Forwards to its observers in the order given. The fields of the bodies are recovered at most once a step, however
 /// many of them ask.
 #[derive(Default)]
 pub struct Multi<'a> {
-    observers: Vec<&'a mut dyn Observer>,
+    observers: Vec<&'a mut dyn Writer>,
 }
 
 impl<'a> Multi<'a> {
     /// From observers that the caller keeps.
     #[must_use]
-    pub fn new(observers: Vec<&'a mut dyn Observer>) -> Self {
+    pub fn new(observers: Vec<&'a mut dyn Writer>) -> Self {
         Self { observers }
     }
 
     /// Adds an observer.
-    pub fn push(&mut self, observer: &'a mut dyn Observer) {
+    pub fn push(&mut self, observer: &'a mut dyn Writer) {
         self.observers.push(observer);
     }
 }
 
-impl Observer for Multi<'_> {
+impl Writer for Multi<'_> {
     fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
         self.observers.iter_mut().try_for_each(|observer| observer.begin(setup))
     }
@@ -36,11 +36,11 @@ impl Observer for Multi<'_> {
         self.observers.iter_mut().try_for_each(|observer| observer.step(&shared))
     }
 
-    fn stopped(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
+    fn end(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         let recovered = OnceCell::new();
         let once = || recovered.get_or_init(|| (view.fields)()).clone();
         let shared = sharing(view, &once);
-        self.observers.iter_mut().try_for_each(|observer| observer.stopped(&shared))
+        self.observers.iter_mut().try_for_each(|observer| observer.end(&shared))
     }
 }
 

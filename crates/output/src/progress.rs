@@ -1,8 +1,8 @@
-//! What a person waiting sees: a bar on a terminal, one line per interval otherwise. The only place here that reads a clock.
+//! Progress for a person waiting: a bar on a terminal, one line per interval otherwise. The only place here that reads a clock.
 
 use super::OutputError;
 use super::pulse::Pulse;
-use super::view::{Observer, Setup, StepView};
+use super::view::{Setup, StepView, Writer};
 use crate::printing;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -94,7 +94,7 @@ impl Drop for Progress {
     }
 }
 
-impl Observer for Progress {
+impl Writer for Progress {
     fn begin(&mut self, _: &Setup) -> Result<(), OutputError> {
         match &mut self.sink {
             Sink::Bar { bar, .. } => bar.reset(),

@@ -12,7 +12,7 @@ const SILENCE: Duration = Duration::from_secs(30);
 /// Wall time between two looks at what a run does: writing it in words costs more than a small step.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// What was done last, and when that was printed.
+/// Last activity, and when it was printed.
 struct Last {
     words: String,
     printed: Instant,
@@ -55,26 +55,26 @@ impl Pulse {
         Self { last, looked: started, beating: thread.map(|thread| (ends, thread)) }
     }
 
-    /// Whether it is time to hear what the run does.
+    /// True if it is time to hear what the run does.
     #[must_use]
     pub(super) fn listens(&self) -> bool {
         self.looked.elapsed() >= LOOK
     }
 
-    /// What is to be printed when nothing else is for long.
+    /// Text to print when nothing else is for long.
     pub(super) fn hears(&mut self, words: String) {
         self.looked = Instant::now();
         held(&self.last).words = words;
     }
 
-    /// What has been printed just now.
+    /// Text printed just now.
     pub(super) fn said(&mut self, words: String) {
         self.hears(words);
         held(&self.last).printed = self.looked;
     }
 }
 
-/// What was done last; a thread that ended while it wrote leaves words that can be read all the same.
+/// Last activity; a thread that ended while it wrote leaves words that can be read all the same.
 fn held(last: &Mutex<Last>) -> MutexGuard<'_, Last> {
     last.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }

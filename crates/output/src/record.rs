@@ -1,6 +1,6 @@
 //! A run kept in memory: the records of all steps, histories at points of the interfaces, and states at stage ends.
 
-use super::view::{BodyFields, InterfaceFields, Observer, Samples, Setup, StepRecord, StepView};
+use super::view::{BodyFields, InterfaceFields, Samples, Setup, StepRecord, StepView, Writer};
 use crate::error::{OutputError, expect_length};
 use crate::numbers;
 use serde::{Deserialize, Serialize};
@@ -64,7 +64,7 @@ pub struct StageEnd {
 pub struct Recorder {
     all_nodes: bool,
     with_bodies: bool,
-    /// What a run announces whenever it begins or is resumed.
+    /// Announcement of a run whenever it begins or is resumed.
     #[serde(skip)]
     setup: Setup,
     records: Vec<StepRecord>,
@@ -98,7 +98,7 @@ impl Recorder {
     /// Goes on with a run that is resumed, and announces this again.
     ///
     /// # Errors
-    /// When it is not the run that is kept.
+    /// If it is not the run that is kept.
     pub fn resume(&mut self, setup: &Setup) -> Result<(), OutputError> {
         check_probes(setup)?;
         expect_length("interfaces kept", setup.interfaces.len(), self.histories.len())?;
@@ -106,7 +106,7 @@ impl Recorder {
         Ok(())
     }
 
-    /// What the run announced before its first step.
+    /// Announcement of the run before its first step.
     #[must_use]
     pub fn setup(&self) -> &Setup {
         &self.setup
@@ -161,7 +161,7 @@ impl Recorder {
     }
 }
 
-impl Observer for Recorder {
+impl Writer for Recorder {
     fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
         check_probes(setup)?;
         let (all_nodes, with_bodies) = (self.all_nodes, self.with_bodies);

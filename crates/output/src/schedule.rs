@@ -1,6 +1,6 @@
-//! When fields and profiles are due.
+//! Times of fields and profiles.
 
-/// How often fields and profiles are written: equal intervals of each stage; the end of a stage always counts.
+/// Frequency of fields and profiles: equal intervals of each stage; the end of a stage always counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FieldSchedule {
     /// Intervals per stage for body and interface fields (`.vtu`); 0 = none.
@@ -71,7 +71,7 @@ impl Due {
         Self { passed: if passed.len() == self.passed.len() { passed } else { self.passed }, ..self }
     }
 
-    /// Whether the step that ends at `time` passes a due time not yet passed.
+    /// True if the step that ends at `time` passes a due time not yet passed.
     pub(super) fn take(&mut self, stage: usize, time: f64, ends_stage: bool) -> bool {
         let Some(&(start, end)) = self.stages.get(stage) else { return self.intervals > 0 && ends_stage };
         let now = if ends_stage {

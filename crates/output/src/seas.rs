@@ -2,7 +2,7 @@
 
 use crate::decimals::{fixed, scientific};
 
-/// What the head of a file says.
+/// Content of the head of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Head<'a> {
     /// Title of the scene.
@@ -11,13 +11,13 @@ pub struct Head<'a> {
     pub version: &'a str,
     /// Tributary area of the point \[m^2, or m per metre out of the plane\].
     pub area: f64,
-    /// Whether that is an area.
+    /// True if that is an area.
     pub in_space: bool,
-    /// Where the station is.
+    /// Position of the station.
     pub location: &'a str,
     /// Directions 2 and 3 of slip, where it may turn.
     pub directions: Option<[[f64; 3]; 2]>,
-    /// Whether the fault opens.
+    /// True if the fault opens.
     pub opens: bool,
 }
 
@@ -26,7 +26,7 @@ const ALONG_A_LINE: (&[&str], &str) = (
     &["Slip (m)", "Slip rate (log10 m/s)", "Shear stress (MPa)", "State (log10 s)", "Normal stress (MPa)"],
     "t slip slip_rate shear_stress state normal_stress",
 );
-/// Where slip may turn.
+/// Direction of slip, where it may turn.
 const IN_A_PLANE: (&[&str], &str) = (
     &[
         "Slip_2 (m)",

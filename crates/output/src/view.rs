@@ -1,4 +1,4 @@
-//! What a run shows its observers: plain slices, free of the dimension of the scene (vectors are padded to three
+//! Views of a run for its writers: plain slices, free of the dimension of the scene (vectors are padded to three
 //! components), so that writers and plots exist once.
 
 use crate::numbers;
@@ -18,7 +18,7 @@ pub struct MeshView {
     pub bodies: Vec<String>,
     /// 2 or 3.
     pub dimension: usize,
-    /// Whether equations hold where the bodies are by then (finite sliding, large deformation), not where they were.
+    /// True if equations hold where the bodies are by then (finite sliding, large deformation), not where they were.
     pub moves: bool,
 }
 
@@ -39,7 +39,7 @@ pub struct InterfaceMesh {
     pub probes: Vec<usize>,
     /// State variables of its law.
     pub states: usize,
-    /// Whether it lies in space, where slip and shear traction are vectors.
+    /// True if it lies in space, where slip and shear traction are vectors.
     pub in_space: bool,
 }
 
@@ -90,7 +90,7 @@ pub struct InterfaceFields {
 }
 
 impl InterfaceFields {
-    /// Whether a node has a partner.
+    /// True if a node has a partner.
     #[must_use]
     pub fn paired(&self, node: usize) -> bool {
         self.gap[node].is_finite()
@@ -168,7 +168,7 @@ pub struct Samples {
     pub forces: Vec<[f64; 3]>,
 }
 
-/// What the report keeps of one step.
+/// Record of one step in the report.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StepRecord {
     /// Stage number, from 0.
@@ -191,7 +191,7 @@ pub struct StepRecord {
     pub drift: f64,
     /// Largest penetration \[m\].
     pub penetration: f64,
-    /// What set the length of the step.
+    /// Reason of the length of the step.
     pub limited_by: String,
 }
 
@@ -236,7 +236,7 @@ pub struct StepView<'a> {
     pub record: &'a StepRecord,
     /// Stage name.
     pub stage: &'a str,
-    /// Whether it ends its stage.
+    /// True if it ends its stage.
     pub ends_stage: bool,
     /// Prescribed end time of the run \[s\].
     pub end_time: f64,
@@ -248,7 +248,7 @@ pub struct StepView<'a> {
     pub fields: &'a dyn Fn() -> BodyFields,
 }
 
-/// What observers learn before the first step.
+/// Facts that writers learn before the first step.
 #[derive(Clone, Debug, Default)]
 pub struct Setup {
     /// Title of the scene.
@@ -267,25 +267,25 @@ pub struct Setup {
     pub force_unit: &'static str,
 }
 
-/// Watches a run.
-pub trait Observer {
+/// Receives the views of a run of bodies, and writes, draws, keeps or shows them.
+pub trait Writer {
     /// Before the first step, with the state at time 0.
     ///
     /// # Errors
-    /// When something cannot be written.
+    /// If something cannot be written.
     fn begin(&mut self, setup: &Setup) -> Result<(), super::OutputError>;
 
     /// After each accepted step.
     ///
     /// # Errors
-    /// When something cannot be written.
+    /// If something cannot be written.
     fn step(&mut self, view: &StepView<'_>) -> Result<(), super::OutputError>;
 
-    /// After the last accepted step of a run that cannot go on, the last good state; [`Observer::step`] has seen it.
+    /// After the last accepted step of a run that cannot go on, the last good state; [`Writer::step`] has seen it.
     ///
     /// # Errors
-    /// When something cannot be written.
-    fn stopped(&mut self, _view: &StepView<'_>) -> Result<(), super::OutputError> {
+    /// If something cannot be written.
+    fn end(&mut self, _view: &StepView<'_>) -> Result<(), super::OutputError> {
         Ok(())
     }
 }

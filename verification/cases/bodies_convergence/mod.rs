@@ -22,7 +22,7 @@ pub const CASE: Case = Case {
 
 const YOUNG: f64 = 2.5;
 
-/// What an idealisation is evidence for.
+/// Capability behind an idealisation.
 fn space_capability(space: Idealisation) -> Capability {
     match space {
         Idealisation::PlaneStrain => Capability::PlaneStrain,
@@ -147,7 +147,7 @@ fn study<const D: usize>(
     sizes.into_iter().map(at).collect()
 }
 
-/// What theory gives.
+/// Order of the theory.
 fn orders(
     kind: ElementKind,
     (space, formulation): (Idealisation, Formulation),

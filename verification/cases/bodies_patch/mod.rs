@@ -25,7 +25,7 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// What an element is evidence for.
+/// Capability behind an element.
 pub fn capability(kind: ElementKind) -> Capability {
     match kind {
         ElementKind::Tri3 | ElementKind::Tri6 => Capability::Triangles,

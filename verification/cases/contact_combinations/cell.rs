@@ -20,7 +20,7 @@ pub enum Kinematics {
     Space,
 }
 
-/// What the slab is made of, and how its strain is measured.
+/// Material of the slab, and the measure of its strain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bodies {
     pub plastic: bool,
@@ -38,7 +38,7 @@ impl Bodies {
     ];
 }
 
-/// How gaps and slip are measured.
+/// Measure of gaps and slip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pairing {
     pub mortar: bool,
@@ -59,7 +59,7 @@ impl Pairing {
     }
 }
 
-/// When friction begins to act.
+/// Instant at which friction begins to act.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// With the second stage.
@@ -193,7 +193,7 @@ impl Law {
         }
     }
 
-    /// Whether a state evolves with slip over a length.
+    /// True if a state evolves with slip over a length.
     pub fn evolves(self) -> bool {
         matches!(self, Self::Ageing | Self::Slip)
     }
@@ -212,7 +212,7 @@ pub struct Cell {
     pub forward: bool,
 }
 
-/// What came of a combination.
+/// Outcome of a combination.
 #[derive(Clone, Debug)]
 pub enum End {
     /// It ran to its end.
@@ -271,7 +271,7 @@ impl Cell {
     /// Its scene.
     ///
     /// # Errors
-    /// When the scene lacks a key that is varied.
+    /// If the scene lacks a key that is varied.
     pub fn text(&self) -> Result<String, CaseError> {
         let way = self.pairing.way();
         let mut scene = self
@@ -335,7 +335,7 @@ impl Cell {
     /// Runs the combination.
     ///
     /// # Errors
-    /// When its run cannot be set up after its plan was accepted, or has no force to show.
+    /// If its run cannot be set up after its plan was accepted, or has no force to show.
     pub fn end(&self) -> Result<End, CaseError> {
         let text = self.text()?;
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -1,4 +1,4 @@
-//! What bodies, measures, enforcements, laws and steppers make together.
+//! Combinations of bodies, measures, enforcements, laws and steppers.
 
 pub mod cell;
 mod table;
@@ -96,7 +96,7 @@ fn closing(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// All of them in these kinematics.
 ///
 /// # Errors
-/// When a run cannot be set up after its plan was accepted.
+/// If a run cannot be set up after its plan was accepted.
 pub fn everything(ledger: &mut Ledger, kinematics: &[Kinematics]) -> Result<(), CaseError> {
     let mut cells = Vec::new();
     for &kinematics in kinematics {

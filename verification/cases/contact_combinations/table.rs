@@ -47,7 +47,7 @@ impl Table {
     /// Runs combinations with both steppers. Combinations that differ in the law alone stand side by side.
     ///
     /// # Errors
-    /// When a run cannot be set up after its plan was accepted.
+    /// If a run cannot be set up after its plan was accepted.
     pub fn of(cells: &[Cell]) -> Result<Self, CaseError> {
         let done = AtomicUsize::new(0);
         let both = |cell: &Cell| {

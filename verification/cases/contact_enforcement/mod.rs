@@ -62,7 +62,7 @@ impl Exact {
     }
 }
 
-/// What a run found.
+/// Findings of a run.
 struct Found {
     report: RunReport,
     cost: Cost,

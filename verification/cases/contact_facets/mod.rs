@@ -96,7 +96,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// What became of the force along the way.
+/// Course of the force along the way.
 struct Way {
     /// Root of the mean square of friction across the way, over mu N.
     across: f64,

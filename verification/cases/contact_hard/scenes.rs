@@ -105,7 +105,7 @@ pub struct Done {
     pub scene: String,
     /// Report.
     pub report: RunReport,
-    /// What was recorded.
+    /// Record.
     pub record: Recorder,
     /// Cost.
     pub cost: Cost,

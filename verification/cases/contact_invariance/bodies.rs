@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-/// What is done to all places and displacements: `x -> size Q x`.
+/// Transformation of all places and displacements: `x -> size Q x`.
 #[derive(Clone, Copy, Debug)]
 pub struct Change {
     /// As claims call it.

@@ -34,7 +34,7 @@ const ENFORCEMENTS: [(&str, &str); 3] = [
     ("unknowns", "{ kind = \"augmented-lagrangian\", normal = \"1 E/h\", tangential = \"1 E/h\" }"),
 ];
 
-/// What must not change: normal tractions, shear tractions and forces of a run, each over the largest.
+/// Invariants: normal tractions, shear tractions and forces of a run, each over the largest.
 const BOUND: f64 = 1e-10;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {

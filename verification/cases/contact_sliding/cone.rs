@@ -47,7 +47,7 @@ pub(super) fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// What the contact pushes outwards the hoop stress holds: R = 2 pi times the integral of s_zz over the section.
+/// Force that the contact pushes outwards and the hoop stress holds: R = 2 pi times the integral of s_zz over the section.
 fn hoop(
     ledger: &mut Ledger,
     name: &str,

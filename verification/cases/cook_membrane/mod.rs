@@ -201,7 +201,7 @@ fn covers(variant: &Variant, (kind, formulation): (ElementKind, Formulation)) ->
     covers
 }
 
-/// Whether the regular and the singular part of the error at (48, 52) have opposite signs and cancel on one of the meshes: then
+/// True if the regular and the singular part of the error at (48, 52) have opposite signs and cancel on one of the meshes: then
 /// neither an order nor an estimate from two meshes means anything there.
 fn cancels(variant: &Variant, element: (ElementKind, Formulation)) -> bool {
     variant.poisson > 0.49 && element == (ElementKind::Quad8, Formulation::BBar)

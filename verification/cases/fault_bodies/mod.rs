@@ -324,7 +324,7 @@ fn on_arc(along: f64) -> f64 {
     (1.0 - ((along - 8e3) / 6e3).powi(2)).max(0.0).powi(3)
 }
 
-/// How far the sides are from the arc \[m\].
+/// Distance of the sides from the arc \[m\].
 const FAR: f64 = 1e6;
 
 /// A fault that is an arc from upright at the surface to a dip of 45 degrees, of as many straight cells, in plane strain; its trace has a

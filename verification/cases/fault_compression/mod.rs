@@ -132,7 +132,7 @@ fn products(ledger: &mut Ledger, name: &str, dense: &Plan, compressed: &Plan, co
     }
 }
 
-/// How the operator of a plan is kept.
+/// Storage of the operator of a plan.
 fn kept(plan: &Plan) -> String {
     plan.problem.fault.operator.words()
 }

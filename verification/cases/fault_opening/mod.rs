@@ -31,9 +31,9 @@ const SHEAR_MODULUS: f64 = 32e9;
 const A: f64 = 1000.0;
 /// Half size of the plate over that: its sides, which are held, change openings by some of the square of the inverse.
 const FAR: f64 = 200.0;
-/// What pulls at the end, less what presses in the middle of the fault at the start \[Pa\].
+/// Pull at the end, less the pressure in the middle of the fault at the start \[Pa\].
 const PULL: f64 = 10e6;
-/// What presses in the middle at the start \[Pa\].
+/// Pressure in the middle at the start \[Pa\].
 const PRESSED: f64 = 1e6;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -173,7 +173,7 @@ fn pull(time: f64) -> f64 {
     (PULL + PRESSED) * time / seas::YEAR - PRESSED
 }
 
-/// What a plate came to.
+/// Results of a plate.
 struct Pulled {
     /// Of its points, from the middle of the fault \[m\].
     at: Vec<f64>,
@@ -185,7 +185,7 @@ struct Pulled {
     fronts: Vec<(f64, f64)>,
     /// Work on openings \[J/m\].
     work: f64,
-    /// What the budget of energy lacks.
+    /// Imbalance of the energy budget.
     imbalance: f64,
     cost: Cost,
 }
@@ -208,6 +208,7 @@ fn pulled(plan: &Plan) -> Result<Pulled, CaseError> {
         Control::Go
     };
     let (out, cost) = Cost::of(|| plan.problem.run(&plan.problem.settings, &mut look));
+    let out = out?;
     if out.outcome != Outcome::Completed {
         return Err(format!("{:?}", out.outcome).into());
     }
@@ -310,7 +311,7 @@ fn closes(ledger: &mut Ledger, what: &str, imbalance: f64, cost: &Cost) {
         .record();
 }
 
-/// What presses the fault grows with the square of the distance from its middle: the front of the crack is where it closes without a singularity.
+/// Pressure on the fault grows with the square of the distance from its middle: the front of the crack is where it closes without a singularity.
 fn smooth(ledger: &mut Ledger) -> Result<(), CaseError> {
     let exact = "(4 (1 - nu)/(3 G)) p a (1 - x^2/a^2)^(3/2), a^2 = A^2 p/P, where p - 2 P x^2/A^2 pulls: by Chebyshev polynomials";
     let mut levels = Vec::new();
@@ -380,6 +381,7 @@ fn events(text: &str, floor: f64, opens: bool) -> Result<Shallow, CaseError> {
         Control::Go
     };
     let (out, cost) = Cost::of(|| plan.problem.run(&plan.problem.settings, &mut look));
+    let out = out?;
     let report = Report::new(&plan, &out, &mut balance);
     if report.events.len() < 3 {
         return Err(format!("only {} events: {:?}", report.events.len(), out.outcome).into());

@@ -37,7 +37,7 @@ struct Blocks<'a> {
     wide: f64,
     /// `min` and `max` along the other axes.
     ends: &'a [[f64; 2]],
-    /// What says the sizes of cells: of the left and of the right block.
+    /// Keys of the sizes of cells: of the left and of the right block.
     cells: [&'a str; 2],
     /// More keys of the fault.
     fault: &'a str,

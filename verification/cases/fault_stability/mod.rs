@@ -2,9 +2,9 @@
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::{Equations, Layout, Moment, run as integrate};
+use asperity_cycles::{Equations, Layout, run as integrate};
 use asperity_driver::fault::Plan;
-use asperity_ode::{Clock, Control, Outcome, Problem};
+use asperity_ode::{Clock, Outcome, Problem};
 use asperity_vary::SceneText;
 use modes::Mode;
 use nalgebra::{Complex, Matrix2};
@@ -42,7 +42,7 @@ fn length() -> f64 {
     2.0 * WIDTH / CRITICAL as f64 * NORMAL * (B - A) / (PI * SHEAR_MODULUS)
 }
 
-/// What a scene differs in.
+/// Differences of a scene.
 #[derive(Clone, Copy)]
 struct Variant {
     size: f64,
@@ -391,13 +391,8 @@ fn flow(variant: &Variant) -> Result<Vec<Flow>, CaseError> {
             let seed = sign * SEED * scale(&plan, column);
             start[parts[column].clone()].iter_mut().zip(&mode.shape).for_each(|(y, c)| *y += seed * c);
         }
-        let out = integrate(
-            &plan.problem.fault,
-            &plan.problem.loading,
-            start,
-            &plan.problem.settings,
-            &mut |_: &Moment<'_>| Control::Go,
-        );
+        let out =
+            integrate(&plan.problem.fault, &plan.problem.loading, start, &plan.problem.settings, &mut ())?;
         match out.outcome {
             Outcome::Completed => Ok(out.unknowns),
             other => Err(format!("the integration ended early: {other:?}").into()),

@@ -25,7 +25,7 @@ const EXACT: f64 = 1e-11;
 /// Newton's steps at most; from the last rate a few suffice.
 const MOST: usize = 100;
 
-/// What slip does to tractions.
+/// Tractions caused by slip.
 enum Elastic<'a> {
     /// A spring of stiffness G/W in both directions, drawn at these rates \[m/s\].
     Spring([f64; 2]),
@@ -42,7 +42,7 @@ pub struct Fault<'a> {
     first: Vec<f64>,
     /// \[Pa s/m\].
     damping: f64,
-    /// That begin and end an event \[m/s\].
+    /// Thresholds of an event \[m/s\].
     thresholds: [f64; 2],
 }
 
@@ -126,10 +126,10 @@ impl<'a> Fault<'a> {
         log
     }
 
-    /// So many events from the start on.
+    /// Number of events from the start on.
     ///
     /// # Errors
-    /// Where they do not come.
+    /// If they do not come.
     pub fn events(&self, most: usize) -> Result<Vec<Slid>, CaseError> {
         let n = self.a.len();
         let options = Options {
@@ -138,6 +138,7 @@ impl<'a> Fault<'a> {
             // Slip of L and a state of one.
             atol: [vec![EXACT * L; 2 * n], vec![EXACT; n]].concat(),
             first_step: None,
+            begin_stiff: false,
             largest_step: None,
             most_steps: 10_000_000,
         };

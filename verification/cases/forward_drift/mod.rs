@@ -58,7 +58,7 @@ fn square(kinematics: Kinematics, limits: Limits, carry: bool) -> Result<(Body<2
     Ok((body, held))
 }
 
-/// What a run of forward steps showed.
+/// Results of a run of forward steps.
 #[derive(Default)]
 struct Run {
     /// Largest unbalanced force over the largest reaction, over the second half of the path.

@@ -137,6 +137,7 @@ fn stepped<E: Evolution>(
         rtol: tolerance,
         atol: vec![tolerance],
         first_step: None,
+        begin_stiff: false,
         largest_step: None,
         most_steps: 100_000,
     };

@@ -30,7 +30,7 @@ const PRESSURE: f64 = 2e6;
 const LEVELS: [(f64, f64); 4] = [(4.0, 1.5), (8.0, 1.225), (16.0, 1.107), (32.0, 1.052)];
 /// Room of the bound over the error that the last two levels let expect.
 const ROOM: f64 = 1.5;
-/// Where K_II is read off, distances from the tip \[m\]: far from it in cells, near it in half-lengths.
+/// Distances from the tip at which K_II is read off \[m\]: far from it in cells, near it in half-lengths.
 const NEAR: [f64; 2] = [0.02, 0.2];
 
 /// The closed crack.
@@ -405,7 +405,7 @@ fn comparison(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// What a box of finite width changes.
+/// Effect of a box of finite width.
 fn boxes(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut slips = Vec::new();
     for half in [5.0, 10.0, 20.0, 40.0] {
@@ -428,7 +428,7 @@ fn boxes(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// What the penalty changes.
+/// Effect of the penalty.
 fn penalties(ledger: &mut Ledger) -> Result<(), CaseError> {
     let h = 0.1;
     let mut levels = Vec::new();

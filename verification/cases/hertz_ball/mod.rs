@@ -147,7 +147,7 @@ impl Ball {
     }
 }
 
-/// What a run with cells of a/4.8 is held to.
+/// Bounds of a run with cells of a/4.8.
 fn claims(ledger: &mut Ledger, name: &str, capability: Capability, ball: &Ball) {
     let covers = [Capability::Hertz, Capability::Solid3d, Capability::Coulomb, capability];
     ledger

@@ -106,7 +106,7 @@ fn table(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// What is run, its peak and L2 bounds.
+/// Run, its peak and L2 bounds.
 fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mortar = |e: &str, sliding| -> Result<Scene, CaseError> {
         Ok(hertz::measured(hertz::with_element(scene(N)?, e), Measure::Mortar, sliding))

@@ -70,7 +70,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// What the finest mesh is held to.
+/// Bounds of the finest mesh.
 fn claims(
     ledger: &mut Ledger,
     name: &str,

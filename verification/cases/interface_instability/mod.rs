@@ -59,7 +59,7 @@ fn scene(spring: f64, law: &str, duration: f64, time: &[Change<'_>]) -> Result<S
     Ok(scene.text()?)
 }
 
-/// What the block feels: measured where friction holds it.
+/// Traction on the block: measured where friction holds it.
 struct System {
     /// f_n \[Pa\].
     normal: f64,

@@ -70,7 +70,7 @@ const SPACE: [Change<'_>; 6] = [
     ),
 ];
 
-/// What is varied, and whether tractions are values at nodes (coefficients of a field) or means over what nodes stand for.
+/// Variations, and whether tractions are values at nodes (coefficients of a field) or means over what nodes stand for.
 const PLANE: [(&str, Changes, bool); 14] = [
     ("node-to-point", &[], false),
     ("node-to-point, finite sliding", &[FINITE], false),
@@ -102,7 +102,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     as_pressed_by_loads(ledger)
 }
 
-/// What moves at rest.
+/// Parts that move at rest.
 struct Rest {
     /// Largest displacement \[m\].
     moved: f64,

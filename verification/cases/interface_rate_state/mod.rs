@@ -357,7 +357,7 @@ fn reference(kind: Kind, stiffness: f64, done: &Done) -> Result<Vec<f64>, CaseEr
     let mut plan = slack(kind, stiffness, History::table(table)?, from)?;
     plan.output = Rows { change: None, times, interval: None, histories: None };
     let mut friction = Vec::new();
-    let mut look = |_: &Problem, now: &Now<'_>| {
+    let mut look = |now: &Now<'_>| {
         if now.asked {
             friction.push(now.conditions[0].friction);
         }

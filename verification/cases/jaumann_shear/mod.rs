@@ -229,6 +229,7 @@ fn integrated(modulus: f64, gamma: f64) -> Result<Pair, CaseError> {
         rtol: TIGHT,
         atol: vec![TIGHT; 2],
         first_step: None,
+        begin_stiff: false,
         largest_step: None,
         most_steps: 100_000,
     };

@@ -90,7 +90,7 @@ fn refine_in_time(ledger: &mut Ledger) -> Result<Run, CaseError> {
     Ok(fine)
 }
 
-/// What every point tends to.
+/// Limit of every point.
 fn late_time(ledger: &mut Ledger, fine: &Run) -> Result<(), CaseError> {
     let end = fine.end("shear")?;
     let steady = MU0 + A * (V_LOAD / 1e-6_f64).ln();

@@ -3,10 +3,9 @@
 use crate::cases::seas::{self, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_cycles::operator::Dense;
-use asperity_cycles::{Event, Loading, Moment, run as integrate};
+use asperity_cycles::{Event, Loading, run as integrate};
 use asperity_driver::fault::Plan;
 use asperity_fem::table::Table;
-use asperity_ode::Control;
 use asperity_vary::SceneText;
 
 /// See the README.
@@ -252,8 +251,7 @@ fn slider(plan: &mut Plan) -> Result<Vec<f64>, CaseError> {
         vec![mean(plan, &press); n],
     );
     plan.problem.fault.operator = Box::new(operator);
-    let mut go = |_: &Moment<'_>| Control::Go;
-    let out =
-        integrate(&plan.problem.fault, &loading, plan.problem.start.clone(), &plan.problem.settings, &mut go);
+    let (fault, start) = (&plan.problem.fault, plan.problem.start.clone());
+    let out = integrate(fault, &loading, start, &plan.problem.settings, &mut ())?;
     Ok(out.catalogue.events().iter().map(|e| e.onset.seconds()).collect())
 }

@@ -170,7 +170,7 @@ fn later_events(ledger: &mut Ledger, found: &Found) {
         .record();
 }
 
-/// What the default leaves, beside other methods at the same tolerance; the case `seas_bp1_methods` has all.
+/// Errors of the default, beside other methods at the same tolerance; the case `seas_bp1_methods` has all.
 fn methods(ledger: &mut Ledger, plan: &Plan, default: &Found) -> Result<(), CaseError> {
     let reference = found(plan, Method::Dop853, 1e-8, |_| {})?;
     let exact = reference.onsets[EVENTS - 1];
@@ -199,7 +199,7 @@ fn nearer(scene: SceneText) -> SceneText {
         .with(&mesh("max[0]"), "4000 km")
 }
 
-/// How far the far borders lie: half as far, first event and first interval change as they would three times over from twice as far on,
+/// Distance of the far borders: half as far, first event and first interval change as they would three times over from twice as far on,
 /// since the influence falls with the square of the distance.
 fn far_field(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut runs = Vec::new();

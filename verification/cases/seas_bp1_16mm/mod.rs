@@ -23,11 +23,11 @@ pub struct Law {
     pub onsets: [f64; 2],
     /// Largest slip rates \[m/s\].
     peaks: [f64; 2],
-    /// What that leaves \[yr\].
+    /// Error left by that \[yr\].
     pub uncertainty: f64,
 }
 
-/// How the limit is found.
+/// Way of finding the limit.
 const LIMIT: &str =
     "cells of 156, 78 and 39 m by dop853 with a tolerance of 1e-6, extrapolated (case `seas_bp1_16mm_limit`)";
 
@@ -52,7 +52,7 @@ pub const LAWS: [Law; 2] = [
 /// The scene of a law with this L and cells of `size` \[m\].
 ///
 /// # Errors
-/// When the scene lacks a key that is varied.
+/// If the scene lacks a key that is varied.
 pub fn text(law: &Law, size: f64) -> Result<String, CaseError> {
     let scene = SceneText::new(law.scene).with("faults.main.law.l", "16 mm");
     Ok(sized(scene, size, AT_CREEP / SIZE * size).text()?)

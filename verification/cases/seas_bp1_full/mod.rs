@@ -25,7 +25,7 @@ const TIGHT: f64 = 1e-8;
 /// Cells of this size \[m\], of twice that at 40 km.
 ///
 /// # Errors
-/// What the reader or the plan refuse.
+/// Refusals of the reader or the plan.
 pub fn plan(size: f64) -> Result<Plan, CaseError> {
     let mut plan = seas::plan(&sized(SceneText::new(BP1), size, 2.0 * size).text()?)?;
     (plan.problem.settings.thresholds.on, plan.problem.settings.thresholds.off) = (1e-3, 0.999e-3);
@@ -105,7 +105,7 @@ fn peak(found: &Found) -> f64 {
     found.events[STEADY..].iter().map(|e| e.peak).sum::<f64>() / (found.events.len() - STEADY) as f64
 }
 
-/// What [`row`] has.
+/// Columns of [`row`].
 pub const HEAD: [&str; 10] = [
     "cells [m]",
     "points",

@@ -10,7 +10,7 @@ use std::time::Instant;
 
 /// Wall time after which such a method is broken off \[s\]: some thirty times what the default needs to the third event.
 const LIMIT: f64 = 60.0;
-/// How much longer they take than the default at least.
+/// Least factor by which they take longer than the default.
 const SLOWER: f64 = 5.0;
 
 /// The equations with a Jacobian by differences.
@@ -49,7 +49,7 @@ struct Follow<'a> {
     rate: Vec<f64>,
     /// Onsets so far \[yr\], to the end of the step.
     onsets: Vec<f64>,
-    /// Whether an event goes on.
+    /// True if an event goes on.
     within: bool,
     clock: Instant,
     limit: f64,
@@ -75,7 +75,7 @@ impl Sink for Follow<'_> {
     }
 }
 
-/// How far a method came, with its trace.
+/// Errors of a method along the run, with its trace.
 struct Reached {
     row: [String; 9],
     trace: Vec<(f64, f64)>,
@@ -101,6 +101,7 @@ fn reach(plan: &Plan, method: Method, limit: f64) -> Reached {
         rtol: 1e-15,
         atol: watched.tolerances(plan.problem.settings.tolerance),
         first_step: None,
+        begin_stiff: false,
         largest_step: None,
         most_steps: 100_000,
     };

@@ -2,9 +2,8 @@
 
 use crate::cases::seas::{self, YEAR};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_cycles::Moment;
 use asperity_driver::fault::Plan;
-use asperity_ode::{Control, Method, Outcome};
+use asperity_ode::{Method, Outcome};
 use asperity_vary::bp1::BP1;
 use std::time::Instant;
 
@@ -30,10 +29,10 @@ const OF_SPLITTING: usize = 7;
 /// Errors of the third onset \[yr\] at which costs are compared: half of what cells of 78 m leave, what the default's tolerance leaves, and a
 /// fifth of that.
 const MARKS: [f64; 3] = [0.05, 0.012, 0.0024];
-/// What the default method may need at most over the best one at a mark.
+/// Cost of the default method over that of the best one at a mark, at most.
 const FACTOR: f64 = 1.25;
 
-/// What a setting gave.
+/// Result of a setting.
 struct Setting {
     tolerance: f64,
     onsets: Vec<f64>,
@@ -103,8 +102,7 @@ fn setting(plan: &Plan, method: Method, tolerance: f64) -> Result<Result<Setting
     let mut settings = plan.problem.settings;
     (settings.method, settings.tolerance) = (method, tolerance);
     let clock = Instant::now();
-    let mut watch = |_: &Moment<'_>| Control::Go;
-    let out = plan.problem.run(&settings, &mut watch);
+    let out = plan.problem.run(&settings, &mut ())?;
     let wall = clock.elapsed().as_secs_f64();
     if let Outcome::Failed { reason } = out.outcome {
         return Ok(Err(reason.to_string()));

@@ -46,7 +46,7 @@ impl Sense {
 /// A dip in degrees and a sense of slip.
 pub type Faulting = (f64, Sense);
 
-/// What the second implementation calls it.
+/// Name in the second implementation.
 #[must_use]
 pub fn problem((dip, sense): Faulting) -> String {
     format!("bp3:{dip}:{}", sense.name())
@@ -55,7 +55,7 @@ pub fn problem((dip, sense): Faulting) -> String {
 /// Depth of the bottom and distance of the sides \[km\].
 pub const FAR: f64 = 4000.0;
 
-/// How fast cells of the body grow away from the fault: cells beside a fault that is not upright are sheared, and growth by 1.25 moves
+/// Growth of cells of the body away from the fault: cells beside a fault that is not upright are sheared, and growth by 1.25 moves
 /// the first onset at a dip of 30 degrees by 0.10 yr, by 1.12 by 0.01 yr (against 1.06); at 90 degrees neither does.
 const GROWTH: f64 = 1.12;
 
@@ -94,7 +94,7 @@ fn text((dip, sense): Faulting, size: f64, far: f64) -> Result<String, CaseError
 /// The plan of a dip and sense, cells of `size` \[m\] and borders at `far` \[km\].
 ///
 /// # Errors
-/// What the reader or the plan refuse.
+/// Refusals of the reader or the plan.
 pub fn plan(faulting: Faulting, size: f64, far: f64) -> Result<Plan, CaseError> {
     seas::plan(&text(faulting, size, far)?)
 }
@@ -105,11 +105,11 @@ fn found(plan: &Plan, events: usize, look: impl FnMut(&Moment<'_>)) -> Result<Fo
     seas::found(plan, &settings, look)
 }
 
-/// What dips are compared with.
+/// Reference of the dips.
 pub const CODES: &str = "boundary-element codes of the benchmark, cells of 25 m";
 /// Size of cells of the second implementation \[m\].
 pub const THEIRS: f64 = 39.0625;
-/// What cells of 156 m leave of a first onset here, and those of 39 m there \[yr\].
+/// Error of a first onset with cells of 156 m here, and of 39 m there \[yr\].
 const FIRST: f64 = 0.1;
 const UNSURE: f64 = 0.05;
 /// Share of the period that its cells leave: it grows by 0.045 % from 78 to 39 m.
@@ -181,7 +181,7 @@ fn dipping(ledger: &mut Ledger, dip: f64, onset: f64, spread: f64) -> Result<(),
 /// The first onset against the second implementation.
 ///
 /// # Errors
-/// Where that has no such run.
+/// If that has no such run.
 pub fn first(ledger: &mut Ledger, faulting: Faulting, size: f64, found: &Found) -> Result<(), CaseError> {
     let (dip, sense) = faulting;
     ledger

@@ -15,7 +15,7 @@ pub const CASE: Case = Case {
 
 /// Sizes of cells \[m\].
 const SIZES: [f64; 2] = [156.25, 78.125];
-/// What is integrated.
+/// The problem to integrate.
 const FAULTS: [Faulting; 5] = [
     (90.0, Sense::Thrust),
     (60.0, Sense::Thrust),
@@ -59,7 +59,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// What [`row`] has.
+/// Columns of [`row`].
 pub const HEAD: [&str; 9] = [
     "fault",
     "cells [m]",
@@ -75,7 +75,7 @@ pub const HEAD: [&str; 9] = [
 /// A fault through 1500 years with cells of `size` \[m\].
 ///
 /// # Errors
-/// Where the integration fails.
+/// If the integration fails.
 pub fn integrate(fault: Faulting, size: f64) -> Result<Cycles, CaseError> {
     let mut plan = plan(fault, size, FAR)?;
     plan.problem.settings.most_events = None;
@@ -145,7 +145,7 @@ fn against_second(ledger: &mut Ledger, fault: Faulting, fine: &Cycles) -> Result
     Ok(())
 }
 
-/// What codes of the benchmark agree on: the first event.
+/// Agreement of codes of the benchmark: the first event.
 fn against_codes(ledger: &mut Ledger, fault: Faulting, fine: &Cycles) {
     let found = &fine.found;
     let first = match fault {
@@ -173,7 +173,7 @@ fn against_codes(ledger: &mut Ledger, fault: Faulting, fine: &Cycles) {
 /// Dip 90: one period, and normal tractions that stay.
 ///
 /// # Errors
-/// Where the second implementation has no such run.
+/// If the second implementation has no such run.
 pub fn vertical(ledger: &mut Ledger, size: f64, cycles: &Cycles) -> Result<(), CaseError> {
     let there = seas::independent("bp3:90:thrust", THEIRS)?;
     let mean =

@@ -17,7 +17,7 @@ pub const CASE: Case = Case {
 
 /// The independent implementation.
 const SOURCE: &str = "verification/independent/bp6.py: boundary elements of 25 m, slip rates from the balance of tractions, scipy's DOP853";
-/// When the injection ends \[s\].
+/// End of the injection \[s\].
 const OFF: f64 = 100.0 * 86400.0;
 /// After this time the width √(4αt) of a change, 590 m, is several cells \[s\].
 const SPREAD: f64 = 10.0 * 86400.0;
@@ -50,7 +50,7 @@ fn half(scene: &str, size: f64) -> Result<Plan, CaseError> {
     seas::plan(&scene.text()?)
 }
 
-/// What a run showed.
+/// Results of a run.
 #[derive(Default)]
 struct Seen {
     /// Slip of all points when the injection ends, and at the end \[m\].

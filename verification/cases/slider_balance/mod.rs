@@ -36,7 +36,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Runs a problem under observation.
 fn observed(problem: &Problem) -> Result<(Run, Energy, Cost), CaseError> {
-    let (run, cost) = Cost::of(|| integrate(problem, &mut |_: &Problem, _: &Now<'_>| ()));
+    let (run, cost) = Cost::of(|| integrate(problem, &mut |_: &Now<'_>| ()));
     let run = run?;
     if let Outcome::Failed { reason } = &run.outcome {
         return Err(format!("failed at {:e} s: {reason}", run.at.seconds()).into());

@@ -2,7 +2,7 @@
 
 use super::slider::{self, Independent, Kind, Set};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_cycles::slider::{self as cycles, Event, Now, Problem};
+use asperity_cycles::slider::{self as cycles, Event, Now};
 use asperity_driver::slider::Report;
 use asperity_ode::Method;
 
@@ -181,7 +181,7 @@ fn picture(ledger: &mut Ledger) -> Result<(), CaseError> {
         slider::events(&mut plan, 3);
         plan.tolerance = cycles::DEFAULT_TOLERANCE;
         let mut curve = Vec::new();
-        let mut look = |_: &Problem, now: &Now<'_>| curve.push((now.at.seconds(), now.conditions[0].rate));
+        let mut look = |now: &Now<'_>| curve.push((now.at.seconds(), now.conditions[0].rate));
         let run = cycles::run(&plan, &mut look)?;
         let recurrence = run.catalogue.events.last().and_then(|e| e.interval).ok_or("no recurrence")?;
         let scaled: Vec<(f64, f64)> = curve.iter().map(|(t, v)| (t / recurrence, *v)).collect();

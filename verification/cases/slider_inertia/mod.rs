@@ -34,7 +34,7 @@ const MOST_STEPS: usize = 200_000;
 const EACH: usize = 17;
 /// Error of the interval at which work is compared: what the default leaves.
 const TARGET: f64 = 1e-8;
-/// What the default may need at most, in units of the best method of each set.
+/// Cost of the default at most, in units of the best method of each set.
 const ALWAYS: f64 = 1.5;
 
 /// A slider with a mass.
@@ -175,7 +175,7 @@ fn independent(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// What the default makes of a set.
+/// Results of the default for a set.
 #[derive(Debug, Default)]
 struct Errors {
     /// Tolerances at which it does not come to its end.

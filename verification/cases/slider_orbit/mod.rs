@@ -71,7 +71,7 @@ fn orbit(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> 
     let steady = slider::MU0;
     let first = conserved(&set, KICK, set.a * KICK);
     let (mut drift, mut curve): (f64, Vec<(f64, f64)>) = (0.0, Vec::new());
-    let mut look = |_: &Problem, now: &Now<'_>| {
+    let mut look = |now: &Now<'_>| {
         let c = now.conditions[0];
         let (x, f) = (c.log_rate - set.load.ln(), c.friction - steady);
         drift = drift.max((conserved(&set, x, f) / first - 1.0).abs());
@@ -141,7 +141,7 @@ const PIECE: usize = 20;
 /// bare form ends. The motion depends on differences of friction only.
 const HIGH: f64 = 4.0;
 
-/// Whether the slider runs away from a kick: before it turns, it is out of sight.
+/// True if the slider runs away from a kick: before it turns, it is out of sight.
 fn runs_away(set: &Set, kick: f64) -> Result<bool, CaseError> {
     let mut plan = plan(set, HIGH, kick, 200.0 * set.length / set.load)?;
     (plan.tolerance, plan.peaks, plan.most_events) = (1e-12, true, Some(1));
@@ -151,7 +151,7 @@ fn runs_away(set: &Set, kick: f64) -> Result<bool, CaseError> {
         let on = set.load * (level as f64).exp();
         plan.events = Some(Thresholds { on, off: 0.5 * on });
         let (mut turned, mut reached) = (false, None);
-        let mut look = |_: &Problem, now: &Now<'_>| {
+        let mut look = |now: &Now<'_>| {
             turned |= now.conditions[0].log_rate < turning;
             if reached.is_none() && now.conditions[0].rate >= on * (1.0 - 1e-9) {
                 reached = Some(now.unknowns.to_vec());

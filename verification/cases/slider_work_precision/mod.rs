@@ -20,7 +20,7 @@ pub const CASE: Case = Case {
 const MOST_STEPS: usize = 60_000;
 /// Errors at which methods are compared, over the recurrence.
 const TARGETS: [f64; 2] = [1e-8, 1e-10];
-/// What the default may need at most, in units of the best method: no more is lost by not knowing which that is.
+/// Cost of the default at most, in units of the best method: no more is lost by not knowing which that is.
 const ALWAYS: f64 = 1.5;
 
 /// A setting: error in the time of the last event, in its peak, wall time, work in right-hand sides.
@@ -32,7 +32,7 @@ struct Point {
     work: f64,
 }
 
-/// What a method gave.
+/// Result of a method.
 struct Curve {
     method: Method,
     points: Vec<Point>,
@@ -203,7 +203,7 @@ fn judge(ledger: &mut Ledger, cycles: &[Vec<Curve>]) {
     }
 }
 
-/// What the defaults of scenes give.
+/// Results of the defaults of scenes.
 fn defaults(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (name, set) in [
         ("mild", slider::MILD),

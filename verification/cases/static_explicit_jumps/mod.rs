@@ -32,7 +32,7 @@ const WEIGHT: f64 = 2700.0 * 9.81;
 const HELD: &str = "{ set = \"column.left\", symmetry = true }, { set = \"column.right\", symmetry = true }, \
                     { set = \"column.bottom\", symmetry = true }";
 
-/// What acts on a column, and the displacement of its upper edge \[m\].
+/// Tractions on a column, and the displacement of its upper edge \[m\].
 struct Jump {
     name: &'static str,
     body: &'static [Change<'static>],

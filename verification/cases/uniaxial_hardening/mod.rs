@@ -80,7 +80,7 @@ impl<'a> Bar<'a> {
     }
 }
 
-/// What [`stretched`] returns.
+/// Result of [`stretched`].
 type Stretched = (Vec<Vec<[f64; 2]>>, f64, Work);
 
 /// A run of one idealisation.

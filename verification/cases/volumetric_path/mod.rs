@@ -51,7 +51,7 @@ fn stretched(axes: [f64; 3], steps: usize) -> Result<([f64; 6], f64, Work), Case
     Ok((stresses[0], spread, body.work))
 }
 
-/// What n steps to `STRETCH` miss of the logarithmic strain, relative: each dl^3/(12 l^3).
+/// Error of n steps to `STRETCH` in the logarithmic strain, relative: each dl^3/(12 l^3).
 fn missed(steps: usize) -> f64 {
     let d = (STRETCH - 1.0) / steps as f64;
     // Sum of d^3/(12 l^3), as an integral: d^2/24 (1 - 1/l^2).

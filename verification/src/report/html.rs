@@ -215,7 +215,7 @@ fn claim_row(judged: &Judged) -> String {
     )
 }
 
-/// What the bound is measured in, where it is not the unit of the value.
+/// Unit of the bound, where it is not the unit of the value.
 fn scale(test: &Test) -> &'static str {
     match test {
         Test::Relative { .. } => "<div class=\"small\">relative</div>",

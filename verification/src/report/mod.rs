@@ -11,7 +11,7 @@ use provenance::Provenance;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Why a report could not be written.
+/// Reason why a report could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// A file or folder.
@@ -19,7 +19,7 @@ pub enum ReportError {
     Write {
         /// Which.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         source: std::io::Error,
     },
     /// A plot.
@@ -29,7 +29,7 @@ pub enum ReportError {
         case: &'static str,
         /// Title of the plot.
         title: String,
-        /// Why.
+        /// Reason.
         source: svg::SvgError,
     },
     /// Encoding.
@@ -40,7 +40,7 @@ pub enum ReportError {
 /// Writes the whole report into `folder`, replacing the pages of an earlier one.
 ///
 /// # Errors
-/// When a file cannot be written or a plot not drawn.
+/// If a file cannot be written or a plot not drawn.
 pub fn write(folder: &Path, outcomes: &[Outcome], run: &Provenance) -> Result<(), ReportError> {
     let pages = folder.join("cases");
     if pages.exists() {

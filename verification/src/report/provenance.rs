@@ -1,4 +1,4 @@
-//! Where and when a report was made: the machine-dependent facts, kept under one key.
+//! Provenance of a report: the machine-dependent facts, kept under one key.
 
 use serde::Serialize;
 use std::process::Command;
@@ -11,13 +11,13 @@ pub struct Provenance {
     pub version: String,
     /// Commit of the sources, with `+` when they were changed; empty outside a repository.
     pub commit: String,
-    /// When it ended, UTC.
+    /// Time of its end, UTC.
     pub date: String,
     /// System and processor.
     pub machine: String,
     /// Threads available.
     pub threads: usize,
-    /// Whether the long cases ran, too.
+    /// True if the long cases ran, too.
     pub full: bool,
     /// Wall time of the whole \[s\].
     pub wall: f64,

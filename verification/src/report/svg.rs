@@ -7,7 +7,7 @@ use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::prelude::*;
 use std::sync::OnceLock;
 
-/// Why a plot could not be drawn.
+/// Reason why a plot could not be drawn.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SvgError {
     /// The embedded font was refused.
@@ -37,7 +37,7 @@ const COLOURS: [RGBColor; 7] = [
 /// A plot as an SVG element.
 ///
 /// # Errors
-/// When the drawing library fails.
+/// If the drawing library fails.
 pub fn draw(plot: &Plot) -> Result<String, SvgError> {
     register_font()?;
     let mut text = String::new();

@@ -16,7 +16,7 @@ use asperity_fem::jump::{Jump, Jumps, ObliqueConstraint};
 use asperity_fem::multifrontal::DirectError;
 use asperity_fem::table::Table;
 
-/// What slip does, component by component.
+/// Tractions caused by slip, component by component.
 #[derive(Debug)]
 pub enum Tractions {
     /// Slip along one direction.
@@ -63,7 +63,7 @@ pub struct Surroundings {
 /// condensation, far above 1e-16 and far below any effect of geometry.
 const UNCOUPLED: f64 = 1e-9;
 
-/// What acts on the bodies.
+/// Loads and supports of the bodies.
 #[derive(Clone, Debug)]
 pub struct Loads {
     /// Motions and loads.
@@ -72,11 +72,11 @@ pub struct Loads {
     pub springs: Vec<Spring>,
     /// Nodal forces of the weight of the bodies, which is there before the start.
     pub weight: Vec<(usize, f64)>,
-    /// When the run ends \[s\].
+    /// End of the run \[s\].
     pub end: f64,
 }
 
-/// How to condense.
+/// Options of the condensation.
 #[derive(Clone, Copy, Debug)]
 pub struct Conditions {
     /// Components of displacement.
@@ -85,7 +85,7 @@ pub struct Conditions {
     pub tangents: usize,
     /// Memory it may take \[bytes\].
     pub memory: usize,
-    /// Whether to keep the bodies, for their displacements.
+    /// True if to keep the bodies, for their displacements.
     pub keep: bool,
 }
 
@@ -213,7 +213,7 @@ fn weight(loads: &Loads) -> Channel {
     Channel { prescribed: Vec::new(), forces: loads.weight.clone(), amplitude: Table::constant(0.0) }
 }
 
-/// What elimination leaves of the bodies.
+/// Result of the elimination of the bodies.
 enum Left {
     /// Condensed forces only.
     Alone(Remainder),
@@ -288,15 +288,15 @@ fn admit(needed: usize, allowed: usize, equations: usize) -> Result<(), FemError
     if needed <= allowed { Ok(()) } else { Err(DirectError::Memory { needed, allowed, equations }.into()) }
 }
 
-/// What forces of a point act on.
+/// Places that the forces of a point act on.
 #[derive(Clone, Copy, Debug)]
 struct Bearing {
     /// Tributary area \[m²; m per metre of thickness\].
     area: f64,
-    /// Whether its normal traction stays: supports that hold both sides against the opening take what changes of its force, or the scene
+    /// True if its normal traction stays: supports that hold both sides against the opening take what changes of its force, or the scene
     /// says so.
     keeps: bool,
-    /// Whether it opens where nothing presses it.
+    /// True if it opens where nothing presses it.
     opens: bool,
 }
 
@@ -311,7 +311,7 @@ impl Bearing {
     }
 }
 
-/// What an error of the condensation says of the bodies.
+/// Words of an error of the condensation about the bodies.
 fn refused<const C: usize>(jumps: &Jumps<C>, error: &FemError) -> Refusal {
     if let FemError::Direct(DirectError::Memory { needed, allowed, .. }) = *error {
         return Refusal::Memory { needed, allowed, points: jumps.list().len() };
@@ -322,7 +322,7 @@ fn refused<const C: usize>(jumps: &Jumps<C>, error: &FemError) -> Refusal {
     Refusal::Loose { dof, jumps: jumps.list().iter().any(|j| j.plus / C == node) }
 }
 
-/// What the condensation onto so many points of displacements with `components`, some of which may open, takes at least \[bytes\]: what is left of the bodies, and
+/// Memory that the condensation onto so many points of displacements with `components`, some of which may open, takes at least \[bytes\]: the condensed operators, and
 /// the operator that is made of it.
 #[must_use]
 pub fn least_bytes(components: usize, tangents: usize, points: usize, opening: usize) -> usize {
@@ -404,7 +404,7 @@ fn tractions<const C: usize>(
     Surroundings { operator, opening, loading, creep, weight, bytes: 0, bodies: None }
 }
 
-/// What openings of these points do, where there are any, from the normal and the shear tractions of all points that each of them causes.
+/// Effect of openings of these points, where there are any, from the normal and the shear tractions of all points that each of them causes.
 fn opening(points: Vec<usize>, bearings: &[Bearing], [normal, shear]: [Vec<Vec<f64>>; 2]) -> Option<Opening> {
     if points.is_empty() {
         return None;

@@ -7,6 +7,7 @@ use asperity_fem::condense::Stiffness;
 use asperity_fem::dof::Channel;
 use asperity_fem::jump::{Jump, Jumps};
 use asperity_fem::table::Table;
+use asperity_fem::term::Blocks;
 
 /// Degrees of freedom that move as one, drawn by a spring.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +36,7 @@ impl<'a> Machine<'a> {
         Self { springs, ties: Jumps::new(ties.collect()) }
     }
 
-    /// Whether a spring moves this degree of freedom.
+    /// True if a spring moves this degree of freedom.
     pub fn draws(&self, dof: usize) -> bool {
         self.springs.iter().any(|s| s.dofs.contains(&dof))
     }
@@ -43,14 +44,15 @@ impl<'a> Machine<'a> {
     /// Stiffness with the sides moving as one, and that of the springs.
     pub fn stiffness(&self, body: Stiffness) -> Stiffness {
         let mut all = if self.ties.list().is_empty() { body } else { self.ties.stiffness(&body) };
+        let mut cells = Blocks::default();
+        cells.append(all.pattern);
         for spring in self.springs {
             if let Some(&first) = spring.dofs.first() {
-                all.pattern.dofs.push(first);
-                all.pattern.starts.push(all.pattern.dofs.len());
+                cells.push([first]);
                 all.values.push(spring.stiffness);
             }
         }
-        all
+        Stiffness { pattern: cells.into(), ..all }
     }
 
     /// The sides that move as one.
@@ -71,7 +73,7 @@ impl<'a> Machine<'a> {
         self.ties.channel(channel, &[]).map_err(|e| e.to_string())
     }
 
-    /// What the springs pull with until `end` \[s\].
+    /// Mean rates of the pull of the springs until `end` \[s\].
     pub fn pulls(&self, end: f64) -> impl Iterator<Item = Channel> {
         self.springs.iter().filter_map(move |spring| {
             let amplitude = Table::new(vec![0.0, end], vec![0.0, spring.rate * end]);

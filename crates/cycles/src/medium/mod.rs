@@ -1,4 +1,4 @@
-//! What surrounds sliding points: bodies condensed onto the points of faults, and springs between sliders.
+//! Surroundings of sliding points: bodies condensed onto the points of faults, and springs between sliders.
 
 mod bodies;
 mod condensed;

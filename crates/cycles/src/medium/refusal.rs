@@ -1,8 +1,8 @@
-//! Why bodies cannot be condensed onto faults.
+//! Reason why bodies cannot be condensed onto faults.
 
 use asperity_fem::FemError;
 
-/// Why bodies cannot be condensed onto faults. Points are numbers among those that were given.
+/// Reason why bodies cannot be condensed onto faults. Points are numbers among those that were given.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// A spring draws both sides of a point as one.
@@ -42,9 +42,9 @@ pub enum Refusal {
     /// The condensation needs more memory than is allowed.
     #[error("the condensation needs {needed} bytes, and {allowed} are allowed")]
     Memory {
-        /// What it needs \[bytes\].
+        /// Memory needed \[bytes\].
         needed: usize,
-        /// What is allowed \[bytes\].
+        /// Memory allowed \[bytes\].
         allowed: usize,
         /// Points of the faults.
         points: usize,
@@ -52,9 +52,9 @@ pub enum Refusal {
     /// A body moves without resistance.
     #[error("nothing holds degree of freedom {dof}")]
     Loose {
-        /// Where that was found.
+        /// Place where that was found.
         dof: usize,
-        /// Whether it is a component of a jump.
+        /// True if it is a component of a jump.
         jumps: bool,
     },
     /// Something else.

@@ -1,6 +1,7 @@
 //! Slip of the sliders from the tractions of their springs: `K u = k u_load - (T - T_0)`, sparse like the springs.
 
-use crate::slider::{Piece, Problem, RunError};
+use crate::error::RunError;
+use crate::slider::{Piece, Problem};
 use asperity_friction::slider::Condition;
 use asperity_ode::Clock;
 use faer::linalg::solvers::SolveCore;
@@ -20,19 +21,19 @@ pub(crate) struct Slips {
     travelled: Travelled,
 }
 
-/// How far what is prescribed had come when the present piece of the histories began.
+/// Progress of prescribed histories when the present piece of them began.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Travelled {
     /// Displacement of the load point \[m\].
     load: f64,
     /// Slip of the sliders whose rate is imposed \[m\].
     imposed: Vec<f64>,
-    /// When that was.
+    /// Time of that.
     entered: Clock,
 }
 
 impl Travelled {
-    /// So many sliders at time 0.
+    /// A number of sliders at time 0.
     pub fn nowhere(sliders: usize) -> Self {
         Self { load: 0.0, imposed: vec![0.0; sliders], entered: Clock::new(0.0, 0.0) }
     }

@@ -26,7 +26,7 @@ impl Cluster {
         (0..3).map(|c| (self.high[c] - self.low[c]).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// Whether the boxes lie at least as far apart as the smaller one is long: what slip in one does in the other is smooth.
+    /// True if the boxes lie at least as far apart as the smaller one is long: what slip in one does in the other is smooth.
     pub fn far_from(&self, other: &Self) -> bool {
         let gap = |c: usize| (self.low[c] - other.high[c]).max(other.low[c] - self.high[c]).max(0.0);
         let distance = (0..3).map(|c| gap(c).powi(2)).sum::<f64>().sqrt();

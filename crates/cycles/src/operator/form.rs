@@ -3,7 +3,7 @@
 use super::{Both, Dense, Geometry, Hierarchical, Operator};
 use crate::medium::Tractions;
 
-/// How an operator is kept.
+/// Storage of an operator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
     /// As fits the number of points.
@@ -12,7 +12,7 @@ pub enum Form {
     Dense,
     /// Blocks of low rank; error of forces over their largest entry.
     Compressed {
-        /// That error.
+        /// The error.
         tolerance: f64,
     },
 }

@@ -19,7 +19,7 @@ struct Block {
     columns: Range<usize>,
     /// Columns of its two factors; none where it is dense.
     rank: Option<usize>,
-    /// Whether its transpose acts as well.
+    /// True if its transpose acts as well.
     mirrored: bool,
     values: Range<usize>,
 }
@@ -72,14 +72,14 @@ impl Part {
     }
 }
 
-/// What is compressed.
+/// Matrix that is compressed.
 struct Source<'a> {
     tree: &'a Tree,
     /// Row by row, in the order of the points.
     matrix: &'a [f64],
     /// Factor of each row.
     rows: &'a [f64],
-    /// Whether blocks below the diagonal follow from those above.
+    /// True if blocks below the diagonal follow from those above.
     symmetric: bool,
     /// Error of an entry, in the mean of a block.
     error: f64,
@@ -342,7 +342,7 @@ pub struct Hierarchical {
     arch: Arch,
 }
 
-/// What a compressed matrix has.
+/// Content of a compressed matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sizes {
     /// Values kept.
@@ -353,7 +353,7 @@ pub struct Sizes {
     pub rank: usize,
 }
 
-/// Where the points are.
+/// Positions of the points.
 #[derive(Clone, Copy, Debug)]
 pub struct Geometry<'a> {
     /// Places \[m\].
@@ -404,7 +404,7 @@ impl Hierarchical {
         }
     }
 
-    /// What the matrices of shear and of normal tractions have.
+    /// Matrices of shear and of normal tractions.
     #[must_use]
     pub fn sizes(&self) -> Vec<Sizes> {
         let sizes = |c: &Compressed| {

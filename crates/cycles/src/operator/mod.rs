@@ -12,7 +12,7 @@ pub use dense::Dense;
 pub use form::{Form, in_form};
 pub use hierarchical::{Geometry, Hierarchical, Sizes};
 
-/// What slip does to the tractions of all points of a fault; linear. Slip of several components and shear tractions stand component by
+/// Tractions of all points of a fault caused by slip; linear. Slip of several components and shear tractions stand component by
 /// component.
 pub trait Operator: Send + Sync + std::fmt::Debug {
     /// Number of points.
@@ -23,7 +23,7 @@ pub trait Operator: Send + Sync + std::fmt::Debug {
         1
     }
 
-    /// Whether slip changes normal tractions.
+    /// True if slip changes normal tractions.
     fn couples_normal(&self) -> bool;
 
     /// Writes the driving shear tractions of `slip` \[m\] into `shear` \[Pa\]; of slip rates, their rates.

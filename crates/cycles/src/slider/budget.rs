@@ -101,7 +101,7 @@ impl Budget {
     fn store(&mut self, piece: &Piece<'_>, slips: &Slips, state: &State) {
         let problem = piece.problem;
         let system = &problem.system;
-        let start = system.segment(0.0);
+        let start = system.sliders().iter().any(|s| s.mass.is_some()).then(|| system.segment(0.0));
         let (mut initial, mut elastic, mut kinetic) = (0.0, 0.0, 0.0);
         for (i, (slider, c)) in system.sliders().iter().zip(&state.conditions).enumerate() {
             let slip = state.slip[i];
@@ -109,7 +109,8 @@ impl Budget {
             if let Some(first) = slips.first(i) {
                 initial += first * slip;
             }
-            if let Some(mass) = slider.mass.filter(|_| system.imposed(i).is_none()) {
+            let mass = slider.mass.filter(|_| system.imposed(i).is_none());
+            if let (Some(mass), Some(start)) = (mass, &start) {
                 let before = start.condition(i, 0.0, &problem.start).rate;
                 kinetic += 0.5 * mass * (c.rate - before) * (c.rate + before);
             }

@@ -24,7 +24,7 @@ pub struct Event {
     pub slider: usize,
     /// 1 along positive slip rates, -1 against them.
     pub direction: i8,
-    /// When |V| rose through the upper threshold \[s\].
+    /// Time at which |V| rose through the upper threshold \[s\].
     pub onset: f64,
     /// Time since the onset before, in either direction, which keeps digits that times far from zero have lost \[s\].
     pub interval: Option<f64>,
@@ -53,7 +53,7 @@ pub struct Catalogue {
     tracks: Vec<Track>,
 }
 
-/// What the catalogue knows of a slider.
+/// State of a slider in the catalogue.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Track {
     /// Clock of its last onset.

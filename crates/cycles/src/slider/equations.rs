@@ -25,9 +25,9 @@ impl Way {
     }
 }
 
-/// What an event function is.
+/// Kind of an event function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum EventKind {
     /// |V| of a slider in a direction against the rate above which an event begins.
     On(usize, Way),
     /// |V| of a slider in a direction against the rate below which it ends.
@@ -37,17 +37,17 @@ pub(crate) enum Kind {
 }
 
 /// Event functions of a problem, in the order of their numbers.
-pub(super) fn kinds(problem: &Problem) -> Vec<Kind> {
+pub(super) fn kinds(problem: &Problem) -> Vec<EventKind> {
     let mut kinds = Vec::new();
     for i in 0..problem.names.len() {
         if problem.events.is_some() {
             for way in [Way::Forwards, Way::Backwards] {
-                kinds.extend([Kind::On(i, way), Kind::Off(i, way)]);
+                kinds.extend([EventKind::On(i, way), EventKind::Off(i, way)]);
             }
         }
         // Extremes of what is imposed are no findings.
         if problem.peaks && problem.system.imposed(i).is_none() {
-            kinds.push(Kind::Acceleration(i));
+            kinds.push(EventKind::Acceleration(i));
         }
     }
     kinds
@@ -57,12 +57,12 @@ pub(super) fn kinds(problem: &Problem) -> Vec<Kind> {
 pub(crate) struct Piece<'a> {
     pub problem: &'a Problem,
     pub segment: Segment<'a>,
-    pub kinds: &'a [Kind],
+    pub kinds: &'a [EventKind],
     rates: RefCell<Vec<f64>>,
 }
 
 impl<'a> Piece<'a> {
-    pub fn new(problem: &'a Problem, within: f64, kinds: &'a [Kind]) -> Self {
+    pub fn new(problem: &'a Problem, within: f64, kinds: &'a [EventKind]) -> Self {
         let segment = problem.system.segment(within);
         Self { problem, segment, kinds, rates: RefCell::new(vec![0.0; problem.system.size()]) }
     }
@@ -70,10 +70,10 @@ impl<'a> Piece<'a> {
 
 impl Piece<'_> {
     /// A slip rate against a threshold.
-    fn against(&self, kind: Kind, speed: Speed) -> f64 {
+    fn against(&self, kind: EventKind, speed: Speed) -> f64 {
         let (way, threshold) = match (kind, self.problem.events) {
-            (Kind::On(_, way), Some(t)) => (way, t.on),
-            (Kind::Off(_, way), Some(t)) => (way, t.off),
+            (EventKind::On(_, way), Some(t)) => (way, t.on),
+            (EventKind::Off(_, way), Some(t)) => (way, t.off),
             // `kinds` makes thresholds only where the plan has them.
             _ => return AT_REST,
         };
@@ -128,8 +128,8 @@ impl ode::Problem for Piece<'_> {
         };
         for (g, kind) in g.iter_mut().zip(self.kinds) {
             *g = match *kind {
-                Kind::On(i, _) | Kind::Off(i, _) => self.against(*kind, speed(i)),
-                Kind::Acceleration(i) => self.segment.acceleration(i, y, &rates),
+                EventKind::On(i, _) | EventKind::Off(i, _) => self.against(*kind, speed(i)),
+                EventKind::Acceleration(i) => self.segment.acceleration(i, y, &rates),
             };
         }
     }
@@ -137,8 +137,10 @@ impl ode::Problem for Piece<'_> {
     fn one_event(&self, event: usize, at: Clock, y: &[f64]) -> f64 {
         let kind = self.kinds[event];
         match kind {
-            Kind::On(i, _) | Kind::Off(i, _) => self.against(kind, self.segment.slip(i, at.seconds(), y).0),
-            Kind::Acceleration(i) => {
+            EventKind::On(i, _) | EventKind::Off(i, _) => {
+                self.against(kind, self.segment.slip(i, at.seconds(), y).0)
+            }
+            EventKind::Acceleration(i) => {
                 let mut rates = self.rates.borrow_mut();
                 self.segment.rates_of(i, at.seconds(), y, &mut rates);
                 self.segment.acceleration(i, y, &rates)
@@ -147,6 +149,6 @@ impl ode::Problem for Piece<'_> {
     }
 
     fn extreme(&self, event: usize) -> bool {
-        matches!(self.kinds[event], Kind::Acceleration(_))
+        matches!(self.kinds[event], EventKind::Acceleration(_))
     }
 }

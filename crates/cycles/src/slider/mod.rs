@@ -5,7 +5,6 @@
 mod budget;
 mod catalogue;
 mod equations;
-mod error;
 mod problem;
 mod rows;
 mod run;
@@ -14,8 +13,7 @@ pub mod stability;
 pub use budget::Budget;
 pub use catalogue::{Catalogue, Edge, Event};
 pub(crate) use equations::Piece;
-pub use error::{RunError, WatchError};
 pub use problem::{DEFAULT_METHOD, DEFAULT_TOLERANCE, MOST_STEPS, Problem, RESTART, Thresholds};
 pub use rows::{DEFAULT_CHANGE, Rows};
-pub use run::{Both, Now, Run, Watcher, resume, run};
+pub use run::{Now, Run, Sliders, resume, run};
 pub use stability::{Stability, critical_stiffness};

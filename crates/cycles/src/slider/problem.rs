@@ -1,4 +1,4 @@
-//! What is integrated and how.
+//! The problem to integrate and its settings.
 
 use super::rows::Rows;
 use asperity_friction::slider::System;
@@ -22,11 +22,11 @@ const RELATIVE: f64 = 1e-3;
 /// Steps after which a run is given up, where the scene says nothing: a thousand cycles of the hardest case.
 pub const MOST_STEPS: usize = 20_000_000;
 
-/// Accepted steps after which the integration restarts. Methods with a memory lose some twenty steps by that, and one that switches may lose
-/// thousands where a mass comes to rest.
-pub const RESTART: u64 = 65_536;
+/// Accepted steps after which the integration restarts, which is where it can be interrupted. Methods with a memory lose some twenty steps
+/// by that.
+pub const RESTART: u64 = 4096;
 
-/// When a slider is in an event.
+/// Slip rates that begin and end an event.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Thresholds {
     /// Slip rate above which an event begins \[m/s\].
@@ -35,7 +35,7 @@ pub struct Thresholds {
     pub off: f64,
 }
 
-/// What is to be integrated.
+/// The problem to integrate.
 #[derive(Clone, Debug)]
 pub struct Problem {
     /// Title.
@@ -64,7 +64,7 @@ pub struct Problem {
     pub events: Option<Thresholds>,
     /// Events of the first slider after which to stop.
     pub most_events: Option<usize>,
-    /// Whether extremes of the slip rate are found.
+    /// True if extremes of the slip rate are found.
     pub peaks: bool,
     /// Which rows are written.
     pub output: Rows,
@@ -101,6 +101,7 @@ impl Problem {
             rtol: RELATIVE * self.tolerance,
             atol: self.system.scales().iter().map(|s| s * self.tolerance).collect(),
             first_step: self.first_step,
+            begin_stiff: false,
             largest_step: self.largest_step,
             most_steps: self.most_steps,
         }

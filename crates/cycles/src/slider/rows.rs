@@ -26,7 +26,7 @@ impl Default for Rows {
 }
 
 impl Rows {
-    /// Whether the history of a slider is written.
+    /// True if the history of a slider is written.
     #[must_use]
     pub fn writes(&self, slider: usize) -> bool {
         self.histories.as_ref().is_none_or(|list| list.contains(&slider))

@@ -5,19 +5,23 @@
 
 use super::budget::Budget;
 use super::catalogue::{Catalogue, Edge};
-use super::equations::{Kind, Piece, kinds};
-use super::error::{RunError, WatchError};
+use super::equations::{EventKind, Piece, kinds};
 use super::problem::Problem;
 use super::rows::Due;
+use crate::error::RunError;
 use crate::medium::{Slips, Travelled};
 use asperity_friction::slider::{Condition, Slider};
-use asperity_ode::{Clock, Control, Counts, Failure, Method, Occurrence, Outcome, Sink, Step};
+use asperity_ode::{
+    Clock, Control, Counts, Failure, Kind, Method, ObserveError, Observer, Occurrence, Outcome, Sink, Step,
+};
 use serde::{Deserialize, Serialize};
 
 /// The sliders at an instant.
 #[derive(Clone, Debug)]
 pub struct Now<'a> {
-    /// When.
+    /// Problem that is integrated.
+    pub problem: &'a Problem,
+    /// Time.
     pub at: Clock,
     /// Length of the step that ended \[s\].
     pub dt: f64,
@@ -31,75 +35,18 @@ pub struct Now<'a> {
     pub slip: &'a [f64],
     /// Displacement of the load point since time 0 \[m\].
     pub load: f64,
-    /// Whether the plan asks for a row at this time.
+    /// True if the plan asks for a row at this time.
     pub asked: bool,
 }
 
-/// Watches a run.
-pub trait Watcher {
-    /// At the start and after each step.
-    ///
-    /// # Errors
-    /// When something cannot be written.
-    fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError>;
+/// Runs of spring-sliders.
+#[derive(Clone, Copy, Debug)]
+pub struct Sliders;
 
-    /// Where the integration restarts, after the step there was shown: [`resume`] goes on from this.
-    ///
-    /// # Errors
-    /// When something cannot be written.
-    fn pause(&mut self, _run: &Run) -> Result<Control, WatchError> {
-        Ok(Control::Go)
-    }
-
-    /// What was shown last is the onset, the end or an extreme of an event of this slider.
-    ///
-    /// # Errors
-    /// When something cannot be written.
-    fn marked(&mut self, _slider: usize) -> Result<(), WatchError> {
-        Ok(())
-    }
-
-    /// Whether it looks at all: what nobody looks at is not computed.
-    fn watches(&self) -> bool {
-        true
-    }
-}
-
-impl Watcher for () {
-    fn watches(&self) -> bool {
-        false
-    }
-
-    fn now(&mut self, _: &Problem, _: &Now<'_>) -> Result<(), WatchError> {
-        Ok(())
-    }
-}
-
-impl<F: FnMut(&Problem, &Now<'_>)> Watcher for F {
-    fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError> {
-        self(problem, now);
-        Ok(())
-    }
-}
-
-/// Two watchers, the first one first.
-pub struct Both<'a>(pub &'a mut dyn Watcher, pub &'a mut dyn Watcher);
-
-impl Watcher for Both<'_> {
-    fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError> {
-        self.0.now(problem, now)?;
-        self.1.now(problem, now)
-    }
-
-    fn pause(&mut self, run: &Run) -> Result<Control, WatchError> {
-        let controls = [self.0.pause(run)?, self.1.pause(run)?];
-        Ok(if controls.contains(&Control::Stop) { Control::Stop } else { Control::Go })
-    }
-
-    fn marked(&mut self, slider: usize) -> Result<(), WatchError> {
-        self.0.marked(slider)?;
-        self.1.marked(slider)
-    }
+impl Kind for Sliders {
+    type Setup = Problem;
+    type Moment<'a> = Now<'a>;
+    type Stand = Run;
 }
 
 /// A step is halved so often at most: a slider that passes rest changes ln V without bound.
@@ -109,19 +56,19 @@ const MOST_HALVES: u32 = 8;
 /// grows beyond bounds in finite time. Explicit methods end there by themselves; methods that solve equations may step over that
 /// time onto a branch that is no solution, and would go on.
 const UNRESOLVED: f64 = 1e-26;
-/// So many steps in a row are no accident: the step before an event may be as short.
+/// Number of such steps in a row that is no accident: the step before an event may be as short.
 const MOST_UNRESOLVED: u32 = 10;
 
 /// Friction over a at which a slider has none left, and V is what it is at rest; the steps would go on to shrink towards zero.
 const SPENT: f64 = 1e-3;
 
-/// What a run found, or has found so far: where it restarts this is all there is to know to resume it.
+/// Results of a run, or its results so far: where it restarts this is all there is to know to resume it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run {
-    /// How it ended.
+    /// Outcome.
     #[serde(skip, default = "completed")]
     pub outcome: Outcome,
-    /// When.
+    /// Time.
     pub at: Clock,
     /// Unknowns then.
     pub unknowns: Vec<f64>,
@@ -131,7 +78,7 @@ pub struct Run {
     pub counts: Counts,
     /// Energy budget; none of a run that nobody watched.
     pub budget: Option<Budget>,
-    /// Why a run that failed may have failed, in terms of the scene.
+    /// Reason why a run that failed may have failed, in terms of the scene.
     #[serde(skip)]
     pub hint: Option<String>,
     /// Breaks of the prescribed histories it has passed.
@@ -150,6 +97,8 @@ pub struct Run {
 struct NextStep {
     /// Its length \[s\]; chosen from the rates where absent.
     length: Option<f64>,
+    /// True where a pair of methods takes it with the one for stiff equations.
+    stiff: bool,
 }
 
 impl Run {
@@ -182,22 +131,23 @@ fn completed() -> Outcome {
 ///
 /// # Errors
 /// [`RunError`].
-pub fn run(problem: &Problem, watcher: &mut dyn Watcher) -> Result<Run, RunError> {
-    resume(problem, Run::new(problem), watcher)
+pub fn run(problem: &Problem, observer: &mut dyn Observer<Sliders>) -> Result<Run, RunError> {
+    resume(problem, Run::new(problem), observer)
 }
 
-/// Resumes a run, see [`Watcher::pause`].
+/// Resumes a run, see [`Observer::pause`].
 ///
 /// # Errors
 /// [`RunError`].
-pub fn resume(problem: &Problem, run: Run, watcher: &mut dyn Watcher) -> Result<Run, RunError> {
+pub fn resume(problem: &Problem, run: Run, observer: &mut dyn Observer<Sliders>) -> Result<Run, RunError> {
+    observer.begin(problem)?;
     let kinds = kinds(problem);
     let mut slips = Slips::new(problem, run.travelled.clone())?;
     let mut breaks = vec![0.0];
     breaks.extend(problem.system.breaks(0.0, problem.end));
     breaks.push(problem.end);
     let piece = |k: usize| Piece::new(problem, 0.5 * (breaks[k] + breaks[k + 1]), &kinds);
-    let mut state = Following::new(problem, watcher, run);
+    let mut state = Following::new(problem, observer, run);
     while state.run.passed + 1 < breaks.len() {
         let k = state.run.passed;
         let present = piece(k);
@@ -226,7 +176,7 @@ pub fn resume(problem: &Problem, run: Run, watcher: &mut dyn Watcher) -> Result<
     }
 }
 
-/// Why a run that failed may have failed, in terms of the scene.
+/// Reason why a run that failed may have failed, in terms of the scene.
 fn why(problem: &Problem, piece: &Piece<'_>, run: &Run) -> Option<String> {
     match run.outcome {
         // Other failures say themselves what is wrong.
@@ -265,7 +215,7 @@ fn spent(problem: &Problem, unknowns: &[f64]) -> Option<usize> {
     problem.system.sliders().iter().enumerate().find(stands).map(|(i, _)| i)
 }
 
-/// What it means that no step is short enough, where friction reaches zero or a quasi-static slider runs away.
+/// Explains that no step is short enough, where friction reaches zero or a quasi-static slider runs away.
 fn hint(problem: &Problem, piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<String> {
     if let Some(i) = spent(problem, unknowns) {
         return Some(format!(
@@ -281,7 +231,7 @@ fn hint(problem: &Problem, piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Op
     })
 }
 
-/// What it means that a method with a memory of several steps does not come to its end.
+/// Explains why a method with a memory of several steps does not come to its end.
 fn restarts(problem: &Problem, most: usize) -> Option<String> {
     let rests = problem.system.sliders().iter().any(|s| s.mass.is_some());
     (problem.method == Method::Bdf && problem.peaks && rests).then(|| {
@@ -295,18 +245,20 @@ fn restarts(problem: &Problem, most: usize) -> Option<String> {
 /// A run that is followed.
 struct Following<'a> {
     problem: &'a Problem,
-    watcher: &'a mut dyn Watcher,
+    observer: &'a mut dyn Observer<Sliders>,
     run: Run,
-    failure: Option<WatchError>,
+    failure: Option<ObserveError>,
+    /// True if the observer ends the run.
+    ended: bool,
     /// Accepted steps since the last restart.
     steps: u64,
-    /// Why it makes no sense to go on: a slider has run away, or its friction has come to zero.
+    /// Reason why it makes no sense to go on: a slider has run away, or its friction has come to zero.
     senseless: Option<Failure>,
 }
 
 impl<'a> Following<'a> {
-    fn new(problem: &'a Problem, watcher: &'a mut dyn Watcher, run: Run) -> Self {
-        Self { problem, watcher, run, failure: None, steps: 0, senseless: None }
+    fn new(problem: &'a Problem, observer: &'a mut dyn Observer<Sliders>, run: Run) -> Self {
+        Self { problem, observer, run, failure: None, ended: false, steps: 0, senseless: None }
     }
 
     /// Integrates a piece from restart to restart; whether it came to its end.
@@ -318,10 +270,16 @@ impl<'a> Following<'a> {
             self.steps = 0;
             let mut sink = Running { piece, slips, state: self, paused: None };
             match resumed {
-                Some(NextStep { length }) => options.first_step = length,
+                Some(NextStep { length, stiff }) => {
+                    (options.first_step, options.begin_stiff) = (length, stiff);
+                }
                 None => sink.begin(at, &unknowns),
             }
             if sink.state.failure.is_some() {
+                return false;
+            }
+            if sink.state.ended {
+                self.run.outcome = Outcome::Stopped;
                 return false;
             }
             let duration = Clock::new(end, 0.0).since(&at).max(0.0);
@@ -349,18 +307,19 @@ impl<'a> Following<'a> {
         }
     }
 
-    /// Shows the watcher where the run restarts; whether it goes on.
+    /// Shows the observer where the run restarts; whether it goes on.
     fn pauses(&mut self) -> bool {
         self.run.outcome = Outcome::Completed;
-        match self.watcher.pause(&self.run) {
-            Ok(Control::Go) => return true,
-            Ok(Control::Stop) => self.run.outcome = Outcome::Stopped,
+        let run = &self.run;
+        match self.observer.pause(&mut || run.clone()) {
+            Ok(None) => return true,
+            Ok(Some(_)) => self.run.outcome = Outcome::Stopped,
             Err(failure) => self.failure = Some(failure),
         }
         false
     }
 
-    /// Whether all events asked for are over.
+    /// True if all events asked for are over.
     fn enough(&self) -> bool {
         // The last event counts when it is over, so that its peak and slip are known.
         self.problem.most_events.is_some_and(|n| self.run.catalogue.over(0) >= n)
@@ -372,7 +331,7 @@ struct Running<'a, 'b> {
     piece: &'a Piece<'a>,
     slips: &'a Slips,
     state: &'a mut Following<'b>,
-    /// Where the integration restarts: the length to try after the last step.
+    /// Restart of the integration: the length to try after the last step.
     paused: Option<NextStep>,
 }
 
@@ -489,22 +448,23 @@ impl Running<'_, '_> {
     }
 
     fn show(&mut self, at: Clock, dt: f64, unknowns: &[f64], asked: bool) {
-        if !self.state.watcher.watches() || self.state.failure.is_some() {
+        if !self.state.observer.watches() || self.state.failure.is_some() {
             return;
         }
         let problem = self.state.problem;
         let (load, conditions) = self.look(at, unknowns);
         let slip = self.slips.slip(self.piece, at, load, &conditions);
         let step = usize::try_from(self.state.run.counts.steps + self.state.steps).unwrap_or(usize::MAX);
-        let now = Now { at, dt, step, unknowns, conditions: &conditions, slip: &slip, load, asked };
-        if let Err(failure) = self.state.watcher.now(problem, &now) {
-            self.state.failure = Some(failure);
+        let now = Now { problem, at, dt, step, unknowns, conditions: &conditions, slip: &slip, load, asked };
+        match self.state.observer.step(&now) {
+            Ok(control) => self.state.ended |= control == Control::Stop,
+            Err(failure) => self.state.failure = Some(failure),
         }
     }
 }
 
 impl Running<'_, '_> {
-    /// Whether a slider runs away in steps that time does not resolve.
+    /// True if a slider runs away in steps that time does not resolve.
     fn runs_away(&mut self, step: &Step<'_>) -> bool {
         let length = step.length();
         let short = length < UNRESOLVED * step.end.seconds().abs();
@@ -546,10 +506,10 @@ impl Sample {
 impl Sink for Running<'_, '_> {
     fn accepted(&mut self, step: &Step<'_>) -> Control {
         self.state.steps += 1;
-        let asked = self.state.watcher.watches() && self.between(step);
+        let asked = self.state.observer.watches() && self.between(step);
         self.show(step.end, step.length(), step.state, asked);
         self.sees(step.end, step.state);
-        if self.state.watcher.watches() {
+        if self.state.observer.watches() {
             self.state.run.budget.get_or_insert_default().advance(self.piece, self.slips, step);
         }
         if self.runs_away(step) {
@@ -557,32 +517,32 @@ impl Sink for Running<'_, '_> {
         } else if spent(self.state.problem, step.state).is_some() {
             self.state.senseless = Some(Failure::Ends);
         }
-        if self.state.senseless.is_some() || self.state.failure.is_some() {
+        if self.state.senseless.is_some() || self.state.failure.is_some() || self.state.ended {
             return Control::Stop;
         }
         if self.state.steps < self.state.problem.restart {
             return Control::Go;
         }
-        self.paused = Some(NextStep { length: step.next_length() });
+        self.paused = Some(NextStep { length: step.next_length(), stiff: step.next_stiff() });
         Control::Stop
     }
 
     fn occurred(&mut self, o: &Occurrence) -> Control {
         let kind = self.piece.kinds[o.event];
-        let (Kind::On(i, _) | Kind::Off(i, _) | Kind::Acceleration(i)) = kind;
+        let (EventKind::On(i, _) | EventKind::Off(i, _) | EventKind::Acceleration(i)) = kind;
         let (load, conditions) = self.look(o.at, &o.state);
         let rate = conditions[i].rate;
-        if let Kind::On(..) | Kind::Off(..) = kind {
+        if let EventKind::On(..) | EventKind::Off(..) = kind {
             let slip = self.slips.slip(self.piece, o.at, load, &conditions);
             let edge = self.edge(i, &o.state, &conditions[i], slip[i]);
             match (kind, o.rising) {
-                (Kind::On(..), true) => self.state.run.catalogue.begins(i, o.at, rate, edge),
-                (Kind::Off(..), false) => self.state.run.catalogue.ends(i, o.at, edge),
+                (EventKind::On(..), true) => self.state.run.catalogue.begins(i, o.at, rate, edge),
+                (EventKind::Off(..), false) => self.state.run.catalogue.ends(i, o.at, edge),
                 _ => {}
             }
         }
         self.state.run.catalogue.sees(i, rate);
-        if let Err(failure) = self.state.watcher.marked(i) {
+        if let Err(failure) = self.state.observer.event(i) {
             self.state.failure.get_or_insert(failure);
         }
         if self.state.enough() || self.state.failure.is_some() { Control::Stop } else { Control::Go }

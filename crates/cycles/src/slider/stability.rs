@@ -49,7 +49,7 @@ impl Stability {
         self.marginal.iter().map(|m| m.0).fold(0.0, f64::max)
     }
 
-    /// Whether steady sliding on a spring of this stiffness \[Pa/m\] is unstable. With several states it may be stable again on springs
+    /// True if steady sliding on a spring of this stiffness \[Pa/m\] is unstable. With several states it may be stable again on springs
     /// far softer than critical.
     #[must_use]
     pub fn unstable(&self, stiffness: f64) -> bool {
@@ -98,7 +98,7 @@ fn frequencies(response: &Response, damping: f64) -> Vec<(f64, bool)> {
     found
 }
 
-/// Where a function changes sign between two places, at the first of which its value is known.
+/// Finds where a function changes sign between two places, at the first of which its value is known.
 fn zero(f: &impl Fn(f64) -> f64, (mut low, value): (f64, f64), mut high: f64) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
@@ -136,7 +136,7 @@ pub fn words(problem: &Problem) -> Vec<Option<String>> {
     each(problem).into_iter().map(|one| one.map(of_one)).collect()
 }
 
-/// What follows for the whole.
+/// Consequence for the whole.
 #[must_use]
 pub fn remarks(problem: &Problem) -> Vec<String> {
     let steady = matches!(problem.system.load(), History::Constant(_))

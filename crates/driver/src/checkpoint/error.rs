@@ -1,4 +1,4 @@
-//! Why a run cannot be resumed.
+//! Reason why a run cannot be resumed.
 
 use asperity_output::OutputError;
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ pub enum ResumeError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The fault.
         reason: String,
     },
     /// The checkpoint of another kind of run.
@@ -29,9 +29,9 @@ pub enum ResumeError {
     Kind {
         /// The file.
         path: PathBuf,
-        /// What was run.
+        /// Command that was run.
         found: String,
-        /// What the scene has.
+        /// Value of the scene.
         scene: &'static str,
     },
     /// Written by another version of the program.
@@ -53,7 +53,7 @@ pub enum ResumeError {
     Scene {
         /// The file.
         path: PathBuf,
-        /// What may change.
+        /// Allowed changes.
         allowed: &'static str,
     },
     /// The loads until then are not those that acted.
@@ -63,7 +63,7 @@ pub enum ResumeError {
     Loads {
         /// The file.
         path: PathBuf,
-        /// How far the run has got \[s\].
+        /// Time reached \[s\].
         until: f64,
     },
     /// The run has got farther than the scene now asks for.

@@ -27,7 +27,7 @@ use std::path::Path;
 /// Name of the file in the output directory.
 pub const FILE: &str = "checkpoint";
 
-/// What the first line of every checkpoint begins with.
+/// Beginning of the first line of every checkpoint.
 const KIND: &str = "asperity checkpoint of ";
 
 /// Contents of the checkpoints of one kind of run.
@@ -36,7 +36,7 @@ pub trait Contents: Serialize + DeserializeOwned {
     const OF: &'static str;
     /// Version of the contents.
     const VERSION: &'static str;
-    /// What may change in a scene between two parts of its run.
+    /// Parts of a scene that may change between two parts of its run.
     const ALLOWED: &'static str;
 
     /// Hash of what must not change between two parts of a run.
@@ -45,7 +45,7 @@ pub trait Contents: Serialize + DeserializeOwned {
     /// Writes the checkpoint into `out`.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// If the file cannot be written.
     fn write(&self, out: &Path) -> Result<(), OutputError> {
         let path = out.join(FILE);
         let contents = serde_json::to_string(self).map_err(|e| OutputError::write(&path, e.into()))?;
@@ -57,7 +57,7 @@ pub trait Contents: Serialize + DeserializeOwned {
     /// Reads the checkpoint of `out`; none where there is none.
     ///
     /// # Errors
-    /// Where it is damaged, of another version, or of another scene than that of `physics`.
+    /// If it is damaged, of another version, or of another scene than that of `physics`.
     fn read(out: &Path, physics: &str) -> Result<Option<Self>, ResumeError> {
         let path = out.join(FILE);
         let bytes = match fs::read(&path) {
@@ -99,7 +99,7 @@ pub fn foreign(out: &Path, reason: &str) -> ResumeError {
 /// Removes the checkpoint of an earlier run from `out`.
 ///
 /// # Errors
-/// When there is one that cannot be removed.
+/// If there is one that cannot be removed.
 pub fn remove(out: &Path) -> Result<(), OutputError> {
     let path = out.join(FILE);
     match fs::remove_file(&path) {

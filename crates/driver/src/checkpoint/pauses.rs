@@ -1,4 +1,4 @@
-//! When checkpoints are written and when a run is interrupted.
+//! Times of checkpoints and reasons to interrupt a run.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,19 +16,19 @@ pub struct Pauses {
     pub wall: Option<Duration>,
     /// Set from outside to interrupt it.
     pub stop: Arc<AtomicBool>,
-    /// When the run began, or was resumed.
+    /// Instant at which the run began, or was resumed.
     pub begun: Instant,
 }
 
 impl Pauses {
-    /// Whether the next checkpoint is due; `written` is when the last one was, and how long that took.
+    /// True if the next checkpoint is due; `written` is when the last one was, and how long that took.
     #[must_use]
     pub fn are_due(&self, written: (Instant, Duration)) -> bool {
         let (at, cost) = written;
         at.elapsed() >= self.every.max(cost * SHARE)
     }
 
-    /// Why a run is to be interrupted now; one that has not `moved` yet only where it is asked to, so that each part of a run gets on.
+    /// Reason why a run is to be interrupted now; one that has not `moved` yet only where it is asked to, so that each part of a run gets on.
     #[must_use]
     pub fn reason(&self, moved: bool) -> Option<&'static str> {
         if self.stop.load(Ordering::Relaxed) {

@@ -1,4 +1,4 @@
-//! What makes two scenes the same for a run that is resumed.
+//! Identity of a scene for a run that is resumed.
 
 use crate::sha256::sha256;
 

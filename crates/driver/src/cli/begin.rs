@@ -1,4 +1,4 @@
-//! What a run is begun with, and the names of the files that say so.
+//! Input of a run, and the names of the files that say so.
 
 use crate::report::common::{Kind, Origin};
 use jiff::Timestamp;
@@ -10,7 +10,7 @@ pub(super) const REPORT: &str = "report.json";
 /// File whose lock says that a run writes here.
 pub(super) const LOCK: &str = ".lock";
 
-/// What a run is begun with.
+/// Input of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Begin {
     pub kind: Kind,
@@ -18,9 +18,9 @@ pub(super) struct Begin {
     /// SHA-256 of the scene file.
     pub hash: String,
     pub origin: Origin,
-    /// Whether to go on from a checkpoint there.
+    /// True if to go on from a checkpoint there.
     pub resume: bool,
-    /// Whether an unfinished run or the result of another scene may be moved out of the way.
+    /// True if an unfinished run or the result of another scene may be moved out of the way.
     pub force: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What is in an output directory, and whether a run may begin there.
+//! Content of an output directory, and the decision if a run may begin there.
 
 use super::begin::{Begin, LOCK, REPORT};
 use crate::checkpoint;
@@ -66,7 +66,7 @@ pub(super) fn foreign(path: &Path) -> std::io::Result<Option<PathBuf>> {
     })
 }
 
-/// What a run that is killed may leave of a file it was about to write.
+/// Remains of a run that was killed of a file that it was about to write.
 fn temporary(name: &OsStr) -> bool {
     name.to_str().is_some_and(|name| name.starts_with('.') && name.ends_with(".tmp"))
 }
@@ -94,7 +94,7 @@ fn foreign_in(
     Ok(None)
 }
 
-/// So much of a report as tells whose it is.
+/// Part of a report that identifies its run.
 #[derive(Debug, Deserialize)]
 struct Report {
     title: String,
@@ -117,20 +117,20 @@ fn completed() -> Status {
     Status::Completed
 }
 
-/// What is in an output directory.
+/// Content of an output directory.
 #[derive(Debug)]
 pub(super) struct Contents {
     foreign: Option<PathBuf>,
     /// The report, where there is one.
     report: Option<Report>,
-    /// Whether a run can go on from there.
+    /// True if a run can go on from there.
     checkpoint: bool,
-    /// Whether there is nothing but a report and a lock.
+    /// True if there is nothing but a report and a lock.
     nothing: bool,
 }
 
 impl Contents {
-    /// What is in `path`.
+    /// Content of `path`.
     pub fn of(path: &Path) -> miette::Result<Self> {
         if path.exists() && !path.is_dir() {
             return Err(miette!("{} is a file, not an output directory", path.display()));
@@ -149,17 +149,17 @@ impl Contents {
         Ok(Self { foreign, report, checkpoint: path.join(checkpoint::FILE).exists(), nothing })
     }
 
-    /// Whether a run can go on from there.
+    /// True if a run can go on from there.
     pub fn has_checkpoint(&self) -> bool {
         self.checkpoint
     }
 
-    /// Whether there is nothing that was computed.
+    /// True if there is nothing that was computed.
     pub fn holds_nothing(&self) -> bool {
         self.nothing
     }
 
-    /// Whether a run of the scene and the mesh files of these hashes has come to its end there.
+    /// True if a run of the scene and the mesh files of these hashes has come to its end there.
     pub fn is_complete(&self, scene: &str, meshes: &BTreeMap<String, String>) -> bool {
         let same = |r: &Report| r.scene_sha256 == scene && r.meshes_sha256 == *meshes;
         !self.checkpoint && self.report.as_ref().is_some_and(|r| r.status == Status::Completed && same(r))

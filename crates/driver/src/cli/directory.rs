@@ -14,7 +14,7 @@ use std::fs::{self, File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// What was done to make room, so that it can be undone until the run begins to compute.
+/// Changes made to make room, which can be undone until the run begins to compute.
 #[derive(Debug)]
 enum Room {
     /// The directory is new; the topmost of those made for it.

@@ -1,6 +1,6 @@
-//! How a command ended.
+//! End of a command.
 
-/// How a command ended.
+/// End of a command.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum End {
     /// As asked.

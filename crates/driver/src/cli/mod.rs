@@ -28,7 +28,7 @@ use work::{run_bodies, run_faults, run_sliders};
 #[derive(Debug, Parser)]
 #[command(name = "asperity", version)]
 pub struct Arguments {
-    /// What to do.
+    /// Action.
     #[command(subcommand)]
     pub command: Command,
 }
@@ -49,7 +49,7 @@ pub enum Command {
         /// Move an unfinished run, or the result of another scene, in the output directory to `<directory>.previous`.
         #[arg(long, conflicts_with = "resume")]
         force: bool,
-        /// When to interrupt the run and how to go on.
+        /// Reasons to interrupt the run, and how to resume it.
         #[command(flatten)]
         pauses: Pausing,
     },

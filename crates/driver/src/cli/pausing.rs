@@ -1,4 +1,4 @@
-//! When a run is interrupted.
+//! Reasons to interrupt a run.
 
 use crate::scene::units::Time;
 use clap::Args;
@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde::de::value::StrDeserializer;
 use std::time::Duration;
 
-/// When a run is interrupted, and how it is resumed.
+/// Reasons to interrupt a run, and how it is resumed.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Pausing {
     /// Resume the run in the output directory from its checkpoint; begin at the start where there is none. Runs of faults go on to more

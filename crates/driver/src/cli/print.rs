@@ -1,4 +1,4 @@
-//! What the commands print on standard output.
+//! Output of the commands on standard output.
 
 use super::read::Planned;
 use crate::report::RunReport;

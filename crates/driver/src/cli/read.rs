@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
 
-/// What a scene asks for.
+/// Request of a scene.
 pub(super) enum Planned {
     /// Deformable bodies.
     Bodies(Box<AnyPlan>),
@@ -58,7 +58,7 @@ pub(super) struct Source {
     clock: Instant,
 }
 
-/// What a scene file says.
+/// Content of a scene file.
 enum Parsed {
     /// Its plan costs nothing.
     Sliders(Box<slider::Plan>),
@@ -95,7 +95,7 @@ impl Source {
         }
     }
 
-    /// What a run of it, read from `path`, is begun with.
+    /// Input of a run of it, read from `path`.
     pub fn begin(&self, path: &Path) -> Begin {
         let (kind, title) = match &self.parsed {
             Parsed::Sliders(plan) => (Kind::Sliders, &plan.problem.title),

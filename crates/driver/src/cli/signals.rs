@@ -19,7 +19,7 @@ pub(super) fn watched() -> std::io::Result<Arc<AtomicBool>> {
     Ok(set)
 }
 
-/// Whether this process ignores a signal, as far as the system tells in a file.
+/// True if this process ignores a signal, as far as the system tells in a file.
 fn is_ignored(signal: i32) -> bool {
     std::fs::read_to_string("/proc/self/status").is_ok_and(|status| ignored_in(&status, signal))
 }

@@ -51,7 +51,7 @@ pub(super) fn run_bodies(
     Ok(end(report.outcome, Some(report.counts.steps)))
 }
 
-/// What a person is told last; `step` is the number of steps that were taken.
+/// Last words to a person; `step` is the number of steps that were taken.
 fn end(outcome: Outcome, step: Option<usize>) -> End {
     let place = |stage: Option<String>, time: f64| {
         let stage = stage.map_or(String::new(), |stage| format!("stage `{stage}` "));
@@ -70,10 +70,10 @@ fn end(outcome: Outcome, step: Option<usize>) -> End {
     }
 }
 
-/// What is said of a run that was interrupted.
+/// Words about a run that was interrupted.
 const RESUMES: &str = "the same command with --resume resumes it there";
 
-/// When the run is interrupted, from now on.
+/// Reasons to interrupt the run, from now on.
 fn pauses(pausing: &Pausing) -> miette::Result<Pauses> {
     let stop = signals::watched().into_diagnostic()?;
     Ok(Pauses { every: pausing.checkpoint_every, wall: pausing.wall_time, stop, begun: Instant::now() })
@@ -209,7 +209,8 @@ pub(super) fn run_faults(
     let clock = Instant::now();
     let problem = &plan.problem;
     let run =
-        asperity_cycles::resume(&problem.fault, &problem.loading, start, &problem.settings, &mut keeper);
+        asperity_cycles::resume(&problem.fault, &problem.loading, start, &problem.settings, &mut keeper)
+            .into_diagnostic()?;
     let coarse = keeper.warning();
     let (mut balance, interrupted) = keeper.finish(&run).into_diagnostic()?;
     let mut report = fault::Report::new(plan, &run, &mut balance);
@@ -253,7 +254,7 @@ fn keeper<'a>(
     fault::Keeper::begin(path, plan, physics, pauses).into_diagnostic()
 }
 
-/// What is written of a run of faults at its end, beside the report.
+/// Writes the files of a run of faults at its end, beside the report.
 fn write_faults(
     path: &Path,
     (plan, run, report): (&fault::Plan, &asperity_cycles::Run, &fault::Report),

@@ -1,4 +1,4 @@
-//! What is wrong in a scene, as the terminal shows it.
+//! Errors in a scene, as the terminal shows them.
 
 mod render;
 

@@ -6,7 +6,7 @@ use asperity_cycles::medium::Bodies;
 /// Bodies as outputs see them.
 #[derive(Debug)]
 pub struct BodiesView {
-    /// What gives their displacements.
+    /// Source of their displacements.
     pub bodies: Bodies,
     /// Places of all nodes \[m\].
     pub nodes: Vec<[f64; 3]>,

@@ -1,4 +1,4 @@
-//! When a row of an output file is due: by change of slip rate, by slip, and after a longest time, so that files grow with what happens and
+//! Times of the rows of an output file: by change of slip rate, by slip, and after a longest time, so that files grow with what happens and
 //! not with steps; and at each extremum of the slip rate, so that no peak falls between two rows.
 //!
 //! A file that has grown to half of what it may is written with twice these amounts from then on, at three quarters with four times, and so
@@ -36,7 +36,7 @@ pub(super) const NO_RATE: f64 = 1e-20;
 /// Doublings after which a file is full in any case: no file has so many rows.
 const MOST_DOUBLINGS: u32 = 60;
 
-/// What makes rows due.
+/// Limits that make rows due.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cadence {
     /// Change of log10 of the slip rate.
@@ -53,7 +53,7 @@ pub struct Cadence {
     pub largest_file: u64,
 }
 
-/// What is asked for; what is not has defaults.
+/// Requests of the scene; others have defaults.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Asked {
     /// See [`Cadence`].
@@ -71,7 +71,7 @@ pub(super) struct Asked {
 }
 
 impl Cadence {
-    /// What is asked for, in a run of this length \[s\] whose events begin at `on` \[m/s\]; `length` is the smallest characteristic slip.
+    /// Limits for a run of this length \[s\] whose events begin at `on` \[m/s\]; `length` is the smallest characteristic slip.
     pub(super) fn new(asked: Asked, end: f64, on: f64, length: Option<f64>) -> Self {
         let between = BETWEEN.min(end / LEAST_PROFILES);
         Self {
@@ -137,22 +137,22 @@ pub(super) struct Due {
     pub now: bool,
 }
 
-/// Where a file stands.
+/// Position in a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Gauge {
     /// Size \[bytes\].
     pub bytes: u64,
-    /// How often the amounts have been doubled.
+    /// Number of doublings of the amounts.
     pub doublings: u32,
-    /// When they were for the first time \[s\].
+    /// Time of the first one \[s\].
     pub coarse_since: Option<f64>,
-    /// Whether there is no room for another row.
+    /// True if there is no room for another row.
     pub full: bool,
     /// At the last row.
     last: Option<Reading>,
     /// At the last step.
     before: Option<Reading>,
-    /// Whether the rate grew then.
+    /// True if the rate grew then.
     rising: Option<bool>,
     /// Slip since the last row \[m\].
     slipped: f64,
@@ -164,7 +164,7 @@ impl Gauge {
         Self { bytes, ..Self::default() }
     }
 
-    /// What the amounts are multiplied with.
+    /// Factor of the amounts.
     pub fn factor(&self) -> f64 {
         2f64.powi(self.doublings as i32)
     }
@@ -196,7 +196,7 @@ impl Gauge {
         Due { before: extremum && !self.full, now: due && !self.full }
     }
 
-    /// Whether a profile is due after a step: after `interval` \[s\], or where the rate has changed by `decades`.
+    /// True if a profile is due after a step: after `interval` \[s\], or where the rate has changed by `decades`.
     pub fn profile(&mut self, now: Reading, interval: f64, decades: f64) -> bool {
         let factor = self.factor();
         let due = self.last.is_none_or(|last| {
@@ -219,7 +219,7 @@ impl Gauge {
     }
 }
 
-/// What is to be said of files that have grown beyond half of their largest size.
+/// Warning about files that have grown beyond half of their largest size.
 pub(super) fn warning(files: &[(String, Gauge)], largest: u64) -> Option<Warning> {
     let coarse = || files.iter().filter_map(|(name, g)| Some((g.coarse_since?, name, g)));
     let (since, name, _) = coarse().min_by(|a, b| a.0.total_cmp(&b.0))?;

@@ -5,12 +5,12 @@ use crate::checkpoint::Contents;
 use asperity_cycles::{Run, Sums};
 use serde::{Deserialize, Serialize};
 
-/// Where a run stands.
+/// State of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stand {
     /// State, clock, step length, events and counts.
     pub run: Run,
-    /// Where the output files stand.
+    /// Positions in the output files.
     pub files: Position,
     /// Works until then.
     pub sums: Sums,
@@ -21,13 +21,13 @@ pub struct Stand {
 pub struct Checkpoint {
     /// Hash of the physics of the scene and of the mesh files it names, see [`super::identity`].
     pub physics: String,
-    /// When the run was to end \[s\].
+    /// Planned end of the run \[s\].
     pub end: f64,
-    /// What the loads did until then, see [`super::identity::loads`].
+    /// Identity of the loads until then, see [`super::identity::loads`].
     pub loads: Vec<[f64; 3]>,
-    /// Where the run stands.
+    /// State of the run.
     pub last: Stand,
-    /// Where its time is over: where it restarted last. The step to the end is shorter than one that goes on would have been, and a run
+    /// State at the last restart, where the time of the run is over. The step to the end is shorter than one that goes on would have been, and a run
     /// that is extended goes on from here.
     pub before: Option<Box<Stand>>,
 }

@@ -1,4 +1,4 @@
-//! What a run in space leaves at its end: fields of events and of the last state, and the collections of all fields.
+//! Files of a run in space at its end: fields of events and of the last state, and the collections of all fields.
 
 use super::fields::{Field, along, grid, put, state};
 use super::figures::each;
@@ -13,7 +13,7 @@ use std::path::Path;
 /// course of the run and `events.pvd` of the events, at the times of their onsets. Faults in the plane have profiles instead.
 ///
 /// # Errors
-/// When a file cannot be read or written.
+/// If a file cannot be read or written.
 pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), OutputError> {
     if !plan.in_space {
         return Ok(());

@@ -10,7 +10,7 @@ use std::path::Path;
 /// where the scene asks for them.
 ///
 /// # Errors
-/// When a file cannot be written.
+/// If a file cannot be written.
 pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), OutputError> {
     let Some(view) = &plan.bodies else { return Ok(()) };
     let folder = out.join("fields");

@@ -10,7 +10,7 @@ use std::path::Path;
 /// Writes fields on a fault; the size of the file \[bytes\].
 ///
 /// # Errors
-/// When the file cannot be written.
+/// If the file cannot be written.
 pub(super) fn put(path: &Path, grid: &Grid, time: f64, fields: &[Field]) -> Result<u64, OutputError> {
     let arrays: Vec<Array<'_>> = fields.iter().map(Field::array).collect();
     let bytes = grid.file(time, &arrays, &[]);

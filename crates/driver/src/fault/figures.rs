@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// Draws the plots of the run in `out` into its folder `plots`.
 ///
 /// # Errors
-/// When a file cannot be read or written.
+/// If a file cannot be read or written.
 pub fn draw(out: &Path, plan: &Plan, run: &Run) -> Result<Vec<PathBuf>, OutputError> {
     let line = |fault: &FaultView| {
         let along: Vec<f64> = plan.points[fault.points.clone()].iter().map(|p| p.along).collect();

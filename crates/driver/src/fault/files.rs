@@ -9,8 +9,8 @@ use super::snapshots::{self, Snapshots};
 use super::stations;
 use crate::checkpoint::{self, ResumeError};
 use crate::warning::Warning;
-use asperity_cycles::{Moment, Watcher};
-use asperity_ode::{Clock, Control};
+use asperity_cycles::{Faults, Moment};
+use asperity_ode::{Clock, Control, ObserveError, Observer};
 use asperity_output::decimals::{fixed, scientific};
 use asperity_output::{Growing, OutputError, atomic};
 use std::path::{Path, PathBuf};
@@ -51,17 +51,16 @@ pub struct Files<'a> {
     rows: Vec<Rows>,
     /// Points of the stations.
     stations: Vec<usize>,
-    /// When the last step ended.
+    /// End of the last step.
     before: Option<Clock>,
     snapshots: Option<Snapshots>,
-    failure: Option<OutputError>,
 }
 
 impl<'a> Files<'a> {
     /// Makes the files with their headers in `out`.
     ///
     /// # Errors
-    /// When a file cannot be written.
+    /// If a file cannot be written.
     pub fn create(out: &Path, plan: &'a Plan) -> Result<Self, OutputError> {
         atomic::writable_dir(out)?;
         atomic::create_dir(&out.join("stations"))?;
@@ -75,14 +74,13 @@ impl<'a> Files<'a> {
             stations: stations::points(plan),
             before: None,
             snapshots: Snapshots::begin(out, plan)?,
-            failure: None,
         })
     }
 
     /// Goes on with the files in `out` from where they stood; what was written after that is cut off.
     ///
     /// # Errors
-    /// When a file is missing, shorter than it was, or cannot be written.
+    /// If a file is missing, shorter than it was, or cannot be written.
     pub fn resume(out: &Path, plan: &'a Plan, from: &Position) -> Result<Self, ResumeError> {
         let (mut rows, heads) = (Vec::new(), Self::heads(out, plan));
         if heads.len() != from.gauges.len() {
@@ -93,10 +91,10 @@ impl<'a> Files<'a> {
         }
         let Position { before, snapshots, .. } = *from;
         let snapshots = Snapshots::begin(out, plan)?.map(|s| s.from(snapshots.unwrap_or_default()));
-        Ok(Self { plan, rows, stations: stations::points(plan), before, snapshots, failure: None })
+        Ok(Self { plan, rows, stations: stations::points(plan), before, snapshots })
     }
 
-    /// Where the files stand.
+    /// Positions in the files.
     #[must_use]
     pub fn position(&self) -> Position {
         let gauges = self.rows.iter().map(|r| r.gauge).collect();
@@ -107,12 +105,12 @@ impl<'a> Files<'a> {
     /// Waits until all of them is on the disc.
     ///
     /// # Errors
-    /// When something could not be written.
+    /// If something could not be written.
     pub fn settle(&self) -> Result<(), OutputError> {
         self.rows.iter().try_for_each(|rows| rows.file.settle())
     }
 
-    /// What is to be said of files that have become coarse.
+    /// Warning about files that have become coarse.
     #[must_use]
     pub fn warning(&self) -> Option<Warning> {
         let name =
@@ -139,11 +137,6 @@ impl<'a> Files<'a> {
         let folder = out.join("stations");
         heads.extend(stations::heads(plan).into_iter().map(|(name, head)| (folder.join(name), head)));
         heads
-    }
-
-    /// The first thing that could not be written.
-    pub fn failure(&mut self) -> Option<OutputError> {
-        self.failure.take()
     }
 
     fn write(&mut self, now: &Moment<'_>) -> Result<(), OutputError> {
@@ -236,15 +229,10 @@ fn profile(time: f64, values: &[f64], text: impl Fn(f64) -> String) -> String {
     row
 }
 
-impl Watcher for Files<'_> {
-    fn now(&mut self, moment: &Moment<'_>) -> Control {
-        match self.write(moment) {
-            Ok(()) => Control::Go,
-            Err(failure) => {
-                self.failure = Some(failure);
-                Control::Stop
-            }
-        }
+impl Observer<Faults> for Files<'_> {
+    fn step(&mut self, moment: &Moment<'_>) -> Result<Control, ObserveError> {
+        self.write(moment)?;
+        Ok(Control::Go)
     }
 }
 

@@ -1,11 +1,11 @@
-//! How far the floors of normal traction were used in a run.
+//! Use of the floors of normal traction in a run.
 
 use super::plan::Plan;
 use asperity_cycles::Used;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// How far the floor of a fault was used.
+/// Use of the floor of a fault.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FloorUse {
     /// Fault.
@@ -18,7 +18,7 @@ pub struct FloorUse {
     pub of: usize,
     /// Largest share of the time that a point was below it.
     pub time_share: f64,
-    /// Where that point is \[m\].
+    /// Position of that point \[m\].
     pub at: [f64; 3],
     /// Share of all slip, over the area, that came about below it.
     pub slip_share: f64,

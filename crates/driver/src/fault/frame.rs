@@ -1,4 +1,4 @@
-//! Where and when the origin of a scene lies.
+//! Place and time of the origin of a scene.
 
 use asperity_output::located::Spot;
 use jiff::{SignedDuration, Timestamp};
@@ -22,7 +22,7 @@ pub(super) struct Origin {
     pub length: Option<f64>,
 }
 
-/// Where and when the origin of a scene lies.
+/// Place and time of the origin of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// Time zero.
@@ -61,7 +61,7 @@ impl Frame {
     /// The time of so many seconds after the epoch, to the microsecond.
     ///
     /// # Errors
-    /// Where the calendar does not reach so far.
+    /// If the calendar does not reach so far.
     pub fn time(&self, seconds: f64) -> Result<Timestamp, jiff::Error> {
         let span = SignedDuration::try_from_secs_f64(seconds)?;
         self.epoch.checked_add(span)?.round(jiff::Unit::Microsecond)

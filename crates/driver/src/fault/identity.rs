@@ -1,10 +1,10 @@
-//! What makes two runs of faults parts of one: the same physics, whether or not one of them is to go on for longer.
+//! Identity of two runs of faults that are parts of one: the same physics, even if one of them lasts longer.
 
 use super::plan::Plan;
 
 /// Hash of the physics of the scene `text` and of mesh files with these hashes. Left out is what only decides how far a run goes, or what
 /// is said about its events afterwards: `events.stop_after`, the duration of the last stage and `[place]`; and how the file is laid out.
-/// What the duration does to the loads until then is compared by itself, see [`loads`].
+/// Effects of the duration on the loads until then are compared separately, see [`loads`].
 #[must_use]
 pub fn physics<'a>(text: &str, meshes: impl Iterator<Item = &'a str>) -> String {
     crate::checkpoint::scene::hash(text, without_extent, meshes)
@@ -46,7 +46,7 @@ pub fn loads(plan: &Plan, at: f64) -> Vec<[f64; 3]> {
 /// Rounding of a rate that is kept as the value at the end of a stage, over its size.
 const ROUNDING: f64 = 1e-12;
 
-/// Whether loads are the same but for rounding.
+/// True if loads are the same but for rounding.
 #[must_use]
 pub fn same(a: &[[f64; 3]], b: &[[f64; 3]]) -> bool {
     let near = |(x, y): (&f64, &f64)| (x - y).abs() <= ROUNDING * x.abs().max(y.abs());

@@ -7,13 +7,13 @@ use super::plan::Plan;
 use super::words::time;
 use crate::checkpoint::{self, Contents as _, FILE, Pauses, ResumeError};
 use crate::warning::Warning;
-use asperity_cycles::{Balance, Moment, Run, Watcher};
-use asperity_ode::Control;
+use asperity_cycles::{Balance, Faults, Moment, Run};
+use asperity_ode::{Control, ObserveError, Observer};
 use asperity_output::{OutputError, Progress};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Where a run restarted last, if it did.
+/// State at the last restart, if there was one.
 type Before = Option<Box<Stand>>;
 
 /// See the module.
@@ -25,20 +25,19 @@ pub struct Keeper<'a> {
     balance: Balance<'a>,
     progress: Progress,
     pauses: Pauses,
-    /// When the last checkpoint was written.
+    /// Instant of the last checkpoint.
     written: Instant,
     steps: u64,
-    /// Where the run restarted last.
+    /// State at the last restart.
     before: Before,
     interrupted: Option<&'static str>,
-    failure: Option<OutputError>,
 }
 
 impl<'a> Keeper<'a> {
     /// Begins a run in `out` of a scene whose physics has this hash.
     ///
     /// # Errors
-    /// When a file cannot be written.
+    /// If a file cannot be written.
     pub fn begin(
         out: &Path,
         plan: &'a Plan,
@@ -57,7 +56,7 @@ impl<'a> Keeper<'a> {
     /// or where its run never restarted before its end.
     ///
     /// # Errors
-    /// When the checkpoint is damaged or of another scene, or a file cannot be read or written.
+    /// If the checkpoint is damaged or of another scene, or a file cannot be read or written.
     pub fn resume(
         out: &Path,
         plan: &'a Plan,
@@ -76,7 +75,7 @@ impl<'a> Keeper<'a> {
         Ok(Some((keeper, from.run)))
     }
 
-    /// Where to go on from, and where the run restarted last until then.
+    /// State to resume from, and that of the last restart until then.
     fn from(out: &Path, plan: &Plan, read: Checkpoint) -> Result<Option<(Stand, Before)>, ResumeError> {
         let (path, end) = (out.join(FILE), plan.problem.settings.end);
         let run = &read.last.run;
@@ -117,13 +116,12 @@ impl<'a> Keeper<'a> {
             steps,
             before: None,
             interrupted: None,
-            failure: None,
         }
     }
 
-    /// Where a run stands.
-    fn stand(&self, run: &Run) -> Stand {
-        Stand { run: run.clone(), files: self.files.position(), sums: self.balance.sums().clone() }
+    /// State of a run.
+    fn stand(&self, run: Run) -> Stand {
+        Stand { run, files: self.files.position(), sums: self.balance.sums().clone() }
     }
 
     fn save(&mut self, last: Stand, before: Before) -> Result<(), OutputError> {
@@ -135,7 +133,7 @@ impl<'a> Keeper<'a> {
         Ok(())
     }
 
-    /// What is to be said of the files, once the run has ended.
+    /// Warning about the files, once the run has ended.
     #[must_use]
     pub fn warning(&self) -> Option<Warning> {
         self.files.warning()
@@ -148,24 +146,18 @@ impl<'a> Keeper<'a> {
     /// The first thing that could not be written.
     pub fn finish(mut self, run: &Run) -> Result<(Balance<'a>, Option<&'static str>), OutputError> {
         self.progress.finish();
-        if let Some(failure) = self.failure.take() {
-            return Err(failure);
-        }
-        if let Some(failure) = self.files.failure() {
-            return Err(failure);
-        }
         let failed = matches!(run.outcome, asperity_ode::Outcome::Failed { .. });
         if !failed && self.interrupted.is_none() {
             let over = run.outcome == asperity_ode::Outcome::Completed;
             let before = self.before.take().filter(|_| over);
-            self.save(self.stand(run), before)?;
+            self.save(self.stand(run.clone()), before)?;
         }
         Ok((self.balance, self.interrupted))
     }
 }
 
-impl Watcher for Keeper<'_> {
-    fn now(&mut self, moment: &Moment<'_>) -> Control {
+impl Observer<Faults> for Keeper<'_> {
+    fn step(&mut self, moment: &Moment<'_>) -> Result<Control, ObserveError> {
         self.steps += u64::from(moment.dt > 0.0);
         self.balance.step(moment);
         let (part, steps) = (moment.at.seconds() / self.plan.problem.settings.end, self.steps);
@@ -178,21 +170,16 @@ impl Watcher for Keeper<'_> {
                 moment.catalogue.events().len()
             )
         });
-        self.files.now(moment)
+        self.files.step(moment)
     }
 
-    fn pause(&mut self, run: &Run) -> Control {
+    fn pause(&mut self, run: &mut dyn FnMut() -> Run) -> Result<Option<&'static str>, ObserveError> {
         self.interrupted = self.pauses.reason(true);
-        let now = self.stand(run);
-        if self.interrupted.is_none() && self.written.elapsed() < self.pauses.every {
-            self.before = Some(Box::new(now));
-            return Control::Go;
-        }
+        let now = self.stand(run());
         self.before = Some(Box::new(now.clone()));
-        if let Err(failure) = self.save(now, None) {
-            self.failure = Some(failure);
-            return Control::Stop;
+        if self.interrupted.is_some() || self.written.elapsed() >= self.pauses.every {
+            self.save(now, None)?;
         }
-        if self.interrupted.is_some() { Control::Stop } else { Control::Go }
+        Ok(self.interrupted)
     }
 }

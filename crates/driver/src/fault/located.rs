@@ -10,7 +10,7 @@ use std::ops::Range;
 /// An event of a plan, or of what it was on these points of one of its faults.
 ///
 /// # Errors
-/// Where the calendar does not reach the event.
+/// If the calendar does not reach the event.
 pub fn locate(
     plan: &Plan,
     frame: &Frame,

@@ -1,13 +1,13 @@
-//! What normal tractions do on a fault.
+//! Behaviour of normal tractions on a fault.
 
-/// What normal tractions do on a fault.
+/// Behaviour of normal tractions on a fault.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalChoice {
-    /// Whether slip and loads change them.
+    /// True if slip and loads change them.
     pub changes: bool,
     /// The least that friction uses \[Pa\].
     pub floor: Option<f64>,
-    /// Whether the fault opens where nothing presses it.
+    /// True if the fault opens where nothing presses it.
     pub opens: bool,
 }
 

@@ -1,4 +1,4 @@
-//! How far faults opened in the course of a run.
+//! Opening of faults in the course of a run.
 
 use super::plan::Plan;
 use super::words::time;
@@ -6,7 +6,7 @@ use asperity_cycles::Opened;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// How far a fault opened.
+/// Opening of a fault.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct OpenedFault {
     /// Fault.
@@ -17,9 +17,9 @@ pub struct OpenedFault {
     pub of: usize,
     /// Largest opening \[m\].
     pub largest: f64,
-    /// Where it was \[m\].
+    /// Position \[m\].
     pub at: [f64; 3],
-    /// When it was \[s\].
+    /// Time \[s\].
     pub when: f64,
     /// Largest share of the time that a point was open.
     pub time_share: f64,

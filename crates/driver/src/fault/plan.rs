@@ -1,4 +1,4 @@
-//! What is integrated, and what outputs see of it.
+//! The problem to integrate, and what outputs see of it.
 
 use super::bodies::BodiesView;
 use super::cadence::Cadence;
@@ -20,17 +20,17 @@ pub struct PointView {
     pub normal: [f64; 3],
     /// Direction in which plus moves where slip, or its first component, is positive.
     pub slides: [f64; 3],
-    /// Where slip may turn: direction of its second component, normal x `slides`.
+    /// Direction of the second component of slip where it may turn, normal x `slides`.
     pub across: Option<[f64; 3]>,
     /// Tributary area \[m²; m per metre of thickness\].
     pub area: f64,
     /// Shear modulus G for moments: the harmonic mean of those of the two sides \[Pa\].
     pub shear_modulus: f64,
-    /// Where the law has one state of that meaning: θ = time exp(per s), in s.
+    /// Time scale of a law with one state of that meaning: θ = time exp(per s), in s.
     pub theta: Option<(f64, f64)>,
 }
 
-/// Where a station is.
+/// Position of a station.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Station {
     /// Distance along a plane fault from its upper end \[m\].
@@ -46,7 +46,7 @@ pub struct FaultView {
     pub name: String,
     /// Its points among those of all faults.
     pub points: std::ops::Range<usize>,
-    /// What normal tractions do there.
+    /// Behaviour of normal tractions there.
     pub normal: NormalChoice,
     /// Stations: what is asked for and the nearest point.
     pub stations: Vec<(Station, usize)>,
@@ -54,7 +54,7 @@ pub struct FaultView {
     pub faces: Vec<Vec<usize>>,
 }
 
-/// What is to be integrated, and what outputs see of it.
+/// The problem to integrate, and what outputs see of it.
 #[derive(Debug)]
 pub struct Plan {
     /// Title.
@@ -63,9 +63,9 @@ pub struct Plan {
     pub faults: Vec<FaultView>,
     /// Their points, fault by fault, along a plane one from its upper end.
     pub points: Vec<PointView>,
-    /// What is integrated.
+    /// The problem to integrate.
     pub problem: Problem,
-    /// When outputs are due.
+    /// Times of outputs.
     pub cadence: Cadence,
     /// Degrees of freedom of the bodies.
     pub dofs: usize,
@@ -75,17 +75,17 @@ pub struct Plan {
     pub memory_bytes: usize,
     /// The bodies, where their displacements are asked for.
     pub bodies: Option<BodiesView>,
-    /// Where and when it lies on Earth.
+    /// Place on Earth and time of the origin.
     pub frame: Option<Frame>,
-    /// Whether faults are surfaces in space: there is no distance along them then.
+    /// True if faults are surfaces in space: there is no distance along them then.
     pub in_space: bool,
     /// Idealisation in words.
     pub kinematics: &'static str,
-    /// How faults are resolved on which friction weakens.
+    /// Resolution of faults on which friction weakens.
     pub resolution: Vec<Resolution>,
-    /// What probably does not mean what the author of the scene wants.
+    /// Settings that are probably not meant as they stand in the scene.
     pub warnings: Vec<Warning>,
-    /// What should be known and is not in doubt.
+    /// Facts worth knowing that are not in doubt.
     pub notes: Vec<String>,
 }
 
@@ -100,7 +100,7 @@ impl Plan {
         std::array::from_fn(|c| first[c] + second * across[c])
     }
 
-    /// What a person should see before the run.
+    /// Text that a person should see before the run.
     #[must_use]
     pub fn summary(&self) -> String {
         let mut text = String::from("plan\n");

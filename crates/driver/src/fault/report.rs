@@ -21,13 +21,13 @@ use std::ops::Range;
 /// An event in the catalogue.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Entry {
-    /// When it began \[s\].
+    /// Onset \[s\].
     pub onset: f64,
     /// Time since the onset of the one before \[s\].
     pub interval: Option<f64>,
-    /// How long it lasted, until all points were slower than the rate that ends events \[s\].
+    /// Duration, until all points were slower than the rate that ends events \[s\].
     pub duration: f64,
-    /// How long of that the fastest point was faster than the rate that begins events \[s\]: what the community counts.
+    /// Part of that in which the fastest point was faster than the rate that begins events \[s\]: the time the community counts.
     pub duration_above: f64,
     /// Largest slip rate \[m/s\].
     pub peak_rate: f64,
@@ -47,13 +47,13 @@ pub struct Entry {
     pub moment: f64,
     /// Mean fall of shear traction there, weighted with slip \[Pa\].
     pub stress_drop: f64,
-    /// Where slip may turn: unit vector of ∫ G slip dA.
+    /// Unit vector of ∫ G slip dA, where slip may turn.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 3]>,
-    /// Where slip may turn: angle from `rake` to mean slip, positive towards the normal x `rake` \[degrees\].
+    /// Angle from `rake` to mean slip where slip may turn, positive towards the normal x `rake` \[degrees\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turned: Option<f64>,
-    /// What seismologists tell of it, where the scene has a place.
+    /// Seismological parameters, where the scene has a place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub located: Option<Located>,
 }
@@ -62,7 +62,7 @@ pub struct Entry {
 const SLIPPED: f64 = 0.01;
 
 impl Entry {
-    /// What the event was on these points, of all faults or of one.
+    /// Effect of the event on these points, of all faults or of one.
     fn new(plan: &Plan, event: &Event, before: Option<&Event>, points: &Range<usize>) -> Self {
         let n = plan.points.len();
         let slip = |p: usize| size(&event.slip, n, p);
@@ -151,13 +151,13 @@ impl Turned {
 /// A cycle: from the end of an event to that of the next.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Cycle {
-    /// How long it was \[s\].
+    /// Duration of the run \[s\].
     pub duration: f64,
     /// Slip, where it may turn along the rake, over the area in its event \[m³; m²\].
     pub seismic: f64,
     /// Slip over the area before its event.
     pub aseismic: f64,
-    /// What slip at the rates that keep tractions constant under the loads would have been, where they are constant.
+    /// Slip at the rates that keep tractions constant under the loads, where they are constant.
     pub driven: Option<f64>,
     /// Works in it.
     pub energy: EnergyBalance,
@@ -205,11 +205,11 @@ pub struct Work {
 /// The report of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Report {
-    /// How the run ended.
+    /// Outcome.
     pub outcome: Outcome,
     /// Warnings of the plan.
     pub warnings: Vec<Warning>,
-    /// How faults are resolved on which friction weakens.
+    /// Resolution of faults on which friction weakens.
     pub resolution: Vec<Resolution>,
     /// Use of the floors of normal traction.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -221,7 +221,7 @@ pub struct Report {
     pub method: String,
     /// Error of ln V allowed in a step.
     pub tolerance: f64,
-    /// When \[s\].
+    /// Time \[s\].
     pub end: f64,
     /// Events of all faults together, by the fastest point of all.
     pub events: Vec<Entry>,
@@ -255,7 +255,7 @@ impl Results for Report {
     }
 }
 
-/// Why an integration failed, as far as the fault tells.
+/// Reason why an integration failed, as far as the fault tells.
 fn why(plan: &Plan, run: &Run, reason: &str) -> String {
     if let Some(point) = run.opens {
         let view = &plan.points[point];
@@ -379,7 +379,7 @@ impl Report {
         text
     }
 
-    /// What a person should read at the end.
+    /// Words a person should read at the end.
     #[must_use]
     pub fn text(&self) -> String {
         let mut text = String::from("results\n");

@@ -1,4 +1,4 @@
-//! How finely the points of a fault resolve the lengths of its friction.
+//! Resolution of the lengths of friction by the points of a fault.
 
 use super::words::length;
 use schemars::JsonSchema;
@@ -20,13 +20,13 @@ pub struct Coarsest {
     pub spacing: f64,
     /// The length over that distance.
     pub points: f64,
-    /// Where \[m\].
+    /// Position \[m\].
     pub at: [f64; 3],
     /// Distance along the fault from its upper end \[m\]; 0 in space.
     pub along: f64,
 }
 
-/// How a fault is resolved, where friction weakens on it.
+/// Resolution of a fault, where friction weakens on it.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Resolution {
     /// Fault.

@@ -19,7 +19,7 @@ const IN_EVENTS: f64 = 2.0;
 /// Size of all snapshots together over that of a file that grows.
 const FILES: u64 = 10;
 
-/// How many have been taken, and when the last one was.
+/// Number of those taken, and the time of the last one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Taken {
     count: usize,
@@ -41,10 +41,10 @@ pub(super) fn name(fault: &str, number: usize) -> String {
 }
 
 impl Snapshots {
-    /// Where faults are surfaces.
+    /// Surfaces of faults in space.
     ///
     /// # Errors
-    /// When the folder cannot be made.
+    /// If the folder cannot be made.
     pub fn begin(out: &Path, plan: &Plan) -> Result<Option<Self>, OutputError> {
         if !plan.in_space {
             return Ok(None);
@@ -60,7 +60,7 @@ impl Snapshots {
         Self { taken, ..self }
     }
 
-    /// How many have been taken.
+    /// Number of those taken.
     pub fn taken(&self) -> Taken {
         self.taken
     }
@@ -68,7 +68,7 @@ impl Snapshots {
     /// Takes one where it is due, and returns its row of the list.
     ///
     /// # Errors
-    /// When a file cannot be written.
+    /// If a file cannot be written.
     pub fn take(&mut self, plan: &Plan, now: &Moment<'_>) -> Result<Option<String>, OutputError> {
         let time = now.at.seconds();
         let fast = now.largest >= plan.problem.settings.thresholds.on;

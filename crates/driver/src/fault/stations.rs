@@ -52,7 +52,7 @@ fn head(plan: &Plan, fault: &str, asked: &Station, point: usize) -> String {
     head.text()
 }
 
-/// Whether the fault of a point opens.
+/// True if the fault of a point opens.
 fn opens(plan: &Plan, point: usize) -> bool {
     plan.faults.iter().any(|f| f.normal.opens && f.points.contains(&point))
 }

@@ -4,7 +4,7 @@ use crate::diagnostic::Diagnostic;
 use crate::scene::model::{Condition, Loading, Motion, Scene, Spanned, Stage, Stepper};
 use std::collections::BTreeMap;
 
-/// What a set does along an axis.
+/// Prescription for a set along an axis.
 type Of<T> = BTreeMap<(String, usize), T>;
 
 /// Refuses loads and releases of a stage of faults that change a force at once; `before` are the motions and the values of the loads at the

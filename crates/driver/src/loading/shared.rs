@@ -12,7 +12,7 @@ use std::ops::Range;
 /// A component of a set.
 pub(super) type Key = (String, usize);
 
-/// What is prescribed from stage to stage, and where the scene says so.
+/// Prescriptions from stage to stage, and their places in the scene.
 #[derive(Default)]
 pub(super) struct Shared {
     /// Places of the motions in force.

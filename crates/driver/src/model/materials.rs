@@ -76,7 +76,7 @@ fn refused(place: Range<usize>, error: &FemError) -> Diagnostic {
     Diagnostic::at(place, error.to_string(), remedy(error))
 }
 
-/// What would be right instead of a parameter that is not admissible.
+/// Remedy for a parameter that is not admissible.
 fn remedy(error: &FemError) -> &'static str {
     let FemError::Material { name, .. } = error else { return "give other parameters" };
     match *name {

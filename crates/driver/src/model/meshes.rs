@@ -247,7 +247,7 @@ fn fault(name: &str, spec: &scene::FaultMesh) -> Result<Mesh<2>, Diagnostic> {
     Ok(generated.map_err(|e| Diagnostic::body(name, spec.trace.span(), e.to_string()))?.mesh)
 }
 
-/// What is known of generated meshes and is in no file: where smooth curves run between the vertices of traces.
+/// Facts about generated meshes that are in no file: the course of smooth curves between the vertices of traces.
 ///
 /// # Errors
 /// [`Diagnostic`] for traces that cannot be meshed.
@@ -358,7 +358,7 @@ fn read<const D: usize>(
     Ok(mesh)
 }
 
-/// Where a mesh file was looked for, and what stands there instead.
+/// Path of a mesh file that was looked for, and what stands there instead.
 fn looked_for(path: &Path) -> String {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     let told =

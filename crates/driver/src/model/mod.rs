@@ -185,7 +185,7 @@ fn cell_block<const D: usize>(
     Ok(CellBlock::Nonlinear(Box::new(term)))
 }
 
-/// Whether a material can bear a stress.
+/// Checks that a material can bear a stress.
 fn admissible(stress: &[f64; 6], material: &Material) -> Result<(), String> {
     let Material::J2(j2) = material else { return Ok(()) };
     let (mises, limit) = (von_mises(stress), j2.hardening().at(0.0).stress);

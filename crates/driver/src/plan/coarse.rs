@@ -9,7 +9,7 @@ use asperity_mechanics::{Measure, PlannedInterface};
 /// place where penetration is seen.
 const COARSER: f64 = 3.0;
 
-/// What is doubtful in the faces of an interface whose mesh nodes lie at `nodes`.
+/// Doubts about the faces of an interface whose mesh nodes lie at `nodes`.
 pub fn doubts<const D: usize>(
     nodes: &[[f64; D]],
     planned: &PlannedInterface,

@@ -1,4 +1,4 @@
-//! What the points of an interface resolve, and where statics says that they are too few.
+//! Resolution of the points of an interface, and where statics says that they are too few.
 
 use crate::cohesive::enough;
 use crate::diagnostic::Diagnostic;
@@ -31,7 +31,7 @@ pub fn resolved<const D: usize>(model: &Model<D>, spec: &Interface, slave: &[Sid
     Some(Resolved { one, spacing, refused_beyond, limit: limit(one, spacing), place: law.span() })
 }
 
-/// What the points resolve and what helps, where a run stops for it.
+/// Words on the resolution and the remedy, where a run stops for it.
 fn limit(one: f64, spacing: f64) -> String {
     format!(
         "points {spacing:.4e} m apart resolve it up to {:.4} MPa: take them closer, in proportion, or a longer length of weakening (`l`, `d_c`); `under_resolved = \"allow\"` at the interface runs on",
@@ -39,7 +39,7 @@ fn limit(one: f64, spacing: f64) -> String {
     )
 }
 
-/// What helps where less than one point stands on the zone.
+/// Remedy where less than one point stands on the zone.
 fn remedy(resolved: &Resolved, normal: f64) -> String {
     format!("{}; or `under_resolved = \"allow\"` at the interface", enough(resolved, normal))
 }

@@ -1,4 +1,4 @@
-//! What is doubtful in a scene once its bodies are made and its stages resolved.
+//! Doubts about a scene once its bodies are made and its stages resolved.
 
 use super::penalty::{self, Softer};
 use super::{PlannedInterface, StartGap, Stepping, coarse, cohesive, start_gaps};
@@ -13,7 +13,7 @@ use asperity_friction::evolution;
 /// Share of what the conditions move that an error of slip allowed in a single step may be: beyond it nothing bounds the steps.
 const BOUNDS_NOTHING: f64 = 0.1;
 
-/// Where the sides of the interfaces are, and what is doubtful before the first step.
+/// Positions of the sides of the interfaces, and doubts about them before the first step.
 ///
 /// # Errors
 /// [`Diagnostic`] for sides that cannot be meant.

@@ -8,7 +8,7 @@ use asperity_mechanics::Enforced;
 /// 100 E/h a hundredth; more than so many mean that the penalty is too small for the method.
 const AUGMENTATIONS: usize = 40;
 
-/// What a scene declares for a slave body of this modulus over element size \[Pa/m\] and element size \[m\].
+/// Declaration of a scene for a slave body of this modulus over element size \[Pa/m\] and element size \[m\].
 #[must_use]
 pub fn enforced(spec: &Spec, young_per_size: f64, size: f64) -> Enforced {
     match *spec.kind.get_ref() {

@@ -128,7 +128,7 @@ fn slave_points<const D: usize>(
     Ok(slave)
 }
 
-/// Whether the contact can work with the faces of both sides.
+/// Checks that the contact can work with the faces of both sides.
 fn check_faces<const D: usize>(
     model: &Model<D>,
     spec: &InterfaceSpec,

@@ -69,7 +69,7 @@ impl<const D: usize> Choice<'_, D> {
         if self.model.dofs() <= ANALYSED { None } else { bytes(self.scene) }
     }
 
-    /// What condensation of the bodies onto `retained` needs, without the interface.
+    /// Memory that condensation of the bodies onto `retained` needs, without the interface.
     fn condensations(&self, retained: &[Vec<usize>]) -> Result<(Prepared, usize), Diagnostic> {
         if let Some(bytes) = self.counted(forecast::condensation) {
             return Ok((Prepared::Nothing, bytes));
@@ -141,7 +141,7 @@ impl<const D: usize> Choice<'_, D> {
         Err(self.too_much(&what, bytes, unsymmetric.is_none()))
     }
 
-    /// Whether the iterative method serves where factors do not fit.
+    /// True if the iterative method serves where factors do not fit.
     fn linear_in_space(&self) -> bool {
         D == 3 && self.interfaces.is_empty() && self.model.is_linear()
     }

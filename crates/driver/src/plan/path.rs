@@ -34,13 +34,13 @@ pub fn choose<const D: usize>(
     }
 }
 
-/// Whether all bodies together are the better system under finite sliding, whose masters may be much larger than what is in contact.
+/// True if all bodies together are the better system under finite sliding, whose masters may be much larger than what is in contact.
 fn too_wide<const D: usize>(model: &Model<D>, interfaces: &[PlannedInterface]) -> bool {
     let kept: usize = solver::retained(model, interfaces).iter().map(Vec::len).sum();
     finite(interfaces) && kept > WIDEST
 }
 
-/// Whether an interface slides by any distance.
+/// True if an interface slides by any distance.
 pub fn finite(interfaces: &[PlannedInterface]) -> bool {
     interfaces.iter().any(|i| i.sliding == Sliding::Finite)
 }
@@ -54,7 +54,7 @@ pub fn not_linear<const D: usize>(model: &Model<D>) -> Option<String> {
     model.bodies.iter().find_map(|b| b.nonlinear.map(|why| format!("in body `{}` {why}", b.name)))
 }
 
-/// Why the full system is solved.
+/// Reason why the full system is solved.
 pub fn full_because<const D: usize>(
     scene: &Scene,
     model: &Model<D>,

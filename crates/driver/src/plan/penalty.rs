@@ -1,6 +1,6 @@
 //! Penalties against the stiffness of the bodies beside an interface, and against what double precision carries.
 //!
-//! What a penalty E_n adds to the compliance of a contact, and by how much a pair that opens or closes changes a residual, is decided by
+//! Compliance that a penalty E_n adds to a contact, and the change of a residual by a pair that opens or closes, are decided by
 //! the softer of the two sides: k = E_n h/E with its E and h. Gaps are differences of positions, which are known to eps X, X the size of the
 //! scene, so that tractions have an error of E_n eps X = k eps (X/h) E.
 
@@ -71,7 +71,7 @@ impl Softer {
         penalty / self.young_per_size
     }
 
-    /// What would be a good value of `key`, and why the one that stands there is none.
+    /// Good value of `key`, and the reason why the present one is none.
     fn help(&self, key: &str, kind: EnforcementKind) -> String {
         let good = if kind == EnforcementKind::AugmentedLagrangian { 1.0 } else { 100.0 };
         if self.contrast > ALIKE {
@@ -93,7 +93,7 @@ impl Softer {
     }
 }
 
-/// Where a penalty stands in a scene, with its value.
+/// Place of a penalty in a scene, with its value.
 struct Given<'a> {
     interface: &'a str,
     key: &'static str,

@@ -12,7 +12,7 @@ use crate::model::{self, sizes};
 use crate::scene::model::Scene;
 use asperity_mechanics::Problem;
 
-/// What a scene with bodies asks for.
+/// Request of a scene with bodies.
 #[derive(Debug)]
 pub enum ScenePlan {
     /// Stages of bodies and interfaces.

@@ -50,7 +50,7 @@ fn part<const D: usize>(model: &Model<D>, moving: &Motion) -> String {
 /// Sets of a body that are named in a remedy; more would hide it.
 const MOST_NAMED: usize = 8;
 
-/// What would hold a body.
+/// Remedy that would hold a body.
 fn remedy<const D: usize>(model: &Model<D>, body: &str, loose: &str) -> String {
     let own = |set: &&String| set.strip_prefix(body).is_some_and(|rest| rest.starts_with('.'));
     let sets: Vec<&String> = model.mesh.side_sets.keys().filter(own).collect();
@@ -72,7 +72,7 @@ fn remedy<const D: usize>(model: &Model<D>, body: &str, loose: &str) -> String {
     )
 }
 
-/// Whether the faces of a set are turned along an axis.
+/// True if the faces of a set are turned along an axis.
 fn is_across<const D: usize>(model: &Model<D>, set: &str, axis: usize) -> bool {
     let mut faces = model.mesh.side_sets[set].iter().map(|side| face_nodes(&model.mesh, side));
     faces.all(|face| axis < D && model.face_normal(&face)[axis].abs() > ACROSS)

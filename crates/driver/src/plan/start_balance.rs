@@ -1,4 +1,4 @@
-//! How far initial stress, weight, loads and interfaces are from balance before anything moves.
+//! Imbalance of initial stress, weight, loads and interfaces before anything moves.
 
 use super::{PlannedInterface, Stepping};
 use crate::diagnostic::Diagnostic;
@@ -14,7 +14,7 @@ use asperity_mechanics::{CellBlock, Model, Stage, declared};
 /// mesh: where meshes of two bodies do not match, a stress that varies leaves some h/10H on H/h cells.
 const SETTLES: f64 = 1e-2;
 
-/// What may be missing.
+/// Missing part, perhaps.
 const BEARS: &str = "interfaces bear the stress from the start with `initial_stress = true`";
 const BALANCES: &str = "weight needs a stress that grows with depth (`kind = \"lithostatic\"`), free sides the tractions that the stress exerts there; leave it \
                         so where the stress is meant as a load";
@@ -25,7 +25,7 @@ const ROUNDING: f64 = 1e-9;
 /// Share of a shear traction that friction may take off before a point counts as slipping: rounding.
 const HELD: f64 = 1e-9;
 
-/// What is out of balance.
+/// Unbalanced force.
 struct Left<const D: usize> {
     /// Sum of the unbalanced forces over the largest stress times a face of the size of the body \[-\].
     share: f64,
@@ -33,11 +33,11 @@ struct Left<const D: usize> {
     largest: (f64, usize, usize),
 }
 
-/// How an interface starts.
+/// Start of an interface.
 struct Start {
     /// In words.
     remark: String,
-    /// Whether friction does not hold all points.
+    /// True if friction does not hold all points.
     slips: bool,
 }
 
@@ -195,7 +195,7 @@ fn largest_stress<const D: usize>(scene: &Scene, model: &Model<D>) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// What is left at degrees of freedom that no condition holds, of the body where it is most.
+/// Force left at degrees of freedom that no condition holds, of the body where it is largest.
 fn of_free<const D: usize>(model: &Model<D>, stage: &Stage, r: &[f64], stress: f64) -> Left<D> {
     let components = model.idealisation.components();
     let mut left = Left { share: 0.0, largest: (0.0, 0, 0) };

@@ -1,4 +1,4 @@
-//! Where the sides of an interface are before the first step, as data.
+//! Positions of the sides of an interface before the first step, as data.
 
 use crate::lengths::brief;
 use schemars::JsonSchema;

@@ -1,4 +1,4 @@
-//! Where the sides of the interfaces are before the first step: gaps, overlaps and what faces what, measured as the contact will measure.
+//! Positions of the sides of the interfaces before the first step: gaps, overlaps and facing, measured as the contact will measure.
 
 use super::{PlannedInterface, SHARE, StartGap, Stepping};
 use crate::diagnostic::Diagnostic;
@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 /// Rounding of a gap over the size of the scene: what the contact takes for closed without traction.
 const ROUNDING: f64 = 1e-12;
 
-/// How far sides can come together, over what the conditions prescribe: both sides may move, and a body that is squeezed bulges by
+/// Distance by which sides can come together, over what the conditions prescribe: both sides may move, and a body that is squeezed bulges by
 /// less than it is squeezed.
 const REACH: f64 = 3.0;
 
@@ -63,7 +63,7 @@ pub fn measure<const D: usize>(
     refuse(model, planned, spec, &start, points).map_or(Ok(start), Err)
 }
 
-/// Whether the slave side at a point and the master look at each other.
+/// True if the slave side at a point and the master look at each other.
 fn looks_at<const D: usize>(slave: &[f64; D], points: &PointFields<D>, p: usize) -> bool {
     slave.iter().zip(&points.normal[p]).map(|(a, b)| a * b).sum::<f64>() < 0.0
 }
@@ -128,7 +128,7 @@ fn thickness<const D: usize>(model: &Model<D>, body: usize, n: &[f64; D]) -> f64
     (0..D).map(|c| n[c].abs() * (max[c] - min[c])).sum()
 }
 
-/// What is doubtful about the start of an interface whose slave has cells of size `h`; a bonded one keeps the gaps it has.
+/// Doubts about the start of an interface whose slave has cells of size `h`; a bonded one keeps the gaps it has.
 pub fn doubts(start: &StartGap, (spec, bonded): (&Spec, bool), stages: &[Stage], h: f64) -> Option<Warning> {
     let [least, largest] = start.gap;
     let name = &start.interface;

@@ -55,7 +55,7 @@ pub fn choose(scene: &Scene) -> Result<Stepping, Diagnostic> {
     })
 }
 
-/// Whether some interface has a law of slip rate and state.
+/// True if some interface has a law of slip rate and state.
 fn evolves(scene: &Scene) -> bool {
     let mut kinds = scene.interfaces.values().filter_map(|i| i.law.as_ref()?.get_ref().kind.as_ref());
     kinds.any(|kind| kind.get_ref() == RATE_AND_STATE)

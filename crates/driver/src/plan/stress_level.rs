@@ -1,4 +1,4 @@
-//! Whether bodies stay below the level of their lithostatic stress.
+//! Position of bodies below the level of their lithostatic stress.
 
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress::vertical;

@@ -76,7 +76,7 @@ pub fn of<const D: usize>(
     }
 }
 
-/// What the bodies are made of, one line for each kind there is.
+/// Materials of the bodies, one line for each kind there is.
 fn bodies_in_words<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<String> {
     let mut lines: Vec<(String, Vec<&str>, usize)> = Vec::new();
     for body in &model.bodies {

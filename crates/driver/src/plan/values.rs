@@ -6,18 +6,18 @@ use asperity_mechanics::Problem;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// What will be run.
+/// Plan of the run.
 #[derive(Debug)]
 pub struct Plan<const D: usize> {
     /// Title of the scene.
     pub title: String,
-    /// What is computed.
+    /// Computation.
     pub problem: Problem<D>,
     /// Field outputs per stage.
     pub field_outputs: usize,
     /// Profile outputs per stage.
     pub profile_outputs: usize,
-    /// What is printed.
+    /// Printed text.
     pub summary: Summary,
 }
 
@@ -31,7 +31,7 @@ pub enum AnyPlan {
 }
 
 impl AnyPlan {
-    /// What is printed.
+    /// Printed text.
     #[must_use]
     pub fn summary(&self) -> &Summary {
         match self {
@@ -71,9 +71,9 @@ pub struct Summary {
     pub stepper: String,
     /// Remarks: bodies held by contact alone, unpaired nodes.
     pub remarks: Vec<String>,
-    /// What probably does not mean what the author of the scene wants.
+    /// Settings that are probably not meant as they stand in the scene.
     pub warnings: Vec<Warning>,
-    /// Where the sides of the interfaces are before the first step.
+    /// Positions of the sides of the interfaces before the first step.
     pub start_gaps: Vec<StartGap>,
     /// Degrees of freedom of the bodies.
     pub dofs: usize,

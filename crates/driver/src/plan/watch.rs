@@ -1,4 +1,4 @@
-//! What the steps of an interface may not do: derived from its law, the bodies beside it and the loads.
+//! Limits on the steps of an interface: derived from its law, the bodies beside it and the loads.
 
 use crate::diagnostic::Diagnostic;
 use crate::model::{self, Model};
@@ -17,7 +17,7 @@ const ZETA: f64 = 0.1;
 /// Largest slip over L, in units of a/b: up to about a L/b the equations of a step have one solution.
 const UNIQUE: f64 = 0.5;
 
-/// What the steps of an interface between these faces may not do; `loading` is the largest prescribed rate \[m/s\].
+/// Limits on the steps of an interface between these faces; `loading` is the largest prescribed rate \[m/s\].
 ///
 /// # Errors
 /// [`Diagnostic`] where a body has no material.
@@ -51,7 +51,7 @@ fn direct_effect(law: &LawChoice) -> Option<f64> {
     }
 }
 
-/// How a law loses strength.
+/// Loss of strength of a law.
 fn course(law: &LawChoice) -> Course {
     match law {
         LawChoice::Tied | LawChoice::Coulomb { .. } | LawChoice::Rate { .. } => Course::Steady,

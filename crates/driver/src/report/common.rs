@@ -1,4 +1,4 @@
-//! What every `report.json` has, whatever was run: its schema, how the run ended, and where it came from.
+//! Part common to every `report.json`: its schema, the outcome, and the provenance.
 
 use asperity_cycles::Energy;
 use schemars::JsonSchema;
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 /// Version of the form of `report.json`. It grows where a key changes its meaning or goes, not where one is added.
 pub const SCHEMA: u32 = 1;
 
-/// What was run.
+/// Command that was run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -20,7 +20,7 @@ pub enum Kind {
     Sliders,
 }
 
-/// How a run ended.
+/// End of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
@@ -34,9 +34,9 @@ pub enum Outcome {
         stage: Option<String>,
         /// Time of the last good state \[s\].
         time: f64,
-        /// Why.
+        /// Reason.
         reason: String,
-        /// What kind of end it is.
+        /// Kind of end.
         kind: Stop,
     },
     /// A signal or its wall time ended it; everything before `time` stands.
@@ -46,13 +46,13 @@ pub enum Outcome {
         stage: Option<String>,
         /// Time of the last state \[s\].
         time: f64,
-        /// Why.
+        /// Reason.
         reason: String,
     },
 }
 
 impl Outcome {
-    /// How the run stands.
+    /// Status of the run.
     #[must_use]
     pub fn status(&self) -> Status {
         match self {
@@ -62,7 +62,7 @@ impl Outcome {
         }
     }
 
-    /// Why the run ended before its end, where it did.
+    /// Reason why the run ended before its end, where it did.
     #[must_use]
     pub fn reason(&self) -> Option<&str> {
         match self {
@@ -72,7 +72,7 @@ impl Outcome {
     }
 }
 
-/// Why a run could not go on.
+/// Reason why a run could not go on.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Stop {
@@ -100,7 +100,7 @@ pub enum Stop {
     },
 }
 
-/// How a run stands.
+/// Status of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
@@ -114,12 +114,12 @@ pub enum Status {
     Interrupted,
 }
 
-/// What a run was begun from.
+/// Input of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Origin {
     /// Path of the scene file.
     pub scene: String,
-    /// When it was begun, or resumed.
+    /// Time at which it was begun, or resumed.
     pub started: String,
 }
 
@@ -136,7 +136,7 @@ pub struct Phases {
     pub output: f64,
 }
 
-/// What may differ from machine to machine and from run to run.
+/// Facts that may differ from machine to machine and from run to run.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Provenance<'a> {
     /// Wall time; absent until the run has ended.
@@ -149,7 +149,7 @@ pub struct Provenance<'a> {
     /// Most memory the process had until then \[bytes\]; absent where the system does not say.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak_bytes: Option<usize>,
-    /// What it was begun from.
+    /// Input of the run.
     #[serde(flatten)]
     pub origin: &'a Origin,
 }
@@ -159,9 +159,9 @@ pub struct Provenance<'a> {
 pub struct Report<'a, P> {
     /// Version of its form.
     pub schema: u32,
-    /// What was run.
+    /// Command that was run.
     pub kind: Kind,
-    /// How the run stands.
+    /// Status of the run.
     pub status: Status,
     /// Title of the scene.
     pub title: &'a str,
@@ -174,12 +174,12 @@ pub struct Report<'a, P> {
     pub meshes_sha256: Option<&'a BTreeMap<String, String>>,
     /// Machine-dependent.
     pub run: Provenance<'a>,
-    /// What its kind has of its own.
+    /// Part of its own kind.
     #[serde(flatten)]
     pub results: P,
 }
 
-/// What there is to say of a run that has not ended, or ended without results.
+/// Words about a run that has not ended, or ended without results.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Sketch {
     /// The error with which it ended; absent while it goes on.
@@ -187,12 +187,12 @@ pub struct Sketch {
     pub reason: Option<String>,
 }
 
-/// What a kind of run has of its own in its report.
+/// Part of the report of its own kind.
 pub trait Results: Serialize {
     /// Its kind.
     const KIND: Kind;
 
-    /// How the run ended.
+    /// Outcome.
     fn outcome(&self) -> &Outcome;
 
     /// Wall time.

@@ -1,47 +1,39 @@
-//! What is done with a run between its steps: shown, kept in checkpoints, interrupted.
+//! Observers of a run between its steps: files, progress, checkpoints, interruption.
 
 use super::stand::Stand;
 use crate::checkpoint::{self, Contents, Pauses};
+use asperity_ode::{Control, Kind, ObserveError, Observer};
 use asperity_output::view::{Setup, StepView};
-use asperity_output::{Files, FilesState, Multi, Observer, OutputError, Progress, Recorder};
+use asperity_output::{Files, FilesState, Multi, OutputError, Progress, Recorder, Writer};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Observes a run, and decides between its steps whether it goes on.
-pub trait Keeper: Observer {
-    /// Before each trial of a step: why the run is to be interrupted, where it is. `moved` is false until the run has tried a step since it
-    /// began or was resumed; `stand` gives where it stands, which costs a copy.
-    ///
-    /// # Errors
-    /// When something cannot be written.
-    fn pause(
-        &mut self,
-        moved: bool,
-        stand: &mut dyn FnMut() -> Stand,
-    ) -> Result<Option<&'static str>, OutputError>;
+/// Runs of bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct Bodies;
+
+impl Kind for Bodies {
+    type Setup = Setup;
+    type Moment<'a> = StepView<'a>;
+    type Stand = Stand;
 }
 
 /// Keeps nothing and lets a run go on to its end.
-pub(super) struct Unkept<'a>(pub &'a mut dyn Observer);
+pub(super) struct Unkept<'a>(pub &'a mut dyn Writer);
 
-impl Observer for Unkept<'_> {
-    fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
-        self.0.begin(setup)
+impl Observer<Bodies> for Unkept<'_> {
+    fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
+        Ok(self.0.begin(setup)?)
     }
 
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
-        self.0.step(view)
+    fn step(&mut self, view: &StepView<'_>) -> Result<Control, ObserveError> {
+        self.0.step(view)?;
+        Ok(Control::Go)
     }
 
-    fn stopped(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
-        self.0.stopped(view)
-    }
-}
-
-impl Keeper for Unkept<'_> {
-    fn pause(&mut self, _: bool, _: &mut dyn FnMut() -> Stand) -> Result<Option<&'static str>, OutputError> {
-        Ok(None)
+    fn end(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        Ok(self.0.end(view)?)
     }
 }
 
@@ -50,16 +42,16 @@ impl Keeper for Unkept<'_> {
 pub struct Checkpoint {
     /// Hash of the scene and of the mesh files it names.
     physics: String,
-    /// Where the run stands.
+    /// State of the run.
     pub stand: Stand,
-    /// Where its files stand.
+    /// Positions in its files.
     files: FilesState,
-    /// What is drawn at the end; none where nothing is.
+    /// Data drawn at the end; none where nothing is.
     recorder: Option<Recorder>,
 }
 
 impl Checkpoint {
-    /// Whether the run is to draw anything at its end.
+    /// True if the run is to draw anything at its end.
     #[must_use]
     pub fn draws(&self) -> bool {
         self.recorder.is_some()
@@ -85,7 +77,9 @@ pub struct Kept {
     progress: Option<Progress>,
     pauses: Pauses,
     resumed: bool,
-    /// When the last checkpoint was written, and how long that took.
+    /// True if a step has been tried since the run began or was resumed.
+    moved: bool,
+    /// Instant of the last checkpoint, and how long it took.
     written: (Instant, Duration),
 }
 
@@ -93,7 +87,7 @@ impl Kept {
     /// Begins a run with outputs in `out`; with `recorder` what it is to draw at the end.
     ///
     /// # Errors
-    /// When the checkpoint of an earlier run cannot be removed.
+    /// If the checkpoint of an earlier run cannot be removed.
     pub fn begin(
         out: &Path,
         physics: &str,
@@ -122,7 +116,7 @@ impl Kept {
         resumed: bool,
     ) -> Self {
         let written = (Instant::now(), Duration::ZERO);
-        Self { out, physics, files, recorder, progress: None, pauses, resumed, written }
+        Self { out, physics, files, recorder, progress: None, pauses, resumed, moved: false, written }
     }
 
     /// The same, for a person who waits.
@@ -145,7 +139,7 @@ impl Kept {
     /// Ends what a person waiting sees; removes the checkpoint of a run that has reached its end. What is to be drawn is returned.
     ///
     /// # Errors
-    /// When the checkpoint cannot be removed.
+    /// If the checkpoint cannot be removed.
     pub fn finish(self, completed: bool) -> Result<Option<Recorder>, OutputError> {
         if let Some(progress) = self.progress {
             progress.finish();
@@ -157,42 +151,39 @@ impl Kept {
     }
 
     fn all(&mut self) -> Multi<'_> {
-        let mut all = vec![&mut self.files as &mut dyn Observer];
-        all.extend(self.progress.as_mut().map(|p| p as &mut dyn Observer));
-        all.extend(self.recorder.as_mut().map(|r| r as &mut dyn Observer));
+        let mut all = vec![&mut self.files as &mut dyn Writer];
+        all.extend(self.progress.as_mut().map(|p| p as &mut dyn Writer));
+        all.extend(self.recorder.as_mut().map(|r| r as &mut dyn Writer));
         Multi::new(all)
     }
 }
 
-impl Observer for Kept {
-    fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
+impl Observer<Bodies> for Kept {
+    fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
         if !self.resumed {
-            return self.all().begin(setup);
+            return Ok(self.all().begin(setup)?);
         }
         self.files.begin(setup)?;
         self.progress.as_mut().map_or(Ok(()), |progress| progress.begin(setup))?;
-        self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.resume(setup))
+        Ok(self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.resume(setup))?)
     }
 
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
-        self.all().step(view)
+    fn step(&mut self, view: &StepView<'_>) -> Result<Control, ObserveError> {
+        self.all().step(view)?;
+        Ok(Control::Go)
     }
 
-    fn stopped(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
-        self.all().stopped(view)
-    }
-}
-
-impl Keeper for Kept {
-    fn pause(
-        &mut self,
-        moved: bool,
-        stand: &mut dyn FnMut() -> Stand,
-    ) -> Result<Option<&'static str>, OutputError> {
+    /// The first time no step has been tried yet, and a checkpoint would be of what was resumed.
+    fn pause(&mut self, stand: &mut dyn FnMut() -> Stand) -> Result<Option<&'static str>, ObserveError> {
+        let moved = std::mem::replace(&mut self.moved, true);
         let reason = self.pauses.reason(moved);
         if reason.is_some() || moved && self.pauses.are_due(self.written) {
             self.save(stand())?;
         }
         Ok(reason)
+    }
+
+    fn end(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        Ok(self.all().end(view)?)
     }
 }

@@ -1,4 +1,4 @@
-//! Where a run of bodies stands between two trials of a step.
+//! State of a run of bodies between two trials of a step.
 
 use crate::report::{ForceResult, InterfaceResult, PointResult};
 use crate::warning::Warning;
@@ -22,7 +22,7 @@ pub struct Stand {
     pub(super) found: Found,
 }
 
-/// What a run has done.
+/// Work of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Work {
     pub counts: Counts,
@@ -31,7 +31,7 @@ pub(super) struct Work {
     pub steps: Vec<StepRecord>,
 }
 
-/// What a run has found in the stages it has completed.
+/// Findings of a run in the stages it has completed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Found {
     pub results: Vec<InterfaceResult>,

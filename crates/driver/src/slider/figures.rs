@@ -5,7 +5,7 @@ use asperity_cycles::slider::Problem;
 use asperity_output::plots::{Chart, Measure};
 use serde::{Deserialize, Serialize};
 
-/// What plots show of a slider.
+/// Data of a slider that plots show.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Trace {
     /// Time \[s\], slip \[m\], displacement of the load point \[m\], slip rate \[m/s\], friction \[-\], traction \[Pa\].

@@ -2,7 +2,8 @@
 
 use super::figures::Trace;
 use super::thin::{Row, Thin};
-use asperity_cycles::slider::{Now, Problem, WatchError, Watcher};
+use asperity_cycles::slider::{Now, Problem, Sliders};
+use asperity_ode::{Control, ObserveError, Observer};
 use asperity_output::decimals::{shortest, shortest_scientific};
 use asperity_output::{Growing, OutputError, atomic, plots};
 use serde::{Deserialize, Serialize};
@@ -12,11 +13,11 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct Histories {
     sliders: Vec<Kept>,
-    /// Whether plots will be drawn.
+    /// True if plots will be drawn.
     traced: bool,
 }
 
-/// What is kept of a slider.
+/// Record of a slider.
 #[derive(Debug, Default)]
 struct Kept {
     file: Option<Growing>,
@@ -24,7 +25,7 @@ struct Kept {
     trace: Trace,
 }
 
-/// Where the history of a slider stands.
+/// Position in the history of a slider.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Position {
     /// Bytes of its file, where it has one.
@@ -33,11 +34,11 @@ struct Position {
     trace: Trace,
 }
 
-/// Where all histories stand, in a checkpoint.
+/// Positions in all histories, in a checkpoint.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Positions {
     sliders: Vec<Position>,
-    /// Whether plots will be drawn.
+    /// True if plots will be drawn.
     traced: bool,
 }
 
@@ -45,7 +46,7 @@ impl Histories {
     /// Makes the files with their headers.
     ///
     /// # Errors
-    /// When a file cannot be written.
+    /// If a file cannot be written.
     pub fn create(out: &Path, problem: &Problem) -> Result<Self, OutputError> {
         Self::of(out, problem, |path, header, _| Growing::create(path, header))
     }
@@ -53,7 +54,7 @@ impl Histories {
     /// Resumes the files from where they stood; later rows are cut off.
     ///
     /// # Errors
-    /// When a file is missing, shorter than it was, or cannot be written.
+    /// If a file is missing, shorter than it was, or cannot be written.
     pub fn resume(out: &Path, problem: &Problem, from: Positions) -> Result<Self, OutputError> {
         let bytes = |i: usize| from.sliders.get(i).and_then(|p| p.bytes).unwrap_or_default();
         let mut resumed = Self::of(out, problem, |path, _, i| Growing::reopen(path, bytes(i)))?;
@@ -87,7 +88,7 @@ impl Histories {
         Ok(Self { sliders, traced: false })
     }
 
-    /// Where they stand.
+    /// Their layout.
     #[must_use]
     pub fn positions(&self) -> Positions {
         let of = |kept: &Kept| Position {
@@ -101,7 +102,7 @@ impl Histories {
     /// Waits until all rows are on the disc.
     ///
     /// # Errors
-    /// When something could not be written.
+    /// If something could not be written.
     pub fn settle(&self) -> Result<(), OutputError> {
         self.sliders.iter().filter_map(|kept| kept.file.as_ref()).try_for_each(Growing::settle)
     }
@@ -113,7 +114,7 @@ impl Histories {
         self
     }
 
-    /// Whether what plots show is kept.
+    /// True if what plots show is kept.
     #[must_use]
     pub fn are_traced(&self) -> bool {
         self.traced
@@ -122,7 +123,7 @@ impl Histories {
     /// Writes the last state, if its row is not there yet.
     ///
     /// # Errors
-    /// When a file cannot be written.
+    /// If a file cannot be written.
     pub fn finish(&mut self) -> Result<(), OutputError> {
         let traced = self.traced;
         self.sliders.iter_mut().try_for_each(|kept| match kept.thin.mark() {
@@ -134,7 +135,7 @@ impl Histories {
     /// Draws the rows kept into `plots/` and returns the files.
     ///
     /// # Errors
-    /// When a file cannot be written or a drawing fails.
+    /// If a file cannot be written or a drawing fails.
     pub fn draw(&self, out: &Path, problem: &Problem) -> Result<Vec<PathBuf>, OutputError> {
         let traces: Vec<&Trace> = self.sliders.iter().map(|k| &k.trace).collect();
         plots::draw_charts(&out.join("plots"), &super::figures::charts(problem, &traces))
@@ -170,9 +171,9 @@ impl Kept {
     }
 }
 
-impl Watcher for Histories {
-    fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError> {
-        let time = now.at.seconds();
+impl Observer<Sliders> for Histories {
+    fn step(&mut self, now: &Now<'_>) -> Result<Control, ObserveError> {
+        let (problem, time) = (now.problem, now.at.seconds());
         for (i, kept) in self.sliders.iter_mut().enumerate() {
             if kept.file.is_none() && !self.traced {
                 continue;
@@ -190,10 +191,10 @@ impl Watcher for Histories {
                 kept.add(row, self.traced)?;
             }
         }
-        Ok(())
+        Ok(Control::Go)
     }
 
-    fn marked(&mut self, slider: usize) -> Result<(), WatchError> {
+    fn event(&mut self, slider: usize) -> Result<(), ObserveError> {
         let kept = &mut self.sliders[slider];
         match kept.thin.mark() {
             Some(row) => Ok(kept.add(&row, self.traced)?),

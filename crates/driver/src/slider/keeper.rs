@@ -1,10 +1,9 @@
 //! Keeps a run of spring-sliders in its directory: histories, progress, and checkpoints.
 
 use super::files::{Histories, Positions};
-use super::observe::Show;
 use crate::checkpoint::{self, Contents, Pauses, ResumeError};
-use asperity_cycles::slider::{Now, Problem, Run, WatchError, Watcher};
-use asperity_ode::Control;
+use asperity_cycles::slider::{Now, Problem, Run, Sliders};
+use asperity_ode::{Control, ObserveError, Observer};
 use asperity_output::{OutputError, Progress};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -34,9 +33,9 @@ pub struct Keeper {
     out: PathBuf,
     physics: String,
     histories: Histories,
-    progress: Option<Show<Progress>>,
+    progress: Option<Progress>,
     pauses: Pauses,
-    /// When the last checkpoint was written, and how long that took.
+    /// Instant of the last checkpoint, and how long it took.
     written: (Instant, Duration),
     interrupted: Option<&'static str>,
 }
@@ -45,7 +44,7 @@ impl Keeper {
     /// Begins a run with outputs in `out`.
     ///
     /// # Errors
-    /// When a file cannot be written.
+    /// If a file cannot be written.
     pub fn begin(
         out: &Path,
         problem: &Problem,
@@ -62,7 +61,7 @@ impl Keeper {
     /// Resumes the run of the checkpoint in `out`; none where there is none.
     ///
     /// # Errors
-    /// When the checkpoint is damaged or of another scene, or a file cannot be read or written.
+    /// If the checkpoint is damaged or of another scene, or a file cannot be read or written.
     pub fn resume(
         out: &Path,
         problem: &Problem,
@@ -94,16 +93,16 @@ impl Keeper {
     /// The same, for a person who waits.
     #[must_use]
     pub fn shown(self) -> Self {
-        Self { progress: Some(Show::to(Progress::new())), ..self }
+        Self { progress: Some(Progress::new()), ..self }
     }
 
-    /// Whether the run is to draw anything at its end.
+    /// True if the run is to draw anything at its end.
     #[must_use]
     pub fn draws(&self) -> bool {
         self.histories.are_traced()
     }
 
-    /// Why the run was interrupted.
+    /// Reason why the run was interrupted.
     #[must_use]
     pub fn interrupted(&self) -> Option<&'static str> {
         self.interrupted
@@ -112,10 +111,10 @@ impl Keeper {
     /// Ends the histories, and removes the checkpoint of a run that has reached its end.
     ///
     /// # Errors
-    /// When a file cannot be written or removed.
+    /// If a file cannot be written or removed.
     pub fn finish(mut self, completed: bool) -> Result<Histories, OutputError> {
         if let Some(progress) = self.progress {
-            progress.observer().finish();
+            progress.finish();
         }
         // Rows after the checkpoint are cut off where the run is resumed.
         self.histories.finish()?;
@@ -125,31 +124,41 @@ impl Keeper {
         Ok(self.histories)
     }
 
-    fn save(&mut self, run: &Run) -> Result<(), OutputError> {
+    fn save(&mut self, run: Run) -> Result<(), OutputError> {
         let begun = Instant::now();
         self.histories.settle()?;
         let (physics, histories) = (self.physics.clone(), self.histories.positions());
-        Checkpoint { physics, run: run.clone(), histories }.write(&self.out)?;
+        Checkpoint { physics, run, histories }.write(&self.out)?;
         self.written = (Instant::now(), begun.elapsed());
         Ok(())
     }
 }
 
-impl Watcher for Keeper {
-    fn now(&mut self, problem: &Problem, now: &Now<'_>) -> Result<(), WatchError> {
-        self.histories.now(problem, now)?;
-        self.progress.as_mut().map_or(Ok(()), |progress| progress.now(problem, now))
+impl Observer<Sliders> for Keeper {
+    fn step(&mut self, now: &Now<'_>) -> Result<Control, ObserveError> {
+        self.histories.step(now)?;
+        if let Some(progress) = &mut self.progress {
+            progress.show(now.at.seconds() / now.problem.end, || status(now));
+        }
+        Ok(Control::Go)
     }
 
-    fn marked(&mut self, slider: usize) -> Result<(), WatchError> {
-        self.histories.marked(slider)
+    fn event(&mut self, slider: usize) -> Result<(), ObserveError> {
+        self.histories.event(slider)
     }
 
-    fn pause(&mut self, run: &Run) -> Result<Control, WatchError> {
+    fn pause(&mut self, run: &mut dyn FnMut() -> Run) -> Result<Option<&'static str>, ObserveError> {
         self.interrupted = self.pauses.reason(true);
         if self.interrupted.is_some() || self.pauses.are_due(self.written) {
-            self.save(run)?;
+            self.save(run())?;
         }
-        Ok(if self.interrupted.is_some() { Control::Stop } else { Control::Go })
+        Ok(self.interrupted)
     }
+}
+
+/// Words for a person waiting.
+fn status(now: &Now<'_>) -> String {
+    let largest = now.conditions.iter().fold(0.0_f64, |most, c| most.max(c.rate.abs()));
+    let (time, step, dt) = (now.at.seconds(), now.step, now.dt);
+    format!("t = {time:.6e} s, max V = {largest:.3e} m/s, step {step} of {dt:.3e} s")
 }

@@ -1,14 +1,14 @@
-//! What is integrated, and what is doubtful about it.
+//! The problem to integrate, and doubts about it.
 
 use crate::warning::Warning;
 use asperity_cycles::slider::Problem;
 
-/// What is to be integrated.
+/// The problem to integrate.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// Sliders, springs and load, and how they are integrated.
     pub problem: Problem,
-    /// What probably does not mean what the author of the scene wants.
+    /// Settings that are probably not meant as they stand in the scene.
     pub warnings: Vec<Warning>,
 }
 

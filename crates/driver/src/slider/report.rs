@@ -69,9 +69,9 @@ pub struct Report {
     pub tolerance: f64,
     /// Thresholds of events.
     pub thresholds: Option<Thresholds>,
-    /// How it ended.
+    /// Outcome.
     pub outcome: Outcome,
-    /// When \[s\].
+    /// Time \[s\].
     pub end: f64,
     /// The sliders then.
     pub last: Vec<Final>,
@@ -139,7 +139,7 @@ impl Report {
         }
     }
 
-    /// What a person should read at the end.
+    /// Words a person should read at the end.
     #[must_use]
     pub fn text(&self) -> String {
         let mut text = String::from("results\n");

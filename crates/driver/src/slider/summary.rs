@@ -5,7 +5,7 @@ use asperity_cycles::slider::stability;
 use std::fmt::Write as _;
 
 impl Plan {
-    /// What a person should see before the run.
+    /// Text that a person should see before the run.
     #[must_use]
     pub fn summary(&self) -> String {
         let problem = &self.problem;

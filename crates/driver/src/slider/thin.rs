@@ -12,11 +12,11 @@ const FRICTION: f64 = 0.05;
 /// A slider at an instant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Row {
-    /// When \[s\].
+    /// Time \[s\].
     pub time: f64,
     /// Length of the step, or time since the row before where it lies within one; 0 at the start and after a jump \[s\].
     pub dt: f64,
-    /// What the slider is doing.
+    /// Condition of the slider.
     #[serde(with = "StoredCondition")]
     pub condition: Condition,
     /// Slip since time 0 \[m\].
@@ -44,7 +44,7 @@ fn or_none<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::NAN))
 }
 
-/// What is compared of the last row kept.
+/// Values of the last row kept that are compared.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Last {
     time: f64,
@@ -95,7 +95,7 @@ impl Thin {
     }
 }
 
-/// Whether ln V or friction differ by so much. A slider at rest has no ln V to compare.
+/// True if ln V or friction differ by so much. A slider at rest has no ln V to compare.
 fn differs(row: &Row, Last { log_rate, friction, .. }: Last, by: f64) -> bool {
     let moved = (row.condition.log_rate - log_rate).abs();
     moved >= by || moved.is_nan() || (row.condition.friction - friction).abs() >= FRICTION * by

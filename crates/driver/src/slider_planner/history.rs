@@ -34,7 +34,7 @@ impl Planner {
         }
     }
 
-    /// Whether the times of a table make a course.
+    /// Checks that the times of a table make a course.
     fn order<Q>(&mut self, table: &[Spanned<Entry<Q>>], place: Range<usize>, name: &str) -> Option<()> {
         if table.is_empty() {
             return self.error(place, format!("the table of `{name}` has no entry"), "[[time, value], ..]");

@@ -126,7 +126,7 @@ impl Planner {
         Some(Spring { between: ends, stiffness })
     }
 
-    /// Whether a chain of springs leads from each slider to the load point.
+    /// Checks that a chain of springs leads from each slider to the load point.
     pub(super) fn held(&mut self, scene: &SliderScene, system: &System, names: &[String]) -> Option<()> {
         let each = system.sliders().iter().enumerate();
         let mut held: Vec<bool> =

@@ -1,4 +1,4 @@
-//! Where the sliders start.
+//! Start of the sliders.
 
 use super::Planner;
 use crate::scene::slider::{SliderScene, SliderSpec};
@@ -54,7 +54,7 @@ impl Planner {
 }
 
 impl Planner {
-    /// Whether the strength has a value at the slip rates that are given: not every form has one at rest and backwards.
+    /// Checks that the strength has a value at the slip rates that are given: not every form has one at rest and backwards.
     fn both_ways(
         &mut self,
         spec: &SliderSpec,

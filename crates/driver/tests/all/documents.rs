@@ -1,4 +1,4 @@
-//! What the documents show: their scenes are accepted, and their commands print what stands below them.
+//! The documents are right: their scenes are accepted, and their commands print what stands below them.
 //!
 //! A block of the kind `console` has commands after `$ ` and below each what it prints. A line of three points stands for any number of
 //! lines. Lines of progress and times are left out, counts may differ by a twentieth and results by 1e-4, as on another processor.
@@ -180,7 +180,7 @@ fn parted(line: &str) -> (String, Vec<String>) {
     (words, numbers)
 }
 
-/// Whether two numbers are the same but for rounding in the course of a run.
+/// True if two numbers are the same but for rounding in the course of a run.
 fn near(a: &str, b: &str) -> bool {
     let bound = if a.contains(['.', 'e']) { RESULTS } else { COUNTS };
     let (Ok(a), Ok(b)) = (a.parse::<f64>(), b.parse::<f64>()) else { return a == b };

@@ -1,13 +1,12 @@
 //! Sides, segments, traces and supports of faults: what must not matter, what is refused and what is warned of.
 
 use crate::common::varied;
-use asperity_cycles::Moment;
 use asperity_driver::diagnostic;
 use asperity_driver::diagnostic::Diagnostic;
 use asperity_driver::fault::Plan;
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
-use asperity_ode::{Control, Outcome};
+use asperity_ode::Outcome;
 use asperity_vary::Change::With;
 use asperity_vary::SceneText;
 use std::fmt::Write as _;
@@ -222,8 +221,7 @@ fn same(a: &Plan, b: &Plan) {
 
 /// Onsets of the first two events \[s\].
 fn onsets(plan: &Plan) -> Vec<f64> {
-    let mut go = |_: &Moment<'_>| Control::Go;
-    let out = plan.problem.run(&plan.problem.settings, &mut go);
+    let out = plan.problem.run(&plan.problem.settings, &mut ()).unwrap();
     assert_eq!(out.outcome, Outcome::Stopped);
     out.catalogue.events().iter().map(|e| e.onset.seconds()).collect()
 }

@@ -110,7 +110,7 @@ fn followed(plan: &Plan, floor: f64) -> (Run, Report, f64) {
         }
         Control::Go
     };
-    let out = plan.problem.run(&plan.problem.settings, &mut look);
+    let out = plan.problem.run(&plan.problem.settings, &mut look).unwrap();
     let report = Report::new(plan, &out, &mut balance);
     (out, report, worst)
 }
@@ -241,7 +241,7 @@ fn points_are_counted_along_the_cohesive_zone_and_few_are_warned_of_or_refused()
     assert_eq!(bp1(781.25, &[Add("faults.main.under_resolved", "allow")]).unwrap().warnings.len(), 1);
 }
 
-/// What weight refuses, each with the remedy that it names.
+/// Refusals of weight, each with the remedy that it names.
 #[test]
 fn scenes_that_weight_makes_impossible_are_accepted_with_the_remedy_of_their_refusal() {
     let presses_nothing = "fault-weight: weight presses nothing";

@@ -3,11 +3,11 @@
 
 use crate::common::cycles::SCENE;
 use crate::common::varied;
-use asperity_cycles::{Event, Moment, Run, Watcher, resume};
+use asperity_cycles::{Event, Faults, Moment, Run, resume};
 use asperity_driver::fault::{Files, Plan, Position, Report, draw};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
-use asperity_ode::Control;
+use asperity_ode::{Control, ObserveError, Observer};
 use asperity_vary::Change::{Add, With, WithOrSame};
 use std::fs;
 use std::path::Path;
@@ -28,18 +28,18 @@ struct Seen<'a> {
     sizes: Vec<usize>,
 }
 
-impl Watcher for Seen<'_> {
-    fn now(&mut self, moment: &Moment<'_>) -> Control {
+impl Observer<Faults> for Seen<'_> {
+    fn step(&mut self, moment: &Moment<'_>) -> Result<Control, ObserveError> {
         self.steps += 1;
         let rates = std::iter::once(moment.largest).chain(self.stations.iter().map(|&p| moment.speed(p)));
         self.largest.iter_mut().zip(rates).for_each(|(most, rate)| *most = most.max(rate));
-        self.files.now(moment)
+        self.files.step(moment)
     }
 
-    fn pause(&mut self, _: &Run) -> Control {
+    fn pause(&mut self, _: &mut dyn FnMut() -> Run) -> Result<Option<&'static str>, ObserveError> {
         // What a checkpoint holds of the files is all that they hold in memory.
         self.sizes.push(serde_json::to_string::<Position>(&self.files.position()).unwrap().len());
-        Control::Go
+        Ok(None)
     }
 }
 
@@ -51,7 +51,8 @@ fn run<'a>(plan: &'a Plan, out: &Path) -> (Seen<'a>, Run) {
     let begin = Run::new(plan.problem.start.clone(), plan.problem.settings.thresholds);
     let points: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
     let begin = begin.of_faults(&points, plan.problem.settings.thresholds);
-    let run = resume(&plan.problem.fault, &plan.problem.loading, begin, &plan.problem.settings, &mut seen);
+    let run =
+        resume(&plan.problem.fault, &plan.problem.loading, begin, &plan.problem.settings, &mut seen).unwrap();
     (seen, run)
 }
 

@@ -178,7 +178,7 @@ fn a_law_is_written_in_rust_as_in_a_file() {
     assert_eq!(laws::choose(&here(one)), Ok(choose(&law)));
 }
 
-/// What the scene lets pass, the law admits: parameters at the ends of the range of numbers, and beyond.
+/// Parameters that the scene lets pass are admitted by the law: at the ends of the range of numbers, and beyond.
 #[test]
 fn a_law_that_is_chosen_can_be_built() {
     const POOL: [f64; 14] =

@@ -1,4 +1,4 @@
-//! What a plan foresees of memory is what the run takes; what no machine holds is refused before it is built.
+//! Memory foreseen by a plan is that of the run; what no machine holds is refused before it is built.
 #![allow(clippy::disallowed_methods, clippy::print_stdout)]
 
 use asperity_driver::plan::{self, AnyPlan};
@@ -51,7 +51,7 @@ fn a_plan_foresees_the_memory_of_its_run_within_half_as_much_again() {
     }
 }
 
-/// What is foreseen lies within half as much again of what is taken.
+/// Foreseen memory lies within half as much again of what is taken.
 fn foreseen(name: &str, scene: &Path, arguments: &[&str]) {
     let [foreseen, taken] = memory(scene, arguments);
     let ratio = foreseen / taken;

@@ -31,13 +31,13 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// What is wrong in the scene.
+    /// Error in the scene.
     pub fn errors(&self) -> Option<Diagnostics> {
         refusal(&self.text)
     }
 }
 
-/// What is wrong in a scene, of either kind.
+/// Error in a scene, of either kind.
 pub fn refusal(text: &str) -> Option<Diagnostics> {
     if scene::slider::is_slider(text) {
         return asperity_driver::slider_planner::read(text).err();

@@ -22,7 +22,7 @@ fn validator() -> Validator {
     jsonschema::draft202012::new(&published()).unwrap()
 }
 
-/// What in a report does not keep to the schema of its kind.
+/// Parts of a report that do not keep to the schema of its kind.
 fn faults(report: &Value) -> Vec<String> {
     let kinds = published();
     let of_kind = kinds["oneOf"]

@@ -8,9 +8,10 @@ use crate::resume::{assert_same, files, folder, run, text};
 use asperity_driver::checkpoint::{Contents as _, Pauses};
 use asperity_driver::plan::AnyPlan;
 use asperity_driver::report::{Outcome, RunReport};
-use asperity_driver::run::{Checkpoint, Keeper, Kept, RunError, Stand, run_kept};
+use asperity_driver::run::{Bodies, Checkpoint, Kept, RunError, Stand, run_kept};
+use asperity_ode::{Control, ObserveError, Observer};
 use asperity_output::view::{Setup, StepView};
-use asperity_output::{FieldSchedule, Files, Observer, OutputError, Recorder};
+use asperity_output::{FieldSchedule, Files, Recorder};
 use asperity_vary::Change::{self, Add, With, WithOrSame, Without};
 use asperity_vary::SceneText;
 use serde_json::Value;
@@ -110,7 +111,7 @@ const BESIDE: Change<'_> = With(
     "bodies.die.mesh.block",
     r#"{ min = ["0.6 m", 0], max = ["1.4 m", "0.4 m"], divisions = [3, 1], element = "quad4" }"#,
 );
-/// So far that a part of the die leaves the slab.
+/// Distance at which a part of the die leaves the slab.
 const OFF: Change<'_> = With("stages[1].conditions[0].x", r#"{ to = "0.76 m" }"#);
 /// Friction from the first touch on.
 const ROUGH: Change<'_> = Without("stages[0].frictionless");
@@ -146,29 +147,23 @@ struct Interrupted {
     left: usize,
 }
 
-impl Observer for Interrupted {
-    fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
+impl Observer<Bodies> for Interrupted {
+    fn begin(&mut self, setup: &Setup) -> Result<(), ObserveError> {
         self.kept.begin(setup)
     }
 
-    fn step(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
+    fn step(&mut self, view: &StepView<'_>) -> Result<Control, ObserveError> {
         self.kept.step(view)
     }
 
-    fn stopped(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
-        self.kept.stopped(view)
-    }
-}
-
-impl Keeper for Interrupted {
-    fn pause(
-        &mut self,
-        moved: bool,
-        stand: &mut dyn FnMut() -> Stand,
-    ) -> Result<Option<&'static str>, OutputError> {
+    fn pause(&mut self, stand: &mut dyn FnMut() -> Stand) -> Result<Option<&'static str>, ObserveError> {
         self.stop.store(self.left == 0, Ordering::Relaxed);
         self.left = self.left.saturating_sub(1);
-        self.kept.pause(moved, stand)
+        self.kept.pause(stand)
+    }
+
+    fn end(&mut self, view: &StepView<'_>) -> Result<(), ObserveError> {
+        self.kept.end(view)
     }
 }
 
@@ -196,10 +191,10 @@ fn resumed(plan: &AnyPlan, out: &Path, trials: usize) -> Result<(RunReport, Reco
     let mut keeper = Interrupted { kept, stop, left: trials };
     let report = run_kept(plan, &mut keeper, from)?;
     let completed = report.outcome == Outcome::Completed;
-    Ok((report, keeper.kept.finish(completed)?.unwrap()))
+    Ok((report, keeper.kept.finish(completed).unwrap().unwrap()))
 }
 
-/// What a run reports but for what depends on the machine.
+/// Report of a run without what depends on the machine.
 fn figures(report: &RunReport) -> String {
     serde_json::to_string(report).unwrap()
 }
@@ -406,7 +401,7 @@ fn forget(out: &Path, pointer: &str) -> bool {
     json != serde_json::from_str::<Value>(before.splitn(3, '\n').last().unwrap()).unwrap()
 }
 
-/// What a run leaves: its report and files, or that it could not be resumed.
+/// Remains of a run: its report and files, or the reason why it could not be resumed.
 fn left(plan: &AnyPlan, out: &Path) -> Option<(String, BTreeMap<PathBuf, Vec<u8>>)> {
     // What was forgotten may be refused.
     let (report, _) = resumed(plan, out, usize::MAX).ok()?;

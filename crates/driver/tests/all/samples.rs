@@ -3,7 +3,7 @@
 use crate::common::{close, planned, simulate, varied};
 use asperity_driver::run;
 use asperity_output::view::{PointValues, Samples};
-use asperity_output::{FieldSchedule, Files, Multi, Observer, Recorder};
+use asperity_output::{FieldSchedule, Files, Multi, Recorder, Writer};
 use asperity_vary::Change::With;
 
 const YOUNG: f64 = 10e9;
@@ -215,8 +215,7 @@ fn histories_are_written_as_tables_and_into_the_report() {
     let plan = planned(CONTACT);
     let mut files = Files::create(&folder, FieldSchedule { fields: 0, profiles: 0 }).unwrap();
     let mut record = Recorder::new();
-    let report =
-        run::run(&plan, &mut Multi::new(vec![&mut files as &mut dyn Observer, &mut record])).unwrap();
+    let report = run::run(&plan, &mut Multi::new(vec![&mut files as &mut dyn Writer, &mut record])).unwrap();
     let rows = |file: &str| -> Vec<Vec<String>> {
         let text = std::fs::read_to_string(folder.join(file)).unwrap();
         text.lines().map(|l| l.split(',').map(str::to_string).collect()).collect()

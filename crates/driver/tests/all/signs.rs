@@ -19,7 +19,7 @@ struct Rule {
     sign: String,
 }
 
-/// What stands in code in a cell, or the cell.
+/// Code in a cell, or the cell.
 fn listed(cell: &str) -> Vec<String> {
     match cell.split('`').skip(1).step_by(2).map(str::to_owned).collect::<Vec<_>>() {
         none if none.is_empty() => vec![cell.trim().to_owned()],
@@ -38,7 +38,7 @@ fn rules(section: &str) -> Vec<Rule> {
     .collect()
 }
 
-/// Whether a path is of this form, with one `*`.
+/// True if a path is of this form, with one `*`.
 fn fits(path: &str, form: &str) -> bool {
     match form.split_once('*') {
         Some((start, end)) => {
@@ -48,7 +48,7 @@ fn fits(path: &str, form: &str) -> bool {
     }
 }
 
-/// How B is moved relative to A, what slip is then, and the directions of the page.
+/// Motion of B relative to A, the slip it is, and the directions of the page.
 #[derive(Clone, Copy)]
 struct Motion {
     push: [f64; 3],
@@ -75,7 +75,7 @@ fn mean(column: &Column) -> Vec<f64> {
     (0..n).map(part).collect()
 }
 
-/// What a column says: positive where it agrees with its word of the page, negative where it says the opposite, zero where it does not
+/// Meaning of a column: positive where it agrees with its word of the page, negative where it says the opposite, zero where it does not
 /// tell.
 fn said(sign: &str, column: &Column, motion: &Motion) -> f64 {
     let (name, mean) = (column.name.as_str(), mean(column));
@@ -121,7 +121,7 @@ fn jump(columns: &[Column]) -> Option<Column> {
     Some(Column { name: "displacement".into(), components: 3, values: jump })
 }
 
-/// What the columns of all files say, by file and column.
+/// Meanings of the columns of all files, by file and column.
 type Said = BTreeMap<(String, String), f64>;
 
 fn read(out: &Path, section: &str, motion: &Motion) -> Said {

@@ -2,13 +2,12 @@
 
 use crate::common::sliders::{CYCLE, history, plan, relative, written};
 use crate::common::varied;
-use asperity_cycles::slider::{Both, DEFAULT_METHOD, Now, Problem, Rows, Run, Thresholds, run};
+use asperity_cycles::slider::{DEFAULT_METHOD, Now, Problem, Rows, Run, Thresholds, run};
 use asperity_driver::laws;
 use asperity_driver::scene::law::{Evolution, Form, LawChoice, State, Strength};
-use asperity_driver::slider::{Report, Show};
+use asperity_driver::slider::Report;
 use asperity_friction::slider::{Condition, History, Slider, Spring, System};
-use asperity_ode::{Failure, Method, Outcome};
-use asperity_output::{Multi, Observer, Recorder};
+use asperity_ode::{Control, Failure, Method, Observers, Outcome};
 use asperity_vary::Change::{Add, With, Without};
 use nalgebra::Complex;
 
@@ -65,7 +64,7 @@ above = "0.1 mm/s"
 below = "20 um/s"
 "#;
 
-/// What a watcher saw.
+/// Moments seen by an observer.
 #[derive(Clone, Debug)]
 struct Row {
     time: f64,
@@ -77,7 +76,7 @@ struct Row {
 
 fn watched(plan: &Problem) -> (Run, Vec<Row>) {
     let mut rows = Vec::new();
-    let mut look = |_: &Problem, now: &Now<'_>| {
+    let mut look = |now: &Now<'_>| {
         rows.push(Row {
             time: now.at.seconds(),
             dt: now.dt,
@@ -387,27 +386,25 @@ fn a_run_that_is_watched_is_the_same_to_the_bit() {
 }
 
 #[test]
-fn observers_see_what_a_watcher_sees() {
+fn several_observers_see_the_same_rows_and_any_of_them_ends_the_run() {
     let plan = plan(COUPLED);
     let (_, rows) = watched(&plan);
-    let mut recorder = Recorder::new();
-    let mut count = 0;
+    let (mut first, mut second) = (0, Vec::new());
     {
-        let mut look = |_: &Problem, _: &Now<'_>| count += 1;
-        let mut show = Show::to(Multi::new(vec![&mut recorder as &mut dyn Observer]));
-        run(&plan, &mut Both(&mut show, &mut look)).unwrap();
+        let mut count = |_: &Now<'_>| first += 1;
+        let mut look = |now: &Now<'_>| second.push(now.at.seconds());
+        run(&plan, &mut Observers(vec![&mut count, &mut look])).unwrap();
     }
-    assert_eq!(recorder.setup().interfaces[0].labels, ["left", "right"]);
-    let points = &recorder.history("sliders").unwrap().points;
-    assert_eq!((count, recorder.times().len()), (rows.len(), rows.len()));
-    for (k, row) in rows.iter().enumerate() {
-        assert_eq!(recorder.times()[k], row.time);
-        for (i, point) in points.iter().enumerate() {
-            assert_eq!(point.slip_rate[k], row.conditions[i].rate);
-            assert_eq!(point.friction[k], row.conditions[i].friction);
-            assert_eq!(point.slip[k], row.slip[i]);
-        }
-    }
+    assert_eq!(first, rows.len());
+    assert_eq!(second, rows.iter().map(|row| row.time).collect::<Vec<_>>());
+    let mut left = 5;
+    let mut stop = |_: &Now<'_>| {
+        left -= 1;
+        if left == 0 { Control::Stop } else { Control::Go }
+    };
+    let ended = run(&plan, &mut Observers(vec![&mut (), &mut stop])).unwrap();
+    assert_eq!(ended.outcome, Outcome::Stopped);
+    assert!(ended.at.seconds() < rows[rows.len() / 2].time, "at the end of a step");
 }
 
 fn strength() -> Strength {

@@ -1,8 +1,8 @@
-//! What runs of spring-sliders report: events of both directions, rows at times and at peaks, imposed slip rates, stability.
+//! Reports of runs of spring-sliders: events of both directions, rows at times and at peaks, imposed slip rates, stability.
 
 use crate::common::sliders::{CYCLE, history, plan, planned, relative, written};
 use crate::common::varied;
-use asperity_cycles::slider::{Event, Now, Problem, Stability, critical_stiffness, run};
+use asperity_cycles::slider::{Event, Now, Stability, critical_stiffness, run};
 use asperity_driver::slider::csv;
 use asperity_ode::Method;
 use asperity_vary::Change::{Add, With, Without};
@@ -67,7 +67,7 @@ fn the_mirrored_problem_has_the_mirrored_catalogue() {
 #[test]
 fn every_rise_through_the_threshold_is_an_event_whichever_way() {
     let mut rates = Vec::new();
-    let mut look = |_: &Problem, now: &Now<'_>| rates.push(now.conditions[0].rate);
+    let mut look = |now: &Now<'_>| rates.push(now.conditions[0].rate);
     let found = run(&plan(&reversing("")), &mut look).unwrap().catalogue.events;
     for way in [1.0, -1.0] {
         // From below a tenth of the threshold to above it, seen at the steps.

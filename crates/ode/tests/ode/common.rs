@@ -102,6 +102,7 @@ pub fn options(method: Method, tolerance: f64, n: usize) -> Options {
         rtol: tolerance,
         atol: vec![tolerance; n],
         first_step: None,
+        begin_stiff: false,
         largest_step: None,
         most_steps: 1_000_000,
     }

@@ -16,12 +16,12 @@ pub struct Spot {
     pub depth: f64,
 }
 
-/// What seismologists tell of an event.
+/// Seismological parameters of an event.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Located {
     /// Onset, UTC.
     pub time: String,
-    /// Where it began.
+    /// Position of the onset.
     pub hypocentre: Spot,
     /// Mean place of its slip.
     pub centroid: Spot,

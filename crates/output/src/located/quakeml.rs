@@ -10,7 +10,7 @@ use std::io;
 
 type Xml = Writer<Vec<u8>>;
 
-/// What events are said to be.
+/// Identity of events.
 const SAID: &str = "Simulated event: no such earthquake has happened.";
 
 /// The document. `id` tells runs apart, such as a hash of the scene.

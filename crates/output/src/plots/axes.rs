@@ -13,7 +13,7 @@ pub(super) const LABEL_TEXT: f64 = 14.5;
 pub(super) struct Axis {
     /// Ends: values, or their decadic logarithms.
     pub range: (f64, f64),
-    /// Whether the axis is logarithmic.
+    /// True if the axis is logarithmic.
     pub log: bool,
     /// Label with unit.
     pub label: String,
@@ -48,7 +48,7 @@ impl Axis {
         Self { range: (lo, hi), log: true, label }
     }
 
-    /// Where a value stands along the axis, 0..=1 inside; values below a logarithmic axis stand on its start.
+    /// Position of a value along the axis, 0..=1 inside; values below a logarithmic axis stand on its start.
     pub(super) fn place(&self, value: f64) -> f64 {
         let (lo, hi) = self.range;
         let value = if self.log { if value > 0.0 { value.log10().max(lo) } else { lo } } else { value };
@@ -104,7 +104,7 @@ fn nice_step(rough: f64) -> f64 {
     steps.iter().map(|s| s * power).find(|step| *step >= rough * (1.0 - FLAT)).unwrap_or(10.0 * power)
 }
 
-/// Whether a step is 2.5 times a power of ten, which takes one more decimal.
+/// True if a step is 2.5 times a power of ten, which takes one more decimal.
 fn is_quarter(step: f64) -> bool {
     let mantissa = step / 10.0_f64.powf(step.log10().floor());
     (mantissa - 2.5).abs() < 0.1 && step < 10.0
@@ -129,7 +129,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// Where a pair of values stands.
+    /// Position of a pair of values.
     pub(super) fn point(&self, x: f64, y: f64) -> Point {
         (self.at.0 + self.x.place(x) * self.size.0, self.at.1 + (1.0 - self.y.place(y)) * self.size.1)
     }

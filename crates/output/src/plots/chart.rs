@@ -7,7 +7,7 @@ use super::figure::{Figure, Point};
 use super::title::title;
 use super::units::{self, Units};
 
-/// What an axis measures, in SI.
+/// Quantity of an axis, in SI.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// \[s\].
@@ -41,9 +41,9 @@ pub struct Chart {
     pub file: String,
     /// Title of the scene.
     pub title: String,
-    /// What lies along, with its name.
+    /// Quantity along, with its name.
     pub x: (&'static str, Measure),
-    /// What lies upwards, with its name.
+    /// Quantity upwards, with its name.
     pub y: (&'static str, Measure),
     /// Names and points of the curves.
     pub curves: Vec<(String, Vec<(f64, f64)>)>,

@@ -18,12 +18,12 @@ pub(super) struct Quantity {
     /// Name on the axis.
     name: &'static str,
     units: Units,
-    /// Whether a logarithmic axis is considered.
+    /// True if a logarithmic axis is considered.
     rate: bool,
     read: fn(&PointHistory) -> &[f64],
 }
 
-/// What is drawn of each interface.
+/// Drawings of each interface.
 pub(super) const QUANTITIES: [Quantity; 3] = [
     Quantity {
         file: "relative_displacement",
@@ -156,7 +156,7 @@ fn largest(series: &[&[f64]]) -> f64 {
     finite.fold(0.0, |most, v| most.max(v.abs()))
 }
 
-/// Whether the fastest point is, at its fastest, far above what it is most of the time.
+/// True if the fastest point is, at its fastest, far above what it is most of the time.
 pub(super) fn is_spiky(times: &[f64], series: &[&[f64]]) -> bool {
     let mut before = 0.0;
     let mut weighted: Vec<(f64, f64)> = Vec::with_capacity(times.len());

@@ -40,11 +40,11 @@ pub trait Rows {
     /// Looks at the rows of a table from the first to the last.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If it cannot be read.
     fn each(&self, table: Table, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError>;
 }
 
-/// What is drawn.
+/// Drawing.
 pub struct Cycles<'a> {
     /// Title of the scene.
     pub title: String,
@@ -71,7 +71,7 @@ impl Bounds {
         }
     }
 
-    /// Whether anything was seen.
+    /// True if anything was seen.
     fn any(self) -> bool {
         self.0 <= self.1
     }

@@ -1,4 +1,4 @@
-//! What of a mesh is seen: its cells in two dimensions, its outer faces seen from z = +∞ in three; as triangles to fill
+//! Visible part of a mesh: its cells in two dimensions, its outer faces seen from z = +∞ in three; as triangles to fill
 //! and outlines to draw.
 
 use super::super::view::MeshView;
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// A corner of a triangle: the mean of some nodes (one node, or the centre of a face).
 pub(super) type Corner = Vec<usize>;
 
-/// What to draw, in the order of drawing.
+/// Layers to draw, in order.
 #[derive(Debug, Default)]
 pub(super) struct Visible {
     pub triangles: Vec<[Corner; 3]>,
@@ -104,7 +104,7 @@ fn upper_faces(mesh: &MeshView) -> Vec<Face> {
     faces
 }
 
-/// Whether the area of the ring, projected along z, is positive (beyond rounding).
+/// True if the area of the ring, projected along z, is positive (beyond rounding).
 fn looks_up(mesh: &MeshView, ring: &[usize]) -> bool {
     let (mut area, mut size) = (0.0, 0.0);
     for i in 0..ring.len() {

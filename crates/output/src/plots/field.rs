@@ -21,7 +21,7 @@ const FINE: f64 = 2.0;
 /// Share of the nodes whose values the colours cover when a few singular corners lie far above them.
 const COVERED: f64 = 0.99;
 
-/// How far above the covered values the largest must lie for the colours to stop below it.
+/// Excess of the largest value over the covered ones for the colours to stop below it.
 const FAR_ABOVE: f64 = 1.15;
 
 /// Draws the field; `None` when there is no face to draw or no finite position.
@@ -61,7 +61,7 @@ pub(super) fn mises(scene: &str, mesh: &MeshView, end: &StageEnd, fields: &BodyF
     Some(figure)
 }
 
-/// Where the nodes are \[m\].
+/// Positions of the nodes \[m\].
 fn places(mesh: &MeshView, fields: &BodyFields) -> Vec<[f64; 3]> {
     if !mesh.moves {
         return mesh.nodes.clone();

@@ -5,7 +5,7 @@ use super::colour::Rgb;
 /// A point of the figure.
 pub(super) type Point = (f64, f64);
 
-/// Where a text stands relative to its point; vertically it is always centred.
+/// Position of a text relative to its point; vertically it is always centred.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -35,7 +35,7 @@ pub(super) struct Image {
     pub rgb: Vec<Rgb>,
 }
 
-/// What a figure is made of.
+/// Parts of a figure.
 #[derive(Clone, Debug)]
 pub(super) enum Shape {
     Line { points: Vec<Point>, width: f64, colour: Rgb },

@@ -30,7 +30,7 @@ use std::path::{Path, PathBuf};
 /// the bodies ([`Recorder::with_bodies`]) for the Mises fields to be drawn; what a stopped run did not reach is left out.
 ///
 /// # Errors
-/// When a file cannot be written or a drawing fails.
+/// If a file cannot be written or a drawing fails.
 pub fn draw_all(folder: &Path, recorder: &Recorder) -> Result<Vec<PathBuf>, OutputError> {
     write_all(folder, figures(recorder))
 }

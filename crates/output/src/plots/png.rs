@@ -25,7 +25,7 @@ const HANGS: f64 = 0.21;
 /// The bytes of a PNG file.
 ///
 /// # Errors
-/// What the plotting library says.
+/// Words of the plotting library.
 pub(super) fn paint(figure: &Figure) -> Result<Vec<u8>, String> {
     font_ready()?;
     let (columns, rows) = ((figure.width * SCALE).ceil() as usize, (figure.height * SCALE).ceil() as usize);
@@ -82,7 +82,7 @@ fn style(text: &Text) -> TextStyle<'static> {
     TextStyle { font, color: rgb(text.colour).to_backend_color(), pos: Pos::new(horizontal, VPos::Center) }
 }
 
-/// Where plotters has to centre a text so that the middle of its capitals stands at its point.
+/// Height at which plotters has to centre a text so that the middle of its capitals stands at its point.
 fn middle(text: &Text) -> (i32, i32) {
     let drop = HANGS * text.size;
     let (x, y) = text.at;
@@ -100,9 +100,9 @@ fn pixel((x, y): Point) -> (i32, i32) {
 /// Draws polylines: each pixel is covered by how far its centre lies inside half the width from the nearest segment.
 struct Pen {
     columns: usize,
-    /// How much of each pixel the line covers; zero between lines.
+    /// Coverage of each pixel by the line; zero between lines.
     cover: Vec<f64>,
-    /// Where it is not zero.
+    /// Pixels where it is not zero.
     inked: Vec<usize>,
 }
 
@@ -238,7 +238,7 @@ const SUB: u8 = 1;
 /// See [`SUB`].
 const UP: u8 = 2;
 
-/// How many of the bytes of `row` differ from those of `other`; counted in bytes, which processors do many at once.
+/// Number of bytes of `row` that differ from those of `other`; counted in bytes, which processors do many at once.
 fn changes(row: &[u8], other: &[u8]) -> usize {
     let some = |a: &[u8], b: &[u8]| a.iter().zip(b).map(|(a, b)| u8::from(a != b)).sum::<u8>();
     row.chunks(255).zip(other.chunks(255)).map(|(a, b)| usize::from(some(a, b))).sum()

@@ -146,7 +146,7 @@ pub(crate) fn play(
     setup: &Setup,
     per_stage: usize,
     spoil: Option<f64>,
-    observer: &mut dyn Observer,
+    observer: &mut dyn Writer,
 ) -> Result<(), OutputError> {
     observer.begin(setup)?;
     let (mut start, mut step) = (0.0, 0);

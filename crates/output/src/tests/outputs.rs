@@ -1,4 +1,4 @@
-//! What the observers leave behind.
+//! Files that the observers leave behind.
 
 use super::super::*;
 use super::fake::{body_fields, play, setup};
@@ -155,7 +155,7 @@ struct Stopping<'a> {
     left: usize,
 }
 
-impl Observer for Stopping<'_> {
+impl Writer for Stopping<'_> {
     fn begin(&mut self, setup: &Setup) -> Result<(), OutputError> {
         self.files.begin(setup)
     }
@@ -225,7 +225,7 @@ struct Swapped<'a> {
     announced: &'a Setup,
 }
 
-impl Observer for Swapped<'_> {
+impl Writer for Swapped<'_> {
     fn begin(&mut self, _: &Setup) -> Result<(), OutputError> {
         self.inner.begin(self.announced)
     }
@@ -269,7 +269,7 @@ fn several_observers_share_one_recovery_of_the_bodies() {
 
 struct Asking;
 
-impl Observer for Asking {
+impl Writer for Asking {
     fn begin(&mut self, _: &Setup) -> Result<(), OutputError> {
         Ok(())
     }

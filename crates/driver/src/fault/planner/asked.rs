@@ -1,4 +1,4 @@
-//! Whether what a scene asks of a fault takes any of its points: creep, profiles, stations.
+//! Creep, profiles and stations of a scene that take no point of their fault.
 
 use super::placed::{Placed, at};
 use crate::diagnostic::Diagnostic;

@@ -1,4 +1,4 @@
-//! How sharply faults turn from one cell to the next.
+//! Turns of faults from one cell to the next.
 
 use crate::diagnostic::Diagnostic;
 use crate::model::{self, Model};

@@ -1,4 +1,4 @@
-//! What the two sides of a fault must have in common: the same nodes wherever one covers the other.
+//! Requirement on the two sides of a fault: the same nodes wherever one covers the other.
 
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
@@ -15,7 +15,7 @@ pub(super) const TOGETHER: f64 = 1e-9;
 const RISE: f64 = 0.1;
 
 /// Refuses nodes of the plus side that lie on faces of the minus side without a node there: nothing would hold them to the other side.
-/// Where the plus side reaches beyond the minus side it is free, as its author declared it.
+/// A plus side that reaches beyond the minus side is free there, as its author declared it.
 ///
 /// # Errors
 /// [`Diagnostic`] at the plus side, with the first place and how many there are.
@@ -110,7 +110,7 @@ impl<const D: usize> Face<D> {
         Self { size: dot(&diagonal, &diagonal).sqrt(), corners, min, max }
     }
 
-    /// Whether a place lies on it, to within `close` \[m\] along it and a share of its size across it.
+    /// True if a place lies on it, to within `close` \[m\] along it and a share of its size across it.
     fn holds(&self, x: &[f64; D], close: f64) -> bool {
         let reach = RISE * self.size;
         if (0..D).any(|c| x[c] < self.min[c] - reach || x[c] > self.max[c] + reach) {

@@ -1,10 +1,10 @@
-//! What the scene says of normal tractions.
+//! Normal tractions given in the scene.
 
 use super::super::normal::NormalChoice;
 use crate::scene::model::Fault as Spec;
 use crate::warning::Warning;
 
-/// What normal tractions do on a fault.
+/// Behaviour of normal tractions on a fault.
 pub(super) fn choice(spec: &Spec) -> NormalChoice {
     NormalChoice {
         changes: spec.normal_changes.as_ref().is_none_or(|c| *c.get_ref()),

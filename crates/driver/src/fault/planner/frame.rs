@@ -1,4 +1,4 @@
-//! Where and when a scene lies on Earth.
+//! Place on Earth and time of a scene.
 
 use super::super::frame::{Frame, Origin};
 use crate::diagnostic::Diagnostic;

@@ -1,4 +1,4 @@
-//! What keeps bodies from being condensed onto faults, in words and with its place in the scene.
+//! Reasons why bodies cannot be condensed onto faults, in words and with their place in the scene.
 
 use crate::amounts;
 use crate::diagnostic::Diagnostic;
@@ -9,7 +9,7 @@ use asperity_fem::mesh::nodes_of_sides;
 use asperity_mechanics::coordinates;
 use std::ops::Range;
 
-/// What the bodies are condensed onto, and what acts on them.
+/// Points that the bodies are condensed onto, and what acts on them.
 #[derive(Clone, Copy)]
 pub(super) struct Asked<'a, const D: usize> {
     pub scene: &'a Scene,
@@ -20,14 +20,14 @@ pub(super) struct Asked<'a, const D: usize> {
 
 /// A refusal in words.
 struct Told {
-    /// What is wrong.
+    /// The fault.
     message: String,
-    /// What would be right; none where the message says it.
+    /// Remedy; none where the message says it.
     help: Option<String>,
     place: Where,
 }
 
-/// What a refusal is about.
+/// Subject of a refusal.
 enum Where {
     /// Conditions on a component of displacement of the two nodes of a point.
     Conditions([usize; 2], usize),

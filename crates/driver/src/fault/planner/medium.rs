@@ -1,4 +1,4 @@
-//! What the bodies at a fault are made of, seen from its points.
+//! Materials of the bodies at a fault, seen from its points.
 //!
 //! Slip that begins sends shear waves to both sides: with impedances Z = √(G ρ) and side velocities `v± = ∓Δτ/Z±` the slip rate is
 //! `V = v⁺ - v⁻ = -Δτ (1/Z⁺ + 1/Z⁻)`, so that `η = Z⁺ Z⁻/(Z⁺ + Z⁻)`, which is G/(2 c_s) between equal sides. In the same way slip

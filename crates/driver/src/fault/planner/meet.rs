@@ -1,6 +1,6 @@
 //! Faults that share nodes: segments of one surface that meet end to end are joined, what has no meaning is refused.
 //!
-//! Where two segments meet, the point belongs to the first of them by name, with its law and start; its area is the sum of both parts, and its
+//! The point where two segments meet belongs to the first of them by name, with its law and start; its area is the sum of both parts, and its
 //! normal their mean, as if the segments were one fault.
 
 use super::place::{branches, directions};

@@ -104,7 +104,7 @@ fn admit<const D: usize>(asked: Asked<'_, D>, conditions: Conditions) -> Result<
     Ok(())
 }
 
-/// What acts on the bodies during a stage.
+/// Loads on the bodies during a stage.
 fn loads<const D: usize>(model: &Model<D>, stage: &Stage) -> Loads {
     let spring = |s: &loading::Spring| Spring { dofs: s.dofs.clone(), stiffness: s.stiffness, rate: s.rate };
     Loads {
@@ -115,7 +115,7 @@ fn loads<const D: usize>(model: &Model<D>, stage: &Stage) -> Loads {
     }
 }
 
-/// How the bodies of a scene are condensed.
+/// Condensation of the bodies of a scene.
 fn conditions(scene: &Scene, components: usize) -> Conditions {
     // All faults of a scene have the same, which the check has seen to.
     let free = |s: &Spec| s.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
@@ -216,7 +216,7 @@ fn friction<const D: usize>(
     laws::build_fault(&first.law, &choices).map_err(at_law)?.ok_or_else(|| asked::another_law(spec(first)))
 }
 
-/// What is doubtful in how loads and creep drive faults, whose points slide or creep.
+/// Doubts about how loads and creep drive faults, whose points slide or creep.
 fn doubts<const D: usize>(
     scene: &Scene,
     (model, stage): (&Model<D>, &Stage),
@@ -250,7 +250,7 @@ fn all_points<const D: usize>(
     Ok((placed, notes))
 }
 
-/// How each fault is resolved on which friction weakens.
+/// Resolution of each fault on which friction weakens.
 fn resolved<const D: usize>(
     scene: &Scene,
     placed: &[Placed<D>],
@@ -339,7 +339,7 @@ fn points_of<const D: usize>(
 /// Distance over the size of the model within which a point lies on the border of the creeping part: rounding.
 const CLOSE: f64 = 1e-12;
 
-/// Whether slip is prescribed at a place; at the border, to within `close` \[m\], it is.
+/// True if slip is prescribed at a place; at the border, to within `close` \[m\], it is.
 fn creeps<const D: usize>(creep: &Creep, place: &Place<D>, close: f64) -> bool {
     if let Some(beyond) = &creep.beyond {
         return place.along >= beyond.get_ref().0 - close;
@@ -481,7 +481,7 @@ fn settings(scene: &Scene, end: f64) -> Result<Settings, Diagnostic> {
     })
 }
 
-/// When outputs are due.
+/// Times of outputs.
 fn cadence(scene: &Scene, fault: &Fault, end: f64) -> Cadence {
     let lengths = (0..fault.law.points()).filter_map(|p| fault.law.length(p));
     let on = scene.events.as_ref().map_or(EVENT, |e| e.above.get_ref().0);
@@ -498,7 +498,7 @@ fn cadence(scene: &Scene, fault: &Fault, end: f64) -> Cadence {
     Cadence::new(asked, end, on, lengths.reduce(f64::min))
 }
 
-/// How θ follows from the state variable of a law with one state.
+/// Relation of θ to the state variable of a law with one state.
 fn theta(law: &LawChoice) -> Option<(f64, f64)> {
     let LawChoice::RateAndState { strength, evolution, states, .. } = law else { return None };
     let [state] = states.as_slice() else { return None };

@@ -88,7 +88,7 @@ const WITH_AREAS: &str = "use an element whose faces have positive nodal areas: 
 /// Sine of the angle between rake and normal below which there is no direction in the fault: a hundredth of a degree.
 const NORMAL_RAKE: f64 = 2e-4;
 
-/// What of a direction lies in the plane of a normal, as a unit vector; none where that is next to nothing.
+/// Part of a direction in the plane of a normal, as a unit vector; none where that is next to nothing.
 fn along_rake<const D: usize>(rake: &[f64; 3], normal: &[f64; D]) -> Option<[f64; D]> {
     let rake: [f64; D] = std::array::from_fn(|c| rake[c]);
     let across: f64 = rake.iter().zip(normal).map(|(r, n)| r * n).sum();

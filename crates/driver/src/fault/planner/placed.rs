@@ -20,7 +20,7 @@ pub(super) struct Placed<const D: usize> {
     pub floor: Option<f64>,
     /// Shear traction at the start, where it is given \[Pa\].
     pub shear: Option<f64>,
-    /// What the bodies exert at the start.
+    /// Tractions of the bodies at the start.
     pub prestress: Resolved,
     pub law: LawChoice,
     /// Rate of creep, where there is any \[m/s\].

@@ -1,6 +1,6 @@
-//! Whether the sides of the bodies move as the creep of a fault has it.
+//! Agreement of the sides of the bodies with the creep of a fault.
 //!
-//! Where plane faults cut the bodies right through, creep and the motion of the sides say the same thing twice: plates that slip everywhere at the rate of the creep
+//! Creep and the motion of the sides say the same thing twice where plane faults cut the bodies right through: plates that slip everywhere at the rate of the creep
 //! move rigidly and are not strained. With the forces along slip that the sides cause, F_w, that creep causes, F_c, and that slip of all other points at the rate of the creep
 //! would, F_s, plates that agree have `F_w + F_c + F_s = 0`, and the sides move past each other at `-F_w/(F_c + F_s)` times the creep otherwise.
 
@@ -16,7 +16,7 @@ use asperity_cycles::operator::Operator as _;
 const AGREES: f64 = 0.01;
 /// Share of the force of slip below which sides and creep exert none: sides that are free.
 const NOTHING: f64 = 1e-6;
-/// How far the product of unit vectors along one direction is from 1: rounding of coordinates.
+/// Largest distance of the product of unit vectors along one direction from 1: rounding of coordinates.
 const PARALLEL: f64 = 1e-9;
 
 /// Warnings of sides that move against the slip of a fault, or not as its creep.
@@ -36,7 +36,7 @@ pub(super) fn check<const D: usize>(
     faults.filter_map(|(k, fault)| against(fault, k, placed, (&sides, creep))).next()
 }
 
-/// Whether faults are plane, parallel, slip one way, creep, and cut the bodies right through.
+/// True if faults are plane, parallel, slip one way, creep, and cut the bodies right through.
 fn judged<const D: usize>(
     scene: &Scene,
     model: &Model<D>,

@@ -22,7 +22,7 @@ pub struct Prestress<'a> {
     name: &'a str,
     /// By side; xx, yy, zz, xy, yz, zx \[Pa\].
     sides: [[f64; 6]; 2],
-    /// Whether it has components in the plane.
+    /// True if it has components in the plane.
     presses: bool,
     place: Range<usize>,
     spec: &'a Spec,
@@ -40,7 +40,7 @@ pub struct Resolved {
 }
 
 impl<'a> Prestress<'a> {
-    /// That of a fault, where a body beside it has an initial stress.
+    /// Stress of a fault, where a body beside it has an initial stress.
     pub fn new(scene: &'a Scene, (name, spec): (&'a str, &'a Spec)) -> Option<Self> {
         let bodies = [&spec.minus, &spec.plus].map(|side| scene.body_of(side));
         let given = bodies.iter().flatten().find_map(|b| b.initial_stress.as_ref())?;
@@ -66,7 +66,7 @@ impl<'a> Prestress<'a> {
         Ok(found)
     }
 
-    /// What the stress exerts at a place.
+    /// Tractions of the stress at a place.
     ///
     /// # Errors
     /// [`Diagnostic`] where both sides are not in balance.
@@ -131,12 +131,12 @@ impl<'a> Prestress<'a> {
     }
 }
 
-/// Whether friction under this shear traction \[Pa\] would not resist the motion at the start.
+/// True if friction under this shear traction \[Pa\] would not resist the motion at the start.
 pub(super) fn against(spec: &Spec, shear: f64) -> bool {
     shear * spec.rate.get_ref().0.signum() <= 0.0
 }
 
-/// Whether slip that may turn would not start along the rake.
+/// True if slip that may turn would not start along the rake.
 pub(super) fn strays(spec: &Spec, found: &Resolved) -> bool {
     let free = spec.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
     free && found.across.abs() > ALONG * found.shear.abs()

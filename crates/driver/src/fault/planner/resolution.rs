@@ -1,4 +1,4 @@
-//! How finely the points of a fault stand beside the lengths over which friction falls and over which slip nucleates.
+//! Spacing of the points of a fault beside the lengths over which friction falls and over which slip nucleates.
 //!
 //! With the weakening `w = Σ b_i/L_i` of the coefficient with slip just behind a rupture front, the normal traction f_n and the modulus
 //! G' (G in antiplane motion and in space, where that is the shorter of both modes, G/(1 - ν) in plane strain):
@@ -39,7 +39,7 @@ const UNSTABLE: f64 = 1.158;
 /// narrows with the logarithm of the rise of V; with BP1 4.4 points to L_b make events in the afterslip that 8.8 do not (case `seas_bp1_16mm`).
 const NARROWS: f64 = 2.0;
 
-/// What a point is made of.
+/// Parts of a point.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a> {
     /// Friction.
@@ -48,7 +48,7 @@ pub struct Ground<'a> {
     pub normal: f64,
     /// G' \[Pa\].
     pub modulus: f64,
-    /// Whether slip is that of a surface in space.
+    /// True if slip is that of a surface in space.
     pub in_space: bool,
 }
 

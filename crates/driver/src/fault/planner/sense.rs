@@ -1,4 +1,4 @@
-//! Whether loads and creep drive faults in the sense in which they are to slip.
+//! Sense in which loads and creep drive faults, and that in which they are to slip.
 
 use super::placed::{Placed, slides};
 use crate::scene::model::{Fault as Spec, Scene};

@@ -1,4 +1,4 @@
-//! Whether the tractions at the start are those of friction at the slip rate of the start.
+//! Tractions at the start beside those of friction at the slip rate of the start.
 
 use super::placed::Placed;
 use crate::scene::model::{Fault as Spec, Scene, Spanned};
@@ -8,11 +8,11 @@ use asperity_friction::fault::FaultLaw;
 use asperity_mechanics::coordinates;
 use std::ops::Range;
 
-/// How many times larger or smaller than that of steady slip at `rate` friction at the start may be without a word. Laws of rock differ by tenths from it at any rate;
+/// Factor by which friction at the start may differ from that of steady slip at `rate` without a warning. Laws of rock differ by tenths from it at any rate;
 /// a wrong unit, or stress that hardly shears the fault, by far more.
 const FAR: f64 = 5.0;
 
-/// Where the shear traction of a fault at the start comes from.
+/// Source of the shear traction of a fault at the start.
 fn source<'a>(scene: &'a Scene, spec: &'a Spec) -> (&'static str, Range<usize>) {
     if let Some(shear) = &spec.shear {
         return ("`shear`", shear.span());

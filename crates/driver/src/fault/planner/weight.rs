@@ -1,4 +1,4 @@
-//! What the weight of the bodies does to faults at the start.
+//! Effect of the weight of the bodies on faults at the start.
 //!
 //! The bodies rest under their weight, elastic and held where conditions hold them, and no point of a fault has slipped yet: what they exert on its points then is
 //! their f_n and, where the scene gives no `shear`, their τ_0, on top of what an initial stress exerts. Between sides that hold all horizontal motion weight presses sideways
@@ -19,7 +19,7 @@ use asperity_mechanics::coordinates;
 /// Share of the largest traction below which one is rounding of the condensation.
 const NOTHING: f64 = 1e-9;
 
-/// What shears a fault that weight does not.
+/// Shear of a fault that weight does not cause.
 const SHEARS: &str = "give the shear traction that earlier motion has left, as `shear` or `profiles.shear`, or an `initial_stress` that shears the fault along `rate`";
 /// Parts of a MPa in which tractions are told.
 const SHOWN: f64 = 1e4;
@@ -76,7 +76,7 @@ fn add<const D: usize>(
     Ok(told.map(|(k, (name, spec))| words(name, given(spec), own(k))).collect())
 }
 
-/// Whether the shear traction at the start is given.
+/// True if the shear traction at the start is given.
 fn given(spec: &Spec) -> bool {
     spec.shear.is_some() || spec.profiles.shear.is_some()
 }
@@ -134,7 +134,7 @@ fn start_at<const D: usize>(
     Ok(())
 }
 
-/// What weight makes of the tractions of a fault, whose shear traction is `given` or not.
+/// Tractions that weight causes on a fault, whose shear traction is `given` or not.
 fn words<'a, const D: usize>(
     name: &str,
     given: bool,

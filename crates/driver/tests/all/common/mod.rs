@@ -64,7 +64,7 @@ pub fn displacements(record: &Recorder, at: impl Fn(&[f64; 3]) -> bool) -> Vec<(
     found
 }
 
-/// Whether two numbers agree to a relative tolerance.
+/// Asserts that two numbers agree to a relative tolerance.
 #[track_caller]
 pub fn close(found: f64, exact: f64, tolerance: f64) {
     assert!((found - exact).abs() <= tolerance * exact.abs(), "{found:e} is not {exact:e}");
