@@ -145,7 +145,7 @@ fn kernels<const D: usize>(name: &str, slaves: usize, u: &[f64], make: impl Fn()
 /// Bytes that force and tangent have to move: u and r, the geometry and history of each point (some 50 numbers, written once
 /// and read once), and the values of the tangent, written once.
 fn traffic<const D: usize>(interface: &Interface<D>, slaves: usize, dofs: usize, values: usize) -> usize {
-    let block = interface.pattern().dofs.len();
+    let block = interface.pattern().dofs().len();
     8 * (3 * dofs + slaves * 2 * 50 + values + block)
 }
 

@@ -1,4 +1,4 @@
-//! What the targets share: memory in use, and what is done with a mesh that could be read.
+//! Parts common to the targets: memory in use, and the treatment of a mesh that could be read.
 
 #[path = "../../crates/fem/tests/counting/mod.rs"]
 mod counting;

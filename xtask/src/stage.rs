@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Why a chore failed.
+/// Reason why a chore failed.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// A command ended with an error; its own words stand above.
@@ -19,13 +19,13 @@ pub enum Failure {
     Start {
         /// Which program.
         program: String,
-        /// Why.
+        /// Reason.
         source: std::io::Error,
     },
     /// tidy found something.
     #[error("tidy found {errors} errors")]
     Tidy {
-        /// How many.
+        /// Number.
         errors: usize,
     },
     /// A program this chore needs is not there.
@@ -33,7 +33,7 @@ pub enum Failure {
     Missing {
         /// Which.
         program: &'static str,
-        /// How to get it.
+        /// Way to get it.
         how: &'static str,
     },
     /// A file this chore needs is not there or cannot be read.
@@ -41,7 +41,7 @@ pub enum Failure {
     Read {
         /// Which.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         source: std::io::Error,
     },
     /// A result that must exist first.
@@ -49,7 +49,7 @@ pub enum Failure {
     Absent {
         /// Which.
         path: PathBuf,
-        /// How to make it.
+        /// Way to make it.
         how: &'static str,
     },
     /// A result file that is not what it should be.
@@ -57,7 +57,7 @@ pub enum Failure {
     Report {
         /// Which.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         source: serde_json::Error,
     },
     /// Cargo's description of the workspace.
@@ -119,7 +119,7 @@ pub fn announce(name: &str) {
     println!("\n== {name} ==");
 }
 
-/// Whether a program can be started.
+/// True if a program can be started.
 pub fn exists(program: &str) -> bool {
     let quiet = Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
     quiet.is_ok_and(|status| status.success())

@@ -2,7 +2,7 @@
 //!
 //! The tractions f_A that answer the averaged gaps of a mortar interface are coefficients of the field `p = Σ_A ψ_A f_A`, and a
 //! field that is a root at the edge of contact makes coefficients oscillate there, as a projection onto continuous functions does.
-//! What is transmitted around a point is `p_A = ∫ψ_A p / ∫ψ_A`; on facets of first order it is the force on the slave node
+//! The value transmitted around a point is `p_A = ∫ψ_A p / ∫ψ_A`; on facets of first order it is the force on the slave node
 //! over its area, the traction of a method with dual multipliers. With the shares `D_AC/a_A` of the slave nodes C in the averaged gap,
 //! `p_A = Σ_C (D_AC/a_A) p(x_C)`, so the averages of tractions and of gaps are the same operation. For the root at the edge of a
 //! Hertz contact they lie on the curve within (h/d)²/48 at the distance d from the edge.
@@ -12,7 +12,7 @@ use crate::measure::{Attachment, Measure};
 use crate::spec::{MeasureKind, SlavePoint};
 use crate::vector::axpy;
 
-/// How nodal values of the traction field follow from those of the points.
+/// Relation of nodal values of the traction field to those of the points.
 #[derive(Clone, Debug)]
 pub(crate) struct Averaging {
     /// For each node of the interface, points and coefficients; `None` where tractions are point values and stay so.

@@ -9,7 +9,7 @@ use crate::search::surface::Surface;
 use crate::spec::{InterfaceSpec, MeasureKind, Segment, Sliding, Smoothing};
 use crate::vector::norm;
 
-/// Whether a specification fits together.
+/// Checks that a specification fits together.
 pub(crate) fn check<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactError> {
     let name = || spec.name.clone();
     for (side, empty) in [("slave", spec.slave.is_empty()), ("master", spec.master.is_empty())] {

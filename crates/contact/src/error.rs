@@ -1,8 +1,8 @@
-//! What can be wrong with an interface before it is ever evaluated.
+//! Errors in an interface that are found before it is evaluated.
 
 use crate::SegmentKind;
 
-/// Why an interface could not be built.
+/// Reason why an interface could not be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ContactError {
     /// No slave node has a projection on the master side.

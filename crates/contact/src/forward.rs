@@ -19,7 +19,7 @@ const BAND: f64 = 1e-9;
 /// of the slopes of magnitude and chord, seldom below 1/3), so 1e-9 takes about 50 at worst.
 const REFINEMENTS: usize = 60;
 
-/// How often a point may change between stick and slip before a step. Each change can turn its neighbours; more than a few are a point on
+/// Changes of a point between stick and slip allowed before a step. Each change can turn its neighbours; more than a few are a point on
 /// the edge of slip, for which both answers are the same to rounding.
 const MOST_SWITCHES: u8 = 6;
 
@@ -31,7 +31,7 @@ struct Step<'a> {
     present: PresentOptions,
 }
 
-/// What a law is told beside the points.
+/// Facts a law is given beside the points.
 #[derive(Clone, Copy)]
 struct PresentOptions {
     dt: f64,

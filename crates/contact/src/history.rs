@@ -15,7 +15,7 @@ pub struct InterfaceState {
     previous_dt: Option<f64>,
     /// Displacements of the nodes \[m\], one after another.
     displacements: Vec<f64>,
-    /// Whether each point is closed.
+    /// True if each point is closed.
     closed: Vec<bool>,
     /// Normal tractions \[Pa\], which are the multipliers of the next step where there are any.
     normal_traction: Vec<f64>,
@@ -31,7 +31,7 @@ pub struct InterfaceState {
     unknowns: Vec<f64>,
     /// Gaps at which points were bonded \[m\], none at points without a partner.
     tied: Option<Vec<Option<f64>>>,
-    /// Whether tractions of an initial stress still act.
+    /// True if tractions of an initial stress still act.
     pressed: bool,
     /// Pairing.
     measure: MeasureState,
@@ -50,7 +50,7 @@ struct ShearState {
     traction: Vec<[f64; 2]>,
     /// Slip rates \[m/s\].
     rate: Vec<f64>,
-    /// Whether each point slips.
+    /// True if each point slips.
     slips: Vec<bool>,
     /// State variables, point-major.
     states: Vec<f64>,

@@ -99,7 +99,7 @@ pub struct Interface<const D: usize> {
     pub(crate) fields: PointFields<D>,
     averaging: Averaging,
     pub(crate) work: Work,
-    /// What steps may not do.
+    /// Limits on the steps.
     pub(crate) watch: Watch,
     /// The point that lost strength with slip in the trial dropped last, where one did.
     pub(crate) soft: Option<usize>,
@@ -241,7 +241,7 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// Whether a law acts.
+    /// True if a law acts.
     #[must_use]
     pub fn has_law(&self) -> bool {
         self.shear.is_some()
@@ -296,7 +296,7 @@ impl<const D: usize> Interface<D> {
         Refusal { term: self.name.clone(), reason }
     }
 
-    /// What a law could not answer, with the mesh node instead of the place in the slice.
+    /// A failure of a law, with the mesh node instead of the index in the slice.
     pub(crate) fn law_refusal(&self, failure: Failure) -> Refusal {
         let entry = match failure {
             Failure::BareLogAtRest { point, .. }

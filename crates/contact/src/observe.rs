@@ -1,4 +1,4 @@
-//! What an interface shows: committed fields per slave point, balances and counts of work.
+//! Observable state of an interface: committed fields per slave point, balances and counts of work.
 
 use crate::status::Status;
 use crate::vector::{dot, norm};

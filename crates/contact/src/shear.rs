@@ -127,7 +127,7 @@ impl TwoStep {
     }
 }
 
-/// What two-step differences look back on.
+/// Values of the step before that two-step differences need.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Past<'a> {
     pub two_step: TwoStep,
@@ -162,9 +162,9 @@ pub(crate) struct Shear {
     pub touch: [f64; 2],
     pub committed: History,
     pub trial: History,
-    /// What the tangent needs, per point.
+    /// Terms of the tangent, per point.
     pub points: Vec<ShearPoint>,
-    /// How often the regime of each point was switched before the present forward step.
+    /// Number of switches of the regime of each point before the present forward step.
     pub switches: Vec<u8>,
     pub slices: Slices,
 }

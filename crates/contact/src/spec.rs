@@ -34,7 +34,7 @@ pub struct Segment {
     pub nodes: Vec<usize>,
 }
 
-/// Whether pairing and normal follow the motion.
+/// Sliding: small, with fixed pairing and normal, or finite, where both follow the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sliding {
     /// Pairing, normals, tangents and weights fixed in the reference configuration.
@@ -43,7 +43,7 @@ pub enum Sliding {
     Finite,
 }
 
-/// How gaps are measured.
+/// Measure of gaps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MeasureKind {
     /// Slave nodes against closest points of the master.
@@ -53,7 +53,7 @@ pub enum MeasureKind {
         /// Slave facets, oriented as master segments are (outward of the slave body). Points at their nodes take their areas
         /// from the overlap; facet nodes that are no slave point (the tip of a split surface) leave their share to the others.
         faces: Vec<Segment>,
-        /// Whether the first coordinate is the radius of a body of revolution: areas are then those of the full circle.
+        /// True if the first coordinate is the radius of a body of revolution: areas are then those of the full circle.
         axisymmetric: bool,
     },
 }
@@ -93,7 +93,7 @@ pub struct InterfaceSpec<const D: usize> {
     pub slave: Vec<SlavePoint>,
     /// Master side.
     pub master: Vec<Segment>,
-    /// How gaps are measured.
+    /// Measure of gaps.
     pub measure: MeasureKind,
     /// Small or finite sliding.
     pub sliding: Sliding,
@@ -101,7 +101,7 @@ pub struct InterfaceSpec<const D: usize> {
     pub smoothing: Option<Smoothing>,
     /// Normal of every pair instead of the segments' own (small sliding only): outward of the master; any length.
     pub fixed_normal: Option<[f64; D]>,
-    /// How the constraints are enforced.
+    /// Enforcement of the constraints.
     pub enforcement: Enforcement,
     /// Normal penalty E_n \[Pa/m\].
     pub normal_penalty: f64,

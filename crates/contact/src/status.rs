@@ -5,7 +5,7 @@ use asperity_friction::law::Regime;
 /// A point slower than this share of the largest prescribed rate is labelled stick, under laws without an elastic domain.
 const LABEL: f64 = 1e-6;
 
-/// What a point does; the numbers are those of output files.
+/// Status of a point; the numbers are those of output files.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Status {

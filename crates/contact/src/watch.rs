@@ -1,4 +1,4 @@
-//! What a quasi-static step of an interface cannot follow: slip that outruns the step, and slip rates at which inertia carries
+//! Events that a quasi-static step of an interface cannot follow: slip that outruns the step, and slip rates at which inertia carries
 //! load.
 //!
 //! An implicit step is solved for its end alone. Where the law weakens within the step its equations may have several solutions, and
@@ -10,7 +10,7 @@
 pub enum RateLimit {
     /// As the scene says \[m/s\].
     Stated(f64),
-    /// Where radiation damping η V reaches the direct effect a f_n: by then it holds back what quasi-static equilibrium lets go.
+    /// Slip rate at which radiation damping η V reaches the direct effect a f_n: by then it holds back what quasi-static equilibrium lets go.
     Damped {
         /// a/η \[m/s/Pa\].
         per_traction: f64,
@@ -30,7 +30,7 @@ impl RateLimit {
     }
 }
 
-/// How a law loses strength, and what of it one step may span.
+/// Loss of strength of a law, and how much of it one step may span.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Course {
     /// It does not, or the steps are bounded otherwise.
@@ -52,12 +52,12 @@ pub enum Course {
     Drop,
 }
 
-/// What steps of an interface may not do.
+/// Limits on the steps of an interface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Watch {
     /// Limit of slip rates, where there is one.
     pub rate: Option<RateLimit>,
-    /// How the law loses strength.
+    /// Loss of strength with slip.
     pub course: Course,
     /// Normal traction beyond which points that slide stand farther apart than the length over which a front of slip loses strength, where that is
     /// refused \[Pa\].

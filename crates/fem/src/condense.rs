@@ -30,7 +30,7 @@ pub struct Stiffness {
     pub dofs: usize,
 }
 
-/// What a condensation will cost, known before any number is computed. Holds the assembled stiffness.
+/// Cost of a condensation, known before any number is computed. Holds the assembled stiffness.
 #[derive(Debug)]
 pub struct Condensation<'a> {
     body: &'a Stiffness,
@@ -211,7 +211,7 @@ impl Condensed {
     /// Joins a reduction to the system: `system[k]` is the system number of its k-th retained degree of freedom.
     #[must_use]
     pub fn new(name: String, reduction: Reduction, system: &[usize]) -> Self {
-        let pattern = Pattern::of_blocks(0, [system]);
+        let pattern = Pattern::of_blocks([system]);
         let local = vec![0.0; system.len()];
         Self { name, reduction, loads: Vec::new(), pattern, local }
     }
@@ -252,7 +252,7 @@ impl Condensed {
                 body[dof] += amplitude * value;
             }
         }
-        for (&dof, &system) in r.retained.iter().zip(&self.pattern.dofs) {
+        for (&dof, &system) in r.retained.iter().zip(self.pattern.dofs()) {
             x[r.active.number[dof]] = u[system];
         }
         let n = x.len();
@@ -270,16 +270,16 @@ impl Term for Condensed {
     }
 
     fn residual(&mut self, u: &[f64], at: Instant, r: &mut [f64]) -> Result<(), Refusal> {
-        for (local, &dof) in self.local.iter_mut().zip(&self.pattern.dofs) {
+        for (local, &dof) in self.local.iter_mut().zip(self.pattern.dofs()) {
             *local = u[dof];
         }
         let m = self.local.len();
-        for (row, &dof) in self.reduction.schur.chunks_exact(m.max(1)).zip(&self.pattern.dofs) {
+        for (row, &dof) in self.reduction.schur.chunks_exact(m.max(1)).zip(self.pattern.dofs()) {
             r[dof] += row.iter().zip(&self.local).map(|(s, u)| s * u).sum::<f64>();
         }
         for load in &self.loads {
             let alpha = load.amplitude.value(at.time);
-            for (&dof, h) in self.pattern.dofs.iter().zip(&load.retained) {
+            for (&dof, h) in self.pattern.dofs().iter().zip(&load.retained) {
                 r[dof] += alpha * h;
             }
         }
@@ -310,7 +310,7 @@ impl Limited for Condensed {
         values.copy_from_slice(&self.reduction.schur);
         for load in &self.loads {
             let change = load.amplitude.value(at.time) - load.amplitude.value(at.time - at.dt);
-            for (&dof, h) in self.pattern.dofs.iter().zip(&load.retained) {
+            for (&dof, h) in self.pattern.dofs().iter().zip(&load.retained) {
                 constant[dof] += change * h;
             }
         }

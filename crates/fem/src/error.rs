@@ -1,6 +1,6 @@
 //! Errors of the crate.
 
-/// What can go wrong with a body.
+/// Errors of a body.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FemError {
     /// A material parameter out of its range.
@@ -10,7 +10,7 @@ pub enum FemError {
         name: &'static str,
         /// Given value.
         value: f64,
-        /// What would be right.
+        /// Remedy.
         admissible: &'static str,
     },
     /// An element turned inside out or without volume.
@@ -47,7 +47,7 @@ pub enum FemError {
     Idealisation {
         /// Idealisation.
         idealisation: &'static str,
-        /// Why not.
+        /// Reason.
         reason: &'static str,
     },
     /// A vector with the wrong number of components.
@@ -73,7 +73,7 @@ pub enum FemError {
     Formulation {
         /// Element.
         element: &'static str,
-        /// Why not, and what to take instead.
+        /// Reason, and what to take instead.
         reason: &'static str,
     },
     /// Faces whose shape functions have integrals that are zero or negative.
@@ -125,7 +125,7 @@ pub enum FemError {
     Curve {
         /// Side.
         side: &'static str,
-        /// Why not.
+        /// Reason.
         reason: String,
     },
     /// A matrix that could not be factored.
@@ -140,7 +140,7 @@ pub enum FemError {
     Unheld {
         /// Singular, or not positive definite.
         singular: bool,
-        /// Where it was found out.
+        /// Place where it was found.
         pivot: crate::multifrontal::Pivot,
     },
     /// The iterative solver gave up.
@@ -163,7 +163,7 @@ impl FemError {
         }
     }
 
-    /// Whether it says that a matrix is singular, a motion free, rather than that its energy is negative.
+    /// True if it says that a matrix is singular, a motion free, rather than that its energy is negative.
     #[must_use]
     pub fn is_singular(&self) -> bool {
         match self {

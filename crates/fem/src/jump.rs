@@ -10,7 +10,7 @@
 
 use crate::condense::Stiffness;
 use crate::dof::Channel;
-use crate::term::Pattern;
+use crate::term::Blocks;
 use std::collections::BTreeMap;
 
 /// Two nodes at one place, on both sides of a fault, with `C` components of displacement each.
@@ -69,32 +69,26 @@ impl<const C: usize> Jumps<C> {
     /// `Tᵀ K T` of a body whose degrees of freedom are node * `C` + component: cells at plus nodes also couple the minus nodes.
     #[must_use]
     pub fn stiffness(&self, body: &Stiffness) -> Stiffness {
-        let mut result = Stiffness {
-            pattern: Pattern {
-                dofs: Vec::with_capacity(body.pattern.dofs.len()),
-                starts: vec![0],
-                version: 0,
-            },
-            values: Vec::with_capacity(body.values.len()),
-            dofs: body.dofs,
-        };
+        let (mut cells, mut all) =
+            (Blocks::with_capacity(body.pattern.dofs().len()), Vec::with_capacity(body.values.len()));
         let mut offset = 0;
         for cell in body.pattern.blocks() {
             let values = &body.values[offset..offset + cell.len() * cell.len()];
             offset += values.len();
             if cell.iter().any(|&d| self.of(d).is_some()) {
-                self.cell(cell, values, &mut result);
+                let (dofs, values) = self.cell(cell, values);
+                cells.push(dofs);
+                all.extend(values);
             } else {
-                result.pattern.dofs.extend_from_slice(cell);
-                result.values.extend_from_slice(values);
+                cells.push(cell.iter().copied());
+                all.extend_from_slice(values);
             }
-            result.pattern.starts.push(result.pattern.dofs.len());
         }
-        result
+        Stiffness { pattern: cells.into(), values: all, dofs: body.dofs }
     }
 
     /// One cell at the plus side: its degrees of freedom, those of the minus nodes that are not yet there, and `Tᵀ K T`.
-    fn cell(&self, cell: &[usize], values: &[f64], out: &mut Stiffness) {
+    fn cell(&self, cell: &[usize], values: &[f64]) -> (Vec<usize>, Vec<f64>) {
         let mut dofs = cell.to_vec();
         for &dof in cell {
             if let Some((jump, component)) = self.of(dof)
@@ -123,8 +117,7 @@ impl<const C: usize> Jumps<C> {
                 }
             }
         }
-        out.pattern.dofs.extend_from_slice(&dofs);
-        out.values.extend_from_slice(&k);
+        (dofs, k)
     }
 
     /// Displacement `dof` in terms of the transformed unknowns.

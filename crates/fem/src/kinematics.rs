@@ -1,4 +1,4 @@
-//! What a displacement field is allowed to be: the idealisation of space, and the treatment of the dilatation.
+//! Admissible displacement fields: the idealisation of space, and the treatment of the dilatation.
 
 use crate::element::{ElementKind, Point};
 use crate::error::FemError;
@@ -130,7 +130,7 @@ pub enum Formulation {
     BBar,
 }
 
-/// What B-bar does to the dilatation of an element.
+/// Treatment of the dilatation of an element by B-bar.
 ///
 /// The pair of displacement and dilatation has to satisfy the inf-sup condition as the body becomes incompressible, with a
 /// constant β that does not fall with refinement (values measured on crooked meshes with all boundaries held):

@@ -14,7 +14,7 @@ impl ExternalForces {
     /// Forces at unit amplitude with their amplitudes.
     #[must_use]
     pub fn new(channels: Vec<(Vec<(usize, f64)>, Table)>) -> Self {
-        Self { channels, pattern: Pattern::of_blocks(0, []) }
+        Self { channels, pattern: Pattern::default() }
     }
 
     fn subtract(&self, amplitude: impl Fn(&Table) -> f64, r: &mut [f64]) {

@@ -13,7 +13,7 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 use feral_metis::{CscPattern, MetisOptions, metis_order_full};
 
-/// How equations are ordered before elimination.
+/// Ordering of equations before elimination.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Ordering {
     /// The cheaper of the others, judged by the operations of the factorisation.

@@ -89,7 +89,7 @@ impl CellForces {
     /// For the cells of `pattern` in a system of `dofs` degrees of freedom.
     #[must_use]
     pub fn new(pattern: &Pattern, dofs: usize) -> Self {
-        Self { gather: Gather::new(&pattern.dofs, dofs), forces: vec![0.0; pattern.dofs.len()] }
+        Self { gather: Gather::new(pattern.dofs(), dofs), forces: vec![0.0; pattern.dofs().len()] }
     }
 
     /// Adds the forces of all cells to `r`. `force(cell, dofs, f)` writes those of one cell into `f`, which is zero before.
@@ -99,12 +99,12 @@ impl CellForces {
         force: impl Fn(usize, &[usize], &mut [f64]) + Sync,
         r: &mut [f64],
     ) {
-        let cells = pattern.starts.len() - 1;
+        let cells = pattern.starts().len() - 1;
         let mut tasks: Vec<(usize, &mut [f64])> = Vec::with_capacity(cells.div_ceil(CELLS));
         let mut rest = self.forces.as_mut_slice();
         for first in (0..cells).step_by(CELLS) {
             let last = (first + CELLS).min(cells);
-            let (part, after) = rest.split_at_mut(pattern.starts[last] - pattern.starts[first]);
+            let (part, after) = rest.split_at_mut(pattern.starts()[last] - pattern.starts()[first]);
             tasks.push((first, part));
             rest = after;
         }
@@ -112,7 +112,7 @@ impl CellForces {
             part.fill(0.0);
             let mut rest = part;
             for cell in first..(first + CELLS).min(cells) {
-                let dofs = &pattern.dofs[pattern.starts[cell]..pattern.starts[cell + 1]];
+                let dofs = pattern.block(cell);
                 let (here, after) = rest.split_at_mut(dofs.len());
                 force(cell, dofs, here);
                 rest = after;
@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn forces_of_cells_are_those_of_a_serial_loop_for_any_number_of_threads() {
         let cells: Vec<[usize; 3]> = (0..5000).map(|k| [k, (7 * k + 1) % 5002, k + 2]).collect();
-        let pattern = Pattern::of_blocks(0, cells.iter().map(|c| c.as_slice()));
+        let pattern = Pattern::of_blocks(cells.iter().map(|c| c.as_slice()));
         let force = |cell: usize, dofs: &[usize], f: &mut [f64]| {
             for (f, &dof) in f.iter_mut().zip(dofs) {
                 *f = ((cell * 31 + dof) as f64).sin();

@@ -5,6 +5,7 @@
 //! drops it. Capabilities beyond the residual are separate traits, so that a stepper asks for exactly what it uses.
 
 use std::fmt;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The step a trial state belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,12 +16,12 @@ pub struct Instant {
     pub dt: f64,
 }
 
-/// Why a term could not answer at a trial state. An outcome for the step controller, not an error of the program.
+/// Reason why a term could not answer at a trial state. An outcome for the step controller, not an error of the program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refusal {
     /// The term that refused.
     pub term: String,
-    /// What happened, with the place (node, element) and the offending numbers.
+    /// The event, with the place (node, element) and the offending numbers.
     pub reason: String,
 }
 
@@ -30,20 +31,20 @@ impl fmt::Display for Refusal {
     }
 }
 
-/// Why a step whose equations are solved should not stand.
+/// Reason why a step whose equations are solved should not stand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Objection {
     /// The term that objects.
     pub term: String,
-    /// What happened, with the numbers.
+    /// The event, with the numbers.
     pub reason: String,
-    /// Where, in the reference configuration \[m\].
+    /// Position in the reference configuration \[m\].
     pub position: [f64; 3],
     /// Slip rate there \[m/s\].
     pub rate: f64,
-    /// Whether a shorter step may be free of it.
+    /// True if a shorter step may be free of it.
     pub shorter: bool,
-    /// Whether it is for want of points: the step may be right, and what follows would be that of the mesh.
+    /// True if it is for want of points: the step may be right, and what follows would be that of the mesh.
     pub coarse: bool,
 }
 
@@ -70,7 +71,7 @@ pub trait Term {
         Ok(())
     }
 
-    /// Why the solution whose trial history this is should not be accepted, where it should not: the equations of the step hold, and
+    /// Reason why the solution whose trial history this is should not be accepted, where it should not: the equations of the step hold, and
     /// the step does not follow what happens within it, or leaves the model.
     fn objection(&self) -> Option<Objection> {
         None
@@ -88,31 +89,133 @@ pub trait Term {
     fn reject(&mut self);
 }
 
-/// Block structure of a term's tangent: dense square blocks, each with its list of degrees of freedom.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// Block structure of a term's tangent: dense square blocks, each with its list of degrees of freedom. It never changes: a term whose blocks
+/// change makes another one, which has another [`PatternId`].
+#[derive(Clone, Debug)]
 pub struct Pattern {
+    blocks: Blocks,
+    id: PatternId,
+}
+
+/// Identity of a pattern. Only a new pattern has a new one, and a clone keeps it, so that a factorisation that remembers it cannot be used
+/// with other blocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct PatternId(u64);
+
+impl PatternId {
+    fn mint() -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        Self(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+}
+
+/// Blocks of a pattern under construction.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Blocks {
     /// Degrees of freedom of all blocks, one block after another.
-    pub dofs: Vec<usize>,
+    dofs: Vec<usize>,
     /// Start of each block in `dofs`; one more entry than there are blocks.
-    pub starts: Vec<usize>,
-    /// Changes whenever `dofs` or `starts` change: a factorisation is tied to it.
-    pub version: u64,
+    starts: Vec<usize>,
+}
+
+impl Default for Blocks {
+    fn default() -> Self {
+        Self { dofs: Vec::new(), starts: vec![0] }
+    }
+}
+
+impl Blocks {
+    /// Blocks of one size, given one after another.
+    #[must_use]
+    pub fn uniform(dofs: Vec<usize>, size: usize) -> Self {
+        let starts = (0..=dofs.len() / size.max(1)).map(|k| k * size).collect();
+        Self { dofs, starts }
+    }
+
+    /// No blocks, with room for so many degrees of freedom.
+    #[must_use]
+    pub fn with_capacity(dofs: usize) -> Self {
+        Self { dofs: Vec::with_capacity(dofs), starts: vec![0] }
+    }
+
+    /// Adds a block.
+    pub fn push(&mut self, dofs: impl IntoIterator<Item = usize>) {
+        self.dofs.extend(dofs);
+        self.starts.push(self.dofs.len());
+    }
+
+    /// Adds the blocks of a pattern, without a copy where there are none yet.
+    pub fn append(&mut self, pattern: Pattern) {
+        if self.dofs.is_empty() {
+            *self = pattern.blocks;
+            return;
+        }
+        let offset = self.dofs.len();
+        self.starts.extend(pattern.blocks.starts[1..].iter().map(|s| s + offset));
+        self.dofs.extend(pattern.blocks.dofs);
+    }
+}
+
+impl From<Blocks> for Pattern {
+    fn from(blocks: Blocks) -> Self {
+        Self::new(blocks)
+    }
+}
+
+impl Default for Pattern {
+    fn default() -> Self {
+        Self::new(Blocks::default())
+    }
 }
 
 impl Pattern {
-    /// A pattern of blocks given one after another.
-    pub fn of_blocks<'a>(version: u64, blocks: impl IntoIterator<Item = &'a [usize]>) -> Self {
-        let mut pattern = Self { dofs: Vec::new(), starts: vec![0], version };
-        for block in blocks {
-            pattern.dofs.extend_from_slice(block);
-            pattern.starts.push(pattern.dofs.len());
+    /// Makes a pattern, and its identity.
+    #[must_use]
+    pub fn new(blocks: Blocks) -> Self {
+        Self { blocks, id: PatternId::mint() }
+    }
+
+    /// Makes a pattern of blocks given one after another.
+    pub fn of_blocks<'a>(blocks: impl IntoIterator<Item = &'a [usize]>) -> Self {
+        let mut all = Blocks::default();
+        blocks.into_iter().for_each(|block| all.push(block.iter().copied()));
+        Self::new(all)
+    }
+
+    /// Returns the identity.
+    #[must_use]
+    pub fn id(&self) -> PatternId {
+        self.id
+    }
+
+    /// Takes other blocks, and another identity with them; none where they are the same.
+    pub fn renew(&mut self, blocks: Blocks) {
+        if self.blocks != blocks {
+            *self = Self::new(blocks);
         }
-        pattern
+    }
+
+    /// Degrees of freedom of all blocks, one block after another.
+    #[must_use]
+    pub fn dofs(&self) -> &[usize] {
+        &self.blocks.dofs
+    }
+
+    /// Start of each block in [`Pattern::dofs`]; one more entry than there are blocks.
+    #[must_use]
+    pub fn starts(&self) -> &[usize] {
+        &self.blocks.starts
+    }
+
+    /// Degrees of freedom of a block.
+    #[must_use]
+    pub fn block(&self, k: usize) -> &[usize] {
+        &self.dofs()[self.starts()[k]..self.starts()[k + 1]]
     }
 
     /// Degrees of freedom of each block, in order.
     pub fn blocks(&self) -> impl Iterator<Item = &[usize]> {
-        self.starts.windows(2).map(|w| &self.dofs[w[0]..w[1]])
+        self.starts().windows(2).map(|w| &self.dofs()[w[0]..w[1]])
     }
 
     /// Number of values of a tangent with this pattern: the sum of the squares of the block sizes.
@@ -170,7 +273,7 @@ pub struct Fraction {
 }
 
 impl Fraction {
-    /// Whether the limit bounds what a step may err, so that a longer one would not do, and is not an event.
+    /// True if the limit bounds what a step may err, so that a longer one would not do, and is not an event.
     #[must_use]
     pub fn bounds_accuracy(&self) -> bool {
         matches!(self.limit, "r2" | "r3" | "r8")

@@ -17,7 +17,7 @@ use std::fmt::Write;
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// What a reader needs for a file of no length \[bytes\]: names, tables of quadrature, an error.
+/// Memory that a reader needs for a file of no length \[bytes\]: names, tables of quadrature, an error.
 const BASE: usize = 64 << 10;
 
 /// Bytes held for each byte of a file that is a mesh. Reading: a number of two bytes or more becomes one of eight, and a node of

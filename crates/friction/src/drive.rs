@@ -1,8 +1,8 @@
-//! What acts on the points of a fault.
+//! Tractions on the points of a fault.
 
 use crate::slider::Forcing;
 
-/// What acts on a slice of points at an instant.
+/// Tractions on a slice of points at an instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Drive<'a> {
     /// f_n > 0 \[Pa\].
@@ -16,7 +16,7 @@ pub struct Drive<'a> {
 }
 
 impl Drive<'_> {
-    /// What acts on a point.
+    /// Tractions on a point.
     pub(crate) fn forcing(&self, point: usize) -> Forcing {
         Forcing {
             normal: self.normal[point],

@@ -42,7 +42,7 @@ pub trait FaultLaw: Send + Sync + std::fmt::Debug {
     /// a of a point \[-\]: μ = a m.
     fn scale(&self, point: usize) -> f64;
 
-    /// What a change of ln V by one is in the state variables of a point, for error norms.
+    /// Change of the state variables of a point that is worth a change of ln V by one, for error norms.
     fn state_scale(&self, point: usize) -> f64;
 
     /// Shortest characteristic slip L of a point \[m\], where there is one.
@@ -68,7 +68,7 @@ pub trait FaultLaw: Send + Sync + std::fmt::Debug {
 #[derive(Clone, Debug)]
 pub struct Points<L> {
     laws: Vec<L>,
-    /// Where all laws are of the kind that is evaluated for many points at once.
+    /// All laws in one form, where they are of the kind that is evaluated for many points at once.
     sheet: Option<Sheet>,
 }
 

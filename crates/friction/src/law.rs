@@ -1,4 +1,4 @@
-//! What a contact interface asks of a friction law, on slices of points.
+//! Requirements of a contact interface on a friction law, on slices of points.
 //!
 //! Everything here is scalar: the contact side forms the trial traction vector `t^e = t_old + E_t Δu` in the tangent
 //! plane, hands over its magnitude, and turns the answer back into a vector along `η = t^e/|t^e|`. A law therefore knows
@@ -10,7 +10,7 @@ use crate::Failure;
 /// events of a symmetric scene would cost one step each, at fractions that are rounding.
 pub(crate) const BAND: f64 = 1e-9;
 
-/// What a point does over the step.
+/// Motion of a point over the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {
     /// The whole tangential increment is elastic.
@@ -43,11 +43,11 @@ pub struct Trials<'a> {
 pub struct Lag<'a> {
     /// Factor of Δλ/Δt \[-\]; 1 with an offset of 0 is backward Euler.
     pub weight: &'a [f64],
-    /// What is taken off per point \[m/s\].
+    /// Offset per point \[m/s\].
     pub offset: &'a [f64],
 }
 
-/// What `n` closed points did over a step, for an estimate of its error. Rates and slips count along the traction at the end.
+/// Motion of `n` closed points over a step, for an estimate of its error. Rates and slips count along the traction at the end.
 #[derive(Clone, Copy, Debug)]
 pub struct Taken<'a> {
     /// f_n at the end \[Pa\].
@@ -66,7 +66,7 @@ pub struct Taken<'a> {
     pub new: &'a [f64],
 }
 
-/// Where the answer of a law goes; every slice holds `n` values but `states`, which holds `n * law.states()`.
+/// Output of a law; every slice holds `n` values but `states`, which holds `n * law.states()`.
 #[derive(Debug)]
 pub struct Responses<'a> {
     /// Shear traction τ after the step \[Pa\].
@@ -195,12 +195,12 @@ pub trait Law: Send + Sync + std::fmt::Debug {
     /// State variables per point; 0 for a law without memory.
     fn states(&self) -> usize;
 
-    /// Whether the law has a yield surface with an elastic domain inside, so that a point sticks or slips.
+    /// True if the law has a yield surface with an elastic domain inside, so that a point sticks or slips.
     fn has_elastic_domain(&self) -> bool {
         false
     }
 
-    /// Whether the points are bonded: they neither slip nor part, and carry normal tension.
+    /// True if the points are bonded: they neither slip nor part, and carry normal tension.
     fn bonded(&self) -> bool {
         false
     }
@@ -237,7 +237,7 @@ pub trait Law: Send + Sync + std::fmt::Debug {
     /// The smallest limit r6 or r8 over the slice for the increments of a whole step, or `None` when nothing binds.
     fn limit(&self, present: Present<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit>;
 
-    /// Whether point `k`, at rest, stands at its strength and would slip at the least push. Asked of laws with an elastic domain only.
+    /// True if point `k`, at rest, stands at its strength and would slip at the least push. Asked of laws with an elastic domain only.
     fn stands(&self, _present: Present<'_>, _k: usize) -> bool {
         false
     }

@@ -23,7 +23,7 @@ pub mod tied;
 pub mod turning;
 mod yielding;
 
-/// What can go wrong in a law.
+/// Errors of a law.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Failure {
     /// A parameter out of its range.
@@ -33,7 +33,7 @@ pub enum Failure {
         name: &'static str,
         /// Given value.
         value: f64,
-        /// What would be right.
+        /// Remedy.
         admissible: &'static str,
     },
     /// Bare and cut-off logarithms have no value at rest or in reversal.
@@ -55,7 +55,7 @@ pub enum Failure {
         point: usize,
         /// Slip rate \[m/s\].
         rate: f64,
-        /// What the form gives \[-\].
+        /// Value of the form \[-\].
         mu: f64,
     },
     /// The law weakens faster than the spring behind the point unloads.
@@ -89,7 +89,7 @@ pub enum Failure {
         normal: f64,
         /// |t^e| \[Pa\].
         trial: f64,
-        /// What is left \[Pa\].
+        /// Remainder \[Pa\].
         residual: f64,
     },
 }

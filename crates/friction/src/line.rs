@@ -1,4 +1,4 @@
-//! Where a shear traction that changes linearly over a step leaves the region its strength admits.
+//! Share of a step at which a shear traction that changes linearly leaves the region its strength admits.
 
 use crate::law::BAND;
 

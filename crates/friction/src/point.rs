@@ -22,13 +22,13 @@ const SPACING: f64 = 2.0 * f64::EPSILON;
 const STRIDE: f64 = 0.25;
 /// Widest range searched, in e-folds of V below the rate of the free spring: below it no state evolves over a step.
 const WIDEST: f64 = 200.0;
-/// What bounds of ln V are moved apart by, since the root may be the bound itself, to rounding; G does not turn so soon.
+/// Margin by which bounds of ln V are moved apart, since the root may be the bound itself, to rounding; G does not turn so soon.
 const SLACK: f64 = 1e-2;
 /// Newton steps up to this many e-folds are improved by higher derivatives; longer ones leave the range of the series.
 const SERIES: f64 = 1.0;
 /// Below this μ/a the strength is closer to linear in V than to a logarithm.
 const LINEAR: f64 = 1.0;
-/// Where the jump of a memory of shear traction is as good as rounded: it converges quadratically from below.
+/// Limit at which the jump of a memory of shear traction is as good as rounded: it converges quadratically from below.
 const MOST_JUMP: usize = 60;
 
 /// One point's problem.
@@ -119,7 +119,7 @@ pub struct Solver<'a, F, E: Evolution> {
     after: Vec<f64>,
     /// ln(f_n/f_ref), where a part has that memory.
     log_normal: f64,
-    /// Whether there is no normal traction.
+    /// True if there is no normal traction.
     open: bool,
     dt: f64,
 }
@@ -421,7 +421,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         self.parts.iter().map(|part| part.evolution.shear_memory()).sum()
     }
 
-    /// Where the iteration starts: the answer for states as they are before the step, which for a logarithmic strength is
+    /// Start of the iteration: the answer for states as they are before the step, which for a logarithmic strength is
     /// `A z + c e^z = T'` with A = f_n a, solved by Wright's ω; elsewhere a bound of it.
     fn start(&self, p: &Point, top: f64) -> f64 {
         let phi: f64 = self.parts.iter().zip(&self.before).map(|(part, &s)| part.evolution.phi(s)).sum();

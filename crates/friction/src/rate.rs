@@ -66,7 +66,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         Ok(Self { form, parts, log_initial: crate::positive("v_initial", v_initial)?.ln(), reference, limit })
     }
 
-    /// Whether the strength falls with the slip rate while no state holds it back: an ill-posed law, which the constructor
+    /// True if the strength falls with the slip rate while no state holds it back: an ill-posed law, which the constructor
     /// of [`Parameters`] refuses; ∂μ/∂V has the sign of a at every rate in every form.
     #[must_use]
     pub fn rate_weakening_without_state(&self) -> bool {
@@ -219,7 +219,7 @@ impl RateLaw<Regularised, Stateless> {
     }
 }
 
-/// What drives a point: `T = t^e - c offset` with its sign, and `c = E_t Δt/w`.
+/// Drive of a point: `T = t^e - c offset` with its sign, and `c = E_t Δt/w`.
 struct Drive {
     size: f64,
     sign: f64,

@@ -30,7 +30,7 @@ pub(crate) struct Sheet {
     arch: Arch,
 }
 
-/// What happens at a group of points.
+/// Processing of a group of points.
 struct Group {
     m: [f64; LANES],
     s: [f64; LANES],
@@ -105,7 +105,7 @@ impl Sheet {
     }
 }
 
-/// What is done for all points with the vector units of the processor: not closures, which pulp calls through a function of its own that
+/// Operations for all points with the vector units of the processor: not closures, which pulp calls through a function of its own that
 /// is compiled without those units.
 struct SlipRates<'a> {
     lines: &'a [Lines],
@@ -201,7 +201,7 @@ const MOST: f64 = 709.0;
 const ROUND: f64 = 6_755_399_441_055_744.0;
 /// ln 2 in two parts, of which this has so few digits that its multiples are exact.
 const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
-/// What the first part leaves of ln 2.
+/// Remainder of ln 2 after the first part.
 const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 /// Inverse factorials from 1/13! on: on |r| <= ln 2/2 the next term is 4e-18 of the sum.
 const TERMS: [f64; 14] = [

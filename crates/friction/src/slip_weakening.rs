@@ -76,7 +76,7 @@ impl SlipWeakening {
         normal * ((self.mu_s - self.mu_k) / self.length)
     }
 
-    /// Whether more slip changes nothing. A point that a forward step has brought to d_c is there but for rounding.
+    /// True if more slip changes nothing. A point that a forward step has brought to d_c is there but for rounding.
     fn weakened(&self, slip: f64) -> bool {
         slip >= self.length * (1.0 - BAND) || self.mu_s == self.mu_k
     }

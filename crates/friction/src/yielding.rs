@@ -1,4 +1,4 @@
-//! What laws with a yield surface share: the capped cone, the return of a point to it, and limit r6.
+//! Parts common to laws with a yield surface: the capped cone, the return of a point to it, and limit r6.
 
 use crate::Failure;
 use crate::law::{BAND, Increments, Limit, LimitKind, Present, Regime, Responses, Trials};
@@ -92,7 +92,7 @@ pub(crate) fn exit(
     Some(Limit { fraction, point: k, kind: LimitKind::StickToSlip })
 }
 
-/// Whether the traction of point k is its strength \[Pa\].
+/// True if the traction of point k is its strength \[Pa\].
 pub(crate) fn at_strength(present: &Present<'_>, k: usize, strength: f64) -> bool {
     present.traction[k].abs() >= strength * (1.0 - BAND)
 }

@@ -1,4 +1,4 @@
-//! What states remember: of changes of normal traction (Linker & Dieterich), of shear traction (Nagata), and of each other.
+//! Memory of states: of changes of normal traction (Linker & Dieterich), of shear traction (Nagata), and of each other.
 #![allow(clippy::unwrap_used)]
 
 #[path = "usual/mod.rs"]
@@ -254,7 +254,7 @@ fn implicit_steps_follow_a_varying_normal_traction_at_first_order() {
     first_order(&Nagata::new(B, LENGTH, V_REF, 3.0).unwrap(), ALPHA, ageing_equation);
 }
 
-/// Where V jumps, dμ = a ln(V_2/V_1)/(1 + c) with the bare logarithm, and from there θ ages on the slower clock.
+/// A jump of V changes friction by dμ = a ln(V_2/V_1)/(1 + c) with the bare logarithm, and from there θ ages on the slower clock.
 #[test]
 fn the_nagata_law_follows_its_closed_form_after_a_jump_of_the_rate() {
     let (v1, v2) = (1e-7, 2e-6);

@@ -58,7 +58,7 @@ impl Tally {
     }
 }
 
-/// What is left of the balance, relative to the drive, over what rounding of ln V and of its parts makes of it.
+/// Residual of the balance, relative to the drive, over the rounding of ln V and of its parts.
 fn left_over<F: Form, E: Evolution>(form: &F, parts: &[E], p: &Point, old: &[f64], s: &Solution) -> f64 {
     let phi: f64 = parts.iter().zip(old).map(|(e, &o)| e.phi(e.step(o, s.log_rate, p.dt).state)).sum();
     let strength = form.at(s.log_rate, phi);

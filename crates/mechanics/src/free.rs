@@ -8,7 +8,7 @@ use asperity_fem::multifrontal::FreeMode;
 /// Axes by name.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Why a system was not solved; `node_of` gives mesh node and component of a degree of freedom of the error.
+/// Reason why a system was not solved; `node_of` gives mesh node and component of a degree of freedom of the error.
 pub(crate) fn unsolved<const D: usize>(
     model: &Model<D>,
     error: &FemError,

@@ -9,7 +9,7 @@ use asperity_fem::material::elastic::Elastic;
 use asperity_fem::mesh::{Mesh, Side};
 use asperity_fem::nonlinear;
 use asperity_fem::surface;
-use asperity_fem::term::{Limited, Linearized, Pattern, Saved as _};
+use asperity_fem::term::{Blocks, Limited, Linearized, Pattern, Saved as _};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -74,7 +74,7 @@ impl<const D: usize> CellBlock<D> {
             Self::Linear(block) => block,
         };
         let pattern = block.pattern();
-        let dofs = &pattern.dofs[pattern.starts[cell]..pattern.starts[cell + 1]];
+        let dofs = pattern.block(cell);
         let size = dofs.len();
         let rows = block.stiffness()[cell * size * size..(cell + 1) * size * size].chunks_exact(size);
         rows.map(|row| row.iter().zip(dofs).map(|(k, &dof)| k * u[dof]).sum()).collect()
@@ -114,7 +114,7 @@ pub struct Body<const D: usize> {
     pub size: Option<f64>,
     /// Nodes of each connected part, ascending; a body that is split right through has several.
     pub parts: Vec<Vec<usize>>,
-    /// Why it is not linear; `None` when it is.
+    /// Reason why it is not linear; `None` when it is.
     pub nonlinear: Option<&'static str>,
     /// Its degrees of freedom in the common mesh.
     pub dofs: Range<usize>,
@@ -174,13 +174,11 @@ impl<const D: usize> Model<D> {
     #[must_use]
     pub fn pattern(&self, body: &Body<D>) -> Pattern {
         let first = body.dofs.start;
-        let mut own = Pattern { dofs: Vec::new(), starts: vec![0], version: 0 };
+        let mut own = Blocks::default();
         for block in self.blocks[body.blocks.clone()].iter().filter_map(CellBlock::linear) {
-            let (pattern, offset) = (block.pattern(), own.dofs.len());
-            own.dofs.extend(pattern.dofs.iter().map(|d| d - first));
-            own.starts.extend(pattern.starts[1..].iter().map(|s| s + offset));
+            block.pattern().blocks().for_each(|cell| own.push(cell.iter().map(|d| d - first)));
         }
-        own
+        own.into()
     }
 
     /// The stiffness of a linear body in its own numbering, for condensation; blocks that are not linear have none.
@@ -202,23 +200,17 @@ impl<const D: usize> Model<D> {
                 CellBlock::Nonlinear(_) => None,
             })
             .collect();
-        let mut all = Stiffness {
-            pattern: Pattern { dofs: Vec::new(), starts: vec![0], version: 0 },
-            values: Vec::new(),
-            dofs,
-        };
+        let (mut cells, mut all) = (Blocks::default(), Vec::new());
         for block in blocks {
             let (pattern, values) = block.into_stiffness();
-            let offset = all.pattern.dofs.len();
-            all.pattern.starts.extend(pattern.starts[1..].iter().map(|s| s + offset));
-            if all.values.is_empty() {
-                (all.pattern.dofs, all.values) = (pattern.dofs, values);
+            cells.append(pattern);
+            if all.is_empty() {
+                all = values;
             } else {
-                all.pattern.dofs.extend(pattern.dofs);
-                all.values.extend(values);
+                all.extend(values);
             }
         }
-        all
+        Stiffness { pattern: cells.into(), values: all, dofs }
     }
 
     /// Index of the body a set belongs to, by the part of its name before the point.

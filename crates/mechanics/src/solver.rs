@@ -17,7 +17,7 @@ pub struct Solver {
     pub prepared: Prepared,
     /// Bytes the method is predicted to take.
     pub bytes: usize,
-    /// Why this method.
+    /// Reason why this method.
     pub why: String,
 }
 

@@ -1,4 +1,4 @@
-//! What can be known to be wrong with a scene before anything is built. All of it is collected.
+//! Errors of a scene that can be found before anything is built. All of them are collected.
 
 mod bodies;
 mod conditions;

@@ -27,7 +27,7 @@ pub(super) fn explain(error: &toml::de::Error, text: &str) -> Diagnostic {
 /// A message and what would be right.
 type Words = (String, Option<String>);
 
-/// What is wrong with a file that is TOML, but no scene.
+/// Errors in a file that is TOML, but no scene.
 fn content(message: &str) -> Option<Words> {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     let wrong = quoted.first().copied().unwrap_or_default();
@@ -72,7 +72,7 @@ fn content(message: &str) -> Option<Words> {
     }
 }
 
-/// What is wrong with a file that is no TOML, where the reader's own words mislead.
+/// Errors in a file that is no TOML, where the reader's own words mislead.
 fn syntax(message: &str, found: &str, next: Option<char>) -> Option<Words> {
     if message.starts_with("string values must be quoted") {
         return Some(if found.is_empty() {
@@ -113,7 +113,7 @@ fn wanted(expected: &str) -> &str {
     }
 }
 
-/// What the reader found, as a person would call it.
+/// Findings of the reader, as a person would call them.
 fn given(found: &str) -> String {
     match found {
         "map" => return "a table".into(),

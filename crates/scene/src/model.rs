@@ -48,7 +48,7 @@ pub struct Scene {
     pub faults: BTreeMap<String, Fault>,
     /// Events of faults.
     pub events: Option<EventSpec>,
-    /// Where and when they are said to happen.
+    /// Place and time of them.
     pub place: Option<Place>,
     /// Stages in sequence.
     pub stages: Vec<Stage>,
@@ -63,7 +63,7 @@ pub struct Scene {
     /// Folder of the scene file, which the paths of mesh files are relative to; empty: the present one.
     #[serde(skip)]
     pub folder: PathBuf,
-    /// What the check found doubtful.
+    /// Doubts of the check.
     #[serde(skip)]
     pub warnings: Vec<Warning>,
 }
@@ -93,19 +93,19 @@ pub struct Interface {
     pub slave: Spanned<String>,
     /// Master side set, `body.set`.
     pub master: Spanned<String>,
-    /// How gaps are measured.
+    /// Measure of gaps.
     pub measure: Spanned<Measure>,
-    /// Whether the pairing follows the motion.
+    /// Small or finite sliding: with finite sliding the pairing follows the motion.
     pub sliding: Spanned<Sliding>,
     /// Smoothing of the master surface; absent = the faces as they are.
     pub smoothing: Option<Spanned<Smoothing>>,
-    /// How contact is enforced.
+    /// Enforcement of contact.
     pub enforcement: Enforcement,
     /// Friction; absent = frictionless.
     pub law: Option<Spanned<LawSpec>>,
-    /// What to do where points stand too coarsely for friction that weakens; absent: the scene is refused, or the run stops.
+    /// Treatment of points that stand too coarsely for friction that weakens; absent: the scene is refused, or the run stops.
     pub under_resolved: Option<Spanned<UnderResolved>>,
-    /// Whether it starts with the tractions of the initial stress of its bodies; absent: it does not.
+    /// True if it starts with the tractions of the initial stress of its bodies; absent: it does not.
     pub initial_stress: Option<Spanned<bool>>,
     /// Key of a fault; refused here.
     pub normal: Option<Spanned<IgnoredAny>>,
@@ -267,7 +267,7 @@ pub struct Condition {
     pub pressure: Option<Spanned<Loading>>,
 }
 
-/// How a displacement component moves during a stage.
+/// Motion of a displacement component during a stage.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
     /// Held at this displacement \[m\] (a step, applied with the first increment, when it differs from the present one).
@@ -332,7 +332,7 @@ pub struct Rotation {
     pub axis: [f64; 3],
 }
 
-/// How a traction component or pressure develops during a stage.
+/// Course of a traction component or pressure during a stage.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Loading {
     /// Constant from the start of the stage \[Pa\].
@@ -352,7 +352,7 @@ pub struct TimeControl {
     /// Implicit: the rule for the slip rate.
     #[serde(default)]
     pub rule: Option<Spanned<Rule>>,
-    /// Whether linear bodies are condensed onto the interface.
+    /// Path: linear bodies are condensed onto the interface, or they are not.
     #[serde(default)]
     pub path: Path,
     /// Implicit, adaptive: bound on the estimated local error of slip per step \[m\].
@@ -448,7 +448,7 @@ pub struct Output {
     pub largest_file: Option<Spanned<Memory>>,
 }
 
-/// What makes rows due.
+/// Limits that make rows due.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CadenceSpec {

@@ -1,4 +1,4 @@
-//! How motions and loadings are written.
+//! Format of motions and loadings.
 
 use super::entry::Entry;
 use super::model::{Loading, Motion};
@@ -111,7 +111,7 @@ impl<'de> Deserialize<'de> for SideSpring {
     }
 }
 
-/// What a visitor expects, in words.
+/// Expectation of a visitor, in words.
 struct Expected<'a, V>(&'a V);
 
 impl<'de, V: Visitor<'de>> fmt::Display for Expected<'_, V> {

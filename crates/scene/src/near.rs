@@ -1,4 +1,4 @@
-//! What was probably meant: the nearest of the names that exist.
+//! Probable meaning: the nearest of the names that exist.
 
 /// The nearest of `known` to `name` by insertions, deletions, substitutions and transpositions of neighbours, where it is near enough to
 /// have been meant.

@@ -17,7 +17,7 @@ use serde::Deserialize;
 const KINEMATICS: [&str; 6] =
     ["plane-strain", "plane-stress", "axisymmetric", "antiplane", "3d", "spring-slider"];
 
-/// So much of a scene as tells of what kind it is.
+/// Part of a scene that tells its kind.
 #[derive(Deserialize)]
 struct Head {
     kinematics: Option<Spanned<toml::Value>>,
@@ -25,7 +25,7 @@ struct Head {
 }
 
 impl Head {
-    /// Whether there are bodies in such a scene.
+    /// True if there are bodies in such a scene.
     fn bodies(&self) -> bool {
         let known = |k: &Spanned<toml::Value>| {
             k.get_ref().as_str().is_none_or(|k| k != "spring-slider" && KINEMATICS.contains(&k))
@@ -33,7 +33,7 @@ impl Head {
         self.sliders.is_none() && self.kinematics.as_ref().is_none_or(known)
     }
 
-    /// What is wrong with the kinematics of a scene of sliders.
+    /// Error in the kinematics of a scene of sliders.
     fn error(&self) -> Option<Diagnostic> {
         let help = "sliders belong to `kinematics = \"spring-slider\"`";
         let Some(kinematics) = &self.kinematics else {
@@ -56,7 +56,7 @@ impl Head {
     }
 }
 
-/// Whether a scene file is read by [`read`]: its kinematics are spring-sliders or none that there are, or it has sliders.
+/// True if a scene file is read by [`read`]: its kinematics are spring-sliders or none that there are, or it has sliders.
 #[must_use]
 pub fn is_slider(text: &str) -> bool {
     toml::from_str::<Head>(text).is_ok_and(|head| !head.bodies())

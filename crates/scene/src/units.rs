@@ -5,7 +5,7 @@
 use serde::de::{self, Deserialize, Deserializer, Visitor};
 use std::fmt;
 
-/// What a unit measures.
+/// Quantity of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dimension {
     /// \[m\].
@@ -211,7 +211,7 @@ fn shifted(number: &str, power: i32) -> Option<f64> {
 /// The SI value of a text with a unit.
 ///
 /// # Errors
-/// What was expected and what was found.
+/// Expected and found.
 pub fn parse(text: &str, wanted: Dimension) -> Result<f64, String> {
     let (number, name) = split(text);
     let refuse = |why: &str| Err(format!("expected {}, found \"{text}\" ({why})", wanted.expected()));

@@ -6,7 +6,7 @@ use serde::Serialize;
 use std::fmt;
 use std::ops::Range;
 
-/// Where a warning is about, counted from 1.
+/// Place of a warning, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Place {
     /// Line of the scene file.
@@ -18,11 +18,11 @@ pub struct Place {
 /// A warning of a plan.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Warning {
-    /// What is doubtful.
+    /// Doubt.
     pub message: String,
-    /// What would be right.
+    /// Remedy.
     pub help: Option<String>,
-    /// Where; none where the scene was built in Rust, or where it is about no single place.
+    /// Place; none where the scene was built in Rust, or where it is about no single place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place: Option<Place>,
     /// Bytes of the scene file it is about; empty when there is no file.

@@ -1,4 +1,4 @@
-//! Who may depend on whom, and which libraries exist once.
+//! Allowed dependencies, and which libraries exist once.
 
 use super::problem::Problem;
 use crate::stage::Failure;
@@ -6,7 +6,7 @@ use cargo_metadata::{Metadata, MetadataCommand};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// What each package of the workspace may depend on inside it, tests and build scripts included.
+/// Packages of the workspace that each may depend on, tests and build scripts included.
 const ALLOWED: [(&str, &[&str]); 13] = [
     ("asperity-friction", &[]),
     ("asperity-fem", &[]),
@@ -36,7 +36,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("xtask", &[]),
 ];
 
-/// What may be used by programs that stand beside the driver.
+/// Packages that programs beside the driver may use.
 const PROGRAMS: &[&str] = &[
     "asperity-fem",
     "asperity-friction",
@@ -62,7 +62,7 @@ pub const LIBRARIES: [&str; 8] = [
     "asperity-vary",
 ];
 
-/// What a library of values has no use for: terminals, pictures, scene files.
+/// Packages that a library of values has no use for: terminals, pictures, scene files.
 const NOT_IN_LIBRARIES: [&str; 5] = ["clap", "miette", "plotters", "indicatif", "toml"];
 
 /// The library that reads scene files.

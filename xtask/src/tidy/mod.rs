@@ -2,6 +2,8 @@
 
 mod book;
 mod circles;
+mod docstrings;
+mod features;
 mod graph;
 mod house;
 mod keys;
@@ -21,12 +23,14 @@ use std::path::Path;
 /// All problems of the workspace, sorted by place.
 pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
     let mut found = graph::check(root)?;
+    found.extend(features::check(root)?);
     let files = tree::files(root)?;
     for file in &files {
         found.extend(text::check(&file.path, &file.text));
         found.extend(sentences::check(file));
         if file.path.ends_with(".rs") {
             found.extend(source::check(&file.path, &file.text));
+            found.extend(docstrings::check(&file.path, &file.text));
         }
     }
     found.extend(house::check(&files));

@@ -1,4 +1,4 @@
-//! What a rule finds.
+//! Finding of a rule.
 
 use std::fmt;
 
@@ -9,9 +9,9 @@ pub struct Problem {
     pub path: String,
     /// Line, from 1; 0 for the file as a whole.
     pub line: usize,
-    /// What is wrong.
+    /// The fault.
     pub message: String,
-    /// Whether it only warns.
+    /// True if it only warns.
     pub warning: bool,
 }
 

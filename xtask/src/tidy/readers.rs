@@ -1,4 +1,4 @@
-//! Who may name a module of a crate: what is above it. The files below work on values.
+//! Modules of a crate that others may name: those above it. The files below work on values.
 
 use super::circles::{paths, without_tests};
 use super::problem::Problem;
@@ -13,7 +13,7 @@ struct Row {
     module: &'static str,
     /// Files, and folders with a slash at the end, that may name it, from `folder`.
     readers: &'static [&'static str],
-    /// What a file that breaks the rule is told.
+    /// Message for a file that breaks the rule.
     reason: &'static str,
 }
 

@@ -4,7 +4,7 @@ use super::problem::Problem;
 use super::source::{mask, regions};
 use super::tree::File;
 
-/// What replaces text without noticing that there is nothing to replace.
+/// Functions that replace text without noticing that there is nothing to replace.
 const CALLS: [&str; 2] = [".replace(", ".replacen("];
 
 const WHY: &str = "text replaced where it may be absent: vary scenes by key path (asperity_vary::SceneText)";

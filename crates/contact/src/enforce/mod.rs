@@ -8,7 +8,7 @@ use crate::measure::NormalPoint;
 pub(crate) use unknown::{Buffers, REGULAR, Unknowns};
 pub(crate) use uzawa::{Multipliers, tangential};
 
-/// How gaps and slips that should be zero are brought there.
+/// Methods that bring gaps and slips to zero where they should be.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Enforcement {
     /// Tractions proportional to the penetration and to the elastic part of the tangential motion.

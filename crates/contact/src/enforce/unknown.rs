@@ -34,7 +34,7 @@
 
 use super::Multipliers;
 use crate::measure::{Attachment, Measure, NormalPoint, ShearPoint};
-use asperity_fem::term::Pattern;
+use asperity_fem::term::{Blocks, Pattern, PatternId};
 
 /// Diagonal of a held point over w s. The square root of rounding: an iteration is off by 1e-8 of the correction before, and a
 /// multiplier that nothing determines takes up rounding of gaps times 1e8, that is 1e-8 of the tractions.
@@ -57,6 +57,8 @@ pub(crate) struct Unknowns {
     pub(crate) present: Vec<f64>,
     /// Blocks of the measure with the unknowns of their points, then the unknowns of points without a block.
     pub(crate) pattern: Pattern,
+    /// Pattern of the measure it was made of.
+    inner: Option<PatternId>,
     /// Point of each block.
     pub(crate) points: Vec<usize>,
     /// Blocks of the measure.
@@ -94,6 +96,7 @@ impl Unknowns {
             committed: vec![0.0; n * each],
             present: vec![0.0; n * each],
             pattern: Pattern::default(),
+            inner: None,
             points: Vec::new(),
             blocks: 0,
             buffers: Buffers {
@@ -108,7 +111,7 @@ impl Unknowns {
     /// Follows the pattern of the measure.
     pub(crate) fn renew<const D: usize>(&mut self, measure: &dyn Measure<D>, always: bool) {
         let inner = measure.pattern();
-        if !always && inner.version == self.pattern.version {
+        if !always && self.inner == Some(inner.id()) {
             return;
         }
         self.points.clear();
@@ -116,21 +119,18 @@ impl Unknowns {
         self.blocks = self.points.len();
         let (first, each) = (self.first, self.each);
         let own = |p: usize| first + p * each..first + (p + 1) * each;
-        let mut pattern = Pattern { version: inner.version, starts: vec![0], dofs: Vec::new() };
-        let close = |pattern: &mut Pattern| pattern.starts.push(pattern.dofs.len());
+        let mut blocks = Blocks::default();
         for (block, &p) in inner.blocks().zip(&self.points) {
-            pattern.dofs.extend_from_slice(block);
-            pattern.dofs.extend(own(p));
-            close(&mut pattern);
+            blocks.push(block.iter().copied().chain(own(p)));
         }
         let mut with = vec![false; self.weights.len()];
         self.points.iter().for_each(|&p| with[p] = true);
         for p in (0..with.len()).filter(|&p| !with[p]) {
-            pattern.dofs.extend(own(p));
-            close(&mut pattern);
+            blocks.push(own(p));
             self.points.push(p);
         }
-        self.pattern = pattern;
+        self.pattern.renew(blocks);
+        self.inner = Some(inner.id());
     }
 
     /// Multipliers at the system vector `u`, about those of the last commit.

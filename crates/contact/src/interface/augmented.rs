@@ -6,7 +6,7 @@ use crate::shear::Shear;
 use crate::vector::{norm, sub};
 use asperity_fem::term::{Augmented, Refusal};
 
-/// What the solution in hand violates.
+/// The constraint that the present solution violates.
 #[derive(Clone, Copy)]
 struct Worst {
     /// \[m\].

@@ -66,7 +66,7 @@ impl<const D: usize> Interface<D> {
         self.measure.areas(&mut buffers.areas);
         let (mut at, mut from) = (0, 0);
         for b in 0..unknowns.points.len() {
-            let size = unknowns.pattern.starts[b + 1] - unknowns.pattern.starts[b];
+            let size = unknowns.pattern.block(b).len();
             let block = &mut values[at..at + size * size];
             at += block.len();
             block.fill(0.0);
@@ -119,7 +119,7 @@ impl<const D: usize> Interface<D> {
         block: &mut [f64],
     ) {
         let (p, each) = (unknowns.points[b], unknowns.each);
-        let dofs = &unknowns.pattern.dofs[unknowns.pattern.starts[b]..unknowns.pattern.starts[b + 1]];
+        let dofs = unknowns.pattern.block(b);
         let (size, n) = (dofs.len(), dofs.len() - each);
         if b < unknowns.blocks {
             self.measure.attachments(p, &mut buffers.attachments);
@@ -143,7 +143,7 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// What the multipliers exert on the nodes.
+    /// Forces of the multipliers on the nodes.
     fn columns(&self, unknowns: &Unknowns, p: usize, n: usize, buffers: &Buffers, block: &mut [f64]) {
         let size = n + unknowns.each;
         let (normal, frame) = (&self.geometry.normal[p], &self.geometry.frame[p]);

@@ -1,4 +1,4 @@
-//! Whether a step of an interface is one that can be followed.
+//! Limits on what a step of an interface can follow.
 
 use super::Interface;
 use crate::shear::Shear;
@@ -15,7 +15,7 @@ const DROP: f64 = 1e-3;
 /// Share of the area in contact that may let go within a step of a law whose strength drops at once. What lets go in parts is held by
 /// the rest; more than half of it at once is not.
 const AT_ONCE: f64 = 0.5;
-/// How near to its strength, over the strength, the traction of a sticking point is that is taken for being there: normal tractions change by less along
+/// Distance to its strength, over the strength, at which the traction of a sticking point counts as being there: normal tractions change by less along
 /// the shortest steps.
 const NEAR: f64 = 1e-3;
 /// Pa in a MPa.
@@ -103,7 +103,7 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// Why the trial state should not be accepted.
+    /// Reason why the trial state should not be accepted.
     pub(crate) fn objects(&self) -> Option<Objection> {
         let shear = self.shear.as_ref()?;
         self.leaps(shear).or_else(|| self.runs_away(shear)).or_else(|| self.stands_too_coarsely(shear))
@@ -207,12 +207,12 @@ impl<const D: usize> Interface<D> {
     }
 }
 
-/// Whether traction falls with slip at an answer: the slope is H/(E_t + H) with H < 0, beyond 1 where the spring is softer still.
+/// True if traction falls with slip at an answer: the slope is H/(E_t + H) with H < 0, beyond 1 where the spring is softer still.
 fn softens(slope: f64) -> bool {
     !(-ROUNDING..=1.0 + ROUNDING).contains(&slope)
 }
 
-/// Whether a point leaves rest in the trial state, with a drop of its traction.
+/// True if a point leaves rest in the trial state, with a drop of its traction.
 fn lets_go(shear: &Shear, p: usize) -> bool {
     let (before, after) = (norm(&shear.committed.traction[p]), norm(&shear.trial.traction[p]));
     shear.committed.regime[p] == Regime::Stick

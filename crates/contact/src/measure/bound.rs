@@ -1,16 +1,16 @@
-//! How far nodes may move before a search has to be made again.
+//! Distance that nodes may move before a search has to be repeated.
 
 use super::saved::Proved;
 use crate::vector::{dot, sub};
 
-/// What a search proved: its result stays while no node moves by as much as `radius` from `x`.
+/// Proof of a search: its result stays while no node moves by as much as `radius` from `x`.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bound<const D: usize> {
     x: Vec<[f64; D]>,
     radius: f64,
 }
 
-/// Whether what was proved is about so many nodes, or nothing was.
+/// True if what was proved is about so many nodes, or nothing was.
 pub(super) fn fits<const D: usize>(saved: &Proved, nodes: usize) -> bool {
     saved.positions.is_empty() || saved.positions.len() == nodes * D
 }
@@ -35,7 +35,7 @@ impl<const D: usize> Bound<D> {
         Self { x, radius: saved.radius.unwrap_or(f64::INFINITY) }
     }
 
-    /// Whether the result is certain at positions `x`.
+    /// True if the result is certain at positions `x`.
     pub(super) fn holds(&self, x: &[[f64; D]]) -> bool {
         let limit = self.radius * self.radius;
         self.radius > 0.0

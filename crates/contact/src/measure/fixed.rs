@@ -104,7 +104,7 @@ impl<const D: usize> Fixed<D> {
             .iter()
             .map(|p| self.dofs[p.from..p.to].iter().flat_map(|&d| d..d + D).collect())
             .collect();
-        self.pattern = Pattern::of_blocks(0, blocks.iter().map(Vec::as_slice));
+        self.pattern = Pattern::of_blocks(blocks.iter().map(Vec::as_slice));
     }
 
     /// Number of paired points.

@@ -1,4 +1,4 @@
-//! How an interface measures gaps and slip, and how tractions act on its nodes.
+//! Measures of gaps and slip, and the action of tractions on the nodes of an interface.
 //!
 //! A measure is reached by one `dyn` call for the whole interface. Tangential history is kept by the interface as two
 //! components in an orthonormal frame that is carried along with the master surface, so that the frame, and nothing else,
@@ -17,7 +17,7 @@ use std::fmt;
 /// Present geometry of all slave points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Geometry<const D: usize> {
-    /// Whether the point has a partner on the master side.
+    /// True if the point has a partner on the master side.
     pub paired: Vec<bool>,
     /// Gap g_n = n·(x_s - x_c) \[m\]; infinite where unpaired.
     pub gap: Vec<f64>,
@@ -52,10 +52,10 @@ impl<const D: usize> Geometry<D> {
     }
 }
 
-/// What the tangent needs of a point's normal traction.
+/// Terms of the tangent from a point's normal traction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NormalPoint {
-    /// Whether the point is closed; an open one has no traction and no stiffness.
+    /// True if the point is closed; an open one has no traction and no stiffness.
     pub closed: bool,
     /// f_n \[Pa\].
     pub traction: f64,
@@ -63,7 +63,7 @@ pub struct NormalPoint {
     pub stiffness: f64,
 }
 
-/// What the tangent needs of a point's shear traction, components in the carried frame:
+/// Terms of the tangent from a point's shear traction, components in the carried frame:
 /// `dt = ratio (I - η⊗η) dt^e + η (d_trial η·dt^e + d_normal df_n)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ShearPoint {
@@ -115,7 +115,7 @@ pub struct Attachment {
     pub node: usize,
     /// s_k: the share of the point's force that acts on the node, negative for the reaction on the master.
     pub weight: f64,
-    /// Whether the node belongs to the slave side.
+    /// True if the node belongs to the slave side.
     pub slave: bool,
 }
 
@@ -161,11 +161,11 @@ pub trait Measure<const D: usize>: Send + Sync + fmt::Debug {
     /// Areas the points stand for at the configuration last measured \[m², m in two dimensions\].
     fn areas(&self, out: &mut [f64]);
 
-    /// Whether a point's force acts at its slave node and on the closest master point, so that the arm of the couple is
+    /// True if a point's force acts at its slave node and on the closest master point, so that the arm of the couple is
     /// `g_n n`; otherwise both act on averages over facets, and the arm is the averaged `x_s - x_c`.
     fn collocated(&self) -> bool;
 
-    /// Whether forces act on the current configuration (moments are then taken there).
+    /// True if forces act on the current configuration (moments are then taken there).
     fn follows(&self) -> bool;
 
     /// Committed history, pairing, and what the last search proved.

@@ -1,4 +1,4 @@
-//! What a measure keeps from step to step, as values.
+//! State that a measure keeps from step to step, as values.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +11,7 @@ pub enum MeasureState {
     NodeToPoint {
         /// The slave points.
         points: Vec<Tracked>,
-        /// What the last search proved.
+        /// Proof of the last search.
         proved: Proved,
     },
     /// Mortar, finite sliding.
@@ -20,40 +20,40 @@ pub enum MeasureState {
         points: Vec<Facing>,
         /// Slave and master facets that may overlap.
         pairs: Vec<[usize; 2]>,
-        /// What the last search proved.
+        /// Proof of the last search.
         proved: Proved,
     },
 }
 
-/// Where a slave point is on the master side.
+/// Position of a slave point on the master side.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tracked {
     /// Segment and natural coordinates of the closest point.
     pub anchor: Option<(usize, [f64; 2])>,
-    /// Whether it is leaving its segment.
+    /// True if it is leaving its segment.
     pub leaving: bool,
     /// Segments that its block was made for.
     pub block: Option<(usize, usize)>,
 }
 
-/// What a slave point faces.
+/// Segment that a slave point faces.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Facing {
     /// Nodes of its block.
     pub nodes: Vec<usize>,
-    /// How many of them are slaves.
+    /// Number of slaves among them.
     pub slaves: usize,
     /// Their weights at the last commit.
     pub then: Vec<f64>,
-    /// Whether these exist.
+    /// True if these exist.
     pub anchored: bool,
 }
 
-/// What a search proved.
+/// Proof of a search.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Proved {
     /// Positions of the nodes \[m\], one after another.
     pub positions: Vec<f64>,
-    /// How far each may move \[m\]; none where the result holds for ever.
+    /// Distance that each may move \[m\]; none where the result holds for ever.
     pub radius: Option<f64>,
 }

@@ -10,7 +10,7 @@ use crate::vector::axpy;
 /// Most points a form has: those of a bicubic patch.
 pub const MOST_POINTS: usize = 16;
 
-/// How a segment is described.
+/// Description of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// By its own nodes.
@@ -38,7 +38,7 @@ impl Form {
         }
     }
 
-    /// Whether its edges are straight.
+    /// True if its edges are straight.
     #[must_use]
     pub fn straight(self) -> bool {
         matches!(self, Self::Nodes(kind) if kind.first_order())

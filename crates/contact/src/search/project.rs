@@ -22,7 +22,7 @@ const CONVERGED: f64 = 1e-9;
 /// Natural coordinates beyond this one are outside for certain; iterates are held within it.
 const FAR: f64 = 4.0;
 
-/// Where the closest point of a segment lies.
+/// Closest point of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// In the interior of the segment.
@@ -44,7 +44,7 @@ pub struct Projection<const D: usize> {
     pub point: [f64; D],
     /// Squared distance \[m²\].
     pub distance_squared: f64,
-    /// Where it lies.
+    /// Its position.
     pub outcome: Outcome,
 }
 

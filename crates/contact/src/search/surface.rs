@@ -34,7 +34,7 @@ pub struct Surface<const D: usize> {
     smooth: Option<Smooth>,
     /// Control points of the smoothed segments at the configuration last set \[m\].
     controls: Vec<[f64; D]>,
-    /// Whether a node lies on the rim of the surface.
+    /// True if a node lies on the rim of the surface.
     rim: Vec<bool>,
     /// Per segment and edge (three dimensions): whether no other segment shares it.
     free: Vec<[bool; 4]>,
@@ -97,7 +97,7 @@ impl<const D: usize> Surface<D> {
         }
     }
 
-    /// How a segment is described.
+    /// Description of a segment.
     #[inline]
     #[must_use]
     pub fn form(&self, segment: usize) -> Form {
@@ -254,7 +254,7 @@ impl<const D: usize> Surface<D> {
         found.map(|(k, _)| (k, self.project(k, positions, p)))
     }
 
-    /// Whether a projection lies on the rim of the surface, where the surface ends.
+    /// True if a projection lies on the rim of the surface, where the surface ends.
     #[must_use]
     pub fn on_rim(&self, segment: usize, outcome: Outcome) -> bool {
         match outcome {
@@ -265,7 +265,7 @@ impl<const D: usize> Surface<D> {
         }
     }
 
-    /// Whether border `k` of a segment (end of a line, edge of a face) is shared with no other segment.
+    /// True if border `k` of a segment (end of a line, edge of a face) is shared with no other segment.
     #[must_use]
     pub fn border_is_free(&self, segment: usize, k: usize) -> bool {
         self.free[segment][k]

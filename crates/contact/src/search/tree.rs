@@ -51,7 +51,7 @@ impl<const D: usize> Aabb<D> {
         s
     }
 
-    /// Whether the two boxes have a point in common.
+    /// True if the two boxes have a point in common.
     #[must_use]
     pub fn meets(&self, other: &Self) -> bool {
         (0..D).all(|i| self.min[i] <= other.max[i] && other.min[i] <= self.max[i])

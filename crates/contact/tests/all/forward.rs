@@ -138,11 +138,11 @@ fn leaving_a_segment_limits_in_finite_sliding_and_the_next_one_takes_over() {
     let r7 = interface.limit(&step(0.8, 0.0), AT).unwrap();
     assert_eq!(r7.limit, "r7");
     assert_relative_eq!(r7.value, 0.5, max_relative = 1e-12);
-    let version = interface.pattern().version;
+    let version = interface.pattern().id();
     advance(&mut interface, &mut u, &step(0.4, 0.0));
     interface.prepare(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, -0.1]).unwrap();
     assert_ne!(
-        interface.pattern().version,
+        interface.pattern().id(),
         version,
         "a point on a vertex belongs to the segment it is entering"
     );

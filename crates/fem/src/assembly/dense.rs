@@ -5,12 +5,12 @@
 
 use super::dense_factor::{Cholesky, DenseFactor, Lu, Refused, copied};
 use super::eliminated::{Eliminated, Entry, ROUNDING};
-use super::known::{Left, Symmetry, Version};
+use super::known::{Left, Symmetry};
 use super::symmetric::SymmetricPart;
 use crate::dof::Equations;
 use crate::error::FemError;
 use crate::multifrontal::{DirectError, Pivot};
-use crate::term::Pattern;
+use crate::term::{Pattern, PatternId};
 use faer::Mat;
 
 /// Difference of mirrored entries, over the largest entry, that is rounding of the sums they are.
@@ -26,14 +26,14 @@ pub(super) struct DenseStore {
     /// Sum of the constant terms.
     constant: Mat<f64>,
     /// The constant terms it is made of, by place among all terms.
-    made_of: Option<Vec<Option<Version>>>,
-    /// Whether they are to be added again.
+    made_of: Option<Vec<Option<PatternId>>>,
+    /// True if they are to be added again.
     renewing: bool,
-    /// Whether it is symmetric to rounding; found when first needed.
+    /// True if it is symmetric to rounding; found when first needed.
     symmetric: Option<bool>,
     changing: Changing,
     eliminated: Option<Eliminated>,
-    /// What is left over in a run that is resumed, until the constant terms are there.
+    /// Equations left over in a run that is resumed, until the constant terms are there.
     remembered: Option<Left>,
     factor: Option<Factor>,
     /// Memory of the last factor.
@@ -48,7 +48,7 @@ struct Changing {
     /// Equations of all blocks, and the end of each block.
     equations: Vec<usize>,
     ends: Vec<usize>,
-    /// Whether a block that is not zero has this equation.
+    /// True if a block that is not zero has this equation.
     touched: Vec<bool>,
 }
 
@@ -73,7 +73,7 @@ impl DenseStore {
         }
     }
 
-    /// What is left over.
+    /// Equations left over.
     pub fn left(&self) -> Option<Left> {
         let (eliminated, made_of) = (self.eliminated.as_ref()?, self.made_of.as_ref()?);
         let constant = made_of.iter().map(Option::is_some).collect();
@@ -86,7 +86,7 @@ impl DenseStore {
     }
 
     /// Prepares an assembly of terms of which these are constant.
-    pub fn begin(&mut self, constant: Vec<Option<Version>>) {
+    pub fn begin(&mut self, constant: Vec<Option<PatternId>>) {
         if let Some(Factor::Whole(factor) | Factor::Rest(factor)) = self.factor.take() {
             self.memory = Some(factor.into_memory());
         }
@@ -159,7 +159,7 @@ impl DenseStore {
         candidates.first().copied()
     }
 
-    /// Whether LU had to stand in for Cholesky.
+    /// True if LU had to stand in for Cholesky.
     pub fn factor(&mut self, symmetry: Symmetry) -> Result<bool, FemError> {
         if self.eliminate()
             && let Some(factor) = self.factor_rest(symmetry)
@@ -284,7 +284,7 @@ impl Changing {
         }
     }
 
-    /// What is touched and the blocks that have an equation in common with it, and so on for some rings.
+    /// Neighbourhood of what is touched: the blocks that have an equation in common with it, and so on for some rings.
     fn with_neighbours(&self, rings: usize) -> Vec<bool> {
         let mut kept = self.touched.clone();
         for _ in 0..rings {

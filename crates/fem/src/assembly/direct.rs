@@ -1,22 +1,22 @@
 //! A sparse system solved by a factorisation.
 
-use super::known::{Symmetry, Version, version};
+use super::known::Symmetry;
 use crate::dof::Equations;
 use crate::error::FemError;
 use crate::multifrontal::{self, DirectError};
 use crate::ordering::Ordering;
 use crate::sparse::{Factor, Mirror, Part, ScatterMap, lower_pattern};
-use crate::term::Pattern;
+use crate::term::{Pattern, PatternId};
 use faer::MatMut;
 use faer::sparse::SymbolicSparseColMat;
 use faer::sparse::linalg::solvers::SymbolicLu;
 use std::sync::Arc;
 
-/// Where the lower triangle of a system's matrix has entries.
+/// Places of entries in the lower triangle of a system's matrix.
 #[derive(Clone, Debug)]
 pub struct Lower {
     equations: Equations,
-    versions: Vec<Version>,
+    ids: Vec<PatternId>,
     pattern: SymbolicSparseColMat<usize>,
 }
 
@@ -24,11 +24,7 @@ impl Lower {
     /// The pattern of the free equations of some terms.
     #[must_use]
     pub fn new(patterns: &[&Pattern], equations: &Equations) -> Self {
-        Self {
-            versions: versions(patterns),
-            pattern: lower_pattern(patterns, equations),
-            equations: equations.clone(),
-        }
+        Self { ids: ids(patterns), pattern: lower_pattern(patterns, equations), equations: equations.clone() }
     }
 
     /// Entries of the lower triangle.
@@ -43,7 +39,7 @@ impl Lower {
     /// [`FemError::Direct`] when it cannot be ordered.
     pub fn analyse(self) -> Result<Analysis, FemError> {
         let symbolic = Arc::new(multifrontal::Symbolic::new(self.pattern.as_ref(), Ordering::Automatic)?);
-        Ok(Analysis { equations: self.equations, versions: self.versions, symbolic })
+        Ok(Analysis { equations: self.equations, ids: self.ids, symbolic })
     }
 }
 
@@ -52,12 +48,12 @@ impl Lower {
 #[derive(Clone, Debug)]
 pub struct Analysis {
     equations: Equations,
-    versions: Vec<Version>,
+    ids: Vec<PatternId>,
     symbolic: Arc<multifrontal::Symbolic>,
 }
 
 impl Analysis {
-    /// What a factorisation will need and cost.
+    /// Cost of a factorisation, in advance.
     #[must_use]
     pub fn symbolic(&self) -> &multifrontal::Symbolic {
         &self.symbolic
@@ -72,7 +68,7 @@ enum Symbolic {
 
 #[derive(Debug)]
 pub(super) struct SparseStore {
-    versions: Vec<Version>,
+    ids: Vec<PatternId>,
     pub map: Option<ScatterMap>,
     symbolic: Option<Symbolic>,
     factor: Option<Factor>,
@@ -88,7 +84,7 @@ pub(super) struct SparseStore {
 impl Default for SparseStore {
     fn default() -> Self {
         Self {
-            versions: Vec::new(),
+            ids: Vec::new(),
             map: None,
             symbolic: None,
             factor: None,
@@ -119,8 +115,8 @@ impl SparseStore {
         equations: &Equations,
         symmetry: Symmetry,
     ) -> Result<(), FemError> {
-        let exact: Vec<Version> = patterns.iter().map(|p| version(p)).collect();
-        if self.symbolic.is_some() && exact == self.versions {
+        let exact: Vec<PatternId> = patterns.iter().map(|p| p.id()).collect();
+        if self.symbolic.is_some() && exact == self.ids {
             return Ok(());
         }
         self.forget();
@@ -129,7 +125,7 @@ impl SparseStore {
         self.symbolic = Some(match symmetry {
             Symmetry::General => Symbolic::Lu(map.analyse_lu()?),
             Symmetry::Symmetric | Symmetry::Positive => {
-                let fits = |a: &&Analysis| a.equations == *equations && a.versions == versions(patterns);
+                let fits = |a: &&Analysis| a.equations == *equations && a.ids == ids(patterns);
                 let symbolic = match self.analysis.as_ref().filter(fits) {
                     Some(analysis) => analysis.symbolic.clone(),
                     None => map.analyse_cholesky()?,
@@ -139,7 +135,7 @@ impl SparseStore {
             }
         });
         self.map = Some(map);
-        self.versions = exact;
+        self.ids = exact;
         Ok(())
     }
 
@@ -171,7 +167,7 @@ impl SparseStore {
         (0..map.order()).position(|k| matrix.val_of_col(k).iter().all(|&v| v == 0.0))
     }
 
-    /// Whether LU had to stand in for Cholesky.
+    /// True if LU had to stand in for Cholesky.
     pub fn factor(&mut self, symmetry: Symmetry) -> Result<bool, FemError> {
         let (Some(map), Some(symbolic)) = (&self.map, &self.symbolic) else {
             return Err(FemError::Factorisation("the pattern was not analysed".into()));
@@ -211,7 +207,7 @@ impl SparseStore {
     }
 }
 
-/// Versions of the patterns that have entries.
-fn versions(patterns: &[&Pattern]) -> Vec<Version> {
-    patterns.iter().filter(|p| !p.dofs.is_empty()).map(|p| version(p)).collect()
+/// Identities of the patterns that have entries.
+fn ids(patterns: &[&Pattern]) -> Vec<PatternId> {
+    patterns.iter().filter(|p| !p.dofs().is_empty()).map(|p| p.id()).collect()
 }

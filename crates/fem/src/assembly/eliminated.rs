@@ -55,7 +55,7 @@ impl Eliminated {
         &self.rest
     }
 
-    /// Whether all these are left.
+    /// True if all these are left.
     pub fn leaves(&self, mut equations: impl Iterator<Item = usize>) -> bool {
         equations.all(|e| self.place[e] != Equations::FIXED)
     }

@@ -1,4 +1,4 @@
-//! What a system does not hold.
+//! Motions that a system does not hold.
 
 use super::symmetric::SymmetricPart;
 use super::{Store, System};
@@ -25,7 +25,7 @@ impl System {
         free_mode(matrix, pivot.equation, &self.equations, nodes).ok()
     }
 
-    /// Whether the matrix assembled last is singular where the solution `x` of `rhs` makes that probable: LU does not tell a
+    /// Pivot to blame where the matrix assembled last is probably singular, by the solution `x` of `rhs`: LU does not tell a
     /// pivot that is rounding from one that is small.
     pub(super) fn suspect(&self, x: f64, rhs: f64) -> Option<Pivot> {
         if x * self.largest_entry <= SUSPECT * rhs {

@@ -36,7 +36,7 @@ impl NearNull {
     }
 }
 
-/// What the iterative method needs.
+/// Input of the iterative method.
 #[derive(Clone, Debug)]
 pub struct Iterative {
     /// Rigid motions.

@@ -1,4 +1,4 @@
-//! What a system remembers of earlier assemblies, as values, for a run that is resumed.
+//! Memory of earlier assemblies of a system, as values, for a run that is resumed.
 //!
 //! Factors and analyses follow from what is assembled next. Two things do not: the scale of the last assembly, which decides what counts
 //! as rounding before the next, and which equations of a dense system were left over when the others were eliminated.
@@ -13,14 +13,14 @@ use serde::{Deserialize, Serialize};
 pub struct Memory {
     /// Largest entry of any term's tangent in the last assembly.
     pub(super) largest_entry: f64,
-    /// Whether there is a factor that the next solve takes as it is.
+    /// True if there is a factor that the next solve takes as it is.
     pub(super) factored: bool,
     /// Equations left over in a dense system, where others were eliminated.
     pub(super) left: Option<Left>,
 }
 
 impl System {
-    /// What it remembers, as a system of these terms.
+    /// Its memory, as a system of these terms.
     #[must_use]
     pub fn memory(&self, terms: &[&mut dyn Linearized]) -> Memory {
         let constant = terms.iter().all(|t| t.constant_tangent().is_some());

@@ -14,19 +14,18 @@ mod symmetric;
 use crate::dof::Equations;
 use crate::error::FemError;
 use crate::multifrontal::{DirectError, Pivot};
-use crate::term::{Limited, Linearized, Pattern};
+use crate::term::{Limited, Linearized, Pattern, PatternId};
 use dense::DenseStore;
 use direct::SparseStore;
 pub use direct::{Analysis, Lower};
 use iterative::IterativeStore;
 pub use iterative::{Iterative, NearNull};
 pub use known::Symmetry;
-use known::{Version, version};
 pub use memory::Memory;
 use rayon::prelude::*;
 use std::convert::Infallible;
 
-/// How the system's matrix is kept.
+/// Storage of the system's matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
     /// Dense: condensed systems.
@@ -39,15 +38,15 @@ pub enum Storage {
 const CHUNK: usize = 1 << 16;
 
 /// Matrix, pattern and factorisation of the step's system. The symbolic analysis is kept as long as the patterns of all
-/// terms keep their version; a factor never outlives the values it was made from. A system of terms whose tangents are
+/// terms keep their patterns; a factor never outlives the values it was made from. A system of terms whose tangents are
 /// constant ([`Linearized::constant_tangent`]) is factored once.
 #[derive(Debug)]
 pub struct System {
     equations: Equations,
     symmetry: Symmetry,
     store: Store,
-    /// Versions and sizes of the patterns the present factor was made from; none without a factor.
-    factored: Option<Vec<Version>>,
+    /// Identities of the patterns the present factor was made from; none without a factor.
+    factored: Option<Vec<PatternId>>,
     /// Values of one term, reused.
     buffer: Vec<f64>,
     largest_entry: f64,
@@ -134,9 +133,9 @@ impl System {
         self
     }
 
-    /// Whether there is a factor, made from these patterns.
+    /// True if there is a factor, made from these patterns.
     pub fn is_factored<'a>(&self, patterns: impl IntoIterator<Item = &'a Pattern>) -> bool {
-        self.factored.as_ref().is_some_and(|f| f.iter().copied().eq(patterns.into_iter().map(version)))
+        self.factored.as_ref().is_some_and(|f| f.iter().copied().eq(patterns.into_iter().map(Pattern::id)))
     }
 
     /// The numbering.
@@ -230,7 +229,7 @@ impl System {
             terms.iter().all(|t| constant_of(t).is_some()) && self.is_factored(terms.iter().map(&pattern_of));
         if !keep {
             let patterns: Vec<&Pattern> = terms.iter().map(&pattern_of).collect();
-            let constant = terms.iter().map(|t| constant_of(t).map(|_| version(pattern_of(t))));
+            let constant = terms.iter().map(|t| constant_of(t).map(|_| pattern_of(t).id()));
             if let Err(error) = self.begin(&patterns, constant.collect()) {
                 return Ok(Err(error));
             }
@@ -278,13 +277,13 @@ impl System {
         };
         let outcome = outcome.map_err(|e| self.in_degrees_of_freedom(e));
         if outcome.is_ok() {
-            self.factored = Some(terms.iter().map(|t| version(pattern_of(t))).collect());
+            self.factored = Some(terms.iter().map(|t| pattern_of(t).id()).collect());
         }
         Ok(outcome.map(|()| true))
     }
 
-    /// Prepares an assembly of these patterns; `constant` has the versions of those whose terms are.
-    fn begin(&mut self, patterns: &[&Pattern], constant: Vec<Option<Version>>) -> Result<(), FemError> {
+    /// Prepares an assembly of these patterns; `constant` has the identities of those whose terms are.
+    fn begin(&mut self, patterns: &[&Pattern], constant: Vec<Option<PatternId>>) -> Result<(), FemError> {
         self.factored = None;
         self.largest_entry = 0.0;
         match &mut self.store {
@@ -310,7 +309,7 @@ impl System {
         Ok(())
     }
 
-    /// What nothing holds can be named before the factorisation: a column without entries, and in a symmetric matrix a
+    /// Degrees of freedom that nothing holds can be named before the factorisation: a column without entries, and in a symmetric matrix a
     /// diagonal that is zero or, where it must be positive, negative.
     fn check_held(&self) -> Result<(), FemError> {
         let (diagonal, unheld) = match &self.store {

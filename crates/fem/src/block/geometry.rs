@@ -116,7 +116,7 @@ fn rule(cells: &Cells, idealisation: Idealisation) -> Vec<(Shape, f64)> {
     points.map(|(xi, w)| (cells.kind.shape(xi), w)).collect()
 }
 
-/// Whether all cells of a block (number `block`) are the right way out and right of the axis; nothing is kept.
+/// Checks that all cells of a block (number `block`) are the right way out and right of the axis; nothing is kept.
 ///
 /// # Errors
 /// [`FemError::Jacobian`] naming the first cell that is inside out, [`FemError::Radius`] naming the first node left of the axis.

@@ -12,7 +12,7 @@ use crate::error::FemError;
 use crate::kinematics::{Dilatation, Formulation, Idealisation};
 use crate::material::elastic::Elastic;
 use crate::mesh::{Cells, Mesh};
-use crate::term::{Instant, Limited, Linearized, Pattern, Refusal, Term};
+use crate::term::{Blocks, Instant, Limited, Linearized, Pattern, Refusal, Term};
 use geometry::{CHUNK, Geometry, Places};
 pub use norm::FieldValue;
 use projection::Projection;
@@ -78,7 +78,7 @@ impl<const D: usize> LinearBlock<D> {
         })
     }
 
-    /// Whether degrees of freedom, geometry or stiffness of its cells were asked for.
+    /// True if degrees of freedom, geometry or stiffness of its cells were asked for.
     #[must_use]
     pub fn is_made(&self) -> bool {
         self.pattern.get().is_some() || self.geometry.get().is_some() || self.stiffness.get().is_some()
@@ -181,7 +181,7 @@ impl<const D: usize> LinearBlock<D> {
     }
 }
 
-/// What was made, without a copy where nobody shares it.
+/// Takes what was made, without a copy where nobody shares it.
 fn taken<T: Clone + Default>(shared: Arc<OnceLock<T>>) -> T {
     match Arc::try_unwrap(shared) {
         Ok(own) => own.into_inner().unwrap_or_default(),
@@ -193,7 +193,7 @@ fn pattern(cells: &Cells, components: usize) -> Pattern {
     let width = cells.kind.nodes() * components;
     let dofs =
         cells.connectivity.iter().flat_map(|&n| (0..components).map(move |c| n * components + c)).collect();
-    Pattern { dofs, starts: (0..=cells.len()).map(|c| c * width).collect(), version: 0 }
+    Pattern::new(Blocks::uniform(dofs, width))
 }
 
 impl<const D: usize> Term for LinearBlock<D> {

@@ -54,7 +54,7 @@ pub(super) fn solid<const D: usize>(cell: &CellGeometry<'_, D>, moduli: &Moduli,
     }
 }
 
-/// What the hoop strain u_r/r adds to [`solid`]: λ (d_a ⊗ d_b - ∇N_a ⊗ ∇N_b) + 2G N_a N_b/r² e_r ⊗ e_r.
+/// Contribution of the hoop strain u_r/r to [`solid`]: λ (d_a ⊗ d_b - ∇N_a ⊗ ∇N_b) + 2G N_a N_b/r² e_r ⊗ e_r.
 pub(super) fn hoop<const D: usize>(cell: &CellGeometry<'_, D>, moduli: &Moduli, k_e: &mut [f64]) {
     let width = cell.gradients(0).len() * D;
     for (q, volume) in cell.volumes.iter().enumerate() {

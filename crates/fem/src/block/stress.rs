@@ -30,7 +30,7 @@ impl<const D: usize> LinearBlock<D> {
     pub fn cell_state(&self, cell: usize, u: &[f64]) -> impl Iterator<Item = PointState> {
         let components = self.idealisation.components();
         let pattern = self.cell_dofs();
-        let dofs = &pattern.dofs[pattern.starts[cell]..pattern.starts[cell + 1]];
+        let dofs = pattern.block(cell);
         let mut local = [0.0; super::MOST_DOFS];
         local.iter_mut().zip(dofs).for_each(|(value, &dof)| *value = u[dof]);
         let geometry = self.geometry().cell(cell);

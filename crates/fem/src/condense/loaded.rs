@@ -100,7 +100,7 @@ fn limited<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> Result<R
     Ok(pool.map_err(|e| FemError::Threads(e.to_string()))?.install(work))
 }
 
-/// What elimination of the interior leaves of a body and its loads: forces on the retained degrees of freedom are
+/// Result of the elimination of the interior for a body and its loads: forces on the retained degrees of freedom are
 /// `S u + Σ_c α_c(t) h_c`.
 #[derive(Debug)]
 pub struct Remainder {

@@ -1,4 +1,4 @@
-//! What an element is, in one place: each element has a file with its definition.
+//! Definition of an element, in one place: each element has a file with its definition.
 
 use super::face::FaceKind;
 use super::kind::ElementKind;

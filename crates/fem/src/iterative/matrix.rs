@@ -7,13 +7,13 @@
 use super::csr::BlockCsr;
 use crate::dof::Equations;
 use crate::error::FemError;
-use crate::term::Pattern;
+use crate::term::{Pattern, PatternId};
 use rayon::prelude::*;
 
 /// Stored blocks summed by one task.
 const CHUNK: usize = 1024;
 
-/// Where a node block is found among the values of the patterns.
+/// Index of a node block among the values of the patterns.
 #[derive(Clone, Copy, Debug)]
 struct Source {
     /// Number of its first entry among the values of its pattern.
@@ -33,7 +33,7 @@ pub struct Assembly<const B: usize> {
     first: Vec<u32>,
     sources: Vec<Source>,
     free: Vec<[bool; B]>,
-    versions: Vec<(u64, usize)>,
+    ids: Vec<PatternId>,
 }
 
 impl<const B: usize> Assembly<B> {
@@ -51,22 +51,16 @@ impl<const B: usize> Assembly<B> {
         let held: Vec<bool> = free.iter().map(|f| f.iter().all(|f| !f)).collect();
         let stored = |row: usize, column: usize| row == column || !(held[row] || held[column]);
         let (starts, columns) = rows::<B>(patterns, nodes, &stored);
-        let mut result = Self {
-            starts,
-            columns,
-            first: Vec::new(),
-            sources: Vec::new(),
-            free,
-            versions: versions(patterns),
-        };
+        let mut result =
+            Self { starts, columns, first: Vec::new(), sources: Vec::new(), free, ids: ids(patterns) };
         result.find_sources(patterns, &stored);
         Ok(result)
     }
 
-    /// Whether it was made for these patterns.
+    /// True if it was made for these patterns.
     #[must_use]
     pub fn fits(&self, patterns: &[&Pattern]) -> bool {
-        self.versions == versions(patterns)
+        self.ids == ids(patterns)
     }
 
     /// Which components of each node are free.
@@ -189,11 +183,11 @@ impl<const B: usize> Assembly<B> {
     }
 }
 
-fn versions(patterns: &[&Pattern]) -> Vec<(u64, usize)> {
-    patterns.iter().map(|p| (p.version, p.dofs.len())).collect()
+fn ids(patterns: &[&Pattern]) -> Vec<PatternId> {
+    patterns.iter().map(|p| p.id()).collect()
 }
 
-/// Whether blocks list whole nodes and all indices fit.
+/// Checks that blocks list whole nodes and all indices fit.
 fn check<const B: usize>(patterns: &[&Pattern], dofs: usize) -> Result<(), FemError> {
     let fits = |n: usize| u32::try_from(n).is_ok();
     let mut contributions = 0;

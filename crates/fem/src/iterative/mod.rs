@@ -28,7 +28,7 @@ use smoothed_aggregation::{Hierarchy, LevelSize, Settings};
 /// block-Jacobi.
 pub const MOST_ITERATIONS: usize = 20_000;
 
-/// How residuals are turned into corrections.
+/// Conversion of residuals into corrections.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
     /// Inverses of the node blocks: cheap to set up, iterations grow with the number of elements along the body.
@@ -108,7 +108,7 @@ impl<const D: usize, const K: usize> Solver<D, K> {
         Ok(Self { state, ..self })
     }
 
-    /// Whether it was made for these patterns.
+    /// True if it was made for these patterns.
     #[must_use]
     pub fn fits(&self, patterns: &[&Pattern]) -> bool {
         self.assembly.fits(patterns)

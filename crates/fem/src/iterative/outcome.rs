@@ -1,6 +1,6 @@
-//! How an iteration ended.
+//! End of an iteration.
 
-/// What an iteration reached.
+/// Result of an iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// Iterations: products with the matrix, those that recompute the residual apart.
@@ -11,7 +11,7 @@ pub struct Report {
     pub euclidean: f64,
 }
 
-/// How a solution ended. Not converging is an outcome, not an error.
+/// End of a solution. Not converging is an outcome, not an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outcome {
     /// The residual recomputed from the solution is below the tolerance.
@@ -23,7 +23,7 @@ pub enum Outcome {
     /// A direction of negative energy `p·K p` (or a value that is not a number) appeared: the matrix or the
     /// preconditioner is not positive definite.
     Indefinite {
-        /// What was reached before.
+        /// Result reached before.
         report: Report,
         /// The energy of the direction.
         energy: f64,
@@ -31,7 +31,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// What was reached.
+    /// Result reached.
     #[must_use]
     pub fn report(&self) -> &Report {
         match self {
@@ -42,7 +42,7 @@ impl Outcome {
         }
     }
 
-    /// Whether the tolerance was reached.
+    /// True if the tolerance was reached.
     #[must_use]
     pub fn converged(&self) -> bool {
         matches!(self, Self::Converged(_))

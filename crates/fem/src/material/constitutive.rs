@@ -1,4 +1,4 @@
-//! What a block asks of a material with memory: the stress after a strain increment, and its derivative.
+//! Requirements of a block on a material with memory: the stress after a strain increment, and its derivative.
 //!
 //! Stresses are xx, yy, zz, xy, yz, zx \[Pa\]; strain increments the same with engineering shears γ = 2 ε. Materials are
 //! isotropic: `update` of rotated arguments is the rotated update, on which the integration of objective rates relies.
@@ -12,7 +12,7 @@ pub type Moduli = [[f64; 6]; 6];
 
 /// An isotropic material whose next stress depends on the last one, on a history and on the strain increment.
 pub trait Constitutive: Sync {
-    /// Whether the stress changes in time at held strain.
+    /// True if the stress changes in time at held strain.
     const RELAXES: bool;
 
     /// Symmetric tensors in the history (six numbers each, first in the slice): they rotate with the material.

@@ -54,7 +54,7 @@ impl Elastic {
         self.young / (3.0 * (1.0 - 2.0 * self.poisson))
     }
 
-    /// What stands for λ in plane stress, 2Gλ/(λ+2G) = E ν/(1-ν²) \[Pa\]: the strain along z is condensed.
+    /// Substitute for λ in plane stress, 2Gλ/(λ+2G) = E ν/(1-ν²) \[Pa\]: the strain along z is condensed.
     #[must_use]
     pub fn plane_stress_lame(&self) -> f64 {
         self.young * self.poisson / (1.0 - self.poisson * self.poisson)

@@ -3,7 +3,7 @@
 use super::generate::SIDES;
 use crate::error::FemError;
 
-/// How far a side recedes from its apex.
+/// Recession of a side from its apex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Profile {
     /// r²/(2R).

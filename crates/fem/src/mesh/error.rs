@@ -1,8 +1,8 @@
-//! What can be wrong with a mesh file.
+//! Errors in a mesh file.
 
 use std::fmt;
 
-/// Where in a file: the line of a text, the byte of a binary section.
+/// Place in a file: the line of a text, the byte of a binary section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// Line, counted from 1.
@@ -50,7 +50,7 @@ impl fmt::Display for Part {
     }
 }
 
-/// What can be wrong with a mesh file. Elements and nodes are named by their numbers in the file.
+/// Errors in a mesh file. Elements and nodes are named by their numbers in the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
     /// Bytes that are not what the format wants here.
@@ -58,11 +58,11 @@ pub enum MeshError {
     Syntax {
         /// Section or keyword.
         section: String,
-        /// Where.
+        /// Position.
         place: Place,
-        /// What the format wants.
+        /// Requirement of the format.
         expected: &'static str,
-        /// What is there.
+        /// Value found.
         found: String,
     },
     /// The file ends before what a header announces, or in the middle of a value.
@@ -73,11 +73,11 @@ pub enum MeshError {
     Truncated {
         /// Section or keyword.
         section: String,
-        /// Where.
+        /// Position.
         place: Place,
-        /// What is announced.
+        /// Number announced.
         what: &'static str,
-        /// How many.
+        /// Number.
         count: u64,
         /// Bytes that follow.
         left: usize,
@@ -87,7 +87,7 @@ pub enum MeshError {
     Count {
         /// Section.
         section: String,
-        /// What is counted.
+        /// Things counted.
         what: &'static str,
         /// Number in the header.
         announced: u64,
@@ -111,7 +111,7 @@ pub enum MeshError {
     /// A binary file without the number that tells the order of bytes.
     #[error("$MeshFormat, {place}: the number 1 that tells the order of bytes is missing")]
     ByteOrder {
-        /// Where.
+        /// Position.
         place: Place,
     },
     /// A section that a mesh needs.
@@ -125,9 +125,9 @@ pub enum MeshError {
     Unsupported {
         /// Section or keyword.
         section: String,
-        /// Where.
+        /// Position.
         place: Place,
-        /// Why it is not read.
+        /// Reason why it is not read.
         reason: &'static str,
     },
     /// An element of a shape that does not exist here.
@@ -135,7 +135,7 @@ pub enum MeshError {
     UnsupportedElement {
         /// Section or keyword.
         section: String,
-        /// Where.
+        /// Position.
         place: Place,
         /// Element.
         element: u64,
@@ -147,7 +147,7 @@ pub enum MeshError {
     UnsupportedKind {
         /// Section or keyword.
         section: String,
-        /// Where.
+        /// Position.
         place: Place,
         /// Type, as the format names it.
         kind: String,
@@ -175,7 +175,7 @@ pub enum MeshError {
     /// A node that does not exist.
     #[error("{holder} refers to node {node}, which does not exist")]
     DanglingNode {
-        /// What refers to it: an element or a set.
+        /// Referrer: an element or a set.
         holder: Holder,
         /// Node.
         node: u64,
@@ -193,7 +193,7 @@ pub enum MeshError {
     UnknownSet {
         /// Keyword.
         section: String,
-        /// Where.
+        /// Position.
         place: Place,
         /// Set.
         set: String,
@@ -323,7 +323,7 @@ pub enum MeshError {
     },
 }
 
-/// What refers to a node.
+/// Referrer to a node.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Holder {
     /// An element.

@@ -4,7 +4,7 @@ use super::split::{Fault, Pair};
 use super::{Cells, Mesh, Side};
 use crate::element::ElementKind;
 
-/// Why a mesh cannot be extruded.
+/// Reason why a mesh cannot be extruded.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExtrudeError {
     /// Fewer than two layer coordinates, or not in ascending order.
@@ -132,7 +132,7 @@ fn check_layers(z: &[f64]) -> Result<(), ExtrudeError> {
     }
 }
 
-/// How a plane element becomes one in space.
+/// Extrusion of a plane element into space.
 #[derive(Debug)]
 struct Template {
     kind: ElementKind,

@@ -6,7 +6,7 @@ use super::{Cells, Mesh, Side};
 use crate::element::ElementKind;
 use crate::error::FemError;
 
-/// How element sizes vary along an axis.
+/// Variation of element sizes along an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Grading {
     /// Equal sizes.
@@ -56,7 +56,7 @@ impl<const D: usize> Block<D> {
     /// Generates the mesh; x runs fastest.
     ///
     /// # Errors
-    /// When the block is empty, a ratio is not positive, or the element has another dimension.
+    /// If the block is empty, a ratio is not positive, or the element has another dimension.
     pub fn mesh(&self) -> Result<Mesh<D>, FemError> {
         self.check()?;
         Grid { lines: std::array::from_fn(|axis| self.line(axis)), kind: self.kind }.mesh()
@@ -106,7 +106,7 @@ impl<const D: usize> Grid<D> {
     /// Generates the mesh; x runs fastest.
     ///
     /// # Errors
-    /// When lines do not ascend or the element has another dimension.
+    /// If lines do not ascend or the element has another dimension.
     pub fn mesh(&self) -> Result<Mesh<D>, FemError> {
         if self.kind.dimension() != D {
             return Err(FemError::Dimension { element: self.kind.name(), dimension: D });

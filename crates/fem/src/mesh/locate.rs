@@ -40,7 +40,7 @@ pub fn locate<const D: usize>(mesh: &Mesh<D>, blocks: Range<usize>, x: &[f64; D]
     })
 }
 
-/// Whether a place lies in the box of some nodes, with room for curved sides.
+/// True if a place lies in the box of some nodes, with room for curved sides.
 fn near<const D: usize>(nodes: &[[f64; D]], x: &[f64; D]) -> bool {
     let bounds = |c: usize| {
         let values = nodes.iter().map(|n| n[c]);
@@ -87,7 +87,7 @@ fn place<const D: usize>(shape: &Shape, nodes: &[[f64; D]]) -> (SVector<f64, D>,
     (x, j)
 }
 
-/// Whether natural coordinates lie in an element.
+/// True if natural coordinates lie in an element.
 fn holds(kind: ElementKind, &[x, y, z]: &[f64; 3]) -> bool {
     use ElementKind::{Tet4, Tet10, Tri3, Tri6, Wedge6, Wedge15};
     let square = |v: f64| v.abs() <= 1.0 + ON_BOUNDARY;

@@ -36,7 +36,7 @@ impl Cells {
         self.connectivity.len() / self.kind.nodes()
     }
 
-    /// Whether there is none.
+    /// True if there is none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.connectivity.is_empty()

@@ -27,7 +27,7 @@ pub enum Spacing {
     Graded(Vec<[f64; 2]>),
 }
 
-/// Why a line cannot be divided. Distances are along the line, from its begin.
+/// Reason why a line cannot be divided. Distances are along the line, from its begin.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SpacingError {
     /// A number out of its range.
@@ -37,7 +37,7 @@ pub enum SpacingError {
         name: &'static str,
         /// Given.
         value: f64,
-        /// What would be right.
+        /// Remedy.
         admissible: &'static str,
     },
     /// A zone that is not on the line.
@@ -73,7 +73,7 @@ pub enum SpacingError {
          cells, or let what ends there reach the boundary"
     )]
     Gap {
-        /// Where.
+        /// Position.
         place: &'static str,
         /// Distance \[m\].
         length: f64,
@@ -91,7 +91,7 @@ pub enum SpacingError {
 }
 
 impl Spacing {
-    /// Whether the numbers are in their ranges, whatever the line.
+    /// Checks that the numbers are in their ranges, whatever the line.
     ///
     /// # Errors
     /// [`SpacingError::Value`].

@@ -10,7 +10,7 @@ const PIECE: usize = 64;
 /// Mean length of runs from which adding run by run is quicker than value by value.
 const WORTH_RUNS: usize = 8;
 
-/// What a child passes on: the lower triangle of a square, column by column.
+/// Data that a child passes on: the lower triangle of a square, column by column.
 pub(super) struct Passed<'a> {
     /// Row in the parent's front of each of its rows, ascending.
     places: &'a [u32],

@@ -6,7 +6,7 @@
 
 use pulp::{Simd, WithSimd};
 
-/// Why an elimination ended early: (column, its pivot).
+/// Reason why an elimination ended early: (column, its pivot).
 pub(super) type Break = (usize, f64);
 
 /// Columns treated together.

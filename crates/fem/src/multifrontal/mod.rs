@@ -1,6 +1,6 @@
 //! Sparse Cholesky factorisation by the multifrontal method, parallel over the elimination tree.
 //!
-//! Why not the factorisation of a library: faer's is as fast on one thread, but its loop over supernodes is sequential, and
+//! Reason not to take the factorisation of a library: faer's is as fast on one thread, but its loop over supernodes is sequential, and
 //! a second thread only enters large dense products. Here independent subtrees are independent tasks, the few large fronts
 //! near the root are cut into tiles, and the factorisation can stop at a chosen Schur complement, which is static
 //! condensation without solving for hundreds of columns.
@@ -28,13 +28,13 @@ pub use symbolic::Symbolic;
 pub struct Pivot {
     /// Its equation, in the numbering of the matrix.
     pub equation: usize,
-    /// What elimination left of the diagonal entry.
+    /// Remainder of the diagonal entry after elimination.
     pub pivot: f64,
     /// The diagonal entry.
     pub diagonal: f64,
 }
 
-/// Why a matrix was not factored.
+/// Reason why a matrix was not factored.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DirectError {
     /// A negative pivot, or one that is no number.

@@ -1,4 +1,4 @@
-//! What moves when a stiffness is singular: the mode that nothing resists, as a motion of a connected part.
+//! Motion left free by a singular stiffness: the mode that nothing resists, as a motion of a connected part.
 
 use super::{Cholesky, DirectError, Symbolic};
 use crate::dof::Equations;
@@ -49,7 +49,7 @@ impl<const D: usize> fmt::Display for FreeMode<D> {
 }
 
 impl<const D: usize> FreeMode<D> {
-    /// What the part can do, in words.
+    /// Motion of the part, in words.
     #[must_use]
     pub fn motion(&self) -> String {
         if self.deformation > RIGID {
@@ -86,7 +86,7 @@ impl<const D: usize> FreeMode<D> {
 /// null space; a rigid motion is fitted to it by least squares.
 ///
 /// # Errors
-/// When the shifted matrix cannot be factored either: K has negative modes.
+/// If the shifted matrix cannot be factored either: K has negative modes.
 pub fn free_mode<const D: usize>(
     matrix: SparseColMatRef<'_, usize, f64>,
     equation: usize,

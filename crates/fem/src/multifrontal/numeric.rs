@@ -76,7 +76,7 @@ fn zeros(len: usize) -> Result<Vec<f64>, DirectError> {
     Ok(vec![0.0; len])
 }
 
-/// What all fronts of one factorisation share.
+/// Data shared by all fronts of one factorisation.
 struct Run<'a> {
     symbolic: &'a Symbolic,
     matrix: &'a [f64],
@@ -86,11 +86,11 @@ struct Run<'a> {
     pool: Pool,
     /// Values of each task's fronts; where the factor is not kept, of the last one only.
     values: Vec<Mutex<Vec<f64>>>,
-    /// Whether the factor is kept.
+    /// True if the factor is kept.
     keep: bool,
     /// Smallest pivot relative to its diagonal entry, and its position.
     least: Mutex<(f64, usize)>,
-    /// What each task passes on.
+    /// Data that each task passes on.
     passed: Vec<Slot<Result<Vec<f64>, DirectError>>>,
 }
 
@@ -188,7 +188,7 @@ fn whole(mut lower: Vec<f64>, m: usize) -> Vec<f64> {
     lower
 }
 
-/// Where the columns of a task's fronts stand while they are eliminated.
+/// Columns of a task's fronts while they are eliminated.
 enum Panels {
     /// Each at its own place: they are the factor.
     Kept(Vec<f64>),
@@ -268,7 +268,7 @@ impl<'a> Run<'a> {
         result
     }
 
-    /// Whether elimination stops at a front: it is the Schur complement.
+    /// True if elimination stops at a front: it is the Schur complement.
     fn stops_at(&self, s: usize) -> bool {
         self.symbolic.retained > 0 && s + 1 == self.symbolic.fronts.len()
     }

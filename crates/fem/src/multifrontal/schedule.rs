@@ -31,7 +31,7 @@ impl Symbolic {
     }
 }
 
-/// What counts of what a front passes on.
+/// Part of a front's contribution that counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Passes {
     /// All of it: what is asked for.

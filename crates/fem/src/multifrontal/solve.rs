@@ -28,7 +28,7 @@ struct Run<'a> {
     columns: usize,
     /// Rows of each task, column by column.
     rows: Vec<Mutex<Vec<f64>>>,
-    /// What tasks pass up or down: one entry per task.
+    /// Data that tasks pass up or down: one entry per task.
     passed: Vec<Slot<Vec<f64>>>,
 }
 
@@ -155,7 +155,7 @@ impl<'a> Run<'a> {
         stack
     }
 
-    /// Whether a front holds the retained equations.
+    /// True if a front holds the retained equations.
     fn stops(&self, s: usize) -> bool {
         self.symbolic.retained > 0 && s + 1 == self.symbolic.fronts.len()
     }

@@ -59,7 +59,7 @@ pub(super) struct Entry {
 pub(super) struct Task {
     /// Its fronts.
     pub fronts: Range<usize>,
-    /// Whether they are a subtree (a single front near the root otherwise).
+    /// True if they are a subtree (a single front near the root otherwise).
     pub subtree: bool,
     /// First task below it: the tasks of its subtree are `lowest..=` itself.
     pub lowest: usize,

@@ -1,6 +1,6 @@
 //! Runs the tasks of a factorisation or a solve on the tree: upwards, a task after its children; downwards, before them.
 //!
-//! What a task does depends on its inputs only, and it takes them in the order of its children, whoever computed them:
+//! A task depends on its inputs only, and takes them in the order of its children, whoever computed them:
 //! results do not depend on the number of threads.
 
 use super::symbolic::Symbolic;

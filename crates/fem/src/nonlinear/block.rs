@@ -123,7 +123,7 @@ impl<const D: usize> Block<D> {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let body = &self.body;
-        let lists = body.cells.connectivity.len() + body.nodes.len() + body.pattern.dofs.len();
+        let lists = body.cells.connectivity.len() + body.nodes.len() + body.pattern.dofs().len();
         let two = |of: &Two| of.committed.len() + of.trial.len();
         let values = [two(&self.u), two(&self.state), self.forces.len(), self.none.len()];
         (lists + values.iter().sum::<usize>() + body.volumes.len()) * std::mem::size_of::<f64>()
@@ -226,7 +226,7 @@ impl<const D: usize> Block<D> {
 
     /// Adds the forces of all cells in order.
     pub(super) fn scatter(&self, forces: &[f64], r: &mut [f64]) {
-        for (&dof, f) in self.body.pattern.dofs.iter().zip(forces) {
+        for (&dof, f) in self.body.pattern.dofs().iter().zip(forces) {
             r[dof] += f;
         }
     }

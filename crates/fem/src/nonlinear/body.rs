@@ -1,4 +1,4 @@
-//! What does not change in a run: cells in local numbering, reference geometry, model; and the loop over chunks of cells.
+//! Constant data of a run: cells in local numbering, reference geometry, model; and the loop over chunks of cells.
 
 use super::cell::{Frame, Inverted, Scratch};
 use super::history::Layout;
@@ -25,7 +25,7 @@ pub struct Body<const D: usize> {
     pub reference: Vec<[f64; D]>,
     /// Reference volume of each point \[m^D; m³ over the full turn where axisymmetric\].
     pub volumes: Vec<f64>,
-    /// What is the same in all cells.
+    /// Data common to all cells.
     pub frame: Frame,
     /// Material and options.
     pub model: Model,
@@ -39,7 +39,7 @@ pub struct Task<'a, const D: usize> {
     pub first: usize,
     /// Numbers per cell of `out`.
     size: usize,
-    /// What is written, `size` numbers a cell.
+    /// Output, `size` numbers a cell.
     pub out: &'a mut [f64],
     /// The second thing that is written, cell by cell.
     pub state: &'a mut [f64],
@@ -96,7 +96,7 @@ impl<const D: usize> Body<D> {
             },
             reference: nodes.iter().map(|&n| mesh.nodes[n]).collect(),
             volumes: Vec::new(),
-            pattern: Pattern::of_blocks(0, dofs.iter().map(Vec::as_slice)),
+            pattern: Pattern::of_blocks(dofs.iter().map(Vec::as_slice)),
             nodes,
             frame,
             model,

@@ -17,7 +17,7 @@ use crate::material::plane_stress;
 /// Most polynomials of the projected dilatation: 1, x, y, z.
 pub const MOST_MODES: usize = 4;
 
-/// What is the same in all cells of a block.
+/// Data common to all cells of a block.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// Nodes of a cell.

@@ -1,4 +1,4 @@
-//! What a quadrature point keeps: stress, then the material's tensors and numbers, then in plane stress the logarithmic
+//! State of a quadrature point: stress, then the material's tensors and numbers, then in plane stress the logarithmic
 //! strain through the thickness.
 
 use super::tensor::{Tensor, rotated};
@@ -18,7 +18,7 @@ pub struct Layout {
     pub tensors: usize,
     /// Numbers in the history.
     pub scalars: usize,
-    /// Whether the strain through the thickness is kept.
+    /// True if the strain through the thickness is kept.
     pub thickness: bool,
     /// Numbers kept; 0 when the stress follows from the displacements alone.
     pub stride: usize,

@@ -1,4 +1,4 @@
-//! What a block is made of, as values, and the combinations that exist.
+//! Parts of a block, as values, and the combinations that exist.
 
 use crate::element::ElementKind;
 use crate::error::FemError;
@@ -88,7 +88,7 @@ pub struct Model {
     pub limits: Limits,
 }
 
-/// Why a block cannot be made.
+/// Reason why a block cannot be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ModelError {
     /// Mesh, element or material.
@@ -97,15 +97,15 @@ pub enum ModelError {
     /// A combination that does not exist.
     #[error("{combination}: {reason}")]
     Combination {
-        /// What was asked for.
+        /// Request.
         combination: &'static str,
-        /// Why it does not exist, and what does.
+        /// Reason why it does not exist, and what does.
         reason: &'static str,
     },
 }
 
 impl Model {
-    /// Whether the consistent tangent of an implicit step is symmetric: at small strain it is `∫ B'CB` with the algorithmic
+    /// True if the consistent tangent of an implicit step is symmetric: at small strain it is `∫ B'CB` with the algorithmic
     /// moduli C, which have major symmetry for all materials here. The objective update of large deformation is not the
     /// derivative of an energy of the step.
     #[must_use]
@@ -113,7 +113,7 @@ impl Model {
         self.kinematics == Kinematics::Small
     }
 
-    /// Whether the rate tangent of a forward step is symmetric: Σ of the Jaumann rate of the Kirchhoff stress has major
+    /// True if the rate tangent of a forward step is symmetric: Σ of the Jaumann rate of the Kirchhoff stress has major
     /// symmetry where the continuum moduli have it.
     #[must_use]
     pub fn symmetric_rate(&self) -> bool {

@@ -14,7 +14,7 @@ impl ScatterMap {
     /// [`bytes`](Symbolic::bytes) tell the memory of the numeric part beforehand.
     ///
     /// # Errors
-    /// When memory does not suffice or the pattern is too large to be ordered.
+    /// If memory does not suffice or the pattern is too large to be ordered.
     pub fn analyse_cholesky(&self) -> Result<Arc<Symbolic>, FemError> {
         Ok(Arc::new(Symbolic::new(self.symbolic(), Ordering::Automatic)?))
     }
@@ -30,7 +30,7 @@ impl ScatterMap {
     /// Symbolic LU analysis (column ordering) of a pattern built with [`Part::Whole`](super::Part::Whole).
     ///
     /// # Errors
-    /// When memory does not suffice.
+    /// If memory does not suffice.
     pub fn analyse_lu(&self) -> Result<SymbolicLu<usize>, FemError> {
         SymbolicLu::try_new(self.symbolic())
             .map_err(|e| FemError::Factorisation(format!("symbolic LU: {e:?}")))
@@ -39,7 +39,7 @@ impl ScatterMap {
     /// Numeric LU factorisation.
     ///
     /// # Errors
-    /// When the matrix is structurally singular.
+    /// If the matrix is structurally singular.
     pub fn lu(&self, symbolic: &SymbolicLu<usize>) -> Result<Factor, FemError> {
         Lu::try_new_with_symbolic(symbolic.clone(), self.matrix())
             .map(|f| Factor::Lu(Box::new(f)))

@@ -17,7 +17,7 @@ impl Mirror {
     /// Mirrors a map built with [`Part::Lower`](super::Part::Lower).
     ///
     /// # Errors
-    /// When memory does not suffice for the analysis.
+    /// If memory does not suffice for the analysis.
     pub fn new(map: &ScatterMap) -> Result<Self, FemError> {
         let (n, lower) = (map.order(), map.symbolic());
         let (from, rows) = (lower.col_ptr(), lower.row_idx());
@@ -53,7 +53,7 @@ impl Mirror {
     /// LU of the matrix whose lower triangle has these values.
     ///
     /// # Errors
-    /// When the matrix is structurally singular.
+    /// If the matrix is structurally singular.
     pub fn lu(&self, lower: &[f64]) -> Result<Factor, FemError> {
         let values: Vec<f64> = self.source.iter().map(|&k| lower[k]).collect();
         Lu::try_new_with_symbolic(self.symbolic.clone(), SparseColMatRef::new(self.pattern.as_ref(), &values))

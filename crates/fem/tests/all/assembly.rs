@@ -36,8 +36,8 @@ struct Spring {
 }
 
 impl Spring {
-    fn new(dof: usize, version: u64, stiffness: f64) -> Self {
-        Self { pattern: Pattern::of_blocks(version, [[dof].as_slice()]), stiffness }
+    fn new(dof: usize, stiffness: f64) -> Self {
+        Self { pattern: Pattern::of_blocks([[dof].as_slice()]), stiffness }
     }
 }
 
@@ -47,7 +47,7 @@ impl Term for Spring {
     }
 
     fn residual(&mut self, u: &[f64], _at: Instant, r: &mut [f64]) -> Result<(), Refusal> {
-        r[self.pattern.dofs[0]] += self.stiffness * u[self.pattern.dofs[0]];
+        r[self.pattern.dofs()[0]] += self.stiffness * u[self.pattern.dofs()[0]];
         Ok(())
     }
 
@@ -74,7 +74,7 @@ impl Linearized for Spring {
 fn entries_are_the_sums_of_a_serial_loop_bit_by_bit_for_any_number_of_threads() {
     let mesh = mesh(40);
     let (block, equations) = (block(&mesh), clamped(&mesh));
-    let spring = Spring::new(2 * mesh.nodes.len() - 1, 0, 1e9);
+    let spring = Spring::new(2 * mesh.nodes.len() - 1, 1e9);
     for part in [Part::Whole, Part::Lower] {
         let run = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -140,12 +140,12 @@ fn a_factor_is_reused_while_patterns_keep_their_versions_and_made_anew_when_one_
     let mut block = block(&mesh);
     let dof = 2 * mesh.nodes.len() - 1;
     let mut system = System::new(clamped(&mesh), Storage::Sparse).with_symmetry(Symmetry::Positive);
-    let mut spring = Spring::new(dof, 0, 1e9);
+    let mut spring = Spring::new(dof, 1e9);
     assert!(!system.is_factored([block.pattern(), spring.pattern()]));
     assert!(system.factor_tangent(&mut [&mut block, &mut spring]).unwrap());
     assert!(!system.factor_tangent(&mut [&mut block, &mut spring]).unwrap());
     assert_eq!(system.factorisations, 1);
-    let mut moved = Spring::new(dof - 1, 1, 1e9);
+    let mut moved = Spring::new(dof - 1, 1e9);
     assert!(system.factor_tangent(&mut [&mut block, &mut moved]).unwrap());
     assert_eq!(system.factorisations, 2);
     // The new factor belongs to the new pattern: a unit force meets the body and the moved spring.
@@ -169,7 +169,7 @@ struct Pairs {
 
 impl Pairs {
     fn new(pairs: &[[usize; 2]]) -> Self {
-        let pattern = Pattern::of_blocks(0, pairs.iter().map(<[usize; 2]>::as_slice));
+        let pattern = Pattern::of_blocks(pairs.iter().map(<[usize; 2]>::as_slice));
         Self { pattern, closed: vec![false; pairs.len()] }
     }
 }
@@ -235,7 +235,7 @@ fn a_dense_system_solves_as_a_sparse_one_whichever_pairs_close_and_open() {
 fn what_nothing_but_a_closed_pair_holds_is_held_by_it_and_named_when_it_opens() {
     // A chain of springs between six degrees of freedom floats; a pair that couples its end to a held one holds it.
     let chain: Vec<[usize; 2]> = (1..6).map(|k| [k, k + 1]).collect();
-    let pattern = Pattern::of_blocks(0, chain.iter().map(<[usize; 2]>::as_slice));
+    let pattern = Pattern::of_blocks(chain.iter().map(<[usize; 2]>::as_slice));
     let mut links = Chain { pattern, values: [1e12, -1e12, -1e12, 1e12].repeat(chain.len()) };
     let mut contact = Pairs::new(&[[0, 1]]);
     let equations = || Constraints { fixed: vec![0], channels: Vec::new() }.equations(7);
@@ -299,7 +299,7 @@ fn what_nothing_holds_is_named_by_its_degree_of_freedom() {
     for storage in [Storage::Dense, Storage::Sparse] {
         for symmetry in [Symmetry::General, Symmetry::Positive] {
             let mut system = System::new(equations(), storage).with_symmetry(symmetry);
-            let (mut held, mut free) = (Spring::new(1, 0, 2.0), Spring::new(2, 0, 0.0));
+            let (mut held, mut free) = (Spring::new(1, 2.0), Spring::new(2, 0.0));
             let error = system
                 .factor_tangent(&mut [&mut held, &mut free])
                 .and_then(|_| system.solve(&mut [1.0, 1.0]))
@@ -315,7 +315,7 @@ fn a_negative_spring_is_not_positive_definite() {
     let equations = Constraints::default().equations(1);
     for storage in [Storage::Dense, Storage::Sparse] {
         let mut system = System::new(equations.clone(), storage).with_symmetry(Symmetry::Positive);
-        let error = system.factor_tangent(&mut [&mut Spring::new(0, 0, -1.0)]).unwrap_err();
+        let error = system.factor_tangent(&mut [&mut Spring::new(0, -1.0)]).unwrap_err();
         assert!(error.to_string().contains("not positive definite: degree of freedom 0"), "{error}");
     }
 }
@@ -328,7 +328,7 @@ fn a_symmetric_matrix_with_a_negative_mode_is_solved_by_lu_and_counted() {
     let load: Vec<f64> = (0..n).map(|k| ((k * 31) % 17) as f64 - 8.0).collect();
     // A spring that pushes away at the last degree of freedom, stiffer than the body: one negative eigenvalue.
     let dof = 2 * mesh.nodes.len() - 1;
-    let mut away = Spring::new(dof, 0, -3e10);
+    let mut away = Spring::new(dof, -3e10);
     for storage in [Storage::Dense, Storage::Sparse] {
         let mut solve = |symmetry, stiffness: f64| {
             away.stiffness = stiffness;

@@ -289,7 +289,7 @@ fn the_free_one_of_two_bodies_is_named() {
     mesh.nodes.extend(copy);
     let second: Vec<Vec<usize>> =
         cells.pattern().blocks().map(|b| b.iter().map(|d| d + 2 * count).collect()).collect();
-    let pattern = Pattern::of_blocks(0, cells.pattern().blocks().chain(second.iter().map(Vec::as_slice)));
+    let pattern = Pattern::of_blocks(cells.pattern().blocks().chain(second.iter().map(Vec::as_slice)));
     let fixed = (0..count).filter(|&n| mesh.nodes[n][0] == 0.0).flat_map(|n| [2 * n, 2 * n + 1]).collect();
     let equations = Constraints { fixed, channels: Vec::new() }.equations(mesh.nodes.len() * 2);
     let mut matrix = ScatterMap::new(&[&pattern], &equations, Part::Lower);

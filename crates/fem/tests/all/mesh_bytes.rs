@@ -22,7 +22,7 @@ fn sample(name: &str) -> Vec<u8> {
     std::fs::read(format!("{}/tests/meshes/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
 
-/// What is kept of a file is no more than so many bytes for each of its own: an entry of a list takes at least two bytes of
+/// Memory kept for a file is no more than so many bytes for each of its own: an entry of a list takes at least two bytes of
 /// text, and at most 32 in memory.
 const KEPT: usize = 16;
 

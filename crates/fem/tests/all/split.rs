@@ -82,7 +82,7 @@ fn boundary_faces<const D: usize>(mesh: &Mesh<D>) -> usize {
     count.values().filter(|&&c| c == 1).count()
 }
 
-/// What holds for every split: faces correspond, coincide, and look at each other; pairs coincide and cover the faces.
+/// Properties of every split: faces correspond, coincide, and look at each other; pairs coincide and cover the faces.
 fn check_sides<const D: usize>(mesh: &Mesh<D>, fault: &Fault) {
     let minus = &mesh.side_sets[&format!("{}.minus", fault.name)];
     let plus = &mesh.side_sets[&format!("{}.plus", fault.name)];

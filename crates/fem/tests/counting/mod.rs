@@ -34,7 +34,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// What `f` returns, and the most bytes that it held at a time on this thread.
+/// Result of `f`, and the most bytes that it held at a time on this thread.
 pub fn peak_of<T>(f: impl FnOnce() -> T) -> (T, usize) {
     let before = NOW.get();
     PEAK.set(before);

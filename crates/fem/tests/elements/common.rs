@@ -22,7 +22,7 @@ pub fn grid<const D: usize>(kind: ElementKind, min: [f64; D], n: usize) -> Mesh<
     Block { min, max, divisions: [n; D], grading: [Grading::Uniform; D], kind }.mesh().unwrap()
 }
 
-/// What is done to a uniform mesh of a unit block.
+/// Changes of a uniform mesh of a unit block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     /// Corners inside move by a fixed share of the element size, to alternating sides: the shape of elements does not improve

@@ -1,4 +1,4 @@
-//! What each idealisation means: loads about an axis, thick cylinders, sheets, antiplane motion, refusals.
+//! Meaning of each idealisation: loads about an axis, thick cylinders, sheets, antiplane motion, refusals.
 
 use super::common::{Shape, formulations, grid, material, mesh, solve_dofs};
 use asperity_fem::block::LinearBlock;

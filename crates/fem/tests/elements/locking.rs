@@ -7,7 +7,7 @@ use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::mesh::nodes_of_sides;
 use asperity_fem::surface;
 
-/// What the boundary is held by.
+/// Conditions on the boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Walls {
     /// Displacements everywhere.

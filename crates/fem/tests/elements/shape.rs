@@ -188,7 +188,7 @@ fn moment(kind: ElementKind, [i, j, k]: [i32; 3]) -> f64 {
     }
 }
 
-/// Whether a monomial lies within a degree: the sum on simplices, each variable on products.
+/// True if a monomial lies within a degree: the sum on simplices, each variable on products.
 fn within(kind: ElementKind, [i, j, k]: [i32; 3], degree: i32, along: i32) -> bool {
     match kind.linear() {
         ElementKind::Tri3 | ElementKind::Tet4 => i + j + k <= degree,

@@ -32,7 +32,7 @@ pub struct Parameter {
     pub unit: Unit,
     /// Admissible values.
     pub bound: Bound,
-    /// Whether the law does without it.
+    /// True if the law does without it.
     pub optional: bool,
     /// A usual value, as in scenes.
     pub example: &'static str,
@@ -50,7 +50,7 @@ pub enum Variable {
     },
     /// s = φ, the contribution to μ.
     Contribution {
-        /// Whether φ = b ln(Vref θ/L) defines a θ.
+        /// True if φ = b ln(Vref θ/L) defines a θ.
         has_theta: bool,
     },
 }

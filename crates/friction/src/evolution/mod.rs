@@ -69,7 +69,7 @@ pub trait Evolution: Send + Sync + Clone + std::fmt::Debug {
     /// Name of the law with this evolution.
     const NAME: &'static str;
 
-    /// What a step from one state needs at every rate it is tried at.
+    /// Constants of a step from one state, needed at every rate it is tried at.
     type Start: Copy + Send + std::fmt::Debug;
 
     /// Contribution φ(s) to μ \[-\].

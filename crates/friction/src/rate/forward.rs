@@ -72,7 +72,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         self.parts.iter().filter_map(|part| part.evolution.length()).reduce(f64::min)
     }
 
-    /// Whether the strength of a slipping point is F_limit.
+    /// True if the strength of a slipping point is F_limit.
     fn capped(&self, present: &Present<'_>, k: usize, solver: &mut Solver<'_, F, E>) -> bool {
         let states = self.state(present.states, k);
         let now = solver.after(states, present.normal[k], 0.0, present.rate[k].ln());

@@ -9,7 +9,7 @@
 //! * without inertia `dm/dt = (p - K V - f_n' a m - η Q)/(f_n a + η P)`;
 //! * with inertia `dm/dt = (f_n a d/M - Q)/P` and `f_n a dd/dt = p - K V - f_n a dm/dt - f_n' a (m + d) - η (P dm/dt + Q)`.
 //!
-//! Where V is imposed, m follows from V and φ and is no unknown: its place among them is left as it is. The memory of shear traction
+//! Imposed slip rates: m follows from V and φ and is no unknown: its place among them is left as it is. The memory of shear traction
 //! takes `dm/dt = (dV/dt - Q)/P`.
 //!
 //! ln V = m - (μ0 + φ)/a + ... follows from numbers of order one to a hundred, so that sixteen decades of V cost nothing, and V
@@ -25,7 +25,7 @@ use crate::law::{Drives, Rated};
 use crate::rate::RateLaw;
 use crate::strength::{Form, SlipRate};
 
-/// What acts on a slider at an instant.
+/// Tractions on a slider at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forcing {
     /// f_n > 0 \[Pa\].
@@ -44,7 +44,7 @@ pub struct Forcing {
     pub imposed: Option<(f64, f64)>,
 }
 
-/// What a direction of the Jacobian is.
+/// Direction of the Jacobian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// An unknown of the slider.
@@ -131,16 +131,16 @@ pub trait Sliding: Rated {
     /// a \[-\], the scale of m.
     fn scale(&self) -> f64;
 
-    /// What a change of ln V by one is in each state variable, for error norms: 1 for logarithms, a for friction.
+    /// Change of each state variable that is worth a change of ln V by one, for error norms: 1 for logarithms, a for friction.
     fn state_scale(&self) -> f64;
 
-    /// Whether the form has a value at rest and in reversal; where not, the rates do not exist at m ≤ 0.
+    /// True if the form has a value at rest and in reversal; where not, the rates do not exist at m ≤ 0.
     fn reverses(&self) -> bool;
 
     /// Shortest characteristic slip L \[m\], where there is one.
     fn length(&self) -> Option<f64>;
 
-    /// What many such sliders at once need, where the form is an exponential and the law the ageing law without memories.
+    /// Constants for many such sliders at once, where the form is an exponential and the law the ageing law without memories.
     fn line(&self) -> Option<Line>;
 }
 

@@ -303,7 +303,7 @@ impl Segment<'_> {
         }
     }
 
-    /// What acts on a slider, by the slip rates of the others \[m/s\].
+    /// Tractions on a slider, by the slip rates of the others \[m/s\].
     fn forcing(&self, i: usize, time: f64, load: f64, rate: impl Fn(usize) -> f64) -> Forcing {
         let slider = &self.system.sliders[i];
         let (normal, normal_rate) = self.normals[i].at(time);
@@ -398,7 +398,7 @@ impl Segment<'_> {
         (Speed { rate, log: rate.abs().ln() }, m * law.scale())
     }
 
-    /// What a slider is doing.
+    /// Condition of a slider.
     #[must_use]
     pub fn condition(&self, i: usize, time: f64, unknowns: &[f64]) -> Condition {
         let (slider, y) = (&self.system.sliders[i], self.system.of(i, unknowns));

@@ -79,7 +79,7 @@ pub trait Form: Send + Sync + Clone + std::fmt::Debug {
     /// ∂μ/∂V \[s/m\] at V = 0, or `None` where the form has no value there.
     fn rest_slope(&self, phi: f64) -> Option<f64>;
 
-    /// Whether the form has a value at V = 0 (then μ = 0) and is odd in V.
+    /// True if the form has a value at V = 0 (then μ = 0) and is odd in V.
     fn regular_at_rest(&self) -> bool {
         self.rest_slope(0.0).is_some()
     }

@@ -21,7 +21,7 @@ fn solve<F: Form, E: Evolution>(form: &F, e: &E, p: &Point, state: f64) -> Resul
     Solver::new(form, &parts, 1.0).solve(p, &vec![state; parts.len()])
 }
 
-/// What is left of the balance and of the state equation, relative to their terms.
+/// Residuals of the balance and of the state equation, relative to their terms.
 fn left_over<F: Form, E: Evolution>(form: &F, evolution: &E, p: &Point, state: f64, s: &Solution) -> f64 {
     let (strength, spring) = p.shares(s);
     let state = evolution.step(state, s.log_rate, p.dt).state;

@@ -151,7 +151,7 @@ fn tractions_stay_in_balance() {
     }
 }
 
-/// What is kept over a step of f_n: traction without inertia, the slip rate with it; dφ = -α ln(ratio) at constant V.
+/// Quantity kept over a step of f_n: traction without inertia, the slip rate with it; dφ = -α ln(ratio) at constant V.
 #[test]
 fn a_step_of_normal_traction_keeps_what_cannot_jump() {
     for (name, law) in laws() {

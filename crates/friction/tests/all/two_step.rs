@@ -129,7 +129,7 @@ fn steps_are_of_second_order_with_every_state() {
     }
 }
 
-/// What plans warn of: a step is of first order, and errs by twenty times its estimate.
+/// Bound that plans warn of: a step is of first order, and errs by twenty times its estimate.
 #[test]
 fn steps_with_a_memory_of_shear_traction_are_of_first_order() {
     each_evolution!(Kind => {

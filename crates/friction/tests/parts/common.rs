@@ -11,7 +11,7 @@ pub fn weakening(a: f64) -> Weakening {
     Weakening { mu0: 0.6, a, b: B, v_ref: V_REF, mu_w: 0.2, v_w: 0.1 }
 }
 
-/// Whether the remainder f(h) - f(0) - h f' vanishes at second order or faster, down to `rounding`; the second answer tells
+/// True if the remainder f(h) - f(0) - h f' vanishes at second order or faster, down to `rounding`; the second answer tells
 /// whether it was large enough to show an order.
 pub fn taylor(f: impl Fn(f64) -> f64, derivative: f64, h: f64, rounding: f64) -> (bool, bool) {
     let remainder = |h: f64| (f(h) - f(0.0) - h * derivative).abs();

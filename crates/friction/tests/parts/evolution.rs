@@ -1,4 +1,4 @@
-//! What holds of every evolution: derivatives, composition of steps, steady states, bounds.
+//! Properties of every evolution: derivatives, composition of steps, steady states, bounds.
 
 use super::common::*;
 use super::usual::usual;

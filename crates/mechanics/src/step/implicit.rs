@@ -12,7 +12,7 @@ use crate::Counts;
 use asperity_fem::FemError;
 use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
-use asperity_fem::term::{Instant, Linearized};
+use asperity_fem::term::{Instant, Linearized, PatternId};
 
 /// Residual over the largest force at which an iteration has converged. Rounding leaves 1e-14 to 1e-12 (the condensed
 /// stiffness acts on displacements some hundred times the elastic ones); a Newton step below this bound squares it.
@@ -306,12 +306,12 @@ impl Implicit {
         at: Instant,
         counts: &mut Counts,
     ) -> Result<bool, String> {
-        let versions = |terms: &[&mut dyn Linearized]| -> Vec<u64> {
-            terms.iter().map(|t| t.pattern().version).collect()
+        let patterns = |terms: &[&mut dyn Linearized]| -> Vec<PatternId> {
+            terms.iter().map(|t| t.pattern().id()).collect()
         };
-        let before = versions(terms);
+        let before = patterns(terms);
         prepare(terms, u)?;
-        if versions(terms) == before {
+        if patterns(terms) == before {
             return Ok(false);
         }
         self.evaluate(terms, u, at, counts)?;

@@ -25,7 +25,7 @@ pub struct State {
     pub time: f64,
 }
 
-/// Why a trial step failed. Nothing was committed.
+/// Reason why a trial step failed. Nothing was committed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
     /// The state was refused, or the iteration did not converge: a shorter step may do.
@@ -35,7 +35,7 @@ pub enum Failure {
     Violated(String),
     /// A linear system could not be solved.
     Unsolved {
-        /// Why.
+        /// Reason.
         error: FemError,
         /// True if it fails in steps of any length, so that a shorter one does not help.
         always: bool,
@@ -145,11 +145,11 @@ pub struct Accepted {
     pub drift: f64,
     /// Limit that set the length, where the stepper itself did.
     pub limited_by: Option<String>,
-    /// Why the stepper shortened the step.
+    /// Reason why the stepper shortened the step.
     pub cut: Cut,
 }
 
-/// Why a stepper took a shorter step than it was asked for.
+/// Reason why a stepper took a shorter step than it was asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Cut {
     /// It did not.

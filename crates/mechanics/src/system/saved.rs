@@ -33,7 +33,7 @@ impl SystemState {
     }
 }
 
-/// Why a state is not that of a system.
+/// Reason why a state is not that of a system.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mismatch {
     /// The number of unknowns is another.

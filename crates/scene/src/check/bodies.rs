@@ -30,7 +30,7 @@ impl Checker<'_> {
         }
     }
 
-    /// What a body in antiplane motion cannot have.
+    /// Declarations that a body in antiplane motion cannot have.
     fn antiplane(&mut self, name: &str, body: &Body) {
         let refused = [
             body.strain

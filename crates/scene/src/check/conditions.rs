@@ -19,7 +19,7 @@ struct Entry {
     symmetry: bool,
 }
 
-/// What is prescribed from stage to stage.
+/// Prescriptions from stage to stage.
 #[derive(Default)]
 struct Held {
     entries: BTreeMap<(String, usize), Entry>,
@@ -64,7 +64,7 @@ impl Held {
     }
 }
 
-/// How far a table may reach past the end of its stage, relative to the duration: the rounding of decimal input.
+/// Excess of a table past the end of its stage that passes, relative to the duration: the rounding of decimal input.
 const ROUNDING: f64 = 1e-9;
 /// More equal steps than this are a slip of the keyboard: a thousand times what a long run takes.
 const MOST_STEPS: usize = 10_000_000;
@@ -394,13 +394,13 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether two entries prescribe one component of common nodes.
+    /// True if two entries prescribe one component of common nodes.
     fn share_component(&self, a: &Entry, b: &Entry) -> bool {
         let free = a.motion == Motion::Free || b.motion == Motion::Free;
         a.axis == b.axis && !free && self.meet(&a.set, &b.set)
     }
 
-    /// Whether two sides are of one body and have an edge or corner in common.
+    /// True if two sides are of one body and have an edge or corner in common.
     fn meet(&self, a: &str, b: &str) -> bool {
         match (self.block_side(a), self.block_side(b)) {
             (Some((a, i, _)), Some((b, j, _))) => a == b && i != j,

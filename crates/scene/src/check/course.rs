@@ -1,4 +1,4 @@
-//! How a prescribed value develops in a stage, as far as it is known before anything is built.
+//! Course of a prescribed value in a stage, as far as it is known before anything is built.
 
 use crate::lengths::show;
 use crate::model::Motion;
@@ -7,7 +7,7 @@ use crate::model::Motion;
 /// a target written out.
 const ROUNDING: f64 = 1e-9;
 
-/// How a prescribed value develops in a stage.
+/// Course of a prescribed value in a stage.
 #[derive(Clone, Debug)]
 pub enum Course {
     /// Piecewise linear through (time since the stage began \[s\], displacement \[m\]), constant beyond.
@@ -45,7 +45,7 @@ impl Course {
         })
     }
 
-    /// Whether both courses are the same during a stage, however they are written.
+    /// True if both courses are the same during a stage, however they are written.
     pub fn agrees(&self, other: &Self, duration: f64) -> bool {
         match (self, other) {
             (Self::Known(a), Self::Known(b)) => {

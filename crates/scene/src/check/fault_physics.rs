@@ -1,4 +1,4 @@
-//! What a fault through cycles can be made of: keys that hold at interfaces and sliders would be left out without a word.
+//! Restrictions on the parts of a fault through cycles: keys that hold at interfaces and sliders would be left out without a word.
 
 use super::Checker;
 use crate::model::{Fault, Spanned};
@@ -25,7 +25,7 @@ impl Checker<'_> {
         self.tractions_at_the_start(fault);
     }
 
-    /// What a fault that opens needs.
+    /// Requirements of a fault that opens.
     fn opening_of(&mut self, fault: &Fault) {
         let Some(opening) = fault.opening.as_ref().filter(|o| *o.get_ref()) else { return };
         if self.is_antiplane() {

@@ -6,7 +6,7 @@ use crate::model::{Enforcement, EnforcementKind, Interface, LawSpec, Spanned, St
 use crate::names::SIDES;
 use crate::units::{Penalty, Penetration};
 
-/// Whether a law bonds its interface.
+/// True if a law bonds its interface.
 pub(super) fn is_tied(law: &Spanned<LawSpec>) -> bool {
     law.get_ref().kind.as_ref().is_some_and(|k| k.get_ref() == "tied")
 }
@@ -18,7 +18,7 @@ const MOST_FRICTION: f64 = 4.0;
 type Side = (String, usize, usize);
 
 impl Checker<'_> {
-    /// What faults are told of their start, interfaces find out or are told elsewhere.
+    /// Keys of the start of faults; interfaces find out or are told elsewhere.
     fn keys_of_faults(&mut self, name: &str, interface: &Interface) {
         let tractions = "loads press an interface, or the `initial_stress` of its bodies with `initial_stress = true` in the interface, which brings normal and \
                          shear tractions";
@@ -150,7 +150,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether a strength without state has a value where the interface starts.
+    /// Checks that a strength without state has a value where the interface starts.
     fn at_rest(&mut self, form: &Spanned<String>) {
         let strength = match form.get_ref().as_str() {
             "bare" => "the bare logarithm",
@@ -172,7 +172,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether two sides can be in contact: of two bodies, face to face, and not paired already.
+    /// Checks that two sides can be in contact: of two bodies, face to face, and not paired already.
     fn pairing(&mut self, name: &str, interface: &Interface, slave: &Side, master: &Side) {
         let (slave_name, master_name) = (interface.slave.get_ref(), interface.master.get_ref());
         let (place, also) = (interface.master.span(), (&interface.slave.span(), "the slave"));

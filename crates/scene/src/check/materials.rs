@@ -53,7 +53,7 @@ impl Checker<'_> {
         }
     }
 
-    /// What a material has beside its elasticity.
+    /// Properties of a material beside its elasticity.
     fn behaviour(&mut self, name: &str, material: &Material) {
         let viscous = [
             material.viscosity.as_ref().map(|v| ("viscosity", v.span())),

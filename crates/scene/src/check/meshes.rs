@@ -10,10 +10,10 @@ use crate::near::suggest;
 use crate::units::{self, Dimension, Length};
 use std::ops::Range;
 
-/// How far an edge over a size may be from a whole number, relative to it: the rounding of decimal input with room to
+/// Distance of an edge over a size from a whole number that passes, relative to it: the rounding of decimal input with room to
 /// spare, and less than any intended difference.
 const WHOLE: f64 = 1e-9;
-/// How far around the nearest number of elements a size that divides all edges is looked for.
+/// Range around the nearest number of elements in which a size that divides all edges is looked for.
 const SEARCH: usize = 1000;
 /// More elements than this are a slip of the keyboard: their stiffness alone would take 50 GB.
 const MOST_ELEMENTS: f64 = 1e8;
@@ -140,7 +140,7 @@ impl Checker<'_> {
         self.radius(fault.min.span(), std::iter::once(fault.min.get_ref()[0].0));
     }
 
-    /// What is said of a file.
+    /// Words about a file.
     fn file(
         &mut self,
         unit: Option<&Spanned<String>>,
@@ -179,7 +179,7 @@ impl Checker<'_> {
         );
     }
 
-    /// Whether a vector has one entry for each of some axes.
+    /// True if a vector has one entry for each of some axes.
     pub(super) fn count<T>(&mut self, values: &Spanned<Vec<T>>, what: &str, axes: &[usize]) -> bool {
         let (found, wanted) = (values.get_ref().len(), axes.len());
         if found != wanted {
@@ -338,7 +338,7 @@ impl Checker<'_> {
     }
 }
 
-/// Whether a number is positive and finite.
+/// True if a number is positive and finite.
 fn positive(value: f64) -> bool {
     value > 0.0 && value.is_finite()
 }

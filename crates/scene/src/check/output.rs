@@ -88,7 +88,7 @@ impl Checker<'_> {
         }
     }
 
-    /// When outputs of faults are due.
+    /// Times of outputs of faults.
     pub(super) fn cadence(&mut self) {
         let output = &self.scene.output;
         let mut amounts = Vec::new();

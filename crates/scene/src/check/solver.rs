@@ -1,4 +1,4 @@
-//! How linear systems are solved.
+//! Solution of linear systems.
 
 use super::Checker;
 use crate::model::{Method, Path, Spanned};

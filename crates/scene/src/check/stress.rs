@@ -28,7 +28,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether a list has the components of a stress.
+    /// Checks that a list has the components of a stress.
     fn components(&mut self, key: &str, place: &Range<usize>, given: usize) {
         let (short, right) = match (self.dimension(), self.is_antiplane()) {
             (_, true) => (2, "[yz, zx] or [xx, yy, zz, xy, yz, zx]"),

@@ -1,4 +1,4 @@
-//! What is wrong in a scene, found when it is read or when it is planned.
+//! Errors in a scene, found when it is read or when it is planned.
 
 mod position;
 
@@ -11,9 +11,9 @@ use std::ops::Range;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct Diagnostic {
-    /// What is wrong.
+    /// The fault.
     pub message: String,
-    /// What would be right.
+    /// Remedy.
     pub help: Option<String>,
     /// Bytes of the scene file it is about; empty when there is no file.
     pub span: Range<usize>,

@@ -117,7 +117,7 @@ pub enum LawChoice {
 }
 
 impl LawChoice {
-    /// Whether two laws differ in parameters of their points only: a, b, L and the start.
+    /// True if two laws differ in parameters of their points only: a, b, L and the start.
     #[must_use]
     pub fn same_kind(&self, other: &Self) -> bool {
         match (self, other) {

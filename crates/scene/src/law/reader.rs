@@ -24,7 +24,7 @@ pub(super) struct Reader<'a> {
     pub kind: &'static str,
     pub place: Range<usize>,
     pub errors: Vec<Diagnostic>,
-    /// Whether `b` may be negative.
+    /// True if `b` may be negative.
     pub negative_b: bool,
     pub laws: &'a Laws,
 }

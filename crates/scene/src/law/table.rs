@@ -29,7 +29,7 @@ pub struct EvolutionRow {
     pub parameters: Vec<ParameterRow>,
     /// Reason why it has one state variable, where it may not have several.
     pub one_state: Option<&'static str>,
-    /// Whether memories act on the logarithm of θ, through 1/b.
+    /// True if memories act on the logarithm of θ, through 1/b.
     pub of_logarithm: bool,
     /// Index of the parameter that is a memory of shear traction.
     pub memory: Option<usize>,
@@ -42,7 +42,7 @@ pub struct ParameterRow {
     pub key: &'static str,
     /// Admissible values.
     pub bound: Bound,
-    /// Whether it may be left out.
+    /// True if it may be left out.
     pub optional: bool,
     /// A usual value, as in scenes.
     pub example: &'static str,

@@ -71,7 +71,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// Whether the stress follows from the strain alone, linearly.
+    /// True if the stress follows from the strain alone, linearly.
     #[must_use]
     pub fn is_elastic(&self) -> bool {
         self.plasticity.is_none() && self.viscosity.is_none() && self.maxwell.is_none()
@@ -85,7 +85,7 @@ pub struct Plasticity {
     /// Initial yield stress Y0 \[Pa\]; not with a table.
     #[serde(rename = "yield")]
     pub initial: Option<Spanned<Pressure>>,
-    /// How the yield stress grows.
+    /// Hardening of the yield stress.
     pub hardening: Spanned<Hardening>,
     /// Linear: H = dY/de_p \[Pa\].
     pub modulus: Option<Spanned<Pressure>>,
@@ -126,7 +126,7 @@ pub struct Branch {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
-    /// Where its mesh comes from.
+    /// Source of its mesh.
     pub mesh: MeshSource,
     /// Heights z of layers \[m\] through which a plane mesh is drawn in a scene of three dimensions.
     pub extrude: Option<Spanned<Vec<Length>>>,
@@ -145,7 +145,7 @@ pub struct Body {
 }
 
 impl Body {
-    /// Whether large deformation is followed.
+    /// True if large deformation is followed.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.strain.as_ref().is_some_and(|s| *s.get_ref() == Strain::Finite)
@@ -260,7 +260,7 @@ pub struct CurveSpec {
     pub kind: Spanned<CurveKind>,
     /// Radius of curvature at the apex \[m\], positive where the body is convex.
     pub radius: Spanned<Length>,
-    /// Where the side touches that of the block.
+    /// Line along which the side touches that of the block.
     pub apex: Spanned<Apex>,
 }
 
@@ -318,7 +318,7 @@ pub struct FaultMesh {
     /// Vertices of the fault, from one tip to the other \[m\]; y points up.
     #[serde(deserialize_with = "exact::many")]
     pub trace: Spanned<Vec<[Length; 2]>>,
-    /// What lies between the vertices.
+    /// Course between the vertices.
     #[serde(default)]
     pub interpolation: InterpolationSpec,
     /// Sizes of cells along the fault.

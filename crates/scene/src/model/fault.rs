@@ -18,7 +18,7 @@ pub struct Fault {
     pub plus: Spanned<String>,
     /// Friction.
     pub law: Spanned<LawSpec>,
-    /// What varies along the fault.
+    /// Parameters that vary along the fault.
     #[serde(default)]
     pub profiles: Profiles,
     /// Normal traction f_n at the start \[Pa\]; absent where that of an initial stress of the bodies holds.
@@ -29,7 +29,7 @@ pub struct Fault {
     pub shear: Option<Spanned<Pressure>>,
     /// Radiation damping.
     pub damping: Option<Spanned<DampingSpec>>,
-    /// Where slip is prescribed.
+    /// Place where slip is prescribed.
     pub creep: Option<Creep>,
     /// In space: the direction of slip of plus relative to minus, of any length; what of it lies in the fault counts.
     #[serde(default, deserialize_with = "crate::exact::optional")]
@@ -38,17 +38,17 @@ pub struct Fault {
     pub slip: Option<Spanned<SlipSpec>>,
     /// Fluid that is injected and diffuses along the fault.
     pub injection: Option<Injection>,
-    /// What to do where points stand too coarsely for friction; absent: the scene is refused.
+    /// Treatment of points that stand too coarsely for friction; absent: the scene is refused.
     pub under_resolved: Option<Spanned<UnderResolved>>,
-    /// Whether slip and loads change normal tractions; absent: they do.
+    /// True if slip and loads change normal tractions; absent: they do.
     pub normal_changes: Option<Spanned<bool>>,
     /// Least normal traction that friction uses \[Pa\].
     pub normal_floor: Option<Spanned<Pressure>>,
-    /// Whether the fault opens where nothing presses it; absent: it does not.
+    /// True if the fault opens where nothing presses it; absent: it does not.
     pub opening: Option<Spanned<bool>>,
 }
 
-/// What is done with a fault whose points stand farther apart than the cohesive zone is long.
+/// Treatment of a fault whose points stand farther apart than the cohesive zone is long.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum UnderResolved {
@@ -114,7 +114,7 @@ impl<'de> Deserialize<'de> for Profiled {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Profile {
-    /// What it depends on.
+    /// Its dependence.
     pub along: Spanned<Along>,
     /// Pairs of place \[m\] and value in SI, the places ascending: linear between, constant beyond.
     #[serde(deserialize_with = "crate::exact::pairs")]
@@ -145,7 +145,7 @@ pub struct Creep {
     pub outside: Option<Spanned<Outside>>,
     /// Slip rate \[m/s\].
     pub rate: Spanned<Velocity>,
-    /// Where slip may turn: direction of the slip rate, of any length; absent: that of the fault.
+    /// Direction of the slip rate where slip may turn, of any length; absent: that of the fault.
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub rake: Option<Spanned<[f64; 3]>>,
 }
@@ -180,7 +180,7 @@ pub struct Extent {
     pub to: Option<Length>,
 }
 
-/// Where a station is.
+/// Position of a station.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Station {
     /// Distance along a plane fault from its upper end \[m\].
@@ -236,7 +236,7 @@ pub struct Injection {
     pub porosity: Spanned<f64>,
     /// Compressibility of fluid and pores \[1/Pa\].
     pub compressibility: Spanned<f64>,
-    /// When it ends \[s\]; absent: not at all.
+    /// End \[s\]; absent: none.
     pub until: Option<Spanned<Time>>,
 }
 

@@ -1,4 +1,4 @@
-//! Where and when the events of a scene are said to happen.
+//! Place and time of the events of a scene.
 
 use crate::units::{Angle, Length};
 use serde::Deserialize;

@@ -4,7 +4,7 @@ use super::Spanned;
 use crate::units::Memory;
 use serde::Deserialize;
 
-/// How the linear systems of the steps are solved.
+/// Solution of the linear systems of the steps.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Solver {

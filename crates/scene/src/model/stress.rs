@@ -17,7 +17,7 @@ pub enum InitialStress {
 }
 
 impl InitialStress {
-    /// Whether it has components in the plane.
+    /// True if it has components in the plane.
     #[must_use]
     pub fn presses(&self) -> bool {
         !matches!(self, Self::Uniform(values) if values.len() <= 2)
@@ -28,7 +28,7 @@ impl InitialStress {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct VaryingStress {
-    /// What it follows from.
+    /// Its source.
     pub kind: Spanned<StressKind>,
     /// Linear: the axis.
     pub along: Option<Spanned<Axis>>,
@@ -44,7 +44,7 @@ pub struct VaryingStress {
     pub overburden: Option<Spanned<Pressure>>,
 }
 
-/// What a stress that varies follows from.
+/// Source of a stress that varies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum StressKind {

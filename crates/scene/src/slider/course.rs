@@ -1,4 +1,4 @@
-//! How the course of a quantity over time is written: a value, a table, or a sine.
+//! Format of the course of a quantity over time: a value, a table, or a sine.
 
 use crate::entry::Entry;
 use crate::model::Spanned;

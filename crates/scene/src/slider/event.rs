@@ -1,4 +1,4 @@
-//! When events begin and end.
+//! Thresholds of events.
 
 use crate::units::Velocity;
 use serde::Deserialize;
@@ -14,6 +14,6 @@ pub struct EventSpec {
     pub below: Option<Spanned<Velocity>>,
     /// Events of the first slider after which the run ends.
     pub stop_after: Option<Spanned<usize>>,
-    /// Whether the extremes of the slip rate are found, not only seen at steps (default true).
+    /// True if the extremes of the slip rate are found, not only seen at steps (default true).
     pub peaks: Option<bool>,
 }

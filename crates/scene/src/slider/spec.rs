@@ -104,7 +104,7 @@ pub struct OutputSpec {
     pub interval: Option<Spanned<Time>>,
     /// Which sliders have histories.
     pub histories: Option<Which>,
-    /// Whether the extremes of the slip rate are found and written, where the scene has no events.
+    /// True if the extremes of the slip rate are found and written, where the scene has no events.
     pub extremes: Option<Spanned<bool>>,
 }
 

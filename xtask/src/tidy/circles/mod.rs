@@ -87,7 +87,7 @@ fn of_crate(folder: &str, modules: Vec<(&str, Module)>) -> Vec<Circle> {
     found
 }
 
-/// What can be reached from a module; itself only where it lies on a circle.
+/// Modules that can be reached from a module; itself only where it lies on a circle.
 fn reached(edges: &[BTreeSet<usize>], from: usize) -> BTreeSet<usize> {
     let mut found = BTreeSet::new();
     let mut left: Vec<usize> = edges[from].iter().copied().collect();

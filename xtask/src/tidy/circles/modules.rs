@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Module {
     /// Path; empty for the root.
     pub path: Vec<String>,
-    /// What it names.
+    /// Names.
     pub names: Names,
 }
 
@@ -53,7 +53,7 @@ impl Crate {
         found
     }
 
-    /// What a path written in a module leads to, or nothing where it leads out of the crate.
+    /// Target of a path written in a module, or nothing where it leads out of the crate.
     fn resolve(&self, from: usize, path: &[String], passes: usize) -> Option<Target> {
         let (first, rest) = path.split_first()?;
         let start = match first.as_str() {
@@ -81,7 +81,7 @@ impl Crate {
         Some(here)
     }
 
-    /// What a name means inside a module.
+    /// Meaning of a name inside a module.
     fn member(&self, module: usize, name: &str, passes: usize) -> Option<Target> {
         let passes = passes.checked_sub(1)?;
         let Module { path, names } = &self.modules[module];
@@ -113,7 +113,7 @@ impl Crate {
     }
 }
 
-/// What a path leads to.
+/// Target of a path.
 #[derive(Clone, Copy, Debug)]
 enum Target {
     /// A module.

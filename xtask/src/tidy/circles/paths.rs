@@ -1,4 +1,4 @@
-//! What a source names: what its `use` declarations bring in, and the paths in its code.
+//! Names in a source: what its `use` declarations bring in, and the paths in its code.
 
 use crate::tidy::source::mask::is_name;
 
@@ -9,11 +9,11 @@ pub struct Binding {
     pub name: Option<String>,
     /// The path it stands for.
     pub path: Vec<String>,
-    /// Whether others may use it from here: such a declaration passes a name on and is no use of it.
+    /// True if others may use it from here: such a declaration passes a name on and is no use of it.
     pub public: bool,
 }
 
-/// What a source names.
+/// Names in a source.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
     /// By `use`.

@@ -32,7 +32,7 @@ pub fn floats(code: &[char]) -> Vec<Float> {
     found
 }
 
-/// Whether the digits follow the point of a tuple field: `x.0`, but not the range `..0`.
+/// True if the digits follow the point of a tuple field: `x.0`, but not the range `..0`.
 fn is_field(code: &[char], at: usize) -> bool {
     code[at - 1] == '.' && !(at > 1 && code[at - 2] == '.')
 }

@@ -37,14 +37,14 @@ fn literal_end(text: &[char], at: usize) -> Option<usize> {
     }
 }
 
-/// Whether the character continues a name begun before, so that it is no prefix of a literal. `br"..."` counts as one.
+/// True if the character continues a name begun before, so that it is no prefix of a literal. `br"..."` counts as one.
 fn continues_name(text: &[char], at: usize) -> bool {
     let before = at.checked_sub(1).map(|i| text[i]);
     let byte_prefix = before == Some('b') && (at < 2 || !is_name(text[at - 2]));
     before.is_some_and(is_name) && !byte_prefix
 }
 
-/// Whether a character may stand in a name.
+/// True if a character may stand in a name.
 pub fn is_name(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }

@@ -22,7 +22,7 @@ const NOWHERE: [(&str, &str); 3] = [
     ("#[ignore", "an ignored test is no test"),
 ];
 
-/// What libraries that work on values never name, because it opens files, reads clocks or the environment, or prints.
+/// Names that libraries of values never use, because they open files, read clocks or the environment, or print.
 const NOT_IN_LIBRARIES: [&str; 12] = [
     "std::fs",
     "std::env",

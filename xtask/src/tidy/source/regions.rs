@@ -37,7 +37,7 @@ pub fn documented_constants(source: &str, code: &[char]) -> Vec<Range<usize>> {
     regions
 }
 
-/// Where a text begins in the code.
+/// Place where a text begins in the code.
 pub fn occurrences(code: &[char], wanted: &str) -> Vec<usize> {
     let wanted: Vec<char> = wanted.chars().collect();
     (0..code.len()).filter(|&at| code[at..].starts_with(&wanted)).collect()
@@ -48,7 +48,7 @@ pub fn line_of(code: &[char], at: usize) -> usize {
     code[..at].iter().filter(|&&c| c == '\n').count() + 1
 }
 
-/// Whether a line begins a constant or static item. `const fn` and `const` parameters are none.
+/// True if a line begins a constant or static item. `const fn` and `const` parameters are none.
 fn is_constant(line: &str) -> bool {
     let mut words = line.split_whitespace().skip_while(|word| *word == "pub" || word.starts_with("pub("));
     // `pub(in a::b)` splits at its space; no such visibility occurs without its closing word.
@@ -59,7 +59,7 @@ fn is_constant(line: &str) -> bool {
         && name.ends_with(':')
 }
 
-/// Whether the lines end with a documentation comment, attributes aside.
+/// True if the lines end with a documentation comment, attributes aside.
 fn documented(before: &[&str]) -> bool {
     let last = before.iter().rev().map(|line| line.trim()).find(|line| !line.starts_with("#["));
     last.is_some_and(|line| line.starts_with("///"))

@@ -120,7 +120,7 @@ impl<const D: usize> Finite<D> {
         true
     }
 
-    /// What the changing overlap of a cell adds to the blocks of its points that belong to the piece.
+    /// Adds the part of the changing overlap of a cell to the blocks of its points that belong to the piece.
     fn overlap_tangent(
         &self,
         c: &Cell,
@@ -165,7 +165,7 @@ impl<const D: usize> Finite<D> {
         }
     }
 
-    /// What the motion of a point's nodes at fixed weights, and the change of its averaged distance, add to its block.
+    /// Adds the motion of a point's nodes at fixed weights, and the change of its averaged distance, to its block.
     fn point_tangent(&self, p: usize, traction: &Traction<'_>, blocks: &mut Blocks<'_, D>) {
         let (point, local) = (&self.points[p], &self.locals[p]);
         let (block, slides) = blocks.of(point);

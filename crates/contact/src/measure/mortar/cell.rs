@@ -22,7 +22,7 @@ const CONVERGED: f64 = 1e-15;
 /// Pieces smaller than this share of the slave facet are rounding of coinciding edges.
 const SLIVER: f64 = 1e-15;
 
-/// What stays the same for a slave facet in all configurations.
+/// Data of a slave facet that are the same in all configurations.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frozen<'a, const D: usize> {
     pub kind: SegmentKind,
@@ -337,7 +337,7 @@ fn outline<T: Scalar, const N: usize>(kind: SegmentKind, x: &[[T; 2]; N], part: 
     out
 }
 
-/// Whether the boxes of two polygons are apart.
+/// True if the boxes of two polygons are apart.
 fn apart<T: Scalar>(a: &Polygon<T>, b: &Polygon<T>) -> bool {
     let range = |p: &Polygon<T>, i: usize| {
         p.at[..p.corners]

@@ -293,7 +293,7 @@ impl<const D: usize> Finite<D> {
 }
 
 impl<const D: usize> Finite<D> {
-    /// Whether all nodes of a pair of facets are in the blocks of its points.
+    /// True if all nodes of a pair of facets are in the blocks of its points.
     fn beside_blocks(&self, [facet, master]: &[usize; 2], points: &[Facing]) -> bool {
         let (own, other) = (&self.sides.facets[*facet], &self.sides.master[*master]);
         let mut nodes = own.nodes.iter().chain(&other.nodes);
@@ -302,7 +302,7 @@ impl<const D: usize> Finite<D> {
 }
 
 impl Point {
-    /// Whether it faces the master.
+    /// True if it faces the master.
     fn faces(&self) -> bool {
         self.area > FACED * self.whole
     }

@@ -137,7 +137,7 @@ impl Density {
     }
 }
 
-/// What is needed of a facet.
+/// Data needed of a facet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side<'a> {
     pub kind: SegmentKind,
@@ -309,7 +309,7 @@ impl<'a> Pair<'a> {
         range.map(triangle).filter(|t| t.double > self.least)
     }
 
-    /// What is known at a place in the plane.
+    /// Data known at a place in the plane.
     #[inline]
     fn point(&self, y: &[f64; 2]) -> Point {
         let (xi, inverse) = self.bilinear[0].locate(y, self.sides[0].centre());
@@ -386,7 +386,7 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// How the area of the plane at a Gauss point changes with the slave nodes in it.
+    /// Change of the area of the plane at a Gauss point with the slave nodes in it.
     #[inline]
     fn plane_slopes(&self, g: &Point) -> [[f64; 2]; NODES] {
         let p = &self.bilinear[0];

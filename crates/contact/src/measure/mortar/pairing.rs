@@ -106,7 +106,7 @@ impl<const D: usize> Finite<D> {
             .map(|&p| &self.points[p])
             .map(|p| p.nodes.iter().flat_map(|&n| dofs[n]..dofs[n] + D).collect())
             .collect();
-        self.pattern = Pattern::of_blocks(self.pattern.version + 1, blocks.iter().map(Vec::as_slice));
+        self.pattern = Pattern::of_blocks(blocks.iter().map(Vec::as_slice));
     }
 }
 

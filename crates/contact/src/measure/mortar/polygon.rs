@@ -7,7 +7,7 @@ use crate::vector::{dot, sub};
 /// Two nodes: an edge of a facet, and the line through them.
 type Line = [usize; 2];
 
-/// How a corner follows from nodes.
+/// Dependence of a corner on nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Crossing {
     /// It is one.
@@ -101,7 +101,7 @@ impl Polygon {
         })
     }
 
-    /// Whether the boxes of two polygons are apart.
+    /// True if the boxes of two polygons are apart.
     pub(super) fn apart(&self, other: &Self) -> bool {
         let range = |p: &Self, i: usize| {
             let values = p.at[..p.corners].iter().map(|c| c.at[i]);

@@ -22,7 +22,7 @@ pub(super) struct Rule {
     pub line: Vec<[f64; 2]>,
     /// On triangles: shares of the corners, and weights of sum 1/2.
     pub triangle: Vec<([f64; 3], f64)>,
-    /// Whether a polygon is a fan about its centroid. With the symmetric rule of degree 4 its integrals then depend neither on the
+    /// True if a polygon is a fan about its centroid. With the symmetric rule of degree 4 its integrals then depend neither on the
     /// corner that comes first nor on corners that rounding adds. Rules of a lower degree serve triangles, and are exact on them;
     /// those of a higher one have enough points for any fan.
     pub centred: bool,

@@ -93,7 +93,7 @@ impl<const D: usize> Sides<D> {
         Self { facets, master, beside, axisymmetric, reference, distortion, rules, boxes, tree }
     }
 
-    /// What of slave facet `f` never changes.
+    /// Constant data of slave facet `f`.
     #[inline]
     pub(super) fn frozen(&self, f: usize) -> Frozen<'_, D> {
         let facet = &self.facets[f];

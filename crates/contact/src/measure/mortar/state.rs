@@ -1,4 +1,4 @@
-//! What the mortar measure of finite sliding holds.
+//! Data of the mortar measure of finite sliding.
 
 use super::local::Local;
 use super::order::WorkOrder;
@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 pub(super) struct Point {
     /// Nodes of its block: those of the slave facets beside it, then those of the masters near it.
     pub(super) nodes: Vec<usize>,
-    /// How many of them are slaves.
+    /// Number of slaves among them.
     pub(super) slaves: usize,
     /// Rows of D and -M on these nodes.
     pub(super) weights: Vec<f64>,
@@ -20,7 +20,7 @@ pub(super) struct Point {
     pub(super) area: f64,
     /// About its area when all of its facets face the master.
     pub(super) whole: f64,
-    /// Whether `then` exists: the point faced the master at the last commit, or has met it since.
+    /// True if `then` exists: the point faced the master at the last commit, or has met it since.
     pub(super) anchored: bool,
     /// Met it since.
     pub(super) fresh: bool,
@@ -60,11 +60,11 @@ pub(super) struct Finite<const D: usize> {
     /// Points in the order of their blocks.
     pub(super) order: WorkOrder,
     pub(super) pattern: Pattern,
-    /// What the tangent adds up, by piece.
+    /// Contributions to the tangent, by piece.
     pub(super) scratch: Vec<Scratch<D>>,
-    /// What the search finds, facet by facet in pieces.
+    /// Result of the search, facet by facet in pieces.
     pub(super) found: Vec<Found>,
-    /// How long it holds.
+    /// Range in which it holds.
     pub(super) bound: Bound<D>,
 }
 
@@ -85,7 +85,7 @@ impl<const D: usize> Clone for Scratch<D> {
     }
 }
 
-/// What the search found for a piece of the slave facets.
+/// Result of the search for a piece of the slave facets.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Found {
     /// Slave and master facets.
@@ -94,6 +94,6 @@ pub(super) struct Found {
     pub(super) candidates: Vec<usize>,
     /// Pairs looked at.
     pub(super) examined: u64,
-    /// How far nodes may move before there are other pairs \[m\].
+    /// Distance that nodes may move before there are other pairs \[m\].
     pub(super) free: f64,
 }

@@ -30,7 +30,7 @@ use crate::search::smooth::MOST_SUPPORT;
 use crate::search::surface::{Surface, Weights};
 use crate::spec::{SlavePoint, SurfaceNode};
 use crate::vector::{add, axpy, dot, sub};
-use asperity_fem::term::Pattern;
+use asperity_fem::term::{Blocks, Pattern};
 
 /// The measure.
 #[derive(Clone, Debug)]
@@ -41,7 +41,7 @@ pub struct Finite<const D: usize> {
     points: Vec<Point>,
     /// Positions of all nodes at the last measurement.
     x: Vec<[f64; D]>,
-    /// What the last search proved.
+    /// Proof of the last search.
     bound: Bound<D>,
     /// Most nodes a segment depends on.
     widest: usize,
@@ -105,10 +105,10 @@ impl<const D: usize> Finite<D> {
         }
     }
 
-    /// Builds the blocks of the points' segments; the version changes with them.
+    /// Builds the blocks of the points' segments; the pattern is a new one then.
     fn build(&mut self) {
         self.nodes.clear();
-        let mut pattern = Pattern { version: self.pattern.version + 1, starts: vec![0], dofs: Vec::new() };
+        let mut blocks = Blocks::default();
         for (p, point) in self.points.iter().enumerate() {
             let from = self.nodes.len();
             if let Some((held, anchor)) = point.key {
@@ -121,14 +121,13 @@ impl<const D: usize> Finite<D> {
                         }
                     }
                 }
-                pattern.dofs.extend(self.nodes[from..].iter().flat_map(|&n| self.dofs[n]..self.dofs[n] + D));
-                pattern.starts.push(pattern.dofs.len());
+                blocks.push(self.nodes[from..].iter().flat_map(|&n| self.dofs[n]..self.dofs[n] + D));
             }
             let size = (self.nodes.len() - from) * D;
             self.starts[p + 1] = self.nodes.len();
             self.offsets[p + 1] = self.offsets[p] + size * size;
         }
-        self.pattern = pattern;
+        self.pattern = blocks.into();
     }
 
     #[inline]

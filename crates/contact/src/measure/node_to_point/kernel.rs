@@ -56,7 +56,7 @@ impl<const K: usize> Columns<K> {
     }
 }
 
-/// What friction knows of a point.
+/// State of friction at a point.
 pub(super) struct Friction<'a, const D: usize> {
     pub point: &'a ShearPoint,
     /// E_t.

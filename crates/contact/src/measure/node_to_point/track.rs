@@ -49,9 +49,9 @@ pub(super) struct Place {
 #[derive(Clone, Debug)]
 pub(super) struct Point {
     pub slave: SlavePoint,
-    /// Where the closest point lies; the segment changes in searches only.
+    /// Position of the closest point; the segment changes in searches only.
     pub place: Option<Place>,
-    /// Where it lay at the last commit.
+    /// Its position at the last commit.
     pub anchor: Option<Place>,
     /// Paired since the last commit: the anchor is where the first search of the step found the point.
     pub fresh: bool,
@@ -67,7 +67,7 @@ impl Point {
     }
 }
 
-/// What tracking a range of points gives.
+/// Result of tracking a range of points.
 #[derive(Clone, Copy)]
 struct Tracked {
     radius: f64,
@@ -171,12 +171,12 @@ impl<const D: usize> Tracker<'_, D> {
         other.filter(|(_, o)| o.distance_squared <= reach).unwrap_or((segment, found))
     }
 
-    /// How far border `k` of a segment is grown.
+    /// Growth of border `k` of a segment.
     fn margin(&self, segment: usize, k: usize) -> f64 {
         if self.surface.border_is_free(segment, k) { OVERRUN } else { HYSTERESIS }
     }
 
-    /// Whether a held segment keeps its point.
+    /// True if a held segment keeps its point.
     fn keeps(&self, place: &Place) -> bool {
         let kind = self.surface.segments()[place.segment].kind;
         let borders = if D == 2 { 2 } else { corners(kind) };
@@ -194,7 +194,7 @@ impl<const D: usize> Tracker<'_, D> {
         norm(&off) > RIM * self.surface.size(segment)
     }
 
-    /// How far every node may move while the point is certain to stay on its segment; 0 when that is not known.
+    /// Distance that every node may move while the point is certain to stay on its segment; 0 when that is not known.
     fn certain(&self, place: &Place) -> f64 {
         let form = self.surface.form(place.segment);
         if !form.straight() {

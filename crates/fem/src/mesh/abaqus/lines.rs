@@ -43,7 +43,7 @@ impl Keyword {
         self.value(key).filter(|v| !v.is_empty()).ok_or_else(|| self.syntax(self.line, expected, &self.name))
     }
 
-    /// Whether a parameter is there.
+    /// True if a parameter is there.
     pub(super) fn has(&self, key: &str) -> bool {
         self.parameters.iter().any(|(k, _)| k == key)
     }
@@ -69,7 +69,7 @@ impl Keyword {
     }
 }
 
-/// What a line is.
+/// Kind of a line.
 pub(super) enum Line<'a> {
     /// A keyword.
     Keyword(Keyword),

@@ -40,7 +40,7 @@ pub fn parse(bytes: &[u8]) -> Result<RawMesh, MeshError> {
     reader.finish()
 }
 
-/// What the data lines after a keyword mean.
+/// Meaning of the data lines after a keyword.
 #[derive(Clone, Debug)]
 enum Data {
     Skipped,

@@ -1,4 +1,4 @@
-//! What a mesh must be before anybody computes on it.
+//! Requirements on a mesh before anybody computes on it.
 
 mod jacobian;
 mod near;

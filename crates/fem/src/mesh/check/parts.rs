@@ -50,7 +50,7 @@ impl Roots {
     }
 }
 
-/// What two parts have in common: pairs of coincident nodes, and those of them off the named faces of the lower and the
+/// Common nodes of two parts: pairs of coincident nodes, and those of them off the named faces of the lower and the
 /// upper part (numbered by their roots).
 #[derive(Default)]
 struct Common {
@@ -135,7 +135,7 @@ fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
 }
 
 /// Most nodes at one place with which a node is paired: in a mesh of cells that are all parts by themselves some dozens meet.
-/// Where more do, cells lie on top of each other, and to find that some hang free takes no further ones.
+/// Number of coincident nodes beyond which cells lie on top of each other, and no further ones are needed to find that some hang free.
 const MOST_PARTNERS: usize = 64;
 
 /// Visits every pair of coincident nodes once. Nodes are sorted into boxes a little wider than the greatest tolerance, so that

@@ -1,4 +1,4 @@
-//! What a fault mesh asks of its input.
+//! Requirements of a fault mesh on its input.
 
 use super::{FaultMesh, FaultMeshError};
 use crate::element::ElementKind;

@@ -29,12 +29,12 @@ pub(super) struct Curve {
     lengths: Vec<f64>,
 }
 
-/// How far a curve departs from straight lines between its vertices.
+/// Departure of a curve from straight lines between its vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Departure {
     /// Largest distance \[m\].
     pub distance: f64,
-    /// Where \[m\].
+    /// Position \[m\].
     pub at: [f64; 2],
 }
 
@@ -114,7 +114,7 @@ impl Curve {
             .collect()
     }
 
-    /// Where it is farthest from the lines between its vertices.
+    /// Place where it is farthest from the lines between its vertices.
     pub(super) fn departure(&self) -> Departure {
         let mut most = Departure { distance: 0.0, at: self.points[0] };
         for (k, w) in self.points.windows(2).enumerate() {
@@ -133,7 +133,7 @@ impl Curve {
     }
 }
 
-/// Whether no vertex turns.
+/// True if no vertex turns.
 fn straight(points: &[[f64; 2]]) -> bool {
     points.windows(3).all(|w| {
         let (a, b) = ([w[1][0] - w[0][0], w[1][1] - w[0][1]], [w[2][0] - w[1][0], w[2][1] - w[1][1]]);

@@ -1,9 +1,9 @@
-//! Why a fault mesh cannot be made.
+//! Reason why a fault mesh cannot be made.
 
 use crate::mesh::spacing::SpacingError;
 use crate::mesh::split::SplitError;
 
-/// Why a mesh around a fault cannot be made. Vertices and segments are numbered from 0 in the order of the trace.
+/// Reason why a mesh around a fault cannot be made. Vertices and segments are numbered from 0 in the order of the trace.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FaultMeshError {
     /// Fewer than two vertices, or one that is no number.
@@ -68,7 +68,7 @@ pub enum FaultMeshError {
          Add vertices where the trace bends, or join them by straight lines", .at[0], .at[1]
     )]
     Curve {
-        /// Where \[m\].
+        /// Position \[m\].
         at: [f64; 2],
         /// Between which vertices.
         segment: usize,
@@ -80,7 +80,7 @@ pub enum FaultMeshError {
         name: &'static str,
         /// Given.
         value: f64,
-        /// What would be right.
+        /// Remedy.
         admissible: &'static str,
     },
     /// Sizes that do not fit.

@@ -93,7 +93,7 @@ impl FaultMesh {
         if self.interpolation == Interpolation::Polyline { None } else { Curve::through(trace) }
     }
 
-    /// How far the fault departs from straight lines between its vertices; none where it does not.
+    /// Departure of the fault from straight lines between its vertices; none where there is none.
     ///
     /// # Errors
     /// See [`FaultMeshError`].

@@ -1,4 +1,4 @@
-//! What a mesh with a fault is made from.
+//! Input of a mesh with a fault.
 
 use crate::element::ElementKind;
 use crate::mesh::spacing::Spacing;
@@ -19,7 +19,7 @@ pub struct FaultMesh {
     /// Vertices of the fault, from one tip to the other \[m\]; y points up. A tip on the bottom or top of the box reaches
     /// the boundary and opens there; others stay closed.
     pub trace: Vec<[f64; 2]>,
-    /// What lies between them.
+    /// Course between them.
     pub interpolation: Interpolation,
     /// Sizes along the fault.
     pub spacing: Spacing,

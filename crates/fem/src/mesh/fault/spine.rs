@@ -16,7 +16,7 @@ pub(super) struct Spine {
     integrals: Vec<f64>,
 }
 
-/// Where the decay may at most take the spine, in parts of the room there is between a tip and the side of the box.
+/// Largest reach of the spine by the decay, in parts of the room there is between a tip and the side of the box.
 const ROOM: f64 = 0.5;
 
 impl Spine {

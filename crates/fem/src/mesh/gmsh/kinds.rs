@@ -13,7 +13,7 @@ pub(super) fn shape(kind: i64) -> Option<Shape> {
     }
 }
 
-/// What a type is called, for those that are not read.
+/// Names of types that are not read.
 pub(super) fn name(kind: i64) -> String {
     let name = match kind {
         7 => "pyramid of 5 nodes",

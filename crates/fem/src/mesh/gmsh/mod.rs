@@ -18,7 +18,7 @@ type Names = BTreeMap<(usize, i64), String>;
 
 /// Reads a file.
 ///
-/// What is allocated is bounded by the size of the file: a number in a header never makes more than the bytes that follow
+/// Allocation is bounded by the size of the file: a number in a header never makes more than the bytes that follow
 /// could hold.
 ///
 /// # Errors

@@ -2,7 +2,7 @@
 
 use crate::mesh::error::{MeshError, Place};
 
-/// How numbers are written.
+/// Format of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Coding {
     /// Text.

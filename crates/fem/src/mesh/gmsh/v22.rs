@@ -17,7 +17,7 @@ struct Elements {
     nodes: Vec<u64>,
 }
 
-/// What has been read.
+/// Data read so far.
 #[derive(Default)]
 pub(super) struct Reader {
     nodes: Option<Vec<RawNode>>,

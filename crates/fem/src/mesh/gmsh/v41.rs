@@ -19,7 +19,7 @@ struct Block {
     block: RawBlock,
 }
 
-/// What has been read.
+/// Data read so far.
 #[derive(Default)]
 pub(super) struct Reader {
     /// Physical groups of the entities that have any.

@@ -1,4 +1,4 @@
-//! What a mesh file says, before it is a mesh: nodes, elements of every dimension and groups, by the numbers of the file.
+//! Content of a mesh file, before it is a mesh: nodes, elements of every dimension and groups, by the numbers of the file.
 
 mod build;
 mod groups;
@@ -64,7 +64,7 @@ pub struct RawSide {
     pub corners: Vec<u64>,
 }
 
-/// What a mesh file says. Nothing of it is checked but the grammar.
+/// Content of a mesh file. Nothing of it is checked but the grammar.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RawMesh {
     /// Nodes in the order of the file.
@@ -77,7 +77,7 @@ pub struct RawMesh {
     pub surfaces: BTreeMap<String, Vec<RawSide>>,
     /// Named nodes.
     pub node_sets: BTreeMap<String, Vec<u64>>,
-    /// Whether an element in several groups is written once for each of them, under other numbers.
+    /// True if an element in several groups is written once for each of them, under other numbers.
     pub repeats: bool,
 }
 

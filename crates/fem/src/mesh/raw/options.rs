@@ -1,4 +1,4 @@
-//! What the reader of a mesh file is told beside the file.
+//! Options of the reader of a mesh file.
 
 use crate::mesh::MeshError;
 use std::collections::BTreeMap;
@@ -18,7 +18,7 @@ impl From<i64> for GroupTag {
     }
 }
 
-/// How to make a mesh of what a file says.
+/// Options for a mesh made of the content of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Length of the file's unit \[m\]: 1000 for a mesh in kilometres.
@@ -27,7 +27,7 @@ pub struct Options {
     pub tags: BTreeMap<String, GroupTag>,
     /// Groups that must exist, of cells, faces or nodes.
     pub required: Vec<String>,
-    /// Whether a part may lie against another without being tied to it and without a named face there. Without this such
+    /// True if a part may lie against another without being tied to it and without a named face there. Without this such
     /// a part is an error ([`MeshError::FreePart`]).
     pub allow_free_parts: bool,
 }

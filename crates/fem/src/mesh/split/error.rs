@@ -1,6 +1,6 @@
-//! Why a mesh cannot be split.
+//! Reason why a mesh cannot be split.
 
-/// Why a mesh cannot be split along a surface. Faces are numbered from 0 in the list of their surface.
+/// Reason why a mesh cannot be split along a surface. Faces are numbered from 0 in the list of their surface.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SplitError {
     /// No faces.
@@ -14,7 +14,7 @@ pub enum SplitError {
     UnknownSet {
         /// Asked for.
         name: String,
-        /// What there is.
+        /// Value found.
         existing: Vec<String>,
     },
     /// A side set that exists already.

@@ -18,7 +18,7 @@ impl Copies {
     }
 }
 
-/// Whether some node of the face gets different copies on its two sides.
+/// True if some node of the face gets different copies on its two sides.
 pub(super) fn opens(copies: &Copies, face: &InnerFace) -> bool {
     face.nodes[0].iter().any(|&n| copies.of(n, &face.sides[0]) != copies.of(n, &face.sides[1]))
 }

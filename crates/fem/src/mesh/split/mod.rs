@@ -35,7 +35,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// Whether it is a tip: one node, which both sides share.
+    /// True if it is a tip: one node, which both sides share.
     #[must_use]
     pub fn is_tip(&self) -> bool {
         self.minus == self.plus

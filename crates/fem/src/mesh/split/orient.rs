@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// Cosine below which a direction is taken to lie in the surface: three degrees, less than anybody means by "across".
 const CROSSES: f64 = 0.05;
 
-/// What two faces share: a node in the plane, an edge in space.
+/// Common part of two faces: a node in the plane, an edge in space.
 type Ridge = [usize; 2];
 
 /// Faces at each ridge, with the direction in which they pass it.

@@ -1,4 +1,4 @@
-//! What a mesh is split along.
+//! Surface that a mesh is split along.
 
 use super::error::SplitError;
 use crate::mesh::{Mesh, face_nodes};

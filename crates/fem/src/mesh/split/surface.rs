@@ -16,12 +16,12 @@ pub(super) struct InnerFace {
     pub sides: [Side; 2],
     /// Nodes of these faces as numbered before splitting, in the order of each cell.
     pub nodes: [Vec<usize>; 2],
-    /// Whether the path along the fault passes the face from its second end to its first (plane only).
+    /// True if the path along the fault passes the face from its second end to its first (plane only).
     pub backwards: bool,
 }
 
 impl InnerFace {
-    /// Where a node of old number `old` stands on a side.
+    /// New number of a node of old number `old` on a side.
     pub(super) fn place(&self, side: usize, old: usize) -> usize {
         self.nodes[side].iter().position(|&n| n == old).unwrap_or(0)
     }
@@ -178,7 +178,7 @@ fn inner<const D: usize>(
     Ok(inner)
 }
 
-/// Whether two lists of the same corners run the same way round.
+/// True if two lists of the same corners run the same way round.
 fn same_direction(a: &[usize], b: &[usize]) -> bool {
     let n = a.len();
     let Some(shift) = b.iter().position(|&node| node == a[0]) else { return false };

@@ -1,4 +1,4 @@
-//! What the tests of nonlinear blocks share: small meshes, noise, Taylor remainders, a dense Newton iteration.
+//! Tools common to the tests of nonlinear blocks: small meshes, noise, Taylor remainders, a dense Newton iteration.
 
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};

@@ -56,7 +56,7 @@ pub fn face_measure<const D: usize>(mesh: &Mesh<D>, sides: &[Side]) -> f64 {
         .sum()
 }
 
-/// Whether the mid-nodes of all straight-sided cells lie where the reference element has them: at the mean of corners.
+/// Asserts that the mid-nodes of all straight-sided cells lie where the reference element has them: at the mean of corners.
 pub fn nodes_lie_where_the_element_has_them<const D: usize>(mesh: &Mesh<D>) {
     for block in &mesh.blocks {
         let corners = match block.kind.name() {
