@@ -1,10 +1,10 @@
-//! Static condensation of a linear body onto the degrees of freedom it shares with others.
+//! Static condensation of a linear body onto the degrees of freedom that it shares with others.
 //!
-//! With interior b, retained i and prescribed d, `K_bb u_b + K_bi u_i + K_bd u_d = f_b` gives
-//! `r_i = S u_i + h`, `S = K_ii - K_ib K_bb⁻¹ K_bi`, `h = K_ib K_bb⁻¹ (f_b - K_bd u_d) + K_id u_d - f_i`.
-//! The retained equations come last in the elimination, which stops before them: what is left there is S, without solving
-//! for any column of it. Loads are linear in the channel amplitudes, so `h = Σ_c α_c(t) h_c` with half a solve per channel.
-//! A stepper cannot tell a [`Condensed`] body from any other term; interior displacements are recovered only when asked for.
+//! With interior b, retained i and prescribed d, `K_bb u_b + K_bi u_i + K_bd u_d = f_b` gives `r_i = S u_i + h`, `S = K_ii -
+//! K_ib K_bb⁻¹ K_bi`, `h = K_ib K_bb⁻¹ (f_b - K_bd u_d) + K_id u_d - f_i`. The retained equations come last in the elimination,
+//! which stops before them: the remaining matrix is S, obtained without solving for any of its columns. Loads are linear in the
+//! channel amplitudes, so `h = Σ_c α_c(t) h_c` with half a solve per channel. A stepper cannot distinguish a [`Condensed`] body
+//! from any other term; interior displacements are recovered only on request.
 
 mod loaded;
 
@@ -30,7 +30,7 @@ pub struct Stiffness {
     pub dofs: usize,
 }
 
-/// Cost of a condensation, known before any number is computed. Holds the assembled stiffness.
+/// A condensation whose costs are known before any number is computed. It holds the assembled stiffness.
 #[derive(Debug)]
 pub struct Condensation<'a> {
     body: &'a Stiffness,
@@ -38,7 +38,7 @@ pub struct Condensation<'a> {
     matrix: ScatterMap,
 }
 
-/// The analysis of a condensation: which equations there are and in what order they are eliminated. Needs no values.
+/// The analysis of a condensation: its equations and the order of their elimination. It needs no values.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     /// Numbering of the degrees of freedom that are not fixed: interior and retained.
@@ -52,11 +52,11 @@ pub struct Analysis {
 
 impl Analysis {
     /// Orders and analyses a body of `dofs` degrees of freedom for condensation onto `retained` (sorted). `fixed` (sorted) are
-    /// its prescribed degrees of freedom; those that are retained as well stay in the reduced system, where the stepper
-    /// prescribes them.
+    /// its prescribed degrees of freedom; those that are also retained stay in the reduced system, where the stepper prescribes
+    /// them.
     ///
     /// # Errors
-    /// [`FemError::Direct`] when the pattern cannot be ordered.
+    /// [`FemError::Direct`] if the pattern cannot be ordered.
     pub fn new(
         patterns: &[&Pattern],
         dofs: usize,
@@ -71,7 +71,7 @@ impl Analysis {
         Ok(Self { active, retained: retained.to_vec(), fixed, symbolic })
     }
 
-    /// Memory of the condensation at its worst moment \[bytes\].
+    /// Peak memory of the condensation \[bytes\].
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.symbolic.bytes() + self.retained.len().pow(2) * size_of::<f64>()
@@ -79,7 +79,7 @@ impl Analysis {
 }
 
 impl<'a> Condensation<'a> {
-    /// [`Analysis::new`] of `body`, and its matrix.
+    /// [`Analysis::new`] of `body`, with its matrix.
     ///
     /// # Errors
     /// As [`Analysis::new`].
@@ -95,7 +95,7 @@ impl<'a> Condensation<'a> {
         Self { body, analysis, matrix }
     }
 
-    /// Memory of the condensation at its worst moment \[bytes\].
+    /// Peak memory of the condensation \[bytes\].
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.analysis.bytes()
@@ -110,8 +110,8 @@ impl<'a> Condensation<'a> {
     /// Factors the interior.
     ///
     /// # Errors
-    /// [`FemError::Direct`] when more than `allowed` bytes are needed, or with the degree of freedom (in body numbering)
-    /// where the interior is not held by the retained and fixed ones.
+    /// [`FemError::Direct`] if more than `allowed` bytes are needed. Also with the degree of freedom (in body numbering) where
+    /// the interior is not held by the retained and fixed ones.
     pub fn factor(self, allowed: usize) -> Result<Reduction, FemError> {
         let needed = self.bytes();
         if needed > allowed {
@@ -127,10 +127,10 @@ impl<'a> Condensation<'a> {
     }
 }
 
-/// Entries (row, column, value) coupling two groups of degrees of freedom, each in its group's numbering.
+/// Entries (row, column, value) that couple two groups of degrees of freedom, each in its group's numbering.
 type Coupling = Vec<(usize, usize, f64)>;
 
-/// A factored body: everything that depends on which degrees of freedom are retained and fixed, but not on loads.
+/// A factored body: everything that depends on the choice of retained and fixed degrees of freedom, but not on loads.
 #[derive(Debug)]
 pub struct Reduction {
     active: Equations,
@@ -145,11 +145,10 @@ pub struct Reduction {
 }
 
 impl Reduction {
-    /// Condenses `body` onto `retained` (sorted) with `fixed` (sorted), whatever memory it takes: see
-    /// [`Condensation::analyse`].
+    /// Condenses `body` onto `retained` (sorted) with `fixed` (sorted), without a memory limit: see [`Condensation::analyse`].
     ///
     /// # Errors
-    /// [`FemError::Direct`] when the interior is not held by the retained and fixed degrees of freedom.
+    /// [`FemError::Direct`] if the interior is not held by the retained and fixed degrees of freedom.
     pub fn new(body: &Stiffness, retained: &[usize], fixed: &[usize]) -> Result<Self, FemError> {
         Condensation::analyse(body, retained, fixed)?.factor(usize::MAX)
     }
@@ -160,7 +159,7 @@ impl Reduction {
         &self.retained
     }
 
-    /// `S`, row by row; rows and columns as [`Reduction::retained`].
+    /// `S`, row by row; rows and columns are those of [`Reduction::retained`].
     #[must_use]
     pub fn schur(&self) -> &[f64] {
         &self.schur
@@ -172,8 +171,8 @@ impl Reduction {
         self.solves
     }
 
-    /// A channel at unit amplitude in the active equations: `f - K_·d u_d`, its interior part forwards through the factor
-    /// (`L⁻¹ (f_b - K_bd u_d)`), its retained part `-h_c`.
+    /// A channel at unit amplitude in the active equations, `f - K_·d u_d`. Its interior part is forward-substituted through
+    /// the factor (`L⁻¹ (f_b - K_bd u_d)`), and its retained part is `-h_c`.
     fn reduced(&mut self, channel: &Channel) -> Vec<f64> {
         let mut load = load(channel, &self.active, &self.fixed, &self.fixed_columns);
         let n = load.len();
@@ -187,7 +186,7 @@ impl Reduction {
 #[derive(Debug)]
 struct Load {
     amplitude: Table,
-    /// Values at unit amplitude of the fixed degrees of freedom.
+    /// Values of the fixed degrees of freedom at unit amplitude.
     fixed: Vec<f64>,
     /// See [`Reduction::reduced`].
     reduced: Vec<f64>,
@@ -216,7 +215,7 @@ impl Condensed {
         Self { name, reduction, loads: Vec::new(), pattern, local }
     }
 
-    /// Sets the loads, given in body numbering; half a solve each.
+    /// Sets the loads, given in body numbering; each takes half a solve.
     pub fn set_channels(&mut self, channels: Vec<Channel>) {
         let mut load = |channel: Channel| {
             let reduced = self.reduction.reduced(&channel);
@@ -227,14 +226,14 @@ impl Condensed {
         self.loads = channels.into_iter().map(&mut load).collect();
     }
 
-    /// The reduction behind the term.
+    /// The reduction on which the term is based.
     #[must_use]
     pub fn reduction(&self) -> &Reduction {
         &self.reduction
     }
 
-    /// Amplitude and retained part h_c of each channel: the forces on the retained degrees of freedom, beside `S u`, are
-    /// `Σ_c α_c(t) h_c`.
+    /// Amplitude and retained part h_c of each channel: the forces on the retained degrees of freedom, in addition to `S u`,
+    /// are `Σ_c α_c(t) h_c`.
     pub fn channels(&self) -> impl Iterator<Item = (&Table, &[f64])> {
         self.loads.iter().map(|load| (&load.amplitude, load.retained.as_slice()))
     }
@@ -323,7 +322,7 @@ fn not_retained(fixed: &[usize], retained: &[usize]) -> Vec<usize> {
     fixed.iter().copied().filter(|d| retained.binary_search(d).is_err()).collect()
 }
 
-/// Values of a channel at unit amplitude of the degrees of freedom `fixed`.
+/// Values of the degrees of freedom `fixed` in a channel at unit amplitude.
 fn fixed_values(channel: &Channel, fixed: &[usize]) -> Vec<f64> {
     let mut values = vec![0.0; fixed.len()];
     for &(dof, value) in &channel.prescribed {

@@ -2,7 +2,7 @@
 
 use crate::table::Table;
 
-/// One loading channel: at time t it contributes `amplitude(t)` times its patterns.
+/// A loading channel: at time t it contributes `amplitude(t)` times its patterns.
 #[derive(Clone, Debug)]
 pub struct Channel {
     /// Prescribed displacements: degree of freedom and value at unit amplitude \[m\].
@@ -23,7 +23,7 @@ pub struct Constraints {
 }
 
 impl Constraints {
-    /// Writes the prescribed displacements at `time` into `u`: the sum over channels at each fixed degree of freedom.
+    /// Writes the prescribed displacements at `time` into `u`: the sum over the channels at each fixed degree of freedom.
     pub fn impose(&self, time: f64, u: &mut [f64]) {
         for &dof in &self.fixed {
             u[dof] = 0.0;
@@ -36,7 +36,7 @@ impl Constraints {
         }
     }
 
-    /// Numbers the degrees of freedom that are not fixed: `None` where fixed.
+    /// Numbers the degrees of freedom that are not fixed.
     #[must_use]
     pub fn equations(&self, dofs: usize) -> Equations {
         let mut number = vec![0_usize; dofs];

@@ -10,10 +10,10 @@ pub enum FemError {
         name: &'static str,
         /// Given value.
         value: f64,
-        /// Remedy.
+        /// Admissible values.
         admissible: &'static str,
     },
-    /// An element turned inside out or without volume.
+    /// An element that is inverted or without volume.
     #[error(
         "cell {cell} of block {block} has the Jacobian determinant {determinant:e} (it must be positive)"
     )]
@@ -25,7 +25,7 @@ pub enum FemError {
         /// Determinant \[m^D\].
         determinant: f64,
     },
-    /// Threads that the system does not give.
+    /// Threads that the system does not provide.
     #[error("threads for the elimination cannot be had: {0}")]
     Threads(String),
     /// An element that does not exist.
@@ -34,7 +34,7 @@ pub enum FemError {
          hex8, hex20, hex27, wedge6, wedge15 (3d)"
     )]
     UnknownElement(String),
-    /// An element of the other dimension.
+    /// An element of a different dimension from the mesh.
     #[error("element {element} is not {dimension}-dimensional")]
     Dimension {
         /// Element.
@@ -42,7 +42,7 @@ pub enum FemError {
         /// Dimension of the mesh.
         dimension: usize,
     },
-    /// An idealisation that does not serve here.
+    /// An idealisation that is unsuitable.
     #[error("{idealisation}: {reason}")]
     Idealisation {
         /// Idealisation.
@@ -55,9 +55,9 @@ pub enum FemError {
     Components {
         /// Idealisation.
         idealisation: &'static str,
-        /// Components it has.
+        /// Expected number of components.
         expected: usize,
-        /// Components given.
+        /// Given number of components.
         given: usize,
     },
     /// A node on the wrong side of the axis of revolution.
@@ -68,12 +68,12 @@ pub enum FemError {
         /// Its x \[m\].
         radius: f64,
     },
-    /// A formulation that does not serve an element.
+    /// A formulation that is unsuitable for an element.
     #[error("B-bar for {element}: {reason}")]
     Formulation {
         /// Element.
         element: &'static str,
-        /// Reason, and what to take instead.
+        /// Reason, and the formulation to use instead.
         reason: &'static str,
     },
     /// Faces whose shape functions have integrals that are zero or negative.
@@ -85,7 +85,7 @@ pub enum FemError {
         /// Element.
         element: &'static str,
     },
-    /// A generator's block that is no block.
+    /// A generator block that is invalid.
     #[error("the block is empty along axis {axis}: from {min} m to {max} m in {divisions} elements")]
     Block {
         /// Axis.
@@ -94,17 +94,17 @@ pub enum FemError {
         min: f64,
         /// Upper end.
         max: f64,
-        /// Elements.
+        /// Number of elements.
         divisions: usize,
     },
-    /// A size that does not divide a length.
+    /// A size that does not divide a length evenly.
     #[error("the size {size} m does not divide the length {length} m; {suggestion} m does")]
     Size {
         /// Given size.
         size: f64,
         /// Length.
         length: f64,
-        /// Nearest size that divides.
+        /// Nearest size that divides evenly.
         suggestion: f64,
     },
     /// A ratio of sizes that is not positive.
@@ -120,7 +120,7 @@ pub enum FemError {
         /// Number of the line, from 0.
         index: usize,
     },
-    /// A side that cannot be curved so.
+    /// A side that cannot be curved in the requested way.
     #[error("curved side `{side}`: {reason}")]
     Curve {
         /// Side.
@@ -140,7 +140,7 @@ pub enum FemError {
     Unheld {
         /// Singular, or not positive definite.
         singular: bool,
-        /// Place where it was found.
+        /// Pivot at which this was found.
         pivot: crate::multifrontal::Pivot,
     },
     /// The iterative solver gave up.
@@ -153,7 +153,7 @@ pub enum FemError {
 
 impl FemError {
     /// The pivot of a matrix that could not be factored. Its `equation` is a degree of freedom in [`FemError::Unheld`] and in
-    /// errors of a condensation (there of the body).
+    /// errors of a condensation (there, of the body).
     #[must_use]
     pub fn pivot(&self) -> Option<crate::multifrontal::Pivot> {
         match self {
@@ -163,7 +163,7 @@ impl FemError {
         }
     }
 
-    /// True if it says that a matrix is singular, a motion free, rather than that its energy is negative.
+    /// True if the error reports a singular matrix, that is a free motion, rather than negative energy.
     #[must_use]
     pub fn is_singular(&self) -> bool {
         match self {

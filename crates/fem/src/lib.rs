@@ -1,6 +1,6 @@
-//! Finite-element bodies: meshes, elements, materials, assembly, condensation, and the seam terms stand on.
+//! Finite-element bodies: meshes, elements, materials, assembly, condensation, and the interface of terms.
 //!
-//! The crate works on values: it opens no file, reads no clock, prints nothing, and knows neither contact nor friction.
+//! The crate works on values: it opens no file, reads no clock, prints nothing, and contains neither contact nor friction.
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod assembly;

@@ -11,7 +11,7 @@ pub struct ExternalForces {
 }
 
 impl ExternalForces {
-    /// Forces at unit amplitude with their amplitudes.
+    /// Forces at unit amplitude, with their amplitudes.
     #[must_use]
     pub fn new(channels: Vec<(Vec<(usize, f64)>, Table)>) -> Self {
         Self { channels, pattern: Pattern::default() }

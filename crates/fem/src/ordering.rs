@@ -1,11 +1,10 @@
 //! Fill-reducing orderings of symmetric patterns.
 //!
-//! Equations with the same neighbours (the degrees of freedom of a node) are collapsed into one vertex first: the same
-//! quality of ordering at a fraction of the time, and the symbolic analysis works on vertices too.
+//! Equations with the same neighbours (the degrees of freedom of a node) are first collapsed into one vertex. The ordering has
+//! the same quality in a fraction of the time, and the symbolic analysis works on vertices too.
 //!
-//! Minimum degree is local and quick; nested dissection cuts the graph by small separators and pays off when separators
-//! are large, that is in three dimensions. [`Ordering::Automatic`] asks what minimum degree would cost, see
-//! [`DISSECTION_PAYS`].
+//! Minimum degree is local and fast. Nested dissection cuts the graph by small separators and pays off if separators are large,
+//! that is in three dimensions. [`Ordering::Automatic`] evaluates the cost of minimum degree, see [`DISSECTION_PAYS`].
 
 use crate::multifrontal::DirectError;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -28,11 +27,11 @@ pub enum Ordering {
 }
 
 /// Floating-point operations of the factorisation per edge of the vertex graph above which nested dissection is tried.
-/// Dissection takes about 0.5 us per edge, in which the factorisation performs 2e4 operations, and saves at best three
-/// quarters of them. These are estimates; checked only in that meshes of quad4 stay below and those of hex8 lie above.
+/// Dissection takes about 0.5 us per edge, in which the factorisation performs 2e4 operations, and saves at best three quarters
+/// of them. These are estimates; the only check is that meshes of quad4 stay below and those of hex8 lie above.
 pub const DISSECTION_PAYS: f64 = 2.5e4;
 
-/// By how much the parts that a separator leaves may differ from equal ones. Cubes of hex8, four seeds each, mean operations
+/// Relative difference in size allowed between the parts left by a separator. Cubes of hex8, four seeds each, mean operations
 /// of the factorisation in 1e9 (57k and 160k equations): 0.2 (METIS) 71 and 624, 0.1 64 and 581, 0.05 65 and 591, 0.02 64 and
 /// 551; the spread of seeds is 7 %, with 0.2 it is 14 %.
 const IMBALANCE: f64 = 0.02;
@@ -84,7 +83,7 @@ impl Graph {
         Self { starts, neighbours }
     }
 
-    /// The subgraph of the vertices `number` gives a number to (`NONE` elsewhere); `n` of them, in the same order.
+    /// The subgraph of the `n` vertices numbered by `number` (`NONE` elsewhere), in the same order.
     fn induced(&self, number: &[usize], n: usize) -> Self {
         let mut graph = Self { starts: Vec::with_capacity(n + 1), neighbours: Vec::new() };
         graph.starts.push(0);
@@ -121,8 +120,8 @@ fn below<'a>(pattern: SymbolicSparseColMatRef<'a, usize>, col: usize) -> &'a [us
 
 /// Collapses runs of equations with equal closed neighbourhoods and equal `class`. `pattern` is a lower triangle.
 ///
-/// Equations v and v+1 are alike when v couples to v+1, the rows below are the same, and every column before v holds both
-/// or neither: counted in one pass over the pattern.
+/// Equations v and v+1 are equivalent if v couples to v+1, the rows below are the same, and every column before v holds both or
+/// neither: counted in one pass over the pattern.
 pub(crate) fn compress(pattern: SymbolicSparseColMatRef<'_, usize>, class: &[bool]) -> Compressed {
     let n = pattern.ncols();
     let mut above = vec![0_u32; n];
@@ -150,7 +149,7 @@ pub(crate) fn compress(pattern: SymbolicSparseColMatRef<'_, usize>, class: &[boo
     }
     let visit = |f: &mut dyn FnMut(usize, usize)| {
         for (k, range) in first.windows(2).enumerate() {
-            // Rows come by vertices as well: the first equation of each stands for all.
+            // Rows are also grouped by vertices: the first equation of each represents all.
             for &row in below(pattern, range[0]).iter().filter(|&&r| first[vertex[r]] == r) {
                 if vertex[row] != k {
                     f(vertex[row], k);
@@ -162,11 +161,11 @@ pub(crate) fn compress(pattern: SymbolicSparseColMatRef<'_, usize>, class: &[boo
     Compressed { first, graph }
 }
 
-/// Orders the vertices: position -> vertex. Those marked in `last` come last, in their own order; the others are ordered by
+/// Orders the vertices: position -> vertex. Those marked in `last` come last, in their order; the others are ordered by
 /// `method` without regard to them. `operations` gives the cost of an order.
 ///
 /// # Errors
-/// [`DirectError::Ordering`] when the graph is beyond the ordering's integers.
+/// [`DirectError::Ordering`] if the graph exceeds the ordering's integers.
 pub(crate) fn order(
     graph: &Graph,
     last: &[bool],

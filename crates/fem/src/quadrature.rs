@@ -2,7 +2,7 @@
 
 use crate::element::Point;
 
-/// Product Gauss rule with `n` (1 to 5) points an axis on [-1, 1]^dimension: degree 2n - 1 in each variable.
+/// Product Gauss rule with `n` (1 to 5) points per axis on [-1, 1]^dimension: degree 2n - 1 in each variable.
 ///
 /// # Panics
 /// For other `n`.
@@ -112,7 +112,7 @@ pub fn tetrahedron_14() -> Vec<Point> {
     points
 }
 
-/// From [-1, 1] to [0, 1].
+/// Maps [-1, 1] to [0, 1].
 fn half(x: f64) -> f64 {
     0.5 * (1.0 + x)
 }

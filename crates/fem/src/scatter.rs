@@ -1,8 +1,7 @@
 //! Sums of scattered contributions in parallel, with the same bits for any number of threads and without atomics.
 //!
-//! The map is kept the other way round: for every entry of the result the list of what it sums, in the order of the cells.
-//! Entries are then independent of each other. Nothing is written twice, and the list takes four bytes for each
-//! contribution.
+//! The map is stored in inverse form: for every entry of the result, the list of its contributions, in the order of the cells.
+//! Entries are then independent of each other. Nothing is written twice, and the list takes four bytes per contribution.
 
 use crate::term::Pattern;
 use rayon::prelude::*;
@@ -18,7 +17,7 @@ const CELLS: usize = 256;
 pub struct Gather {
     /// Entries of the result with contributions, ascending.
     entries: Vec<u32>,
-    /// First contribution of each of them; one more than there are entries.
+    /// First contribution of each of them; one element more than the number of entries.
     starts: Vec<u32>,
     /// Contributions, ascending for each entry.
     sources: Vec<u32>,
@@ -30,7 +29,8 @@ fn index(k: usize) -> u32 {
 }
 
 impl Gather {
-    /// The inverse of `places`: where each value goes, in a result of `length` entries. Values placed beyond it go nowhere.
+    /// The inverse of `places`, the destinations of the values in a result of `length` entries. Values placed beyond it are
+    /// dropped.
     #[must_use]
     pub fn new(places: &[usize], length: usize) -> Self {
         let mut count = vec![0_u32; length + 1];
@@ -86,13 +86,13 @@ pub struct CellForces {
 }
 
 impl CellForces {
-    /// For the cells of `pattern` in a system of `dofs` degrees of freedom.
+    /// Forces for the cells of `pattern` in a system of `dofs` degrees of freedom.
     #[must_use]
     pub fn new(pattern: &Pattern, dofs: usize) -> Self {
         Self { gather: Gather::new(pattern.dofs(), dofs), forces: vec![0.0; pattern.dofs().len()] }
     }
 
-    /// Adds the forces of all cells to `r`. `force(cell, dofs, f)` writes those of one cell into `f`, which is zero before.
+    /// Adds the forces of all cells to `r`. `force(cell, dofs, f)` writes those of one cell into `f`, which is initially zero.
     pub fn add(
         &mut self,
         pattern: &Pattern,

@@ -18,8 +18,8 @@ pub struct FacePoint<const D: usize> {
     pub normal: [f64; D],
 }
 
-/// Quadrature on a face. Exact for shape functions times normals times r, curved faces included: degree 3 on two-node lines, 5 on
-/// three-node lines; 2 on tri3, 4 on tri6; 3 and 5 in each variable on quad4 and on quad8, quad9.
+/// Quadrature on a face. It is exact for shape functions times normals times r, also on curved faces: degree 3 on two-node lines,
+/// 5 on three-node lines; 2 on tri3, 4 on tri6; 3 in each variable on quad4, and 5 on quad8 and quad9.
 fn rule(kind: FaceKind) -> Vec<RulePoint> {
     let Some(element) = kind.element() else {
         let points = quadrature::gauss(kind.nodes(), 1);
@@ -49,9 +49,9 @@ fn line(kind: FaceKind, x: f64, w: f64) -> RulePoint {
     }
 }
 
-/// Nodal integrals ∫ N_a g dA: `g` gets a point of the face and writes one value per component, already multiplied with the
-/// length of the normal it received. Returns degree of freedom (node * components + component) and value, ascending.
-/// About an axis of revolution the area element includes 2πr.
+/// Nodal integrals ∫ N_a g dA. `g` receives a point of the face and writes one value per component, already multiplied by the
+/// length of the given normal. Returns degree of freedom (node * components + component) and value, ascending. About an axis of
+/// revolution the area element includes 2πr.
 pub fn integrate<const D: usize>(
     mesh: &Mesh<D>,
     sides: &[Side],

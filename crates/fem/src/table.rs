@@ -8,7 +8,7 @@ pub enum Function {
     Linear,
     /// Sine of an angle.
     Sine,
-    /// Cosine of an angle, less one.
+    /// Cosine of an angle, minus one.
     CosineLessOne,
 }
 
@@ -17,7 +17,7 @@ impl Function {
         match self {
             Self::Linear => x,
             Self::Sine => x.sin(),
-            // Without the cancellation of cos x - 1 at small angles.
+            // Avoids the cancellation of cos x - 1 at small angles.
             Self::CosineLessOne => -2.0 * (0.5 * x).sin().powi(2),
         }
     }
@@ -53,7 +53,7 @@ impl Table {
         Self { function, ..self }
     }
 
-    /// The same value at all times.
+    /// A table with the same value at all times.
     #[must_use]
     pub fn constant(value: f64) -> Self {
         Self::new(vec![0.0], vec![value])
@@ -65,7 +65,7 @@ impl Table {
         &self.times
     }
 
-    /// Slope at `time`, which is not that of an entry; 0 before the first and after the last.
+    /// Slope at `time`, which must not be that of an entry; 0 before the first and after the last.
     #[must_use]
     pub fn slope(&self, time: f64) -> f64 {
         let k = self.times.partition_point(|&t| t <= time);

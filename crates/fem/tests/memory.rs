@@ -1,5 +1,5 @@
-//! Memory that the readers of meshes hold at a time, against the size of the file: whatever its headers announce, and however
-//! its lists refer to each other.
+//! Memory held at a time by the mesh readers, relative to the size of the file: whatever its headers announce, and however its
+//! lists refer to each other.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, clippy::format_push_string)]
 
 mod counting;
@@ -17,21 +17,21 @@ use std::fmt::Write;
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Memory that a reader needs for a file of no length \[bytes\]: names, tables of quadrature, an error.
+/// Memory that a reader needs for an empty file \[bytes\]: names, tables of quadrature, an error.
 const BASE: usize = 64 << 10;
 
-/// Bytes held for each byte of a file that is a mesh. Reading: a number of two bytes or more becomes one of eight, and a node of
-/// eight or more a record of 32; in Abaqus files each element also stands in a tree of its set. Making the mesh takes these
-/// again as indices, with the elements in order.
+/// Bytes held for each byte of a file that is a mesh. In reading, a number of two bytes or more becomes one of eight, and a node
+/// of eight or more a record of 32. In Abaqus files each element is also in a tree of its set. Making the mesh needs this memory
+/// again for indices, with the elements in order.
 const HONEST: usize = 10;
 
 /// Bytes held for each byte of any file. An entry of a set of sets costs no text but is bounded by two for each byte, and takes
-/// up to 70; cells at the same place make 64 pairs each.
+/// up to 70; cells at the same position make 64 pairs each.
 const ANY: usize = 256;
 
 type Parse = fn(&[u8]) -> Result<RawMesh, MeshError>;
 
-/// Peaks of reading and of making meshes, with what came out of the latter.
+/// Peaks of reading and of making meshes, with the result of the latter.
 fn peaks(parse: Parse, bytes: &[u8], options: &Options) -> (usize, usize, String) {
     let (raw, parsing) = peak_of(|| parse(bytes));
     let raw = match raw {
@@ -49,7 +49,7 @@ fn peaks(parse: Parse, bytes: &[u8], options: &Options) -> (usize, usize, String
     (parsing, meshing.max(plane), what)
 }
 
-/// Asserts that no more is held for each byte than `most`, and tells what came out.
+/// Asserts that at most `most` bytes are held for each byte, and returns the result.
 fn assert_bounded(name: &str, parse: Parse, bytes: &[u8], options: &Options, most: usize) -> String {
     let (reading, meshing, what) = peaks(parse, bytes, options);
     let held = reading.max(meshing);
@@ -57,7 +57,7 @@ fn assert_bounded(name: &str, parse: Parse, bytes: &[u8], options: &Options, mos
     what
 }
 
-/// A plane grid of n x n quadrilaterals in one group, as MSH 2.2 and 4.1 and as Abaqus write it.
+/// A plane grid of n x n quadrilaterals in one group, in the formats MSH 2.2 and 4.1 and Abaqus.
 fn grid(n: usize) -> [(&'static str, Parse, Vec<u8>); 4] {
     let m = n + 1;
     let node = |k: usize| (k % m, k / m);
@@ -154,7 +154,7 @@ fn lists_that_refer_to_each_other_stay_within_bounds() {
     }
 }
 
-/// Beginnings of files up to a count that lies; `#` stands for it in text, `@` for its eight bytes and `%` for its four.
+/// Beginnings of files up to a false count; `#` stands for it in text, `@` for its eight bytes and `%` for its four.
 const LIES: [&str; 15] = [
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n#\n",
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n0\n$EndNodes\n$Elements\n#\n",
@@ -189,7 +189,7 @@ fn what_a_header_announces_is_not_believed() {
             }
             let what = assert_bounded(lie, gmsh::parse, &bytes, &Options::default(), 0);
             assert!(!what.ends_with("nodes"), "{lie}");
-            // Bytes that follow make the lie easier to believe.
+            // Further bytes make the false count more plausible.
             for filler in [0_u8, b' ', b'1'] {
                 let mut bytes = bytes.clone();
                 bytes.resize(bytes.len() + PADDING, filler);
@@ -216,7 +216,7 @@ fn many_groups(n: usize) -> String {
     text + "$EndElements\n"
 }
 
-/// n equal triangles, and n equal lines that name their common face.
+/// n identical triangles, and n identical lines that name their common face.
 fn equal_faces(n: usize) -> String {
     let mut text = format!(
         "{HEAD}$Entities\n0 1 1 0\n1 0 0 0 1 1 0 1 1 0\n1 0 0 0 1 1 0 1 1 0\n$EndEntities\n{TRIANGLE}$Elements\n2 {} 1 {}\n2 1 2 {n}\n",
@@ -229,7 +229,7 @@ fn equal_faces(n: usize) -> String {
     text + "$EndElements\n"
 }
 
-/// n triangles with nodes of their own at the same places.
+/// n triangles with separate nodes at the same positions.
 fn stacked(n: usize) -> String {
     let mut text = format!(
         "{HEAD}$Entities\n0 0 1 0\n1 0 0 0 1 1 0 1 1 0\n$EndEntities\n$Nodes\n1 {0} 1 {0}\n2 1 0 {0}\n",
@@ -261,7 +261,7 @@ fn sets_of_everything(n: usize) -> String {
     text
 }
 
-/// n lines, each in a group and an entity of its own.
+/// n lines, each in a separate group and entity.
 fn own_groups(n: usize) -> String {
     let mut text = format!(
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n{}\n1 2 1 1 1 2 3\n",
@@ -290,14 +290,14 @@ fn condensation_with_loads_holds_what_it_foretells_and_less_than_the_factor() {
         let (body, dofs) = square(60);
         let (retained, fixed) = ((0..61).collect::<Vec<_>>(), (dofs - 61..dofs).collect::<Vec<_>>());
         let loaded = |body: &Stiffness| Loaded::analyse(body.clone(), &retained, &fixed, Vec::new()).unwrap();
-        // Dense kernels keep their memory from the first use on.
+        // Dense kernels keep their memory after the first use.
         loaded(&body).eliminate(usize::MAX).unwrap();
         let loaded = loaded(&body);
         let (asked, told) = (loaded.asked(1), loaded.bytes(1));
         let (left, held) = peak_of(|| loaded.eliminate(usize::MAX).unwrap());
         assert_eq!(left.row(0).len(), 61);
         assert!(held <= asked, "{held} of {asked}");
-        // Of contributions half is written.
+        // Only half of the contributions is written.
         assert!(told < asked && 2 * told > asked, "{told} of {asked}");
         let factored = Condensation::analyse(&body, &retained, &fixed).unwrap();
         let whole = factored.bytes();

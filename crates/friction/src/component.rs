@@ -5,9 +5,9 @@ use crate::evolution::Evolution;
 
 /// A state variable with its memory.
 ///
-/// The law keeps not s but `s + (α ln(f_n/f_ref) + c μ) ∂s/∂φ`, which a sudden change of f_n or V leaves alone: with the memory
-/// of Linker & Dieterich (1992), `dφ = -α df_n/f_n` at constant V and without ageing, and that of shear traction where the
-/// evolution has one (see [`crate::evolution::nagata`]).
+/// The law keeps not s but `s + (α ln(f_n/f_ref) + c μ) ∂s/∂φ`, which does not change in a sudden change of f_n or V. With the
+/// memory of Linker & Dieterich (1992), `dφ = -α df_n/f_n` at constant V and without ageing. The memory of shear traction is
+/// that of evolutions that have one (see [`crate::evolution::nagata`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Component<E> {
     pub(crate) evolution: E,

@@ -12,7 +12,7 @@ pub struct Coulomb {
 }
 
 impl Coulomb {
-    /// μ ≥ 0 and an optional largest shear traction \[Pa\].
+    /// Law with μ ≥ 0 and an optional largest shear traction \[Pa\].
     ///
     /// # Errors
     /// [`Failure::Parameter`].
@@ -29,9 +29,9 @@ impl Coulomb {
     }
 }
 
-/// Smallest r in (0, 1] at which `|t + r Δt| = μ (f + r Δf)` with the point leaving the cone, from the squared equation
-/// `A r² + 2 B r + C = 0`, `A = Δt² - μ²Δf²`, `B = t·Δt - μ² f Δf`, `C = t² - μ² f²`, for a point inside the cone (C ≤ 0).
-/// The root is taken in the form that does not cancel.
+/// Smallest r in (0, 1] at which `|t + r Δt| = μ (f + r Δf)` with the point leaving the cone, for a point inside the cone (C ≤
+/// 0). It follows from the squared equation `A r² + 2 B r + C = 0`, `A = Δt² - μ²Δf²`, `B = t·Δt - μ² f Δf`, `C = t² - μ² f²`.
+/// The root is taken in the form without cancellation.
 #[must_use]
 pub fn cone_exit(t: [f64; 2], dt: [f64; 2], f: f64, df: f64, mu: f64) -> Option<f64> {
     let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn the_first_of_two_crossings_is_the_exit() {
-        // Straight through the disc of radius 0.6: in at rest from inside, out at (0.6, 0).
+        // Straight through the disc of radius 0.6: from rest inside, out at (0.6, 0).
         assert_eq!(cone_exit([0.0, 0.0], [1.2, 0.0], 1.0, 0.0, 0.6), Some(0.5));
         // A point on the cone that cuts through it leaves at the far side only.
         let far = cone_exit([-0.6, 0.0], [2.0, 0.0], 1.0, 0.0, 0.6).unwrap();
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_distance_of_the_last_digits_is_resolved() {
-        // The stable form keeps the relative precision of a root where the usual one has none left.
+        // The stable form keeps the relative precision of a root where the usual form has none left.
         let gap = 1e-13;
         let r = cone_exit([0.6 - gap, 0.0], [1.0, 0.0], 1.0, 0.0, 0.6).unwrap();
         approx::assert_relative_eq!(r, 0.6 - (0.6 - gap), max_relative = 1e-12);
@@ -203,7 +203,7 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// Inside the cone up to the exit, outside just after, and no crossing where there is no exit.
+        /// The point is inside the cone up to the exit and outside just after it; without an exit it does not cross the cone.
         #[test]
         fn exits_are_first_crossings(
             angle in 0.0f64..6.3,

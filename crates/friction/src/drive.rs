@@ -1,13 +1,13 @@
-//! Tractions on the points of a fault.
+//! Forcing of the points of a fault.
 
 use crate::slider::Forcing;
 
-/// Tractions on a slice of points at an instant.
+/// Forcing of a slice of points at an instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Drive<'a> {
     /// f_n > 0 \[Pa\].
     pub normal: &'a [f64],
-    /// df_n/dt \[Pa/s\]; none where f_n does not change.
+    /// df_n/dt \[Pa/s\]; `None` where f_n does not change.
     pub normal_rate: Option<&'a [f64]>,
     /// dτ/dt of the driving shear traction \[Pa/s\], component by component.
     pub shear_rate: &'a [f64],
@@ -16,7 +16,7 @@ pub struct Drive<'a> {
 }
 
 impl Drive<'_> {
-    /// Tractions on a point.
+    /// Forcing of one point.
     pub(crate) fn forcing(&self, point: usize) -> Forcing {
         Forcing {
             normal: self.normal[point],

@@ -1,18 +1,18 @@
-//! The points of a fault whose bodies are condensed onto it: the equations of a slider at every point, with parameters that may
-//! vary from point to point, on slices.
+//! Points of a fault whose bodies are condensed onto it: the equations of a slider at every point, on slices, with parameters
+//! that may vary from point to point.
 //!
 //! The unknowns of a point are m = μ/a and the state variables of its law, as in [`crate::slider`]: V follows from them without
-//! iteration, and an error of m is one of ln V. The springs of a slider give way to the rate of the traction that the whole fault
-//! exerts on the point.
+//! iteration, and an error of m is one of ln V. The rate of the traction that the whole fault exerts on the point replaces the
+//! springs of a slider.
 
 use crate::Failure;
 pub use crate::drive::Drive;
 use crate::sheet::Sheet;
 use crate::slider::{Line, Sliding};
 
-/// The laws of the points of a fault. Slices hold one entry for each point, states are point-major; `first` is the number of
-/// the first point of the slices. Where slip has more than one component, those of m, of slip rates and of shear tractions hold the first
-/// components of all points, then the second.
+/// Laws of the points of a fault. Slices hold one entry per point, and states are point-major; `first` is the number of the first point
+/// of the slices. If slip has more than one component, then m, slip rates and shear tractions hold the first components of all points,
+/// then the second.
 pub trait FaultLaw: Send + Sync + std::fmt::Debug {
     /// Number of points.
     fn points(&self) -> usize;
@@ -42,19 +42,19 @@ pub trait FaultLaw: Send + Sync + std::fmt::Debug {
     /// a of a point \[-\]: μ = a m.
     fn scale(&self, point: usize) -> f64;
 
-    /// Change of the state variables of a point that is worth a change of ln V by one, for error norms.
+    /// Change of the state variables of a point that is equivalent to a change of ln V by one, for error norms.
     fn state_scale(&self, point: usize) -> f64;
 
-    /// Shortest characteristic slip L of a point \[m\], where there is one.
+    /// Shortest characteristic slip L of a point \[m\], if it has one.
     fn length(&self, point: usize) -> Option<f64>;
 
-    /// Writes the states of a point that are steady at ln V.
+    /// Writes the steady states of a point at ln V.
     fn steady(&self, point: usize, log_rate: f64, states: &mut [f64]);
 
-    /// Changes the state of a point so that its friction coefficient at this slip rate \[m/s\] is `mu`.
+    /// Changes the state of a point so that its friction coefficient at slip rate `rate` \[m/s\] is `mu`.
     ///
     /// # Errors
-    /// Those of [`Sliding::states_for`], naming the point.
+    /// Those of [`Sliding::states_for`], with the number of the point.
     fn states_for(&self, point: usize, rate: f64, mu: f64, states: &mut [f64]) -> Result<(), Failure>;
 
     /// m of a point at a slip rate \[m/s\] of either sign.
@@ -68,12 +68,12 @@ pub trait FaultLaw: Send + Sync + std::fmt::Debug {
 #[derive(Clone, Debug)]
 pub struct Points<L> {
     laws: Vec<L>,
-    /// All laws in one form, where they are of the kind that is evaluated for many points at once.
+    /// Present if all laws are of the kind that is evaluated for many points at once.
     sheet: Option<Sheet>,
 }
 
 impl<L: Sliding> Points<L> {
-    /// The laws of the points; at least one, all with the same number of states.
+    /// From the laws of the points: at least one, all with the same number of states.
     #[must_use]
     pub fn new(laws: Vec<L>) -> Self {
         debug_assert!(laws.windows(2).all(|w| w[0].states() == w[1].states()));
@@ -82,7 +82,7 @@ impl<L: Sliding> Points<L> {
         Self { laws, sheet }
     }
 
-    /// The same laws, evaluated one by one.
+    /// The same laws, evaluated one point at a time.
     #[must_use]
     pub fn one_by_one(laws: Vec<L>) -> Self {
         Self { sheet: None, ..Self::new(laws) }
@@ -94,7 +94,7 @@ impl<L: Sliding> Points<L> {
     }
 }
 
-/// Most unknowns of a point, m included: those of a slider.
+/// Largest number of unknowns of a point, m included: that of a slider.
 const MOST: usize = 16;
 
 impl<L: Sliding> FaultLaw for Points<L> {
@@ -195,7 +195,8 @@ mod tests {
 
     #[test]
     fn many_points_at_once_have_the_rates_of_each_by_itself() {
-        // A number that leaves a part of a group, coefficients of both signs down to nothing, states around the steady one.
+        // A number of points that leaves a partial group, coefficients of both signs down to zero, and states around the steady
+        // one.
         let n = 43;
         let (many, each) = (Points::new(laws(n)), Points::one_by_one(laws(n)));
         let m: Vec<f64> = (0..n).map(|k| (k as f64 - 10.0) * 2.3).collect();

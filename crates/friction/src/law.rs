@@ -1,16 +1,16 @@
-//! Requirements of a contact interface on a friction law, on slices of points.
+//! Interface between contact and a friction law, on slices of points.
 //!
-//! Everything here is scalar: the contact side forms the trial traction vector `t^e = t_old + E_t Δu` in the tangent
-//! plane, hands over its magnitude, and turns the answer back into a vector along `η = t^e/|t^e|`. A law therefore knows
-//! no dimension. One `dyn` call treats a whole slice of closed points.
+//! Everything here is scalar. The contact side forms the trial traction vector `t^e = t_old + E_t Δu` in the tangent plane,
+//! passes its magnitude, and turns the answer back into a vector along `η = t^e/|t^e|`. A law is therefore independent of the
+//! dimension. One `dyn` call treats a whole slice of closed points.
 
 use crate::Failure;
 
-/// Points within this relative distance of an event do not limit a step but switch with it; otherwise the simultaneous
-/// events of a symmetric scene would cost one step each, at fractions that are rounding.
+/// Points within this relative distance of an event do not limit a step but switch with it. Otherwise the simultaneous events
+/// of a symmetric scene would cost one step each, at fractions that are rounding.
 pub(crate) const BAND: f64 = 1e-9;
 
-/// Motion of a point over the step.
+/// Behaviour of a point over the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {
     /// The whole tangential increment is elastic.
@@ -33,7 +33,7 @@ pub struct Trials<'a> {
     /// Second-order backward differences in slip: `V = weight Δλ/Δt - offset_p`. Absent for backward Euler.
     pub lag: Option<Lag<'a>>,
     /// Slip rates near the answers, such as those of the step before \[m/s\], `n` values; 0 where none is known. They shorten
-    /// the search and leave the answer alone, to rounding.
+    /// the search without affecting the answer, to rounding.
     pub near: Option<&'a [f64]>,
 }
 
@@ -43,11 +43,12 @@ pub struct Trials<'a> {
 pub struct Lag<'a> {
     /// Factor of Δλ/Δt \[-\]; 1 with an offset of 0 is backward Euler.
     pub weight: &'a [f64],
-    /// Offset per point \[m/s\].
+    /// Offset of each point \[m/s\].
     pub offset: &'a [f64],
 }
 
-/// Motion of `n` closed points over a step, for an estimate of its error. Rates and slips count along the traction at the end.
+/// Result of a step of `n` closed points, for an estimate of its error. Rates and slips are components along the traction at
+/// the end.
 #[derive(Clone, Copy, Debug)]
 pub struct Taken<'a> {
     /// f_n at the end \[Pa\].
@@ -66,7 +67,7 @@ pub struct Taken<'a> {
     pub new: &'a [f64],
 }
 
-/// Output of a law; every slice holds `n` values but `states`, which holds `n * law.states()`.
+/// Storage for the answer of a law; every slice holds `n` values but `states`, which holds `n * law.states()`.
 #[derive(Debug)]
 pub struct Responses<'a> {
     /// Shear traction τ after the step \[Pa\].
@@ -92,7 +93,7 @@ pub struct Present<'a> {
     pub normal: &'a [f64],
     /// Magnitude of the shear traction \[Pa\].
     pub traction: &'a [f64],
-    /// Slip rate V of the step before \[m/s\]; zero where the point has not slipped.
+    /// Slip rate V of the step before \[m/s\]; zero if the point has not slipped.
     pub rate: &'a [f64],
     /// Regime the point is in.
     pub regime: &'a [Regime],
@@ -113,22 +114,22 @@ pub struct Rates<'a> {
     pub along: &'a mut [f64],
     /// `κ μ'` with μ' = μ + f_n ∂μ/∂f_n; 0 in stick \[-\].
     pub coupling: &'a mut [f64],
-    /// Constant part \[Pa\]: what the law changes by itself over Δt, and what the traction misses of the strength.
+    /// Constant part \[Pa\]: the intrinsic change of the law over Δt, and the difference between strength and traction.
     pub constant: &'a mut [f64],
 }
 
-/// Increments found over a forward step.
+/// Increments computed over a forward step.
 #[derive(Clone, Copy, Debug)]
 pub struct Increments<'a> {
     /// Increment of the normal traction \[Pa\].
     pub normal: &'a [f64],
-    /// `|τ η + Δt|` is where the shear traction ends; this is its signed increment along η \[Pa\].
+    /// Signed increment of the shear traction along η, whose magnitude at the end is `|τ η + Δt|` \[Pa\].
     pub traction: &'a [f64],
     /// Slip increment Δλ \[m\].
     pub slip: &'a [f64],
 }
 
-/// Which limit of the R-minimum rule bound a step.
+/// Limit of the R-minimum rule that determined a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LimitKind {
     /// r6: a sticking point reaches the yield surface (or, for rate laws, the floor rate).
@@ -139,7 +140,7 @@ pub enum LimitKind {
     RateChange,
 }
 
-/// The largest admissible fraction of a forward step and what sets it.
+/// The largest admissible fraction of a forward step, and the limit that determines it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
     /// Fraction r in (0, 1] of the step.
@@ -174,7 +175,8 @@ pub struct Drives<'a> {
 
 /// A law whose slip rate follows from tractions and states.
 pub trait Rated: Law {
-    /// Slip rates \[m/s\] and the rates of change \[1/s\] of the states the law keeps, at constant f_n, point-major.
+    /// Computes the slip rates \[m/s\] and the rates of change \[1/s\] of the states that the law keeps, at constant f_n,
+    /// point-major.
     ///
     /// # Errors
     /// [`Failure`] names the point and its inputs.
@@ -189,18 +191,18 @@ pub trait Rated: Law {
 
 /// A friction law as contact uses it: the point return for implicit steps, the rate form for forward steps.
 pub trait Law: Send + Sync + std::fmt::Debug {
-    /// Name as a scene spells it.
+    /// Name in scenes.
     fn name(&self) -> &'static str;
 
     /// State variables per point; 0 for a law without memory.
     fn states(&self) -> usize;
 
-    /// True if the law has a yield surface with an elastic domain inside, so that a point sticks or slips.
+    /// True if the law has a yield surface that encloses an elastic domain, so that a point sticks or slips.
     fn has_elastic_domain(&self) -> bool {
         false
     }
 
-    /// True if the points are bonded: they neither slip nor part, and carry normal tension.
+    /// True if the points are bonded: they neither slip nor open, and carry normal tension.
     fn bonded(&self) -> bool {
         false
     }
@@ -208,8 +210,8 @@ pub trait Law: Send + Sync + std::fmt::Debug {
     /// Writes the initial states of `n` points, point-major (slice of length `n * states()`).
     fn initial(&self, states: &mut [f64]);
 
-    /// Friction coefficient μ(f_n, V, states) \[-\] for output, one value a point; `traction/normal` where the law has an
-    /// elastic domain is the caller's business.
+    /// Friction coefficient μ(f_n, V, states) \[-\] for output, one value per point. If the law has an elastic domain, the
+    /// caller computes `traction/normal` instead.
     fn coefficient(
         &self,
         normal: &[f64],
@@ -218,14 +220,14 @@ pub trait Law: Send + Sync + std::fmt::Debug {
         mu: &mut [f64],
     ) -> Result<(), Failure>;
 
-    /// The implicit point return: for each point finds Δλ ≥ 0 with `τ = |t^e| - E_t Δλ = min(μ(V, φ) f_n, F_limit)`. With a
-    /// lag V = 0 is not Δλ = 0, and where the spring pulls back V, τ and Δλ may all be negative.
+    /// The implicit point return: for each point it finds Δλ ≥ 0 with `τ = |t^e| - E_t Δλ = min(μ(V, φ) f_n, F_limit)`. With a
+    /// lag, V = 0 does not imply Δλ = 0, and where the spring pulls back, V, τ and Δλ may all be negative.
     ///
     /// # Errors
-    /// [`Failure`] names the point and its inputs; a trial that cannot be answered is the step controller's matter.
+    /// [`Failure`] names the point and its inputs; the step controller handles a trial that has no answer.
     fn respond(&self, trials: Trials<'_>, old: &[f64], out: Responses<'_>) -> Result<(), Failure>;
 
-    /// Estimates by how much the friction coefficient at the end of a step is off, one value a point \[-\]; 0 for laws that do not
+    /// Estimates the error of the friction coefficient at the end of a step, one value per point \[-\]; 0 for laws that do not
     /// depend on rates.
     fn error(&self, _taken: Taken<'_>, out: &mut [f64]) {
         out.fill(0.0);
@@ -234,10 +236,11 @@ pub trait Law: Send + Sync + std::fmt::Debug {
     /// Linearises the law at the present state for a forward step.
     fn rates(&self, present: Present<'_>, out: Rates<'_>) -> Result<(), Failure>;
 
-    /// The smallest limit r6 or r8 over the slice for the increments of a whole step, or `None` when nothing binds.
+    /// The smallest limit r6 or r8 over the slice for the increments of a whole step, or `None` if no limit applies.
     fn limit(&self, present: Present<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit>;
 
-    /// True if point `k`, at rest, stands at its strength and would slip at the least push. Asked of laws with an elastic domain only.
+    /// True if point `k`, at rest, is at its strength and would slip at the slightest push. Called only for laws with an elastic
+    /// domain.
     fn stands(&self, _present: Present<'_>, _k: usize) -> bool {
         false
     }

@@ -1,7 +1,6 @@
-//! Rock friction laws on slices of points: strengths, evolutions with their exact steps, and the point return contact asks
-//! for.
+//! Rock friction laws on slices of points: strengths, evolutions with their exact steps, and the point return used by contact.
 //!
-//! The crate knows no mesh, no files and no time loop. Everything is scalar: see [`law`].
+//! The crate contains no meshes, files or time loop. Everything is scalar: see [`law`].
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod component;
@@ -23,7 +22,7 @@ pub mod tied;
 pub mod turning;
 mod yielding;
 
-/// Errors of a law.
+/// Failures of a law.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Failure {
     /// A parameter out of its range.
@@ -33,7 +32,7 @@ pub enum Failure {
         name: &'static str,
         /// Given value.
         value: f64,
-        /// Remedy.
+        /// Admissible values.
         admissible: &'static str,
     },
     /// Bare and cut-off logarithms have no value at rest or in reversal.
@@ -55,7 +54,7 @@ pub enum Failure {
         point: usize,
         /// Slip rate \[m/s\].
         rate: f64,
-        /// Value of the form \[-\].
+        /// Coefficient given by the form \[-\].
         mu: f64,
     },
     /// The law weakens faster than the spring behind the point unloads.
@@ -89,7 +88,7 @@ pub enum Failure {
         normal: f64,
         /// |t^e| \[Pa\].
         trial: f64,
-        /// Remainder \[Pa\].
+        /// Residual \[Pa\].
         residual: f64,
     },
 }

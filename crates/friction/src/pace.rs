@@ -1,15 +1,15 @@
-//! The slip rate at which states evolve over a step whose slip is found by two-step differences.
+//! Slip rate at which states evolve over a step whose slip is found by two-step differences.
 //!
-//! The step slips by Δλ, so that its mean rate is `Λ = Δλ/Δt = (V + offset)/weight`, linear in the rate V at its end. A state that takes its
-//! exact step at Λ sees the slip it really sees, and where V changes linearly its error is of third order in Δt. Over many L the state forgets
-//! all but the end of the step. With `x = V Δt/L` the share of Λ in the rate that matters is then `g = 2 [1/x - 1/(e^x - 1)]`: this
-//! makes the step exact to the first order in the change of V for every x, and a steady state follows V without delay.
+//! The slip of the step is Δλ, so that its mean rate is `Λ = Δλ/Δt = (V + offset)/weight`, linear in the rate V at its end. A state whose
+//! exact step is taken at Λ receives the true slip, and where V changes linearly its error is of third order in Δt. Over many L, the state
+//! forgets all but the end of the step. With `x = V Δt/L`, the weight of Λ in the evolution rate is then `g = 2 [1/x - 1/(e^x - 1)]`. This
+//! makes the step exact to first order in the change of V for every x, and a steady state follows V without delay.
 
 use crate::evolution::{AT_REST, Speed};
 
 /// Below this x the series of g is exact to rounding: its next term is x^5/15120.
 const SMALL: f64 = 1e-2;
-/// Above this x, e^x is as good as infinite in g.
+/// Above this x, e^x is effectively infinite in g.
 const LARGE: f64 = 40.0;
 
 /// A two-step difference: `V = weight Δλ/Δt - offset`, with V > 0 at the end of the step.
@@ -21,14 +21,14 @@ pub(crate) struct Pace {
 }
 
 impl Pace {
-    /// None for backward Euler, and where slip turns round within the step: its states evolve at the rate of its end.
+    /// `None` for backward Euler, and where slip reverses within the step: its states evolve at the rate of its end.
     pub(crate) fn new(weight: f64, offset: f64) -> Option<Self> {
         (weight > 1.0 && offset > 0.0).then_some(Self { weight, offset })
     }
 
-    /// The rate for a state of characteristic slip `length` \[m\].
+    /// Evolution rate of a state of characteristic slip `length` \[m\].
     pub(crate) fn rate(self, length: Option<f64>, dt: f64) -> Linear {
-        // The mean rate of the step before tells x; only the share depends on it, and only to second order.
+        // The mean rate of the step before gives x; only the weight depends on x, and only to second order.
         let before = self.offset / (self.weight - 1.0);
         let g = length.map_or(1.0, |l| share(before * dt / l));
         Linear { slope: 1.0 - g + g / self.weight, constant: g * self.offset / self.weight }
@@ -70,7 +70,7 @@ impl Linear {
     }
 }
 
-/// A step with its mean rate and the change of V over it \[m/s\], V being linear in time.
+/// A step with its mean rate and the change of V over it \[m/s\], for V linear in time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Halves {
     pub mean: f64,
@@ -78,7 +78,7 @@ pub(crate) struct Halves {
 }
 
 impl Halves {
-    /// Rates of the two halves for a state of characteristic slip `length` \[m\].
+    /// Rates of the two halves of the step, for a state of characteristic slip `length` \[m\].
     pub(crate) fn rates(self, length: Option<f64>, dt: f64) -> [Speed; 2] {
         let Self { mean, change } = self;
         let g = length.map_or(1.0, |l| share(0.5 * mean * dt / l));

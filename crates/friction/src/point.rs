@@ -1,8 +1,8 @@
-//! The point return: the slip rate at which a point behind a penalty spring balances its strength.
+//! The point return: it finds the slip rate at which a point behind a penalty spring balances its strength.
 //!
-//! With the spring's trial traction t^e and `c = E_t Δt/w`, the balance is `G(z) = c e^z + f_n μ(e^z, φ(e^z, Δt)) - T = 0`,
-//! z = ln V, T = t^e - c offset. A point with radiation damping η and a fixed state has the same balance with c = η. Without
-//! weakening G is increasing. With a state G may fall in between: see [`Solver::solve`].
+//! With the spring's trial traction t^e and `c = E_t Δt/w`, the balance is `G(z) = c e^z + f_n μ(e^z, φ(e^z, Δt)) - T = 0`, z =
+//! ln V, T = t^e - c offset. A point with radiation damping η and a fixed state has the same balance with c = η. Without
+//! weakening G is increasing. With a state G may decrease over some range: see [`Solver::solve`].
 
 use crate::Failure;
 use crate::component::Component;
@@ -10,28 +10,28 @@ use crate::evolution::{AT_REST, Evolution, Evolved, Speed};
 use crate::pace::{Halves, Linear, Pace};
 use crate::strength::Form;
 
-/// Iterations before a point is given up; none of the property tests takes more than twelve.
+/// Largest number of iterations; none of the property tests takes more than twelve.
 const MOST: usize = 60;
 /// G is a sum of three terms of the size of T; each is rounded once or twice.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Neighbouring numbers are at most this far apart, relatively; a step of two of them may be the rounding of G.
+/// Neighbouring numbers differ at most by this, relatively; a step of two of them may be the rounding of G.
 const SPACING: f64 = 2.0 * f64::EPSILON;
-/// Stride of the search for the first root in ln V: x = V Δt/L and the asinh turn over one e-fold, so a quarter of it shows
-/// every fold that matters.
+/// Stride of the search for the first root in ln V. x = V Δt/L and the asinh turn over one e-fold, so a quarter of it resolves
+/// every turn that matters.
 const STRIDE: f64 = 0.25;
-/// Widest range searched, in e-folds of V below the rate of the free spring: below it no state evolves over a step.
+/// Widest range searched, in e-folds of V below the rate of the free spring: at lower rates no state evolves over a step.
 const WIDEST: f64 = 200.0;
-/// Margin by which bounds of ln V are moved apart, since the root may be the bound itself, to rounding; G does not turn so soon.
+/// Margin by which bounds of ln V are widened, since the root may equal the bound, to rounding; G does not turn within it.
 const SLACK: f64 = 1e-2;
-/// Newton steps up to this many e-folds are improved by higher derivatives; longer ones leave the range of the series.
+/// Longest Newton step, in e-folds, that is improved by higher derivatives; longer ones leave the range of the series.
 const SERIES: f64 = 1.0;
 /// Below this μ/a the strength is closer to linear in V than to a logarithm.
 const LINEAR: f64 = 1.0;
-/// Limit at which the jump of a memory of shear traction is as good as rounded: it converges quadratically from below.
+/// Iterations after which the jump of a memory of shear traction is converged to rounding: convergence is quadratic from below.
 const MOST_JUMP: usize = 60;
 
-/// One point's problem.
+/// Problem of one point.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
     /// f_n > 0 \[Pa\].
@@ -42,13 +42,13 @@ pub struct Point {
     pub spring: f64,
     /// Δt \[s\] over which the states evolve.
     pub dt: f64,
-    /// ln V near the answer, where one is known (that of the step before).
+    /// ln V near the answer, if known from the step before.
     pub guess: Option<f64>,
 }
 
 impl Point {
-    /// Strength and spring traction of an answer, adding up to the drive: the larger of the two is the drive less the
-    /// smaller, so that neither loses digits.
+    /// Strength and spring traction of an answer, which sum to the drive: the larger is the drive minus the smaller, so that
+    /// neither loses digits.
     #[must_use]
     pub fn shares(&self, s: &Solution) -> (f64, f64) {
         let (strength, spring) = (self.normal * s.mu, self.spring * s.log_rate.exp());
@@ -56,24 +56,24 @@ impl Point {
     }
 }
 
-/// One point's answer.
+/// Answer for one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solution {
     /// ln V.
     pub log_rate: f64,
     /// μ.
     pub mu: f64,
-    /// dμ/dln V with the states following \[-\].
+    /// dμ/dln V with evolving states \[-\].
     pub slope: f64,
     /// f_n ∂μ/∂f_n at fixed V through the memory of normal traction \[-\].
     pub d_normal: f64,
-    /// Iterations: changes of ln V from the first guess on. Each costs an evaluation of G, and one more confirms the answer.
+    /// Iterations: changes of ln V from the first guess. Each costs an evaluation of G, and one more confirms the answer.
     pub iterations: usize,
-    /// Evaluations of G before, in search of the first root behind a soft spring.
+    /// Evaluations of G before the iterations, in search of the first root behind a soft spring.
     pub searched: usize,
 }
 
-/// G with three derivatives by ln V and what they are made of.
+/// G with three derivatives by ln V, and its parts.
 #[derive(Clone, Copy)]
 struct Value {
     g: f64,
@@ -87,11 +87,11 @@ struct Value {
     solution: Solution,
 }
 
-/// Strength at a slip rate, with the states as they are then.
+/// Strength at a slip rate, with the states that belong to it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Present {
     pub mu: f64,
-    /// dμ/dln V with the states following \[-\].
+    /// dμ/dln V with evolving states \[-\].
     pub slope: f64,
     /// ∂μ/∂φ.
     pub d_phi: f64,
@@ -101,7 +101,7 @@ pub(crate) struct Present {
     pub phi: f64,
 }
 
-/// Solves points of one law one after another; its buffers serve a whole slice.
+/// Solver for the points of one law, one after another; its buffers serve a whole slice.
 #[derive(Debug)]
 pub struct Solver<'a, F, E: Evolution> {
     form: &'a F,
@@ -109,7 +109,7 @@ pub struct Solver<'a, F, E: Evolution> {
     /// f_ref of the memory of normal traction \[Pa\].
     reference: f64,
     starts: Vec<E::Start>,
-    /// The two-step difference of the step, absent for backward Euler.
+    /// The two-step difference of the step; `None` for backward Euler.
     pace: Option<Pace>,
     /// Rates at which the states evolve.
     rates: Vec<Linear>,
@@ -117,7 +117,7 @@ pub struct Solver<'a, F, E: Evolution> {
     before: Vec<f64>,
     /// State variables after the last evaluation.
     after: Vec<f64>,
-    /// ln(f_n/f_ref), where a part has that memory.
+    /// ln(f_n/f_ref), if a part has a memory of normal traction.
     log_normal: f64,
     /// True if there is no normal traction.
     open: bool,
@@ -144,22 +144,22 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         }
     }
 
-    /// Steps from here on have this two-step difference.
+    /// Sets the two-step difference of the following steps.
     pub(crate) fn set_pace(&mut self, pace: Option<Pace>) {
         self.pace = pace;
     }
 
-    /// Strength after a step of length `dt` to ln V, from the states `old` as the law keeps them; [`AT_REST`] for none.
+    /// Strength after a step of length `dt` at ln V from the states `old` as the law keeps them; [`AT_REST`] stands for zero V.
     pub(crate) fn after(&mut self, old: &[f64], normal: f64, dt: f64, log_rate: f64) -> Present {
         self.prepare(old, normal, dt);
-        // Only the strength is asked for: neither spring nor drive.
+        // Only the strength is needed: neither spring nor drive.
         let p = Point { normal: 1.0, drive: 0.0, spring: 0.0, dt, guess: None };
         let value = self.evaluate(&p, log_rate, 0);
         let s = value.solution;
         Present { mu: s.mu, slope: s.slope, d_phi: value.d_phi, d_normal: s.d_normal, phi: value.phi }
     }
 
-    /// Takes the states as they are under f_n = `normal` and μ, and tells φ.
+    /// Sets the states from the kept ones under f_n = `normal` and μ, and returns φ.
     pub(crate) fn present(&mut self, old: &[f64], normal: f64, mu: f64) -> f64 {
         self.under(normal);
         let mut phi = 0.0;
@@ -170,15 +170,15 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         phi
     }
 
-    /// Takes f_n = `normal`. Without normal traction nothing is remembered of it: see `keep`.
+    /// Sets f_n = `normal`. Without normal traction no memory of it acts: see `keep`.
     fn under(&mut self, normal: f64) {
         let remembers = normal > 0.0 && self.parts.iter().any(|p| p.normal_memory != 0.0);
         self.log_normal = if remembers { (normal / self.reference).ln() } else { 0.0 };
         self.open = normal == 0.0;
     }
 
-    /// Rates of change of what the law keeps at constant f_n, for the states of the last evaluation: with a memory of shear
-    /// traction `s + c' μ` changes by `1 + c' ∂μ/∂s` of the change of s at constant V.
+    /// Rates of change of the kept quantities at constant f_n, for the states of the last evaluation. With a memory of shear
+    /// traction, `s + c' μ` changes by `1 + c' ∂μ/∂s` times the change of s at constant V.
     pub(crate) fn state_rates(&self, speed: Speed, rates: &mut [f64]) {
         for ((part, &state), rate) in self.parts.iter().zip(&self.after).zip(rates) {
             *rate = part.evolution.rate(state, speed).rate;
@@ -194,7 +194,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         &self.after
     }
 
-    /// Takes the states as the law keeps them and prepares a step of length `dt` under f_n = `normal`.
+    /// Reads the states as the law keeps them, and prepares a step of length `dt` under f_n = `normal`.
     pub(crate) fn prepare(&mut self, old: &[f64], normal: f64, dt: f64) {
         self.dt = dt;
         self.under(normal);
@@ -208,8 +208,8 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         }
     }
 
-    /// The states after the last evaluation, at friction coefficient `mu`, as the law keeps them. A memory of normal traction
-    /// is left as it was where there is no normal traction.
+    /// The states after the last evaluation, at friction coefficient `mu`, in the form that the law keeps. Without normal
+    /// traction, a memory of it is left unchanged.
     pub(crate) fn keep(&self, old: &[f64], mu: f64, new: &mut [f64]) {
         for (((part, &after), &old), new) in self.parts.iter().zip(&self.after).zip(old).zip(new) {
             *new = if self.open && part.normal_memory != 0.0 {
@@ -234,7 +234,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         (evolved, evolved.d_state * share)
     }
 
-    /// State after the jump of V: s with s + c' μ(V, φ(s)) kept, its slope by ln V and by what is kept.
+    /// State after the jump of V, at which s + c' μ(V, φ(s)) is constant, with its derivatives by ln V and by that constant.
     fn jump(&self, i: usize, log_rate: f64) -> (f64, f64, f64) {
         let part = &self.parts[i];
         let (kept, c) = (self.before[i], part.shear_memory);
@@ -242,7 +242,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
             // At rest there is no shear traction to remember.
             return (kept, 0.0, 1.0);
         }
-        // h(s) = s + c' μ(s) - kept grows and is convex in s: Newton from above comes down on the root.
+        // h(s) = s + c' μ(s) - kept increases and is convex in s: Newton's method from above descends to the root.
         let mut state = kept;
         let mut strength = self.form.at(log_rate, part.evolution.phi(state));
         for _ in 0..MOST_JUMP {
@@ -258,7 +258,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         (state, -c * strength.d_log_rate / slope, 1.0 / slope)
     }
 
-    /// φ after the prepared step, taken in halves; none with a memory of shear traction, whose states jump as they go.
+    /// φ after the prepared step, taken in halves; `None` with a memory of shear traction, whose states jump within the step.
     pub(crate) fn in_halves(&self, halves: Halves) -> Option<f64> {
         let mut phi = 0.0;
         for (part, &before) in self.parts.iter().zip(&self.before) {
@@ -289,7 +289,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         }
         let s = self.form.at(z, phi);
         let slope = s.d_log_rate + s.d_phi * first;
-        // Of a strength that depends on ln V + φ/a; the step, not the answer, depends on it.
+        // Exact for a strength that depends on ln V + φ/a; it affects the step, not the answer.
         let along = 1.0 + first / self.form.scale();
         let bend = s.curvature * along * along;
         let spring = p.spring * speed.rate;
@@ -312,16 +312,16 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         }
     }
 
-    /// Solves one point from the states `old` as the law keeps them. Where the states could weaken faster than the spring
-    /// unloads, the answer is the one reached from rest without passing a rate at which G falls.
+    /// Solves one point from the states `old` as the law keeps them. If the states could weaken faster than the spring unloads,
+    /// the answer is the one reached from rest without passing a rate at which G decreases.
     ///
     /// # Errors
     /// [`Failure::NotConverged`], [`Failure::NonFinite`], [`Failure::BareLogAtRest`] where the bare logarithm is negative at
-    /// every rate in question, or, without such an answer, [`Failure::Unstable`] (per weight of a two-step difference); point
-    /// 0.
+    /// every rate in question. Without an answer of that kind, [`Failure::Unstable`] (per weight of a two-step difference). The
+    /// point is 0.
     pub fn solve(&mut self, p: &Point, old: &[f64]) -> Result<Solution, Failure> {
         self.prepare(old, p.normal, p.dt);
-        // The spring alone carries T at this rate.
+        // At this rate the spring alone carries T.
         let top = (p.drive / p.spring).ln();
         if !(top.is_finite() && p.normal.is_finite() && self.before.iter().all(|s| s.is_finite())) {
             return Err(Failure::NonFinite { point: 0, normal: p.normal, trial: p.drive });
@@ -356,11 +356,11 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
                 low = z;
             }
             let step = step(p, &value);
-            // At the rounding floor of G, or when z can no longer be told from its successor, one is done.
+            // The iteration ends at the rounding floor of G, or when z is indistinguishable from its successor.
             if value.g.abs() <= self.floor(p, &value) || step.abs() <= SPACING * z.abs() {
                 return Ok(value.solution);
             }
-            // A step back that undoes most of the one before may be half of a cycle.
+            // A step that reverses most of the previous one may be half of a cycle.
             let turns = step * before < 0.0 && step.abs() > 0.5 * before.abs();
             let next =
                 if turns && low.is_finite() { 0.5 * (low + high) } else { guarded(z, step, (low, high)) };
@@ -377,10 +377,10 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         ROUNDING * (p.drive + p.normal * (s.mu.abs() + value.d_phi * within))
     }
 
-    /// Bounds of the answer in ln V. Without state or behind a stiff spring G increases everywhere, and below the rate of the
-    /// free spring is enough.
+    /// Bounds of the answer in ln V. Without a state or behind a stiff spring, G increases everywhere, and an upper bound at
+    /// the rate of the free spring suffices.
     fn bracket(&mut self, p: &Point, top: f64) -> Result<((f64, f64), usize), Failure> {
-        // An e-fold above the bound, for rounding.
+        // An e-fold above the bound, to allow for rounding.
         let everywhere = (f64::NEG_INFINITY, top + 1.0);
         if self.parts.is_empty() || p.dt == 0.0 {
             return Ok((everywhere, 0));
@@ -393,7 +393,7 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         if p.spring > p.normal * weakening * p.dt {
             return Ok((everywhere, 0));
         }
-        // Up to here the direct effect, reduced by a memory of shear traction, outweighs the state, and G increases.
+        // Up to this rate the direct effect, reduced by a memory of shear traction, outweighs the state, and G increases.
         let direct = self.form.direct_effect(top) / (1.0 + self.shear_memory());
         let safe = (direct / (weakening * p.dt)).ln().max(top - WIDEST);
         if safe >= top || self.evaluate(p, safe, 0).g >= 0.0 {
@@ -421,11 +421,11 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
         self.parts.iter().map(|part| part.evolution.shear_memory()).sum()
     }
 
-    /// Start of the iteration: the answer for states as they are before the step, which for a logarithmic strength is
-    /// `A z + c e^z = T'` with A = f_n a, solved by Wright's ω; elsewhere a bound of it.
+    /// Starting value of the iteration: the answer for the states before the step. For a logarithmic strength this is `A z + c
+    /// e^z = T'` with A = f_n a, solved by Wright's ω; elsewhere a bound of it.
     fn start(&self, p: &Point, top: f64) -> f64 {
         let phi: f64 = self.parts.iter().zip(&self.before).map(|(part, &s)| part.evolution.phi(s)).sum();
-        // A memory of shear traction lowers φ by c μ at once, and the direct effect by 1 + c.
+        // A memory of shear traction lowers φ by c μ immediately, and the direct effect by 1 + c.
         let memory = self.shear_memory();
         let mu = p.drive / p.normal;
         let at_strength = self.form.log_rate(mu, phi - memory * mu);
@@ -440,7 +440,8 @@ impl<'a, F: Form, E: Evolution> Solver<'a, F, E> {
     }
 }
 
-/// An evolved state by the logarithm of the rate at the end of the step; the one it evolved at changes by `share` times as much.
+/// Derivatives of an evolved state by the logarithm of the rate at the end of the step; the evolution rate changes by `share`
+/// times as much.
 fn by_end(evolved: Evolved, share: f64) -> Evolved {
     if share == 1.0 {
         return evolved;
@@ -456,22 +457,22 @@ fn omega_log(x: f64) -> f64 {
         // ω = e^x (1 - e^x + ...).
         x - x.exp()
     } else {
-        // From the logarithm of a smooth guess, Newton on u + e^u = x.
+        // Newton's method on u + e^u = x, from the logarithm of a smooth guess.
         let guess = if x > 1.0 { x.ln() - x.ln() / (x + 1.0) } else { 0.6 * x - 0.6 };
         let power = guess.exp();
         guess - (guess + power - x) / (1.0 + power)
     }
 }
 
-/// The step from a value of G. Short ones are of fourth order (Householder's method with three derivatives). Long ones are
-/// Newton's on ln(G + T) where the spring carries more than the strength or G < 0, which is linear in z for both.
+/// The step from a value of G. Short steps are of fourth order (Householder's method with three derivatives). Long ones are
+/// Newton steps on ln(G + T) where the spring carries more than the strength or G < 0; it is linear in z for both.
 fn step(p: &Point, value: &Value) -> f64 {
     let newton = -value.g / value.slope;
     if newton.abs() < SERIES {
         let (a2, a3) = (0.5 * value.curvature / value.slope, value.third / (6.0 * value.slope));
         let denominator = 1.0 + newton * (2.0 * a2 + newton * a3);
         let factor = (1.0 + a2 * newton) / denominator;
-        // The series is of use where it is a correction.
+        // The series is useful only as a correction.
         return if (0.5..2.0).contains(&factor) { newton * factor } else { newton };
     }
     if value.g < 0.0 || value.spring > p.normal * value.solution.mu {
@@ -481,8 +482,8 @@ fn step(p: &Point, value: &Value) -> f64 {
     }
 }
 
-/// The step where it stays inside the bracket, otherwise half the bracket or, without a lower bound, further down. Far down G
-/// is linear in z to rounding, so that long steps down are good ones; steps up are bounded by the free spring.
+/// The step if it stays inside the bracket; otherwise half the bracket or, without a lower bound, a point further down. Far
+/// down, G is linear in z to rounding, so that long steps down are accurate; steps up are bounded by the free spring.
 fn guarded(z: f64, step: f64, (low, high): (f64, f64)) -> f64 {
     let next = z + step;
     if next > low && next < high {

@@ -1,4 +1,4 @@
-//! Laws whose strength depends on the slip rate: a strength form times an evolution (possibly none).
+//! Laws whose strength depends on the slip rate: a strength form with an evolution, or without one.
 
 mod balance;
 mod error;
@@ -13,29 +13,28 @@ use crate::pace::Pace;
 use crate::point::{Point, Solver};
 use crate::strength::{Form, Parameters, regularised::Regularised};
 
-/// A rate-dependent law: a strength form with any number of state variables of one evolution law (none, where the law has no
-/// state).
+/// A rate-dependent law: a strength form with any number of state variables of one evolution law, or with none.
 #[derive(Clone, Debug)]
 pub struct RateLaw<F, E> {
     form: F,
     parts: Vec<Component<E>>,
     /// ln of the slip rate whose steady state is the initial state.
     log_initial: f64,
-    /// f_ref: the normal traction under which the initial state is steady, for memories of normal traction \[Pa\].
+    /// f_ref for memories of normal traction: the normal traction under which the initial state is steady \[Pa\].
     reference: f64,
-    /// F_limit \[Pa\]; infinite where the scene gives none.
+    /// F_limit \[Pa\]; infinite if the scene gives none.
     limit: f64,
 }
 
 impl<F: Form, E: Evolution> RateLaw<F, E> {
-    /// A law with one state variable (or none), its initial state steady at `v_initial` \[m/s\], and an optional largest shear
-    /// traction \[Pa\].
+    /// A law with at most one state variable, whose initial state is steady at `v_initial` \[m/s\], and an optional largest
+    /// shear traction \[Pa\].
     ///
     /// # Errors
     /// [`Failure::Parameter`].
     pub fn new(form: F, evolution: E, v_initial: f64, limit: Option<f64>) -> Result<Self, Failure> {
         let part = Component::new(evolution, 0.0)?;
-        // Nothing depends on the reference without a memory of normal traction.
+        // Without a memory of normal traction, nothing depends on the reference.
         Self::with_parts(form, vec![part], v_initial, 1.0, limit)
     }
 
@@ -66,8 +65,8 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         Ok(Self { form, parts, log_initial: crate::positive("v_initial", v_initial)?.ln(), reference, limit })
     }
 
-    /// True if the strength falls with the slip rate while no state holds it back: an ill-posed law, which the constructor
-    /// of [`Parameters`] refuses; ∂μ/∂V has the sign of a at every rate in every form.
+    /// True if the strength decreases with the slip rate without a state to oppose it: an ill-posed law, which the constructor
+    /// of [`Parameters`] refuses. ∂μ/∂V has the sign of a at every rate in every form.
     #[must_use]
     pub fn rate_weakening_without_state(&self) -> bool {
         self.parts.is_empty() && self.form.direct_effect(self.log_initial) <= 0.0
@@ -103,7 +102,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         &mut states[k * self.parts.len()..(k + 1) * self.parts.len()]
     }
 
-    /// The point return for one closed point; its new states stay in the solver.
+    /// Computes the point return for one closed point; its new states stay in the solver.
     fn return_point(
         &self,
         k: usize,
@@ -146,8 +145,8 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         })
     }
 
-    /// A point without normal traction slips freely; one without drive keeps the slip of its past differences. Without normal
-    /// traction a memory of it has nothing to hold on to: what such a state keeps is left as it was.
+    /// Answer without normal traction or without drive. Without normal traction a point slips freely, and the kept value of a
+    /// memory of normal traction is left unchanged. Without drive a point keeps the slip of its past differences.
     fn unloaded(
         &self,
         k: usize,
@@ -171,7 +170,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         } else if drive.size > 0.0 {
             0.0
         } else {
-            // At the apex of the cone, without drive, every slope between 0 and 1 is one: rest is the better guess.
+            // At the apex of the cone, without drive, every slope between 0 and 1 is valid: that of rest is the better guess.
             1.0
         };
         Ok(Answer {
@@ -184,7 +183,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         })
     }
 
-    /// The answer where the strength reaches F_limit: what the spring holds beyond it is slip.
+    /// The answer where the strength reaches F_limit: the excess of the spring traction becomes slip.
     fn at_limit(
         &self,
         p: &Point,
@@ -209,12 +208,12 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
 }
 
 impl RateLaw<Regularised, Stateless> {
-    /// Velocity-dependent friction without state, of the regularised form, with an optional largest shear traction \[Pa\].
+    /// Velocity-dependent friction without a state, of the regularised form, with an optional largest shear traction \[Pa\].
     ///
     /// # Errors
     /// [`Failure::Parameter`].
     pub fn velocity(parameters: Parameters, limit: Option<f64>) -> Result<Self, Failure> {
-        // Nothing depends on the initial rate without a state.
+        // Without a state, nothing depends on the initial rate.
         Self::new(Regularised(parameters), Stateless, 1.0, limit)
     }
 }
@@ -257,7 +256,7 @@ struct Answer {
     rate: f64,
     d_trial: f64,
     d_normal: f64,
-    /// Friction coefficient of the strength, for the states.
+    /// Friction coefficient of the strength, used by the states.
     mu: f64,
 }
 
@@ -274,7 +273,7 @@ impl<F: Form, E: Evolution> Law for RateLaw<F, E> {
         if self.parts.is_empty() {
             return;
         }
-        // Under f_ref only a memory of shear traction tells what is kept from the state; it has one state variable.
+        // Under f_ref the kept quantity differs from the state only by a memory of shear traction; that has one state variable.
         let steady = |part: &Component<E>| part.evolution.steady(self.log_initial);
         let phi: f64 = self.parts.iter().map(|part| part.evolution.phi(steady(part))).sum();
         let mu = self.form.at(self.log_initial, phi).mu;

@@ -1,14 +1,14 @@
-//! Many points with the regularised form and the ageing law at once.
+//! Evaluation of many points with the regularised form and the ageing law at once.
 //!
-//! While μ/a is large the form is its logarithm and V one exponential; healing is another. Both are taken for several points
-//! together, by a polynomial the compiler spreads over the lanes of the processor. Elsewhere the equations of
-//! [`crate::slider`] hold, of which these are a case.
+//! While μ/a is large, the form equals its logarithm and V is a single exponential; healing is another. Both are evaluated for
+//! several points together, by a polynomial that the compiler vectorises. Elsewhere the equations of [`crate::slider`] are
+//! used, of which these are a special case.
 
 use crate::drive::Drive;
 use crate::slider::Line;
 use pulp::{Arch, Simd, WithSimd};
 
-/// Points treated together.
+/// Points evaluated together.
 const LANES: usize = 8;
 
 /// Lines of [`LANES`] points.
@@ -30,7 +30,7 @@ pub(crate) struct Sheet {
     arch: Arch,
 }
 
-/// Processing of a group of points.
+/// m and s of a group of points.
 struct Group {
     m: [f64; LANES],
     s: [f64; LANES],
@@ -54,7 +54,7 @@ impl Group {
 }
 
 impl Sheet {
-    /// Of points that have a line each; the last group is filled with the last of them.
+    /// Sheet of points that have a line each; the last group is padded with the last of them.
     pub fn new(points: &[Line]) -> Self {
         let group = |lines: &[Line]| {
             let of =
@@ -72,13 +72,13 @@ impl Sheet {
         Self { lines: points.chunks(LANES).map(group).collect(), arch: Arch::new() }
     }
 
-    /// Slip rates of all points \[m/s\]; `other` gives that of a point where the line does not hold.
+    /// Computes slip rates of all points \[m/s\]; `other` gives that of a point outside the range of its line.
     pub fn slip_rates(&self, m: &[f64], s: &[f64], rate: &mut [f64], other: impl Fn(usize) -> f64) {
         self.arch.dispatch(SlipRates { lines: &self.lines, m, s, rate });
         self.elsewhere(m, |k| rate[k] = other(k));
     }
 
-    /// Rates of m and of the states \[1/s\]; `other` writes those of a point where the line does not hold.
+    /// Computes rates of m and of the states \[1/s\]; `other` writes those of a point outside the range of its line.
     pub fn rates(
         &self,
         drive: &Drive<'_>,
@@ -92,7 +92,7 @@ impl Sheet {
         self.elsewhere(m, |k| other(k, &mut dm[k], &mut ds[k]));
     }
 
-    /// Does `what` for the points where the line does not hold, those whose m is not a number among them.
+    /// Calls `what` for the points outside the range of their lines, including those whose m is not a number.
     fn elsewhere(&self, m: &[f64], mut what: impl FnMut(usize)) {
         for (g, (lines, m)) in self.lines.iter().zip(m.chunks(LANES)).enumerate() {
             for (k, m) in m.iter().enumerate() {
@@ -105,8 +105,8 @@ impl Sheet {
     }
 }
 
-/// Operations for all points with the vector units of the processor: not closures, which pulp calls through a function of its own that
-/// is compiled without those units.
+/// Operation on all points with the vector units of the processor. It is not a closure: pulp calls closures through a function that is
+/// compiled without those units.
 struct SlipRates<'a> {
     lines: &'a [Lines],
     m: &'a [f64],
@@ -185,7 +185,7 @@ impl Group {
     }
 }
 
-/// The values, then the last again.
+/// The values, padded with the last one.
 #[inline(always)]
 fn load(values: &[f64]) -> [f64; LANES] {
     match values.first_chunk::<LANES>() {
@@ -197,13 +197,13 @@ fn load(values: &[f64]) -> [f64; LANES] {
 /// Arguments between which the result is a normal number.
 const LEAST: f64 = -708.0;
 const MOST: f64 = 709.0;
-/// Adding it rounds to an integer, which then stands in the last bits.
+/// Constant whose addition rounds to an integer, which is then in the last bits.
 const ROUND: f64 = 6_755_399_441_055_744.0;
-/// ln 2 in two parts, of which this has so few digits that its multiples are exact.
+/// ln 2 in two parts; this one has so few digits that its multiples are exact.
 const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
 /// Remainder of ln 2 after the first part.
 const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
-/// Inverse factorials from 1/13! on: on |r| <= ln 2/2 the next term is 4e-18 of the sum.
+/// Inverse factorials from 1/13! to 1: for |r| <= ln 2/2, the next term is 4e-18 of the sum.
 const TERMS: [f64; 14] = [
     1.605_904_383_682_161_3e-10,
     2.087_675_698_786_81e-9,
@@ -221,10 +221,10 @@ const TERMS: [f64; 14] = [
     1.0,
 ];
 
-/// e^x to about an ulp, without branches; below [`LEAST`] and above [`MOST`] the value there, NaN where x is.
+/// e^x to about an ulp, without branches. Below [`LEAST`] and above [`MOST`] it is the value there; NaN for x = NaN.
 #[inline(always)]
 fn exp(x: f64) -> f64 {
-    // Comparisons with NaN are false: it stays.
+    // Comparisons with NaN are false, so that it is kept.
     let x = if x < LEAST { LEAST } else { x };
     let x = if x > MOST { MOST } else { x };
     let shifted = x * std::f64::consts::LOG2_E + ROUND;

@@ -1,13 +1,13 @@
-//! Linear slip weakening with an optional cap: `τ ≤ F̄ = min(μ(λ) f_n, F_limit)` \[Pa\] with
-//! `μ(λ) = μ_s - (μ_s - μ_k) min(λ/d_c, 1)` \[-\] and λ \[m\] the accumulated slip, an elastic domain without healing.
+//! Linear slip weakening with an optional cap: `τ ≤ F̄ = min(μ(λ) f_n, F_limit)` \[Pa\] with `μ(λ) = μ_s - (μ_s - μ_k)
+//! min(λ/d_c, 1)` \[-\], where λ \[m\] is the accumulated slip. It has an elastic domain and no healing.
 //!
-//! At constant f_n and without cap the work spent above the residual strength is the fracture energy
-//! `G_c = (μ_s - μ_k) f_n d_c/2` \[J/m²\] of a cohesive zone: Ida, Y. (1972), Cohesive force across the tip of a
-//! longitudinal-shear crack and Griffith's specific surface energy, J. Geophys. Res. 77, 3796-3805; with the strength as
-//! linear in slip: Andrews, D. J. (1976), Rupture velocity of plane strain shear cracks, J. Geophys. Res. 81, 5679-5687.
+//! At constant f_n and without a cap, the energy dissipated in excess of the residual strength is the fracture energy `G_c =
+//! (μ_s - μ_k) f_n d_c/2` \[J/m²\] of a cohesive zone. Sources: Ida, Y. (1972), Cohesive force across the tip of a
+//! longitudinal-shear crack and Griffith's specific surface energy, J. Geophys. Res. 77, 3796-3805; for the strength linear in
+//! slip, Andrews, D. J. (1976), Rupture velocity of plane strain shear cracks, J. Geophys. Res. 81, 5679-5687.
 //!
 //! On the weakening branch the strength changes with slip by `H = -W`, `W = f_n (μ_s - μ_k)/d_c` \[Pa/m\]. Behind a spring
-//! E_t > W the balance `|t^e| - E_t Δλ = F̄(λ_0 + Δλ)` has one root, and there `∂τ/∂|t^e| = H/(E_t + H)`, negative, and
+//! E_t > W the balance `|t^e| - E_t Δλ = F̄(λ_0 + Δλ)` has one root. There `∂τ/∂|t^e| = H/(E_t + H)`, which is negative, and
 //! `∂τ/∂f_n = κ μ`, κ = E_t/(E_t + H) > 1. A softer spring cannot follow the branch: [`Failure::Unstable`].
 
 use crate::Failure;
@@ -25,7 +25,7 @@ pub struct SlipWeakening {
     limit: f64,
 }
 
-/// Strength at some λ and f_n, and how it changes from there with slip.
+/// Strength at some λ and f_n, and its change with further slip.
 #[derive(Clone, Copy)]
 struct Strength {
     /// F̄ \[Pa\].
@@ -43,12 +43,12 @@ struct Slide {
     slip: f64,
     /// λ \[m\].
     total: f64,
-    /// At the end, on the branch of the answer.
+    /// Strength at the end, on the branch of the answer.
     strength: Strength,
 }
 
 impl SlipWeakening {
-    /// μ_s ≥ μ_k ≥ 0 \[-\], d_c > 0 \[m\] and an optional largest shear traction \[Pa\].
+    /// Law with μ_s ≥ μ_k ≥ 0 \[-\], d_c > 0 \[m\] and an optional largest shear traction \[Pa\].
     ///
     /// # Errors
     /// [`Failure::Parameter`].
@@ -63,11 +63,11 @@ impl SlipWeakening {
         Ok(Self { mu_s, mu_k, length, limit: cap(limit)? })
     }
 
-    /// μ(λ) as a mean of μ_s and μ_k, exact at both ends and with nothing to cancel in between.
+    /// μ(λ) as a mean of μ_s and μ_k, exact at both ends and without cancellation in between.
     fn mu(&self, slip: f64) -> f64 {
         let gone = (slip / self.length).min(1.0);
         let left = ((self.length - slip) / self.length).max(0.0);
-        // Rounded, a mean of two equal numbers may lie beside them.
+        // A rounded mean of two equal numbers may differ from them.
         (self.mu_s * left + self.mu_k * gone).clamp(self.mu_k, self.mu_s)
     }
 
@@ -76,12 +76,12 @@ impl SlipWeakening {
         normal * ((self.mu_s - self.mu_k) / self.length)
     }
 
-    /// True if more slip changes nothing. A point that a forward step has brought to d_c is there but for rounding.
+    /// True if further slip has no effect. A point that a forward step has brought to d_c is there to rounding.
     fn weakened(&self, slip: f64) -> bool {
         slip >= self.length * (1.0 - BAND) || self.mu_s == self.mu_k
     }
 
-    /// The strength at λ, with the slopes ahead.
+    /// The strength at λ, with the slopes for further slip.
     fn strength(&self, slip: f64, normal: f64) -> Strength {
         let mu = self.mu(slip);
         let cone = mu * normal;
@@ -106,7 +106,7 @@ impl SlipWeakening {
         }
         let weakening = self.weakening(normal);
         if stiffness > weakening && old < self.length {
-            // Past the cap the root lies beyond it but for rounding, which must not turn the slip.
+            // Past the cap, the root lies beyond it except for rounding, which must not reverse the slip.
             let slip = ((trial - cone) / (stiffness - weakening)).max(0.0);
             let total = old + slip;
             if total <= self.length {
@@ -119,7 +119,7 @@ impl SlipWeakening {
         }
         let value = self.mu_k * normal;
         let slip = (trial - value) / stiffness;
-        // The branch is reached: d_c is behind, whatever the last digit of the sum.
+        // This branch is reached only past d_c, whatever the last digit of the sum.
         let total = (old + slip).max(self.length);
         Ok(Slide { slip, total, strength: Strength { value, slope: self.mu_k, weakening: 0.0 } })
     }
@@ -210,8 +210,8 @@ impl Law for SlipWeakening {
         Ok(())
     }
 
-    /// r6 of sticking points, r8 of slipping ones. Where a slipping point passes from the cap to the weakening branch the step
-    /// is not cut: r8 bounds what is left over, and the next step takes it up.
+    /// Limits r6 of sticking points and r8 of slipping ones. Where a slipping point passes from the cap to the weakening
+    /// branch, the step is not cut: r8 bounds the difference, and the next step corrects it.
     fn limit(&self, present: Present<'_>, step: Increments<'_>, bounds: RateBounds) -> Option<Limit> {
         (0..present.normal.len())
             .map(|k| match present.regime[k] {

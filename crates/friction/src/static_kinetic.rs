@@ -1,11 +1,11 @@
 //! Static and kinetic friction with an optional cap: an elastic domain whose strength drops once the point slips.
 //!
-//! A point at rest holds up to F̄_s = min(μ_s f_n, F_limit) \[Pa\]. Once it slips the strength is F̄_k = min(μ_k f_n, F_limit)
-//! for as long as it goes on slipping; a step in which it does not slip heals it to F̄_s. One state variable \[-\]: 1 while
-//! the point slips, 0 at rest.
+//! A point at rest holds up to F̄_s = min(μ_s f_n, F_limit) \[Pa\]. Once it slips, the strength is F̄_k = min(μ_k f_n, F_limit)
+//! for as long as it keeps slipping; a step in which it does not slip heals it to F̄_s. One state variable \[-\]: 1 while the
+//! point slips, 0 at rest.
 //!
-//! The drop is a discontinuity in time, of no length and no duration: the work it releases depends on the stiffness behind
-//! the point alone, and the traction of a step that starts to slip does not tend to that of the step before as the step
+//! The drop is a discontinuity in time, without a length or a duration. The energy that it releases depends on the stiffness
+//! behind the point alone. The traction of a step that starts to slip does not tend to that of the step before as the step
 //! shrinks. Slip weakening ([`crate::slip_weakening`]) spreads the drop over a length.
 
 use crate::Failure;
@@ -26,7 +26,7 @@ pub struct StaticKinetic {
 }
 
 impl StaticKinetic {
-    /// μ_s > μ_k ≥ 0 \[-\] and an optional largest shear traction \[Pa\].
+    /// Law with μ_s > μ_k ≥ 0 \[-\] and an optional largest shear traction \[Pa\].
     ///
     /// # Errors
     /// [`Failure::Parameter`].
@@ -83,7 +83,7 @@ impl Law for StaticKinetic {
         for (k, &old) in old.iter().enumerate() {
             let normal = t.normal[k];
             all_finite(k, normal, t.trial[k], &[old])?;
-            // The kinetic strength is no more than the one just exceeded: the slip is not negative.
+            // The kinetic strength does not exceed the one just reached: the slip is not negative.
             let held = self.strength(self.mu(old), normal).0;
             let stick = answer(&t, k, held, self.strength(self.mu_k, normal), &mut out);
             out.states[k] = if stick { RESTING } else { SLIPPING };
@@ -91,7 +91,7 @@ impl Law for StaticKinetic {
         Ok(())
     }
 
-    /// A point that leaves rest takes the drop F̄_k - F̄_s over the step.
+    /// Linearises the law; a point that leaves rest takes the drop F̄_k - F̄_s over the step.
     fn rates(&self, present: Present<'_>, out: Rates<'_>) -> Result<(), Failure> {
         for k in 0..present.normal.len() {
             let (normal, traction) = (present.normal[k], present.traction[k]);

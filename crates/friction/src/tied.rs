@@ -27,7 +27,7 @@ impl Law for Tied {
 
     fn initial(&self, _states: &mut [f64]) {}
 
-    /// There is no friction: 0.
+    /// Writes 0: there is no friction.
     fn coefficient(
         &self,
         _normal: &[f64],

@@ -1,15 +1,16 @@
 //! Slip in two directions: friction of a plane on which the slip vector may turn.
 //!
-//! Friction acts along slip, and its size is that of the law with V = |V|. With the unit direction d, `V = V d`, the unknown of a point
-//! is the vector `m d`, m = |μ|/a, and what drives is `t = f_n a m d + η V d`. Its rate, along d and along e normal to it,
+//! Friction acts along slip; its magnitude is that of the law with V = |V|. With the unit direction d, `V = V d`, the unknown of a
+//! point is the vector `m d`, m = |μ|/a, and the driving traction is `t = f_n a m d + η V d`. Its rate, along d and along e normal to
+//! d,
 //!
 //! ```text
 //! t'·d = f_n a m' + f_n' a m + η V',        t'·e = (f_n a m + η V) ω,        d' = ω e,
 //! ```
 //!
-//! is the equation of a slider that does not turn, and the rate ω at which slip turns. Vectors stand component by component: the first
-//! components of all points, then the second. Where m is nothing there is no direction, and each component obeys the equation of
-//! the slider by itself, since V(m) is odd and smooth there.
+//! gives the equation of a slider whose direction is fixed, and the rate ω at which slip turns. Vectors are stored component by
+//! component: the first components of all points, then the second. Where m vanishes there is no direction. Each component then obeys
+//! the equation of the slider by itself, since V(m) is odd and smooth there.
 
 use crate::Failure;
 use crate::fault::{Drive, FaultLaw};
@@ -34,7 +35,7 @@ struct Scratch {
     speed: Vec<f64>,
     /// Rate of the driving traction along slip \[Pa/s\].
     along: Vec<f64>,
-    /// States that are not asked for.
+    /// Unused states.
     spare: Vec<f64>,
 }
 
@@ -49,7 +50,7 @@ impl Turning {
     }
 }
 
-/// Size of a vector of two components. Of one along an axis it is exact.
+/// Magnitude of a vector of two components; exact for a vector along an axis.
 #[inline]
 fn size(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
@@ -99,7 +100,7 @@ impl FaultLaw for Turning {
         for k in 0..n {
             let s = size(x[k], y[k]);
             sizes[k] = s;
-            // Where nothing slides the first axis is as good as any direction.
+            // The first axis serves as the direction if nothing slides.
             along[k] = if s > 0.0 { (x[k] * pull_x[k] + y[k] * pull_y[k]) / s } else { pull_x[k] };
         }
         let (dx, dy) = dm.split_at_mut(n);
@@ -260,7 +261,7 @@ mod tests {
         assert!(close(&turned(&dm), &other_dm) && close(&ds, &other_ds) && close(&turned(&v), &other_v));
     }
 
-    /// The equations say that `f_n a m + η V` grows as the traction that drives does: by differences along the rates themselves.
+    /// `f_n a m + η V` grows as the driving traction does: checked by differences along the rates.
     #[test]
     fn friction_and_damping_follow_the_traction_that_drives_in_both_components() {
         let turning = Turning::new(line());
@@ -279,13 +280,13 @@ mod tests {
             (0..2 * N).map(each).collect()
         };
         for p in 0..N {
-            // So short that ln V of this point changes by a millionth.
+            // Step so short that ln V of this point changes by a millionth.
             let fastest = dm[p].abs().max(dm[N + p].abs()).max(2.0 * ds[p].abs());
             let step = 1e-6 / fastest;
             let (before, after) = (resisting(-step), resisting(step));
             for i in [p, N + p] {
                 let rate = (after[i] - before[i]) / (2.0 * step);
-                // Rounding of tractions of some 1e7 Pa over the change in a step.
+                // Rounding of tractions of about 1e7 Pa relative to the change in a step.
                 let rounding = 1e-16 * 5e7 / step;
                 assert!(
                     (rate - case.pull[i]).abs() < 1e-6 * case.pull[i].abs().max(1e-3) + 10.0 * rounding,
@@ -302,7 +303,7 @@ mod tests {
         let turning = Turning::new(line());
         let rates = |m: f64| {
             let mut case = Case::new();
-            // An exact zero, and next to nothing in an oblique direction.
+            // An exact zero, and almost zero in an oblique direction.
             case.m[3] = 0.6 * m;
             case.m[N + 3] = 0.8 * m;
             let [dm, ds, _] = case.rates(&turning);

@@ -4,10 +4,10 @@ use crate::Failure;
 use crate::law::{BAND, Increments, Limit, LimitKind, Present, Regime, Responses, Trials};
 use crate::line::Line;
 
-/// A largest shear traction F_limit \[Pa\]; infinite where there is none.
+/// A largest shear traction F_limit \[Pa\]; infinite if there is none.
 ///
 /// # Errors
-/// [`Failure::Parameter`] when it is not positive.
+/// [`Failure::Parameter`] if it is not positive.
 pub(crate) fn cap(limit: Option<f64>) -> Result<f64, Failure> {
     limit.map_or(Ok(f64::INFINITY), |value| crate::positive("f_limit", value))
 }
@@ -29,8 +29,8 @@ pub(crate) fn all_finite(point: usize, normal: f64, trial: f64, others: &[f64]) 
     }
 }
 
-/// The implicit answer of point k where the strength does not depend on slip: a trial up to `held` \[Pa\] sticks, one above slips
-/// at the strength and slope of `sliding` \[Pa, -\]. The states are the caller's; the answer tells whether the point sticks.
+/// The implicit answer of point k where the strength does not depend on slip: a trial up to `held` \[Pa\] sticks; one above slips
+/// at the strength and slope of `sliding` \[Pa, -\]. The caller updates the states; the answer shows if the point sticks.
 #[inline]
 pub(crate) fn answer(
     t: &Trials<'_>,
@@ -70,7 +70,7 @@ pub(crate) fn first_exit(
         .fold(None, smaller)
 }
 
-/// The smaller of two limits; the first of equals.
+/// The smaller of two limits; the first if they are equal.
 pub(crate) fn smaller(a: Option<Limit>, b: Option<Limit>) -> Option<Limit> {
     match (a, b) {
         (Some(a), Some(b)) => Some(if b.fraction < a.fraction { b } else { a }),

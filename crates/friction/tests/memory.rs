@@ -65,9 +65,9 @@ fn mu(law: &dyn Law, normal: f64, rate: f64, states: &[f64]) -> f64 {
     mu[0]
 }
 
-/// The states after `dt` at `rate`, with f_n at once what it is given as.
+/// The states after `dt` at `rate`, with f_n set at once to `normal`.
 fn slide(law: &dyn Law, normal: f64, rate: f64, dt: f64, states: &[f64]) -> Vec<f64> {
-    // A spring so stiff that the slip is what it is drawn by.
+    // A spring so stiff that the slip equals the imposed displacement.
     let stiffness = 1e30;
     implicit(law, normal, stiffness * rate * dt, stiffness, dt, states).unwrap().2
 }
@@ -110,7 +110,7 @@ fn a_sudden_change_of_normal_traction_lowers_friction_by_its_logarithm() {
         let start = mu(&law, REFERENCE, rate, &states);
         for ratio in [0.1, 0.7, 1.0, 1.01, 3.0, 40.0] {
             let jump = mu(&law, ratio * REFERENCE, rate, &states) - start;
-            // With a memory of shear traction μ + c μ is what the change of φ leaves alone.
+            // With a memory of shear traction, μ + c μ is unaffected by the change of φ.
             let expected = -ALPHA * ratio.ln() / (1.0 + e.shear_memory());
             assert!((jump - expected).abs() < 1e-14, "{} {ratio}: {jump} {expected}", E::NAME);
         }
@@ -137,7 +137,7 @@ fn friction_recovers_from_a_change_of_normal_traction_over_slip() {
             let theta = 1.0 + (ratio.powf(-ALPHA / B) - 1.0) * decay;
             let expected = steady + B * theta.ln();
             approx::assert_abs_diff_eq!(mu(&ageing, after, rate, &states), expected, epsilon = 4e-15);
-            // The change at the start, the rest of the way in two: the same.
+            // The change at the start and the rest in two halves give the same result.
             let half = slide(&ageing, after, rate, 0.5 * dt, &start[1]);
             let halves = slide(&ageing, after, rate, 0.5 * dt, &half);
             approx::assert_abs_diff_eq!(states[0], halves[0], epsilon = 1e-13);
@@ -145,7 +145,7 @@ fn friction_recovers_from_a_change_of_normal_traction_over_slip() {
     }
 }
 
-/// At constant rate and normal traction two halves of a step are the step, for every evolution and for several states.
+/// At constant rate and normal traction, two half steps equal one step, for every evolution and for several states.
 #[test]
 fn a_step_in_two_halves_is_the_step() {
     fn check<F: Form, E: Evolution>(form: F, parts: &[(E, f64)]) {
@@ -195,8 +195,8 @@ fn runge_kutta(mut y: [f64; 2], end: f64, steps: u32, f: impl Fn(f64, [f64; 2]) 
     y
 }
 
-/// A point on a soft spring pulled at one rate from another, while f_n swells and shrinks: dτ/dt = k (V_0 - V) and
-/// dφ/dt = evolution - c dμ/dt - α d ln f_n/dt, with V from the bare logarithm. Implicit steps come down on it at first order.
+/// A point on a soft spring, whose load rate changes, while f_n oscillates: dτ/dt = k (V_0 - V) and dφ/dt = evolution - c
+/// dμ/dt - α d ln f_n/dt, with V from the bare logarithm. Implicit steps converge to it at first order.
 fn first_order<E: Evolution>(e: &E, alpha: f64, equation: impl Fn(f64, f64) -> f64) {
     let (stiffness, pull, start) = (2e11, 2e-6, 3e-7);
     let (end, swell, omega) = (30.0, 0.3, 0.5);
@@ -206,7 +206,7 @@ fn first_order<E: Evolution>(e: &E, alpha: f64, equation: impl Fn(f64, f64) -> f
     let states = initial(&law);
     let friction = mu(&law, REFERENCE, start, &states);
     let c = e.shear_memory();
-    // φ from the strength, without a word about what the law keeps.
+    // φ from the strength, independent of the quantity that the law keeps.
     let phi = friction - 0.6 - A * f64::ln(start / V_REF);
     let [expected, _] = runge_kutta([REFERENCE * friction, phi], end, 30_000, |t, [traction, phi]| {
         let mu = traction / normal(t);
@@ -222,7 +222,7 @@ fn first_order<E: Evolution>(e: &E, alpha: f64, equation: impl Fn(f64, f64) -> f
             let trial = traction + stiffness * pull * dt;
             let f_n = normal(f64::from(n) * dt);
             let (after, rate, new) = implicit(&law, f_n, trial, stiffness, dt, &states).expect(E::NAME);
-            // What is kept tells the strength at the end of the step.
+            // The kept quantity gives the strength at the end of the step.
             let strength = f_n * mu(&law, f_n, rate, &new);
             assert!((strength - after).abs() <= 1e-11 * after, "{}: {strength} {after}", E::NAME);
             (traction, states) = (after, new);
@@ -240,7 +240,7 @@ fn implicit_steps_follow_a_varying_normal_traction_at_first_order() {
     let ageing_equation = |phi: f64, v: f64| B * (V_REF / LENGTH * (-phi / B).exp() - v / LENGTH);
     first_order(&slip(), ALPHA, slip_equation);
     first_order(&ageing(), ALPHA, ageing_equation);
-    // A lesser memory, since this law weakens with θ itself. φ = b ln(Vref θ/2L), dθ/dt = 1 - (Vθ/2L)².
+    // A smaller memory, since this law itself weakens with θ. φ = b ln(Vref θ/2L), dθ/dt = 1 - (Vθ/2L)².
     first_order(&Prz::new(B, LENGTH, V_REF).unwrap(), 0.05, |phi, v| {
         let theta = 2.0 * LENGTH / V_REF * (phi / B).exp();
         B / theta * (1.0 - (v * theta / (2.0 * LENGTH)).powi(2))
@@ -254,7 +254,7 @@ fn implicit_steps_follow_a_varying_normal_traction_at_first_order() {
     first_order(&Nagata::new(B, LENGTH, V_REF, 3.0).unwrap(), ALPHA, ageing_equation);
 }
 
-/// A jump of V changes friction by dμ = a ln(V_2/V_1)/(1 + c) with the bare logarithm, and from there θ ages on the slower clock.
+/// At a jump of V, dμ = a ln(V_2/V_1)/(1 + c) with the bare logarithm; afterwards θ ages on the slower clock.
 #[test]
 fn the_nagata_law_follows_its_closed_form_after_a_jump_of_the_rate() {
     let (v1, v2) = (1e-7, 2e-6);
@@ -265,7 +265,7 @@ fn the_nagata_law_follows_its_closed_form_after_a_jump_of_the_rate() {
         let steady = |v: f64| 0.6 + (A - B) * f64::ln(v / V_REF);
         approx::assert_abs_diff_eq!(mu(&law, REFERENCE, v1, &states), steady(v1), epsilon = 1e-14);
         approx::assert_abs_diff_eq!(mu(&law, REFERENCE, v2, &states), steady(v1) + jump, epsilon = 1e-14);
-        // φ has lost c dμ, ln θ that over b.
+        // φ has decreased by c dμ, and ln θ by that over b.
         let theta = LENGTH / v1 * f64::exp(-c * jump / B);
         for distance in [1e-3, 0.3, 1.0, 5.0, 50.0] {
             let end = slide(&law, REFERENCE, v2, distance * LENGTH / v2, &states);
@@ -315,7 +315,7 @@ fn initial_states_are_steady_under_the_initial_normal_traction() {
             for r in rates {
                 assert!(r.abs() <= 1e-11 * rate / LENGTH, "{} {rate}: {r:e}", E::NAME);
             }
-            // Pulled at that rate the point stays where it is.
+            // Pulled at that rate, the point keeps its condition.
             let (stiffness, dt) = (1e12, 1e-2 * LENGTH / rate);
             let trial = friction * REFERENCE + stiffness * rate * dt;
             let (traction, after, new) = implicit(&law, REFERENCE, trial, stiffness, dt, &states).unwrap();
@@ -355,7 +355,7 @@ fn equal_states_add_up() {
                         let first = implicit(&one, normal, trial, stiffness, dt, &old);
                         let second = implicit(&two, normal, trial, stiffness, dt, &olds);
                         if let Err(Failure::Unstable { .. }) = first {
-                            // θ grown by a fall of f_n weakens faster than the spring, whoever holds it.
+                            // θ increased by a drop of f_n weakens faster than the spring, however the state is divided.
                             assert!(
                                 matches!(second, Err(Failure::Unstable { .. })),
                                 "{}: {second:?}",
@@ -386,7 +386,7 @@ fn equal_states_add_up() {
     check(&cut(B), &cut(0.5 * B));
 }
 
-/// Rates of change are those of what the law keeps, at constant V and normal traction.
+/// Rates of change are those of the kept quantities, at constant V and normal traction.
 #[test]
 fn rates_of_the_states_are_the_slopes_of_their_steps() {
     fn check<F: Form, E: Evolution>(form: F, parts: &[(E, f64)]) {

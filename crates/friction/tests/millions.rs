@@ -1,5 +1,5 @@
-//! Millions of points over the whole admissible range: balanced to rounding or refused for a reason, never a wrong root, in
-//! few iterations.
+//! Millions of points over the whole admissible range: balanced to rounding or refused for a reason, never a wrong root, in few
+//! iterations.
 #![allow(clippy::unwrap_used)]
 
 use asperity_friction::Failure;
@@ -32,13 +32,13 @@ impl Sequence {
         f64::from(u32::try_from(self.0 >> 32).unwrap()) / 4_294_967_296.0
     }
 
-    /// Between powers of ten.
+    /// Draws a number between powers of ten.
     fn decades(&mut self, low: f64, high: f64) -> f64 {
         10f64.powf(low + (high - low) * self.next())
     }
 }
 
-/// Mean and largest number of iterations of many points, cold and from a rate within half an e-fold.
+/// Mean and largest number of iterations of many points, from a cold start and from a rate within half an e-fold.
 #[derive(Debug, Default)]
 struct Tally {
     points: usize,
@@ -58,7 +58,7 @@ impl Tally {
     }
 }
 
-/// Residual of the balance, relative to the drive, over the rounding of ln V and of its parts.
+/// Residual of the balance relative to the drive, over the effect of rounding of ln V and of its parts.
 fn left_over<F: Form, E: Evolution>(form: &F, parts: &[E], p: &Point, old: &[f64], s: &Solution) -> f64 {
     let phi: f64 = parts.iter().zip(old).map(|(e, &o)| e.phi(e.step(o, s.log_rate, p.dt).state)).sum();
     let strength = form.at(s.log_rate, phi);
@@ -190,7 +190,7 @@ fn every_evolution_balances_in_few_iterations() {
     );
 }
 
-/// V from τ over V from 1e-30 to 1e4 m/s: the rate the traction was made of comes back.
+/// V from τ, for V from 1e-30 to 1e4 m/s: the rate from which the traction was computed is recovered.
 #[test]
 fn slip_rates_come_back_from_tractions() {
     let mut random = Sequence(5);
@@ -204,7 +204,7 @@ fn slip_rates_come_back_from_tractions() {
         let state = Ageing::new(b, 1e-3, V_REF).unwrap().steady(random.decades(-30.0, 4.0).ln());
         let s = form.at(v.ln(), b * state);
         if s.mu * f64::EPSILON < f64::MIN_POSITIVE {
-            // A strength at the end of the range of numbers tells little of the rate.
+            // A strength at the end of the range of numbers says little about the rate.
             continue;
         }
         let sign = if random.next() < 0.5 { -1.0 } else { 1.0 };
@@ -213,7 +213,8 @@ fn slip_rates_come_back_from_tractions() {
         let drives = Drives { traction: &traction, normal: &[normal], damping, near: Some(&near) };
         law.slip_rates(drives, &[state], &mut rate, &mut change).unwrap();
         assert!(rate[0] * sign > 0.0 && change[0].is_finite(), "{v} {rate:?} {change:?}");
-        // ln V is known to rounding of τ over its slope, and of the terms of ln x, both in making τ and in taking it back.
+        // ln V is known to rounding of τ divided by its slope, and of the terms of ln x, both in computing τ and in inverting
+        // it.
         let slope = normal * s.d_log_rate + damping * v;
         let terms = normal * s.d_phi * (0.6 + b * state.abs() + s.mu + a * (v.ln().abs() + V_REF.ln().abs()));
         let rounding = 8.0 * f64::EPSILON * ((traction[0].abs() + terms) / slope + v.ln().abs());

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct Clock {
     /// Leading part of the base \[s\].
     pub base: f64,
-    /// Part of a time that the base cannot hold \[s\]: below half a unit in its last place.
+    /// Part of the base that its leading part cannot hold \[s\]: below half a unit in the last place.
     carry: f64,
     /// Seconds since the base.
     pub local: f64,
@@ -23,13 +23,13 @@ impl Clock {
         Self { base, carry: 0.0, local }
     }
 
-    /// The time as one number \[s\], rounded.
+    /// The time as a single rounded number \[s\].
     #[must_use]
     pub fn seconds(&self) -> f64 {
         self.base + (self.carry + self.local)
     }
 
-    /// Seconds since `earlier`, of the precision of the local parts where the bases are near.
+    /// Seconds since `earlier`, with the precision of the local parts where the bases are close.
     #[must_use]
     pub fn since(&self, earlier: &Self) -> f64 {
         let (base, lost) = two_sum(self.base, -earlier.base);
@@ -59,7 +59,7 @@ impl Clock {
     }
 }
 
-/// The rounded sum and what rounding lost: D. E. Knuth, "The Art of Computer Programming" 2, section 4.2.2.
+/// The rounded sum and its rounding error: D. E. Knuth, "The Art of Computer Programming" 2, section 4.2.2.
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let part = sum - a;

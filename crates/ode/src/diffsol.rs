@@ -1,8 +1,8 @@
-//! The methods of the library diffsol, behind the interface of the others. Nothing else names the library.
+//! Methods of the library diffsol, behind the same interface as the others. No other file names the library.
 //!
-//! Work that it leaves to its users is done here: values that are not finite are rejected (its error norm drops them), steps are
-//! bounded by stop times, after which the factorisation is renewed where it shortened a step (the library would go on with the
-//! old one and with the convergence measured for it, and accept a wrong solution), and failures of Newton's method are not limited in number, since the library counts them over the
+//! The library leaves three things to its users. Values that are not finite are rejected here, since its error norm drops them. Steps are bounded by
+//! stop times; where one shortened a step, the factorisation is renewed. Otherwise the library would continue with the old one and with the
+//! convergence measured for it, and accept a wrong solution. The number of Newton failures is not limited, since the library counts them over the
 //! whole run.
 
 use super::clock::Clock;
@@ -22,14 +22,14 @@ type Matrix = NalgebraMat<f64>;
 type Vector = NalgebraVec<f64>;
 type Factors = NalgebraLU<f64>;
 
-/// The library's rounding of stop times, over the time and the length of a step.
+/// Relative rounding of stop times by the library, for the time and for the length of a step.
 const STOP_ROUNDING: f64 = 128.0 * f64::EPSILON;
-/// Local time over the length of a step at which its zero is moved: methods of several steps begin anew then.
+/// Ratio of local time to step length at which the zero of local time is moved: multistep methods restart then.
 const PATIENCE: f64 = 67_108_864.0;
-/// Share of a length after values that are not finite and after failures.
+/// Factor on the step length after values that are not finite and after failures.
 const HALF: f64 = 0.5;
 
-/// The Jacobian last evaluated, and where: the library asks for products with one vector after the other.
+/// The Jacobian last evaluated, with its time and state: the library requests its products with one vector at a time.
 struct Remembered {
     at: Option<Clock>,
     y: Vec<f64>,
@@ -55,7 +55,7 @@ impl Remembered {
     }
 }
 
-/// Makes the stepper of `method` and runs with it.
+/// Builds the stepper of `method` and runs `run` with it.
 pub(super) fn with_stepper(
     method: Method,
     system: &System<'_>,
@@ -79,7 +79,7 @@ pub(super) fn with_stepper(
         .build()
         .map_err(|e| told(&e))?;
     problem.ode_options.max_nonlinear_solver_failures = usize::MAX;
-    // With an old Jacobian the library accepts wrong solutions: see `radau5`.
+    // With an old Jacobian, the library accepts wrong solutions: see `radau5`.
     problem.ode_options.update_jacobian_after_steps = 1;
     problem.ode_options.update_rhs_jacobian_after_steps = 1;
     problem.ode_options.min_timestep = SHORTEST;
@@ -121,7 +121,7 @@ struct Wrapped<'p, E, S> {
     equations: PhantomData<&'p E>,
     method: Method,
     largest: f64,
-    /// Length of the step accepted before \[s\].
+    /// Length of the previous accepted step \[s\].
     last_length: f64,
     t0: f64,
     t1: f64,
@@ -153,12 +153,12 @@ where
         }
     }
 
-    /// True if the method uses several steps: it begins anew with order 1, and its rates are approximate.
+    /// True for multistep methods: they restart with order 1, and their rates are approximate.
     fn multistep(&self) -> bool {
         self.method == Method::Bdf
     }
 
-    /// Renews the factorisation for the state and the length of the solver.
+    /// Renews the factorisation for the solver's current state and step length.
     fn renew(&mut self) {
         if self.method.implicit() {
             let state = self.solver.state_clone();
@@ -166,7 +166,7 @@ where
         }
     }
 
-    /// Puts the solver to the beginning of the step, to try `length` next.
+    /// Returns the solver to the beginning of the step, to try `length` next.
     fn rewind(&mut self, length: f64) {
         let state = self.solver.state_mut();
         state.y.batch_as_mut_slice(0).copy_from_slice(&self.y0);
@@ -176,10 +176,10 @@ where
         self.renew();
     }
 
-    /// Tries one step to `stop` at most.
+    /// Tries one step that ends at `stop` at the latest.
     fn attempt(&mut self, stop: f64) -> Result<bool, DiffsolError> {
         self.solver.set_stop_time(stop)?;
-        // The method of several steps rescales itself, and would begin anew.
+        // The multistep method rescales itself; renewing would restart it.
         let length = self.solver.state().h;
         let stops = self.t0 + length >= stop * (1.0 - STOP_ROUNDING);
         if stops && !self.multistep() && (length - self.last_length).abs() > STOP_ROUNDING * length {
@@ -190,7 +190,7 @@ where
         Ok(finite(state.y.batch_as_slice(0)) && finite(state.dy.batch_as_slice(0)))
     }
 
-    /// A step so short that the library takes it for none: along the rates, exact to rounding.
+    /// Takes a step too short for the library to notice, along the rates: exact to rounding.
     fn creep(&mut self, system: &System<'_>, end: f64) {
         let length = self.solver.state().h;
         let state = self.solver.state_mut();
@@ -293,7 +293,7 @@ where
         if self.solver.interpolate_inplace(t, &mut scratch).is_ok() {
             y.copy_from_slice(scratch.batch_as_slice(0));
         } else {
-            // Only a step of rounding has no polynomial.
+            // Only a step as short as rounding has no polynomial.
             for ((value, start), end) in y.iter_mut().zip(&self.y0).zip(self.end()) {
                 *value = start + fraction * (end - start);
             }

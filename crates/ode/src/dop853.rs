@@ -19,7 +19,7 @@ pub(super) struct Dop853 {
     /// Rates of the stages, one after the other.
     k: RefCell<Vec<f64>>,
     stage: RefCell<Vec<f64>>,
-    /// Coefficients of the dense output of the step last tried, where `dense_ready`.
+    /// Coefficients of the dense output of the step last tried, valid where `dense_ready`.
     dense: RefCell<Vec<f64>>,
     dense_ready: Cell<bool>,
     fifth: Vec<f64>,
@@ -46,7 +46,7 @@ impl Dop853 {
         }
     }
 
-    /// An estimate of `h |λ|` for the fastest decay, from the last stage and the end of the step, which share their time.
+    /// An estimate of `h |λ|` for the fastest decay, from the last stage and the end of the step, which are at the same time.
     pub fn stretch(&self, system: &System<'_>, span: &Span) -> f64 {
         let (n, k) = (span.y0.len(), self.k.borrow());
         let last = &k[(STAGES - 1) * n..STAGES * n];
@@ -58,7 +58,7 @@ impl Dop853 {
         if states > 0.0 { span.h * (rates / states).sqrt() } else { 0.0 }
     }
 
-    /// The three further stages and the coefficients.
+    /// Computes the three further stages and the coefficients.
     fn prepare(&self, system: &System<'_>, span: &Span) {
         let n = span.y0.len();
         let (mut k, mut stage, mut dense) =
@@ -83,7 +83,7 @@ impl Dop853 {
     }
 }
 
-/// The rates of the stage after the first `S`.
+/// Computes the rates of the stage after the first `S`.
 #[inline(always)]
 fn take_stage<const S: usize>(
     system: &System<'_>,
@@ -168,7 +168,7 @@ impl Formula for Dop853 {
 mod tests {
     use super::table::*;
 
-    /// Row `i` of the weights of the stages, by number from 0.
+    /// Rows of the stage weights, by stage number from 0.
     fn rows() -> [&'static [f64]; EXTENDED] {
         [
             &[],

@@ -1,4 +1,4 @@
-//! Figures of the Dormand-Prince method of order 8(5,3) and of its continuous extension of order 7.
+//! Coefficients of the Dormand-Prince method of order 8(5,3) and of its continuous extension of order 7.
 //!
 //! Source: E. Hairer, S. P. Norsett, G. Wanner, "Solving Ordinary Differential Equations I", 2nd ed. (1993), section II.5 and
 //! the authors' code DOP853, as printed in scipy 1.17.1, `scipy/integrate/_ivp/dop853_coefficients.py`. Generated: not to be
@@ -9,7 +9,7 @@ pub(super) const STAGES: usize = 12;
 /// Stages with those of the continuous extension; number 12 (from 0) is the rate at the end of the step.
 pub(super) const EXTENDED: usize = 16;
 
-/// Nodes of all stages, as shares of the step.
+/// Nodes of all stages, as fractions of the step.
 pub(super) const NODES: [f64; 16] = [
     0.0,
     0.05260015195876773,

@@ -1,4 +1,4 @@
-//! The loop common to all methods: time, events, the sink and the counts.
+//! The loop common to all methods: time, events, sink and counts.
 
 use super::clock::Clock;
 use super::events::{Found, Watch};
@@ -7,13 +7,13 @@ use super::report::{Control, Counts, Failure, Finished, Occurrence, Outcome};
 use super::sink::{Sink, Step};
 use super::stepper::{NOTHING_LEFT, Stepper};
 
-/// Times a step is taken again to put its end on the root.
+/// Number of times a step is retaken to bring its end to the root.
 const CORRECTIONS: usize = 3;
-/// Share of a step below which it is nothing but rounding.
+/// Fraction of a step below which it is mere rounding.
 const NOTHING: f64 = 4.0 * f64::EPSILON;
-/// Steps in a row that may leave the state where it is without growing.
+/// Consecutive steps that may leave the state unchanged without growing.
 const MOST_STILL: u64 = 100;
-/// Share of the time integrated below which such steps are at fault: longer ones get to the end.
+/// Fraction of the integrated time below which such steps are a failure: longer ones reach the end.
 const STILL_SHARE: f64 = 1e-10;
 
 /// An integration under way.
@@ -25,27 +25,27 @@ pub(super) struct Drive<'a> {
     target: Clock,
     most_steps: usize,
     watch: Watch,
-    /// Last good state and its local time.
+    /// Last valid state and its local time.
     state: Vec<f64>,
     t: f64,
     counts: Counts,
-    /// Steps, those of no length to an event included.
+    /// Number of steps, including those of zero length to an event.
     advances: usize,
     still: Still,
 }
 
-/// Steps in a row in which the state has not moved.
+/// Consecutive steps in which the state has not moved.
 #[derive(Default)]
 struct Still {
     steps: u64,
-    /// Length of the first \[s\].
+    /// Length of the first of them \[s\].
     first: f64,
 }
 
 /// End of a step that was cut at an event.
 struct Landing {
     t: f64,
-    /// Share of the stepper's step that is kept.
+    /// Fraction of the stepper's step that is kept.
     share: f64,
     /// True if the stepper itself ends there.
     exact: bool,
@@ -114,7 +114,7 @@ impl<'a> Drive<'a> {
         }
     }
 
-    /// A step without events.
+    /// Completes a step without events.
     fn plain(&mut self) -> Result<Control, Failure> {
         let (start, end) = self.stepper.span();
         self.watch_still(end - start)?;
@@ -127,8 +127,8 @@ impl<'a> Drive<'a> {
         Ok(control)
     }
 
-    /// Fails where steps have become so short that they do not move the state and do not grow: at the edge of the states that
-    /// have rates.
+    /// Fails where steps have become so short that they do not move the state, and do not grow: at the edge of the states for
+    /// which rates exist.
     fn watch_still(&mut self, length: f64) -> Result<(), Failure> {
         let moved = self.state.iter().zip(self.stepper.end()).any(|(a, b)| (a - b).abs() > NOTHING * a.abs());
         if moved {
@@ -146,7 +146,7 @@ impl<'a> Drive<'a> {
         Ok(())
     }
 
-    /// A step that ends at the event found in it.
+    /// Completes a step that ends at the event found in it.
     fn eventful(&mut self, found: Found) -> Result<Control, Failure> {
         let (start, _) = self.stepper.span();
         let next = self.stepper.next_length();
@@ -173,7 +173,7 @@ impl<'a> Drive<'a> {
         Ok(control)
     }
 
-    /// Ends the step at the event: taken again up to there where the method can, else by its dense output.
+    /// Ends the step at the event: the step is retaken up to the event if the method can, or cut by its dense output.
     fn land(&mut self, found: Found) -> Landing {
         let (t0, t1) = self.stepper.span();
         let h = t1 - t0;
@@ -187,13 +187,13 @@ impl<'a> Drive<'a> {
                 self.state.copy_from_slice(self.stepper.end());
                 return Landing { t: self.stepper.span().1, share: 1.0, exact: true };
             }
-            // Back to the whole step, whose dense output is cut.
+            // Return to the whole step, whose dense output is cut.
             self.stepper.retake(self.system, h);
         }
         Landing { t: t0 + found.fraction * h, share: found.fraction, exact: false }
     }
 
-    /// Takes the step again up to the root, corrected by the secant. `false`: the stepper cannot.
+    /// Retakes the step up to the root, corrected by the secant method. `false`: the stepper cannot.
     fn retake(&mut self, found: Found, h: f64) -> bool {
         let mut length = found.fraction * h;
         if self.system.problem.extreme(found.event) {
@@ -223,7 +223,7 @@ impl<'a> Drive<'a> {
         true
     }
 
-    /// Tells the sink of the step from `start` to the present time.
+    /// Reports the step from `start` to the present time to the sink.
     fn emit(&mut self, start: f64, share: f64, exact: bool) -> Control {
         self.counts.steps += 1;
         let rates = if exact { self.stepper.rates().map(|(_, end)| end) } else { None };

@@ -1,19 +1,20 @@
-//! Changes of sign within a step.
+//! Changes of sign of the event functions within a step.
 
 use super::problem::System;
 use super::root::root;
 use super::stepper::Stepper;
 
-/// Share of the step at which a function that begins at zero shows its side.
+/// Fraction of the step at which a function that begins at zero takes its sign.
 const EARLY: f64 = 1.0 / 1024.0;
-/// A function that begins below this share of its values in the first step begins at zero: an integration may start where
+/// Fraction of its values in the first step below which a function counts as zero at the start. An integration may start where
 /// another one stopped at an event, to rounding.
 const AT_ZERO: f64 = 1e-12;
-/// Roots this much later than the first are at the same time: rounding of the search.
+/// Roots that are later than the first by no more than this fraction are simultaneous: the search is rounded.
 const SAME: f64 = 32.0 * f64::EPSILON;
-/// A function whose parabola through three points comes this near to zero, over its size at the ends, is looked at there.
+/// A function is evaluated at the extremum of its parabola through three points, if the parabola comes this close to zero
+/// relative to the function's size at the ends.
 const NEAR: f64 = 0.1;
-/// Growth of a function that has just fired beyond which it has left zero.
+/// Growth beyond which a function that has just fired has left zero.
 const LEFT_ZERO: f64 = 8.0;
 
 /// One event function.
@@ -21,13 +22,13 @@ const LEFT_ZERO: f64 = 8.0;
 struct Function {
     /// Sign since the last change: 1, -1, or 0 while unknown.
     side: f64,
-    /// Value left over where it fired last, until it is seen on its new side.
+    /// Residual value of the function where it last fired, until it is seen on its new side.
     left: Option<f64>,
-    /// Share of the step of the first change of sign; infinite: none.
+    /// Fraction of the step at the first change of sign; infinite if there is none.
     found: f64,
 }
 
-/// Watches the event functions.
+/// Watch on the event functions.
 #[derive(Debug)]
 pub(super) struct Watch {
     functions: Vec<Function>,
@@ -35,14 +36,14 @@ pub(super) struct Watch {
     middle: Vec<f64>,
     end: Vec<f64>,
     state: Vec<f64>,
-    /// True if no step has been seen yet.
+    /// True until a step has been seen.
     fresh: bool,
 }
 
-/// The first change of sign in a step.
+/// First change of sign in a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
-    /// Share of the step.
+    /// Fraction of the step.
     pub fraction: f64,
     /// Number of the function.
     pub event: usize,
@@ -66,7 +67,7 @@ impl Watch {
         self.functions.is_empty()
     }
 
-    /// Begins at a state.
+    /// Starts the watch at a state.
     pub fn begin(&mut self, system: &System<'_>, t: f64, y: &[f64]) {
         if self.idle() {
             return;
@@ -77,7 +78,7 @@ impl Watch {
         }
     }
 
-    /// The first change of sign in the stepper's last step.
+    /// Finds the first change of sign in the stepper's last step.
     pub fn scan(&mut self, system: &System<'_>, stepper: &dyn Stepper) -> Option<Found> {
         if self.idle() {
             return None;
@@ -99,7 +100,8 @@ impl Watch {
         first
     }
 
-    /// The state in the middle of the step: by Hermite's cubic where the rates are at hand, which is enough to look for signs.
+    /// Computes the state in the middle of the step, by Hermite's cubic where the rates are available: accurate enough to look
+    /// for signs.
     fn middle_state(&mut self, stepper: &dyn Stepper, h: f64, system: &System<'_>) {
         let Some((f0, f1)) = stepper.rates() else {
             stepper.interpolate(system, 0.5, &mut self.state);
@@ -111,14 +113,14 @@ impl Watch {
         }
     }
 
-    /// A function at a share of the step.
+    /// Value of a function at a fraction of the step.
     fn value(&mut self, system: &System<'_>, stepper: &dyn Stepper, event: usize, fraction: f64) -> f64 {
         let (t0, t1) = stepper.span();
         stepper.interpolate(system, fraction, &mut self.state);
         system.problem.one_event(event, system.clock(t0 + fraction * (t1 - t0)), &self.state)
     }
 
-    /// Share of the step at which a function first changes sign; infinite: it does not.
+    /// Fraction of the step at which a function first changes sign; infinite if it does not.
     fn first_change(&mut self, system: &System<'_>, stepper: &dyn Stepper, event: usize) -> f64 {
         let (start, middle, end) = (self.start[event], self.middle[event], self.end[event]);
         let mut begin = (0.0, start);
@@ -135,9 +137,11 @@ impl Watch {
             return f64::INFINITY;
         };
         if let Some(left) = self.functions[event].left {
-            // Rounding may leave it on the old side where it fired; only a change seen after it was on the new side counts.
+            // Rounding may leave a function on its old side where it fired. Only a change seen after it was on the new side
+            // counts.
             if ends.1.abs() <= LEFT_ZERO * left {
-                // What was left may have been noise, large where the function itself is soon small: it counts for less each step.
+                // The residual may have been noise, and large where the function itself is soon small: its weight decreases each
+                // step.
                 self.functions[event].left = Some(left / LEFT_ZERO);
                 return f64::INFINITY;
             }
@@ -165,7 +169,7 @@ impl Watch {
         root(|x| self.value(system, stepper, event, x), begin, ends)
     }
 
-    /// A share of the step where a function is beyond zero, and its value there.
+    /// A fraction of the step at which a function is beyond zero, and its value there.
     fn changed(
         &mut self,
         system: &System<'_>,
@@ -197,7 +201,7 @@ impl Watch {
         None
     }
 
-    /// Value of the function `event` at a share of the step and its slope over the share.
+    /// Value of the function `event` at a fraction of the step, and its slope with respect to that fraction.
     pub fn slope(&mut self, system: &System<'_>, stepper: &dyn Stepper, found: Found) -> f64 {
         let (low, high) = ((found.fraction - EARLY).max(0.0), (found.fraction + EARLY).min(1.0));
         let rise =
@@ -205,13 +209,13 @@ impl Watch {
         rise / (high - low)
     }
 
-    /// The function `event` at the end of the stepper's step.
+    /// Value of the function `event` at the end of the stepper's step.
     pub fn at_end(&self, system: &System<'_>, stepper: &dyn Stepper, event: usize) -> f64 {
         system.problem.one_event(event, system.clock(stepper.span().1), stepper.end())
     }
 
-    /// Takes note that the step ended at the change `found`, in state `y` at local time `t`; calls `fired` with the number and
-    /// the direction of each event there.
+    /// Records that the step ended at the change `found`, in state `y` at local time `t`. Calls `fired` with the number and the
+    /// direction of each event there.
     pub fn fire(
         &mut self,
         system: &System<'_>,
@@ -223,7 +227,7 @@ impl Watch {
         system.problem.event(system.clock(t), y, &mut self.end);
         for (event, function) in self.functions.iter_mut().enumerate() {
             let value = self.end[event];
-            // Another function that is not beyond zero yet fires in a next step, of no length if need be.
+            // Another function that is not yet beyond zero fires in a following step, of zero length if necessary.
             let same = function.found <= found.fraction * (1.0 + SAME) && value * function.side <= 0.0;
             if !same && event != found.event {
                 continue;

@@ -3,13 +3,13 @@
 /// Writes `y0 + h sum_j weights_j k_j` into `y`; `k` holds the rates of the stages one after the other.
 #[inline(always)]
 pub(super) fn combine<const S: usize>(y: &mut [f64], y0: &[f64], h: f64, weights: &[f64; S], k: &[f64]) {
-    // Two unknowns are the usual case and three and four are common: sums in registers save half of the time there.
+    // Two unknowns are the usual case, and three or four are common: sums in registers save half of the time there.
     match y0.len() {
         2 => combine_fixed::<2, S>(y, y0, h, weights, k),
         3 => combine_fixed::<3, S>(y, y0, h, weights, k),
         4 => combine_fixed::<4, S>(y, y0, h, weights, k),
         n => {
-            // One pass: many unknowns do not stay in the nearest cache from one rate to the next.
+            // One pass: with many unknowns, the data do not stay in the first-level cache from one rate to the next.
             let rates: [&[f64]; S] = std::array::from_fn(|j| &k[j * n..(j + 1) * n]);
             for (i, (value, start)) in y.iter_mut().zip(y0).enumerate() {
                 let mut sum = 0.0;
@@ -48,16 +48,16 @@ fn combine_fixed<const N: usize, const S: usize>(
 
 /// Control of step lengths by the last two steps, in two ways.
 ///
-/// The trend of the lengths is expected to go on where errors change little from step to step (predictive control, K. Gustafsson,
-/// ACM Trans. Math. Softw. 20 (1994) 496): a slider that speeds up towards an instability needs steps that shrink by one factor
-/// each, and one that heals needs steps that grow so; control by the errors alone tries every second step in vain there. Where
-/// errors jump, as they do at the end of the stability region, the errors alone decide (E. Hairer, G. Wanner, "Solving Ordinary
+/// If errors change little from step to step, the trend of the lengths is extrapolated (predictive control, K. Gustafsson, ACM
+/// Trans. Math. Softw. 20 (1994) 496). A slider that accelerates towards an instability needs steps that shrink by a constant
+/// factor, and one that heals needs steps that grow by one. Control by the errors alone rejects every second step there. If errors
+/// jump, as they do at the boundary of the stability region, the errors alone decide (E. Hairer, G. Wanner, "Solving Ordinary
 /// Differential Equations II", 2nd ed. (1996), section IV.2).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Control {
-    /// Power of the error: one over the order of the error in the length.
+    /// Exponent of the error: the reciprocal of the order of the error in the step length.
     exponent: f64,
-    /// Share of the integral part that is taken off the power where the errors alone decide.
+    /// Fraction of the integral part that is subtracted from the exponent where the errors alone decide.
     damping: f64,
     /// Largest shrinkage.
     shrink: f64,
@@ -67,22 +67,23 @@ pub(super) struct Control {
     last: Option<(f64, f64)>,
 }
 
-/// Share of the optimal length that is tried.
+/// Fraction of the optimal length that is tried.
 const SAFETY: f64 = 0.9;
-/// Power of the error before.
+/// Exponent of the previous error.
 const INTEGRAL: f64 = 0.04;
-/// Errors below say as little as this one about the next.
+/// Errors below this one say no more about the next error than this one does.
 const LEAST_ERROR: f64 = 1e-4;
-/// Most by which errors differ from one step to the next where they change little.
+/// Largest ratio of successive errors at which they count as changing little.
 const SMOOTH: f64 = 4.0;
 
 impl Control {
-    /// For an error that goes with the power `order` of the step, of which `damping` times the integral part is taken off.
+    /// Control for an error that scales with the power `order` of the step length, with `damping` times the integral part
+    /// subtracted from the exponent.
     pub const fn new(order: f64, damping: f64, shrink: f64, growth: f64) -> Self {
         Self { exponent: 1.0 / order, damping, shrink, growth, last: None }
     }
 
-    /// Share of the length `h` to take next.
+    /// Ratio of the next step length to `h`.
     pub fn share(&mut self, h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64 {
         let error = error.max(LEAST_ERROR);
         let alone = self.exponent - self.damping * INTEGRAL;
@@ -99,7 +100,7 @@ impl Control {
             }
         };
         self.last = Some((h, error));
-        // A length just found too long is not tried again at once.
+        // A length just found too long is not retried at once.
         share.clamp(self.shrink, if rejected_before { 1.0 } else { self.growth })
     }
 

@@ -41,7 +41,7 @@ use stepper::Stepper;
 
 /// Integrates `problem` from `state` at `at` until `until` \[s\] later.
 ///
-/// The result is the last good state and its time, however the integration ends: every state told to the sink is finite.
+/// The result is the last valid state and its time, however the integration ends: every state reported to the sink is finite.
 pub fn integrate(
     problem: &dyn Problem,
     at: Clock,
@@ -90,7 +90,7 @@ pub fn integrate(
     }
 }
 
-/// Checks that sizes and tolerances make sense.
+/// Checks that sizes and tolerances are valid.
 fn fit(problem: &dyn Problem, state: &[f64], until: f64, options: &Options) -> Result<(), Failure> {
     let positive = |value: f64| value > 0.0 && value.is_finite();
     if problem.size() == 0 || state.len() != problem.size() {

@@ -5,7 +5,7 @@ use std::ops::{Div, Mul, Sub};
 
 /// A real or complex number.
 pub(super) trait Number: Copy + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
-    /// A size for the choice of the pivot.
+    /// Magnitude for the choice of the pivot.
     fn size(self) -> f64;
 }
 
@@ -21,7 +21,7 @@ impl Number for Complex<f64> {
     }
 }
 
-/// A matrix of `n` rows, column by column, and its factors once factorised.
+/// A matrix of `n` rows, stored column by column, and its factors once factorised.
 #[derive(Debug)]
 pub(super) struct Lu<T> {
     pub entries: Vec<T>,

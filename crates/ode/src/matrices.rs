@@ -1,5 +1,5 @@
-//! The Jacobian of an implicit method with the factors of its two matrices: dense for few unknowns, sparse for many whose Jacobian
-//! has known places.
+//! The Jacobian of an implicit method with the factors of its two matrices: dense for few unknowns, sparse for many unknowns with
+//! known places of the nonzero entries.
 
 use super::lu::Lu;
 use super::problem::System;
@@ -9,17 +9,17 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut};
 use nalgebra::{Complex, DMatrix};
 
-/// Unknowns below which dense factors are cheaper than the lists of sparse ones.
+/// Number of unknowns below which dense factors are cheaper than the index lists of sparse ones.
 const FEW: usize = 24;
 
 /// Matrices `shift/h - J` with a real and a complex shift.
 #[derive(Debug)]
 pub(super) enum Matrices {
-    /// No Jacobian was asked for yet, for so many unknowns.
+    /// No Jacobian was requested yet, for this many unknowns.
     Unknown(usize),
     /// All entries, column by column.
     Dense { jacobian: Vec<f64>, real: Lu<f64>, complex: Lu<Complex<f64>> },
-    /// The entries at the places the problem names.
+    /// The entries at the places named by the problem.
     Sparse(Box<Sparse>),
 }
 
@@ -81,7 +81,7 @@ impl Matrices {
         }
     }
 
-    /// True if [`Matrices::spectral_radius`] is below `limit` \[1/s\], without it where bounds of it tell as much.
+    /// True if [`Matrices::spectral_radius`] is below `limit` \[1/s\]; not computed where bounds of it decide.
     pub fn slower_than(&self, limit: f64) -> bool {
         if let Self::Sparse(sparse) = self {
             let [least, most] = sparse.bounds();
@@ -92,8 +92,7 @@ impl Matrices {
         self.spectral_radius() < limit
     }
 
-    /// An estimate of the largest |λ| of the Jacobian J \[1/s\]: the eighth root of the largest row sum of J^8, which is never
-    /// below it.
+    /// An upper estimate of the largest |λ| of the Jacobian J \[1/s\]: the eighth root of the largest row sum of J^8.
     fn spectral_radius(&self) -> f64 {
         let (entries, n) = match self {
             Self::Unknown(_) => return 0.0,
@@ -104,7 +103,7 @@ impl Matrices {
         if largest == 0.0 {
             return 0.0;
         }
-        // Powers of J over its largest entry stay in the range of numbers.
+        // Powers of J divided by its largest entry stay within the range of numbers.
         let row_sum = match self {
             Self::Sparse(sparse) => sparse.eighth_power(largest),
             _ => {
@@ -134,9 +133,9 @@ fn solve<T: faer::traits::ComplexField>(factor: Option<&SparseLu<usize, T>>, b: 
 pub(super) struct Sparse {
     pattern: SymbolicSparseColMat<usize>,
     symbolic: SymbolicLu<usize>,
-    /// Of each entry the problem gives: where it is added.
+    /// Slots to which the entries given by the problem are added.
     slots: Vec<usize>,
-    /// Indices of the entries of the diagonal.
+    /// Slots of the diagonal entries.
     diagonal: Vec<usize>,
     given: Vec<f64>,
     values: Vec<f64>,
@@ -145,7 +144,7 @@ pub(super) struct Sparse {
 }
 
 impl Sparse {
-    /// None where the places are not those of a matrix of this size.
+    /// `None` if the places are not those of a matrix of this size.
     fn new(n: usize, places: &[(usize, usize)]) -> Option<Self> {
         if places.iter().any(|&(row, column)| row >= n || column >= n) {
             return None;
@@ -202,7 +201,7 @@ impl Sparse {
     }
 
     /// Bounds of the estimate of the spectral radius \[1/s\]. Products of J^8 with vectors of ±1 cannot exceed its largest row sum; the
-    /// row sums of |J|^8 cannot fall below. Both take a few products with J, and the power itself as many as there are unknowns.
+    /// row sums of |J|^8 cannot fall below it. Both take a few products with J; the power itself takes as many as there are unknowns.
     fn bounds(&self) -> [f64; 2] {
         let n = self.diagonal.len();
         let largest = self.values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
@@ -224,7 +223,7 @@ impl Sparse {
         [least, size(true, |_| 1.0)]
     }
 
-    /// The Jacobian, or that of the sizes of its entries, over `largest` times a vector.
+    /// Multiplies a vector by the Jacobian, or by that of the absolute values of its entries, divided by `largest`.
     fn multiply(&self, x: &[f64], largest: f64, absolute: bool, product: &mut [f64]) {
         product.fill(0.0);
         let (starts, rows) = (self.pattern.col_ptr(), self.pattern.row_idx());
@@ -236,7 +235,8 @@ impl Sparse {
         }
     }
 
-    /// Largest row sum of the eighth power of the Jacobian over `largest`: column by column, each with no more rows than it has.
+    /// Largest row sum of the eighth power of the Jacobian divided by `largest`. It is computed column by column, each with only
+    /// the rows it has.
     fn eighth_power(&self, largest: f64) -> f64 {
         let n = self.diagonal.len();
         let (starts, rows) = (self.pattern.col_ptr(), self.pattern.row_idx());
@@ -274,7 +274,7 @@ impl Sparse {
 mod tests {
     use super::*;
 
-    /// A chain of blocks of two, without symmetry.
+    /// A chain of unsymmetric blocks of two.
     fn chain(n: usize) -> (Vec<(usize, usize)>, Vec<f64>) {
         let mut places = Vec::new();
         for i in 0..n {
@@ -282,7 +282,7 @@ mod tests {
                 places.extend([(0, 0), (1, 0), (0, 1), (1, 1)].map(|(r, c)| (2 * i + r, 2 * j + c)));
             }
         }
-        // Twice the first entry: those of one place add up.
+        // The first entry twice: entries at the same place add up.
         places.push((0, 0));
         let values = (0..places.len()).map(|k| ((7 * k) % 11) as f64 - 5.0).collect();
         (places, values)
@@ -310,7 +310,7 @@ mod tests {
         assert!((radii[0] / radii[1] - 1.0).abs() < 1e-12, "{radii:?}");
         let Matrices::Sparse(sparse) = &both[0] else { unreachable!() };
         let [least, most] = sparse.bounds();
-        // How near they come is a matter of time alone: the signs of this matrix vary.
+        // The tightness of the bounds affects only the time: the signs of this matrix vary.
         assert!(least <= radii[0] && radii[0] <= most, "{least} {radii:?} {most}");
         for share in [0.1, 0.99, 1.01, 10.0] {
             assert!(both.iter().all(|m| m.slower_than(share * radii[0]) == (share > 1.0)), "{share}");

@@ -1,10 +1,10 @@
-//! The loop of trial and rejection common to the one-step methods written here.
+//! The loop of trial and rejection common to the one-step methods of this crate.
 
 use super::problem::System;
 use super::report::{Counts, Failure};
 use super::stepper::{MOST_REJECTIONS, SHORTEST, Stepper};
 
-/// A step: where it begins, how long it is, and the states and rates at both ends.
+/// A step: its beginning, its length, and the states and rates at both ends.
 #[derive(Debug, Default)]
 pub(super) struct Span {
     /// Local time at the beginning \[s\].
@@ -17,12 +17,13 @@ pub(super) struct Span {
     pub f1: Vec<f64>,
 }
 
-/// Result of a step that was tried.
+/// Outcome of a step that was tried.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Trial {
-    /// Its error over the tolerance; NaN where a value is not finite. At 1 and below both ends are complete.
+    /// Error over the tolerance; NaN where a value is not finite. If it is at most 1, both ends are complete.
     Error(f64),
-    /// The equations were not solved: try this share of the length, with what the method renewed meanwhile.
+    /// The equations were not solved: the step is retried with this fraction of the length and with whatever the method renewed
+    /// meanwhile.
     Unsolved(f64),
 }
 
@@ -31,22 +32,23 @@ pub(super) trait Formula {
     /// Order of the error estimate, for the first step.
     fn order(&self) -> i32;
 
-    /// Tries the step `span`: writes its end, and the rates there where the error is at most 1.
+    /// Tries the step `span`: writes the state at its end, and the rates there where the error is at most 1.
     fn attempt(&mut self, system: &System<'_>, span: &mut Span) -> Trial;
 
-    /// Completes the rates at the end of a step whose error is not asked for; methods whose last stage is there have them.
+    /// Completes the rates at the end of a step accepted at any error; methods whose last stage is at the end have them
+    /// already.
     fn complete(&mut self, _system: &System<'_>, _span: &mut Span) {}
 
-    /// Share of the length to take next after a step of length `h` with `error`.
+    /// Ratio of the next step length to `h`, after a step of length `h` with `error`.
     fn share(&mut self, h: f64, error: f64, accepted: bool, rejected_before: bool) -> f64;
 
-    /// The step last tried is accepted with `error`.
+    /// Called when the step last tried is accepted with `error`.
     fn accept(&mut self, _system: &System<'_>, _span: &Span, _error: f64) {}
 
-    /// The step just accepted is about to be tried again with a shorter length.
+    /// Called when the step just accepted is about to be retried with a shorter length.
     fn again(&mut self) {}
 
-    /// Forgets what was learnt from steps before.
+    /// Forgets everything learnt from earlier steps.
     fn forget(&mut self);
 
     /// True where a pair of methods takes the next step with the one for stiff equations.
@@ -57,7 +59,7 @@ pub(super) trait Formula {
     /// The state at `fraction` of the step last tried.
     fn interpolate(&self, system: &System<'_>, span: &Span, fraction: f64, y: &mut [f64]);
 
-    /// Adds what was counted beside steps and rates.
+    /// Adds the method's counts other than steps and rates.
     fn tally(&self, _counts: &mut Counts) {}
 }
 
@@ -65,21 +67,21 @@ pub(super) trait Formula {
 pub(super) struct OneStep<F> {
     formula: F,
     span: Span,
-    /// Local time at the end \[s\]: the limit exactly, where the step reaches it.
+    /// Local time at the end \[s\]: exactly the limit, where the step reaches it.
     end: f64,
     /// Length to try next \[s\].
     next: f64,
     largest: f64,
-    /// True if the span is a step taken, from whose end to go on.
+    /// True if the span is an accepted step, from whose end to continue.
     taken: bool,
     rejected: u64,
 }
 
-/// A last step this share longer than wanted is taken whole.
+/// Ratio up to which the last step may exceed the intended length, to be taken whole.
 const STRETCH: f64 = 1.01;
-/// Share of a length after values that are not finite.
+/// Factor on the step length after values that are not finite.
 const HALF: f64 = 0.5;
-/// Local time over the length of a step at which its zero is moved: the move costs a few sums.
+/// Ratio of local time to step length at which the zero of local time is moved: the move costs only a few sums.
 const PATIENCE: f64 = 64.0;
 
 impl<F: Formula> OneStep<F> {
@@ -89,7 +91,7 @@ impl<F: Formula> OneStep<F> {
         Self { formula, span, end: 0.0, next: 0.0, largest, taken: false, rejected: 0 }
     }
 
-    /// Goes on from the end of the last step.
+    /// Continues from the end of the last step.
     fn proceed(&mut self) {
         if self.taken {
             std::mem::swap(&mut self.span.y0, &mut self.span.y1);
@@ -189,7 +191,7 @@ impl<F: Formula> Stepper for OneStep<F> {
         let Trial::Error(error) = self.formula.attempt(system, &mut self.span) else {
             return false;
         };
-        // A part of a step that was accepted is accepted at any error that is a number.
+        // Part of an accepted step is accepted at any error that is a number.
         if !error.is_finite() {
             return false;
         }

@@ -1,20 +1,21 @@
-//! Two methods of which one takes the steps: a usual one where accuracy limits them, one for stiff equations where stability does.
-//! A [`Criterion`] decides which; a method that takes over starts fresh.
+//! Two methods of which one takes the steps: a usual one where accuracy limits them, a stiff one where stability does. A
+//! [`Criterion`] chooses between them; a method that takes over restarts.
 
 use super::own::{Formula, Span, Trial};
 use super::problem::System;
 use super::report::Counts;
 
-/// Which of two methods is to go on.
+/// Choice between two methods for the next step.
 pub(super) trait Criterion {
-    /// Method where accuracy limits steps.
+    /// Method for steps limited by accuracy.
     type Usual: Formula;
-    /// Method where stability does.
+    /// Method for steps limited by stability.
     type Stiff: Formula;
-    /// Evidence against the usual and against the stiff method that is enough for the other to take over.
+    /// Counts against the usual and against the stiff method at which the other takes over.
     const ENOUGH: [f64; 2];
 
-    /// Evidence against the method at work after the step just accepted, where it was `before`; `stiff` says which it is.
+    /// Updated count against the active method after the step just accepted, where it was `before`; `stiff` is true for the
+    /// stiff method.
     fn against(
         methods: (&mut Self::Usual, &mut Self::Stiff),
         stiff: bool,
@@ -29,10 +30,10 @@ pub(super) trait Criterion {
 pub(super) struct Pair<C: Criterion> {
     usual: C::Usual,
     other: C::Stiff,
-    /// True if the step last tried, and then if the next one, is of the stiff method.
+    /// True if the step last tried is of the stiff method; then the same for the next step.
     stiff: bool,
     next_stiff: bool,
-    /// Evidence against it.
+    /// Count against the active method.
     against: f64,
 }
 
@@ -82,7 +83,7 @@ impl<C: Criterion> Formula for Pair<C> {
     }
 
     fn forget(&mut self) {
-        // What was learnt of stiffness holds beyond an event; a jump of the forcing shows within a few steps.
+        // Stiffness found so far remains valid beyond an event; a jump of the forcing shows within a few steps.
         self.usual.forget();
         self.other.forget();
     }

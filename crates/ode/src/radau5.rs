@@ -1,7 +1,7 @@
 //! Radau IIA of order 5: implicit, L-stable, with three stages solved together by a simplified Newton iteration.
 //!
 //! Source: E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II", 2nd ed. (1996), section IV.8. The three linear systems
-//! are separated into a real and a complex one; the error estimate is of order 3 and filtered by the real one.
+//! are separated into a real and a complex one; the error estimate is of order 3 and filtered by the real matrix.
 
 use super::matrices::Matrices;
 use super::own::{Formula, Span, Trial};
@@ -10,11 +10,11 @@ use super::radau5_table::{COMPLEX_IMAGINARY, COMPLEX_REAL, DENSE, ERROR, FROM, I
 use super::report::Counts;
 use nalgebra::Complex;
 
-/// Iterations of Newton's method after which a shorter step is cheaper.
+/// Newton iterations after which a shorter step is cheaper.
 const MOST_ITERATIONS: usize = 6;
-/// Share of the tolerance to which the stages are solved at most: a looser solution spoils the error estimate.
+/// Largest fraction of the tolerance to which the stages are solved: a looser solution spoils the error estimate.
 const SOLVED: f64 = 0.03;
-/// Rounding over the tolerance below which the stages cannot be solved.
+/// Ratio of rounding to the tolerance below which the stages cannot be solved.
 const ROUNDING: f64 = 10.0 * f64::EPSILON;
 const SAFETY: f64 = 0.9;
 const SHRINK: f64 = 0.2;
@@ -26,12 +26,12 @@ pub(super) struct Radau5 {
     matrices: Matrices,
     /// True if the Jacobian is that of the beginning of the step.
     ///
-    /// It is never kept for the next. Rates of relaxation go as 1/V where a mass acts, and fall by many decades while a slider
-    /// speeds up. With the large ones of before, the iteration moves the fast unknowns by next to nothing, passes for converged,
-    /// and the error estimate, filtered by the same matrix, does not see it. It is also dearer: a new Jacobian costs less than the
-    /// iterations it saves.
+    /// It is never kept for the next step. Relaxation rates scale as 1/V where a mass acts, and fall by many decades while a
+    /// slider accelerates. With the large rates of an old Jacobian, the iteration barely moves the fast unknowns and appears
+    /// converged. The error estimate, filtered by the same matrix, does not detect it. Keeping it is also slower: a new Jacobian
+    /// costs less than the iterations it saves.
     known: bool,
-    /// Length the matrices are factorised for; 0: for none.
+    /// Step length for which the matrices are factorised; 0: none.
     factorised: f64,
     /// Increments of the three stages, one after the other, and their transforms.
     z: Vec<f64>,
@@ -41,11 +41,11 @@ pub(super) struct Radau5 {
     pair: Vec<Complex<f64>>,
     stage: Vec<f64>,
     error: Vec<f64>,
-    /// Coefficients of the polynomial of the last accepted step and its length; 0: none.
+    /// Coefficients of the polynomial of the last accepted step, and its length; 0: none.
     last: Vec<f64>,
     last_length: f64,
     iterations: usize,
-    /// Length and error of the accepted step before.
+    /// Length and error of the previous accepted step.
     before: Option<(f64, f64)>,
     rejected: bool,
     factorisations: u64,
@@ -78,7 +78,7 @@ impl Radau5 {
         }
     }
 
-    /// True if an estimate of the largest |λ| of the Jacobian, which is never below it, is below `limit` \[1/s\].
+    /// True if an upper estimate of the largest |λ| of the Jacobian is below `limit` \[1/s\].
     pub fn slower_than(&self, limit: f64) -> bool {
         self.matrices.slower_than(limit)
     }
@@ -92,7 +92,7 @@ impl Radau5 {
         regular
     }
 
-    /// Writes the increments expected by going on with the last polynomial.
+    /// Writes the increments predicted by extrapolating the last polynomial.
     fn predict(&mut self, n: usize, h: f64) {
         if self.last_length == 0.0 {
             self.z.fill(0.0);
@@ -100,7 +100,7 @@ impl Radau5 {
             for (z, node) in self.z.chunks_exact_mut(n).zip(NODES) {
                 let x = 1.0 + node * h / self.last_length;
                 for (i, value) in z.iter_mut().enumerate() {
-                    // The polynomial less its value at 1, which is the end of the last step.
+                    // The polynomial minus its value at 1, which is the end of the last step.
                     let c = [self.last[i], self.last[n + i], self.last[2 * n + i]];
                     *value = c[0] * (x - 1.0) + c[1] * (x * x - 1.0) + c[2] * (x * x * x - 1.0);
                 }
@@ -109,7 +109,7 @@ impl Radau5 {
         transform(&INTO, n, &self.z, &mut self.w);
     }
 
-    /// Newton's method for the stages. `false`: it does not converge.
+    /// Solves for the stages by Newton's method. `false`: it does not converge.
     fn solve(&mut self, system: &System<'_>, span: &Span) -> bool {
         let (n, h) = (span.y0.len(), span.h);
         self.predict(n, h);
@@ -140,7 +140,7 @@ impl Radau5 {
         false
     }
 
-    /// The correction of the transformed stages into `delta`; its norm.
+    /// Computes the correction of the transformed stages into `delta`, and its norm.
     fn correction(&mut self, system: &System<'_>, y0: &[f64], h: f64) -> f64 {
         let n = y0.len();
         transform(&INTO, n, &self.f, &mut self.delta);
@@ -174,7 +174,8 @@ impl Radau5 {
         if !(self.rejected || self.last_length == 0.0) || norm <= 1.0 {
             return norm;
         }
-        // After a rejection and in the first step the filter is applied twice: stiff parts would shorten the step for nothing.
+        // After a rejection and in the first step the filter is applied twice: stiff components would shorten the step
+        // needlessly.
         for i in 0..n {
             self.stage[i] = span.y0[i] + self.error[i];
         }
@@ -188,13 +189,13 @@ impl Radau5 {
     }
 }
 
-/// True if the iterations left will not reach the tolerance.
+/// True if the remaining iterations will not reach the tolerance.
 fn hopeless(rate: f64, norm: f64, iteration: usize, tolerance: f64) -> bool {
     let left = i32::try_from(MOST_ITERATIONS - iteration).unwrap_or(1);
     rate >= 1.0 || rate.powi(left) / (1.0 - rate) * norm > tolerance
 }
 
-/// Applies a matrix of 3 by 3 across the stages.
+/// Applies a 3 by 3 matrix across the stages.
 fn transform(matrix: &[[f64; 3]; 3], n: usize, from: &[f64], into: &mut [f64]) {
     for (row, out) in matrix.iter().zip(into.chunks_exact_mut(n)) {
         for (i, value) in out.iter_mut().enumerate() {
@@ -238,7 +239,7 @@ impl Formula for Radau5 {
         let most = MOST_ITERATIONS as f64;
         let safety = SAFETY * (2.0 * most + 1.0) / (2.0 * most + self.iterations as f64);
         let error = error.max(f64::MIN_POSITIVE);
-        // Gustafsson's predictive control: the last two steps tell how the error changes from step to step.
+        // Gustafsson's predictive control: the last two steps show how the error changes from step to step.
         let trend = self.before.map_or(1.0, |(length, last)| h / length * (last / error).powf(0.25));
         let share = safety * trend.min(1.0) * error.powf(-0.25);
         if !accepted {
@@ -262,7 +263,7 @@ impl Formula for Radau5 {
     }
 
     fn again(&mut self) {
-        // The polynomial begins where the step does, not where it ends.
+        // The polynomial begins at the start of the step, not at its end.
         self.last_length = 0.0;
     }
 

@@ -1,4 +1,4 @@
-//! Results of an integration while it runs and at its end.
+//! Results that an integration reports while it runs and at its end.
 
 use super::clock::Clock;
 use serde::{Deserialize, Serialize};
@@ -10,94 +10,94 @@ pub struct Occurrence {
     pub event: usize,
     /// True if the function went from negative to positive.
     pub rising: bool,
-    /// Time.
+    /// Time of the change.
     pub at: Clock,
-    /// The unknowns then.
+    /// Unknowns at that time.
     pub state: Vec<f64>,
 }
 
-/// Decision to go on or to stop.
+/// Choice to continue or to stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Control {
-    /// Go on.
+    /// Continue.
     Go,
     /// End the integration here.
     Stop,
 }
 
-/// Cost of an integration.
+/// Costs of an integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
     /// Accepted steps.
     pub steps: u64,
     /// Steps tried and not accepted.
     pub rejected: u64,
-    /// Evaluations of the rates, those of dense output included.
+    /// Evaluations of the rates, including those of dense output.
     pub rates: u64,
     /// Evaluations of the Jacobian.
     pub jacobians: u64,
-    /// Factorisations (radau5: a real and a complex one are two).
+    /// Factorisations; for radau5, a real and a complex one count as two.
     pub factorisations: u64,
     /// Solutions with a factorised matrix: iterations of Newton's method.
     pub solves: u64,
     /// Iterations of Newton's method that did not converge.
     pub newton_failures: u64,
-    /// Restarts after events by methods that do not take the step again up to the event.
+    /// Restarts after events by methods that do not retake the step up to the event.
     pub restarts: u64,
 }
 
-/// End of an integration.
+/// Outcome of an integration.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// At the end asked for.
+    /// It reached the requested end.
     Completed,
-    /// At the request of the sink.
+    /// The sink stopped it.
     Stopped,
-    /// Before, at the last good state.
+    /// It failed before the end, at the last valid state.
     Failed {
-        /// Reason.
+        /// Reason of the failure.
         reason: Failure,
     },
 }
 
-/// Reason why an integration cannot go on.
+/// Reason why an integration cannot continue.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Failure {
-    /// The tolerance, or rates that are not finite, would need a shorter step than time resolves.
+    /// The tolerance, or rates that are not finite, would require a step shorter than time can resolve.
     #[error("the step would have to be shorter than {length:e} s")]
     StepTooSmall {
-        /// The length reached \[s\].
+        /// Length reached \[s\].
         length: f64,
     },
-    /// The sink found that the equations have no sense beyond the last state.
+    /// The sink found that the equations are meaningless beyond the last state.
     #[error("the equations have no solution beyond this state")]
     Ends,
-    /// The state to start from, or its rates, are not finite.
+    /// The initial state or its rates are not finite.
     #[error("the state or its rates are not finite at the start")]
     NotFinite,
     /// More steps than allowed.
     #[error("the end is not reached in {most} steps")]
     TooManySteps {
-        /// The steps allowed.
+        /// Number of steps allowed.
         most: usize,
     },
-    /// Sizes or tolerances that make no sense.
+    /// Invalid sizes or tolerances.
     #[error("{0}")]
     Unfit(&'static str),
-    /// Words of the solver.
+    /// Message of the solver.
     #[error("the solver reports: {0}")]
     Solver(String),
 }
 
-/// The end of an integration.
+/// Result of an integration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finished {
     /// Outcome.
     pub outcome: Outcome,
-    /// Time of the last good state.
+    /// Time of the last valid state.
     pub at: Clock,
-    /// The last good state.
+    /// Last valid state.
     pub state: Vec<f64>,
-    /// Cost.
+    /// Costs.
     pub counts: Counts,
 }

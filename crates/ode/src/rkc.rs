@@ -1,24 +1,26 @@
-//! The stabilised explicit method of order 2 of Runge, Kutta and Chebyshev, with as many stages as stability asks for.
+//! The stabilised explicit method of order 2 of Runge, Kutta and Chebyshev, with as many stages as stability requires.
 //!
-//! Stages follow Chebyshev's recursion, so that s of them are stable along the negative real axis to `h |λ| = 2/3 (s² - 1)(1 - 2ε/15)`:
-//! work per time goes with the root of the stiffness. Source: B. P. Sommeijer, L. F. Shampine, J. G. Verwer, "RKC: an explicit solver for
-//! parabolic PDEs", J. Comput. Appl. Math. 88 (1998) 315-326, equations (2.1) to (2.7); the dense output is Hermite's cubic.
+//! The stages follow Chebyshev's recursion, so that s of them are stable along the negative real axis up to `h |λ| = 2/3 (s² - 1)(1 -
+//! 2ε/15)`. The work per unit time scales with the square root of the stiffness. Source: B. P. Sommeijer, L. F. Shampine, J. G. Verwer,
+//! "RKC: an explicit solver for parabolic PDEs", J. Comput. Appl. Math. 88 (1998) 315-326, equations (2.1) to (2.7). The dense output is
+//! Hermite's cubic.
 
 use super::explicit::Control;
 use super::own::{Formula, Span, Trial};
 use super::problem::System;
 
-/// ε: how far stability is damped along the axis.
+/// ε: strength of damping along the axis.
 const DAMPING: f64 = 2.0 / 13.0;
-/// Stages of a step: fewer than two have not order 2; beyond the most, rounding grows with their square and a shorter step is no loss.
+/// Limits on the stages of a step: fewer than two do not give order 2. Beyond the most, rounding grows with their square, and a
+/// shorter step is no loss.
 const FEWEST: usize = 2;
 const MOST: usize = 250;
-/// Share of the room that is kept where the spectral radius grows within the step.
+/// Safety factor on the stretch, for a spectral radius that grows within the step.
 const RESERVE: f64 = 1.05;
-/// Share of a length that needs too many stages.
+/// Factor on the length of a step that needs too many stages.
 const SHORTER: f64 = 0.8;
 
-/// Stages that are stable to `stretch = h |λ|`.
+/// Number of stages that are stable up to `stretch = h |λ|`.
 fn stages(stretch: f64) -> f64 {
     let room = 2.0 / 3.0 * (1.0 - 2.0 / 15.0 * DAMPING);
     (1.0 + RESERVE * stretch / room).sqrt().ceil().max(FEWEST as f64)
@@ -27,17 +29,17 @@ fn stages(stretch: f64) -> f64 {
 /// The coefficients of a stage.
 #[derive(Clone, Copy, Debug, Default)]
 struct Stage {
-    /// Weights of the last stage and of the one before; the start has what is left of one.
+    /// Weights of the last stage and of the one before it; the start has the rest, so that the weights add up to one.
     mu: f64,
     nu: f64,
-    /// Weights of the rates of the last stage and of the start, times the step.
+    /// Weights of the rates of the last stage and of the start, times the step length.
     mu_rate: f64,
     gamma: f64,
-    /// Time of the last stage as a share of the step.
+    /// Time of the last stage as a fraction of the step.
     node: f64,
 }
 
-/// Chebyshev's polynomials at w with their first two derivatives: of one degree and of the one before.
+/// Chebyshev's polynomials at w of one degree and of the degree below, with their first two derivatives.
 #[derive(Clone, Copy)]
 struct Chebyshev {
     w: f64,
@@ -91,7 +93,7 @@ fn coefficients(count: usize, out: &mut Vec<Stage>) {
 /// The method.
 #[derive(Debug)]
 pub(super) struct Rkc2 {
-    /// Coefficients, for as many stages as were last used.
+    /// Coefficients for the number of stages last used.
     stages: Vec<Stage>,
     before: Vec<f64>,
     last: Vec<f64>,
@@ -149,7 +151,7 @@ impl Formula for Rkc2 {
             let old = span.y0.iter().zip(&span.f0);
             let new = self.last.iter().zip(&self.rate);
             for ((y, (y0, f0)), (last, f)) in self.before.iter_mut().zip(old).zip(new) {
-                // Differences from the start keep their digits.
+                // Differences from the start retain their digits.
                 *y = y0 + (s.mu * (last - y0) + s.nu * (*y - y0)) + (mu_rate * f + gamma * f0);
             }
             std::mem::swap(&mut self.before, &mut self.last);
@@ -186,7 +188,7 @@ fn hermite(span: &Span, x: f64, y: &mut [f64]) {
 mod tests {
     use super::{DAMPING, Stage, coefficients, stages};
 
-    /// The stability function and the internal consistency: y' = z y with h = 1, from 1.
+    /// The stability function and the internal consistency: y' = z y with h = 1, starting from 1.
     fn grown(table: &[Stage], z: f64) -> f64 {
         let (mut before, mut last) = (1.0, 1.0 + table[0].mu_rate * z);
         for s in &table[1..] {

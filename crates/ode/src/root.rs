@@ -1,19 +1,19 @@
 //! A root between two ends of different sign.
 
-/// Evaluations after which rounding is reached at any function: bisection alone needs 53.
+/// Evaluations within which any function is resolved to rounding: bisection alone needs 53.
 const MOST: usize = 120;
-/// Width of the bracket over its position at which it cannot be narrowed further.
+/// Ratio of the bracket's width to its position at which it cannot be narrowed further.
 const WIDTH: f64 = 2.0 * f64::EPSILON;
 
-/// The end of the last bracket on the side of `b`, for `f(a)` and `f(b)` of different sign (`fa` may be 0).
+/// End of the last bracket on the side of `b`, for `f(a)` and `f(b)` of different sign (`fa` may be 0).
 ///
 /// The bracket is narrowed by the method of I. F. D. Oliveira and R. H. C. Takahashi (ITP), ACM Transactions on Mathematical
-/// Software 47 (2020) 5: never slower than bisection by more than one evaluation, and superlinear for smooth functions.
+/// Software 47 (2020) 5: slower than bisection by at most one evaluation, and superlinear for smooth functions.
 pub(super) fn root(mut f: impl FnMut(f64) -> f64, a: (f64, f64), b: (f64, f64)) -> f64 {
     let ((mut a, mut fa), (mut b, mut fb)) = (a, b);
     let first = b - a;
     let truncation = 0.2 / first;
-    // Half of the narrowest bracket wanted.
+    // Half of the narrowest useful bracket.
     let resolution = f64::EPSILON * first;
     let mut radius = 2.0 * first;
     for _ in 0..MOST {

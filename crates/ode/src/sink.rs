@@ -1,32 +1,32 @@
-//! Interface to the consumer of an integration.
+//! Reports of an integration while it runs.
 
 use super::clock::Clock;
 use super::problem::System;
 use super::report::{Control, Occurrence};
 use super::stepper::Stepper;
 
-/// Receives the solution as it is found.
+/// Receiver of the solution as it is computed.
 pub trait Sink {
-    /// A step was accepted. A step in which an event occurs ends there.
+    /// Called for each accepted step. A step in which an event occurs ends there.
     fn accepted(&mut self, step: &Step<'_>) -> Control;
 
-    /// An event occurred at the end of the last step. Events of one time come in the order of their numbers, all of them.
+    /// Called for an event at the end of the last step. All events of one time are reported, in the order of their numbers.
     fn occurred(&mut self, occurrence: &Occurrence) -> Control;
 }
 
 /// An accepted step.
 pub struct Step<'a> {
-    /// Time of onset.
+    /// Time of its beginning.
     pub start: Clock,
     /// Time of its end.
     pub end: Clock,
     /// The unknowns at its end.
     pub state: &'a [f64],
-    /// The rates at its end, where the method has them without another evaluation.
+    /// The rates at its end, where the method has them without a further evaluation.
     pub rates: Option<&'a [f64]>,
     pub(super) stepper: &'a dyn Stepper,
     pub(super) system: &'a System<'a>,
-    /// The share of the stepper's step this one covers.
+    /// Fraction of the stepper's step that this one covers.
     pub(super) share: f64,
 }
 
@@ -49,7 +49,7 @@ impl Step<'_> {
         self.stepper.rates().map(|(start, _)| start)
     }
 
-    /// Length the method would take next \[s\], where it is worth something after a restart.
+    /// Length the method would take next \[s\], where it is useful after a restart.
     #[must_use]
     pub fn next_length(&self) -> Option<f64> {
         self.stepper.next_length()
@@ -65,10 +65,10 @@ impl Step<'_> {
 
     /// Writes the unknowns at `fraction` of the step, from 0 to 1, into `y`.
     ///
-    /// The polynomial is the method's own: of degree 7 for dop853, for which the first call in a step evaluates the rates
-    /// three times; degree 4 for tsit5 and tsit45; the collocation polynomial of degree 3 for radau5; that of the current
-    /// order, 1 to 5, for bdf; the continuous extensions of diffsol for esdirk34 and, of degree 2, for tr-bdf2. The error of a
-    /// polynomial of degree p goes with the power p + 1 of the step.
+    /// The polynomial is that of the method. Dop853: degree 7; the first call in a step evaluates the rates three times. Tsit5
+    /// and tsit45: degree 4. Radau5: the collocation polynomial of degree 3. Bdf: the current order, 1 to 5. Esdirk34 and, of
+    /// degree 2, tr-bdf2: the continuous extension of diffsol. The error of a polynomial of degree p scales with the power p +
+    /// 1 of the step.
     pub fn at(&self, fraction: f64, y: &mut [f64]) {
         self.stepper.interpolate(self.system, fraction * self.share, y);
     }

@@ -1,9 +1,10 @@
 //! Tsitouras' method where accuracy limits the step, Runge, Kutta and Chebyshev's where stability does.
 //!
-//! After an event a fault relaxes over many decades of time: slip rates fall as 1/t, and stability holds the step of a usual
-//! explicit method to a share of t that shrinks with the size of cells, although the solution is smooth. A stabilised method takes the
-//! longer steps at the price of the root of their length; towards and within events, where accuracy decides, the higher order takes
-//! fewer. The spectral radius tells which: the way back is taken where the stabilised method's step would be stable in the usual one.
+//! After an event a fault relaxes over many decades of time: slip rates fall as 1/t. Stability limits the step of a usual explicit
+//! method to a fraction of t that shrinks with the cell size, although the solution is smooth. The work of a stabilised method for a
+//! longer step grows only with the square root of its length. Towards and within events, where accuracy decides, the higher order
+//! takes fewer steps. The spectral radius decides: the usual method resumes where the step of the stabilised one would be stable in
+//! it.
 
 use super::own::Span;
 use super::pair::{Criterion, Pair};
@@ -11,13 +12,13 @@ use super::problem::System;
 use super::rkc::Rkc2;
 use super::tsit5::Tsit5;
 
-/// Stretch h |λ| beyond which stability binds Tsitouras' method, and below which the stabilised one has nothing to gain: its region ends at
-/// 3.7 on the negative real axis, and the control keeps steps around there; the spectral radius is a bound, up to twice too large.
+/// Stretch h |λ| beyond which stability limits Tsitouras' method, and below which the stabilised one has no advantage. Its region ends at
+/// 3.7 on the negative real axis, and the control keeps steps near there; the spectral radius is a bound, up to twice too large.
 const BOUND: f64 = 3.0;
-/// Steps in a row that speak for the other method, after which it goes on.
+/// Consecutive steps in favour of the other method after which it takes over.
 const AGAINST: f64 = 3.0;
 
-/// By the stretch of the steps.
+/// Criterion by the stretch of the steps.
 #[derive(Debug)]
 pub(super) struct Stretch;
 

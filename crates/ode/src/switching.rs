@@ -1,9 +1,9 @@
 //! Dormand and Prince's explicit method of order 8 where accuracy limits the step, Radau IIA where stability does.
 //!
-//! A slider that slides through thousands of its lengths L forgets its state once per L, and an explicit method follows each of
-//! these e-folds although the solution is smooth. Stability binds where `h |λ|` stays at the end of the stability region, which the
-//! last two stages of a step tell (E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II", 2nd ed. (1996), section IV.2).
-//! The way back is taken where the step of the implicit method would be stable in the explicit one.
+//! A slider that slides through thousands of its lengths L forgets its state once per L. An explicit method follows each of these
+//! e-folds, although the solution is smooth. Stability limits the step where `h |λ|` stays at the boundary of the stability region,
+//! which is estimated from the last two stages of a step (E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II", 2nd ed.
+//! (1996), section IV.2). The explicit method resumes where the step of the implicit one would be stable in it.
 
 use super::dop853::Dop853;
 use super::own::Span;
@@ -11,20 +11,20 @@ use super::pair::{Criterion, Pair};
 use super::problem::System;
 use super::radau5::Radau5;
 
-/// Mean of `h |λ|` over some steps of the explicit method above which stability binds. Its region ends at 6.1 on the negative real
-/// axis. Where it binds, the control of steps tries longer ones and shorter ones around that in turn, and their mean is 5 to 6.
+/// Mean of `h |λ|` over some steps of the explicit method above which stability limits them. The region ends at 6.1 on the
+/// negative real axis. At this limit the step control alternates between longer and shorter steps, and their mean is 5 to 6.
 const BINDING: f64 = 4.0;
-/// Steps over which that mean is taken; the older ones fade.
+/// Steps over which that mean is taken, with fading weight of older ones.
 const MEMORY: f64 = 8.0;
-/// One step tells no more than this: a quotient of differences may be any number.
+/// Largest contribution of one step: a quotient of differences may be any number.
 const MOST: f64 = 10.0;
 /// `h |λ|` of a step of the implicit method below which the explicit one could have taken it.
 const STABLE: f64 = 5.0;
-/// Such steps in a row after which the explicit method goes on: the first ones are as short as those of the explicit method were, and
-/// grow where it is stability that bound them.
+/// Consecutive steps of this kind after which the explicit method resumes. The first ones are as short as those of the explicit
+/// method were, and grow if stability limited those.
 const FREE: f64 = 6.0;
 
-/// By where the explicit method's stages end up, and by the Jacobian of the implicit one.
+/// Criterion by the last stages of the explicit method, and by the Jacobian of the implicit one.
 #[derive(Debug)]
 pub(super) struct Boundary;
 

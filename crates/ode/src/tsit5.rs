@@ -10,7 +10,7 @@ use super::problem::System;
 /// Stages; the last is the rate at the end of the step.
 const STAGES: usize = 7;
 
-/// Nodes of the second to the sixth stage, as shares of the step.
+/// Nodes of the second to the sixth stage, as fractions of the step.
 const NODES: [f64; 5] = [0.161, 0.327, 0.9, 0.980_025_540_904_509_7, 1.0];
 
 /// Weights of the rates in the second to the sixth stage.
@@ -47,8 +47,8 @@ const ERROR: [f64; STAGES] = [
     1.0 / 66.0,
 ];
 
-/// Coefficients of the second, third and fourth power of the share of the step in the weights of the dense output; the first
-/// power has the first rate alone.
+/// Coefficients of the second, third and fourth power of the fraction of the step in the weights of the dense output; only the
+/// first rate has a first power.
 const DENSE: [[f64; 3]; STAGES] = [
     [-2.763_706_197_274_826, 2.913_255_461_821_912_6, -1.053_088_497_729_021_6],
     [0.1317, -0.2234, 0.1017],
@@ -79,7 +79,7 @@ impl Tsit5 {
         }
     }
 
-    /// The rates of the stage after the first `S`.
+    /// Computes the rates of the stage after the first `S`.
     #[inline(always)]
     fn stage<const S: usize>(&mut self, system: &System<'_>, span: &Span, weights: &[f64; S]) {
         let n = span.y0.len();

@@ -1,7 +1,7 @@
-//! Factors of dense matrices, made in the memory of the matrix.
+//! Factors of dense matrices, computed in the storage of the matrix.
 //!
-//! An interface is factored anew in each iteration. Memory that is allocated for each factor leaves gaps between what lasts, and the same
-//! run then takes once or twice the memory, by chance.
+//! An interface is refactored in each iteration. Allocating storage for each factor leaves gaps between lasting allocations, and the same
+//! run may then take up to twice as much more memory, by chance.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{self as llt, LltError};
@@ -26,7 +26,7 @@ impl DenseFactor {
         }
     }
 
-    /// Its memory, to be used again.
+    /// The storage, for reuse.
     pub fn into_memory(self) -> Mat<f64> {
         match self {
             Self::Cholesky(Cholesky { lower }) => lower,
@@ -38,11 +38,12 @@ impl DenseFactor {
 /// `K = L Lᵀ`.
 #[derive(Debug)]
 pub(super) struct Cholesky {
-    /// L; what is above the diagonal means nothing.
+    /// L; entries above the diagonal are meaningless.
     lower: Mat<f64>,
 }
 
-/// A pivot that is not above its bound: the memory of the matrix, its equation and its value, NaN where it is not positive.
+/// A pivot that is not above its bound: the storage of the matrix, the equation of the pivot and its value, NaN if it is not
+/// positive.
 pub(super) struct Refused {
     pub memory: Mat<f64>,
     pub equation: usize,
@@ -50,7 +51,7 @@ pub(super) struct Refused {
 }
 
 impl Cholesky {
-    /// Factors a matrix of which the lower triangle counts, with pivots above a bound each.
+    /// Factors a matrix of which only the lower triangle is read; each pivot must exceed its bound.
     pub fn new(mut matrix: Mat<f64>, bound: impl Fn(usize) -> f64) -> Result<Self, Refused> {
         let n = matrix.nrows();
         let mut memory =
@@ -68,7 +69,7 @@ impl Cholesky {
         }
     }
 
-    /// L, below the diagonal and on it.
+    /// L, on and below the diagonal.
     pub fn lower(&self) -> MatRef<'_, f64> {
         self.lower.as_ref()
     }
@@ -83,7 +84,7 @@ impl Cholesky {
 /// `P K = L U` with partial pivoting.
 #[derive(Debug)]
 pub(super) struct Lu {
-    /// U, and below the diagonal L.
+    /// U, and L below the diagonal.
     both: Mat<f64>,
     rows: Perm<usize>,
 }
@@ -115,7 +116,7 @@ pub(super) fn column(values: &mut [f64]) -> MatMut<'_, f64> {
     MatMut::from_column_major_slice_mut(values, n, 1)
 }
 
-/// A copy in memory that is there already, where it fits.
+/// A copy in existing storage, if it fits.
 pub(super) fn copied(matrix: &Mat<f64>, memory: Option<Mat<f64>>) -> Mat<f64> {
     match memory {
         Some(mut memory) if memory.shape() == matrix.shape() => {

@@ -1,4 +1,4 @@
-//! A sparse system solved by a factorisation.
+//! A sparse system solved by factorisation.
 
 use super::known::Symmetry;
 use crate::dof::Equations;
@@ -12,7 +12,7 @@ use faer::sparse::SymbolicSparseColMat;
 use faer::sparse::linalg::solvers::SymbolicLu;
 use std::sync::Arc;
 
-/// Places of entries in the lower triangle of a system's matrix.
+/// Positions of the entries of the lower triangle of a system's matrix.
 #[derive(Clone, Debug)]
 pub struct Lower {
     equations: Equations,
@@ -27,7 +27,7 @@ impl Lower {
         Self { ids: ids(patterns), pattern: lower_pattern(patterns, equations), equations: equations.clone() }
     }
 
-    /// Entries of the lower triangle.
+    /// Number of entries in the lower triangle.
     #[must_use]
     pub fn stored(&self) -> usize {
         self.pattern.row_idx().len()
@@ -36,15 +36,15 @@ impl Lower {
     /// Orders and analyses the pattern.
     ///
     /// # Errors
-    /// [`FemError::Direct`] when it cannot be ordered.
+    /// [`FemError::Direct`] if it cannot be ordered.
     pub fn analyse(self) -> Result<Analysis, FemError> {
         let symbolic = Arc::new(multifrontal::Symbolic::new(self.pattern.as_ref(), Ordering::Automatic)?);
         Ok(Analysis { equations: self.equations, ids: self.ids, symbolic })
     }
 }
 
-/// A symbolic Cholesky analysis made before there are values. It serves a [`super::System`] of the same terms, those without a
-/// tangent apart, and equations.
+/// A symbolic Cholesky analysis made before values exist. It serves a [`super::System`] of the same equations and terms, except
+/// terms without a tangent.
 #[derive(Clone, Debug)]
 pub struct Analysis {
     equations: Equations,
@@ -53,7 +53,7 @@ pub struct Analysis {
 }
 
 impl Analysis {
-    /// Cost of a factorisation, in advance.
+    /// Memory and costs of the factorisation.
     #[must_use]
     pub fn symbolic(&self) -> &multifrontal::Symbolic {
         &self.symbolic
@@ -72,11 +72,11 @@ pub(super) struct SparseStore {
     pub map: Option<ScatterMap>,
     symbolic: Option<Symbolic>,
     factor: Option<Factor>,
-    /// The last Cholesky factor, whose storage the next takes.
+    /// The last Cholesky factor, whose storage is reused by the next.
     stale: Option<multifrontal::Cholesky>,
-    /// The whole of a symmetric matrix, made when Cholesky fails for the first time.
+    /// Both triangles of a symmetric matrix, built when Cholesky first fails.
     mirror: Option<Mirror>,
-    /// Bytes a Cholesky factorisation may take.
+    /// Memory limit of a Cholesky factorisation \[bytes\].
     memory: usize,
     analysis: Option<Analysis>,
 }
@@ -108,7 +108,7 @@ impl SparseStore {
         *self = Self { memory, analysis, ..Self::default() };
     }
 
-    /// Builds pattern and symbolic analysis anew when a term's pattern changed.
+    /// Rebuilds pattern and symbolic analysis if the pattern of a term has changed.
     pub fn renew(
         &mut self,
         patterns: &[&Pattern],
@@ -160,14 +160,14 @@ impl SparseStore {
         })
     }
 
-    /// The first column all of whose stored entries are zero.
+    /// The first column whose stored entries are all zero.
     pub fn empty_column(&self) -> Option<usize> {
         let map = self.map.as_ref()?;
         let matrix = map.matrix();
         (0..map.order()).position(|k| matrix.val_of_col(k).iter().all(|&v| v == 0.0))
     }
 
-    /// True if LU had to stand in for Cholesky.
+    /// Factors the matrix; returns true if LU had to replace Cholesky.
     pub fn factor(&mut self, symmetry: Symmetry) -> Result<bool, FemError> {
         let (Some(map), Some(symbolic)) = (&self.map, &self.symbolic) else {
             return Err(FemError::Factorisation("the pattern was not analysed".into()));

@@ -1,7 +1,8 @@
-//! Equations of a dense system that only constant terms know, eliminated once for many factorisations of the others.
+//! Equations of a dense system that appear only in constant terms, eliminated once for many factorisations of the others.
 //!
-//! With g for those gone and r for the rest, `K_gg = L Lᵀ` and `X = L⁻¹ K_gr`, the rest is left with `S = K_rr - Xᵀ X`, to which the
-//! terms that change are added. Contact changes the rows of closed points only, in most models a small part of an interface.
+//! With g for the eliminated and r for the remaining equations, `K_gg = L Lᵀ` and `X = L⁻¹ K_gr`, the remaining matrix is `S =
+//! K_rr - Xᵀ X`, to which the changing terms are added. Contact changes only the rows of closed points, a small part of an
+//! interface in most models.
 
 use super::dense_factor::{Cholesky, column, copied};
 use crate::dof::Equations;
@@ -20,7 +21,7 @@ pub(super) type Entry = (usize, usize, f64);
 pub(super) struct Eliminated {
     gone: Vec<usize>,
     rest: Vec<usize>,
-    /// Place of each equation in `rest`, or [`Equations::FIXED`].
+    /// Position of each equation in `rest`, or [`Equations::FIXED`].
     place: Vec<usize>,
     factor: Cholesky,
     /// X.
@@ -30,7 +31,7 @@ pub(super) struct Eliminated {
 }
 
 impl Eliminated {
-    /// Keeps the equations of `kept` and eliminates the others. None where they are not positive definite alone.
+    /// Keeps the equations of `kept` and eliminates the others; `None` if these are not positive definite by themselves.
     pub fn new(constant: &Mat<f64>, kept: &[bool]) -> Option<Self> {
         let (rest, gone): (Vec<usize>, Vec<usize>) = (0..kept.len()).partition(|&k| kept[k]);
         let mut place = vec![Equations::FIXED; kept.len()];
@@ -50,17 +51,18 @@ impl Eliminated {
         Some(Self { gone, rest, place, factor, coupling, schur })
     }
 
-    /// Equations that are left.
+    /// Remaining equations.
     pub fn rest(&self) -> &[usize] {
         &self.rest
     }
 
-    /// True if all these are left.
+    /// True if all these equations remain.
     pub fn leaves(&self, mut equations: impl Iterator<Item = usize>) -> bool {
         equations.all(|e| self.place[e] != Equations::FIXED)
     }
 
-    /// The matrix of the rest with what changes, all of which is in its rows and columns; in `memory` where that fits.
+    /// The matrix of the remaining equations with the changing entries, all of which lie in its rows and columns; in `memory`
+    /// if it fits.
     pub fn with(&self, changing: &[Entry], memory: Option<Mat<f64>>) -> Mat<f64> {
         let mut matrix = copied(&self.schur, memory);
         for &(row, col, value) in changing {
@@ -69,7 +71,7 @@ impl Eliminated {
         matrix
     }
 
-    /// Solves in place; `solve` solves for the rest.
+    /// Solves in place; `solve` solves for the remaining equations.
     pub fn solve(&self, rhs: &mut [f64], solve: impl FnOnce(&mut [f64])) {
         let mut own: Vec<f64> = self.gone.iter().map(|&k| rhs[k]).collect();
         let mut rest: Vec<f64> = self.rest.iter().map(|&k| rhs[k]).collect();

@@ -5,15 +5,15 @@ use super::{Store, System};
 use crate::multifrontal::{FreeMode, Pivot, free_mode};
 use faer::sparse::SparseColMatRef;
 
-/// Largest entry times solution over load beyond which LU may have divided by rounding. The product bounds the condition from
-/// below; stiff contact on flexible bodies reaches 1e8.
+/// Ratio of largest entry times solution to load beyond which LU may have divided by rounding. It is a lower bound of the
+/// condition number; stiff contact on flexible bodies reaches 1e8.
 const SUSPECT: f64 = 1e12;
 
 impl System {
-    /// The motion that the matrix assembled last does not resist, where it is singular and has no negative modes. Of a matrix
-    /// that is not symmetric its symmetric part counts: where nothing resists, there is nothing unsymmetric. Degree of
-    /// freedom = node * D + component, positions in `nodes` \[m\]. Costs some factorisations; the iterative method keeps no
-    /// matrix that could be factored, and has no answer.
+    /// The motion that the last assembled matrix does not resist, if the matrix is singular and has no negative modes. For an
+    /// unsymmetric matrix, the symmetric part is used: where nothing resists, nothing is unsymmetric. Degree of freedom =
+    /// node * D + component, positions in `nodes` \[m\]. It costs several factorisations. The iterative method keeps no
+    /// matrix that could be factored, and gives no answer.
     #[must_use]
     pub fn free_mode<const D: usize>(&self, nodes: &[[f64; D]]) -> Option<FreeMode<D>> {
         if self.equations.number.len() != nodes.len() * D {
@@ -25,8 +25,8 @@ impl System {
         free_mode(matrix, pivot.equation, &self.equations, nodes).ok()
     }
 
-    /// Pivot to blame where the matrix assembled last is probably singular, by the solution `x` of `rhs`: LU does not tell a
-    /// pivot that is rounding from one that is small.
+    /// Pivot at which the last assembled matrix is singular, checked if the solution `x` of `rhs` makes that probable. LU
+    /// cannot distinguish a pivot that is rounding from a small one.
     pub(super) fn suspect(&self, x: f64, rhs: f64) -> Option<Pivot> {
         if x * self.largest_entry <= SUSPECT * rhs {
             return None;

@@ -21,8 +21,8 @@ pub enum NearNull {
 }
 
 impl NearNull {
-    /// The rigid motions of nodes in `D` dimensions with `components` degrees of freedom each; none for numbers of them that
-    /// do not exist.
+    /// The rigid motions of nodes in `D` dimensions with `components` degrees of freedom each; `None` for other numbers of
+    /// components.
     #[must_use]
     pub fn new<const D: usize>(nodes: &[[f64; D]], components: usize) -> Option<Self> {
         Some(match (components, D) {
@@ -36,7 +36,7 @@ impl NearNull {
     }
 }
 
-/// Input of the iterative method.
+/// Settings of the iterative method.
 #[derive(Clone, Debug)]
 pub struct Iterative {
     /// Rigid motions.
@@ -44,11 +44,11 @@ pub struct Iterative {
     /// Relative preconditioned residual at which a solution is accepted, see
     /// [`Report::residual`](crate::iterative::Report::residual).
     pub tolerance: f64,
-    /// Iterations after which a solution is given up.
+    /// Iterations after which the solution is abandoned.
     pub most_iterations: usize,
 }
 
-/// A [`Solver`] of any number of components.
+/// A [`Solver`] with any number of components.
 trait Solves: Debug + Send {
     fn set(
         &mut self,
@@ -57,7 +57,7 @@ trait Solves: Debug + Send {
         equations: &Equations,
     ) -> Result<(), FemError>;
 
-    /// None without a matrix.
+    /// `None` without a matrix.
     fn solve(&self, rhs: &mut [f64], tolerance: f64, limit: usize) -> Option<Outcome>;
 }
 
@@ -124,7 +124,7 @@ impl IterativeStore {
         self.solver.set(patterns, values, equations)
     }
 
-    /// Solves in place. None without a matrix.
+    /// Solves in place. `None` without a matrix.
     pub fn solve(&self, rhs: &mut [f64]) -> Option<Outcome> {
         self.solver.solve(rhs, self.tolerance, self.most_iterations)
     }

@@ -1,7 +1,7 @@
 //! Memory of earlier assemblies of a system, as values, for a run that is resumed.
 //!
-//! Factors and analyses follow from what is assembled next. Two things do not: the scale of the last assembly, which decides what counts
-//! as rounding before the next, and which equations of a dense system were left over when the others were eliminated.
+//! Factors and analyses follow from the next assembly. Two things do not: the scale of the last assembly, which decides what counts as
+//! rounding before the next, and the equations of a dense system that remained after eliminating the others.
 
 use super::known::Left;
 use super::{Store, System};
@@ -13,14 +13,14 @@ use serde::{Deserialize, Serialize};
 pub struct Memory {
     /// Largest entry of any term's tangent in the last assembly.
     pub(super) largest_entry: f64,
-    /// True if there is a factor that the next solve takes as it is.
+    /// True if there is a factor that the next solve uses unchanged.
     pub(super) factored: bool,
-    /// Equations left over in a dense system, where others were eliminated.
+    /// Remaining equations of a dense system, if others were eliminated.
     pub(super) left: Option<Left>,
 }
 
 impl System {
-    /// Its memory, as a system of these terms.
+    /// Memory of the system, for these terms.
     #[must_use]
     pub fn memory(&self, terms: &[&mut dyn Linearized]) -> Memory {
         let constant = terms.iter().all(|t| t.constant_tangent().is_some());
@@ -34,8 +34,8 @@ impl System {
         }
     }
 
-    /// Takes up the memory of a system of the same terms and equations. Returns false, changing nothing, where it does not fit, or where
-    /// what was factored cannot be factored again.
+    /// Restores the memory of a system of the same terms and equations. Returns false, without a change, if it does not fit, or if the
+    /// factored matrix cannot be factored again.
     pub fn restore(&mut self, memory: &Memory, terms: &mut [&mut dyn Linearized]) -> bool {
         if let Some(left) = &memory.left {
             let fits = left.equations.iter().all(|&e| e < self.equations.free.len());

@@ -1,4 +1,4 @@
-//! The symmetric part of a matrix, and whether it is singular.
+//! The symmetric part of a matrix, and a check of its singularity.
 
 use crate::multifrontal::{Cholesky, DirectError, Pivot, Symbolic};
 use crate::ordering::Ordering;
@@ -31,7 +31,7 @@ impl SymmetricPart {
         Self::new(matrix.ncols(), column)
     }
 
-    /// Zeros, those of open contact among them, would connect what they do not hold: they are left out.
+    /// Omits off-diagonal zeros, such as those of open contact: they would connect equations that they do not hold.
     fn new<I: Iterator<Item = (usize, f64)>>(n: usize, column: impl Fn(usize) -> I) -> Self {
         let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
         for col in 0..n {
@@ -44,13 +44,13 @@ impl SymmetricPart {
         Self { pattern: SymbolicSparseColMat::new_checked(n, n, starts, None, rows), values }
     }
 
-    /// Factors it.
+    /// Factors the matrix.
     pub fn factor(&self) -> Result<Cholesky, DirectError> {
         let symbolic = Symbolic::new(self.pattern.as_ref(), Ordering::Automatic)?;
         Cholesky::new(Arc::new(symbolic), &self.values)
     }
 
-    /// The pivot where it is singular, without negative modes before.
+    /// The pivot at which the matrix is singular, if no negative modes come before it.
     pub fn singular(&self) -> Option<Pivot> {
         match self.factor() {
             Err(DirectError::Singular(pivot)) => Some(pivot),

@@ -42,7 +42,7 @@ pub(super) struct CellGeometry<'a, const D: usize> {
 }
 
 impl<const D: usize> Geometry<D> {
-    /// Evaluates the gradients of `cells`, which [`check`] has found good, at the points of the idealisation's rule.
+    /// Computes the gradients of `cells`, accepted by [`check`], at the points of the idealisation's rule.
     pub fn new(places: &Places<D>, cells: &Cells, idealisation: Idealisation) -> Self {
         let rule = rule(cells, idealisation);
         let (nodes, points) = (cells.kind.nodes(), rule.len());
@@ -65,7 +65,7 @@ impl<const D: usize> Geometry<D> {
                 for (k, volume) in volumes.iter_mut().enumerate() {
                     let (cell, (shape, weight)) = (chunk * CHUNK + k / points, &rule[k % points]);
                     let (x, j) = place(places, cells.cell(cell), shape);
-                    // A cell inside out was refused; a NaN would show in the stiffness.
+                    // An inverted cell was refused; a NaN would show in the stiffness.
                     let inverse = j.try_inverse().unwrap_or_else(|| j.map(|_| f64::NAN));
                     for (a, g) in gradients[k * nodes..(k + 1) * nodes].iter_mut().enumerate() {
                         *g = std::array::from_fn(|i| {
@@ -104,7 +104,7 @@ impl<const D: usize> CellGeometry<'_, D> {
         &self.shapes[point * self.nodes..(point + 1) * self.nodes]
     }
 
-    /// 1/r at a point, what turns u_r into hoop strain \[1/m\]; 0 without an axis. Points lie inside cells, so that r > 0.
+    /// 1/r at a point, the factor from u_r to hoop strain \[1/m\]; 0 without an axis. Points lie inside cells, so that r > 0.
     pub fn hoop(&self, point: usize) -> f64 {
         if self.axisymmetric { 1.0 / self.positions[point][0] } else { 0.0 }
     }
@@ -116,10 +116,10 @@ fn rule(cells: &Cells, idealisation: Idealisation) -> Vec<(Shape, f64)> {
     points.map(|(xi, w)| (cells.kind.shape(xi), w)).collect()
 }
 
-/// Checks that all cells of a block (number `block`) are the right way out and right of the axis; nothing is kept.
+/// Checks that all cells of block number `block` are oriented correctly and lie right of the axis; nothing is kept.
 ///
 /// # Errors
-/// [`FemError::Jacobian`] naming the first cell that is inside out, [`FemError::Radius`] naming the first node left of the axis.
+/// [`FemError::Jacobian`] naming the first inverted cell, [`FemError::Radius`] naming the first node left of the axis.
 pub(super) fn check<const D: usize>(
     mesh: &Mesh<D>,
     cells: &Cells,
@@ -128,7 +128,7 @@ pub(super) fn check<const D: usize>(
 ) -> Result<(), FemError> {
     check_radii(mesh, cells, idealisation)?;
     let rule = rule(cells, idealisation);
-    // In order: the first cell is named whatever thread found it.
+    // In order: the first bad cell is named, whichever thread found it.
     let first_bad = (0..cells.len()).into_par_iter().with_min_len(CHUNK).find_map_first(|cell| {
         let at = |(shape, _): &(Shape, f64)| determinant(&place(&mesh.nodes, cells.cell(cell), shape).1);
         let mut bad = rule.iter().map(at).filter(|d| d.is_nan() || *d <= 0.0);
@@ -140,13 +140,13 @@ pub(super) fn check<const D: usize>(
 /// Positions of the nodes of a block \[m\].
 #[derive(Clone, Debug)]
 pub(super) struct Places<const D: usize> {
-    /// Number of the first.
+    /// Number of the first node.
     first: usize,
     nodes: Vec<[f64; D]>,
 }
 
 impl<const D: usize> Places<D> {
-    /// Of the nodes from the least to the greatest number that `cells` name.
+    /// Positions of the nodes from the lowest to the highest number in `cells`.
     pub fn new(mesh: &Mesh<D>, cells: &Cells) -> Self {
         let first = cells.connectivity.iter().copied().min().unwrap_or(0);
         let end = cells.connectivity.iter().map(|n| n + 1).max().unwrap_or(first);
@@ -172,7 +172,7 @@ impl<const D: usize> Positions<D> for Vec<[f64; D]> {
     }
 }
 
-/// Nodes left of the axis of revolution are refused; nodes on it are welcome.
+/// Refuses nodes left of the axis of revolution; nodes on it are allowed.
 fn check_radii<const D: usize>(
     mesh: &Mesh<D>,
     cells: &Cells,

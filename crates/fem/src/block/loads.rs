@@ -13,13 +13,13 @@ impl<const D: usize> LinearBlock<D> {
     /// \[N, or N/m of thickness\], ascending.
     ///
     /// # Errors
-    /// [`FemError::Components`] when `f` has another length.
+    /// [`FemError::Components`] if `f` has a different length.
     pub fn body_force(&self, mesh: &Mesh<D>, f: &[f64]) -> Result<Vec<(usize, f64)>, FemError> {
         self.idealisation.check_components(f.len())?;
         Ok(self.body_force_field(mesh, |_, value| value.copy_from_slice(f)))
     }
 
-    /// As [`LinearBlock::body_force`], of a body force that `f` writes for each position.
+    /// As [`LinearBlock::body_force`], for a body force that `f` writes for each position.
     pub fn body_force_field(&self, mesh: &Mesh<D>, f: impl Fn(&[f64; D], &mut [f64])) -> Vec<(usize, f64)> {
         let components = self.idealisation.components();
         let kind = self.cells.kind;
@@ -42,15 +42,15 @@ impl<const D: usize> LinearBlock<D> {
         forces.into_iter().collect()
     }
 
-    /// Internal nodal forces ∫ Bᵀ σ of a uniform stress xx, yy, zz, xy, yz, zx \[Pa\] (about an axis zz is the hoop stress; B-bar
-    /// gives the same forces, as its projection keeps the integral of the dilatation).
+    /// Internal nodal forces ∫ Bᵀ σ of a uniform stress xx, yy, zz, xy, yz, zx \[Pa\]. About an axis, zz is the hoop stress.
+    /// B-bar gives the same forces, as its projection keeps the integral of the dilatation.
     #[must_use]
     pub fn initial_stress(&self, stress: [f64; 6]) -> Vec<(usize, f64)> {
         self.initial_stress_field(|_| stress)
     }
 
-    /// As [`LinearBlock::initial_stress`], of the stress at each position. B-bar would give other forces where the mean stress varies; these
-    /// are in balance with the tractions on the faces and the body forces of the field.
+    /// As [`LinearBlock::initial_stress`], for the stress at each position. B-bar would give other forces where the mean stress varies;
+    /// these are in balance with the tractions on the faces and the body forces of the field.
     pub fn initial_stress_field(&self, stress: impl Fn(&[f64; D]) -> [f64; 6]) -> Vec<(usize, f64)> {
         const ROWS: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
         let components = self.idealisation.components();
@@ -78,7 +78,7 @@ impl<const D: usize> LinearBlock<D> {
     /// Nodal forces of a uniform traction, one entry per component \[Pa\], on faces.
     ///
     /// # Errors
-    /// [`FemError::Components`] when `t` has another length.
+    /// [`FemError::Components`] if `t` has a different length.
     pub fn traction(&self, mesh: &Mesh<D>, sides: &[Side], t: &[f64]) -> Result<Vec<(usize, f64)>, FemError> {
         self.idealisation.check_components(t.len())?;
         Ok(surface::integrate(mesh, sides, self.idealisation, |point, value| {
@@ -90,7 +90,7 @@ impl<const D: usize> LinearBlock<D> {
     /// Nodal forces of a uniform pressure \[Pa\], positive into the body.
     ///
     /// # Errors
-    /// [`FemError::Idealisation`] in antiplane motion, where a pressure does nothing.
+    /// [`FemError::Idealisation`] in antiplane motion, where a pressure has no effect.
     pub fn pressure(&self, mesh: &Mesh<D>, sides: &[Side], p: f64) -> Result<Vec<(usize, f64)>, FemError> {
         if self.idealisation == Idealisation::Antiplane {
             return Err(FemError::Idealisation {

@@ -21,13 +21,13 @@ use std::sync::{Arc, OnceLock};
 use stiffness::Moduli;
 pub use stress::{PointState, von_mises};
 
-/// Most degrees of freedom of a cell.
+/// Largest number of degrees of freedom of a cell.
 const MOST_DOFS: usize = 3 * MOST_NODES;
 
 /// See the module.
 ///
-/// Degrees of freedom, geometry and stiffness of the cells are found when they are first asked for: who plans a scene and does not run it
-/// need not have the memory. Clones share them.
+/// Degrees of freedom, geometry and stiffness of the cells are computed when first needed: planning a scene without running it does not
+/// need the memory. Clones share them.
 #[derive(Clone, Debug)]
 pub struct LinearBlock<const D: usize> {
     name: String,
@@ -36,7 +36,7 @@ pub struct LinearBlock<const D: usize> {
     material: Elastic,
     idealisation: Idealisation,
     formulation: Formulation,
-    /// Dilatation that B-bar projects.
+    /// Dilatation projected by B-bar.
     space: Option<Dilatation>,
     pattern: Arc<OnceLock<Pattern>>,
     geometry: Arc<OnceLock<(Geometry<D>, Option<Projection>)>>,
@@ -44,12 +44,12 @@ pub struct LinearBlock<const D: usize> {
 }
 
 impl<const D: usize> LinearBlock<D> {
-    /// The stiffness of one block of cells of `mesh`; degree of freedom = node * components + component.
+    /// Stiffness of one block of cells of `mesh`; degree of freedom = node * components + component.
     ///
     /// # Errors
-    /// [`FemError::Jacobian`] naming the first cell that is inside out, [`FemError::Radius`] naming a node left of the axis of
-    /// revolution, [`FemError::Formulation`] where B-bar does not serve, [`FemError::Dimension`] and
-    /// [`FemError::Idealisation`] when element, idealisation and mesh differ in dimension.
+    /// [`FemError::Jacobian`] naming the first inverted cell; [`FemError::Radius`] naming a node left of the axis of
+    /// revolution; [`FemError::Formulation`] if B-bar is unsuitable; [`FemError::Dimension`] and [`FemError::Idealisation`] if
+    /// element, idealisation and mesh differ in dimension.
     pub fn new(
         mesh: &Mesh<D>,
         block: usize,
@@ -78,7 +78,7 @@ impl<const D: usize> LinearBlock<D> {
         })
     }
 
-    /// True if degrees of freedom, geometry or stiffness of its cells were asked for.
+    /// True if degrees of freedom, geometry or stiffness of the cells have been computed.
     #[must_use]
     pub fn is_made(&self) -> bool {
         self.pattern.get().is_some() || self.geometry.get().is_some() || self.stiffness.get().is_some()
@@ -109,7 +109,7 @@ impl<const D: usize> LinearBlock<D> {
     fn assemble(&self) -> Vec<f64> {
         let size = (self.cells.kind.nodes() * self.idealisation.components()).pow(2);
         let moduli = self.moduli();
-        // Made here, not by a task that others would wait for.
+        // Computed here, not by a task that others would wait for.
         self.made();
         let mut values = vec![0.0; self.cells.len() * size];
         values.par_chunks_mut(size * CHUNK).enumerate().for_each(|(chunk, part)| {
@@ -166,7 +166,7 @@ impl<const D: usize> LinearBlock<D> {
         self.formulation
     }
 
-    /// Degrees of freedom and stiffness of its cells; all else is given back.
+    /// Degrees of freedom and stiffness of the cells; everything else is freed.
     #[must_use]
     pub fn into_stiffness(self) -> (Pattern, Vec<f64>) {
         let _ = (self.cell_dofs(), self.stiffness());
@@ -181,7 +181,7 @@ impl<const D: usize> LinearBlock<D> {
     }
 }
 
-/// Takes what was made, without a copy where nobody shares it.
+/// The computed value, without a copy if it is not shared.
 fn taken<T: Clone + Default>(shared: Arc<OnceLock<T>>) -> T {
     match Arc::try_unwrap(shared) {
         Ok(own) => own.into_inner().unwrap_or_default(),

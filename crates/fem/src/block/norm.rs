@@ -9,9 +9,9 @@ use crate::mesh::Mesh;
 pub type FieldValue = ([f64; 3], [[f64; 3]; 3]);
 
 impl<const D: usize> LinearBlock<D> {
-    /// Distance of the nodal displacements `u` from `exact`: the L2 norm of the displacement and of its gradient (the H1
-    /// seminorm), √∫ |u_h - u|² dV \[m^(1+D/2)\] and √∫ |∇u_h - ∇u|² dV \[m^(D/2)\] (2πr dr dz about an axis). The rule has degree 7
-    /// in each variable, finer than the one of the stiffness, whose points are those where gradients are best.
+    /// Distance of the nodal displacements `u` from `exact`: the L2 norm of the displacement, √∫ |u_h - u|² dV \[m^(1+D/2)\], and of
+    /// its gradient (the H1 seminorm), √∫ |∇u_h - ∇u|² dV \[m^(D/2)\]. About an axis, dV is 2πr dr dz. The rule has degree 7 in each
+    /// variable. It is finer than that of the stiffness, at whose points gradients are most accurate.
     pub fn error_norms(
         &self,
         mesh: &Mesh<D>,
@@ -43,7 +43,7 @@ impl<const D: usize> LinearBlock<D> {
         let (x, j) = place(&mesh.nodes, nodes, shape);
         let volume = determinant(&j) * self.idealisation.weight(&x);
         let (value, gradient) = exact(&x);
-        // Cells inside out were refused when the block was made; a NaN would show in the sum.
+        // Inverted cells were refused when the block was made; a NaN would show in the sum.
         let inverse = j.try_inverse().unwrap_or_else(|| j.map(|_| f64::NAN));
         let mut squares = [0.0; 2];
         for c in 0..components {

@@ -7,7 +7,7 @@ use super::geometry::{CHUNK, CellGeometry, Geometry};
 use crate::kinematics::Dilatation;
 use rayon::prelude::*;
 
-/// Most polynomials: 1, x, y, z.
+/// Largest number of polynomials: 1, x, y, z.
 const MOST_TERMS: usize = 4;
 
 /// Projections of all cells of a block.
@@ -85,8 +85,8 @@ fn add_dilatation<const D: usize>(cell: &CellGeometry<'_, D>, point: usize, fact
     }
 }
 
-/// Writes 1, x, y, z (the first `terms` of them), made orthonormal over the cell, at its points: Gram and Schmidt, twice each for
-/// accuracy on stretched cells. Positions count from the centre in units of the extent, so that sizes do not matter.
+/// Writes the first `terms` of 1, x, y, z, orthonormalised over the cell, at its points. Gram-Schmidt is applied twice for
+/// accuracy on stretched cells. Positions are measured from the centre in units of the extent, so that the size does not matter.
 fn orthonormal<const D: usize>(cell: &CellGeometry<'_, D>, terms: usize, values: &mut [f64]) {
     let volume: f64 = cell.volumes.iter().sum();
     let centre: [f64; D] = std::array::from_fn(|c| {

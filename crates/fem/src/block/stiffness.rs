@@ -1,8 +1,8 @@
 //! Stiffness of a cell.
 //!
-//! With d = ∂θ/∂u (∂N_a/∂x_i, and N_a/r for u_r about an axis) and e the terms of G ε:ε,
-//! `K_ab = ∫ λ d_a ⊗ d_b + G (∇N_b ⊗ ∇N_a + ∇N_a·∇N_b I) + 2G N_a N_b/r² e_r ⊗ e_r dV`, the last term about an axis only. B-bar has
-//! -2G/3 in the place of λ and adds κ Σ_k c_k ⊗ c_k ([`super::projection`]); with mean pressure it has 0 and adds λ c ⊗ c. Antiplane: `K_ab = ∫ G ∇N_a·∇N_b dV`.
+//! With d = ∂θ/∂u (∂N_a/∂x_i, and N_a/r for u_r about an axis) and the terms of G ε:ε, `K_ab = ∫ λ d_a ⊗ d_b + G (∇N_b ⊗ ∇N_a + ∇N_a·∇N_b I) + 2G N_a
+//! N_b/r² e_r ⊗ e_r dV`, the last term about an axis only. B-bar has -2G/3 in place of λ and adds κ Σ_k c_k ⊗ c_k ([`super::projection`]); with mean
+//! pressure it has 0 and adds λ c ⊗ c. Antiplane: `K_ab = ∫ G ∇N_a·∇N_b dV`.
 
 use super::geometry::CellGeometry;
 
@@ -11,13 +11,13 @@ use super::geometry::CellGeometry;
 pub(super) struct Moduli {
     /// G.
     pub shear: f64,
-    /// Of θ² at each point: λ, its plane-stress form, or with B-bar -2G/3 (assumed strain) or 0 (mean pressure).
+    /// Modulus of θ² at each point: λ, its plane-stress form, or with B-bar -2G/3 (assumed strain) or 0 (mean pressure).
     pub dilatation: f64,
-    /// Of the projected θ̄²: κ (assumed strain) or λ (mean pressure).
+    /// Modulus of the projected θ̄²: κ (assumed strain) or λ (mean pressure).
     pub projected: f64,
 }
 
-/// One component along z: the upper triangle of the cell's matrix.
+/// Stiffness with one component along z: the upper triangle of the cell's matrix.
 pub(super) fn antiplane<const D: usize>(cell: &CellGeometry<'_, D>, shear: f64, k_e: &mut [f64]) {
     let nodes = cell.gradients(0).len();
     for (q, volume) in cell.volumes.iter().enumerate() {
@@ -31,7 +31,7 @@ pub(super) fn antiplane<const D: usize>(cell: &CellGeometry<'_, D>, shear: f64, 
     }
 }
 
-/// As many components as dimensions: the upper triangle of the cell's matrix, in blocks of nodes.
+/// Stiffness with as many components as dimensions: the upper triangle of the cell's matrix, in blocks of nodes.
 pub(super) fn solid<const D: usize>(cell: &CellGeometry<'_, D>, moduli: &Moduli, k_e: &mut [f64]) {
     let width = cell.gradients(0).len() * D;
     for (q, volume) in cell.volumes.iter().enumerate() {
@@ -54,7 +54,7 @@ pub(super) fn solid<const D: usize>(cell: &CellGeometry<'_, D>, moduli: &Moduli,
     }
 }
 
-/// Contribution of the hoop strain u_r/r to [`solid`]: λ (d_a ⊗ d_b - ∇N_a ⊗ ∇N_b) + 2G N_a N_b/r² e_r ⊗ e_r.
+/// Contribution of the hoop strain u_r/r, added to [`solid`]: λ (d_a ⊗ d_b - ∇N_a ⊗ ∇N_b) + 2G N_a N_b/r² e_r ⊗ e_r.
 pub(super) fn hoop<const D: usize>(cell: &CellGeometry<'_, D>, moduli: &Moduli, k_e: &mut [f64]) {
     let width = cell.gradients(0).len() * D;
     for (q, volume) in cell.volumes.iter().enumerate() {

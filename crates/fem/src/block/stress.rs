@@ -16,8 +16,8 @@ pub fn von_mises(s: &[f64; 6]) -> f64 {
 /// Strain and stress at a quadrature point, xx, yy, zz, xy, yz, zx (about an axis: rr, axial, hoop, and rz at xy).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointState {
-    /// Components of the strain tensor (shear not doubled) \[-\], with [`Dilatation::Constant`] and [`Dilatation::Linear`] the
-    /// assumed one.
+    /// Components of the strain tensor (shear not doubled) \[-\]; with [`Dilatation::Constant`] and [`Dilatation::Linear`], the
+    /// assumed strain.
     pub strain: [f64; 6],
     /// Cauchy stress \[Pa\].
     pub stress: [f64; 6],
@@ -58,7 +58,8 @@ impl<const D: usize> LinearBlock<D> {
         })
     }
 
-    /// State of a displacement gradient whose dilatation B-bar shifts by `shift`; plane stress finds its strain along z here.
+    /// State of a displacement gradient whose dilatation is shifted by `shift` with B-bar; in plane stress, the strain along z
+    /// is found here.
     fn state(&self, mut h: [[f64; 3]; 3], shift: f64, volume: f64) -> PointState {
         let material = &self.material;
         let mean_pressure = self.space == Some(Dilatation::ConstantPressure);
@@ -71,7 +72,7 @@ impl<const D: usize> LinearBlock<D> {
         }
         let mut stress = material.stress(&h);
         if sheet {
-            // Zero but for rounding.
+            // Zero except for rounding.
             stress[2] = 0.0;
         }
         if mean_pressure {
@@ -106,7 +107,7 @@ impl<const D: usize> LinearBlock<D> {
         self.cell_means(u, |s| s.strain)
     }
 
-    /// Middle of the volume of each cell \[m\].
+    /// Centre of volume of each cell \[m\].
     #[must_use]
     pub fn cell_middles(&self) -> Vec<[f64; D]> {
         let middle = |cell: usize| {

@@ -1,8 +1,8 @@
-//! Condensation of a body together with its loads, for bodies whose interior nobody asks for again.
+//! Condensation of a body together with its loads, for bodies whose interior is never recovered.
 //!
-//! With every load f_c as a row of its own beside the stiffness, `[K -F; -Fᵀ 0]`, and these rows retained as the displacements u_i are,
-//! elimination of the interior leaves `[S H; Hᵀ ·]`: the condensed forces `H = K_ib K_bb⁻¹ F_b - F_i` stand beside S. No solve needs
-//! the factor, so that no front is kept after its parent has taken what it passes on.
+//! Every load f_c is a further row beside the stiffness, `[K -F; -Fᵀ 0]`, and these rows are retained like the displacements u_i.
+//! Elimination of the interior then leaves `[S H; Hᵀ ·]`, with the condensed forces `H = K_ib K_bb⁻¹ F_b - F_i` beside S. No solve
+//! needs the factor, so that no front is kept once its parent has taken its contribution.
 
 use super::{Stiffness, coupling, load, not_retained, number_in};
 use crate::dof::{Channel, Constraints, Equations};
@@ -13,7 +13,7 @@ use crate::sparse::lower_matrix;
 use crate::table::Table;
 use std::sync::Arc;
 
-/// A body with its loads, analysed for condensation: what it will cost is known, no number computed.
+/// A body with its loads, analysed for condensation: its costs are known, but no numbers have been computed.
 #[derive(Debug)]
 pub struct Loaded {
     symbolic: Arc<Symbolic>,
@@ -26,11 +26,11 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// Orders and analyses `body` for condensation onto `retained` (sorted), with the loads of `channels`; `fixed` (sorted) are its prescribed
-    /// degrees of freedom, of which those that are retained stay as they are. The body's own memory is given back before the analysis begins.
+    /// Orders and analyses `body` for condensation onto `retained` (sorted), with the loads of `channels`. `fixed` (sorted) are its prescribed
+    /// degrees of freedom; those that are also retained are kept. The memory of `body` is freed before the analysis starts.
     ///
     /// # Errors
-    /// [`FemError::Direct`] when the pattern cannot be ordered.
+    /// [`FemError::Direct`] if the pattern cannot be ordered.
     pub fn analyse(
         body: Stiffness,
         retained: &[usize],
@@ -51,13 +51,13 @@ impl Loaded {
         Ok(Self { symbolic, values, free, retained: retained.len(), amplitudes })
     }
 
-    /// Memory of the condensation at its worst moment by so many threads \[bytes\].
+    /// Peak memory of the condensation with `threads` threads \[bytes\].
     #[must_use]
     pub fn bytes(&self, threads: usize) -> usize {
         self.symbolic.bytes_of_schur(threads) + self.own()
     }
 
-    /// Memory it asks for at most, of which some is never written \[bytes\].
+    /// Largest memory allocated, some of which is never written \[bytes\].
     #[must_use]
     pub fn asked(&self, threads: usize) -> usize {
         self.symbolic.asked_by_schur(threads) + self.own()
@@ -67,10 +67,10 @@ impl Loaded {
         size_of_val(self.values.as_slice()) + size_of_val(self.free.as_slice())
     }
 
-    /// The most threads, of those there are, whose work takes no more than `allowed` bytes: each holds fronts of its own.
+    /// Largest number of the available threads that work within `allowed` bytes: each thread holds fronts.
     ///
     /// # Errors
-    /// [`FemError::Direct`] when one alone needs more.
+    /// [`FemError::Direct`] if a single thread needs more.
     pub fn threads(&self, allowed: usize) -> Result<usize, FemError> {
         let fits = |&threads: &usize| self.bytes(threads) <= allowed;
         (1..=rayon::current_num_threads()).rev().find(fits).ok_or_else(|| {
@@ -79,10 +79,10 @@ impl Loaded {
         })
     }
 
-    /// Eliminates the interior, with as many threads as the memory serves; the result is the same bits.
+    /// Eliminates the interior, with as many threads as fit in the memory; the result is the same to the last bit.
     ///
     /// # Errors
-    /// [`FemError::Direct`] when more than `allowed` bytes are needed, or with the degree of freedom where the interior is not held by
+    /// [`FemError::Direct`] if more than `allowed` bytes are needed. Also with the degree of freedom where the interior is not held by
     /// the retained and fixed ones.
     pub fn eliminate(self, allowed: usize) -> Result<Remainder, FemError> {
         let threads = self.threads(allowed)?;
@@ -94,14 +94,14 @@ impl Loaded {
     }
 }
 
-/// Does work in a pool of so many threads.
+/// Runs `work` in a pool of `threads` threads.
 fn limited<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> Result<R, FemError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     Ok(pool.map_err(|e| FemError::Threads(e.to_string()))?.install(work))
 }
 
-/// Result of the elimination of the interior for a body and its loads: forces on the retained degrees of freedom are
-/// `S u + Σ_c α_c(t) h_c`.
+/// Result of eliminating the interior of a body with its loads: forces on the retained degrees of freedom are `S u + Σ_c α_c(t)
+/// h_c`.
 #[derive(Debug)]
 pub struct Remainder {
     /// `[S H; Hᵀ ·]`, symmetric.

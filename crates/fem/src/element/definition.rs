@@ -1,4 +1,4 @@
-//! Definition of an element, in one place: each element has a file with its definition.
+//! Definition of an element in one place: each element has a file with its definition.
 
 use super::face::FaceKind;
 use super::kind::ElementKind;
@@ -16,20 +16,20 @@ pub struct Face {
 /// An element in the meshes of another program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foreign<N: 'static> {
-    /// Its numbers or names.
+    /// Its numbers or names there.
     pub names: N,
-    /// For each node in the order of VTK, its place in the order of the other program; empty where both agree.
+    /// Position of each node, in the order of VTK, in the order of the other program; empty if both agree.
     pub order: &'static [usize],
 }
 
 /// An element.
 #[derive(Clone, Copy, Debug)]
 pub struct Definition {
-    /// Name as a scene spells it.
+    /// Name in scenes.
     pub name: &'static str,
     /// Dimension.
     pub dimension: usize,
-    /// Degree of the complete polynomials the shape functions hold: 1 or 2.
+    /// Degree of the complete polynomials contained in the shape functions: 1 or 2.
     pub order: usize,
     /// The element of first order on the same corners.
     pub linear: ElementKind,
@@ -39,7 +39,7 @@ pub struct Definition {
     pub nodes: &'static [[f64; 3]],
     /// Faces.
     pub faces: &'static [Face],
-    /// Order of nodes that turns a plane element over: the same corners, run through in the other sense.
+    /// Order of nodes that reverses a plane element: the same corners, traversed in the other sense.
     pub reversed: &'static [usize],
     /// Shape functions and their natural derivatives.
     pub shape: fn([f64; 3]) -> Shape,
@@ -47,7 +47,7 @@ pub struct Definition {
     pub quadrature: fn() -> Vec<Point>,
     /// Quadrature that integrates products N_a N_b over the undistorted element exactly.
     pub mass_quadrature: fn() -> Vec<Point>,
-    /// Cell type number of VTK, whose order of nodes is that of this crate.
+    /// Cell type number of VTK; its order of nodes is used in this crate.
     pub vtk: u8,
     /// Type number of Gmsh.
     pub gmsh: Foreign<i64>,

@@ -48,7 +48,7 @@ impl FaceKind {
         }
     }
 
-    /// The plane element of the same nodes; none of a line.
+    /// The plane element of the same nodes; `None` for a line.
     #[must_use]
     pub fn element(self) -> Option<ElementKind> {
         match self {
@@ -61,14 +61,14 @@ impl FaceKind {
         }
     }
 
-    /// Returns whether the integrals of all its shape functions are positive, so that its nodes can stand for areas. A flat tri6 has zero at
+    /// True if the integrals of all its shape functions are positive, so that areas can be assigned to its nodes. A flat tri6 has zero at
     /// its corners, a quad8 -1/12 of its area.
     #[must_use]
     pub fn shares_area(self) -> bool {
         !matches!(self, Self::Tri6 | Self::Quad8)
     }
 
-    /// Dimension of the space whose boundary it is part of.
+    /// Dimension of the space whose boundary the face is part of.
     #[must_use]
     pub fn space(self) -> usize {
         match self {
@@ -77,7 +77,7 @@ impl FaceKind {
         }
     }
 
-    /// Returns whether its edges are straight.
+    /// True if its edges are straight.
     #[must_use]
     pub fn first_order(self) -> bool {
         matches!(self, Self::Seg2 | Self::Tri3 | Self::Quad4)
@@ -98,7 +98,7 @@ impl fmt::Display for FaceKind {
     }
 }
 
-/// Most nodes a face has.
+/// Largest number of nodes of a face.
 pub const MOST_NODES: usize = 9;
 
 /// Corners of `kind`.
@@ -155,8 +155,8 @@ pub fn shape(kind: FaceKind, xi: [f64; 2]) -> Shape {
     s
 }
 
-/// Eight-node quadrilateral: the biquadratic one with its centre replaced by what makes the functions complete without it,
-/// `N_k + c_k N_9` with c = -1/4 at corners and 1/2 at mid-nodes.
+/// Eight-node quadrilateral: the biquadratic functions without the centre, completed by `N_k + c_k N_9` with c = -1/4 at
+/// corners and 1/2 at mid-nodes.
 fn serendipity(s: &mut Shape, xi: [f64; 2]) {
     product(s, &quadratic(xi[0]), &quadratic(xi[1]), 9);
     let spread = |v: &mut [f64; MOST_NODES]| {

@@ -1,7 +1,7 @@
 //! Serendipity hexahedron on [-1, 1]³: corners, mid-nodes of edges 01, 12, 23, 30, 45, 56, 67, 74, 04, 15, 26, 37. With
 //! s = x x_a and so on, corners have ⅛ (1+s)(1+t)(1+u)(s+t+u-2), the mid-node of an edge along x ¼ (1-x²)(1+t)(1+u).
 //!
-//! As [`super::quad8`], it holds all quadratic polynomials of the positions only where it is a parallelepiped.
+//! Like [`super::quad8`], it contains all quadratic polynomials of the positions only if it is a parallelepiped.
 
 use super::definition::{Definition, Face, Foreign};
 use super::face::FaceKind;

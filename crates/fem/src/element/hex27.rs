@@ -8,7 +8,7 @@ use super::quad9::lagrange;
 use super::shape::Shape;
 use crate::quadrature;
 
-/// For each node its place in the order of Gmsh: corners, edges, faces, centre; the first 20 are those of [`super::hex20`].
+/// Position of each node in the order of Gmsh: corners, edges, faces, centre; the first 20 are those of [`super::hex20`].
 pub(super) const GMSH: &[usize] =
     &[0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26];
 

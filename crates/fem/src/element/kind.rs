@@ -30,7 +30,7 @@ pub enum ElementKind {
 }
 
 impl ElementKind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Self; 12] = [
         Self::Tri3,
         Self::Tri6,

@@ -1,5 +1,5 @@
-//! Elements: shape functions, faces and quadrature. Local node orders are those of VTK; wedges have their base counter-clockwise
-//! seen from the opposite end, as VTK's shape functions, Gmsh and Abaqus have it.
+//! Elements: shape functions, faces and quadrature. Local node orders are those of VTK. The base of wedges is counter-clockwise
+//! seen from the opposite end, as in VTK's shape functions, Gmsh and Abaqus.
 
 mod definition;
 pub mod face;
@@ -47,7 +47,7 @@ impl ElementKind {
         }
     }
 
-    /// Name as a scene spells it.
+    /// Name in scenes.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.definition().name
@@ -71,7 +71,7 @@ impl ElementKind {
         self.definition().dimension
     }
 
-    /// Degree of the complete polynomials the shape functions hold: 1 or 2.
+    /// Degree of the complete polynomials contained in the shape functions: 1 or 2.
     #[must_use]
     pub fn order(self) -> usize {
         self.definition().order
@@ -95,29 +95,29 @@ impl ElementKind {
         (self.definition().shape)(xi)
     }
 
-    /// Faces: local nodes, ordered so that the body lies to the left of an edge and a face runs counter-clockwise seen
-    /// from outside. Corners first, then the mid-nodes of the edges between them in the same order, then the centre.
+    /// Faces: local nodes, ordered so that the body lies to the left of an edge and a face runs counter-clockwise seen from
+    /// outside. Corners come first, then the mid-nodes of the edges between them in the same order, then the centre.
     #[must_use]
     pub fn faces(self) -> &'static [Face] {
         self.definition().faces
     }
 
-    /// Quadrature that integrates the stiffness of the undistorted element exactly. Degree of the rule: tri3, tet4 0 needed,
-    /// 1 taken; tri6, tet10 2; quad4, hex8 3 in each variable (2 needed); quad8, quad9, hex20, hex27 5 in each variable (4
-    /// needed); wedge6 2 in the triangle and 3 along it (2 and 2 needed); wedge15 4 and 5 (4 and 4 needed).
+    /// Quadrature that integrates the stiffness of the undistorted element exactly. Degree of the rule (and degree needed):
+    /// tri3, tet4 1 (0); tri6, tet10 2 (2); quad4, hex8 3 in each variable (2); quad8, quad9, hex20, hex27 5 in each variable
+    /// (4); wedge6 2 in the triangle and 3 along it (2 and 2); wedge15 4 and 5 (4 and 4).
     #[must_use]
     pub fn quadrature(self) -> Vec<Point> {
         (self.definition().quadrature)()
     }
 
     /// Quadrature that integrates products N_a N_b over the undistorted element exactly: for mass matrices, body forces, and
-    /// whatever carries a factor of the position. Degree of the rule: twice the order of the element or more.
+    /// everything that contains a factor of the position. The degree of the rule is at least twice the order of the element.
     #[must_use]
     pub fn mass_quadrature(self) -> Vec<Point> {
         (self.definition().mass_quadrature)()
     }
 
-    /// Quadrature to measure errors with: degree 7 in each variable, on simplices a collapsed cube.
+    /// Quadrature for measuring errors: degree 7 in each variable; on simplices, a collapsed cube.
     #[must_use]
     pub fn fine_quadrature(self) -> Vec<Point> {
         match self.linear() {

@@ -1,8 +1,8 @@
 //! Serendipity quadrilateral on [-1, 1]²: corners, mid-nodes of edges 01, 12, 23, 30. With s = x x_a, t = y y_a corners have
 //! ¼ (1+s)(1+t)(s+t-1), mid-nodes ½ (1-x²)(1+t) or ½ (1-y²)(1+s).
 //!
-//! The space holds all quadratic polynomials of the natural coordinates, and of the positions only where the element is a
-//! parallelogram (Arnold, Boffi, Falk 2002): on general quadrilaterals the order falls to that of quad4.
+//! The space contains all quadratic polynomials of the natural coordinates, but those of the positions only if the element is a
+//! parallelogram (Arnold, Boffi, Falk 2002). On general quadrilaterals the order falls to that of quad4.
 
 use super::definition::{Definition, Face, Foreign};
 use super::kind::ElementKind;

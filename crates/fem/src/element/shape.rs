@@ -1,6 +1,6 @@
 //! Shape functions at a point.
 
-/// Most nodes an element has.
+/// Largest number of nodes of an element.
 pub const MOST_NODES: usize = 27;
 
 /// Shape functions and their natural derivatives at one point. Entries beyond the element's nodes are zero.

@@ -2,7 +2,8 @@
 //! area coordinates λ and the end ζ_a = ±1, corners have ½ λ [(2λ-1)(1+ζ_a ζ) - (1-ζ²)], mid-nodes of triangles
 //! 2 λ_i λ_j (1+ζ_a ζ), mid-nodes between them λ_i (1-ζ²).
 //!
-//! As [`super::quad8`], it holds all quadratic polynomials of the positions only where it is an affine image of the reference.
+//! Like [`super::quad8`], it contains all quadratic polynomials of the positions only if it is an affine image of the
+//! reference.
 
 use super::definition::{Definition, Face, Foreign};
 use super::face::FaceKind;

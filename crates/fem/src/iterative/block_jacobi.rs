@@ -10,7 +10,7 @@ use rayon::prelude::*;
 /// Inverses of the diagonal blocks of a symmetric positive definite matrix.
 #[derive(Clone, Debug)]
 pub struct BlockJacobi<const B: usize> {
-    /// One for each node.
+    /// One block per node.
     pub inverses: Vec<Block<B, B>>,
 }
 

@@ -10,14 +10,14 @@ pub trait Preconditioner<const B: usize> {
     fn apply(&mut self, r: &[[f64; B]], z: &mut [[f64; B]]);
 }
 
-/// A round of iterations that leaves the recomputed residual above this part of what it was has stalled: in exact
-/// arithmetic it would have fallen to the tolerance.
+/// A round of iterations has stalled if it leaves the recomputed residual above this fraction of its initial value: in exact
+/// arithmetic it would have reached the tolerance.
 const STALL: f64 = 0.5;
 
-/// Solves `K x = b` from the given x until `sqrt(r·M⁻¹r) <= tolerance sqrt(b·M⁻¹b)`, with r computed anew from x.
+/// Solves `K x = b` from the given x until `sqrt(r·M⁻¹r) <= tolerance sqrt(b·M⁻¹b)`, with r recomputed from x.
 ///
-/// The residual of the recurrence drifts from the true one by rounding. When the recurrence says that it is done, the
-/// residual is computed anew; if it is still too large, another round begins from there.
+/// The residual of the recurrence drifts from the true one by rounding. Once the recurrence has converged, the residual is
+/// recomputed; if it is still too large, another round starts from there.
 pub fn solve<const B: usize>(
     matrix: &BlockCsr<B, B>,
     preconditioner: &mut impl Preconditioner<B>,
@@ -74,7 +74,7 @@ struct Work<const B: usize> {
 }
 
 impl<const B: usize> Work<B> {
-    /// Iterates until `r·M⁻¹r` of the recurrence is below `goal`. Gives an energy that is not positive, if one appears.
+    /// Iterates until `r·M⁻¹r` of the recurrence is below `goal`. Returns an energy that is not positive, if one appears.
     #[allow(clippy::too_many_arguments, reason = "the state of a recurrence; a struct would be named once")]
     fn round(
         &mut self,

@@ -7,8 +7,8 @@ use super::dense::{Block, add_apply, add_product, transposed};
 use super::vector::CHUNK;
 use rayon::prelude::*;
 
-/// Rows of a sparse product computed by one task: each task keeps a marker as long as the matrix has columns, so that
-/// tasks are larger than those of a vector.
+/// Rows of a sparse product computed by one task. Each task keeps a marker as long as the matrix has columns; tasks are
+/// therefore larger than those of a vector.
 const PRODUCT_ROWS: usize = 4096;
 
 /// See the module. Columns ascend within a row.
@@ -16,7 +16,7 @@ const PRODUCT_ROWS: usize = 4096;
 pub struct BlockCsr<const R: usize, const C: usize> {
     /// Number of block columns.
     pub width: usize,
-    /// First entry of each row; one more than there are rows.
+    /// First entry of each row; one element more than the number of rows.
     pub starts: Vec<usize>,
     /// Column of each entry.
     pub columns: Vec<u32>,
@@ -131,7 +131,7 @@ impl<const R: usize, const C: usize> BlockCsr<R, C> {
         BlockCsr { width: other.width, starts, columns, values }
     }
 
-    /// Rows of the product by Gustavson's method: a marker tells where a column of the present row lies.
+    /// Rows of the product by Gustavson's method: a marker holds the position of each column in the present row.
     fn product_rows<const K: usize>(&self, other: &BlockCsr<C, K>, task: usize) -> Rows<R, K> {
         const NONE: u32 = u32::MAX;
         let rows = task * PRODUCT_ROWS..((task + 1) * PRODUCT_ROWS).min(self.rows());
@@ -177,7 +177,7 @@ impl<const R: usize, const C: usize> BlockCsr<R, C> {
 }
 
 impl<const B: usize> BlockCsr<B, B> {
-    /// The entry on the diagonal of each row; zero where it is not stored.
+    /// The diagonal entry of each row; zero if it is not stored.
     #[must_use]
     pub fn diagonal(&self) -> Vec<Block<B, B>> {
         (0..self.rows())

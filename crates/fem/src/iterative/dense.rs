@@ -1,4 +1,4 @@
-//! Small dense blocks, row by row, of sizes known to the compiler.
+//! Small dense blocks, row by row, with sizes known to the compiler.
 
 /// `R` rows of `C` entries.
 pub type Block<const R: usize, const C: usize> = [[f64; C]; R];

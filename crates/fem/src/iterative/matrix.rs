@@ -1,8 +1,8 @@
 //! Assembly of cell matrices into compressed rows of node blocks.
 //!
-//! A degree of freedom is `node * B + component`. Fixed degrees of freedom keep their place, so that blocks stay whole:
-//! their rows and columns are empty but for the diagonal, which is as large as the others of its node. With a right-hand
-//! side of zero there they stay zero.
+//! A degree of freedom is `node * B + component`. Fixed degrees of freedom keep their positions, so that blocks stay whole.
+//! Their rows and columns are empty except for the diagonal, which is as large as the others of the node. With zero on the
+//! right-hand side, they stay zero.
 
 use super::csr::BlockCsr;
 use crate::dof::Equations;
@@ -13,19 +13,19 @@ use rayon::prelude::*;
 /// Stored blocks summed by one task.
 const CHUNK: usize = 1024;
 
-/// Index of a node block among the values of the patterns.
+/// Position of a node block among the values of the patterns.
 #[derive(Clone, Copy, Debug)]
 struct Source {
-    /// Number of its first entry among the values of its pattern.
+    /// Index of its first entry among the values of its pattern.
     offset: u32,
-    /// Pattern.
+    /// Index of the pattern.
     pattern: u16,
-    /// Entries from one row to the next.
+    /// Number of entries from one row to the next.
     stride: u16,
 }
 
-/// The sum of dense cell blocks as a matrix of node blocks. For every stored block the list of its contributions is
-/// kept, in the order of the cells: blocks are summed independently of each other and always in the same order.
+/// The sum of dense cell blocks as a matrix of node blocks. For every stored block the list of its contributions is kept, in
+/// the order of the cells. Blocks are summed independently of each other and always in the same order.
 #[derive(Clone, Debug)]
 pub struct Assembly<const B: usize> {
     starts: Vec<usize>,
@@ -37,11 +37,11 @@ pub struct Assembly<const B: usize> {
 }
 
 impl<const B: usize> Assembly<B> {
-    /// Finds the pattern and the contributions.
+    /// Builds the pattern and the lists of contributions.
     ///
     /// # Errors
-    /// [`FemError::Factorisation`] when a block of a pattern does not list all components of its nodes one after
-    /// another, or when there are more values than the indices can count (2³² for each pattern).
+    /// [`FemError::Factorisation`] if a block of a pattern does not list all components of its nodes consecutively, or if there
+    /// are more values than the indices can address (2³² for each pattern).
     pub fn new(patterns: &[&Pattern], equations: &Equations) -> Result<Self, FemError> {
         let nodes = equations.number.len() / B;
         let free: Vec<[bool; B]> = (0..nodes)
@@ -63,7 +63,7 @@ impl<const B: usize> Assembly<B> {
         self.ids == ids(patterns)
     }
 
-    /// Which components of each node are free.
+    /// Free components of each node.
     #[must_use]
     pub fn free(&self) -> &[[bool; B]] {
         &self.free
@@ -127,7 +127,7 @@ impl<const B: usize> Assembly<B> {
         matrix
     }
 
-    /// As [`Assembly::assemble`], into a matrix made there.
+    /// As [`Assembly::assemble`], into a matrix made by that function.
     pub fn assemble_into(&self, values: &[&[f64]], matrix: &mut BlockCsr<B, B>) {
         matrix.values.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, blocks)| {
             for (k, block) in blocks.iter_mut().enumerate() {
@@ -226,7 +226,7 @@ fn rows<const B: usize>(
     nodes: usize,
     stored: &(dyn Fn(usize, usize) -> bool + Sync),
 ) -> (Vec<usize>, Vec<u32>) {
-    // Which cells a node has, then for each node the nodes of its cells.
+    // Cells of each node, then for each node the nodes of its cells.
     let cells: Vec<&[usize]> = patterns.iter().flat_map(|p| p.blocks()).collect();
     let mut first = vec![0_usize; nodes + 1];
     for dof in cells.iter().flat_map(|c| c.iter().step_by(B)) {

@@ -1,8 +1,8 @@
-//! Iterative solution of symmetric positive definite elasticity: conjugate gradients with smoothed aggregation or
-//! block-Jacobi as preconditioner. For models in space too big to factor.
+//! Iterative solution of symmetric positive definite elasticity: conjugate gradients preconditioned by smoothed aggregation or
+//! block-Jacobi. It is for 3D models too large to factor.
 //!
-//! Degrees of freedom are `node * D + component`. Work is cut into pieces of fixed size, so that results have the same
-//! bits for any number of threads.
+//! Degrees of freedom are `node * D + component`. Work is divided into pieces of fixed size, so that results have the same bits
+//! for any number of threads.
 
 pub mod block_jacobi;
 pub mod cg;
@@ -24,20 +24,20 @@ use matrix::Assembly;
 pub use outcome::{Outcome, Report};
 use smoothed_aggregation::{Hierarchy, LevelSize, Settings};
 
-/// Iterations after which a solution is given up: several times what the hardest case of the benchmark takes with
+/// Iterations after which the solution is abandoned: several times the number needed in the hardest case of the benchmark with
 /// block-Jacobi.
 pub const MOST_ITERATIONS: usize = 20_000;
 
-/// Conversion of residuals into corrections.
+/// Method by which residuals are turned into corrections.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
-    /// Inverses of the node blocks: cheap to set up, iterations grow with the number of elements along the body.
+    /// Inverses of the node blocks: cheap to set up; iterations grow with the number of elements along the body.
     BlockJacobi,
-    /// A V-cycle of smoothed aggregation: iterations hardly grow.
+    /// A V-cycle of smoothed aggregation: the number of iterations hardly grows.
     SmoothedAggregation(Settings),
 }
 
-/// A matrix of node blocks with its preconditioner. `D` unknowns at a node, `K` near-null modes: [`Spatial`], [`Plane`],
+/// A matrix of node blocks with its preconditioner. `D` unknowns per node, `K` near-null modes: [`Spatial`], [`Plane`],
 /// [`Antiplane`].
 #[derive(Clone, Debug)]
 pub struct Solver<const D: usize, const K: usize> {
@@ -49,11 +49,11 @@ pub struct Solver<const D: usize, const K: usize> {
     state: State<D, K>,
 }
 
-/// Elasticity in space; near-null modes: [`near_null::spatial`].
+/// Elasticity in 3D; near-null modes: [`near_null::spatial`].
 pub type Spatial = Solver<3, 6>;
 /// Elasticity in the plane; near-null modes: [`near_null::plane`].
 pub type Plane = Solver<2, 3>;
-/// One unknown at a node; near-null modes: [`near_null::constant`].
+/// One unknown per node; near-null modes: [`near_null::constant`].
 pub type Antiplane = Solver<1, 1>;
 
 #[derive(Clone, Debug)]
@@ -64,11 +64,11 @@ enum State<const D: usize, const K: usize> {
 
 impl<const D: usize, const K: usize> Solver<D, K> {
     /// Assembles the matrix of `patterns` with `values` (one slice for each, as [`crate::term::Linearized::tangent`] writes them)
-    /// and sets the preconditioner up. `near_null` has one block for each node: the displacement of each mode.
+    /// and sets up the preconditioner. `near_null` has one block for each node: the displacement of each mode.
     ///
     /// # Errors
-    /// [`FemError::Factorisation`] when a pattern does not list whole nodes, or the matrix is found not to be positive
-    /// definite: the message names the degree of freedom, or says that a body is free to move.
+    /// [`FemError::Factorisation`] if a pattern does not list whole nodes, or if the matrix is found not to be positive
+    /// definite. The message then names the degree of freedom, or says that a body is free to move.
     pub fn new(
         patterns: &[&Pattern],
         values: &[&[f64]],
@@ -94,8 +94,8 @@ impl<const D: usize, const K: usize> Solver<D, K> {
         Ok(Self { assembly, free: equations.free.clone(), nodes: modes.len(), method, state })
     }
 
-    /// Takes new values in the same patterns. The pattern of the matrix, the aggregates and their modes are kept; strength
-    /// of connection is not measured anew.
+    /// Replaces the values in the same patterns. The pattern of the matrix, the aggregates and their modes are kept; the
+    /// strength of connection is not recomputed.
     ///
     /// # Errors
     /// As [`Solver::new`].
@@ -120,7 +120,7 @@ impl<const D: usize, const K: usize> Solver<D, K> {
         self.method
     }
 
-    /// The matrix. Fixed degrees of freedom have a diagonal only.
+    /// The matrix. Fixed degrees of freedom have only a diagonal.
     #[must_use]
     pub fn matrix(&self) -> &BlockCsr<D, D> {
         match &self.state {
@@ -129,8 +129,8 @@ impl<const D: usize, const K: usize> Solver<D, K> {
         }
     }
 
-    /// Solves `K x = b` over the free equations, from the x given, until the preconditioned residual is `tolerance` times
-    /// that of b (see [`Report::residual`]).
+    /// Solves `K x = b` over the free equations, from the given x, until the preconditioned residual is `tolerance` times that
+    /// of b (see [`Report::residual`]).
     pub fn solve(&self, x: &mut [f64], b: &[f64], tolerance: f64) -> Outcome {
         self.solve_within(x, b, tolerance, MOST_ITERATIONS)
     }
@@ -173,7 +173,7 @@ impl<const D: usize, const K: usize> Solver<D, K> {
         blocks
     }
 
-    /// Sizes of the levels, finest first; the matrix alone for block-Jacobi.
+    /// Sizes of the levels, finest first; of the matrix alone for block-Jacobi.
     #[must_use]
     pub fn levels(&self) -> Vec<LevelSize> {
         match &self.state {
@@ -184,7 +184,7 @@ impl<const D: usize, const K: usize> Solver<D, K> {
         }
     }
 
-    /// Bytes held: matrix, levels, and where cell values go.
+    /// Memory held \[bytes\]: matrix, levels, and destinations of cell values.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.assembly.bytes()

@@ -1,6 +1,6 @@
-//! Displacement fields without strain: what the coarse levels must represent exactly.
+//! Displacement fields without strain, which the coarse levels must represent exactly.
 //!
-//! Lengths are counted from the centre of all nodes in units of the largest distance from it, so that rotations and
+//! Lengths are measured from the centre of all nodes in units of the largest distance from it, so that rotations and
 //! translations have the same size.
 
 use super::dense::Block;

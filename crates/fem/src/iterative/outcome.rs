@@ -1,29 +1,29 @@
-//! End of an iteration.
+//! Outcome of an iteration.
 
-/// Result of an iteration.
+/// Residuals and iterations reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
-    /// Iterations: products with the matrix, those that recompute the residual apart.
+    /// Iterations: products with the matrix, except those that recompute the residual.
     pub iterations: usize,
-    /// `sqrt(r·M⁻¹r / b·M⁻¹b)` with `r = b - K x` computed anew from the returned x; M the preconditioner \[-\].
+    /// `sqrt(r·M⁻¹r / b·M⁻¹b)` with `r = b - K x` recomputed from the returned x; M is the preconditioner \[-\].
     pub residual: f64,
     /// `|r| / |b|` of the same r \[-\].
     pub euclidean: f64,
 }
 
-/// End of a solution. Not converging is an outcome, not an error.
+/// Outcome of a solution. Failure to converge is an outcome, not an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outcome {
     /// The residual recomputed from the solution is below the tolerance.
     Converged(Report),
-    /// The residual recomputed from the solution no longer falls: the tolerance is below what rounding allows.
+    /// The residual recomputed from the solution no longer decreases: the tolerance is below the limit of rounding.
     Stalled(Report),
-    /// The largest number of iterations was not enough.
+    /// The largest number of iterations was insufficient.
     Exhausted(Report),
-    /// A direction of negative energy `p·K p` (or a value that is not a number) appeared: the matrix or the
-    /// preconditioner is not positive definite.
+    /// A direction of negative energy `p·K p`, or with a value that is not a number, appeared: the matrix or the preconditioner
+    /// is not positive definite.
     Indefinite {
-        /// Result reached before.
+        /// Report up to that iteration.
         report: Report,
         /// The energy of the direction.
         energy: f64,
@@ -31,7 +31,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// Result reached.
+    /// Residuals and iterations reached.
     #[must_use]
     pub fn report(&self) -> &Report {
         match self {

@@ -1,4 +1,4 @@
-//! Vectors of node blocks. Every reduction is cut into pieces of a fixed size and added in order: the same bits for any
+//! Vectors of node blocks. Every reduction is divided into pieces of a fixed size and summed in order: the same bits for any
 //! number of threads.
 
 use rayon::prelude::*;
@@ -35,8 +35,8 @@ pub fn add_scaled<const B: usize>(y: &mut [[f64; B]], alpha: f64, x: &[[f64; B]]
     });
 }
 
-/// A vector whose entries look random and are the same in every run (splitmix64), in (-1, 1): it has a part in every
-/// eigenvector, which a smooth start would not.
+/// A pseudo-random vector in (-1, 1) that is the same in every run (splitmix64): it has a component along every eigenvector,
+/// unlike a smooth start.
 #[must_use]
 pub fn scattered<const B: usize>(n: usize) -> Vec<[f64; B]> {
     let mut state = 0_u64;

@@ -1,18 +1,19 @@
-//! Requirements of a block on a material with memory: the stress after a strain increment, and its derivative.
+//! Interface between a block and a material with memory: the stress after a strain increment, and its derivative.
 //!
-//! Stresses are xx, yy, zz, xy, yz, zx \[Pa\]; strain increments the same with engineering shears γ = 2 ε. Materials are
-//! isotropic: `update` of rotated arguments is the rotated update, on which the integration of objective rates relies.
+//! Stresses are xx, yy, zz, xy, yz, zx \[Pa\]; strain increments have the same order, with engineering shears γ = 2 ε.
+//! Materials are isotropic: `update` of rotated arguments is the rotated update. The integration of objective rates relies on
+//! this.
 
 use super::elastic::Elastic;
 
 /// Stress xx, yy, zz, xy, yz, zx \[Pa\] or strain with engineering shears \[-\].
 pub type Voigt = [f64; 6];
-/// ∂σ/∂ε, row by stress, column by engineering strain \[Pa\].
+/// ∂σ/∂ε, with a row per stress and a column per engineering strain \[Pa\].
 pub type Moduli = [[f64; 6]; 6];
 
 /// An isotropic material whose next stress depends on the last one, on a history and on the strain increment.
 pub trait Constitutive: Sync {
-    /// True if the stress changes in time at held strain.
+    /// True if the stress changes in time at constant strain.
     const RELAXES: bool;
 
     /// Symmetric tensors in the history (six numbers each, first in the slice): they rotate with the material.
@@ -25,8 +26,8 @@ pub trait Constitutive: Sync {
         0
     }
 
-    /// Replaces stress and history by those after `strain` over `dt` \[s\], and writes the consistent tangent
-    /// ∂σ_new/∂(strain) when asked.
+    /// Replaces stress and history by those after `strain` over `dt` \[s\], and writes the consistent tangent ∂σ_new/∂(strain)
+    /// if requested.
     fn update(
         &self,
         dt: f64,
@@ -36,12 +37,12 @@ pub trait Constitutive: Sync {
         moduli: Option<&mut Moduli>,
     );
 
-    /// Tangent of a forward step of length `dt` from the given state: the continuum tangent where the state is on the
-    /// yield surface.
+    /// Tangent of a forward step of length `dt` from the given state: the continuum tangent if the state is on the yield
+    /// surface.
     fn forward(&self, dt: f64, stress: &Voigt, history: &[f64]) -> Moduli;
 
-    /// The fraction of an elastic stress path along `strain`, perhaps beyond 1, at which an elastic state starts to yield
-    /// (r1); `None` when it yields already or cannot yield.
+    /// The fraction of an elastic stress path along `strain`, possibly beyond 1, at which an elastic state starts to yield
+    /// (r1); `None` if it yields already or cannot yield.
     fn yields(&self, _strain: &Voigt, _stress: &Voigt, _history: &[f64]) -> Option<f64> {
         None
     }

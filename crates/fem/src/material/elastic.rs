@@ -54,14 +54,14 @@ impl Elastic {
         self.young / (3.0 * (1.0 - 2.0 * self.poisson))
     }
 
-    /// Substitute for λ in plane stress, 2Gλ/(λ+2G) = E ν/(1-ν²) \[Pa\]: the strain along z is condensed.
+    /// Replacement for λ in plane stress, 2Gλ/(λ+2G) = E ν/(1-ν²) \[Pa\]: the strain along z is condensed.
     #[must_use]
     pub fn plane_stress_lame(&self) -> f64 {
         self.young * self.poisson / (1.0 - self.poisson * self.poisson)
     }
 
-    /// Cauchy stress xx, yy, zz, xy, yz, zx \[Pa\] of a displacement gradient `h[i][j]` = ∂u_i/∂x_j; the third axis of a
-    /// plane problem has none (plane strain).
+    /// Cauchy stress xx, yy, zz, xy, yz, zx \[Pa\] of a displacement gradient `h[i][j]` = ∂u_i/∂x_j; it vanishes along the
+    /// third axis of a plane problem (plane strain).
     #[must_use]
     pub fn stress(&self, h: &[[f64; 3]; 3]) -> [f64; 6] {
         let (g, lambda) = (self.shear(), self.lame());

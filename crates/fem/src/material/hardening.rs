@@ -1,10 +1,10 @@
 //! Isotropic work hardening: the yield stress Y \[Pa\] as a function of the equivalent plastic strain e_p \[-\].
 //!
-//! Softening is refused: without a length scale the width of a softening band is that of an element.
+//! Softening is refused: without a length scale, the width of a softening band would be that of an element.
 
 use crate::error::FemError;
 
-/// Y(e_p), never falling.
+/// Y(e_p), never decreasing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hardening(Form);
 
@@ -20,7 +20,7 @@ enum Form {
 pub struct Yield {
     /// Y \[Pa\].
     pub stress: f64,
-    /// dY/de_p \[Pa\], from the right where a table bends.
+    /// dY/de_p \[Pa\], from the right at the kinks of a table.
     pub slope: f64,
 }
 
@@ -61,10 +61,10 @@ impl Hardening {
     }
 
     /// Piecewise linear through (e_p, Y), constant after the last entry. The first plastic strain is 0, strains ascend,
-    /// stresses are positive and do not fall.
+    /// stresses are positive and do not decrease.
     ///
     /// # Errors
-    /// [`FemError::Material`] with the first entry that breaks one of these.
+    /// [`FemError::Material`] with the first entry that violates one of these.
     pub fn table(entries: &[(f64, f64)]) -> Result<Self, FemError> {
         let Some(&(first, stress)) = entries.first() else {
             return Err(FemError::Material {
@@ -97,7 +97,7 @@ impl Hardening {
                 Yield { stress: initial + modulus * plastic, slope: *modulus }
             }
             Form::Swift { initial, strain, exponent } => {
-                // ln_1p keeps digits where e_p is far below e_0.
+                // ln_1p retains digits where e_p is far below e_0.
                 let stress = initial * (exponent * (plastic / strain).ln_1p()).exp();
                 Yield { stress, slope: exponent * stress / (strain + plastic) }
             }

@@ -1,8 +1,8 @@
 //! J2 plasticity with isotropic hardening: radial return, its algorithmic tangent, and the continuum tangent.
 //!
-//! With s the deviator, q = √(3/2 s:s) and the elastic trial stress of a step, plastic flow Δe_p > 0 solves
-//! `q_trial - 3 G Δe_p = Y(e_p + Δe_p)`, and s = (1 - 3 G Δe_p/q_trial) s_trial (Simo & Hughes, Computational Inelasticity,
-//! sections 3.3 and 3.4). The left side minus the right falls monotonically, so the root is unique.
+//! With s the deviator, q = √(3/2 s:s) and the elastic trial stress of a step, plastic flow Δe_p > 0 solves `q_trial - 3 G
+//! Δe_p = Y(e_p + Δe_p)`, and s = (1 - 3 G Δe_p/q_trial) s_trial (Simo & Hughes, Computational Inelasticity, sections 3.3 and
+//! 3.4). The left side minus the right decreases monotonically, so the root is unique.
 
 use super::constitutive::{
     Constitutive, Moduli, Voigt, contract, deviator, elastic_increment, isotropic, pressure,
@@ -10,14 +10,14 @@ use super::constitutive::{
 use super::elastic::Elastic;
 use super::hardening::Hardening;
 
-/// A state this close below its yield stress, relative to it, is on the yield surface: what is left by scaling a forward
-/// step to the event, whose fraction counts as whole within 1e-9.
+/// Relative distance below the yield stress within which a state is on the yield surface. Scaling a forward step to the event
+/// leaves this distance, as its fraction counts as whole within 1e-9.
 const BAND: f64 = 1e-9;
 
 /// Rounding of the scalar equation: its terms are of the size of q_trial.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Newton steps of the scalar equation with bisection beside them: 60 halvings exhaust the digits of the bracket.
+/// Newton steps of the scalar equation, safeguarded by bisection: 60 halvings exhaust the digits of the bracket.
 const MOST_ITERATIONS: usize = 60;
 
 /// Linear elasticity below the Mises yield stress Y(e_p). Its history is e_p.
@@ -28,19 +28,19 @@ pub struct J2 {
 }
 
 impl J2 {
-    /// Elastic constants and hardening.
+    /// Material with these elastic constants and hardening.
     #[must_use]
     pub fn new(elastic: Elastic, hardening: Hardening) -> Self {
         Self { elastic, hardening }
     }
 
-    /// Its elastic part.
+    /// Elastic part.
     #[must_use]
     pub fn elastic(&self) -> &Elastic {
         &self.elastic
     }
 
-    /// Its hardening.
+    /// Hardening.
     #[must_use]
     pub fn hardening(&self) -> &Hardening {
         &self.hardening
@@ -79,8 +79,8 @@ fn equivalent(s: &Voigt) -> f64 {
     (1.5 * contract(s, s)).sqrt()
 }
 
-/// Subtracts c n⊗n, n = s/|s|. A column times an engineering shear γ stands for n:ε with both shear components, so no
-/// factor is needed.
+/// Subtracts c n⊗n, n = s/|s|. A column times an engineering shear γ represents n:ε with both shear components, so no factor is
+/// needed.
 fn subtract_direction(c: &mut Moduli, factor: f64, s: &Voigt) {
     let scale = factor / contract(s, s);
     for (row, si) in c.iter_mut().zip(s) {
@@ -143,9 +143,9 @@ impl Constitutive for J2 {
         c
     }
 
-    /// r = {g + √[g² + 4 ds² (Y² - s²)]}/(2 ds²), g = s² + ds² - s_new², s, ds and s_new the equivalent stresses of state,
-    /// increment and sum: the positive root of |s + r ds|² = Y², since g = -2 (s, ds) in the product that q² belongs to.
-    /// For g < 0 the sum cancels and the product of the roots, -(Y² - s²)/ds², gives the same number with all digits.
+    /// r = {g + √[g² + 4 ds² (Y² - s²)]}/(2 ds²), g = s² + ds² - s_new², with s, ds and s_new the equivalent stresses of state,
+    /// increment and sum. This is the positive root of |s + r ds|² = Y², since g = -2 (s, ds) in the scalar product of q². For
+    /// g < 0 the sum cancels; the product of the roots, -(Y² - s²)/ds², gives the same number with all digits.
     fn yields(&self, strain: &Voigt, stress: &Voigt, history: &[f64]) -> Option<f64> {
         let s = deviator(stress);
         let ds = deviator(&elastic_increment(0.0, self.elastic.shear(), strain));

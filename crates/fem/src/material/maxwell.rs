@@ -1,13 +1,13 @@
-//! Linear viscoelasticity of the deviator: Maxwell elements in parallel, beside them perhaps a spring; the bulk is elastic.
+//! Linear viscoelasticity of the deviator: Maxwell elements in parallel, optionally with a spring; the bulk is elastic.
 //!
-//! Each element obeys `ds/dt + s/τ = 2 G de/dt`, τ = η/G. Over a step at constant strain rate this has the exact solution
-//! `s = exp(-x) s_0 + 2 G φ(x) Δe`, x = dt/τ, φ(x) = (1 - exp(-x))/x, for steps of any length.
+//! Each element obeys `ds/dt + s/τ = 2 G de/dt`, τ = η/G. Over a step at constant strain rate this has the exact solution `s =
+//! exp(-x) s_0 + 2 G φ(x) Δe`, x = dt/τ, φ(x) = (1 - exp(-x))/x, for steps of any length.
 
 use super::constitutive::{Constitutive, Moduli, Voigt, deviator, isotropic, pressure};
 use super::elastic::Elastic;
 use crate::error::FemError;
 
-/// Most elements in parallel: the history of a point is kept on the stack.
+/// Largest number of elements in parallel: the history of a point is kept on the stack.
 pub const MOST_ELEMENTS: usize = 4;
 
 /// One spring and dashpot in series, or a spring alone.
@@ -18,17 +18,17 @@ struct Element {
     time: f64,
 }
 
-/// A dashpot and the share of the instantaneous shear modulus that relaxes through it.
+/// A dashpot and the fraction of the instantaneous shear modulus that relaxes through it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Branch {
-    /// Share of G \[-\].
+    /// Fraction of G \[-\].
     pub share: f64,
     /// Viscosity η \[Pa s\].
     pub viscosity: f64,
 }
 
-/// Elements in parallel. The first one's stress is what the others leave of the total, so that a single Maxwell element
-/// keeps no history but its stress.
+/// Elements in parallel. The stress of the first is the total minus those of the others, so that a single Maxwell element needs
+/// no history but its stress.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Maxwell {
     bulk: f64,
@@ -39,16 +39,17 @@ impl Maxwell {
     /// A Maxwell material: instantaneous constants E, ν and viscosity 0 < η \[Pa s\]. Shear stress relaxes as exp(-G t/η).
     ///
     /// # Errors
-    /// [`FemError::Material`] when η is out of range.
+    /// [`FemError::Material`] if η is out of range.
     pub fn new(elastic: &Elastic, viscosity: f64) -> Result<Self, FemError> {
         Self::generalised(elastic, &[Branch { share: 1.0, viscosity }])
     }
 
-    /// Branches in parallel; what their shares leave of 1 is a spring that does not relax. One branch with a share below 1
-    /// is the standard linear solid.
+    /// Branches in parallel; the remainder of their shares to 1 is a spring that does not relax. One branch with a share below
+    /// 1 is the standard linear solid.
     ///
     /// # Errors
-    /// [`FemError::Material`] for a viscosity or share that is not positive, shares above 1 in sum, or too many branches.
+    /// [`FemError::Material`] for a viscosity or share that is not positive, shares that sum to more than 1, or too many
+    /// branches.
     pub fn generalised(elastic: &Elastic, branches: &[Branch]) -> Result<Self, FemError> {
         let refuse = |name, value, admissible| Err(FemError::Material { name, value, admissible });
         for branch in branches {
@@ -80,7 +81,7 @@ impl Maxwell {
         Ok(Self { bulk: elastic.bulk(), elements })
     }
 
-    /// Shear modulus a step of length `dt` meets: Σ G φ \[Pa\].
+    /// Effective shear modulus in a step of length `dt`: Σ G φ \[Pa\].
     fn effective_shear(&self, dt: f64) -> f64 {
         self.elements.iter().map(|e| e.shear * mean_decay(dt / e.time)).sum()
     }

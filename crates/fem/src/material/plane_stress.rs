@@ -1,7 +1,7 @@
 //! Plane stress for any material: the strain increment through the thickness follows from σ_zz = 0.
 //!
-//! σ_zz rises monotonically with ε_zz (its slope lies between the bulk modulus and the elastic one for J2), so a Newton
-//! iteration inside a bracket always arrives. The in-plane tangent is the condensed one, C - C_:z C_z:/C_zz.
+//! σ_zz increases monotonically with ε_zz (its slope lies between the bulk modulus and the elastic one for J2), so a Newton
+//! iteration inside a bracket always converges. The in-plane tangent is the condensed one, C - C_:z C_z:/C_zz.
 
 use super::constitutive::{Constitutive, Moduli, Voigt};
 use super::maxwell::MOST_ELEMENTS;
@@ -9,11 +9,11 @@ use super::maxwell::MOST_ELEMENTS;
 /// Longest history of a material.
 pub const MOST_HISTORY: usize = 6 * (MOST_ELEMENTS - 1);
 
-/// Halvings that exhaust the digits of a bracket.
+/// Number of halvings that exhaust the digits of a bracket.
 const MOST_ITERATIONS: usize = 80;
 
-/// As [`Constitutive::update`] with `strain[2]` found such that σ_zz = 0; returns the strain used. The state must have
-/// σ_zz = 0 and no shear across the plane.
+/// As [`Constitutive::update`], with `strain[2]` such that σ_zz = 0; returns the strain used. The state must have σ_zz = 0 and
+/// no shear across the plane.
 pub fn update<M: Constitutive>(
     material: &M,
     dt: f64,
@@ -34,7 +34,7 @@ pub fn update<M: Constitutive>(
         material.update(dt, &strain, stress, history, Some(&mut c));
         let scale = c[2][2] * strain.iter().fold(0.0, |m: f64, e| m.max(e.abs()))
             + old.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
-        // The caller refuses what is not finite.
+        // The caller refuses values that are not finite.
         if stress[2].abs() <= f64::EPSILON * scale || !stress[2].is_finite() {
             break;
         }
@@ -57,7 +57,7 @@ pub fn update<M: Constitutive>(
     strain
 }
 
-/// C - C_:z C_z:/C_zz: the tangent at σ_zz held at zero.
+/// C - C_:z C_z:/C_zz: the tangent at σ_zz = 0.
 #[must_use]
 pub fn condensed(c: &Moduli) -> Moduli {
     let mut out = *c;

@@ -3,7 +3,7 @@
 use super::generate::SIDES;
 use crate::error::FemError;
 
-/// Recession of a side from its apex.
+/// Depth to which a side recedes from its apex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Profile {
     /// r²/(2R).
@@ -12,8 +12,8 @@ pub enum Profile {
     Circle,
 }
 
-/// A curved side of a block. At the distance r from the apex the side lies inside of the block's by the depth of the profile;
-/// grid lines across follow in proportion, and the opposite side stays.
+/// A curved side of a block. At the distance r from the apex the curved side lies inside the block by the depth of the profile;
+/// grid lines across follow in proportion, and the opposite side is unchanged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve<const D: usize> {
     /// The side, an index into [`SIDES`]: axis across it, and 0 for its lower or 1 for its upper end.
@@ -22,7 +22,7 @@ pub struct Curve<const D: usize> {
     pub profile: Profile,
     /// Radius of curvature at the apex \[m\]; positive: the body is convex.
     pub radius: f64,
-    /// Coordinates of the apex along the axes the side bends over \[m\]; one of them in space gives a cylinder.
+    /// Coordinates of the apex along the axes over which the side bends \[m\]; only one in 3D gives a cylinder.
     pub apex: [Option<f64>; D],
 }
 
@@ -61,8 +61,8 @@ impl<const D: usize> Curve<D> {
 /// Bends sides of a block from `min` to `max` with these nodes.
 ///
 /// # Errors
-/// [`FemError::Curve`] when a radius is zero, when curves belong to different axes or to one side, when the block reaches
-/// beyond the equator of a circle, or when nothing is left of the block between its sides.
+/// [`FemError::Curve`] if a radius is zero, or if curves belong to different axes or to the same side. Also if the block
+/// extends beyond the equator of a circle, or if nothing of the block remains between its sides.
 pub fn bend<const D: usize>(
     nodes: &mut [[f64; D]],
     min: &[f64; D],
@@ -98,7 +98,7 @@ pub fn bend<const D: usize>(
             let reason = format!("at {x:?} m nothing is left between it and the opposite side ({left} m)");
             return Err(FemError::Curve { side: first.name(), reason });
         }
-        // Sides stay exactly where they are not curved.
+        // Sides stay exactly in position where they are not curved.
         let share = (x[axis] - min[axis]) / height;
         x[axis] += (1.0 - share) * depth[0] - share * depth[1];
     }

@@ -1,8 +1,8 @@
-//! Errors in a mesh file.
+//! Errors of a mesh file.
 
 use std::fmt;
 
-/// Place in a file: the line of a text, the byte of a binary section.
+/// Position in a file: the line of a text, or the byte of a binary section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// Line, counted from 1.
@@ -20,12 +20,12 @@ impl fmt::Display for Place {
     }
 }
 
-/// A group of a mesh: its dimension and what it may be called.
+/// A group of a mesh: its dimension and its name.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct GroupName {
     /// Dimension of its elements.
     pub dimension: usize,
-    /// Name, or number where the file names none.
+    /// Name, or number if the file has no name for it.
     pub name: String,
 }
 
@@ -36,7 +36,7 @@ pub struct Part {
     pub groups: Vec<String>,
     /// Number of cells.
     pub cells: usize,
-    /// First of its elements in the file.
+    /// Number in the file of its first element.
     pub element: u64,
 }
 
@@ -50,22 +50,22 @@ impl fmt::Display for Part {
     }
 }
 
-/// Errors in a mesh file. Elements and nodes are named by their numbers in the file.
+/// Errors of a mesh file. Elements and nodes are named by their numbers in the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
-    /// Bytes that are not what the format wants here.
+    /// Bytes that violate the format.
     #[error("{section}, {place}: expected {expected}, found `{found}`")]
     Syntax {
         /// Section or keyword.
         section: String,
         /// Position.
         place: Place,
-        /// Requirement of the format.
+        /// Content expected by the format.
         expected: &'static str,
-        /// Value found.
+        /// Content found.
         found: String,
     },
-    /// The file ends before what a header announces, or in the middle of a value.
+    /// The file ends before the announced data, or in the middle of a value.
     #[error(
         "{section}, {place}: {count} {what} announced, but only {left} bytes follow: the file is truncated or its \
          header is damaged"
@@ -75,32 +75,32 @@ pub enum MeshError {
         section: String,
         /// Position.
         place: Place,
-        /// Number announced.
+        /// Announced items.
         what: &'static str,
-        /// Number.
+        /// Number announced.
         count: u64,
         /// Bytes that follow.
         left: usize,
     },
-    /// A header that contradicts what follows.
+    /// A header that contradicts the data.
     #[error("{section}: the header announces {announced} {what}, the section holds {held}")]
     Count {
         /// Section.
         section: String,
-        /// Things counted.
+        /// Counted items.
         what: &'static str,
         /// Number in the header.
         announced: u64,
         /// Number in the section.
         held: u64,
     },
-    /// A version of the format that is not read.
+    /// An unsupported version of the format.
     #[error("MSH version {found} is not read; those that are: 2.2 and 4.1")]
     Version {
         /// Version of the file.
         found: String,
     },
-    /// Sizes of numbers that are not read.
+    /// An unsupported size of numbers.
     #[error("{section}: numbers of {found} bytes are not read, only those of 8")]
     DataSize {
         /// Section.
@@ -108,29 +108,29 @@ pub enum MeshError {
         /// Size of the file's numbers \[bytes\].
         found: i64,
     },
-    /// A binary file without the number that tells the order of bytes.
+    /// A binary file without the number that indicates the byte order.
     #[error("$MeshFormat, {place}: the number 1 that tells the order of bytes is missing")]
     ByteOrder {
         /// Position.
         place: Place,
     },
-    /// A section that a mesh needs.
+    /// A required section that is missing.
     #[error("the file has no {section}")]
     MissingSection {
         /// Section or keyword.
         section: &'static str,
     },
-    /// A section or keyword twice, or one that changes what others mean.
+    /// A repeated section or keyword, or one that changes the meaning of others.
     #[error("{section}, {place}: {reason}")]
     Unsupported {
         /// Section or keyword.
         section: String,
         /// Position.
         place: Place,
-        /// Reason why it is not read.
+        /// Reason.
         reason: &'static str,
     },
-    /// An element of a shape that does not exist here.
+    /// An element of an unsupported shape.
     #[error("{section}, {place}: element {element} has the unsupported type {kind}")]
     UnsupportedElement {
         /// Section or keyword.
@@ -142,7 +142,7 @@ pub enum MeshError {
         /// Type, as the format names it.
         kind: String,
     },
-    /// A type of element that does not exist here, before any element of it.
+    /// An unsupported element type, before any element of it.
     #[error("{section}, {place}: elements of type {kind} are not read")]
     UnsupportedKind {
         /// Section or keyword.
@@ -175,7 +175,7 @@ pub enum MeshError {
     /// A node that does not exist.
     #[error("{holder} refers to node {node}, which does not exist")]
     DanglingNode {
-        /// Referrer: an element or a set.
+        /// The element or set that refers to it.
         holder: Holder,
         /// Node.
         node: u64,
@@ -200,7 +200,7 @@ pub enum MeshError {
         /// Sets that exist.
         present: Vec<String>,
     },
-    /// A coordinate that is no number.
+    /// A coordinate that is not a number.
     #[error("node {node} has the coordinate {} = {value}", ["x", "y", "z"][*axis])]
     Coordinate {
         /// Node.
@@ -218,18 +218,18 @@ pub enum MeshError {
         /// Its z, in the unit of the file.
         z: f64,
     },
-    /// A unit of length that is none.
+    /// An invalid unit of length.
     #[error("the unit of length is {metres} m: it must be positive and finite")]
     LengthUnit {
         /// Given length \[m\].
         metres: f64,
     },
-    /// A mesh of another dimension than asked for.
+    /// A mesh of a different dimension than requested.
     #[error("the mesh is {found}-dimensional, a {wanted}-dimensional one is needed")]
     Dimension {
-        /// Greatest dimension of the file's elements.
+        /// Largest dimension of the file's elements.
         found: usize,
-        /// Dimension asked for.
+        /// Requested dimension.
         wanted: usize,
     },
     /// No elements at all.
@@ -244,10 +244,10 @@ pub enum MeshError {
     NoGroups {
         /// Number of cells.
         cells: usize,
-        /// Groups asked for.
+        /// Requested groups.
         wanted: Vec<String>,
     },
-    /// A group that was asked for and does not exist.
+    /// A requested group that does not exist.
     #[error("there is no group `{name}`{}", group_suggestion(name, present))]
     MissingGroup {
         /// Group.
@@ -255,10 +255,10 @@ pub enum MeshError {
         /// Groups of the file.
         present: Vec<GroupName>,
     },
-    /// A number of a group that does not exist.
+    /// A group number that does not exist.
     #[error("`{name}` is to be group {tag}, but no group has this number; there are {}", list(present))]
     MissingTag {
-        /// Name that was to be given.
+        /// Name to be given to the group.
         name: String,
         /// Number.
         tag: i64,
@@ -291,7 +291,7 @@ pub enum MeshError {
         /// The third cell.
         cell: u64,
     },
-    /// An element turned inside out, folded, or without volume.
+    /// An element that is inverted, folded, or without volume.
     #[error(
         "element {element} ({kind}) is {}: its Jacobian determinant, relative to its greatest, falls to {least:.3} \
          (it must be positive){}",
@@ -303,7 +303,7 @@ pub enum MeshError {
         element: u64,
         /// Its kind.
         kind: &'static str,
-        /// Least determinant over the greatest magnitude in the element \[-\]; -1 for one inverted throughout.
+        /// Smallest determinant over the largest magnitude in the element \[-\]; -1 for one inverted throughout.
         least: f64,
         /// Number of such elements.
         count: usize,
@@ -316,14 +316,14 @@ pub enum MeshError {
     FreePart {
         /// The part that hangs free.
         free: Part,
-        /// The part it lies against.
+        /// The part it touches.
         other: Part,
         /// Pairs of coincident nodes of the two.
         pairs: usize,
     },
 }
 
-/// Referrer to a node.
+/// An element or a set that refers to a node.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Holder {
     /// An element.

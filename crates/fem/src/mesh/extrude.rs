@@ -1,10 +1,10 @@
-//! Plane meshes drawn out along z, layer by layer.
+//! Extrusion of plane meshes along z, layer by layer.
 
 use super::split::{Fault, Pair};
 use super::{Cells, Mesh, Side};
 use crate::element::ElementKind;
 
-/// Reason why a mesh cannot be extruded.
+/// Reasons why a mesh cannot be extruded.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExtrudeError {
     /// Fewer than two layer coordinates, or not in ascending order.
@@ -15,13 +15,13 @@ pub enum ExtrudeError {
     Layers {
         /// Coordinates given.
         count: usize,
-        /// The first that is wrong.
+        /// Index of the first wrong one.
         index: usize,
     },
     /// A set that exists already.
     #[error("the mesh has a side set `{0}`, which extrusion would overwrite; name it otherwise")]
     Exists(&'static str),
-    /// An element whose extrusion there is not.
+    /// An element without an extrusion.
     #[error("element {0} cannot be extruded; tri3, tri6, quad4, quad8 and quad9 can")]
     Element(&'static str),
     /// Neighbours that would not conform.
@@ -34,7 +34,7 @@ pub enum ExtrudeError {
         node: usize,
         /// Block with a node half-way up.
         with: usize,
-        /// Block without.
+        /// Block without such a node.
         without: usize,
     },
 }
@@ -42,18 +42,18 @@ pub enum ExtrudeError {
 /// Names of the new side sets: the lower and the upper end.
 const ENDS: [&str; 2] = ["back", "front"];
 
-/// An extruded mesh, with the way from plane nodes to its own.
+/// An extruded mesh, with the map from plane nodes to its nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extruded {
     /// The mesh. Side, cell and node sets keep their names; `back` and `front` are the ends at the smallest and largest z.
     pub mesh: Mesh<3>,
     /// New nodes of each plane node, by ascending z: one per layer coordinate and, for nodes with one half-way up a layer,
-    /// those between.
+    /// those in between.
     pub columns: Vec<Vec<usize>>,
 }
 
 impl Extruded {
-    /// The pairs of a fault of the plane mesh, drawn out: for each pair of the plane, in its order, all pairs above it by
+    /// The extruded pairs of a fault of the plane mesh: for each pair of the plane mesh, in its order, all pairs above it by
     /// ascending z. Tips become tip lines.
     #[must_use]
     pub fn fault(&self, plane: &Fault) -> Fault {
@@ -65,9 +65,9 @@ impl Extruded {
     }
 }
 
-/// Draws a plane mesh out along z, with one layer of cells between each two coordinates `z` \[m\]: tri3 to wedge6, tri6 to
-/// wedge15, quad4 to hex8, quad8 to hex20, quad9 to hex27. Blocks keep their numbers. Nodes are numbered plane by plane,
-/// cells layer by layer; the sides of a set run through its plane faces within each layer.
+/// Extrudes a plane mesh along z, with one layer of cells between successive coordinates `z` \[m\]: tri3 to wedge6, tri6 to
+/// wedge15, quad4 to hex8, quad8 to hex20, quad9 to hex27. Blocks keep their numbers. Nodes are numbered plane by plane, cells
+/// layer by layer; the sides of a set follow its plane faces within each layer.
 ///
 /// # Errors
 /// See [`ExtrudeError`].
@@ -132,11 +132,11 @@ fn check_layers(z: &[f64]) -> Result<(), ExtrudeError> {
     }
 }
 
-/// Extrusion of a plane element into space.
+/// Extrusion of a plane element.
 #[derive(Debug)]
 struct Template {
     kind: ElementKind,
-    /// Of each node: node of the plane element and level (0 bottom, 1 half-way, 2 top).
+    /// Node of the plane element and level (0 bottom, 1 half-way, 2 top) of each node.
     nodes: Vec<(usize, usize)>,
     /// Face above each edge of the plane element.
     sides: Vec<usize>,
@@ -174,9 +174,9 @@ impl Template {
     }
 }
 
-/// Which nodes have one half-way up each layer: those that an element of second order wants there.
+/// True for nodes that have one half-way up each layer, as required by elements of second order.
 fn halfway(mesh: &Mesh<2>, templates: &[Template]) -> Result<Vec<bool>, ExtrudeError> {
-    // The last block that wants one there, and the last that wants none.
+    // The last block that requires a half-way node there, and the last that does not.
     let mut blocks: Vec<[Option<usize>; 2]> = vec![[None; 2]; mesh.nodes.len()];
     for (block, (cells, template)) in mesh.blocks.iter().zip(templates).enumerate() {
         let of_plane = cells.kind.nodes();

@@ -25,7 +25,7 @@ pub struct Block<const D: usize> {
     pub min: [f64; D],
     /// Upper corner \[m\].
     pub max: [f64; D],
-    /// Elements along each axis.
+    /// Number of elements along each axis.
     pub divisions: [usize; D],
     /// Grading along each axis.
     pub grading: [Grading; D],
@@ -36,13 +36,13 @@ pub struct Block<const D: usize> {
 /// Names of the side sets: lower and upper end of each axis.
 pub const SIDES: [[&str; 2]; 3] = [["left", "right"], ["bottom", "top"], ["back", "front"]];
 
-/// Relative deviation from a whole number of elements that is rounding of decimal input.
+/// Largest relative deviation from a whole number of elements that counts as rounding of decimal input.
 const WHOLE: f64 = 1e-9;
 
-/// Elements of `size` along `length`.
+/// Number of elements of `size` along `length`.
 ///
 /// # Errors
-/// [`FemError::Size`] when it does not divide the length, with the nearest size that does.
+/// [`FemError::Size`] if it does not divide the length evenly, with the nearest size that does.
 pub fn divisions_for(length: f64, size: f64) -> Result<usize, FemError> {
     let ratio = length / size;
     let n = ratio.round();
@@ -53,10 +53,10 @@ pub fn divisions_for(length: f64, size: f64) -> Result<usize, FemError> {
 }
 
 impl<const D: usize> Block<D> {
-    /// Generates the mesh; x runs fastest.
+    /// Generates the mesh; x varies fastest.
     ///
     /// # Errors
-    /// If the block is empty, a ratio is not positive, or the element has another dimension.
+    /// If the block is empty, a ratio is not positive, or the element has a different dimension.
     pub fn mesh(&self) -> Result<Mesh<D>, FemError> {
         self.check()?;
         Grid { lines: std::array::from_fn(|axis| self.line(axis)), kind: self.kind }.mesh()
@@ -93,7 +93,7 @@ impl<const D: usize> Block<D> {
     }
 }
 
-/// A block between given grid lines, which cells lie between. Its side sets are those of [`Block`].
+/// A block with given grid lines between its cells. Its side sets are those of [`Block`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid<const D: usize> {
     /// Positions along each axis, ascending, both ends included \[m\].
@@ -103,10 +103,10 @@ pub struct Grid<const D: usize> {
 }
 
 impl<const D: usize> Grid<D> {
-    /// Generates the mesh; x runs fastest.
+    /// Generates the mesh; x varies fastest.
     ///
     /// # Errors
-    /// If lines do not ascend or the element has another dimension.
+    /// If lines do not ascend or the element has a different dimension.
     pub fn mesh(&self) -> Result<Mesh<D>, FemError> {
         if self.kind.dimension() != D {
             return Err(FemError::Dimension { element: self.kind.name(), dimension: D });
@@ -165,7 +165,7 @@ impl<const D: usize> Grid<D> {
         let step = self.kind.order() as f64;
         let place = |xi: &[f64; 3]| {
             let shape = self.kind.linear().shape(*xi);
-            // Shape functions of first order at nodes of second order are multiples of 1/8: sums are exact.
+            // Shape functions of first order at nodes of second order are multiples of 1/8, so that sums are exact.
             std::array::from_fn(|c| {
                 corners.iter().zip(&shape.n).map(|(&k, n)| n * step * HEX[k][c] as f64).sum::<f64>() as usize
             })
@@ -184,7 +184,7 @@ impl<const D: usize> Grid<D> {
                 for cell in 0..block.len() {
                     let nodes = block.cell(cell);
                     for (face, local) in block.kind.faces().iter().enumerate() {
-                        // Ends of a line are placed exactly, so that equality is meant.
+                        // Ends of a line are placed exactly, so that the comparison with `==` is intended.
                         if local.nodes.iter().all(|&a| mesh.nodes[nodes[a]][axis] == value) {
                             sides.push(Side { block: 0, cell, face });
                         }
@@ -201,7 +201,7 @@ impl<const D: usize> Grid<D> {
 const HEX: [[usize; 3]; 8] =
     [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
 
-/// Grid lines, for elements of second order with those midway.
+/// Grid lines; for elements of second order, with those midway.
 fn with_middles(line: &[f64], order: usize) -> Vec<f64> {
     if order == 1 {
         return line.to_vec();
@@ -210,7 +210,7 @@ fn with_middles(line: &[f64], order: usize) -> Vec<f64> {
     pairs.chain(line.last().copied()).collect()
 }
 
-/// Keeps the nodes that cells use, in their order, and renumbers the cells: serendipity elements leave centres out.
+/// Keeps the nodes used by cells, in their order, and renumbers the cells: serendipity elements omit centres.
 fn used<const D: usize>(nodes: Vec<[f64; D]>, connectivity: &mut [usize]) -> Vec<[f64; D]> {
     let mut number = vec![usize::MAX; nodes.len()];
     connectivity.iter().for_each(|&n| number[n] = 0);

@@ -1,22 +1,23 @@
-//! The cell that holds a place, and where in it.
+//! Search for the cell that contains a position, and its natural coordinates there.
 
 use super::Mesh;
 use crate::element::{ElementKind, Shape};
 use nalgebra::{SMatrix, SVector};
 use std::ops::Range;
 
-/// Natural coordinates beyond the boundary of a cell that are rounding of positions: places are given in decimal numbers,
-/// and nodes are placed to rounding.
+/// Largest distance beyond the boundary of a cell, in natural coordinates, that counts as rounding: positions are given in
+/// decimal numbers, and nodes are placed to rounding.
 const ON_BOUNDARY: f64 = 1e-8;
-/// Newton steps of the inverse map. One is exact for straight simplices, three to six serve cells that are not degenerate.
+/// Newton steps of the inverse map. One is exact for straight simplices; three to six suffice for cells that are not
+/// degenerate.
 const MOST_STEPS: usize = 30;
-/// Natural distance moved in the last step at which the inverse map has converged: Newton squares it.
+/// Natural distance moved in the last step at which the inverse map has converged: convergence is quadratic.
 const CONVERGED: f64 = 1e-10;
-/// Share of its size by which a curved cell may reach beyond the box of its nodes: a parabola through three nodes of a side
-/// reaches at most an eighth of its sagitta's span beyond them.
+/// Fraction of its size by which a curved cell may extend beyond the box of its nodes. A parabola through three nodes of a side
+/// extends at most an eighth of its sagitta's span beyond them.
 const BULGE: f64 = 0.125;
 
-/// A place in a cell.
+/// A position in a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Location {
     /// Block of cells.
@@ -27,7 +28,7 @@ pub struct Location {
     pub xi: [f64; 3],
 }
 
-/// The first cell of some blocks that holds `x` \[m\], its boundary included; `None` where no cell does.
+/// The first cell of some blocks that contains `x` \[m\], including its boundary; `None` if no cell does.
 #[must_use]
 pub fn locate<const D: usize>(mesh: &Mesh<D>, blocks: Range<usize>, x: &[f64; D]) -> Option<Location> {
     blocks.into_iter().find_map(|block| {
@@ -40,7 +41,7 @@ pub fn locate<const D: usize>(mesh: &Mesh<D>, blocks: Range<usize>, x: &[f64; D]
     })
 }
 
-/// True if a place lies in the box of some nodes, with room for curved sides.
+/// True if a position lies in the box of some nodes, with room for curved sides.
 fn near<const D: usize>(nodes: &[[f64; D]], x: &[f64; D]) -> bool {
     let bounds = |c: usize| {
         let values = nodes.iter().map(|n| n[c]);
@@ -53,7 +54,7 @@ fn near<const D: usize>(nodes: &[[f64; D]], x: &[f64; D]) -> bool {
     })
 }
 
-/// Natural coordinates of a place by Newton's method from the centre; `None` where it does not converge.
+/// Natural coordinates of a position by Newton's method from the centre; `None` if it does not converge.
 fn natural<const D: usize>(kind: ElementKind, nodes: &[[f64; D]], x: &[f64; D]) -> Option<[f64; 3]> {
     let corners = &kind.node_coordinates()[..kind.corners()];
     let mut xi: [f64; 3] =
@@ -73,7 +74,7 @@ fn natural<const D: usize>(kind: ElementKind, nodes: &[[f64; D]], x: &[f64; D]) 
     None
 }
 
-/// Position and its derivative by natural coordinates.
+/// Position and its derivative with respect to natural coordinates.
 fn place<const D: usize>(shape: &Shape, nodes: &[[f64; D]]) -> (SVector<f64, D>, SMatrix<f64, D, D>) {
     let (mut x, mut j) = (SVector::zeros(), SMatrix::zeros());
     for (a, node) in nodes.iter().enumerate() {
@@ -107,7 +108,7 @@ mod tests {
     use super::*;
     use crate::mesh::generate::{Block, Grading};
 
-    /// A block of this element, bent.
+    /// A block of this element with a curved side.
     fn bent<const D: usize>(kind: ElementKind) -> Mesh<D> {
         let block =
             Block { min: [0.0; D], max: [1.0; D], divisions: [3; D], grading: [Grading::Uniform; D], kind };

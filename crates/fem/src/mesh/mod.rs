@@ -36,7 +36,7 @@ impl Cells {
         self.connectivity.len() / self.kind.nodes()
     }
 
-    /// True if there is none.
+    /// True if there are no cells.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.connectivity.is_empty()
@@ -70,14 +70,14 @@ pub struct Mesh<const D: usize> {
     pub blocks: Vec<Cells>,
     /// Named faces.
     pub side_sets: BTreeMap<String, Vec<Side>>,
-    /// Named groups of cells, as ascending lists of blocks: a block lies in a group wholly or not at all.
+    /// Named groups of cells, as ascending lists of blocks: a block is either in a group or not.
     pub cell_sets: BTreeMap<String, Vec<usize>>,
     /// Named nodes, ascending.
     pub node_sets: BTreeMap<String, Vec<usize>>,
 }
 
 impl<const D: usize> Mesh<D> {
-    /// Adds another mesh as it is: its nodes and blocks follow those here, its sets are named `prefix.set`.
+    /// Adds another mesh unchanged: its nodes and blocks follow those here; its sets are named `prefix.set`.
     pub fn append(&mut self, other: Self, prefix: &str) {
         let (nodes, blocks) = (self.nodes.len(), self.blocks.len());
         self.nodes.extend(other.nodes);

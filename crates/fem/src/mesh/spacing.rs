@@ -1,19 +1,19 @@
-//! Positions of grid lines: equal cells between fixed points, geometric sequences beyond.
+//! Positions of grid lines: equal cells between fixed points, geometric sequences beyond them.
 
 use std::cmp::Ordering;
 
-/// Most cells of a mesh that is generated with given sizes: more do not fit a factorisation on any machine this crate is meant
-/// for.
+/// Largest number of cells of a mesh generated with given sizes: more do not fit a factorisation on any machine for which this
+/// crate is intended.
 pub const MOST_CELLS: usize = 10_000_000;
 
 /// Sizes of cells along a line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Spacing {
-    /// One size \[m\]; between fixed points the nearest one that divides the distance, at most 5 % off.
+    /// One size \[m\]; between fixed points, the nearest size that divides the distance, at most 5 % off.
     Constant(f64),
     /// One size within a zone, growing beyond it.
     Zone {
-        /// Begin of the zone, along the line from its begin \[m\].
+        /// Start of the zone, along the line from its start \[m\].
         from: f64,
         /// End of the zone \[m\].
         to: f64,
@@ -22,28 +22,28 @@ pub enum Spacing {
         /// Largest ratio of neighbouring sizes beyond, at least 1 \[-\].
         ratio: f64,
     },
-    /// Sizes at distances along the line from its begin, both \[m\] and the distances ascending: linear between, constant
-    /// beyond. Cells are at most so large.
+    /// Sizes at distances along the line from its start, both \[m\], with ascending distances: linear between, constant beyond.
+    /// The sizes are upper limits for the cells.
     Graded(Vec<[f64; 2]>),
 }
 
-/// Reason why a line cannot be divided. Distances are along the line, from its begin.
+/// Reasons why a line cannot be divided. Distances are along the line, from its start.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SpacingError {
     /// A number out of its range.
     #[error("{name} = {value} is not admissible: {admissible}")]
     Value {
-        /// Which.
+        /// Name.
         name: &'static str,
-        /// Given.
+        /// Given value.
         value: f64,
-        /// Remedy.
+        /// Admissible values.
         admissible: &'static str,
     },
     /// A zone that is not on the line.
     #[error("the zone from {from} m to {to} m does not lie on the line, which runs from 0 m to {length} m")]
     Zone {
-        /// Begin \[m\].
+        /// Start \[m\].
         from: f64,
         /// End \[m\].
         to: f64,
@@ -58,9 +58,9 @@ pub enum SpacingError {
     Size {
         /// Given size \[m\].
         size: f64,
-        /// Begin of the piece \[m\].
+        /// Start of the piece \[m\].
         from: f64,
-        /// Its end \[m\].
+        /// End of the piece \[m\].
         to: f64,
         /// Next larger size that fits \[m\].
         coarser: f64,
@@ -73,14 +73,14 @@ pub enum SpacingError {
          cells, or let what ends there reach the boundary"
     )]
     Gap {
-        /// Position.
+        /// Position on the line.
         place: &'static str,
         /// Distance \[m\].
         length: f64,
         /// Size of the neighbouring cell \[m\].
         size: f64,
     },
-    /// More cells than anybody means.
+    /// More cells than can be intended.
     #[error(
         "the mesh would have more than {most} cells: a coarser size, a larger growth ratio or a smaller box is needed"
     )]
@@ -124,11 +124,11 @@ impl Spacing {
         }
     }
 
-    /// Positions of the grid lines of an axis from `min` to `max`, both included exactly \[m\]. Places in zones and tables are
-    /// coordinates along the axis.
+    /// Positions of the grid lines of an axis from `min` to `max`, both included exactly \[m\]. Positions in zones and tables
+    /// are coordinates along the axis.
     ///
     /// # Errors
-    /// See [`SpacingError`]; distances there count from `min`.
+    /// See [`SpacingError`]; its distances are measured from `min`.
     pub fn line(&self, min: f64, max: f64) -> Result<Vec<f64>, SpacingError> {
         self.check()?;
         let length = max - min;
@@ -151,15 +151,15 @@ impl Spacing {
     }
 }
 
-/// Relative deviation from the asked size that equal cells may have so as to end at a bend: not noticed by any quantity
+/// Largest relative deviation of equal cells from the requested size, made to end at a bend: too small to affect any quantity
 /// that depends on the size.
 const FIT: f64 = 0.05;
 
-/// Halvings of an interval of ratios, enough to exhaust the digits of a number.
+/// Number of halvings of an interval of ratios that exhausts the digits of a number.
 const HALVINGS: usize = 60;
 
-/// Distances from the begin, 0 and `length` included: the ratio `r <= growth` of neighbouring sizes is constant, the first
-/// size is `r` times `before`, the size of the cell in front.
+/// Distances from the start, including 0 and `length`: the ratio `r <= growth` of neighbouring sizes is constant, and the first
+/// size is `r` times `before`, the size of the preceding cell.
 pub(super) fn geometric(
     before: f64,
     length: f64,
@@ -177,7 +177,7 @@ pub(super) fn geometric(
         }
         total
     };
-    // Rounding of a length that is a whole number of cells must not cost a cell.
+    // Rounding of a length that is a whole number of cells must not remove a cell.
     let enough = length * (1.0 - f64::EPSILON.sqrt());
     let (mut n, mut total, mut size) = (0, 0.0, before);
     while total < enough {
@@ -205,7 +205,7 @@ pub(super) fn geometric(
     Ok(at)
 }
 
-/// Distances along the fault of its nodes; the fixed points are among them. `vertices`: distances of the vertices, ascending
+/// Distances of the nodes along the fault, including the fixed points. `vertices` are the distances of the vertices, ascending
 /// from 0 to the length.
 pub(super) fn along(vertices: &[f64], spacing: &Spacing) -> Result<Vec<f64>, SpacingError> {
     let length = vertices[vertices.len() - 1];
@@ -256,12 +256,12 @@ fn uniform(fixed: &[f64], size: f64) -> Result<Vec<f64>, SpacingError> {
     Ok(at)
 }
 
-/// Cells whose sizes follow a table of (distance, size), linear between its entries: equal shares of `n(z) = ∫ dz/size`.
+/// Cells whose sizes follow a table of (distance, size), linear between its entries: equal parts of `n(z) = ∫ dz/size`.
 fn graded(fixed: &[f64], table: &[[f64; 2]]) -> Result<Vec<f64>, SpacingError> {
     let mut at = vec![fixed[0]];
     for w in fixed.windows(2) {
         let (from, to) = (w[0], w[1]);
-        // Pieces of the table between the fixed points: begin, size there, end, size there.
+        // Pieces of the table between the fixed points: start, size there, end, size there.
         let inner = table.iter().map(|e| e[0]).filter(|&z| from < z && z < to);
         let ends: Vec<f64> = [from].into_iter().chain(inner).chain([to]).collect();
         let pieces: Vec<Piece> = ends
@@ -269,7 +269,7 @@ fn graded(fixed: &[f64], table: &[[f64; 2]]) -> Result<Vec<f64>, SpacingError> {
             .map(|e| Piece { from: e[0], to: e[1], sizes: [size_at(table, e[0]), size_at(table, e[1])] })
             .collect();
         let total: f64 = pieces.iter().map(Piece::cells).sum();
-        // Rounding of a whole number of cells must not cost one more.
+        // Rounding of a whole number of cells must not add a cell.
         let n = (total * (1.0 - f64::EPSILON.sqrt())).ceil().max(1.0);
         if n > MOST_CELLS as f64 {
             return Err(SpacingError::TooMany { most: MOST_CELLS });
@@ -301,7 +301,7 @@ impl Piece {
         (self.sizes[1] - self.sizes[0]) / (self.to - self.from)
     }
 
-    /// `∫ dz/size` over the piece: with slope k `ln(1 + k L/size_0)/k`, written so that it is stable for small k.
+    /// `∫ dz/size` over the piece: with slope k, `ln(1 + k L/size_0)/k`, in a form that is stable for small k.
     fn cells(&self) -> f64 {
         let x = self.sizes[1] / self.sizes[0] - 1.0;
         (self.to - self.from) / self.sizes[0] * if x == 0.0 { 1.0 } else { x.ln_1p() / x }

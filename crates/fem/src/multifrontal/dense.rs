@@ -1,7 +1,7 @@
-//! Elimination of fronts of any size: halves of the columns, again and again, on faer's dense kernels.
+//! Elimination of fronts of any size: recursive halving of the columns, on faer's dense kernels.
 //!
-//! Large fronts are cut into tiles whose size depends on nothing but the front, each computed by one thread: the bits do
-//! not depend on the number of threads.
+//! Large fronts are cut into tiles whose size depends only on the front, each computed by one thread: the bits do not depend on
+//! the number of threads.
 
 use super::kernel::{Break, Eliminate, Update};
 use faer::linalg::matmul::matmul;
@@ -14,16 +14,16 @@ use rayon::prelude::*;
 /// Columns eliminated by the small kernel at once.
 const SMALL: usize = 32;
 
-/// Rows from which those below the pivots of so few columns are cut into tiles.
+/// Number of rows from which the rows below the pivots of these few columns are cut into tiles.
 const SMALL_TILES: usize = 1024;
 
 /// Rows of a tile.
 const TILE: usize = 512;
 
-/// Operations from which work is cut into tiles: some 0.1 ms.
+/// Number of operations from which work is cut into tiles: about 0.1 ms.
 const WORTH_TILES: f64 = 4e6;
 
-/// Rows up to which the small kernel forms the contribution of a front: it does not block for caches.
+/// Number of rows up to which the small kernel forms the contribution of a front: it has no cache blocking.
 const SMALL_ROWS: usize = 96;
 
 /// Eliminates the columns of a front, column by column in `values` with `rows` entries each. `smallest` are the smallest
@@ -42,7 +42,7 @@ pub(super) fn eliminate(
     if columns <= SMALL {
         return few_columns(arch, values, stride, rows, smallest);
     }
-    // Halves: nearly all work is in products of the widest blocks there are.
+    // Halves: nearly all work is in products of the widest blocks available.
     let half = (columns / 2).next_multiple_of(SMALL);
     eliminate(arch, values, stride, rows, &smallest[..half])?;
     let (left, right) = values.split_at_mut(half * stride);
@@ -52,7 +52,7 @@ pub(super) fn eliminate(
     eliminate(arch, rest, stride, below, &smallest[half..]).map_err(|(k, pivot)| (half + k, pivot))
 }
 
-/// The small kernel, on the pivots' rows alone when there are many others.
+/// Runs the small kernel, only on the pivots' rows if there are many others.
 fn few_columns(
     arch: Arch,
     values: &mut [f64],
@@ -73,7 +73,7 @@ fn few_columns(
     Ok(())
 }
 
-/// Writes the lower triangle of `-L L'` into `result` (rows by rows, column by column), L being the rows of a front's
+/// Writes the lower triangle of `-L L'` into `result` (rows by rows, column by column), where L are the rows of a front's
 /// columns below its pivots.
 pub(super) fn update(arch: Arch, result: &mut [f64], l: &[f64], stride: usize, rows: usize, columns: usize) {
     if rows <= SMALL_ROWS {
@@ -129,7 +129,7 @@ fn square(target: MatMut<'_, f64>, accumulate: Accum, a: MatRef<'_, f64>) {
     );
 }
 
-/// `target -= a b'` below the diagonal, b being the rows of a that belong to the columns of the target.
+/// `target -= a b'` below the diagonal, where b are the rows of a that belong to the columns of the target.
 fn subtract_product(target: MatMut<'_, f64>, a: MatRef<'_, f64>) {
     let width = target.ncols();
     let operations = ((2 * target.nrows() - width) * width * a.ncols()) as f64;

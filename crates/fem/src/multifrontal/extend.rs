@@ -1,30 +1,30 @@
-//! Extend-add: what the children of a front pass on is added to it.
+//! Extend-add: the contributions of its children are added to a front.
 
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Values from which the columns of a front are cut into pieces, and columns of a piece.
+/// Number of values from which the columns of a front are cut into pieces, and columns of a piece.
 const WORTH_PIECES: usize = 1 << 19;
 const PIECE: usize = 64;
 
-/// Mean length of runs from which adding run by run is quicker than value by value.
+/// Mean length of runs from which adding run by run is faster than value by value.
 const WORTH_RUNS: usize = 8;
 
-/// Data that a child passes on: the lower triangle of a square, column by column.
+/// Contribution of a child: the lower triangle of a square, column by column.
 pub(super) struct Passed<'a> {
-    /// Row in the parent's front of each of its rows, ascending.
+    /// Row in the parent's front of each of the child's rows, ascending.
     places: &'a [u32],
     values: &'a [f64],
-    /// Runs of consecutive places; none when they are too short to be of use.
+    /// Runs of consecutive places; empty if they are too short to be useful.
     runs: Vec<Run>,
 }
 
 /// Rows of a child that are consecutive in the parent's front.
 #[derive(Clone, Copy)]
 struct Run {
-    /// First row of the child and the row after the last.
+    /// First row of the child, and the row after the last.
     rows: (usize, usize),
-    /// Row of the parent's front that the first belongs to.
+    /// Row of the parent's front that corresponds to the first.
     place: usize,
 }
 
@@ -46,8 +46,8 @@ impl<'a> Passed<'a> {
         Self { places, values, runs }
     }
 
-    /// Adds its columns with places in `columns` to `target`, whose first column has the first of these places and whose
-    /// first row has the place `shift`.
+    /// Adds the columns with places in `columns` to `target`, whose first column has the first of these places and whose first
+    /// row has the place `shift`.
     fn add(&self, columns: Range<usize>, target: &mut [f64], height: usize, shift: usize) {
         let rest = self.places.len();
         let at = |place: usize| self.places.partition_point(|&p| (p as usize) < place);
@@ -73,8 +73,8 @@ impl<'a> Passed<'a> {
     }
 }
 
-/// Adds what `children` pass on to columns of a front, of `height` rows each: the first column and the first row have the
-/// place `shift`. Each value takes them in the order of the children, whoever adds.
+/// Adds the contributions of `children` to columns of a front, of `height` rows each: the first column and the first row have
+/// the place `shift`. Each value receives them in the order of the children, whichever thread adds.
 pub(super) fn extend(children: &[Passed<'_>], target: &mut [f64], height: usize, shift: usize) {
     let add = |columns: Range<usize>, piece: &mut [f64]| {
         children.iter().for_each(|child| child.add(columns.clone(), piece, height, shift));
@@ -92,7 +92,7 @@ pub(super) fn extend(children: &[Passed<'_>], target: &mut [f64], height: usize,
 mod tests {
     use super::*;
 
-    /// Columns `columns` of a front, of `height` rows from `shift` on, value by value.
+    /// Adds to the columns `columns` of a front, of `height` rows from `shift` on, value by value.
     fn plain(
         children: &[(Vec<u32>, Vec<f64>)],
         columns: Range<usize>,

@@ -1,28 +1,28 @@
 //! Elimination and symmetric update of small fronts.
 //!
-//! Plane meshes give tens of thousands of fronts with a few pivots and a few dozen rows, where the calls of a general
-//! library cost more than the work. Four
-//! columns by three vectors are accumulated in registers, so both kernels are one register-blocked product.
+//! Plane meshes give tens of thousands of fronts with a few pivots and a few dozen rows, for which the calls of a general
+//! library cost more than the work. Four columns by three vectors are accumulated in registers, so both kernels are one
+//! register-blocked product.
 
 use pulp::{Simd, WithSimd};
 
-/// Reason why an elimination ended early: (column, its pivot).
+/// Failure of an elimination: (column, its pivot).
 pub(super) type Break = (usize, f64);
 
-/// Columns treated together.
+/// Columns processed together.
 const COLUMNS: usize = 4;
 
 /// Eliminates all columns of a trapezoid stored column by column.
 pub(super) struct Eliminate<'a> {
     /// Entries; column j starts at j * `stride`.
     pub values: &'a mut [f64],
-    /// Distance of columns.
+    /// Distance between columns.
     pub stride: usize,
     /// Rows.
     pub rows: usize,
     /// Columns, all of which are pivots.
     pub columns: usize,
-    /// Smallest admissible pivot of each column: not above it means none.
+    /// Smallest admissible pivot of each column: one that is not above it counts as none.
     pub smallest: &'a [f64],
 }
 
@@ -32,7 +32,7 @@ pub(super) struct Update<'a> {
     pub result: &'a mut [f64],
     /// First row of A in its columns.
     pub a: &'a [f64],
-    /// Distance of A's columns.
+    /// Distance between A's columns.
     pub stride: usize,
     /// Rows of A.
     pub rows: usize,
@@ -46,7 +46,7 @@ struct Product<'a> {
     a: &'a [f64],
     stride: usize,
     columns: usize,
-    /// Row of A that the first row of the result belongs to.
+    /// Row of A that corresponds to the first row of the result.
     first: usize,
 }
 
@@ -173,7 +173,7 @@ fn load<S: Simd, const V: usize>(simd: S, from: &[f64], full: bool) -> [S::f64s;
     result
 }
 
-/// Eliminates up to four columns that need nothing from further left.
+/// Eliminates up to four columns that need nothing from columns further left.
 #[inline(always)]
 fn finish<S: Simd>(
     simd: S,
@@ -202,7 +202,7 @@ fn finish<S: Simd>(
     Ok(())
 }
 
-/// Replaces each vector of `column` by a function of it and of the same place of `other`.
+/// Replaces each vector of `column` by a function of it and of the corresponding vector of `other`.
 #[inline(always)]
 fn combine<S: Simd>(simd: S, column: &mut [f64], other: &[f64], f: impl Fn(S::f64s, S::f64s) -> S::f64s) {
     let (vectors, tail) = S::as_mut_simd_f64s(column);
@@ -228,8 +228,8 @@ fn scale_by<S: Simd>(simd: S, column: &mut [f64], scale: S::f64s) {
     }
 }
 
-/// Solves forwards with the columns of a front for one right-hand side: `x[..width] := L⁻¹ x[..width]`, and subtracts
-/// `L x[..width]` from the rows below. Bound by reading L once.
+/// Solves forwards with the columns of a front for one right-hand side: `x[..width] := L⁻¹ x[..width]`, and subtracts `L
+/// x[..width]` from the rows below. Limited by a single reading of L.
 pub(super) struct Forward<'a> {
     /// The front, column by column, `rows` entries each.
     pub panel: &'a [f64],

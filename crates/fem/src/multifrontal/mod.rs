@@ -1,11 +1,11 @@
 //! Sparse Cholesky factorisation by the multifrontal method, parallel over the elimination tree.
 //!
-//! Reason not to take the factorisation of a library: faer's is as fast on one thread, but its loop over supernodes is sequential, and
-//! a second thread only enters large dense products. Here independent subtrees are independent tasks, the few large fronts
-//! near the root are cut into tiles, and the factorisation can stop at a chosen Schur complement, which is static
+//! Reasons against the factorisation of a library: faer's is as fast on one thread, but its loop over supernodes is sequential,
+//! and a second thread only enters large dense products. Here independent subtrees are independent tasks, and the few large
+//! fronts near the root are cut into tiles. The factorisation can also stop at a chosen Schur complement: this is static
 //! condensation without solving for hundreds of columns.
 //!
-//! Pattern, order and memory are in [`Symbolic`]; numbers in [`Cholesky`].
+//! [`Symbolic`] holds pattern, order and memory; [`Cholesky`] holds numbers.
 
 mod dense;
 mod extend;
@@ -23,21 +23,21 @@ pub use mode::{FreeMode, free_mode};
 pub use numeric::Cholesky;
 pub use symbolic::Symbolic;
 
-/// A pivot that cannot be divided by.
+/// A pivot that cannot be used as a divisor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pivot {
-    /// Its equation, in the numbering of the matrix.
+    /// Equation, in the numbering of the matrix.
     pub equation: usize,
-    /// Remainder of the diagonal entry after elimination.
+    /// Diagonal entry after the elimination.
     pub pivot: f64,
-    /// The diagonal entry.
+    /// Diagonal entry of the matrix.
     pub diagonal: f64,
 }
 
-/// Reason why a matrix was not factored.
+/// Reasons why a matrix was not factored.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DirectError {
-    /// A negative pivot, or one that is no number.
+    /// A negative pivot, or one that is not a number.
     #[error(
         "the matrix is not positive definite: equation {} has the pivot {:e} (diagonal {:e})",
         .0.equation, .0.pivot, .0.diagonal
@@ -55,14 +55,14 @@ pub enum DirectError {
         gibibytes(*.needed), gibibytes(*.allowed)
     )]
     Memory {
-        /// Bytes needed.
+        /// Memory needed \[bytes\].
         needed: usize,
-        /// Bytes allowed.
+        /// Memory allowed \[bytes\].
         allowed: usize,
-        /// Equations.
+        /// Number of equations.
         equations: usize,
     },
-    /// The system refused memory.
+    /// The operating system refused memory.
     #[error("the system has no memory left for the direct solver")]
     OutOfMemory,
     /// No order of elimination.
@@ -71,7 +71,7 @@ pub enum DirectError {
 }
 
 impl DirectError {
-    /// The same with the equation in another numbering.
+    /// The same error with the equation in another numbering.
     #[must_use]
     pub fn renumbered(self, number: impl Fn(usize) -> usize) -> Self {
         let other = |p: Pivot| Pivot { equation: number(p.equation), ..p };
@@ -82,7 +82,7 @@ impl DirectError {
         }
     }
 
-    /// The pivot it is about.
+    /// The pivot in question.
     #[must_use]
     pub fn pivot(&self) -> Option<Pivot> {
         match self {

@@ -1,4 +1,4 @@
-//! Motion left free by a singular stiffness: the mode that nothing resists, as a motion of a connected part.
+//! Mode of a singular stiffness that meets no resistance, as a motion of a connected part.
 
 use super::{Cholesky, DirectError, Symbolic};
 use crate::dof::Equations;
@@ -9,17 +9,17 @@ use nalgebra::{DMatrix, DVector};
 use std::fmt;
 use std::sync::Arc;
 
-/// Stiffness added to find a free mode, relative to the diagonal: far above rounding, so that the matrix can be factored,
-/// and far below what any held mode has.
+/// Stiffness added to find a free mode, relative to the diagonal: far above rounding, so that the matrix can be factored, and
+/// far below that of any held mode.
 const SHIFT: f64 = 1e-8;
 
-/// Inverse iterations: each shrinks what is held by [`SHIFT`] over its relative stiffness.
+/// Inverse iterations: each reduces held modes by the ratio of [`SHIFT`] to their relative stiffness.
 const ITERATIONS: usize = 4;
 
-/// Part of a mode's squared displacements that may differ from a rigid motion and count as rounding.
+/// Fraction of a mode's squared displacements that may differ from a rigid motion and count as rounding.
 const RIGID: f64 = 1e-6;
 
-/// Components of a motion below this fraction of its largest are not worth naming.
+/// Components of a motion below this fraction of its largest are not reported.
 const NEGLIGIBLE: f64 = 1e-3;
 
 /// A motion that a body's supports do not hold.
@@ -27,17 +27,17 @@ const NEGLIGIBLE: f64 = 1e-3;
 pub struct FreeMode<const D: usize> {
     /// Nodes of the connected part that moves, ascending.
     pub nodes: Vec<usize>,
-    /// Mean position of its nodes \[m\].
+    /// Mean position of the nodes \[m\].
     pub centre: [f64; D],
     /// Translation of the centre, for a mode whose largest displacement is one \[-\].
     pub translation: [f64; D],
-    /// Rotation vector about the centre \[1/m\]; in the plane its last component.
+    /// Rotation vector about the centre \[1/m\]; in the plane, only its last component.
     pub rotation: [f64; 3],
-    /// Share of the squared displacements that the rigid motion does not explain.
+    /// Fraction of the squared displacements that the rigid motion does not explain.
     pub deformation: f64,
-    /// v'Kv over the sum of the diagonal times v squared: rounding when the mode is free.
+    /// v'Kv over the sum of the diagonal times v squared: rounding if the mode is free.
     pub stiffness: f64,
-    /// Extent of the part \[m\]: what rotation is compared with translation by.
+    /// Extent of the part \[m\], by which rotation is compared with translation.
     extent: f64,
 }
 
@@ -49,7 +49,7 @@ impl<const D: usize> fmt::Display for FreeMode<D> {
 }
 
 impl<const D: usize> FreeMode<D> {
-    /// Motion of the part, in words.
+    /// Free motion of the part, in words.
     #[must_use]
     pub fn motion(&self) -> String {
         if self.deformation > RIGID {
@@ -79,10 +79,10 @@ impl<const D: usize> FreeMode<D> {
     }
 }
 
-/// The free mode that moves `equation`, named by a failed factorisation of `matrix` (a lower triangle). Degree of freedom =
-/// node * D + component, positions in `nodes`.
+/// The free mode that moves `equation`, which was named by a failed factorisation of `matrix` (a lower triangle). Degree of
+/// freedom = node * D + component, positions in `nodes`.
 ///
-/// Inverse iteration with `K + shift diag(K)` from the unit vector of the equation gives the part of that vector in the
+/// Inverse iteration with `K + shift diag(K)` from the unit vector of the equation gives the component of that vector in the
 /// null space; a rigid motion is fitted to it by least squares.
 ///
 /// # Errors
@@ -105,7 +105,7 @@ pub fn free_mode<const D: usize>(
     Ok(fit_rigid(moving, nodes, &displacement, stiffness))
 }
 
-/// Equations connected with `start`, ascending.
+/// Equations connected to `start`, ascending.
 fn connected(matrix: SparseColMatRef<'_, usize, f64>, start: usize) -> Vec<usize> {
     let n = matrix.ncols();
     let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); n];
@@ -128,7 +128,7 @@ fn connected(matrix: SparseColMatRef<'_, usize, f64>, start: usize) -> Vec<usize
     (0..n).filter(|&e| seen[e]).collect()
 }
 
-/// The null vector that moves `equation`, largest displacement one, and its relative stiffness.
+/// The null vector that moves `equation`, with largest displacement one, and its relative stiffness.
 fn null_vector(
     matrix: SparseColMatRef<'_, usize, f64>,
     equation: usize,
@@ -184,7 +184,7 @@ fn fit_rigid<const D: usize>(
     };
     let reach = moving.iter().flat_map(|&n| arm(n)).fold(0.0_f64, |m, x| m.max(x.abs()));
     let extent = if reach > 0.0 { reach } else { 1.0 };
-    // Rotations about z in the plane, about x, y, z in space, scaled by the extent.
+    // Rotations about z in the plane, or about x, y, z in space, scaled by the extent.
     let axes: &[usize] = if D == 2 { &[2] } else { &[0, 1, 2] };
     let mut a = DMatrix::zeros(moving.len() * D, D + axes.len());
     let mut b = DVector::zeros(moving.len() * D);
@@ -209,7 +209,7 @@ fn fit_rigid<const D: usize>(
     }
     let normal = a.transpose() * &a;
     let right = a.transpose() * &b;
-    // A part on one point or line leaves rotations undetermined: the smallest is taken.
+    // A part on one point or line leaves rotations undetermined: the smallest rotation is used.
     let rank = f64::EPSILON.sqrt() * count;
     let fitted =
         normal.svd(true, true).solve(&right, rank).unwrap_or_else(|_| DVector::zeros(D + axes.len()));

@@ -1,7 +1,7 @@
 //! Numeric factorisation over the tree of fronts.
 //!
-//! A front takes the matrix's values of its columns and what its children pass on (extend-add), eliminates its pivots, and
-//! passes on `-L L'` of its other rows plus what its children hold there (Duff, Reid 1983; Liu 1992).
+//! A front adds the matrix's values of its columns and the contributions of its children (extend-add) and eliminates its
+//! pivots. It passes on `-L L'` of its other rows plus the contributions of its children there (Duff, Reid 1983; Liu 1992).
 
 use super::dense;
 use super::extend::{Passed, extend};
@@ -13,16 +13,16 @@ use pulp::Arch;
 use std::fmt;
 use std::sync::{Arc, Mutex};
 
-/// A pivot below this times sqrt(n) of the diagonal entry it came from has no correct digit: eliminating n equations
-/// perturbs it by v'Ev, with entries of E of the size of eps times the diagonal and v the free mode scaled to one at the
-/// pivot; n such rounding errors add up like sqrt(n). The factor 16 covers modes that are larger elsewhere.
+/// A pivot below this times sqrt(n) of its original diagonal entry has no correct digit. Eliminating n equations perturbs it by
+/// v'Ev. Here E has entries of the size of eps times the diagonal, and v is the free mode scaled to one at the pivot; n such
+/// rounding errors add up like sqrt(n). The factor 16 covers modes that are larger elsewhere.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// A pivot that is not positive but smaller than this relative to its diagonal entry is rounding of a singular matrix, not
-/// a sign of a negative mode: the free mode may be much larger elsewhere than at its pivot.
+/// A pivot that is not positive but smaller than this relative to its diagonal entry is rounding of a singular matrix, not a
+/// sign of a negative mode. The free mode may be much larger elsewhere than at its pivot.
 const NOT_NEGATIVE: f64 = 1e-8;
 
-/// A positive pivot below this relative to its diagonal entry is worth a look at the mode it belongs to: one half solve.
+/// A positive pivot below this relative to its diagonal entry requires an examination of its mode: one half solve.
 const SUSPECT: f64 = 1e-8;
 
 /// Numeric Cholesky factorisation `P K P' = L L'`, or, with retained equations, its part up to their Schur complement.
@@ -43,12 +43,12 @@ impl fmt::Debug for Cholesky {
     }
 }
 
-/// Buffers for contributions, handed from front to front.
+/// Buffers for contributions, reused from front to front.
 #[derive(Default)]
 struct Pool(Mutex<Vec<Vec<f64>>>);
 
 impl Pool {
-    /// A buffer of at least `len` values, whatever they are.
+    /// A buffer of at least `len` values, with arbitrary content.
     fn take(&self, len: usize) -> Result<Vec<f64>, DirectError> {
         if len == 0 {
             return Ok(Vec::new());
@@ -69,8 +69,8 @@ impl Pool {
     }
 }
 
-/// Zeros. Asked for first because `vec!` cannot refuse; `vec!` because pages that the system hands out are zero and stay
-/// untouched until used.
+/// Zeros. Memory is reserved first because `vec!` cannot report failure. `vec!` is used because pages from the operating system
+/// are zero and stay untouched until used.
 fn zeros(len: usize) -> Result<Vec<f64>, DirectError> {
     Vec::<f64>::new().try_reserve_exact(len).map_err(|_| DirectError::OutOfMemory)?;
     Ok(vec![0.0; len])
@@ -84,18 +84,18 @@ struct Run<'a> {
     /// Smallest pivot relative to its diagonal entry.
     smallest: f64,
     pool: Pool,
-    /// Values of each task's fronts; where the factor is not kept, of the last one only.
+    /// Values of each task's fronts; if the factor is not kept, of the last task only.
     values: Vec<Mutex<Vec<f64>>>,
     /// True if the factor is kept.
     keep: bool,
     /// Smallest pivot relative to its diagonal entry, and its position.
     least: Mutex<(f64, usize)>,
-    /// Data that each task passes on.
+    /// Contribution of each task.
     passed: Vec<Slot<Result<Vec<f64>, DirectError>>>,
 }
 
 impl Cholesky {
-    /// Factors the matrix whose stored values are `matrix`, in the order of the pattern that was analysed.
+    /// Factors the matrix with stored values `matrix`, in the order of the analysed pattern.
     ///
     /// # Errors
     /// [`DirectError::NotPositive`] and [`DirectError::Singular`] with the equation; [`DirectError::OutOfMemory`].
@@ -107,7 +107,7 @@ impl Cholesky {
     /// Factors another matrix of the same pattern in the same storage.
     ///
     /// # Errors
-    /// As [`Cholesky::new`]; the factor is gone then.
+    /// As [`Cholesky::new`]; the old factor is then lost.
     pub fn refactor(self, matrix: &[f64]) -> Result<Self, DirectError> {
         let Self { symbolic, values, arch } = self;
         let run = Run::new(&symbolic, matrix, arch, values);
@@ -125,8 +125,8 @@ impl Cholesky {
         Ok(factor)
     }
 
-    /// The Schur complement of the retained equations, as [`Cholesky::take_schur`] has it, without the factor: the values of a
-    /// front are dropped when it has been eliminated.
+    /// The Schur complement of the retained equations, as given by [`Cholesky::take_schur`], without the factor: the values of
+    /// a front are dropped once it has been eliminated.
     ///
     /// # Errors
     /// As [`Cholesky::new`].
@@ -135,16 +135,16 @@ impl Cholesky {
         let run = Run { keep: false, ..Run::new(symbolic, matrix, Arch::new(), values) };
         run.all()?;
         if run.suspect().is_some() {
-            // Whether a mode is soft or free only the factor tells.
+            // Only the factor shows if a mode is soft or free.
             return Ok(Self::new(Arc::clone(symbolic), matrix)?.take_schur());
         }
         let schur = run.values.into_iter().next_back().and_then(|v| v.into_inner().ok());
         Ok(whole(schur.unwrap_or_default(), symbolic.retained()))
     }
 
-    /// Tells a soft mode from a free one: `v = L⁻ᵀ e_j` has `v'Kv = 1`, so its stiffness relative to the diagonal D is
-    /// 1/v'Dv. Rounding errors of the size eps D, independent in each row, make that of a free mode about eps/sqrt(n).
-    /// Unlike the pivot, this does not depend on where the mode is large.
+    /// Distinguishes a soft mode from a free one. `v = L⁻ᵀ e_j` has `v'Kv = 1`, so its stiffness relative to the diagonal D is
+    /// 1/v'Dv. Rounding errors of the size eps D, independent in each row, make that of a free mode about eps/sqrt(n). Unlike
+    /// the pivot, this does not depend on the position at which the mode is large.
     fn examine(&self, ratio: f64, position: usize, diagonal: &[f64]) -> Result<(), DirectError> {
         let n = self.symbolic.equations();
         let equation = self.symbolic.order[position] as usize;
@@ -152,7 +152,7 @@ impl Cholesky {
         mode[equation] = 1.0;
         self.recover(MatMut::from_column_major_slice_mut(&mut mode, n, 1));
         let scale: f64 = diagonal.iter().zip(self.symbolic.order()).map(|(d, e)| d * mode[e] * mode[e]).sum();
-        // Written so that NaN does not pass.
+        // In this form NaN does not pass.
         if scale * ROUNDING < (n as f64).sqrt() {
             return Ok(());
         }
@@ -160,13 +160,13 @@ impl Cholesky {
         Err(DirectError::Singular(Pivot { equation, pivot: ratio * diagonal, diagonal }))
     }
 
-    /// The analysis behind it.
+    /// The underlying analysis.
     #[must_use]
     pub fn symbolic(&self) -> &Arc<Symbolic> {
         &self.symbolic
     }
 
-    /// The Schur complement of the retained equations, column by column and symmetric. Empties its place.
+    /// The Schur complement of the retained equations, column by column and symmetric. It is moved out of the factor.
     #[must_use]
     pub fn take_schur(&mut self) -> Vec<f64> {
         if self.symbolic.retained() == 0 {
@@ -178,7 +178,7 @@ impl Cholesky {
     }
 }
 
-/// A symmetric matrix of order `m` of which the lower triangle is given, column by column.
+/// A symmetric matrix of order `m` from its lower triangle, given column by column.
 fn whole(mut lower: Vec<f64>, m: usize) -> Vec<f64> {
     for col in 0..m {
         for row in 0..col {
@@ -188,16 +188,16 @@ fn whole(mut lower: Vec<f64>, m: usize) -> Vec<f64> {
     lower
 }
 
-/// Columns of a task's fronts while they are eliminated.
+/// Storage of the columns of a task's fronts during elimination.
 enum Panels {
-    /// Each at its own place: they are the factor.
+    /// Each front at its own position: they are the factor.
     Kept(Vec<f64>),
-    /// All at the same place.
+    /// All fronts at the same position.
     Passing(Vec<f64>),
 }
 
 impl Panels {
-    /// Room for the columns of a front, zero.
+    /// Storage for the columns of a front, filled with zeros.
     fn of(&mut self, front: &Front) -> &mut [f64] {
         let size = front.width * front.height;
         match self {
@@ -240,13 +240,13 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// The smallest relative pivot and its position, where it is worth a look.
+    /// The smallest relative pivot and its position, if small enough to be examined.
     fn suspect(&self) -> Option<(f64, usize)> {
         let least = *open(&self.least);
         Some(least).filter(|(ratio, _)| *ratio < SUSPECT)
     }
 
-    /// Eliminates the fronts of a task and returns what the last of them passes on.
+    /// Eliminates the fronts of a task and returns the contribution of the last of them.
     fn task(&self, t: usize) -> Result<Vec<f64>, DirectError> {
         let task = &self.symbolic.tasks[t];
         let mut panels = if self.keep || self.stops_at(task.fronts.end - 1) {
@@ -273,14 +273,15 @@ impl<'a> Run<'a> {
         self.symbolic.retained > 0 && s + 1 == self.symbolic.fronts.len()
     }
 
-    /// A buffer that is needed no more. Where memory matters more than the time to ask for it, it goes back to the system.
+    /// Takes back a buffer that is no longer needed. If memory matters more than the time to allocate it, the buffer is
+    /// returned to the operating system.
     fn give(&self, buffer: Vec<f64>) {
         if self.keep {
             self.pool.give(buffer);
         }
     }
 
-    /// One front near the root, whose children are tasks.
+    /// Eliminates one front near the root, whose children are tasks.
     fn single(&self, t: usize, panels: &mut Panels) -> Result<Vec<f64>, DirectError> {
         let task = &self.symbolic.tasks[t];
         let s = task.fronts.start;
@@ -297,7 +298,7 @@ impl<'a> Run<'a> {
         Ok(own)
     }
 
-    /// A subtree, its contributions on two stacks.
+    /// Eliminates a subtree, with its contributions on two stacks.
     fn subtree(&self, t: usize, panels: &mut Panels) -> Result<Vec<f64>, DirectError> {
         let task = &self.symbolic.tasks[t];
         let mut stacks = [self.pool.take(task.stacks[0])?, self.pool.take(task.stacks[1])?];
@@ -324,7 +325,7 @@ impl<'a> Run<'a> {
         Ok(last)
     }
 
-    /// Computes the values of a front in `panel`, zero so far, and writes what it passes on to `own`.
+    /// Computes the values of a front in `panel`, initially zero, and writes its contribution to `own`.
     fn front(
         &self,
         s: usize,
@@ -361,7 +362,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Keeps the smallest relative pivot; the first one among equals, whichever thread comes first.
+    /// Records the smallest relative pivot; the first of equal ones, whichever thread comes first.
     fn note_least(&self, front: &Front, panel: &[f64], smallest: &[f64]) {
         let ratio = |k: usize| panel[k * front.height + k].powi(2) * self.smallest / smallest[k];
         let own = (0..front.width)
@@ -375,7 +376,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The diagonal entry at a position of the order of elimination.
+    /// The diagonal entry at a position in the order of elimination.
     fn diagonal(&self, position: usize) -> f64 {
         let symbolic = self.symbolic;
         let entries = &symbolic.entries[symbolic.entry_start[position]..symbolic.entry_start[position + 1]];
@@ -384,7 +385,7 @@ impl<'a> Run<'a> {
         entries.iter().find(|e| e.row == row).map_or(0.0, |e| self.matrix[e.source as usize])
     }
 
-    /// The error of a pivot that is none.
+    /// The error for an unusable pivot.
     fn failure(&self, position: usize, pivot: f64) -> DirectError {
         let equation = self.symbolic.order[position] as usize;
         let diagonal = self.diagonal(position);
@@ -397,7 +398,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Empties a list of borrowed slices for the next borrow, keeping its memory.
+/// Clears a list of borrowed slices for the next borrow, keeping its memory.
 fn recycle<'b>(mut list: Vec<&[f64]>) -> Vec<&'b [f64]> {
     list.clear();
     list.into_iter().map(|_: &[f64]| -> &'b [f64] { &[] }).collect()

@@ -1,25 +1,25 @@
-//! Memory of a factorisation that keeps no factor, found by going through its tasks as a number of threads would take them.
+//! Memory of a factorisation that keeps no factor, determined by simulating its tasks on a number of threads.
 //!
-//! The largest fronts lie on one path to the root and never run together, so that a sum over the largest tasks would foresee several
-//! times what is taken. Tasks last as long as their operations are many here. What threads do differs from run to run only in how
-//! fast they are.
+//! The largest fronts lie on one path to the root and never run together, so that a sum over the largest tasks would predict several
+//! times the actual memory. The duration of a task is taken as its number of operations. Runs differ only in the speed of their
+//! threads.
 
 use super::symbolic::Symbolic;
 use super::tasks;
 use crate::ordering::NONE;
 use std::collections::BTreeSet;
 
-/// A task that runs: when it ends, and its index, which decides between those that end together.
+/// A running task: its end time, and its index, which decides between tasks that end together.
 type Running = BTreeSet<(u64, usize)>;
 
 impl Symbolic {
-    /// Memory that [`Cholesky::schur`](super::Cholesky::schur) by so many threads takes \[bytes\].
+    /// Memory used by [`Cholesky::schur`](super::Cholesky::schur) with `threads` threads \[bytes\].
     #[must_use]
     pub fn bytes_of_schur(&self, threads: usize) -> usize {
         self.schur(threads, Passes::Written)
     }
 
-    /// Memory that it asks for, of which it leaves some untouched \[bytes\].
+    /// Memory allocated by it, some of which is never written \[bytes\].
     #[must_use]
     pub fn asked_by_schur(&self, threads: usize) -> usize {
         self.schur(threads, Passes::All)
@@ -31,16 +31,17 @@ impl Symbolic {
     }
 }
 
-/// Part of a front's contribution that counts.
+/// Part of a front's contribution that is counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Passes {
-    /// All of it: what is asked for.
+    /// All of it, as allocated.
     All,
-    /// Its lower triangle: what is written, and taken, since systems give pages when they are first written.
+    /// Its lower triangle, which is written and thus occupies memory: operating systems provide pages when they are first
+    /// written.
     Written,
 }
 
-/// Values in use at the worst moment of the elimination by so many threads.
+/// Largest number of values in use during the elimination with `threads` threads.
 fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: usize, passes: Passes) -> usize {
     let passed = |t: usize| match passes {
         Passes::All => symbolic.passed(t),
@@ -51,7 +52,7 @@ fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: usize, passes
     let mut leaves = (0..tasks.len()).filter(|&t| tasks[t].children.is_empty());
     let mut running = Running::new();
     let (mut alive, mut most) = (0, 0);
-    // A thread goes on with the parent of the last child that ended, else with the next leaf.
+    // A thread continues with the parent of the last child that ended, otherwise with the next leaf.
     let mut begin = |t: usize, now: u64, running: &mut Running, alive: &mut usize| {
         *alive += passed(t) + symbolic.beside(t);
         most = most.max(*alive);
@@ -76,7 +77,7 @@ fn values_of_schur(symbolic: &Symbolic, parent: &[usize], threads: usize, passes
     most
 }
 
-/// Values of the lower triangle of a square of so many.
+/// Number of values in the lower triangle of a square of this order.
 fn triangle(square: usize) -> usize {
     let rows = square.isqrt();
     rows * (rows + 1) / 2

@@ -1,6 +1,6 @@
 //! Solution with a factor: forwards from the leaves to the root, backwards from the root to the leaves.
 //!
-//! Each front works on its rows of the right-hand side; what it subtracts from rows it does not own goes to its parent, in
+//! Each front works on its rows of the right-hand side; its subtractions from rows that it does not own go to its parent, at
 //! the same places as its contribution to the matrix.
 
 use super::dense::{view, view_mut};
@@ -14,11 +14,11 @@ use faer::{Accum, MatMut, MatRef, Par};
 use rayon::prelude::*;
 use std::sync::Mutex;
 
-/// Right-hand sides solved together. Fixed: results do not depend on the number of threads. Wider blocks reuse the factor
-/// more often, until their rows leave the cache; 64 to 128 were measured to be best.
+/// Number of right-hand sides solved together. It is fixed, so that results do not depend on the number of threads. Wider
+/// blocks reuse the factor more often, until their rows leave the cache; 64 to 128 were measured to be best.
 const BLOCK: usize = 64;
 
-/// Right-hand sides up to which each is treated on its own: below this a product of matrices costs more.
+/// Number of right-hand sides up to which each is treated separately: for fewer, a product of matrices costs more.
 const SINGLE: usize = 3;
 
 /// Right-hand sides of a block on their way through the tree.
@@ -28,7 +28,7 @@ struct Run<'a> {
     columns: usize,
     /// Rows of each task, column by column.
     rows: Vec<Mutex<Vec<f64>>>,
-    /// Data that tasks pass up or down: one entry per task.
+    /// Contributions that tasks pass up or down: one entry per task.
     passed: Vec<Slot<Vec<f64>>>,
 }
 
@@ -121,13 +121,13 @@ impl<'a> Run<'a> {
         tasks::downwards(self.symbolic, &|t| self.backward_task(t));
     }
 
-    /// Returns what the task's last front adds to its parent's rows.
+    /// Returns the contribution of the task's last front to its parent's rows.
     fn forward_task(&self, t: usize) -> Vec<f64> {
         let task = &self.symbolic.tasks[t];
         let first = self.symbolic.fronts[task.fronts.start].first;
         let mut rows = open(&self.rows[t]);
         let count = rows.len() / self.columns;
-        // Contributions of finished fronts, children of the next ones on top.
+        // Contributions of finished fronts; the children of the next front are on top.
         let mut stack = Vec::new();
         for &child in &task.children {
             stack.extend(open(&self.passed[child]).take().expect("a task runs after its children"));
@@ -160,7 +160,7 @@ impl<'a> Run<'a> {
         self.symbolic.retained > 0 && s + 1 == self.symbolic.fronts.len()
     }
 
-    /// Adds what the children of a front left on top of the stack; returns its length.
+    /// Adds the contributions of the children of a front, which are on top of the stack; returns the remaining length.
     fn add_children(&self, s: usize, work: &mut [f64], stack: &[f64]) -> usize {
         let height = self.symbolic.fronts[s].height;
         let children = &self.symbolic.children[s];
@@ -199,13 +199,13 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Takes the solution in the rows beyond its root's pivots, and leaves those of its children with them.
+    /// Takes the solution in the rows beyond the pivots of its root, and passes their parts to its children.
     fn backward_task(&self, t: usize) {
         let task = &self.symbolic.tasks[t];
         let first = self.symbolic.fronts[task.fronts.start].first;
         let mut rows = open(&self.rows[t]);
         let count = rows.len() / self.columns;
-        // Solutions in the rows beyond the pivots of fronts still to come, the next one's on top.
+        // Solutions in the rows beyond the pivots of the remaining fronts, the next one's on top.
         let mut stack = open(&self.passed[t]).take().unwrap_or_default();
         let mut work = Vec::new();
         for s in task.fronts.clone().rev() {

@@ -3,8 +3,8 @@
 use super::tree::{Forest, postorder};
 use crate::ordering::{Compressed, NONE};
 
-/// Up to so many pivots, what fraction of explicit zeros a front may hold: few large fronts are quicker than many small
-/// ones. The form is CHOLMOD's (Chen, Davis, Hager, Rajamanickam 2008, table of `nrelax` and `zrelax`).
+/// Allowed fraction of explicit zeros in a front, by its number of pivots: few large fronts are faster than many small ones.
+/// The form is CHOLMOD's (Chen, Davis, Hager, Rajamanickam 2008, table of `nrelax` and `zrelax`).
 const RELAXATION: [(usize, f64); 4] = [(8, 1.0), (24, 0.6), (64, 0.15), (usize::MAX, 0.05)];
 
 /// Fronts in postorder.
@@ -18,11 +18,11 @@ pub(super) struct Supernodes {
     pub parent: Vec<usize>,
 }
 
-/// A front while fronts are merged.
+/// A front during merging.
 struct Merging {
     /// Pivots \[equations\].
     width: usize,
-    /// Rows, pivots included.
+    /// Rows, including pivots.
     height: usize,
     /// Entries that are not explicit zeros.
     entries: f64,
@@ -38,8 +38,8 @@ fn trapezoid(width: usize, height: usize) -> f64 {
 }
 
 impl Supernodes {
-    /// Finds fundamental fronts and merges children into parents where [`RELAXATION`] allows it. The last `retained`
-    /// vertices are one front, into which nothing is merged.
+    /// Finds fundamental fronts and merges children into parents as [`RELAXATION`] allows. The last `retained` vertices form
+    /// one front, into which nothing is merged.
     pub fn new(matrix: &Compressed, forest: &Forest, retained: usize) -> Self {
         let (mut fronts, parent) = fundamental(matrix, forest, retained);
         let protected = if retained > 0 { fronts.len() - 1 } else { NONE };
@@ -49,7 +49,7 @@ impl Supernodes {
                 merge_children(&mut fronts, s, &mut merged);
             }
         }
-        // A merged front's parent is the parent of whoever took it in.
+        // The parent of a merged front is the parent of the front that absorbed it.
         let mut owner: Vec<usize> = (0..fronts.len()).collect();
         for s in (0..fronts.len()).rev() {
             if merged[s] {
@@ -79,7 +79,7 @@ impl Supernodes {
     }
 }
 
-/// Chains of vertices whose columns differ by the vertex alone, and the parent of each.
+/// Chains of vertices whose columns differ only by the vertex itself, and the parent of each chain.
 fn fundamental(matrix: &Compressed, forest: &Forest, retained: usize) -> (Vec<Merging>, Vec<usize>) {
     let n = forest.order.len();
     let inner = n - retained;
@@ -125,7 +125,7 @@ fn fundamental(matrix: &Compressed, forest: &Forest, retained: usize) -> (Vec<Me
     (fronts, parent)
 }
 
-/// Merges children of `s` into it, those that add fewest zeros first.
+/// Merges children of `s` into it, beginning with those that add fewest zeros.
 fn merge_children(fronts: &mut [Merging], s: usize, merged: &mut [bool]) {
     let mut candidates = std::mem::take(&mut fronts[s].children);
     let zeros = |fronts: &[Merging], c: usize| {
@@ -134,7 +134,7 @@ fn merge_children(fronts: &mut [Merging], s: usize, merged: &mut [bool]) {
         let total = trapezoid(width, height);
         (width, total - child.entries - front.entries, total)
     };
-    // Stable sort: equal candidates stay in order of their number.
+    // Stable sort: equal candidates stay ordered by number.
     candidates.sort_by(|&a, &b| zeros(fronts, a).1.total_cmp(&zeros(fronts, b).1));
     let mut kept = Vec::new();
     let mut members = Vec::new();

@@ -1,4 +1,4 @@
-//! Symbolic analysis: everything about a factorisation that the pattern decides.
+//! Symbolic analysis: everything about a factorisation that is determined by the pattern.
 
 use super::DirectError;
 use super::supernodes::Supernodes;
@@ -7,11 +7,11 @@ use crate::ordering::{Compressed, NONE, Ordering, compress, order};
 use faer::sparse::SymbolicSparseColMatRef;
 use std::ops::Range;
 
-/// Subtrees cheaper than this fraction of the whole factorisation are eliminated by one thread. A constant, so that results
-/// do not depend on the number of threads; 64 subtrees of equal cost keep a dozen threads busy.
+/// Subtrees cheaper than this fraction of the whole factorisation are eliminated by one thread. It is a constant, so that
+/// results do not depend on the number of threads; 64 subtrees of equal cost keep a dozen threads busy.
 const TASK_SHARE: f64 = 1.0 / 64.0;
 
-/// Operations below which a subtree is not worth a task of its own: about a millisecond.
+/// Number of operations below which a subtree is not worth a separate task: about a millisecond.
 const SMALLEST_TASK: f64 = 2e7;
 
 /// A front: a dense lower trapezoid of `height` rows whose first `width` are eliminated.
@@ -21,13 +21,13 @@ pub(super) struct Front {
     pub first: usize,
     /// Pivots.
     pub width: usize,
-    /// Rows, pivots included.
+    /// Rows, including pivots.
     pub height: usize,
     /// Start of its column values in the storage of its task (column by column, `height` rows each).
     pub offset: usize,
-    /// Start of its places in [`Symbolic::relative`].
+    /// Start of its entries in [`Symbolic::relative`].
     pub relative: usize,
-    /// Which of the two stacks of a sequential task its contribution lies on, and where.
+    /// Stack, of the two of a sequential task, that holds its contribution, and the position there.
     pub stack: (usize, usize),
 }
 
@@ -59,29 +59,29 @@ pub(super) struct Entry {
 pub(super) struct Task {
     /// Its fronts.
     pub fronts: Range<usize>,
-    /// True if they are a subtree (a single front near the root otherwise).
+    /// True for a subtree, false for a single front near the root.
     pub subtree: bool,
     /// First task below it: the tasks of its subtree are `lowest..=` itself.
     pub lowest: usize,
     /// Tasks whose contributions it takes, ascending.
     pub children: Vec<usize>,
-    /// Values of its factor.
+    /// Number of values of its factor.
     pub values: usize,
-    /// Values of its largest front.
+    /// Number of values of its largest front.
     pub largest: usize,
     /// Sizes of its two stacks.
     pub stacks: [usize; 2],
 }
 
-/// Symbolic Cholesky factorisation of a pattern under a fill-reducing order. Serves any number of matrices with the
-/// pattern it was made from.
+/// Symbolic Cholesky factorisation of a pattern under a fill-reducing order. It serves any number of matrices with the same
+/// pattern.
 #[derive(Clone, Debug)]
 pub struct Symbolic {
     /// Equation at each position of the order of elimination.
     pub(super) order: Vec<u32>,
     pub(super) fronts: Vec<Front>,
     pub(super) children: Vec<Vec<u32>>,
-    /// For each row a front passes on, its row in the parent's front.
+    /// Row in the parent's front, for each row that a front passes on.
     pub(super) relative: Vec<u32>,
     /// Start of each column's entries.
     pub(super) entry_start: Vec<usize>,
@@ -99,13 +99,13 @@ impl Symbolic {
     /// Analyses a lower triangle with sorted rows.
     ///
     /// # Errors
-    /// [`DirectError::Ordering`], when the pattern has more than 2^32 entries or the ordering fails.
+    /// [`DirectError::Ordering`], if the pattern has more than 2^32 entries or the ordering fails.
     pub fn new(pattern: SymbolicSparseColMatRef<'_, usize>, ordering: Ordering) -> Result<Self, DirectError> {
         Self::retaining(pattern, ordering, &[])
     }
 
-    /// Analyses a lower triangle, keeping the equations `retained` (sorted) for the end, in their order: they are not
-    /// eliminated, the factorisation stops at their Schur complement.
+    /// Analyses a lower triangle, with the equations `retained` (sorted) at the end, in their order. They are not eliminated:
+    /// the factorisation stops at their Schur complement.
     ///
     /// # Errors
     /// As [`Symbolic::new`].
@@ -159,7 +159,7 @@ impl Symbolic {
             fronts.push(Front { first, width, height, offset: 0, relative: 0, stack: (0, 0) });
             first += width;
         }
-        // Places in the parent: rows of a front are its pivots, then its other rows, ascending.
+        // Places in the parent: the rows of a front are its pivots, then its other rows, ascending.
         for s in 0..count {
             let mut row = 0;
             let pivots = supernodes.first[s]..supernodes.first[s + 1];
@@ -194,7 +194,7 @@ impl Symbolic {
         }
     }
 
-    /// Finds where each value of the matrix goes.
+    /// Finds the destination of each value of the matrix.
     fn place_entries(&mut self, pattern: SymbolicSparseColMatRef<'_, usize>) {
         let n = self.order.len();
         let mut position = vec![0_u32; n];
@@ -230,7 +230,7 @@ impl Symbolic {
         self.localise_entries();
     }
 
-    /// Turns positions in the order of elimination into rows of the front. A row beyond a front's pivots is found through
+    /// Converts positions in the order of elimination into rows of the front. A row beyond a front's pivots is found through
     /// the parent that eliminates it, so the rows of a front are listed from its ancestors' places.
     fn localise_entries(&mut self) {
         let n = self.order.len();
@@ -251,7 +251,7 @@ impl Symbolic {
         }
     }
 
-    /// For each front, the positions of the rows it passes on.
+    /// Positions of the rows that each front passes on.
     fn equation_rows(&self) -> Vec<Vec<u32>> {
         let mut rows: Vec<Vec<u32>> = vec![Vec::new(); self.fronts.len()];
         for s in (0..self.fronts.len()).rev() {
@@ -268,20 +268,20 @@ impl Symbolic {
         rows
     }
 
-    /// Rows in the parent's front of what a front passes on.
+    /// Rows in the parent's front of a front's contribution.
     pub(super) fn places(&self, front: usize) -> &[u32] {
         let f = &self.fronts[front];
         &self.relative[f.relative..f.relative + f.rest()]
     }
 
-    /// Positions in the order of elimination of a task's pivots.
+    /// Positions of a task's pivots in the order of elimination.
     pub(super) fn task_rows(&self, t: usize) -> Range<usize> {
         let fronts = &self.tasks[t].fronts;
         let last = &self.fronts[fronts.end - 1];
         self.fronts[fronts.start].first..last.first + last.width
     }
 
-    /// Cuts the tree into tasks, places values and contributions, and adds up the memory.
+    /// Divides the tree into tasks, places values and contributions, and sums up the memory.
     fn cut_tasks(&mut self, parent: &[usize]) {
         let count = self.fronts.len();
         let mut below: Vec<f64> = self.fronts.iter().map(Front::operations).collect();
@@ -293,7 +293,7 @@ impl Symbolic {
             }
         }
         let most = (self.operations * TASK_SHARE).max(SMALLEST_TASK);
-        // The Schur complement is not a task with others: it is where elimination stops.
+        // The Schur complement is not merged into a task with others, since elimination stops there.
         let stops = |s: usize| self.retained > 0 && s + 1 == count;
         let small: Vec<bool> = (0..count).map(|s| below[s] <= most && !stops(s)).collect();
         let mut task_of = vec![NONE; count];
@@ -322,8 +322,8 @@ impl Symbolic {
         self.bytes = self.peak();
     }
 
-    /// Offsets of the values of a task's fronts and of their contributions on two stacks: a front's contribution lies on
-    /// the other stack than its children's, so that the children's can be dropped when it is complete.
+    /// Offsets of the values of a task's fronts and of their contributions on two stacks. A front's contribution lies on the
+    /// other stack than its children's, so that the children's can be dropped when it is complete.
     fn place_values(&mut self, fronts: Range<usize>) -> (usize, [usize; 2]) {
         let root = fronts.end - 1;
         let mut side = vec![0_usize; fronts.len()];
@@ -352,12 +352,12 @@ impl Symbolic {
         (values, most)
     }
 
-    /// Values that a task passes on.
+    /// Number of values that a task passes on.
     pub(super) fn passed(&self, t: usize) -> usize {
         self.fronts[self.tasks[t].fronts.end - 1].rest().pow(2)
     }
 
-    /// Values in use beside the factor at the worst moment if all tasks that can run together do.
+    /// Largest number of values in use besides the factor, if all tasks that can run together do.
     fn temporary(&self) -> usize {
         let mut peak = vec![0_usize; self.tasks.len()];
         for (t, task) in self.tasks.iter().enumerate() {
@@ -368,18 +368,18 @@ impl Symbolic {
         self.roots.iter().map(|&t| peak[t]).sum()
     }
 
-    /// Bytes of the analysis that a factorisation reads.
+    /// Memory of the analysis data that a factorisation reads \[bytes\].
     pub(super) fn own(&self) -> usize {
         size_of_val(self.relative.as_slice()) + size_of_val(self.entries.as_slice())
     }
 
-    /// Bytes in use at the worst moment if all tasks that can run together do.
+    /// Peak memory if all tasks that can run together do \[bytes\].
     fn peak(&self) -> usize {
         let values: usize = self.tasks.iter().map(|t| t.values).sum();
         (values + self.temporary()) * size_of::<f64>() + self.own()
     }
 
-    /// Values that a task holds while it runs, beside what it passes on.
+    /// Number of values that a task holds while it runs, besides its contribution.
     pub(super) fn beside(&self, t: usize) -> usize {
         let task = &self.tasks[t];
         task.stacks[0] + task.stacks[1] + task.largest
@@ -402,7 +402,7 @@ impl Symbolic {
         self.retained
     }
 
-    /// Entries of the factor, explicit zeros of merged fronts included.
+    /// Number of entries of the factor, including explicit zeros of merged fronts.
     #[must_use]
     pub fn stored(&self) -> usize {
         self.stored
@@ -414,7 +414,7 @@ impl Symbolic {
         self.operations
     }
 
-    /// Fronts of the factorisation.
+    /// Number of fronts of the factorisation.
     #[must_use]
     pub fn fronts(&self) -> usize {
         self.fronts.len()
@@ -443,8 +443,8 @@ impl Symbolic {
     }
 }
 
-/// For each front, the positions of the vertices it passes on, ascending: neighbours of its vertices and what its children
-/// pass on, beyond its own.
+/// Positions of the vertices that each front passes on, ascending: neighbours of its vertices and the contributions of its
+/// children, beyond its own vertices.
 fn vertex_rows(matrix: &Compressed, supernodes: &Supernodes, children: &[Vec<u32>]) -> Vec<Vec<u32>> {
     let mut position = vec![0_u32; supernodes.order.len()];
     for (k, &v) in supernodes.order.iter().enumerate() {

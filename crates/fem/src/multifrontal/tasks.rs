@@ -1,7 +1,7 @@
-//! Runs the tasks of a factorisation or a solve on the tree: upwards, a task after its children; downwards, before them.
+//! Runs the tasks of a factorisation or a solve on the tree: upwards, each task after its children; downwards, before them.
 //!
-//! A task depends on its inputs only, and takes them in the order of its children, whoever computed them:
-//! results do not depend on the number of threads.
+//! A task depends only on its inputs, and uses them in the order of its children, whichever thread computed them: results do
+//! not depend on the number of threads.
 
 use super::symbolic::Symbolic;
 use crate::ordering::NONE;
@@ -12,7 +12,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// A slot of one task.
 pub(super) type Slot<T> = Mutex<Option<T>>;
 
-/// Opens a slot. A panic elsewhere ends the program's use of these values anyway.
+/// Opens a slot. After a panic elsewhere, these values are no longer used anyway.
 pub(super) fn open<T>(slot: &Mutex<T>) -> MutexGuard<'_, T> {
     slot.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -42,7 +42,7 @@ pub(super) fn upwards(symbolic: &Symbolic, work: &(dyn Fn(usize) + Sync)) {
         let mut t = start;
         loop {
             work(t);
-            // The last child to finish goes on with the parent.
+            // The last child to finish continues with the parent.
             let up = parent[t];
             if up == NONE || waiting[up].fetch_sub(1, Ordering::AcqRel) > 1 {
                 return;

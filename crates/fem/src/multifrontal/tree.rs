@@ -11,13 +11,13 @@ pub(super) struct Forest {
     pub position: Vec<usize>,
     /// Parent position of each position, or `NONE`.
     pub parent: Vec<usize>,
-    /// Equations in each column of the factor, diagonal block included.
+    /// Equations in each column of the factor, including the diagonal block.
     pub count: Vec<usize>,
 }
 
 impl Forest {
-    /// The forest of `graph` eliminated in `order`; its last `retained` vertices are kept together at the end: they form
-    /// a chain, as if they were all coupled, because what remains of the matrix there is dense.
+    /// The forest of `matrix` eliminated in `order`. Its last `retained` vertices are kept together at the end. They form a
+    /// chain, as if they were all coupled, because the remaining matrix there is dense.
     pub fn new(matrix: &Compressed, order: &[usize], retained: usize) -> Self {
         let graph = &matrix.graph;
         let n = order.len();
@@ -31,7 +31,7 @@ impl Forest {
         for (k, &v) in order.iter().enumerate() {
             for &u in graph.neighbours(v) {
                 let mut i = place[u as usize];
-                // Climbs from i to the root of its tree so far, shortening the path.
+                // Climbs from i to the root of its present tree, shortening the path.
                 while i < k {
                     let next = ancestor[i];
                     ancestor[i] = k;
@@ -73,8 +73,8 @@ impl Forest {
         forest
     }
 
-    /// Equations of each column of the factor (Gilbert, Ng, Peyton 1994): the row subtree of i is the union of paths from
-    /// its leaves to i; a leaf adds the row, the least common ancestor of consecutive leaves takes one copy off again.
+    /// Equations of each column of the factor (Gilbert, Ng, Peyton 1994). The row subtree of i is the union of paths from its
+    /// leaves to i; a leaf adds the row, and the least common ancestor of consecutive leaves removes one copy.
     fn column_counts(&self, matrix: &Compressed) -> Vec<usize> {
         let n = self.order.len();
         let weight = |j: usize| matrix.weight(self.order[j]) as isize;

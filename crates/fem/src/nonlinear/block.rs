@@ -36,9 +36,9 @@ pub struct Block<const D: usize> {
     pub(super) body: Body<D>,
     /// Displacements in local numbering \[m\].
     pub(super) u: Two,
-    /// Kept numbers of all points.
+    /// History of all points.
     pub(super) state: Two,
-    /// Forces of each cell, before they are summed.
+    /// Forces of each cell, before summation.
     pub(super) forces: Vec<f64>,
     /// Zeros: the start of every step of a material without memory.
     pub(super) none: Vec<f64>,
@@ -49,7 +49,7 @@ impl<const D: usize> Block<D> {
     /// Block `block` of `mesh`, without stress; degree of freedom = node * components + component.
     ///
     /// # Errors
-    /// [`ModelError`] for a cell inside out and for combinations that do not exist.
+    /// [`ModelError`] for an inverted cell and for combinations that do not exist.
     pub fn new(mesh: &Mesh<D>, block: usize, model: Model) -> Result<Self, ModelError> {
         let body = Body::new(mesh, block, model)?;
         let (cells, width) = (body.cells.len(), body.frame.width());
@@ -65,7 +65,7 @@ impl<const D: usize> Block<D> {
         })
     }
 
-    /// The same block, called so in what it refuses.
+    /// The same block, with the name used in its refusals.
     #[must_use]
     pub fn named(mut self, name: String) -> Self {
         self.name = name;
@@ -76,7 +76,7 @@ impl<const D: usize> Block<D> {
     ///
     /// # Errors
     /// [`ModelError::Combination`] for a block that keeps no stress (small strain, elastic), for stress through the thickness
-    /// in plane stress, and for viscoelastic materials of several elements, whose shares of it are unknown.
+    /// in plane stress, and for viscoelastic materials of several elements, among which the division of the stress is unknown.
     pub fn prestress(&mut self, stress: impl Fn(usize, usize) -> Voigt) -> Result<(), ModelError> {
         let refuse = |reason| Err(ModelError::Combination { combination: "initial stress", reason });
         let (layout, points) = (self.body.frame.layout, self.body.frame.points());
@@ -97,7 +97,7 @@ impl<const D: usize> Block<D> {
         Ok(())
     }
 
-    /// As [`Block::prestress`], of the stress at each position.
+    /// As [`Block::prestress`], for the stress at each position.
     ///
     /// # Errors
     /// As [`Block::prestress`].
@@ -119,7 +119,7 @@ impl<const D: usize> Block<D> {
         self.prestress(|cell, point| stress(&places[cell * points + point]))
     }
 
-    /// Bytes of the block with its history.
+    /// Memory of the block with its history \[bytes\].
     #[must_use]
     pub fn bytes(&self) -> usize {
         let body = &self.body;
@@ -142,13 +142,13 @@ impl<const D: usize> Block<D> {
         &self.body.model
     }
 
-    /// Numbers kept at each quadrature point, stress included; 0 where the displacements say everything.
+    /// Numbers kept at each quadrature point, including stress; 0 if the state follows from the displacements alone.
     #[must_use]
     pub fn kept_per_point(&self) -> usize {
         self.body.frame.layout.stride
     }
 
-    /// Takes this block's displacements out of those of the system.
+    /// Copies this block's displacements from those of the system.
     pub(super) fn take(&mut self, u: &[f64]) {
         let c = self.body.frame.components;
         for (own, &node) in self.u.trial.chunks_exact_mut(c).zip(&self.body.nodes) {
@@ -161,7 +161,7 @@ impl<const D: usize> Block<D> {
         if self.none.is_empty() { &self.u.committed } else { &self.none }
     }
 
-    /// Trial stress, history and forces from the trial displacements.
+    /// Computes trial stress, history and forces from the trial displacements.
     pub(super) fn evaluate(&mut self) -> Result<(), Refusal> {
         let mut forces = std::mem::take(&mut self.forces);
         let mut state = std::mem::take(&mut self.state.trial);
@@ -196,7 +196,7 @@ impl<const D: usize> Block<D> {
         .collect()
     }
 
-    /// Motion of a cell over the step, refused where it is no longer one.
+    /// Computes the motion of a cell over the step; refused if the cell is inverted.
     pub(super) fn step(&self, cell: usize, scratch: &mut Scratch<D>) -> Result<(), String> {
         let body = &self.body;
         body.gather(cell, self.start(), &self.u.trial, scratch);
@@ -292,7 +292,7 @@ impl<const D: usize> Block<D> {
 }
 
 impl<const D: usize> Saved for Block<D> {
-    /// Displacements, then the numbers kept at the quadrature points.
+    /// Displacements, followed by the numbers kept at the quadrature points.
     type State = Vec<f64>;
 
     fn save(&self) -> Vec<f64> {

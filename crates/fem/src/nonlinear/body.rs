@@ -9,7 +9,7 @@ use crate::mesh::{Cells, Mesh};
 use crate::term::Pattern;
 use rayon::prelude::*;
 
-/// Cells treated by one task: fixed, so that results do not depend on the number of threads.
+/// Cells per task: fixed, so that results do not depend on the number of threads.
 const CHUNK: usize = 64;
 
 /// See the module.
@@ -23,7 +23,7 @@ pub struct Body<const D: usize> {
     pub nodes: Vec<usize>,
     /// Reference positions of the local nodes \[m\].
     pub reference: Vec<[f64; D]>,
-    /// Reference volume of each point \[m^D; m³ over the full turn where axisymmetric\].
+    /// Reference volume of each point \[m^D; m³ over the full circle if axisymmetric\].
     pub volumes: Vec<f64>,
     /// Data common to all cells.
     pub frame: Frame,
@@ -33,15 +33,15 @@ pub struct Body<const D: usize> {
     pub pattern: Pattern,
 }
 
-/// Parts of a cell's arrays one task works on.
+/// Parts of the cells' arrays processed by one task.
 pub struct Task<'a, const D: usize> {
     /// First cell.
     pub first: usize,
-    /// Numbers per cell of `out`.
+    /// Numbers per cell in `out`.
     size: usize,
-    /// Output, `size` numbers a cell.
+    /// First output, with `size` numbers per cell.
     pub out: &'a mut [f64],
-    /// The second thing that is written, cell by cell.
+    /// Second output, cell by cell.
     pub state: &'a mut [f64],
     state_size: usize,
 }
@@ -123,7 +123,7 @@ impl<const D: usize> Body<D> {
         Ok(volumes)
     }
 
-    /// Puts the positions of a cell into the working memory, displaced by `base` and by `end` (local numbering).
+    /// Copies the positions of a cell into the working memory, displaced by `base` and by `end` (local numbering).
     pub fn gather(&self, cell: usize, base: &[f64], end: &[f64], scratch: &mut Scratch<D>) {
         let components = self.frame.components;
         for (a, &node) in self.cells.cell(cell).iter().enumerate() {
@@ -135,7 +135,7 @@ impl<const D: usize> Body<D> {
         }
     }
 
-    /// Mean place of the nodes of a cell in the reference configuration \[m\].
+    /// Mean position of the nodes of a cell in the reference configuration \[m\].
     pub fn middle(&self, cell: usize) -> [f64; D] {
         let nodes = self.cells.cell(cell);
         std::array::from_fn(|c| nodes.iter().map(|&n| self.reference[n][c]).sum::<f64>() / nodes.len() as f64)
@@ -158,7 +158,7 @@ impl<const D: usize> Body<D> {
         self.frame.points() * self.frame.layout.stride
     }
 
-    /// Runs `work` on chunks of cells in parallel, each with its part of `out` (`size` > 0 numbers a cell) and of `state`,
+    /// Runs `work` on chunks of cells in parallel, each with its part of `out` (`size` > 0 numbers per cell) and of `state`,
     /// and returns the results in the order of the chunks.
     pub fn chunks<R: Send>(
         &self,

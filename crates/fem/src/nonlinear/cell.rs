@@ -1,12 +1,12 @@
 //! One cell: motion of its quadrature points, stresses, forces and tangent.
 //!
 //! Forces are `f_ai = Σ_p V_p τ_ij ∂N_a/∂x_j` over the reference volumes V_p, with the Kirchhoff stress and the current
-//! gradients (τ dV = J σ dV = σ dv); at small strain τ is the stress and the gradients are those of the reference.
+//! gradients (τ dV = J σ dV = σ dv). At small strain τ is the stress and the gradients are those of the reference.
 //!
-//! Averaged dilatation: with ψ_m polynomials orthonormal over the cell (`Σ_p V_p ψ_m ψ_n = δ_mn`) the trace of the increment
-//! becomes `Σ_m ψ_m Σ_q V_q ψ_m(q) tr G_q`, and the work-conjugate forces are those of `τ + (Πp - p) 1`, p = tr τ/3 and Π the
-//! same projection, which is symmetric under the weights V_p. This is B-bar at small strain, and its counterpart with the
-//! current gradients else.
+//! Averaged dilatation: with ψ_m polynomials orthonormal over the cell (`Σ_p V_p ψ_m ψ_n = δ_mn`), the trace of the increment
+//! becomes `Σ_m ψ_m Σ_q V_q ψ_m(q) tr G_q`. The work-conjugate forces are those of `τ + (Πp - p) 1`, with p = tr τ/3 and Π the
+//! same projection, which is symmetric under the weights V_p. This is B-bar at small strain, and otherwise its counterpart with
+//! the current gradients.
 
 use super::history::Layout;
 use super::motion::{Increment, Point};
@@ -14,7 +14,7 @@ use super::tensor::{PLACE, Tensor, determinant, inverse, rotated};
 use crate::material::constitutive::{Constitutive, Moduli, Voigt, pressure};
 use crate::material::plane_stress;
 
-/// Most polynomials of the projected dilatation: 1, x, y, z.
+/// Largest number of polynomials of the projected dilatation: 1, x, y, z.
 pub const MOST_MODES: usize = 4;
 
 /// Data common to all cells of a block.
@@ -28,19 +28,19 @@ pub struct Frame {
     pub n: Vec<f64>,
     /// Weight of each quadrature point.
     pub weight: Vec<f64>,
-    /// Polynomials of the projection; none: standard.
+    /// Number of polynomials of the projection; 0 for the standard formulation.
     pub modes: usize,
     /// Degrees of freedom of a node.
     pub components: usize,
-    /// Tensor row of a node's first degree of freedom: 2 in antiplane shear, else 0.
+    /// Tensor row of a node's first degree of freedom: 2 in antiplane shear, otherwise 0.
     pub row: usize,
-    /// Weights 2πr, and a hoop strain.
+    /// True for weights 2πr and a hoop strain.
     pub axisymmetric: bool,
-    /// σ_zz = 0.
+    /// True for σ_zz = 0.
     pub plane_stress: bool,
-    /// Updated Lagrangian.
+    /// True for the updated Lagrangian.
     pub finite: bool,
-    /// Numbers kept at a point.
+    /// Layout of the numbers kept at a point.
     pub layout: Layout,
 }
 
@@ -57,7 +57,7 @@ impl Frame {
         self.nodes * self.components
     }
 
-    /// Logarithmic strain through the thickness of a point of a cell with the kept numbers `state`, where it is kept.
+    /// Logarithmic strain through the thickness of a point of a cell with the kept numbers `state`, if it is kept.
     #[must_use]
     pub fn thickness_of(&self, state: &[f64], point: usize) -> Option<f64> {
         let Layout { thickness, stride, .. } = self.layout;
@@ -98,18 +98,18 @@ pub struct Scratch<const D: usize> {
     /// ∂N/∂x at the end, point by point and node by node, and N/r.
     gradients: Vec<[f64; D]>,
     hoop: Vec<f64>,
-    /// G before its dilatation is averaged.
+    /// G before averaging of its dilatation.
     growth: Vec<Tensor>,
     /// ψ_m at each point.
     psi: Vec<[f64; MOST_MODES]>,
-    /// Columns of the tangent one after another, and for each column what the projection couples.
+    /// Columns of the tangent one after another, and the coupling of each column by the projection.
     columns: Vec<f64>,
     coupling: Vec<Coupling>,
-    /// Kept numbers of a cell that nobody keeps.
+    /// State of a cell that is not kept.
     unkept: Vec<f64>,
 }
 
-/// Integrals against ψ_m of one column: of its averaged trace, of its dilatation in the forces, of its pressure.
+/// Integrals of one column against ψ_m: of its averaged trace, of its dilatation in the forces, of its pressure.
 #[derive(Clone, Copy, Debug, Default)]
 struct Coupling {
     trace: [f64; MOST_MODES],
@@ -140,10 +140,10 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
-    /// Gradients and increments of all points from `base` to `end`; `volumes` are the reference volumes.
+    /// Computes gradients and increments of all points from `base` to `end`; `volumes` are the reference volumes.
     ///
     /// # Errors
-    /// [`Inverted`] when a point has no volume at the middle or at the end of the step.
+    /// [`Inverted`] if a point has no volume at the middle or at the end of the step.
     pub fn motion(&mut self, frame: &Frame, volumes: &[f64]) -> Result<(), Inverted> {
         for point in 0..frame.points() {
             if frame.finite {
@@ -182,7 +182,7 @@ impl<const D: usize> Scratch<D> {
             .sum()
     }
 
-    /// Gradients from the inverse of a Jacobian, and N/r.
+    /// Sets the gradients from the inverse of a Jacobian, and N/r.
     fn set_gradients(&mut self, frame: &Frame, point: usize, inverse: &[[f64; D]; D], radius: f64) {
         let range = point * frame.nodes..(point + 1) * frame.nodes;
         for (g, dn) in self.gradients[range.clone()].iter_mut().zip(&frame.dn[range.clone()]) {
@@ -221,7 +221,7 @@ impl<const D: usize> Scratch<D> {
 
     fn finite_motion(&mut self, frame: &Frame, point: usize) -> Result<(), Inverted> {
         let at = |a: usize| -> [f64; D] { std::array::from_fn(|i| self.reference[a][i] + self.end[a][i]) };
-        // From the increments themselves: a difference of positions would lose the digits of small steps.
+        // Computed from the increments: a difference of positions would lose the digits of small steps.
         let step = |a: usize| -> [f64; D] { std::array::from_fn(|i| self.end[a][i] - self.base[a][i]) };
         let new = self.jacobian(frame, point, at);
         let change = self.jacobian(frame, point, step);
@@ -248,7 +248,7 @@ impl<const D: usize> Scratch<D> {
         Ok(())
     }
 
-    /// Orthonormal polynomials by Gram and Schmidt on 1, x, y, z of the reference: natural coordinates would lose an order on
+    /// Orthonormal polynomials by Gram-Schmidt on 1, x, y, z of the reference: natural coordinates would lose an order on
     /// general quadrilaterals (Boffi, Gastaldi 2002).
     fn orthonormal(&mut self, frame: &Frame, volumes: &[f64]) {
         for m in 0..frame.modes {
@@ -268,7 +268,7 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
-    /// Integrals of a number per point against ψ.
+    /// Integrals against ψ of a value given at each point.
     fn project(&self, frame: &Frame, volumes: &[f64], value: impl Fn(usize) -> f64) -> [f64; MOST_MODES] {
         let mut out = [0.0; MOST_MODES];
         for (point, (psi, v)) in self.psi.iter().zip(volumes).enumerate() {
@@ -280,7 +280,7 @@ impl<const D: usize> Scratch<D> {
         out
     }
 
-    /// Increments from the gradients, with averaged dilatation where asked for.
+    /// Computes the increments from the gradients, with averaged dilatation if requested.
     fn average(&mut self, frame: &Frame, volumes: &[f64]) {
         let trace = |g: &Tensor| g[0][0] + g[1][1] + g[2][2];
         let means = self.project(frame, volumes, |p| trace(&self.growth[p]));
@@ -295,7 +295,7 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
-    /// Stress and history of all points after the step; `tangent` asks for the sensitivities as well.
+    /// Computes stress and history of all points after the step; `tangent` requests the sensitivities as well.
     pub fn stresses<M: Constitutive>(
         &mut self,
         frame: &Frame,
@@ -336,14 +336,14 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
-    /// Stresses and sensitivities after the step, nothing else kept.
+    /// Computes stresses and sensitivities after the step; nothing else is kept.
     pub fn linearised<M: Constitutive>(&mut self, frame: &Frame, material: &M, dt: f64, old: &[f64]) {
         let mut unkept = std::mem::take(&mut self.unkept);
         self.stresses(frame, material, dt, old, &mut unkept, true);
         self.unkept = unkept;
     }
 
-    /// The forces by which stresses at rest change over `dt`, replacing `f`; the motion must be none.
+    /// Computes the forces by which stresses at rest change over `dt`, replacing `f`; there must be no motion.
     pub fn relaxation<M: Constitutive>(
         &mut self,
         frame: &Frame,
@@ -368,7 +368,7 @@ impl<const D: usize> Scratch<D> {
         self.forces(frame, volumes, f);
     }
 
-    /// Stress of the present state and the sensitivities of a forward step from it. The motion must be none.
+    /// Computes the stress of the present state and the sensitivities of a forward step from it. There must be no motion.
     pub fn forward<M: Constitutive>(&mut self, frame: &Frame, material: &M, dt: f64, old: &[f64]) {
         let stride = frame.layout.stride;
         for point in 0..frame.points() {
@@ -404,7 +404,7 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
-    /// Internal forces of the stresses in place, replacing `f`. The pressures become their projections.
+    /// Computes the internal forces of the current stresses, replacing `f`. The pressures become their projections.
     pub fn forces(&mut self, frame: &Frame, volumes: &[f64], f: &mut [f64]) {
         self.smooth_pressure(frame, volumes);
         f.fill(0.0);
@@ -424,8 +424,8 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
-    /// Tangent of the forces by the displacements at the end of the step, row by row, replacing `k`. Stresses and
-    /// sensitivities must be those of one state.
+    /// Computes the tangent of the forces with respect to the displacements at the end of the step, row by row, replacing `k`.
+    /// Stresses and sensitivities must belong to the same state.
     pub fn tangent(&mut self, frame: &Frame, volumes: &[f64], k: &mut [f64]) {
         self.smooth_pressure(frame, volumes);
         self.columns.fill(0.0);
@@ -446,7 +446,7 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
-    /// Projections of the dilatation of each column, in the increments and in the forces.
+    /// Computes the projections of the dilatation of each column, in the increments and in the forces.
     fn couple(&mut self, frame: &Frame, volumes: &[f64]) {
         self.coupling.fill(Coupling::default());
         for (point, v) in volumes.iter().enumerate() {
@@ -492,7 +492,7 @@ impl<const D: usize> Scratch<D> {
                 }
                 let d = d.map(|d| v * d);
                 let out = &mut self.columns[column * width..(column + 1) * width];
-                // The gradients of the forces move with the cell: -∂N_a/∂x_k τ∇N_b joins as a column of dτ.
+                // The gradients of the forces move with the cell: -∂N_a/∂x_k τ∇N_b is added as a column of dτ.
                 let moving = if frame.finite { turned } else { [0.0; 3] };
                 match components {
                     1 => add_column::<D, 1>(out, frame.row, k, gradients, &d, &moving),
@@ -509,7 +509,7 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
-    /// A stress of the start of the step in the frame its strain increment belongs to.
+    /// A stress at the start of the step, in the frame of its strain increment.
     #[must_use]
     pub fn turned(&self, point: usize, stress: &Voigt) -> Voigt {
         rotated(&self.increments[point].half, stress)
@@ -521,12 +521,12 @@ fn value(c: &[f64; MOST_MODES], psi: &[f64; MOST_MODES]) -> f64 {
     c[0] * psi[0] + c[1] * psi[1] + c[2] * psi[2] + c[3] * psi[3]
 }
 
-/// Trace of the increment a unit displacement in direction `k` makes.
+/// Trace of the increment due to a unit displacement in direction `k`.
 fn trace_of<const D: usize>(d: &Tensor, k: usize, g: &[f64; D], hoop: f64) -> f64 {
     (0..D).map(|r| d[k][r] * g[r]).sum::<f64>() + d[2][2] * hoop
 }
 
-/// Adds `(d - moving ⊗ e_k) ∇N_a` to the entries of every node, `C` of them from tensor row `row` on.
+/// Adds `(d - moving ⊗ e_k) ∇N_a` to the entries of every node, for `C` of them from tensor row `row` on.
 fn add_column<const D: usize, const C: usize>(
     out: &mut [f64],
     row: usize,

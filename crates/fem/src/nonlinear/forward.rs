@@ -20,7 +20,7 @@ struct Found {
     point: usize,
 }
 
-/// The smaller of two; the first where they are equal, so that the order of cells decides.
+/// The smaller of two limits; the first if equal, so that the order of cells decides.
 fn smaller(a: Option<Found>, b: Option<Found>) -> Option<Found> {
     match (a, b) {
         (Some(a), Some(b)) => Some(if b.value < a.value { b } else { a }),
@@ -29,8 +29,8 @@ fn smaller(a: Option<Found>, b: Option<Found>) -> Option<Found> {
 }
 
 impl<const D: usize> Block<D> {
-    /// Forward tangent of one cell from the committed state into `k`, and the forces by which its stresses change over
-    /// `dt` at rest into `f`.
+    /// Computes the forward tangent of one cell from the committed state into `k`, and the forces by which its stresses change
+    /// over `dt` at rest into `f`.
     fn forward_cell<M: Constitutive>(
         &self,
         material: &M,
@@ -55,7 +55,7 @@ impl<const D: usize> Block<D> {
         Ok(())
     }
 
-    /// Rate tangents, and the force of each cell that does not depend on Δu.
+    /// Computes the rate tangents, and the force of each cell that does not depend on Δu.
     fn rate_with<M: Constitutive>(
         &self,
         material: &M,
@@ -131,15 +131,16 @@ impl<const D: usize> Block<D> {
         let (stress, history) = layout.split(&mut state);
         let mut strain = scratch.increments[point].strain;
         if self.body.frame.plane_stress {
-            // Through the thickness the elastic strain that keeps σ_zz = 0.
+            // Through the thickness, the elastic strain that keeps σ_zz = 0.
             let c = material.forward(self.dt, stress, history);
             strain[2] = -(c[2][0] * strain[0] + c[2][1] * strain[1] + c[2][3] * strain[3]) / c[2][2];
         }
         material.yields(&strain, &scratch.turned(point, stress), history)
     }
 
-    /// Under finite deformation the strain of a fraction of the step is not that fraction of its strain: repeats the closed
-    /// form at the fraction found, which contracts by the size of the strain increment each time.
+    /// Refines the fraction under finite deformation, where the strain of a fraction of the step is not that fraction of its
+    /// strain. It repeats the closed form at the fraction found; each repetition contracts the error by the size of the strain
+    /// increment.
     fn refined<M: Constitutive>(&self, material: &M, found: Found) -> Found {
         let body = &self.body;
         let mut scratch = Scratch::new(&body.frame);
@@ -161,7 +162,7 @@ impl<const D: usize> Block<D> {
         if value < 1.0 { Found { value, ..found } } else { found }
     }
 
-    /// Trial displacements: the committed ones and an increment of the system.
+    /// Sets the trial displacements: the committed ones plus an increment of the system.
     fn take_increment(&mut self, du: &[f64]) {
         self.take(du);
         self.u.trial.iter_mut().zip(&self.u.committed).for_each(|(t, c)| *t += c);
@@ -172,9 +173,10 @@ impl<const D: usize> Block<D> {
     }
 }
 
-/// Fraction of an increment that turns a cell inside out which is tried next.
+/// Fraction tried next of an increment that inverts a cell.
 const HALF: f64 = 0.5;
-/// Repetitions of the closed form of r1: strain increments of forward steps are below 0.01, so that each gives two digits.
+/// Repetitions of the closed form of r1: strain increments of forward steps are below 0.01, so that each repetition gives two
+/// digits.
 const MOST_REFINEMENTS: usize = 8;
 
 impl<const D: usize> Limited for Block<D> {

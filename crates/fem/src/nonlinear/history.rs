@@ -1,4 +1,4 @@
-//! State of a quadrature point: stress, then the material's tensors and numbers, then in plane stress the logarithmic
+//! State kept at a quadrature point: stress, then the material's tensors and numbers, then in plane stress the logarithmic
 //! strain through the thickness.
 
 use super::tensor::{Tensor, rotated};
@@ -8,7 +8,7 @@ use crate::material::plane_stress::MOST_HISTORY;
 /// Longest state of a point: stress, history, one number of a material without tensors, thickness.
 const MOST_STATE: usize = 6 + MOST_HISTORY + 2;
 
-/// State of one point on the stack; zeros where nothing is kept.
+/// State of one point on the stack; zeros if nothing is kept.
 pub type State = [f64; MOST_STATE];
 
 /// Lengths of the parts.
@@ -20,19 +20,19 @@ pub struct Layout {
     pub scalars: usize,
     /// True if the strain through the thickness is kept.
     pub thickness: bool,
-    /// Numbers kept; 0 when the stress follows from the displacements alone.
+    /// Numbers kept; 0 if the stress follows from the displacements alone.
     pub stride: usize,
 }
 
 impl Layout {
-    /// Parts of a state that is kept.
+    /// Layout of a state that is kept.
     #[must_use]
     pub fn new(tensors: usize, scalars: usize, thickness: bool) -> Self {
         let stride = 6 + 6 * tensors + scalars + usize::from(thickness);
         Self { tensors, scalars, thickness, stride }
     }
 
-    /// The same parts, nothing kept.
+    /// The same layout with nothing kept.
     #[must_use]
     pub fn forgetful(self) -> Self {
         Self { stride: 0, ..self }
@@ -52,7 +52,7 @@ impl Layout {
         (stress, &mut rest[..6 * self.tensors + self.scalars])
     }
 
-    /// Turns stress and tensors.
+    /// Rotates stress and tensors.
     pub fn rotate(&self, state: &mut State, q: &Tensor) {
         for tensor in state.as_chunks_mut::<6>().0.iter_mut().take(1 + self.tensors) {
             *tensor = rotated(q, tensor);

@@ -1,4 +1,4 @@
-//! Parts of a block, as values, and the combinations that exist.
+//! Material and options of a block, as values, and the combinations that exist.
 
 use crate::element::ElementKind;
 use crate::error::FemError;
@@ -32,7 +32,7 @@ macro_rules! with_material {
 pub(super) use with_material;
 
 impl Material {
-    /// Tensors and numbers in the history of a point, stress aside.
+    /// Number of tensors and of numbers in the history of a point, without stress.
     #[must_use]
     pub fn history(&self) -> (usize, usize) {
         with_material!(self, m => (m.tensors(), m.scalars()))
@@ -44,8 +44,8 @@ impl Material {
 pub enum Kinematics {
     /// Small strain on the reference geometry.
     Small,
-    /// Current geometry at each evaluation; the Jaumann rate of the Kirchhoff stress τ = J σ (J from the start of the run)
-    /// is the material's response to the rate of deformation.
+    /// Current geometry at each evaluation. The Jaumann rate of the Kirchhoff stress τ = J σ (J from the start of the run) is
+    /// the material's response to the rate of deformation.
     UpdatedLagrangian,
 }
 
@@ -64,7 +64,7 @@ pub struct Limits {
 const STRAIN: f64 = 2.0e-3;
 /// Largest rotation of a forward step in degrees, from the model's source.
 const ROTATION_DEGREES: f64 = 0.5;
-/// The error of the midpoint strain is Δε³/12: an implicit step beyond this is no longer a small one.
+/// The error of the midpoint strain is Δε³/12: an implicit step beyond this limit is no longer small.
 const REFUSED: f64 = 0.5;
 
 impl Default for Limits {
@@ -88,24 +88,24 @@ pub struct Model {
     pub limits: Limits,
 }
 
-/// Reason why a block cannot be made.
+/// Reasons why a block cannot be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ModelError {
-    /// Mesh, element or material.
+    /// Error of the mesh, element or material.
     #[error(transparent)]
     Fem(#[from] FemError),
     /// A combination that does not exist.
     #[error("{combination}: {reason}")]
     Combination {
-        /// Request.
+        /// Requested combination.
         combination: &'static str,
-        /// Reason why it does not exist, and what does.
+        /// Reason, and existing alternatives.
         reason: &'static str,
     },
 }
 
 impl Model {
-    /// True if the consistent tangent of an implicit step is symmetric: at small strain it is `∫ B'CB` with the algorithmic
+    /// True if the consistent tangent of an implicit step is symmetric. At small strain it is `∫ B'CB` with the algorithmic
     /// moduli C, which have major symmetry for all materials here. The objective update of large deformation is not the
     /// derivative of an energy of the step.
     #[must_use]
@@ -114,15 +114,15 @@ impl Model {
     }
 
     /// True if the rate tangent of a forward step is symmetric: Σ of the Jaumann rate of the Kirchhoff stress has major
-    /// symmetry where the continuum moduli have it.
+    /// symmetry if the continuum moduli have it.
     #[must_use]
     pub fn symmetric_rate(&self) -> bool {
         true
     }
 
-    /// Polynomials on which the dilatation of each cell is projected: none for the standard formulation, else 1, or 1 and
-    /// the positions. Where the linear block takes the mean pressure alone the strain increment is averaged here, since a
-    /// plastic deviator has no pressure of its own: the motions of a single cell that this leaves without energy (conformal
+    /// Number of polynomials on which the dilatation of each cell is projected: 0 for the standard formulation, otherwise 1, or
+    /// 1 and the positions. If the linear block averages only the mean pressure, the strain increment is averaged here, since a
+    /// plastic deviator has no pressure of its own. The motions of a single cell that this leaves without energy (conformal
     /// ones, on cells of second order) are held by its neighbours.
     pub(super) fn modes(&self, kind: ElementKind) -> Result<usize, ModelError> {
         Ok(match self.formulation.dilatation(kind, self.idealisation)? {

@@ -1,16 +1,16 @@
-//! The motion of a point over one step, and the derivative of the stress it leads to.
+//! The motion of a point over one step, and the derivative of the resulting stress.
 //!
-//! With G = ∂Δu/∂x at the midpoint configuration, Δε its symmetric and w its skew part, Hughes and Winget (1980) turn the
-//! stress by Q = (1 - w/2)⁻¹ (1 + w/2), which is the exact rotation when the step is a rigid one, of any size below half a
-//! turn. Here the strain increment is applied in the frame that has made half of that rotation, R with R² = Q:
-//! `τ = R F(R τ_0 Rᵀ, Δε) Rᵀ`, F the update of the material. Without the half rotation of the increment the scheme is of first
-//! order in the step (in simple shear the steady amplitude of the oscillation is off by Δγ/2); with it, of second order.
+//! With G = ∂Δu/∂x at the midpoint configuration, Δε its symmetric and w its skew part, Hughes and Winget (1980) rotate the
+//! stress by Q = (1 - w/2)⁻¹ (1 + w/2). It is the exact rotation if the step is a rigid one, of any size below half a turn.
+//! Here the strain increment is applied in the frame after half of that rotation, R with R² = Q: `τ = R F(R τ_0 Rᵀ, Δε) Rᵀ`, F
+//! the update of the material. With the half rotation of the increment, the scheme is of second order in the step; without it,
+//! of first order (in simple shear the steady amplitude of the oscillation is off by Δγ/2).
 //!
-//! Derivative, with ω the axial vector of w, s = √(1 + |ω|²/4), ω' = ω/(1 + s) that of half the rotation, and dR = \[a\]× R:
-//! `a = (dω' + ω' × dω'/2)/(1 + |ω'|²/4)`, `dω' = dω/(1 + s) - ω (ω·dω)/(4 s (1 + s)²)`. Materials are isotropic, so with
-//! S = F(R τ_0 Rᵀ, Δε) and C its tangent `dS = C:(dΔε + Δε A - A Δε) + A S - S A`, A = \[a\]×, and `dτ = R dS Rᵀ + A τ - τ A`.
-//! A displacement du moves the midpoint by du/2, so that `dG = (1 - G/2) ∂du/∂x_mid`, and
-//! `∂du/∂x_mid = ∂du/∂x (1 + G/2)`.
+//! The derivative uses ω, the axial vector of w, s = √(1 + |ω|²/4), ω' = ω/(1 + s), that of half the rotation, and dR =
+//! \[a\]× R: `a = (dω' + ω' × dω'/2)/(1 + |ω'|²/4)`, `dω' = dω/(1 + s) - ω (ω·dω)/(4 s (1 + s)²)`. Materials are isotropic,
+//! so with S = F(R τ_0 Rᵀ, Δε) and C its tangent `dS = C:(dΔε + Δε A - A Δε) + A S - S A`, A = \[a\]×, and `dτ = R dS Rᵀ + A
+//! τ - τ A`. A displacement du moves the midpoint by du/2, so that `dG = (1 - G/2) ∂du/∂x_mid`, and `∂du/∂x_mid = ∂du/∂x (1 +
+//! G/2)`.
 
 use super::tensor::{AXES, IDENTITY, PLACE, Tensor, axial, dot, product, rotated, skew, spun, strain};
 use crate::material::constitutive::{Moduli, Voigt};
@@ -30,7 +30,7 @@ pub struct Increment {
 }
 
 impl Increment {
-    /// The increment of a gradient at small strain: rotations are not seen.
+    /// The increment of a gradient at small strain: rotations are ignored.
     #[must_use]
     pub fn small(g: &Tensor) -> Self {
         Self { strain: strain(g), half: IDENTITY, axial: [0.0; 3] }
@@ -92,8 +92,8 @@ impl Increment {
         t
     }
 
-    /// ∂τ/∂(∂du/∂x), x the configuration at the end of the step, and the same derivative of tr G. `g` is the gradient before
-    /// its dilatation was averaged, `axes` those about which the body can turn.
+    /// ∂τ/∂(∂du/∂x), with x the configuration at the end of the step, and the same derivative of tr G. `g` is the gradient
+    /// before averaging of its dilatation; `axes` are those about which the body can rotate.
     #[must_use]
     pub fn sensitivity(&self, g: &Tensor, c: &Moduli, mid: &Voigt, end: &Voigt, axes: &[usize]) -> Point {
         let by_gradient = self.by_gradient(c, mid, end, axes);
@@ -112,16 +112,16 @@ impl Increment {
 /// Derivatives at one point.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
-    /// Of τ by ∂du_k/∂x_r \[Pa\].
+    /// Derivative of τ with respect to ∂du_k/∂x_r \[Pa\].
     pub stress: Sensitivity,
-    /// Of tr G by ∂du_k/∂x_r \[-\].
+    /// Derivative of tr G with respect to ∂du_k/∂x_r \[-\].
     pub dilatation: Tensor,
-    /// Of τ by an averaged dilatation: (∂τ/∂G : 1)/3 \[Pa\].
+    /// Derivative of τ with respect to an averaged dilatation: (∂τ/∂G : 1)/3 \[Pa\].
     pub by_dilatation: Voigt,
 }
 
 impl Point {
-    /// At small strain: dτ = C:dε.
+    /// Derivatives at small strain: dτ = C:dε.
     #[must_use]
     pub fn small(c: &Moduli) -> Self {
         Self {

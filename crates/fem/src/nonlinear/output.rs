@@ -12,7 +12,7 @@ impl<const D: usize> Block<D> {
         with_material!(&self.body.model.material, m => self.stresses(m)).into_iter().map(|(s, _)| s).collect()
     }
 
-    /// Cauchy stress of each cell, averaged over its present volume \[Pa\].
+    /// Cauchy stress of each cell, averaged over its current volume \[Pa\].
     #[must_use]
     pub fn cell_stress(&self) -> Vec<Voigt> {
         with_material!(&self.body.model.material, m => self.stresses(m))
@@ -46,7 +46,7 @@ impl<const D: usize> Block<D> {
         )
     }
 
-    /// Logarithmic strain through the thickness at every quadrature point, in plane stress where it is kept.
+    /// Logarithmic strain through the thickness at every quadrature point, in plane stress if it is kept.
     #[must_use]
     pub fn thickness_strain_at_points(&self) -> Option<Vec<f64>> {
         let layout = self.body.frame.layout;
@@ -64,7 +64,7 @@ impl<const D: usize> Block<D> {
             .collect()
     }
 
-    /// Forces of the stresses of a cell on its nodes, in the order of its degrees of freedom \[N, or N/m of thickness\].
+    /// Nodal forces of the stresses of a cell, in the order of its degrees of freedom \[N, or N/m of thickness\].
     #[must_use]
     pub fn forces_of_cell(&self, cell: usize) -> Vec<f64> {
         let (body, frame) = (&self.body, &self.body.frame);
@@ -78,14 +78,14 @@ impl<const D: usize> Block<D> {
         forces
     }
 
-    /// Stress of every point and its present volume. Under finite deformation σ = τ/J; with averaged dilatation J is that
-    /// of the cell, as the dilatation the stress answers to.
+    /// Stress and current volume of every point. Under finite deformation σ = τ/J; with averaged dilatation J is that of the
+    /// cell, as is the dilatation used for the stress.
     fn stresses<M: Constitutive>(&self, material: &M) -> Vec<(Voigt, f64)> {
         let mut scratch = Scratch::new(&self.body.frame);
         (0..self.body.cells.len()).flat_map(|cell| self.cell_points(material, cell, &mut scratch)).collect()
     }
 
-    /// The same of one cell.
+    /// The same for one cell.
     fn cell_points<M: Constitutive>(
         &self,
         material: &M,
@@ -111,8 +111,8 @@ impl<const D: usize> Block<D> {
         scratch.stress.iter().zip(&scratch.volume).enumerate().map(point).collect()
     }
 
-    /// Stresses of a cell in the committed state as the cell's kernels take them. A committed state was evaluated, so it has a
-    /// volume; a restored one may be anything.
+    /// Computes the stresses of a cell in the committed state by the cell's kernels. A committed state was evaluated and
+    /// therefore has a volume; a restored one may be arbitrary.
     fn cell_stresses<M: Constitutive>(
         &self,
         material: &M,

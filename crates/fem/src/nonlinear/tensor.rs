@@ -5,10 +5,10 @@ use crate::material::constitutive::Voigt;
 /// `t[i][j]`.
 pub type Tensor = [[f64; 3]; 3];
 
-/// 1.
+/// Unit tensor.
 pub const IDENTITY: Tensor = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Place of a pair of axes in xx, yy, zz, xy, yz, zx.
+/// Index of a pair of axes in xx, yy, zz, xy, yz, zx.
 pub const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 
 /// Axes of each of xx, yy, zz, xy, yz, zx.
@@ -77,7 +77,7 @@ pub fn determinant<const D: usize>(m: &[[f64; D]; D]) -> f64 {
     m[0][0] * minor(1, 2) - m[0][1] * minor(0, 2) + m[0][2] * minor(0, 1)
 }
 
-/// Inverse, by cofactors, given the determinant.
+/// Inverse, by cofactors, for a given determinant.
 #[must_use]
 pub fn inverse<const D: usize>(m: &[[f64; D]; D], determinant: f64) -> [[f64; D]; D] {
     let f = 1.0 / determinant;

@@ -10,8 +10,8 @@ use faer::{Conj, MatMut};
 use std::sync::Arc;
 
 impl ScatterMap {
-    /// Symbolic Cholesky analysis of a pattern built with [`Part::Lower`](super::Part::Lower). Its
-    /// [`bytes`](Symbolic::bytes) tell the memory of the numeric part beforehand.
+    /// Symbolic Cholesky analysis of a pattern built with [`Part::Lower`](super::Part::Lower). Its [`bytes`](Symbolic::bytes)
+    /// give the memory of the numeric part in advance.
     ///
     /// # Errors
     /// If memory does not suffice or the pattern is too large to be ordered.
@@ -22,7 +22,7 @@ impl ScatterMap {
     /// Numeric Cholesky factorisation.
     ///
     /// # Errors
-    /// [`FemError::Direct`] with the equation when the matrix is not positive definite.
+    /// [`FemError::Direct`] with the equation if the matrix is not positive definite.
     pub fn cholesky(&self, symbolic: &Arc<Symbolic>) -> Result<Factor, FemError> {
         Ok(Factor::Cholesky(Cholesky::new(symbolic.clone(), self.values())?))
     }
@@ -47,7 +47,7 @@ impl ScatterMap {
     }
 }
 
-/// A numeric factorisation, tied to the values it was made from.
+/// A numeric factorisation, tied to the values from which it was computed.
 #[derive(Clone, Debug)]
 pub enum Factor {
     /// Symmetric positive definite.

@@ -1,11 +1,11 @@
-//! The whole of a symmetric matrix of which the lower triangle is kept.
+//! Both triangles of a symmetric matrix of which the lower one is stored.
 
 use super::{Factor, ScatterMap};
 use crate::error::FemError;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 
-/// Pattern and LU analysis of a symmetric matrix, and where each entry is found in the lower triangle.
+/// Pattern and LU analysis of a symmetric matrix, and the position of each entry in the lower triangle.
 #[derive(Debug)]
 pub struct Mirror {
     pattern: SymbolicSparseColMat<usize>,
@@ -33,8 +33,8 @@ impl Mirror {
         }
         let (mut next, total) = (count.clone(), count[n]);
         let (mut row_of, mut source) = (vec![0; total], vec![0; total]);
-        // Columns are visited in order: above the diagonal the rows of each column come out ascending, and they come before
-        // its own, which are written when the column itself is visited.
+        // Columns are visited in order: above the diagonal the rows of each column come out ascending. They precede the
+        // column's own rows, which are written when the column itself is visited.
         for col in 0..n {
             for (k, &row) in (from[col]..).zip(&rows[from[col]..from[col + 1]]) {
                 for (c, r) in [(col, row), (row, col)].into_iter().take(if row == col { 1 } else { 2 }) {

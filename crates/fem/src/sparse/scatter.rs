@@ -1,11 +1,11 @@
-//! A fixed pattern of a sum of dense blocks, with the place of every block entry.
+//! A fixed pattern of a sum of dense blocks, with the position of every block entry.
 
 use crate::dof::Equations;
 use crate::scatter::Gather;
 use crate::term::Pattern;
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 
-/// Which entries of a matrix are stored.
+/// Stored entries of a matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// All of them.
@@ -14,16 +14,16 @@ pub enum Part {
     Lower,
 }
 
-/// Compressed-column pattern of a sum of dense blocks, with the place of every block entry.
+/// Compressed-column pattern of a sum of dense blocks, with the position of every block entry.
 #[derive(Clone, Debug)]
 pub struct ScatterMap {
     symbolic: SymbolicSparseColMat<usize>,
-    /// For each pattern the number of its first value among all, and what each stored entry sums.
+    /// Index of the first value of each pattern among all values, and the contributions to each stored entry.
     gathers: Vec<(usize, Gather)>,
     values: Vec<f64>,
 }
 
-/// Block entries without a place: fixed degrees of freedom, or the triangle that is not stored.
+/// Marks block entries without a position: fixed degrees of freedom, or the triangle that is not stored.
 const SKIPPED: usize = usize::MAX;
 
 impl ScatterMap {
@@ -62,26 +62,26 @@ impl ScatterMap {
         self.values.fill(0.0);
     }
 
-    /// Adds the values of one pattern, whose first is the `offset`-th of all. Returns the offset after them. Parallel; the same
-    /// bits for any number of threads.
+    /// Adds the values of one pattern, whose first is the `offset`-th of all. Returns the offset after them. It is parallel,
+    /// with the same bits for any number of threads.
     pub fn add(&mut self, offset: usize, block_values: &[f64]) -> usize {
         if block_values.is_empty() {
             return offset;
         }
-        // Patterns without values share their offset with the one after, and add nothing.
+        // Patterns without values share their offset with the next one, and add nothing.
         for (_, gather) in self.gathers.iter().filter(|(first, _)| *first == offset) {
             gather.add(block_values, &mut self.values);
         }
         offset + block_values.len()
     }
 
-    /// The matrix as it stands.
+    /// The current matrix.
     #[must_use]
     pub fn matrix(&self) -> SparseColMatRef<'_, usize, f64> {
         SparseColMatRef::new(self.symbolic.as_ref(), &self.values)
     }
 
-    /// The stored entries' places.
+    /// Positions of the stored entries.
     #[must_use]
     pub fn symbolic(&self) -> SymbolicSparseColMatRef<'_, usize> {
         self.symbolic.as_ref()
@@ -105,14 +105,14 @@ impl ScatterMap {
         self.values.len()
     }
 
-    /// Bytes of the lists of contributions.
+    /// Memory of the lists of contributions \[bytes\].
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.gathers.iter().map(|(_, gather)| gather.bytes()).sum()
     }
 }
 
-/// The lower triangle of the free equations of some patterns, without the places of their blocks.
+/// The lower triangle of the free equations of some patterns, without the positions of their blocks.
 #[must_use]
 pub fn lower_pattern(patterns: &[&Pattern], equations: &Equations) -> SymbolicSparseColMat<usize> {
     let n = equations.free.len();
@@ -122,8 +122,8 @@ pub fn lower_pattern(patterns: &[&Pattern], equations: &Equations) -> SymbolicSp
     SymbolicSparseColMat::new_checked(n, n, starts, None, rows)
 }
 
-/// The lower triangle of a sum of dense blocks, `number` giving the equation of each of their degrees of freedom, bordered by rows
-/// `-border`: those of loads f in `[K -f; -fᵀ 0]`. Assembled once, where a [`ScatterMap`] would take as much memory again for its lists.
+/// The lower triangle of a sum of dense blocks, bordered by rows `-border`: those of loads f in `[K -f; -fᵀ 0]`. `number` gives the
+/// equation of each degree of freedom. It is assembled only once; a [`ScatterMap`] would need as much memory again for its lists.
 #[must_use]
 pub fn lower_matrix(
     pattern: &Pattern,
@@ -207,7 +207,7 @@ fn compress_columns(
             next[col] += 1;
         }
     });
-    // Sorted and without repetition in place.
+    // Sorts and removes repetitions in place.
     let mut starts = vec![0_usize; n + 1];
     let mut kept = 0;
     for col in 0..n {

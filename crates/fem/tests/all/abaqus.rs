@@ -1,10 +1,10 @@
-//! Abaqus input files: what is read, and what is refused.
+//! Abaqus input files: supported and refused content.
 #![allow(clippy::disallowed_methods)]
 
 use crate::reading::{face_measure, measure, nodes_lie_where_the_element_has_them, sample, total};
 use asperity_fem::mesh::{Mesh, MeshError, Options, abaqus};
 
-/// The written coordinates carry Gmsh's rounding of transfinite curves.
+/// The written coordinates have the rounding of Gmsh's transfinite curves.
 const ROUNDING: f64 = 1e-10;
 
 fn read<const D: usize>(text: &str) -> Result<Mesh<D>, MeshError> {
@@ -25,7 +25,7 @@ fn the_files_that_gmsh_writes_are_read_with_their_groups() {
         is(face_measure(&mesh, &mesh.side_sets["low"]), 1.0, name);
         is(face_measure(&mesh, &mesh.side_sets["hull"]), 6.0, name);
         nodes_lie_where_the_element_has_them(&mesh);
-        // The curve of the group `edge` is no face of a cell: its nodes are a set.
+        // The curve of the group `edge` is not a face of a cell: its nodes form a set.
         assert!(mesh.node_sets["edge"].iter().all(|&n| mesh.nodes[n][0] == 0.0 && mesh.nodes[n][2] == 0.0));
     }
 }
@@ -84,7 +84,7 @@ fn a_surface_has_only_the_side_of_its_element() {
     assert!(mesh.cell_sets["West"].contains(&side.block));
 }
 
-/// One element of each kind on the reference corners, the faces numbered as Abaqus does.
+/// One element of each kind on the reference corners, with the faces numbered as in Abaqus.
 #[test]
 fn numbered_faces_lie_where_abaqus_has_them() {
     let hex = "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n";

@@ -1,4 +1,4 @@
-//! The system of a step: parallel assembly, symmetric and general factorisation, reuse, and what an error names.
+//! The system of a step: parallel assembly, symmetric and general factorisation, reuse, and the content of errors.
 
 use asperity_fem::assembly::{Storage, Symmetry, System};
 use asperity_fem::block::LinearBlock;
@@ -29,7 +29,7 @@ fn clamped(mesh: &Mesh<2>) -> Equations {
     Constraints { fixed: fixed.collect(), channels: Vec::new() }.equations(2 * mesh.nodes.len())
 }
 
-/// A spring from a degree of freedom to the ground, or nothing of a stiffness at all.
+/// A spring from a degree of freedom to the ground, possibly of zero stiffness.
 struct Spring {
     pattern: Pattern,
     stiffness: f64,
@@ -148,7 +148,7 @@ fn a_factor_is_reused_while_patterns_keep_their_versions_and_made_anew_when_one_
     let mut moved = Spring::new(dof - 1, 1e9);
     assert!(system.factor_tangent(&mut [&mut block, &mut moved]).unwrap());
     assert_eq!(system.factorisations, 2);
-    // The new factor belongs to the new pattern: a unit force meets the body and the moved spring.
+    // The new factor belongs to the new pattern: a unit force acts on the body and the moved spring.
     let (mut with, mut without) = (vec![0.0; system.equations().free.len()], Vec::new());
     let last = with.len() - 2;
     with[last] = 1.0;
@@ -161,7 +161,7 @@ fn a_factor_is_reused_while_patterns_keep_their_versions_and_made_anew_when_one_
     assert!((with[last] - expected).abs() < 1e-12 * expected);
 }
 
-/// Pairs of degrees of freedom, of which the closed ones are coupled without symmetry, as friction couples.
+/// Pairs of degrees of freedom; the closed ones are coupled without symmetry, as by friction.
 struct Pairs {
     pattern: Pattern,
     closed: Vec<bool>,
@@ -206,7 +206,7 @@ fn a_dense_system_solves_as_a_sparse_one_whichever_pairs_close_and_open() {
     let mesh = mesh(6);
     let mut block = block(&mesh);
     let last = 2 * mesh.nodes.len();
-    // Along the right and the upper side and a bit of both, over and over: few pairs, more, all, none, others, all that there are.
+    // Pairs along the right and upper sides, closed in turn: none, three, nine, two, all, three others, none, forty.
     let pairs: Vec<[usize; 2]> = (0..60).map(|k| [last - 1 - k, last - 2 - k]).collect();
     let mut contact = Pairs::new(&pairs);
     let n = clamped(&mesh).free.len();
@@ -226,14 +226,16 @@ fn a_dense_system_solves_as_a_sparse_one_whichever_pairs_close_and_open() {
         let expected = solve(&mut System::new(clamped(&mesh), Storage::Sparse));
         let size = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let error = found.iter().zip(&expected).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-        // Rounding times the condition of the block, 1e4, and the stiffness of the pairs over its own, 100.
+        // Rounding times the condition number of the block, 1e4, and the ratio of the stiffness of the pairs to that of the
+        // block, 100.
         assert!(error < 1e-9 * size, "{closed:?}: {:e}", error / size);
     }
 }
 
 #[test]
 fn what_nothing_but_a_closed_pair_holds_is_held_by_it_and_named_when_it_opens() {
-    // A chain of springs between six degrees of freedom floats; a pair that couples its end to a held one holds it.
+    // A chain of springs between six degrees of freedom floats; a pair that couples its end to a held degree of freedom holds
+    // it.
     let chain: Vec<[usize; 2]> = (1..6).map(|k| [k, k + 1]).collect();
     let pattern = Pattern::of_blocks(chain.iter().map(<[usize; 2]>::as_slice));
     let mut links = Chain { pattern, values: [1e12, -1e12, -1e12, 1e12].repeat(chain.len()) };
@@ -326,7 +328,7 @@ fn a_symmetric_matrix_with_a_negative_mode_is_solved_by_lu_and_counted() {
     let mut block = block(&mesh);
     let n = clamped(&mesh).free.len();
     let load: Vec<f64> = (0..n).map(|k| ((k * 31) % 17) as f64 - 8.0).collect();
-    // A spring that pushes away at the last degree of freedom, stiffer than the body: one negative eigenvalue.
+    // A spring with negative stiffness at the last degree of freedom, stiffer than the body: one negative eigenvalue.
     let dof = 2 * mesh.nodes.len() - 1;
     let mut away = Spring::new(dof, -3e10);
     for storage in [Storage::Dense, Storage::Sparse] {

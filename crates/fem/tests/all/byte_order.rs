@@ -1,18 +1,18 @@
-//! Binary MSH files of the other order of bytes: the samples, turned over number by number, say the same.
+//! Binary MSH files of the other byte order: the samples, reversed number by number, give the same meshes.
 #![allow(clippy::disallowed_methods)]
 
 use crate::reading::sample;
 #[allow(dead_code)]
 use asperity_fem::mesh::{MeshError, Place, gmsh};
 
-/// Copies a binary file and turns its numbers over.
+/// Copies a binary file and reverses its numbers.
 struct Turn<'a> {
     from: &'a [u8],
     to: Vec<u8>,
 }
 
 impl Turn<'_> {
-    /// Copies a line of text, and returns it without its end.
+    /// Copies a line of text, and returns it without the line end.
     fn line(&mut self) -> String {
         let end = self.from.iter().position(|&b| b == b'\n').unwrap();
         let line = String::from_utf8(self.from[..end].to_vec()).unwrap();
@@ -21,7 +21,7 @@ impl Turn<'_> {
         line
     }
 
-    /// The next number, of so many bytes.
+    /// The next number, of `N` bytes.
     fn number<const N: usize>(&mut self) -> [u8; N] {
         let number: [u8; N] = self.from[..N].try_into().unwrap();
         self.to.extend(number.iter().rev());
@@ -139,7 +139,7 @@ fn turned(bytes: &[u8]) -> Vec<u8> {
             ("$Nodes", true) => turn.old_nodes(),
             ("$Elements", false) => turn.elements(),
             ("$Elements", true) => turn.old_elements(),
-            // Names are text; what is not read may stay as it is, as far as the end of its section.
+            // Names are text; sections that are not read may stay unchanged up to their end.
             ("$Periodic", _) => while turn.line() != "$EndPeriodic" {},
             _ => {}
         }
@@ -162,7 +162,7 @@ fn files_of_both_orders_of_bytes_say_the_same() {
     }
 }
 
-/// The number 1 tells which order it is; without it a file of the other order would be read as nonsense.
+/// The number 1 indicates the byte order; without it, a file of the other order would be read as nonsense.
 #[test]
 fn an_order_of_bytes_that_is_neither_is_refused() {
     let mut bytes = turned(&sample("good_3d_tet10_shared_binary.msh"));

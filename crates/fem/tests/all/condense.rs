@@ -1,4 +1,4 @@
-//! Static condensation against the dense formula it stands for.
+//! Static condensation compared with the equivalent dense formula.
 
 use asperity_fem::block::LinearBlock;
 use asperity_fem::condense::{Condensation, Condensed, Loaded, Reduction, Stiffness};
@@ -120,7 +120,7 @@ fn loads_and_interior_are_those_of_the_whole_system() {
     for (j, &dof) in system.iter().enumerate() {
         u[dof] = (j as f64 * 1.7).cos();
     }
-    // The whole body by the dense matrix.
+    // The whole body by a dense matrix.
     let mut whole = DVector::zeros(body.stiffness.dofs);
     let mut f = DVector::zeros(body.stiffness.dofs);
     prescribed.iter().for_each(|&(d, v)| whole[d] = time * v);
@@ -152,7 +152,7 @@ fn a_body_that_nothing_holds_names_the_degree_of_freedom() {
     let pivot = error.pivot().unwrap();
     assert!(matches!(error, DirectError::Singular(_)), "{error}");
     assert!(pivot.pivot.abs() < 1e-12 * pivot.diagonal);
-    // With a hinge at one node it can still turn.
+    // With a hinge at one node the body can still rotate.
     let error = Reduction::new(&body.stiffness, &[], &[0, 1]).unwrap_err();
     assert!(matches!(error, FemError::Direct(DirectError::Singular(_))), "{error}");
 }
@@ -198,7 +198,7 @@ fn everything_retained_leaves_the_stiffness_itself() {
 fn condensed_with_its_loads_a_body_is_what_its_factor_makes_of_it() {
     let body = body();
     let s = split(&body);
-    // One of the retained is prescribed as well, which leaves it as it is.
+    // One of the retained degrees of freedom is also prescribed, which has no effect on the reduction.
     let mut fixed = s.fixed.clone();
     fixed.push(s.retained[2]);
     fixed.sort_unstable();

@@ -1,4 +1,4 @@
-//! The direct solver: exactness, bits, refusals, and what a singular matrix is told to be.
+//! The direct solver: accuracy, reproducible bits, refusals, and diagnoses of singular matrices.
 
 use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::{Constraints, Equations};
@@ -73,7 +73,7 @@ fn residual(a: &DMatrix<f64>, x: &Mat<f64>, b: &Mat<f64>) -> f64 {
     worst
 }
 
-/// Equations, couplings, whether there is a dense row, and which equations are retained.
+/// Number of equations, couplings, presence of a dense row, and marks of the retained equations.
 type Problem = (usize, Vec<(usize, usize, f64)>, bool, Vec<bool>);
 
 fn graph() -> impl Strategy<Value = Problem> {
@@ -84,7 +84,7 @@ fn graph() -> impl Strategy<Value = Problem> {
 }
 
 proptest! {
-    /// Disconnected graphs, single equations and dense rows included.
+    /// Includes disconnected graphs, single equations and dense rows.
     #[test]
     fn any_positive_definite_matrix_is_solved_to_rounding((n, mut edges, dense_row, _) in graph(), columns in 1_usize..70) {
         if dense_row {

@@ -8,7 +8,7 @@ use asperity_fem::mesh::split::{Pair, Surface, split};
 use asperity_fem::mesh::{Mesh, Side, face_nodes, nodes_of_sides};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Plane elements, what becomes of them, and the element of first order on the same corners: those that there are.
+/// Plane elements, their extrusions, and the first-order element on the same corners: all that exist.
 fn kinds() -> Vec<[ElementKind; 3]> {
     [
         ["tri3", "wedge6", "wedge6"],
@@ -61,7 +61,7 @@ fn volume(mesh: &Mesh<3>) -> f64 {
     total
 }
 
-/// Faces by all of their nodes: one or two cells have each; gives the number of those with one.
+/// Number of faces with a single cell; every face, identified by all of its nodes, has one or two cells.
 fn boundary(mesh: &Mesh<3>) -> usize {
     let mut count: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
     for (block, cells) in mesh.blocks.iter().enumerate() {

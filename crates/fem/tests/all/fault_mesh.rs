@@ -41,7 +41,7 @@ fn area(x: &[[f64; 2]]) -> f64 {
     (0..x.len()).map(|k| (x[k], x[(k + 1) % x.len()])).map(|(a, b)| 0.5 * (a[0] * b[1] - a[1] * b[0])).sum()
 }
 
-/// Faces and how many cells have them.
+/// Faces, and the number of cells of each.
 fn shared(mesh: &Mesh<2>) -> BTreeMap<[usize; 2], usize> {
     let mut count = BTreeMap::new();
     for cell in 0..mesh.blocks[0].len() {
@@ -61,7 +61,7 @@ fn length(mesh: &Mesh<2>, sides: &[Side]) -> f64 {
     sides.iter().map(|s| sizes(&ends(s))[0]).sum()
 }
 
-/// Everything that holds for any fault mesh: it fills the box, conforms, is open on the fault and nowhere else.
+/// Checks the properties of every fault mesh: it fills the box, conforms, and is open on the fault and nowhere else.
 fn check(input: &FaultMesh, made: &Faulted) {
     let mesh = &made.mesh;
     let box_area = (input.max[0] - input.min[0]) * (input.max[1] - input.min[1]);
@@ -73,7 +73,7 @@ fn check(input: &FaultMesh, made: &Faulted) {
     assert!(count.values().all(|&c| c == 1 || c == 2));
     let sets = ["left", "right", "bottom", "top", "fault.minus", "fault.plus"];
     let outside: usize = sets.iter().map(|s| mesh.side_sets[*s].len()).sum();
-    // A face of the fault whose both ends are tips would be shared; there is none.
+    // A face of the fault with tips at both ends would be shared; there is none.
     assert_eq!(count.values().filter(|&&c| c == 1).count(), outside);
     for (set, axis, value) in [
         ("left", 0, input.min[0]),
@@ -129,7 +129,7 @@ fn check_fault(input: &FaultMesh, made: &Faulted) {
     }
 }
 
-/// Sizes of the straight pieces between places.
+/// Sizes of the straight pieces between positions.
 fn sizes(places: &[[f64; 2]]) -> Vec<f64> {
     places.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).collect()
 }
@@ -141,7 +141,8 @@ fn planar_faults_of_any_dip_are_meshed_with_the_quality_of_their_dip() {
         let made = input.mesh().unwrap();
         check(&input, &made);
         let sine = dip.to_radians().sin();
-        // Rows that come closer by 1 - |a| |ℓ'| >= 3/4 on their way make columns flatter by as much.
+        // Rows whose distance decreases by the factor 1 - |a| |ℓ'| >= 3/4 along the way make columns flatter by the same
+        // factor.
         assert!(made.quality.min > 0.75 * sine, "{dip}: {:?}", made.quality);
         assert!(made.quality.mean >= sine);
         assert_eq!(made.fault.pairs.len(), 41);
@@ -194,7 +195,7 @@ fn the_row_through_a_bend_leaves_along_the_bisector() {
     let made = input.mesh().unwrap();
     let vertex = input.trace[1];
     let [minus, plus] = ["fault.minus", "fault.plus"].map(|s| &made.mesh.side_sets[s]);
-    // Neighbours of the vertex in its row: the other ends of the edges of the cells above that hold the vertex.
+    // Neighbours of the vertex in its row: the other ends of the edges of the cells above that contain the vertex.
     let mut ends = Vec::new();
     for side in minus.iter().chain(plus) {
         let x = corners(&made.mesh, side.cell);
@@ -207,8 +208,8 @@ fn the_row_through_a_bend_leaves_along_the_bisector() {
     assert_eq!(ends.len(), 4);
     for end in ends {
         let angle = ((end[1] - vertex[1]) / (end[0] - vertex[0])).atan().to_degrees();
-        // The bisector of the normals of dips 70 and 50 rises by 30 degrees; rounding moves the first column by up to
-        // κ K/4 = 0.06 of its distance (K = cot 50° - cot 70°), which is three degrees.
+        // The bisector of the normals of dips 70 and 50 rises by 30 degrees. Rounding moves the first column by up to κ K/4 =
+        // 0.06 of its distance (K = cot 50° - cot 70°), which is three degrees.
         assert!((angle - 30.0).abs() < 3.0, "{angle}");
     }
 }
@@ -278,7 +279,7 @@ fn sizes_grow_by_no_more_than_the_ratios() {
         assert!(!inside || (w[0] - 0.5).abs() < 1e-9);
     }
     assert!(along[0] > 0.9 && along[along.len() - 1] > 2.0, "coarse at both tips: {along:?}");
-    // A vertical fault has straight rows and columns: ratios can be read off the sides.
+    // A vertical fault has straight rows and columns, so that ratios can be measured on the sides.
     for (set, axis) in [("left", 1), ("top", 0)] {
         let mut at: Vec<f64> = nodes_of_sides(&made.mesh, &made.mesh.side_sets[set])
             .iter()
@@ -306,8 +307,8 @@ fn sizes_follow_a_table() {
         _ => 1.0,
     };
     let along: Vec<f64> = made.along.clone();
-    // With linear sizes the cell at z has, to first order in the slope, the size of its middle; a whole number of cells from
-    // bend to bend makes all smaller by one part in their number at most (22 up to the bend).
+    // With linear sizes the cell at z has, to first order in the slope, the size at its middle. A whole number of cells from
+    // bend to bend reduces all sizes by at most one part in their number (22 up to the bend).
     for w in along.windows(2) {
         let (size, middle) = (w[1] - w[0], 0.5 * (w[0] + w[1]));
         assert!(size <= wanted(middle) * 1.01 && size >= wanted(middle) * 0.93, "{middle}: {size}");
@@ -570,7 +571,7 @@ fn a_curve_through_few_vertices_lies_where_the_one_through_many_does() {
         let made = input.mesh().unwrap();
         assert!(made.quality.min > 0.4, "{:?}", made.quality);
         let nodes = fault_nodes(&made);
-        // 60 * 50 degrees = 52.36 m in cells of at most 5 % off 1 m.
+        // 60 * 50 degrees = 52.36 m in cells that differ by at most 5 % from 1 m.
         assert!((50..=55).contains(&nodes.len()), "{}", nodes.len());
         let turns = nodes.windows(3).map(|w| {
             let (a, b) = ([w[1][0] - w[0][0], w[1][1] - w[0][1]], [w[2][0] - w[1][0], w[2][1] - w[1][1]]);
@@ -580,7 +581,7 @@ fn a_curve_through_few_vertices_lies_where_the_one_through_many_does() {
         (radii.fold(0.0, f64::max), turns.fold(0.0, f64::max))
     };
     let [few, more] = [5, 10].map(off);
-    // The fourth power of a spacing halved; a chord of 10 m would lie 0.21 m off the circle.
+    // The fourth power of half the spacing; a chord of 10 m would lie 0.21 m off the circle.
     assert!(few.0 < 2e-3 && more.0 < few.0 / 10.0, "{few:?} {more:?}");
     // A cell of 1 m turns by 1/60.
     assert!((0.9..1.1).contains(&few.1) && (0.9..1.06).contains(&more.1), "{few:?} {more:?}");
@@ -598,7 +599,7 @@ fn vertices_on_a_line_give_the_same_mesh_to_the_bit() {
 
 #[test]
 fn a_curve_that_overshoots_is_refused_between_its_vertices() {
-    // Flat, steep, flat: the curve swings beyond the vertices.
+    // Flat, steep, flat: the curve overshoots the vertices.
     let steps = trace([-60.0, -1.0], &[(60.0, 12.0), (3.0, 90.0), (60.0, 12.0)]);
     let spacing = Spacing::Graded(vec![[0.0, 1.0]]);
     let spline = FaultMesh { interpolation: Interpolation::Spline, spacing, ..input(steps) };

@@ -26,7 +26,7 @@ fn square(n: usize) -> Mesh<2> {
     mesh(ElementKind::Quad4, [0.0; 2], [1.0; 2], [n, n], 0.2)
 }
 
-/// Takes the block through the displacement fields one after another.
+/// Takes the block through a sequence of displacement fields.
 fn follow<const D: usize>(block: &mut Block<D>, mesh: &Mesh<D>, steps: impl Iterator<Item = Vec<f64>>) {
     for u in steps {
         assert_eq!(u.len() % mesh.nodes.len(), 0);
@@ -87,7 +87,7 @@ fn prestress_rotates_with_the_body_to_rounding_in_steps_of_any_size() {
     assert!(block.stress_at_points().iter().all(|s| (0..6).all(|i| (s[i] - exact[i]).abs() < 1e-14)));
 }
 
-/// J2 that stays elastic under the stresses of the test.
+/// J2 plasticity that remains elastic under the stresses of the test.
 fn swift_stiff() -> Material {
     j2(Hardening::swift(10.0, 0.01, 0.3).unwrap())
 }
@@ -159,8 +159,8 @@ fn hypoelastic_simple_shear_oscillates_as_the_jaumann_rate_must() {
 
 #[test]
 fn perfectly_plastic_simple_shear_tends_to_its_steady_direction() {
-    // With z = (s_xx - s_yy)/2 + i s_xy = k exp(i φ) after yield, φ' = -1 + (G/k) cos φ and |z| = k = Y/√3: the stress stops
-    // turning at cos φ = k/G. Until yield z = G (1 - exp(-i γ)).
+    // After yield, z = (s_xx - s_yy)/2 + i s_xy = k exp(i φ) with φ' = -1 + (G/k) cos φ and |z| = k = Y/√3: the stress stops
+    // rotating at cos φ = k/G. Before yield z = G (1 - exp(-i γ)).
     let ratio = 0.2_f64;
     let material = || j2(Hardening::perfect(ratio * SHEAR * 3.0_f64.sqrt()).unwrap());
     let first = 2.0 * (0.5 * ratio).asin();
@@ -188,7 +188,7 @@ fn perfectly_plastic_simple_shear_tends_to_its_steady_direction() {
     }
     let steady = shear(material(), 4.0, 3200);
     assert!((steady.0 - ratio * ratio).abs() < 1e-3 * ratio, "{steady:?}");
-    // The return is of first order in the step: the bound is a quarter of Δγ/k over G.
+    // The return mapping is of first order in the step: the bound is a quarter of Δγ/k over G.
     let exact = ratio * (1.0 - ratio * ratio).sqrt();
     assert!((steady.2 / exact - 1.0).abs() < 0.25 * 4.0 / 3200.0 / ratio, "{steady:?}");
 }
@@ -217,7 +217,7 @@ fn a_change_of_volume_tells_the_kirchhoff_rate_from_the_cauchy_rate() {
     let order = (errors[1] / errors[2]).log2();
     assert!((order - 2.0).abs() < 0.02 && errors[2] < 1e-4 * exact, "{errors:?}, order {order}");
     assert!((BULK * j.ln() - exact) > 0.5 * exact, "the two rates are far apart on this path");
-    // Plane stress: thickness follows, τ_xx = E/(1-ν) ln λ, and σ = τ/(λ² exp(-2ν/(1-ν) ln λ)).
+    // Plane stress: the thickness follows, τ_xx = E/(1-ν) ln λ, and σ = τ/(λ² exp(-2ν/(1-ν) ln λ)).
     let mesh = square(2);
     let mut block = block(&mesh, model(hypoelastic(), Idealisation::PlaneStress, UL));
     follow(
@@ -237,7 +237,7 @@ fn a_change_of_volume_tells_the_kirchhoff_rate_from_the_cauchy_rate() {
 
 #[test]
 fn the_rate_tangent_is_the_one_of_the_virtual_velocity_form() {
-    // One cell, uniform stress and plastic flow: K_ai,bk = V ∂N_a/∂x_j Σ_ijkl ∂N_b/∂x_l. Probed by affine velocities L:
+    // One cell, uniform stress and plastic flow: K_ai,bk = V ∂N_a/∂x_j Σ_ijkl ∂N_b/∂x_l. It is probed by affine velocities L:
     // the work of K(Lx) on Mx is V M_ij Σ_ijkl L_kl.
     let mesh = mesh::<3>(ElementKind::Hex8, [0.0; 3], [1.0; 3], [1; 3], 0.0);
     let material = swift_j2();
@@ -305,7 +305,7 @@ fn the_rate_tangent_is_the_derivative_of_forces_along_a_continuing_path() {
         let mesh = square(2);
         let options = Model { formulation, ..model(swift_j2(), Idealisation::PlaneStrain, UL) };
         let mut start = block(&mesh, options);
-        // Shear with some noise keeps every point in plastic flow when continued.
+        // Shear with some noise keeps every point in plastic flow if continued.
         let v: Vec<f64> = field(&mesh, |x| [x[1], 0.2 * x[0]])
             .iter()
             .zip(Noise::new(3).vector(18))
@@ -366,7 +366,7 @@ fn a_step_that_turns_a_cell_inside_out_or_strains_too_much_is_refused() {
     refused(&field(&mesh, |x| [0.9 * x[0], 0.0]), &["cell 0: strain increment 0.62", "at most 0.5"]);
     refused(&[f64::NAN; 18], &["cell 0"]);
     assert!(r.iter().all(|r| *r == 0.0), "a refused residual adds nothing");
-    // The block is as before.
+    // The block is unchanged.
     block.reject();
     assert_eq!(residual(&mut block, &[0.0; 18]), vec![0.0; 18]);
 }
@@ -400,15 +400,15 @@ fn averaged_dilatation_does_not_lock() {
     let locked = cook(16, Formulation::Standard, Kinematics::Small, 100.0);
     let free = cook(16, Formulation::BBar, Kinematics::Small, 100.0);
     assert!(locked < 4.0 && free > 7.3 && free < 7.7713, "{locked} {free}");
-    // A small load in the current configuration gives the same, scaled.
+    // A small load in the current configuration gives the same result, scaled.
     let finite = cook(16, Formulation::BBar, UL, 1e-2) * 1e4;
     assert!((finite / free - 1.0).abs() < 1e-4, "{finite} {free}");
 }
 
 #[test]
 fn plastic_flow_in_large_deformation_does_not_lock() {
-    // Plane-strain compression between rough plates far beyond yield: the limit force is about that of slip lines, the
-    // standard element carries ever more. With averaged dilatation the mean pressure stays bounded.
+    // Plane-strain compression between rough plates far beyond yield: the limit force is about that of slip lines, while the
+    // force of the standard element keeps increasing. With averaged dilatation, the mean pressure remains bounded.
     let run = |formulation| {
         let mesh = mesh::<2>(ElementKind::Quad4, [0.0; 2], [1.0; 2], [4, 4], 0.0);
         let material = j2(Hardening::perfect(0.02).unwrap());
@@ -429,7 +429,7 @@ fn plastic_flow_in_large_deformation_does_not_lock() {
         -top.iter().map(|n| r[2 * n + 1]).sum::<f64>()
     };
     let (standard, averaged) = (run(Formulation::Standard), run(Formulation::BBar));
-    // Rough platens on a square: between 2k and about 1.2 x 2k times the present width.
+    // Rough platens on a square: between 2k and about 1.2 x 2k times the current width.
     let frictionless = 2.0 * 0.02 / 3.0_f64.sqrt();
     assert!(
         averaged > frictionless && averaged < 1.35 * frictionless,

@@ -1,11 +1,11 @@
-//! Meshes of Gmsh: what is read, and what is refused.
+//! Meshes of Gmsh: supported and refused content.
 #![allow(clippy::disallowed_methods)]
 
 use crate::reading::{face_measure, measure, nodes_lie_where_the_element_has_them, sample, total};
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::{GroupTag, Mesh, MeshError, Options, Place, Shape, abaqus, gmsh};
 
-/// The written coordinates carry Gmsh's rounding of transfinite curves.
+/// The written coordinates have the rounding of Gmsh's transfinite curves.
 const ROUNDING: f64 = 1e-10;
 
 fn read<const D: usize>(name: &str, options: &Options) -> Result<Mesh<D>, MeshError> {
@@ -175,8 +175,8 @@ fn lengths_in_kilometres_become_metres() {
     assert_eq!(error, MeshError::LengthUnit { metres: 0.0 });
 }
 
-/// Two quadrilaterals over [0, 2] x [0, 1], of other groups, whose common edge is in a group of the name of the first; nodes
-/// unsorted with gaps, one of them unused, off the plane.
+/// Two quadrilaterals over [0, 2] x [0, 1], in different groups. Their common edge is in a group with the name of the first;
+/// nodes are unsorted with gaps, and one of them is unused and off the plane.
 const DIALECT: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\nof PyLith\n$EndComments\n\
     $PhysicalNames\n4\n2 24 \"material-id:24\"\n2 3 \"upper crust\"\n1 3 \"upper crust\"\n0 3 \"upper crust\"\n\
     $EndPhysicalNames\n$Nodes\n7\n900 2 1 0\n7 0 0 0\n30 1 0 0\n2 1 1 0\n8 5 5 0\n1 0 1 0\n31 2 0 0\n$EndNodes\n\
@@ -201,7 +201,7 @@ fn a_material_id_is_a_number_of_the_map() {
     assert_eq!(mesh.cell_sets["granite"], [1]);
 }
 
-/// Changes every number of a little-endian binary file of version 2.2 of quadrilaterals, lines and points into big-endian.
+/// Converts every number of a little-endian binary file of version 2.2 of quadrilaterals, lines and points to big-endian.
 fn to_big_endian(bytes: &[u8]) -> Vec<u8> {
     let mut out = bytes.to_vec();
     let find = |what: &str| bytes.windows(what.len()).position(|w| w == what.as_bytes()).unwrap();
@@ -357,7 +357,7 @@ fn a_count_of_a_header_is_bounded_before_anything_is_made_of_it() {
     assert!(matches!(error, MeshError::Truncated { count: 0x100_0000_0000, what: "nodes", .. }), "{error}");
 }
 
-/// For each node beyond the corners, in the order of VTK, the corners in whose middle it lies.
+/// Corners whose midpoint is the position of each node beyond the corners, in the order of VTK.
 fn middles(shape: Shape) -> &'static [&'static [usize]] {
     match shape {
         Shape::Cell(ElementKind::Tet10) => &[&[0, 1], &[1, 2], &[2, 0], &[0, 3], &[1, 3], &[2, 3]],

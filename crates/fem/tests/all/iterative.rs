@@ -1,4 +1,4 @@
-//! Conjugate gradients with smoothed aggregation and block-Jacobi against the direct solver, and what they promise.
+//! Conjugate gradients with smoothed aggregation and block-Jacobi compared with the direct solver, and their guarantees.
 
 use asperity_fem::block::LinearBlock;
 use asperity_fem::dof::{Constraints, Equations};
@@ -55,7 +55,7 @@ fn quads() -> Body<2> {
     body(ElementKind::Quad4, [40, 30], Grading::Geometric { ratio: 3.0 }, 0.3)
 }
 
-/// Numbers without order.
+/// Pseudo-random numbers.
 fn load(n: usize, seed: usize) -> Vec<f64> {
     (0..n).map(|k| ((k * 7919 + seed * 104_729) % 1009) as f64 / 504.0 - 1.0).collect()
 }
@@ -261,7 +261,8 @@ fn too_few_iterations_are_an_outcome_with_the_residual_reached() {
 fn an_indefinite_matrix_is_an_outcome_or_names_its_degree_of_freedom() {
     let mut body = hexes(6);
     let b = load(body.equations.free.len(), 14);
-    // The diagonal blocks stay as they are and what couples nodes grows: positive definite node by node only.
+    // The diagonal blocks are unchanged and the couplings between nodes grow: the matrix is positive definite node by node
+    // only.
     for k in body.values.chunks_exact_mut(576) {
         for (place, v) in k.iter_mut().enumerate() {
             let (row, column) = (place / 24, place % 24);

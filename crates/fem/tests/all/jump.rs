@@ -1,4 +1,4 @@
-//! Jumps as degrees of freedom against the split body they stand for.
+//! Jumps as degrees of freedom compared with the equivalent split body.
 
 use asperity_fem::block::LinearBlock;
 use asperity_fem::condense::{Condensed, Reduction, Stiffness};
@@ -40,7 +40,7 @@ fn body(dip: f64) -> (Faulted, Stiffness) {
 
 fn jumps(made: &Faulted, dip: f64) -> Jumps<2> {
     let (s, c) = dip.to_radians().sin_cos();
-    // Along the fault upwards, and from minus (smaller x) to plus.
+    // Axes along the fault upwards, and from minus (smaller x) to plus.
     let frame = [[c, s], [s, -c]];
     Jumps::new(
         made.fault.pairs.iter().map(|p| Jump { minus: 2 * p.minus, plus: 2 * p.plus, frame }).collect(),
@@ -61,7 +61,7 @@ fn dense(body: &Stiffness) -> DMatrix<f64> {
     k
 }
 
-/// A field that differs everywhere.
+/// A field that differs at every degree of freedom.
 fn field(n: usize) -> DVector<f64> {
     DVector::from_fn(n, |i, _| ((i * i + 3 * i) % 17) as f64 / 17.0 - 0.4)
 }
@@ -82,8 +82,8 @@ fn energy_is_that_of_the_split_body() {
     }
 }
 
-/// Jumps condensed: forces on them and the displacement of the whole body for jumps given, and no opening, must be those of the
-/// split body with the same jumps by Lagrange multipliers.
+/// Condensed jumps: the forces on them and the displacement of the whole body, for given jumps without opening, must be those
+/// of the split body with the same jumps by Lagrange multipliers.
 #[test]
 fn condensed_jumps_answer_as_the_split_body_does() {
     let dip = 60.0;
@@ -160,7 +160,7 @@ fn supports_that_no_jump_can_express_are_refused() {
         list.sort_unstable();
         list
     };
-    // One component on both sides is the opening of an upright fault, and no axis of an oblique one.
+    // A component held on both sides is the opening of an upright fault, but not an axis of an oblique one.
     assert_eq!(upright.fixed(&sorted(vec![minus, plus])).unwrap(), sorted(vec![minus, plus + 1]));
     assert_eq!(oblique.fixed(&sorted(vec![minus, plus])).unwrap_err(), ObliqueConstraint { plus });
     assert_eq!(upright.fixed(&[plus]).unwrap_err(), ObliqueConstraint { plus });
@@ -177,6 +177,6 @@ fn components_that_span_axes_of_an_oblique_surface_in_space_hold_its_jump() {
     assert_eq!(jumps.fixed(&[0, 1, 3, 4]).unwrap(), [0, 1, 3, 4]);
     assert_eq!(jumps.fixed(&[2, 5]).unwrap(), [2, 5]);
     assert_eq!(jumps.fixed(&[0, 3]).unwrap_err(), ObliqueConstraint { plus: 3 });
-    // Here one component of what is held lies across the axes.
+    // Here one of the held components is oblique to the axes.
     assert_eq!(jumps.fixed(&[0, 2, 3, 5]).unwrap_err(), ObliqueConstraint { plus: 3 });
 }

@@ -1,4 +1,4 @@
-//! Tests of finite elements, in one binary; `memory` counts allocations in its own.
+//! Tests of finite elements, in one binary; `memory` counts allocations in a separate one.
 #![allow(clippy::unwrap_used)]
 
 mod abaqus;

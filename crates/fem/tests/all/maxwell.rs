@@ -1,4 +1,4 @@
-//! Viscoelasticity against closed forms, which the update meets to rounding in steps of any size.
+//! Viscoelasticity compared with closed forms, which the update matches to rounding in steps of any size.
 
 use crate::lab::{
     AT, Noise, POISSON, SHEAR, YOUNG, assert_derivative, elastic, field, mesh, model, product, residual,
@@ -53,7 +53,7 @@ fn a_constant_strain_rate_is_followed_exactly() {
             assert!((stress[3] / exact - 1.0).abs() < 1e-13);
         }
     }
-    // Far beyond the relaxation time it is a fluid, and a step of no length is elastic.
+    // Far beyond the relaxation time it is a fluid, and a step of zero length is elastic.
     let mut stress = [0.0; 6];
     material.update(1e6 * TIME, &shear(rate * 1e6 * TIME), &mut stress, &mut [], None);
     assert!((stress[3] / (VISCOSITY * rate) - 1.0).abs() < 1e-13);
@@ -102,7 +102,7 @@ fn parameters_out_of_range_are_named() {
     assert!(error(&[branch(0.0, 1.0)]).contains("0 < share"));
     assert!(error(&[branch(0.7, 1.0), branch(0.4, 2.0)]).contains("at most 1"));
     assert!(error(&[branch(0.2, 1.0); 5]).contains("at most 4"));
-    // Shares that are 1 in sum but for rounding leave no spring.
+    // Shares whose sum is 1 to rounding leave no spring.
     let three =
         Maxwell::generalised(&elastic(), &[branch(0.6, 1.0), branch(0.3, 1.0), branch(0.1, 1.0)]).unwrap();
     assert_eq!(three.tensors(), 2);
@@ -110,8 +110,9 @@ fn parameters_out_of_range_are_named() {
 
 #[test]
 fn dissipation_is_never_negative() {
-    // In every Maxwell element work less the change of stored energy is the dissipation of its dashpot; for one element and
-    // steps of constant rate the total work over a closed cycle of strain from rest is what was dissipated or is still stored.
+    // In every Maxwell element, the work minus the change of stored energy is the dissipation of its dashpot. For one element
+    // and steps of constant rate, the total work over a closed cycle of strain from rest is the dissipated energy plus the
+    // energy still stored.
     let Material::Maxwell(material) = standard_solid() else { unreachable!() };
     for seed in 0..20 {
         let mut noise = Noise::new(seed + 1);
@@ -119,7 +120,7 @@ fn dissipation_is_never_negative() {
         let mut work = 0.0;
         let mut sum = [0.0; 6];
         let mut advance = |strain: Voigt, work: &mut f64| {
-            // Many small parts of the step measure the work.
+            // The work is measured over many small parts of the step.
             for _ in 0..200 {
                 let part = strain.map(|e| e / 200.0);
                 let before = stress;
@@ -137,7 +138,7 @@ fn dissipation_is_never_negative() {
     }
 }
 
-/// A square in simple shear under constant traction: the top moves by γ = τ/G + τ t/η.
+/// A square in simple shear under constant traction: the displacement of the top is γ = τ/G + τ t/η.
 fn creep(steps: usize, forward: bool) -> f64 {
     let mesh = mesh::<2>(ElementKind::Quad4, [0.0; 2], [1.0; 2], [2, 2], 0.2);
     let options = model(Material::Maxwell(maxwell()), Idealisation::Antiplane, Kinematics::Small);
@@ -152,7 +153,7 @@ fn creep(steps: usize, forward: bool) -> f64 {
     }
     let mut u = vec![0.0; 9];
     for k in 0..=steps {
-        // The traction jumps at the start, within a step of no length.
+        // The traction jumps at the start, in a step of zero length.
         let at = Instant { time: 0.0, dt: if k == 0 { 0.0 } else { total / steps as f64 } };
         let mut r = vec![0.0; 9];
         let mut values = vec![0.0; block.pattern().values()];
@@ -189,7 +190,7 @@ fn creep(steps: usize, forward: bool) -> f64 {
 
 #[test]
 fn creep_under_constant_stress_is_linear_in_time() {
-    // Constant stress means constant strain rate after the jump: the update is exact, in any number of steps, and so is the
+    // Constant stress means constant strain rate after the jump. The update is exact in any number of steps, and so is the
     // forward step with its relaxation as the constant part.
     for steps in [1, 2, 9] {
         assert!(creep(steps, false).abs() < 1e-12, "{:e}", creep(steps, false));

@@ -1,10 +1,10 @@
-//! Readers of meshes on damaged bytes: an error or a mesh, never a panic.
+//! Mesh readers on damaged bytes: an error or a mesh, never a panic.
 #![allow(clippy::disallowed_methods)]
 
 use asperity_fem::mesh::{Options, RawMesh, abaqus, gmsh};
 use proptest::prelude::*;
 
-/// Files of every format and coding.
+/// Files of all formats and codings.
 const SAMPLES: [&str; 10] = [
     "good_2d_quad4_shared_v22.msh",
     "good_2d_quad4_split_nonmatching_ascii.msh",
@@ -22,8 +22,7 @@ fn sample(name: &str) -> Vec<u8> {
     std::fs::read(format!("{}/tests/meshes/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
 
-/// Memory kept for a file is no more than so many bytes for each of its own: an entry of a list takes at least two bytes of
-/// text, and at most 32 in memory.
+/// Bytes kept for each byte of a file, at most: an entry of a list takes at least two bytes of text, and at most 32 in memory.
 const KEPT: usize = 16;
 
 fn kept(raw: &RawMesh) -> usize {
@@ -31,10 +30,10 @@ fn kept(raw: &RawMesh) -> usize {
     32 * raw.nodes.capacity() + blocks
 }
 
-/// Reads bytes as each format, and makes meshes of what comes out.
+/// Reads bytes as each format, and makes meshes from the results.
 fn read(bytes: &[u8]) {
     for raw in [gmsh::parse(bytes), abaqus::parse(bytes)].into_iter().flatten() {
-        // Vectors that grow by doubling hold up to twice what they need.
+        // Vectors that grow by doubling hold up to twice the memory they need.
         assert!(kept(&raw) <= 2 * KEPT * bytes.len() + 4096, "{} of {}", kept(&raw), bytes.len());
         let _ = raw.clone().into_mesh::<2>(&Options::default());
         let _ = raw.into_mesh::<3>(&Options::default());
@@ -74,7 +73,7 @@ proptest! {
             match kind {
                 0 => bytes[at] = value,
                 1 => bytes.insert(at, value),
-                // Digits keep a text readable further than other bytes.
+                // Digits keep a text readable for longer than other bytes.
                 _ => bytes[at] = b'0' + value % 10,
             }
         }

@@ -115,8 +115,8 @@ fn the_algorithmic_tangent_tends_to_the_continuum_one_with_the_step() {
     };
     let (coarse, fine) = (distance(1e-2), distance(1e-3));
     assert!((coarse / fine).log10() > 0.9 && fine < 1e-2, "{coarse:e} {fine:e}");
-    // And the plastic modulus of the continuum one is exact: a stress rate along s raises q by 3GH/(3G + H) times the
-    // deviatoric strain rate that is parallel to it.
+    // The plastic modulus of the continuum tangent is also exact: a stress rate along s raises q by 3GH/(3G + H) times the
+    // deviatoric strain rate parallel to it.
     let s = deviator(&stress);
     let n: Voigt = s.map(|x| x / contract(&s, &s).sqrt());
     let engineering: Voigt = std::array::from_fn(|i| if i < 3 { n[i] } else { 2.0 * n[i] });
@@ -156,7 +156,7 @@ fn equibiaxial_plane_stress_follows_its_closed_form() {
 
 #[test]
 fn dissipation_is_never_negative() {
-    // Work less the change of elastic energy, over each step of a path of random strains; Y Δe_p in the exact return.
+    // Work minus the change of elastic energy, over each step of a path of random strains: Y Δe_p in the exact return.
     let elastic_energy = |s: &Voigt| {
         let p = (s[0] + s[1] + s[2]) / 3.0;
         let k = YOUNG / (3.0 * (1.0 - 2.0 * POISSON));
@@ -269,7 +269,7 @@ fn cylinder(divisions: usize, pressures: &[f64]) -> Vec<f64> {
 
 #[test]
 fn a_thick_cylinder_yields_as_its_reference_says() {
-    // Radial finite-element reference good to 1e-5 relative; below yield the closed form of Lame.
+    // Radial finite-element reference accurate to 1e-5 relative; below yield, the closed form of Lamé.
     let found = cylinder(40, &[0.10, 0.12, 0.14, 0.16, 0.18]);
     let (p, a, b, nu) = (0.10, 100.0_f64, 200.0_f64, 0.3);
     let lame = 2.0 * p * b * (1.0 - nu * nu) / (210.0 * (b * b / (a * a) - 1.0));
@@ -330,13 +330,13 @@ fn a_forward_step_scaled_by_r1_ends_on_the_yield_surface() {
         let scaled: Vec<f64> = du.iter().map(|d| limit.value * d).collect();
         residual(&mut block, &first.iter().zip(&scaled).map(|(a, b)| a + b).collect::<Vec<_>>());
         block.accept();
-        // Yield is judged by the Kirchhoff stress, which is what is kept.
+        // Yield is determined by the Kirchhoff stress, which is the kept one.
         let saved = block.save();
         let kept = saved[n..].chunks_exact(block.kept_per_point());
         let largest = kept.map(|s| mises(s.first_chunk().unwrap())).fold(0.0, f64::max);
         assert!((largest / YIELD - 1.0).abs() < 1e-12, "{idealisation:?}: {:e}", largest / YIELD - 1.0);
         assert!(block.plastic_strain_at_points().unwrap().iter().all(|e| e.abs() < 1e-14));
-        // The point on the surface no longer limits; another one does.
+        // The point on the surface no longer limits the step; another one does.
         if let Some(next) = block.limit(&du, AT) {
             assert_ne!(next.cause, limit.cause);
         }
@@ -419,7 +419,7 @@ fn a_saved_block_continues_as_if_nothing_had_happened() {
     block.rate(AT, &mut rates[0].0, &mut rates[0].1).unwrap();
     other.rate(AT, &mut rates[1].0, &mut rates[1].1).unwrap();
     assert_eq!(rates[0], rates[1]);
-    // A rejected trial leaves nothing behind.
+    // A rejected trial has no effect.
     block.reject();
     assert_eq!(block.save(), saved);
 }

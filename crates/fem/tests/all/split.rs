@@ -19,7 +19,7 @@ fn cube(kind: ElementKind, n: usize) -> Mesh<3> {
         .unwrap()
 }
 
-/// Faces all of whose nodes satisfy `inside`, each once, in no direction in particular.
+/// Faces whose nodes all satisfy `inside`, each once, in arbitrary direction.
 fn faces<const D: usize>(mesh: &Mesh<D>, inside: impl Fn([f64; D]) -> bool) -> Vec<Vec<usize>> {
     let mut seen = BTreeSet::new();
     let mut out = Vec::new();
@@ -56,7 +56,7 @@ fn near(a: f64, b: f64) -> bool {
     (a - b).abs() < 1e-9
 }
 
-/// Vertices - edges + faces (- cells) of a mesh of linear elements; corners that no cell uses do not count.
+/// Vertices - edges + faces (- cells) of a mesh of linear elements; unused corners do not count.
 fn euler<const D: usize>(mesh: &Mesh<D>) -> i64 {
     let (mut nodes, mut edges, mut faces, mut cells) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new(), 0);
     for side in all_sides(mesh) {
@@ -82,7 +82,7 @@ fn boundary_faces<const D: usize>(mesh: &Mesh<D>) -> usize {
     count.values().filter(|&&c| c == 1).count()
 }
 
-/// Properties of every split: faces correspond, coincide, and look at each other; pairs coincide and cover the faces.
+/// Checks the properties of every split: faces correspond, coincide, and face each other; pairs coincide and cover the faces.
 fn check_sides<const D: usize>(mesh: &Mesh<D>, fault: &Fault) {
     let minus = &mesh.side_sets[&format!("{}.minus", fault.name)];
     let plus = &mesh.side_sets[&format!("{}.plus", fault.name)];
@@ -101,7 +101,7 @@ fn check_sides<const D: usize>(mesh: &Mesh<D>, fault: &Fault) {
             assert!(pairs.contains(&pair), "{pair:?} in {pairs:?}");
             used.insert(pair);
         }
-        // Opposite directions: the corners run the other way round.
+        // Opposite directions: the corners run in the other sense.
         let xa: Vec<[f64; D]> = a.iter().map(|&n| mesh.nodes[n]).collect();
         let mut xb: Vec<[f64; D]> = b.iter().map(|&n| mesh.nodes[n]).collect();
         let corners = if D == 2 {
@@ -293,7 +293,7 @@ fn in_space_the_tip_line_stays_whole_and_the_slit_is_one_cavity() {
         assert_eq!(mesh.nodes.len(), before + 1);
         assert_eq!(faults[0].pairs.iter().filter(|p| p.is_tip()).count(), 8);
         assert_eq!(euler(&mesh), 2, "a ball with a cavity");
-        // Reaching one side of the body, the surface leaves a ball.
+        // If it reaches one side of the body, the surface leaves a ball.
         let mut mesh = cube(kind, 4);
         let on = faces(&mesh, |x| near(x[2], 0.5) && x[0] < 0.8);
         let faults = split(&mut mesh, &[surface("f", on, [0.0, 0.0, 1.0])]).unwrap();
@@ -359,13 +359,13 @@ fn surfaces_that_cannot_be_split_are_refused_by_name_and_leave_the_mesh_as_it_wa
 
 #[test]
 fn a_surface_with_one_side_is_refused() {
-    // A Moebius strip of five quadrilaterals through a ring of cells: each ridge between neighbours of the strip is
-    // passed the same way by one pair, whatever the directions. Two triangles per cell face carry it through tetrahedra.
+    // A Moebius strip of five quadrilaterals through a ring of cells: each ridge between neighbours of the strip is passed in
+    // the same direction by one pair, whatever the directions. Two triangles per cell face continue it through tetrahedra.
     let n = 5;
     let ring = |k: usize| std::f64::consts::TAU * k as f64 / n as f64;
     let mut mesh = Mesh::<3>::default();
     for k in 0..n {
-        // The cross-section turns by half a turn on the way round.
+        // The cross-section rotates by half a turn around the ring.
         let (t, half) = (ring(k), 0.5 * ring(k));
         for s in [-0.3, 0.3] {
             let r = 1.0 + s * half.cos();

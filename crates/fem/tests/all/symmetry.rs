@@ -1,4 +1,4 @@
-//! Which tangents are symmetric: what a model says of itself is what its matrices show.
+//! Symmetry of tangents: the properties stated by a model are those of its matrices.
 
 use crate::lab::{AT, Noise, elastic, mesh, model, residual, standard_solid, swift_j2, tangent};
 use asperity_fem::element::ElementKind;
@@ -6,7 +6,7 @@ use asperity_fem::kinematics::{Formulation, Idealisation};
 use asperity_fem::nonlinear::{Block, Kinematics, Limits, Material, Model};
 use asperity_fem::term::{Limited, Linearized, Pattern, Term};
 
-/// Rounding of an entry, a sum of some tens of products.
+/// Rounding of an entry, which is a sum of some tens of products.
 const ROUNDING: f64 = 1e-13;
 
 /// Largest |K - K'| over the largest entry of any cell.
@@ -25,7 +25,7 @@ fn asymmetry(pattern: &Pattern, values: &[f64]) -> f64 {
     worst / largest
 }
 
-/// Asymmetries of the consistent and of the rate tangent after a plastic step, in the next.
+/// Asymmetries of the consistent and of the rate tangent in the step after a plastic step.
 fn measured<const D: usize>(kind: ElementKind, options: Model) -> [f64; 2] {
     let mesh = mesh::<D>(kind, [0.0; D], [1.0; D], [1; D], 0.2);
     let n = mesh.nodes.len() * options.idealisation.components();
@@ -88,6 +88,6 @@ fn tangents_are_symmetric_where_models_say_so() {
             }
         }
     }
-    // That the consistent tangent of large deformation is called unsymmetric is no caution.
+    // The consistent tangent of large deformation is indeed unsymmetric.
     assert!(unsymmetric > 1e-3, "{unsymmetric:e}");
 }

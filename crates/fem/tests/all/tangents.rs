@@ -8,11 +8,11 @@ use asperity_fem::mesh::Mesh;
 use asperity_fem::nonlinear::{Block, Kinematics, Limits, Material, Model};
 use asperity_fem::term::Term;
 
-/// Admits the violent steps of the test.
+/// Limits that admit the large steps of the test.
 const WIDE: Limits = Limits { strain: 1.0, rotation: 1.0, refused: 2.0 };
 
-/// Two cells of the generator side by side, all nodes moved by a share of their distance: edges and faces are curved where the
-/// element has nodes on them.
+/// Two cells of the generator side by side, with all nodes moved by a fraction of their distance: edges and faces are curved if
+/// the element has nodes on them.
 fn distorted<const D: usize>(kind: ElementKind) -> Mesh<D> {
     let mut divisions = [1; D];
     divisions[0] = 2;
@@ -26,7 +26,7 @@ fn distorted<const D: usize>(kind: ElementKind) -> Mesh<D> {
     mesh
 }
 
-/// A rotation by half a radian about the axis that the idealisation leaves, with its displacements.
+/// A rotation by half a radian about the axis allowed by the idealisation, with its displacements.
 fn turn<const D: usize>(mesh: &Mesh<D>, idealisation: Idealisation) -> Vec<f64> {
     let axis = match idealisation {
         Idealisation::ThreeD => nalgebra::Vector3::new(0.2, -0.35, 0.3),
@@ -42,7 +42,8 @@ fn turn<const D: usize>(mesh: &Mesh<D>, idealisation: Idealisation) -> Vec<f64> 
     mesh.nodes.iter().flat_map(displacement).collect()
 }
 
-/// A step that leaves stress and history behind, then the tangent of the next, which turns the body where that may be large.
+/// Takes a step that leaves stress and history behind, then checks the tangent of the next, which rotates the body where
+/// rotations may be large.
 fn check<const D: usize>(kind: ElementKind, options: Model, what: &str) {
     let mesh = distorted::<D>(kind);
     let n = mesh.nodes.len() * options.idealisation.components();
@@ -61,7 +62,7 @@ fn check<const D: usize>(kind: ElementKind, options: Model, what: &str) {
     }
 }
 
-/// All idealisations and formulations of an element that exist.
+/// Checks all existing idealisations and formulations of an element.
 fn every_combination(kind: ElementKind, kinematics: Kinematics) -> usize {
     let mut checked = 0;
     let spaces = Idealisation::ALL.into_iter().filter(|i| i.dimension() == kind.dimension());
@@ -89,8 +90,8 @@ fn every_combination(kind: ElementKind, kinematics: Kinematics) -> usize {
 #[test]
 fn tangents_are_the_derivatives_of_residuals_at_small_strain() {
     let checked: usize = ElementKind::ALL.iter().map(|&k| every_combination(k, Kinematics::Small)).sum();
-    // Per material: plane elements have four idealisations, and B-bar in two of them but for tri3; in space B-bar is
-    // missing for tet4 and wedge6.
+    // Per material: plane elements have four idealisations, and B-bar in two of them except for tri3; in 3D, B-bar is missing
+    // for tet4 and wedge6.
     assert_eq!(checked, 3 * (5 * 4 + 4 * 2 + 7 + 5));
 }
 

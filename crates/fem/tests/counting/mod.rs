@@ -1,7 +1,7 @@
-//! Memory in use at its peak, as an allocator counts it.
+//! Peak memory in use, as counted by an allocator.
 //!
-//! An allocator needs `unsafe`: this one only counts before handing on to the system's. Growth of a vector counts as a new piece
-//! beside the old one, which is the worst that can happen.
+//! An allocator needs `unsafe`: this one only counts before delegating to the system's. A growing vector counts as a new
+//! allocation besides the old one, which is the worst case.
 #![allow(unsafe_code, dead_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -16,7 +16,7 @@ thread_local! {
 }
 
 fn add(bytes: isize) {
-    // While a thread ends there is nothing to count.
+    // There is nothing to count while a thread ends.
     let _ = NOW.try_with(|now| {
         now.set(now.get() + bytes);
         let _ = PEAK.try_with(|peak| peak.set(peak.get().max(now.get())));
@@ -34,7 +34,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// Result of `f`, and the most bytes that it held at a time on this thread.
+/// Result of `f`, and the largest number of bytes that it held at a time on this thread.
 pub fn peak_of<T>(f: impl FnOnce() -> T) -> (T, usize) {
     let before = NOW.get();
     PEAK.set(before);

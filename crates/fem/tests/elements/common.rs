@@ -22,29 +22,29 @@ pub fn grid<const D: usize>(kind: ElementKind, min: [f64; D], n: usize) -> Mesh<
     Block { min, max, divisions: [n; D], grading: [Grading::Uniform; D], kind }.mesh().unwrap()
 }
 
-/// Changes of a uniform mesh of a unit block.
+/// Distortion of a uniform mesh of a unit block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    /// Corners inside move by a fixed share of the element size, to alternating sides: the shape of elements does not improve
-    /// with refinement. Edges stay straight.
+    /// Interior corners move by a fixed fraction of the element size, to alternating sides: the shape of elements does not
+    /// improve with refinement. Edges stay straight.
     Crooked,
-    /// Corners inside move by a smooth map of the block: cells become parallelograms as the mesh is refined.
+    /// Interior corners move by a smooth map of the block: cells become parallelograms as the mesh is refined.
     Mapped,
     /// One constant shear: all elements are affine images of the reference element.
     Sheared,
 }
 
-/// Shares of the element size.
+/// Fractions of the element size.
 const MOVE: [f64; 3] = [0.13, -0.09, 0.11];
 
-/// `lower` corner, `n` elements along an axis.
+/// A block with the lower corner `lower` and `n` elements along each axis.
 pub fn mesh<const D: usize>(kind: ElementKind, lower: [f64; D], n: usize, shape: Shape) -> Mesh<D> {
     let mut mesh = grid::<D>(kind, lower, n);
     if shape == Shape::Sheared {
         for x in &mut mesh.nodes {
             let start = *x;
             for c in 0..D {
-                // About an axis, x = 0 has to stay where it is.
+                // About an axis, x = 0 must stay fixed.
                 x[c] += if c == 0 { 0.0 } else { 0.3 * start[0] + 0.15 * start[(c + 1) % D] };
             }
         }
@@ -61,7 +61,7 @@ pub fn mesh<const D: usize>(kind: ElementKind, lower: [f64; D], n: usize, shape:
             return std::array::from_fn(|c| x[c] + MOVE[c] * wave);
         }
         let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
-        // Rows alternate in x, columns in y: trapezoids.
+        // Rows alternate in x and columns in y, which gives trapezoids.
         std::array::from_fn(|c| x[c] + MOVE[c] / n as f64 * sign(index.iter().sum::<usize>() + c * index[0]))
     };
     let linear = kind.linear();
@@ -84,7 +84,7 @@ pub fn boundary<const D: usize>(mesh: &Mesh<D>) -> Vec<usize> {
     nodes
 }
 
-/// A displacement field: `value(x, u)` writes its components, `gradient[c][j]` = ∂u_c/∂x_j, the body force that holds it.
+/// A displacement field: its value, its gradient `[c][j]` = ∂u_c/∂x_j, and the body force that balances it.
 pub trait Field<const D: usize> {
     fn value(&self, x: &[f64; D]) -> [f64; 3];
     fn gradient(&self, x: &[f64; D]) -> [[f64; 3]; 3];
@@ -96,7 +96,7 @@ pub fn solve<const D: usize>(mesh: &Mesh<D>, block: &LinearBlock<D>, exact: &dyn
     solve_held(mesh, block, exact, &boundary(mesh), &[])
 }
 
-/// Solves with the field prescribed on some nodes, and with given nodal forces beside its body force.
+/// Solves with the field prescribed on some nodes, and with given nodal forces in addition to its body force.
 pub fn solve_held<const D: usize>(
     mesh: &Mesh<D>,
     block: &LinearBlock<D>,
@@ -167,7 +167,7 @@ impl Waves {
     pub fn general(material: &Elastic, idealisation: Idealisation) -> Self {
         let lame = match idealisation {
             Idealisation::PlaneStress => material.plane_stress_lame(),
-            // The force of the only component is that of λ = -G.
+            // The force of the single component is that of λ = -G.
             Idealisation::Antiplane => -material.shear(),
             _ => material.lame(),
         };
@@ -179,7 +179,7 @@ impl Waves {
         if idealisation.dimension() == 2 {
             waves.iter_mut().for_each(|(a, k, _)| (a[2], k[2]) = (0.0, 0.0));
         } else {
-            // Longer in space, where meshes are coarser.
+            // Longer waves in 3D, where meshes are coarser.
             waves.iter_mut().for_each(|(_, k, _)| *k = k.map(|k| 0.5 * k));
         }
         Self { shear: material.shear(), lame, waves }
@@ -262,12 +262,12 @@ impl Field<2> for Round {
     }
 }
 
-/// Every idealisation of an element.
+/// All idealisations of an element.
 pub fn idealisations(kind: ElementKind) -> impl Iterator<Item = Idealisation> {
     Idealisation::ALL.into_iter().filter(move |i| i.dimension() == kind.dimension())
 }
 
-/// Every formulation an element has in an idealisation.
+/// All formulations of an element in an idealisation.
 pub fn formulations(kind: ElementKind, space: Idealisation) -> impl Iterator<Item = Formulation> {
     Formulation::ALL.into_iter().filter(move |f| f.dilatation(kind, space).is_ok())
 }
@@ -277,7 +277,7 @@ pub fn orders(coarse: [f64; 2], fine: [f64; 2], ratio: f64) -> [f64; 2] {
     std::array::from_fn(|k| (coarse[k] / fine[k]).ln() / ratio.ln())
 }
 
-/// Elements whose space holds the complete polynomials of their order on affine images of the reference only.
+/// True for elements whose space contains the complete polynomials of their order only on affine images of the reference.
 pub fn is_serendipity(kind: ElementKind) -> bool {
     matches!(kind, ElementKind::Quad8 | ElementKind::Hex20 | ElementKind::Wedge15)
 }

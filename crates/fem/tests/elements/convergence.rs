@@ -30,7 +30,7 @@ fn error<const D: usize>(
     errors(&mesh, &u, &block, exact)
 }
 
-/// p + 1 and p; 2 and 1 where B-bar leaves a second-order element a constant dilatation.
+/// p + 1 and p; 2 and 1 if B-bar gives a second-order element a constant dilatation.
 fn theory(kind: ElementKind, space: Idealisation, formulation: Formulation) -> [f64; 2] {
     let constant = formulation.dilatation(kind, space).unwrap() == Some(Dilatation::ConstantPressure);
     let p = if constant { 1.0 } else { kind.order() as f64 };
@@ -39,7 +39,7 @@ fn theory(kind: ElementKind, space: Idealisation, formulation: Formulation) -> [
 
 /// Orders on two levels, within 0.1 of theory.
 fn check(kind: ElementKind, space: Idealisation, formulation: Formulation) {
-    // Where non-affine elements lose an order: see the test below.
+    // Non-affine elements may lose an order: see the test below.
     let shape = if is_serendipity(kind) { Shape::Sheared } else { Shape::Crooked };
     let (two, three) = field(space, 0.3);
     let levels = match (kind.dimension(), kind.order()) {

@@ -55,7 +55,7 @@ fn conforms<const D: usize>(kind: ElementKind) {
         let expected = if outer.contains(&face) { 1 } else { 2 };
         assert_eq!(count, expected, "{} {face:?}", kind.name());
     }
-    // All cells are turned the right way, and together they fill the block.
+    // All cells have the right orientation, and together they fill the block.
     let space = Idealisation::of_dimension(D);
     let material = super::common::material(0.3);
     let elastic = LinearBlock::new(&mesh, 0, &material, space, Formulation::Standard).unwrap();
@@ -114,7 +114,7 @@ fn grading_reaches_its_ratio_and_its_ends() {
 
 #[test]
 fn numbers_of_nodes_and_cells_are_those_of_the_grid() {
-    // Nodes of a grid of n cells an axis: vertices, edges, faces, cells that carry one.
+    // Nodes of a grid of n cells per axis: on vertices, edges, faces and cells.
     for (kind, nodes, cells) in
         [(ElementKind::Quad8, 9 + 12, 4), (ElementKind::Quad9, 25, 4), (ElementKind::Tri6, 25, 8)]
     {
@@ -181,9 +181,9 @@ fn bent_sides_lie_on_their_curves_and_opposite_sides_stay() {
 
 #[test]
 fn a_bent_block_has_the_volume_between_its_sides() {
-    // 8 m² less the integral of r²/8 over x from -1 to 3 m, apex at 0.25 m; times 3 m in space.
+    // 8 m² minus the integral of r²/8 over x from -1 to 3 m, with the apex at 0.25 m; times 3 m in 3D.
     let exact = 8.0 - (2.75_f64.powi(3) + 1.25_f64.powi(3)) / 24.0;
-    // Faces of second order are parabolas themselves; straight ones cut them by h³/(12 R) each.
+    // Faces of second order are parabolas themselves; straight ones each cut off h³/(12 R).
     let check = |volume: f64, thickness: f64, kind: ElementKind| {
         let cut = volume - exact * thickness;
         let bound = if kind.order() == 2 { 1e-13 } else { 0.05 };
@@ -225,7 +225,7 @@ fn lines_of_a_zone_are_symmetric_and_end_exactly() {
     let line = Spacing::Zone { from: -1.2, to: 1.2, size: 0.1, ratio: 1.2 }.line(-20.0, 20.0).unwrap();
     assert_eq!((line[0], line[line.len() - 1]), (-20.0, 20.0));
     for (a, b) in line.iter().zip(line.iter().rev()) {
-        // Rounding of sums of some 30 sizes, up to 20 m.
+        // Rounding of sums of about 30 sizes, up to 20 m.
         assert!((a + b).abs() < 1e-12, "{a} {b}");
     }
     let sizes: Vec<f64> = line.windows(2).map(|w| w[1] - w[0]).collect();

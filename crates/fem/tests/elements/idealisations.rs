@@ -79,7 +79,7 @@ fn an_initial_stress_about_an_axis_balances_its_tractions_and_its_hoop_stress_co
             tractions.into_iter().for_each(|(dof, f)| r[dof] -= f);
         }
         assert!(r.iter().all(|r| r.abs() < 1e-13), "{}", kind.name());
-        // Virtual work of u_r = r: (σ_rr + σ_θθ) V, with a hoop stress of its own.
+        // Virtual work of u_r = r: (σ_rr + σ_θθ) V, with a different hoop stress.
         let work: f64 = block
             .initial_stress([1.5, -2.0, 0.7, 0.0, 0.0, 0.0])
             .into_iter()
@@ -90,8 +90,8 @@ fn an_initial_stress_about_an_axis_balances_its_tractions_and_its_hoop_stress_co
     }
 }
 
-/// Relative error of the inner wall's displacement, the largest over z: a cylinder 1 < r < 2 in plane strain under an inner
-/// pressure.
+/// Relative error of the displacement of the inner wall, the largest over z: a cylinder 1 < r < 2 in plane strain under an
+/// internal pressure.
 fn cylinder(kind: ElementKind, formulation: Formulation, poisson: f64) -> f64 {
     let m = material(poisson);
     let mesh = mesh::<2>(kind, [1.0, 0.0], 8, Shape::Mapped);

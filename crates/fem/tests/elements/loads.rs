@@ -65,7 +65,7 @@ fn body_forces_have_their_resultant_and_their_moment() {
         assert!((sum(&forces, 3, 1) + 3.0).abs() < 1e-13, "{}", kind.name());
         let moment: f64 =
             forces.iter().filter(|(d, _)| d % 3 == 1).map(|(d, f)| f * mesh.nodes[d / 3][0]).sum();
-        // Cells are not symmetric, but x is reproduced and the block is whole.
+        // Cells are not symmetric, but x is reproduced and the block is complete.
         assert!((moment + 1.5).abs() < 1e-13, "{} {moment}", kind.name());
     }
 }

@@ -10,9 +10,9 @@ use asperity_fem::surface;
 /// Conditions on the boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Walls {
-    /// Displacements everywhere.
+    /// Displacements on the whole boundary.
     Held,
-    /// Displacements left and below (and behind), tractions elsewhere.
+    /// Displacements on the left and at the bottom (and back), tractions elsewhere.
     Partly,
 }
 
@@ -73,7 +73,7 @@ fn study(
     })
 }
 
-/// ν of the bodies that are nearly incompressible: λ/G = 5e3 and 5e6.
+/// ν of the nearly incompressible bodies: λ/G = 5e3 and 5e6.
 const NEARLY: [f64; 2] = [0.4999, 0.499_999_9];
 
 #[test]
@@ -127,7 +127,7 @@ fn quad4_and_hex8_with_b_bar_keep_order_and_level_on_smoothly_mapped_meshes() {
     }
 }
 
-/// Not a virtue, but known: cells that alternate in shape feed the alternating pressure.
+/// A known weakness: cells of alternating shape excite the alternating pressure.
 #[test]
 fn quad4_with_b_bar_loses_its_order_where_cells_alternate_in_shape_but_stays_ahead_of_the_standard_one() {
     let here = (Shape::Crooked, Walls::Partly);

@@ -1,4 +1,4 @@
-//! Linear fields, with Standard and B-bar, on crooked meshes.
+//! Linear fields, with Standard and B-bar, on irregular meshes.
 
 use super::common::{Field, Shape, formulations, idealisations, material, mesh, solve};
 use asperity_fem::block::LinearBlock;
@@ -10,8 +10,8 @@ const GRADIENT: [[f64; 3]; 3] = [[0.02, 0.011, -0.007], [-0.004, 0.015, 0.006], 
 /// Scale of strains in [`GRADIENT`]; the displacement is of order 0.1.
 const STRAIN: f64 = 0.02;
 
-/// u = 0.1 + H x. About an axis u_r = a r, u_z = b z + c r + d: these are the linear fields without a singular hoop strain; the
-/// shear G c is held by the body force -G c/r along z.
+/// u = 0.1 + H x. About an axis u_r = a r, u_z = b z + c r + d, the linear fields without a singular hoop strain. The shear G c
+/// is held by the body force -G c/r along z.
 struct Linear {
     gradient: [[f64; 3]; 3],
     shift: [f64; 3],

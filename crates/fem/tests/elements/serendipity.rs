@@ -1,15 +1,15 @@
-//! Serendipity elements on meshes that are not affine (Arnold, Boffi, Falk 2002; in space Arnold, Boffi, Bonizzoni 2015).
+//! Serendipity elements on non-affine meshes (Arnold, Boffi, Falk 2002; in space Arnold, Boffi, Bonizzoni 2015).
 //!
-//! A space keeps its order on general quadrilaterals only if it holds all of Q_p in natural coordinates. x² of a bilinear map
-//! contains ξ²η², which quad8 has not: on meshes whose cells do not become parallelograms it holds linear polynomials only, and
-//! its order falls from 3 to 2 in displacement and from 2 to 1 in strain.
+//! A space keeps its order on general quadrilaterals only if it contains all of Q_p in natural coordinates. x² of a bilinear
+//! map contains ξ²η², which quad8 lacks. On meshes whose cells do not become parallelograms it contains only linear
+//! polynomials, and its order falls from 3 to 2 in displacement and from 2 to 1 in strain.
 
 use super::common::{Shape, Waves, boundary, errors, material, mesh, orders, solve_held};
 use asperity_fem::block::LinearBlock;
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
 
-/// x at the middle of a cell with corners at ξ + k ξη, minus what the element makes of x² there from its nodes.
+/// Interpolation of x² by the element at the centre of a cell with corners at ξ + k ξη, where x = 0.
 fn defect(kind: ElementKind, k: f64) -> f64 {
     let x = |xi: &[f64; 3]| xi[0] + k * xi[0] * xi[1];
     let centre = kind.shape([0.0; 3]);
@@ -24,7 +24,7 @@ fn quad8_misses_the_square_of_the_position_by_the_square_of_the_bilinear_part() 
         assert!(defect(ElementKind::Quad9, k).abs() < 1e-15);
         assert!(defect(ElementKind::Hex27, k).abs() < 1e-15);
     }
-    // In space the same term, on the four edges along z as well: N = -1/4 at 8 corners and 1/4 at 12 mid-nodes.
+    // The same term in 3D, also on the four edges along z: N = -1/4 at 8 corners and 1/4 at 12 mid-nodes.
     assert!((defect(ElementKind::Hex20, 0.3) + 0.09).abs() < 1e-15);
 }
 
@@ -51,7 +51,7 @@ fn quad8_hex20_and_wedge15_lose_an_order_on_crooked_meshes_and_keep_it_on_affine
             _ => orders_on::<3>(kind, shape, levels),
         };
         let crooked = on(Shape::Crooked);
-        // Between the orders before and after the loss: the lost part is a small share of the error of coarse meshes.
+        // Between the orders before and after the loss: the lost part is a small fraction of the error of coarse meshes.
         assert!(crooked[0] > 1.9 && crooked[0] < 2.6, "{}: {crooked:?}", kind.name());
         assert!(crooked[1] > 0.9 && crooked[1] < 1.2, "{}: {crooked:?}", kind.name());
         for shape in [Shape::Sheared, Shape::Mapped] {

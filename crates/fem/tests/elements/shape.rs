@@ -3,7 +3,7 @@
 use asperity_fem::element::{ElementKind, Point, face};
 use asperity_fem::quadrature;
 
-/// Places inside every reference element.
+/// Points inside every reference element.
 const INSIDE: [[f64; 3]; 2] = [[0.21, 0.34, 0.17], [0.5, 0.11, 0.29]];
 
 #[test]
@@ -75,7 +75,7 @@ fn derivatives_have_a_taylor_remainder_of_second_order() {
                     .fold(0.0, f64::max)
             };
             let (coarse, fine) = (remainder(1e-2), remainder(1e-3));
-            // Linear simplices have no remainder at all.
+            // Linear simplices have no remainder.
             if coarse < 1e-14 {
                 assert!(matches!(kind, ElementKind::Tri3 | ElementKind::Tet4), "{}", kind.name());
             } else {
@@ -134,7 +134,7 @@ fn faces_have_corners_first_and_middles_in_their_order() {
     }
 }
 
-/// On a face the functions of its nodes are those of its kind, and no others are left.
+/// On a face, the functions of its nodes are those of its kind, and all others vanish.
 #[test]
 fn faces_are_of_the_kind_they_say() {
     for element in ElementKind::ALL {
@@ -188,7 +188,7 @@ fn moment(kind: ElementKind, [i, j, k]: [i32; 3]) -> f64 {
     }
 }
 
-/// True if a monomial lies within a degree: the sum on simplices, each variable on products.
+/// True if a monomial lies within a degree: by the sum of exponents on simplices, by each variable on products.
 fn within(kind: ElementKind, [i, j, k]: [i32; 3], degree: i32, along: i32) -> bool {
     match kind.linear() {
         ElementKind::Tri3 | ElementKind::Tet4 => i + j + k <= degree,

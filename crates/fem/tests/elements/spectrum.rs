@@ -1,4 +1,4 @@
-//! Rigid motions cost no energy, everything else does.
+//! Rigid motions have no energy; all other motions do.
 
 use super::common::{Shape, formulations, idealisations, material, mesh};
 use asperity_fem::block::LinearBlock;
@@ -40,7 +40,7 @@ fn rigid<const D: usize>(space: Idealisation, x: &[f64; D]) -> Vec<Vec<f64>> {
     }
 }
 
-/// `cells` is the number of grid cells an axis; a single element for 1 (the first of a split cell).
+/// Checks the spectrum. `n` is the number of grid cells per axis; 1 means a single element (the first of a split cell).
 fn spectrum<const D: usize>(kind: ElementKind, space: Idealisation, formulation: Formulation, n: usize) {
     let name = format!("{} {} {} {n}", kind.name(), space.name(), formulation.name());
     let mut mesh = mesh::<D>(kind, [0.2; D], n.max(2), Shape::Crooked);

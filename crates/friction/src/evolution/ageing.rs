@@ -1,4 +1,4 @@
-//! Ageing law (Dieterich 1979): dθ/dt = 1 - V θ/L, φ = b ψ with ψ = ln(Vref θ/L), which is the state variable.
+//! Ageing law (Dieterich 1979): dθ/dt = 1 - V θ/L and φ = b ψ, with the state variable ψ = ln(Vref θ/L).
 //!
 //! With a cut-off rate V2 (Okubo 1989) the contribution levels off at high rates: φ = b ln(1 + V2 θ/L).
 
@@ -7,8 +7,8 @@ use super::{
     Bound, Common, Defined, Definition, Evolution, Evolved, Front, Parameter, Rate, Speed, Unit, Variable,
 };
 
-/// Below this x the series of x/(e^x - 1) - 1 is exact to rounding (its fifth term is x^7/604800 of the first), and above it
-/// the closed form loses two digits at most.
+/// Below this x the series of x/(e^x - 1) - 1 is exact to rounding: its fifth term is x^7/604800 of the first. Above it, the
+/// closed form loses two digits at most.
 const SMALL: f64 = 2e-2;
 
 /// Above this ψ_ss - ψ the two terms of dψ/dt differ by more than a factor e, and their difference does not cancel.
@@ -43,7 +43,7 @@ impl Ageing {
         })
     }
 
-    /// With the cut-off rate V2 > 0 \[m/s\] of the state effect.
+    /// Adds the cut-off rate V2 > 0 \[m/s\] of the state effect.
     ///
     /// # Errors
     /// [`crate::Failure::Parameter`].
@@ -52,7 +52,7 @@ impl Ageing {
         Ok(self)
     }
 
-    /// The same law without a cut-off and with the clock of θ running slower by `1/(1 + c)`: see [`super::nagata`].
+    /// Step of the same law without a cut-off and with the clock of θ slowed by `1/(1 + c)`: see [`super::nagata`].
     pub(super) fn slowed(&self, state: f64, dt: f64, c: f64) -> (f64, f64, f64) {
         self.start(state, dt / (1.0 + c))
     }

@@ -1,4 +1,4 @@
-//! Rows of the table of evolution laws: what a scene says, what the book says, and what planning needs to know of each.
+//! Rows of the table of evolution laws, with the data that scenes, the book and planning need of each.
 
 use super::Evolution;
 use crate::Failure;
@@ -17,24 +17,24 @@ pub enum Unit {
 pub enum Bound {
     /// Above zero.
     Positive,
-    /// Zero or above.
+    /// Zero or greater.
     NotNegative,
-    /// Zero or above, and below the reference coefficient μ0.
+    /// Zero or greater, and below the reference coefficient μ0.
     BelowReference,
 }
 
-/// A parameter that one evolution has and others have not.
+/// A parameter that belongs to one evolution only.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
-    /// Key of scenes.
+    /// Key in scenes.
     pub key: &'static str,
     /// Unit.
     pub unit: Unit,
     /// Admissible values.
     pub bound: Bound,
-    /// True if the law does without it.
+    /// True if the law can be built without it.
     pub optional: bool,
-    /// A usual value, as in scenes.
+    /// A usual value, as written in scenes.
     pub example: &'static str,
     /// Meaning, in Markdown.
     pub meaning: &'static str,
@@ -56,7 +56,7 @@ pub enum Variable {
 }
 
 impl Variable {
-    /// Returns t \[s\] and c of `θ = t exp(c s)`, where the law has a θ; lengths in m, slip rates in m/s.
+    /// t \[s\] and c of `θ = t exp(c s)`, where the law has a θ; lengths in m, slip rates in m/s.
     #[must_use]
     pub fn theta(self, b: f64, length: f64, v_ref: f64) -> Option<(f64, f64)> {
         match self {
@@ -66,14 +66,14 @@ impl Variable {
     }
 }
 
-/// Loss of strength at the front of a rupture.
+/// Loss of strength at a rupture front.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Front {
-    /// Strength falls over a slip that grows with the rise of the slip rate, as with the ageing law.
+    /// Strength falls over a slip that grows with the increase of the slip rate, as with the ageing law.
     Ageing,
-    /// Strength falls over L whatever the drop, as with the slip law.
+    /// Strength falls over L, however large the drop, as with the slip law.
     Slip {
-        /// Index of the parameter to which μ falls at high rates, where that is below the steady state of b.
+        /// Index of the parameter to which μ falls at high rates, where it is below the steady state given by b.
         weakened: Option<usize>,
     },
 }
@@ -83,17 +83,17 @@ pub enum Front {
 pub struct Definition {
     /// Name in scenes.
     pub name: &'static str,
-    /// Evolution of the state, in Markdown.
+    /// Evolution of the state variable, in Markdown.
     pub equation: &'static str,
-    /// Parameters of this law alone.
+    /// Parameters that only this law has.
     pub parameters: &'static [Parameter],
-    /// Reason why it has one state variable, where it may not have several.
+    /// Reason why it may have only one state variable, where this is so.
     pub one_state: Option<&'static str>,
-    /// Index of the parameter that is a memory of shear traction, which acts through the state and needs b > 0.
+    /// Index of the parameter that is a memory of shear traction. Such a memory acts through the state and needs b > 0.
     pub memory: Option<usize>,
     /// State variable.
     pub variable: Variable,
-    /// Front of a rupture.
+    /// Loss of strength at a rupture front.
     pub front: Front,
 }
 
@@ -114,17 +114,17 @@ pub struct Common {
 
 /// An evolution of the table.
 pub trait Defined: Evolution {
-    /// Its row.
+    /// Its row of the table.
     const DEFINITION: Definition;
 
-    /// Builds the law; `own` holds the values of its own parameters, in the order of the row.
+    /// Builds the law; `own` holds the values of the parameters that only this law has, in the order of the row.
     ///
     /// # Errors
     /// [`Failure::Parameter`].
     fn build(common: &Common, own: &[Option<f64>]) -> Result<Self, Failure>;
 }
 
-/// Returns the value of a parameter that the law needs.
+/// Value of a parameter that the law needs.
 pub(super) fn needed(own: &[Option<f64>], index: usize, name: &'static str) -> Result<f64, Failure> {
     let absent = Failure::Parameter { name, value: f64::NAN, admissible: "a value" };
     own.get(index).copied().flatten().ok_or(absent)

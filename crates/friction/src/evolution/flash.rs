@@ -1,9 +1,9 @@
-//! Slip law towards a strongly weakening steady state (flash heating; Rice 2006, Noda et al. 2009, Dunham et al. 2011):
-//! dφ/dt = -(V/L)(φ - φ_ss(V)) with φ_ss = μ_ss - μ0 - a ln(V/Vref) and
-//! μ_ss = μ_w + (μ_lv - μ_w)/[1 + (V/V_w)⁸]^(1/8), μ_lv = μ0 + (a - b) ln(V/Vref).
+//! Slip law towards a strongly weakening steady state (flash heating; Rice 2006, Noda et al. 2009, Dunham et al. 2011): dφ/dt =
+//! -(V/L)(φ - φ_ss(V)). The steady state is φ_ss = μ_ss - μ0 - a ln(V/Vref) with μ_ss = μ_w + (μ_lv - μ_w)/[1 +
+//! (V/V_w)⁸]^(1/8), μ_lv = μ0 + (a - b) ln(V/Vref).
 //!
-//! φ_ss is the bare logarithm's, which differs from that of the regularised strength by a e^(-2μ_ss/a) and exists for every
-//! rate. As a bare function of V such a weakening would be ill-posed; as the aim of an evolving state over L it is not.
+//! φ_ss is that of the bare logarithm. It differs from that of the regularised strength by a e^(-2μ_ss/a) and exists for every
+//! rate. As a direct function of V, such weakening would be ill-posed; as the target of a state that evolves over L, it is not.
 
 use super::definition::needed;
 use super::relaxation::{self, Steady};
@@ -25,9 +25,9 @@ pub struct Weakening {
     pub b: f64,
     /// Vref \[m/s\] > 0.
     pub v_ref: f64,
-    /// μ_w ≥ 0 \[-\], the fully weakened coefficient.
+    /// Fully weakened coefficient μ_w ≥ 0 \[-\].
     pub mu_w: f64,
-    /// V_w \[m/s\] > 0, the rate at which weakening begins.
+    /// Rate V_w > 0 at which weakening begins \[m/s\].
     pub v_w: f64,
 }
 
@@ -76,7 +76,7 @@ impl Defined for Flash {
 }
 
 impl Flash {
-    /// The steady state and L \[m\] > 0.
+    /// Law with the steady state and L \[m\] > 0.
     ///
     /// # Errors
     /// [`crate::Failure::Parameter`].
@@ -96,7 +96,7 @@ impl Flash {
         })
     }
 
-    /// φ_ss with its derivatives by ln V.
+    /// φ_ss with its derivatives with respect to ln V.
     fn towards(&self, log_rate: f64) -> Steady {
         let p = &self.p;
         let y = log_rate - self.log_v_ref;
@@ -151,7 +151,7 @@ impl Evolution for Flash {
 
     fn evolve(&self, &(old, per_rate): &(f64, f64), speed: Speed) -> Evolved {
         let x = speed.rate * per_rate;
-        // At rest the aim lies at -∞, and nothing moves towards it.
+        // At rest the target lies at -∞, and nothing moves towards it.
         if x == 0.0 {
             return Evolved { state: old, d_log_rate: 0.0, curvature: 0.0, d_state: 1.0 };
         }
@@ -163,8 +163,8 @@ impl Evolution for Flash {
     }
 
     fn weakening(&self, state: f64, log_rate: f64) -> f64 {
-        // As for the slip law, with -dφ_ss/dln V = a (1 - w) + b w + w q (μ_lv - μ_w) and μ_lv - μ_w at its largest over the
-        // rates in question: at `log_rate` where a > b, otherwise at V_w, since w q falls as V⁸ below it.
+        // As for the slip law, with -dφ_ss/dln V = a (1 - w) + b w + w q (μ_lv - μ_w). Here μ_lv - μ_w takes its largest value
+        // over the rates in question: at `log_rate` if a > b, otherwise at V_w, since w q falls as V⁸ below it.
         let p = &self.p;
         let at = |log: f64| (p.mu0 + (p.a - p.b) * (log - self.log_v_ref) - p.mu_w).max(0.0);
         // Below V_w, q ≤ (V/V_w)⁸, and y e^(-8 y) has its maximum 1/(8 e) at y = 1/8.

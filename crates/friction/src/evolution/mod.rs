@@ -1,8 +1,8 @@
-//! Evolution of the state: one law per file. Each has its exact step at constant V and keeps a variable in which thirty
-//! decades of state cost nothing.
+//! Evolution of the state: one law per file. Each has its exact step at constant V, and a variable that represents thirty
+//! decades of state without loss of precision.
 //!
 //! A new law is one short file: its row of the table ([`Definition`]), the contribution φ(s) of its variable s, the steady state, the rate,
-//! and the step. Its type then stands in [`each_evolution`](crate::each_evolution).
+//! and the step. Its type is then listed in [`each_evolution`](crate::each_evolution).
 
 pub mod ageing;
 mod definition;
@@ -44,7 +44,7 @@ pub struct Rate {
     pub d_state: f64,
 }
 
-/// A slip rate with its logarithm, so that neither is computed twice.
+/// A slip rate with its logarithm, to avoid computing either twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Speed {
     /// |V| \[m/s\].
@@ -54,14 +54,14 @@ pub struct Speed {
 }
 
 impl Speed {
-    /// From ln |V|.
+    /// Speed from ln |V|.
     #[must_use]
     pub fn of_log(log: f64) -> Self {
         Self { rate: log.exp(), log }
     }
 }
 
-/// An evolution law for one state variable s per point (or none).
+/// An evolution law for at most one state variable s per point.
 pub trait Evolution: Send + Sync + Clone + std::fmt::Debug {
     /// State variables per point: 0 or 1.
     const STATES: usize;
@@ -69,7 +69,7 @@ pub trait Evolution: Send + Sync + Clone + std::fmt::Debug {
     /// Name of the law with this evolution.
     const NAME: &'static str;
 
-    /// Constants of a step from one state, needed at every rate it is tried at.
+    /// Quantities that a step from one state needs at every trial rate.
     type Start: Copy + Send + std::fmt::Debug;
 
     /// Contribution φ(s) to μ \[-\].
@@ -78,8 +78,8 @@ pub trait Evolution: Send + Sync + Clone + std::fmt::Debug {
     /// (dφ/ds, d²φ/ds²).
     fn phi_slopes(&self, state: f64) -> (f64, f64);
 
-    /// By how much s moves where μ is to move by one through the state: 1/b for s = ln θ, 1 for s = φ. The memories of normal
-    /// and shear traction are stated in μ and act on s through this factor.
+    /// Change of s that changes μ by one through the state: 1/b for s = ln θ, 1 for s = φ. The memories of normal and shear
+    /// traction are stated in μ and act on s through this factor.
     fn per_phi(&self) -> f64;
 
     /// State variable of the steady state at V \[m/s\].
@@ -102,8 +102,8 @@ pub trait Evolution: Send + Sync + Clone + std::fmt::Debug {
     /// Linear change of φ over a step with slip increment Δλ: `constant + slope Δλ` (\[-\], \[1/m\]).
     fn linear(&self, state: f64, log_rate: f64, dt: f64) -> (f64, f64);
 
-    /// A bound of the weakening `-∂φ/∂Λ` \[1/m\] of a step with slip Λ = V Δt, over all steps with rates up to
-    /// `log_rate`: a spring with `E_t/w > f_n` times this bound has one answer only.
+    /// Upper bound of the weakening `-∂φ/∂Λ` \[1/m\] in a step with slip Λ = V Δt, over all steps with rates up to `log_rate`.
+    /// A spring with `E_t/w > f_n` times this bound has a unique answer.
     fn weakening(&self, state: f64, log_rate: f64) -> f64;
 
     /// Characteristic slip L \[m\], where there is one.
@@ -114,7 +114,7 @@ pub trait Evolution: Send + Sync + Clone + std::fmt::Debug {
         None
     }
 
-    /// c of the memory of shear traction, by which `φ + c μ` and not φ is continuous where V jumps \[-\].
+    /// c of the memory of shear traction, by which `φ + c μ` instead of φ is continuous where V jumps \[-\].
     fn shear_memory(&self) -> f64 {
         0.0
     }

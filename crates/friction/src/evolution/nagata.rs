@@ -1,10 +1,10 @@
 //! Nagata, Nakatani & Yoshida (2012): the ageing law with a memory of shear traction,
 //! dφ/dt = b (1/θ - V/L) - c dμ/dt, φ = b ln(Vref θ/L).
 //!
-//! It is published for a constant normal traction, as -c dτ/dt over it. Where V jumps, φ + c μ is continuous; at constant V
-//! dμ = dφ, so that (1 + c) dφ/dt = b (1/θ - V/L): the ageing law on a clock slowed by 1 + c. The law that holds φ and μ
-//! together makes the jump; this file is the second part. With the regularised strength, where dμ/dφ < 1 at μ of a few a, the
-//! slowed clock is the definition.
+//! The law is published for a constant normal traction, as -c dτ/dt divided by it. Where V jumps, φ + c μ is continuous. At
+//! constant V dμ = dφ, so that (1 + c) dφ/dt = b (1/θ - V/L): the ageing law on a clock slowed by 1 + c. The jump is made by
+//! the law that holds φ and μ together; this file has the second part. With the regularised strength, where dμ/dφ < 1 for μ of
+//! a few a, the slowed clock is the definition.
 
 use super::ageing::Ageing;
 use super::definition::needed;

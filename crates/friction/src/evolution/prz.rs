@@ -1,9 +1,9 @@
-//! Perrin, Rice & Zheng (1995): dθ/dt = 1 - (V θ/2L)², φ = b ψ with ψ = ln(Vref θ/2L). It heals like the ageing law and
-//! weakens from a jump like neither of the two classical laws; u = V θ/2L obeys du/dx = 1 - u² with x = V t/2L.
+//! Perrin, Rice & Zheng (1995): dθ/dt = 1 - (V θ/2L)², φ = b ψ with ψ = ln(Vref θ/2L). It heals like the ageing law, and
+//! weakens after a jump unlike either of the two classical laws. u = V θ/2L obeys du/dx = 1 - u² with x = V t/2L.
 
 use super::{Common, Defined, Definition, Evolution, Evolved, Front, Rate, Speed, Variable};
 
-/// Below this x four terms of the series of tanh x/x and of x/(sinh x cosh x) - 1 are exact to rounding.
+/// Below this x, four terms of the series of tanh x/x and of x/(sinh x cosh x) - 1 are exact to rounding.
 const SMALL: f64 = 1e-2;
 
 /// Above this ψ_ss - ψ the two terms of dψ/dt differ by more than a factor e², and their difference does not cancel.
@@ -115,7 +115,7 @@ impl Evolution for Prz {
         let tangent = if x > LARGE { 1.0 } else { x * mean };
         let (top, product) = (theta + time * mean, ratio * theta * tangent);
         if product.is_infinite() {
-            // Reached its steady state from any distance.
+            // The steady state is reached from any distance.
             return Evolved { state: self.steady(speed.log), d_log_rate: -1.0, curvature: 0.0, d_state: 0.0 };
         }
         let bottom = 1.0 + product;
@@ -140,7 +140,7 @@ impl Evolution for Prz {
     }
 
     fn weakening(&self, state: f64, log_rate: f64) -> f64 {
-        // -∂ψ/∂ln V = u_0 (2 + s) t/(1 + u_0 t) - Δt h s/(θ_0 + Δt h) with t = tanh x ≤ x and 0 ≤ -s ≤ min(1, x): at most
+        // -∂ψ/∂ln V = u_0 (2 + s) t/(1 + u_0 t) - Δt h s/(θ_0 + Δt h) with t = tanh x ≤ x and 0 ≤ -s ≤ min(1, x). It is at most
         // x (2 u_0 + 1), and u_0 grows with V.
         let u = (log_rate - self.log_v_ref + state).exp();
         self.b.max(0.0) * (2.0 * u + 1.0) / self.double

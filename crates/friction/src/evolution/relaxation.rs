@@ -2,10 +2,10 @@
 
 use super::{Evolved, Rate, Speed};
 
-/// Below this x = V Δt/L, 1 - e^(-x) is taken from `expm1`; above it nothing cancels.
+/// Below this x = V Δt/L, 1 - e^(-x) is computed by `expm1`; above it there is no cancellation.
 const SMALL: f64 = 0.5;
 
-/// A steady state with two derivatives by ln V.
+/// A steady state with its first two derivatives with respect to ln V.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Steady {
     pub value: f64,
@@ -13,7 +13,7 @@ pub(super) struct Steady {
     pub curvature: f64,
 }
 
-/// (e^(-x), 1 - e^(-x)), both to relative rounding, from one exponential.
+/// (e^(-x), 1 - e^(-x)), both accurate to relative rounding, from one exponential.
 pub(super) fn decay(x: f64) -> (f64, f64) {
     if x < SMALL {
         let share = -(-x).exp_m1();
@@ -24,14 +24,14 @@ pub(super) fn decay(x: f64) -> (f64, f64) {
     }
 }
 
-/// φ = φ_0 e^(-x) + φ_ss (1 - e^(-x)), x = V Δt/L: a weighted mean, nothing cancels. A point at rest keeps its state, however
-/// far its steady state is.
+/// φ = φ_0 e^(-x) + φ_ss (1 - e^(-x)), x = V Δt/L: a weighted mean without cancellation. A point at rest keeps its state,
+/// however far its steady state is.
 pub(super) fn step(old: f64, x: f64, steady: Steady) -> Evolved {
     let (decay, share) = decay(x);
     if share == 0.0 {
         return Evolved { state: old, d_log_rate: 0.0, curvature: 0.0, d_state: 1.0 };
     }
-    // dx/dln V = x; x e^(-x) is nothing where e^(-x) is.
+    // dx/dln V = x; x e^(-x) vanishes where e^(-x) does.
     let (fading, distance) = if decay == 0.0 { (0.0, 0.0) } else { (x * decay, steady.value - old) };
     let slower = if decay == 0.0 { 0.0 } else { (1.0 - x) * fading };
     Evolved {

@@ -2,7 +2,7 @@
 
 use super::{Evolution, Evolved, Rate, Speed};
 
-/// See the module. A law of this kind holds no component, so that nothing here is ever evaluated for a point.
+/// See the module. A law of this kind holds no component, so this evolution is never evaluated for a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stateless;
 

@@ -1,8 +1,8 @@
-//! The table of evolution laws: scenes, the book, the factory and the tests of acceptance read it.
+//! The table of evolution laws, which scenes, the book, the factory and the acceptance tests read.
 
 use super::definition::{Defined, Definition};
 
-/// Evaluates an expression once for each evolution of the table, which it names by the given type.
+/// Evaluates an expression once for each evolution of the table; the given name stands for its type.
 #[macro_export]
 macro_rules! each_evolution {
     ($law:ident => $do:expr) => {
@@ -16,16 +16,16 @@ macro_rules! each_evolution {
     };
 }
 
-/// Does something with the type of an evolution.
+/// An operation on the type of an evolution.
 pub trait Visit {
-    /// Result.
+    /// Result of the operation.
     type Made;
 
     /// Visits the type.
     fn visit<E: Defined + 'static>(self) -> Self::Made;
 }
 
-/// Returns the rows of the table.
+/// Rows of the table.
 #[must_use]
 pub fn definitions() -> Vec<&'static Definition> {
     let mut rows = Vec::new();
@@ -33,13 +33,13 @@ pub fn definitions() -> Vec<&'static Definition> {
     rows
 }
 
-/// Returns the row of this name.
+/// Row of this name.
 #[must_use]
 pub fn definition(name: &str) -> Option<&'static Definition> {
     definitions().into_iter().find(|row| row.name == name)
 }
 
-/// Visits the type of this name; none where the table has no such name.
+/// Visits the type of this name; `None` if the table has no such name.
 pub fn with<V: Visit>(name: &str, visit: V) -> Option<V::Made> {
     each_evolution!(Law => {
         if <Law as Defined>::DEFINITION.name == name {

@@ -1,7 +1,7 @@
-//! The slip rate that balances a traction behind a dashpot where the strength is a logarithm: in closed form.
+//! Closed form of the slip rate that balances a traction behind a dashpot, for a logarithmic strength.
 //!
-//! With `μ = a (ln V + F)` the balance `T = f_n μ + η V` reads `w + ln w = x` in `w = η V/A`, A = f_n a, with
-//! `x = T/A - F + ln(η/A)`: Wright's ω function. Below a rate at which the dashpot carries next to nothing it is a series in
+//! With `μ = a (ln V + F)` the balance `T = f_n μ + η V` is solved by Wright's ω function. It reads `w + ln w = x` in `w = η
+//! V/A`, A = f_n a, with `x = T/A - F + ln(η/A)`. Below a rate at which the dashpot carries almost nothing, it is a series in
 //! `e^x`, which needs one exponential and no logarithm.
 
 use crate::evolution::Speed;
@@ -11,12 +11,12 @@ const SMALL: f64 = 4e-4;
 /// Above this x, e^x may leave the range of numbers.
 const RANGE: f64 = 600.0;
 
-/// V and ln V from `drive` = T/A - F and `dashpot` = η/A \[s/m\], or nothing where neither form holds.
+/// V and ln V from `drive` = T/A - F and `dashpot` = η/A \[s/m\]; `None` where neither form is valid.
 pub(super) fn speed(drive: f64, dashpot: f64) -> Option<Speed> {
     if drive.abs() > RANGE {
         return None;
     }
-    // The rate at which the strength alone would balance.
+    // The rate at which the strength alone would balance the traction.
     let free = drive.exp();
     let y = free * dashpot;
     if y < SMALL {
@@ -28,8 +28,8 @@ pub(super) fn speed(drive: f64, dashpot: f64) -> Option<Speed> {
     Some(Speed { rate: w / dashpot, log: log - log_dashpot })
 }
 
-/// ω and ln ω with ω + ln ω = x > -8: D. J. Lawrence, R. M. Corless, D. J. Jeffrey, ACM Trans. Math. Softw. 38 (2012) 20, a guess and
-/// two steps of fourth order.
+/// ω and ln ω with ω + ln ω = x > -8: D. J. Lawrence, R. M. Corless, D. J. Jeffrey, ACM Trans. Math. Softw. 38 (2012) 20, an initial
+/// guess and two steps of fourth order.
 fn omega(x: f64) -> (f64, f64) {
     let mut w = if x < -2.0 {
         x.exp()
@@ -50,7 +50,7 @@ fn omega(x: f64) -> (f64, f64) {
         share = residual / next * (double - residual) / (double - 2.0 * residual);
         w *= 1.0 + share;
     }
-    // The last step is short: its logarithm is a series.
+    // The last step is short: the logarithm of its factor is a series.
     (w, log + share.ln_1p())
 }
 
@@ -58,7 +58,7 @@ fn omega(x: f64) -> (f64, f64) {
 mod tests {
     use super::{SMALL, speed};
 
-    /// The balance is one of rounding: of x by its own size, and of V.
+    /// The balance holds to rounding: of x relative to its size, and of V.
     #[test]
     fn the_closed_form_balances_to_rounding() {
         for k in 0..40_000 {

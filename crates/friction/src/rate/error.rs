@@ -1,8 +1,9 @@
-//! By how much a step of a rate-dependent law misses its friction coefficient.
+//! Error of the friction coefficient in a step of a rate-dependent law.
 //!
-//! Two things are held over a step that change within it. The slip is a difference whose rate at the end is V: the trapezoidal rule over
-//! the rates of both ends would slip by `Δt (V_0 + V)/2`, and what that differs by from Δλ is of the size of the error of either. The states
-//! evolve at one rate: in two halves, at the rates of a parabola through the same slip, they end elsewhere. Both are stated in μ.
+//! Two quantities that change within a step are held constant over it. The first is the slip rate: slip is a difference whose rate at the
+//! end is V. The trapezoidal rule over the rates of both ends would give the slip `Δt (V_0 + V)/2`; its difference from Δλ is of the size of
+//! the error of either. The second is the evolution rate: the states evolve at one rate, and would end elsewhere in two halves at the rates
+//! of a parabola through the same slip. Both errors are stated in μ.
 
 use super::RateLaw;
 use crate::evolution::Evolution;
@@ -27,7 +28,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         }
         let now = solver.after(self.state(taken.new, k), normal, 0.0, rate.abs().ln());
         if normal * now.mu >= self.limit {
-            // The traction is the limit, whatever the strength.
+            // The traction is the limit, regardless of the strength.
             return 0.0;
         }
         let by_rate = now.slope * (0.5 * (before + rate) - mean) / rate;

@@ -53,7 +53,8 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         }
     }
 
-    /// Limit r6 of a point at rest: where its traction, of either sign, meets the strength at the floor rate or F_limit.
+    /// Limit r6 of a point at rest: the fraction at which its traction, of either sign, meets the strength at the floor rate or
+    /// F_limit.
     fn start_of_slip(
         &self,
         present: &Present<'_>,
@@ -79,7 +80,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         now.mu * present.normal[k] >= self.limit
     }
 
-    /// Limits r8 of a slipping point. The rate at the end of a fraction r of the step is close to linear in r.
+    /// Limits r8 of a slipping point. The rate at the end of a fraction r of the step is nearly linear in r.
     fn rate_limits(
         &self,
         present: &Present<'_>,
@@ -90,7 +91,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
     ) -> Option<(f64, LimitKind)> {
         let rate = present.rate[k];
         let change = step.slip[k] / present.dt - rate;
-        // Where a point only just closes its strength follows f_n, and at F_limit it follows nothing: V may change at once.
+        // The strength of a point that is just closing follows f_n, and at F_limit it follows nothing: V may change abruptly.
         let closing = step.normal[k] > present.normal[k];
         let by_rate = if closing || self.capped(present, k, solver) {
             f64::INFINITY
@@ -99,7 +100,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         } else if change < 0.0 && rate * (-bounds.log_rate).exp() > present.rate_floor {
             (-bounds.log_rate).exp_m1() * rate / change
         } else {
-            // Below the floor nothing is rest but rest: max(V, V_floor) changes by less than its bound.
+            // Any rate below the floor counts as rest: max(V, V_floor) changes by less than its bound.
             f64::INFINITY
         };
         let by_length = match self.length() {

@@ -8,7 +8,7 @@ use crate::point::{Point, Solver};
 use crate::strength::Form;
 
 impl<F: Form, E: Evolution> RateLaw<F, E> {
-    /// The signed slip rate of one point with its ln |V|; the states then stand in the solver.
+    /// The signed slip rate of one point with its ln |V|; the states are then in the solver.
     fn slip_rate(
         &self,
         k: usize,
@@ -30,7 +30,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         }
         let size = traction.abs();
         if normal == 0.0 {
-            // An open point is held back by its damping alone.
+            // An open point is resisted by its damping alone.
             let rate = size / d.damping;
             solver.present(states, normal, 0.0);
             let speed = Speed { rate: rate.copysign(traction), log: rate.ln() };
@@ -48,7 +48,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
         let guess = d.near.map(|near| near[k].abs()).filter(|&v| v > 0.0).map(f64::ln);
         let p = Point { normal, drive: size, spring: d.damping, dt: 0.0, guess };
         let s = solver.solve(&p, states).map_err(|f| f.at(k))?;
-        // Where the damping carries most of the traction, V is what it carries.
+        // If the damping carries most of the traction, V follows from that share.
         let rate = p.shares(&s).1 / d.damping;
         Ok(Speed { rate: rate.copysign(traction), log: s.log_rate })
     }

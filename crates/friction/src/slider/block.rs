@@ -1,19 +1,19 @@
-//! One slider: the differential equations of its friction and states under a spring.
+//! One slider: the differential equations of its friction and states, loaded by a spring.
 //!
-//! With μ = a m the unknowns are m, the state variables s_i, and with inertia the net traction d. Radiation damping η and mass
-//! M (per area) enter as `M dV/dt = T - f_n a m - η V = f_n a d`, T being the traction of the springs with
-//! `dT/dt = p - K V`. V follows from m and φ = Σ φ_i(s_i) without iteration, `dV/dt = P dm/dt + Q` with
-//! `P = ∂V/∂m - ∂V/∂φ C a` and `Q = ∂V/∂φ A`, where A is the change of φ at constant V and f_n plus that by the memory of f_n,
-//! and C μ that by the memory of shear traction (`dφ = A dt - C dμ`). Hence
+//! With μ = a m, the unknowns are m, the state variables s_i, and with inertia the net traction d. T is the traction of the
+//! springs, with `dT/dt = p - K V`. Radiation damping η and mass M (per area) enter as `M dV/dt = T - f_n a m - η V = f_n a d`.
+//! V follows from m and φ = Σ φ_i(s_i) without iteration: `dV/dt = P dm/dt + Q` with `P = ∂V/∂m - ∂V/∂φ C a` and `Q = ∂V/∂φ A`.
+//! A is the change of φ at constant V and f_n plus that by the memory of f_n. C μ is the change by the memory of shear traction
+//! (`dφ = A dt - C dμ`). Hence
 //!
 //! * without inertia `dm/dt = (p - K V - f_n' a m - η Q)/(f_n a + η P)`;
 //! * with inertia `dm/dt = (f_n a d/M - Q)/P` and `f_n a dd/dt = p - K V - f_n a dm/dt - f_n' a (m + d) - η (P dm/dt + Q)`.
 //!
-//! Imposed slip rates: m follows from V and φ and is no unknown: its place among them is left as it is. The memory of shear traction
-//! takes `dm/dt = (dV/dt - Q)/P`.
+//! If V is imposed, m follows from V and φ and is not an unknown: its slot is left unchanged. The memory of shear traction uses
+//! `dm/dt = (dV/dt - Q)/P`.
 //!
-//! ln V = m - (μ0 + φ)/a + ... follows from numbers of order one to a hundred, so that sixteen decades of V cost nothing, and V
-//! passes through zero without harm. d is an unknown because T - f_n μ - η V would have no digits left while the slider
+//! ln V = m - (μ0 + φ)/a + ... is computed from numbers of order one to a hundred. Sixteen decades of V therefore cost no
+//! precision, and V can pass through zero. d is an unknown because T - f_n μ - η V would have no digits left while the slider
 //! creeps.
 
 use super::line::Line;
@@ -25,26 +25,26 @@ use crate::law::{Drives, Rated};
 use crate::rate::RateLaw;
 use crate::strength::{Form, SlipRate};
 
-/// Tractions on a slider at an instant.
+/// Forcing of a slider at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forcing {
     /// f_n > 0 \[Pa\].
     pub normal: f64,
     /// df_n/dt \[Pa/s\].
     pub normal_rate: f64,
-    /// p = k V_load + Σ k_j V_j \[Pa/s\]: what the springs would gain if the slider stood still.
+    /// p = k V_load + Σ k_j V_j \[Pa/s\]: the loading rate of the springs if the slider stood still.
     pub pull: f64,
     /// K = k + Σ k_j \[Pa/m\].
     pub stiffness: f64,
     /// η ≥ 0 \[Pa s/m\].
     pub damping: f64,
-    /// M > 0 \[kg/m²\], or none.
+    /// M > 0 \[kg/m²\]; `None` without inertia.
     pub mass: Option<f64>,
-    /// V and dV/dt \[m/s, m/s²\], where they are imposed: springs, damping and mass then do not matter.
+    /// V and dV/dt \[m/s, m/s²\], where they are imposed: springs, damping and mass then have no effect.
     pub imposed: Option<(f64, f64)>,
 }
 
-/// Direction of the Jacobian.
+/// Direction of a derivative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// An unknown of the slider.
@@ -59,7 +59,7 @@ pub enum Direction {
 pub struct Response {
     /// a = ∂μ/∂ln V \[-\].
     pub direct: f64,
-    /// q = ∂μ/∂φ \[-\]: 1 unless μ is a few a.
+    /// q = ∂μ/∂φ \[-\]: 1 unless μ is only a few a.
     pub weight: f64,
     /// The states.
     pub states: Vec<Relaxation>,
@@ -76,7 +76,7 @@ pub struct Relaxation {
     pub memory: f64,
 }
 
-/// A law as a slider uses it. One call treats one slider.
+/// Interface of a law to a slider. One call treats one slider.
 pub trait Sliding: Rated {
     /// Rates of change of the unknowns of a slider.
     fn equations(&self, forcing: &Forcing, unknowns: &[f64], rates: &mut [f64]);
@@ -90,7 +90,7 @@ pub trait Sliding: Rated {
     /// Slip rate with its derivatives by m and by each state variable.
     fn slip_slopes(&self, unknowns: &[f64], slopes: &mut [f64]) -> f64;
 
-    /// The unknown m at a slip rate \[m/s\] of either sign, with the state variables as they stand.
+    /// The unknown m at a slip rate \[m/s\] of either sign, for the given state variables.
     ///
     /// # Errors
     /// [`Failure::BareLogAtRest`] where the form has no value at this rate, [`Failure::Negative`] where it would be negative.
@@ -99,14 +99,14 @@ pub trait Sliding: Rated {
     /// State variables that are steady at ln V.
     fn steady(&self, log_rate: f64, states: &mut [f64]);
 
-    /// Changes the one state variable so that the friction coefficient at this slip rate \[m/s\] is `mu`.
+    /// Changes the only state variable so that the friction coefficient at this slip rate \[m/s\] is `mu`.
     ///
     /// # Errors
-    /// [`Failure::Parameter`] without a state or with several; [`Failure::NotConverged`] where no state gives this coefficient.
+    /// [`Failure::Parameter`] without a state or with several; [`Failure::NotConverged`] if no state gives this coefficient.
     fn states_for(&self, rate: f64, mu: f64, states: &mut [f64]) -> Result<(), Failure>;
 
-    /// Carries the unknowns over a jump of f_n from `old` to `new`. Without inertia the traction of the springs is what it was
-    /// and V jumps; with inertia V is what it was.
+    /// Carries the unknowns over a jump of f_n from `old` to `new`. Without inertia the traction of the springs is continuous
+    /// and V jumps; with inertia V is continuous.
     ///
     /// # Errors
     /// [`Failure`] of the point solver.
@@ -119,7 +119,7 @@ pub trait Sliding: Rated {
         inertia: bool,
     ) -> Result<(), Failure>;
 
-    /// Carries the unknowns over a jump of f_n and of an imposed slip rate, each before and after.
+    /// Carries the unknowns over a jump of f_n and of an imposed slip rate, each given before and after.
     ///
     /// # Errors
     /// [`Failure`] where the form has no value at the slip rate.
@@ -131,16 +131,18 @@ pub trait Sliding: Rated {
     /// a \[-\], the scale of m.
     fn scale(&self) -> f64;
 
-    /// Change of each state variable that is worth a change of ln V by one, for error norms: 1 for logarithms, a for friction.
+    /// Change of each state variable that is equivalent to a change of ln V by one, for error norms: 1 for logarithms, a for
+    /// friction.
     fn state_scale(&self) -> f64;
 
-    /// True if the form has a value at rest and in reversal; where not, the rates do not exist at m ≤ 0.
+    /// True if the form has a value at rest and in reversal; otherwise the rates do not exist at m ≤ 0.
     fn reverses(&self) -> bool;
 
-    /// Shortest characteristic slip L \[m\], where there is one.
+    /// Shortest characteristic slip L \[m\], if there is one.
     fn length(&self) -> Option<f64>;
 
-    /// Constants for many such sliders at once, where the form is an exponential and the law the ageing law without memories.
+    /// Parameters for evaluating many such sliders at once, if the form is an exponential and the law the ageing law without
+    /// memories.
     fn line(&self) -> Option<Line>;
 }
 
@@ -193,7 +195,7 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
             let (slope, bend) = e.phi_slopes(s.value());
             let slope = s.lift(slope, || bend);
             if part.shear_memory != 0.0 {
-                // |μ| is remembered. ∂μ/∂φ = -a (∂V/∂φ)/(∂V/∂m): what is kept changes by 1 + c ∂|μ|/∂φ of the change at
+                // |μ| is remembered. ∂μ/∂φ = -a (∂V/∂φ)/(∂V/∂m): the kept quantity changes by 1 + c ∂|μ|/∂φ times the change at
                 // constant V.
                 let c = part.shear_memory.copysign(m.value());
                 let softening = (by_phi / by_m).times(-a * c) * slope;
@@ -232,12 +234,12 @@ impl<F: Form, E: Evolution> RateLaw<F, E> {
     }
 }
 
-/// More unknowns than this a slider may not have; several times what any law in use needs.
+/// Largest number of unknowns of a slider: several times the number needed by any law in use.
 pub(super) const MOST_UNKNOWNS: usize = 16;
 
-/// Corrections of a state in search of a coefficient: one is exact where both are logarithms.
+/// Largest number of corrections of a state in the search for a coefficient: one is exact where both are logarithms.
 const MOST_CORRECTIONS: usize = 60;
-/// Share of ln V that rounding may leave there.
+/// Fraction of ln V that rounding may leave there.
 const SMALLEST_OFF: f64 = 1e-13;
 
 impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
@@ -309,7 +311,7 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
         };
         let log_rate = crate::positive("rate", rate)?.ln();
         crate::positive("mu", mu)?;
-        // ln V at μ falls by 1/a for each unit of φ, exactly where the strength is a logarithm or its asinh.
+        // ln V at μ falls by 1/a per unit of φ, exactly so where the strength is a logarithm or its asinh.
         let mut off = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
             let e = &part.evolution;
@@ -345,7 +347,7 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
         }
         if inertia {
             if before.rate == 0.0 {
-                // μ is nothing before and after.
+                // μ is zero before and after.
                 for (part, s) in self.parts().iter().zip(&mut unknowns[1..]) {
                     *s -= part.normal_memory * (new / old).ln();
                 }
@@ -355,7 +357,7 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
                 unknowns[1..=n].copy_from_slice(solver.states());
             }
             unknowns[0] = self.at_rate(before.rate, &unknowns[1..=n])?;
-            // T - f_n a m - η V with T as before: the change of f_n m is all there is.
+            // T - f_n a m - η V with T unchanged: only f_n m changes.
             unknowns[n + 1] = (net + old * mu - new * a * unknowns[0]) / (new * a);
             return Ok(());
         }
@@ -403,7 +405,7 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
         let state = |(part, &s): (&Component<E>, &f64)| {
             let (slope, _) = part.evolution.phi_slopes(s);
             let change = part.evolution.rate(s, Speed::of_log(log_rate));
-            // What is kept changes by 1 + q C of the change at constant V, as in `generic`.
+            // The kept quantity changes by 1 + q C times the change at constant V, as in `generic`.
             let memory = part.shear_memory * slope;
             let rate = -change.d_state * (1.0 + strength.d_phi * memory);
             Relaxation { weakening: slope * change.d_log_rate / change.d_state, rate, memory }
@@ -417,7 +419,7 @@ impl<F: Form, E: Evolution> Sliding for RateLaw<F, E> {
     }
 
     fn state_scale(&self) -> f64 {
-        // What moves ln V by one at constant m is a/φ', and a logarithm by itself at most.
+        // The change that moves ln V by one at constant m is a/φ'; for a logarithm it is at most one.
         let slope = self.parts().iter().map(|p| p.evolution.phi_slopes(0.0).0.abs()).fold(0.0, f64::max);
         if slope == 0.0 { 1.0 } else { (self.form().scale() / slope).min(1.0) }
     }

@@ -6,9 +6,9 @@ use std::f64::consts::TAU;
 /// A quantity prescribed over time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum History {
-    /// Always the same.
+    /// A constant value.
     Constant(f64),
-    /// Piecewise linear through (time \[s\], value), constant before and after; two entries at one time are a jump.
+    /// Piecewise linear through (time \[s\], value), constant before and after; two entries at the same time are a jump.
     Table(Vec<(f64, f64)>),
     /// mean + amplitude sin(2π (t - start)/period).
     Sine {
@@ -71,7 +71,7 @@ impl History {
         }
     }
 
-    /// The smooth piece that holds around a time between two breaks.
+    /// The smooth piece that is valid around a time between two breaks.
     #[must_use]
     pub fn piece(&self, within: f64) -> Piece {
         match self {
@@ -153,7 +153,7 @@ impl Piece {
         match *self {
             Self::Line { slope, .. } => duration * (self.at(from).0 + 0.5 * slope * duration),
             Self::Sine { mean, amplitude, frequency, start } => {
-                // cos p - cos q = 2 sin((p+q)/2) sin((q-p)/2), which does not cancel.
+                // cos p - cos q = 2 sin((p+q)/2) sin((q-p)/2), without cancellation.
                 let (middle, half) =
                     (frequency * (from + 0.5 * duration - start), 0.5 * frequency * duration);
                 mean * duration + 2.0 * amplitude / frequency * middle.sin() * half.sin()

@@ -1,4 +1,4 @@
-//! Laws whose friction is a line in ln V.
+//! Laws whose friction is linear in ln V.
 
 /// While |m| is above `from`, `ln V = |m| - offset - b s/a`; `ds/dt = healing exp(-s) - V/L`.
 #[derive(Clone, Copy, Debug, PartialEq)]

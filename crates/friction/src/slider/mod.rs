@@ -1,5 +1,5 @@
 //! Spring-sliders: one block or several, each on a spring to a load point and possibly on springs to others, quasi-static,
-//! radiation-damped or inertial. This module holds the equations; their integration in time is the driver's.
+//! radiation-damped or inertial. This module contains the equations; the driver integrates them in time.
 
 mod block;
 mod history;
@@ -24,7 +24,7 @@ pub struct Slider {
     pub stiffness: f64,
     /// Radiation damping η ≥ 0 \[Pa s/m\].
     pub damping: f64,
-    /// Mass per area M > 0 \[kg/m²\], or none.
+    /// Mass per area M > 0 \[kg/m²\]; `None` without inertia.
     pub mass: Option<f64>,
     /// Normal traction f_n > 0 \[Pa\].
     pub normal: History,
@@ -39,8 +39,8 @@ pub struct Spring {
     pub stiffness: f64,
 }
 
-/// Sliders with their springs and the rate of the load point. Unknowns stand slider by slider: m = μ/a, the state variables,
-/// and with inertia the net traction over f_n a.
+/// Sliders with their springs and the rate of the load point. Unknowns are ordered slider by slider: m = μ/a, the state
+/// variables, and with inertia the net traction over f_n a.
 #[derive(Clone, Debug)]
 pub struct System {
     sliders: Vec<Slider>,
@@ -48,14 +48,14 @@ pub struct System {
     load: History,
     /// First unknown of each slider, and the number of unknowns.
     starts: Vec<usize>,
-    /// Of each slider: the sliders its springs lead to, with their stiffness \[Pa/m\].
+    /// For each slider: the sliders it is connected to by springs, with their stiffness \[Pa/m\].
     links: Vec<Vec<(usize, f64)>>,
-    /// Of each slider: its slip rate, where it is imposed \[m/s\].
+    /// For each slider: its slip rate, if imposed \[m/s\].
     imposed: Vec<Option<History>>,
 }
 
 impl System {
-    /// Checks ranges.
+    /// Builds the system and checks the ranges.
     ///
     /// # Errors
     /// [`Failure::Parameter`].
@@ -91,11 +91,11 @@ impl System {
         Ok(Self { sliders, springs, load, starts, links, imposed })
     }
 
-    /// Imposes the slip rate of a slider \[m/s\], as a machine without compliance does: its friction follows from the law, and no
-    /// spring to the load point, damping or mass acts on it.
+    /// Imposes the slip rate of a slider \[m/s\], as a rigid machine does: its friction follows from the law, and no spring to
+    /// the load point, damping or mass acts on it.
     ///
     /// # Errors
-    /// [`Failure::Parameter`] where the slider has a spring to the load point, damping or mass.
+    /// [`Failure::Parameter`] if the slider has a spring to the load point, damping or mass.
     pub fn impose(mut self, slider: usize, rate: History) -> Result<Self, Failure> {
         let s = &self.sliders[slider];
         let given = [("stiffness", s.stiffness), ("damping", s.damping), ("mass", s.mass.unwrap_or(0.0))];
@@ -110,7 +110,7 @@ impl System {
         Ok(self)
     }
 
-    /// The slip rate of a slider, where it is imposed \[m/s\].
+    /// The slip rate of a slider, if imposed \[m/s\].
     #[must_use]
     pub fn imposed(&self, slider: usize) -> Option<&History> {
         self.imposed[slider].as_ref()
@@ -146,7 +146,7 @@ impl System {
         &unknowns[self.starts[slider]..self.starts[slider + 1]]
     }
 
-    /// Unknowns of one slider, to be written.
+    /// Unknowns of one slider, mutable.
     pub fn of_mut<'a>(&self, slider: usize, unknowns: &'a mut [f64]) -> &'a mut [f64] {
         &mut unknowns[self.starts[slider]..self.starts[slider + 1]]
     }
@@ -163,7 +163,7 @@ impl System {
         times
     }
 
-    /// The smooth problem that holds around a time between two breaks.
+    /// The smooth problem that is valid around a time between two breaks.
     #[must_use]
     pub fn segment(&self, within: f64) -> Segment<'_> {
         Segment {
@@ -183,7 +183,7 @@ impl System {
     }
 
     /// Places of the Jacobian that may differ from zero, as row and column, in the order of [`Segment::entries`]: blocks of each slider
-    /// and of the sliders its springs lead to.
+    /// and of the sliders connected to it by springs.
     #[must_use]
     pub fn places(&self) -> Vec<(usize, usize)> {
         let mut places = Vec::new();
@@ -196,7 +196,7 @@ impl System {
         places
     }
 
-    /// Scales of the unknowns for error norms, each worth a change of ln V by about one.
+    /// Scales of the unknowns for error norms, each equivalent to a change of ln V by about one.
     #[must_use]
     pub fn scales(&self) -> Vec<f64> {
         let mut scales = vec![1.0; self.size()];
@@ -206,8 +206,8 @@ impl System {
         scales
     }
 
-    /// Unknowns for given slip rates \[m/s\] and state variables (point-major), in equilibrium. A slider with an imposed slip rate
-    /// starts at that.
+    /// Unknowns in equilibrium for given slip rates \[m/s\] and state variables (point-major). A slider with an imposed slip rate
+    /// starts at that rate.
     ///
     /// # Errors
     /// [`Failure`] of the laws, naming the slider as the point.
@@ -289,7 +289,7 @@ impl Segment<'_> {
         &self.load
     }
 
-    /// The piece of the slip rate of a slider, where it is imposed \[m/s\].
+    /// The piece of the slip rate of a slider, if imposed \[m/s\].
     #[must_use]
     pub fn imposed(&self, i: usize) -> Option<&Piece> {
         self.imposed[i].as_ref()
@@ -303,7 +303,7 @@ impl Segment<'_> {
         }
     }
 
-    /// Tractions on a slider, by the slip rates of the others \[m/s\].
+    /// Forcing of a slider, from the slip rates of the others \[m/s\].
     fn forcing(&self, i: usize, time: f64, load: f64, rate: impl Fn(usize) -> f64) -> Forcing {
         let slider = &self.system.sliders[i];
         let (normal, normal_rate) = self.normals[i].at(time);
@@ -331,13 +331,13 @@ impl Segment<'_> {
         }
     }
 
-    /// Slip rates of all sliders, each computed once however many springs lead to it; none without springs.
+    /// Slip rates of all sliders, each computed once regardless of its number of springs; empty without springs.
     fn linked(&self, time: f64, unknowns: &[f64]) -> Vec<f64> {
         let count = if self.system.springs.is_empty() { 0 } else { self.system.sliders.len() };
         (0..count).map(|i| self.rate(i, time, unknowns)).collect()
     }
 
-    /// Writes the rates of one slider at their places: its springs are all that is looked at.
+    /// Writes the rates of one slider at their positions; only its springs are visited.
     pub fn rates_of(&self, i: usize, time: f64, unknowns: &[f64], rates: &mut [f64]) {
         let forcing = self.forcing(i, time, self.load.at(time).0, |other| self.rate(other, time, unknowns));
         let law = &self.system.sliders[i].law;
@@ -351,8 +351,8 @@ impl Segment<'_> {
         self.entries(time, unknowns, |(row, column), value| jacobian[column * n + row] += value);
     }
 
-    /// The entries of the Jacobian that may differ from zero, as row, column and value. Those of one place add up. Their places and
-    /// their order are those of [`System::places`] at all times.
+    /// Calls `put` with the entries of the Jacobian that may differ from zero, as row, column and value. Entries at the same place
+    /// add up. Their places and their order are those of [`System::places`] at all times.
     pub fn entries(&self, time: f64, unknowns: &[f64], mut put: impl FnMut((usize, usize), f64)) {
         let (load, slips) = (self.load.at(time).0, self.linked(time, unknowns));
         let (mut slopes, mut by_pull) = ([0.0; MOST_UNKNOWNS], [0.0; MOST_UNKNOWNS]);
@@ -414,7 +414,7 @@ impl Segment<'_> {
         }
     }
 
-    /// dV/dt of a slider over |V| \[1/s\]: its sign tells whether the slider speeds up.
+    /// dV/dt of a slider over |V| \[1/s\]: positive where V increases.
     #[must_use]
     pub fn acceleration(&self, i: usize, unknowns: &[f64], rates: &[f64]) -> f64 {
         let y = self.system.of(i, unknowns);

@@ -1,5 +1,5 @@
-//! Numbers the equations are written for: plain ones for rates, and ones with a derivative for the Jacobian, so that the
-//! equations stand once and their derivatives cannot disagree with them.
+//! Numbers used in the equations: plain ones for rates, and ones with a derivative for the Jacobian. The equations are written
+//! once, and their derivatives cannot disagree with them.
 
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -13,7 +13,7 @@ pub(super) trait Number:
     /// Its value.
     fn value(self) -> f64;
 
-    /// A function of this number, of which value and derivative are known; plain numbers drop the latter unevaluated.
+    /// A function of this number with known value and derivative; plain numbers drop the latter unevaluated.
     fn lift(self, value: f64, slope: impl FnOnce() -> f64) -> Self;
 
     /// A function of this number and another.
@@ -60,7 +60,7 @@ impl Number for Dual {
     }
 
     fn lift(self, value: f64, slope: impl FnOnce() -> f64) -> Self {
-        // A direction that does not move leaves infinite slopes alone.
+        // A direction with zero slope is unaffected by infinite slopes.
         Self { value, slope: if self.slope == 0.0 { 0.0 } else { self.slope * slope() } }
     }
 

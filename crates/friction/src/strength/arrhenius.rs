@@ -1,5 +1,5 @@
-//! Temperature by an Arrhenius factor of the slip rate (Chester 1994): the strength of a form at
-//! `V exp[(Q/R)(1/T - 1/T_ref)]`, so that a logarithmic direct effect gains `a (Q/R)(1/T - 1/T_ref)`.
+//! Effect of temperature by an Arrhenius factor of the slip rate (Chester 1994). The strength is that of a form at `V
+//! exp[(Q/R)(1/T - 1/T_ref)]`, so that a logarithmic direct effect gains `a (Q/R)(1/T - 1/T_ref)`.
 
 use super::{Form, SlipRate, Strength};
 
@@ -18,7 +18,7 @@ pub struct Arrhenius<F> {
 }
 
 impl<F: Form> Arrhenius<F> {
-    /// A form, Q ≥ 0 \[J/mol\], and T_ref, T > 0 \[K\].
+    /// Strength with a form, Q ≥ 0 \[J/mol\], and T_ref, T > 0 \[K\].
     ///
     /// # Errors
     /// [`crate::Failure::Parameter`].

@@ -15,7 +15,7 @@ impl Form for Bare {
 
     fn logarithm(&self, phi: f64) -> Option<(f64, f64)> {
         let p = &self.0;
-        // The rest has no value.
+        // No value at rest.
         Some(((p.mu0 + phi) / p.a - p.log_v_ref, 0.0))
     }
 

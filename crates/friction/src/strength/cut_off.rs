@@ -1,10 +1,9 @@
-//! μ = μ0 + φ - a ln(1 + V1/V), with a cut-off rate V1 above which the direct effect saturates (Okubo 1989). The evolution
-//! that goes with it is the ageing law with its own cut-off, φ = b ln(1 + V2 θ/L). Like the bare logarithm it has no value at
-//! rest.
+//! μ = μ0 + φ - a ln(1 + V1/V), with a cut-off rate V1 above which the direct effect saturates (Okubo 1989). The matching
+//! evolution is the ageing law with a cut-off, φ = b ln(1 + V2 θ/L). Like the bare logarithm, it has no value at rest.
 
 use super::{Form, Parameters, SlipRate, Strength};
 
-/// See the module. The reference rate of the parameters has no part in it.
+/// See the module. The reference rate of the parameters is not used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CutOff {
     p: Parameters,
@@ -12,7 +11,7 @@ pub struct CutOff {
 }
 
 impl CutOff {
-    /// Parameters and V1 > 0 \[m/s\].
+    /// Strength with the parameters and V1 > 0 \[m/s\].
     ///
     /// # Errors
     /// [`crate::Failure::Parameter`].
@@ -40,7 +39,7 @@ impl Form for CutOff {
     }
 
     fn log_rate(&self, mu: f64, phi: f64) -> f64 {
-        // V1/V = e^w - 1; no rate reaches a strength of μ0 + φ.
+        // V1/V = e^w - 1; no rate has a strength of μ0 + φ.
         let w = (self.p.mu0 + phi - mu) / self.p.a;
         if w > 0.0 { self.log_v_cut - w - (-(-w).exp_m1()).ln() } else { f64::INFINITY }
     }

@@ -19,10 +19,10 @@ pub struct Strength {
     pub curvature: f64,
 }
 
-/// The slip rate at which a strength is `a m`, with its derivatives.
+/// The slip rate at which the friction coefficient is `a m`, with its derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipRate {
-    /// V \[m/s\], negative where m is.
+    /// V \[m/s\], negative if m is.
     pub rate: f64,
     /// ln |V|.
     pub log: f64,
@@ -43,7 +43,7 @@ pub trait Form: Send + Sync + Clone + std::fmt::Debug {
     /// μ and derivatives at ln V \[ln(m/s)\] and the state contribution φ \[-\].
     fn at(&self, log_rate: f64, phi: f64) -> Strength;
 
-    /// ∂μ/∂V \[s/m\] at fixed state; infinite only where it exceeds the range of numbers.
+    /// ∂μ/∂V \[s/m\] at fixed state; infinite only if it exceeds the range of numbers.
     fn d_rate(&self, log_rate: f64, phi: f64) -> f64 {
         self.at(log_rate, phi).d_log_rate * (-log_rate).exp()
     }
@@ -61,22 +61,21 @@ pub trait Form: Send + Sync + Clone + std::fmt::Debug {
         None
     }
 
-    /// F and m such that `ln |V| = |m| - F - φ/a` to rounding wherever `|m|` is above the second, for forms that are exponentials
-    /// there.
+    /// F and m_0 such that `ln |V| = |m| - F - φ/a` to rounding wherever `|m| > m_0`, for forms that are exponentials there.
     fn exponential(&self) -> Option<(f64, f64)> {
         None
     }
 
-    /// V at which the coefficient is `a m`, of either sign where the form is odd; elsewhere it is not a number at m ≤ 0.
+    /// V at which the coefficient is `a m`: of either sign if the form is odd, otherwise not a number at m ≤ 0.
     fn slip_rate(&self, m: f64, phi: f64) -> SlipRate;
 
     /// a \[-\], the scale of μ over an e-fold of V.
     fn scale(&self) -> f64;
 
-    /// The direct effect \[-\]: the least ratio of ∂μ/∂ln V and ∂μ/∂φ over all rates up to ln V.
+    /// The direct effect \[-\]: the smallest ratio of ∂μ/∂ln V to ∂μ/∂φ over all rates up to ln V.
     fn direct_effect(&self, log_rate: f64) -> f64;
 
-    /// ∂μ/∂V \[s/m\] at V = 0, or `None` where the form has no value there.
+    /// ∂μ/∂V \[s/m\] at V = 0, or `None` if the form has no value there.
     fn rest_slope(&self, phi: f64) -> Option<f64>;
 
     /// True if the form has a value at V = 0 (then μ = 0) and is odd in V.
@@ -85,8 +84,8 @@ pub trait Form: Send + Sync + Clone + std::fmt::Debug {
     }
 }
 
-/// Parameters all forms share. Only [`Parameters::new`] makes them, so that a form never holds a ≤ 0: a law that weakens
-/// with the rate at once is ill-posed (its static problem has no continuous solution) whatever its state does.
+/// Parameters common to all forms. Only [`Parameters::new`] makes them, so that a form never holds a ≤ 0. A law that weakens
+/// immediately with the rate is ill-posed (its static problem has no continuous solution), whatever its state does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
     /// μ0 \[-\].
@@ -95,7 +94,7 @@ pub struct Parameters {
     a: f64,
     /// Vref \[m/s\].
     v_ref: f64,
-    /// ln Vref, which every evaluation needs.
+    /// ln Vref, needed by every evaluation.
     log_v_ref: f64,
 }
 

@@ -54,7 +54,7 @@ impl Form for Regularised {
     fn log_rate(&self, mu: f64, phi: f64) -> f64 {
         let p = &self.0;
         let y = mu / p.a;
-        // ln sinh y = y - ln 2 + ln(1 - e^(-2y)), which neither overflows nor cancels.
+        // ln sinh y = y - ln 2 + ln(1 - e^(-2y)), without overflow or cancellation.
         p.log_v_ref + (mu - p.mu0 - phi) / p.a + (-(-2.0 * y).exp_m1()).ln()
     }
 
@@ -92,7 +92,7 @@ impl Form for Regularised {
     fn d_rate(&self, log_rate: f64, phi: f64) -> f64 {
         let factor = self.log_factor(phi);
         let log_x = log_rate + factor;
-        // a (x/V)/√(1 + x²): at large x the factor alone may overflow where the quotient a/V does not.
+        // a (x/V)/√(1 + x²): at large x, the factor alone may overflow where the quotient a/V does not.
         if log_x > LARGE {
             self.0.a * (-log_rate).exp()
         } else {

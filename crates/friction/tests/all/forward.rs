@@ -96,10 +96,10 @@ fn implicit(law: &dyn Law, s: &Start, states: &[f64], slide: f64, df: f64) -> f6
     t[0] - s.traction
 }
 
-/// From a balanced but unsteady state, the strengths of the forward and the implicit step part at second order in Δt.
+/// From a balanced but unsteady state, the strengths of the forward and the implicit step differ at second order in Δt.
 fn part_at_second_order<F: Form, E: Evolution>(form: F, parts: &[Component<E>], evolution: &E, rate: f64) {
     for offset in [-0.01, 0.008] {
-        // Steady under less normal traction than there is.
+        // Steady under less than the actual normal traction.
         let law = RateLaw::with_parts(form.clone(), parts.to_vec(), rate, 0.8 * NORMAL, None).unwrap();
         let mut states = vec![0.0; law.states()];
         law.initial(&mut states);
@@ -117,7 +117,7 @@ fn part_at_second_order<F: Form, E: Evolution>(form: F, parts: &[Component<E>], 
             // An error of the strength reaches the traction with the factor κ, itself of the order of Δt.
             (forward - back).abs() / (1.0 - along)
         };
-        // Small against both L/V and a f_n/(E_t V), the times of state and spring, of which a memory of shear traction
+        // Small relative to both L/V and a f_n/(E_t V), the time scales of state and spring; a memory of shear traction
         // shortens the second.
         let dt = 2e-3 * 2e-7 / rate / (1.0 + evolution.shear_memory());
         let (coarse, fine) = (errors(dt), errors(0.5 * dt));
@@ -193,7 +193,7 @@ fn the_rate_form_of_the_slip_law_is_its_closed_form() {
     approx::assert_relative_eq!(along, hardening / (STIFFNESS + hardening), max_relative = 1e-14);
     approx::assert_relative_eq!(coupling, kappa * mu, max_relative = 1e-14);
     approx::assert_relative_eq!(constant, -kappa * 0.01 * NORMAL, max_relative = 1e-12);
-    // What a traction misses of the strength is made up.
+    // A difference between traction and strength is removed.
     let off = rates(&law, &Start { traction: 5e6, ..s }, Regime::Slip, &[phi]);
     approx::assert_relative_eq!(off[2] - constant, kappa * (mu * NORMAL - 5e6), max_relative = 1e-13);
 }
@@ -259,7 +259,7 @@ fn a_traction_leaves_on_the_other_side_too() {
     let s = Start { normal: NORMAL, traction: 1e6, rate: 0.0, dt: 0.1 };
     let r = limit(&law, &s, Regime::Stick, &[], [0.0, -1e7, 0.0]).unwrap().fraction;
     approx::assert_relative_eq!(1e6 - r * 1e7, -floor_mu(&law) * NORMAL, max_relative = 1e-14);
-    // A cone that shrinks to nothing around an unloaded point is an opening.
+    // A cone that shrinks to zero around an unloaded point is an opening.
     let unloaded = Start { traction: 0.0, ..s };
     assert_eq!(limit(&law, &unloaded, Regime::Stick, &[], [-2.0 * NORMAL, 0.0, 0.0]), None);
 }
@@ -270,11 +270,11 @@ fn the_cap_is_a_surface_of_its_own() {
         (Coulomb::new(0.6, Some(3e6)).unwrap(), RateLaw::velocity(parameters(), Some(3e6)).unwrap());
     let laws: [&dyn Law; 2] = [&coulomb, &capped];
     for law in laws {
-        // The cone grows past the cap before the traction arrives.
+        // The cone grows past the cap before the traction reaches it.
         let s = Start { normal: NORMAL, traction: 1e6, rate: 0.0, dt: 0.1 };
         let found = limit(law, &s, Regime::Stick, &[], [8e6, 4e6, 0.0]).unwrap();
         assert_eq!(found.fraction, 0.5, "{}", law.name());
-        // At the cap the normal traction has no say, and the step ends on it.
+        // At the cap, the normal traction has no effect, and the step ends on the cap.
         let s = Start { normal: NORMAL, traction: 2.9e6, rate: 1e-6, dt: 0.1 };
         let [along, coupling, constant] = rates(law, &s, Regime::Slip, &[]);
         assert_eq!((along, coupling), (0.0, 0.0));
@@ -304,7 +304,7 @@ fn the_slip_of_a_step_is_bounded_by_the_characteristic_length() {
     let found = limit(&law, &s, Regime::Slip, &[0.0], [0.0, 0.0, 4e-6]).unwrap();
     assert_eq!(found.kind, LimitKind::SlipLength);
     approx::assert_relative_eq!(found.fraction, BOUNDS.zeta * LENGTH / 4e-6, max_relative = 1e-15);
-    // Without a state there is no length.
+    // Without a state there is no characteristic slip.
     assert_eq!(limit(&velocity(), &s, Regime::Slip, &[], [0.0, 0.0, 4e-6]), None);
 }
 
@@ -325,8 +325,8 @@ fn the_change_of_the_rate_is_bounded_in_both_directions_and_ends_at_the_floor() 
     assert_eq!(limit(&law, &near, Regime::Slip, &[], [0.0, 0.0, -FLOOR * s.dt]), None);
 }
 
-/// With the a-term in the tangent the disturbance that a lagged coefficient lets grow below Δt = 2 a σ/(k V) decays at any
-/// step: a point on its penalty spring, pulled at V, with a rate that starts off by a tenth.
+/// With the a-term in the tangent, the disturbance that grows below Δt = 2 a σ/(k V) with a lagged coefficient decays at any
+/// step. The point is on its penalty spring, pulled at V, with a rate that starts off by a tenth.
 #[test]
 fn forward_steps_are_stable_for_small_steps() {
     let law = velocity();
@@ -354,7 +354,7 @@ fn forward_steps_are_stable_for_small_steps() {
     }
 }
 
-/// μ' of the coupling takes in what a change of f_n does to the states: μ - α.
+/// μ' of the coupling includes the effect of a change of f_n on the states: μ - α.
 #[test]
 fn a_memory_of_normal_traction_lowers_the_coupling() {
     let (alpha, rate, dt) = (0.3, 3e-7, 0.01);
@@ -362,7 +362,7 @@ fn a_memory_of_normal_traction_lowers_the_coupling() {
     let part = Component::new(evolution, alpha).unwrap();
     let law = RateLaw::with_parts(Bare(parameters()), vec![part], V_REF, 5e6, None).unwrap();
     let omega = 0.012;
-    // φ is less by α ln(f_n/f_ref) than what is kept.
+    // φ is smaller by α ln(f_n/f_ref) than the kept quantity.
     let phi = evolution.steady(f64::ln(rate)) + omega;
     let kept = phi + alpha * (NORMAL / 5e6).ln();
     let s = Start { normal: NORMAL, traction: 5e6, rate, dt };
@@ -392,7 +392,7 @@ fn the_rate_form_of_the_nagata_law_is_its_closed_form() {
     approx::assert_relative_eq!(constant, expected, max_relative = 1e-11);
 }
 
-/// A resting point under growing normal traction meets a strength that its memory lowers: to first order in Δf_n.
+/// A resting point under growing normal traction meets a strength lowered by its memory: to first order in Δf_n.
 #[test]
 fn the_start_of_slip_takes_in_the_memory_of_normal_traction() {
     let part = Component::new(Ageing::new(0.015, LENGTH, V_REF).unwrap(), 0.3).unwrap();

@@ -18,7 +18,7 @@ use asperity_friction::strength::cut_off::CutOff;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};
 use proptest::prelude::*;
 
-/// One point's answer.
+/// Answer for one point.
 #[derive(Clone, Copy, Debug)]
 struct One {
     traction: f64,
@@ -175,7 +175,7 @@ fn every_law_with_state_balances_and_has_consistent_derivatives() {
                 ] {
                     let remainder = |h: f64| (f(h) - f(0.0) - h * derivative).abs();
                     let (coarse, fine) = (remainder(h), remainder(0.5 * h));
-                    // ln V is found to rounding of the balance, over the slope of its weaker side.
+                    // ln V is found to the rounding of the balance, divided by the slope of its weaker side.
                     let rounding = 1e-13 * trial;
                     let order = (coarse / fine).log2();
                     assert!(
@@ -226,14 +226,14 @@ fn both_forms_agree_where_the_logarithm_holds() {
     for decade in -12..5 {
         let z = 10f64.powi(decade).ln();
         let (bare, regularised) = (Bare(p).at(z, 0.0).mu, Regularised(p).at(z, 0.0).mu);
-        // They part by a e^(-2 mu/a)/... , far below rounding for mu/a > 20.
+        // They differ by a e^(-2 mu/a)/... , far below rounding for mu/a > 20.
         if bare > 0.2 {
             assert!((bare - regularised).abs() <= 4.0 * f64::EPSILON, "{decade}: {bare} {regularised}");
         }
     }
 }
 
-/// Exact steps at constant V against Runge-Kutta with many small steps on the defining equations.
+/// Exact steps at constant V, compared with Runge-Kutta with many small steps on the defining equations.
 #[test]
 fn exact_steps_solve_their_equations() {
     let (b, l, v_ref) = (0.015, 1e-5, 1e-6);
@@ -277,8 +277,8 @@ fn the_steady_state_does_not_move() {
     }
 }
 
-/// With μ held at the previous slip rate a point on a spring is unstable for steps below 2 a σ/(k V): the error obeys
-/// e' = -r (e - e_old), r = a σ/(k V Δt), whose roots leave the unit circle at r = 1/2.
+/// With μ held at the previous slip rate, a point on a spring is unstable for steps below 2 a σ/(k V). The error obeys e' = -r
+/// (e - e_old), r = a σ/(k V Δt), whose roots leave the unit circle at r = 1/2.
 #[test]
 fn a_lagged_coefficient_is_unstable_for_small_steps() {
     let (a, sigma, k, v) = (0.01, 1e7, 1e10, 1e-6);

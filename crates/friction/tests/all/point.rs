@@ -21,13 +21,13 @@ fn solve<F: Form, E: Evolution>(form: &F, e: &E, p: &Point, state: f64) -> Resul
     Solver::new(form, &parts, 1.0).solve(p, &vec![state; parts.len()])
 }
 
-/// Residuals of the balance and of the state equation, relative to their terms.
+/// Residual of the balance and of the state equation, relative to their terms.
 fn left_over<F: Form, E: Evolution>(form: &F, evolution: &E, p: &Point, state: f64, s: &Solution) -> f64 {
     let (strength, spring) = p.shares(s);
     let state = evolution.step(state, s.log_rate, p.dt).state;
     let mu = form.at(s.log_rate, evolution.phi(state)).mu;
     let balance = (strength + spring - p.drive).abs() / p.drive;
-    // The rate is known to rounding of the drive, through a for a strength that hardly moves.
+    // The rate is known to rounding of the drive, through a if the strength hardly changes.
     let law = (strength - p.normal * mu).abs() / p.drive;
     let clock = (spring - p.spring * s.log_rate.exp()).abs() / p.drive;
     balance.max(law).max(clock)
@@ -74,7 +74,7 @@ proptest! {
                 prop_assert!(s.iterations <= 12, "{s:?}: {p:?}");
                 // E_t + H > 0.
                 prop_assert!(p.spring * s.log_rate.exp() + p.normal * s.slope > 0.0, "{s:?}");
-                // ln V is rounded, and with it what the spring and the strength make of it.
+                // ln V is rounded, and so are the spring traction and the strength that follow from it.
                 let condition = 1.0 + p.normal * s.slope.abs() / p.drive;
                 let rounding = 4.0 * f64::EPSILON * (10.0 + s.log_rate.abs()) * condition;
                 prop_assert!(rest <= rounding, "{rest:e}: {p:?} {s:?}");
@@ -177,7 +177,7 @@ fn behind_a_soft_spring_the_answer_is_reached_from_rest_or_refused() {
 fn reversal_is_odd() {
     let law = RateLaw::velocity(Parameters::new(0.6, 0.01, V_REF).unwrap(), None).unwrap();
     let (dt, weight, offset) = (0.1, 1.5, 1e-4);
-    // V = w Δλ/Δt - offset; the spring then sees T = t^e - E_t Δt/w offset, here of both signs and the same size.
+    // V = w Δλ/Δt - offset; the spring traction is then T = t^e - E_t Δt/w offset, here of both signs and the same magnitude.
     let shift = 1e12 * dt / weight * offset;
     let forward = respond(&law, 9e6, shift + 4e6, dt, Some((weight, offset))).unwrap();
     let backward = respond(&law, 9e6, shift - 4e6, dt, Some((weight, offset))).unwrap();
@@ -188,7 +188,7 @@ fn reversal_is_odd() {
     for answer in [forward, backward] {
         approx::assert_relative_eq!(answer[0], weight * answer[2] / dt - offset, epsilon = 1e-19);
     }
-    // The bare logarithm refuses to go backwards.
+    // The bare logarithm refuses reversed slip.
     let bare = RateLaw::new(Bare(Parameters::new(0.6, 0.01, V_REF).unwrap()), Stateless, 1e-6, None).unwrap();
     let failure = respond(&bare, 9e6, shift - 4e6, dt, Some((weight, offset))).unwrap_err();
     assert!(matches!(failure, Failure::BareLogAtRest { point: 0, rate } if rate < 0.0), "{failure}");
@@ -213,7 +213,7 @@ fn the_slope_at_rest_is_the_limit_of_the_slope_near_rest() {
     }
 }
 
-/// Order at which f(h) - f(0) - h f' vanishes, unless it is rounding already.
+/// Order at which f(h) - f(0) - h f' vanishes, unless it is already at rounding.
 fn order(f: impl Fn(f64) -> f64, derivative: f64, h: f64, scale: f64) -> Option<f64> {
     let remainder = |h: f64| (f(h) - f(0.0) - h * derivative).abs();
     let fine = remainder(0.5 * h);

@@ -106,7 +106,7 @@ fn the_jacobian_is_the_derivative_of_the_rates() {
                     let h = 2e-4 * system.scales()[column];
                     let (coarse, fine) = (remainder(h), remainder(0.5 * h));
                     for i in 0..n {
-                        // Of second order, or nothing but rounding.
+                        // Of second order, or at rounding.
                         let order = (coarse[i] / fine[i]).log2();
                         let change = (h * jacobian[column * n + i] / base[i]).abs();
                         let rounding = 1e-12 * (1.0 + change);
@@ -123,7 +123,7 @@ fn the_jacobian_is_the_derivative_of_the_rates() {
     }
 }
 
-/// Over a short time the springs gain what friction, damping and inertia take up.
+/// Over a short time, the traction gained by the springs equals that of friction, damping and inertia.
 #[test]
 fn tractions_stay_in_balance() {
     for (name, law) in laws() {
@@ -151,7 +151,7 @@ fn tractions_stay_in_balance() {
     }
 }
 
-/// Quantity kept over a step of f_n: traction without inertia, the slip rate with it; dφ = -α ln(ratio) at constant V.
+/// Continuous quantities over a step of f_n: traction without inertia, the slip rate with it; dφ = -α ln(ratio) at constant V.
 #[test]
 fn a_step_of_normal_traction_keeps_what_cannot_jump() {
     for (name, law) in laws() {
@@ -186,7 +186,7 @@ fn a_step_of_normal_traction_keeps_what_cannot_jump() {
     approx::assert_relative_eq!(B * (0.4 - y[1]), 0.3 * 1.1f64.ln(), max_relative = 1e-12);
 }
 
-/// With both memories and inertia V stays, and `dφ = -α d ln f_n - c dμ` with dμ = dφ far from rest.
+/// With both memories and inertia V is unchanged, and `dφ = -α d ln f_n - c dμ` with dμ = dφ far from rest.
 #[test]
 fn a_step_of_normal_traction_is_remembered_beside_that_of_shear_traction() {
     let form = Regularised(Parameters::new(0.6, A, 1e-6).unwrap());
@@ -200,7 +200,7 @@ fn a_step_of_normal_traction_is_remembered_beside_that_of_shear_traction() {
     approx::assert_relative_eq!(B * (0.4 - y[1]), 0.3 * 1.1f64.ln() / 3.0, max_relative = 1e-11);
 }
 
-/// With asinh the equations are odd: mirrored tractions give mirrored rates, and V = 0 is nothing special.
+/// With asinh the equations are odd: mirrored tractions give mirrored rates, and V = 0 is not special.
 #[test]
 fn reversal_is_a_mirror_image() {
     for (name, law) in laws().into_iter().filter(|l| l.1.at_rate(0.0, &[0.0; 4][..l.1.states()]).is_ok()) {
@@ -280,7 +280,7 @@ fn sliders_out_of_range_are_refused() {
     assert!(refused(Slider { stiffness: -1.0, ..good() }));
     let spring = Spring { between: [0, 3], stiffness: 1.0 };
     assert!(System::new(vec![good()], vec![spring], History::Constant(0.0)).is_err());
-    // The bare logarithm has no rest.
+    // The bare logarithm has no value at rest.
     let bare = named("bare");
     assert!(bare.at_rate(0.0, &[0.0]).is_err() && bare.at_rate(-1.0, &[0.0]).is_err());
     assert_eq!(Bare(parameters()).rest_slope(0.0), None);
@@ -300,7 +300,8 @@ fn forms_without_a_value_at_rest_refuse_a_negative_strength() {
         Arc::new(RateLaw::new(CutOff::new(slippery(), 1e-6).unwrap(), ageing(), V_REF, None).unwrap()),
     ];
     for law in laws {
-        // In steady state at 1 m/s either form is below zero: 0.02 - 0.005 ln 1e6 and 0.02 + 0.015 ln 1e-6 less next to nothing.
+        // In steady state at 1 m/s either form is below zero: 0.02 - 0.005 ln 1e6, and 0.02 + 0.015 ln 1e-6 minus a negligible
+        // amount.
         let failure = law.at_rate(1.0, &steady(&*law, 1.0)).unwrap_err();
         assert!(matches!(failure, asperity_friction::Failure::Negative { mu, .. } if mu < 0.0), "{failure}");
         assert!(!law.reverses());

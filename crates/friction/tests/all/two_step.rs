@@ -1,4 +1,4 @@
-//! Two-step differences in slip under laws with states: order, derivatives, and the estimate of what a step misses.
+//! Two-step differences in slip under laws with states: order, derivatives, and the estimated error of a step.
 
 use super::usual::usual;
 use asperity_friction::each_evolution;
@@ -11,7 +11,7 @@ use asperity_friction::strength::{Parameters, regularised::Regularised};
 const V_REF: f64 = 1e-6;
 const L: f64 = 1e-5;
 const NORMAL: f64 = 1e7;
-/// Some four times the critical stiffness of a and b.
+/// About four times the critical stiffness for a and b.
 const STIFFNESS: f64 = 2e10;
 const A: f64 = 0.01;
 const B: f64 = 0.015;
@@ -20,7 +20,7 @@ fn law<E: Evolution>(evolution: E) -> RateLaw<Regularised, E> {
     RateLaw::new(Regularised(Parameters::new(0.6, A, V_REF).unwrap()), evolution, V_REF, None).unwrap()
 }
 
-/// Laws, those of ageing and slip first.
+/// Laws, beginning with ageing and slip.
 fn laws() -> Vec<Box<dyn Law>> {
     let weakening = Weakening { mu0: 0.6, a: A, b: B, v_ref: V_REF, mu_w: 0.2, v_w: 1e-2 };
     let common = Common { mu0: 0.6, a: A, v_ref: V_REF, b: B, length: L };
@@ -35,7 +35,7 @@ fn laws() -> Vec<Box<dyn Law>> {
     laws
 }
 
-/// One point's answer.
+/// Answer for one point.
 struct One {
     traction: f64,
     slip: f64,
@@ -79,8 +79,8 @@ fn respond(law: &dyn Law, normal: f64, trial: f64, dt: f64, lag: (f64, f64), old
     }
 }
 
-/// A slider on a spring through a step of the load to three times its rate: traction at some multiples of the longest step, and the
-/// largest error estimated after the first tenth of the time.
+/// A slider on a spring, with a step of the load to three times its rate. Returns the traction at some multiples of the longest
+/// step, and the largest estimated error after the first tenth of the time.
 fn march(law: &dyn Law, steps: usize) -> (Vec<f64>, f64) {
     let (load, end) = (3.0 * V_REF, 20.0);
     let dt = end / steps as f64;
@@ -104,7 +104,7 @@ fn march(law: &dyn Law, steps: usize) -> (Vec<f64>, f64) {
             new: &one.states,
         };
         law.error(taken, &mut error);
-        // The rate of the load jumps at the start, and that of V with it.
+        // The rate of the load jumps at the start, and V with it.
         if 10 * step > steps {
             largest = largest.max(error[0]);
         }
@@ -129,7 +129,7 @@ fn steps_are_of_second_order_with_every_state() {
     }
 }
 
-/// Bound that plans warn of: a step is of first order, and errs by twenty times its estimate.
+/// As plans warn: a step is of first order, and its error is twenty times its estimate.
 #[test]
 fn steps_with_a_memory_of_shear_traction_are_of_first_order() {
     each_evolution!(Kind => {
@@ -152,7 +152,7 @@ fn the_estimate_is_of_the_size_of_the_error_and_of_its_order() {
         let [(coarse, estimated), (_, finer)] = [400, 800].map(|steps| march(law.as_ref(), steps));
         let order = (estimated / finer).log2();
         assert!((order - 2.0).abs() < 0.3, "{}: {order}", law.name());
-        // What a step leaves relaxes while the load moves by a f_n/k, here over a hundred steps.
+        // The residual of a step relaxes while the load moves by a f_n/k, here over a hundred steps.
         let ratio = difference(&coarse, &limit) / estimated;
         assert!((0.1..10.0).contains(&ratio), "{}: {ratio}", law.name());
     }
@@ -212,7 +212,7 @@ fn derivatives_follow_states_at_the_mean_rate() {
                 (one.d_trial, &(|h: f64| at(NORMAL, trial + h).traction) as &dyn Fn(f64) -> f64),
                 (one.d_normal, &|h: f64| at(NORMAL + h, trial).traction),
             ] {
-                // Rounding of tractions over h is some 1e-8; the third derivative adds some (h/(a f_n))^2 = 1e-6.
+                // Rounding of tractions over h is about 1e-8; the third derivative adds about (h/(a f_n))^2 = 1e-6.
                 let h = 100.0;
                 let found = (by(h) - by(-h)) / (2.0 * h);
                 assert!(

@@ -32,7 +32,7 @@ fn dropping() -> StaticKinetic {
     StaticKinetic::new(MU_S, MU_K, None).unwrap()
 }
 
-/// One point's answer.
+/// Answer for one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct One {
     traction: f64,
@@ -88,7 +88,7 @@ fn respond(law: &dyn Law, normal: f64, trial: f64, old: f64) -> One {
     respond_with(law, [normal, trial, STIFFNESS], old, None).unwrap()
 }
 
-/// Pulls the far end of the penalty spring to `reach` \[m\] in `steps` steps; tractions, slips and states after each.
+/// Pulls the far end of the penalty spring to `reach` \[m\] in `steps` steps; returns tractions, slips and states after each.
 fn pull(law: &dyn Law, normal: f64, reach: f64, steps: u32) -> Vec<One> {
     let mut state = [f64::NAN];
     law.initial(&mut state);
@@ -133,7 +133,7 @@ fn the_work_above_the_residual_strength_is_the_fracture_energy() {
     let mut last = (MU_S * NORMAL, 0.0);
     let mut energy = 0.0;
     for one in pull(&law, NORMAL, 3.0 * D_C, 5000).iter().filter(|one| one.regime == Regime::Slip) {
-        // Traction is linear in slip between two steps but for the one with the kink.
+        // Traction is linear in slip between two steps, except for the step with the kink.
         energy += (0.5 * (one.traction + last.0) - MU_K * NORMAL) * (one.state - last.1);
         last = (one.traction, one.state);
     }
@@ -194,7 +194,7 @@ fn is_derivative(f: impl Fn(f64) -> f64, derivative: f64, h: f64, what: &str) {
 fn the_derivatives_of_every_branch_are_consistent() {
     let (sw, low, sk) = (weakening(), capped(5e6), dropping());
     let sk_low = StaticKinetic::new(MU_S, MU_K, Some(3e6)).unwrap();
-    // Law, trial traction, state, and what ∂τ/∂|t^e| is there.
+    // Law, trial traction, state, and the expected ∂τ/∂|t^e|.
     let branches: [(&str, &dyn Law, f64, f64, f64); 12] = [
         ("weakening, stick", &sw, 6e6, 0.0, 1.0),
         ("weakening", &sw, 8e6, 0.0, -1.0 / 3.0),
@@ -223,11 +223,11 @@ fn the_cap_holds_and_removes_the_normal_coupling_until_the_cone_is_below_it() {
     let one = respond(&law, NORMAL, 7e6, 0.0);
     assert_eq!((one.traction, one.d_trial, one.d_normal), (5e6, 0.0, 0.0));
     assert_relative_eq!(one.slip, 2e6 / STIFFNESS, max_relative = 1e-15);
-    // Beyond the cap the answer is that of the law without cap.
+    // Beyond the cap, the answer is that of the law without a cap.
     let far = respond(&law, NORMAL, 1.4e7, 0.0);
     assert_eq!(far, respond(&weakening(), NORMAL, 1.4e7, 0.0));
     assert!(far.traction < 5e6 && far.traction > MU_K * NORMAL);
-    // A cap below the residual strength holds for ever, behind any spring.
+    // A cap below the residual strength limits the traction for ever, behind any spring.
     let low = capped(3e6);
     for old in [0.0, 0.7 * D_C, 4.0 * D_C] {
         let one = respond_with(&low, [NORMAL, 9e6, 0.1 * WEAKENING], old, None).unwrap();
@@ -260,7 +260,7 @@ fn a_spring_softer_than_the_weakening_is_refused_until_the_point_is_weakened() {
             assert_eq!((one.traction, one.d_trial, one.d_normal), (4e6, 0.0, MU_K));
         }
     }
-    // On the cap the spring is not asked either, but for the end of it.
+    // On the cap the spring does not matter either, except at its end.
     let (law, soft) = (capped(5e6), 0.3 * WEAKENING);
     assert_eq!(respond_with(&law, [NORMAL, 5.2e6, soft], 0.0, None).unwrap().traction, 5e6);
     let failure = respond_with(&law, [NORMAL, 9e6, soft], 0.0, None).unwrap_err();
@@ -305,7 +305,7 @@ fn static_strength_drops_to_kinetic_in_slip_and_heals_in_rest() {
     assert_eq!((slip.regime, slip.traction, slip.state), (Regime::Slip, 4e6, 1.0));
     assert_relative_eq!(slip.slip, 3.1e6 / STIFFNESS, max_relative = 1e-15);
     assert_relative_eq!(slip.rate, slip.slip / DT, max_relative = 1e-15);
-    // It goes on slipping at the kinetic strength.
+    // It continues to slip at the kinetic strength.
     let on = at(slip.traction + 1e5, slip.state);
     assert_eq!((on.regime, on.traction, on.state), (Regime::Slip, 4e6, 1.0));
     let rest = at(4e6, on.state);
@@ -318,7 +318,7 @@ fn static_strength_drops_to_kinetic_in_slip_and_heals_in_rest() {
 
 #[test]
 fn a_pulled_static_kinetic_point_makes_sawteeth() {
-    // Each drop f_n (μ_s - μ_k) is loaded again by 30 increments of a hundredth of f_n.
+    // Each drop f_n (μ_s - μ_k) is reloaded by 30 increments of a hundredth of f_n.
     let law = dropping();
     let (mut traction, mut state, mut slips) = (0.0, 0.0, Vec::new());
     for n in 0..200 {
@@ -327,7 +327,7 @@ fn a_pulled_static_kinetic_point_makes_sawteeth() {
         if one.regime == Regime::Slip && slips.last().is_none_or(|last| n > last + 1) {
             slips.push(n);
         }
-        // The slip takes the drop and leaves the point there: the far end has to stop for it to heal.
+        // The slip takes the drop and leaves the point there: the far end has to stop for the point to heal.
         if one.regime == Regime::Slip {
             state = respond(&law, NORMAL, traction, state).state;
         }
@@ -376,7 +376,7 @@ fn parameters_out_of_range_are_refused_by_name() {
         refused(SlipWeakening::new(0.4, 0.7, D_C, None)).1,
         "mu_k = 7e-1 is not admissible: 0 <= mu_k <= mu_s"
     );
-    // Without a drop there is nothing static about it; slip weakening reduces to Coulomb.
+    // Without a drop the law is not static and kinetic friction; slip weakening reduces to Coulomb.
     assert_eq!(refused(StaticKinetic::new(0.4, 0.4, None)).0, "mu_k");
     assert!(SlipWeakening::new(0.4, 0.4, D_C, None).is_ok());
 }
@@ -458,8 +458,8 @@ fn forward_and_implicit_steps_agree_exactly_at_constant_and_to_second_order_at_c
     assert!((order - 2.0).abs() < 0.1, "order {order}");
 }
 
-/// Pulls at constant normal traction by the rate form with the limits obeyed; the state at the end, and the largest error of what the rate
-/// form foresaw.
+/// Pulls at constant normal traction by the rate form with its limits; returns the state at the end, and the largest error of the
+/// prediction by the rate form.
 fn pull_forward(law: &dyn Law, reach: f64, step: f64) -> (Start, f64) {
     let mut s = Start { traction: 0.0, ..STICKING };
     let mut foreseen = 0.0_f64;
@@ -470,7 +470,7 @@ fn pull_forward(law: &dyn Law, reach: f64, step: f64) -> (Start, f64) {
         let change = |r: f64| along * STIFFNESS * r * slide + r * constant;
         let slip = |r: f64| if s.regime == Regime::Slip { r * slide - change(r) / STIFFNESS } else { 0.0 };
         let r = limit(law, &s, [0.0, change(1.0), slip(1.0)]).map_or(1.0, |l| l.fraction);
-        // As a stepper does: the law answers the step that was foreseen, and what stands at its strength slips in the next.
+        // As in a stepper: the law answers the predicted step, and a point at its strength slips in the next.
         let end = respond(law, NORMAL, s.traction + STIFFNESS * r * slide, s.state);
         foreseen = foreseen.max((s.traction + change(r) - end.traction).abs());
         s = Start { traction: end.traction, rate: end.rate, regime: end.regime, state: end.state, ..s };
@@ -514,7 +514,7 @@ fn a_sticking_point_reaches_its_present_strength() {
     assert_eq!((found.kind, found.point), (LimitKind::StickToSlip, 0));
     assert_relative_eq!(found.fraction, 0.5, max_relative = 1e-14);
     assert!(stands(&dropping(), Start { traction: 7e6, ..STICKING }) && !stands(&dropping(), STICKING));
-    // The cap is a surface of its own.
+    // The cap is a separate surface.
     let found = limit(&capped(6.5e6), &STICKING, [0.0, 2e6, 0.0]).unwrap();
     assert_eq!(found.fraction, 0.25);
 }
@@ -529,7 +529,7 @@ fn the_slip_of_a_step_is_bounded_and_ends_at_the_kink() {
     let found = limit(&law, &near, [0.0, 0.0, 0.05 * D_C]).unwrap();
     assert_eq!(found.kind, LimitKind::SlipLength);
     assert_relative_eq!(found.fraction, 0.6, max_relative = 1e-12);
-    // There, within the band, and beyond, slip is free.
+    // At this point, within the band, and beyond it, slip is free.
     for state in [D_C, D_C * (1.0 - 1e-10), 2.0 * D_C] {
         assert_eq!(limit(&law, &Start { state, ..SLIDING }, [0.0, 0.0, D_C]), None);
     }
@@ -556,7 +556,7 @@ fn inputs_that_are_not_finite_are_refused() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(20_000))]
 
-    /// Never NaN, balanced to rounding, on or below the strength, and slip never turns.
+    /// Never NaN, balanced to rounding, on or below the strength, and slip never reverses.
     #[test]
     fn the_point_return_of_slip_weakening_is_admissible(
         mu_s in 0.0f64..1.5,

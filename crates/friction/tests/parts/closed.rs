@@ -87,7 +87,7 @@ fn flash_heating_relaxes_towards_its_steady_state() {
             }
         }
     }
-    // Far below V_w the slip law is what remains.
+    // Far below V_w the slip law remains.
     let (flash, slip) = (Flash::new(weakening(0.01), LENGTH).unwrap(), Slip::new(B, LENGTH, V_REF).unwrap());
     let (one, other) = (flash.step(0.07, 1e-5f64.ln(), 0.7), slip.step(0.07, 1e-5f64.ln(), 0.7));
     approx::assert_abs_diff_eq!(one.state, other.state, epsilon = 1e-15);
@@ -121,7 +121,7 @@ fn a_cut_off_bounds_the_state_effect() {
             );
         }
     }
-    // Nothing is left of it at V ≫ V2; at V ≪ V2 it is the plain law with another reference.
+    // Its effect vanishes at V ≫ V2; at V ≪ V2 it is the plain law with another reference.
     assert!(cut.phi(cut.steady(f64::ln(1e12))) <= 1.01e-16 * B);
     for state in [30.0, 39.0 - f64::ln(100.0), 41.0 - f64::ln(100.0), 80.0] {
         approx::assert_relative_eq!(

@@ -1,4 +1,4 @@
-//! Values and orders that the tests of parts share.
+//! Values and orders shared by the tests of parts.
 
 use asperity_friction::evolution::flash::Weakening;
 
@@ -11,8 +11,8 @@ pub fn weakening(a: f64) -> Weakening {
     Weakening { mu0: 0.6, a, b: B, v_ref: V_REF, mu_w: 0.2, v_w: 0.1 }
 }
 
-/// True if the remainder f(h) - f(0) - h f' vanishes at second order or faster, down to `rounding`; the second answer tells
-/// whether it was large enough to show an order.
+/// True if the remainder f(h) - f(0) - h f' vanishes at second order or faster, down to `rounding`; the second result is true
+/// if it was large enough to show an order.
 pub fn taylor(f: impl Fn(f64) -> f64, derivative: f64, h: f64, rounding: f64) -> (bool, bool) {
     let remainder = |h: f64| (f(h) - f(0.0) - h * derivative).abs();
     let (coarse, fine) = (remainder(h), remainder(0.5 * h));
@@ -20,7 +20,7 @@ pub fn taylor(f: impl Fn(f64) -> f64, derivative: f64, h: f64, rounding: f64) ->
     ((!shows && coarse < 1000.0 * rounding) || (coarse / fine).log2() > 1.7, shows)
 }
 
-/// Counts Taylor tests that showed an order, and fails with the first that is wrong.
+/// Counts Taylor tests that showed an order, and fails at the first wrong one.
 #[derive(Default)]
 pub struct Tally {
     all: usize,
@@ -34,7 +34,7 @@ impl Tally {
         self.shown += usize::from(shows);
     }
 
-    /// At least this share of the tests must have had something to show.
+    /// Asserts that at least this fraction of the tests showed an order.
     pub fn told(&self, share: f64) {
         assert!(self.shown as f64 >= share * self.all as f64, "{} of {}", self.shown, self.all);
     }

@@ -18,7 +18,7 @@ macro_rules! with_every_evolution {
             let common = Common { mu0: 0.6, a: 0.01, v_ref: V_REF, b: B, length: LENGTH };
             $check(&usual::<Law>(common), states);
         });
-        // What usual parameters do not reach.
+        // Cases not reached by usual parameters.
         $check(&Ageing::new(B, LENGTH, V_REF).unwrap().with_cut_off(1e-2).unwrap(), &$of_log);
         $check(&Ageing::new(B, LENGTH, V_REF).unwrap().with_cut_off(1e-8).unwrap(), &$of_log);
         $check(&Flash::new(weakening(0.01), LENGTH).unwrap(), &$of_phi);
@@ -36,7 +36,7 @@ fn derivatives_of_the_exact_steps_are_their_derivatives() {
                     let (z, dt) = (f64::ln(v), x * LENGTH / v);
                     let what = || format!("{} state {state} v {v} x {x}", E::NAME);
                     let s = e.step(state, z, dt);
-                    // The old state fades over δx = 1, flash heating sets in over an eighth of an e-fold.
+                    // The old state fades over δx = 1; flash heating sets in over an eighth of an e-fold.
                     let h = 2e-3 / (1.0 + x);
                     let rounding = f64::EPSILON * (4.0 + 4.0 * state.abs() + s.state.abs() + z.abs());
                     let after = |h: f64| e.step(state, z + h, dt);
@@ -53,7 +53,7 @@ fn derivatives_of_the_exact_steps_are_their_derivatives() {
         }
         first.told(0.5);
         second.told(0.3);
-        // Relaxation is linear in the state, and φ in s where nothing cuts it off.
+        // Relaxation is linear in the state, and φ is linear in s where nothing cuts it off.
         if e.per_phi() != 1.0 {
             by_state.told(0.2);
         }
@@ -61,7 +61,7 @@ fn derivatives_of_the_exact_steps_are_their_derivatives() {
     with_every_evolution!(check, [-5.0, 0.0, 3.0, 20.0], [-0.1, 0.0, 0.2]);
 }
 
-/// The step over Δt is the step over Δt/7 seven times, at any rate.
+/// One step over Δt equals seven steps over Δt/7, at any rate.
 #[test]
 fn exact_steps_compose() {
     fn check<E: Evolution>(e: &E, states: &[f64]) {
@@ -92,7 +92,7 @@ fn the_rate_of_the_state_is_the_slope_of_its_exact_step_in_time() {
             for v in [1e-12, 1e-8, 1e-6, 1e-3, 0.1, 3.0] {
                 let z = f64::ln(v);
                 let r = e.rate(state, Speed::of_log(z));
-                // Of the order of the shortest time in play.
+                // Of the order of the shortest time scale.
                 let dt = 1e-3 / (v / LENGTH + r.rate.abs() + r.d_state.abs());
                 let rounding = 4.0 * f64::EPSILON * (1.0 + state.abs());
                 let (holds, _) = taylor(|h| e.step(state, z, h).state, r.rate, dt, rounding);
@@ -147,7 +147,7 @@ fn steady_states_do_not_move() {
     with_every_evolution!(check, [], []);
 }
 
-/// And from wherever it starts, a state that slips far arrives there.
+/// A state that slips far also arrives there from any initial value.
 #[test]
 fn states_arrive_at_their_steady_state() {
     fn check<E: Evolution>(e: &E, states: &[f64]) {
@@ -171,7 +171,7 @@ fn no_step_weakens_more_than_its_bound() {
                 for x in [1e-9, 1e-3, 0.1, 1.0, 10.0, 1e3] {
                     let step = e.step(state, v.ln(), x * LENGTH / v);
                     let weakening = -e.phi_slopes(step.state).0 * step.d_log_rate;
-                    // The bound is one for all rates up to the one it is asked for.
+                    // The bound is valid for all rates up to the given one.
                     for factor in [1.0, 3.0, 1e4] {
                         let bound = e.weakening(state, (factor * v).ln()) * x * LENGTH;
                         assert!(weakening <= bound * (1.0 + 1e-9), "{} {state} {v} {x} {factor}", E::NAME);

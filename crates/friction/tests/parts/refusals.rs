@@ -79,7 +79,7 @@ fn parameters_of_the_other_laws_are_refused_by_name() {
     for bad in [-0.1, 0.6, 0.7, f64::NAN] {
         refused(Flash::new(Weakening { mu_w: bad, ..w }, LENGTH), "mu_w");
     }
-    // A memory of μ has nothing to act on where b = 0.
+    // A memory of μ has nothing to act on if b = 0.
     refused(Component::new(Ageing::new(0.0, LENGTH, V_REF).unwrap(), 0.2), "alpha");
     assert!(Component::new(Ageing::new(0.0, LENGTH, V_REF).unwrap(), 0.0).is_ok());
     let nagata = Component::new(Nagata::new(B, LENGTH, V_REF, 2.0).unwrap(), 0.0).unwrap();

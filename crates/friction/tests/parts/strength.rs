@@ -21,7 +21,7 @@ fn the_regularised_strength_and_its_inverse_hold_over_34_decades() {
     }
 }
 
-/// Below asinh's turn the strength is linear, above it logarithmic; in between it is asinh as the standard library has it.
+/// At low rates the strength is linear, at high rates logarithmic, and in between the asinh of the standard library.
 #[test]
 fn the_regularised_strength_has_its_limits() {
     let a = 0.02;
@@ -41,7 +41,7 @@ fn the_regularised_strength_has_its_limits() {
         );
     }
     assert_eq!(form.rest_slope(0.0), Some(a));
-    // Where the factor of V exceeds the range of numbers the slope does not.
+    // The slope remains in the range of numbers where the factor of V exceeds it.
     let stiff = Regularised(Parameters::new(0.6, 1e-4, V_REF).unwrap());
     approx::assert_relative_eq!(stiff.d_rate(1e-6f64.ln(), 0.2), 100.0, epsilon = 0.0, max_relative = 1e-12);
     assert_eq!(stiff.rest_slope(0.0), Some(f64::INFINITY));
@@ -128,7 +128,7 @@ fn the_slip_rate_is_the_inverse_of_every_strength() {
     fn check<F: Form>(form: &F, name: &str) {
         let a = form.scale();
         let mut tally = Tally::default();
-        // The last is an e-fold of 1 + V1/V below the saturation of the least φ.
+        // The last is an e-fold of 1 + V1/V below the saturation of the smallest φ.
         for m in [1e-3, 0.1, 0.99, 1.01, 3.0, 15.0, 19.9, 20.1, 60.0, 100.0, 109.0] {
             for sign in if form.regular_at_rest() { vec![1.0, -1.0] } else { vec![1.0] } {
                 for phi in [-0.05, 0.0, 0.1] {
@@ -144,7 +144,7 @@ fn the_slip_rate_is_the_inverse_of_every_strength() {
                     let mu = form.at(s.log, phi).mu;
                     assert!((mu - a * m).abs() <= 1e-15 + 4e-16 * a * s.log.abs(), "{}: {mu}", what());
                     approx::assert_abs_diff_eq!(form.log_rate(a * m, phi), s.log, epsilon = 1e-12);
-                    // V is a power over one of m, and linear in m below.
+                    // V is exponential in m above one, and linear in m below.
                     let (h, rounding) = (0.02 * m.min(1.0), f64::EPSILON * (100.0 + s.log.abs()));
                     let at = |dm: f64, dp: f64| form.slip_rate(sign * m + dm, phi + dp * a);
                     let (by_m, by_phi) = (s.d_m.abs(), (s.d_phi * a).abs());
@@ -177,7 +177,7 @@ fn the_slip_rate_is_the_inverse_of_every_strength() {
         }
     }
     with_every_form!(check);
-    // Above all its strengths the form with a cut-off has no rate.
+    // Above all its strengths, the form with a cut-off has no rate.
     let cut = CutOff::new(Parameters::new(0.6, 0.005, V_REF).unwrap(), 1e-5).unwrap();
     assert_eq!(cut.slip_rate(121.0, 0.0).rate, f64::INFINITY);
     assert_eq!(cut.log_rate(0.605, 0.0), f64::INFINITY);
@@ -198,9 +198,9 @@ fn the_cut_off_saturates_the_direct_effect() {
             max_relative = 1e-13
         );
     }
-    // Above V1 nothing is gained: less than a V1/V is left.
+    // Above V1 there is no further gain: less than a V1/V remains.
     assert!((form.at(1e4f64.ln(), 0.0).mu - 0.6).abs() <= a * 1.001e-9);
-    // Below, it is the bare logarithm with V1 for a reference.
+    // Below, it is the bare logarithm with V1 as its reference.
     let bare = Bare(Parameters::new(0.6, a, v1).unwrap());
     approx::assert_abs_diff_eq!(form.at(-60.0, 0.0).mu, bare.at(-60.0, 0.0).mu, epsilon = 1e-15);
     assert!(!form.regular_at_rest());
@@ -236,7 +236,7 @@ fn temperature_shifts_the_strength_by_its_arrhenius_factor() {
             );
         }
     }
-    // At the reference, or without activation, nothing happens; warm rock is weaker.
+    // At the reference, or without activation, there is no effect; warm rock is weaker.
     let z = f64::ln(3e-7);
     let same = Arrhenius::new(Regularised(p), q, reference, reference).unwrap();
     assert_eq!(same.at(z, 0.1), Regularised(p).at(z, 0.1));

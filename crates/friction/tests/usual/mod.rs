@@ -1,4 +1,4 @@
-//! Laws of the table with the parameters that their rows call usual.
+//! Laws of the table with the usual parameters of their rows.
 
 use asperity_friction::evolution::{Common, Defined, Parameter};
 
@@ -13,7 +13,7 @@ fn example(parameter: &Parameter) -> f64 {
     }
 }
 
-/// The law of these common parameters, without what it may do without.
+/// The law with these common parameters, without its optional ones.
 pub fn usual<E: Defined>(common: Common) -> E {
     let own = E::DEFINITION.parameters.iter().map(|p| (!p.optional).then(|| example(p)));
     E::build(&common, &own.collect::<Vec<_>>()).unwrap()

@@ -1,4 +1,4 @@
-//! Orders of methods, errors under the tolerance, stiffness, and numbers of unknowns.
+//! Orders of methods, errors relative to the tolerance, stiffness, and numbers of unknowns.
 
 use super::common::*;
 use asperity_ode::{Method, integrate};
@@ -47,12 +47,12 @@ fn the_error_decreases_with_the_tolerance_for_every_method() {
     }
 }
 
-/// Largest error at the ends of steps, and the largest of dense output, with `steps` equal steps.
+/// Largest error at the ends of steps and largest error of dense output, with `steps` equal steps.
 fn with_equal_steps(method: Method, steps: usize) -> (f64, f64) {
     let h = 2.0 / steps as f64;
     let mut record = Record::new();
     record.exact = Some(bell_exact);
-    // The tolerance accepts every length; the stages of radau5 are solved to a share of it that is tight enough.
+    // The tolerance accepts every length; the stages of radau5 are solved to a sufficiently tight fraction of it.
     let mut options = options(method, 1.0, 2);
     if method == Method::Radau5 {
         options.rtol = 1e-9;
@@ -125,7 +125,7 @@ fn implicit_methods_follow_a_stiff_van_der_pol_oscillator() {
         completed(&finished);
         finished
     };
-    // E. Hairer and G. Wanner's test set: y(2000) for mu = 1000.
+    // Test set of E. Hairer and G. Wanner: y(2000) for mu = 1000.
     let (y, speed) = (1.706_167_732_170_483, -8.928_097_010_247_975e-4);
     for (method, tolerance, allowed) in
         [(Method::Radau5, 1e-8, 1e-5), (Method::Bdf, 1e-8, 1e-3), (Method::Esdirk34, 1e-8, 1e-3)]
@@ -174,7 +174,7 @@ fn nothing_happens_in_no_time() {
 
 #[test]
 fn many_unknowns_are_integrated_like_two() {
-    // Decays of ten rates.
+    // Decays at ten rates.
     let decays = Given {
         zero: START,
         size: 10,

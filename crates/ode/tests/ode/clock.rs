@@ -42,7 +42,7 @@ fn events_a_microsecond_apart_are_resolved_after_thirty_years() {
     }
 }
 
-/// Nothing moves; events at 1e9 s and 1e-6 s later.
+/// A state at rest, with events at 1e9 s and 1e-6 s later.
 struct Wait;
 
 impl Problem for Wait {
@@ -71,7 +71,7 @@ fn a_short_event_after_a_long_wait_keeps_its_length() {
         completed(&integrate(&Wait, START, &[0.0], 1.5e9, &options(method, 1e-6, 1), &mut record));
         assert_eq!(record.occurrences.len(), 2, "{}", method.name());
         let apart = record.occurrences[1].at.since(&record.occurrences[0].at);
-        // The first is found on the clock of the long wait, whose resolution there is 1e-7 s.
+        // The first event is found on the clock of the long wait, whose resolution there is 1e-7 s.
         assert!((apart - 1e-6).abs() < 3e-7, "{}: {apart:e}", method.name());
     }
 }

@@ -1,4 +1,4 @@
-//! Problems, and a sink that records everything and checks that it makes sense.
+//! Problems, and a sink that records the solution and checks its consistency.
 
 use asperity_ode::{Clock, Control, Finished, Method, Occurrence, Options, Outcome, Problem, Sink, Step};
 
@@ -36,16 +36,16 @@ impl Problem for Given {
 
 pub const START: Clock = Clock::new(0.0, 0.0);
 
-/// Records everything and checks that it makes sense.
+/// Sink that records the solution and checks its consistency.
 pub struct Record {
     pub ends: Vec<Clock>,
     pub lengths: Vec<f64>,
     pub occurrences: Vec<Occurrence>,
     pub last: Option<Clock>,
-    /// Largest error of dense output against this solution of the time since the start.
+    /// Exact solution as a function of the time since the start, for the error of dense output.
     pub exact: Option<fn(f64) -> f64>,
     pub dense_error: f64,
-    /// The same at the ends of steps.
+    /// Largest error at the ends of steps.
     pub end_error: f64,
     pub stop_at_event: bool,
 }
@@ -121,7 +121,7 @@ pub fn oscillator() -> Given {
     }
 }
 
-/// y' = 1 with three thresholds: two next to each other and a pair at one time.
+/// y' = 1 with three thresholds: two close together, and two at the same time.
 pub fn ramp() -> Given {
     Given {
         zero: START,

@@ -3,8 +3,8 @@
 use super::common::*;
 use asperity_ode::{Clock, Method, Problem, integrate};
 
-/// A spring slider without inertia but with radiation damping: y = (ln V/V0, ln theta V0/D), regularised by neither; stiffness
-/// 0.7 of the critical one, so that it sticks and slips from 1e-13 to 1 m/s. Events: V crosses 1 mm/s.
+/// A spring slider without inertia but with radiation damping: y = (ln V/V0, ln theta V0/D), without regularisation; stiffness
+/// 0.7 of the critical one, so that it sticks and slips between 1e-13 and 1 m/s. Events: V crosses 1 mm/s.
 struct Slider;
 
 impl Slider {

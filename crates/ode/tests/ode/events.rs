@@ -1,4 +1,4 @@
-//! Events: order, place, direction, start and end, and going on from one.
+//! Events: order, position, direction, start and end, and continuation from one.
 
 use super::common::*;
 use asperity_ode::{Method, Outcome, integrate};

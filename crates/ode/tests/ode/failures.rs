@@ -1,4 +1,4 @@
-//! Rates that are not finite, too many steps, and requests without sense.
+//! Rates that are not finite, too many steps, and invalid requests.
 
 use super::common::*;
 use asperity_ode::{Counts, Failure, Method, Options, Outcome, integrate};

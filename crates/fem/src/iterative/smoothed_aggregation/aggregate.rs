@@ -3,7 +3,7 @@
 use crate::iterative::csr::BlockCsr;
 use crate::iterative::dense::norm2;
 
-/// Marks a node in no aggregate: all its components are fixed.
+/// Marks a node that is in no aggregate: all its components are fixed.
 pub const NONE: u32 = u32::MAX;
 
 /// Nodes and their strong neighbours.
@@ -15,8 +15,8 @@ pub struct Strength {
 }
 
 impl Strength {
-    /// Node j is a strong neighbour of i when `|A_ij|² > threshold² |A_ii| |A_jj|`, Frobenius norms of the node blocks.
-    /// With components of one kind in a block the measure does not change under rotation of the axes.
+    /// Node j is a strong neighbour of i if `|A_ij|² > threshold² |A_ii| |A_jj|`, with Frobenius norms of the node blocks. If
+    /// the components of a block are of one kind, the measure is invariant under rotation of the axes.
     #[must_use]
     pub fn new<const B: usize>(matrix: &BlockCsr<B, B>, threshold: f64) -> Self {
         let diagonal: Vec<f64> = matrix.diagonal().iter().map(norm2).collect();
@@ -40,7 +40,7 @@ impl Strength {
         &self.neighbours[self.starts[node]..self.starts[node + 1]]
     }
 
-    /// The aggregate of the strongest neighbour that has one (the first of equals).
+    /// The aggregate of the strongest neighbour that has one (the first if several are equal).
     fn strongest(&self, node: usize, aggregate: &[u32]) -> u32 {
         let weights = &self.weights[self.starts[node]..self.starts[node + 1]];
         let mut best = (0.0, NONE);
@@ -53,10 +53,10 @@ impl Strength {
     }
 }
 
-/// The aggregate of each node and the number of aggregates. Nodes that are not `active` stay out.
+/// The aggregate of each node and the number of aggregates. Nodes that are not `active` are left out.
 ///
-/// First every node none of whose neighbours is taken founds an aggregate with all of them; then what is left joins the
-/// strongest neighbour's; then what is still left gathers in aggregates of its own.
+/// First, every node without neighbours in an aggregate founds one with all of them. Then each remaining node joins the
+/// aggregate of its strongest neighbour. Nodes that still remain form separate aggregates.
 #[must_use]
 pub fn aggregate(strength: &Strength, active: &[bool]) -> (Vec<u32>, usize) {
     let n = active.len();

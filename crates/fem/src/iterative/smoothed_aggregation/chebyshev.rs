@@ -1,6 +1,6 @@
 //! Chebyshev smoother on the operator scaled by its diagonal blocks, `D⁻¹A`, over the upper part of its spectrum (Adams,
-//! Brezina, Hu and Tuminaro 2003; recurrence: Saad 2003, algorithm 12.1). A polynomial in `D⁻¹A` times `D⁻¹` is
-//! symmetric, and so is a cycle with the same polynomial before and after.
+//! Brezina, Hu and Tuminaro 2003; recurrence: Saad 2003, algorithm 12.1). A polynomial in `D⁻¹A` times `D⁻¹` is symmetric, and
+//! so is a cycle with the same polynomial before and after.
 
 use crate::error::FemError;
 use crate::iterative::block_jacobi::BlockJacobi;
@@ -11,10 +11,10 @@ use crate::iterative::vector::{CHUNK, add_scaled, dot, scale_add, scattered};
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 
-/// Lanczos steps of the estimate of the largest eigenvalue.
+/// Number of Lanczos steps for the estimate of the largest eigenvalue.
 const STEPS: usize = 14;
-/// The largest Ritz value lies below the largest eigenvalue, by little after [`STEPS`] steps from a vector with parts
-/// everywhere. A test compares the product with the power method.
+/// Factor on the largest Ritz value. It lies slightly below the largest eigenvalue after [`STEPS`] steps from a vector with
+/// components everywhere. A test compares the product with the power method.
 const MARGIN: f64 = 1.08;
 
 /// See the module.
@@ -27,7 +27,7 @@ pub struct Smoother<const B: usize> {
     degree: usize,
 }
 
-/// Vectors a smoother needs.
+/// Working vectors of a smoother.
 #[derive(Clone, Debug)]
 pub struct Scratch<const B: usize> {
     direction: Vec<[f64; B]>,
@@ -35,7 +35,7 @@ pub struct Scratch<const B: usize> {
 }
 
 impl<const B: usize> Scratch<B> {
-    /// For `n` nodes.
+    /// Vectors for `n` nodes.
     #[must_use]
     pub fn new(n: usize) -> Self {
         Self { direction: vec![[0.0; B]; n], next: vec![[0.0; B]; n] }
@@ -43,10 +43,10 @@ impl<const B: usize> Scratch<B> {
 }
 
 impl<const B: usize> Smoother<B> {
-    /// Damps the eigenvalues above `1/range` of the largest one.
+    /// Smoother that damps the eigenvalues above `1/range` of the largest one.
     ///
     /// # Errors
-    /// [`FemError::Factorisation`] when a diagonal block is not positive definite.
+    /// [`FemError::Factorisation`] if a diagonal block is not positive definite.
     pub fn new(matrix: &BlockCsr<B, B>, degree: usize, range: f64) -> Result<Self, FemError> {
         let jacobi = BlockJacobi::new(matrix)?;
         let largest = MARGIN * largest_eigenvalue(matrix, &jacobi);
@@ -59,7 +59,7 @@ impl<const B: usize> Smoother<B> {
         &self.jacobi
     }
 
-    /// Smooths `A x = b` from the x given, or from zero, whatever x holds.
+    /// Smooths `A x = b` from the given x, or from zero, whatever x holds.
     pub fn smooth(
         &self,
         matrix: &BlockCsr<B, B>,
@@ -106,7 +106,7 @@ impl<const B: usize> Smoother<B> {
                     }
                     let mut z = [0.0; B];
                     add_apply(&mut z, &self.jacobi.inverses[row], &r);
-                    // From zero the old direction may hold anything, also what is not a number.
+                    // Starting from zero, the old direction may hold anything, even NaN.
                     *d = std::array::from_fn(|i| {
                         if keep == 0.0 { gain * z[i] } else { keep * d[i] + gain * z[i] }
                     });

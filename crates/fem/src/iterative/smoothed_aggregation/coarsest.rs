@@ -4,8 +4,9 @@ use crate::error::FemError;
 use crate::iterative::csr::BlockCsr;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// A pivot below this share of its diagonal entry is rounding: that combination of rigid motions is not held. The pivots of a
-/// held body that is slender fall with powers of its length over its thickness and stay above for ratios in the hundreds.
+/// Ratio to its diagonal entry below which a pivot is rounding: that combination of rigid motions is not held. The pivots of a
+/// held slender body decrease with powers of its length over its thickness; they stay above this ratio for slendernesses in the
+/// hundreds.
 const FREE: f64 = 1e-12;
 
 /// See the module.
@@ -18,7 +19,7 @@ impl Coarsest {
     /// Factors the matrix.
     ///
     /// # Errors
-    /// [`FemError::Factorisation`] when it is not positive definite: a part of the body is free to move rigidly.
+    /// [`FemError::Factorisation`] if it is not positive definite: a part of the body is free to move rigidly.
     pub fn new<const B: usize>(matrix: &BlockCsr<B, B>) -> Result<Self, FemError> {
         let n = matrix.rows() * B;
         let mut dense = DMatrix::<f64>::zeros(n, n);

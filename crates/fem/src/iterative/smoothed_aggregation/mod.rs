@@ -1,6 +1,6 @@
-//! Smoothed aggregation (Vanek, Mandel and Brezina 1996; Vanek, Brezina and Mandel 2001): nodes are gathered into
-//! aggregates, rigid motions of the aggregates are the coarse unknowns, a step of damped block-Jacobi makes them smooth,
-//! and coarse matrices are Galerkin products. The preconditioner is one V-cycle with Chebyshev smoothing.
+//! Smoothed aggregation (Vanek, Mandel and Brezina 1996; Vanek, Brezina and Mandel 2001). Nodes are gathered into aggregates,
+//! whose rigid motions are the coarse unknowns. A step of damped block-Jacobi smooths these, and coarse matrices are Galerkin
+//! products. The preconditioner is one V-cycle with Chebyshev smoothing.
 
 pub mod aggregate;
 pub mod chebyshev;
@@ -18,23 +18,23 @@ use coarsest::Coarsest;
 use rayon::prelude::*;
 use tentative::Tentative;
 
-/// Unknowns a level may have to be solved directly: its factorisation takes well below a tenth of a second.
+/// Largest number of unknowns of a level that is solved directly: its factorisation takes well below a tenth of a second.
 const DIRECT: usize = 600;
-/// A level that keeps more than this share of its nodes is not worth having.
+/// Fraction of its nodes that a level may keep: a level that keeps more is not worthwhile.
 const POOR: f64 = 0.8;
-/// More levels than any matrix that fits into memory needs.
+/// Largest number of levels: more than any matrix that fits into memory needs.
 const LEVELS: usize = 20;
 
-/// Choices of the hierarchy. The defaults are those of the benchmark.
+/// Parameters of the hierarchy. The defaults are those of the benchmark.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Strength of connection below which neighbours are not aggregated, on the finest level; half on each coarser one.
-    /// At 0.12 cubes of hexahedra coarsen slowly and their levels fill up; below 0.08 elements of 1:10 take half as many
+    /// Strength of connection below which neighbours are not aggregated, on the finest level; half of it on each coarser one.
+    /// At 0.12, cubes of hexahedra coarsen slowly and their levels fill up; below 0.08, elements of 1:10 take half as many
     /// iterations again.
     pub threshold: f64,
-    /// Degree of the smoother. Three instead of two saves fewer iterations than it costs.
+    /// Degree of the smoother. Degree three instead of two costs more than the iterations it saves.
     pub degree: usize,
-    /// Largest over smallest eigenvalue the smoother damps.
+    /// Ratio of the largest to the smallest eigenvalue that the smoother damps.
     pub range: f64,
 }
 
@@ -44,7 +44,7 @@ impl Default for Settings {
     }
 }
 
-/// A level: its matrix, its smoother and the way to the next one.
+/// A level: its matrix, its smoother and the transfer to the next level.
 #[derive(Clone, Debug)]
 pub(super) struct Level<const B: usize, const K: usize> {
     pub(super) matrix: BlockCsr<B, B>,
@@ -73,11 +73,11 @@ pub struct LevelSize {
     pub entries: usize,
 }
 
-/// Solves on the next level: load and answer.
+/// Solver for the next level: load and answer.
 type Below<'a, const K: usize> = dyn FnMut(&[[f64; K]], &mut Vec<[f64; K]>) + 'a;
 
 impl<const B: usize, const K: usize> Level<B, K> {
-    /// The level of a matrix whose aggregates are given, and the matrix of the next level.
+    /// The level of a matrix with given aggregates, and the matrix of the next level.
     fn new(
         matrix: BlockCsr<B, B>,
         tentative: Tentative<B, K>,
@@ -110,8 +110,8 @@ impl<const B: usize, const K: usize> Level<B, K> {
     }
 }
 
-/// `P = (I - ω D⁻¹A) T` with `ω = 4 / (3 λ)`, λ the largest eigenvalue of `D⁻¹A`: the damping that makes the bound of the
-/// energy of coarse functions smallest.
+/// `P = (I - ω D⁻¹A) T` with `ω = 4 / (3 λ)`, λ the largest eigenvalue of `D⁻¹A`: the damping that minimises the bound of the
+/// energy of coarse functions.
 fn smoothed<const B: usize, const K: usize>(
     matrix: &BlockCsr<B, B>,
     tentative: &BlockCsr<B, K>,
@@ -141,7 +141,7 @@ fn smoothed<const B: usize, const K: usize>(
     result
 }
 
-/// Gives coarse unknowns that do not exist a diagonal as large as the others of their node.
+/// Sets the diagonal of absent coarse unknowns, as large as the others of their node.
 fn fill_absent<const K: usize>(matrix: &mut BlockCsr<K, K>, present: &[[bool; K]]) {
     for (row, present) in present.iter().enumerate() {
         if present.iter().all(|&p| p) {
@@ -158,7 +158,7 @@ fn fill_absent<const K: usize>(matrix: &mut BlockCsr<K, K>, present: &[[bool; K]
     }
 }
 
-/// Aggregates of a level, or none when it is small enough or does not coarsen.
+/// Aggregates of a level, or `None` if it does not coarsen sufficiently.
 fn coarsen<const B: usize, const K: usize>(
     matrix: &BlockCsr<B, B>,
     modes: &[Block<B, K>],
@@ -173,10 +173,10 @@ fn coarsen<const B: usize, const K: usize>(
 }
 
 impl<const D: usize, const K: usize> Hierarchy<D, K> {
-    /// Builds all levels. `modes` are zero where a component is fixed.
+    /// Builds all levels. `modes` are zero in fixed components.
     ///
     /// # Errors
-    /// [`FemError::Factorisation`] when the matrix is not positive definite or too small to coarsen.
+    /// [`FemError::Factorisation`] if the matrix is not positive definite or too small to coarsen.
     pub fn new(
         matrix: BlockCsr<D, D>,
         modes: &[Block<D, K>],
@@ -202,7 +202,7 @@ impl<const D: usize, const K: usize> Hierarchy<D, K> {
         Ok(Self { fine, coarse, coarsest_matrix: next, coarsest, settings })
     }
 
-    /// New values of the finest matrix in the same pattern: aggregates and tentative prolongators are kept.
+    /// Replaces the values of the finest matrix in the same pattern: aggregates and tentative prolongators are kept.
     ///
     /// # Errors
     /// As [`Hierarchy::new`].
@@ -229,7 +229,7 @@ impl<const D: usize, const K: usize> Hierarchy<D, K> {
         result
     }
 
-    /// Bytes held, the finest matrix included.
+    /// Memory held \[bytes\], including the finest matrix.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.fine.bytes()
@@ -238,7 +238,7 @@ impl<const D: usize, const K: usize> Hierarchy<D, K> {
             + self.coarsest.bytes()
     }
 
-    /// The preconditioner with the vectors it needs.
+    /// The preconditioner with its working vectors.
     #[must_use]
     pub fn cycle(&self) -> Cycle<'_, D, K> {
         Cycle {
@@ -340,7 +340,7 @@ mod tests {
         (Hierarchy::new(matrix, &modes, &active, Settings::default()).unwrap(), modes)
     }
 
-    /// Largest error of `P B_coarse = B` and how many nodes were looked at: those where `A B = 0`, or all of them.
+    /// Largest error of `P B_coarse = B`, and the number of nodes examined: those with `A B = 0`, or all of them.
     fn defect<const B: usize, const K: usize>(
         level: &Level<B, K>,
         modes: &[Block<B, K>],

@@ -5,9 +5,9 @@ use crate::iterative::csr::BlockCsr;
 use crate::iterative::dense::Block;
 use rayon::prelude::*;
 
-/// Modes whose part outside those before is below this share of their length depend on them: aggregates of few nodes do
-/// not tell all rotations apart. Rounding leaves about 1e-16 times the distance of an aggregate from the centre over its
-/// size, which may be 1e4 in graded meshes.
+/// Relative length of the independent part below which a mode depends on those before it: aggregates of few nodes cannot
+/// distinguish all rotations. Rounding leaves about 1e-16 times the distance of an aggregate from the centre over its size,
+/// which may be 1e4 in graded meshes.
 const DEPENDENT: f64 = 1e-10;
 
 /// Aggregates treated by one task.
@@ -20,7 +20,7 @@ pub struct Tentative<const B: usize, const K: usize> {
     pub prolongation: BlockCsr<B, K>,
     /// The modes on the coarse nodes.
     pub modes: Vec<Block<K, K>>,
-    /// Which coarse unknowns exist; the others have empty columns in T.
+    /// True for coarse unknowns that exist; the others have empty columns in T.
     pub present: Vec<[bool; K]>,
 }
 
@@ -69,8 +69,8 @@ fn members(aggregate: &[u32], count: usize) -> Vec<Vec<u32>> {
     members
 }
 
-/// Modified Gram-Schmidt, each column twice so that it is orthogonal to rounding. Returns R; dependent columns become
-/// zero and have a zero on its diagonal.
+/// Orthonormalises by modified Gram-Schmidt, each column twice so that it is orthogonal to rounding. Returns R; dependent
+/// columns become zero and have a zero on its diagonal.
 fn orthonormalise<const B: usize, const K: usize>(columns: &mut [Block<B, K>]) -> Block<K, K> {
     let mut r = [[0.0; K]; K];
     let product = |columns: &[Block<B, K>], a: usize, b: usize| -> f64 {

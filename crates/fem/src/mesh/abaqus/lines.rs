@@ -2,7 +2,7 @@
 
 use crate::mesh::error::{MeshError, Place};
 
-/// Characters of a wrong value that an error shows.
+/// Number of characters of a wrong value shown in an error.
 const SHOWN: usize = 40;
 
 /// A keyword line with its continuations.
@@ -38,12 +38,12 @@ impl Keyword {
         self.parameters.iter().find(|(k, _)| k == key).and_then(|(_, v)| v.as_deref())
     }
 
-    /// Value of a parameter that must be there.
+    /// Value of a required parameter.
     pub(super) fn need(&self, key: &str, expected: &'static str) -> Result<&str, MeshError> {
         self.value(key).filter(|v| !v.is_empty()).ok_or_else(|| self.syntax(self.line, expected, &self.name))
     }
 
-    /// True if a parameter is there.
+    /// True if a parameter is present.
     pub(super) fn has(&self, key: &str) -> bool {
         self.parameters.iter().any(|(k, _)| k == key)
     }
@@ -57,12 +57,12 @@ impl Keyword {
         MeshError::Unsupported { section: self.name.clone(), place: Place::Line(self.line), reason }
     }
 
-    /// A number of a node or element.
+    /// A node or element number.
     pub(super) fn number(&self, text: &str, line: usize) -> Result<u64, MeshError> {
         text.parse().map_err(|_| self.syntax(line, "a number of a node or element", text))
     }
 
-    /// A real number; exponents may be written with D as in Fortran.
+    /// A real number; exponents may be written with D, as in Fortran.
     pub(super) fn real(&self, text: &str, line: usize) -> Result<f64, MeshError> {
         let wrong = |_| self.syntax(line, "a coordinate", text);
         text.parse().or_else(|_| text.replace(['d', 'D'], "e").parse()).map_err(wrong)
@@ -73,11 +73,11 @@ impl Keyword {
 pub(super) enum Line<'a> {
     /// A keyword.
     Keyword(Keyword),
-    /// Values, and the line they stand on. A comma at the end is left out.
+    /// Values, and their line. A trailing comma is dropped.
     Data(Vec<&'a str>, usize),
 }
 
-/// The lines of a file without comments and empty lines. Bytes that are no text are shown as such in errors.
+/// The lines of a file without comments and empty lines. Bytes that are not text are shown as such in errors.
 pub(super) struct Lines<'a> {
     rest: std::iter::Enumerate<std::str::Split<'a, char>>,
 }

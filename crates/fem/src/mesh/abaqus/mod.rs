@@ -1,5 +1,5 @@
 //! Abaqus input files: nodes, elements, sets and surfaces of one part (Abaqus keyword reference). Other keywords (materials,
-//! steps, output) are skipped with their data; those that change where nodes and elements are or come from are refused.
+//! steps, output) are skipped with their data; those that change positions or the origin of nodes and elements are refused.
 
 mod lines;
 mod sets;
@@ -12,10 +12,10 @@ use sets::Sets;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// Reads a file. Sets of elements become groups by the dimension of their elements, surfaces the faces of their elements.
+/// Reads a file. Element sets become groups by the dimension of their elements; surfaces become the faces of their elements.
 ///
 /// # Errors
-/// Grammar, keywords and types of elements that are not read, sets and elements that do not exist; with keyword and line.
+/// Syntax errors, unsupported keywords and element types, sets and elements that do not exist; with keyword and line.
 pub fn parse(bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let text = String::from_utf8_lossy(bytes);
     let mut reader = Reader {
@@ -76,13 +76,13 @@ struct Reader {
     surfaces: Vec<SurfaceLine>,
     parts: usize,
     data: Data,
-    /// Numbers of an element that goes on in the next line.
+    /// Numbers of an element that continues in the next line.
     pending: Vec<u64>,
     keyword: Rc<Keyword>,
 }
 
 impl Reader {
-    /// A keyword: what follows, and whether it can be read.
+    /// Handles a keyword: sets the meaning of the following data, or refuses the keyword.
     fn begin(&mut self, keyword: Keyword) -> Result<(), MeshError> {
         self.complete()?;
         let set = |key| keyword.value(key).map(str::to_string);
@@ -132,7 +132,7 @@ impl Reader {
         Ok(())
     }
 
-    /// A data line.
+    /// Handles a data line.
     fn data(&mut self, values: &[&str], line: usize) -> Result<(), MeshError> {
         match self.data.clone() {
             Data::Skipped => Ok(()),
@@ -145,7 +145,7 @@ impl Reader {
         }
     }
 
-    /// Number and up to three coordinates; those left out are zero.
+    /// Reads a number and up to three coordinates; missing ones are zero.
     fn node(&mut self, values: &[&str], line: usize, set: Option<&str>) -> Result<(), MeshError> {
         let tag = self.keyword.number(values[0], line)?;
         let mut x = [0.0; 3];
@@ -161,7 +161,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Number and nodes, which may go on in the next lines.
+    /// Reads a number and nodes, which may continue in the next lines.
     fn element(
         &mut self,
         values: &[&str],
@@ -192,7 +192,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Element or set of elements, and face.
+    /// Reads an element or set of elements, and a face.
     fn surface(&mut self, values: &[&str], line: usize) -> Result<(), MeshError> {
         let face = values.get(1).and_then(|v| v.to_uppercase().strip_prefix('S')?.parse::<usize>().ok());
         let Some(face) = face.filter(|f| *f > 0) else {
@@ -207,7 +207,7 @@ impl Reader {
         Ok(())
     }
 
-    /// An element whose nodes have not all come is an error where the next keyword stands.
+    /// Fails at the next keyword if an element is incomplete.
     fn complete(&self) -> Result<(), MeshError> {
         match self.pending.first() {
             None => Ok(()),
@@ -278,7 +278,7 @@ impl Reader {
         Ok(surfaces)
     }
 
-    /// Groups by name and dimension, and those each element is in.
+    /// Groups by name and dimension, and the groups of each element.
     fn resolve_groups(
         &mut self,
         order: &[(u64, usize)],
@@ -330,7 +330,7 @@ fn element_shape(keyword: &Keyword) -> Result<Shape, MeshError> {
     })
 }
 
-/// The place of an element that a set refers to.
+/// Position of an element referred to by a set.
 fn position(order: &[(u64, usize)], element: u64, set: &str) -> Result<usize, MeshError> {
     match order.binary_search_by_key(&element, |o| o.0) {
         Ok(at) => Ok(order[at].1),

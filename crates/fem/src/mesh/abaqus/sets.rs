@@ -4,8 +4,8 @@ use super::lines::Keyword;
 use crate::mesh::error::{MeshError, Place};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Entries that sets may have for each byte of the file. A number takes two bytes at least; only sets of sets and ranges make
-/// more of them. An element and its share of the nodes take 35 bytes or more, so that each may stand in 70 sets.
+/// Limit on the entries of sets per byte of the file. A number takes at least two bytes; only sets of sets and ranges create
+/// more entries. An element with its share of the nodes takes 35 bytes or more, so that each may be in 70 sets.
 const ENTRIES_PER_BYTE: usize = 2;
 
 /// A line of a set.
@@ -13,7 +13,7 @@ const ENTRIES_PER_BYTE: usize = 2;
 enum Entry {
     /// A number.
     One(u64),
-    /// From, to, step.
+    /// First, last, step.
     Range(u64, u64, u64),
 }
 
@@ -24,7 +24,7 @@ struct Set {
     entries: BTreeSet<Entry>,
 }
 
-/// Sets by their names in capitals: names differ by more than case.
+/// Sets by their names in capitals: names are not case-sensitive.
 #[derive(Debug, Default)]
 pub(super) struct Sets {
     sets: BTreeMap<String, Set>,
@@ -33,7 +33,7 @@ pub(super) struct Sets {
 }
 
 impl Sets {
-    /// No sets, of a file of so many bytes.
+    /// No sets yet, for a file of this many bytes.
     pub(super) fn of_file(bytes: usize) -> Self {
         Self { most: ENTRIES_PER_BYTE * bytes, ..Self::default() }
     }
@@ -43,7 +43,7 @@ impl Sets {
         self.sets.entry(name.to_uppercase()).or_insert_with(new)
     }
 
-    /// Declares a set, also when nothing follows.
+    /// Declares a set, even if nothing follows.
     pub(super) fn declare(&mut self, name: &str) {
         self.set(name);
     }
@@ -53,7 +53,7 @@ impl Sets {
         self.set(name).entries.insert(Entry::One(number));
     }
 
-    /// Adds a data line: numbers and names of sets, or from, to, step.
+    /// Adds a data line: numbers and names of sets, or first, last and step.
     pub(super) fn add_line(
         &mut self,
         name: &str,
@@ -96,7 +96,7 @@ impl Sets {
         Err(keyword.unsupported("sets of sets grow beyond all measure of the file"))
     }
 
-    /// The error for a set that does not exist.
+    /// The error for an unknown set.
     pub(super) fn unknown(&self, set: &str, line: usize, keyword: &Keyword) -> MeshError {
         MeshError::UnknownSet {
             section: keyword.name.clone(),
@@ -106,7 +106,7 @@ impl Sets {
         }
     }
 
-    /// Numbers in a set, ascending; `known` are all numbers there are, ascending. A range means those of it which exist.
+    /// Numbers in a set, ascending; `known` are all existing numbers, ascending. A range stands for the existing numbers in it.
     pub(super) fn numbers(
         &mut self,
         name: &str,

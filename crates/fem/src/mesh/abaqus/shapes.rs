@@ -1,10 +1,10 @@
-//! Types of elements: their shapes, order of nodes and numbered faces.
+//! Element types: their shapes, order of nodes and numbered faces.
 
 use crate::element::ElementKind;
 use crate::mesh::raw::Shape;
 
-/// The shape of an element type: continuum elements of any integration, and trusses, beams, shells, membranes and rigid
-/// faces, whose shapes only name edges and faces here.
+/// The shape of an element type: continuum elements with any integration; trusses, beams, shells, membranes and rigid faces,
+/// whose shapes serve only to name edges and faces.
 pub(super) fn shape(kind: &str) -> Option<Shape> {
     match kind {
         "T2D2" | "T3D2" | "B21" | "B31" | "R2D2" => return Some(Shape::Line2),
@@ -33,8 +33,8 @@ pub(super) fn shape(kind: &str) -> Option<Shape> {
     ElementKind::ALL.into_iter().find(numbered).map(Shape::Cell)
 }
 
-/// For each node in the order of VTK, its place in the order of Abaqus; empty where both agree, which they do but for the
-/// hexahedron of 27 nodes: Abaqus puts the centre before the faces, and those in the order S1 to S6.
+/// Position of each node, in the order of VTK, in the order of Abaqus; empty if both agree. They differ only for the hexahedron
+/// of 27 nodes: Abaqus puts the centre before the faces, and those in the order S1 to S6.
 pub(super) fn order(shape: Shape) -> &'static [usize] {
     shape.element().map_or(&[], |element| element.definition().abaqus.order)
 }

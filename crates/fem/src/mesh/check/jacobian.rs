@@ -1,12 +1,12 @@
-//! Elements turned inside out, folded or flat.
+//! Inverted, folded or flat elements.
 
 use crate::element::{ElementKind, Shape};
 
-/// Determinant at a corner, relative to the greatest in the element, that is zero but for rounding: a corner of a collapsed
-/// element, or of one whose mid-nodes lie at quarter points, has the determinant zero by design.
+/// Determinant at a corner, relative to the largest in the element, that counts as zero. A corner of a collapsed element, or of
+/// one whose mid-nodes lie at quarter points, has zero determinant by design.
 const FLAT: f64 = 1e-9;
 
-/// Points of a kind at which elements are checked.
+/// Points of an element kind at which elements are checked.
 pub(crate) struct Sense {
     /// Shape functions at the corners.
     corners: Vec<Shape>,
@@ -14,7 +14,7 @@ pub(crate) struct Sense {
     inner: Vec<Shape>,
 }
 
-/// Points for elements of `kind`, the first `corners` nodes of which are its corners.
+/// Points for elements of `kind`, whose corners are the first `corners` nodes.
 pub(crate) fn sense(kind: ElementKind, corners: usize) -> Sense {
     Sense {
         corners: kind.node_coordinates()[..corners].iter().map(|&xi| kind.shape(xi)).collect(),
@@ -22,8 +22,8 @@ pub(crate) fn sense(kind: ElementKind, corners: usize) -> Sense {
     }
 }
 
-/// Least determinant over the greatest magnitude in the element \[-\]: positive for an element that is right. A corner
-/// counts only where it is negative beyond rounding.
+/// Smallest determinant over the largest magnitude in the element \[-\]: positive for a valid element. A corner is considered
+/// only if it is negative beyond rounding.
 pub(crate) fn least<const D: usize>(sense: &Sense, x: &[[f64; D]]) -> f64 {
     let corners: Vec<f64> = sense.corners.iter().map(|s| determinant(s, x)).collect();
     let inner: Vec<f64> = sense.inner.iter().map(|s| determinant(s, x)).collect();

@@ -1,4 +1,4 @@
-//! Requirements on a mesh before anybody computes on it.
+//! Checks of a mesh before any computation.
 
 mod jacobian;
 mod near;

@@ -1,7 +1,7 @@
-//! The group that was probably meant.
+//! Suggestion of the group that was probably meant.
 
-/// The nearest of `known` to `name`, where it is near enough to have been meant: at most one edit, and one more for every
-/// four letters of the shorter name.
+/// The nearest of `known` to `name`, if it is close enough to have been meant: at most one edit, and one more for every four
+/// letters of the shorter name.
 pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = name.to_lowercase();
     known

@@ -1,21 +1,22 @@
 //! Parts of a mesh that touch without being tied.
 //!
-//! Coincident nodes are no fault in themselves: a mesh split along an interface has them by design, and then the faces on both
-//! sides have names, for nothing else could be put between them. A part hangs free where its nodes coincide with those of
-//! another part while one of the two has no named face there: no interface can be declared, and neither part holds the other.
+//! Coincident nodes are not an error in themselves: a mesh split along an interface has them by design. The faces on both sides
+//! then have names, for otherwise no interface could be placed between them. A part hangs free if its nodes coincide with those
+//! of another part while one of the two has no named face there. Then no interface can be declared, and neither part holds the
+//! other.
 
 use super::super::Mesh;
 use std::collections::BTreeMap;
 
 /// Distance of coincident nodes over the shortest edge there \[-\]: far above the rounding of written coordinates, far below
-/// any wanted opening.
+/// any intended opening.
 const COINCIDENT: f64 = 1e-6;
 
-/// Two parts that touch: a node of each, the one that hangs free first, and how many pairs of nodes coincide.
+/// Two parts that touch, the one that hangs free first, and the number of coincident pairs of nodes.
 pub(crate) struct Touch {
-    /// Cell (block, cell) of the part that hangs free, and the cells it has.
+    /// The part that hangs free.
     pub free: Extent,
-    /// The same of the part it lies against.
+    /// The part it touches.
     pub other: Extent,
     /// Pairs of coincident nodes.
     pub pairs: usize,
@@ -50,8 +51,8 @@ impl Roots {
     }
 }
 
-/// Common nodes of two parts: pairs of coincident nodes, and those of them off the named faces of the lower and the
-/// upper part (numbered by their roots).
+/// Shared nodes of two parts: pairs of coincident nodes, and those of them off the named faces of the lower and the upper part
+/// (numbered by their roots).
 #[derive(Default)]
 struct Common {
     pairs: usize,
@@ -60,7 +61,7 @@ struct Common {
     unnamed_upper: usize,
 }
 
-/// The first part that hangs free against another. `named` says which nodes lie on named faces.
+/// The first part that hangs free against another. `named` is true for nodes on named faces.
 pub(crate) fn free_part<const D: usize>(mesh: &Mesh<D>, named: &[bool]) -> Option<Touch> {
     let (root, parts) = parts(mesh);
     if parts.len() < 2 {
@@ -78,7 +79,7 @@ pub(crate) fn free_part<const D: usize>(mesh: &Mesh<D>, named: &[bool]) -> Optio
         c.unnamed_lower += usize::from(!named[a]);
         c.unnamed_upper += usize::from(!named[b]);
     });
-    // Fewer than D nodes carry no face: bodies may touch at a corner.
+    // Fewer than D nodes cannot form a face: bodies may touch at a corner.
     let ((lower, upper), c) = common.into_iter().find(|(_, c)| c.unnamed >= D)?;
     let (lower, upper) = (parts.get(&lower)?.clone(), parts.get(&upper)?.clone());
     let lower_is_free = (c.unnamed_lower, upper.cells) > (c.unnamed_upper, lower.cells);
@@ -134,11 +135,11 @@ fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Most nodes at one place with which a node is paired: in a mesh of cells that are all parts by themselves some dozens meet.
-/// Number of coincident nodes beyond which cells lie on top of each other, and no further ones are needed to find that some hang free.
+/// Largest number of nodes at one position with which a node is paired: some dozens meet in a mesh of cells that are all
+/// separate parts. If there are more, cells lie on top of each other; further pairs are not needed to find that some hang free.
 const MOST_PARTNERS: usize = 64;
 
-/// Visits every pair of coincident nodes once. Nodes are sorted into boxes a little wider than the greatest tolerance, so that
+/// Visits every pair of coincident nodes once. Nodes are sorted into boxes slightly wider than the largest tolerance, so that
 /// coincident ones lie in the same box or in neighbours.
 fn for_each_coincident<const D: usize>(x: &[[f64; D]], h: &[f64], mut visit: impl FnMut(usize, usize)) {
     let greatest = h.iter().copied().filter(|h| h.is_finite()).fold(0.0, f64::max);
@@ -160,7 +161,7 @@ fn for_each_coincident<const D: usize>(x: &[[f64; D]], h: &[f64], mut visit: imp
             let mut high = low;
             low[D - 1] = low[D - 1].saturating_sub(1);
             high[D - 1] = high[D - 1].saturating_add(1);
-            // In its own column a node is paired with those behind it in the list.
+            // In its own column, a node is paired with those after it in the list.
             let from = boxes.partition_point(|(k, _)| *k < low).max(at + 1);
             let column = boxes[from..].iter().take_while(|(k, _)| *k <= high).map(|&(_, b)| b);
             column.filter(|&b| near(b)).take(MOST_PARTNERS).for_each(|b| visit(a, b));

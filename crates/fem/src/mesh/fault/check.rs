@@ -1,16 +1,16 @@
-//! Requirements of a fault mesh on its input.
+//! Checks of the input for a fault mesh.
 
 use super::{FaultMesh, FaultMeshError};
 use crate::element::ElementKind;
 
-/// Part of the box within which a tip counts as lying on its bottom or top, and of the fault within which a node counts as
+/// Fraction of the box within which a tip counts as lying on its bottom or top, and of the fault within which a node counts as
 /// lying on a vertex: rounding of decimal input.
 pub(super) const ROUNDING: f64 = 1e-9;
 
 /// Smallest dip \[degrees\]: below it cells at the free surface have a scaled Jacobian under sin 10° = 0.17.
 const LEAST_DIP: f64 = 10.0;
 
-/// Checks the input; gives the trace with tips that reach the boundary put there exactly.
+/// Checks the input; returns the trace, with tips that reach the boundary placed exactly on it.
 pub(super) fn trace(input: &FaultMesh) -> Result<Vec<[f64; 2]>, FaultMeshError> {
     values(input)?;
     let (min, max) = (input.min, input.max);
@@ -58,12 +58,12 @@ fn values(input: &FaultMesh) -> Result<(), FaultMeshError> {
     Ok(())
 }
 
-/// Twice the signed area of a triangle: positive when it runs counter-clockwise.
+/// Twice the signed area of a triangle: positive if it runs counter-clockwise.
 fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Refuses segments that cross or touch, neighbours at their common vertex excepted.
+/// Refuses segments that cross or touch, except neighbours at their common vertex.
 fn crossings(trace: &[[f64; 2]]) -> Result<(), FaultMeshError> {
     let within = |a: [f64; 2], b: [f64; 2], p: [f64; 2]| {
         (0..2).all(|c| p[c] >= a[c].min(b[c]) && p[c] <= a[c].max(b[c]))
@@ -85,7 +85,7 @@ fn crossings(trace: &[[f64; 2]]) -> Result<(), FaultMeshError> {
     Ok(())
 }
 
-/// Refuses segments that are too flat or go the other way than the trace as a whole.
+/// Refuses segments that are too flat or run opposite to the trace as a whole.
 fn dips(trace: &[[f64; 2]]) -> Result<(), FaultMeshError> {
     match flat(trace) {
         Some((segment, dip)) => Err(FaultMeshError::Dip { segment, dip, least: LEAST_DIP }),
@@ -93,19 +93,19 @@ fn dips(trace: &[[f64; 2]]) -> Result<(), FaultMeshError> {
     }
 }
 
-/// The first segment that is too flat or goes the other way, with its dip \[degrees\].
+/// The first segment that is too flat or runs the opposite way, with its dip \[degrees\].
 fn flat(trace: &[[f64; 2]]) -> Option<(usize, f64)> {
     let down = (trace[0][1] - trace[trace.len() - 1][1]).signum();
     let dips = trace.windows(2).map(|w| {
         let (dx, dy) = (down * (w[1][0] - w[0][0]), down * (w[0][1] - w[1][1]));
         dy.atan2(dx).to_degrees()
     });
-    // Rounding of a dip that is just the smallest one must not refuse it.
+    // Rounding must not refuse a dip equal to the smallest one.
     let admissible = LEAST_DIP - ROUNDING..=180.0 - LEAST_DIP + ROUNDING;
     dips.enumerate().find(|(_, dip)| !admissible.contains(dip))
 }
 
-/// Refuses a curve through the vertices of a trace that turns flat or leaves the box between them; `places` lie on it.
+/// Refuses a curve through the vertices of a trace that becomes flat or leaves the box between them; `places` lie on it.
 pub(super) fn curved(
     input: &FaultMesh,
     trace: &[[f64; 2]],
@@ -136,7 +136,7 @@ pub(super) fn distances(trace: &[[f64; 2]]) -> Vec<f64> {
         .collect()
 }
 
-/// Positions at ascending distances `along`; vertices exactly.
+/// Positions at ascending distances `along`; exact at vertices.
 pub(super) fn places(trace: &[[f64; 2]], along: &[f64]) -> Vec<[f64; 2]> {
     let at = distances(trace);
     let close = ROUNDING * at[at.len() - 1];

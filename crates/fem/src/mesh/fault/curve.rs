@@ -1,27 +1,27 @@
 //! A smooth curve through the vertices of a trace.
 //!
 //! Both coordinates are cubic splines of the chord length, with continuous curvature and without a knot at the second vertex from either end
-//! ("not a knot"): between samples of a smooth curve the error falls with the fourth power of their distance, ends included (de Boor 1978; for
-//! curves by chord length Floater 2006). Three vertices give a parabola. A trace whose vertices lie on a line stays that line.
+//! ("not a knot"). Between samples of a smooth curve, the error decreases with the fourth power of their distance, including the ends (de Boor
+//! 1978; for curves by chord length Floater 2006). Three vertices give a parabola. A trace whose vertices lie on a line remains that line.
 
 use super::check;
 
-/// Turn at a vertex up to which it lies on the line of its neighbours: rounding of coordinates with six digits \[rad\].
+/// Largest turn at a vertex for which it lies on the line of its neighbours: rounding of coordinates with six digits \[rad\].
 const STRAIGHT: f64 = 1e-6;
-/// Abscissas and weights of Gauss's rule with three points on [-1, 1] (beside the middle, its weight 8/9).
+/// Abscissa and weight of the outer points of Gauss's rule with three points on [-1, 1]; the middle has weight 8/9.
 const GAUSS: [f64; 2] = [0.774_596_669_241_483_4, 5.0 / 9.0];
-/// Pieces of a segment on which its length is integrated: errors fall with their sixth power.
+/// Pieces of a segment over which its length is integrated: errors decrease with the sixth power of their number.
 const PIECES: usize = 32;
-/// Halvings that exhaust the digits of a parameter.
+/// Number of halvings that exhaust the digits of a parameter.
 const HALVINGS: usize = 54;
-/// Places of a segment at which its distance from the chord is looked at.
+/// Number of points per segment at which its distance from the chord is evaluated.
 const LOOKS: usize = 32;
 
 /// A curve through points.
 #[derive(Debug)]
 pub(super) struct Curve {
     points: Vec<[f64; 2]>,
-    /// Parameter at the points: the length of the chords before \[m\].
+    /// Parameter at the points: the length of the preceding chords \[m\].
     at: Vec<f64>,
     /// Second derivatives there \[1/m\].
     second: Vec<[f64; 2]>,
@@ -34,12 +34,12 @@ pub(super) struct Curve {
 pub struct Departure {
     /// Largest distance \[m\].
     pub distance: f64,
-    /// Position \[m\].
+    /// Position of the largest distance \[m\].
     pub at: [f64; 2],
 }
 
 impl Curve {
-    /// The curve through these vertices; none where it is the line between them.
+    /// The curve through these vertices; `None` if it is the line between them.
     pub(super) fn through(points: &[[f64; 2]]) -> Option<Self> {
         if points.len() < 3 || straight(points) {
             return None;
@@ -59,7 +59,7 @@ impl Curve {
         &self.lengths
     }
 
-    /// Place in segment `k` at a share `t` of its chord length.
+    /// Position in segment `k` at a fraction `t` of its chord length.
     fn place(&self, k: usize, t: f64) -> [f64; 2] {
         let h = self.at[k + 1] - self.at[k];
         let (a, b) = (1.0 - t, t);
@@ -69,7 +69,7 @@ impl Curve {
         })
     }
 
-    /// Speed by `t` \[m\].
+    /// Derivative of arc length with respect to `t` \[m\].
     fn speed(&self, k: usize, t: f64) -> f64 {
         let h = self.at[k + 1] - self.at[k];
         let (a, b) = (1.0 - t, t);
@@ -92,7 +92,7 @@ impl Curve {
         (0..PIECES).map(piece).sum()
     }
 
-    /// Places at ascending arc lengths \[m\]; vertices exactly.
+    /// Positions at ascending arc lengths \[m\]; exact at vertices.
     pub(super) fn places(&self, along: &[f64]) -> Vec<[f64; 2]> {
         let last = self.points.len() - 1;
         let close = check::ROUNDING * self.lengths[last];
@@ -114,7 +114,7 @@ impl Curve {
             .collect()
     }
 
-    /// Place where it is farthest from the lines between its vertices.
+    /// Largest departure from the lines between its vertices.
     pub(super) fn departure(&self) -> Departure {
         let mut most = Departure { distance: 0.0, at: self.points[0] };
         for (k, w) in self.points.windows(2).enumerate() {
@@ -153,7 +153,7 @@ fn second_derivatives(points: &[[f64; 2]], at: &[f64]) -> Vec<[f64; 2]> {
         // A parabola.
         return vec![jump(1).map(|j| j / (3.0 * (h[0] + h[1]))); 3];
     }
-    // M_0 = (1 + r) M_1 - r M_2 with r = h_0/h_1, and alike at the other end.
+    // M_0 = (1 + r) M_1 - r M_2 with r = h_0/h_1, and likewise at the other end.
     let ratios = [h[0] / h[1], h[last - 1] / h[last - 2]];
     let (mut diagonal, mut upper, mut right) = (vec![0.0; last], vec![0.0; last], vec![[0.0; 2]; last]);
     for k in 1..last {
@@ -222,11 +222,11 @@ mod tests {
 
     #[test]
     fn parabolas_and_cubics_by_chord_length_are_met_exactly() {
-        // Points on a line at unequal distances, lifted by nothing: the second derivatives are zero; a parabola has one value of them.
+        // Points on a line at unequal distances have zero second derivatives; those of a parabola have a single value.
         let line: Vec<[f64; 2]> = [0.0, 1.0, 4.0, 5.0, 9.0].iter().map(|s| [0.6 * s, 0.8 * s]).collect();
         let at = check::distances(&line);
         assert!(second_derivatives(&line, &at).iter().flatten().all(|m| m.abs() < 1e-13));
-        // Given the parameter, a cubic is found: not a knot.
+        // With the exact parameter, a cubic is reproduced: not a knot.
         let cubic = |t: f64| [t * t * t - t, 2.0 * t * t];
         let points: Vec<[f64; 2]> = at.iter().map(|&t| cubic(t)).collect();
         for (m, t) in second_derivatives(&points, &at).iter().zip(&at) {
@@ -252,7 +252,7 @@ mod tests {
         }
         assert!(Curve::through(&[[0.0, 0.0], [0.0, -1.0], [0.0, -3.0]]).is_none());
         let departure = curve.departure();
-        // The longest segment spans some 17 degrees: 2 (1 - cos 8.6).
+        // The longest segment spans about 17 degrees: 2 (1 - cos 8.6).
         assert!((0.015..0.025).contains(&departure.distance), "{departure:?}");
     }
 }

@@ -1,19 +1,19 @@
-//! Reason why a fault mesh cannot be made.
+//! Errors of making a fault mesh.
 
 use crate::mesh::spacing::SpacingError;
 use crate::mesh::split::SplitError;
 
-/// Reason why a mesh around a fault cannot be made. Vertices and segments are numbered from 0 in the order of the trace.
+/// Reasons why a mesh around a fault cannot be made. Vertices and segments are numbered from 0 in the order of the trace.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FaultMeshError {
-    /// Fewer than two vertices, or one that is no number.
+    /// Fewer than two vertices, or one that is not a number.
     #[error(
         "the trace needs at least two vertices with finite coordinates; it has {vertices}, of which {bad} are not finite"
     )]
     Trace {
-        /// Vertices.
+        /// Number of vertices.
         vertices: usize,
-        /// Those with a coordinate that is no finite number.
+        /// Number of vertices with a coordinate that is not finite.
         bad: usize,
     },
     /// A box without extent.
@@ -41,7 +41,7 @@ pub enum FaultMeshError {
         /// Upper corner of the box \[m\].
         max: [f64; 2],
     },
-    /// Segments that meet where they should not.
+    /// Segments that intersect.
     #[error("segments {first} and {second} of the trace intersect; a trace must not cross or touch itself")]
     SelfIntersection {
         /// One segment.
@@ -49,7 +49,7 @@ pub enum FaultMeshError {
         /// The other.
         second: usize,
     },
-    /// A segment too flat, or one that turns back up.
+    /// A segment that is too flat, or that turns back up.
     #[error(
         "segment {segment} of the trace dips {dip:.1} degrees; grid lines follow the fault from the bottom to the top of \
          the box, so that all segments must go the same way, up or down, with dips between {least} and {} degrees", 180.0 - .least
@@ -57,9 +57,9 @@ pub enum FaultMeshError {
     Dip {
         /// Segment.
         segment: usize,
-        /// Angle from the x axis downwards, for a walk in the direction of the trace as a whole \[degrees\].
+        /// Angle from the x axis downwards, in the direction of the trace as a whole \[degrees\].
         dip: f64,
-        /// Smallest admissible one \[degrees\].
+        /// Smallest admissible dip \[degrees\].
         least: f64,
     },
     /// A smooth curve through the vertices that overshoots.
@@ -70,17 +70,17 @@ pub enum FaultMeshError {
     Curve {
         /// Position \[m\].
         at: [f64; 2],
-        /// Between which vertices.
+        /// Segment, between its two vertices.
         segment: usize,
     },
     /// A number that must be positive.
     #[error("{name} = {value} is not admissible: {admissible}")]
     Value {
-        /// Which.
+        /// Name.
         name: &'static str,
-        /// Given.
+        /// Given value.
         value: f64,
-        /// Remedy.
+        /// Admissible values.
         admissible: &'static str,
     },
     /// Sizes that do not fit.
@@ -89,7 +89,7 @@ pub enum FaultMeshError {
     /// An element other than a quadrilateral.
     #[error("element {0} is no quadrilateral; quad4, quad8 and quad9 are")]
     Element(&'static str),
-    /// A cell turned inside out.
+    /// A cell that is inverted.
     #[error(
         "the mesh folds at ({:.6}, {:.6}) m (scaled Jacobian {quality:.2e}), closest to vertex {vertex} of the trace, where it \
          turns by {bend:.1} degrees: a smaller bend, smaller cells or a growth ratio closer to 1 is needed", .at[0], .at[1]

@@ -15,9 +15,9 @@ pub(super) struct Grid<'a> {
     width: usize,
     /// Rows of corners.
     height: usize,
-    /// Column of the fault.
+    /// Column that holds the fault.
     column: usize,
-    /// Row of the fault's lower tip.
+    /// Row of the lower tip of the fault.
     first: usize,
 }
 
@@ -40,7 +40,7 @@ impl<'a> Grid<'a> {
         for (j, (&eta, turning)) in rows.iter().zip(map.turning(rows)).enumerate() {
             for (i, &xi) in columns.iter().enumerate() {
                 let mut x = map.at(eta, turning, xi);
-                // Exactly on the fault and on the sides, whatever the rounding of the map.
+                // Exactly on the fault and on the sides, regardless of rounding in the map.
                 if i == column
                     && let Some(&place) = j.checked_sub(first).and_then(|k| places.get(k))
                 {
@@ -63,7 +63,7 @@ impl<'a> Grid<'a> {
         let second = nodes > 4;
         let mut mesh = Mesh { nodes: self.corners.clone(), ..Mesh::default() };
         let n = self.corners.len();
-        // Behind the corners: middles of horizontal edges, of vertical edges, of cells.
+        // After the corners: middles of horizontal edges, of vertical edges, of cells.
         let (horizontal, vertical) = (n, n + nx * self.height);
         let centre = vertical + self.width * ny;
         if second {

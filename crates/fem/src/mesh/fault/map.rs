@@ -8,8 +8,8 @@
 //! ```
 //!
 //! Rows leave the spine in the direction (u, a) ([`Spine::across`]) and turn horizontal over the length ℓ, which vanishes at
-//! the bottom and the top of the box. Columns are copies of the spine, X̃ with its bends rounded over κ|ξ|, which w from 1
-//! to 0 straightens towards the sides of the box.
+//! the bottom and the top of the box. Columns are copies of the spine: X̃ is the spine with its bends rounded over κ|ξ|, and w,
+//! from 1 to 0, straightens it towards the sides of the box.
 //!
 //! With w = 1 and without rounding the determinant ∂(x, y)/∂(ξ, η) is
 //!
@@ -17,11 +17,11 @@
 //! (1 - T') + T' (u - X' a)  +  a' T (1 + (u - 1) T') - u' T a T' + a ∂T/∂η,      T' = 1 / cosh²(ξ/ℓ).
 //! ```
 //!
-//! The first two terms lie between 1 and u - X' a, which is 1 on segments and positive at a vertex, whose row halves the
-//! angle. The others are below |a'| ℓ + |u'| ℓ |a| + |a| |ℓ'| (as |tanh u - u/cosh² u| < 1), which the choice of ℓ keeps
-//! small. The rest of ∂x/∂ξ is at least 1 - |w'| (|X - X0| + ℓ) - κ V/4 with V the total variation of dX/dy (a jump K of
-//! the slope at the distance t from the middle of the window changes its mean by K/4 (1 - t²/r²) per unit of r); w, ℓ and
-//! κ keep it positive in every box that contains the spine. Cells, which are polygons, are checked one by one.
+//! The first two terms lie between 1 and u - X' a, which is 1 on segments and positive at a vertex, whose row halves the angle.
+//! The others are below |a'| ℓ + |u'| ℓ |a| + |a| |ℓ'| (as |tanh u - u/cosh² u| < 1), which is kept small by the choice of ℓ.
+//! The rest of ∂x/∂ξ is at least 1 - |w'| (|X - X0| + ℓ) - κ V/4, where V is the total variation of dX/dy. (A jump K of the
+//! slope at the distance t from the middle of the window changes its mean by K/4 (1 - t²/r²) per unit of r.) w, ℓ and κ keep it
+//! positive in every box that contains the spine. Cells, which are polygons, are checked one by one.
 
 use super::spine::Spine;
 
@@ -56,7 +56,7 @@ impl<'a> Map<'a> {
         let reach = 0.5 * (hi - lo);
         let widths = [middle - sides[0], sides[1] - middle];
         let smooth = widths.map(|w| if reach > 0.0 { (w / reach - 1.0).clamp(0.0, 1.0) } else { 1.0 });
-        // Half of what |w'| |X - X0| leaves goes to the rounding of bends.
+        // Half of the margin left by |w'| |X - X0| is used for rounding the bends.
         let kappa = std::array::from_fn(|side| {
             let left = 1.0 - (1.0 + 0.5 * smooth[side]) * reach / widths[side];
             let variation = spine.variation();
@@ -70,7 +70,7 @@ impl<'a> Map<'a> {
         self.widths
     }
 
-    /// Direction (u, a) and turning length ℓ of the rows at the ascending heights `rows`, whose first and last are straight.
+    /// Direction (u, a) and turning length ℓ of the rows at the ascending heights `rows`; the first and last rows are straight.
     pub(super) fn turning(&self, rows: &[f64]) -> Vec<([f64; 2], f64)> {
         let n = rows.len();
         let (bottom, top) = (rows[0], rows[n - 1]);

@@ -1,8 +1,8 @@
-//! Graded quadrilateral meshes around a fault in the plane, without any other program.
+//! Graded quadrilateral meshes around a fault in the plane, generated without an external program.
 //!
-//! The grid is structured. One of its columns of edges holds the fault and its continuation to the bottom and the top of
-//! the box; rows run across from the left to the right side. Cells at the fault are rectangles, except close to the free
-//! surface, where rows turn horizontal and cells become parallelograms with the angle of the dip ([`map`] has the formulas).
+//! The grid is structured. One of its columns of edges holds the fault and its continuation to the bottom and the top of the
+//! box; rows extend from the left to the right side. Cells at the fault are rectangles, except close to the free surface, where
+//! rows turn horizontal and cells become parallelograms with the angle of the dip ([`map`] has the formulas).
 
 mod check;
 mod curve;
@@ -25,7 +25,7 @@ use curve::Curve;
 use map::Map;
 use spine::Spine;
 
-/// Places along a fault \[m\].
+/// Positions along a fault \[m\].
 type Line = Vec<[f64; 2]>;
 
 /// A mesh that is split along its fault.
@@ -48,7 +48,7 @@ impl FaultMesh {
     /// See [`FaultMeshError`].
     pub fn mesh(&self) -> Result<Faulted, FaultMeshError> {
         let trace = check::trace(self)?;
-        // From the highest vertex down; distances along stay those of the given direction.
+        // The grid runs from the highest vertex down; distances along the fault keep the given direction.
         let downwards = trace[0][1] > trace[trace.len() - 1][1];
         let (mut along, mut places, mut vertices) = self.line(&trace)?;
         if !downwards {
@@ -75,7 +75,7 @@ impl FaultMesh {
         Ok(Faulted { mesh, fault, along, quality })
     }
 
-    /// Distances of the corners of cells along the fault, their places, and the vertices of the line that the grid follows.
+    /// Distances along the fault of the corners of cells, their positions, and the vertices of the line that the grid follows.
     fn line(&self, trace: &[[f64; 2]]) -> Result<(Vec<f64>, Line, Line), FaultMeshError> {
         let Some(curve) = self.curve(trace) else {
             let along = spacing::along(&check::distances(trace), &self.spacing)?;
@@ -88,12 +88,12 @@ impl FaultMesh {
         Ok((along, places.clone(), places))
     }
 
-    /// The curve through the vertices of the trace; none where straight lines join them.
+    /// The curve through the vertices of the trace; `None` if they are joined by straight lines.
     fn curve(&self, trace: &[[f64; 2]]) -> Option<Curve> {
         if self.interpolation == Interpolation::Polyline { None } else { Curve::through(trace) }
     }
 
-    /// Departure of the fault from straight lines between its vertices; none where there is none.
+    /// Departure of the fault from straight lines between its vertices; `None` if there is none.
     ///
     /// # Errors
     /// See [`FaultMeshError`].
@@ -101,7 +101,7 @@ impl FaultMesh {
         Ok(self.curve(&check::trace(self)?).map(|curve| curve.departure()))
     }
 
-    /// Heights where rows cross the spine, ascending; `places`: nodes of the fault, ascending.
+    /// Heights at which rows cross the spine, ascending; `places` are the nodes of the fault, ascending.
     fn rows(&self, places: &[[f64; 2]]) -> Result<Vec<f64>, FaultMeshError> {
         let n = places.len();
         let (low, high) = (places[0][1], places[n - 1][1]);
@@ -122,11 +122,11 @@ impl FaultMesh {
         Ok(rows)
     }
 
-    /// ξ of the columns, ascending, 0 among them.
+    /// ξ of the columns, ascending, including 0.
     fn columns(&self, map: &Map, along: &[f64], spine: &Spine) -> Result<Vec<f64>, FaultMeshError> {
         let smallest = along.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
         let thickness = self.thickness.unwrap_or(smallest);
-        // A horizontal distance ξ is the thickness ξ sin δ; the steepest segment has just the thickness asked for.
+        // A horizontal distance ξ is the thickness ξ sin δ; the steepest segment has exactly the requested thickness.
         let steepest = spine.slopes.iter().map(|p| 1.0 / p.hypot(1.0)).fold(0.0, f64::max);
         let first = thickness / steepest;
         let [left, right] = map.widths();

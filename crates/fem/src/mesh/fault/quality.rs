@@ -13,9 +13,9 @@ pub struct Quality {
     pub worst: (usize, usize),
 }
 
-/// Scaled Jacobian of a cell with straight edges: the smallest sine of a corner's angle, relative to that of the regular
-/// cell; 1 for rectangles and equilateral triangles, 0 for a corner without area, negative when folded. It does not judge
-/// the ratio of the sides. (Verdict library, Knupp 2007, quantities q_SJ and t_SJ.)
+/// Scaled Jacobian of a cell with straight edges: the smallest sine of a corner's angle, relative to that of the regular cell.
+/// It is 1 for rectangles and equilateral triangles, 0 for a corner without area, and negative for a folded cell. It does not
+/// depend on the ratio of the sides. (Verdict library, Knupp 2007, quantities q_SJ and t_SJ.)
 #[must_use]
 pub fn scaled_jacobian(corners: &[[f64; 2]]) -> f64 {
     let n = corners.len();
@@ -31,7 +31,7 @@ pub fn scaled_jacobian(corners: &[[f64; 2]]) -> f64 {
     least
 }
 
-/// Quality of all cells of a plane mesh, judged by their corners.
+/// Quality of all cells of a plane mesh, from their corners.
 #[must_use]
 pub fn quality(mesh: &Mesh<2>) -> Quality {
     let mut quality = Quality { min: f64::INFINITY, mean: 0.0, worst: (0, 0) };

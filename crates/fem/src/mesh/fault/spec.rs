@@ -1,4 +1,4 @@
-//! Input of a mesh with a fault.
+//! Input for a mesh with a fault.
 
 use crate::element::ElementKind;
 use crate::mesh::spacing::Spacing;
@@ -6,7 +6,7 @@ use crate::mesh::spacing::Spacing;
 /// The line between the vertices of a trace.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Interpolation {
-    /// A smooth curve: cubic splines by chord length; a line where the vertices lie on one.
+    /// A smooth curve: cubic splines by chord length; a straight line if the vertices lie on one.
     #[default]
     Spline,
     /// Straight lines, which meet in corners.
@@ -16,14 +16,14 @@ pub enum Interpolation {
 /// A body with one fault.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaultMesh {
-    /// Vertices of the fault, from one tip to the other \[m\]; y points up. A tip on the bottom or top of the box reaches
-    /// the boundary and opens there; others stay closed.
+    /// Vertices of the fault, from one tip to the other \[m\]; y points up. A tip on the bottom or top of the box reaches the
+    /// boundary and opens there; other tips stay closed.
     pub trace: Vec<[f64; 2]>,
-    /// Course between them.
+    /// The line between them.
     pub interpolation: Interpolation,
     /// Sizes along the fault.
     pub spacing: Spacing,
-    /// Thickness of the first cells across the fault \[m\]; the smallest size along it when none.
+    /// Thickness of the first cells across the fault \[m\]; if `None`, the smallest size along it.
     pub thickness: Option<f64>,
     /// Lower corner of the box \[m\].
     pub min: [f64; 2],

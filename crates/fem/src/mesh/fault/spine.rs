@@ -1,7 +1,7 @@
 //! The column of the grid that holds the fault: the trace and its continuation to the bottom and the top of the box.
 //!
-//! x = X(y). Beyond a tip the slope p = dX/dy of the last segment decays as p / (1 + d/L)², where d is the vertical
-//! distance from the tip: cells next to the tip see a straight line, and the line ends up vertical after a shift of p L.
+//! x = X(y). Beyond a tip the slope p = dX/dy of the last segment decays as p / (1 + d/L)², where d is the vertical distance
+//! from the tip. Cells next to the tip see a straight line, and the line becomes vertical after a shift of p L.
 
 /// A line x = X(y) with the trace in its middle.
 #[derive(Debug)]
@@ -16,7 +16,7 @@ pub(super) struct Spine {
     integrals: Vec<f64>,
 }
 
-/// Largest reach of the spine by the decay, in parts of the room there is between a tip and the side of the box.
+/// Largest shift of the spine by the decay, as a fraction of the distance between a tip and the side of the box.
 const ROOM: f64 = 0.5;
 
 impl Spine {
@@ -67,7 +67,7 @@ impl Spine {
         (1.0 - t) * a[0] + t * b[0]
     }
 
-    /// Slope dX/dy at a height beyond the trace; none on it.
+    /// Slope dX/dy at a height beyond the trace; `None` on it.
     pub(super) fn decayed(&self, y: f64) -> Option<f64> {
         let (tip, p, l, d) = self.beyond(y)?;
         let outward = if tip == 0 { p } else { -p };
@@ -85,12 +85,12 @@ impl Spine {
         self.integrals[k + 1] + 0.5 * (b[0] + self.x(y)) * (y - b[1])
     }
 
-    /// Mean of X over [y - r, y + r]: the spine with its bends rounded.
+    /// Mean of X over [y - r, y + r]: the spine with rounded bends.
     pub(super) fn rounded(&self, y: f64, r: f64) -> f64 {
         if r > 0.0 { (self.integral(y + r) - self.integral(y - r)) / (2.0 * r) } else { self.x(y) }
     }
 
-    /// Smallest and largest X at any height, the continuations without end included.
+    /// Smallest and largest X at any height, including the infinite continuations.
     pub(super) fn range(&self) -> [f64; 2] {
         let last = self.vertices.len() - 1;
         let ends = [
@@ -108,8 +108,8 @@ impl Spine {
     }
 
     /// Direction in which a row leaves the spine to the right, per horizontal distance of the columns: sin δ (sin δ, cos δ) for
-    /// the dip δ, at a right angle to the spine and with cells as thick as the distance of columns. Around a bend it
-    /// goes from one segment's to the next's; the row through the vertex halves the angle.
+    /// the dip δ. It is perpendicular to the spine, and the thickness of cells equals the distance of columns. Around a bend it
+    /// changes from one segment's to the next's; the row through the vertex halves the angle.
     pub(super) fn across(&self, y: f64) -> [f64; 2] {
         let of = |p: f64| [1.0 / (1.0 + p * p), -p / (1.0 + p * p)];
         if let Some(p) = self.decayed(y) {
@@ -141,5 +141,5 @@ impl Spine {
     }
 }
 
-/// Part of the shorter segment at a bend over which rows turn from one normal to the other.
+/// Fraction of the shorter segment at a bend over which rows turn from one normal to the other.
 const TRANSITION: f64 = 0.4;

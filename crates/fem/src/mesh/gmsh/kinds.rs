@@ -1,9 +1,9 @@
-//! Types of elements, and Gmsh's order of nodes in terms of VTK's.
+//! Element types, and Gmsh's order of nodes in terms of VTK's.
 
 use crate::element::ElementKind;
 use crate::mesh::raw::Shape;
 
-/// The shape of a type that is read.
+/// The shape of a supported type.
 pub(super) fn shape(kind: i64) -> Option<Shape> {
     match kind {
         1 => Some(Shape::Line2),
@@ -13,7 +13,7 @@ pub(super) fn shape(kind: i64) -> Option<Shape> {
     }
 }
 
-/// Names of types that are not read.
+/// Name of a type, for those that are not supported.
 pub(super) fn name(kind: i64) -> String {
     let name = match kind {
         7 => "pyramid of 5 nodes",
@@ -41,8 +41,8 @@ pub(super) fn name(kind: i64) -> String {
     format!("{kind} ({name})")
 }
 
-/// For each node in the order of VTK, its place in the order of Gmsh; empty where both agree. Both run through the mid-nodes
-/// of edges, but through the edges in different orders; the tests compare them with the midpoints.
+/// Position of each node, in the order of VTK, in the order of Gmsh; empty if both agree. Both list the mid-nodes by edges, but
+/// with the edges in different orders; the tests compare them with the midpoints.
 pub(super) fn order(shape: Shape) -> &'static [usize] {
     shape.element().map_or(&[], |element| element.definition().gmsh.order)
 }

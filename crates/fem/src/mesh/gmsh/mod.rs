@@ -1,7 +1,7 @@
-//! Gmsh's MSH format, versions 2.2 and 4.1, ASCII and binary in both orders of bytes (Gmsh reference manual, "File formats").
+//! Gmsh's MSH format, versions 2.2 and 4.1, ASCII and binary in both byte orders (Gmsh reference manual, "File formats").
 //!
-//! Read are `$PhysicalNames`, `$Entities`, `$PartitionedEntities`, `$Nodes`, `$ParametricNodes` and `$Elements`; other sections
-//! (`$Periodic`, `$GhostElements`, `$NodeData`, comments, ...) are skipped.
+//! The sections `$PhysicalNames`, `$Entities`, `$PartitionedEntities`, `$Nodes`, `$ParametricNodes` and `$Elements` are read;
+//! other sections (`$Periodic`, `$GhostElements`, `$NodeData`, comments, ...) are skipped.
 
 mod kinds;
 mod scan;
@@ -18,11 +18,11 @@ type Names = BTreeMap<(usize, i64), String>;
 
 /// Reads a file.
 ///
-/// Allocation is bounded by the size of the file: a number in a header never makes more than the bytes that follow
-/// could hold.
+/// Allocation is bounded by the size of the file: a number in a header never allocates more than the remaining bytes could
+/// hold.
 ///
 /// # Errors
-/// Grammar, truncation, versions and types of elements that are not read; all with the section and the line or byte.
+/// Syntax errors, truncation, unsupported versions and element types; all with the section and the line or byte.
 pub fn parse(bytes: &[u8]) -> Result<RawMesh, MeshError> {
     let mut scan = Scan::new(bytes);
     let version = header(&mut scan)?;
@@ -62,7 +62,7 @@ enum Reader {
 }
 
 impl Reader {
-    /// Reads a section; false when it is none of those read.
+    /// Reads a section; false if it is not one of those supported.
     fn section(&mut self, scan: &mut Scan<'_>, section: &str) -> Result<bool, MeshError> {
         match self {
             Self::V22(reader) => reader.section(scan, section),
@@ -71,7 +71,7 @@ impl Reader {
     }
 }
 
-/// `$MeshFormat`: version, whether binary, size of numbers, and in a binary file the number 1.
+/// `$MeshFormat`: version, text or binary, size of numbers, and in a binary file the number 1.
 fn header(scan: &mut Scan<'_>) -> Result<Version, MeshError> {
     match scan.next_section()? {
         Some(section) if section == "$MeshFormat" => {}

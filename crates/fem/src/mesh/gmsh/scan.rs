@@ -1,22 +1,22 @@
-//! Reading numbers and words of an MSH file, with bounds and places.
+//! Reading of numbers and words of an MSH file, with limits and positions.
 
 use crate::mesh::error::{MeshError, Place};
 
-/// Format of numbers.
+/// Coding of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Coding {
     /// Text.
     Ascii,
-    /// Binary, least byte first.
+    /// Binary, least significant byte first.
     Little,
-    /// Binary, greatest byte first.
+    /// Binary, most significant byte first.
     Big,
 }
 
-/// Characters of a wrong word that an error shows.
+/// Number of characters of a wrong word shown in an error.
 const SHOWN: usize = 40;
 
-/// A position in the file and the section it lies in.
+/// A position in the file and its section.
 pub(super) struct Scan<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -29,7 +29,7 @@ impl<'a> Scan<'a> {
         Self { bytes, at: 0, section: "the file".to_string(), coding: Coding::Ascii }
     }
 
-    /// Bytes that follow.
+    /// Number of remaining bytes.
     pub(super) fn left(&self) -> usize {
         self.bytes.len() - self.at
     }
@@ -39,12 +39,12 @@ impl<'a> Scan<'a> {
         self.place_of(self.at)
     }
 
-    /// The position, to be made a place of when an error needs it: counting lines takes a walk through the file.
+    /// The position, converted to a place only for an error: counting lines requires a pass through the file.
     pub(super) fn position(&self) -> usize {
         self.at
     }
 
-    /// The place of a position.
+    /// Place, as line or byte, of a position.
     pub(super) fn place_of(&self, at: usize) -> Place {
         if self.coding == Coding::Ascii {
             Place::Line(1 + self.bytes[..at].iter().filter(|&&b| b == b'\n').count())
@@ -57,7 +57,7 @@ impl<'a> Scan<'a> {
         self.section.clone()
     }
 
-    /// The error for something else than `expected` here.
+    /// The error for content other than `expected`.
     pub(super) fn unexpected(&self, expected: &'static str) -> MeshError {
         let rest = &self.bytes[self.at..];
         let end = rest.iter().position(|b| b.is_ascii_whitespace()).unwrap_or(rest.len()).min(SHOWN);
@@ -94,7 +94,7 @@ impl<'a> Scan<'a> {
         rest[..end].trim_ascii()
     }
 
-    /// Goes behind the end of a line on which nothing else follows: binary data begin there.
+    /// Advances past the end of a line on which nothing else follows: binary data begin there.
     pub(super) fn end_line(&mut self) -> Result<(), MeshError> {
         let before = self.at;
         if self.line().is_empty() {
@@ -143,7 +143,7 @@ impl<'a> Scan<'a> {
         Err(self.unexpected("the end of the section"))
     }
 
-    /// Goes behind the `$EndName` of a section that is not read.
+    /// Skips past the `$EndName` of a section that is not read.
     pub(super) fn skip_section(&mut self) -> Result<(), MeshError> {
         let end = self.end();
         let found = self.bytes[self.at..].windows(end.len()).position(|w| w == end.as_bytes());
@@ -181,12 +181,12 @@ impl<'a> Scan<'a> {
         })
     }
 
-    /// A whole number written as text, whatever the file's coding.
+    /// An integer written as text, whatever the file's coding.
     pub(super) fn decimal(&mut self, expected: &'static str) -> Result<i64, MeshError> {
         self.parsed(expected)
     }
 
-    /// A name in quotation marks, which may hold spaces.
+    /// A name in quotation marks, which may contain spaces.
     pub(super) fn quoted(&mut self) -> Result<String, MeshError> {
         const EXPECTED: &str = "a name in quotation marks";
         self.skip_space();
@@ -217,7 +217,7 @@ impl<'a> Scan<'a> {
         Ok(bytes)
     }
 
-    /// The number 1 that tells the order of bytes.
+    /// The number 1 that indicates the byte order.
     pub(super) fn byte_order(&mut self) -> Result<Coding, MeshError> {
         match self.bytes[self.at..].first_chunk::<4>() {
             None => return Err(self.truncated("number 1 in binary", 1)),
@@ -229,7 +229,7 @@ impl<'a> Scan<'a> {
         Ok(self.coding)
     }
 
-    /// A whole number: 4 bytes in a binary file.
+    /// An integer: 4 bytes in a binary file.
     pub(super) fn int(&mut self, what: &'static str) -> Result<i64, MeshError> {
         if self.coding == Coding::Ascii {
             return self.parsed(what);
@@ -237,7 +237,7 @@ impl<'a> Scan<'a> {
         Ok(i64::from(i32::from_le_bytes(self.raw(what)?)))
     }
 
-    /// A size or a number of a node or element: 8 bytes in a binary file.
+    /// A size, or a node or element number: 8 bytes in a binary file.
     pub(super) fn size(&mut self, what: &'static str) -> Result<u64, MeshError> {
         if self.coding == Coding::Ascii {
             return self.parsed(what);
@@ -273,8 +273,8 @@ impl<'a> Scan<'a> {
         })
     }
 
-    /// A count of items, each of at least so many words in a text and so many bytes in a binary file, that the bytes
-    /// which follow can hold.
+    /// A count of items that the remaining bytes can hold, with at least `words` words per item in a text and `bytes` bytes in
+    /// a binary file.
     pub(super) fn count(
         &mut self,
         what: &'static str,
@@ -293,7 +293,7 @@ impl<'a> Scan<'a> {
         words: usize,
         bytes: usize,
     ) -> Result<usize, MeshError> {
-        // A word takes a letter and a space, the last of a file only the letter.
+        // A word takes a letter and a space; the last of a file takes only the letter.
         let each = if self.coding == Coding::Ascii { 2 * words } else { bytes };
         let room = (self.left() + 1) / each.max(1);
         usize::try_from(count).ok().filter(|c| *c <= room).ok_or_else(|| self.truncated(what, count))

@@ -1,5 +1,5 @@
-//! Version 2.2: one list of nodes and one of elements; each element carries the number of one physical group, and stands in
-//! the list once for each group it is in.
+//! Version 2.2: one list of nodes and one of elements; each element has the number of one physical group, and is listed once
+//! for each of its groups.
 
 use super::kinds;
 use super::scan::{Coding, Scan};
@@ -98,7 +98,7 @@ impl Reader {
     }
 }
 
-/// A count on a line of text, also in a binary file, where binary data follow it.
+/// A count on a line of text, even in a binary file, where binary data follow it.
 fn counted(scan: &mut Scan<'_>, what: &'static str, words: usize, bytes: usize) -> Result<usize, MeshError> {
     let count = scan.decimal(what)?;
     let count = u64::try_from(count).map_err(|_| scan.unexpected("a count"))?;
@@ -108,13 +108,13 @@ fn counted(scan: &mut Scan<'_>, what: &'static str, words: usize, bytes: usize) 
     scan.bounded(count, what, words, bytes)
 }
 
-/// A positive number of a node or element.
+/// A positive node or element number.
 fn number(scan: &mut Scan<'_>, what: &'static str) -> Result<u64, MeshError> {
     let number = scan.int(what)?;
     u64::try_from(number).map_err(|_| scan.unexpected("a number that is not negative"))
 }
 
-/// A type of element that is read.
+/// A supported element type.
 fn shape(scan: &mut Scan<'_>, element: Option<u64>) -> Result<Shape, MeshError> {
     let at = scan.position();
     let kind = scan.int("a type of element")?;
@@ -124,7 +124,7 @@ fn shape(scan: &mut Scan<'_>, element: Option<u64>) -> Result<Shape, MeshError> 
     let element = match element {
         Some(tag) => tag,
         None => {
-            // Number of elements and of their tags stand before the first element.
+            // The numbers of elements and of their tags precede the first element.
             scan.int("elements")?;
             scan.int("tags of an element")?;
             number(scan, "the number of an element")?
@@ -134,7 +134,7 @@ fn shape(scan: &mut Scan<'_>, element: Option<u64>) -> Result<Shape, MeshError> 
     Err(MeshError::UnsupportedElement { section, place, element, kind })
 }
 
-/// Binary elements of one type: a header for all, then one after another.
+/// Binary elements of one type: a header for all, then the elements.
 fn binary_run(
     scan: &mut Scan<'_>,
     left: usize,

@@ -1,4 +1,4 @@
-//! Version 4.1: nodes and elements in blocks, one for each geometric entity; the entities know their physical groups.
+//! Version 4.1: nodes and elements in blocks, one for each geometric entity; the entities hold their physical groups.
 
 use super::kinds;
 use super::scan::Scan;
@@ -6,14 +6,14 @@ use crate::mesh::error::MeshError;
 use crate::mesh::raw::{RawBlock, RawGroup, RawMesh, RawNode, Shape};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Most physical groups of one entity. Each element of the entity stands in the sets of all its groups, so that this bounds
-/// what a file of a given size can make; users have a handful.
+/// Largest number of physical groups of one entity. Each element of the entity is in the sets of all its groups, so that this
+/// bounds the size of the mesh from a file of a given size; users have a handful.
 const MOST_GROUPS: usize = 32;
 
 /// Dimension and number of an entity.
 type Entity = (usize, i64);
 
-/// A block of elements of an entity, its groups not yet known.
+/// A block of elements of an entity whose groups are not yet known.
 struct Block {
     entity: Entity,
     block: RawBlock,
@@ -22,7 +22,7 @@ struct Block {
 /// Data read so far.
 #[derive(Default)]
 pub(super) struct Reader {
-    /// Physical groups of the entities that have any.
+    /// Physical groups of the entities that have them.
     physical: BTreeMap<Entity, Vec<i64>>,
     nodes: Option<Vec<RawNode>>,
     blocks: Option<Vec<Block>>,
@@ -48,11 +48,11 @@ impl Reader {
         Ok(true)
     }
 
-    /// Points, curves, surfaces, volumes.
+    /// Reads points, curves, surfaces and volumes.
     fn entities(&mut self, scan: &mut Scan<'_>, partitioned: bool) -> Result<(), MeshError> {
         let mut counts = [0; 4];
         for count in &mut counts {
-            // The least is a point: number, position, no group.
+            // The smallest is a point: number, position, no group.
             *count = scan.count("entities", 5, 36)?;
         }
         for (dimension, count) in counts.into_iter().enumerate() {
@@ -72,7 +72,7 @@ impl Reader {
                 scan.int("partition")?;
             }
         }
-        // A point has its position, the others a box.
+        // A point has a position, other entities a box.
         for _ in 0..if dimension == 0 { 3 } else { 6 } {
             scan.real("coordinate of an entity")?;
         }
@@ -84,7 +84,7 @@ impl Reader {
         }
         let mut groups = Vec::with_capacity(count);
         for _ in 0..count {
-            // A negative number means the entity with its orientation reversed.
+            // A negative number denotes the entity with reversed orientation.
             groups.push(scan.int("the number of a physical group")?.saturating_abs());
         }
         if dimension > 0 {
@@ -108,7 +108,7 @@ impl Reader {
         for _ in 0..blocks {
             let dimension = scan.dimension()?;
             scan.int("the number of an entity")?;
-            // Parametric nodes have as many further coordinates as their entity has dimensions.
+            // Parametric nodes have as many additional coordinates as the dimension of their entity.
             let further = if scan.int("whether nodes are parametric")? == 0 { 0 } else { dimension };
             let count = scan.count("nodes", 4 + further, 32 + 8 * further)?;
             let first = nodes.len();
@@ -139,7 +139,7 @@ impl Reader {
         for _ in 0..count {
             let Block { entity, mut block } = block(scan)?;
             held += block.tags.len() as u64;
-            // Blocks of one shape and entity are one: a file may cut them as small as it likes.
+            // Blocks of one shape and entity are merged: a file may divide them as finely as it likes.
             let place = *places.entry((entity, block.shape)).or_insert(blocks.len());
             match blocks.get_mut(place) {
                 Some(Block { block: first, .. }) => {
@@ -200,7 +200,7 @@ fn block(scan: &mut Scan<'_>) -> Result<Block, MeshError> {
     Ok(Block { entity: (dimension, entity), block })
 }
 
-/// The nodes of an element, put into the order of VTK.
+/// The nodes of an element, in the order of VTK.
 fn read_nodes(scan: &mut Scan<'_>, shape: Shape, nodes: &mut Vec<u64>) -> Result<(), MeshError> {
     let first = nodes.len();
     for _ in 0..shape.nodes() {

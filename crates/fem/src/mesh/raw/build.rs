@@ -1,4 +1,4 @@
-//! A mesh from what a file says.
+//! Construction of a mesh from the data of a file.
 
 use super::sides::UNUSED;
 use super::{Options, RawBlock, RawMesh, RawNode};
@@ -8,10 +8,11 @@ use crate::mesh::error::{Holder, MeshError, Part};
 use crate::mesh::{Cells, Mesh, nodes_of_sides};
 use std::collections::BTreeMap;
 
-/// Distance from the plane z = 0 over the extent of the mesh \[-\] that is rounding of the program that wrote it.
+/// Largest distance from the plane z = 0 over the extent of the mesh \[-\] that counts as rounding by the program that wrote
+/// it.
 const PLANE: f64 = 1e-12;
 
-/// Numbers of nodes in ascending order, each with its place in the file.
+/// Node numbers in ascending order, each with its position in the file.
 struct Index(Vec<(u64, usize)>);
 
 impl Index {
@@ -29,23 +30,23 @@ impl Index {
     }
 }
 
-/// An element of the file: block and place in the block.
+/// An element of the file: block and index in the block.
 type Member = (usize, usize);
 
 /// The cells of each block of the mesh: groups in the file, kind, elements.
 type Members = BTreeMap<(Vec<usize>, ElementKind), Vec<Member>>;
 
 impl RawMesh {
-    /// The mesh in metres, checked.
+    /// Builds and checks the mesh, in metres.
     ///
-    /// There is one block for each kind of cell and each combination of groups of cells, so that a block lies in a group
-    /// wholly; cells in no group make blocks in no set. Elements one dimension lower make the `side_sets`: a face between two
+    /// There is one block for each kind of cell and each combination of groups of cells, so that a block lies in a group as a
+    /// whole. Cells in no group form blocks in no set. Elements one dimension lower make the `side_sets`: a face between two
     /// cells belongs to both, and both its sides are in the set. Elements of still lower dimension and sets of nodes make the
-    /// `node_sets`. The same name on several dimensions therefore stays apart. Nodes that no cell uses are left out, the others
-    /// keep their order. Plane entities that are oriented clockwise throughout are turned over.
+    /// `node_sets`. The same name on several dimensions therefore remains separate. Nodes that no cell uses are removed; the
+    /// others keep their order. Plane entities that are clockwise throughout are reversed.
     ///
     /// # Errors
-    /// See [`MeshError`]: what is said there of elements, nodes, groups and parts.
+    /// See [`MeshError`], for elements, nodes, groups and parts.
     pub fn into_mesh<const D: usize>(self, options: &Options) -> Result<Mesh<D>, MeshError> {
         options.check()?;
         let index = Index::new(&self.nodes)?;
@@ -86,7 +87,7 @@ impl RawMesh {
         Ok(())
     }
 
-    /// Connectivity by places of nodes in the file instead of numbers.
+    /// Connectivity by positions of nodes in the file instead of their numbers.
     fn resolve(&self, index: &Index) -> Result<Vec<Vec<usize>>, MeshError> {
         let resolve = |block: &RawBlock| {
             let n = block.shape.nodes();
@@ -118,7 +119,7 @@ impl RawMesh {
         }
     }
 
-    /// Turns plane entities over that are clockwise throughout, and refuses elements that are inverted, folded or flat.
+    /// Reverses plane entities that are clockwise throughout, and refuses elements that are inverted, folded or flat.
     fn orient<const D: usize>(&self, connectivity: &mut [Vec<usize>]) -> Result<(), MeshError> {
         let mut senses: BTreeMap<ElementKind, Sense> = BTreeMap::new();
         let mut wrong: Vec<(usize, usize, f64)> = Vec::new();
@@ -151,7 +152,7 @@ impl RawMesh {
         })
     }
 
-    /// Turns over the entities with wrong elements of which every element is right afterwards.
+    /// Reverses the entities with wrong elements whose elements are all valid afterwards.
     fn turn_entities<const D: usize>(
         &self,
         connectivity: &mut [Vec<usize>],
@@ -194,7 +195,7 @@ impl RawMesh {
         nodes.iter().map(|&n| std::array::from_fn(|c| self.nodes[n].x[c])).collect()
     }
 
-    /// The elements that make cells, by groups and kind.
+    /// The elements that form cells, by groups and kind.
     fn members<const D: usize>(&self, connectivity: &[Vec<usize>]) -> Result<Members, MeshError> {
         let repeats = if self.repeats { self.repeated::<D>(connectivity) } else { BTreeMap::new() };
         let mut members = Members::new();
@@ -218,7 +219,7 @@ impl RawMesh {
         Ok(members)
     }
 
-    /// Cells that are written several times: the first with the groups of all, and the others with none.
+    /// Cells that are written several times: the first with the groups of all, the others with `None`.
     fn repeated<const D: usize>(&self, connectivity: &[Vec<usize>]) -> BTreeMap<Member, Option<Vec<usize>>> {
         let nodes = |&(b, e): &Member| {
             let n = self.blocks[b].shape.nodes();
@@ -241,7 +242,7 @@ impl RawMesh {
         repeated
     }
 
-    /// Nodes and blocks, and for each node of the file its number in the mesh.
+    /// Nodes and blocks, and the number in the mesh of each node of the file.
     fn cells<const D: usize>(
         &self,
         members: &Members,

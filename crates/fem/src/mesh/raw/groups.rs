@@ -5,12 +5,12 @@ use crate::mesh::error::{GroupName, MeshError};
 use std::collections::BTreeSet;
 
 impl RawGroup {
-    /// Name, or number where there is none.
+    /// Name, or number if there is none.
     fn own_name(&self) -> String {
         self.name.clone().unwrap_or_else(|| self.tag.unwrap_or(0).to_string())
     }
 
-    /// Number by which a map of numbers names the group: N of `material-id:N`, otherwise that of the file.
+    /// Number by which options refer to the group: N of `material-id:N`, otherwise that of the file.
     fn number(&self) -> Option<i64> {
         let dialect = self.name.as_ref().and_then(|n| n.strip_prefix("material-id:"));
         dialect.and_then(|n| n.trim().parse().ok()).or(self.tag)
@@ -21,7 +21,7 @@ impl RawMesh {
     /// All names of each group.
     ///
     /// # Errors
-    /// [`MeshError::MissingTag`] when a number of the options belongs to no group with elements.
+    /// [`MeshError::MissingTag`] if a number in the options belongs to no group with elements.
     pub(super) fn group_names(&self, options: &Options) -> Result<Vec<Vec<String>>, MeshError> {
         let used = self.used_groups();
         let mut names: Vec<Vec<String>> = self.groups.iter().map(|g| vec![g.own_name()]).collect();
@@ -52,7 +52,7 @@ impl RawMesh {
         self.blocks.iter().filter(|b| !b.tags.is_empty()).flat_map(|b| b.groups.iter().copied()).collect()
     }
 
-    /// Everything in the file that has a name.
+    /// All named items in the file.
     #[must_use]
     pub fn present(&self) -> Vec<GroupName> {
         let dimension = self.dimension();

@@ -1,4 +1,4 @@
-//! Content of a mesh file, before it is a mesh: nodes, elements of every dimension and groups, by the numbers of the file.
+//! Data of a mesh file before it becomes a mesh: nodes, elements of every dimension and groups, by the numbers of the file.
 
 mod build;
 mod groups;
@@ -27,7 +27,7 @@ pub struct RawBlock {
     pub shape: Shape,
     /// Groups, as indices into [`RawMesh::groups`], ascending.
     pub groups: Vec<usize>,
-    /// The geometric entity they discretise, where the format has such; its orientation is that of all its elements.
+    /// The geometric entity that they discretise, if the format has entities; its orientation is that of all its elements.
     pub entity: Option<i64>,
     /// Numbers of the elements.
     pub tags: Vec<u64>,
@@ -49,13 +49,13 @@ impl RawBlock {
 pub struct RawGroup {
     /// Dimension of its elements.
     pub dimension: usize,
-    /// Number, where the format has such.
+    /// Number, if the format has one.
     pub tag: Option<i64>,
-    /// Name, where it has one.
+    /// Name, if it has one.
     pub name: Option<String>,
 }
 
-/// A face of an element, named by the element.
+/// A face of an element, identified by the element.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RawSide {
     /// Number of the element.
@@ -64,7 +64,7 @@ pub struct RawSide {
     pub corners: Vec<u64>,
 }
 
-/// Content of a mesh file. Nothing of it is checked but the grammar.
+/// Data of a mesh file. Only the syntax has been checked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RawMesh {
     /// Nodes in the order of the file.
@@ -77,7 +77,7 @@ pub struct RawMesh {
     pub surfaces: BTreeMap<String, Vec<RawSide>>,
     /// Named nodes.
     pub node_sets: BTreeMap<String, Vec<u64>>,
-    /// True if an element in several groups is written once for each of them, under other numbers.
+    /// True if an element in several groups is written once for each of them, under different numbers.
     pub repeats: bool,
 }
 

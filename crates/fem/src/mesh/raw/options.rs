@@ -3,12 +3,12 @@
 use crate::mesh::MeshError;
 use std::collections::BTreeMap;
 
-/// The number of a group, for files that name their groups by numbers.
+/// The number of a group, for files that identify their groups by numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GroupTag {
     /// Number of the physical group, or N of a group named `material-id:N`.
     pub tag: i64,
-    /// Dimension of the group; without it the name goes to the groups of this number on every dimension.
+    /// Dimension of the group; if `None`, the name applies to the groups of this number on every dimension.
     pub dimension: Option<usize>,
 }
 
@@ -18,17 +18,17 @@ impl From<i64> for GroupTag {
     }
 }
 
-/// Options for a mesh made of the content of a file.
+/// Options for making a mesh from the data of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Length of the file's unit \[m\]: 1000 for a mesh in kilometres.
     pub length_unit: f64,
-    /// Names given to groups by their numbers, beside the names of the file.
+    /// Names given to groups by their numbers, in addition to the names of the file.
     pub tags: BTreeMap<String, GroupTag>,
     /// Groups that must exist, of cells, faces or nodes.
     pub required: Vec<String>,
-    /// True if a part may lie against another without being tied to it and without a named face there. Without this such
-    /// a part is an error ([`MeshError::FreePart`]).
+    /// True if a part may touch another without being tied to it and without a named face there. Otherwise such a part is an
+    /// error ([`MeshError::FreePart`]).
     pub allow_free_parts: bool,
 }
 
@@ -39,7 +39,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Requires groups.
+    /// Adds required groups.
     #[must_use]
     pub fn requiring<'a>(mut self, names: impl IntoIterator<Item = &'a str>) -> Self {
         self.required.extend(names.into_iter().map(str::to_string));

@@ -1,4 +1,4 @@
-//! Shapes of elements as mesh files carry them: cells, their faces, and lines and points besides.
+//! Shapes of elements in mesh files: cells, their faces, and also lines and points.
 
 use crate::element::{ElementKind, MOST_NODES};
 
@@ -11,7 +11,7 @@ pub enum Shape {
     Line2,
     /// Line of 3 nodes: ends, middle.
     Line3,
-    /// Of an element: a cell, or the face of one.
+    /// Shape of an element: a cell, or the face of one.
     Cell(ElementKind),
 }
 
@@ -58,7 +58,7 @@ impl Shape {
         }
     }
 
-    /// The element of this shape, where it is one.
+    /// The element of this shape, if there is one.
     #[must_use]
     pub fn element(self) -> Option<ElementKind> {
         match self {
@@ -67,14 +67,13 @@ impl Shape {
         }
     }
 
-    /// The order of nodes that turns a plane shape over: the same corners, run through in the other sense.
+    /// The order of nodes that reverses a plane shape: the same corners, traversed in the other sense.
     #[must_use]
     pub fn reversed(self) -> &'static [usize] {
         self.element().map_or(&[], |element| element.definition().reversed)
     }
 
-    /// Puts the nodes of an element into another order: `order` gives for each its place in the old one, and is empty where
-    /// nothing changes.
+    /// Reorders the nodes of an element: `order` gives for each its position in the old order, and is empty for no change.
     pub(crate) fn reorder(self, order: &[usize], nodes: &mut [u64]) {
         let mut old = [0; MOST_NODES];
         let old = &mut old[..self.nodes()];

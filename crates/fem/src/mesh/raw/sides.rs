@@ -1,4 +1,4 @@
-//! Elements of groups of faces, found again as faces of cells.
+//! Identification of elements of face groups with faces of cells.
 
 use super::RawMesh;
 use crate::mesh::error::MeshError;
@@ -6,26 +6,26 @@ use crate::mesh::{Mesh, Side};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// Corners of a face, ascending, the fourth of a triangle and the third and fourth of an edge absent.
+/// Corners of a face, ascending; the fourth of a triangle and the third and fourth of an edge are absent.
 type Key = [usize; 4];
 
-/// A node that no cell has.
+/// A node that belongs to no cell.
 pub(super) const UNUSED: usize = usize::MAX;
 
-/// A face that was asked for.
+/// A requested face.
 struct Wanted<'a> {
     key: Key,
     /// Number of its corners.
     corners: usize,
     /// All nodes, ascending.
     nodes: Vec<usize>,
-    /// Only this element's face is meant.
+    /// The only element whose face is meant, if given.
     owner: Option<u64>,
     /// Number of the element that names the face.
     element: u64,
     /// Sets it belongs to.
     names: Rc<[&'a str]>,
-    /// Cells that have it.
+    /// Number of cells that have it.
     found: usize,
 }
 
@@ -54,7 +54,7 @@ impl RawMesh {
     /// The named faces of a mesh. `connectivity` holds, for each block of the file, the nodes of its elements in the
     /// numbering of the mesh, or [`UNUSED`]; `cells` the numbers of the mesh's cells.
     ///
-    /// A face between two cells belongs to both: both sides are in the set, the lower (block, cell, face) first.
+    /// A face between two cells belongs to both: both sides are in the set, with the lower (block, cell, face) first.
     pub(super) fn side_sets<const D: usize>(
         &self,
         mesh: &Mesh<D>,
@@ -89,7 +89,7 @@ impl RawMesh {
         Ok(sets)
     }
 
-    /// Elements of the groups of faces.
+    /// Elements of the face groups.
     fn grouped_faces<'a, const D: usize>(
         &self,
         connectivity: &[Vec<usize>],
@@ -113,8 +113,8 @@ impl RawMesh {
     }
 }
 
-/// Adds a side to the sets that want it, to each once. Faces of equal order must agree in all nodes: the two sides of a crack
-/// of one element share the corners and not the middle.
+/// Adds a side once to each set that requests it. Faces of equal order must agree in all nodes: the two sides of a crack of one
+/// element share the corners but not the middle.
 fn collect(
     wanted: &mut [Wanted<'_>],
     all: &[usize],
@@ -149,7 +149,7 @@ fn collect(
     Ok(())
 }
 
-/// The first group with elements that no cell has as a face.
+/// Refuses face groups with elements that are faces of no cell; names the first.
 fn no_orphans(wanted: &[Wanted<'_>]) -> Result<(), MeshError> {
     let lost = || wanted.iter().filter(|w| w.found == 0);
     let Some(first) = lost().min_by_key(|w| w.element) else {

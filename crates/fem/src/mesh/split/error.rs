@@ -1,6 +1,6 @@
-//! Reason why a mesh cannot be split.
+//! Errors of splitting a mesh.
 
-/// Reason why a mesh cannot be split along a surface. Faces are numbered from 0 in the list of their surface.
+/// Reasons why a mesh cannot be split along a surface. Faces are numbered from 0 in the list of their surface.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SplitError {
     /// No faces.
@@ -12,9 +12,9 @@ pub enum SplitError {
     /// A side set that does not exist.
     #[error("there is no side set `{name}`; those that exist are {}", .existing.join(", "))]
     UnknownSet {
-        /// Asked for.
+        /// Requested name.
         name: String,
-        /// Value found.
+        /// Existing sets.
         existing: Vec<String>,
     },
     /// A side set that exists already.
@@ -23,7 +23,7 @@ pub enum SplitError {
         /// The set that splitting would overwrite.
         set: String,
     },
-    /// A face that no cell has.
+    /// A face that belongs to no cell.
     #[error("face {face} of the surface `{surface}`, nodes {nodes:?}, is no face of a cell")]
     NotAFace {
         /// Surface.
@@ -33,7 +33,7 @@ pub enum SplitError {
         /// Nodes as given.
         nodes: Vec<usize>,
     },
-    /// A face with one cell only.
+    /// A face with only one cell.
     #[error(
         "face {face} of the surface `{surface}`, nodes {nodes:?}, lies on the boundary of the body: a fault has cells on \
          both sides"
@@ -57,7 +57,7 @@ pub enum SplitError {
         face: usize,
         /// Nodes as given.
         nodes: Vec<usize>,
-        /// Cells that have it.
+        /// Number of cells that have it.
         cells: usize,
     },
     /// A face given twice.
@@ -69,7 +69,7 @@ pub enum SplitError {
         face: usize,
         /// Nodes as given.
         nodes: Vec<usize>,
-        /// Surface that has it already.
+        /// Surface that already has it.
         before: String,
     },
     /// A surface with one side, such as a Moebius strip.
@@ -77,10 +77,10 @@ pub enum SplitError {
     NotOrientable {
         /// Surface.
         surface: String,
-        /// Face where it was noticed.
+        /// Face at which it was detected.
         face: usize,
     },
-    /// A direction that does not tell the sides apart.
+    /// A direction that does not distinguish the sides.
     #[error(
         "the direction to the plus side of the surface `{surface}` does not cross it (cosine {cosine:.1e} with the mean \
          normal of the piece with face {face}); give one closer to the normal"
@@ -90,7 +90,7 @@ pub enum SplitError {
         surface: String,
         /// First face of the piece.
         face: usize,
-        /// Between the direction and the sum of normals.
+        /// Cosine between the direction and the sum of normals.
         cosine: f64,
     },
     /// All nodes are tips.

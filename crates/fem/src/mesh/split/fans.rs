@@ -4,11 +4,11 @@ use super::surface::{InnerFace, Key, key};
 use crate::mesh::{Mesh, Side, face_nodes};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// New numbers: (node, block, cell) -> node of the cell after splitting, where it differs.
+/// New numbers: (node, block, cell) -> node of the cell after splitting, if different.
 #[derive(Debug, Default)]
 pub(super) struct Copies {
     renamed: BTreeMap<(usize, usize, usize), usize>,
-    /// Node each new node is a copy of; the first new one has the number of nodes there were.
+    /// Original of each new node; the first new node has the number of nodes before splitting as its number.
     originals: Vec<usize>,
 }
 
@@ -18,7 +18,7 @@ impl Copies {
     }
 }
 
-/// True if some node of the face gets different copies on its two sides.
+/// True if some node of the face has different copies on its two sides.
 pub(super) fn opens(copies: &Copies, face: &InnerFace) -> bool {
     face.nodes[0].iter().any(|&n| copies.of(n, &face.sides[0]) != copies.of(n, &face.sides[1]))
 }
@@ -26,8 +26,8 @@ pub(super) fn opens(copies: &Copies, face: &InnerFace) -> bool {
 /// Cells at one node, as (block, cell).
 type Around = Vec<(usize, usize)>;
 
-/// Finds the fans around every node of the surfaces and numbers their copies: by ascending node, then by fan. The order of
-/// fans does not depend on the order of cells: those that touch no plus side first, then by the nodes of their cells.
+/// Finds the fans around every node of the surfaces and numbers their copies: by ascending node, then by fan. The order of fans
+/// does not depend on the order of cells: first those that touch no plus side, then by the nodes of their cells.
 pub(super) fn classify<const D: usize>(mesh: &Mesh<D>, surfaces: &[Vec<InnerFace>]) -> Copies {
     let cut: BTreeSet<Key> = surfaces.iter().flatten().map(|f| key(D, &f.nodes[0])).collect();
     let plus: BTreeSet<(usize, usize, usize)> = touched(surfaces, 1);
@@ -39,7 +39,7 @@ pub(super) fn classify<const D: usize>(mesh: &Mesh<D>, surfaces: &[Vec<InnerFace
             let on =
                 |set: &BTreeSet<(usize, usize, usize)>| fan.iter().any(|&(b, c)| set.contains(&(node, b, c)));
             let name = fan.iter().map(|&(b, c)| sorted(mesh.blocks[b].cell(c))).min().unwrap_or_default();
-            // A fan without a face of a surface hangs at the node by itself (a pinched mesh) and stays as it is.
+            // A fan without a face of a surface is attached at the node alone (a pinched mesh) and is left unchanged.
             if on(&plus) || on(&minus) {
                 fans.push((on(&plus), name, fan));
             }
@@ -88,7 +88,7 @@ fn around<const D: usize>(mesh: &Mesh<D>, surfaces: &[Vec<InnerFace>]) -> BTreeM
     around
 }
 
-/// Groups the cells around a node: cells that share a face with the node on it, unless it is cut, belong together.
+/// Groups the cells around a node: cells that share a face containing the node belong together, unless the face is cut.
 fn fans_at<const D: usize>(mesh: &Mesh<D>, cut: &BTreeSet<Key>, node: usize, around: &Around) -> Vec<Around> {
     let mut group: Vec<usize> = (0..around.len()).collect();
     let mut owner: BTreeMap<Key, usize> = BTreeMap::new();
@@ -112,7 +112,7 @@ fn fans_at<const D: usize>(mesh: &Mesh<D>, cut: &BTreeSet<Key>, node: usize, aro
     fans.into_values().collect()
 }
 
-/// Gives the cells their new nodes and the node sets all copies.
+/// Assigns the new nodes to the cells, and all copies to the node sets.
 pub(super) fn apply<const D: usize>(mesh: &mut Mesh<D>, copies: &Copies) {
     let first = mesh.nodes.len();
     for &original in &copies.originals {

@@ -1,14 +1,14 @@
-//! Splitting a mesh along internal surfaces, so that their two sides can slip past each other.
+//! Splitting of a mesh along internal surfaces, so that their two sides can slip past each other.
 //!
-//! Every node on a surface is replaced by as many copies as there are fans of cells around it: two cells belong to one
-//! fan when they share a face that contains the node and is no face of a surface. One rule thus covers what matters:
-//! a tip inside the body has one fan and stays single; a node inside a surface, or where it leaves the body, has two;
-//! a junction of n branches has n. Nodes of second-order elements on edges and faces follow the same rule.
+//! Every node on a surface is replaced by one copy per fan of cells around it. Two cells belong to one fan if they share a face
+//! that contains the node and is not a face of a surface. This one rule covers all cases. A tip inside the body has one fan and
+//! stays single; a node inside a surface, or where it leaves the body, has two; a junction of n branches has n. Nodes of
+//! second-order elements on edges and faces follow the same rule.
 //!
-//! Which side is which: a face given by its nodes has the direction it would have as a face of the cell on its `minus`
-//! side ([`ElementKind::faces`]): in the plane minus lies to the left of the edge from its first to its second node, in
-//! space the normal by the right-hand rule points from minus to plus. The first face of each connected piece of a
-//! surface decides for the piece; `towards_plus`, where given, turns whole pieces instead.
+//! Definition of the sides: a face given by its nodes has the direction it would have as a face of the cell on its `minus` side
+//! ([`ElementKind::faces`]). In the plane, minus lies to the left of the edge from its first to its second node. In space, the
+//! normal by the right-hand rule points from minus to plus. The first face of each connected piece of a surface decides for the
+//! piece; `towards_plus`, if given, reverses whole pieces instead.
 //!
 //! [`ElementKind::faces`]: crate::element::ElementKind::faces
 
@@ -25,7 +25,7 @@ use super::{Mesh, Side, face_nodes};
 use std::collections::BTreeSet;
 use surface::InnerFace;
 
-/// A node of the minus side and the node of the plus side at the same place.
+/// A node of the minus side and the node of the plus side at the same position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Pair {
     /// Node of the minus side.
@@ -35,7 +35,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// True if it is a tip: one node, which both sides share.
+    /// True for a tip: one node, shared by both sides.
     #[must_use]
     pub fn is_tip(&self) -> bool {
         self.minus == self.plus
@@ -47,15 +47,15 @@ impl Pair {
 pub struct Fault {
     /// Name of the surface.
     pub name: String,
-    /// Pairs. In the plane they ascend along the fault, mid-nodes between their ends, starting from the end that the
-    /// list of faces came to first; each connected piece follows the one before. In space they ascend by the number
-    /// the node had before. Where other surfaces meet a fault, a place has several pairs, one after another.
+    /// Pairs. In the plane they ascend along the fault, mid-nodes between their ends, starting from the end that comes first in
+    /// the list of faces; each connected piece follows the one before. In space they ascend by the number of the node before
+    /// splitting. Where other surfaces meet a fault, a position has several pairs, one after another.
     pub pairs: Vec<Pair>,
 }
 
-/// Splits `mesh` along all `surfaces` at once. Adds the side sets `NAME.minus` and `NAME.plus`, whose faces correspond one
-/// to one: in the plane ascending along the fault, in space in the order given. Node sets receive all copies of their
-/// nodes. The copy that touches no plus side keeps its number; new nodes follow those there were.
+/// Splits `mesh` along all `surfaces` at once. Adds the side sets `NAME.minus` and `NAME.plus`, whose faces correspond one to
+/// one: in the plane ascending along the fault, in space in the given order. Node sets receive all copies of their nodes. The
+/// copy that touches no plus side keeps its number; new nodes follow the existing ones.
 ///
 /// # Errors
 /// See [`SplitError`]; the mesh is then unchanged.
@@ -82,7 +82,7 @@ pub fn split<const D: usize>(mesh: &mut Mesh<D>, surfaces: &[Surface<D>]) -> Res
     Ok(faults)
 }
 
-/// Pairs of nodes of the faces, after splitting, each once.
+/// Pairs of nodes of the faces after splitting, without repetition.
 fn pairs<const D: usize>(mesh: &Mesh<D>, faces: &[InnerFace]) -> Vec<Pair> {
     let mut all: Vec<(usize, Pair)> = Vec::new();
     for face in faces {

@@ -6,7 +6,7 @@ use crate::mesh::Mesh;
 use crate::surface::length;
 use std::collections::BTreeMap;
 
-/// Cosine below which a direction is taken to lie in the surface: three degrees, less than anybody means by "across".
+/// Cosine below which a direction counts as lying in the surface: three degrees, less than anyone would call "across".
 const CROSSES: f64 = 0.05;
 
 /// Common part of two faces: a node in the plane, an edge in space.
@@ -15,7 +15,7 @@ type Ridge = [usize; 2];
 /// Faces at each ridge, with the direction in which they pass it.
 type Ridges = BTreeMap<Ridge, Vec<(usize, bool)>>;
 
-/// Orients the faces of a surface piece by piece and, in the plane, brings them into order along the fault.
+/// Orients the faces of a surface piece by piece and, in the plane, sorts them along the fault.
 pub(super) fn orient<const D: usize>(
     mesh: &Mesh<D>,
     surface: &Surface<D>,
@@ -62,15 +62,15 @@ fn ridges(dimension: usize, faces: &[InnerFace]) -> Ridges {
     ridges
 }
 
-/// Faces connected over ridges of two faces; each piece is oriented as its first face. Where more than two faces of the
-/// surface meet, it falls into pieces.
+/// Faces connected over ridges of two faces; each piece is oriented like its first face. At ridges of more than two faces, the
+/// surface is divided into pieces.
 fn pieces(
     dimension: usize,
     ridges: &Ridges,
     name: &str,
     faces: &mut [InnerFace],
 ) -> Result<Vec<Vec<usize>>, SplitError> {
-    // Whether the face is turned against its given direction; none before it is reached.
+    // True if the face is reversed against its given direction; `None` until it is reached.
     let mut turned: Vec<Option<bool>> = vec![None; faces.len()];
     let mut pieces = Vec::new();
     for first in 0..faces.len() {
@@ -149,7 +149,7 @@ fn turn_towards<const D: usize>(
     }
     let dot: f64 = sum.iter().zip(direction).map(|(s, d)| s * d).sum();
     let cosine = dot / (area * length(direction));
-    // Written so that a direction without length (NaN) is refused, too.
+    // In this form a direction without length (NaN) is refused, too.
     if !matches!(cosine.abs().partial_cmp(&CROSSES), Some(std::cmp::Ordering::Greater)) {
         let face = faces[piece[0]].index;
         return Err(SplitError::Hint { surface: surface.name.clone(), face, cosine });
@@ -174,7 +174,7 @@ fn walk<const D: usize>(
     let start = piece.iter().copied().find(|&k| ends(k, faces).into_iter().any(is_end));
     let mut face = start.unwrap_or(piece[0]);
     let [a, b] = ends(face, faces);
-    // A piece of one face, and a closed one, follow the direction in which the face was given.
+    // A piece of one face, or a closed one, follows the direction in which the face was given.
     let mut from = if is_end(a) == is_end(b) {
         surface.faces[faces[face].index][0]
     } else if is_end(a) {

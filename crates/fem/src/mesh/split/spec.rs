@@ -1,4 +1,4 @@
-//! Surface that a mesh is split along.
+//! Surfaces along which a mesh is split.
 
 use super::error::SplitError;
 use crate::mesh::{Mesh, face_nodes};
@@ -8,14 +8,14 @@ use crate::mesh::{Mesh, face_nodes};
 pub struct Surface<const D: usize> {
     /// Name: the new side sets are `NAME.minus` and `NAME.plus`.
     pub name: String,
-    /// Nodes of each face, corners first; nodes beyond the corners may be left out.
+    /// Nodes of each face, corners first; nodes beyond the corners may be omitted.
     pub faces: Vec<Vec<usize>>,
     /// A direction that points from the minus to the plus side, on average over each connected piece \[any length\].
     pub towards_plus: Option<[f64; D]>,
 }
 
 impl<const D: usize> Surface<D> {
-    /// The surface that a set of sides forms. Minus is where the cell of the first side lies.
+    /// The surface formed by a set of sides. The cell of the first side is on the minus side.
     ///
     /// # Errors
     /// [`SplitError::UnknownSet`] with the sets that exist.

@@ -1,16 +1,16 @@
-//! Finding the cells on both sides of the faces of a surface.
+//! Search for the cells on both sides of the faces of a surface.
 
 use super::{SplitError, Surface};
 use crate::mesh::{Mesh, Side, face_nodes};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Corners of a face, ascending, unused places filled with the largest number.
+/// Corners of a face, ascending; unused entries are filled with the largest number.
 pub(super) type Key = [usize; 4];
 
 /// A face between two cells.
 #[derive(Clone, Debug)]
 pub(super) struct InnerFace {
-    /// Place in the list of the surface.
+    /// Index in the list of the surface.
     pub index: usize,
     /// The cells' faces: minus, plus.
     pub sides: [Side; 2],
@@ -21,12 +21,12 @@ pub(super) struct InnerFace {
 }
 
 impl InnerFace {
-    /// New number of a node of old number `old` on a side.
+    /// Position of the node with old number `old` in the list of a side.
     pub(super) fn place(&self, side: usize, old: usize) -> usize {
         self.nodes[side].iter().position(|&n| n == old).unwrap_or(0)
     }
 
-    /// Nodes of the minus side: in the plane along the fault (end, middle if any, end), in space as they come.
+    /// Nodes of the minus side: in the plane along the fault (end, middle if any, end), in space in the given order.
     pub(super) fn path(&self, dimension: usize) -> Vec<usize> {
         let mut nodes = self.nodes[0].clone();
         if dimension == 2 {
@@ -45,7 +45,7 @@ impl InnerFace {
         &self.nodes[0][..n]
     }
 
-    /// Minus becomes plus.
+    /// Exchanges minus and plus.
     pub(super) fn turn(&mut self) {
         self.sides.swap(0, 1);
         self.nodes.swap(0, 1);
@@ -70,7 +70,7 @@ pub(super) fn key(dimension: usize, nodes: &[usize]) -> Key {
     key
 }
 
-/// Finds every face of every surface in the mesh; minus is the cell that has the face in the direction given.
+/// Finds every face of every surface in the mesh; minus is the cell that has the face in the given direction.
 pub(super) fn locate<const D: usize>(
     mesh: &Mesh<D>,
     surfaces: &[Surface<D>],
@@ -171,14 +171,14 @@ fn inner<const D: usize>(
     if !same_direction(&nodes[..n], inner.corners(D)) {
         inner.turn();
         if !same_direction(&nodes[..n], inner.corners(D)) {
-            // The corners do not follow each other around the face (a quadrilateral given crosswise).
+            // The corners are not in sequence around the face (a quadrilateral given crosswise).
             return Err(SplitError::NotAFace { surface, face, nodes: owned });
         }
     }
     Ok(inner)
 }
 
-/// True if two lists of the same corners run the same way round.
+/// True if two lists of the same corners run in the same sense.
 fn same_direction(a: &[usize], b: &[usize]) -> bool {
     let n = a.len();
     let Some(shift) = b.iter().position(|&node| node == a[0]) else { return false };

@@ -1,4 +1,4 @@
-//! Tools common to the tests of nonlinear blocks: small meshes, noise, Taylor remainders, a dense Newton iteration.
+//! Parts shared by the tests of nonlinear blocks: small meshes, noise, Taylor remainders, a dense Newton iteration.
 
 use asperity_fem::element::ElementKind;
 use asperity_fem::kinematics::{Formulation, Idealisation};
@@ -64,7 +64,7 @@ impl Noise {
     }
 }
 
-/// A box `min` to `max`; its nodes moved by `distortion` of the element size where they are inside.
+/// A box from `min` to `max`, with interior nodes moved by `distortion` of the element size.
 pub fn mesh<const D: usize>(
     kind: ElementKind,
     min: [f64; D],
@@ -114,7 +114,7 @@ pub fn tangent<const D: usize>(block: &mut Block<D>) -> Vec<f64> {
     values
 }
 
-/// Asserts that the central difference of `f` around 0 tends to `derivative` with the square of h, or is rounding.
+/// Asserts that the central difference of `f` around 0 converges to `derivative` with the square of h, or is at rounding.
 pub fn assert_derivative(f: impl Fn(f64) -> Vec<f64>, derivative: &[f64], h: f64, what: &str) {
     let scale = size(derivative);
     let error = |h: f64| {
@@ -133,8 +133,7 @@ pub fn assert_derivative(f: impl Fn(f64) -> Vec<f64>, derivative: &[f64], h: f64
     );
 }
 
-/// Asserts that the tangent is the derivative of the residual at `u`, in the first order: |r(u + hv) - r(u) - hKv| falls
-/// with the square of h.
+/// Asserts that the tangent is the derivative of the residual at `u`: |r(u + hv) - r(u) - hKv| decreases with the square of h.
 pub fn assert_taylor<const D: usize>(block: &mut Block<D>, u: &[f64], seed: u64, what: &str) {
     let v = Noise::new(seed).vector(u.len());
     let r0 = residual(block, u);

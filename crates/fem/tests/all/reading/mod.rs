@@ -1,4 +1,4 @@
-//! Measures of meshes that have been read.
+//! Measures of meshes read from files.
 #![allow(clippy::disallowed_methods)]
 
 use asperity_fem::mesh::{Mesh, Side};
@@ -56,7 +56,7 @@ pub fn face_measure<const D: usize>(mesh: &Mesh<D>, sides: &[Side]) -> f64 {
         .sum()
 }
 
-/// Asserts that the mid-nodes of all straight-sided cells lie where the reference element has them: at the mean of corners.
+/// Asserts that the mid-nodes of all straight-sided cells lie at the mean of corners, as in the reference element.
 pub fn nodes_lie_where_the_element_has_them<const D: usize>(mesh: &Mesh<D>) {
     for block in &mesh.blocks {
         let corners = match block.kind.name() {
