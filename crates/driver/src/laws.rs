@@ -2,38 +2,48 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::scene::law::{
-    self, Bound, Evolution, EvolutionRow, Form, LawChoice, Laws, ParameterRow, State, Strength,
+    self, Bound, Evolution, EvolutionRow, Form, KindRow, LawChoice, Laws, OrderRow, ParameterRow, State,
+    Strength,
 };
 use crate::scene::model::{LawSpec, Spanned};
 use asperity_friction::Failure;
 use asperity_friction::component::Component;
-use asperity_friction::coulomb::Coulomb;
 use asperity_friction::evolution::{
     self, Common, Defined, Definition, Variable, Visit, stateless::Stateless,
 };
 use asperity_friction::fault::{FaultLaw, Points};
+use asperity_friction::kind::{self, Kind, Order};
 use asperity_friction::law::Law;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::Sliding;
-use asperity_friction::slip_weakening::SlipWeakening;
-use asperity_friction::static_kinetic::StaticKinetic;
 use asperity_friction::strength::{
     self, Parameters, arrhenius::Arrhenius, bare::Bare, cut_off::CutOff, regularised::Regularised,
 };
-use asperity_friction::tied::Tied;
 use std::sync::{Arc, LazyLock};
 
 /// Returns the laws that scenes may name.
 #[must_use]
 pub fn known() -> &'static Laws {
-    static KNOWN: LazyLock<Laws> =
-        LazyLock::new(|| Laws { evolutions: evolution::definitions().into_iter().map(row).collect() });
+    static KNOWN: LazyLock<Laws> = LazyLock::new(|| Laws {
+        kinds: kind::kinds().into_iter().map(kind_row).collect(),
+        evolutions: evolution::definitions().into_iter().map(row).collect(),
+    });
     &KNOWN
 }
 
-/// Facts a scene has to know of an evolution.
-fn row(definition: &Definition) -> EvolutionRow {
-    let parameter = |p: &evolution::Parameter| ParameterRow {
+/// Facts a scene has to know of a kind.
+fn kind_row(kind: &Kind) -> KindRow {
+    let order = |&Order { lower, upper, equal, help }: &Order| OrderRow { lower, upper, equal, help };
+    KindRow {
+        name: kind.name,
+        parameters: kind.parameters.iter().map(parameter).collect(),
+        capped: kind.capped,
+        order: kind.order.as_ref().map(order),
+    }
+}
+
+fn parameter(p: &evolution::Parameter) -> ParameterRow {
+    ParameterRow {
         key: p.key,
         bound: match p.bound {
             evolution::Bound::Positive => Bound::Positive,
@@ -42,7 +52,11 @@ fn row(definition: &Definition) -> EvolutionRow {
         },
         optional: p.optional,
         example: p.example,
-    };
+    }
+}
+
+/// Facts a scene has to know of an evolution.
+fn row(definition: &Definition) -> EvolutionRow {
     EvolutionRow {
         name: definition.name,
         parameters: definition.parameters.iter().map(parameter).collect(),
@@ -121,20 +135,9 @@ struct History<'a> {
     f_limit: Option<f64>,
 }
 
-fn elastic(law: Result<impl Law + 'static, Failure>) -> Parts<'static> {
-    Parts::Elastic(law.map(|law| Arc::new(law) as Arc<dyn Law>))
-}
-
 fn parts(choice: &LawChoice) -> Parts<'_> {
     match choice {
-        LawChoice::Tied => elastic(Ok(Tied)),
-        LawChoice::Coulomb { mu, f_limit } => elastic(Coulomb::new(*mu, *f_limit)),
-        LawChoice::StaticKinetic { mu_s, mu_k, f_limit } => {
-            elastic(StaticKinetic::new(*mu_s, *mu_k, *f_limit))
-        }
-        LawChoice::SlipWeakening { mu_s, mu_k, d_c, f_limit } => {
-            elastic(SlipWeakening::new(*mu_s, *mu_k, *d_c, *f_limit))
-        }
+        LawChoice::Yielding { kind, own, f_limit } => Parts::Elastic(kind::build(kind, own, *f_limit)),
         LawChoice::Rate { strength, f_limit } => Parts::Sliding(
             strength,
             // Nothing depends on the start without a state.

@@ -1,6 +1,8 @@
 //! Coulomb friction with an optional cap: F̄ = min(μ f_n, F_limit), an elastic domain, no rate and no state.
 
 use crate::Failure;
+use crate::evolution::{Bound, Parameter, Unit};
+use crate::kind::{Kind, Tabled, values};
 use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Trials};
 use crate::yielding::{all_finite, answer, at_strength, cap, first_exit, strength};
 
@@ -56,6 +58,28 @@ pub fn cone_exit(t: [f64; 2], dt: [f64; 2], f: f64, df: f64, mu: f64) -> Option<
         // d/dr of the squared equation is positive where the point leaves the cone.
         .filter(|&r| a * r + b > 0.0)
         .reduce(f64::min)
+}
+
+impl Tabled for Coulomb {
+    const KIND: Kind = Kind {
+        name: "coulomb",
+        meaning: "a constant coefficient",
+        parameters: &[Parameter {
+            key: "mu",
+            unit: Unit::None,
+            bound: Bound::NotNegative,
+            optional: false,
+            example: "0.6",
+            meaning: "",
+        }],
+        capped: true,
+        order: None,
+    };
+
+    fn build(own: &[f64], cap: Option<f64>) -> Result<Self, Failure> {
+        let [mu] = values(own)?;
+        Self::new(mu, cap)
+    }
 }
 
 impl Law for Coulomb {

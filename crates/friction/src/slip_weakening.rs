@@ -11,6 +11,8 @@
 //! `∂τ/∂f_n = κ μ`, κ = E_t/(E_t + H) > 1. A softer spring cannot follow the branch: [`Failure::Unstable`].
 
 use crate::Failure;
+use crate::evolution::{Bound, Parameter, Unit};
+use crate::kind::{Kind, Order, Tabled, Weakening, values};
 use crate::law::{
     BAND, Increments, Law, Limit, LimitKind, Present, RateBounds, Rates, Regime, Responses, Trials,
 };
@@ -131,6 +133,58 @@ impl SlipWeakening {
         }
         let admissible = (zeta * self.length).min(self.length - old);
         (slip > admissible).then(|| Limit { fraction: admissible / slip, point, kind: LimitKind::SlipLength })
+    }
+}
+
+impl Tabled for SlipWeakening {
+    const KIND: Kind = Kind {
+        name: "slip-weakening",
+        meaning: "the coefficient falls linearly from `mu_s` to `mu_k` over the slip `d_c`",
+        parameters: &[
+            Parameter {
+                key: "mu_s",
+                unit: Unit::None,
+                bound: Bound::NotNegative,
+                optional: false,
+                example: "0.6",
+                meaning: "",
+            },
+            Parameter {
+                key: "mu_k",
+                unit: Unit::None,
+                bound: Bound::NotNegative,
+                optional: false,
+                example: "0.5",
+                meaning: "",
+            },
+            Parameter {
+                key: "d_c",
+                unit: Unit::Length,
+                bound: Bound::Positive,
+                optional: false,
+                example: "\"0.4 m\"",
+                meaning: "",
+            },
+        ],
+        capped: true,
+        order: Some(Order {
+            lower: 1,
+            upper: 0,
+            equal: true,
+            help: "0 <= mu_k <= mu_s; `mu_s` is the coefficient before slip",
+        }),
+    };
+
+    fn build(own: &[f64], cap: Option<f64>) -> Result<Self, Failure> {
+        let [mu_s, mu_k, d_c] = values(own)?;
+        Self::new(mu_s, mu_k, d_c, cap)
+    }
+
+    fn weakening(own: &[f64]) -> Weakening {
+        match *own {
+            [mu_s, mu_k, length] if mu_s > mu_k => Weakening::Linear { drop: mu_s - mu_k, length },
+            _ => Weakening::None,
+        }
     }
 }
 

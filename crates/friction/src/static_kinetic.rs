@@ -9,6 +9,8 @@
 //! shrinks. Slip weakening ([`crate::slip_weakening`]) spreads the drop over a length.
 
 use crate::Failure;
+use crate::evolution::{Bound, Parameter, Unit};
+use crate::kind::{Kind, Order, Tabled, Weakening, values};
 use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Trials};
 use crate::yielding::{all_finite, answer, at_strength, cap, first_exit, strength};
 
@@ -46,6 +48,47 @@ impl StaticKinetic {
     /// Strength F̄ and ∂F̄/∂f_n at a friction coefficient.
     fn strength(&self, mu: f64, normal: f64) -> (f64, f64) {
         strength(mu, normal, self.limit)
+    }
+}
+
+impl Tabled for StaticKinetic {
+    const KIND: Kind = Kind {
+        name: "static-kinetic",
+        meaning: "the coefficient drops from `mu_s` to `mu_k` where slip begins",
+        parameters: &[
+            Parameter {
+                key: "mu_s",
+                unit: Unit::None,
+                bound: Bound::Positive,
+                optional: false,
+                example: "0.6",
+                meaning: "",
+            },
+            Parameter {
+                key: "mu_k",
+                unit: Unit::None,
+                bound: Bound::NotNegative,
+                optional: false,
+                example: "0.5",
+                meaning: "",
+            },
+        ],
+        capped: true,
+        order: Some(Order {
+            lower: 1,
+            upper: 0,
+            equal: false,
+            help: "0 <= mu_k < mu_s; for a constant coefficient use `kind = \"coulomb\"`",
+        }),
+    };
+
+    fn build(own: &[f64], cap: Option<f64>) -> Result<Self, Failure> {
+        let [mu_s, mu_k] = values(own)?;
+        Self::new(mu_s, mu_k, cap)
+    }
+
+    fn weakening(_: &[f64]) -> Weakening {
+        Weakening::Drop
     }
 }
 

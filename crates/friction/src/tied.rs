@@ -1,12 +1,35 @@
 //! Bonded points: no slip whatever the tractions, no state, and normal tension is carried as well.
 
 use crate::Failure;
+use crate::kind::{Kind, Tabled, values};
 use crate::law::{Increments, Law, Limit, Present, RateBounds, Rates, Regime, Responses, Trials};
 use crate::yielding::all_finite;
 
 /// See the module.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tied;
+
+impl Tabled for Tied {
+    const KIND: Kind = Kind {
+        name: "tied",
+        meaning: "a bond: the points neither slip nor part, and carry tension",
+        parameters: &[],
+        capped: false,
+        order: None,
+    };
+
+    fn build(own: &[f64], cap: Option<f64>) -> Result<Self, Failure> {
+        let [] = values(own)?;
+        match cap {
+            None => Ok(Self),
+            Some(value) => Err(Failure::Parameter {
+                name: "f_limit",
+                value,
+                admissible: "none: a bond holds any traction",
+            }),
+        }
+    }
+}
 
 impl Law for Tied {
     fn name(&self) -> &'static str {

@@ -9,7 +9,7 @@ mod table;
 pub use choice::{Evolution, Form, Heat, LawChoice, State, Strength};
 pub use given::given;
 pub use several::Several;
-pub use table::{Bound, EvolutionRow, Laws, ParameterRow};
+pub use table::{Bound, EvolutionRow, KindRow, Laws, OrderRow, ParameterRow};
 
 use super::model::{LawSpec, Spanned};
 use super::near;
@@ -17,12 +17,8 @@ use crate::diagnostic::Diagnostic;
 use choice::FORMS;
 use reader::Reader;
 
-/// Kinds of law with the parameters of each; evolutions have more of their own.
-const KINDS: [(&str, &[&str]); 6] = [
-    ("tied", &[]),
-    ("coulomb", &["mu", "f_limit"]),
-    ("static-kinetic", &["mu_s", "mu_k", "f_limit"]),
-    ("slip-weakening", &["mu_s", "mu_k", "d_c", "f_limit"]),
+/// Kinds of law whose strength depends on the slip rate, with the parameters of each; evolutions have more of their own.
+const KINDS: [(&str, &[&str]); 2] = [
     ("rate", &["form", "mu0", "a", "v_ref", "v_cut", "activation", "t_ref", "temperature", "f_limit"]),
     (
         "rate-and-state",
@@ -67,12 +63,12 @@ pub fn choose_sliding(spec: &Spanned<LawSpec>, laws: &Laws) -> Result<LawChoice,
 
 fn choose_with(spec: &Spanned<LawSpec>, laws: &Laws, negative_b: bool) -> Result<LawChoice, Vec<Diagnostic>> {
     let law = spec.get_ref();
-    let kinds = || KINDS.iter().map(|k| k.0);
+    let kinds = || names(laws);
     let Some(kind) = &law.kind else {
         let help = format!("add `kind = ..`; the kinds are {}", kinds().collect::<Vec<_>>().join(", "));
         return Err(vec![Diagnostic::at(spec.span(), "the law has no kind", help)]);
     };
-    let Some((name, _)) = KINDS.iter().find(|k| k.0 == kind.get_ref()) else {
+    let Some(name) = names(laws).find(|name| name == kind.get_ref()) else {
         return Err(vec![Diagnostic::at(
             kind.span(),
             format!("there is no law of kind `{}`", kind.get_ref()),
@@ -89,8 +85,16 @@ fn choose_with(spec: &Spanned<LawSpec>, laws: &Laws, negative_b: bool) -> Result
     }
 }
 
+/// Names of all kinds.
+fn names(laws: &Laws) -> impl Iterator<Item = &'static str> {
+    laws.kinds.iter().map(|row| row.name).chain(KINDS.iter().map(|k| k.0))
+}
+
 /// Parameters of a kind of law, those of its evolutions last.
 fn parameters(kind: &str, laws: &Laws) -> Vec<&'static str> {
+    if let Some(row) = laws.kind(kind) {
+        return row.parameters.iter().map(|p| p.key).chain(row.capped.then_some("f_limit")).collect();
+    }
     let mut all: Vec<&str> = KINDS.iter().filter(|k| k.0 == kind).flat_map(|k| k.1).copied().collect();
     if kind == EVOLVES {
         all.extend(laws.evolutions.iter().flat_map(|row| &row.parameters).map(|p| p.key));
@@ -104,7 +108,7 @@ fn foreign(law: &LawSpec, kind: &str, laws: &Laws) -> Vec<Diagnostic> {
     strange
         .map(|(name, place)| {
             let owns = |kind: &&str| self::parameters(kind, laws).contains(&name);
-            let owners = KINDS.iter().map(|k| k.0).filter(owns).map(|k| format!("\"{k}\""));
+            let owners = names(laws).filter(owns).map(|k| format!("\"{k}\""));
             let owners: Vec<String> = owners.collect();
             Diagnostic::at(
                 place,

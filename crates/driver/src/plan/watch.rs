@@ -7,6 +7,7 @@ use crate::scene::model::Scene;
 use asperity_contact::{Course, RateLimit, Watch};
 use asperity_fem::mesh::Side;
 use asperity_friction::evolution::{self, Front};
+use asperity_friction::kind::{self, Weakening};
 use asperity_mechanics::LOADING;
 use std::collections::BTreeSet;
 
@@ -44,25 +45,19 @@ pub fn of<const D: usize>(
 fn direct_effect(law: &LawChoice) -> Option<f64> {
     match law {
         LawChoice::Rate { strength, .. } | LawChoice::RateAndState { strength, .. } => Some(strength.a),
-        LawChoice::Tied
-        | LawChoice::Coulomb { .. }
-        | LawChoice::StaticKinetic { .. }
-        | LawChoice::SlipWeakening { .. } => None,
+        LawChoice::Yielding { .. } => None,
     }
 }
 
 /// Loss of strength of a law.
 fn course(law: &LawChoice) -> Course {
     match law {
-        LawChoice::Tied | LawChoice::Coulomb { .. } | LawChoice::Rate { .. } => Course::Steady,
-        LawChoice::StaticKinetic { .. } => Course::Drop,
-        LawChoice::SlipWeakening { mu_s, mu_k, d_c, .. } => {
-            if mu_s > mu_k {
-                Course::Branch { most: ZETA * d_c, length: *d_c }
-            } else {
-                Course::Steady
-            }
-        }
+        LawChoice::Rate { .. } => Course::Steady,
+        LawChoice::Yielding { kind, own, .. } => match kind::weakening(kind, own) {
+            Weakening::None => Course::Steady,
+            Weakening::Drop => Course::Drop,
+            Weakening::Linear { length, .. } => Course::Branch { most: ZETA * length, length },
+        },
         LawChoice::RateAndState { strength, evolution, states, .. } => {
             by_state(strength.a, evolution, states)
         }

@@ -5,18 +5,22 @@ use asperity_driver::laws;
 use asperity_driver::scene::law::given;
 use asperity_driver::scene::model::{LawSpec, Spanned};
 use asperity_friction::evolution::{self, Bound, Definition, Parameter, Unit, Variable};
+use asperity_friction::kind::{self, Kind};
 use serde::Deserialize;
-use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-const BEGIN: &str = "<!-- evolutions, written by the test `law_tables` from the table of the program -->\n";
 const END: &str = "<!-- end -->";
+
+fn begin(table: &str) -> String {
+    format!("<!-- {table}, written by the test `law_tables` from the table of the program -->\n")
+}
 
 fn parameter(p: &Parameter) -> String {
     let unit = match p.unit {
         Unit::None => "",
         Unit::Velocity => " \\[m/s\\]",
+        Unit::Length => " \\[m\\]",
     };
     let bound = match p.bound {
         Bound::Positive => format!("`{}`{unit}", p.key),
@@ -38,22 +42,39 @@ fn row(d: &Definition) -> String {
     format!("| `\"{}\"` | {} | {} | {variable}, {states} |\n", d.name, d.equation, parameters.join(", "))
 }
 
-#[test]
-fn the_table_of_evolutions_in_the_book_is_that_of_the_program() {
-    let mut table =
-        "| `evolution` | state | further parameters | state variables |\n|---|---|---|---|\n".to_string();
-    for definition in evolution::definitions() {
-        let _ = write!(table, "{}", row(definition));
-    }
+fn kind_row(k: &Kind) -> String {
+    let parameters: Vec<String> = k.parameters.iter().map(parameter).collect();
+    let order = k.order.map(|o| {
+        let [lower, upper] = [o.lower, o.upper].map(|i| k.parameters[i].key);
+        format!("; `{lower}` {} `{upper}`", if o.equal { "≤" } else { "<" })
+    });
+    let cap = if k.capped { "`f_limit` \\[Pa\\]" } else { "" };
+    let parameters = if parameters.is_empty() { "none".to_string() } else { parameters.join(", ") };
+    format!("| `\"{}\"` | {} | {parameters}{} | {cap} |\n", k.name, k.meaning, order.unwrap_or_default())
+}
+
+/// Holds a table of the book against the program, or writes it.
+fn assert_table(name: &str, head: &str, rows: impl Iterator<Item = String>) {
+    let columns = head.matches('|').count() - 1;
+    let table = format!("{head}\n|{}\n{}", "---|".repeat(columns), rows.collect::<String>());
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/scene/laws.md");
     let text = fs::read_to_string(&page).unwrap();
-    let (head, rest) = text.split_once(BEGIN).unwrap();
+    let begin = begin(name);
+    let (head, rest) = text.split_once(&begin).unwrap();
     let (found, tail) = rest.split_once(END).unwrap();
     if std::env::var_os("UPDATE_TABLES").is_some() {
-        fs::write(&page, format!("{head}{BEGIN}{table}{END}{tail}")).unwrap();
+        fs::write(&page, format!("{head}{begin}{table}{END}{tail}")).unwrap();
     } else {
         assert_eq!(found, table, "the table is stale: run the test with UPDATE_TABLES=1");
     }
+}
+
+#[test]
+fn the_tables_of_the_book_are_those_of_the_program() {
+    let kinds = kind::kinds().into_iter().map(kind_row);
+    assert_table("kinds", "| `kind` | friction | parameters | optional |", kinds);
+    let evolutions = evolution::definitions().into_iter().map(row);
+    assert_table("evolutions", "| `evolution` | state | further parameters | state variables |", evolutions);
 }
 
 #[derive(Deserialize)]
@@ -83,6 +104,41 @@ fn every_row_of_the_table_is_read_and_built() {
         let law = laws::build(&choice).unwrap_or_else(|e| panic!("{text}: {e}"));
         assert_eq!(law.states(), 1, "{text}");
         assert!(laws::build_sliding(&choice).unwrap().is_some(), "{text}");
+    }
+}
+
+#[test]
+fn every_kind_of_the_table_is_read_and_built() {
+    for row in kind::kinds() {
+        let own = row.parameters.iter().map(|p| format!(", {} = {}", p.key, p.example));
+        let text = format!("law = {{ kind = \"{}\"{} }}", row.name, own.collect::<String>());
+        let choose = |text: &str| {
+            let holder: Holder = toml::from_str(text).unwrap();
+            let given = given(holder.law.get_ref()).len();
+            (given, laws::choose(&holder.law))
+        };
+        let (given, choice) = choose(&text);
+        // A key that the specification does not read would be lost.
+        assert_eq!(given, row.parameters.len(), "{text}");
+        let law = laws::build(&choice.unwrap_or_else(|e| panic!("{text}: {e:?}"))).unwrap();
+        assert_eq!((law.name(), law.has_elastic_domain()), (row.name, true));
+        let capped = text.replace(" }", ", f_limit = \"1 MPa\" }");
+        assert_eq!(choose(&capped).1.is_ok(), row.capped, "{capped}");
+        for missing in row.parameters {
+            let without = text.replace(&format!(", {} = {}", missing.key, missing.example), "");
+            let errors = choose(&without).1.unwrap_err();
+            assert!(errors.iter().any(|e| e.to_string().contains(missing.key)), "{without}: {errors:?}");
+        }
+        if let Some(order) = row.order {
+            let key = |k: usize| row.parameters[k].key;
+            let (low, high) = (row.parameters[order.lower].example, row.parameters[order.upper].example);
+            let turned = text.replace(
+                &format!("{} = {low}", key(order.lower)),
+                &format!("{} = {high}1", key(order.lower)),
+            );
+            let errors = choose(&turned).1.unwrap_err();
+            assert!(errors[0].to_string().contains(key(order.upper)), "{turned}: {errors:?}");
+        }
     }
 }
 

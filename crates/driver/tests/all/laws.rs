@@ -153,9 +153,15 @@ fn elastic_laws_have_their_parameters() {
     let coulomb = laws::build(&choose("kind = \"coulomb\", mu = 0.6, f_limit = \"50 MPa\"")).unwrap();
     assert_eq!(format!("{coulomb:?}"), format!("{:?}", Coulomb::new(0.6, Some(50e6)).unwrap()));
     let law = "kind = \"static-kinetic\", mu_s = 0.6, mu_k = 0.5, f_limit = \"50 MPa\"";
-    assert_eq!(choose(law), LawChoice::StaticKinetic { mu_s: 0.6, mu_k: 0.5, f_limit: Some(50e6) });
+    assert_eq!(
+        choose(law),
+        LawChoice::Yielding { kind: "static-kinetic", own: vec![0.6, 0.5], f_limit: Some(50e6) }
+    );
     let law = "kind = \"slip-weakening\", mu_s = 0.6, mu_k = 0.6, d_c = \"40 cm\"";
-    assert_eq!(choose(law), LawChoice::SlipWeakening { mu_s: 0.6, mu_k: 0.6, d_c: 0.4, f_limit: None });
+    assert_eq!(
+        choose(law),
+        LawChoice::Yielding { kind: "slip-weakening", own: vec![0.6, 0.6, 0.4], f_limit: None }
+    );
 }
 
 #[test]

@@ -10,6 +10,8 @@ pub enum Unit {
     None,
     /// m/s.
     Velocity,
+    /// m.
+    Length,
 }
 
 /// Admissible values of a parameter.

@@ -63,32 +63,12 @@ pub struct State {
 /// A friction law with exactly the parameters it needs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LawChoice {
-    /// No slip and no parting.
-    Tied,
-    /// A constant coefficient.
-    Coulomb {
-        /// Friction coefficient \[-\].
-        mu: f64,
-        /// Largest shear traction \[Pa\].
-        f_limit: Option<f64>,
-    },
-    /// A coefficient that falls where slip begins.
-    StaticKinetic {
-        /// Coefficient at rest \[-\].
-        mu_s: f64,
-        /// Coefficient in slip \[-\].
-        mu_k: f64,
-        /// Largest shear traction \[Pa\].
-        f_limit: Option<f64>,
-    },
-    /// A coefficient that falls linearly with slip.
-    SlipWeakening {
-        /// Coefficient before slip \[-\].
-        mu_s: f64,
-        /// Coefficient after slip over `d_c` \[-\].
-        mu_k: f64,
-        /// Slip over which it falls \[m\].
-        d_c: f64,
+    /// A law with an elastic domain.
+    Yielding {
+        /// Kind.
+        kind: &'static str,
+        /// Values of its parameters in SI, in the order of its row in [`Laws`](super::Laws).
+        own: Vec<f64>,
         /// Largest shear traction \[Pa\].
         f_limit: Option<f64>,
     },

@@ -52,5 +52,5 @@ pub(super) fn scalar(law: &LawSpec, key: &str) -> Option<(f64, Range<usize>)> {
             }
         };
     }
-    of!(v_cut_state c mu_w v_w)
+    of!(mu mu_s mu_k d_c v_cut_state c mu_w v_w)
 }

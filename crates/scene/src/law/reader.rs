@@ -4,7 +4,7 @@ use super::choice::{Evolution, FORMS, Form, Heat, LawChoice, State, Strength};
 use super::given::{Quantity, scalar};
 use super::several::Several;
 use super::table::Bound::{self, BelowReference, Finite, NotNegative, Positive};
-use super::table::{EvolutionRow, Laws, ParameterRow};
+use super::table::{EvolutionRow, KindRow, Laws, OrderRow, ParameterRow};
 use crate::diagnostic::Diagnostic;
 use crate::model::{LawSpec, Spanned};
 use crate::near;
@@ -32,22 +32,11 @@ pub(super) struct Reader<'a> {
 impl<'a> Reader<'a> {
     pub fn choice(&mut self, law: &LawSpec) -> Option<LawChoice> {
         let f_limit = self.optional("f_limit", law.f_limit.as_ref(), "\"100 MPa\"", Positive);
+        if let Some(row) = self.laws.kind(self.kind) {
+            let own = self.yielding(law, row);
+            return Some(LawChoice::Yielding { kind: row.name, own: own?, f_limit: f_limit? });
+        }
         match self.kind {
-            "tied" => Some(LawChoice::Tied),
-            "coulomb" => {
-                let mu = self.value("mu", law.mu.as_ref(), "0.6", NotNegative);
-                Some(LawChoice::Coulomb { mu: mu?, f_limit: f_limit? })
-            }
-            "static-kinetic" => {
-                let (mu_s, mu_k) = self.drop(law)?;
-                Some(LawChoice::StaticKinetic { mu_s, mu_k, f_limit: f_limit? })
-            }
-            "slip-weakening" => {
-                let drop = self.drop(law);
-                let d_c = self.value("d_c", law.d_c.as_ref(), "\"0.4 m\"", Positive);
-                let (mu_s, mu_k) = drop?;
-                Some(LawChoice::SlipWeakening { mu_s, mu_k, d_c: d_c?, f_limit: f_limit? })
-            }
             "rate" => Some(LawChoice::Rate { strength: self.strength(law)?, f_limit: f_limit? }),
             _ => self.rate_and_state(law, f_limit),
         }
@@ -147,26 +136,22 @@ impl<'a> Reader<'a> {
         read.into_iter().collect()
     }
 
-    /// The coefficients before and after: μ_s > μ_k ≥ 0, which may be equal where slip weakens.
-    fn drop(&mut self, law: &LawSpec) -> Option<(f64, f64)> {
-        let weakening = self.kind == "slip-weakening";
-        let bound = if weakening { NotNegative } else { Positive };
-        let mu_s = self.value("mu_s", law.mu_s.as_ref(), "0.6", bound);
-        let mu_k = self.value("mu_k", law.mu_k.as_ref(), "0.5", NotNegative);
-        let (mu_s, mu_k) = (mu_s?, mu_k?);
-        if mu_k < mu_s || (weakening && mu_k == mu_s) {
-            return Some((mu_s, mu_k));
+    /// The parameters of a law with an elastic domain.
+    fn yielding(&mut self, law: &LawSpec, row: &KindRow) -> Option<Vec<f64>> {
+        let read: Vec<Option<f64>> = row.parameters.iter().map(|p| self.own(law, p).flatten()).collect();
+        if let Some(OrderRow { lower, upper, equal, help }) = row.order
+            && let (Some(low), Some(high)) = (read[lower], read[upper])
+            && !(low < high || equal && low == high)
+        {
+            let words = if equal { "must not exceed" } else { "must be below" };
+            let [lower, upper] = [lower, upper].map(|k| row.parameters[k].key);
+            let place = |key: &str| scalar(law, key).map(|value| value.1).unwrap_or_default();
+            let message = format!("`{lower}` {words} `{upper}`, found {low:?} and {high:?}");
+            let error = Diagnostic::at(place(lower), message, help);
+            self.errors.push(error.and(place(upper), format!("`{upper}`")));
+            return None;
         }
-        let (words, help) = if weakening {
-            ("must not exceed", "0 <= mu_k <= mu_s; `mu_s` is the coefficient before slip")
-        } else {
-            ("must be below", "0 <= mu_k < mu_s; for a constant coefficient use `kind = \"coulomb\"`")
-        };
-        let place = |key: &Option<Spanned<f64>>| key.as_ref().map(Spanned::span).unwrap_or_default();
-        let message = format!("`mu_k` {words} `mu_s`, found {mu_k:?} and {mu_s:?}");
-        let error = Diagnostic::at(place(&law.mu_k), message, help);
-        self.errors.push(error.and(place(&law.mu_s), "`mu_s`"));
-        None
+        read.into_iter().collect()
     }
 
     fn strength(&mut self, law: &LawSpec) -> Option<Strength> {
@@ -276,7 +261,7 @@ impl<'a> Reader<'a> {
         Some((row, Evolution { name: row.name, own: own.into_iter().collect::<Option<_>>()? }))
     }
 
-    /// A parameter of an evolution.
+    /// A parameter of a row.
     fn own(&mut self, law: &LawSpec, row: &ParameterRow) -> Option<Option<f64>> {
         let &ParameterRow { key, bound, optional, example } = row;
         let Some((value, place)) = scalar(law, key) else {

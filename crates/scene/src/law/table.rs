@@ -1,4 +1,4 @@
-//! Evolutions that scenes may name, as plain values: the program that reads a scene says which it knows.
+//! Laws that scenes may name, as plain values: the program that reads a scene says which it knows.
 
 /// Admissible values of a parameter; all are finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,9 +13,11 @@ pub enum Bound {
     BelowReference,
 }
 
-/// Friction laws that the program knows beyond their kinds and forms, which belong to the language.
+/// Friction laws that the program knows. Those whose strength depends on the slip rate, and their forms, belong to the language.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Laws {
+    /// Kinds of law with an elastic domain.
+    pub kinds: Vec<KindRow>,
     /// Evolutions of the state.
     pub evolutions: Vec<EvolutionRow>,
 }
@@ -35,7 +37,33 @@ pub struct EvolutionRow {
     pub memory: Option<usize>,
 }
 
-/// A parameter of an evolution, a number or a quantity of [`LawSpec`](crate::model::LawSpec).
+/// A kind of law with an elastic domain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KindRow {
+    /// Name.
+    pub name: &'static str,
+    /// Parameters, all of them needed.
+    pub parameters: Vec<ParameterRow>,
+    /// True if `f_limit` may cap the strength.
+    pub capped: bool,
+    /// Order of two parameters.
+    pub order: Option<OrderRow>,
+}
+
+/// Order of two parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OrderRow {
+    /// Index of the lower one.
+    pub lower: usize,
+    /// Index of the upper one.
+    pub upper: usize,
+    /// True if they may be equal.
+    pub equal: bool,
+    /// Remedy where they are not in this order.
+    pub help: &'static str,
+}
+
+/// A parameter of a law, a number or a quantity of [`LawSpec`](crate::model::LawSpec).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterRow {
     /// Key.
@@ -49,6 +77,11 @@ pub struct ParameterRow {
 }
 
 impl Laws {
+    /// Returns the kind of this name.
+    pub(super) fn kind(&self, name: &str) -> Option<&KindRow> {
+        self.kinds.iter().find(|row| row.name == name)
+    }
+
     /// Returns the evolution of this name.
     #[must_use]
     pub fn evolution(&self, name: &str) -> Option<&EvolutionRow> {

@@ -26,6 +26,7 @@ use asperity_fem::element::FaceKind;
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::{MeshFace, Side};
 use asperity_friction::evolution::{self, Front};
+use asperity_friction::kind::{self, Weakening};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -56,9 +57,10 @@ impl Ground<'_> {
     /// Cohesive zone and length of nucleation \[m\]; none where friction does not weaken.
     #[must_use]
     pub fn lengths(&self) -> Option<[f64; 2]> {
-        if let LawChoice::SlipWeakening { mu_s, mu_k, d_c, .. } = self.law {
-            let length = self.modulus * d_c / (self.normal * (mu_s - mu_k));
-            return (mu_s > mu_k).then_some([BREAKDOWN * length, UNSTABLE * length]);
+        if let LawChoice::Yielding { kind, own, .. } = self.law {
+            let Weakening::Linear { drop, length } = kind::weakening(kind, own) else { return None };
+            let length = self.modulus * length / (self.normal * drop);
+            return Some([BREAKDOWN * length, UNSTABLE * length]);
         }
         let LawChoice::RateAndState { strength, evolution, states, .. } = self.law else { return None };
         let a = strength.a;
@@ -235,12 +237,12 @@ mod tests {
     #[test]
     fn the_zone_of_slip_weakening_is_that_of_the_dynamic_rupture_benchmark() {
         // Day et al. (2005), version 3: 620 m in mode III and 827 m in mode II.
-        let law = LawChoice::SlipWeakening { mu_s: 0.677, mu_k: 0.525, d_c: 0.4, f_limit: None };
+        let law = LawChoice::Yielding { kind: "slip-weakening", own: vec![0.677, 0.525, 0.4], f_limit: None };
         for (modulus, zone) in [(32.04e9, 620.0), (32.04e9 / 0.75, 827.0)] {
             let found = Ground { law: &law, normal: 120e6, modulus, in_space: false }.lengths().unwrap();
             assert!((found[0] / zone - 1.0).abs() < 2e-3, "{found:?}");
         }
-        let steady = LawChoice::SlipWeakening { mu_s: 0.6, mu_k: 0.6, d_c: 0.4, f_limit: None };
+        let steady = LawChoice::Yielding { kind: "slip-weakening", own: vec![0.6, 0.6, 0.4], f_limit: None };
         assert!(Ground { law: &steady, normal: 120e6, modulus: 32e9, in_space: false }.lengths().is_none());
     }
 
