@@ -12,7 +12,7 @@ pub struct Tied;
 impl Tabled for Tied {
     const KIND: Kind = Kind {
         name: "tied",
-        meaning: "a bond: the points neither slip nor part, and carry tension",
+        meaning: "a bond: the points neither slip nor separate, and carry tension",
         parameters: &[],
         capped: false,
         order: None,
