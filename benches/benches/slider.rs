@@ -1,7 +1,9 @@
 //! Earthquake cycles of spring-sliders.
 #![allow(missing_docs, clippy::print_stdout)]
 
-use asperity_cycles::slider::{self, Problem, Thresholds};
+use asperity_cycles::Thresholds;
+use asperity_cycles::slider::{self, Problem};
+use asperity_driver::slider::Entry;
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding, Spring, System};
@@ -79,7 +81,7 @@ fn plan(set: &Set, events: usize) -> Problem {
 /// Onset of the last event and the time since the one before \[s\].
 fn last(plan: &Problem) -> (f64, f64) {
     let run = slider::run(plan, &mut ()).expect("a run");
-    let event = run.catalogue.events.last().expect("an event");
+    let event = Entry::all(&run).pop().expect("an event");
     println!("    {:?}", run.counts);
     (event.onset, event.interval.expect("two events"))
 }

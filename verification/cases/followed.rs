@@ -1,7 +1,7 @@
 //! Parts common to the cases of energy budgets: a run of a fault with its report, and with one of the places where it restarts.
 
 use crate::{Capability, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::{Balance, Event, Faults, Moment, Run, Settings, resume};
+use asperity_cycles::{Balance, Event, FaultRun, Faults, Moment, Rupture, Settings, resume};
 use asperity_driver::fault::{Plan, Report};
 use asperity_ode::{Control, ObserveError, Observer, Outcome};
 
@@ -10,7 +10,7 @@ struct Look<'a> {
     balance: Balance<'a>,
     /// Restarts until the one to keep.
     wait: usize,
-    kept: Option<Run>,
+    kept: Option<FaultRun>,
 }
 
 impl Observer<Faults> for Look<'_> {
@@ -19,7 +19,7 @@ impl Observer<Faults> for Look<'_> {
         Ok(Control::Go)
     }
 
-    fn pause(&mut self, run: &mut dyn FnMut() -> Run) -> Result<Option<&'static str>, ObserveError> {
+    fn pause(&mut self, run: &mut dyn FnMut() -> FaultRun) -> Result<Option<&'static str>, ObserveError> {
         if self.wait == 0 && self.kept.is_none() {
             self.kept = Some(run());
         }
@@ -31,12 +31,12 @@ impl Observer<Faults> for Look<'_> {
 /// A run with its report.
 pub struct Followed {
     /// The run.
-    pub run: Run,
+    pub run: FaultRun,
     /// Its balances and events.
     pub report: Report,
     /// Time and steps.
     pub cost: Cost,
-    kept: Option<Run>,
+    kept: Option<FaultRun>,
 }
 
 impl Followed {
@@ -54,10 +54,10 @@ impl Followed {
     /// As [`Followed::new`].
     pub fn with(plan: &Plan, tolerance: f64) -> Result<Self, CaseError> {
         let settings = Settings { tolerance, ..plan.problem.settings };
-        Self::from(plan, settings, Run::new(plan.problem.start.clone(), settings.thresholds))
+        Self::from(plan, settings, plan.problem.begin())
     }
 
-    fn from(plan: &Plan, settings: Settings, start: Run) -> Result<Self, CaseError> {
+    fn from(plan: &Plan, settings: Settings, start: FaultRun) -> Result<Self, CaseError> {
         let mut look = Look { balance: Balance::new(&plan.problem), wait: 3, kept: None };
         let (run, cost) =
             Cost::of(|| resume(&plan.problem.fault, &plan.problem.loading, start, &settings, &mut look));
@@ -72,8 +72,8 @@ impl Followed {
 
     /// The events.
     #[must_use]
-    pub fn events(&self) -> &[Event] {
-        self.run.catalogue.events()
+    pub fn events(&self) -> &[Event<Rupture>] {
+        self.run.events()
     }
 
     /// \[s\].
@@ -104,7 +104,10 @@ impl Followed {
 
     /// Of unknowns and of events.
     fn bits(&self) -> Vec<u64> {
-        let events = self.events().iter().flat_map(|e| e.slip.iter().chain(&e.drop).chain([&e.peak]));
+        let events = self
+            .events()
+            .iter()
+            .flat_map(|e| e.details.slip.all().iter().chain(e.details.drop.all()).chain([&e.peak]));
         self.run.unknowns.iter().chain(events).map(|v| v.to_bits()).collect()
     }
 }

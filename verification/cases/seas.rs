@@ -1,7 +1,7 @@
 //! Parts common to the cases of earthquake cycles: a scene's plan, and its events with their cost.
 
 use crate::{CaseError, Cost};
-use asperity_cycles::{Event, Moment, Settings};
+use asperity_cycles::{Event, Moment, Rupture, Settings};
 use asperity_driver::fault::Plan;
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
@@ -49,7 +49,7 @@ pub struct Found {
     /// \[yr\].
     pub onsets: Vec<f64>,
     /// The events.
-    pub events: Vec<Event>,
+    pub events: Vec<Event<Rupture>>,
     /// Time and counts.
     pub cost: Cost,
     /// Right-hand sides.
@@ -73,7 +73,7 @@ pub fn found(
     };
     let (out, cost) = Cost::of(|| plan.problem.run(settings, &mut watch));
     let out = out?;
-    let events = out.catalogue.events().to_vec();
+    let events = out.events().to_vec();
     if let Outcome::Failed { reason } = &out.outcome {
         return Err(reason.to_string().into());
     }

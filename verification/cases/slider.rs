@@ -1,7 +1,8 @@
 //! Parts common to the cases of spring-sliders: parameter sets, laws, runs, and the references of the second implementation.
 
 use crate::CaseError;
-use asperity_cycles::slider::{self, Now, Problem, Run, Thresholds};
+use asperity_cycles::Thresholds;
+use asperity_cycles::slider::{self, Now, Problem, SliderRun};
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding, System};
@@ -173,13 +174,13 @@ pub fn work(counts: &Counts, unknowns: usize) -> f64 {
 ///
 /// # Errors
 /// If it fails.
-pub fn finish(plan: &Problem) -> Result<Run, CaseError> {
+pub fn finish(plan: &Problem) -> Result<SliderRun, CaseError> {
     let run = slider::run(plan, &mut ())?;
     match &run.outcome {
         Outcome::Failed { reason } => Err(format!(
             "failed at {:e} s: {}",
             run.at.seconds(),
-            run.hint.clone().unwrap_or(reason.to_string())
+            run.progress.hint.clone().unwrap_or(reason.to_string())
         )
         .into()),
         Outcome::Completed | Outcome::Stopped => Ok(run),

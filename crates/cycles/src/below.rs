@@ -1,8 +1,8 @@
 //! Use of floors of normal traction in a run.
 
-use super::equations::size;
+use super::components::Components;
+use super::moment::Moment;
 use super::problem::Problem;
-use super::run::Moment;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -29,19 +29,19 @@ impl Used {
     /// Takes note of a step.
     pub(crate) fn step(&mut self, problem: &Problem, moment: &Moment<'_>, ended: bool) {
         let (Some(floor), Some(step)) = (&problem.fault.floor, &moment.step) else { return };
-        let (layout, n) = (moment.layout, problem.areas.len());
+        let n = problem.areas.len();
         for list in [&mut self.time, &mut self.slip, &mut self.below, &mut self.whole] {
             list.resize(n, 0.0);
         }
         self.duration += moment.dt;
-        let slips = layout.slip();
-        let by: Vec<f64> =
-            moment.unknowns[slips.clone()].iter().zip(&step.start[slips]).map(|(b, a)| b - a).collect();
+        let (end, start) = (moment.slip(), moment.layout.slip_of(step.start));
+        let by: Vec<f64> = end.all().iter().zip(start.all()).map(|(b, a)| b - a).collect();
+        let by = Components::new(by, n);
         let mut any = false;
         for p in 0..n {
             let least = floor.at(p);
             let missing = [step.start_pressed, moment.pressed].map(|pressed| least - pressed.bodies[p]);
-            let slip = size(&by, n, p);
+            let slip = by.size(p);
             self.whole[p] += slip;
             // Linear within the step.
             let share = match missing.map(|m| m > 0.0) {
@@ -54,7 +54,7 @@ impl Used {
             self.slip[p] += share * slip;
             self.below[p] = self.below[p].max(missing[1]);
         }
-        let in_event = ended || moment.catalogue.under_way().is_some();
+        let in_event = ended || moment.under_way().is_some();
         self.now |= any && in_event;
         if ended {
             self.events += usize::from(self.now);

@@ -17,11 +17,11 @@
 
 use super::below::Used;
 use super::equations::{Fault, Layout, Pressed};
+use super::moment::{Ends, Moment};
 use super::opened::Opened;
 use super::opening::Crack;
 use super::operator::Operator;
 use super::problem::Problem;
-use super::run::{Ends, Moment};
 use asperity_ode::Clock;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -226,13 +226,13 @@ impl<'a> Balance<'a> {
         if moment.step.is_some() {
             self.add(moment);
         }
-        let ended = moment.catalogue.events().len() > self.sums.marks.len();
+        let ended = moment.events().len() > self.sums.marks.len();
         self.sums.floors.step(self.problem, moment, ended);
         self.sums.opened.step(self.problem, moment);
         if ended {
-            let energy = self.energy(moment.slip(), &moment.pressed.opening);
-            // The first components come first.
-            let potency = moment.slip().iter().zip(&self.problem.areas).map(|(s, area)| s * area).sum();
+            let energy = self.energy(moment.slip().all(), &moment.pressed.opening);
+            let potency =
+                moment.slip().component(0).iter().zip(&self.problem.areas).map(|(s, area)| s * area).sum();
             self.sums.marks.push(Mark { time: moment.at.seconds(), potency, energy });
         }
     }

@@ -5,6 +5,7 @@
 //! m = μ/a of all points, their states (point-major), their slip, and f_n where slip changes it. The tractions never stand as differences of large numbers, since m carries them. Pore pressure
 //! is a given function of time: it is taken off f_n, and its rate off df_n/dt, at the time of each stage. Openings are functions of f_n and add to both rates, see [`super::opening`].
 
+use super::components::{Components, PerPoint};
 use super::floor::Floor;
 use super::opening::{Crack, Opening};
 use super::operator::Operator;
@@ -168,16 +169,23 @@ impl Layout {
         let first = self.slip().end;
         first..first + if self.couples_normal { self.points } else { 0 }
     }
-}
 
-/// Size of the vector at a point of a list that stands component by component; of one component its absolute value.
-#[must_use]
-pub fn size(values: &[f64], points: usize, point: usize) -> f64 {
-    let mut components = values.iter().skip(point).step_by(points.max(1));
-    match (components.next(), components.next()) {
-        (Some(x), Some(y)) => (x * x + y * y).sqrt(),
-        (Some(x), None) => x.abs(),
-        _ => 0.0,
+    /// m of these unknowns.
+    #[must_use]
+    pub fn m_of<'a>(&self, unknowns: &'a [f64]) -> Components<&'a [f64]> {
+        Components::new(&unknowns[self.m()], self.points)
+    }
+
+    /// Slip of these unknowns \[m\].
+    #[must_use]
+    pub fn slip_of<'a>(&self, unknowns: &'a [f64]) -> Components<&'a [f64]> {
+        Components::new(&unknowns[self.slip()], self.points)
+    }
+
+    /// States of these unknowns.
+    #[must_use]
+    pub fn states_of<'a>(&self, unknowns: &'a [f64]) -> PerPoint<'a> {
+        PerPoint::new(&unknowns[self.states()], self.states)
     }
 }
 
@@ -421,9 +429,10 @@ impl Problem for Equations<'_> {
         let pressed = fault.pressed(at, y, crack);
         // The norm of what gives way, one matrix a point with its eigenvalues along and across slip.
         let norm = (l.components as f64).sqrt();
+        let rate = Components::new(rate, l.points);
         let of = |(i, k): (usize, &f64)| {
             let p = i % l.points;
-            let v = size(rate, l.points, p);
+            let v = rate.size(p);
             let strength = pressed.normal[p] * fault.law.scale(p);
             let states = fault.law.length(p).map_or(0.0, f64::recip);
             v * (norm * k / (strength + fault.damping[p] * v) + states)

@@ -1,7 +1,7 @@
 //! Use of openings in the course of a run.
 
+use super::moment::Moment;
 use super::problem::Problem;
-use super::run::Moment;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 

@@ -1,9 +1,10 @@
 //! The problem to integrate: faults in their surroundings, their loads, the start, and the settings.
 
+use super::cycle::{FaultRun, Settings, run};
 use super::equations::Fault;
 use super::error::RunError;
 use super::loading::Loading;
-use super::run::{self, Faults, Run, Settings};
+use super::moment::Faults;
 use asperity_ode::Observer;
 
 /// See the module.
@@ -22,11 +23,22 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// A run from its start, with one catalogue of all faults together.
+    #[must_use]
+    pub fn begin(&self) -> FaultRun {
+        let points = 0..self.fault.law.points();
+        FaultRun::new(self.start.clone(), std::slice::from_ref(&points), self.settings.thresholds)
+    }
+
     /// Integrates it from its start, with its own settings or others. An integration that fails is no error: the outcome says so.
     ///
     /// # Errors
     /// If the observer cannot go on.
-    pub fn run(&self, settings: &Settings, observer: &mut dyn Observer<Faults>) -> Result<Run, RunError> {
-        run::run(&self.fault, &self.loading, self.start.clone(), settings, observer)
+    pub fn run(
+        &self,
+        settings: &Settings,
+        observer: &mut dyn Observer<Faults>,
+    ) -> Result<FaultRun, RunError> {
+        run(&self.fault, &self.loading, self.start.clone(), settings, observer)
     }
 }

@@ -46,6 +46,19 @@ pub struct Counts {
     pub restarts: u64,
 }
 
+impl std::ops::AddAssign for Counts {
+    fn add_assign(&mut self, other: Self) {
+        self.steps += other.steps;
+        self.rejected += other.rejected;
+        self.rates += other.rates;
+        self.jacobians += other.jacobians;
+        self.factorisations += other.factorisations;
+        self.solves += other.solves;
+        self.newton_failures += other.newton_failures;
+        self.restarts += other.restarts;
+    }
+}
+
 /// Outcome of an integration.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {

@@ -3,7 +3,7 @@
 use crate::cases::dislocation::{self, Stress};
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::Event;
+use asperity_cycles::{Event, Rupture};
 use asperity_driver::fault::Plan;
 use asperity_vary::SceneText;
 use nalgebra::Complex;
@@ -189,8 +189,12 @@ fn signs(ledger: &mut Ledger, t: &Tractions, cost: &Cost) -> Result<(), CaseErro
 }
 
 /// Mean slip of an event on the part of the fault from `from` to `to` \[m\].
-fn mean(plan: &Plan, event: &Event, from: f64, to: f64) -> f64 {
-    let part = plan.points.iter().zip(&event.slip).filter(|(p, _)| p.along >= from && p.along <= to);
+fn mean(plan: &Plan, event: &Event<Rupture>, from: f64, to: f64) -> f64 {
+    let part = plan
+        .points
+        .iter()
+        .zip(event.details.slip.component(0))
+        .filter(|(p, _)| p.along >= from && p.along <= to);
     let (slip, area) = part.fold((0.0, 0.0), |(s, a), (p, slip)| (s + p.area * slip, a + p.area));
     slip / area
 }
@@ -205,8 +209,9 @@ fn events(ledger: &mut Ledger) -> Result<(), CaseError> {
     let beside = seas::found(&straight, &straight.problem.settings, |_| {})?;
     // Half of each half: neither the tips nor the cells at the bend.
     let (upper, lower) = ([4e3, 13e3], [17e3, 26e3]);
-    let ratio =
-        |plan: &Plan, e: &Event| mean(plan, e, lower[0], lower[1]) / mean(plan, e, upper[0], upper[1]);
+    let ratio = |plan: &Plan, e: &Event<Rupture>| {
+        mean(plan, e, lower[0], lower[1]) / mean(plan, e, upper[0], upper[1])
+    };
     let largest = run.events.iter().map(|e| ratio(&plan, e)).fold(0.0, f64::max);
     let least = beside.events.iter().map(|e| ratio(&straight, e)).fold(f64::INFINITY, f64::min);
     ledger.table(
@@ -226,7 +231,7 @@ fn events(ledger: &mut Ledger) -> Result<(), CaseError> {
                         format!("{t:.2}"),
                         format!("{:.3}", mean(plan, e, upper[0], upper[1])),
                         format!("{:.3}", mean(plan, e, lower[0], lower[1])),
-                        format!("{:.1}", plan.points[e.hypocentre].along / 1e3),
+                        format!("{:.1}", plan.points[e.details.hypocentre].along / 1e3),
                     ]
                 })
             },

@@ -284,10 +284,13 @@ fn blocks(pairs: &[Pair], events: usize) -> Result<Plan, CaseError> {
 fn first_event(plan: &Plan, fault: &str) -> Result<([f64; 3], Cost), CaseError> {
     let found = seas::found(plan, &plan.problem.settings, |_| {})?;
     let points = plan.faults.iter().find(|f| f.name == fault).map(|f| f.points.clone()).ok_or("no fault")?;
-    let k =
-        found.events.iter().position(|e| points.contains(&e.hypocentre)).ok_or("no event on the fault")?;
+    let k = found
+        .events
+        .iter()
+        .position(|e| points.contains(&e.details.hypocentre))
+        .ok_or("no event on the fault")?;
     let event = &found.events[k];
-    Ok(([found.onsets[k], event.peak, event.slip[points.start]], found.cost))
+    Ok(([found.onsets[k], event.peak, event.details.slip.component(0)[points.start]], found.cost))
 }
 
 /// Pairs of blocks in one scene do what they do alone.

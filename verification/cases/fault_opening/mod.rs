@@ -200,7 +200,7 @@ fn pulled(plan: &Plan) -> Result<Pulled, CaseError> {
     let mut look = |now: &asperity_cycles::Moment<'_>| {
         balance.step(now);
         opening = (0..n).map(|p| now.opening(p).unwrap_or(f64::NAN)).collect();
-        slip = now.slip().to_vec();
+        slip = now.slip().all().to_vec();
         let open = (0..n).filter(|&p| opening[p] > 0.0).map(|p| at[p].abs());
         fronts.extend(open.reduce(f64::max).map(|front| (now.at.seconds(), front)));
         let friction = now.normal(middle) * plan.problem.fault.law.scale(middle) * now.unknowns[middle];

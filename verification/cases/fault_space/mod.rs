@@ -321,10 +321,13 @@ fn blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
     let moment = |plan: &Plan, slip: &[f64]| -> f64 {
         slip.iter().zip(&plan.points).map(|(s, p)| s * p.area * p.shear_modulus).sum()
     };
-    let moments = (moment(&plane, &a.events[0].slip), moment(&solid, &b.events[0].slip));
+    let moments = (
+        moment(&plane, a.events[0].details.slip.component(0)),
+        moment(&solid, b.events[0].details.slip.component(0)),
+    );
     for (name, value, bound) in [
         ("onset", b.onsets[0] / a.onsets[0], 1e-6),
-        ("slip", b.events[0].slip[0] / a.events[0].slip[0], 1e-4),
+        ("slip", b.events[0].details.slip.component(0)[0] / a.events[0].details.slip.component(0)[0], 1e-4),
         ("moment over that per metre times 2 km", moments.1 / (2e3 * moments.0), 1e-4),
     ] {
         ledger

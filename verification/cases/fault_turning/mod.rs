@@ -62,9 +62,9 @@ fn lines(ledger: &mut Ledger) -> Result<(), CaseError> {
         let turning = scene(direction, direction, true, 2)?;
         let plan = seas::plan(&turning)?;
         let free = Followed::new(&plan)?;
-        let n = plan.points.len();
-        let event = &free.events()[1].slip;
-        let across = event[n..].iter().fold(0.0_f64, |l, v| l.max(v.abs())) / event[0].abs();
+        let slip = &free.events()[1].details.slip;
+        let [with, across] = [0, 1].map(|c| slip.component(c));
+        let across = across.iter().fold(0.0_f64, |l, v| l.max(v.abs())) / with[0].abs();
         ledger
             .claim(format!("onsets of two events drawn {name}, slip free to turn, against slip held along z: largest relative difference"))
             .value(apart(&free.onsets(), &held.onsets()))
@@ -112,14 +112,13 @@ fn turning(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Slip vectors of the events.
 fn vectors(ledger: &mut Ledger, plan: &Plan, found: &Followed, expected: &[Slid]) -> Result<(), CaseError> {
-    let n = plan.points.len();
     let area: f64 = plan.points.iter().map(|p| p.area).sum();
     let (mut slips, mut angles, mut rows) = (0.0_f64, 0.0_f64, Vec::new());
     for (k, (event, expected)) in found.events().iter().zip(expected).enumerate() {
         let size = expected.slip[0].hypot(expected.slip[1]);
         let angle = |x: f64, y: f64| y.atan2(x).to_degrees();
         let mean = |c: usize| {
-            let parts = event.slip[c * n..(c + 1) * n].iter().zip(&plan.points).map(|(s, p)| s * p.area);
+            let parts = event.details.slip.component(c).iter().zip(&plan.points).map(|(s, p)| s * p.area);
             parts.sum::<f64>() / area
         };
         let slip = [mean(0), mean(1)];
@@ -221,11 +220,12 @@ fn varied(ledger: &mut Ledger) -> Result<(), CaseError> {
     let n = plan.points.len();
     let (mut slips, mut least, mut most) = (0.0_f64, f64::INFINITY, 0.0_f64);
     for (event, expected) in found.events().iter().zip(&expected) {
-        let size = event.slip.iter().fold(0.0_f64, |l, v| l.max(v.abs()));
+        let size = event.details.slip.all().iter().fold(0.0_f64, |l, v| l.max(v.abs()));
         for p in 0..n {
-            let off = |c: usize| event.slip[c * n + p] - expected.slip[c * n + p];
+            let off = |c: usize| event.details.slip.component(c)[p] - expected.slip[c * n + p];
             slips = slips.max(off(0).hypot(off(1)) / size);
-            let angle = event.slip[n + p].atan2(event.slip[p]).to_degrees();
+            let angle =
+                event.details.slip.component(1)[p].atan2(event.details.slip.component(0)[p]).to_degrees();
             (least, most) = (least.min(angle), most.max(angle));
         }
     }

@@ -3,6 +3,7 @@
 use super::slider::{self, Kind, Set};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::slider::{self as cycles, Now};
+use asperity_driver::slider::Entry;
 use asperity_friction::Failure;
 use asperity_friction::component::Component;
 use asperity_friction::evolution::stateless::Stateless;
@@ -320,8 +321,8 @@ fn durations(ledger: &mut Ledger) -> Result<Row, CaseError> {
     slider::events(&mut plan, 10);
     let (run, cost) = Cost::of(|| slider::finish(&plan));
     let run = run?;
-    let events: Vec<_> = run.catalogue.of(0).collect();
-    let (third, tenth) = (events[2], events[9]);
+    let events = Entry::of(&run, 0);
+    let (third, tenth) = (&events[2], &events[9]);
     let (Some(a), Some(b)) = (third.duration, tenth.duration) else {
         return Err("an event has no end".into());
     };

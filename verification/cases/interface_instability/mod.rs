@@ -3,8 +3,10 @@
 use super::slider;
 use super::texts::{Done, attempt, simulate};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_cycles::slider::{self as cycles, Thresholds};
+use asperity_cycles::Thresholds;
+use asperity_cycles::slider::{self as cycles};
 use asperity_driver::report::{Outcome, Stop};
+use asperity_driver::slider::Entry;
 use asperity_friction::evolution::ageing::Ageing;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider};
@@ -171,7 +173,7 @@ fn by_slider(normal: f64, stiffness: f64) -> Result<f64, CaseError> {
     plan.most_events = Some(1);
     // Nothing ends what follows: the run fails once the limit has been passed.
     let run = cycles::run(&plan, &mut ())?;
-    Ok(run.catalogue.events.first().ok_or("the slider did not pass the limit")?.onset)
+    Ok(Entry::all(&run).first().ok_or("the slider did not pass the limit")?.onset)
 }
 
 /// Slip weakening on both sides of the rate of weakening.

@@ -3,8 +3,10 @@
 use super::slider::{self, Kind};
 use super::texts::{self, Done};
 use crate::{Capability, Case, CaseError, Evidence, Floor, Ledger, Plot, Series};
-use asperity_cycles::slider::{self as cycles, Now, Problem, Rows, Thresholds};
+use asperity_cycles::Thresholds;
+use asperity_cycles::slider::{self as cycles, Now, Problem, Rows};
 use asperity_driver::report::{Outcome, Stop};
+use asperity_driver::slider::Entry;
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding};
@@ -373,7 +375,7 @@ fn by_slider(kind: Kind, stiffness: f64) -> Result<f64, CaseError> {
     plan.most_events = Some(1);
     // Nothing ends what follows: the run fails once the limit has been passed.
     let run = cycles::run(&plan, &mut ())?;
-    Ok(run.catalogue.events.first().ok_or("the slider did not pass the limit")?.onset)
+    Ok(Entry::all(&run).first().ok_or("the slider did not pass the limit")?.onset)
 }
 
 /// Largest difference of friction from that of the slider over all points and steps under the law.

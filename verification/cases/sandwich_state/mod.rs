@@ -3,7 +3,7 @@
 use crate::cases::seas::{self, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
 use asperity_cycles::operator::Dense;
-use asperity_cycles::{Event, Loading, run as integrate};
+use asperity_cycles::{Event, Loading, Rupture, run as integrate};
 use asperity_driver::fault::Plan;
 use asperity_fem::table::Table;
 use asperity_vary::SceneText;
@@ -92,9 +92,9 @@ fn stick_slip(ledger: &mut Ledger, size: f64, elements: u64) -> Result<(), CaseE
     let mut at_onset: Vec<f64> = Vec::new();
     let mut open = false;
     let found = seas::found(&plan, &plan.problem.settings, |now| {
-        let begins = now.catalogue.under_way().is_some();
+        let begins = now.under_way().is_some();
         if begins && !open {
-            at_onset.push(mean(&plan, now.slip()));
+            at_onset.push(mean(&plan, now.slip().component(0)));
         }
         open = begins;
     })?;
@@ -134,8 +134,8 @@ fn budget(ledger: &mut Ledger, what: &str, found: &Found, at_onset: &[f64]) {
 
 /// Each event begins at an end, crosses the face, and lets the force fall.
 fn rupture(ledger: &mut Ledger, what: &str, plan: &Plan, found: &Found) {
-    let from_end = |e: &Event| {
-        let y = plan.points[e.hypocentre].at[1];
+    let from_end = |e: &Event<Rupture>| {
+        let y = plan.points[e.details.hypocentre].at[1];
         y.min(FACE - y)
     };
     let farthest = found.events.iter().map(from_end).fold(0.0, f64::max);
@@ -149,8 +149,8 @@ fn rupture(ledger: &mut Ledger, what: &str, plan: &Plan, found: &Found) {
         .covers(&[Capability::Events])
         .cost(&found.cost)
         .record();
-    let share = |e: &Event| {
-        let slip: Vec<f64> = e.slip.iter().map(|s| s.abs()).collect();
+    let share = |e: &Event<Rupture>| {
+        let slip: Vec<f64> = e.details.slip.component(0).iter().map(|s| s.abs()).collect();
         slip.iter().fold(f64::INFINITY, |m, &s| m.min(s)) / mean(plan, &slip)
     };
     let least = found.events.iter().map(share).fold(f64::INFINITY, f64::min);
@@ -166,10 +166,20 @@ fn rupture(ledger: &mut Ledger, what: &str, plan: &Plan, found: &Found) {
         .covers(&[Capability::Events])
         .cost(&found.cost)
         .record();
-    let drop =
-        |e: &Event| mean(plan, &e.drop.iter().zip(&e.slip).map(|(d, s)| d * s.signum()).collect::<Vec<_>>());
+    let drop = |e: &Event<Rupture>| {
+        mean(
+            plan,
+            &e.details
+                .drop
+                .component(0)
+                .iter()
+                .zip(e.details.slip.component(0))
+                .map(|(d, s)| d * s.signum())
+                .collect::<Vec<_>>(),
+        )
+    };
     let drops: Vec<f64> = found.events[1..].iter().map(drop).collect();
-    let slip = mean(plan, &found.events[1].slip).abs();
+    let slip = mean(plan, found.events[1].details.slip.component(0)).abs();
     let worst = drops.iter().fold(f64::INFINITY, |m, &d| m.min(d));
     ledger
         .claim(format!(
@@ -196,7 +206,7 @@ fn one_slider(ledger: &mut Ledger) -> Result<(), CaseError> {
     let found = seas::found(&plan, &plan.problem.settings, |now| {
         // The first step after the passing of 1 mm/s.
         if now.largest >= 1e-3 && last < 1e-3 {
-            let slowest = now.rate.iter().fold(f64::INFINITY, |m, v| m.min(v.abs()));
+            let slowest = now.rate.all().iter().fold(f64::INFINITY, |m, v| m.min(v.abs()));
             uniform = uniform.min(slowest / now.largest);
         }
         last = now.largest;
@@ -253,5 +263,5 @@ fn slider(plan: &mut Plan) -> Result<Vec<f64>, CaseError> {
     plan.problem.fault.operator = Box::new(operator);
     let (fault, start) = (&plan.problem.fault, plan.problem.start.clone());
     let out = integrate(fault, &loading, start, &plan.problem.settings, &mut ())?;
-    Ok(out.catalogue.events().iter().map(|e| e.onset.seconds()).collect())
+    Ok(out.events().iter().map(|e| e.onset.seconds()).collect())
 }

@@ -67,11 +67,11 @@ impl Balance {
     }
 
     fn look(&mut self, plan: &Plan, now: &Moment<'_>) {
-        plan.problem.fault.operator.shear(now.slip(), &mut self.exerted);
+        plan.problem.fault.operator.shear(now.slip().all(), &mut self.exerted);
         for p in 0..self.first.len() {
             let driving = self.first[p] + self.exerted[p] + self.load[p] * now.at.seconds();
-            let resisting =
-                Self::strength(plan, p, now.unknowns[p]) + plan.problem.fault.damping[p] * now.rate[p];
+            let resisting = Self::strength(plan, p, now.unknowns[p])
+                + plan.problem.fault.damping[p] * now.rate.component(0)[p];
             self.worst = self.worst.max((driving - resisting).abs() / plan.problem.fault.normal[p]);
         }
     }
@@ -159,7 +159,7 @@ fn later_events(ledger: &mut Ledger, found: &Found) {
     ledger
         .claim("time of the third event above 1 mm/s, cells of 78 m")
         .unit("s")
-        .value(last.above)
+        .value(last.details.above)
         .equals(131.0)
         .relative(0.03)
         .uncertainty(0.5)

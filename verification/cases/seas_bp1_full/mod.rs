@@ -148,7 +148,7 @@ pub fn cycle(ledger: &mut Ledger, size: f64, share: f64, found: &Found) {
     ledger
         .claim(format!("duration of the last event (V > 1 mm/s), cells of {size} m"))
         .unit("s")
-        .value(last.end.since(&last.onset))
+        .value(last.duration().unwrap_or(f64::NAN))
         .equals(131.0)
         .relative(0.03)
         .uncertainty(0.5)

@@ -107,7 +107,7 @@ fn setting(plan: &Plan, method: Method, tolerance: f64) -> Result<Result<Setting
     if let Outcome::Failed { reason } = out.outcome {
         return Ok(Err(reason.to_string()));
     }
-    let events = out.catalogue.events();
+    let events = out.events();
     Ok(match events.get(EVENTS - 1) {
         None => Err(format!("{} events instead of {EVENTS}", events.len())),
         Some(last) => Ok(Setting {

@@ -2,7 +2,7 @@
 
 use crate::cases::seas::{self, Found, YEAR};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
-use asperity_cycles::Event;
+use asperity_cycles::{Event, Rupture};
 use asperity_driver::fault::Plan;
 
 /// See the README.
@@ -21,7 +21,8 @@ const LARGE: f64 = 0.3;
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let plan = seas::plan(include_str!("../../../scenes/bp2.toml"))?;
     let found = seas::found(&plan, &plan.problem.settings, |_| {})?;
-    let large: Vec<bool> = found.events.iter().map(|e| e.slip[0].abs() > LARGE).collect();
+    let large: Vec<bool> =
+        found.events.iter().map(|e| e.details.slip.component(0)[0].abs() > LARGE).collect();
     let settled = &large[1..];
     let in_turn = settled.windows(2).filter(|w| w[0] != w[1]).count();
     ledger
@@ -56,7 +57,9 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Small events have at most half the slip of large ones.
 fn smaller(ledger: &mut Ledger, plan: &Plan, found: &Found, large: &[bool]) {
-    let potency = |e: &Event| plan.points.iter().zip(&e.slip).map(|(p, s)| p.area * s.abs()).sum::<f64>();
+    let potency = |e: &Event<Rupture>| {
+        plan.points.iter().zip(e.details.slip.component(0)).map(|(p, s)| p.area * s.abs()).sum::<f64>()
+    };
     let of = |kind: bool| {
         found.events.iter().zip(large).skip(1).filter(move |(_, l)| **l == kind).map(|(e, _)| potency(e))
     };

@@ -92,9 +92,9 @@ fn seen(plan: &Plan, share: f64) -> Result<Seen, CaseError> {
     let found = seas::found(plan, &plan.problem.settings, |now| {
         out.peak = out.peak.max(now.largest);
         if now.at.seconds() <= OFF {
-            out.slip[0] = now.slip().to_vec();
+            out.slip[0] = now.slip().all().to_vec();
         }
-        out.slip[1] = now.slip().to_vec();
+        out.slip[1] = now.slip().all().to_vec();
         out.imbalance = out.imbalance.max(imbalance(plan, now, &mut exerted));
         let time = now.at.seconds();
         for p in 0..plan.points.len() {
@@ -113,10 +113,11 @@ fn seen(plan: &Plan, share: f64) -> Result<Seen, CaseError> {
 
 /// Largest difference of what the bodies exert and what friction and damping resist, over the normal traction at the start.
 fn imbalance(plan: &Plan, now: &Moment<'_>, exerted: &mut [f64]) -> f64 {
-    plan.problem.fault.operator.shear(now.slip(), exerted);
+    plan.problem.fault.operator.shear(now.slip().all(), exerted);
     let of = |p: usize| {
         let strength = now.normal(p) * plan.problem.fault.law.scale(p) * now.unknowns[p];
-        (SHEAR + exerted[p] - strength - plan.problem.fault.damping[p] * now.rate[p]).abs() / NORMAL
+        (SHEAR + exerted[p] - strength - plan.problem.fault.damping[p] * now.rate.component(0)[p]).abs()
+            / NORMAL
     };
     (0..exerted.len()).map(of).fold(0.0, f64::max)
 }

@@ -3,8 +3,8 @@
 use super::slider::{self, Kind, Set};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::Energy;
-use asperity_cycles::slider::{Now, Problem, Run, run as integrate};
-use asperity_driver::slider::Report;
+use asperity_cycles::slider::{Now, Problem, SliderRun, run as integrate};
+use asperity_driver::slider::{Entry, Report};
 use asperity_ode::Outcome;
 
 /// See the README.
@@ -35,13 +35,13 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 }
 
 /// Runs a problem under observation.
-fn observed(problem: &Problem) -> Result<(Run, Energy, Cost), CaseError> {
+fn observed(problem: &Problem) -> Result<(SliderRun, Energy, Cost), CaseError> {
     let (run, cost) = Cost::of(|| integrate(problem, &mut |_: &Now<'_>| ()));
     let run = run?;
     if let Outcome::Failed { reason } = &run.outcome {
         return Err(format!("failed at {:e} s: {reason}", run.at.seconds()).into());
     }
-    let energy = run.budget.ok_or("a run that was observed has no energy budget")?.energy();
+    let energy = run.progress.budget.ok_or("a run that was observed has no energy budget")?.energy();
     let cost = cost.counts(&Report::new(problem, &run).counts);
     Ok((run, energy, cost))
 }
@@ -55,7 +55,7 @@ fn closes(ledger: &mut Ledger, name: &str, set: &Set, kind: Kind) -> Result<(), 
         claim(ledger, &format!("{name}, {EVENTS} events"), set, tolerance, (&run, energy, &cost));
         if set.mass.is_some() {
             // The kinetic energy is gone at the end of an event, and largest in its middle.
-            let first = run.catalogue.events.first().ok_or("no event")?;
+            let first = Entry::all(&run).into_iter().next().ok_or("no event")?;
             let until = first.onset + 0.5 * first.duration.ok_or("the event has no end")?;
             let (run, energy, cost) = observed(&Problem { end: until, most_events: None, ..problem })?;
             claim(ledger, &format!("{name}, amid an event"), set, tolerance, (&run, energy, &cost));
@@ -69,7 +69,7 @@ fn claim(
     name: &str,
     set: &Set,
     tolerance: f64,
-    (run, energy, cost): (&Run, Energy, &Cost),
+    (run, energy, cost): (&SliderRun, Energy, &Cost),
 ) {
     let steps = run.counts.steps as f64;
     ledger

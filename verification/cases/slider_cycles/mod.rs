@@ -2,8 +2,8 @@
 
 use super::slider::{self, Independent, Kind, Set};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_cycles::slider::{self as cycles, Event, Now};
-use asperity_driver::slider::Report;
+use asperity_cycles::slider::{self as cycles, Now};
+use asperity_driver::slider::{Entry, Report};
 use asperity_ode::Method;
 
 /// See the README.
@@ -43,14 +43,14 @@ fn cycle(
     method: Method,
     tolerance: f64,
     number: usize,
-) -> Result<(Vec<Event>, Cost), CaseError> {
+) -> Result<(Vec<Entry>, Cost), CaseError> {
     let mut plan = set.plan(kind, 1.5, 1e12)?;
     slider::events(&mut plan, number);
     (plan.method, plan.tolerance) = (method, tolerance);
     let (run, cost) = Cost::of(|| slider::finish(&plan));
     let run = run?;
     let cost = cost.counts(&Report::new(&plan, &run).counts);
-    Ok((run.catalogue.events, cost))
+    Ok((Entry::all(&run), cost))
 }
 
 fn against_references(
@@ -183,7 +183,7 @@ fn picture(ledger: &mut Ledger) -> Result<(), CaseError> {
         let mut curve = Vec::new();
         let mut look = |now: &Now<'_>| curve.push((now.at.seconds(), now.conditions[0].rate));
         let run = cycles::run(&plan, &mut look)?;
-        let recurrence = run.catalogue.events.last().and_then(|e| e.interval).ok_or("no recurrence")?;
+        let recurrence = Entry::all(&run).last().and_then(|e| e.interval).ok_or("no recurrence")?;
         let scaled: Vec<(f64, f64)> = curve.iter().map(|(t, v)| (t / recurrence, *v)).collect();
         plot = plot.series(Series::line(name, &scaled));
     }

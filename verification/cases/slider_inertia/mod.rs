@@ -2,7 +2,8 @@
 
 use super::slider::{MU0, V_REF, plan, work};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::slider::{self as cycles, Event, Problem};
+use asperity_cycles::slider::{self as cycles, Problem};
+use asperity_driver::slider::Entry;
 use asperity_friction::evolution::{ageing::Ageing, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding};
@@ -108,7 +109,7 @@ impl Set {
 }
 
 /// Events of a run that came to its end, and what it took.
-fn events(set: &Set, method: Method, tolerance: f64) -> Result<Option<(Vec<Event>, Counts)>, CaseError> {
+fn events(set: &Set, method: Method, tolerance: f64) -> Result<Option<(Vec<Entry>, Counts)>, CaseError> {
     events_within(set, method, tolerance, MOST_STEPS)
 }
 
@@ -118,14 +119,14 @@ fn events_within(
     method: Method,
     tolerance: f64,
     most_steps: usize,
-) -> Result<Option<(Vec<Event>, Counts)>, CaseError> {
+) -> Result<Option<(Vec<Entry>, Counts)>, CaseError> {
     let run = cycles::run(&set.plan(method, tolerance, most_steps)?, &mut ())?;
-    let events: Vec<Event> = run.catalogue.of(0).cloned().collect();
+    let events: Vec<Entry> = Entry::of(&run, 0);
     let whole = !matches!(run.outcome, Outcome::Failed { .. }) && events.len() == EVENTS;
     Ok(whole.then_some((events, run.counts)))
 }
 
-fn last_interval(events: &[Event]) -> f64 {
+fn last_interval(events: &[Entry]) -> f64 {
     events.last().and_then(|e| e.interval).unwrap_or(f64::NAN)
 }
 

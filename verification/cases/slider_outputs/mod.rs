@@ -3,7 +3,7 @@
 use super::slider::{self, Independent, MU0, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::slider::{self as cycles, Problem};
-use asperity_driver::slider::{Histories, Plan, csv};
+use asperity_driver::slider::{Entry, Histories, Plan, csv};
 use asperity_driver::slider_planner;
 use asperity_ode::Outcome;
 use std::path::PathBuf;
@@ -86,7 +86,7 @@ fn files(name: &str, plan: &Problem) -> Result<[Vec<Vec<f64>>; 2], CaseError> {
     }
     histories.finish()?;
     let history = std::fs::read_to_string(folder.0.join("history/block.csv"))?;
-    Ok([table(&history, 0), table(&csv(&run.catalogue.events, &plan.names), 1)])
+    Ok([table(&history, 0), table(&csv(&Entry::all(&run), &plan.names), 1)])
 }
 
 /// mu of the regularised form.

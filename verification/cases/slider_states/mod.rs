@@ -3,7 +3,7 @@
 use super::slider::{self, Independent, Kind, MU0, Set, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_cycles::slider::Problem;
-use asperity_driver::slider::Report;
+use asperity_driver::slider::{Entry, Report};
 use asperity_friction::component::Component;
 use asperity_friction::evolution::slip::Slip;
 use asperity_friction::rate::RateLaw;
@@ -65,7 +65,7 @@ fn two_states(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseEr
     let (run, cost) = Cost::of(|| slider::finish(&plan));
     let run = run?;
     let cost = cost.counts(&Report::new(&plan, &run).counts);
-    let found: Vec<f64> = run.catalogue.events.iter().map(|e| e.onset).collect();
+    let found: Vec<f64> = Entry::all(&run).iter().map(|e| e.onset).collect();
     times(ledger, "slip law with two states", &found, &expected, &[Capability::SeveralStates], &cost);
     Ok(())
 }
@@ -132,7 +132,7 @@ fn coupled(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError
     let run = run?;
     let cost = cost.counts(&Report::new(&plan, &run).counts);
     for (i, expected) in expected.iter().enumerate() {
-        let found: Vec<f64> = run.catalogue.of(i).map(|e| e.onset).collect();
+        let found: Vec<f64> = Entry::of(&run, i).into_iter().map(|e| e.onset).collect();
         let title = format!("two coupled sliders, slider {}", i + 1);
         times(ledger, &title, &found, expected, &[Capability::CoupledSliders], &cost);
     }
@@ -148,13 +148,13 @@ fn twins(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut single = Set { stiffness: 0.8e9, ..slider::MILD }.plan(Kind::Slip, 1.5, 1e6)?;
     slider::events(&mut single, 4);
     let alone = slider::finish(&single)?;
-    let pairs = both.catalogue.of(0).zip(both.catalogue.of(1)).zip(alone.catalogue.of(0));
+    let pairs = Entry::of(&both, 0).into_iter().zip(Entry::of(&both, 1)).zip(Entry::of(&alone, 0));
     let error = pairs
         .map(|((a, b), one)| (a.onset / one.onset - 1.0).abs().max((b.onset / one.onset - 1.0).abs()))
         .fold(0.0, f64::max);
     ledger
         .claim("two equal sliders against one: times of four events")
-        .value(if both.catalogue.of(1).count() == 4 { error } else { f64::NAN })
+        .value(if Entry::of(&both, 1).len() == 4 { error } else { f64::NAN })
         .at_most(1e-10)
         .evidence(Evidence::Exact, "the coupling of equal sliders carries no traction")
         .because(

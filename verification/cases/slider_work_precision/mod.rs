@@ -2,8 +2,8 @@
 
 use super::slider::{self, Kind, Set};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_cycles::slider::{self as cycles, Event, Problem};
-use asperity_driver::slider::Report;
+use asperity_cycles::slider::{self as cycles, Problem};
+use asperity_driver::slider::{Entry, Report};
 use asperity_ode::{Method, Outcome};
 use std::time::Instant;
 
@@ -61,14 +61,14 @@ fn plan(set: &Set, kind: Kind, events: usize, method: Method, tolerance: f64) ->
 }
 
 /// Runs a setting: its last event and the recurrence, or why it failed.
-fn setting(plan: &Problem, events: usize) -> Result<Result<(Event, f64, f64), String>, CaseError> {
+fn setting(plan: &Problem, events: usize) -> Result<Result<(Entry, f64, f64), String>, CaseError> {
     let clock = Instant::now();
     let run = cycles::run(plan, &mut ())?;
     let wall = clock.elapsed().as_secs_f64();
     if let Outcome::Failed { reason } = run.outcome {
         return Ok(Err(reason.to_string()));
     }
-    let found: Vec<&Event> = run.catalogue.of(0).collect();
+    let found: Vec<Entry> = Entry::of(&run, 0);
     Ok(match found.get(events - 1) {
         Some(event) => Ok(((*event).clone(), wall, slider::work(&run.counts, plan.start.len()))),
         None => Err(format!("{} events instead of {events}", found.len())),
@@ -85,7 +85,7 @@ fn cycle(
     let (method, tolerance) = slider::method(set);
     let reference = plan(set, kind, events, method, tolerance)?;
     let reference = slider::finish(&Problem { most_steps: cycles::MOST_STEPS, ..reference })?;
-    let last = reference.catalogue.of(0).last().ok_or("no event")?.clone();
+    let last = Entry::of(&reference, 0).pop().ok_or("no event")?;
     let recurrence = last.interval.ok_or("one event only")?;
     let mut curves = Vec::new();
     for method in Method::ALL {
@@ -219,7 +219,9 @@ fn defaults(ledger: &mut Ledger) -> Result<(), CaseError> {
         let (run, cost) = Cost::of(|| slider::finish(&loose));
         let run = run?;
         let cost = cost.counts(&Report::new(&loose, &run).counts);
-        let (Some(a), Some(b)) = (run.catalogue.of(0).nth(3), reference.catalogue.of(0).nth(3)) else {
+        let (Some(a), Some(b)) =
+            (Entry::of(&run, 0).into_iter().nth(3), Entry::of(&reference, 0).into_iter().nth(3))
+        else {
             return Err(format!("{name}: less than four events").into());
         };
         let recurrence = b.interval.ok_or("one event only")?;

@@ -3,17 +3,17 @@
 //! The equations are those of [`asperity_friction::slider`]; the integrator is [`asperity_ode`].
 
 mod budget;
-mod catalogue;
 mod equations;
 mod problem;
 mod rows;
 mod run;
+mod slide;
 pub mod stability;
 
 pub use budget::Budget;
-pub use catalogue::{Catalogue, Edge, Event};
 pub(crate) use equations::Piece;
-pub use problem::{DEFAULT_METHOD, DEFAULT_TOLERANCE, MOST_STEPS, Problem, RESTART, Thresholds};
+pub use problem::{DEFAULT_METHOD, DEFAULT_TOLERANCE, MOST_STEPS, Problem, RESTART};
 pub use rows::{DEFAULT_CHANGE, Rows};
-pub use run::{Now, Run, Sliders, resume, run};
+pub use run::{Now, SliderRun, Sliders, resume, run};
+pub use slide::{Edge, Slide};
 pub use stability::{Stability, critical_stiffness};

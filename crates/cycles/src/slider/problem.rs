@@ -1,10 +1,9 @@
 //! The problem to integrate and its settings.
 
 use super::rows::Rows;
+use crate::catalogue::Thresholds;
 use asperity_friction::slider::System;
 use asperity_ode::{Method, Options};
-use schemars::JsonSchema;
-use serde::Serialize;
 
 /// Method of scenes that name none: in the cycles of the case `slider_work_precision` no other needs fewer right-hand sides by
 /// more than what the case can tell, and explicit methods alone need many times more where inertia or a soft spring makes the
@@ -25,15 +24,6 @@ pub const MOST_STEPS: usize = 20_000_000;
 /// Accepted steps after which the integration restarts, which is where it can be interrupted. Methods with a memory lose some twenty steps
 /// by that.
 pub const RESTART: u64 = 4096;
-
-/// Slip rates that begin and end an event.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Thresholds {
-    /// Slip rate above which an event begins \[m/s\].
-    pub on: f64,
-    /// Slip rate below which it ends, lower, so that an event is not counted twice \[m/s\].
-    pub off: f64,
-}
 
 /// The problem to integrate.
 #[derive(Clone, Debug)]

@@ -4,15 +4,16 @@
 //! resumed there takes the same steps, bit for bit, as one that was never interrupted.
 
 use super::budget::Budget;
-use super::catalogue::{Catalogue, Edge};
 use super::equations::{EventKind, Piece, kinds};
 use super::problem::Problem;
 use super::rows::Due;
+use super::slide::{self, Detectors, Edge, Slide};
 use crate::error::RunError;
 use crate::medium::{Slips, Travelled};
+use crate::run::{NextStep, Run};
 use asperity_friction::slider::{Condition, Slider};
 use asperity_ode::{
-    Clock, Control, Counts, Failure, Kind, Method, ObserveError, Observer, Occurrence, Outcome, Sink, Step,
+    Clock, Control, Failure, Kind, Method, ObserveError, Observer, Occurrence, Outcome, Sink, Step,
 };
 use serde::{Deserialize, Serialize};
 
@@ -46,7 +47,7 @@ pub struct Sliders;
 impl Kind for Sliders {
     type Setup = Problem;
     type Moment<'a> = Now<'a>;
-    type Stand = Run;
+    type Stand = SliderRun;
 }
 
 /// A step is halved so often at most: a slider that passes rest changes ln V without bound.
@@ -62,29 +63,18 @@ const MOST_UNRESOLVED: u32 = 10;
 /// Friction over a at which a slider has none left, and V is what it is at rest; the steps would go on to shrink towards zero.
 const SPENT: f64 = 1e-3;
 
-/// Results of a run, or its results so far: where it restarts this is all there is to know to resume it.
+/// Progress of a run of spring-sliders.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Run {
-    /// Outcome.
-    #[serde(skip, default = "completed")]
-    pub outcome: Outcome,
-    /// Time.
-    pub at: Clock,
-    /// Unknowns then.
-    pub unknowns: Vec<f64>,
-    /// Events.
-    pub catalogue: Catalogue,
-    /// Work.
-    pub counts: Counts,
+pub struct Progress {
     /// Energy budget; none of a run that nobody watched.
     pub budget: Option<Budget>,
     /// Reason why a run that failed may have failed, in terms of the scene.
     #[serde(skip)]
     pub hint: Option<String>,
+    /// Detection of events.
+    detectors: Detectors,
     /// Breaks of the prescribed histories it has passed.
     passed: usize,
-    /// The step to try next, where it restarts between two breaks.
-    next_step: Option<NextStep>,
     travelled: Travelled,
     /// Times of rows still to come.
     due: Due,
@@ -92,64 +82,54 @@ pub struct Run {
     unresolved: u32,
 }
 
-/// The step to try next.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct NextStep {
-    /// Its length \[s\]; chosen from the rates where absent.
-    length: Option<f64>,
-    /// True where a pair of methods takes it with the one for stiff equations.
-    stiff: bool,
-}
+/// A run of spring-sliders; each slider is a source of events.
+pub type SliderRun = Run<Slide, Progress>;
 
-impl Run {
+impl SliderRun {
     /// A run that begins at time 0.
     #[must_use]
     pub fn new(problem: &Problem) -> Self {
         let sliders = problem.names.len();
-        Self {
-            outcome: completed(),
-            at: Clock::new(0.0, 0.0),
-            unknowns: problem.start.clone(),
-            catalogue: Catalogue::new(sliders),
-            counts: Counts::default(),
+        let progress = Progress {
             budget: None,
             hint: None,
+            detectors: Detectors::new(sliders),
             passed: 0,
-            next_step: None,
             travelled: Travelled::nowhere(sliders),
             due: Due::default(),
             unresolved: 0,
-        }
+        };
+        Self::begin(problem.start.clone(), sliders, progress)
     }
-}
-
-fn completed() -> Outcome {
-    Outcome::Completed
 }
 
 /// Runs a problem. An integration that fails is no error: the outcome says so, and all found until then stands.
 ///
 /// # Errors
 /// [`RunError`].
-pub fn run(problem: &Problem, observer: &mut dyn Observer<Sliders>) -> Result<Run, RunError> {
-    resume(problem, Run::new(problem), observer)
+pub fn run(problem: &Problem, observer: &mut dyn Observer<Sliders>) -> Result<SliderRun, RunError> {
+    resume(problem, SliderRun::new(problem), observer)
 }
 
 /// Resumes a run, see [`Observer::pause`].
 ///
 /// # Errors
 /// [`RunError`].
-pub fn resume(problem: &Problem, run: Run, observer: &mut dyn Observer<Sliders>) -> Result<Run, RunError> {
+pub fn resume(
+    problem: &Problem,
+    run: SliderRun,
+    observer: &mut dyn Observer<Sliders>,
+) -> Result<SliderRun, RunError> {
     observer.begin(problem)?;
     let kinds = kinds(problem);
-    let mut slips = Slips::new(problem, run.travelled.clone())?;
+    let mut slips = Slips::new(problem, run.progress.travelled.clone())?;
     let mut breaks = vec![0.0];
     breaks.extend(problem.system.breaks(0.0, problem.end));
     breaks.push(problem.end);
     let piece = |k: usize| Piece::new(problem, 0.5 * (breaks[k] + breaks[k + 1]), &kinds);
     let mut state = Following::new(problem, observer, run);
-    while state.run.passed + 1 < breaks.len() {
-        let k = state.run.passed;
+    while state.run.progress.passed + 1 < breaks.len() {
+        let k = state.run.progress.passed;
         let present = piece(k);
         if state.run.next_step.is_none() {
             if k > 0 {
@@ -158,14 +138,14 @@ pub fn resume(problem: &Problem, run: Run, observer: &mut dyn Observer<Sliders>)
                 problem.system.jump(breaks[k], &before.segment, &present.segment, unknowns)?;
             }
             slips.enter(state.run.at);
-            state.run.travelled = slips.travelled().clone();
+            state.run.progress.travelled = slips.travelled().clone();
         }
         if !state.through(&present, &slips, breaks[k + 1]) {
-            state.run.hint = why(problem, &present, &state.run);
+            state.run.progress.hint = why(problem, &present, &state.run);
             break;
         }
         slips.leave(&present, state.run.at);
-        (state.run.passed, state.run.travelled) = (k + 1, slips.travelled().clone());
+        (state.run.progress.passed, state.run.progress.travelled) = (k + 1, slips.travelled().clone());
         if k + 2 < breaks.len() && !state.pauses() {
             break;
         }
@@ -177,7 +157,7 @@ pub fn resume(problem: &Problem, run: Run, observer: &mut dyn Observer<Sliders>)
 }
 
 /// Reason why a run that failed may have failed, in terms of the scene.
-fn why(problem: &Problem, piece: &Piece<'_>, run: &Run) -> Option<String> {
+fn why(problem: &Problem, piece: &Piece<'_>, run: &SliderRun) -> Option<String> {
     match run.outcome {
         // Other failures say themselves what is wrong.
         Outcome::Failed { reason: Failure::StepTooSmall { .. } | Failure::Ends } => {
@@ -186,17 +166,6 @@ fn why(problem: &Problem, piece: &Piece<'_>, run: &Run) -> Option<String> {
         Outcome::Failed { reason: Failure::TooManySteps { most } } => restarts(problem, most),
         _ => None,
     }
-}
-
-fn add(sum: &mut Counts, part: &Counts) {
-    sum.steps += part.steps;
-    sum.rejected += part.rejected;
-    sum.rates += part.rates;
-    sum.jacobians += part.jacobians;
-    sum.factorisations += part.factorisations;
-    sum.solves += part.solves;
-    sum.newton_failures += part.newton_failures;
-    sum.restarts += part.restarts;
 }
 
 /// The first slider that nothing keeps from running away, and that is faster than the load point, with its slip rate.
@@ -246,7 +215,7 @@ fn restarts(problem: &Problem, most: usize) -> Option<String> {
 struct Following<'a> {
     problem: &'a Problem,
     observer: &'a mut dyn Observer<Sliders>,
-    run: Run,
+    run: SliderRun,
     failure: Option<ObserveError>,
     /// True if the observer ends the run.
     ended: bool,
@@ -257,7 +226,7 @@ struct Following<'a> {
 }
 
 impl<'a> Following<'a> {
-    fn new(problem: &'a Problem, observer: &'a mut dyn Observer<Sliders>, run: Run) -> Self {
+    fn new(problem: &'a Problem, observer: &'a mut dyn Observer<Sliders>, run: SliderRun) -> Self {
         Self { problem, observer, run, failure: None, ended: false, steps: 0, senseless: None }
     }
 
@@ -287,7 +256,7 @@ impl<'a> Following<'a> {
             let paused = sink.paused;
             (self.run.at, self.run.unknowns, self.run.outcome) =
                 (finished.at, finished.state, finished.outcome);
-            add(&mut self.run.counts, &finished.counts);
+            self.run.counts += finished.counts;
             if let Some(reason) = self.senseless.take() {
                 self.run.outcome = Outcome::Failed { reason };
             }
@@ -322,7 +291,7 @@ impl<'a> Following<'a> {
     /// True if all events asked for are over.
     fn enough(&self) -> bool {
         // The last event counts when it is over, so that its peak and slip are known.
-        self.problem.most_events.is_some_and(|n| self.run.catalogue.over(0) >= n)
+        self.problem.most_events.is_some_and(|n| self.run.catalogue.ended(0).len() >= n)
     }
 }
 
@@ -338,7 +307,7 @@ struct Running<'a, 'b> {
 impl Running<'_, '_> {
     /// Shows the first state, and that after a jump.
     fn begin(&mut self, at: Clock, unknowns: &[f64]) {
-        let asked = self.state.run.due.next(&self.state.problem.output, at.seconds()).is_some();
+        let asked = self.state.run.progress.due.next(&self.state.problem.output, at.seconds()).is_some();
         self.show(at, 0.0, unknowns, asked);
         self.sees(at, unknowns);
         let Some(thresholds) = self.state.problem.events else { return };
@@ -347,9 +316,9 @@ impl Running<'_, '_> {
         for (i, c) in conditions.iter().enumerate() {
             // A run that begins within an event, or a jump into one.
             if c.rate.abs() > thresholds.on {
-                self.state.run.catalogue.begins(i, at, c.rate, self.edge(i, unknowns, c, slip[i]));
+                self.begins(i, at, c.rate, self.edge(i, unknowns, c, slip[i]));
             } else if c.rate.abs() < thresholds.off {
-                self.state.run.catalogue.ends(i, at, self.edge(i, unknowns, c, slip[i]));
+                self.ends(i, at, self.edge(i, unknowns, c, slip[i]));
             }
         }
     }
@@ -413,7 +382,7 @@ impl Running<'_, '_> {
     fn asked(&mut self, step: &Step<'_>, samples: &mut Vec<Sample>) -> bool {
         let problem = self.state.problem;
         let (end, mut ends_asked) = (step.end.seconds(), false);
-        while let Some(time) = self.state.run.due.next(&problem.output, end) {
+        while let Some(time) = self.state.run.progress.due.next(&problem.output, end) {
             let at = Clock::new(time, 0.0);
             let fraction = at.since(&step.start) / step.length();
             if time == end || fraction >= 1.0 {
@@ -469,17 +438,33 @@ impl Running<'_, '_> {
         let length = step.length();
         let short = length < UNRESOLVED * step.end.seconds().abs();
         if !short || running(self.piece, step.end, step.state).is_none() {
-            self.state.run.unresolved = 0;
+            self.state.run.progress.unresolved = 0;
             return false;
         }
-        self.state.run.unresolved += 1;
-        self.state.run.unresolved == MOST_UNRESOLVED
+        self.state.run.progress.unresolved += 1;
+        self.state.run.progress.unresolved == MOST_UNRESOLVED
+    }
+
+    fn begins(&mut self, slider: usize, at: Clock, rate: f64, edge: Edge) {
+        let run = &mut self.state.run;
+        run.progress.detectors.begin(&mut run.catalogue, slider, (at, rate), edge);
+    }
+
+    fn ends(&mut self, slider: usize, at: Clock, edge: Edge) {
+        if let Some(event) = self.state.run.catalogue.open(slider) {
+            slide::end(event, at, edge);
+        }
+    }
+
+    fn see(&mut self, slider: usize, rate: f64) {
+        let run = &mut self.state.run;
+        run.progress.detectors.see(&mut run.catalogue, slider, rate);
     }
 
     /// Tells the catalogue of the slip rates at the end of a step.
     fn sees(&mut self, at: Clock, unknowns: &[f64]) {
         for i in 0..self.state.problem.names.len() {
-            self.state.run.catalogue.sees(i, self.piece.segment.slip(i, at.seconds(), unknowns).0.rate);
+            self.see(i, self.piece.segment.slip(i, at.seconds(), unknowns).0.rate);
         }
     }
 }
@@ -510,7 +495,7 @@ impl Sink for Running<'_, '_> {
         self.show(step.end, step.length(), step.state, asked);
         self.sees(step.end, step.state);
         if self.state.observer.watches() {
-            self.state.run.budget.get_or_insert_default().advance(self.piece, self.slips, step);
+            self.state.run.progress.budget.get_or_insert_default().advance(self.piece, self.slips, step);
         }
         if self.runs_away(step) {
             self.state.senseless = Some(Failure::StepTooSmall { length: step.length() });
@@ -536,12 +521,12 @@ impl Sink for Running<'_, '_> {
             let slip = self.slips.slip(self.piece, o.at, load, &conditions);
             let edge = self.edge(i, &o.state, &conditions[i], slip[i]);
             match (kind, o.rising) {
-                (EventKind::On(..), true) => self.state.run.catalogue.begins(i, o.at, rate, edge),
-                (EventKind::Off(..), false) => self.state.run.catalogue.ends(i, o.at, edge),
+                (EventKind::On(..), true) => self.begins(i, o.at, rate, edge),
+                (EventKind::Off(..), false) => self.ends(i, o.at, edge),
                 _ => {}
             }
         }
-        self.state.run.catalogue.sees(i, rate);
+        self.see(i, rate);
         if let Err(failure) = self.state.observer.event(i) {
             self.state.failure.get_or_insert(failure);
         }

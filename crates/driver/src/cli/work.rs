@@ -180,7 +180,7 @@ fn slider_keeper(
     directory: &Directory,
     drawn: bool,
     (resume, pauses): (bool, Pauses),
-) -> miette::Result<(slider::Keeper, asperity_cycles::slider::Run)> {
+) -> miette::Result<(slider::Keeper, asperity_cycles::slider::SliderRun)> {
     let (path, problem, physics) = (directory.path(), &plan.problem, &ready.physics);
     if resume {
         match slider::Keeper::resume(path, problem, physics, pauses.clone()).into_diagnostic()? {
@@ -238,7 +238,7 @@ fn keeper<'a>(
     directory: &Directory,
     resume: bool,
     pauses: Pauses,
-) -> miette::Result<(fault::Keeper<'a>, asperity_cycles::Run)> {
+) -> miette::Result<(fault::Keeper<'a>, asperity_cycles::FaultRun)> {
     let (path, physics) = (directory.path(), &ready.physics);
     if resume {
         match fault::Keeper::resume(path, plan, physics, pauses.clone()).into_diagnostic()? {
@@ -257,7 +257,7 @@ fn keeper<'a>(
 /// Writes the files of a run of faults at its end, beside the report.
 fn write_faults(
     path: &Path,
-    (plan, run, report): (&fault::Plan, &asperity_cycles::Run, &fault::Report),
+    (plan, run, report): (&fault::Plan, &asperity_cycles::FaultRun, &fault::Report),
     hash: &str,
     drawn: bool,
 ) -> miette::Result<()> {

@@ -2,14 +2,14 @@
 
 use super::position::Position;
 use crate::checkpoint::Contents;
-use asperity_cycles::{Run, Sums};
+use asperity_cycles::{FaultRun, Sums};
 use serde::{Deserialize, Serialize};
 
 /// State of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stand {
     /// State, clock, step length, events and counts.
-    pub run: Run,
+    pub run: FaultRun,
     /// Positions in the output files.
     pub files: Position,
     /// Works until then.
@@ -34,7 +34,7 @@ pub struct Checkpoint {
 
 impl Contents for Checkpoint {
     const OF: &'static str = "faults";
-    const VERSION: &'static str = "2";
+    const VERSION: &'static str = "3";
     const ALLOWED: &'static str = "the duration of the last stage, `stop_after` or `[place]`";
 
     fn physics(&self) -> &str {
@@ -46,16 +46,22 @@ impl Contents for Checkpoint {
 mod tests {
     use super::*;
     use crate::checkpoint::{FILE, ResumeError, remove};
-    use asperity_cycles::{Crossing, Thresholds};
+    use asperity_cycles::{ALL, Components, NextStep, Rupture, Thresholds};
     use std::fs;
 
     fn sample() -> Checkpoint {
-        let mut run = Run::new(vec![0.1 + 0.2, -0.0, 5e-324, 1.797e308], Thresholds { on: 1e-3, off: 1e-4 });
+        let thresholds = Thresholds { on: 1e-3, off: 1e-4 };
+        let mut run = FaultRun::new(vec![0.1 + 0.2, -0.0, 5e-324, 1.797e308], &[0..2, 2..4], thresholds);
         // A time with a carry, which one number does not hold.
         run.at = asperity_ode::Clock::new(6.2e9, 1.0 / 3.0).rebased().later(1e-13);
-        run.next_step = Some(1.0 / 7.0);
-        run.catalogue.pass(Crossing::Begins, run.at, 1, [&[0.1, 0.2], &[3.0, 4.0], &[]]);
-        run.catalogue.rate(2.5);
+        run.next_step = Some(NextStep { length: Some(1.0 / 7.0), stiff: false });
+        let details = Rupture {
+            above: 0.1,
+            hypocentre: 1,
+            slip: Components::new(vec![0.1, 0.2, 0.3, 0.4], 4),
+            ..Rupture::default()
+        };
+        run.catalogue.begin(ALL, run.at, 2.5, details);
         let last = Stand { run, files: Position::default(), sums: Sums::default() };
         let before = Some(Box::new(last.clone()));
         Checkpoint { physics: "s".into(), end: 1.0 / 9.0, loads: vec![[0.1, 0.2, 0.3]], last, before }
@@ -102,7 +108,7 @@ mod tests {
         sample().write(folder.path()).unwrap();
         assert!(matches!(Checkpoint::read(folder.path(), "t"), Err(ResumeError::Scene { .. })));
         let path = folder.path().join(FILE);
-        let text = fs::read_to_string(&path).unwrap().replacen("version 2", "version 99", 1);
+        let text = fs::read_to_string(&path).unwrap().replacen("version 3", "version 99", 1);
         fs::write(&path, text).unwrap();
         let error = Checkpoint::read(folder.path(), "s").unwrap_err();
         assert!(error.to_string().contains("has version 99"), "{error}");

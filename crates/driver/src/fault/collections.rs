@@ -4,7 +4,7 @@ use super::fields::{Field, along, grid, put, state};
 use super::figures::each;
 use super::plan::Plan;
 use super::snapshots;
-use asperity_cycles::Run;
+use asperity_cycles::FaultRun;
 use asperity_output::vtu::{PvdEntry, pvd};
 use asperity_output::{OutputError, atomic};
 use std::path::Path;
@@ -14,7 +14,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// If a file cannot be read or written.
-pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), OutputError> {
+pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError> {
     if !plan.in_space {
         return Ok(());
     }
@@ -31,11 +31,14 @@ pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), OutputError> {
         };
         states
             .extend(taken.iter().enumerate().map(|(k, &time)| entry(&snapshots::name(&fault.name, k), time)));
-        for (k, event) in run.catalogue.events().iter().enumerate() {
-            let mut fields = Vec::from(along(plan, fault, "slip", &event.slip));
-            fields.extend(along(plan, fault, "stress_drop", &event.drop));
+        for (k, event) in run.events().iter().enumerate() {
+            let mut fields = Vec::from(along(plan, fault, "slip", &event.details.slip));
+            fields.extend(along(plan, fault, "stress_drop", &event.details.drop));
             if fault.normal.opens {
-                fields.push(Field::Scalar("opening".into(), event.opening[fault.points.clone()].to_vec()));
+                fields.push(Field::Scalar(
+                    "opening".into(),
+                    event.details.opening[fault.points.clone()].to_vec(),
+                ));
             }
             let (file, onset) = (format!("{}_event_{k:03}.vtu", fault.name), event.onset.seconds());
             put(&folder.join(&file), &grid, onset, &fields)?;

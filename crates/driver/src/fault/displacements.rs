@@ -1,7 +1,7 @@
 //! Displacements of the bodies, as VTU.
 
 use super::plan::Plan;
-use asperity_cycles::{Crack, Layout, Run};
+use asperity_cycles::{Crack, FaultRun, Layout};
 use asperity_output::vtu::{Array, Grid, PvdEntry, pvd};
 use asperity_output::{OutputError, atomic};
 use std::path::Path;
@@ -11,7 +11,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// If a file cannot be written.
-pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), OutputError> {
+pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError> {
     let Some(view) = &plan.bodies else { return Ok(()) };
     let folder = out.join("fields");
     atomic::create_dir(&folder)?;
@@ -22,9 +22,10 @@ pub fn write(out: &Path, plan: &Plan, run: &Run) -> Result<(), OutputError> {
         entries.push(PvdEntry { time, part: 0, name: "bodies".into(), file: format!("fields/{file}") });
         atomic::write(&folder.join(&file), &grid.file(time, &arrays, &[]))
     };
-    for (k, event) in run.catalogue.events().iter().enumerate() {
+    for (k, event) in run.events().iter().enumerate() {
         // Loads are nothing at the start.
-        let displacement = view.bodies.vectors(&[event.slip.as_slice(), &event.opening].concat(), 0.0);
+        let displacement =
+            view.bodies.vectors(&[event.details.slip.all(), &event.details.opening].concat(), 0.0);
         put(format!("bodies_event_{k:03}.vtu"), event.onset.seconds(), &displacement)?;
     }
     let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];

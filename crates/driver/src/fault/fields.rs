@@ -1,7 +1,7 @@
 //! Fields on faults in space as VTU: states in the course of a run and at its end, and slip and fall of traction of each event.
 
 use super::plan::{FaultView, Plan};
-use asperity_cycles::{Crack, Layout, size};
+use asperity_cycles::{Components, Crack, Layout};
 use asperity_ode::Clock;
 use asperity_output::vtu::{Array, Grid, Values};
 use asperity_output::{OutputError, atomic};
@@ -34,12 +34,17 @@ impl Field {
 }
 
 /// Values along `rake`, or where slip may turn their size; and the vector in space as `NAME_vector`.
-pub(super) fn along(plan: &Plan, fault: &FaultView, name: &'static str, values: &[f64]) -> [Field; 2] {
+pub(super) fn along(
+    plan: &Plan,
+    fault: &FaultView,
+    name: &'static str,
+    values: &Components<impl AsRef<[f64]>>,
+) -> [Field; 2] {
     let points = || fault.points.clone();
-    let scalars = if plan.problem.fault.law.components() == 1 {
-        values[points()].to_vec()
+    let scalars = if values.components() == 1 {
+        values.all()[points()].to_vec()
     } else {
-        points().map(|p| size(values, plan.points.len(), p)).collect()
+        points().map(|p| values.size(p)).collect()
     };
     let vectors = points().map(|p| plan.vector(values, p)).collect();
     [Field::Scalar(name.into(), scalars), Field::Vector(format!("{name}_vector"), vectors)]
@@ -54,9 +59,10 @@ pub(super) fn state(plan: &Plan, fault: &FaultView, at: Clock, y: &[f64]) -> Vec
     let pressed = plan.problem.fault.pressed(at, y, &mut Crack::default());
     let normal = |p: usize| pressed.normal[p];
     let shear: Vec<f64> = layout.m().map(|i| normal(i % n) * law.scale(i % n) * y[i]).collect();
-    let speeds = fault.points.clone().map(|p| size(&rate, n, p).log10()).collect();
+    let (rate, shear) = (Components::new(rate, n), Components::new(shear, n));
+    let speeds = fault.points.clone().map(|p| rate.size(p).log10()).collect();
     let vectors = fault.points.clone().map(|p| plan.vector(&rate, p)).collect();
-    let mut fields = Vec::from(along(plan, fault, "slip", &y[layout.slip()]));
+    let mut fields = Vec::from(along(plan, fault, "slip", &layout.slip_of(y)));
     fields.push(Field::Scalar("log10_slip_rate".into(), speeds));
     fields.push(Field::Vector("slip_rate_vector".into(), vectors));
     fields.extend(along(plan, fault, "shear_traction", &shear));
@@ -64,9 +70,9 @@ pub(super) fn state(plan: &Plan, fault: &FaultView, at: Clock, y: &[f64]) -> Vec
     if fault.normal.opens {
         fields.push(Field::Scalar("opening".into(), pressed.opening[fault.points.clone()].to_vec()));
     }
-    let (states, count) = (&y[layout.states()], law.states());
-    for k in 0..count {
-        let values = fault.points.clone().map(|p| states[p * count + k]).collect();
+    let states = layout.states_of(y);
+    for k in 0..law.states() {
+        let values = fault.points.clone().map(|p| states.at(p)[k]).collect();
         fields.push(Field::Scalar(format!("state_{}", k + 1), values));
     }
     fields

@@ -3,7 +3,7 @@
 
 use super::cadence::time;
 use super::plan::{FaultView, Plan};
-use asperity_cycles::Run;
+use asperity_cycles::FaultRun;
 use asperity_output::OutputError;
 use asperity_output::plots::{self, Cycles, Line, Rows, Table};
 use std::path::{Path, PathBuf};
@@ -12,14 +12,14 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// If a file cannot be read or written.
-pub fn draw(out: &Path, plan: &Plan, run: &Run) -> Result<Vec<PathBuf>, OutputError> {
+pub fn draw(out: &Path, plan: &Plan, run: &FaultRun) -> Result<Vec<PathBuf>, OutputError> {
     let line = |fault: &FaultView| {
         let along: Vec<f64> = plan.points[fault.points.clone()].iter().map(|p| p.along).collect();
         let ascends = along.windows(2).all(|w| w[0] < w[1]) && along.len() > 1;
         ascends.then(|| Line { name: fault.name.clone(), columns: fault.points.clone(), along })
     };
-    let events = run.catalogue.events().iter().map(|e| (e.onset.seconds(), e.end.seconds()));
-    let under_way = run.catalogue.under_way().map(|at| (at.seconds(), run.at.seconds()));
+    let events = run.events().iter().filter_map(|e| Some((e.onset.seconds(), e.end?.seconds())));
+    let under_way = run.under_way().map(|e| (e.onset.seconds(), run.at.seconds()));
     let written = Written { out, in_space: plan.in_space };
     let cycles = Cycles {
         title: plan.title.clone(),

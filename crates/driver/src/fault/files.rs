@@ -166,11 +166,11 @@ impl<'a> Files<'a> {
         let fast = usize::from(now.largest >= self.plan.problem.settings.thresholds.on);
         let (reading, interval) = (Reading { time, rate: now.largest }, cadence.contours[fast]);
         if self.rows[1].gauge.profile(reading, interval, f64::INFINITY) {
-            let row = profile(time, now.slip(), |slip| scientific(slip, 6));
+            let row = profile(time, now.slip().component(0), |slip| scientific(slip, 6));
             self.rows[1].push(&row, cadence, time)?;
         }
         if self.rows[2].gauge.profile(reading, interval, RATE_CHANGE) {
-            let row = profile(time, now.rate, |rate| fixed(rate.abs().log10(), 3));
+            let row = profile(time, now.rate.component(0), |rate| fixed(rate.abs().log10(), 3));
             self.rows[2].push(&row, cadence, time)?;
         }
         if self.plan.problem.fault.opening.is_some()
@@ -239,10 +239,11 @@ impl Observer<Faults> for Files<'_> {
 /// Means of shear traction \[Pa\] and slip \[m\] over the area, along the rake where slip may turn.
 fn means(plan: &Plan, now: &Moment<'_>) -> (f64, f64) {
     let (mut area, mut shear, mut slip) = (0.0, 0.0, 0.0);
+    let (m, slips) = (now.m(), now.slip());
     for (p, point) in plan.points.iter().enumerate() {
         area += point.area;
-        shear += point.area * now.normal(p) * plan.problem.fault.law.scale(p) * now.unknowns[p];
-        slip += point.area * now.slip()[p];
+        shear += point.area * now.normal(p) * plan.problem.fault.law.scale(p) * m.component(0)[p];
+        slip += point.area * slips.component(0)[p];
     }
     (shear / area, slip / area)
 }

@@ -7,7 +7,7 @@ use super::plan::Plan;
 use super::words::time;
 use crate::checkpoint::{self, Contents as _, FILE, Pauses, ResumeError};
 use crate::warning::Warning;
-use asperity_cycles::{Balance, Faults, Moment, Run};
+use asperity_cycles::{Balance, FaultRun, Faults, Moment};
 use asperity_ode::{Control, ObserveError, Observer};
 use asperity_output::{OutputError, Progress};
 use std::path::{Path, PathBuf};
@@ -43,12 +43,12 @@ impl<'a> Keeper<'a> {
         plan: &'a Plan,
         physics: &str,
         pauses: Pauses,
-    ) -> Result<(Self, Run), ResumeError> {
+    ) -> Result<(Self, FaultRun), ResumeError> {
         checkpoint::remove(out)?;
         let files = Files::create(out, plan)?;
         let faults: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
         let thresholds = plan.problem.settings.thresholds;
-        let run = Run::new(plan.problem.start.clone(), thresholds).of_faults(&faults, thresholds);
+        let run = FaultRun::new(plan.problem.start.clone(), &faults, thresholds);
         Ok((Self::new(out, plan, physics, (files, Balance::new(&plan.problem)), pauses, 0), run))
     }
 
@@ -62,7 +62,7 @@ impl<'a> Keeper<'a> {
         plan: &'a Plan,
         physics: &str,
         pauses: Pauses,
-    ) -> Result<Option<(Self, Run)>, ResumeError> {
+    ) -> Result<Option<(Self, FaultRun)>, ResumeError> {
         let Some(read) = Checkpoint::read(out, physics)? else { return Ok(None) };
         if read.last.run.unknowns.len() != plan.problem.start.len() {
             return Err(checkpoint::foreign(out, "it has not the unknowns of this scene"));
@@ -79,7 +79,7 @@ impl<'a> Keeper<'a> {
     fn from(out: &Path, plan: &Plan, read: Checkpoint) -> Result<Option<(Stand, Before)>, ResumeError> {
         let (path, end) = (out.join(FILE), plan.problem.settings.end);
         let run = &read.last.run;
-        let (at, events) = (run.at.seconds(), run.catalogue.events().len());
+        let (at, events) = (run.at.seconds(), run.events().len());
         if at > end || plan.problem.settings.most_events.is_some_and(|most| events > most) {
             return Err(ResumeError::Beyond { path, at, events });
         }
@@ -120,7 +120,7 @@ impl<'a> Keeper<'a> {
     }
 
     /// State of a run.
-    fn stand(&self, run: Run) -> Stand {
+    fn stand(&self, run: FaultRun) -> Stand {
         Stand { run, files: self.files.position(), sums: self.balance.sums().clone() }
     }
 
@@ -144,7 +144,7 @@ impl<'a> Keeper<'a> {
     ///
     /// # Errors
     /// The first thing that could not be written.
-    pub fn finish(mut self, run: &Run) -> Result<(Balance<'a>, Option<&'static str>), OutputError> {
+    pub fn finish(mut self, run: &FaultRun) -> Result<(Balance<'a>, Option<&'static str>), OutputError> {
         self.progress.finish();
         let failed = matches!(run.outcome, asperity_ode::Outcome::Failed { .. });
         if !failed && self.interrupted.is_none() {
@@ -167,13 +167,13 @@ impl Observer<Faults> for Keeper<'_> {
                 time(moment.at.seconds()),
                 moment.largest,
                 moment.dt,
-                moment.catalogue.events().len()
+                moment.events().len()
             )
         });
         self.files.step(moment)
     }
 
-    fn pause(&mut self, run: &mut dyn FnMut() -> Run) -> Result<Option<&'static str>, ObserveError> {
+    fn pause(&mut self, run: &mut dyn FnMut() -> FaultRun) -> Result<Option<&'static str>, ObserveError> {
         self.interrupted = self.pauses.reason(true);
         let now = self.stand(run());
         self.before = Some(Box::new(now.clone()));

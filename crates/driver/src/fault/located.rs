@@ -2,7 +2,7 @@
 
 use super::frame::Frame;
 use super::plan::Plan;
-use asperity_cycles::{Event, size};
+use asperity_cycles::{Event, Rupture};
 use asperity_output::located::{Located, Tensor, magnitude};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
@@ -14,16 +14,16 @@ use std::ops::Range;
 pub fn locate(
     plan: &Plan,
     frame: &Frame,
-    event: &Event,
+    event: &Event<Rupture>,
     points: &Range<usize>,
 ) -> Result<Located, jiff::Error> {
     let length = frame.length.unwrap_or(1.0);
     let (mut sum, mut centre, mut weight) = (Matrix3::zeros(), Vector3::zeros(), 0.0);
     for p in points.clone() {
         let point = &plan.points[p];
-        let (normal, way) = (Vector3::from(point.normal), Vector3::from(plan.vector(&event.slip, p)));
+        let (normal, way) = (Vector3::from(point.normal), Vector3::from(plan.vector(&event.details.slip, p)));
         let couple = normal * way.transpose();
-        let slip = size(&event.slip, plan.points.len(), p);
+        let slip = event.details.slip.size(p);
         sum += (couple + couple.transpose()) * (point.shear_modulus * point.area * length);
         centre += Vector3::from(point.at) * (point.area * slip);
         weight += point.area * slip;
@@ -33,13 +33,13 @@ pub fn locate(
     let onset = frame.time(event.onset.seconds())?;
     Ok(Located {
         time: onset.to_string(),
-        hypocentre: frame.spot(&plan.points[event.hypocentre].at),
+        hypocentre: frame.spot(&plan.points[event.details.hypocentre].at),
         centroid: frame.spot(&(centre / weight).into()),
         planes: tensor.planes(),
         tensor,
         moment,
         magnitude: moment.map(magnitude),
         onset,
-        duration: event.end.since(&event.onset),
+        duration: event.duration().unwrap_or(f64::NAN),
     })
 }

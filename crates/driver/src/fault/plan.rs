@@ -6,7 +6,7 @@ use super::frame::Frame;
 use super::normal::NormalChoice;
 use super::resolution::Resolution;
 use crate::warning::Warning;
-use asperity_cycles::{Layout, Problem};
+use asperity_cycles::{Components, Layout, Problem};
 use std::fmt::Write as _;
 
 /// A point of a fault as outputs see it.
@@ -90,13 +90,13 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The vector in space \[m; m/s; Pa\] of components at a point that stand component by component, as slip does.
+    /// The vector in space \[m; m/s; Pa\] of the components at a point.
     #[must_use]
-    pub fn vector(&self, values: &[f64], point: usize) -> [f64; 3] {
+    pub fn vector<V: AsRef<[f64]>>(&self, values: &Components<V>, point: usize) -> [f64; 3] {
         let view = &self.points[point];
-        let first = view.slides.map(|e| values[point] * e);
+        let first = view.slides.map(|e| values.component(0)[point] * e);
         let Some(across) = &view.across else { return first };
-        let second = values[self.points.len() + point];
+        let second = values.component(1)[point];
         std::array::from_fn(|c| first[c] + second * across[c])
     }
 

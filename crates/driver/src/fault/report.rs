@@ -8,7 +8,7 @@ use super::resolution::Resolution;
 use super::words::{length, time};
 use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop};
 use crate::warning::Warning;
-use asperity_cycles::{Balance, Crack, Event, Layout, Mark, Part, Run, size, steady};
+use asperity_cycles::{Balance, Components, Crack, Event, FaultRun, Layout, Mark, Rupture, steady};
 use asperity_ode::Outcome as Finish;
 use asperity_output::decimals::{fixed, shortest};
 use asperity_output::located::Located;
@@ -63,28 +63,28 @@ const SLIPPED: f64 = 0.01;
 
 impl Entry {
     /// Effect of the event on these points, of all faults or of one.
-    fn new(plan: &Plan, event: &Event, before: Option<&Event>, points: &Range<usize>) -> Self {
-        let n = plan.points.len();
-        let slip = |p: usize| size(&event.slip, n, p);
+    fn new(plan: &Plan, event: &Event<Rupture>, points: &Range<usize>) -> Self {
+        let slip = |p: usize| event.details.slip.size(p);
         let largest_slip = points.clone().map(slip).fold(0.0, f64::max);
         let slipped: Vec<usize> = points.clone().filter(|&p| slip(p) > SLIPPED * largest_slip).collect();
         let over = |value: &dyn Fn(usize) -> f64| {
             slipped.iter().map(|&p| value(p) * plan.points[p].area).sum::<f64>()
         };
         let (area, potency) = (over(&|_| 1.0), over(&slip));
-        let turning =
-            (plan.problem.fault.law.components() > 1).then(|| Turned::new(plan, &event.slip, &slipped));
+        let turning = (plan.problem.fault.law.components() > 1)
+            .then(|| Turned::new(plan, &event.details.slip, &slipped));
         let moment =
             turning.as_ref().map_or_else(|| over(&|p| plan.points[p].shear_modulus * slip(p)), |t| t.moment);
         // A fall is positive where traction that drives the slip becomes less.
-        let work = |p: usize| (p..event.slip.len()).step_by(n).map(|i| event.slip[i] * event.drop[i]).sum();
-        let place = &plan.points[event.hypocentre];
-        let fault = plan.faults.iter().find(|f| f.points.contains(&event.hypocentre));
+        let work =
+            |p: usize| event.details.slip.at(p).zip(event.details.drop.at(p)).map(|(s, t)| s * t).sum();
+        let place = &plan.points[event.details.hypocentre];
+        let fault = plan.faults.iter().find(|f| f.points.contains(&event.details.hypocentre));
         Self {
             onset: event.onset.seconds(),
-            interval: before.map(|b| event.onset.since(&b.onset)),
-            duration: event.end.since(&event.onset),
-            duration_above: event.above,
+            interval: event.interval,
+            duration: event.duration().unwrap_or(f64::NAN),
+            duration_above: event.details.above,
             peak_rate: event.peak,
             fault: fault.map(|f| f.name.clone()).unwrap_or_default(),
             hypocentre_along: (!plan.in_space).then_some(place.along),
@@ -103,11 +103,8 @@ impl Entry {
 }
 
 /// The entries of the events of a catalogue on these points.
-fn entries(plan: &Plan, events: &[Event], points: &Range<usize>) -> Vec<Entry> {
-    let entry = |(k, event): (usize, &Event)| {
-        Entry::new(plan, event, k.checked_sub(1).map(|before| &events[before]), points)
-    };
-    events.iter().enumerate().map(entry).collect()
+fn entries(plan: &Plan, events: &[Event<Rupture>], points: &Range<usize>) -> Vec<Entry> {
+    events.iter().map(|event| Entry::new(plan, event, points)).collect()
 }
 
 /// The catalogue of one fault of several: events by its own fastest point, with its own slip.
@@ -129,7 +126,7 @@ struct Turned {
 }
 
 impl Turned {
-    fn new(plan: &Plan, slip: &[f64], slipped: &[usize]) -> Self {
+    fn new(plan: &Plan, slip: &Components<Vec<f64>>, slipped: &[usize]) -> Self {
         let (mut tensor, mut mean, mut parts) = (Matrix3::zeros(), Vector3::zeros(), [0.0; 2]);
         for &p in slipped {
             let point = &plan.points[p];
@@ -138,7 +135,7 @@ impl Turned {
             let couple = Vector3::from(point.normal) * way.transpose();
             tensor += couple + couple.transpose();
             mean += way;
-            parts = [parts[0] + weight * slip[p], parts[1] + weight * slip[plan.points.len() + p]];
+            parts = std::array::from_fn(|c| parts[c] + weight * slip.component(c)[p]);
         }
         Self {
             moment: tensor.norm() / std::f64::consts::SQRT_2,
@@ -168,9 +165,10 @@ pub struct Cycle {
 const AFTERSHOCK: f64 = 0.1;
 
 impl Cycle {
-    fn new(marks: &[Mark], event: &Event, plan: &Plan, driven: Option<f64>) -> Self {
+    fn new(marks: &[Mark], event: &Event<Rupture>, plan: &Plan, driven: Option<f64>) -> Self {
         let (a, b) = (&marks[0], &marks[1]);
-        let seismic: f64 = event.slip.iter().zip(&plan.points).map(|(s, p)| s * p.area).sum();
+        let seismic: f64 =
+            event.details.slip.component(0).iter().zip(&plan.points).map(|(s, p)| s * p.area).sum();
         let duration = b.time - a.time;
         Self {
             duration,
@@ -256,8 +254,8 @@ impl Results for Report {
 }
 
 /// Reason why an integration failed, as far as the fault tells.
-fn why(plan: &Plan, run: &Run, reason: &str) -> String {
-    if let Some(point) = run.opens {
+fn why(plan: &Plan, run: &FaultRun, reason: &str) -> String {
+    if let Some(point) = run.progress.opens {
         let view = &plan.points[point];
         let fault = plan.faults.iter().find(|f| f.points.contains(&point)).map_or("", |f| f.name.as_str());
         let place = if plan.in_space {
@@ -287,7 +285,7 @@ fn why(plan: &Plan, run: &Run, reason: &str) -> String {
 impl Report {
     /// The report of a run of a plan.
     #[must_use]
-    pub fn new(plan: &Plan, run: &Run, balance: &mut Balance<'_>) -> Self {
+    pub fn new(plan: &Plan, run: &FaultRun, balance: &mut Balance<'_>) -> Self {
         let outcome = match &run.outcome {
             Finish::Completed | Finish::Stopped => Outcome::Completed,
             Finish::Failed { reason } => {
@@ -295,19 +293,19 @@ impl Report {
                 Outcome::Stopped { stage: None, time, reason, kind: Stop::Integration }
             }
         };
-        let events = run.catalogue.events();
+        let events = run.events();
         let slip = &run.unknowns[Layout::of(&plan.problem.fault).slip()];
         let opening = plan.problem.fault.pressed(run.at, &run.unknowns, &mut Crack::default()).opening;
         let energy = balance.energy(slip, &opening).into();
         let marks = balance.marks();
         let driven = if marks.len() > 1 { steady(&plan.problem) } else { None };
         let driven = driven.map(|rate| rate.iter().zip(&plan.points).map(|(v, p)| v * p.area).sum());
-        let cycle = |(pair, event): (&[Mark], &Event)| Cycle::new(pair, event, plan, driven);
+        let cycle = |(pair, event): (&[Mark], &Event<Rupture>)| Cycle::new(pair, event, plan, driven);
         let cycles = marks.windows(2).zip(events.iter().skip(1)).map(cycle).collect();
-        let of_fault = |(fault, part): (&FaultView, &Part)| FaultEvents {
+        let of_fault = |(fault, source): (&FaultView, usize)| FaultEvents {
             fault: fault.name.clone(),
-            events: entries(plan, part.catalogue.events(), &part.points),
-            under_way: part.catalogue.under_way().map(|at| at.seconds()),
+            events: entries(plan, run.catalogue.ended(source), &fault.points),
+            under_way: run.catalogue.under_way(source).map(|e| e.onset.seconds()),
         };
         Self {
             outcome,
@@ -319,8 +317,8 @@ impl Report {
             tolerance: plan.problem.settings.tolerance,
             end: run.at.seconds(),
             events: entries(plan, events, &(0..plan.points.len())),
-            under_way: run.catalogue.under_way().map(|at| at.seconds()),
-            faults: plan.faults.iter().zip(&run.parts).map(of_fault).collect(),
+            under_way: run.under_way().map(|e| e.onset.seconds()),
+            faults: plan.faults.iter().zip(1..run.catalogue.sources()).map(of_fault).collect(),
             unit: if plan.in_space { "J" } else { "J/m" },
             energy,
             cycles,

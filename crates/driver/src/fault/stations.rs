@@ -2,7 +2,7 @@
 
 use super::cadence::NO_RATE;
 use super::plan::{Plan, Station};
-use asperity_cycles::{Moment, size};
+use asperity_cycles::Moment;
 use asperity_output::seas::{Head, Row};
 use std::path::PathBuf;
 
@@ -59,21 +59,18 @@ fn opens(plan: &Plan, point: usize) -> bool {
 
 /// The row of a station.
 pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
-    let (states, n) = (plan.problem.fault.law.states(), plan.points.len());
+    let states = plan.problem.fault.law.states();
     let normal = now.normal(point);
-    let theta = plan.points[point]
-        .theta
-        .filter(|_| states == 1)
-        .map_or(f64::NAN, |(time, per)| (time.ln() + now.states()[point] * per) / std::f64::consts::LN_10);
-    let components = || (point..now.rate.len()).step_by(n);
-    let rate =
-        |i: usize| if now.rate.len() > n { now.rate[i].abs().max(NO_RATE) } else { size(now.rate, n, point) };
+    let theta = plan.points[point].theta.filter(|_| states == 1).map_or(f64::NAN, |(time, per)| {
+        (time.ln() + now.states().at(point)[0] * per) / std::f64::consts::LN_10
+    });
+    let rate = |v: f64| if now.rate.components() > 1 { v.abs().max(NO_RATE) } else { v.abs() };
     let row = Row {
         time: now.at.seconds(),
-        slip: components().map(|i| now.slip()[i]).collect(),
-        rate: components().map(rate).collect(),
+        slip: now.slip().at(point).collect(),
+        rate: now.rate.at(point).map(rate).collect(),
         // The traction that friction resists with: what drives less the damping.
-        shear: components().map(|i| normal * plan.problem.fault.law.scale(point) * now.unknowns[i]).collect(),
+        shear: now.m().at(point).map(|m| normal * plan.problem.fault.law.scale(point) * m).collect(),
         log_state: theta,
         normal,
         opening: now.opening(point).filter(|_| opens(plan, point)),

@@ -2,7 +2,7 @@
 
 use super::files::{Histories, Positions};
 use crate::checkpoint::{self, Contents, Pauses, ResumeError};
-use asperity_cycles::slider::{Now, Problem, Run, Sliders};
+use asperity_cycles::slider::{Now, Problem, SliderRun, Sliders};
 use asperity_ode::{Control, ObserveError, Observer};
 use asperity_output::{OutputError, Progress};
 use serde::{Deserialize, Serialize};
@@ -14,13 +14,13 @@ use std::time::{Duration, Instant};
 pub struct Checkpoint {
     /// Hash of the scene.
     physics: String,
-    run: Run,
+    run: SliderRun,
     histories: Positions,
 }
 
 impl Contents for Checkpoint {
     const OF: &'static str = "spring-sliders";
-    const VERSION: &'static str = "1";
+    const VERSION: &'static str = "2";
     const ALLOWED: &'static str = "its title and its layout";
 
     fn physics(&self) -> &str {
@@ -51,11 +51,11 @@ impl Keeper {
         physics: &str,
         drawn: bool,
         pauses: Pauses,
-    ) -> Result<(Self, Run), OutputError> {
+    ) -> Result<(Self, SliderRun), OutputError> {
         checkpoint::remove(out)?;
         let histories = Histories::create(out, problem)?;
         let histories = if drawn { histories.traced() } else { histories };
-        Ok((Self::new(out, physics, histories, pauses), Run::new(problem)))
+        Ok((Self::new(out, physics, histories, pauses), SliderRun::new(problem)))
     }
 
     /// Resumes the run of the checkpoint in `out`; none where there is none.
@@ -67,7 +67,7 @@ impl Keeper {
         problem: &Problem,
         physics: &str,
         pauses: Pauses,
-    ) -> Result<Option<(Self, Run)>, ResumeError> {
+    ) -> Result<Option<(Self, SliderRun)>, ResumeError> {
         let Some(Checkpoint { run, histories, .. }) = Checkpoint::read(out, physics)? else {
             return Ok(None);
         };
@@ -124,7 +124,7 @@ impl Keeper {
         Ok(self.histories)
     }
 
-    fn save(&mut self, run: Run) -> Result<(), OutputError> {
+    fn save(&mut self, run: SliderRun) -> Result<(), OutputError> {
         let begun = Instant::now();
         self.histories.settle()?;
         let (physics, histories) = (self.physics.clone(), self.histories.positions());
@@ -147,7 +147,7 @@ impl Observer<Sliders> for Keeper {
         self.histories.event(slider)
     }
 
-    fn pause(&mut self, run: &mut dyn FnMut() -> Run) -> Result<Option<&'static str>, ObserveError> {
+    fn pause(&mut self, run: &mut dyn FnMut() -> SliderRun) -> Result<Option<&'static str>, ObserveError> {
         self.interrupted = self.pauses.reason(true);
         if self.interrupted.is_some() || self.pauses.are_due(self.written) {
             self.save(run())?;

@@ -1,8 +1,10 @@
 //! `report.json` of a spring-slider.
 
+use super::events::Entry;
 use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop};
 use crate::warning::Warning;
-use asperity_cycles::slider::{Event, Problem, Run, Thresholds};
+use asperity_cycles::Thresholds;
+use asperity_cycles::slider::{Problem, SliderRun};
 use asperity_ode::{Counts, Outcome as Finish};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -76,7 +78,7 @@ pub struct Report {
     /// The sliders then.
     pub last: Vec<Final>,
     /// Events.
-    pub events: Vec<Event>,
+    pub events: Vec<Entry>,
     /// Energy budget \[J/m²\], the sum over the sliders; none of a run that was not observed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyBalance>,
@@ -102,12 +104,12 @@ impl Results for Report {
 impl Report {
     /// The report of a run of a problem.
     #[must_use]
-    pub fn new(problem: &Problem, run: &Run) -> Self {
+    pub fn new(problem: &Problem, run: &SliderRun) -> Self {
         let time = run.at.seconds();
         let outcome = match &run.outcome {
             Finish::Completed | Finish::Stopped => Outcome::Completed,
             Finish::Failed { reason } => {
-                let reason = run.hint.clone().unwrap_or_else(|| reason.to_string());
+                let reason = run.progress.hint.clone().unwrap_or_else(|| reason.to_string());
                 Outcome::Stopped { stage: None, time, reason, kind: Stop::Integration }
             }
         };
@@ -132,8 +134,8 @@ impl Report {
             outcome,
             end: run.at.seconds(),
             last: last.collect(),
-            events: run.catalogue.events.clone(),
-            energy: run.budget.as_ref().map(|budget| budget.energy().into()),
+            events: Entry::all(run),
+            energy: run.progress.budget.as_ref().map(|budget| budget.energy().into()),
             counts: run.counts.into(),
             seconds: Phases::default(),
         }

@@ -7,7 +7,7 @@ use crate::scene::near;
 use crate::scene::slider::EventSpec;
 use crate::scene::slider::SliderTime;
 use crate::scene::units::Time;
-use asperity_cycles::slider::Thresholds;
+use asperity_cycles::Thresholds;
 use asperity_ode::Method;
 use std::str::FromStr;
 

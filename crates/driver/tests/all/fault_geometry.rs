@@ -223,7 +223,7 @@ fn same(a: &Plan, b: &Plan) {
 fn onsets(plan: &Plan) -> Vec<f64> {
     let out = plan.problem.run(&plan.problem.settings, &mut ()).unwrap();
     assert_eq!(out.outcome, Outcome::Stopped);
-    out.catalogue.events().iter().map(|e| e.onset.seconds()).collect()
+    out.events().iter().map(|e| e.onset.seconds()).collect()
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Normal tractions of faults: floors, tractions that stay, initial stress, and how finely points stand beside lengths of friction.
 
 use crate::common::varied;
-use asperity_cycles::{Balance, Moment, Run};
+use asperity_cycles::{Balance, FaultRun, Moment};
 use asperity_driver::diagnostic::Diagnostic;
 use asperity_driver::fault::{Plan, Report};
 use asperity_driver::plan::{ScenePlan, plan_scene};
@@ -77,7 +77,7 @@ fn planned(text: &str) -> Result<Plan, Diagnostic> {
 
 /// A run with its report, and the largest imbalance of tractions over the largest f_n at the start: what bodies exert and press comes from slip and loads
 /// through the operator, and friction uses the larger of what they press and `floor`.
-fn followed(plan: &Plan, floor: f64) -> (Run, Report, f64) {
+fn followed(plan: &Plan, floor: f64) -> (FaultRun, Report, f64) {
     let n = plan.points.len();
     let couples = plan.problem.fault.operator.couples_normal();
     let (shear_rate, normal_rate) = plan.problem.loading.rates(1.0, n, couples);
@@ -94,15 +94,15 @@ fn followed(plan: &Plan, floor: f64) -> (Run, Report, f64) {
     let mut balance = Balance::new(&plan.problem);
     let mut look = |now: &Moment<'_>| {
         balance.step(now);
-        plan.problem.fault.operator.shear(now.slip(), &mut shear);
+        plan.problem.fault.operator.shear(now.slip().all(), &mut shear);
         if couples {
-            plan.problem.fault.operator.normal(now.slip(), &mut press);
+            plan.problem.fault.operator.normal(now.slip().all(), &mut press);
         }
         let time = now.at.seconds();
         for p in 0..n {
             let load = if couples { normal_rate[p] * time } else { 0.0 };
             let pressed = plan.problem.fault.normal[p] + press[p] + load;
-            let resisting = friction(p, pressed, now.unknowns[p], now.rate[p]);
+            let resisting = friction(p, pressed, now.unknowns[p], now.rate.component(0)[p]);
             worst = worst.max((first[p] + shear[p] + shear_rate[p] * time - resisting).abs() / scale);
             // What outputs show; an unknown itself, which a does not make smaller.
             let shown = now.normal(p) - pressed.max(floor);
@@ -117,7 +117,7 @@ fn followed(plan: &Plan, floor: f64) -> (Run, Report, f64) {
 
 /// A bound of the imbalance of tractions over f_n: errors of ln V within the tolerance in the mean over all unknowns, four a point, move friction by a (0.025 at
 /// most) times as much, and add up over the steps like a random walk.
-fn drift(plan: &Plan, out: &Run) -> f64 {
+fn drift(plan: &Plan, out: &FaultRun) -> f64 {
     let most = (4.0 * plan.points.len() as f64).sqrt() * plan.problem.settings.tolerance;
     0.025 * most * (out.counts.steps as f64).sqrt()
 }
@@ -138,7 +138,11 @@ fn a_shallow_normal_fault_ends_where_it_would_open_and_goes_on_with_a_choice() {
     let plan = planned(&normal_fault("")).unwrap();
     let (out, report, _) = followed(&plan, 0.0);
     let stopped = report.outcome.reason().unwrap();
-    assert!(matches!(out.outcome, Outcome::Failed { .. }) && out.opens == Some(0), "{:?}", out.opens);
+    assert!(
+        matches!(out.outcome, Outcome::Failed { .. }) && out.progress.opens == Some(0),
+        "{:?}",
+        out.progress.opens
+    );
     assert!(stopped.contains("normal_floor") && stopped.contains("normal_changes = false"), "{stopped}");
 
     let used = &through(&normal_fault("normal_floor = \"0.5 MPa\""), 0.5e6).floors[0];

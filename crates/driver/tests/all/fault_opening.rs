@@ -1,7 +1,7 @@
 //! Faults that open: tractions balance, energy closes, and what never opens is as it was.
 
 use crate::common::varied;
-use asperity_cycles::{Balance, Layout, Moment, Run};
+use asperity_cycles::{Balance, FaultRun, Layout, Moment};
 use asperity_driver::fault::{Plan, Report};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
@@ -22,7 +22,7 @@ fn planned(text: &str) -> Plan {
 
 /// Results of a run.
 struct Found {
-    run: Run,
+    run: FaultRun,
     report: Report,
     /// Largest imbalance of tractions along and across the fault over the largest f_n at the start.
     along: f64,
@@ -52,14 +52,14 @@ fn followed(plan: &Plan) -> Found {
         let time = now.at.seconds();
         let by: Vec<f64> = (0..n).map(|p| now.opening(p).unwrap()).collect();
         let (mut shear, mut press) = (vec![0.0; n], vec![0.0; n]);
-        fault.operator.shear(now.slip(), &mut shear);
+        fault.operator.shear(now.slip().all(), &mut shear);
         opening.sheared(&by, &mut shear);
-        fault.operator.normal(now.slip(), &mut press);
+        fault.operator.normal(now.slip().all(), &mut press);
         opening.pressing(&by, &mut press);
         for p in 0..n {
             let fluid = fault.pressure.as_ref().map_or(0.0, |f| f.at(p, time));
             let pressed = fault.normal[p] + press[p] + normal_rate[p] * time - fluid;
-            let resists = friction(p, pressed.max(floor), now.unknowns[p], now.rate[p]);
+            let resists = friction(p, pressed.max(floor), now.unknowns[p], now.rate.component(0)[p]);
             along = along.max((first[p] + shear[p] + shear_rate[p] * time - resists).abs() / scale);
             let kept = if by[p] > 0.0 { pressed.abs() } else { (-pressed).max(0.0) };
             across = across.max(kept / scale).max((now.normal(p) - pressed.max(floor)).abs() / scale);

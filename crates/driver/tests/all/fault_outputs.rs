@@ -3,7 +3,7 @@
 
 use crate::common::cycles::SCENE;
 use crate::common::varied;
-use asperity_cycles::{Event, Faults, Moment, Run, resume};
+use asperity_cycles::{Event, FaultRun, Faults, Moment, Rupture, resume};
 use asperity_driver::fault::{Files, Plan, Position, Report, draw};
 use asperity_driver::plan::{ScenePlan, plan_scene};
 use asperity_driver::scene;
@@ -36,21 +36,20 @@ impl Observer<Faults> for Seen<'_> {
         self.files.step(moment)
     }
 
-    fn pause(&mut self, _: &mut dyn FnMut() -> Run) -> Result<Option<&'static str>, ObserveError> {
+    fn pause(&mut self, _: &mut dyn FnMut() -> FaultRun) -> Result<Option<&'static str>, ObserveError> {
         // What a checkpoint holds of the files is all that they hold in memory.
         self.sizes.push(serde_json::to_string::<Position>(&self.files.position()).unwrap().len());
         Ok(None)
     }
 }
 
-fn run<'a>(plan: &'a Plan, out: &Path) -> (Seen<'a>, Run) {
+fn run<'a>(plan: &'a Plan, out: &Path) -> (Seen<'a>, FaultRun) {
     let stations: Vec<usize> = plan.faults[0].stations.iter().map(|s| s.1).collect();
     let largest = vec![0.0; stations.len() + 1];
     let files = Files::create(out, plan).unwrap();
     let mut seen = Seen { files, stations, largest, steps: 0, sizes: Vec::new() };
-    let begin = Run::new(plan.problem.start.clone(), plan.problem.settings.thresholds);
     let points: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
-    let begin = begin.of_faults(&points, plan.problem.settings.thresholds);
+    let begin = FaultRun::new(plan.problem.start.clone(), &points, plan.problem.settings.thresholds);
     let run =
         resume(&plan.problem.fault, &plan.problem.loading, begin, &plan.problem.settings, &mut seen).unwrap();
     (seen, run)
@@ -74,7 +73,7 @@ fn sizes(folder: &Path) -> Vec<u64> {
 fn every_peak_stands_in_the_files_and_rows_come_by_change() {
     let (plan, folder) = (plan(SCENE), tempfile::tempdir().unwrap());
     let (seen, run) = run(&plan, folder.path());
-    assert_eq!(run.catalogue.events().len(), 3);
+    assert_eq!(run.events().len(), 3);
     let mut all = vec![rates(&folder.path().join("largest_rate.csv"), 1)];
     for name in ["main_dp000", "main_dp075", "main_dp150"] {
         all.push(rates(&folder.path().join("stations").join(name), 2));
@@ -86,8 +85,8 @@ fn every_peak_stands_in_the_files_and_rows_come_by_change() {
         assert!(rows.windows(2).all(|w| w[0][0] < w[1][0]));
         assert!(rows.len() > 300 && rows.len() < seen.steps, "{} of {}", rows.len(), seen.steps);
     }
-    for event in run.catalogue.events() {
-        let (onset, end) = (event.onset.seconds(), event.end.seconds());
+    for event in run.events() {
+        let (onset, end) = (event.onset.seconds(), event.end.unwrap().seconds());
         let rows: Vec<_> = all[0].iter().filter(|r| (onset..=end).contains(&r[0])).collect();
         let found = rows.iter().map(|r| r[1]).fold(0.0, f64::max);
         assert!((found / event.peak - 1.0).abs() < 0.005, "{found} {}", event.peak);
@@ -159,18 +158,23 @@ fn no_number_of_the_files_is_minus_zero() {
 #[test]
 fn time_above_the_rate_does_not_depend_on_the_rate_that_ends_events() {
     let folder = tempfile::tempdir().unwrap();
-    let of = |below: &str, name: &str| -> Vec<Event> {
+    let of = |below: &str, name: &str| -> Vec<Event<Rupture>> {
         let plan = plan(&varied(SCENE, &[Add("events.below", below)]));
         fs::create_dir(folder.path().join(name)).unwrap();
-        run(&plan, &folder.path().join(name)).1.catalogue.events().to_vec()
+        run(&plan, &folder.path().join(name)).1.events().to_vec()
     };
     let (wide, narrow) = (of("1e-4 m/s", "wide"), of("0.9999e-3 m/s", "narrow"));
     for (w, n) in wide.iter().zip(&narrow) {
-        let whole = |e: &Event| e.end.since(&e.onset);
+        let whole = |e: &Event<Rupture>| e.duration().unwrap();
         // With one rate for both the duration is the time above it, but for the ten-thousandth between the two.
-        assert!((n.above / whole(n) - 1.0).abs() < 1e-3, "{} {}", n.above, whole(n));
-        assert!((w.above / n.above - 1.0).abs() < 1e-3, "{} {}", w.above, n.above);
-        assert!(whole(w) > 1.5 * w.above, "{} {}", whole(w), w.above);
+        assert!((n.details.above / whole(n) - 1.0).abs() < 1e-3, "{} {}", n.details.above, whole(n));
+        assert!(
+            (w.details.above / n.details.above - 1.0).abs() < 1e-3,
+            "{} {}",
+            w.details.above,
+            n.details.above
+        );
+        assert!(whole(w) > 1.5 * w.details.above, "{} {}", whole(w), w.details.above);
     }
 }
 

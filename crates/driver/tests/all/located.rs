@@ -115,7 +115,7 @@ fn uniform(text: &str, slip: f64) -> Located {
 
 /// The same with all components of slip.
 fn slipped(text: &str, components: &[f64]) -> Located {
-    use asperity_cycles::Event;
+    use asperity_cycles::{Components, Event, Rupture};
     use asperity_driver::plan::{ScenePlan, plan_scene};
     use asperity_ode::Clock;
     let plan = match plan_scene(&asperity_driver::scene::read(text).unwrap()).unwrap() {
@@ -125,13 +125,16 @@ fn slipped(text: &str, components: &[f64]) -> Located {
     let n = plan.points.len();
     let event = Event {
         onset: Clock::new(86_400.0, 0.5),
-        end: Clock::new(86_400.0, 10.5),
-        above: 8.0,
+        interval: None,
+        end: Some(Clock::new(86_400.0, 10.5)),
         peak: 1.0,
-        hypocentre: n - 1,
-        slip: components.iter().flat_map(|&slip| vec![slip; n]).collect(),
-        drop: vec![0.0; n * components.len()],
-        opening: Vec::new(),
+        details: Rupture {
+            above: 8.0,
+            hypocentre: n - 1,
+            slip: Components::new(components.iter().flat_map(|&slip| vec![slip; n]).collect(), n),
+            drop: Components::new(vec![0.0; n * components.len()], n),
+            opening: Vec::new(),
+        },
     };
     let located = locate(&plan, plan.frame.as_ref().unwrap(), &event, &(0..plan.points.len())).unwrap();
     let area: f64 = plan.points.iter().map(|p| p.area).sum();

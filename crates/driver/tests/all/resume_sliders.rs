@@ -5,7 +5,7 @@
 use crate::common::sliders::{CYCLE, plan};
 use crate::common::told;
 use crate::resume::{assert_same, files, folder, run, text};
-use asperity_cycles::slider::{Problem, Run, resume};
+use asperity_cycles::slider::{Problem, SliderRun, resume};
 use asperity_driver::checkpoint::Pauses;
 use asperity_driver::slider::Keeper;
 use asperity_ode::{Method, Outcome};
@@ -55,7 +55,7 @@ fn pauses(wall: Option<Duration>) -> Pauses {
 }
 
 /// Runs a part of a run into `out`, until the next restart or without an end: the run, and whether it was interrupted.
-fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<(Run, bool), String> {
+fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<(SliderRun, bool), String> {
     let resumed = Keeper::resume(out, problem, "", pauses(wall)).map_err(|e| e.to_string())?;
     let (mut keeper, from) = match resumed {
         Some(resumed) => resumed,
@@ -75,7 +75,7 @@ fn interrupted_everywhere(name: &str, text: &str) -> usize {
     let (expected, _) = part(&problem, &whole, None).unwrap();
     assert!(!matches!(expected.outcome, Outcome::Failed { .. }), "{name}: {:?}", expected.outcome);
     // Errors of one tolerance in ln V in each step, by a/f of a sixtieth, if all have one sign.
-    let imbalance = expected.budget.unwrap().energy().imbalance();
+    let imbalance = expected.progress.budget.unwrap().energy().imbalance();
     let most = problem.tolerance / 60.0 * expected.counts.steps as f64;
     assert!(imbalance < most, "{name}: energy lacks {imbalance:e} of {most:e}");
     let mut count = 1;
@@ -140,13 +140,13 @@ fn what_a_checkpoint_holds_is_needed() {
     let expected = (format!("{expected:?}"), files(&whole));
     let forgotten: [(&str, Value); 10] = [
         ("/run/next_step/length", 1e-3.into()),
-        ("/run/travelled/load", 0.into()),
-        ("/run/due/interval", 0.into()),
-        ("/run/due/listed", 0.into()),
+        ("/run/progress/travelled/load", 0.into()),
+        ("/run/progress/due/interval", 0.into()),
+        ("/run/progress/due/listed", 0.into()),
         ("/run/counts/steps", 0.into()),
-        ("/run/budget/driven", 0.into()),
-        ("/run/budget/energy/radiated", 0.into()),
-        ("/run/catalogue/tracks/0/least", 1.into()),
+        ("/run/progress/budget/driven", 0.into()),
+        ("/run/progress/budget/energy/radiated", 0.into()),
+        ("/run/progress/detectors/0/least", 1.into()),
         ("/histories/sliders/0/thin/last", Value::Null),
         ("/histories/sliders/0/trace/rows", Vec::<Value>::new().into()),
     ];
@@ -157,7 +157,7 @@ fn what_a_checkpoint_holds_is_needed() {
             assert!(part(&problem, &out, Some(Duration::ZERO)).unwrap().1, "{pointer}");
             let contents = fs::read_to_string(out.join("checkpoint")).unwrap();
             let json: Value = serde_json::from_str(contents.lines().nth(2).unwrap()).unwrap();
-            if json["run"]["passed"] == 2 && !json["run"]["next_step"].is_null() {
+            if json["run"]["progress"]["passed"] == 2 && !json["run"]["next_step"].is_null() {
                 break;
             }
         }

@@ -2,10 +2,11 @@
 
 use crate::common::sliders::{CYCLE, history, plan, relative, written};
 use crate::common::varied;
-use asperity_cycles::slider::{DEFAULT_METHOD, Now, Problem, Rows, Run, Thresholds, run};
+use asperity_cycles::Thresholds;
+use asperity_cycles::slider::{DEFAULT_METHOD, Now, Problem, Rows, SliderRun, run};
 use asperity_driver::laws;
 use asperity_driver::scene::law::{Evolution, Form, LawChoice, State, Strength};
-use asperity_driver::slider::Report;
+use asperity_driver::slider::{Entry, Report};
 use asperity_friction::slider::{Condition, History, Slider, Spring, System};
 use asperity_ode::{Control, Failure, Method, Observers, Outcome};
 use asperity_vary::Change::{Add, With, Without};
@@ -74,7 +75,7 @@ struct Row {
     load: f64,
 }
 
-fn watched(plan: &Problem) -> (Run, Vec<Row>) {
+fn watched(plan: &Problem) -> (SliderRun, Vec<Row>) {
     let mut rows = Vec::new();
     let mut look = |now: &Now<'_>| {
         rows.push(Row {
@@ -89,7 +90,7 @@ fn watched(plan: &Problem) -> (Run, Vec<Row>) {
     (run, rows)
 }
 
-fn completed(text: &str) -> (Run, Vec<Row>) {
+fn completed(text: &str) -> (SliderRun, Vec<Row>) {
     let (run, rows) = watched(&plan(text));
     assert_eq!(run.outcome, Outcome::Completed);
     (run, rows)
@@ -109,7 +110,7 @@ fn ten_events_of_the_scene_recur_and_slip_as_far_as_the_load_point() {
     let plan = plan(CYCLE);
     let (run, rows) = watched(&plan);
     assert_eq!(run.outcome, Outcome::Stopped);
-    let events = &run.catalogue.events;
+    let events = Entry::all(&run);
     assert_eq!(events.len(), 10);
     assert_eq!(plan.events, Some(Thresholds { on: 1e-3, off: 0.1 * 1e-3 }));
     let last = &events[9];
@@ -136,7 +137,7 @@ fn ten_events_of_the_scene_recur_and_slip_as_far_as_the_load_point() {
 #[test]
 fn onsets_are_where_the_slip_rate_crosses_the_threshold() {
     let (run, rows) = watched(&plan(CYCLE));
-    for event in &run.catalogue.events {
+    for event in Entry::all(&run) {
         assert!(relative(at(&rows, event.onset).conditions[0].rate, 1e-3) < 1e-8, "{event:?}");
         let within = rows.iter().filter(|r| r.time >= event.onset);
         let within = within.take_while(|r| r.conditions[0].rate >= 1e-4 * (1.0 - 1e-9));
@@ -235,15 +236,15 @@ fn an_undamped_slider_runs_away_with_every_method_and_is_told_what_it_needs() {
         let (run, rows) = watched(&plan);
         let name = method.name();
         assert!(matches!(run.outcome, Outcome::Failed { .. }), "{name}: {:?}", run.outcome);
-        let hint = run.hint.as_ref().unwrap();
+        let hint = run.progress.hint.as_ref().unwrap();
         assert!(hint.contains("`block`") && hint.contains("`damping` or `mass`"), "{name}: {hint}");
         // The last good state: on the branch that runs away, with all found until then.
         let last = rows.last().unwrap();
         assert!(run.unknowns.iter().all(|u| u.is_finite()), "{name}");
         assert!(last.conditions[0].rate > 1e6, "{name}: {last:?}");
         assert!(rows.iter().all(|r| r.conditions[0].friction > 0.5), "{name} left the branch");
-        assert_eq!(run.catalogue.events.len(), 1, "{name}");
-        assert_eq!(run.catalogue.events[0].duration, None, "{name}");
+        assert_eq!(Entry::all(&run).len(), 1, "{name}");
+        assert_eq!(Entry::all(&run)[0].duration, None, "{name}");
         assert_eq!(last.time, run.at.seconds(), "{name}");
         let report = serde_json::to_value(Report::new(&plan, &run)).unwrap();
         assert!(report["outcome"]["stopped"]["reason"].as_str().unwrap().contains("`damping`"), "{report}");
@@ -444,7 +445,7 @@ fn same(mut call: Problem, text: &str) {
     assert_eq!(bits(&call.start), bits(&scene.start));
     assert_eq!(bits(&a.unknowns), bits(&b.unknowns));
     assert_eq!((a.at, &a.outcome, &a.catalogue, a.counts), (b.at, &b.outcome, &b.catalogue, b.counts));
-    assert!(!a.catalogue.events.is_empty());
+    assert!(!Entry::all(&a).is_empty());
 }
 
 #[test]
@@ -536,7 +537,7 @@ fn inertial_sliders_come_to_rest_and_start_again() {
             plan.most_steps = 100_000;
             let run = run(&plan, &mut ()).unwrap();
             assert_eq!(run.outcome, Outcome::Stopped, "{law} {method}: {:?}", run.counts);
-            run.catalogue.of(0).nth(2).unwrap().interval.unwrap()
+            Entry::of(&run, 0).into_iter().nth(2).unwrap().interval.unwrap()
         };
         // Radau's method and that of the library share nothing but the equations.
         let reference = last("radau5", 1e-10);
@@ -566,7 +567,7 @@ fn a_method_that_begins_anew_at_each_extreme_says_what_to_take_instead() {
     let mut plan = plan(&text);
     // Whether it stalls is a matter of rounding; so few steps are not enough in any case.
     (plan.tolerance, plan.most_steps) = (1e-7, 500);
-    let hint = run(&plan, &mut ()).unwrap().hint.unwrap();
+    let hint = run(&plan, &mut ()).unwrap().progress.hint.unwrap();
     assert!(hint.contains("500 steps") && hint.contains("take `method = \"switching\"`"), "{hint}");
     (plan.peaks, plan.most_steps) = (false, 100_000);
     assert_eq!(run(&plan, &mut ()).unwrap().outcome, Outcome::Stopped);
@@ -589,9 +590,9 @@ fn a_form_without_a_value_at_rest_ends_where_friction_does() {
                 let text = varied(&varied(&text, form), &[Add("time.method", method)]);
                 let plan = plan(&text);
                 let run = run(&plan, &mut ()).unwrap();
-                let what = format!("{form:?} {mass} {method}: {:?} {:?}", run.outcome, run.hint);
+                let what = format!("{form:?} {mass} {method}: {:?} {:?}", run.outcome, run.progress.hint);
                 assert_eq!(run.outcome, Outcome::Failed { reason: Failure::Ends }, "{what}");
-                assert!(run.hint.unwrap().contains("friction of `block` falls to zero"), "{what}");
+                assert!(run.progress.hint.unwrap().contains("friction of `block` falls to zero"), "{what}");
                 // 0.5 to 0.6 f_n over k at 10 um/s.
                 assert!((55.0..75.0).contains(&run.at.seconds()), "{what} {:?}", run.at);
             }

@@ -2,8 +2,8 @@
 
 use crate::common::sliders::{CYCLE, history, plan, planned, relative, written};
 use crate::common::varied;
-use asperity_cycles::slider::{Event, Now, Stability, critical_stiffness, run};
-use asperity_driver::slider::csv;
+use asperity_cycles::slider::{Now, Stability, critical_stiffness, run};
+use asperity_driver::slider::{Entry, csv};
 use asperity_ode::Method;
 use asperity_vary::Change::{Add, With, Without};
 use nalgebra::DMatrix;
@@ -47,7 +47,7 @@ fn reversing(sign: &str) -> String {
 fn the_mirrored_problem_has_the_mirrored_catalogue() {
     let backwards = varied(CYCLE, &[With("load.rate", "-1 um/s"), With("sliders.block.start", "-1.5 um/s")]);
     for (there, back) in [(CYCLE.to_string(), backwards), (reversing(""), reversing("-"))] {
-        let [there, back] = [there, back].map(|t| run(&plan(&t), &mut ()).unwrap().catalogue.events);
+        let [there, back] = [there, back].map(|t| Entry::all(&run(&plan(&t), &mut ()).unwrap()));
         assert!(there.len() >= 10 && there.len() == back.len(), "{} and {}", there.len(), back.len());
         for (e, m) in there.iter().zip(&back) {
             assert_eq!(e.direction, -m.direction);
@@ -68,7 +68,7 @@ fn the_mirrored_problem_has_the_mirrored_catalogue() {
 fn every_rise_through_the_threshold_is_an_event_whichever_way() {
     let mut rates = Vec::new();
     let mut look = |now: &Now<'_>| rates.push(now.conditions[0].rate);
-    let found = run(&plan(&reversing("")), &mut look).unwrap().catalogue.events;
+    let found = Entry::all(&run(&plan(&reversing("")), &mut look).unwrap());
     for way in [1.0, -1.0] {
         // From below a tenth of the threshold to above it, seen at the steps.
         let (mut count, mut armed) = (0, true);
@@ -94,7 +94,7 @@ fn friction(rate: f64, phi: f64) -> f64 {
 
 #[test]
 fn stress_drop_and_states_of_events_are_those_of_spring_and_law() {
-    let events = run(&plan(CYCLE), &mut ()).unwrap().catalogue.events;
+    let events = Entry::all(&run(&plan(CYCLE), &mut ()).unwrap());
     assert_eq!(events.len(), 10);
     for e in &events {
         // The spring loses k times what the slider gains on the load point.
@@ -111,7 +111,7 @@ fn stress_drop_and_states_of_events_are_those_of_spring_and_law() {
 #[test]
 fn events_as_csv_have_a_field_for_each_column() {
     let plan = plan(CYCLE);
-    let events: Vec<Event> = run(&plan, &mut ()).unwrap().catalogue.events;
+    let events: Vec<Entry> = Entry::all(&run(&plan, &mut ()).unwrap());
     let text = csv(&events, &["a, \"b\"".to_string()]);
     let mut lines = text.lines();
     let head: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -131,10 +131,9 @@ fn events_as_csv_have_a_field_for_each_column() {
 fn rows_stand_on_the_peaks() {
     let (folder, run) = written(&plan(CYCLE));
     let rows = history(folder.path(), "block.csv");
-    let last = run.catalogue.events.last().unwrap();
-    let within = |r: &&Vec<f64>| {
-        r[0] >= last.onset - last.interval.unwrap() && r[0] >= run.catalogue.events[8].onset + 1.0
-    };
+    let events = Entry::all(&run);
+    let last = events.last().unwrap();
+    let within = |r: &&Vec<f64>| r[0] >= last.onset - last.interval.unwrap() && r[0] >= events[8].onset + 1.0;
     let seen = rows.iter().filter(within).map(|r| r[3]);
     let (largest, least) = (seen.clone().fold(0.0, f64::max), seen.fold(f64::INFINITY, f64::min));
     // verification/independent/spring_slider.json, mild_ageing
@@ -267,7 +266,7 @@ fn a_slider_on_a_spring_to_an_imposed_one_is_a_slider_on_a_load_point() {
             Add("springs", r#"[{ between = ["block", "machine"], stiffness = "1.25 GPa/m" }]"#),
         ],
     );
-    let [alone, pulled] = [CYCLE, &machine].map(|t| run(&plan(t), &mut ()).unwrap().catalogue.events);
+    let [alone, pulled] = [CYCLE, &machine].map(|t| Entry::all(&run(&plan(t), &mut ()).unwrap()));
     assert_eq!((alone.len(), pulled.len()), (10, 10));
     for (a, p) in alone.iter().zip(&pulled) {
         // The error norm has one unknown more, so that steps differ.

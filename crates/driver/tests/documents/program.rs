@@ -1,4 +1,5 @@
-use asperity_cycles::slider::{Problem, Thresholds, run};
+use asperity_cycles::Thresholds;
+use asperity_cycles::slider::{Problem, run};
 use asperity_friction::evolution::{Evolution, ageing::Ageing};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, System};
@@ -26,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     problem.peaks = true;
     let found = run(&problem, &mut ())?;
     for event in found.catalogue.of(0) {
-        println!("{:.6} s, {:?}, {:e} m/s", event.onset, event.interval, event.peak_rate);
+        println!("{:.6} s, {:?}, {:e} m/s", event.onset.seconds(), event.interval, event.peak);
     }
     println!("{:?}, {} right-hand sides", found.outcome, found.counts.rates);
     Ok(())

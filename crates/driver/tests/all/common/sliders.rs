@@ -1,6 +1,6 @@
 //! Spring-sliders run from a text, with their files.
 
-use asperity_cycles::slider::{Problem, Run, run};
+use asperity_cycles::slider::{Problem, SliderRun, run};
 use asperity_driver::slider::{Histories, Plan};
 use asperity_driver::slider_planner;
 use asperity_ode::Outcome;
@@ -22,7 +22,7 @@ pub fn relative(a: f64, b: f64) -> f64 {
 }
 
 /// Runs a plan, with its histories in a folder.
-pub fn written(plan: &Problem) -> (tempfile::TempDir, Run) {
+pub fn written(plan: &Problem) -> (tempfile::TempDir, SliderRun) {
     let folder = tempfile::tempdir().unwrap();
     let mut files = Histories::create(folder.path(), plan).unwrap();
     let run = run(plan, &mut files).unwrap();

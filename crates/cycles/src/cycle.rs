@@ -1,0 +1,418 @@
+//! Integration of a fault from change to change of its loading.
+//!
+//! The integration restarts after each event and after every [`RESTART`] accepted steps, whether or not somebody keeps what it
+//! restarts from: a run that goes on from such a point takes the same steps, bit for bit, as one that was never broken off.
+
+use super::catalogue::{Catalogue, Event, Thresholds};
+use super::components::Components;
+use super::equations::{Equations, Fault, Pressed};
+use super::error::RunError;
+use super::loading::Loading;
+use super::moment::{Ends, Faults, Moment};
+use super::opening::Crack;
+use super::run::{NextStep, Run};
+use super::rupture::{Detector, Rupture, Values};
+use asperity_ode::{
+    Clock, Control, Failure, Finished, Method, ObserveError, Observer, Occurrence, Options, Outcome, Sink,
+    Step,
+};
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// Settings of the integration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Explicit method.
+    pub method: Method,
+    /// Error of ln V allowed in a step.
+    pub tolerance: f64,
+    /// End \[s\].
+    pub end: f64,
+    /// Events.
+    pub thresholds: Thresholds,
+    /// Events after which to end.
+    pub most_events: Option<usize>,
+    /// Accepted steps after which to give up.
+    pub most_steps: usize,
+}
+
+/// Progress of a run of faults.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Progress {
+    /// Detection of the events of each source.
+    detectors: Vec<Detector>,
+    /// Place where the integration failed: the point whose normal traction falls to zero there.
+    #[serde(skip)]
+    pub opens: Option<usize>,
+}
+
+/// A run of faults. Source [`ALL`] of its events is all faults together; where there are several, source 1 + k is fault k.
+pub type FaultRun = Run<Rupture, Progress>;
+
+/// Source of the events of all faults together, by the fastest point of all.
+pub const ALL: usize = 0;
+
+impl FaultRun {
+    /// A run that begins at time 0, of faults with these points.
+    #[must_use]
+    pub fn new(unknowns: Vec<f64>, faults: &[Range<usize>], thresholds: Thresholds) -> Self {
+        let all = 0..faults.iter().map(|points| points.end).max().unwrap_or(0);
+        let apart = if faults.len() > 1 { faults } else { &[] };
+        let sources = std::iter::once(&all).chain(apart);
+        let detectors: Vec<_> = sources.map(|points| Detector::new(points.clone(), thresholds)).collect();
+        Self::begin(unknowns, detectors.len(), Progress { detectors, opens: None })
+    }
+
+    /// Events of all faults together that have ended.
+    #[must_use]
+    pub fn events(&self) -> &[Event<Rupture>] {
+        self.catalogue.ended(ALL)
+    }
+
+    /// Event of all faults together that is under way.
+    #[must_use]
+    pub fn under_way(&self) -> Option<&Event<Rupture>> {
+        self.catalogue.under_way(ALL)
+    }
+}
+
+/// Accepted steps after which the integration restarts: one evaluation of the rates more in about 1500.
+pub const RESTART: u64 = 256;
+
+/// Rounding of m, of states and of f_n over their size, beside the tolerance.
+const ROUNDING: f64 = 1e-15;
+
+/// Integrates `fault` from `unknowns` at time 0. An integration that fails is no error: the outcome says so.
+///
+/// # Errors
+/// If the observer cannot go on.
+pub fn run(
+    fault: &Fault,
+    loading: &Loading,
+    unknowns: Vec<f64>,
+    settings: &Settings,
+    observer: &mut dyn Observer<Faults>,
+) -> Result<FaultRun, RunError> {
+    let points = 0..fault.law.points();
+    let run = FaultRun::new(unknowns, std::slice::from_ref(&points), settings.thresholds);
+    resume(fault, loading, run, settings, observer)
+}
+
+/// Resumes a run, see [`Observer::pause`]. One that had ended is returned as it is.
+///
+/// # Errors
+/// If the observer cannot go on.
+pub fn resume(
+    fault: &Fault,
+    loading: &Loading,
+    mut run: FaultRun,
+    settings: &Settings,
+    observer: &mut dyn Observer<Faults>,
+) -> Result<FaultRun, RunError> {
+    observer.begin(&())?;
+    run.outcome = if enough(&run, settings) { Outcome::Stopped } else { Outcome::Completed };
+    let breaks = breaks(fault, loading, settings.end);
+    for end in breaks {
+        if run.outcome != Outcome::Completed {
+            break;
+        }
+        if Clock::new(end, 0.0).since(&run.at) <= 0.0 {
+            continue;
+        }
+        let within = 0.5 * (run.at.seconds() + end);
+        let (shear, normal) = loading.rates(within, fault.law.points(), fault.operator.couples_normal());
+        let equations = Equations::new(fault, shear, normal).until(end);
+        leg(&equations, fault, end, settings, observer, &mut run)?;
+    }
+    Ok(run)
+}
+
+/// True if all events asked for have ended.
+fn enough(run: &FaultRun, settings: &Settings) -> bool {
+    settings.most_events.is_some_and(|most| run.events().len() >= most)
+}
+
+/// Times at which the rate of a load or of a pressure jumps, and the end \[s\].
+fn breaks(fault: &Fault, loading: &Loading, end: f64) -> Vec<f64> {
+    let mut times = loading.breaks(0.0, end);
+    times.extend(fault.pressure.iter().flat_map(|p| p.breaks()).filter(|&t| t > 0.0 && t < end));
+    times.push(end);
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}
+
+/// Integrates between two changes of the loading, from restart to restart.
+fn leg(
+    equations: &Equations<'_>,
+    fault: &Fault,
+    end: f64,
+    settings: &Settings,
+    observer: &mut dyn Observer<Faults>,
+    run: &mut FaultRun,
+) -> Result<(), ObserveError> {
+    let mut options = Options {
+        method: settings.method,
+        rtol: ROUNDING,
+        atol: equations.tolerances(settings.tolerance),
+        first_step: None,
+        begin_stiff: false,
+        largest_step: None,
+        most_steps: settings.most_steps,
+    };
+    loop {
+        let taken = usize::try_from(run.counts.steps).unwrap_or(usize::MAX);
+        options.first_step = run.next_step.and_then(|next| next.length);
+        options.most_steps = settings.most_steps.saturating_sub(taken);
+        if !piece(equations, fault, end, (settings, &options), observer, run)? {
+            return Ok(());
+        }
+        run.outcome = Outcome::Completed;
+        if observer.pause(&mut || run.clone())?.is_some() {
+            run.outcome = Outcome::Stopped;
+            return Ok(());
+        }
+    }
+}
+
+/// Integrates until the next restart, or as far as it goes; whether it is to go on.
+fn piece(
+    equations: &Equations<'_>,
+    fault: &Fault,
+    end: f64,
+    (settings, options): (&Settings, &Options),
+    observer: &mut dyn Observer<Faults>,
+    run: &mut FaultRun,
+) -> Result<bool, ObserveError> {
+    let vectors = equations.layout().m().end;
+    let mut follow = Follow {
+        equations,
+        fault,
+        observer,
+        failure: None,
+        catalogue: &mut run.catalogue,
+        detectors: &mut run.progress.detectors,
+        steps: 0,
+        next_step: None,
+        paused: false,
+        rate: vec![0.0; vectors],
+        shear: vec![0.0; vectors],
+        between: run.unknowns.clone(),
+        largest: 0.0,
+        crack: Crack::default(),
+        pressed: Pressed::default(),
+    };
+    follow.pressed = fault.pressed(run.at, &run.unknowns, &mut follow.crack);
+    if run.counts.steps == 0 && follow.begin(run.at, &run.unknowns) == Control::Stop {
+        run.outcome = Outcome::Stopped;
+        return follow.failure.map_or(Ok(false), Err);
+    }
+    let duration = Clock::new(end, 0.0).since(&run.at);
+    let mut options = options.clone();
+    if let Some(time) = equations.first_instants(run.at, &mut run.unknowns, &options.atol, duration) {
+        run.at = run.at.later(time).rebased();
+        // Rates go as the root of the time since then: there is no longer scale in which they are smooth.
+        options.first_step = Some(time);
+    }
+    let duration = Clock::new(end, 0.0).since(&run.at);
+    let Finished { outcome, at, state, counts } =
+        asperity_ode::integrate(equations, run.at, &run.unknowns, duration, &options, &mut follow);
+    if let Some(failure) = follow.failure {
+        return Err(failure);
+    }
+    let paused = follow.paused;
+    run.next_step = follow.next_step;
+    (run.outcome, run.at, run.unknowns) = (outcome, at, state);
+    run.counts += counts;
+    match &mut run.outcome {
+        // To the end exactly, so that nothing is left of it for another step.
+        Outcome::Completed => (run.at, run.next_step) = (Clock::new(end, 0.0), None),
+        Outcome::Failed { reason } => {
+            if let Failure::TooManySteps { most } = reason {
+                *most = settings.most_steps;
+            }
+            run.progress.opens = equations.opened().or_else(|| nearly_open(fault, run));
+        }
+        Outcome::Stopped => return Ok(paused && !enough(run, settings)),
+    }
+    Ok(false)
+}
+
+/// Share of f_n at the start below which a point is about to open: the rate of friction there grows as 1/f_n and steps vanish before a
+/// stage has no pressure at all.
+const NEARLY_OPEN: f64 = 1e-3;
+
+/// The point that is about to open, where one is.
+fn nearly_open(fault: &Fault, run: &FaultRun) -> Option<usize> {
+    let pressed = fault.pressed(run.at, &run.unknowns, &mut Crack::default());
+    let share = |p: usize| pressed.normal[p] / fault.normal[p];
+    let opens = |p: &usize| fault.floor.as_ref().is_none_or(|f| f.at(*p).is_infinite());
+    let least = (0..fault.normal.len()).filter(opens).min_by(|&a, &b| share(a).total_cmp(&share(b)))?;
+    (share(least) < NEARLY_OPEN).then_some(least)
+}
+
+/// Follows the largest slip rate through the steps.
+struct Follow<'a> {
+    equations: &'a Equations<'a>,
+    fault: &'a Fault,
+    observer: &'a mut dyn Observer<Faults>,
+    /// Reason why the observer cannot go on.
+    failure: Option<ObserveError>,
+    catalogue: &'a mut Catalogue<Rupture>,
+    detectors: &'a mut [Detector],
+    /// Accepted steps since the last restart.
+    steps: u64,
+    /// The step to try next.
+    next_step: Option<NextStep>,
+    /// True if it was ended for a restart.
+    paused: bool,
+    rate: Vec<f64>,
+    shear: Vec<f64>,
+    /// Unknowns within a step.
+    between: Vec<f64>,
+    /// Largest slip rate at the end of the last step \[m/s\].
+    largest: f64,
+    /// Points that are open.
+    crack: Crack,
+    /// Normal tractions and openings at the end of the last step.
+    pressed: Pressed,
+}
+
+/// Halvings of a step in search of the time a slip rate is passed: below the rounding of times.
+const MOST_HALVINGS: usize = 60;
+
+impl Follow<'_> {
+    fn begin(&mut self, at: Clock, y: &[f64]) -> Control {
+        self.equations.slip_rates(y, &mut self.rate);
+        self.largest = self.fastest(&self.rate, self.all()).1;
+        self.report(at, 0.0, y, None)
+    }
+
+    fn all(&self) -> Range<usize> {
+        0..self.equations.layout().points()
+    }
+
+    /// The fastest of these points and its |V| \[m/s\].
+    fn fastest(&self, rate: &[f64], among: Range<usize>) -> (usize, f64) {
+        let rate = Components::new(rate, self.equations.layout().points());
+        let mut best = (among.start, 0.0);
+        for p in among {
+            let speed = rate.size(p);
+            if speed > best.1 {
+                best = (p, speed);
+            }
+        }
+        best
+    }
+
+    fn report(&mut self, at: Clock, dt: f64, unknowns: &[f64], step: Option<Ends<'_>>) -> Control {
+        let layout = self.equations.layout();
+        let rate = Components::new(self.rate.as_slice(), layout.points());
+        let (largest, catalogue, pressed) = (self.largest, &*self.catalogue, &self.pressed);
+        let moment = Moment { at, dt, unknowns, layout, rate, largest, pressed, catalogue, step };
+        self.observer.step(&moment).unwrap_or_else(|failure| {
+            self.failure = Some(failure);
+            Control::Stop
+        })
+    }
+
+    /// Finds the time at which the fastest of these points passes a threshold within the step, and that point: by halving, since the fastest point
+    /// changes. Leaves the unknowns and the tractions of that time, and returns openings.
+    fn locate(
+        &mut self,
+        step: &Step<'_>,
+        (threshold, upwards): (f64, bool),
+        among: Range<usize>,
+    ) -> (Clock, usize, Vec<f64>) {
+        let (mut before, mut after) = (0.0, 1.0);
+        for _ in 0..MOST_HALVINGS {
+            let middle = 0.5 * (before + after);
+            if middle <= before || middle >= after {
+                break;
+            }
+            step.at(middle, &mut self.between);
+            self.equations.slip_rates(&self.between, &mut self.rate);
+            if (self.fastest(&self.rate, among.clone()).1 >= threshold) == upwards {
+                after = middle;
+            } else {
+                before = middle;
+            }
+        }
+        step.at(after, &mut self.between);
+        self.equations.slip_rates(&self.between, &mut self.rate);
+        let at = step.start.later(after * step.length());
+        let layout = self.equations.layout();
+        let pressed = self.fault.pressed(at, &self.between, &mut self.crack);
+        for (i, shear) in self.shear.iter_mut().enumerate() {
+            let p = i % layout.points();
+            *shear = pressed.normal[p] * self.fault.law.scale(p) * self.between[i];
+        }
+        (at, self.fastest(&self.rate, among).0, pressed.opening)
+    }
+
+    /// Finds the events of a step; `largest` are the largest slip rates of each source after it \[m/s\].
+    fn detect(&mut self, step: &Step<'_>, largest: &[f64]) {
+        for (source, &largest) in largest.iter().enumerate() {
+            self.note_peak(source, largest);
+            while let Some(crossing) = self.detectors[source].crossing(largest) {
+                let (passed, points) =
+                    (self.detectors[source].passed(crossing), self.detectors[source].points());
+                let (at, fastest, opening) = self.locate(step, passed, points);
+                let layout = self.equations.layout();
+                let slip = layout.slip_of(&self.between);
+                let shear = Components::new(self.shear.as_slice(), layout.points());
+                let values = Values { slip, shear, opening: &opening };
+                self.detectors[source].pass((self.catalogue, source), crossing, (at, fastest), values);
+                self.note_peak(source, largest);
+            }
+        }
+    }
+
+    fn note_peak(&mut self, source: usize, largest: f64) {
+        if let Some(event) = self.catalogue.open(source) {
+            event.peak = event.peak.max(largest);
+        }
+    }
+}
+
+impl Sink for Follow<'_> {
+    fn accepted(&mut self, step: &Step<'_>) -> Control {
+        // What was rejected before this step was a step too long.
+        self.equations.opened();
+        let layout = self.equations.layout();
+        let rates = step.rates.map(|dy| &dy[layout.slip()]);
+        if rates.is_none() {
+            self.equations.slip_rates(step.state, &mut self.rate);
+        }
+        let ends = rates.unwrap_or(&self.rate);
+        let largest: Vec<f64> = self.detectors.iter().map(|d| self.fastest(ends, d.points()).1).collect();
+        let events = self.catalogue.ended(ALL).len();
+        self.detect(step, &largest);
+        match rates {
+            Some(rates) => self.rate.copy_from_slice(rates),
+            None => self.equations.slip_rates(step.state, &mut self.rate),
+        }
+        self.largest = largest[ALL];
+        let pressed = self.fault.pressed(step.end, step.state, &mut self.crack);
+        let start_pressed = std::mem::replace(&mut self.pressed, pressed);
+        let ends = step.start_rates().zip(step.rates);
+        let ends = ends.map(|(start_rates, end_rates)| {
+            let (start, start_pressed) = (step.start_state(), &start_pressed);
+            Ends { start, start_pressed, start_rates, end_rates }
+        });
+        if self.report(step.end, step.length(), step.state, ends) == Control::Stop {
+            return Control::Stop;
+        }
+        self.steps += 1;
+        if self.catalogue.ended(ALL).len() > events || self.steps == RESTART {
+            self.paused = true;
+            self.next_step = Some(NextStep { length: step.next_length(), stiff: false });
+            return Control::Stop;
+        }
+        Control::Go
+    }
+
+    fn occurred(&mut self, _: &Occurrence) -> Control {
+        Control::Go
+    }
+}

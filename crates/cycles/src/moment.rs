@@ -1,0 +1,115 @@
+//! A fault at the end of a step, for those who observe its run.
+
+use super::catalogue::{Catalogue, Event};
+use super::components::{Components, PerPoint};
+use super::cycle::{ALL, FaultRun};
+use super::equations::{Layout, Pressed};
+use super::rupture::Rupture;
+use asperity_ode::{Clock, Kind};
+
+/// A fault at the end of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment<'a> {
+    /// Time.
+    pub at: Clock,
+    /// Length of the step \[s\]; 0 at the start.
+    pub dt: f64,
+    /// Unknowns.
+    pub unknowns: &'a [f64],
+    /// Their layout.
+    pub layout: Layout,
+    /// Slip rates \[m/s\].
+    pub rate: Components<&'a [f64]>,
+    /// Largest slip rate \[m/s\].
+    pub largest: f64,
+    /// Normal tractions and openings.
+    pub pressed: &'a Pressed,
+    /// Events until now.
+    pub catalogue: &'a Catalogue<Rupture>,
+    /// The step, where the method knows the rates at its ends; none at the start.
+    pub step: Option<Ends<'a>>,
+}
+
+/// The ends of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Ends<'a> {
+    /// Unknowns at its start.
+    pub start: &'a [f64],
+    /// Normal tractions and openings then.
+    pub start_pressed: &'a Pressed,
+    /// Their rates.
+    pub start_rates: &'a [f64],
+    /// Rates at its end.
+    pub end_rates: &'a [f64],
+}
+
+impl<'a> Moment<'a> {
+    /// The fault at the start of the step that led here.
+    #[must_use]
+    pub fn start_of(&self, step: &Ends<'a>, at: Clock) -> Moment<'a> {
+        let (unknowns, rate) = (step.start, self.layout.slip_of(step.start_rates));
+        let largest = (0..rate.points()).map(|p| rate.size(p)).fold(0.0, f64::max);
+        let pressed = step.start_pressed;
+        Moment { at, dt: 0.0, unknowns, rate, largest, pressed, step: None, ..*self }
+    }
+}
+
+impl<'a> Moment<'a> {
+    /// Events of all faults together that have ended.
+    #[must_use]
+    pub fn events(&self) -> &[Event<Rupture>] {
+        self.catalogue.ended(ALL)
+    }
+
+    /// Event of all faults together that is under way.
+    #[must_use]
+    pub fn under_way(&self) -> Option<&Event<Rupture>> {
+        self.catalogue.under_way(ALL)
+    }
+
+    /// |V| of a point \[m/s\].
+    #[must_use]
+    pub fn speed(&self, point: usize) -> f64 {
+        self.rate.size(point)
+    }
+
+    /// m.
+    #[must_use]
+    pub fn m(&self) -> Components<&'a [f64]> {
+        self.layout.m_of(self.unknowns)
+    }
+
+    /// Slip \[m\].
+    #[must_use]
+    pub fn slip(&self) -> Components<&'a [f64]> {
+        self.layout.slip_of(self.unknowns)
+    }
+
+    /// States.
+    #[must_use]
+    pub fn states(&self) -> PerPoint<'a> {
+        self.layout.states_of(self.unknowns)
+    }
+
+    /// f_n of a point as friction uses it \[Pa\].
+    #[must_use]
+    pub fn normal(&self, point: usize) -> f64 {
+        self.pressed.normal[point]
+    }
+
+    /// Opening of a point, where points may open \[m\].
+    #[must_use]
+    pub fn opening(&self, point: usize) -> Option<f64> {
+        self.pressed.opening.get(point).copied()
+    }
+}
+
+/// Runs of faults.
+#[derive(Clone, Copy, Debug)]
+pub struct Faults;
+
+impl Kind for Faults {
+    type Setup = ();
+    type Moment<'a> = Moment<'a>;
+    type Stand = FaultRun;
+}

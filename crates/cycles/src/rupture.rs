@@ -1,0 +1,194 @@
+//! Events of faults: from the time the fastest point passes a slip rate until all have fallen below a lower one. Beside that duration
+//! stands the time above the upper rate alone, which is what the community counts.
+
+use super::catalogue::{Catalogue, Event, Thresholds};
+use super::components::Components;
+use asperity_ode::Clock;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// Details of an event of faults.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rupture {
+    /// Time in which the fastest point was faster than the rate that begins events \[s\].
+    pub above: f64,
+    /// Hypocentre: the fastest point at the onset.
+    pub hypocentre: usize,
+    /// Slip of all points over the event; empty while it is under way \[m\].
+    pub slip: Components<Vec<f64>>,
+    /// Fall of the shear traction of all points over the event; empty while it is under way \[Pa\].
+    pub drop: Components<Vec<f64>>,
+    /// Growth of the opening of all points over the event, where points may open; empty while it is under way \[m\].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub opening: Vec<f64>,
+}
+
+/// Values of all points at an instant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Values<'a> {
+    /// Slip \[m\].
+    pub slip: Components<&'a [f64]>,
+    /// Shear traction \[Pa\].
+    pub shear: Components<&'a [f64]>,
+    /// Opening, where points may open \[m\].
+    pub opening: &'a [f64],
+}
+
+/// Values at the onset of an event that is under way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Onset {
+    /// Time since which the fastest point has been faster than `on`; none while it is slower.
+    since: Option<Clock>,
+    slip: Vec<f64>,
+    shear: Vec<f64>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    opening: Vec<f64>,
+}
+
+/// Finds the events of one source by the slip rate of its fastest point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Detector {
+    thresholds: Thresholds,
+    /// Points of the source.
+    points: Range<usize>,
+    under_way: Option<Onset>,
+}
+
+impl Detector {
+    /// Nothing found yet on these points.
+    pub(crate) fn new(points: Range<usize>, thresholds: Thresholds) -> Self {
+        Self { thresholds, points, under_way: None }
+    }
+
+    /// Points of the source.
+    pub(crate) fn points(&self) -> Range<usize> {
+        self.points.clone()
+    }
+
+    /// First threshold that was passed within a step, from the largest slip rate after it \[m/s\].
+    pub(crate) fn crossing(&self, largest: f64) -> Option<Crossing> {
+        let Thresholds { on, off } = self.thresholds;
+        match self.under_way.as_ref().map(|o| o.since) {
+            None => (largest >= on).then_some(Crossing::Begins),
+            Some(Some(_)) => (largest < on).then_some(Crossing::Falls),
+            Some(None) if largest >= on => Some(Crossing::Rises),
+            Some(None) => (largest < off).then_some(Crossing::Ends),
+        }
+    }
+
+    /// The slip rate that is passed \[m/s\], and true if it is passed upwards.
+    pub(crate) fn passed(&self, crossing: Crossing) -> (f64, bool) {
+        let Thresholds { on, off } = self.thresholds;
+        match crossing {
+            Crossing::Begins | Crossing::Rises => (on, true),
+            Crossing::Falls => (on, false),
+            Crossing::Ends => (off, false),
+        }
+    }
+
+    /// Enters a crossing at `at` into the events of this source, the point `fastest` being the fastest then.
+    pub(crate) fn pass(
+        &mut self,
+        (catalogue, source): (&mut Catalogue<Rupture>, usize),
+        crossing: Crossing,
+        (at, fastest): (Clock, usize),
+        values: Values<'_>,
+    ) {
+        match (crossing, catalogue.open(source), &mut self.under_way) {
+            (Crossing::Begins, _, under_way) => {
+                let details = Rupture { hypocentre: fastest, ..Rupture::default() };
+                catalogue.begin(source, at, self.thresholds.on, details);
+                *under_way = Some(Onset {
+                    since: Some(at),
+                    slip: values.slip.all().to_vec(),
+                    shear: values.shear.all().to_vec(),
+                    opening: values.opening.to_vec(),
+                });
+            }
+            (Crossing::Falls, Some(event), Some(onset)) => {
+                event.details.above += onset.since.take().map_or(0.0, |since| at.since(&since));
+            }
+            (Crossing::Rises, Some(_), Some(onset)) => onset.since = Some(at),
+            (Crossing::Ends, Some(event), under_way @ Some(_)) => {
+                if let Some(onset) = under_way.take() {
+                    end(event, at, &onset, values);
+                }
+            }
+            (_, None, _) | (_, _, None) => {}
+        }
+    }
+}
+
+fn end(event: &mut Event<Rupture>, at: Clock, onset: &Onset, values: Values<'_>) {
+    let change = |new: &[f64], old: &[f64]| new.iter().zip(old).map(|(b, a)| b - a).collect();
+    event.end = Some(at);
+    event.details.slip = Components::new(change(values.slip.all(), &onset.slip), values.slip.points());
+    event.details.drop = Components::new(change(&onset.shear, values.shear.all()), values.shear.points());
+    event.details.opening = change(values.opening, &onset.opening);
+}
+
+/// Passing of one of the slip rates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Crossing {
+    /// `on` upwards, with no event.
+    Begins,
+    /// `on` downwards.
+    Falls,
+    /// `on` upwards, within an event.
+    Rises,
+    /// `off` downwards.
+    Ends,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ON_AND_OFF: Thresholds = Thresholds { on: 1.0, off: 0.1 };
+
+    /// Crossings of a history of times and largest rates, and the catalogue.
+    fn follow(history: &[(f64, f64)]) -> (Vec<Crossing>, Catalogue<Rupture>) {
+        let (mut catalogue, mut found) = (Catalogue::new(1), Vec::new());
+        let mut detector = Detector::new(0..1, ON_AND_OFF);
+        for (time, largest) in history {
+            while let Some(crossing) = detector.crossing(*largest) {
+                found.push(crossing);
+                let values = Values {
+                    slip: Components::new(std::slice::from_ref(time), 1),
+                    shear: Components::new(&[0.0], 1),
+                    opening: &[],
+                };
+                detector.pass((&mut catalogue, 0), crossing, (Clock::new(0.0, *time), 0), values);
+            }
+            if let Some(event) = catalogue.open(0) {
+                event.peak = event.peak.max(*largest);
+            }
+        }
+        (found, catalogue)
+    }
+
+    #[test]
+    fn time_above_leaves_out_what_lies_between_the_two_rates() {
+        // Above from 1 to 3 and from 6 to 7; below the lower rate at 11.
+        let history = [(1.0, 2.0), (3.0, 0.5), (6.0, 4.0), (7.0, 0.9), (11.0, 0.05)];
+        let (_, catalogue) = follow(&history);
+        let [event] = catalogue.ended(0) else { panic!("one event") };
+        assert_eq!((event.details.above, event.duration(), event.peak), (3.0, Some(10.0), 4.0));
+        assert_eq!(event.details.slip.all(), [10.0]);
+    }
+
+    #[test]
+    fn a_step_that_falls_below_both_rates_passes_both() {
+        let (found, catalogue) = follow(&[(1.0, 2.0), (2.0, 0.01)]);
+        assert_eq!(found, [Crossing::Begins, Crossing::Falls, Crossing::Ends]);
+        assert_eq!(catalogue.ended(0)[0].details.above, 1.0);
+    }
+
+    #[test]
+    fn an_event_under_way_is_none_that_has_ended() {
+        let (_, catalogue) = follow(&[(1.0, 2.0), (2.0, 0.01), (5.0, 3.0), (6.0, 0.5)]);
+        assert_eq!((catalogue.of(0).len(), catalogue.ended(0).len()), (2, 1));
+        let event = catalogue.under_way(0).unwrap();
+        assert_eq!((event.interval, event.end), (Some(4.0), None));
+    }
+}
