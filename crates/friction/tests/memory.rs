@@ -8,7 +8,9 @@ use asperity_friction::Failure;
 use asperity_friction::component::Component;
 use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::{Flash, Weakening};
-use asperity_friction::evolution::{Common, Evolution, ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip};
+use asperity_friction::evolution::{
+    Common, Defined, Evolution, Speed, ageing::Ageing, nagata::Nagata, slip::Slip,
+};
 use asperity_friction::law::{Drives, Law, Rated, Regime, Responses, Trials};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};
@@ -172,7 +174,7 @@ fn a_step_in_two_halves_is_the_step() {
     check(regularised(), &[(slip(), ALPHA), (Slip::new(0.003, 1e-4, V_REF).unwrap(), 0.1)]);
     check(regularised(), &[(ageing(), ALPHA), (Ageing::new(0.003, 1e-4, V_REF).unwrap(), 0.0)]);
     check(regularised(), &[(ageing().with_cut_off(1e-6).unwrap(), ALPHA)]);
-    check(regularised(), &[(Prz::new(B, LENGTH, V_REF).unwrap(), ALPHA)]);
+    each_evolution!(Law => check(regularised(), &[(usual::<Law>(common()), ALPHA)]));
     check(regularised(), &[(flash(), ALPHA)]);
     check(regularised(), &[(Nagata::new(B, LENGTH, V_REF, 2.0).unwrap(), ALPHA)]);
     check(Bare(parameters()), &[(Nagata::new(B, LENGTH, V_REF, 2.0).unwrap(), ALPHA)]);
@@ -240,10 +242,13 @@ fn implicit_steps_follow_a_varying_normal_traction_at_first_order() {
     let ageing_equation = |phi: f64, v: f64| B * (V_REF / LENGTH * (-phi / B).exp() - v / LENGTH);
     first_order(&slip(), ALPHA, slip_equation);
     first_order(&ageing(), ALPHA, ageing_equation);
-    // A smaller memory, since this law itself weakens with θ. φ = b ln(Vref θ/2L), dθ/dt = 1 - (Vθ/2L)².
-    first_order(&Prz::new(B, LENGTH, V_REF).unwrap(), 0.05, |phi, v| {
-        let theta = 2.0 * LENGTH / V_REF * (phi / B).exp();
-        B / theta * (1.0 - (v * theta / (2.0 * LENGTH)).powi(2))
+    // A smaller memory, since some laws weaken with θ themselves.
+    each_evolution!(Law => if <Law as Defined>::DEFINITION.is_plain() {
+        let law = usual::<Law>(common());
+        first_order(&law, 0.05, |phi, v| {
+            let (slope, _) = law.phi_slopes(phi * law.per_phi());
+            slope * law.rate(phi * law.per_phi(), Speed { rate: v, log: v.ln() }).rate
+        });
     });
     first_order(&flash(), ALPHA, |phi, v| {
         let y = (v / V_REF).ln();
@@ -329,7 +334,9 @@ fn initial_states_are_steady_under_the_initial_normal_traction() {
     let steady = |v: f64| 0.6 + (A - B) * f64::ln(v / V_REF);
     check(&[(slip(), ALPHA)], steady);
     check(&[(ageing(), ALPHA)], steady);
-    check(&[(Prz::new(B, LENGTH, V_REF).unwrap(), ALPHA)], steady);
+    each_evolution!(Law => if <Law as Defined>::DEFINITION.is_plain() {
+        check(&[(usual::<Law>(common()), ALPHA)], steady);
+    });
     check(&[(Nagata::new(B, LENGTH, V_REF, 2.0).unwrap(), ALPHA)], steady);
     check(&[(flash(), ALPHA)], |v| flash().steady_coefficient(v.ln()));
     let cut = ageing().with_cut_off(1e-6).unwrap();
@@ -381,7 +388,10 @@ fn equal_states_add_up() {
     }
     check(&slip(), &Slip::new(0.5 * B, LENGTH, V_REF).unwrap());
     check(&ageing(), &Ageing::new(0.5 * B, LENGTH, V_REF).unwrap());
-    check(&Prz::new(B, LENGTH, V_REF).unwrap(), &Prz::new(0.5 * B, LENGTH, V_REF).unwrap());
+    let halved = Common { b: 0.5 * B, ..common() };
+    each_evolution!(Law => if <Law as Defined>::DEFINITION.is_plain() {
+        check(&usual::<Law>(common()), &usual::<Law>(halved));
+    });
     let cut = |b| Ageing::new(b, LENGTH, V_REF).unwrap().with_cut_off(1e-5).unwrap();
     check(&cut(B), &cut(0.5 * B));
 }

@@ -1,6 +1,6 @@
 //! Interfaces that become unstable: a run stops there, says so, and keeps the last good state; stable neighbours run to their end.
 
-use crate::common::{SANDWICH, planned};
+use crate::common::{SANDWICH, plain_evolutions, planned};
 use asperity_driver::report::{Outcome, RunReport, Stop};
 use asperity_driver::run;
 use asperity_output::Recorder;
@@ -94,7 +94,12 @@ fn state(evolution: &str, a: f64, b: f64, l: &str) -> String {
     )
 }
 
-const EVOLUTIONS: [&str; 4] = ["\"ageing\"", "\"slip\"", "\"prz\"", "\"nagata\", c = 0.05"];
+/// Plain evolutions and one with a parameter of its own, as scenes name them.
+fn evolutions() -> impl Iterator<Item = String> {
+    let plain = plain_evolutions().map(|name| format!("\"{name}\""));
+    plain.chain(["\"nagata\", c = 0.05".into()])
+}
+
 const WEAKENING: &str = "{ kind = \"slip-weakening\", mu_s = 0.6, mu_k = 0.3, d_c = \"0.5 um\" }";
 /// The same over a length that the elements resolve.
 const RESOLVED: &str = "{ kind = \"slip-weakening\", mu_s = 0.6, mu_k = 0.3, d_c = \"2 um\" }";
@@ -108,8 +113,8 @@ fn combined(law: &str) -> Vec<Sandwich> {
 
 #[test]
 fn unstable_states_stop_with_the_instability_by_name_in_every_stepper_and_measure() {
-    for evolution in EVOLUTIONS {
-        for scene in combined(&state(evolution, 0.005, 0.02, "0.2 um")) {
+    for evolution in evolutions() {
+        for scene in combined(&state(&evolution, 0.005, 0.02, "0.2 um")) {
             scene.onset();
         }
     }
@@ -167,15 +172,15 @@ fn a_run_whose_newton_iteration_fails_while_slip_runs_away_names_the_instability
 
 #[test]
 fn stable_neighbours_run_to_their_end() {
-    let strengthening = EVOLUTIONS.map(|e| state(e, 0.02, 0.005, "0.2 um"));
+    let strengthening = evolutions().map(|e| state(&e, 0.02, 0.005, "0.2 um"));
     let stiff = [
         state("\"ageing\"", 0.005, 0.02, "50 um"),
         "{ kind = \"slip-weakening\", mu_s = 0.6, mu_k = 0.3, d_c = \"5 mm\" }".into(),
         "{ kind = \"coulomb\", mu = 0.6 }".into(),
     ];
-    for law in strengthening.iter().chain(&stiff) {
+    for law in strengthening.chain(stiff) {
         for explicit in [false, true] {
-            let (report, _) = Sandwich { explicit, ..Sandwich::new(law) }.run();
+            let (report, _) = Sandwich { explicit, ..Sandwich::new(&law) }.run();
             assert_eq!(report.outcome, Outcome::Completed, "{law} {explicit}");
         }
     }

@@ -1,5 +1,6 @@
 //! Every law a scene can express is built, and an interface and a slider get what the scene says.
 
+use crate::common::plain_evolutions;
 use asperity_driver::laws;
 use asperity_driver::scene::law::{LawChoice, State};
 use asperity_driver::scene::model::{LawSpec, Spanned, here};
@@ -31,11 +32,10 @@ const FORMS: [&str; 4] =
     ["", ", form = \"regularised\"", ", form = \"bare\"", ", form = \"cut-off\", v_cut = \"1 m/s\""];
 const HEATS: [&str; 2] = ["", ", activation = 150e3, t_ref = 293.15, temperature = 303.15"];
 /// Evolutions with the name of the law and whether they admit several state variables.
-const EVOLUTIONS: [(&str, &str, bool); 6] = [
+const EVOLUTIONS: [(&str, &str, bool); 5] = [
     ("\"ageing\"", "rate-and-state, ageing law", true),
     ("\"ageing\", v_cut_state = \"1 m/s\"", "rate-and-state, ageing law", true),
     ("\"slip\"", "rate-and-state, slip law", true),
-    ("\"prz\"", "rate-and-state, Perrin-Rice-Zheng law", true),
     ("\"nagata\", c = 2", "rate-and-state, Nagata law", false),
     ("\"flash\", mu_w = 0.1, v_w = \"0.1 m/s\"", "rate-and-state, slip law with flash heating", false),
 ];
@@ -93,7 +93,7 @@ fn lists_give_a_state_variable_each() {
 
 #[test]
 fn a_list_of_one_is_one_value() {
-    let law = format!("kind = \"rate-and-state\", {STRENGTH}, v_initial = 1e-6, evolution = \"prz\"");
+    let law = format!("kind = \"rate-and-state\", {STRENGTH}, v_initial = 1e-6, evolution = \"slip\"");
     assert_eq!(
         choose(&format!("{law}, {ONE}")),
         choose(&format!("{law}, b = [0.015], l = \"10 um\", alpha = [0]"))
@@ -117,7 +117,7 @@ fn parameters_reach_the_law() {
         |v_initial| format!("kind = \"rate-and-state\", {STRENGTH}{bare}, v_initial = \"{v_initial}\"");
     let law = begun("1 nm/s");
     let ln = 1e-3_f64.ln();
-    for evolution in ["ageing", "slip", "prz"] {
+    for evolution in plain_evolutions() {
         let law = format!("{law}, evolution = \"{evolution}\"");
         close(&format!("{law}, {ONE}"), 1e-9, 0.6 + (0.01 - 0.015) * ln);
         close(&format!("{law}, {TWO}"), 1e-6, 0.6 - 0.015 * ln);
@@ -125,12 +125,12 @@ fn parameters_reach_the_law() {
     // Okubo's state effect: φ = b ln(1 + V2 θ/L) with θ = L/V.
     close(&format!("{law}, evolution = {}, {ONE}", EVOLUTIONS[1].0), 1e-6, 0.6 + 0.015 * 1e9_f64.ln_1p());
     // At the rate of the start nothing is remembered; ten times as fast φ + c μ is what it was: dμ = a dln V/(1 + c).
-    let nagata = format!("{law}, evolution = {}, {ONE}", EVOLUTIONS[4].0);
+    let nagata = format!("{law}, evolution = {}, {ONE}", EVOLUTIONS[3].0);
     close(&nagata, 1e-9, 0.6 - 0.005 * ln);
     close(&nagata, 1e-8, 0.6 - 0.005 * ln + 0.01 * 10_f64.ln() / 3.0);
     // Far above V_w what is left above μ_w falls as V_w/V.
     close(
-        &format!("{}, evolution = {}, {ONE}", begun("1 km/s"), EVOLUTIONS[5].0),
+        &format!("{}, evolution = {}, {ONE}", begun("1 km/s"), EVOLUTIONS[4].0),
         1e3,
         0.1 + 1e-4 * (0.5 - 0.005 * 1e9_f64.ln()),
     );
@@ -217,11 +217,12 @@ fn a_law_that_is_chosen_can_be_built() {
             ],
         ),
     ];
+    let evolutions = asperity_friction::evolution::definitions();
     let (mut passed, mut refused) = ([0; 3], 0);
     for _ in 0..60_000 {
         let kind = draw(3);
         let mut law = format!("kind = \"{}\"", kinds[kind].0);
-        let evolution = ["ageing", "slip", "prz", "nagata", "flash"][draw(5)];
+        let evolution = evolutions[draw(evolutions.len())].name;
         let cut_off = draw(2) == 1;
         if kind == 2 {
             law += &format!(

@@ -1,7 +1,7 @@
 //! Reports of runs of spring-sliders: events of both directions, rows at times and at peaks, imposed slip rates, stability.
 
 use crate::common::sliders::{CYCLE, history, plan, planned, relative, written};
-use crate::common::varied;
+use crate::common::{plain_evolutions, varied};
 use asperity_cycles::slider::{Now, Stability, critical_stiffness, run};
 use asperity_driver::slider::{Entry, csv};
 use asperity_ode::Method;
@@ -328,16 +328,15 @@ fn stability_at_any_stiffness_is_that_of_the_jacobian() {
 #[test]
 fn critical_stiffness_is_where_growth_changes_sign() {
     let one = |evolution, more| law_with(evolution, "0.015", "\"10 um\"", more);
-    let laws = [
-        law("ageing", 0.015),
-        law("slip", 0.015),
-        law("prz", 0.015),
+    let plain = plain_evolutions().map(|evolution| law(evolution, 0.015));
+    let others = [
         one("ageing", ", form = \"cut-off\", v_cut = \"3 um/s\", v_cut_state = \"20 um/s\""),
         one("flash", ", mu_w = 0.2, v_w = \"0.1 m/s\""),
         states("slip", "[0.012, 0.003]", "[\"10 um\", \"100 um\"]"),
         states("ageing", "[0.006, 0.005, 0.008]", "[\"10 um\", \"30 um\", \"15 um\"]"),
         one("nagata", ", c = 2.0"),
     ];
+    let laws: Vec<String> = plain.chain(others).collect();
     // Mass for which inertia raises k_c: n = M V^2/(f_n L) of the size of a.
     for more in ["", "damping = \"1e10 Pa s/m\"", "mass = 1e11", "damping = \"1e10 Pa s/m\"\nmass = 1e11"] {
         for law in &laws {
@@ -383,7 +382,7 @@ fn the_plan_names_the_stiffness_ratio_and_warns_of_what_runs_away() {
 
 #[test]
 fn a_negative_b_is_stable_on_any_spring_and_steady_where_theory_says() {
-    for evolution in ["ageing", "slip", "prz"] {
+    for evolution in plain_evolutions() {
         for power in -6..=6 {
             let slider = format!("stiffness = {:e}", 1e9 * 10f64.powi(power));
             let text =

@@ -99,6 +99,14 @@ pub struct Definition {
     pub front: Front,
 }
 
+impl Definition {
+    /// True if the common parameters alone define the law.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        self.parameters.iter().all(|parameter| parameter.optional)
+    }
+}
+
 /// Parameters that all evolutions share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Common {

@@ -14,6 +14,20 @@ pub mod slip;
 pub mod stateless;
 mod table;
 
+/// Evaluates an expression once for each evolution of the table; the given name stands for its type.
+#[macro_export]
+macro_rules! each_evolution {
+    ($law:ident => $do:expr) => {
+        $crate::each_evolution!($law => $do; ageing::Ageing, slip::Slip, prz::Prz, nagata::Nagata, flash::Flash)
+    };
+    ($law:ident => $do:expr; $($module:ident::$name:ident),*) => {
+        $({
+            type $law = $crate::evolution::$module::$name;
+            $do
+        })*
+    };
+}
+
 pub use definition::{Bound, Common, Defined, Definition, Front, Parameter, Unit, Variable};
 pub use table::{Visit, definition, definitions, with};
 

@@ -150,3 +150,74 @@ impl Evolution for Prz {
         Some(0.5 * self.double)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const B: f64 = 0.015;
+    const LENGTH: f64 = 1e-5;
+    const V_REF: f64 = 1e-6;
+
+    #[test]
+    fn parameters_without_meaning_are_refused_by_name() {
+        let name = |b, length, v_ref| match Prz::new(b, length, v_ref) {
+            Err(crate::Failure::Parameter { name, .. }) => name,
+            other => panic!("{other:?}"),
+        };
+        for bad in [0.0, -0.01, f64::NAN, f64::INFINITY] {
+            assert_eq!((name(B, bad, V_REF), name(B, LENGTH, bad)), ("l", "v_ref"));
+        }
+        for bad in [f64::NAN, f64::INFINITY] {
+            assert_eq!(name(bad, LENGTH, V_REF), "b");
+        }
+    }
+
+    /// At rest θ grows with time, from θ_0 = 2L/Vref = 20 s.
+    #[test]
+    fn the_state_heals_at_rest() {
+        let found = Prz::new(B, LENGTH, V_REF).unwrap().step(0.0, f64::MIN, 180.0).state;
+        approx::assert_relative_eq!(found, 10f64.ln(), epsilon = 0.0, max_relative = 1e-14);
+    }
+
+    /// u = V θ/2L obeys du/dx = 1 - u² over x = V t/2L: tanh below its steady state of 1 and coth above.
+    #[test]
+    fn the_prz_law_follows_its_hyperbolic_functions() {
+        let prz = Prz::new(B, LENGTH, V_REF).unwrap();
+        let check = |v: f64, u0: f64, x: f64| {
+            let state = |u: f64| (u * V_REF / v).ln();
+            let u = if u0 < 1.0 { (x + u0.atanh()).tanh() } else { 1.0 / (x + (1.0 / u0).atanh()).tanh() };
+            let found = prz.step(state(u0), v.ln(), 2.0 * LENGTH * x / v).state;
+            let rounding = 8.0 * f64::EPSILON * (2.0 + state(u0).abs() + state(u).abs());
+            assert!((found - state(u)).abs() <= rounding, "{v} {u0} {x}: {found} {}", state(u));
+        };
+        for v in [1e-12, 1e-6, 1e-2] {
+            for u0 in [1e-9, 1e-3, 0.1, 0.5, 0.9, 1.1, 2.0, 1e3, 1e9] {
+                for x in [1e-8, 1e-4, 5e-3, 9.9e-3, 0.0101, 0.1, 1.0, 5.0, 19.9, 20.1, 50.0] {
+                    check(v, u0, x);
+                }
+            }
+            // A step of the rate from V_1 starts at u_0 = V/V_1.
+            for v1 in [1e-9, 1e-7, 1e-4] {
+                for n in 1..20 {
+                    check(v, v / v1, 0.1 * f64::from(n));
+                }
+            }
+        }
+    }
+
+    /// Small steps keep the derivative to rounding, too: x/(sinh x cosh x) - 1 from a long series.
+    #[test]
+    fn small_steps_of_the_prz_law_have_exact_derivatives() {
+        let prz = Prz::new(B, LENGTH, V_REF).unwrap();
+        for x in [1e-6, 1e-4, 1e-3, 5e-3, 9.9e-3, 0.0101, 0.02] {
+            // From θ = 0, ψ = ln(tanh x) - ln V + constant, ∂ψ/∂ln V = 2x/sinh 2x - 1.
+            let found = prz.step(-700.0, 0.0, 2.0 * LENGTH * x).d_log_rate;
+            let (mut expected, y) = (0.0, 4.0 * x * x);
+            for c in [-73.0 / 3_421_440.0, 127.0 / 604_800.0, -31.0 / 15_120.0, 7.0 / 360.0, -1.0 / 6.0] {
+                expected = (expected + c) * y;
+            }
+            approx::assert_abs_diff_eq!(found, expected, epsilon = 4e-16 + 1e-14 * expected.abs());
+        }
+    }
+}

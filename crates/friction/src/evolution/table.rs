@@ -1,20 +1,7 @@
 //! The table of evolution laws, which scenes, the book, the factory and the acceptance tests read.
 
 use super::definition::{Defined, Definition};
-
-/// Evaluates an expression once for each evolution of the table; the given name stands for its type.
-#[macro_export]
-macro_rules! each_evolution {
-    ($law:ident => $do:expr) => {
-        $crate::each_evolution!($law => $do; ageing::Ageing, slip::Slip, prz::Prz, nagata::Nagata, flash::Flash)
-    };
-    ($law:ident => $do:expr; $($module:ident::$name:ident),*) => {
-        $({
-            type $law = $crate::evolution::$module::$name;
-            $do
-        })*
-    };
-}
+use crate::each_evolution;
 
 /// An operation on the type of an evolution.
 pub trait Visit {

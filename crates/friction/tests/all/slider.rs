@@ -3,7 +3,9 @@
 use super::usual::usual;
 use asperity_friction::component::Component;
 use asperity_friction::each_evolution;
-use asperity_friction::evolution::{Common, Defined, ageing::Ageing, nagata::Nagata, slip::Slip};
+use asperity_friction::evolution::{
+    Common, Defined, Definition, ageing::Ageing, definition, nagata::Nagata, slip::Slip,
+};
 use asperity_friction::law::Rated;
 use asperity_friction::rate::RateLaw;
 use asperity_friction::slider::{History, Slider, Sliding, Spring, System};
@@ -227,7 +229,7 @@ fn reversal_is_a_mirror_image() {
 /// The rates are those of the rated law: V and the state rates from the traction.
 #[test]
 fn equations_agree_with_the_rated_law() {
-    for (name, law) in laws().into_iter().filter(|l| l.0 == "ageing" || l.0 == "slip" || l.0 == "prz") {
+    for (name, law) in laws().into_iter().filter(|l| definition(l.0).is_some_and(Definition::is_plain)) {
         let block = Slider { normal: History::Constant(5e6), ..slider(&law, 5e6, None) };
         let system = System::new(vec![block], vec![], History::Constant(1e-6)).unwrap();
         let (segment, y) = (system.segment(0.0), unknowns(&system, &[3e-3]));

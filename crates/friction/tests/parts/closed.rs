@@ -2,7 +2,7 @@
 
 use super::common::*;
 use asperity_friction::evolution::flash::Flash;
-use asperity_friction::evolution::{Evolution, ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip};
+use asperity_friction::evolution::{Evolution, ageing::Ageing, nagata::Nagata, slip::Slip};
 
 /// After a step of the rate from V_1 to V_2, with slip δ: slip law μ - μ_ss = b ln(V_2/V_1) e^(-δ/L); ageing law
 /// θ = L/V_2 + (L/V_1 - L/V_2) e^(-δ/L).
@@ -22,47 +22,6 @@ fn velocity_steps_follow_their_closed_forms() {
             let theta = LENGTH / v2 + (LENGTH / v1 - LENGTH / v2) * decay;
             approx::assert_abs_diff_eq!(psi, (V_REF * theta / LENGTH).ln(), epsilon = 1e-13);
         }
-    }
-}
-
-/// u = V θ/2L obeys du/dx = 1 - u² over x = V t/2L: tanh below its steady state of 1 and coth above.
-#[test]
-fn the_prz_law_follows_its_hyperbolic_functions() {
-    let prz = Prz::new(B, LENGTH, V_REF).unwrap();
-    let check = |v: f64, u0: f64, x: f64| {
-        let state = |u: f64| (u * V_REF / v).ln();
-        let u = if u0 < 1.0 { (x + u0.atanh()).tanh() } else { 1.0 / (x + (1.0 / u0).atanh()).tanh() };
-        let found = prz.step(state(u0), v.ln(), 2.0 * LENGTH * x / v).state;
-        let rounding = 8.0 * f64::EPSILON * (2.0 + state(u0).abs() + state(u).abs());
-        assert!((found - state(u)).abs() <= rounding, "{v} {u0} {x}: {found} {}", state(u));
-    };
-    for v in [1e-12, 1e-6, 1e-2] {
-        for u0 in [1e-9, 1e-3, 0.1, 0.5, 0.9, 1.1, 2.0, 1e3, 1e9] {
-            for x in [1e-8, 1e-4, 5e-3, 9.9e-3, 0.0101, 0.1, 1.0, 5.0, 19.9, 20.1, 50.0] {
-                check(v, u0, x);
-            }
-        }
-        // A step of the rate from V_1 starts at u_0 = V/V_1.
-        for v1 in [1e-9, 1e-7, 1e-4] {
-            for n in 1..20 {
-                check(v, v / v1, 0.1 * f64::from(n));
-            }
-        }
-    }
-}
-
-/// Small steps keep the derivative to rounding, too: x/(sinh x cosh x) - 1 from a long series.
-#[test]
-fn small_steps_of_the_prz_law_have_exact_derivatives() {
-    let prz = Prz::new(B, LENGTH, V_REF).unwrap();
-    for x in [1e-6, 1e-4, 1e-3, 5e-3, 9.9e-3, 0.0101, 0.02] {
-        // From θ = 0, ψ = ln(tanh x) - ln V + constant, ∂ψ/∂ln V = 2x/sinh 2x - 1.
-        let found = prz.step(-700.0, 0.0, 2.0 * LENGTH * x).d_log_rate;
-        let (mut expected, y) = (0.0, 4.0 * x * x);
-        for c in [-73.0 / 3_421_440.0, 127.0 / 604_800.0, -31.0 / 15_120.0, 7.0 / 360.0, -1.0 / 6.0] {
-            expected = (expected + c) * y;
-        }
-        approx::assert_abs_diff_eq!(found, expected, epsilon = 4e-16 + 1e-14 * expected.abs());
     }
 }
 

@@ -5,7 +5,7 @@ use super::usual::usual;
 use asperity_friction::each_evolution;
 use asperity_friction::evolution::flash::Flash;
 use asperity_friction::evolution::{Common, Defined, Evolution, Speed, Variable};
-use asperity_friction::evolution::{ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip};
+use asperity_friction::evolution::{ageing::Ageing, nagata::Nagata, slip::Slip};
 
 /// Calls a function with every evolution of the table, and with values of its state variable to start from.
 macro_rules! with_every_evolution {
@@ -209,14 +209,6 @@ fn extreme_rates_and_rest_leave_numbers() {
     assert_eq!(flash.step(0.1, f64::MIN, 1e9).state, 0.1);
     approx::assert_relative_eq!(
         ageing.step(0.0, f64::MIN, 90.0).state,
-        10f64.ln(),
-        epsilon = 0.0,
-        max_relative = 1e-14
-    );
-    // θ_0 = 2L/Vref = 20 s.
-    let prz = Prz::new(B, LENGTH, V_REF).unwrap();
-    approx::assert_relative_eq!(
-        prz.step(0.0, f64::MIN, 180.0).state,
         10f64.ln(),
         epsilon = 0.0,
         max_relative = 1e-14

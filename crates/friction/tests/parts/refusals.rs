@@ -4,7 +4,7 @@ use super::common::*;
 use asperity_friction::Failure;
 use asperity_friction::component::Component;
 use asperity_friction::evolution::flash::{Flash, Weakening};
-use asperity_friction::evolution::{ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip};
+use asperity_friction::evolution::{ageing::Ageing, nagata::Nagata, slip::Slip};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::arrhenius::Arrhenius;
 use asperity_friction::strength::cut_off::CutOff;
@@ -50,8 +50,6 @@ fn parameters_of_the_other_laws_are_refused_by_name() {
     let p = Parameters::new(0.6, 0.01, 1e-6).unwrap();
     let w = weakening(0.01);
     for bad in [0.0, -0.01, f64::NAN, f64::INFINITY] {
-        refused(Prz::new(B, bad, V_REF), "l");
-        refused(Prz::new(B, LENGTH, bad), "v_ref");
         refused(Nagata::new(bad, LENGTH, V_REF, 2.0), "b");
         refused(Nagata::new(B, bad, V_REF, 2.0), "l");
         refused(Nagata::new(B, LENGTH, bad, 2.0), "v_ref");
@@ -71,7 +69,6 @@ fn parameters_of_the_other_laws_are_refused_by_name() {
         refused(Component::new(Slip::new(B, LENGTH, V_REF).unwrap(), bad), "alpha");
     }
     for bad in [f64::NAN, f64::INFINITY] {
-        refused(Prz::new(bad, LENGTH, V_REF), "b");
         refused(Flash::new(Weakening { mu0: bad, ..w }, LENGTH), "mu0");
         refused(Flash::new(Weakening { a: bad, ..w }, LENGTH), "a");
         refused(Flash::new(Weakening { b: bad, ..w }, LENGTH), "b");

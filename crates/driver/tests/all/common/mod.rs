@@ -7,6 +7,7 @@ pub mod written;
 use asperity_driver::plan::{self, AnyPlan};
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::{run, scene};
+use asperity_friction::evolution::definitions;
 use asperity_output::Recorder;
 use asperity_output::view::BodyFields;
 use asperity_vary::Change::{self, With};
@@ -16,6 +17,11 @@ use std::process::Output;
 
 /// The scene of the README.
 pub const SANDWICH: &str = include_str!("../../../../../scenes/sandwich.toml");
+
+/// Names of the evolutions that the parameters of all define.
+pub fn plain_evolutions() -> impl Iterator<Item = &'static str> {
+    definitions().into_iter().filter(|row| row.is_plain()).map(|row| row.name)
+}
 
 /// The text of a scene with these changes, each of which must be one.
 #[track_caller]
