@@ -1,7 +1,7 @@
 //! Steady friction over 24 decades of the slip rate, and where the two forms of the strength part.
 
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_friction::evolution::{Evolution, ageing::Ageing, nagata::Nagata, slip::Slip};
+use asperity_friction::evolution::{Evolution, ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip};
 use asperity_friction::law::{Drives, Law, Rated};
 use asperity_friction::rate::RateLaw;
 use asperity_friction::strength::{Form, Parameters, bare::Bare, regularised::Regularised};
@@ -33,6 +33,9 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         })?;
         steady(ledger, &format!("bare, slip law, {name}"), (a, b), |v| {
             tractions(Bare(parameters()?), Slip::new(b, LENGTH, V_REF)?, v)
+        })?;
+        steady(ledger, &format!("bare, PRZ law, {name}"), (a, b), |v| {
+            tractions(Bare(parameters()?), Prz::new(b, LENGTH, V_REF)?, v)
         })?;
         steady(ledger, &format!("bare, Nagata law, {name}"), (a, b), |v| {
             tractions(Bare(parameters()?), Nagata::new(b, LENGTH, V_REF, 2.0)?, v)

@@ -2,7 +2,7 @@
 
 use super::slider::{self, Independent, Kind, Set, V_REF};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
-use asperity_friction::evolution::{Evolution, Speed, ageing::Ageing, slip::Slip};
+use asperity_friction::evolution::{Evolution, Speed, ageing::Ageing, prz::Prz, slip::Slip};
 use asperity_friction::slider::History;
 use asperity_ode::{Clock, Control, Method, Occurrence, Options, Outcome, Problem, Sink, Step};
 
@@ -20,6 +20,7 @@ const B: f64 = 0.015;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (slip, ageing) = (Slip::new(B, LENGTH, V_REF)?, Ageing::new(B, LENGTH, V_REF)?);
+    let prz = Prz::new(B, LENGTH, V_REF)?;
     let mut plot = Plot::xy(
         "Step of the slip rate from 1e-7 to 1e-5 m/s",
         "slip over L [-]",
@@ -39,8 +40,29 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             closed,
             "theta = L/V2 + (L/V1 - L/V2) e^(-V2 t/L)",
         )?;
+        let closed = |x: f64| {
+            // u = V2 θ/2L from u_0 = V2/V1: tanh or coth of x/2 + atanh of u_0 or its inverse.
+            let u0: f64 = v2 / v1;
+            let u = if u0 < 1.0 {
+                (0.5 * x + u0.atanh()).tanh()
+            } else {
+                1.0 / (0.5 * x + (1.0 / u0).atanh()).tanh()
+            };
+            B * (V_REF / v2 * u).ln()
+        };
+        let c = stepped(
+            ledger,
+            "PRZ law",
+            &prz,
+            (v1, v2),
+            closed,
+            "V2 theta/2L = tanh or coth of V2 t/2L + const",
+        )?;
         if v2 == 1e-5 {
-            plot = plot.series(Series::line("slip law", &a)).series(Series::line("ageing law", &b));
+            plot = plot
+                .series(Series::line("slip law", &a))
+                .series(Series::line("ageing law", &b))
+                .series(Series::line("PRZ law", &c));
         }
     }
     ledger.plot(plot.caption("From the integrator."));

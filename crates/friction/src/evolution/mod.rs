@@ -8,6 +8,7 @@ pub mod ageing;
 mod definition;
 pub mod flash;
 pub mod nagata;
+pub mod prz;
 mod relaxation;
 pub mod slip;
 pub mod stateless;
@@ -17,7 +18,7 @@ mod table;
 #[macro_export]
 macro_rules! each_evolution {
     ($law:ident => $do:expr) => {
-        $crate::each_evolution!($law => $do; ageing::Ageing, slip::Slip, nagata::Nagata, flash::Flash)
+        $crate::each_evolution!($law => $do; ageing::Ageing, slip::Slip, prz::Prz, nagata::Nagata, flash::Flash)
     };
     ($law:ident => $do:expr; $($module:ident::$name:ident),*) => {
         $({
