@@ -7,7 +7,7 @@ use asperity_friction::component::Component;
 use asperity_friction::coulomb::Coulomb;
 use asperity_friction::evolution::flash::{Flash, Weakening};
 use asperity_friction::evolution::{
-    Evolution, ageing::Ageing, nagata::Nagata, slip::Slip, stateless::Stateless,
+    Evolution, ageing::Ageing, nagata::Nagata, prz::Prz, slip::Slip, stateless::Stateless,
 };
 use asperity_friction::law::{Drives, Law, Rated, Regime, Responses, Trials};
 use asperity_friction::point::{Point, Solver};
@@ -61,6 +61,7 @@ macro_rules! each_rated {
         $do(group, &one("rate", Stateless), n);
         $do(group, &one("ageing", Ageing::new(B, L, V_REF).expect("admissible")), n);
         $do(group, &one("slip", Slip::new(B, L, V_REF).expect("admissible")), n);
+        $do(group, &one("prz", Prz::new(B, L, V_REF).expect("admissible")), n);
         $do(group, &one("nagata", Nagata::new(B, L, V_REF, 0.2).expect("admissible")), n);
         let weak = Weakening { mu0: MU0, a: A, b: B, v_ref: V_REF, mu_w: 0.2, v_w: 0.1 };
         $do(group, &one("flash", Flash::new(weak, L).expect("admissible")), n);
