@@ -1,6 +1,7 @@
 //! An entry of a table over time.
 
 use super::units::Time;
+use crate::shape::shaped;
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
@@ -13,6 +14,8 @@ pub struct Entry<Q> {
     /// Value then.
     pub value: Q,
 }
+
+shaped!(@ Q; Entry<Q> as (Time, Q));
 
 impl<'de, Q: Deserialize<'de>> Deserialize<'de> for Entry<Q> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

@@ -1,7 +1,7 @@
 //! Lists of a fixed length that refuse what comes after: the reader of TOML would leave it out.
 
+use crate::spanned::Spanned;
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
-use serde_spanned::Spanned;
 use std::fmt;
 use std::marker::PhantomData;
 

@@ -1,6 +1,6 @@
 //! Values without a file.
 
-use serde_spanned::Spanned;
+use crate::spanned::Spanned;
 
 /// A value without a place in a file, for scenes built in Rust.
 pub fn here<T>(value: T) -> Spanned<T> {

@@ -13,20 +13,21 @@ pub use super::here::here;
 use super::law::Several;
 use super::slider::EventSpec;
 use super::units::{Angle, Length, Memory, Penalty, Penetration, Pressure, Time, Velocity};
+pub use crate::spanned::Spanned;
 use crate::warning::Warning;
 pub use body::*;
 pub use fault::*;
 pub use place::Place;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
-pub use serde_spanned::Spanned;
 pub use solver::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 pub use stress::*;
 
 /// A whole scene.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "snake_case")]
 pub struct Scene {
     /// Version of the scene format; 1.
@@ -86,39 +87,43 @@ impl Scene {
 }
 
 /// A contact interface between two side sets.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Interface {
-    /// Slave side set, `body.set`.
+    /// Slave side, `BODY.SIDE`.
     pub slave: Spanned<String>,
-    /// Master side set, `body.set`.
+    /// Master side, of another body, or the other side of a surface along which a body is split.
     pub master: Spanned<String>,
-    /// Measure of gaps.
+    /// Measure of gaps: `"mortar"` or `"node-to-point"`.
     pub measure: Spanned<Measure>,
-    /// Small or finite sliding: with finite sliding the pairing follows the motion.
+    /// Sliding: `"small"`, or `"finite"`, where the pairing follows the motion.
     pub sliding: Spanned<Sliding>,
-    /// Smoothing of the master surface; absent = the faces as they are.
+    /// Smoothing of the master surface: `"cubic"`, with `"node-to-point"` only; absent: none.
     pub smoothing: Option<Spanned<Smoothing>>,
-    /// Enforcement of contact.
+    /// Enforcement of contact: `{ kind = .., normal = .., tangential = .. }`; `tangential` if and only if there is a law.
     pub enforcement: Enforcement,
-    /// Friction; absent = frictionless.
+    /// A [friction law](laws.md) or a bond; absent: frictionless.
     pub law: Option<Spanned<LawSpec>>,
-    /// Treatment of points that stand too coarsely for friction that weakens; absent: the scene is refused, or the run stops.
+    /// Treatment of points too far apart for friction that weakens: `"refuse"` (default) or `"allow"`.
     pub under_resolved: Option<Spanned<UnderResolved>>,
-    /// True if it starts with the tractions of the initial stress of its bodies; absent: it does not.
+    /// `true`: the interface starts with the tractions of the [initial stress](bodies.md) of its bodies; default `false`.
     pub initial_stress: Option<Spanned<bool>>,
     /// Key of a fault; refused here.
+    #[schemars(skip)]
     pub normal: Option<Spanned<IgnoredAny>>,
     /// Key of a fault; refused here.
+    #[schemars(skip)]
     pub shear: Option<Spanned<IgnoredAny>>,
     /// Key of a fault; refused here.
+    #[schemars(skip)]
     pub rate: Option<Spanned<IgnoredAny>>,
     /// Key of a fault; refused here.
+    #[schemars(skip)]
     pub profiles: Option<Spanned<IgnoredAny>>,
 }
 
 /// Measures that exist.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Measure {
     /// Slave node against the closest point of a master segment.
@@ -128,7 +133,7 @@ pub enum Measure {
 }
 
 /// Sliding regimes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sliding {
     /// Pairing fixed in the reference configuration; condensation possible.
@@ -138,7 +143,7 @@ pub enum Sliding {
 }
 
 /// Smoothings of a master surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Smoothing {
     /// Cubic patches that share a tangent plane at their nodes.
@@ -146,7 +151,7 @@ pub enum Smoothing {
 }
 
 /// Enforcement of the contact constraint.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Enforcement {
     /// Kind.
@@ -162,7 +167,7 @@ pub struct Enforcement {
 }
 
 /// Enforcements that exist.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum EnforcementKind {
     /// Traction proportional to penetration.
@@ -174,7 +179,7 @@ pub enum EnforcementKind {
 }
 
 /// A friction law as written in a scene. Which parameters belong to which kind is checked by the plan.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LawSpec {
     /// coulomb, static-kinetic, slip-weakening, rate, rate-and-state, tied.
@@ -228,25 +233,25 @@ pub struct LawSpec {
 }
 
 /// One stage of loading.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stage {
-    /// Name.
+    /// Name, unique to each stage.
     pub name: String,
     /// Duration \[s\].
     pub duration: Spanned<Time>,
-    /// Interfaces whose friction is absent during this stage.
+    /// Interfaces without friction in this stage.
     #[serde(default)]
     pub frictionless: Vec<Spanned<String>>,
-    /// Conditions that begin with this stage; those of earlier stages go on unless replaced here.
+    /// Conditions that begin with this stage; earlier ones continue unless they are replaced.
     #[serde(default)]
     pub conditions: Vec<Spanned<Condition>>,
-    /// Number of equal steps; overrides the adaptive choice of `[time]`.
+    /// Number of equal steps, instead of adaptive steps.
     pub steps: Option<Spanned<usize>>,
 }
 
 /// A condition on a set.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Condition {
     /// The set, `body.set`.
@@ -257,13 +262,13 @@ pub struct Condition {
     pub y: Option<Spanned<Motion>>,
     /// Motion in z.
     pub z: Option<Spanned<Motion>>,
-    /// Rotation of the whole set as a rigid body.
+    /// Rotation of the set as a rigid body.
     pub rotate: Option<Spanned<RotationSpec>>,
-    /// Symmetry plane: no displacement along the (axis-parallel) normal of the set.
+    /// `true`: no displacement along the normal of the side, which is parallel to an axis.
     pub symmetry: Option<Spanned<bool>>,
-    /// Traction vector \[Pa\], one entry per component of the displacement.
+    /// Loads, one per axis of motion.
     pub traction: Option<Spanned<Vec<Loading>>>,
-    /// Pressure \[Pa\], positive into the body.
+    /// Load, positive into the body.
     pub pressure: Option<Spanned<Loading>>,
 }
 
@@ -294,7 +299,7 @@ pub enum Motion {
 }
 
 /// A rotation as a scene says it.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RotationSpec {
     /// Angle by which the set has turned at the end of the stage, from its place at the start \[rad\].
@@ -344,38 +349,38 @@ pub enum Loading {
 }
 
 /// Time integration.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "snake_case")]
 pub struct TimeControl {
-    /// The stepper.
+    /// Stepper: `"implicit"`, `"static-explicit"`, or for faults `"fault-ode"`.
     pub stepper: Spanned<Stepper>,
-    /// Implicit: the rule for the slip rate.
+    /// Both: rule for the slip rate, `"bdf2"` or `"backward-euler"`.
     #[serde(default)]
     pub rule: Option<Spanned<Rule>>,
-    /// Path: linear bodies are condensed onto the interface, or they are not.
+    /// Both: `"auto"` (default), `"condensed"` or `"full"`.
     #[serde(default)]
     pub path: Path,
-    /// Implicit, adaptive: bound on the estimated local error of slip per step \[m\].
+    /// Implicit: estimated error of slip per step; default 2e-5 of the largest prescribed travel \[m\].
     pub tolerance: Option<Spanned<Length>>,
-    /// Implicit, adaptive: bound on the estimated error of friction coefficients per step \[-\].
+    /// Implicit: estimated error of friction coefficients per step, 1e-9 to 1e-2 \[-\].
     pub friction_tolerance: Option<Spanned<f64>>,
-    /// First step \[s\].
+    /// Both: first step; default 1/1000 of the stage \[s\].
     pub first_step: Option<Spanned<Time>>,
-    /// Largest step \[s\].
+    /// Both: largest step; default 1/20 of the stage \[s\].
     pub max_step: Option<Spanned<Time>>,
-    /// Smallest step \[s\]: below it the run stops with an outcome.
+    /// Both: smallest step, below which a run stops; default 1e-9 of the stage \[s\].
     pub min_step: Option<Spanned<Time>>,
-    /// Slip rate beyond which a run stops \[m/s\].
+    /// Both: slip rate at which a run stops with an [instability](#instabilities) \[m/s\].
     pub slip_rate_limit: Option<Spanned<Velocity>>,
-    /// Fault-ode: method of integration.
+    /// Fault-ode: `"tsit5"` (default), `"dop853"`, `"rkc2"`, `"stabilised"` or `"tsit45"`.
     pub method: Option<Spanned<String>>,
-    /// Fault-ode: error of ln V allowed in a step \[-\].
+    /// Fault-ode: error of ln V allowed in a step; default 1e-5 \[-\].
     pub log_rate_tolerance: Option<Spanned<f64>>,
-    /// Static-explicit: residual over the largest force that a step may leave \[-\] (default 1e-4).
+    /// Static-explicit: largest residual over the largest force that a step may leave, at most 1e-2; default 1e-4 \[-\].
     pub drift: Option<Spanned<f64>>,
-    /// Static-explicit, r8: bound on |Δ ln max(V, V_floor)| per step (default 0.5).
+    /// Static-explicit: bound on the change of ln V per step; default 0.5 \[-\].
     pub rate_change: Option<Spanned<f64>>,
-    /// Static-explicit, r8: ζ, slip increment per characteristic slip L (default 0.1).
+    /// Static-explicit: slip per step over L; default 0.1 \[-\].
     pub zeta: Option<Spanned<f64>>,
     /// Not readable from a file: the ends of all steps of the run, imposed \[s\].
     #[serde(skip)]
@@ -383,7 +388,7 @@ pub struct TimeControl {
 }
 
 /// Steppers that exist.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stepper {
     /// Newton with line search.
@@ -395,7 +400,7 @@ pub enum Stepper {
 }
 
 /// Rules of the implicit stepper for the slip rate.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rule {
     /// First order.
@@ -406,7 +411,7 @@ pub enum Rule {
 }
 
 /// Which system is solved.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Path {
     /// Condensed where the scene allows it.
@@ -419,37 +424,37 @@ pub enum Path {
 }
 
 /// Outputs.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
-    /// Probes per interface: this many positions, equally spaced along the slave side, at the nearest nodes.
+    /// Number of positions along the slave side, recorded at every step.
     #[serde(default)]
     pub probes: BTreeMap<String, Spanned<usize>>,
-    /// Points of bodies whose displacement and stress are written at every step.
+    /// `{ body = "A", at = ["48 mm", "52 mm"] }`: displacement and stress at a position of the undeformed body, at every step.
     #[serde(default)]
     pub points: BTreeMap<String, Spanned<PointSpec>>,
-    /// Sets whose total force is written at every step.
+    /// `{ set = "A.left" }`: total force on a set, at every step.
     #[serde(default)]
     pub forces: BTreeMap<String, Spanned<ForceSpec>>,
-    /// Fields are written at this many equal intervals of each stage (default 1: the end of each stage).
+    /// Field files per stage, at equal intervals; default 1.
     pub fields: Option<Spanned<usize>>,
-    /// Profiles are written at this many equal intervals of each stage (default 10).
+    /// Profiles per stage, at equal intervals; default 10.
     pub profiles: Option<Spanned<usize>>,
-    /// Fault-ode: whether displacements of the bodies are written, over each event and at the end.
+    /// `true`: displacements of the bodies over each event and at the end, as VTU.
     pub bodies: Option<Spanned<bool>>,
-    /// Fault-ode: stations per fault.
+    /// Positions on a fault: distances along it, or coordinates `[x, y]`, in space `[x, y, z]`.
     #[serde(default)]
     pub stations: BTreeMap<String, Spanned<Vec<Spanned<Station>>>>,
-    /// Fault-ode: what makes rows of stations and of the largest slip rate due.
+    /// Changes after which rows of stations and of the largest slip rate are written.
     pub cadence: Option<Spanned<CadenceSpec>>,
-    /// Fault-ode: times between profiles of slip, between events and in them.
+    /// Times between profiles of slip: between events, and in them \[s\].
     pub contours: Option<Spanned<[Time; 2]>>,
-    /// Fault-ode: largest size of an output file that grows.
+    /// Largest size of a file that grows; default `"100 MB"`, at least `"10 kB"`.
     pub largest_file: Option<Spanned<Memory>>,
 }
 
 /// Limits that make rows due.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CadenceSpec {
     /// Change of log10 of the slip rate \[-\].
@@ -463,7 +468,7 @@ pub struct CadenceSpec {
 }
 
 /// A point of a body.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PointSpec {
     /// The body.
@@ -473,7 +478,7 @@ pub struct PointSpec {
 }
 
 /// A set whose force is wanted.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ForceSpec {
     /// The set, `body.set`.

@@ -3,10 +3,12 @@
 use super::entry::Entry;
 use super::model::{Loading, Motion};
 use super::units::{self, Dimension, Length, Pressure, Velocity};
+use crate::shape::{Either, shaped};
+use schemars::JsonSchema;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, Visitor, value::MapAccessDeserializer};
 use std::fmt;
 
-#[derive(serde::Deserialize)]
+#[derive(serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct MotionTable {
     to: Option<Length>,
@@ -14,6 +16,8 @@ struct MotionTable {
     spring: Option<SideSpring>,
     table: Option<Vec<Entry<Length>>>,
 }
+
+shaped!(Motion as Either<Length, MotionTable>);
 
 impl<'de> Deserialize<'de> for Motion {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -71,6 +75,8 @@ impl<'de> Deserialize<'de> for Motion {
 /// Stiffness of a spring that draws a whole side \[N/m; N/m per metre of thickness in the plane\].
 struct SideSpring(f64);
 
+shaped!(SideSpring as f64);
+
 impl<'de> Deserialize<'de> for SideSpring {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct SpringVisitor;
@@ -120,12 +126,14 @@ impl<'de, V: Visitor<'de>> fmt::Display for Expected<'_, V> {
     }
 }
 
-#[derive(serde::Deserialize)]
+#[derive(serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct LoadingTable {
     to: Option<Pressure>,
     table: Option<Vec<Entry<Pressure>>>,
 }
+
+shaped!(Loading as Either<Pressure, LoadingTable>);
 
 impl<'de> Deserialize<'de> for Loading {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

@@ -2,7 +2,10 @@
 //!
 //! Decimal prefixes shift the exponent of the number before it is read, so `"25 mm"` is the same value as `0.025`.
 
+use crate::shape::shaped;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::{self, Deserialize, Deserializer, Visitor};
+use std::borrow::Cow;
 use std::fmt;
 
 /// Quantity of a unit.
@@ -72,6 +75,24 @@ impl Dimension {
             Self::Viscosity => "a viscosity such as \"1e19 Pa s\" or a number in Pa s",
             Self::Angle => "an angle such as \"30 deg\" or a number in rad",
             Self::Memory => "an amount of memory such as \"8 GiB\" or a number of bytes",
+        }
+    }
+
+    /// Its unit in SI.
+    #[must_use]
+    pub fn si(self) -> &'static str {
+        match self {
+            Self::Length => "m",
+            Self::Time => "s",
+            Self::Pressure => "Pa",
+            Self::Velocity => "m/s",
+            Self::Density => "kg/m3",
+            Self::Stiffness | Self::Spring | Self::Gradient => "Pa/m",
+            Self::Damping => "Pa s/m",
+            Self::Mass => "kg/m2",
+            Self::Viscosity => "Pa s",
+            Self::Angle => "rad",
+            Self::Memory => "bytes",
         }
     }
 
@@ -281,6 +302,15 @@ pub(super) fn finite<E: de::Error>(value: f64, dimension: Dimension) -> Result<f
     }
 }
 
+/// Schema of a value with a unit: a number in SI, or a text such as "25 mm".
+fn value(dimension: Dimension) -> Schema {
+    schemars::json_schema!({
+        "description": format!("Expected: {}.", dimension.expected()),
+        "type": ["number", "string"],
+        "x-unit": dimension.si(),
+    })
+}
+
 macro_rules! quantity {
     ($($(#[$doc:meta])* $name:ident: $dimension:ident,)*) => {$(
         $(#[$doc])*
@@ -290,6 +320,16 @@ macro_rules! quantity {
         impl<'de> Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 deserializer.deserialize_any(ValueVisitor(Dimension::$dimension)).map(Self)
+            }
+        }
+
+        impl JsonSchema for $name {
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+
+            fn json_schema(_: &mut SchemaGenerator) -> Schema {
+                value(Dimension::$dimension)
             }
         }
     )*};
@@ -331,6 +371,16 @@ pub enum Penalty {
     YoungPerSize(f64),
 }
 
+impl JsonSchema for Penalty {
+    fn schema_name() -> Cow<'static, str> {
+        "Penalty".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        value(Dimension::Stiffness)
+    }
+}
+
 impl<'de> Deserialize<'de> for Penalty {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct PenaltyVisitor;
@@ -370,6 +420,8 @@ pub enum Penetration {
     /// This factor times the element size of the slave body.
     Sizes(f64),
 }
+
+shaped!(Penetration as Length);
 
 impl<'de> Deserialize<'de> for Penetration {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

@@ -11,7 +11,7 @@ mod read;
 mod signals;
 mod work;
 
-use crate::report::schema::schema;
+use crate::report;
 use asperity_output::{Pulse, printing};
 use begin::Begin;
 use clap::{Parser, Subcommand, ValueEnum};
@@ -68,6 +68,8 @@ pub enum Command {
 /// Files that have a schema.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum Schema {
+    /// A scene.
+    Scene,
     /// `report.json`.
     Report,
 }
@@ -82,8 +84,12 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
             print::plan(&Source::read(scene)?.plan()?.plan);
             Ok(End::Done)
         }
-        Command::Schema { of: Schema::Report } => {
-            let schema = serde_json::to_string_pretty(&schema()).into_diagnostic()?;
+        Command::Schema { of } => {
+            let schema = match of {
+                Schema::Scene => serde_json::to_string_pretty(&asperity_scene::schema::schema()),
+                Schema::Report => serde_json::to_string_pretty(&report::schema::schema()),
+            };
+            let schema = schema.into_diagnostic()?;
             printing::out(format_args!("{schema}\n"));
             Ok(End::Done)
         }

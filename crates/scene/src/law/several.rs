@@ -1,8 +1,9 @@
 //! One value or a list of them, one for each state variable.
 
 use crate::here::here;
+use crate::shape::{Either, shaped};
+use crate::spanned::Spanned;
 use serde::de::{Deserialize, Deserializer, Error, IntoDeserializer, SeqAccess, Visitor};
-use serde_spanned::Spanned;
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -21,6 +22,8 @@ impl<T, const N: usize> From<[T; N]> for Several<T> {
         Self(values.into_iter().map(here).collect())
     }
 }
+
+shaped!(@ T; Several<T> as Either<T, Vec<T>>);
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Several<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

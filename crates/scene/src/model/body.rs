@@ -2,18 +2,20 @@
 
 use super::stress::InitialStress;
 use crate::exact::{self, Exactly};
+use crate::shape::{Either, shaped};
+use crate::spanned::Spanned;
 use crate::units::{Density, Length, Pressure, Viscosity};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{
     self, Deserializer, MapAccess, SeqAccess, Visitor,
     value::{MapAccessDeserializer, SeqAccessDeserializer},
 };
-use serde_spanned::Spanned;
 use std::collections::BTreeMap;
 use std::fmt;
 
 /// Idealisations a scene can name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 pub enum Kinematics {
     /// Two-dimensional, ε_zz = 0.
     #[serde(rename = "plane-strain")]
@@ -53,20 +55,20 @@ impl Kinematics {
 }
 
 /// An isotropic material: elastic, and perhaps plastic or viscous.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// Young's modulus E \[Pa\].
+    /// Young's modulus E, positive \[Pa\].
     pub young: Spanned<Pressure>,
-    /// Poisson's ratio ν \[-\].
+    /// Poisson's ratio ν, between -1 and 0.5, both excluded \[-\].
     pub poisson: Spanned<f64>,
-    /// Density ρ \[kg/m³\], needed only with a body force.
+    /// Density ρ, required for `gravity` and for radiation damping \[kg/m3\].
     pub density: Option<Spanned<Density>>,
-    /// J2 plasticity; absent: none.
+    /// J2 plasticity, a table; absent: none.
     pub plasticity: Option<Spanned<Plasticity>>,
-    /// Maxwell material: viscosity η \[Pa s\] through which the shear stress relaxes.
+    /// Maxwell material: viscosity η; the shear stress relaxes as exp(-G t/η) \[Pa s\].
     pub viscosity: Option<Spanned<Viscosity>>,
-    /// Several Maxwell elements in parallel.
+    /// Up to four Maxwell elements in parallel: `[{ share = .., viscosity = .. }, ..]`.
     pub maxwell: Option<Spanned<Vec<Branch>>>,
 }
 
@@ -79,7 +81,7 @@ impl Material {
 }
 
 /// Yield and hardening.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plasticity {
     /// Initial yield stress Y0 \[Pa\]; not with a table.
@@ -99,7 +101,7 @@ pub struct Plasticity {
 }
 
 /// Hardenings that exist.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Hardening {
     /// Y constant.
@@ -113,7 +115,7 @@ pub enum Hardening {
 }
 
 /// A dashpot of a generalised Maxwell material.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Branch {
     /// Share of the shear modulus \[-\].
@@ -123,24 +125,24 @@ pub struct Branch {
 }
 
 /// A deformable body.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
-    /// Source of its mesh.
+    /// Source of the mesh: exactly one of the [kinds of mesh](meshes.md).
     pub mesh: MeshSource,
-    /// Heights z of layers \[m\] through which a plane mesh is drawn in a scene of three dimensions.
+    /// Heights of the layers through which a plane mesh is extruded, in `"3d"` \[m\].
     pub extrude: Option<Spanned<Vec<Length>>>,
-    /// Its material, or that of each group of its cells.
+    /// Name of a material, or a table of names by groups of cells: `{ lower = "a", upper = "b" }`.
     pub material: Spanned<MaterialChoice>,
-    /// Treatment of the dilatation.
+    /// Treatment of the dilatation: `"standard"` (default) or `"b-bar"`.
     #[serde(default)]
     pub formulation: Option<Spanned<Formulation>>,
-    /// Size of strains.
+    /// Size of strains: `"small"` (default) or `"finite"`.
     #[serde(default)]
     pub strain: Option<Spanned<Strain>>,
-    /// Stress at the start.
+    /// Stress at the start, tension positive: a list, or a [table](#stress-that-grows-with-depth); 0 where not given \[Pa\].
     pub initial_stress: Option<Spanned<InitialStress>>,
-    /// Acceleration acting on the body's mass \[m/s²\], one entry per component of the displacement.
+    /// Acceleration: plain numbers, one per axis of motion; needs `density` \[m/s2\].
     pub gravity: Option<Spanned<Vec<f64>>>,
 }
 
@@ -171,6 +173,8 @@ pub enum MaterialChoice {
     ByGroup(BTreeMap<String, Spanned<String>>),
 }
 
+shaped!(MaterialChoice as Either<String, BTreeMap<String, String>>);
+
 impl<'de> Deserialize<'de> for MaterialChoice {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct ChoiceVisitor;
@@ -194,7 +198,7 @@ impl<'de> Deserialize<'de> for MaterialChoice {
 }
 
 /// Treatments of the dilatation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Formulation {
     /// As the shape functions give it.
@@ -204,7 +208,7 @@ pub enum Formulation {
 }
 
 /// Sizes of strain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Strain {
     /// On the reference geometry.
@@ -214,7 +218,7 @@ pub enum Strain {
 }
 
 /// Sources of meshes.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum MeshSource {
     /// A generated rectangular block.
@@ -230,30 +234,30 @@ pub enum MeshSource {
 }
 
 /// A structured, possibly graded block.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BlockMesh {
     /// Lower corner \[m\].
     pub min: Spanned<Vec<Length>>,
     /// Upper corner \[m\].
     pub max: Spanned<Vec<Length>>,
-    /// Element size h \[m\]; must divide each edge. One of this, `divisions` and `spacing`.
+    /// Size of the cells; it must divide each edge \[m\].
     pub size: Option<Spanned<Length>>,
-    /// Elements along each axis.
+    /// Number of cells along each axis.
     pub divisions: Option<Spanned<Vec<usize>>>,
-    /// Sizes of cells along each axis, by coordinates.
+    /// Sizes of cells along each axis \[m\].
     pub spacing: Option<Spanned<Vec<Spanned<SpacingSpec>>>>,
-    /// Ratio of the last to the first element along each axis (1 = uniform).
+    /// With `size` or `divisions`: last cell over first cell along each axis; absent: 1 \[-\].
     pub grading: Option<Spanned<Vec<f64>>>,
     /// Curved sides by their names.
     #[serde(default)]
     pub curves: BTreeMap<String, Spanned<CurveSpec>>,
-    /// Element name.
+    /// Name of the element, such as `"quad4"`.
     pub element: Spanned<String>,
 }
 
 /// A curved side of a block.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CurveSpec {
     /// Shape.
@@ -265,7 +269,7 @@ pub struct CurveSpec {
 }
 
 /// Shapes of curved sides.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CurveKind {
     /// r²/(2R).
@@ -275,7 +279,7 @@ pub enum CurveKind {
 }
 
 /// Coordinates of an apex along the axes a side bends over.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Apex {
     /// \[m\].
@@ -295,35 +299,35 @@ impl Apex {
 }
 
 /// A patch with four straight sides: the unit square mapped bilinearly.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct QuadrilateralMesh {
-    /// Corners anticlockwise \[m\]: the first side is the bottom.
+    /// Corners anticlockwise from the lower left \[m\].
     #[serde(deserialize_with = "exact::lists")]
     pub corners: Spanned<[[Length; 2]; 4]>,
-    /// Elements from left to right and from bottom to top.
+    /// Number of cells from left to right and from bottom to top.
     #[serde(deserialize_with = "exact::list")]
     pub divisions: Spanned<[usize; 2]>,
-    /// Ratio of the last to the first element in both directions (1 = uniform).
+    /// Last cell over first cell in both directions; absent: 1 \[-\].
     #[serde(default, deserialize_with = "exact::optional")]
     pub grading: Option<Spanned<[f64; 2]>>,
-    /// Element name.
+    /// Name of the element, such as `"quad4"`.
     pub element: Spanned<String>,
 }
 
 /// A box with one fault.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FaultMesh {
-    /// Vertices of the fault, from one tip to the other \[m\]; y points up.
+    /// Vertices of the fault from tip to tip, `[[x, y], ..]`, y up; monotonic in y \[m\].
     #[serde(deserialize_with = "exact::many")]
     pub trace: Spanned<Vec<[Length; 2]>>,
-    /// Course between the vertices.
+    /// Line between the vertices: `"spline"` (default), a smooth curve, or `"polyline"`, straight lines with corners.
     #[serde(default)]
     pub interpolation: InterpolationSpec,
-    /// Sizes of cells along the fault.
+    /// Sizes of cells along the fault, in one of the three forms above; distances are measured from the first vertex \[m\].
     pub spacing: Spanned<SpacingSpec>,
-    /// Thickness of the first cells across the fault \[m\]; absent: the smallest size along it.
+    /// Thickness of the first cells across the fault; default: the smallest size along it \[m\].
     pub thickness: Option<Spanned<Length>>,
     /// Lower corner of the box \[m\].
     #[serde(deserialize_with = "exact::list")]
@@ -333,12 +337,12 @@ pub struct FaultMesh {
     pub max: Spanned<[Length; 2]>,
     /// Largest ratio of neighbouring sizes away from the fault \[-\].
     pub growth: Spanned<f64>,
-    /// Element name.
+    /// Element: `"quad4"`, `"quad8"` or `"quad9"`.
     pub element: Spanned<String>,
 }
 
 /// The line between the vertices of a trace.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum InterpolationSpec {
     /// A smooth curve.
@@ -360,7 +364,7 @@ pub enum SpacingSpec {
 }
 
 /// A zone of constant size along a fault.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Zone {
     /// Size within \[m\].
@@ -372,6 +376,8 @@ pub struct Zone {
     /// Largest ratio of neighbouring sizes beyond \[-\].
     pub ratio: f64,
 }
+
+shaped!(SpacingSpec as Either<Length, Either<Zone, Vec<[Length; 2]>>>);
 
 impl<'de> Deserialize<'de> for SpacingSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -409,19 +415,19 @@ impl<'de> Deserialize<'de> for SpacingSpec {
 }
 
 /// A mesh read from a file of Gmsh.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GmshMesh {
-    /// The file, relative to the scene's folder.
+    /// Path, relative to the folder of the scene.
     pub file: Spanned<String>,
     /// Physical groups of cells the body consists of; absent: all cells.
     pub groups: Option<Spanned<Vec<Spanned<String>>>>,
-    /// Unit of length of the file; absent: m.
+    /// Unit of length of the file, default `"m"`.
     pub unit: Option<Spanned<String>>,
-    /// Names given to groups by their numbers.
+    /// Names for groups by their numbers.
     #[serde(default)]
     pub tags: BTreeMap<String, Spanned<TagSpec>>,
-    /// Named internal surfaces along which the mesh is split.
+    /// Named surfaces inside the body that become two sides, `BODY.NAME.minus` and `BODY.NAME.plus`.
     #[serde(default)]
     pub split: Vec<Spanned<String>>,
 }
@@ -436,12 +442,14 @@ pub struct TagSpec {
 }
 
 /// The long form.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct TagTable {
     tag: i64,
     dimension: Option<usize>,
 }
+
+shaped!(TagSpec as Either<i64, Either<String, TagTable>>);
 
 impl<'de> Deserialize<'de> for TagSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -478,7 +486,7 @@ impl<'de> Deserialize<'de> for TagSpec {
 }
 
 /// A mesh read from an Abaqus input file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AbaqusMesh {
     /// The file, relative to the scene's folder.

@@ -1,55 +1,57 @@
 //! Faults through earthquake cycles as a scene declares them.
 
 use super::LawSpec;
+use crate::shape::{Either, shaped};
+use crate::spanned::Spanned;
 use crate::units::{Damping, Length, Pressure, Time, Velocity};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
-use serde_spanned::Spanned;
 use std::fmt;
 
 /// A fault: two sides at one place that slide past each other; their jump is the unknown.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fault {
-    /// Set of the minus side, `body.set`.
+    /// Minus side, such as `BODY.fault.minus`.
     pub minus: Spanned<String>,
-    /// Set of the plus side: slip is that of plus relative to minus.
+    /// Plus side, such as `BODY.fault.plus`; slip is that of plus relative to minus.
     pub plus: Spanned<String>,
-    /// Friction.
+    /// A [friction law](laws.md) of kind `"rate-and-state"` or `"rate"`, without `f_limit`.
     pub law: Spanned<LawSpec>,
-    /// Parameters that vary along the fault.
+    /// Values of `a`, `b`, `l`, `normal` or `shear` along the fault.
     #[serde(default)]
     pub profiles: Profiles,
-    /// Normal traction f_n at the start \[Pa\]; absent where that of an initial stress of the bodies holds.
+    /// Normal traction at the start, compression positive; absent where the initial stress of the bodies gives it \[Pa\].
     pub normal: Option<Spanned<Pressure>>,
-    /// Slip rate of all points at the start \[m/s\].
+    /// Slip rate of all points at the start; its sign is the sense of slip \[m/s\].
     pub rate: Spanned<Velocity>,
-    /// Shear traction at the start \[Pa\]; absent: that of the law's initial steady state at `rate`.
+    /// Shear traction at the start, of the sign of `rate`; absent: that of the law's initial steady state \[Pa\].
     pub shear: Option<Spanned<Pressure>>,
-    /// Radiation damping.
+    /// Radiation damping η, or `"radiation"`; absent: none \[Pa s/m\].
     pub damping: Option<Spanned<DampingSpec>>,
-    /// Place where slip is prescribed.
+    /// Part of the fault that slips at a given rate.
     pub creep: Option<Creep>,
-    /// In space: the direction of slip of plus relative to minus, of any length; what of it lies in the fault counts.
+    /// In space: direction of slip `[x, y, z]`, of any length; its part along the fault counts.
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub rake: Option<Spanned<[f64; 3]>>,
-    /// In space: whether slip may turn away from `rake`; absent: it may not.
+    /// In space: slip `"along-rake"` (default) or `"free"`, with a direction that may turn.
     pub slip: Option<Spanned<SlipSpec>>,
-    /// Fluid that is injected and diffuses along the fault.
+    /// Fluid that enters at one position and diffuses along the fault.
     pub injection: Option<Injection>,
-    /// Treatment of points that stand too coarsely for friction; absent: the scene is refused.
+    /// Treatment of less than one point per cohesive zone: `"refuse"` (default) or `"allow"`.
     pub under_resolved: Option<Spanned<UnderResolved>>,
-    /// True if slip and loads change normal tractions; absent: they do.
+    /// `false`: slip and loads do not change normal tractions; default `true`.
     pub normal_changes: Option<Spanned<bool>>,
-    /// Least normal traction that friction uses \[Pa\].
+    /// Smallest normal traction that friction uses \[Pa\].
     pub normal_floor: Option<Spanned<Pressure>>,
-    /// True if the fault opens where nothing presses it; absent: it does not.
+    /// `true`: the sides separate where no compression is left; needs `normal_floor`; default `false`.
     pub opening: Option<Spanned<bool>>,
 }
 
 /// Treatment of a fault whose points stand farther apart than the cohesive zone is long.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum UnderResolved {
     /// The scene is refused.
@@ -59,7 +61,7 @@ pub enum UnderResolved {
 }
 
 /// Directions in which a fault in space slips.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SlipSpec {
     /// Along `rake`; slip across it is held at zero.
@@ -69,7 +71,7 @@ pub enum SlipSpec {
 }
 
 /// Parameters that vary along a fault; their value in the law, or beside it, is not used then.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Profiles {
     /// Direct effect a \[-\].
@@ -87,6 +89,8 @@ pub struct Profiles {
 /// A parameter as one profile or the largest of several.
 #[derive(Clone, Debug)]
 pub struct Profiled(pub Vec<Profile>);
+
+shaped!(Profiled as Either<Profile, Vec<Profile>>);
 
 impl<'de> Deserialize<'de> for Profiled {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -111,7 +115,7 @@ impl<'de> Deserialize<'de> for Profiled {
 }
 
 /// A parameter along a fault.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Profile {
     /// Its dependence.
@@ -122,7 +126,7 @@ pub struct Profile {
 }
 
 /// A coordinate of the points of a fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Along {
     /// The coordinate x.
@@ -136,7 +140,7 @@ pub enum Along {
 }
 
 /// The part of a fault that slips at a given rate.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Creep {
     /// Distance along a plane fault from its upper end beyond which it does \[m\].
@@ -151,7 +155,7 @@ pub struct Creep {
 }
 
 /// Ranges of coordinates within which, in all of them, a fault slides freely.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Outside {
     /// Of x.
@@ -171,7 +175,7 @@ impl Outside {
 }
 
 /// A range of a coordinate; its ends do not belong to it, and an end that is not given does not bound it.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Extent {
     /// Lower end \[m\].
@@ -188,6 +192,8 @@ pub enum Station {
     /// Coordinates \[m\].
     At(Vec<f64>),
 }
+
+shaped!(Station as Either<Length, Vec<Length>>);
 
 impl<'de> Deserialize<'de> for Station {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -223,12 +229,12 @@ impl<'de> Deserialize<'de> for Station {
 }
 
 /// Fluid injected at one place of a fault at a steady flux.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Injection {
-    /// Distance along the fault from its upper end \[m\].
+    /// Distance along the fault \[m\].
     pub at: Spanned<Length>,
-    /// Volume of fluid per area of the fault's cross section and time \[m/s\].
+    /// Volume per area of the cross section and time, both ways; negative: extraction \[m/s\].
     pub flux: Spanned<Velocity>,
     /// Hydraulic diffusivity \[m²/s\].
     pub diffusivity: Spanned<f64>,
@@ -236,7 +242,7 @@ pub struct Injection {
     pub porosity: Spanned<f64>,
     /// Compressibility of fluid and pores \[1/Pa\].
     pub compressibility: Spanned<f64>,
-    /// End \[s\]; absent: none.
+    /// When it ends; absent: never \[s\].
     pub until: Option<Spanned<Time>>,
 }
 
@@ -248,6 +254,8 @@ pub enum DampingSpec {
     /// η = √(G ρ)/2, half the impedance of shear waves.
     Radiation,
 }
+
+shaped!(DampingSpec as Damping);
 
 impl<'de> Deserialize<'de> for DampingSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

@@ -1,30 +1,31 @@
 //! Place and time of the events of a scene.
 
+use crate::spanned::Spanned;
 use crate::units::{Angle, Length};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use serde_spanned::Spanned;
 
 /// Place and time, with which catalogues are written as those of real events.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Place {
-    /// Time zero, with its offset from UTC, such as "2000-01-01T00:00:00Z".
+    /// Time zero, `"2000-01-01T00:00:00Z"`.
     pub epoch: Spanned<String>,
-    /// Of the origin of coordinates, north \[rad\].
+    /// Latitude of the origin, such as `"35 deg"` \[rad\].
     pub latitude: Spanned<Angle>,
-    /// Of the origin of coordinates, east \[rad\].
+    /// Longitude of the origin, east positive \[rad\].
     pub longitude: Spanned<Angle>,
-    /// Of the origin of coordinates \[m\]; 0 where absent.
+    /// Depth of the origin; default 0 \[m\].
     pub depth: Option<Spanned<Length>>,
-    /// Clockwise from north: in the plane, of the direction into the plane, with x to its right and y up; in space, of `along` \[rad\].
+    /// Azimuth of the direction into the plane, with x to its right and y up; in space, azimuth of `along`.
     pub strike: Spanned<Angle>,
-    /// In space: the direction up, of any length; z where absent.
+    /// In space: direction that points up; default `[0, 0, 1]`.
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub up: Option<Spanned<[f64; 3]>>,
-    /// In space: the horizontal direction whose azimuth `strike` is, of any length; y where absent.
+    /// In space: horizontal direction with the azimuth `strike`; default `[0, 1, 0]`.
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub along: Option<Spanned<[f64; 3]>>,
-    /// In the plane: length out of it, for moments and magnitudes \[m\].
+    /// In the plane: length of the fault out of the plane, for moments and magnitudes \[m\].
     pub length: Option<Spanned<Length>>,
 }
 

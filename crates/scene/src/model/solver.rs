@@ -2,25 +2,26 @@
 
 use super::Spanned;
 use crate::units::Memory;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Solution of the linear systems of the steps.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Solver {
-    /// Method (default: auto).
+    /// Method: `"auto"` (default), `"direct"` or `"iterative"`.
     #[serde(default)]
     pub method: Option<Spanned<Method>>,
-    /// Memory the factorisations may take \[bytes\].
+    /// Memory limit of the solver; default `"8 GiB"`.
     pub memory: Option<Spanned<Memory>>,
-    /// Iterative: relative residual at which a solution is accepted \[-\].
+    /// Iterative: residual of a solution over its load, 1e-14 to 1e-2, default 1e-10 \[-\].
     pub tolerance: Option<Spanned<f64>>,
-    /// Iterative: iterations after which a solution is given up.
+    /// Iterative: largest number of iterations of a solution, default 2000.
     pub most_iterations: Option<Spanned<usize>>,
 }
 
 /// Methods that exist.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Direct where it fits into the memory; else iterative for linear bodies in space without interfaces.

@@ -1,10 +1,12 @@
 //! The stress that a body starts with.
 
+use crate::shape::{Either, shaped};
+use crate::spanned::Spanned;
 use crate::units::{Gradient, Length, Pressure};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
-use serde_spanned::Spanned;
 use std::fmt;
 
 /// The stress of a body at the start, tension positive.
@@ -25,27 +27,27 @@ impl InitialStress {
 }
 
 /// A stress that varies linearly along an axis.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VaryingStress {
     /// Its source.
     pub kind: Spanned<StressKind>,
     /// Linear: the axis.
     pub along: Option<Spanned<Axis>>,
-    /// Linear: coordinate at which it is `stress`. Lithostatic: that of the upper end, where depth is zero \[m\].
+    /// Lithostatic: height of the upper end, along the axis of `gravity`. Linear: coordinate at which the stress is `stress` \[m\].
     pub level: Option<Spanned<Length>>,
     /// Linear: components at the level, as those of a uniform stress \[Pa\].
     pub stress: Option<Spanned<Vec<Pressure>>>,
     /// Linear: change of the components per length along the axis \[Pa/m\].
     pub gradient: Option<Spanned<Vec<Gradient>>>,
-    /// Lithostatic: horizontal over vertical stress \[-\].
+    /// Ratio of the stress in all horizontal directions to the vertical stress \[-\].
     pub k0: Option<Spanned<f64>>,
-    /// Lithostatic: vertical pressure at the level \[Pa\]; absent: none.
+    /// Vertical pressure at the level, from layers above that are other bodies; default 0 \[Pa\].
     pub overburden: Option<Spanned<Pressure>>,
 }
 
 /// Source of a stress that varies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum StressKind {
     /// Its value at a level and its gradient.
@@ -55,7 +57,7 @@ pub enum StressKind {
 }
 
 /// An axis of space.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Axis {
     /// The first.
@@ -65,6 +67,8 @@ pub enum Axis {
     /// The third.
     Z,
 }
+
+shaped!(InitialStress as Either<Vec<Pressure>, VaryingStress>);
 
 impl<'de> Deserialize<'de> for InitialStress {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

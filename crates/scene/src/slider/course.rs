@@ -2,7 +2,9 @@
 
 use crate::entry::Entry;
 use crate::model::Spanned;
+use crate::shape::{Either, shaped};
 use crate::units::Time;
+use schemars::JsonSchema;
 use serde::de::{
     self, Deserialize, Deserializer, IntoDeserializer, MapAccess, Visitor, value::MapAccessDeserializer,
 };
@@ -30,7 +32,7 @@ pub enum Course<Q> {
 }
 
 /// The keys of a course that is no constant.
-#[derive(serde::Deserialize)]
+#[derive(serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CourseTable<Q> {
     table: Option<Vec<Spanned<Entry<Q>>>>,
@@ -58,6 +60,8 @@ impl<Q> CourseTable<Q> {
         }
     }
 }
+
+shaped!(@ Q; Course<Q> as Either<Q, CourseTable<Q>>);
 
 impl<'de, Q: Deserialize<'de>> Deserialize<'de> for Course<Q> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

@@ -1,19 +1,20 @@
 //! Thresholds of events.
 
+use crate::spanned::Spanned;
 use crate::units::Velocity;
+use schemars::JsonSchema;
 use serde::Deserialize;
-use serde_spanned::Spanned;
 
 /// Events.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EventSpec {
-    /// Slip rate above which an event begins \[m/s\].
+    /// Slip rate above which an event begins; on faults, of the fastest point \[m/s\].
     pub above: Spanned<Velocity>,
-    /// Slip rate below which it ends \[m/s\]; a tenth of `above` where absent.
+    /// Slip rate below which it ends; default: a tenth of `above` \[m/s\].
     pub below: Option<Spanned<Velocity>>,
-    /// Events of the first slider after which the run ends.
+    /// Events after which the run ends; of sliders, those of the first by name.
     pub stop_after: Option<Spanned<usize>>,
-    /// True if the extremes of the slip rate are found, not only seen at steps (default true).
+    /// Of sliders, true if the extremes of the slip rate are located; default `true`.
     pub peaks: Option<bool>,
 }

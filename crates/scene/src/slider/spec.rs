@@ -3,14 +3,16 @@
 use super::course::Course;
 use super::event::EventSpec;
 use crate::model::{LawSpec, Spanned};
+use crate::shape::{Either, shaped};
 use crate::units::{Damping, Mass, Pressure, Spring, Time, Velocity};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use std::collections::BTreeMap;
 use std::fmt;
 
 /// A scene of spring-sliders.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SliderScene {
     /// Version of the scene format; 1.
@@ -37,7 +39,7 @@ pub struct SliderScene {
 }
 
 /// The load point.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// Its rate \[m/s\].
@@ -45,7 +47,7 @@ pub struct Load {
 }
 
 /// A slider.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SliderSpec {
     /// Friction.
@@ -65,7 +67,7 @@ pub struct SliderSpec {
 }
 
 /// A spring between two sliders.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpringSpec {
     /// Names of the two sliders.
@@ -75,36 +77,36 @@ pub struct SpringSpec {
 }
 
 /// Time integration.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SliderTime {
-    /// End \[s\].
+    /// End of the run \[s\].
     pub end: Spanned<Time>,
-    /// Method.
+    /// Method: `"switching"` (default), `"dop853"`, `"radau5"`, `"tsit5"`, `"bdf"`, `"tr-bdf2"`, `"esdirk34"` or `"tsit45"`.
     pub method: Option<Spanned<String>>,
-    /// Error allowed in ln V and in what is worth as much of each state, per step \[-\].
+    /// Error of ln V, and of the states to the same effect, allowed in a step, 1e-14 to 0.1; default 1e-8 \[-\].
     pub tolerance: Option<Spanned<f64>>,
-    /// First step \[s\].
+    /// First step; absent: chosen from the rates \[s\].
     pub first_step: Option<Spanned<Time>>,
-    /// Largest step \[s\].
+    /// Largest step; absent: unlimited \[s\].
     pub max_step: Option<Spanned<Time>>,
-    /// Steps after which to give up.
+    /// Steps after which the run is given up; default 20 000 000.
     pub most_steps: Option<Spanned<usize>>,
 }
 
 /// Rows of histories.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutputSpec {
-    /// Change of ln V after which a row is written \[-\].
+    /// Change of ln V after which a row is written, or a twentieth of it of friction; default 0.05 without `times` and `interval` \[-\].
     pub change: Option<Spanned<f64>>,
-    /// Times of rows \[s\].
+    /// Times of rows, ascending \[s\].
     pub times: Option<Spanned<Vec<Spanned<Time>>>>,
-    /// Time between rows \[s\].
+    /// Interval of rows, from time 0 \[s\].
     pub interval: Option<Spanned<Time>>,
-    /// Which sliders have histories.
+    /// Histories: `false` for none, or a list of sliders; default all.
     pub histories: Option<Which>,
-    /// True if the extremes of the slip rate are found and written, where the scene has no events.
+    /// True if the extremes of the slip rate are located and written without `[events]`; default `false`.
     pub extremes: Option<Spanned<bool>>,
 }
 
@@ -116,6 +118,8 @@ pub enum Which {
     /// Those named.
     Named(Vec<Spanned<String>>),
 }
+
+shaped!(Which as Either<bool, Vec<String>>);
 
 impl<'de> Deserialize<'de> for Which {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
