@@ -26,3 +26,45 @@ fn every_case_has_the_fixed_headings_and_covers_something() {
         assert!(!case.covers.is_empty(), "{} covers nothing", case.name);
     }
 }
+
+/// Rows of the table of these cases.
+fn rows(names: &str) -> String {
+    let row = |name: &str| {
+        let case =
+            cases::ALL.iter().find(|case| case.name == name).unwrap_or_else(|| panic!("no case {name}"));
+        let title = case.readme.lines().next().unwrap().trim_start_matches("# ");
+        let suite = if case.quick { "quick" } else { "full" };
+        format!("| `{name}` | {title} | {suite} |\n")
+    };
+    names.split(' ').map(row).collect()
+}
+
+#[test]
+fn the_book_lists_every_case_once() {
+    const BEGIN: &str = "<!-- cases ";
+    const END: &str = "<!-- end -->";
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/src/verification.md");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let mut parts = text.split(BEGIN);
+    let (mut page, mut listed) = (parts.next().unwrap().to_owned(), Vec::new());
+    for part in parts {
+        let (names, rest) = part.split_once(" -->").unwrap();
+        let (_, tail) = rest.split_once(END).unwrap();
+        listed.extend(names.split(' '));
+        page += &format!(
+            "{BEGIN}{names} -->\n| case | subject | suite |\n|---|---|---|\n{}{END}{tail}",
+            rows(names)
+        );
+    }
+    let mut all: Vec<&str> = cases::ALL.iter().map(|case| case.name).collect();
+    listed.sort_unstable();
+    all.sort_unstable();
+    assert_eq!(listed, all);
+    if std::env::var_os("UPDATE_TABLES").is_some() {
+        std::fs::write(&path, &page).unwrap();
+    }
+    assert!(
+        std::fs::read_to_string(&path).unwrap() == page,
+        "the list is stale: run the test with UPDATE_TABLES=1"
+    );
+}

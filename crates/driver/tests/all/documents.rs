@@ -31,7 +31,7 @@ fn root() -> PathBuf {
 }
 
 /// Blocks of a kind in a page.
-fn blocks(page: &str, kind: &str) -> Vec<String> {
+pub fn blocks(page: &str, kind: &str) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     let mut inside: Option<bool> = None;
     for line in page.lines() {
@@ -86,56 +86,6 @@ fn every_scene_of_the_book_is_accepted() {
         }
     }
     assert!(scenes >= 12, "only {scenes} scenes");
-}
-
-/// The names of a table's columns, without units and positions.
-fn columns(table: &str) -> Vec<String> {
-    let seas = table.lines().find(|line| line.starts_with("t slip"));
-    let names: Vec<&str> = match seas {
-        Some(line) => line.split(' ').collect(),
-        None => table.lines().next().unwrap().split(',').collect(),
-    };
-    let plain = |name: &str| name.split(" [").next().unwrap().to_owned();
-    names.into_iter().map(plain).filter(|name| name.parse::<f64>().is_err()).collect()
-}
-
-/// Tables below a folder.
-fn tables(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            found.extend(tables(&path));
-        } else if path.extension().is_some_and(|e| e == "csv") || folder.ends_with("stations") {
-            found.push(path);
-        }
-    }
-    found
-}
-
-#[test]
-fn every_column_of_every_table_is_explained() {
-    let page = std::fs::read_to_string(root().join("docs/src/outputs.md")).unwrap();
-    let mut seen = 0;
-    for name in ["output", "interfaces", "faults", "sliders"] {
-        let text = std::fs::read_to_string(root().join(format!("docs/src/scene/{name}.md"))).unwrap();
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("scene.toml"), &blocks(&text, "toml")[0]).unwrap();
-        let run = std::process::Command::new(env!("CARGO_BIN_EXE_asperity"))
-            .args(["run", "scene.toml", "--no-plots"])
-            .current_dir(folder.path())
-            .output()
-            .unwrap();
-        assert!(run.status.success(), "{name}: {}", String::from_utf8_lossy(&run.stderr));
-        for table in tables(&folder.path().join("out/scene")) {
-            for column in columns(&std::fs::read_to_string(&table).unwrap()) {
-                let listed = page.contains(&format!("`{column}`"));
-                assert!(listed, "`{column}` of {} is not in docs/src/outputs.md", table.display());
-                seen += 1;
-            }
-        }
-    }
-    assert!(seen > 100, "only {seen} columns");
 }
 
 /// Commands of a block, each with what it is to print.
