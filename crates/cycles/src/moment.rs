@@ -2,8 +2,8 @@
 
 use super::catalogue::{Catalogue, Event};
 use super::components::{Components, PerPoint};
-use super::cycle::{ALL, FaultRun};
 use super::equations::{Layout, Pressed};
+use super::fault_run::{ALL, FaultRun};
 use super::rupture::Rupture;
 use asperity_ode::{Clock, Kind};
 

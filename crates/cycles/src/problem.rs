@@ -1,8 +1,9 @@
 //! The problem to integrate: faults in their surroundings, their loads, the start, and the settings.
 
-use super::cycle::{FaultRun, Settings, run};
+use super::cycle::{Settings, run};
 use super::equations::Fault;
 use super::error::RunError;
+use super::fault_run::FaultRun;
 use super::loading::Loading;
 use super::moment::Faults;
 use asperity_ode::Observer;

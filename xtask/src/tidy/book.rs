@@ -43,7 +43,8 @@ fn wide(file: &File) -> Vec<Problem> {
     for (number, line) in prose(&file.text) {
         let columns = line.chars().count();
         // Tables and markers of generated text cannot be broken, nor can the address of a link.
-        let breakable = !line.trim_start().starts_with(['|', '<']) && !line.contains("](") && !line.contains("://");
+        let breakable =
+            !line.trim_start().starts_with(['|', '<']) && !line.contains("](") && !line.contains("://");
         if breakable && columns > COLUMNS {
             let message = format!("{columns} columns: break the line at {COLUMNS}");
             found.push(Problem::new(&file.path, number, message));

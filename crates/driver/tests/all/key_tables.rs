@@ -46,7 +46,8 @@ fn row(definitions: &Value, of: &str, key: &str) -> String {
     let unit = said.map(str::to_string).or(typed).unwrap_or_default();
     let named = resolved(definitions, property)["additionalProperties"].is_object();
     let name = if named { ".NAME" } else { "" };
-    let text = text.replace('\n', " ").replace('|', "\\|");
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = text.split('|').collect::<Vec<_>>().join("\\|");
     format!("| `{key}{name}` | {unit} | {text} |\n")
 }
 

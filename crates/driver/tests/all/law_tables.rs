@@ -1,11 +1,13 @@
 //! The tables of laws in the book are those of the program: with `UPDATE_TABLES` in the environment they are written.
 #![allow(clippy::disallowed_methods)]
 
+use crate::common::varied;
 use asperity_driver::laws;
 use asperity_driver::scene::law::given;
 use asperity_driver::scene::model::{LawSpec, Spanned};
 use asperity_friction::evolution::{self, Bound, Definition, Parameter, Unit, Variable};
 use asperity_friction::kind::{self, Kind};
+use asperity_vary::Change::{Add, With, Without};
 use serde::Deserialize;
 use std::fs;
 use std::path::Path;
@@ -122,20 +124,17 @@ fn every_kind_of_the_table_is_read_and_built() {
         assert_eq!(given, row.parameters.len(), "{text}");
         let law = laws::build(&choice.unwrap_or_else(|e| panic!("{text}: {e:?}"))).unwrap();
         assert_eq!((law.name(), law.has_elastic_domain()), (row.name, true));
-        let capped = text.replace(" }", ", f_limit = \"1 MPa\" }");
+        let capped = varied(&text, &[Add("law.f_limit", "1 MPa")]);
         assert_eq!(choose(&capped).1.is_ok(), row.capped, "{capped}");
         for missing in row.parameters {
-            let without = text.replace(&format!(", {} = {}", missing.key, missing.example), "");
+            let without = varied(&text, &[Without(&format!("law.{}", missing.key))]);
             let errors = choose(&without).1.unwrap_err();
             assert!(errors.iter().any(|e| e.to_string().contains(missing.key)), "{without}: {errors:?}");
         }
         if let Some(order) = row.order {
             let key = |k: usize| row.parameters[k].key;
-            let (low, high) = (row.parameters[order.lower].example, row.parameters[order.upper].example);
-            let turned = text.replace(
-                &format!("{} = {low}", key(order.lower)),
-                &format!("{} = {high}1", key(order.lower)),
-            );
+            let high = row.parameters[order.upper].example;
+            let turned = varied(&text, &[With(&format!("law.{}", key(order.lower)), &format!("{high}1"))]);
             let errors = choose(&turned).1.unwrap_err();
             assert!(errors[0].to_string().contains(key(order.upper)), "{turned}: {errors:?}");
         }

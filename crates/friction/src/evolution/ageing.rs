@@ -2,10 +2,9 @@
 //!
 //! With a cut-off rate V2 (Okubo 1989) the contribution levels off at high rates: φ = b ln(1 + V2 θ/L).
 
+use super::definition::{Bound, Common, Defined, Definition, Front, Parameter, Unit, Variable};
 use super::relaxation::decay;
-use super::{
-    Bound, Common, Defined, Definition, Evolution, Evolved, Front, Parameter, Rate, Speed, Unit, Variable,
-};
+use super::state::{Evolution, Evolved, Rate, Speed};
 
 /// Below this x the series of x/(e^x - 1) - 1 is exact to rounding: its fifth term is x^7/604800 of the first. Above it, the
 /// closed form loses two digits at most.

@@ -1,6 +1,6 @@
 //! Rows of the table of evolution laws, with the data that scenes, the book and planning need of each.
 
-use super::Evolution;
+use super::state::Evolution;
 use crate::Failure;
 
 /// Unit of a parameter.

@@ -5,11 +5,9 @@
 //! φ_ss is that of the bare logarithm. It differs from that of the regularised strength by a e^(-2μ_ss/a) and exists for every
 //! rate. As a direct function of V, such weakening would be ill-posed; as the target of a state that evolves over L, it is not.
 
-use super::definition::needed;
+use super::definition::{Bound, Common, Defined, Definition, Front, Parameter, Unit, Variable, needed};
 use super::relaxation::{self, Steady};
-use super::{
-    Bound, Common, Defined, Definition, Evolution, Evolved, Front, Parameter, Rate, Speed, Unit, Variable,
-};
+use super::state::{Evolution, Evolved, Rate, Speed};
 
 /// Exponent of the transition (Dunham et al. 2011).
 const POWER: f64 = 8.0;

@@ -7,10 +7,8 @@
 //! a few a, the slowed clock is the definition.
 
 use super::ageing::Ageing;
-use super::definition::needed;
-use super::{
-    Bound, Common, Defined, Definition, Evolution, Evolved, Front, Parameter, Rate, Speed, Unit, Variable,
-};
+use super::definition::{Bound, Common, Defined, Definition, Front, Parameter, Unit, Variable, needed};
+use super::state::{Evolution, Evolved, Rate, Speed};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 //! Perrin, Rice & Zheng (1995): dθ/dt = 1 - (V θ/2L)², φ = b ψ with ψ = ln(Vref θ/2L). It heals like the ageing law, and
 //! weakens after a jump unlike either of the two classical laws. u = V θ/2L obeys du/dx = 1 - u² with x = V t/2L.
 
-use super::{Common, Defined, Definition, Evolution, Evolved, Front, Rate, Speed, Variable};
+use super::definition::{Common, Defined, Definition, Front, Variable};
+use super::state::{Evolution, Evolved, Rate, Speed};
 
 /// Below this x, four terms of the series of tanh x/x and of x/(sinh x cosh x) - 1 are exact to rounding.
 const SMALL: f64 = 1e-2;

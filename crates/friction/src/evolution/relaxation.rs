@@ -1,6 +1,6 @@
 //! Exponential relaxation towards a state that depends on the slip rate only: dφ/dt = -(V/L)(φ - φ_ss(V)).
 
-use super::{Evolved, Rate, Speed};
+use super::state::{Evolved, Rate, Speed};
 
 /// Below this x = V Δt/L, 1 - e^(-x) is computed by `expm1`; above it there is no cancellation.
 const SMALL: f64 = 0.5;

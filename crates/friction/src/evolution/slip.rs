@@ -1,7 +1,8 @@
 //! Slip law (Ruina 1983): dφ/dt = -(V/L)(φ + b ln(V/Vref)). The state variable is φ itself.
 
+use super::definition::{Common, Defined, Definition, Front, Variable};
 use super::relaxation::{self, Steady};
-use super::{Common, Defined, Definition, Evolution, Evolved, Front, Rate, Speed, Variable};
+use super::state::{Evolution, Evolved, Rate, Speed};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! No state: velocity-dependent friction.
 
-use super::{Evolution, Evolved, Rate, Speed};
+use super::state::{Evolution, Evolved, Rate, Speed};
 
 /// See the module. A law of this kind holds no component, so this evolution is never evaluated for a point.
 #[derive(Clone, Copy, Debug, PartialEq)]

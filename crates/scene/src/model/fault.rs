@@ -242,7 +242,7 @@ pub struct Injection {
     pub porosity: Spanned<f64>,
     /// Compressibility of fluid and pores \[1/Pa\].
     pub compressibility: Spanned<f64>,
-    /// When it ends; absent: never \[s\].
+    /// End of the injection; absent: never \[s\].
     pub until: Option<Spanned<Time>>,
 }
 
