@@ -2,10 +2,10 @@
 
 use crate::scene::model::Scene;
 
-/// Default of `memory`: a constant, because a choice that depends on the machine would give other digits elsewhere.
+/// Default of `memory`. It is a constant because results must not depend on the memory of the machine.
 const MEMORY: f64 = 8.0 * 1024.0 * 1024.0 * 1024.0;
 
-/// An amount of memory in words.
+/// Amount of memory as text with a unit.
 #[must_use]
 pub fn size(bytes: usize) -> String {
     let bytes = bytes as f64;
@@ -19,7 +19,7 @@ pub fn size(bytes: usize) -> String {
     }
 }
 
-/// Memory that factorisations of a scene may take \[bytes\].
+/// Memory that the factorisations of a scene may use \[bytes\].
 #[must_use]
 pub fn memory(scene: &Scene) -> usize {
     scene.solver.memory.as_ref().map_or(MEMORY, |m| m.get_ref().0) as usize

@@ -11,11 +11,12 @@ pub struct InterfaceBalance {
     pub interface: String,
     /// Total contact force on the slave side \[N, or N/m of thickness\].
     pub slave_force: Vec<f64>,
-    /// Sum of the forces on both sides over the largest \[-\].
+    /// Sum of the forces on both sides over the largest of them \[-\].
     pub force_residual: f64,
-    /// Sum of the moments on both sides, after the couple of friction at a finite gap, over force times size \[-\].
+    /// Sum of the moments on both sides, corrected for the couple of friction at a finite gap, over force times size
+    /// \[-\].
     pub moment_residual: f64,
-    /// Couple g_n n x f left by penetration and friction together \[N m\].
+    /// Couple g_n n x f of penetration and friction \[N m\].
     pub couple: Vec<f64>,
 }
 

@@ -1,14 +1,15 @@
-//! Spacing of the points of an interface of bodies beside the cohesive zone of its friction.
+//! Point spacing of an interface between bodies, compared with the cohesive zone of its friction.
 //!
-//! The zone is as long as f_n is small ([`crate::fault::Ground`]), and f_n is known once bodies are pressed: the plan says up to which f_n the points
-//! resolve it. Where loads alone press a flat interface their mean is known before, and judged then. Otherwise a run stops where a point slides
-//! under so much that less than one point stands on the zone, and the end of each stage warns of less than three.
+//! The length of the zone is inversely proportional to f_n ([`crate::fault::Ground`]), and f_n is known only once the bodies are pressed. The plan
+//! therefore states the f_n up to which the points resolve the zone. If loads alone press a flat interface, the mean f_n is known in advance and is
+//! checked in the plan. Otherwise a run stops if a point slides under an f_n so large that the zone holds less than one point. The end of each stage
+//! warns if the zone holds fewer than three.
 
 use crate::fault::{ENOUGH, FEW};
 use crate::warning::Warning;
 use asperity_mechanics::Resolved;
 
-/// Content of the plan.
+/// Remark of the plan.
 #[must_use]
 pub fn remark(resolved: &Resolved, interface: &str) -> String {
     format!(
@@ -19,7 +20,7 @@ pub fn remark(resolved: &Resolved, interface: &str) -> String {
     )
 }
 
-/// A warning where the largest normal traction \[Pa\] at the end of a stage leaves too few points.
+/// Warning if the largest normal traction \[Pa\] at the end of a stage leaves too few points.
 #[must_use]
 pub fn warning(resolved: &Resolved, interface: &str, stage: &str, largest: f64) -> Option<Warning> {
     let points = resolved.one / largest;
@@ -36,7 +37,7 @@ pub fn warning(resolved: &Resolved, interface: &str, stage: &str, largest: f64) 
     })
 }
 
-/// Expression of three points.
+/// Advice on the spacing that gives three points.
 #[must_use]
 pub fn enough(resolved: &Resolved, normal: f64) -> String {
     format!("points {:.4e} m apart give three", resolved.spacing * resolved.one / normal / ENOUGH)

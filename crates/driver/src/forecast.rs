@@ -1,8 +1,8 @@
-//! Memory from counts alone: what bodies will take, known before anything is built.
+//! Memory estimates from counts alone, available before anything is built.
 //!
-//! Counts of generated blocks follow from the scene; of other meshes they are known when the mesh is, before its cells have matrices.
-//! These numbers refuse what is far out of reach, early. Small systems are analysed exactly afterwards (`solver`), and so are meshes that are no blocks;
-//! of large blocks the numbers stand, and a plan neither assembles nor analyses.
+//! Counts of generated blocks follow from the scene; for other meshes they are known once the mesh is read, before its cells have matrices. The
+//! estimates refuse early what is far out of reach. Small systems, and meshes that are not blocks, are analysed exactly afterwards (`solver`). For
+//! large blocks the plan relies on the estimates, and neither assembles nor analyses.
 
 use crate::amounts::{self, size};
 use crate::diagnostic::Diagnostic;
@@ -15,16 +15,16 @@ use asperity_fem::mesh::generate::SIDES;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Share of an estimate that is sure to be needed: estimates are within half as much again of the analysis on cubes, slabs and squares.
+/// Fraction of an estimate that is certainly needed: estimates are within a factor of 1.5 of the analysis on cubes, slabs and squares.
 const SURE: f64 = 0.5;
-/// Memory of a factorisation over the values of its factor: the rest are fronts, which hold both triangles and, until their parents have
-/// taken them, contributions. 3.0 on cubes of 37 cells, 3.6 of 14, 4.2 on a slab of 40 x 12 x 4: a sixth about their middle.
+/// Memory of a factorisation over that of the values of its factor. The rest are fronts, which hold both triangles, and contributions until their
+/// parents have absorbed them. It is 3.0 on cubes of 37 cells, 3.6 of 14, and 4.2 on a slab of 40 x 12 x 4: within a sixth of the middle.
 const FRONTS_IN_SPACE: f64 = 3.5;
-/// The same in the plane, where contributions are small: 1.9 to 2.0 on squares of 100 to 150 cells, 1.6 on a strip.
+/// The same in 2D, where contributions are small: 1.9 to 2.0 on squares of 100 to 150 cells, 1.6 on a strip.
 const FRONTS_IN_PLANE: f64 = 2.0;
-/// Bytes of a value or an index.
+/// Size of a value or an index \[bytes\].
 const WORD: f64 = 8.0;
-/// Equations below which a part of a grid is one dense front: the analysis merges smaller ones.
+/// Number of equations below which a part of a grid is one dense front, because the analysis merges smaller ones.
 const LEAF: f64 = 96.0;
 
 /// Cells and nodes of a body.
@@ -39,39 +39,40 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Bytes of the mesh, of which blocks of cells have their own.
+    /// Bytes of the mesh, including the copy held by its blocks of cells.
     pub(crate) fn mesh_bytes(&self) -> f64 {
         2.0 * WORD * (self.nodes * self.kind.dimension() as f64 + self.cells * self.kind.nodes() as f64)
     }
 
-    /// Bytes of the matrices of the cells and of their degrees of freedom.
+    /// Bytes of the cell matrices and their degrees of freedom.
     pub(crate) fn stiffness_bytes(&self, components: usize) -> f64 {
         let dofs = (self.kind.nodes() * components) as f64;
         WORD * self.cells * (dofs * dofs + dofs)
     }
 
-    /// Bytes of the gradients of shape functions, positions and volumes of the points of the cells.
+    /// Bytes of the shape function gradients, positions and volumes at the quadrature points of the cells.
     pub(crate) fn geometry_bytes(&self, idealisation: Idealisation) -> f64 {
         let points = idealisation.quadrature(self.kind).len() as f64;
         let dimension = self.kind.dimension() as f64;
         WORD * self.cells * points * (self.kind.nodes() as f64 * dimension + dimension + 1.0)
     }
 
-    /// Bytes of the mesh and of what its cells have.
+    /// Bytes of the mesh, the cell matrices and the cell geometry.
     fn cells_bytes(&self, idealisation: Idealisation) -> f64 {
         self.mesh_bytes()
             + self.stiffness_bytes(idealisation.components())
             + self.geometry_bytes(idealisation)
     }
 
-    /// Bytes of the lower triangle of the assembled matrix, values and indices.
+    /// Bytes of the lower triangle of the assembled matrix: values and indices.
     fn matrix_bytes(&self, components: usize) -> f64 {
         let dofs = self.nodes * components as f64;
         0.5 * dofs * neighbours(self.kind) * components as f64 * 2.0 * WORD
     }
 }
 
-/// Nodes that share a cell with a node inside a regular mesh, itself included, averaged over the nodes of a cell.
+/// Number of nodes that share a cell with a node inside a regular mesh, including the node itself, averaged over the
+/// nodes of a cell.
 fn neighbours(kind: ElementKind) -> f64 {
     match kind {
         ElementKind::Tri3 => 7.0,
@@ -89,13 +90,13 @@ fn neighbours(kind: ElementKind) -> f64 {
     }
 }
 
-/// Bytes of the lower triangles of the matrices of blocks, values and indices.
+/// Bytes of the lower triangles of the matrices of blocks: values and indices.
 #[must_use]
 pub fn matrix_bytes(counts: &[Counts], components: usize) -> usize {
     counts.iter().map(|c| c.matrix_bytes(components)).sum::<f64>() as usize
 }
 
-/// The most memory this process has had so far \[bytes\]; none where the system does not say.
+/// Peak memory of this process so far \[bytes\]; `None` if the system does not report it.
 #[must_use]
 pub fn most_so_far() -> Option<usize> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
@@ -107,13 +108,13 @@ pub fn most_so_far() -> Option<usize> {
 struct Grid {
     body: String,
     counts: Counts,
-    /// Nodes along each axis.
+    /// Number of nodes along each axis.
     nodes: [usize; 3],
-    /// Line of the scene that sets the resolution.
+    /// Position in the scene of the entry that sets the resolution.
     place: Range<usize>,
 }
 
-/// The grid of a body; none where its mesh is no block, or is extruded, or where what the scene says of it will be refused.
+/// Grid of a body; `None` if its mesh is not a block or is extruded, or if its entry will be refused.
 fn grid(name: &str, body: &Body) -> Option<Grid> {
     let MeshSource::Block(spec) = &body.mesh else { return None };
     if body.extrude.is_some() {
@@ -142,10 +143,10 @@ fn grid(name: &str, body: &Body) -> Option<Grid> {
     Some(Grid { body, counts, nodes, place: place.into_iter().flatten().next().unwrap_or(0..0) })
 }
 
-/// Refuses a scene whose generated bodies alone are more than the machine or `memory` in `[solver]` holds.
+/// Refuses a scene whose generated bodies alone exceed the memory of the machine or `memory` in `[solver]`.
 ///
 /// # Errors
-/// [`Diagnostic`] at the block with the most nodes, with the counts, the need and the bound.
+/// [`Diagnostic`] at the block with the most nodes, with the counts, the need and the limit.
 pub fn admit(scene: &Scene) -> Result<(), Diagnostic> {
     let idealisation = idealisation::of(*scene.kinematics.get_ref());
     let components = idealisation.components();
@@ -178,32 +179,32 @@ pub fn admit(scene: &Scene) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// True if linear systems without a factor are a choice that the plan may take by itself.
+/// True if the plan may choose an iterative linear solver by itself.
 pub fn may_iterate(scene: &Scene) -> bool {
     scene.solver.method() == Method::Auto
         && scene.interfaces.is_empty()
         && scene.kinematics.get_ref().dimension() == 3
 }
 
-/// The generated blocks of a scene.
+/// Generated blocks of a scene.
 fn grids(scene: &Scene) -> impl Iterator<Item = Grid> {
     scene.bodies.iter().filter_map(|(name, body)| grid(name, body))
 }
 
 impl Grid {
-    /// Bytes of the Cholesky factor of the block, of which some sides are kept for the end.
+    /// Bytes of the Cholesky factor of the block; `kept` marks the sides that are eliminated last.
     fn factor_bytes(&self, kept: [bool; 6], components: usize) -> f64 {
         factor_bytes(self.nodes, kept, components)
     }
 
-    /// Bytes of a factorisation.
+    /// Bytes of a factorisation of the block.
     fn bytes(&self, kept: [bool; 6], components: usize) -> f64 {
         let fronts = if self.counts.kind.dimension() == 3 { FRONTS_IN_SPACE } else { FRONTS_IN_PLANE };
         fronts * self.factor_bytes(kept, components)
     }
 }
 
-/// Bytes of a symmetric factorisation of all bodies; none where some are no blocks.
+/// Bytes of a symmetric factorisation of all bodies; `None` if some are not blocks.
 #[must_use]
 pub fn factorisation(scene: &Scene) -> Option<usize> {
     let components = idealisation::of(*scene.kinematics.get_ref()).components();
@@ -212,8 +213,8 @@ pub fn factorisation(scene: &Scene) -> Option<usize> {
     (grids.len() == scene.bodies.len()).then_some(bytes as usize)
 }
 
-/// Bytes of the factorisations by which bodies are condensed onto their interfaces; none where some are no blocks, or where interfaces are no
-/// sides of blocks.
+/// Bytes of the factorisations that condense bodies onto their interfaces; `None` if some bodies are not blocks, or if some interfaces are not sides
+/// of blocks.
 #[must_use]
 pub fn condensation(scene: &Scene) -> Option<usize> {
     let components = idealisation::of(*scene.kinematics.get_ref()).components();
@@ -234,10 +235,10 @@ pub fn condensation(scene: &Scene) -> Option<usize> {
     (grids(scene).count() == scene.bodies.len() && known == sets().count()).then_some(bytes as usize)
 }
 
-/// Refuses a plan that needs so much more than this machine has that no error of the estimate hides it.
+/// Refuses a plan whose need exceeds the memory of this machine by more than the error of the estimate.
 ///
 /// # Errors
-/// [`Diagnostic`] at `memory` in `[solver]` where it is, which may have asked for it.
+/// [`Diagnostic`] at `memory` in `[solver]` if it is given, because it may be the cause.
 pub fn fits(scene: &Scene, needed: usize) -> Result<(), Diagnostic> {
     match memory_of_machine() {
         Some(there) if SURE * needed as f64 > there as f64 => Err(Diagnostic::at(
@@ -249,10 +250,10 @@ pub fn fits(scene: &Scene, needed: usize) -> Result<(), Diagnostic> {
     }
 }
 
-/// Refuses bodies whose meshes, cells and matrix are more than the machine has.
+/// Refuses bodies whose meshes, cells and matrix exceed the memory of the machine.
 ///
 /// # Errors
-/// [`Diagnostic`] without a place.
+/// [`Diagnostic`] without a position.
 pub fn machine(counts: &[Counts], idealisation: Idealisation) -> Result<(), Diagnostic> {
     let components = idealisation.components();
     let of = |c: &Counts| c.cells_bytes(idealisation) + c.matrix_bytes(components);
@@ -277,14 +278,15 @@ fn in_words(counts: &[Counts], components: usize) -> String {
     format!("{cells} cells with {} degrees of freedom", nodes * components as f64)
 }
 
-/// Bytes of the Cholesky factor of a grid of so many nodes along its axes, of which the nodes of some sides are eliminated later, by nested
-/// dissection.
+/// Bytes of the Cholesky factor, by nested dissection, of a grid with this many nodes along its axes. `kept` marks sides whose nodes are eliminated
+/// later.
 fn factor_bytes(nodes: [usize; 3], kept: [bool; 6], components: usize) -> f64 {
     let mut known = BTreeMap::new();
     WORD * values(nodes, kept, components as f64, &mut known)
 }
 
-/// Values of the factor of a box of nodes, some sides of which lie at separators that are eliminated later.
+/// Number of values in the factor of a box of nodes; `open` marks sides that lie at separators, which are eliminated
+/// later.
 fn values(
     nodes: [usize; 3],
     open: [bool; 6],
@@ -318,7 +320,7 @@ fn values(
     result
 }
 
-/// Memory of the machine, or of the group of processes this one belongs to \[bytes\]; none where the system does not say.
+/// Memory of the machine, or of the control group of this process if smaller \[bytes\]; `None` if the system does not report it.
 fn memory_of_machine() -> Option<usize> {
     let there = std::fs::read_to_string("/proc/meminfo").ok()?;
     let line = there.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
@@ -336,7 +338,7 @@ mod tests {
     use asperity_fem::mesh::generate::Grid as Lines;
     use asperity_fem::term::{Blocks, Pattern};
 
-    /// Bytes of the factor's values, and of the factorisation, that the analysis finds.
+    /// Bytes of the factor's values and of the factorisation, as found by the analysis.
     fn analysed<const D: usize>(cells: [usize; D], kind: ElementKind) -> [f64; 2] {
         let lines = cells.map(|n| (0..=n).map(|k| k as f64).collect());
         let mesh = Lines { lines, kind }.mesh().unwrap();

@@ -4,26 +4,26 @@ use crate::forecast::Counts;
 use crate::model::counts;
 use asperity_mechanics::{CellBlock, Model};
 
-/// Bytes of the program with its libraries, and of its tables and plots: the smallest scenes take 12 MB without plots and 38 MB with them.
+/// Bytes of the program with its libraries, tables and plots. The smallest scenes take 12 MB without plots and 38 MB with them.
 const PROGRAM: usize = 38_000_000;
-/// Bytes of the buffers in which dense kernels pack what they multiply, for each thread.
+/// Bytes per thread of the buffers in which dense kernels pack their operands.
 const PACKED: usize = 10_000_000;
 
-/// Memory of a model when it is run \[bytes\].
+/// Memory of a model during a run \[bytes\].
 #[derive(Clone, Copy, Debug)]
 pub struct Held {
-    /// Its mesh.
+    /// The mesh.
     mesh: usize,
-    /// The matrices of its linear cells and their degrees of freedom.
+    /// Matrices of linear cells, with their degrees of freedom.
     stiffness: usize,
     /// Geometry of its linear cells.
     geometry: usize,
-    /// Cells that are not linear, with their histories, which a run has a copy of, and their matrices in turn.
+    /// Nonlinear cells: their histories, of which a run holds a copy, and their matrices.
     nonlinear: usize,
 }
 
 impl Held {
-    /// Of a model, whether its cells have matrices yet or not.
+    /// Memory of a model, whose cells need not have matrices yet.
     #[must_use]
     pub fn by<const D: usize>(model: &Model<D>) -> Self {
         let counts = counts(&model.mesh);
@@ -42,15 +42,16 @@ impl Held {
         }
     }
 
-    /// With bodies and interfaces whose linear systems take so much. Condensation works on a copy of the matrices.
+    /// Total of a run with bodies and interfaces whose linear systems take `solver` bytes. Condensation works on a copy
+    /// of the matrices.
     #[must_use]
     pub fn with_systems(&self, solver: usize, condensed: bool) -> usize {
         let copies = if condensed { 2 } else { 1 };
         PROGRAM + self.mesh + copies * self.stiffness + self.geometry + self.nonlinear + solver
     }
 
-    /// With faults, onto which bodies are condensed in so much. Jumps are taken on a copy of the matrices, and what small pieces left is not
-    /// given back to the system before the elimination.
+    /// Total of a run with faults, onto which bodies are condensed in `condensation` bytes. Displacement jumps are introduced on a copy of the
+    /// matrices, and freed small allocations are not returned to the system before the elimination.
     #[must_use]
     pub fn with_faults(&self, condensation: usize) -> usize {
         let threads = rayon::current_num_threads();

@@ -1,4 +1,4 @@
-//! The idealisation of space that the kinematics of a scene mean.
+//! Spatial idealisation implied by the kinematics of a scene.
 
 use crate::scene::model::Kinematics;
 use asperity_fem::kinematics::Idealisation;

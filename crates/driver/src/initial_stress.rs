@@ -1,10 +1,10 @@
-//! The stress that a body of a scene starts with.
+//! Initial stress of the bodies of a scene.
 
 use crate::idealisation;
 use crate::scene::model::{Axis, Body, InitialStress, Scene, StressKind, VaryingStress};
 use asperity_mechanics::StressField;
 
-/// The stress of a body, where it has one that is complete.
+/// Initial stress of a body, if it has one that is complete.
 #[must_use]
 pub fn of_body(scene: &Scene, name: &str) -> Option<StressField> {
     let body = scene.bodies.get(name)?;
@@ -17,7 +17,7 @@ pub fn of_body(scene: &Scene, name: &str) -> Option<StressField> {
     }
 }
 
-/// The stress of a body that is the same everywhere.
+/// Initial stress of a body, if it is uniform \[Pa\].
 #[must_use]
 pub fn uniform(body: &Body) -> Option<[f64; 6]> {
     match body.initial_stress.as_ref()?.get_ref() {
@@ -26,7 +26,7 @@ pub fn uniform(body: &Body) -> Option<[f64; 6]> {
     }
 }
 
-/// A list given in full, as xx, yy, xy or as yz, zx, in full.
+/// Stress components xx, yy, zz, xy, yz, zx from a list of all six, of xx, yy, xy, or of yz, zx.
 fn in_full(values: &[f64]) -> Option<[f64; 6]> {
     match *values {
         [yz, zx] => Some([0.0, 0.0, 0.0, 0.0, yz, zx]),
@@ -48,7 +48,7 @@ fn linear(spec: &VaryingStress) -> Option<StressField> {
     Some(StressField::new(in_full(&stress)?, in_full(&gradient)?, (axis, level)))
 }
 
-/// Vertical axis of a body, and its acceleration \[m/s²\].
+/// Vertical axis of a body, and its gravity \[m/s²\].
 pub(crate) fn vertical(scene: &Scene, body: &Body) -> Option<(usize, f64)> {
     let space = idealisation::of(*scene.kinematics.get_ref());
     let gravity = body.gravity.as_ref()?.get_ref();
@@ -56,7 +56,7 @@ pub(crate) fn vertical(scene: &Scene, body: &Body) -> Option<(usize, f64)> {
     Some((space.axis(component), *acceleration))
 }
 
-/// Vertical stress from the weight above, and K0 times as much across it; in a sheet none through its thickness.
+/// Vertical stress from the weight above, and K0 times as much horizontally; in a sheet, none through its thickness.
 fn lithostatic(scene: &Scene, body: &Body, spec: &VaryingStress) -> Option<StressField> {
     let (axis, acceleration) = vertical(scene, body)?;
     let material = body.materials().next()?.1;

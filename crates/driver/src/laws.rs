@@ -1,4 +1,4 @@
-//! From a law's parameters to the law.
+//! Builds friction laws from their parameters.
 
 use crate::diagnostic::Diagnostic;
 use crate::scene::law::{
@@ -21,7 +21,7 @@ use asperity_friction::strength::{
 };
 use std::sync::{Arc, LazyLock};
 
-/// Returns the laws that scenes may name.
+/// Friction laws that scenes may name.
 #[must_use]
 pub fn known() -> &'static Laws {
     static KNOWN: LazyLock<Laws> = LazyLock::new(|| Laws {
@@ -31,7 +31,7 @@ pub fn known() -> &'static Laws {
     &KNOWN
 }
 
-/// Facts a scene has to know of a kind.
+/// Properties of a kind of law that scenes need.
 fn kind_row(kind: &Kind) -> KindRow {
     let order = |&Order { lower, upper, equal, help }: &Order| OrderRow { lower, upper, equal, help };
     KindRow {
@@ -55,7 +55,7 @@ fn parameter(p: &evolution::Parameter) -> ParameterRow {
     }
 }
 
-/// Facts a scene has to know of an evolution.
+/// Properties of an evolution law that scenes need.
 fn row(definition: &Definition) -> EvolutionRow {
     EvolutionRow {
         name: definition.name,
@@ -69,7 +69,7 @@ fn row(definition: &Definition) -> EvolutionRow {
 /// Chooses the law of a specification.
 ///
 /// # Errors
-/// Every parameter that is missing, belongs to another law, or is out of range.
+/// A diagnostic for each parameter that is missing, belongs to another law, or is out of range.
 pub fn choose(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<Diagnostic>> {
     law::choose(spec, known())
 }
@@ -82,7 +82,7 @@ pub fn choose_sliding(spec: &Spanned<LawSpec>) -> Result<LawChoice, Vec<Diagnost
     law::choose_sliding(spec, known())
 }
 
-/// Builds the law a scene chose.
+/// Builds the law that a scene chose.
 ///
 /// # Errors
 /// [`Failure::Parameter`] with the admissible range.
@@ -93,7 +93,7 @@ pub fn build(choice: &LawChoice) -> Result<Arc<dyn Law>, Failure> {
     })
 }
 
-/// Builds the law a scene chose as sliders use it; none where the law has an elastic domain.
+/// Builds the law that a scene chose for sliders; `None` if it has an elastic domain.
 ///
 /// # Errors
 /// [`Failure::Parameter`] with the admissible range.
@@ -104,7 +104,7 @@ pub fn build_sliding(choice: &LawChoice) -> Result<Option<Arc<dyn Sliding>>, Fai
     }
 }
 
-/// Builds the laws of the points of a fault, choices of one kind; none where the law has an elastic domain.
+/// Builds the laws of the points of a fault, which are of one kind; `None` if the law has an elastic domain.
 ///
 /// # Errors
 /// [`Failure::Parameter`] with the admissible range.
@@ -117,17 +117,17 @@ pub fn build_fault(first: &LawChoice, rest: &[LawChoice]) -> Result<Option<Box<d
     with_form(&List { first, rest: rest.iter().filter_map(sliding).collect() }, EachPoint).map(Some)
 }
 
-/// Parts of laws.
+/// Components of a law.
 enum Parts<'a> {
     /// A law with an elastic domain.
     Elastic(Result<Arc<dyn Law>, Failure>),
-    /// A rate-dependent strength with what it remembers.
+    /// A rate-dependent strength with its state variables.
     Sliding(&'a Strength, History<'a>),
 }
 
-/// The states of a law and where they start from.
+/// State variables of a law and their initial values.
 struct History<'a> {
-    /// None without states.
+    /// `None` without state variables.
     evolution: Option<&'a Evolution>,
     states: &'a [State],
     v_initial: f64,
@@ -140,7 +140,7 @@ fn parts(choice: &LawChoice) -> Parts<'_> {
         LawChoice::Yielding { kind, own, f_limit } => Parts::Elastic(kind::build(kind, own, *f_limit)),
         LawChoice::Rate { strength, f_limit } => Parts::Sliding(
             strength,
-            // Nothing depends on the start without a state.
+            // Without state variables the initial values have no effect.
             History {
                 evolution: None,
                 states: &[],
@@ -156,7 +156,7 @@ fn parts(choice: &LawChoice) -> Parts<'_> {
                     evolution: Some(evolution),
                     states,
                     v_initial: *v_initial,
-                    // Nothing depends on it without a memory of normal traction.
+                    // Has no effect on laws without memory of normal traction.
                     normal_initial: normal_initial.unwrap_or(1.0),
                     f_limit: *f_limit,
                 },
@@ -165,14 +165,14 @@ fn parts(choice: &LawChoice) -> Parts<'_> {
     }
 }
 
-/// Product of laws of one kind, whichever it is.
+/// Builds a product from laws of one kind, for any kind.
 trait Finish {
     type Made;
 
     fn finish<L: Sliding + 'static>(self, first: L, rest: Vec<L>) -> Self::Made;
 }
 
-/// The one law of an interface or slider.
+/// Builds the single law of an interface or slider.
 struct Single;
 
 impl Finish for Single {
@@ -183,7 +183,7 @@ impl Finish for Single {
     }
 }
 
-/// The laws of the points of a fault.
+/// Builds the laws of the points of a fault.
 struct EachPoint;
 
 impl Finish for EachPoint {
@@ -194,10 +194,10 @@ impl Finish for EachPoint {
     }
 }
 
-/// A law in parts: strength and history.
+/// Components of one law: strength and state variables.
 type Part<'a> = (&'a Strength, History<'a>);
 
-/// Laws of one kind that differ in parameters.
+/// Laws of one kind with different parameters.
 struct List<'a> {
     first: Part<'a>,
     rest: Vec<Part<'a>>,
@@ -242,7 +242,7 @@ fn with_evolution<M: Finish, F: strength::Form + 'static>(
     evolution::with(chosen.name, OfEvolution { list, made, form, own: &chosen.own }).ok_or(unknown)?
 }
 
-/// Assembles laws of the evolution that is visited.
+/// Visitor that builds laws of the given evolution.
 struct OfEvolution<'a, M, F> {
     list: &'a List<'a>,
     made: M,

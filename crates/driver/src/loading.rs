@@ -1,4 +1,4 @@
-//! Conditions of the stages, turned into fixed degrees of freedom and loading channels.
+//! Conditions of the stages, converted to fixed degrees of freedom and loading channels.
 
 mod jumps;
 mod shared;
@@ -19,12 +19,12 @@ use shared::Shared;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Resolves the stages of a scene.
+/// Resolves the conditions of the stages of a scene.
 ///
 /// # Errors
-/// [`Diagnostic`] pointing at the condition that cannot be applied.
+/// [`Diagnostic`] at the condition that cannot be applied.
 pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Stage>, Diagnostic> {
-    // On faults initial stress and weight are what their tractions at the start come from.
+    // In scenes with faults, initial stress and weight only determine the initial tractions of the faults.
     let (body_loads, weight) = if scene.faults.is_empty() {
         (body_loads(scene, model)?, Vec::new())
     } else {
@@ -81,7 +81,7 @@ pub fn stages<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Sta
     Ok(stages)
 }
 
-/// Conditions of an earlier stage in the next one: targets reached are held.
+/// Carries the conditions of a stage over to the next one: targets that were reached are held.
 fn settle(held: &mut BTreeMap<(String, usize), Motion>, loads: &mut BTreeMap<(String, usize), Loading>) {
     for motion in held.values_mut() {
         if matches!(motion, Motion::To(_) | Motion::Table(_) | Motion::Rotate(_)) {
@@ -100,10 +100,10 @@ fn end_value(loading: &Loading) -> f64 {
     }
 }
 
-/// Axes by name.
+/// Names of the axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Axis number used for pressures in the table of loads; no displacement points along it.
+/// Axis number of pressures in the table of loads; no displacement has this axis.
 const PRESSURE: usize = 3;
 
 fn take_up<const D: usize>(
@@ -166,12 +166,12 @@ fn take_up<const D: usize>(
     Ok(())
 }
 
-/// Axis of a set whose nodes all share one coordinate.
+/// Axis along which all nodes of a set have the same coordinate.
 fn normal_axis<const D: usize>(model: &Model<D>, set: &Spanned<String>) -> Result<usize, Diagnostic> {
     let nodes = nodes_of_sides(&model.mesh, model::sides(model, set)?);
     let points: Vec<[f64; D]> = nodes.iter().map(|&n| model.mesh.nodes[n]).collect();
     let (min, max) = bounds(&points);
-    /// Coordinates of a generated plane face agree to rounding; relative to the size of the scene.
+    /// Tolerance for the coordinates of a generated plane face, relative to the size of the scene: rounding.
     const FLAT: f64 = 1e-12;
     (0..D).find(|&c| max[c] - min[c] <= FLAT * model.scale).ok_or_else(|| {
         Diagnostic::at(
@@ -182,8 +182,8 @@ fn normal_axis<const D: usize>(model: &Model<D>, set: &Spanned<String>) -> Resul
     })
 }
 
-/// Degrees of freedom of each held component; one that belongs to two sets is taken by the first: they were found to say the
-/// same.
+/// Degrees of freedom of each prescribed component. One that belongs to two sets is assigned to the first; earlier checks ensure that both prescribe
+/// the same motion.
 fn motions<const D: usize>(
     model: &Model<D>,
     held: &BTreeMap<(String, usize), Motion>,
@@ -205,20 +205,20 @@ fn motions<const D: usize>(
     Ok(result)
 }
 
-/// A motion as it acts within a stage; those that are free or drawn by springs have none.
+/// Motion within a stage; `None` for components that are free or loaded by springs.
 fn moved(motion: Motion) -> Option<mechanics::Motion> {
     Some(match motion {
         Motion::Fixed(value) => mechanics::Motion::Fixed(value),
         Motion::To(value) => mechanics::Motion::To(value),
         Motion::Rate(rate) => mechanics::Motion::Rate(rate),
         Motion::Table(points) => mechanics::Motion::Table(points),
-        // What a rotation adds to the place at its start is said by what turns.
+        // The displacement that a rotation adds to its start is given by [`Turning`].
         Motion::Hold | Motion::Rotate(_) => mechanics::Motion::Hold,
         Motion::Free | Motion::Spring { .. } => return None,
     })
 }
 
-/// The components that turn, with the places of their nodes.
+/// Rotating components, with the positions of their nodes.
 fn turning<const D: usize>(model: &Model<D>, motions: &[(Vec<usize>, Motion)]) -> Vec<Turning> {
     let components = model.idealisation.components();
     let place = |dof: &usize| {
@@ -244,7 +244,7 @@ fn load_channel<const D: usize>(
     (from, start, end): (f64, f64, f64),
 ) -> Channel {
     let sides = &model.mesh.side_sets[set];
-    // A force by area for each point, in proportion to the length of its normal.
+    // Unit force per area; the length of the normal is the area element of the point.
     let component = model.idealisation.component(*axis);
     let forces = surface::integrate(&model.mesh, sides, model.idealisation, |point, value| match component {
         Some(component) => value[component] = surface::length(&point.normal),
@@ -274,7 +274,7 @@ fn body_loads<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Cha
     Ok(channels)
 }
 
-/// Nodal forces of the weight of each block of cells that has one.
+/// Nodal forces due to the weight of each block of cells that has a weight.
 fn weights<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Vec<(usize, f64)>>, Diagnostic> {
     let mut all = Vec::new();
     for body in &model.bodies {
@@ -284,7 +284,7 @@ fn weights<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Vec<Vec<(u
             let (name, material) = model::material(&model.mesh, scene, (&body.name, spec), block)?;
             let density = density_of(name, material, gravity.span())?;
             let force: Vec<f64> = gravity.get_ref().iter().map(|g| density * g).collect();
-            // Weight does not depend on the stiffness; blocks that are not linear have it from one that is.
+            // Weight does not depend on stiffness; for nonlinear blocks it is computed with a linear one.
             let weight = |b: &LinearBlock<D>| b.body_force(&model.mesh, &force);
             let forces = match model.blocks[block].linear() {
                 Some(linear) => weight(linear),

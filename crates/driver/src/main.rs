@@ -25,7 +25,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// An error as a person should see it; the bare message where that cannot be drawn.
+/// An error as shown to the user; the bare message if rendering fails.
 fn rendered(error: &miette::Report) -> String {
     let mut text = String::new();
     if write!(text, "{error:?}").is_ok() { text } else { error.to_string() }

@@ -1,11 +1,11 @@
-//! A law that could not be built, at the parameter that is to blame.
+//! Errors for laws that could not be built, at the parameter that causes them.
 
 use crate::diagnostic::Diagnostic;
 use crate::scene::law::given;
 use crate::scene::model::{LawSpec, Spanned};
 use asperity_friction::Failure;
 
-/// The failure of a law with the place of the parameter and what it may be.
+/// Error for a law, at its parameter, with the admissible values.
 #[must_use]
 pub fn refused(spec: &Spanned<LawSpec>, failure: &Failure) -> Diagnostic {
     let (place, help) = match failure {

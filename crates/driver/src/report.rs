@@ -1,4 +1,4 @@
-//! `report.json` of bodies: what a run found and what it cost. What every report has is in [`common`].
+//! Report of a run of bodies, `report.json`: its results and its work. The part common to all reports is in [`common`].
 
 pub mod common;
 pub mod schema;
@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 
 pub use common::{EnergyBalance, Kind, Outcome, Phases, Results, Status, Stop};
 
-/// Figures of an interface at the end of a stage.
+/// Values of an interface at the end of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct InterfaceResult {
     /// Interface.
@@ -28,7 +28,7 @@ pub struct InterfaceResult {
     pub mean_normal_traction: f64,
     /// Shear traction averaged over the area \[Pa\].
     pub mean_shear_traction: f64,
-    /// Normal traction at the slave node next to the middle \[Pa\].
+    /// Normal traction at the slave node closest to the centre \[Pa\].
     pub mid_normal_traction: f64,
     /// Smallest and largest slip \[m\].
     pub slip: [f64; 2],
@@ -36,14 +36,14 @@ pub struct InterfaceResult {
     pub slip_rate: [f64; 2],
     /// Smallest and largest friction coefficient \[-\].
     pub friction: [f64; 2],
-    /// Points open, sticking, slipping.
+    /// Number of open, sticking and slipping points.
     pub status: [usize; 3],
 }
 
 /// Values at a point of a body at the end of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PointResult {
-    /// The point.
+    /// Point.
     #[serde(flatten)]
     pub point: PointMark,
     /// Stage.
@@ -56,25 +56,25 @@ pub struct PointResult {
 /// Force on a set at the end of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ForceResult {
-    /// The set.
+    /// Set.
     #[serde(flatten)]
     pub force: ForceMark,
     /// Stage.
     pub stage: String,
-    /// Action on the body through the nodes of the set.
+    /// Force acting on the body through the nodes of the set.
     pub value: [f64; 3],
-    /// Its unit: N, or N/m of thickness.
+    /// Unit of the force: N, or N/m of thickness.
     pub unit: String,
 }
 
-/// The report of a run.
+/// Report of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct RunReport {
     /// Plan.
     pub plan: Summary,
     /// Outcome.
     pub outcome: Outcome,
-    /// Findings of the run that its model does not describe; doubts about the scene stand in the plan.
+    /// Warnings about results outside the assumptions of the model; those about the scene are in the plan.
     pub warnings: Vec<Warning>,
     /// Results per interface and stage.
     pub results: Vec<InterfaceResult>,
@@ -86,7 +86,7 @@ pub struct RunReport {
     pub balance: Vec<InterfaceBalance>,
     /// Work.
     pub counts: Counts,
-    /// Every step.
+    /// All steps.
     pub steps: Vec<StepRecord>,
     /// Wall time per phase.
     #[serde(skip)]
@@ -106,13 +106,13 @@ impl Results for RunReport {
 }
 
 impl RunReport {
-    /// An empty report of a plan.
+    /// Empty report of a plan.
     #[must_use]
     pub fn new<const D: usize>(plan: &Plan<D>) -> Self {
         Self { plan: plan.summary.clone(), ..Self::default() }
     }
 
-    /// Fills in what is known at the end.
+    /// Adds the values known at the end.
     pub fn complete(&mut self, counts: Counts, phases: Phases, steps: Vec<StepRecord>) {
         self.counts = counts;
         self.seconds = phases;
@@ -120,7 +120,7 @@ impl RunReport {
     }
 }
 
-/// Results of the interfaces at the end of a stage. `interfaces` gives the name of each.
+/// Results of the interfaces at the end of a stage; `interfaces` gives their names.
 pub(crate) fn results(
     stage: &Stage,
     fields: &[InterfaceFields],
@@ -140,7 +140,7 @@ pub(crate) fn results(
     fields.iter().zip(interfaces).map(of).collect()
 }
 
-/// Warns of interfaces that are pressed so much at the end of a stage that their points do not resolve friction.
+/// Warnings about interfaces pressed so strongly at the end of a stage that their points do not resolve friction.
 pub(crate) fn resolution<const D: usize>(
     plan: &Plan<D>,
     stage: &Stage,
@@ -177,7 +177,7 @@ pub(crate) fn forces<const D: usize>(plan: &Plan<D>, stage: &Stage, samples: &Sa
     .collect()
 }
 
-/// Area-weighted mean; 0 of no area.
+/// Area-weighted mean; 0 if the area is zero.
 #[must_use]
 pub fn mean(values: &[f64], areas: &[f64]) -> f64 {
     let total: f64 = areas.iter().sum();

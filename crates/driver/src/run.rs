@@ -1,4 +1,4 @@
-//! Running a plan: stages in sequence, steps within them, observers after each.
+//! Runs a plan: stages in sequence, steps within a stage, observers after each step.
 
 mod keeper;
 mod stand;
@@ -27,7 +27,7 @@ use std::time::Instant as Clock;
 /// Reason why a run could not be completed.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    /// Nothing was computed: the system could not be set up.
+    /// The system could not be set up, so that nothing was computed.
     #[error("setting up stage `{stage}`: {reason}")]
     SetUp {
         /// Stage.
@@ -35,27 +35,27 @@ pub enum RunError {
         /// Reason.
         reason: String,
     },
-    /// The run that is to be resumed is another.
+    /// The run to be resumed belongs to another plan.
     #[error("the run that is to be resumed is another: {0}")]
     Foreign(#[from] Mismatch),
-    /// An observer could not write.
+    /// An observer could not write its output.
     #[error("{0}")]
     Observe(#[from] ObserveError),
 }
 
-/// Runs a plan. A stepper that does not converge is no error: the report's outcome says so and everything computed
-/// until then has been observed.
+/// Runs a plan. Failure to converge is not an error: the outcome in the report records it, and everything computed
+/// before it has been passed to the observer.
 ///
 /// # Errors
-/// [`RunError`] when the system cannot be set up or an output cannot be written.
+/// [`RunError`] if the system cannot be set up or an output cannot be written.
 pub fn run(plan: &AnyPlan, writer: &mut dyn Writer) -> Result<RunReport, RunError> {
     run_kept(plan, &mut Unkept(writer), None)
 }
 
-/// Runs a plan from its start, or from where it stood, until its end or until `observer` interrupts it.
+/// Runs a plan from its start, or from a saved state, until its end or until `observer` interrupts it.
 ///
 /// # Errors
-/// See [`run`]; [`RunError::Foreign`] where the run that stood there was not one of this plan.
+/// See [`run`]; [`RunError::Foreign`] if the saved state does not belong to this plan.
 pub fn run_kept(
     plan: &AnyPlan,
     observer: &mut dyn Observer<Bodies>,
@@ -105,14 +105,14 @@ struct Running<'a, const D: usize> {
 struct InStage {
     index: usize,
     length: StepLength,
-    /// Trials thrown away since the last accepted step.
+    /// Number of rejected trials since the last accepted step.
     rejected: usize,
-    /// A motion that the first of them found free, in words.
+    /// Description of an unrestrained motion found in the first of these trials.
     free: Option<String>,
 }
 
 impl<const D: usize> Running<'_, D> {
-    /// Runs one stage, from where it stood where it is resumed; an early end is returned as an outcome.
+    /// Runs one stage, or the rest of it from a saved state. An early end is returned as an outcome.
     fn stage(
         &mut self,
         index: usize,
@@ -149,7 +149,7 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    /// Begins a stage, or takes up a run within it.
+    /// Begins a stage, or resumes a run within it.
     fn enter(
         &mut self,
         index: usize,
@@ -169,7 +169,7 @@ impl<const D: usize> Running<'_, D> {
         Ok(InStage { index, length, rejected: from.rejected, free: from.free })
     }
 
-    /// State of the run.
+    /// Current state of the run.
     fn stand(&self, here: &InStage, system: &mut Assembled<'_, D>) -> Stand {
         Stand {
             stage: here.index,
@@ -182,7 +182,7 @@ impl<const D: usize> Running<'_, D> {
         }
     }
 
-    /// Takes note of an accepted step; `before` are the slip rates before it.
+    /// Records an accepted step; `before` holds the slip rates before it.
     fn accepted(
         &mut self,
         here: &mut InStage,
@@ -195,7 +195,8 @@ impl<const D: usize> Running<'_, D> {
             slip: system.slip_error(before, accepted.dt),
             friction: accepted.error,
             fill: system.slip_fill(),
-            // Rounds of multipliers solve anew from where the last one ended: a step is hard where one solution is.
+            // Each multiplier update solves again from the previous solution. The difficulty of a step is that of one
+            // solution.
             iterations: accepted.iterations.div_ceil(accepted.augmentations + 1),
         };
         here.length.accepted((accepted.dt, accepted.cut), figures);
@@ -203,7 +204,7 @@ impl<const D: usize> Running<'_, D> {
         (here.rejected, here.free) = (0, None);
     }
 
-    /// The outcome of a run whose slip cannot be followed, where it cannot.
+    /// Outcome of a run whose slip the steps can no longer follow; `None` if they can.
     fn outruns(
         &self,
         here: &InStage,
@@ -213,12 +214,12 @@ impl<const D: usize> Running<'_, D> {
     ) -> Option<Outcome> {
         let lengths = here.length.exhausted().filter(|_| self.follows_rates())?;
         let faster = self.faster(before, &system.slip_rates());
-        // Where slip only just begins, shorter forward steps would follow rates that matter to nothing.
+        // If slip has only just begun, shorter forward steps would resolve rates of no consequence.
         let name = &self.plan.problem.stages[here.index].name;
         (faster || cut != Cut::Accuracy).then(|| stop::exhausted(system, name, lengths, faster))
     }
 
-    /// Takes note of a failed trial of length `dt` \[s\]; the outcome of a run that cannot go on.
+    /// Records a failed trial of length `dt` \[s\]. Returns the outcome if the run cannot continue.
     fn rejected(
         &mut self,
         here: &mut InStage,
@@ -239,7 +240,7 @@ impl<const D: usize> Running<'_, D> {
         })
     }
 
-    /// Adds what is found at the end of a stage.
+    /// Adds the results at the end of a stage.
     fn end_of_stage(&mut self, stage: &Stage, system: &Assembled<'_, D>) {
         let (plan, fields) = (self.plan, interface_fields(system));
         self.found.results.extend(report::results(stage, &fields, interface_names(plan)));
@@ -251,7 +252,7 @@ impl<const D: usize> Running<'_, D> {
         self.found.warnings.extend(resolution.into_iter().chain(doubts).map(Said::from));
     }
 
-    /// The report of the run.
+    /// Report of the run.
     fn report(self, system: &Assembled<'_, D>, outcome: Outcome) -> RunReport {
         let Self { plan, mut work, found, phases, .. } = self;
         system.add_counts(&mut work.counts);
@@ -267,12 +268,12 @@ impl<const D: usize> Running<'_, D> {
         report
     }
 
-    /// True if the largest slip rate has grown beyond what loads drive.
+    /// True if the largest slip rate has increased and exceeds the rate driven by the loads.
     fn faster(&self, before: &[f64], now: &[f64]) -> bool {
         largest(now) > largest(before) && self.beyond_loads(now)
     }
 
-    /// True if a law follows rates, and the largest is beyond what loads drive.
+    /// True if a law depends on slip rate and the largest rate exceeds the rate driven by the loads.
     fn fast(&self, system: &Assembled<'_, D>) -> bool {
         self.follows_rates() && self.beyond_loads(&system.slip_rates())
     }
@@ -282,14 +283,14 @@ impl<const D: usize> Running<'_, D> {
         largest(rates) > LOADING * loading
     }
 
-    /// True if the law of an interface follows rates or weakens.
+    /// True if the law of an interface depends on slip rate or weakens.
     fn watches(&self) -> bool {
         let watched = |w: &Watch| w.rate.is_some() || w.course != Course::Steady;
         self.plan.problem.interfaces.iter().any(|i| watched(&i.watch))
     }
 
-    /// True if an interface has a law of the slip rate. Rates of other laws are slip over the length of the step, which may be finite at
-    /// any length.
+    /// True if an interface has a law that depends on slip rate. With other laws the rate is slip over step length, and the slip may stay finite for
+    /// any step length.
     fn follows_rates(&self) -> bool {
         self.plan.problem.interfaces.iter().any(|i| i.law.as_ref().is_some_and(|l| !l.has_elastic_domain()))
     }
@@ -313,7 +314,7 @@ impl<const D: usize> Running<'_, D> {
         });
     }
 
-    /// Shows the last step of a stage, or, where the run stopped, that it is the last.
+    /// Passes the last step of a stage to the observer; if the run has stopped, as its end.
     fn show(
         &mut self,
         index: usize,

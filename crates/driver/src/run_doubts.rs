@@ -1,4 +1,4 @@
-//! Findings of a run that its model does not describe: strain, rotation and slip beyond what small means, and contact that never was.
+//! Warnings about results outside the assumptions of the model: strain, rotation and slip that are not small, and contacts that never closed.
 
 use crate::lengths::brief;
 use crate::plan::Plan;
@@ -13,14 +13,14 @@ use asperity_mechanics::{CellBlock, Model, PlannedInterface};
 use asperity_output::view::InterfaceFields;
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Largest principal strain of a theory of small strain \[-\]: its error is of the order of the strain itself, so that stress and area are
-/// off by some five per cent here.
+/// Largest principal strain admitted in small-strain theory \[-\]. The error is of the order of the strain itself, so that stress and area have
+/// errors of about five per cent here.
 const SMALL_STRAIN: f64 = 0.05;
 
-/// Largest rotation of a theory of small strain \[rad\]: it takes a rotation θ for a strain θ²/2, here 1.25e-3, which in rock is tens of MPa.
+/// Largest rotation admitted in small-strain theory \[rad\]. It takes a rotation θ for a strain θ²/2, here 1.25e-3, which in rock is tens of MPa.
 const SMALL_ROTATION: f64 = 0.05;
 
-/// Slip over the size of the master's faces from which a pairing that does not follow is wrong: the node slides on another face by then.
+/// Slip over the size of the master faces from which a fixed pairing is wrong, because the node is then on another face.
 const SMALL_SLIDING: f64 = 1.0;
 
 /// Largest principal strain and rotation of the cells of a body.
@@ -30,7 +30,7 @@ struct Largest {
     rotation: f64,
 }
 
-/// Doubts at the end of a stage, given the displacement of all degrees of freedom.
+/// Warnings at the end of a stage, given the displacement of all degrees of freedom.
 #[must_use]
 pub fn after_stage<const D: usize>(
     plan: &Plan<D>,
@@ -78,10 +78,11 @@ fn of_body(body: &str, stage: &str, largest: Largest, young: f64) -> Option<Warn
     })
 }
 
-/// Largest strain and rotation at the middles of the cells of a block; nothing where large deformation is followed.
+/// Largest strain and rotation at the centres of the cells of a block; zero if the block accounts for large
+/// deformation.
 fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Largest {
     let followed = matches!(&model.blocks.get(block), Some(CellBlock::Nonlinear(b)) if b.model().kinematics == Kinematics::UpdatedLagrangian);
-    // Antiplane motion has one component, and its equation is linear in slopes of any size.
+    // Antiplane motion has one component, and its equation is linear for slopes of any size.
     if followed || model.idealisation == Idealisation::Antiplane {
         return Largest::default();
     }
@@ -91,7 +92,7 @@ fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Larges
         let strain = 0.5 * (&gradient + gradient.transpose());
         let spin = 0.5 * (&gradient - gradient.transpose());
         let principal = SymmetricEigen::new(strain).eigenvalues.amax().max(hoop(model, cells, cell, u));
-        // In space the entries of the spin are those of the rotation vector, each twice.
+        // In 3D each component of the rotation vector appears twice in the spin.
         Largest {
             strain: largest.strain.max(principal),
             rotation: largest.rotation.max(spin.norm() / std::f64::consts::SQRT_2),
@@ -99,7 +100,7 @@ fn of_block<const D: usize>(model: &Model<D>, block: usize, u: &[f64]) -> Larges
     })
 }
 
-/// Strain around an axis of revolution, without sign.
+/// Magnitude of the hoop strain in axisymmetry.
 fn hoop<const D: usize>(model: &Model<D>, cells: &Cells, cell: usize, u: &[f64]) -> f64 {
     if model.idealisation != Idealisation::Axisymmetric {
         return 0.0;
@@ -110,7 +111,7 @@ fn hoop<const D: usize>(model: &Model<D>, cells: &Cells, cell: usize, u: &[f64])
     (moved / radius).abs()
 }
 
-/// Gradient of the displacement at the middle of a cell.
+/// Displacement gradient at the centre of a cell.
 fn gradient<const D: usize>(model: &Model<D>, cells: &Cells, cell: usize, u: &[f64]) -> DMatrix<f64> {
     let kind = cells.kind;
     let corners = &kind.node_coordinates()[..kind.corners()];
@@ -126,11 +127,11 @@ fn gradient<const D: usize>(model: &Model<D>, cells: &Cells, cell: usize, u: &[f
             }
         }
     }
-    // A cell that cannot be inverted is refused where the bodies are made.
+    // A cell whose Jacobian cannot be inverted is refused when the bodies are built.
     jacobian.try_inverse().map_or_else(|| DMatrix::zeros(D, D), |inverse| natural * inverse)
 }
 
-/// A side that is dragged off the faces it was paired with.
+/// Warning about a side that is dragged off the faces it was paired with.
 fn dragged<const D: usize>(
     model: &Model<D>,
     planned: &PlannedInterface,
@@ -159,7 +160,7 @@ fn dragged<const D: usize>(
     })
 }
 
-/// Mean distance of the first two corners of faces \[m\].
+/// Mean distance between the first two corners of faces \[m\].
 fn face_size<const D: usize>(model: &Model<D>, faces: &[MeshFace]) -> f64 {
     let edge = |face: &MeshFace| {
         let (a, b) = (model.mesh.nodes[face.nodes[0]], model.mesh.nodes[face.nodes[1]]);
@@ -168,7 +169,7 @@ fn face_size<const D: usize>(model: &Model<D>, faces: &[MeshFace]) -> f64 {
     faces.iter().map(edge).sum::<f64>() / faces.len().max(1) as f64
 }
 
-/// Interfaces that were open at the end of every stage.
+/// Warnings about interfaces that were open at the end of every stage.
 #[must_use]
 pub fn never_closed(results: &[InterfaceResult]) -> Vec<Warning> {
     let mut names: Vec<&str> = results.iter().map(|r| r.interface.as_str()).collect();
@@ -212,7 +213,7 @@ conditions = [{ set = "A.left", x = 0, y = 0 }]
 stepper = "implicit"
 "#;
 
-    /// Words about the displacement `u` of every place.
+    /// Largest strain and rotation, and the warnings, for a displacement field `u`.
     fn told(u: impl Fn(&[f64; 2]) -> [f64; 2]) -> (Largest, Vec<String>) {
         let AnyPlan::Two(plan) = plan(&scene::read(BAR).unwrap()).unwrap() else { panic!("a plane scene") };
         let u: Vec<f64> = plan.problem.model.mesh.nodes.iter().flat_map(u).collect();
@@ -225,7 +226,7 @@ stepper = "implicit"
         let (largest, warnings) = told(|x| [-0.06 * x[1], 0.06 * x[0]]);
         assert!((largest.rotation - 0.06).abs() < 1e-12 && largest.strain < 1e-12, "{largest:?}");
         assert!(warnings.len() == 1 && warnings[0].contains("turns by 0.060 rad"), "{warnings:?}");
-        // 0.06²/2 of 10 GPa.
+        // 0.06²/2 times 10 GPa.
         assert!(warnings[0].contains("1.800e7 Pa"), "{warnings:?}");
     }
 

@@ -1,4 +1,4 @@
-//! The scene language with the friction laws that this program knows.
+//! The scene language with the friction laws of this program.
 
 pub use asperity_scene::{Entry, check, law, model, names, near, slider, units};
 
@@ -7,15 +7,15 @@ use crate::laws;
 use model::Scene;
 use std::path::Path;
 
-/// Reads and checks a scene; paths of mesh files in it are relative to the present folder.
+/// Reads and checks a scene; paths of mesh files are relative to the current folder.
 ///
 /// # Errors
-/// All that is wrong with it, or the first thing that keeps it from being read.
+/// All errors of the scene, or the first one that prevents reading it.
 pub fn read(text: &str) -> Result<Scene, Diagnostics> {
     read_in(text, Path::new(""))
 }
 
-/// Reads and checks a scene whose mesh files are named relative to `folder`.
+/// Reads and checks a scene whose mesh files are relative to `folder`.
 ///
 /// # Errors
 /// See [`read`].

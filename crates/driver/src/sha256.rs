@@ -1,8 +1,8 @@
-//! Sums of files and texts.
+//! Checksums of files and texts.
 
 use sha2::{Digest, Sha256};
 
-/// SHA-256 of `parts` one after another, in hexadecimal.
+/// SHA-256 of the concatenated `parts`, in hexadecimal.
 #[must_use]
 pub fn sha256<T: AsRef<[u8]>>(parts: impl IntoIterator<Item = T>) -> String {
     let mut hash = Sha256::new();

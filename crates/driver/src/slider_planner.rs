@@ -1,4 +1,4 @@
-//! From a scene of spring-sliders to a plan.
+//! Plans a scene of spring-sliders.
 
 mod history;
 mod output;
@@ -17,7 +17,7 @@ use std::ops::Range;
 /// Reads, checks and plans a scene of spring-sliders.
 ///
 /// # Errors
-/// All that is wrong with it, or the first thing that keeps it from being read.
+/// All errors of the scene, or the first one that prevents reading it.
 pub fn read(text: &str) -> Result<Plan, Diagnostics> {
     let scene = slider::read(text)?;
     let mut planner = Planner::default();
@@ -30,7 +30,7 @@ pub fn read(text: &str) -> Result<Plan, Diagnostics> {
     }
 }
 
-/// Turns a scene into a plan and collects what is wrong.
+/// Turns a scene into a plan and collects errors.
 #[derive(Default)]
 struct Planner {
     errors: Vec<Diagnostic>,
@@ -55,7 +55,7 @@ impl Planner {
         if scene.sliders.is_empty() {
             return self.error(0..0, "the scene has no slider", "add a table `[sliders.NAME]`");
         }
-        // Where slip rates are imposed and no spring leads to a load point, there is none.
+        // If slip rates are imposed and no spring leads to a load point, none is needed.
         let specs = || scene.sliders.values().map(|s| s.get_ref());
         let driven = specs().any(|s| s.rate.is_some()) && specs().all(|s| s.stiffness.is_none());
         let load = match &scene.load {
@@ -102,7 +102,7 @@ impl Planner {
         Some(plan)
     }
 
-    /// A count of at least one.
+    /// A count that must be at least one.
     pub(super) fn count(&mut self, name: &str, value: Option<&Spanned<usize>>) -> Option<usize> {
         let value = value?;
         if *value.get_ref() == 0 {

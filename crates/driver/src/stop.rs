@@ -1,4 +1,4 @@
-//! End of a run that cannot go on: the words about it, and if it met an instability.
+//! Outcomes of runs that cannot continue: their description, and whether an instability caused them.
 
 use crate::report::{Outcome, Stop};
 use asperity_contact::Interface;
@@ -10,17 +10,17 @@ const REMEDY: &str = "the last state before it is kept. Stiffer bodies or suppor
     are stable; events are followed where waves or inertia carry them: `[faults.NAME]`, or `kinematics = \"spring-slider\"` with \
     `damping` or `mass`";
 
-/// Trials of steps that failed after which a run with a penalty far beyond the stiffness of its bodies ends: one set of contacts that changes
-/// as a whole takes a few, and halving down to the smallest step 44.
+/// Number of failed trials after which a run with a penalty far above the stiffness of its bodies ends. A contact set that changes as a whole takes a
+/// few, and halving down to the smallest step takes 44.
 const STALLED: usize = 20;
-/// Steps to each of them up to which it does.
+/// Largest number of steps per failed trial for which it ends.
 const SELDOM: usize = 4;
 
-/// Parts of a metre in which a place is told: nanometres, so that rounding does not show.
+/// Parts of a metre to which a position is printed: nanometres, so that rounding does not show.
 const SHOWN: f64 = 1e9;
 
-/// The outcome of a step that failed at its shortest, of length `dt` \[s\]; `free` tells of a motion nothing holds, `fast` whether slip has left
-/// what loads drive behind.
+/// Outcome of a step that failed at its shortest length `dt` \[s\]. `free` describes a motion that nothing restrains; `fast` is true if slip is
+/// faster than the loads drive it.
 pub fn failed<const D: usize>(
     system: &Assembled<'_, D>,
     stage: &str,
@@ -46,14 +46,14 @@ pub fn failed<const D: usize>(
             return unstable(system, stage, at, &reason);
         }
     }
-    // Shorter steps may fail otherwise than the first did: what that one found is told.
+    // Shorter steps may fail differently than the first; the motion that the first one found is reported.
     if let Some(free) = free {
         reason += &format!("; {free}");
     }
     Outcome::Stopped { stage: Some(stage), time, reason, kind: Stop::NotConverged }
 }
 
-/// The outcome of a run whose iterations fail again and again for a penalty that is far too large, where they do.
+/// Outcome of a run whose iterations fail repeatedly because a penalty is far too large; `None` otherwise.
 pub fn stalled<const D: usize>(
     system: &Assembled<'_, D>,
     stage: &str,
@@ -77,8 +77,7 @@ pub fn stalled<const D: usize>(
     })
 }
 
-/// The outcome of a run whose error of slip asks for steps of `needed` \[s\], below the smallest allowed. `faster` tells whether slip
-/// accelerates.
+/// Outcome of a run whose slip error requires steps of `needed` \[s\], below the smallest allowed. `faster` is true if slip accelerates.
 pub fn exhausted<const D: usize>(
     system: &Assembled<'_, D>,
     stage: &str,
@@ -104,16 +103,16 @@ pub fn exhausted<const D: usize>(
     }
 }
 
-/// Place of an instability.
+/// Location of an instability.
 struct Met {
     interface: String,
     position: [f64; 3],
-    /// In the state that was not accepted \[m/s\].
+    /// Slip rate in the rejected state \[m/s\].
     slip_rate: f64,
 }
 
 impl Met {
-    /// Place and slip rate.
+    /// Description of position and slip rate.
     fn words<const D: usize>(&self) -> String {
         let place = std::array::from_fn(|c| (self.position[c] * SHOWN).round() / SHOWN);
         format!("at {}, V = {:.3e} m/s", coordinates::in_words::<D>(&place), self.slip_rate)
@@ -135,7 +134,7 @@ fn unstable<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, 
     }
 }
 
-/// The outcome of a step in which a point would slide that its neighbours do not resolve.
+/// Outcome of a step in which a point would slide whose cohesive zone is not resolved.
 fn coarse<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, what: &str) -> Outcome {
     let remedy = system.resolved(&met.interface).map_or_else(String::new, |r| format!("; {}", r.limit));
     let reason = format!(
@@ -151,7 +150,8 @@ fn coarse<const D: usize>(system: &Assembled<'_, D>, stage: String, met: Met, wh
     }
 }
 
-/// True if a point is pressed more than its neighbours resolve, and the scene does not allow it: what loses its strength there is a point of the mesh.
+/// True if the normal traction at a point is too large for the points to resolve its cohesive zone, and the scene does not allow this: the point
+/// would fail on its own, as an artefact of the mesh.
 fn is_coarse<const D: usize>(system: &Assembled<'_, D>, met: &Met) -> bool {
     let most = system.resolved(&met.interface).and_then(|r| r.refused_beyond);
     let normal = |i: &Interface<D>| {
@@ -175,13 +175,13 @@ fn at<const D: usize>(interface: &Interface<D>, point: usize, slip_rate: f64) ->
     }
 }
 
-/// The point that lost strength in the trial that failed last.
+/// Point that lost strength in the last failed trial.
 fn weakest<const D: usize>(system: &Assembled<'_, D>) -> Option<Met> {
     let rate = |i: &Interface<D>, p: usize| i.points().slip_rate.get(p).map_or(0.0, |v| v.abs());
     system.interfaces().iter().find_map(|i| i.weakens().map(|p| at(i, p, rate(i, p))))
 }
 
-/// The point that slips fastest.
+/// Point with the largest slip rate.
 fn fastest<const D: usize>(system: &Assembled<'_, D>) -> Option<Met> {
     let each = system.interfaces().iter().filter_map(|i| i.fastest().map(|(p, rate)| at(i, p, rate)));
     each.reduce(|a, b| if b.slip_rate > a.slip_rate { b } else { a })

@@ -1,4 +1,4 @@
-//! The model and its state as observers see them.
+//! The model and its state in the form passed to observers.
 
 use crate::plan::Plan;
 use asperity_contact::{Interface, PointFields, Status};
@@ -17,7 +17,7 @@ fn padded<const D: usize>(v: &[f64; D]) -> [f64; 3] {
     std::array::from_fn(|c| if c < D { v[c] } else { 0.0 })
 }
 
-/// Fixed part.
+/// Part of the model that does not change during a run.
 #[must_use]
 pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
     let mesh = &plan.problem.model.mesh;
@@ -55,7 +55,7 @@ pub fn setup<const D: usize>(plan: &Plan<D>, areas: &[Vec<f64>]) -> Setup {
     }
 }
 
-/// A point as observers know it.
+/// A point in the form passed to observers.
 #[must_use]
 pub fn point_mark(point: &Point) -> PointMark {
     let mut position = [0.0; 3];
@@ -63,13 +63,13 @@ pub fn point_mark(point: &Point) -> PointMark {
     PointMark { name: point.name.clone(), body: point.body.clone(), position }
 }
 
-/// A set as observers know it.
+/// A set in the form passed to observers.
 #[must_use]
 pub fn force_mark(force: &ForceSet) -> ForceMark {
     ForceMark { name: force.name.clone(), set: force.set.clone() }
 }
 
-/// Unit of forces: those of bodies in plane strain and antiplane motion are per metre of thickness.
+/// Unit of forces; bodies in plane strain and antiplane motion have forces per metre of thickness.
 #[must_use]
 pub fn force_unit<const D: usize>(plan: &Plan<D>) -> &'static str {
     match plan.problem.model.idealisation {
@@ -90,7 +90,7 @@ fn interface_mesh<const D: usize>(
         name: planned.name.clone(),
         labels: Vec::new(),
         areas: areas.to_vec(),
-        // The face at a tip has a node that is no point of the interface.
+        // The face at a tip has a node that is not a point of the interface.
         faces: planned
             .slave_faces
             .iter()
@@ -126,16 +126,16 @@ fn nearest(positions: &[[f64; 3]], target: [f64; 3]) -> usize {
         .unwrap_or_default()
 }
 
-/// Averaged shear traction with the sign of the measure of [`interface_fields`].
+/// Averaged shear traction, with the sign convention of [`interface_fields`].
 fn mean_shear<const D: usize>(p: &PointFields<D>) -> Vec<f64> {
     let inner = |a: &[f64; D], b: &[f64; D]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let each = p.mean_shear.iter().zip(&p.tangent);
     each.map(|(t, e)| if D == 2 { inner(t, e) } else { inner(t, t).sqrt() }).collect()
 }
 
-/// State of an interface. In two dimensions tangential quantities are measured along the first tangent (-n_y, n_x), n the outward
-/// normal of the master. In three dimensions they are magnitudes, beside vectors: the tangents that components count along differ from
-/// measure to measure.
+/// State of an interface. In two dimensions tangential quantities are measured along the first tangent (-n_y, n_x), with n the outward normal of the
+/// master. In three dimensions they are magnitudes, given in addition to vectors, because the tangents to which components refer depend on the
+/// contact measure.
 #[must_use]
 pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFields {
     let p = interface.points();
@@ -173,19 +173,19 @@ pub fn interface_fields<const D: usize>(interface: &Interface<D>) -> InterfaceFi
     }
 }
 
-/// Fields of the bodies for the displacement `u` of the common mesh; `blocks` are those of the mesh in their present state.
+/// Fields of the bodies for the displacement `u` of the common mesh; `blocks` are the blocks of the mesh in their current state.
 #[must_use]
 pub fn body_fields<const D: usize>(plan: &Plan<D>, blocks: &[CellBlock<D>], u: &[f64]) -> BodyFields {
     let nodes = plan.problem.model.mesh.nodes.len();
     let displacement = (0..nodes).map(|n| plan.problem.model.displacement(n, u)).collect();
     let mut fields = BodyFields { displacement, node_mises: vec![0.0; nodes], ..BodyFields::default() };
     let plastic = blocks.iter().any(|b| plastic_strain(b).is_some());
-    // Sum of the blocks' nodal stresses and their number: a node between blocks of a body has their mean.
+    // Sum and number of the nodal stresses of the blocks; a node between blocks of a body takes their mean.
     let mut sums = vec![([0.0; 6], 0.0); nodes];
     for (body, initial) in plan.problem.model.bodies.iter().zip(&plan.problem.initial_stress) {
         for index in body.blocks.clone() {
             let block = &blocks[index];
-            // Blocks that are not linear keep their initial stress themselves.
+            // Nonlinear blocks include the initial stress in their own state.
             let add = |s: [f64; 6], x: &[f64; D]| match initial {
                 Some(initial) if block.linear().is_some() => {
                     let initial = initial.at(x);
@@ -227,7 +227,7 @@ fn plastic_strain<const D: usize>(block: &CellBlock<D>) -> Option<Vec<f64>> {
     }
 }
 
-/// Stress at the nodes of a block: mean of the adjoining cells, weighted with their volume where the block is linear.
+/// Stress at the nodes of a block: mean of the adjacent cells, weighted by volume if the block is linear.
 fn nodal_stress<const D: usize>(
     plan: &Plan<D>,
     block: &CellBlock<D>,
@@ -260,7 +260,7 @@ pub fn samples(samples: mechanics::Samples) -> Samples {
     Samples { points: samples.points.into_iter().map(point).collect(), forces: samples.forces }
 }
 
-/// Accepted steps, rejected trials and the work that they took.
+/// Accepted steps, rejected trials and their work.
 #[must_use]
 pub fn counts(steps: usize, rejected: usize, work: &mechanics::Counts) -> Counts {
     Counts {

@@ -1,4 +1,4 @@
-//! A run's checkpoint: one file that holds all there is to know to resume it.
+//! Checkpoint of a run: one file with everything needed to resume it.
 //!
 //! ```text
 //! asperity checkpoint of faults, version 2
@@ -6,8 +6,8 @@
 //! <JSON>
 //! ```
 //!
-//! Decimals of the JSON are the shortest that read back as the same numbers. The file is on the disc under a temporary name before it
-//! takes the place of the one before it.
+//! Numbers in the JSON have the fewest decimals that read back to the same value. A new checkpoint is written to the disc under a temporary name and
+//! then replaces the previous one.
 
 mod error;
 mod pauses;
@@ -32,14 +32,14 @@ const KIND: &str = "asperity checkpoint of ";
 
 /// Contents of the checkpoints of one kind of run.
 pub trait Contents: Serialize + DeserializeOwned {
-    /// The kind of run in the plural.
+    /// Kind of run, in the plural.
     const OF: &'static str;
     /// Version of the contents.
     const VERSION: &'static str;
-    /// Parts of a scene that may change between two parts of its run.
+    /// Parts of a scene that may change when a run is resumed.
     const ALLOWED: &'static str;
 
-    /// Hash of what must not change between two parts of a run.
+    /// Hash of everything that must not change when a run is resumed.
     fn physics(&self) -> &str;
 
     /// Writes the checkpoint into `out`.
@@ -54,10 +54,10 @@ pub trait Contents: Serialize + DeserializeOwned {
         atomic::write_durably(&path, text.as_bytes())
     }
 
-    /// Reads the checkpoint of `out`; none where there is none.
+    /// Reads the checkpoint of `out`; `None` if there is none.
     ///
     /// # Errors
-    /// If it is damaged, of another version, or of another scene than that of `physics`.
+    /// If it is damaged, has another version, or belongs to a scene whose hash is not `physics`.
     fn read(out: &Path, physics: &str) -> Result<Option<Self>, ResumeError> {
         let path = out.join(FILE);
         let bytes = match fs::read(&path) {
@@ -91,7 +91,7 @@ pub trait Contents: Serialize + DeserializeOwned {
     }
 }
 
-/// An error about contents that do not fit the run.
+/// Error for contents that do not fit the run.
 pub fn foreign(out: &Path, reason: &str) -> ResumeError {
     ResumeError::Damaged { path: out.join(FILE), reason: reason.into() }
 }

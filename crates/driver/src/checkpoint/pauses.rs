@@ -4,31 +4,33 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Wall time between checkpoints over the wall time that the last one took, at least: what they cost stays below 2 %.
+/// Least ratio of the wall time between checkpoints to the wall time of writing the last one; it keeps the cost of
+/// checkpoints below 2 %.
 const SHARE: u32 = 50;
 
-/// See the module.
+/// Settings for checkpoints and interruption of a run.
 #[derive(Clone, Debug)]
 pub struct Pauses {
     /// Wall time between two checkpoints.
     pub every: Duration,
-    /// Wall time after which to interrupt the run.
+    /// Wall time after which the run is interrupted.
     pub wall: Option<Duration>,
-    /// Set from outside to interrupt it.
+    /// Flag set from outside to interrupt the run.
     pub stop: Arc<AtomicBool>,
     /// Instant at which the run began, or was resumed.
     pub begun: Instant,
 }
 
 impl Pauses {
-    /// True if the next checkpoint is due; `written` is when the last one was, and how long that took.
+    /// True if the next checkpoint is due; `written` holds the instant of the last one and the time that writing it
+    /// took.
     #[must_use]
     pub fn are_due(&self, written: (Instant, Duration)) -> bool {
         let (at, cost) = written;
         at.elapsed() >= self.every.max(cost * SHARE)
     }
 
-    /// Reason why a run is to be interrupted now; one that has not `moved` yet only where it is asked to, so that each part of a run gets on.
+    /// Reason to interrupt the run now, if any. A run that has not `moved` yet is interrupted only on request, so that every part of a run advances.
     #[must_use]
     pub fn reason(&self, moved: bool) -> Option<&'static str> {
         if self.stop.load(Ordering::Relaxed) {

@@ -2,7 +2,7 @@
 
 use crate::sha256::sha256;
 
-/// Hash of the scene `text` without what `leave_out` removes, and of mesh files with these hashes. How the file is laid out does not count.
+/// Hash of the scene `text`, without the entries that `leave_out` removes, and of the hashes of its mesh files. The layout of the file has no effect.
 #[must_use]
 pub fn hash<'a>(
     text: &str,
@@ -13,12 +13,13 @@ pub fn hash<'a>(
         leave_out(&mut table);
         table
     });
-    // Tables are sorted by their keys. What has been read as a scene can be read as a table; if not, every byte counts.
+    // Tables are sorted by their keys. Text that was read as a scene also parses as a table; otherwise the raw text is
+    // hashed.
     let scene = table.and_then(|table| serde_json::to_string(&table).ok()).unwrap_or_else(|| text.into());
     sha256(std::iter::once(scene.as_str()).chain(meshes.map(|mesh| mesh as &str)))
 }
 
-/// Hash of a scene of bodies: all of it but its title.
+/// Hash of a scene of bodies: everything except its title.
 #[must_use]
 pub fn of_bodies<'a>(text: &str, meshes: impl Iterator<Item = &'a str>) -> String {
     hash(text, |scene| drop(scene.remove("title")), meshes)

@@ -1,13 +1,13 @@
-//! Input of a run, and the names of the files that say so.
+//! Input of a run, and names of the report and the lock file.
 
 use crate::report::common::{Kind, Origin};
 use jiff::Timestamp;
 use std::fs;
 use std::path::Path;
 
-/// Name of the report.
+/// Name of the report file.
 pub(super) const REPORT: &str = "report.json";
-/// File whose lock says that a run writes here.
+/// Name of the lock file; the lock is held while a run writes to the directory.
 pub(super) const LOCK: &str = ".lock";
 
 /// Input of a run.
@@ -18,14 +18,14 @@ pub(super) struct Begin {
     /// SHA-256 of the scene file.
     pub hash: String,
     pub origin: Origin,
-    /// True if to go on from a checkpoint there.
+    /// True if the run resumes from the checkpoint in the directory.
     pub resume: bool,
-    /// True if an unfinished run or the result of another scene may be moved out of the way.
+    /// True if an unfinished run or the result of another scene may be moved away.
     pub force: bool,
 }
 
 impl Begin {
-    /// Of a scene file that is read now.
+    /// Input of a run of a scene file that was just read.
     pub fn now(kind: Kind, scene: &Path, title: &str, hash: &str) -> Self {
         let path = fs::canonicalize(scene).unwrap_or_else(|_| scene.to_path_buf());
         let origin = Origin { scene: path.display().to_string(), started: Timestamp::now().to_string() };

@@ -1,4 +1,4 @@
-//! Content of an output directory, and the decision if a run may begin there.
+//! Contents of an output directory, and the check that a run may begin there.
 
 use super::begin::{Begin, LOCK, REPORT};
 use crate::checkpoint;
@@ -11,7 +11,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// Files that runs leave in their directory.
+/// Files that runs write to their directory.
 const FILES: [&str; 18] = [
     REPORT,
     LOCK,
@@ -29,12 +29,12 @@ const FILES: [&str; 18] = [
     "slip_profiles.csv",
     "rate_profiles.csv",
     "snapshots.csv",
-    // What file managers leave.
+    // Files left by file managers.
     ".DS_Store",
     "Thumbs.db",
 ];
 
-/// Folders of runs, with the endings of the files in them.
+/// Folders that runs make, with the extensions of the files in them.
 const FOLDERS: [(&str, &[&str]); 8] = [
     ("fields", &["vtu"]),
     ("profiles", &["csv"]),
@@ -46,7 +46,7 @@ const FOLDERS: [(&str, &[&str]); 8] = [
     ("stations", &[""]),
 ];
 
-/// The first thing in a directory that no run leaves; none where the directory is not there.
+/// First entry of a directory that no run writes; `None` if there is none or the directory does not exist.
 pub(super) fn foreign(path: &Path) -> std::io::Result<Option<PathBuf>> {
     foreign_in(path, |name, entry| {
         if entry.is_dir() {
@@ -59,19 +59,19 @@ pub(super) fn foreign(path: &Path) -> std::io::Result<Option<PathBuf>> {
                 })
             });
         }
-        // Each of several faults may have its own.
+        // With several faults, each may have its own catalogue.
         let events = name.to_str().is_some_and(|n| n.starts_with("events_") && n.ends_with(".csv"));
         let ours = FILES.iter().any(|file| name == *file) || events || temporary(name);
         Ok((!ours).then(|| entry.to_path_buf()))
     })
 }
 
-/// Remains of a run that was killed of a file that it was about to write.
+/// True for a temporary file, left by a run that was killed while writing.
 fn temporary(name: &OsStr) -> bool {
     name.to_str().is_some_and(|name| name.starts_with('.') && name.ends_with(".tmp"))
 }
 
-/// The first entry of a folder, by name, that `judge` finds foreign.
+/// First entry of a folder, by name, that `judge` finds foreign.
 fn foreign_in(
     folder: &Path,
     judge: impl Fn(&OsStr, &Path) -> std::io::Result<Option<PathBuf>>,
@@ -101,7 +101,7 @@ struct Report {
     scene_sha256: String,
     #[serde(default)]
     meshes_sha256: BTreeMap<String, String>,
-    /// Absent in reports of old, which were written at the end.
+    /// Absent in reports of earlier versions, which were written only at the end.
     #[serde(default = "completed")]
     status: Status,
     run: Run,
@@ -109,7 +109,7 @@ struct Report {
 
 #[derive(Debug, Deserialize)]
 struct Run {
-    /// Absent in reports of old.
+    /// Absent in reports of earlier versions.
     scene: Option<String>,
 }
 
@@ -117,20 +117,20 @@ fn completed() -> Status {
     Status::Completed
 }
 
-/// Content of an output directory.
+/// Contents of an output directory.
 #[derive(Debug)]
 pub(super) struct Contents {
     foreign: Option<PathBuf>,
-    /// The report, where there is one.
+    /// The report, if there is one.
     report: Option<Report>,
-    /// True if a run can go on from there.
+    /// True if there is a checkpoint to resume from.
     checkpoint: bool,
-    /// True if there is nothing but a report and a lock.
+    /// True if there is nothing but a report and a lock file.
     nothing: bool,
 }
 
 impl Contents {
-    /// Content of `path`.
+    /// Contents of `path`.
     pub fn of(path: &Path) -> miette::Result<Self> {
         if path.exists() && !path.is_dir() {
             return Err(miette!("{} is a file, not an output directory", path.display()));
@@ -149,23 +149,23 @@ impl Contents {
         Ok(Self { foreign, report, checkpoint: path.join(checkpoint::FILE).exists(), nothing })
     }
 
-    /// True if a run can go on from there.
+    /// True if there is a checkpoint to resume from.
     pub fn has_checkpoint(&self) -> bool {
         self.checkpoint
     }
 
-    /// True if there is nothing that was computed.
+    /// True if the directory holds no computed results.
     pub fn holds_nothing(&self) -> bool {
         self.nothing
     }
 
-    /// True if a run of the scene and the mesh files of these hashes has come to its end there.
+    /// True if the directory holds a completed run of the scene and mesh files with these hashes.
     pub fn is_complete(&self, scene: &str, meshes: &BTreeMap<String, String>) -> bool {
         let same = |r: &Report| r.scene_sha256 == scene && r.meshes_sha256 == *meshes;
         !self.checkpoint && self.report.as_ref().is_some_and(|r| r.status == Status::Completed && same(r))
     }
 
-    /// Refuses a run where something would be lost that may be wanted.
+    /// Refuses a run that would destroy results that may still be wanted.
     pub fn refuse(&self, path: &Path, begin: &Begin) -> miette::Result<()> {
         let path = path.display();
         if let Some(foreign) = &self.foreign {

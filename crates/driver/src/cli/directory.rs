@@ -1,4 +1,4 @@
-//! The directory of a run: that of one run at a time, with its report from the first moment, and nothing of another run in it.
+//! Output directory of a run. It belongs to one run at a time, holds a report from the start, and nothing of any other run.
 
 use super::begin::{Begin, LOCK, REPORT};
 use super::contents::{self, Contents};
@@ -14,42 +14,43 @@ use std::fs::{self, File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// Changes made to make room, which can be undone until the run begins to compute.
+/// Changes made to free the directory. They can be undone until the run begins to compute.
 #[derive(Debug)]
 enum Room {
-    /// The directory is new; the topmost of those made for it.
+    /// The directory is new; holds the topmost folder that was created for it.
     Made(PathBuf),
-    /// It was there, empty or of a run that computed nothing.
+    /// The directory existed and was empty, or held a run that computed nothing.
     Found,
-    /// It was moved to the first path, and what was there to the second one.
+    /// Its contents were moved to the first path, and a directory already there to the second.
     Moved(PathBuf, Option<PathBuf>),
-    /// It is that of the run to be resumed, whose report was this.
+    /// It belongs to the run to be resumed; holds the report of that run.
     Kept(Option<Vec<u8>>),
     /// The run has begun to compute.
     Used,
 }
 
-/// The directory of a run that is under way.
+/// Directory of a run in progress.
 #[derive(Debug)]
 pub(super) struct Directory {
     path: PathBuf,
     begin: Begin,
     room: Room,
-    /// Held for as long as the run goes on.
+    /// Lock held for the duration of the run.
     _lock: Option<File>,
 }
 
 impl Directory {
-    /// Makes `path` the directory of a run: a result of the same scene is moved to `<path>.previous`; what could be missed is refused.
+    /// Makes `path` the directory of a run. A result of the same scene is moved to `<path>.previous`; anything else that may still be wanted is an
+    /// error.
     ///
     /// # Errors
-    /// Says what is in the way, and how to go on.
+    /// Names the obstacle and a way to proceed.
     pub fn claim(path: &Path, begin: Begin) -> miette::Result<Self> {
         Contents::of(path)?.refuse(path, &begin)?;
         let made = topmost_missing(path);
         atomic::create_dir(path).into_diagnostic()?;
         let lock = lock(path)?;
-        // Again, now that nobody else changes it.
+        // Repeat the check, now that no other run can change the directory.
         let contents = Contents::of(path)?;
         contents.refuse(path, &begin)?;
         let room = match (contents, made) {
@@ -76,7 +77,8 @@ impl Directory {
         &self.path
     }
 
-    /// From now on there is something to lose: what was made room of before the last result is removed.
+    /// Marks the start of the computation: results exist from now on, and the directory set aside by moving the last
+    /// result is removed.
     pub fn computes(&mut self) -> miette::Result<()> {
         match std::mem::replace(&mut self.room, Room::Used) {
             Room::Moved(_, Some(older)) => fs::remove_dir_all(&older)
@@ -86,7 +88,7 @@ impl Directory {
         }
     }
 
-    /// The last report, with the hashes of the mesh files.
+    /// Writes the final report, with the hashes of the mesh files.
     pub fn write<P: Results>(&self, results: &P, meshes: &BTreeMap<String, String>) -> miette::Result<()> {
         self.report(results.outcome().status(), Some(results.seconds()), Some(meshes), results)
     }
@@ -116,9 +118,9 @@ impl Directory {
             .map_err(|e| miette!("cannot write the report: {e}"))
     }
 
-    /// After an error: as if nothing had been begun, where nothing was computed; otherwise the report says what happened.
+    /// Cleans up after an error: undoes all changes if nothing was computed; otherwise the report records the error.
     pub fn fails(self, error: &miette::Report) {
-        // What cannot be tidied up adds nothing to the error that is reported.
+        // A failure to clean up adds nothing to the error that is reported.
         let _ = match &self.room {
             Room::Used => {
                 let resumable = self.path.join(checkpoint::FILE).exists();
@@ -155,19 +157,19 @@ impl Directory {
     }
 }
 
-/// The topmost folder that is to be made for this one; none where it is there.
+/// Topmost folder that must be created for this one; `None` if it exists.
 fn topmost_missing(path: &Path) -> Option<PathBuf> {
     let missing = path.ancestors().filter(|p| !p.as_os_str().is_empty()).take_while(|p| !p.exists());
     missing.last().map(Path::to_path_buf)
 }
 
-/// Removes the folders from `path`, which is gone, up to `topmost`, as long as they are empty.
+/// Removes the empty parent folders of `path`, which no longer exists, up to `topmost`.
 fn remove_empty(path: &Path, topmost: &Path) -> std::io::Result<()> {
     let mut made = path.ancestors().skip(1).take_while(|p| p.starts_with(topmost));
     made.try_for_each(fs::remove_dir)
 }
 
-/// Locks a directory for this process; none where the system has no locks.
+/// Locks a directory for this process; `None` if the system has no locks.
 fn lock(path: &Path) -> miette::Result<Option<File>> {
     let name = path.join(LOCK);
     let file = File::options().create(true).append(true).open(&name);
@@ -185,9 +187,9 @@ fn lock(path: &Path) -> miette::Result<Option<File>> {
     }
 }
 
-/// Moves a directory to `<name>.previous`, and what is there to `<name>.previous.older` for as long as that may be wanted back.
+/// Moves a directory to `<name>.previous`. A directory of that name is kept as `<name>.previous.older` as long as the move may be undone.
 fn move_away(path: &Path) -> miette::Result<Room> {
-    // A link stays where it is; what it leads to is moved.
+    // A link stays in place; its target is moved.
     let path = fs::canonicalize(path).into_diagnostic()?;
     let Some(name) = path.file_name() else {
         return Err(miette!("{} cannot be moved: choose another directory with --out", path.display()));

@@ -1,12 +1,12 @@
-//! End of a command.
+//! Outcomes of a command.
 
-/// End of a command.
+/// Outcome of a command.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum End {
-    /// As asked.
+    /// Completed as requested.
     Done,
-    /// The stepper stopped early; everything until then was written.
+    /// The stepper stopped early; everything up to then was written.
     Stopped(String),
-    /// Ended by a signal or its wall time.
+    /// Interrupted by a signal or by the limit of wall time.
     Interrupted(String),
 }

@@ -1,17 +1,17 @@
-//! JSON for readers: zero has no sign.
+//! JSON output in which zero has no sign.
 
 use serde::Serialize;
 use serde_json::ser::{Formatter, PrettyFormatter, Serializer};
 use std::io::{self, Write};
 
-/// A value as text, with indents.
+/// Value as indented text.
 pub(super) fn pretty(value: &impl Serialize) -> serde_json::Result<String> {
     let mut text = Vec::new();
     value.serialize(&mut Serializer::with_formatter(&mut text, Unsigned::default()))?;
     String::from_utf8(text).map_err(serde::ser::Error::custom)
 }
 
-/// The pretty formatter but for zero.
+/// The pretty formatter, except that zero has no sign.
 #[derive(Default)]
 struct Unsigned(PrettyFormatter<'static>);
 

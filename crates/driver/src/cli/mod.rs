@@ -40,20 +40,20 @@ pub enum Command {
     Run {
         /// Scene file (TOML).
         scene: PathBuf,
-        /// Output directory; `out/<scene name>` when not given.
+        /// Output directory; `out/<scene name>` by default.
         #[arg(long)]
         out: Option<PathBuf>,
-        /// Draw nothing under `plots/`.
+        /// Draw no plots.
         #[arg(long)]
         no_plots: bool,
-        /// Move an unfinished run, or the result of another scene, in the output directory to `<directory>.previous`.
+        /// Move an unfinished run, or the result of another scene, from the output directory to `<directory>.previous`.
         #[arg(long, conflicts_with = "resume")]
         force: bool,
         /// Reasons to interrupt the run, and how to resume it.
         #[command(flatten)]
         pauses: Pausing,
     },
-    /// Print what would be run, without running.
+    /// Print the plan of a scene without running it.
     Check {
         /// Scene file (TOML).
         scene: PathBuf,
@@ -114,7 +114,7 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
     }
 }
 
-/// Plans and runs a scene in its directory.
+/// Plans and runs a scene in its output directory.
 fn run(source: Source, directory: &mut Directory, drawn: bool, pauses: &Pausing) -> miette::Result<End> {
     let ready = {
         let _waiting = Pulse::new("planning");

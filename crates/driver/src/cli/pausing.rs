@@ -6,14 +6,14 @@ use serde::Deserialize;
 use serde::de::value::StrDeserializer;
 use std::time::Duration;
 
-/// Reasons to interrupt a run, and how it is resumed.
+/// Reasons to interrupt a run, and how to resume it.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Pausing {
-    /// Resume the run in the output directory from its checkpoint; begin at the start where there is none. Runs of faults go on to more
-    /// events or a longer last stage as well.
+    /// Resume the run in the output directory from its checkpoint, or begin at the start if there is none. A run of faults can also be extended to
+    /// more events or a longer last stage.
     #[arg(long)]
     pub resume: bool,
-    /// Wall time after which to end with a checkpoint, such as "2 h".
+    /// Wall time after which the run ends with a checkpoint, such as "2 h".
     #[arg(long, value_parser = duration)]
     pub wall_time: Option<Duration>,
     /// Wall time between checkpoints.
@@ -21,7 +21,7 @@ pub struct Pausing {
     pub checkpoint_every: Duration,
 }
 
-/// A time as scenes write it.
+/// Parses a duration in the notation of scenes.
 fn duration(text: &str) -> Result<Duration, String> {
     let time = Time::deserialize(StrDeserializer::<serde::de::value::Error>::new(text));
     let seconds = time.map_err(|e| e.to_string())?.0;

@@ -5,7 +5,7 @@ use crate::report::RunReport;
 use asperity_output::decimals::fixed;
 use asperity_output::printing::out;
 
-/// The plan.
+/// Prints the plan.
 pub(super) fn plan(plan: &Planned) {
     match plan {
         Planned::Bodies(plan) => out(format_args!("{}", plan.summary())),
@@ -14,7 +14,7 @@ pub(super) fn plan(plan: &Planned) {
     }
 }
 
-/// The results of a run of bodies.
+/// Prints the results of a run of bodies.
 pub(super) fn results(report: &RunReport) {
     out(format_args!("results\n"));
     for r in &report.results {
@@ -66,11 +66,11 @@ pub(super) fn results(report: &RunReport) {
     ));
 }
 
-/// A vector to seven digits of its largest component.
+/// Vector with seven digits of its largest component.
 fn triple(v: &[f64; 3]) -> String {
     let largest = v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
     let exponent = if largest > 0.0 && largest.is_finite() { largest.log10().floor() as i32 } else { 0 };
-    // Few zeros before or behind the digits: plain; otherwise a common power of ten.
+    // Plain notation if it needs few zeros; otherwise a common power of ten.
     let power = if (-3..7).contains(&exponent) { 0 } else { exponent };
     let digits = (6 - (exponent - power)).max(0);
     let fine = 10f64.powi(digits);
@@ -81,7 +81,7 @@ fn triple(v: &[f64; 3]) -> String {
     format!("({}){tail}", parts.join(", "))
 }
 
-/// A pressure in the largest unit of which it is one or more.
+/// Pressure in the largest unit in which it is at least one.
 fn pressure(p: f64) -> String {
     let units = [("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3)];
     let (name, unit) = units.into_iter().find(|(_, unit)| p.abs() >= *unit).unwrap_or(("Pa", 1.0));

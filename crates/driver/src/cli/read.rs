@@ -1,4 +1,4 @@
-//! From a scene file to its plan.
+//! Reads a scene file and plans it.
 
 use super::begin::Begin;
 use crate::checkpoint;
@@ -16,13 +16,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
 
-/// Request of a scene.
+/// Plan of a scene, by kind.
 pub(super) enum Planned {
     /// Deformable bodies.
     Bodies(Box<AnyPlan>),
     /// Spring-sliders.
     Sliders(Box<slider::Plan>),
-    /// Faults through cycles.
+    /// Faults over earthquake cycles.
     Faults(Box<fault::Plan>),
 }
 
@@ -36,12 +36,12 @@ impl Planned {
     }
 }
 
-/// A plan with where it came from.
+/// A plan with the identity of its input.
 pub(super) struct Ready {
     pub plan: Planned,
     /// SHA-256 of the scene file.
     pub hash: String,
-    /// Hash of what a checkpoint must agree with.
+    /// Hash that a checkpoint must have to be resumed.
     pub physics: String,
     /// SHA-256 of the mesh files, by their names in the scene.
     pub meshes: BTreeMap<String, String>,
@@ -49,7 +49,7 @@ pub(super) struct Ready {
     pub seconds: f64,
 }
 
-/// A scene that has been read and checked, and is not planned yet, which may take long.
+/// A scene that has been read and checked but not planned. Planning may take long.
 pub(super) struct Source {
     /// Name of the file.
     name: String,
@@ -60,9 +60,9 @@ pub(super) struct Source {
 
 /// Content of a scene file.
 enum Parsed {
-    /// Its plan costs nothing.
+    /// Spring-sliders; they are planned at once because this costs nothing.
     Sliders(Box<slider::Plan>),
-    /// Bodies, with faults or without.
+    /// Bodies, with or without faults.
     Bodies(Box<scene::model::Scene>),
 }
 
@@ -85,8 +85,8 @@ impl Source {
         Ok(Self { name, text, parsed, clock })
     }
 
-    /// SHA-256 of the mesh files of a scene whose run has an end that no change of the scene moves, which are all but those of faults; none
-    /// of the others, or where they cannot be read.
+    /// SHA-256 of the mesh files of a scene without faults. Only such a run ends at a time that no change of the scene can extend. `None` if the
+    /// scene has faults or a file cannot be read.
     pub fn meshes_of_whole(&self) -> Option<BTreeMap<String, String>> {
         match &self.parsed {
             Parsed::Sliders(_) => Some(BTreeMap::new()),
@@ -95,7 +95,7 @@ impl Source {
         }
     }
 
-    /// Input of a run of it, read from `path`.
+    /// Input of a run of this scene, read from `path`.
     pub fn begin(&self, path: &Path) -> Begin {
         let (kind, title) = match &self.parsed {
             Parsed::Sliders(plan) => (Kind::Sliders, &plan.problem.title),
@@ -105,14 +105,14 @@ impl Source {
         Begin::now(kind, path, title, &sha256([&self.text]))
     }
 
-    /// Plans it.
+    /// Plans the scene.
     pub fn plan(self) -> miette::Result<Ready> {
         let Self { name, text, parsed, clock } = self;
         let mut meshes = BTreeMap::new();
         let mut plan = match parsed {
             Parsed::Sliders(plan) => Planned::Sliders(plan),
             Parsed::Bodies(scene) => {
-                // A mesh file that cannot be read is an error of the plan, which knows the place in the scene.
+                // A mesh file that cannot be read is reported by the plan, which knows the position in the scene.
                 let plan = match plan::plan_scene(&scene) {
                     Ok(ScenePlan::Bodies(plan)) => Planned::Bodies(plan),
                     Ok(ScenePlan::Faults(plan)) => Planned::Faults(plan),
@@ -137,7 +137,7 @@ impl Source {
     }
 }
 
-/// SHA-256 of the mesh files of a scene, by their names in it.
+/// SHA-256 of the mesh files of a scene, by their names in the scene.
 fn mesh_hashes(scene: &scene::model::Scene) -> miette::Result<BTreeMap<String, String>> {
     let hash = |file: &str| {
         let bytes = std::fs::read(scene.folder.join(file)).into_diagnostic();

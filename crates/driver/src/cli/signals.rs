@@ -1,12 +1,12 @@
-//! Signals that end a run in good order.
+//! Signals that interrupt a run in an orderly way.
 
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// A flag that SIGINT, SIGTERM and SIGHUP set; the second of them ends the program at once. A SIGHUP that whoever started the program
-/// has it ignore, as `nohup` does, stays ignored.
+/// Flag set by SIGINT, SIGTERM and SIGHUP. A second signal ends the program at once. SIGHUP stays ignored if the parent process set it to be ignored,
+/// as `nohup` does.
 pub(super) fn watched() -> std::io::Result<Arc<AtomicBool>> {
     let set = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM, SIGHUP] {
@@ -19,12 +19,12 @@ pub(super) fn watched() -> std::io::Result<Arc<AtomicBool>> {
     Ok(set)
 }
 
-/// True if this process ignores a signal, as far as the system tells in a file.
+/// True if this process ignores a signal. Read from `/proc`; false where that does not exist.
 fn is_ignored(signal: i32) -> bool {
     std::fs::read_to_string("/proc/self/status").is_ok_and(|status| ignored_in(&status, signal))
 }
 
-/// The bits of `SigIgn` count signals from 1.
+/// True if the bit of `signal` is set in `SigIgn`, whose bits count signals from 1.
 fn ignored_in(status: &str, signal: i32) -> bool {
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());

@@ -1,4 +1,4 @@
-//! Runs of plans, and what each leaves in its directory.
+//! Runs of plans, and the files that each writes to its directory.
 
 use super::directory::Directory;
 use super::end::End;
@@ -39,7 +39,7 @@ pub(super) fn run_bodies(
     }?;
     let recorder = kept.finish(report.outcome.status() == Status::Completed).into_diagnostic()?;
     report.seconds.plan = ready.seconds;
-    // The report comes last, but comes also where something beside it cannot be written.
+    // The report is written last, even if the plots cannot be written.
     let drawn = draw(directory.path(), recorder.as_ref());
     directory.write(&report, &ready.meshes)?;
     drawn?;
@@ -51,7 +51,7 @@ pub(super) fn run_bodies(
     Ok(end(report.outcome, Some(report.counts.steps)))
 }
 
-/// Last words to a person; `step` is the number of steps that were taken.
+/// Outcome with its message to the user; `step` is the number of steps taken.
 fn end(outcome: Outcome, step: Option<usize>) -> End {
     let place = |stage: Option<String>, time: f64| {
         let stage = stage.map_or(String::new(), |stage| format!("stage `{stage}` "));
@@ -70,10 +70,10 @@ fn end(outcome: Outcome, step: Option<usize>) -> End {
     }
 }
 
-/// Words about a run that was interrupted.
+/// Advice printed for an interrupted run.
 const RESUMES: &str = "the same command with --resume resumes it there";
 
-/// Reasons to interrupt the run, from now on.
+/// Reasons to interrupt the run, in force from now on.
 fn pauses(pausing: &Pausing) -> miette::Result<Pauses> {
     let stop = signals::watched().into_diagnostic()?;
     Ok(Pauses { every: pausing.checkpoint_every, wall: pausing.wall_time, stop, begun: Instant::now() })
@@ -104,7 +104,7 @@ fn kept(
     Ok((kept, Some(stand)))
 }
 
-/// Removes the plots of the part before, which are drawn again at the end where they are asked for and the run was begun with plots.
+/// Removes the plots of the previous part. They are redrawn at the end if requested and if the run was begun with plots.
 fn draws_again(path: &Path, asked: bool, begun_with: bool) -> miette::Result<()> {
     if asked && !begun_with {
         out(format_args!("no plots: the run was begun with --no-plots\n"));
@@ -122,7 +122,7 @@ fn nothing_to_resume(path: &Path) {
     out(format_args!("nothing to resume in {}: begins at the start\n", path.display()));
 }
 
-/// Says what memory was taken, and where the results are.
+/// Prints the peak memory and the output directory.
 fn written(directory: &Directory) {
     if let Some(bytes) = forecast::most_so_far() {
         out(format_args!("  memory: {:.0} MB at most\n", bytes as f64 / 1e6));
@@ -231,7 +231,7 @@ pub(super) fn run_faults(
     Ok(end(report.outcome, step))
 }
 
-/// Begins a run of faults, or goes on with the one in the directory.
+/// Begins a run of faults, or resumes the one in the directory.
 fn keeper<'a>(
     plan: &'a fault::Plan,
     ready: &Ready,
@@ -272,7 +272,7 @@ fn write_faults(
     fault::write_bodies(path, plan, run).into_diagnostic()
 }
 
-/// The catalogue of all faults, and of each where there are several, as tables.
+/// Writes the catalogue of all faults as a table, and one table per fault if there are several.
 fn write_catalogues(path: &Path, report: &fault::Report) -> Result<(), OutputError> {
     let write = |name: &str, events| atomic::write(&path.join(name), fault::Report::csv(events).as_bytes());
     write("events.csv", &report.events)?;
@@ -281,7 +281,7 @@ fn write_catalogues(path: &Path, report: &fault::Report) -> Result<(), OutputErr
     each.try_for_each(|(name, fault)| write(&format!("events_{name}.csv"), &fault.events))
 }
 
-/// The catalogue as seismologists exchange it, where the scene has a place.
+/// Writes the catalogue in the exchange formats of seismology, if the scene has a geographic frame.
 fn write_located(path: &Path, plan: &fault::Plan, report: &fault::Report, hash: &str) -> miette::Result<()> {
     if plan.frame.is_none() {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Errors in a scene, as the terminal shows them.
+//! Errors in a scene, as shown on the terminal.
 
 mod render;
 

@@ -1,4 +1,4 @@
-//! Errors of a scene as a person sees them: the place in the file, a caret, and what would be right.
+//! Errors of a scene as shown to the user: the position in the file, a caret, and a suggested correction.
 
 use super::{Diagnostic, Diagnostics, line_column};
 use miette::{
@@ -8,20 +8,20 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Two places further apart than this many lines are shown apart, without what lies between them.
+/// Positions further apart than this many lines are shown separately, without the lines between them.
 const FAR: usize = 8;
 
-/// Bytes of the longest line that is shown whole. Nobody finds a caret in a longer one, and the renderer cannot indent by more than 65 535.
+/// Longest line shown in full \[bytes\]. A caret is hard to find in a longer one, and the renderer cannot indent by more than 65 535.
 const LONGEST_LINE: usize = 240;
 
-/// Bytes shown on either side of a place in a line longer than that.
+/// Bytes shown on either side of a position in a longer line.
 const AROUND: usize = 60;
 
-/// Bytes that are underlined at most; two such places with what lies between them still fit into a cut line.
+/// Largest number of bytes underlined. Two such positions and the text between them still fit into a cut line.
 const UNDERLINED: usize = 80;
 
-/// The text of a scene, shown in short pieces only: asked for a long one, it refuses, and the renderer, which would put
-/// all places of an error into one piece, shows each with its own surroundings.
+/// Text of a scene that is shown only in short pieces. It refuses to give a long piece. The renderer, which would
+/// otherwise put all positions of an error into one piece, then shows each with its own surroundings.
 #[derive(Debug)]
 struct Excerpts(NamedSource<String>);
 
@@ -30,7 +30,7 @@ impl Excerpts {
         self.0.inner()
     }
 
-    /// These bytes of the text, which begin where `line_column` says.
+    /// Contents of this byte range, with its line and column.
     fn contents(&self, bytes: Range<usize>) -> Box<dyn SpanContents<'_> + '_> {
         let (line, column) = line_column(self.text(), bytes.start);
         let data = &self.text().as_bytes()[bytes.clone()];
@@ -45,7 +45,7 @@ impl Excerpts {
         ))
     }
 
-    /// A place with its surroundings within its line.
+    /// A position with its surroundings within the line.
     fn cut(&self, place: Range<usize>) -> Range<usize> {
         let text = self.text();
         let line = text[..place.start].rfind('\n').map_or(0, |n| n + 1);
@@ -76,7 +76,8 @@ impl SourceCode for Excerpts {
             return Err(MietteError::OutOfBounds);
         }
         if before == 0 && after == 0 {
-            // What the header names line and column of; the source itself would count bytes.
+            // The header takes line and column from these contents; the underlying source would give the column in
+            // bytes.
             return Ok(self.contents(place));
         }
         let whole = self.0.read_span(span, before, after)?;
@@ -89,7 +90,7 @@ impl SourceCode for Excerpts {
     }
 }
 
-/// One error with the text it is about.
+/// One error with the text that it refers to.
 #[derive(Debug)]
 struct Placed {
     error: Diagnostic,
@@ -128,7 +129,7 @@ impl miette::Diagnostic for Placed {
 }
 
 impl Placed {
-    /// Start and length of the first line of a place: a caret under the first line of a long table says enough.
+    /// Start and length of the first line of a position. A caret under the first line of a long table is enough.
     fn first_line(&self, span: &Range<usize>) -> (usize, usize) {
         let text = self.source.text().get(span.clone()).unwrap_or_default();
         let line = text.lines().next().unwrap_or_default();

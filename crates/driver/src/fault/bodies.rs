@@ -1,18 +1,18 @@
-//! The bodies around faults as outputs see them.
+//! Bodies around faults, as needed by the output.
 
 use crate::model::Model;
 use asperity_cycles::medium::Bodies;
 
-/// Bodies as outputs see them.
+/// Bodies around faults, as needed by the output.
 #[derive(Debug)]
 pub struct BodiesView {
     /// Source of their displacements.
     pub bodies: Bodies,
-    /// Places of all nodes \[m\].
+    /// Positions of all nodes \[m\].
     pub nodes: Vec<[f64; 3]>,
-    /// Nodes on the minus and on the plus side of each point that slides freely.
+    /// Nodes on the minus and the plus side of each freely sliding point.
     pub sides: Vec<[usize; 2]>,
-    /// VTK's type and nodes of all cells.
+    /// VTK cell type and nodes of each cell.
     pub(super) cells: Vec<(u8, Vec<usize>)>,
 }
 

@@ -1,77 +1,79 @@
-//! Times of the rows of an output file: by change of slip rate, by slip, and after a longest time, so that files grow with what happens and
-//! not with steps; and at each extremum of the slip rate, so that no peak falls between two rows.
+//! Times of the rows of an output file. A row is due after a change of slip rate, after some slip, and after a longest time, so that the size of a
+//! file depends on events and not on the number of steps. A row is also written at each extremum of the slip rate, so that no peak falls between two
+//! rows.
 //!
-//! A file that has grown to half of what it may is written with twice these amounts from then on, at three quarters with four times, and so
-//! forth: it never passes its largest size, and goes on for long.
+//! Once a file reaches half of its largest size, these limits double; at three quarters they double again, and so on. The file therefore never
+//! exceeds its largest size and still covers a long time.
 
 use super::words::YEAR;
 use crate::warning::Warning;
 use serde::{Deserialize, Serialize};
 
-/// Change of log10 of the slip rate from row to row, where nothing is said.
+/// Default change of log10 of the slip rate from row to row.
 const DECADES: f64 = 0.125;
-/// A profile of rates is written where log10 of the largest slip rate has changed by so much.
+/// Change of log10 of the largest slip rate from one profile of rates to the next.
 pub(super) const RATE_CHANGE: f64 = 0.5;
-/// Slip from row to row over the smallest characteristic slip of the fault, where nothing is said: states change over the whole of it. In BP1,
-/// 4 mm in a tenth of a second at 4 cm/s.
+/// Default slip from row to row over the smallest characteristic slip of the fault, which is the slip over which the state evolves. In BP1 this is 4
+/// mm, or a tenth of a second at 4 cm/s.
 const SLIP: f64 = 0.5;
-/// Longest time between rows \[s\], where nothing is said: the cadence the benchmarks ask for while nothing is fast.
+/// Default longest time between rows \[s\]: the cadence that the benchmarks request between events.
 const LONGEST: f64 = 0.1 * YEAR;
-/// Least time between rows for slip alone \[s\], where nothing is said: the cadence the benchmarks ask for in events.
+/// Default least time between rows due to slip alone \[s\]: the cadence that the benchmarks request in events.
 const SHORTEST: f64 = 0.1;
-/// Time between profiles of slip while nothing is fast \[s\], where nothing is said.
+/// Default time between profiles of slip between events \[s\].
 const BETWEEN: f64 = 5.0 * YEAR;
-/// Slip over the time between two profiles in an event at the slip rate that begins it \[m\], where nothing is said: at 1 mm/s one second.
+/// Default slip between two profiles in an event, at the slip rate that begins it \[m\]: one second at 1 mm/s.
 const PROFILE_SLIP: f64 = 1e-3;
-/// Rows and profiles of a run at least, where those times are long beside it.
+/// Least number of rows of a run; it shortens the longest time between rows in a short run.
 const LEAST_ROWS: f64 = 500.0;
-/// See [`LEAST_ROWS`].
+/// Least number of profiles of a run; see [`LEAST_ROWS`].
 const LEAST_PROFILES: f64 = 100.0;
-/// Largest size of a file \[bytes\], where nothing is said.
+/// Default largest size of a file \[bytes\].
 const LARGEST_FILE: f64 = 100e6;
-/// An extremum makes a row where log10 of the slip rate differs by so much from the row before: what a peak in a file may lack is half a per cent.
+/// An extremum gets a row if log10 of its slip rate differs by this much from the row before. The error of a peak in a file is at most half a per
+/// cent.
 const EXTREMUM: f64 = 2e-3;
-/// Slip rate that stands for all that is slower \[m/s\]: what the benchmarks in space take for none.
+/// Least slip rate that is distinguished \[m/s\]; the benchmarks in 3D treat it as zero.
 pub(super) const NO_RATE: f64 = 1e-20;
-/// Doublings after which a file is full in any case: no file has so many rows.
+/// Largest number of doublings, after which a file counts as full; no file has so many rows.
 const MOST_DOUBLINGS: u32 = 60;
 
-/// Limits that make rows due.
+/// Limits after which rows are due.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cadence {
     /// Change of log10 of the slip rate.
     pub decades: f64,
-    /// Slip \[m\]; infinite where no law has a characteristic one and none is given.
+    /// Slip \[m\]; infinite if none is given and no law has a characteristic slip.
     pub slip: f64,
     /// Longest time \[s\].
     pub longest: f64,
-    /// Least time for slip alone \[s\].
+    /// Least time between rows due to slip alone \[s\].
     pub shortest: f64,
-    /// Times between profiles of slip, between events and in them \[s\].
+    /// Times between profiles of slip, between and during events \[s\].
     pub contours: [f64; 2],
     /// Largest size of a file \[bytes\].
     pub largest_file: u64,
 }
 
-/// Requests of the scene; others have defaults.
+/// Limits given in the scene; the others have defaults.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Asked {
-    /// See [`Cadence`].
+    /// Change of log10 of the slip rate; see [`Cadence`].
     pub decades: Option<f64>,
-    /// \[m\].
+    /// Slip \[m\].
     pub slip: Option<f64>,
-    /// \[s\].
+    /// Longest time \[s\].
     pub longest: Option<f64>,
-    /// \[s\].
+    /// Least time between rows due to slip alone \[s\].
     pub shortest: Option<f64>,
-    /// \[s\].
+    /// Times between profiles of slip \[s\].
     pub contours: Option<[f64; 2]>,
-    /// \[bytes\].
+    /// Largest size of a file \[bytes\].
     pub largest_file: Option<f64>,
 }
 
 impl Cadence {
-    /// Limits for a run of this length \[s\] whose events begin at `on` \[m/s\]; `length` is the smallest characteristic slip.
+    /// Limits for a run of duration `end` \[s\] whose events begin at the slip rate `on` \[m/s\]; `length` is the smallest characteristic slip \[m\].
     pub(super) fn new(asked: Asked, end: f64, on: f64, length: Option<f64>) -> Self {
         let between = BETWEEN.min(end / LEAST_PROFILES);
         Self {
@@ -84,7 +86,7 @@ impl Cadence {
         }
     }
 
-    /// In words.
+    /// Description of the limits.
     pub(super) fn words(&self) -> String {
         let slip =
             if self.slip.is_finite() { format!(", after slip of {:e} m", self.slip) } else { String::new() };
@@ -97,7 +99,7 @@ impl Cadence {
     }
 }
 
-/// A time in the unit it reads well in, with three decimals at most.
+/// Time in a suitable unit, with at most three decimals.
 pub(super) fn time(seconds: f64) -> String {
     let units =
         [("yr", YEAR, 0.1 * YEAR), ("d", 86_400.0, 86_400.0), ("h", 3600.0, 3600.0), ("min", 60.0, 60.0)];
@@ -115,61 +117,61 @@ pub(super) fn time(seconds: f64) -> String {
 /// A slip rate at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Reading {
-    /// \[s\].
+    /// Time \[s\].
     pub time: f64,
-    /// \[m/s\].
+    /// Slip rate \[m/s\].
     pub rate: f64,
 }
 
 impl Reading {
-    /// Decades between two rates.
+    /// Decades between two slip rates.
     fn decades(&self, other: &Self) -> f64 {
         (self.rate.max(NO_RATE) / other.rate.max(NO_RATE)).log10().abs()
     }
 }
 
-/// Which rows are due.
+/// Rows that are due.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Due {
-    /// One of the step before, where the rate turned.
+    /// A row for the previous step, where the rate had an extremum.
     pub before: bool,
-    /// One of this step.
+    /// A row for this step.
     pub now: bool,
 }
 
-/// Position in a file.
+/// Fill level of a file, and the last values written to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Gauge {
     /// Size \[bytes\].
     pub bytes: u64,
-    /// Number of doublings of the amounts.
+    /// Number of doublings of the limits.
     pub doublings: u32,
-    /// Time of the first one \[s\].
+    /// Time of the first doubling \[s\].
     pub coarse_since: Option<f64>,
     /// True if there is no room for another row.
     pub full: bool,
-    /// At the last row.
+    /// Reading at the last row.
     last: Option<Reading>,
-    /// At the last step.
+    /// Reading at the last step.
     before: Option<Reading>,
-    /// True if the rate grew then.
+    /// True if the rate increased in the last step.
     rising: Option<bool>,
     /// Slip since the last row \[m\].
     slipped: f64,
 }
 
 impl Gauge {
-    /// Of a file that has so many bytes and no row.
+    /// Gauge of a file of this size without rows.
     pub fn of(bytes: u64) -> Self {
         Self { bytes, ..Self::default() }
     }
 
-    /// Factor of the amounts.
+    /// Factor on the limits.
     pub fn factor(&self) -> f64 {
         2f64.powi(self.doublings as i32)
     }
 
-    /// Which rows are due after a step.
+    /// Rows that are due after a step.
     pub fn step(&mut self, cadence: &Cadence, now: Reading) -> Due {
         let Some((mut last, before)) = self.last.zip(self.before.replace(now)) else {
             (self.last, self.before) = (Some(now), Some(now));
@@ -196,7 +198,7 @@ impl Gauge {
         Due { before: extremum && !self.full, now: due && !self.full }
     }
 
-    /// True if a profile is due after a step: after `interval` \[s\], or where the rate has changed by `decades`.
+    /// True if a profile is due after a step: after `interval` \[s\], or if the rate has changed by `decades`.
     pub fn profile(&mut self, now: Reading, interval: f64, decades: f64) -> bool {
         let factor = self.factor();
         let due = self.last.is_none_or(|last| {
@@ -208,7 +210,7 @@ impl Gauge {
         due && !self.full
     }
 
-    /// A row of so many bytes has been written at `time` \[s\] to a file of so many bytes at most.
+    /// Accounts for a row of `row` bytes, written at `time` \[s\] to a file of at most `most` bytes.
     pub fn spend(&mut self, row: u64, most: u64, time: f64) {
         self.bytes += row;
         while self.doublings < MOST_DOUBLINGS && self.bytes >= most - (most >> (self.doublings + 1)) {
@@ -219,7 +221,7 @@ impl Gauge {
     }
 }
 
-/// Warning about files that have grown beyond half of their largest size.
+/// Warning about files that have exceeded half of their largest size.
 pub(super) fn warning(files: &[(String, Gauge)], largest: u64) -> Option<Warning> {
     let coarse = || files.iter().filter_map(|(name, g)| Some((g.coarse_since?, name, g)));
     let (since, name, _) = coarse().min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -253,7 +255,7 @@ mod tests {
         largest_file: 1_000_000,
     };
 
-    /// Rows over steps of a history, with the rates they have.
+    /// Rows that are due over the steps of a history, with their rates.
     fn rows(history: &[(f64, f64)], gauge: &mut Gauge, bytes: u64) -> Vec<(f64, f64)> {
         let (mut rows, mut before) = (Vec::new(), (f64::NAN, f64::NAN));
         for &(time, rate) in history {
@@ -271,7 +273,7 @@ mod tests {
 
     #[test]
     fn the_peak_of_a_short_event_has_a_row() {
-        // A bump of a tenth of a decade, below what makes a row by itself, and a pulse of one step on top.
+        // A bump of a tenth of a decade, too small for a row by itself, with a pulse of one step on top.
         let history: Vec<(f64, f64)> = (0..1000)
             .map(|k| (f64::from(k) * 1e-4, 1e-9 * (1.0 + 0.2 * (-(f64::from(k - 500) / 50.0).powi(2)).exp())))
             .collect();
@@ -290,7 +292,7 @@ mod tests {
             slow.chain((0..n).map(|k| (1e8 + 100.0 * f64::from(k) / f64::from(n), 0.1))).collect()
         };
         let counts = [20_000, 40_000].map(|n| rows(&steps(n), &mut Gauge::default(), 1).len());
-        // A row in a million seconds, then one in a tenth of a second.
+        // One row per million seconds, then one per tenth of a second.
         for count in counts {
             assert!((950..=1150).contains(&count), "{count}");
         }

@@ -5,30 +5,30 @@ use crate::checkpoint::Contents;
 use asperity_cycles::{FaultRun, Sums};
 use serde::{Deserialize, Serialize};
 
-/// State of a run.
+/// State of a run with its output files.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stand {
     /// State, clock, step length, events and counts.
     pub run: FaultRun,
     /// Positions in the output files.
     pub files: Position,
-    /// Works until then.
+    /// Energy sums so far.
     pub sums: Sums,
 }
 
-/// All there is to know to go on.
+/// Everything needed to resume a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Hash of the physics of the scene and of the mesh files it names, see [`super::identity`].
+    /// Hash of the physics of the scene and of the mesh files it names; see [`super::identity`].
     pub physics: String,
     /// Planned end of the run \[s\].
     pub end: f64,
-    /// Identity of the loads until then, see [`super::identity::loads`].
+    /// Identity of the loads so far; see [`super::identity::loads`].
     pub loads: Vec<[f64; 3]>,
     /// State of the run.
     pub last: Stand,
-    /// State at the last restart, where the time of the run is over. The step to the end is shorter than one that goes on would have been, and a run
-    /// that is extended goes on from here.
+    /// State at the last restart, stored once the run has reached its end time. The step to the end is cut short there, so an extended run resumes
+    /// from this state instead.
     pub before: Option<Box<Stand>>,
 }
 
@@ -52,7 +52,7 @@ mod tests {
     fn sample() -> Checkpoint {
         let thresholds = Thresholds { on: 1e-3, off: 1e-4 };
         let mut run = FaultRun::new(vec![0.1 + 0.2, -0.0, 5e-324, 1.797e308], &[0..2, 2..4], thresholds);
-        // A time with a carry, which one number does not hold.
+        // A time with a carry, which a single number cannot hold.
         run.at = asperity_ode::Clock::new(6.2e9, 1.0 / 3.0).rebased().later(1e-13);
         run.next_step = Some(NextStep { length: Some(1.0 / 7.0), stiff: false });
         let details = Rupture {

@@ -1,4 +1,4 @@
-//! Files of a run in space at its end: fields of events and of the last state, and the collections of all fields.
+//! Files of a 3D run at its end: fields of events and of the last state, and the collections of all fields.
 
 use super::fields::{Field, along, grid, put, state};
 use super::figures::each;
@@ -9,8 +9,8 @@ use asperity_output::vtu::{PvdEntry, pvd};
 use asperity_output::{OutputError, atomic};
 use std::path::Path;
 
-/// Writes `fields/FAULT_event_000.vtu` of each event, `fields/FAULT_end.vtu` and the collections `fields.pvd` of the states in the
-/// course of the run and `events.pvd` of the events, at the times of their onsets. Faults in the plane have profiles instead.
+/// Writes `fields/FAULT_event_000.vtu` for each event, `fields/FAULT_end.vtu`, and the collections `fields.pvd` of the states during the run and
+/// `events.pvd` of the events at their onset times. Faults in 2D have profiles instead.
 ///
 /// # Errors
 /// If a file cannot be read or written.

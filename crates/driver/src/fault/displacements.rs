@@ -1,4 +1,4 @@
-//! Displacements of the bodies, as VTU.
+//! Displacements of the bodies as VTU files.
 
 use super::plan::Plan;
 use asperity_cycles::{Crack, FaultRun, Layout};
@@ -6,8 +6,8 @@ use asperity_output::vtu::{Array, Grid, PvdEntry, pvd};
 use asperity_output::{OutputError, atomic};
 use std::path::Path;
 
-/// Writes the displacements of the bodies over each event, which its slip causes, and at the end of the run, since its start, as VTU,
-/// where the scene asks for them.
+/// Writes displacements of the bodies as VTU files, if the scene requests them: the displacement that the slip of each event causes, and the
+/// displacement from the start to the end of the run.
 ///
 /// # Errors
 /// If a file cannot be written.
@@ -23,7 +23,7 @@ pub fn write(out: &Path, plan: &Plan, run: &FaultRun) -> Result<(), OutputError>
         atomic::write(&folder.join(&file), &grid.file(time, &arrays, &[]))
     };
     for (k, event) in run.events().iter().enumerate() {
-        // Loads are nothing at the start.
+        // Loads are zero at time 0, so these displacements are caused by slip and opening alone.
         let displacement =
             view.bodies.vectors(&[event.details.slip.all(), &event.details.opening].concat(), 0.0);
         put(format!("bodies_event_{k:03}.vtu"), event.onset.seconds(), &displacement)?;

@@ -1,4 +1,4 @@
-//! Fields on faults in space as VTU: states in the course of a run and at its end, and slip and fall of traction of each event.
+//! Fields on faults in 3D as VTU files: states during a run and at its end, and slip and traction drop of each event.
 
 use super::plan::{FaultView, Plan};
 use asperity_cycles::{Components, Crack, Layout};
@@ -7,7 +7,7 @@ use asperity_output::vtu::{Array, Grid, Values};
 use asperity_output::{OutputError, atomic};
 use std::path::Path;
 
-/// Writes fields on a fault; the size of the file \[bytes\].
+/// Writes fields on a fault. Returns the size of the file \[bytes\].
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -33,7 +33,7 @@ impl Field {
     }
 }
 
-/// Values along `rake`, or where slip may turn their size; and the vector in space as `NAME_vector`.
+/// Values along `rake`, or magnitudes for vector slip; and the vectors in space as `NAME_vector`.
 pub(super) fn along(
     plan: &Plan,
     fault: &FaultView,
@@ -50,7 +50,7 @@ pub(super) fn along(
     [Field::Scalar(name.into(), scalars), Field::Vector(format!("{name}_vector"), vectors)]
 }
 
-/// Slip \[m\], log10 of the slip rate \[m/s\], friction and normal traction \[Pa\], and the states of the law.
+/// Slip \[m\], log10 of the slip rate \[m/s\], friction and normal traction \[Pa\], and the state variables of the law.
 pub(super) fn state(plan: &Plan, fault: &FaultView, at: Clock, y: &[f64]) -> Vec<Field> {
     let layout = Layout::of(&plan.problem.fault);
     let (law, n) = (&plan.problem.fault.law, plan.points.len());
@@ -78,7 +78,7 @@ pub(super) fn state(plan: &Plan, fault: &FaultView, at: Clock, y: &[f64]) -> Vec
     fields
 }
 
-/// VTK's type of a face with so many nodes; their order is the elements' own.
+/// VTK cell type of a face with this many nodes; the node order is that of the elements.
 fn face_type(nodes: usize) -> u8 {
     match nodes {
         3 => 5,

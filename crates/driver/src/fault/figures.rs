@@ -1,5 +1,5 @@
-//! Plots of a run, from the files it has written: those of a run that was gone on with are the same as those of one left alone. Tables are
-//! read row by row, as often as a plot needs them, and never stand in memory as a whole.
+//! Plots of a run, drawn from its output files, so that a resumed run has the same plots as an uninterrupted one. Tables are read row by row, as
+//! often as a plot needs them, and are never held in memory as a whole.
 
 use super::cadence::time;
 use super::plan::{FaultView, Plan};
@@ -31,7 +31,7 @@ pub fn draw(out: &Path, plan: &Plan, run: &FaultRun) -> Result<Vec<PathBuf>, Out
     plots::draw_cycles(&out.join("plots"), &cycles)
 }
 
-/// The tables of a run.
+/// Tables of a run.
 struct Written<'a> {
     out: &'a Path,
     in_space: bool,
@@ -51,7 +51,7 @@ impl Rows for Written<'_> {
     }
 }
 
-/// Looks at the rows of a table of numbers, one after the other; a row that lacks columns is left out.
+/// Passes the rows of a table of numbers to `look` one by one; incomplete rows are skipped.
 pub(super) fn each(path: &Path, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError> {
     let failed = |e: csv::Error| OutputError::Draw { path: path.to_path_buf(), reason: e.to_string() };
     let mut reader = csv::ReaderBuilder::new().flexible(true).from_path(path).map_err(failed)?;

@@ -1,6 +1,7 @@
-//! Output files of a run: stations, the largest slip rate, and profiles of slip, of slip rates and of openings, or in space snapshots.
+//! Output files of a run: stations, the largest slip rate, profiles of slip, slip rate and opening in 2D, and snapshots in 3D.
 //!
-//! Rows come by change and by simulated time, not by step, so that files grow with what happens.
+//! Rows are due after changes and after intervals of simulated time, not after steps, so that the size of a file
+//! depends on events.
 
 use super::cadence::{Cadence, Gauge, RATE_CHANGE, Reading, warning};
 use super::plan::Plan;
@@ -15,10 +16,11 @@ use asperity_output::decimals::{fixed, scientific};
 use asperity_output::{Growing, OutputError, atomic};
 use std::path::{Path, PathBuf};
 
-/// Columns of the largest slip rate; means are weighted with areas, and along the rake where slip may turn.
+/// Columns of the largest slip rate. Means are weighted by area; for vector slip they are of the components along the
+/// rake.
 const LARGEST_HEAD: &str = "time [s],log10 slip_rate [m/s],point,mean shear_traction [Pa],mean slip [m]\n";
 
-/// A file that grows by whole rows, and when the next is due.
+/// A file that grows by whole rows, with the gauge that decides when the next one is due.
 #[derive(Debug)]
 struct Rows {
     file: Growing,
@@ -30,24 +32,24 @@ impl Rows {
         Ok(Self { file: Growing::create(path, head.as_bytes())?, gauge: Gauge::of(head.len() as u64) })
     }
 
-    /// Resumes a file that had as many bytes as its gauge says; later ones are cut off.
+    /// Resumes a file at the size recorded in its gauge; anything beyond is cut off.
     fn reopen(path: PathBuf, gauge: Gauge) -> Result<Self, OutputError> {
         Ok(Self { file: Growing::reopen(path, gauge.bytes)?, gauge })
     }
 
-    /// Writes a row for a time.
+    /// Writes the row of a time \[s\].
     fn push(&mut self, row: &str, cadence: &Cadence, time: f64) -> Result<(), OutputError> {
         self.gauge.spend(row.len() as u64, cadence.largest_file, time);
         self.file.push(row.as_bytes())
     }
 }
 
-/// Writes `stations/`, `largest_rate.csv` and, in the plane, `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and, where points may open,
-/// `opening_profiles.csv`, in space snapshots.
+/// Writes `stations/` and `largest_rate.csv`. In 2D it also writes `slip_profiles.csv`, `rate_profiles.csv` (log10 of m/s) and, if points may open,
+/// `opening_profiles.csv`; in 3D, snapshots.
 #[derive(Debug)]
 pub struct Files<'a> {
     plan: &'a Plan,
-    /// The largest slip rate, profiles of slip and of slip rates or the list of snapshots, then stations.
+    /// The largest slip rate, then profiles of slip and slip rate or the list of snapshots, then stations.
     rows: Vec<Rows>,
     /// Points of the stations.
     stations: Vec<usize>,
@@ -57,7 +59,7 @@ pub struct Files<'a> {
 }
 
 impl<'a> Files<'a> {
-    /// Makes the files with their headers in `out`.
+    /// Creates the files in `out` and writes their headers.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -77,7 +79,7 @@ impl<'a> Files<'a> {
         })
     }
 
-    /// Goes on with the files in `out` from where they stood; what was written after that is cut off.
+    /// Resumes the files in `out` at their recorded positions; anything written after them is cut off.
     ///
     /// # Errors
     /// If a file is missing, shorter than it was, or cannot be written.
@@ -94,7 +96,7 @@ impl<'a> Files<'a> {
         Ok(Self { plan, rows, stations: stations::points(plan), before, snapshots })
     }
 
-    /// Positions in the files.
+    /// Current positions in the files.
     #[must_use]
     pub fn position(&self) -> Position {
         let gauges = self.rows.iter().map(|r| r.gauge).collect();
@@ -102,7 +104,7 @@ impl<'a> Files<'a> {
         Position { gauges, before: self.before, snapshots }
     }
 
-    /// Waits until all of them is on the disc.
+    /// Waits until all files are on the disc.
     ///
     /// # Errors
     /// If something could not be written.
@@ -110,7 +112,7 @@ impl<'a> Files<'a> {
         self.rows.iter().try_for_each(|rows| rows.file.settle())
     }
 
-    /// Warning about files that have become coarse.
+    /// Warning about files whose rows have been thinned out.
     #[must_use]
     pub fn warning(&self) -> Option<Warning> {
         let name =
@@ -120,7 +122,7 @@ impl<'a> Files<'a> {
         warning(&files, self.plan.cadence.largest_file)
     }
 
-    /// All files with their headers.
+    /// Paths of all files, with their headers.
     fn heads(out: &Path, plan: &Plan) -> Vec<(PathBuf, String)> {
         let mut heads = vec![(out.join("largest_rate.csv"), LARGEST_HEAD.to_string())];
         if plan.in_space {
@@ -160,7 +162,7 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// Profiles of slip and of slip rates along lines.
+    /// Writes profiles of slip and slip rate along lines if they are due.
     fn profiles(&mut self, now: &Moment<'_>) -> Result<(), OutputError> {
         let (time, cadence) = (now.at.seconds(), &self.plan.cadence);
         let fast = usize::from(now.largest >= self.plan.problem.settings.thresholds.on);
@@ -183,7 +185,7 @@ impl<'a> Files<'a> {
     }
 }
 
-/// Writes the rows of a file that follows a slip rate, where they are due: of this step, and of its start where the rate turned there.
+/// Writes the rows of a file that follows a slip rate, if due: one for this step, and one for its start if the rate had an extremum there.
 fn follow(
     rows: &mut Rows,
     plan: &Plan,
@@ -197,14 +199,14 @@ fn follow(
     if due.before {
         match then {
             Some(then) => rows.push(&row(then), &plan.cadence, then.at.seconds())?,
-            // A method that does not tell the start of its steps: a step late.
+            // A method that does not provide the start of its steps: the row comes one step late.
             None => at_end = true,
         }
     }
     if at_end && !rows.gauge.full { rows.push(&row(now), &plan.cadence, time) } else { Ok(()) }
 }
 
-/// The row of the largest slip rate.
+/// Row of the largest slip rate.
 fn largest_row(plan: &Plan, now: &Moment<'_>) -> String {
     let (mut point, mut largest) = (0, 0.0);
     for p in 0..plan.points.len() {
@@ -218,7 +220,7 @@ fn largest_row(plan: &Plan, now: &Moment<'_>) -> String {
     format!("{time:.14e},{rate},{point},{shear},{slip}\n")
 }
 
-/// A row of a profile.
+/// Row of a profile.
 fn profile(time: f64, values: &[f64], text: impl Fn(f64) -> String) -> String {
     let mut row = format!("{time:.14e}");
     for &value in values {
@@ -236,7 +238,7 @@ impl Observer<Faults> for Files<'_> {
     }
 }
 
-/// Means of shear traction \[Pa\] and slip \[m\] over the area, along the rake where slip may turn.
+/// Means over the area of shear traction \[Pa\] and slip \[m\]; for vector slip, of the components along the rake.
 fn means(plan: &Plan, now: &Moment<'_>) -> (f64, f64) {
     let (mut area, mut shear, mut slip) = (0.0, 0.0, 0.0);
     let (m, slips) = (now.m(), now.slip());

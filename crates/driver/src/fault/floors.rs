@@ -10,25 +10,25 @@ use serde::Serialize;
 pub struct FloorUse {
     /// Fault.
     pub fault: String,
-    /// The floor \[Pa\].
+    /// Floor of the normal traction \[Pa\].
     pub floor: f64,
     /// Points that were below it at any time.
     pub points: usize,
-    /// Of so many.
+    /// Number of points of the fault.
     pub of: usize,
     /// Largest share of the time that a point was below it.
     pub time_share: f64,
     /// Position of that point \[m\].
     pub at: [f64; 3],
-    /// Share of all slip, over the area, that came about below it.
+    /// Share of all slip, integrated over the area, that occurred below it.
     pub slip_share: f64,
-    /// Least normal traction that the bodies exerted \[Pa\]: below zero they pulled.
+    /// Least normal traction exerted by the bodies \[Pa\]; negative values are tension.
     pub least: f64,
-    /// Events, of all faults, in which points of any fault were below.
+    /// Events, of all faults, during which points of any fault were below.
     pub events: usize,
 }
 
-/// The use of the floors of all faults.
+/// Use of the floors of all faults.
 #[must_use]
 pub fn uses(plan: &Plan, used: &Used) -> Vec<FloorUse> {
     let with_floor = plan.faults.iter().filter_map(|f| Some((f, f.normal.floor?)));
@@ -51,7 +51,7 @@ pub fn uses(plan: &Plan, used: &Used) -> Vec<FloorUse> {
 }
 
 impl FloorUse {
-    /// In words, for the results.
+    /// Summary for the results.
     #[must_use]
     pub fn words(&self) -> String {
         let (name, floor) = (&self.fault, self.floor / 1e6);

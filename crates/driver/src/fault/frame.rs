@@ -1,13 +1,14 @@
-//! Place and time of the origin of a scene.
+//! Geographic position and epoch of the origin of a scene.
 
 use asperity_output::located::Spot;
 use jiff::{SignedDuration, Timestamp};
 use nalgebra::{Matrix3, Vector3};
 
-/// Mean radius of the Earth \[m\] (IUGG): places lie on a sphere, which is enough over the extent of a fault.
+/// Mean radius of the Earth \[m\] (IUGG). Positions are mapped to a sphere, which is accurate enough over the extent of
+/// a fault.
 const EARTH: f64 = 6_371_008.8;
 
-/// A place on Earth and a time.
+/// Geographic position and epoch, as given in the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Origin {
     /// Time zero.
@@ -18,11 +19,11 @@ pub(super) struct Origin {
     pub longitude: f64,
     /// Depth of the origin of coordinates \[m\].
     pub depth: f64,
-    /// Length out of the plane \[m\]; 1 in space.
+    /// Length out of the plane \[m\]; 1 in 3D.
     pub length: Option<f64>,
 }
 
-/// Place and time of the origin of a scene.
+/// Geographic position, epoch and axes of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// Time zero.
@@ -33,14 +34,15 @@ pub struct Frame {
     longitude: f64,
     /// Depth of the origin of coordinates \[m\].
     depth: f64,
-    /// Axes of the scene in east, north, up, as columns.
+    /// Axes of the scene in east, north and up, as columns.
     pub(super) axes: Matrix3<f64>,
-    /// Length out of the plane \[m\]; 1 in space.
+    /// Length out of the plane \[m\]; 1 in 3D.
     pub(super) length: Option<f64>,
 }
 
 impl Frame {
-    /// Of a scene in the plane, seen along the strike: x to the right of it, y up; or in space, with the directions up and along the strike.
+    /// Frame of a scene. A 2D scene is viewed along the strike: x to the right of it, y up. In 3D, `vertical` holds the directions up and along the
+    /// strike.
     #[must_use]
     pub(super) fn new(origin: &Origin, strike: f64, vertical: Option<[[f64; 3]; 2]>) -> Self {
         let (sine, cosine) = strike.sin_cos();
@@ -48,7 +50,7 @@ impl Frame {
             (Vector3::new(cosine, -sine, 0.0), Vector3::new(sine, cosine, 0.0), Vector3::z());
         let axes = if let Some([vertical, level]) = vertical {
             let (vertical, level) = (Vector3::from(vertical).normalize(), Vector3::from(level).normalize());
-            // What of a vector points to the right, along and up.
+            // Components of a vector to the right, along the strike and up.
             let parts = Matrix3::from_columns(&[level.cross(&vertical), level, vertical]);
             Matrix3::from_columns(&[right, along, up]) * parts.transpose()
         } else {
@@ -58,16 +60,16 @@ impl Frame {
         Self { epoch, latitude, longitude, depth, axes, length }
     }
 
-    /// The time of so many seconds after the epoch, to the microsecond.
+    /// Time at `seconds` after the epoch, to the microsecond.
     ///
     /// # Errors
-    /// If the calendar does not reach so far.
+    /// If the time lies outside the range of the calendar.
     pub fn time(&self, seconds: f64) -> Result<Timestamp, jiff::Error> {
         let span = SignedDuration::try_from_secs_f64(seconds)?;
         self.epoch.checked_add(span)?.round(jiff::Unit::Microsecond)
     }
 
-    /// A place of the scene.
+    /// Geographic position of a point of the scene.
     pub(super) fn spot(&self, at: &[f64; 3]) -> Spot {
         let offset = self.axes * Vector3::from(*at);
         let latitude = self.latitude + (offset.y / EARTH).to_degrees();

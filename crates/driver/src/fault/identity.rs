@@ -1,10 +1,10 @@
-//! Identity of two runs of faults that are parts of one: the same physics, even if one of them lasts longer.
+//! Identity of runs of faults that are parts of one run: their physics is the same, even if one of them lasts longer.
 
 use super::plan::Plan;
 
-/// Hash of the physics of the scene `text` and of mesh files with these hashes. Left out is what only decides how far a run goes, or what
-/// is said about its events afterwards: `events.stop_after`, the duration of the last stage and `[place]`; and how the file is laid out.
-/// Effects of the duration on the loads until then are compared separately, see [`loads`].
+/// Hash of the physics of the scene `text` and of mesh files with these hashes. It leaves out the entries that only determine the extent of a run or
+/// the description of its events: `events.stop_after`, the duration of the last stage and `[place]`. The layout of the file has no effect. The effect
+/// of the duration on the loads so far is checked separately; see [`loads`].
 #[must_use]
 pub fn physics<'a>(text: &str, meshes: impl Iterator<Item = &'a str>) -> String {
     crate::checkpoint::scene::hash(text, without_extent, meshes)
@@ -21,8 +21,8 @@ fn without_extent(scene: &mut toml::Table) {
     }
 }
 
-/// The loads until `at`, between changes of them: when each part ends (where that is before `at`) and, of the rates of shear and of normal
-/// tractions, sums that tell them from others \[s, Pa/s\].
+/// Loads until `at`, in parts between changes of rate. Each entry holds the end of the part (if before `at`) and two sums that identify the rates of
+/// shear and of normal traction \[s, Pa/s\].
 #[must_use]
 pub fn loads(plan: &Plan, at: f64) -> Vec<[f64; 3]> {
     let end = plan.problem.settings.end;
@@ -32,7 +32,7 @@ pub fn loads(plan: &Plan, at: f64) -> Vec<[f64; 3]> {
     let mut begin = 0.0;
     for end in ends {
         let rates = plan.problem.loading.rates(0.5 * (begin + end), plan.points.len(), true);
-        // Weights that differ from point to point: a load that moves is another.
+        // The weights differ from point to point, so that a load at other points gives another sum.
         let sum = |rates: &[f64]| rates.iter().enumerate().map(|(i, r)| r * (1.0 + (i as f64).sin())).sum();
         parts.push([if end < at { end } else { f64::MAX }, sum(&rates.0), sum(&rates.1)]);
         if end >= at {
@@ -43,10 +43,10 @@ pub fn loads(plan: &Plan, at: f64) -> Vec<[f64; 3]> {
     parts
 }
 
-/// Rounding of a rate that is kept as the value at the end of a stage, over its size.
+/// Relative rounding error of a rate that is given as the value at the end of a stage.
 const ROUNDING: f64 = 1e-12;
 
-/// True if loads are the same but for rounding.
+/// True if the loads are the same to within rounding.
 #[must_use]
 pub fn same(a: &[[f64; 3]], b: &[[f64; 3]]) -> bool {
     let near = |(x, y): (&f64, &f64)| (x - y).abs() <= ROUNDING * x.abs().max(y.abs());

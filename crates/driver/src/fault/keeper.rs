@@ -1,4 +1,4 @@
-//! Keeps what a run leaves behind: its files, its sums, what a person waiting sees, and the checkpoints.
+//! Output of a run in progress: its files, energy sums, progress display and checkpoints.
 
 use super::checkpoint::{Checkpoint, Stand};
 use super::files::Files;
@@ -34,7 +34,7 @@ pub struct Keeper<'a> {
 }
 
 impl<'a> Keeper<'a> {
-    /// Begins a run in `out` of a scene whose physics has this hash.
+    /// Begins a run in `out` of a scene with this hash of its physics.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -52,8 +52,8 @@ impl<'a> Keeper<'a> {
         Ok((Self::new(out, plan, physics, (files, Balance::new(&plan.problem)), pauses, 0), run))
     }
 
-    /// Goes on from the checkpoint in `out`, also to a later end or to more events than it was written for; none where there is none,
-    /// or where its run never restarted before its end.
+    /// Resumes from the checkpoint in `out`, even if the end time or the number of events is now larger. `None` if there is no checkpoint, or if the
+    /// run is to be extended and never restarted before its end.
     ///
     /// # Errors
     /// If the checkpoint is damaged or of another scene, or a file cannot be read or written.
@@ -75,7 +75,7 @@ impl<'a> Keeper<'a> {
         Ok(Some((keeper, from.run)))
     }
 
-    /// State to resume from, and that of the last restart until then.
+    /// State to resume from, and the last restart state before it.
     fn from(out: &Path, plan: &Plan, read: Checkpoint) -> Result<Option<(Stand, Before)>, ResumeError> {
         let (path, end) = (out.join(FILE), plan.problem.settings.end);
         let run = &read.last.run;
@@ -133,17 +133,16 @@ impl<'a> Keeper<'a> {
         Ok(())
     }
 
-    /// Warning about the files, once the run has ended.
+    /// Warning about the files at the end of the run.
     #[must_use]
     pub fn warning(&self) -> Option<Warning> {
         self.files.warning()
     }
 
-    /// Ends the files and, where the run can be gone on with, writes the last checkpoint. Returns the sums, and why the run was
-    /// interrupted where it was.
+    /// Closes the files and, if the run can be resumed, writes the last checkpoint. Returns the sums and the reason for an interruption, if any.
     ///
     /// # Errors
-    /// The first thing that could not be written.
+    /// The first write that failed.
     pub fn finish(mut self, run: &FaultRun) -> Result<(Balance<'a>, Option<&'static str>), OutputError> {
         self.progress.finish();
         let failed = matches!(run.outcome, asperity_ode::Outcome::Failed { .. });

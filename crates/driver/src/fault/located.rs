@@ -1,4 +1,4 @@
-//! Simulated events as values for catalogues of real ones, for scenes that say where and when they lie.
+//! Simulated events in the form of catalogue entries, for scenes with a geographic frame.
 
 use super::frame::Frame;
 use super::plan::Plan;
@@ -7,10 +7,10 @@ use asperity_output::located::{Located, Tensor, magnitude};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
-/// An event of a plan, or of what it was on these points of one of its faults.
+/// Catalogue entry of an event, or of its part on these points of one fault.
 ///
 /// # Errors
-/// If the calendar does not reach the event.
+/// If the event lies outside the range of the calendar.
 pub fn locate(
     plan: &Plan,
     frame: &Frame,

@@ -1,5 +1,4 @@
-//! Faults through many earthquake cycles: from a scene to a plan, and what a run of it leaves behind. What is computed is in
-//! [`asperity_cycles`].
+//! Faults over many earthquake cycles: planning from a scene, and the output of a run. The computation is in [`asperity_cycles`].
 
 mod bodies;
 mod cadence;

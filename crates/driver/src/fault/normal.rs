@@ -3,16 +3,16 @@
 /// Behaviour of normal tractions on a fault.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalChoice {
-    /// True if slip and loads change them.
+    /// True if slip and loads change the normal tractions.
     pub changes: bool,
-    /// The least that friction uses \[Pa\].
+    /// Floor of the normal traction used by friction \[Pa\].
     pub floor: Option<f64>,
-    /// True if the fault opens where nothing presses it.
+    /// True if the fault may open where nothing presses it.
     pub opens: bool,
 }
 
 impl NormalChoice {
-    /// In words, where they may change.
+    /// Description, if they may change.
     pub(super) fn words(self, fault: &str) -> String {
         let changes = if self.changes {
             "slip and loads change normal tractions"

@@ -1,4 +1,4 @@
-//! Opening of faults in the course of a run.
+//! Opening of faults during a run.
 
 use super::plan::Plan;
 use super::words::time;
@@ -13,23 +13,23 @@ pub struct OpenedFault {
     pub fault: String,
     /// Points that were open at any time.
     pub points: usize,
-    /// Of so many.
+    /// Number of points of the fault.
     pub of: usize,
     /// Largest opening \[m\].
     pub largest: f64,
-    /// Position \[m\].
+    /// Position of the largest opening \[m\].
     pub at: [f64; 3],
-    /// Time \[s\].
+    /// Time of the largest opening \[s\].
     pub when: f64,
     /// Largest share of the time that a point was open.
     pub time_share: f64,
     /// Points that are open at the end.
     pub open: usize,
-    /// Volume of the openings at the end \[m³; m² in the plane\].
+    /// Volume of the openings at the end \[m³; m² in 2D\].
     pub volume: f64,
 }
 
-/// The openings of all faults that open; `end` are those at the end \[m\].
+/// Openings of all faults that may open; `end` holds the openings at the end \[m\].
 #[must_use]
 pub fn openings(plan: &Plan, opened: &Opened, end: &[f64]) -> Vec<OpenedFault> {
     let with = plan.faults.iter().filter(|f| f.normal.opens);
@@ -52,7 +52,7 @@ pub fn openings(plan: &Plan, opened: &Opened, end: &[f64]) -> Vec<OpenedFault> {
 }
 
 impl OpenedFault {
-    /// In words, for the results.
+    /// Summary for the results.
     #[must_use]
     pub fn words(&self) -> String {
         let name = &self.fault;

@@ -1,4 +1,4 @@
-//! The problem to integrate, and what outputs see of it.
+//! The problem to integrate, and its description for the output.
 
 use super::bodies::BodiesView;
 use super::cadence::Cadence;
@@ -9,7 +9,7 @@ use crate::warning::Warning;
 use asperity_cycles::{Components, Layout, Problem};
 use std::fmt::Write as _;
 
-/// A point of a fault as outputs see it.
+/// A point of a fault, as needed by the output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointView {
     /// Position in space \[m\].
@@ -18,15 +18,15 @@ pub struct PointView {
     pub along: f64,
     /// Unit normal from minus to plus.
     pub normal: [f64; 3],
-    /// Direction in which plus moves where slip, or its first component, is positive.
+    /// Direction of motion of the plus side if slip, or its first component, is positive.
     pub slides: [f64; 3],
-    /// Direction of the second component of slip where it may turn, normal x `slides`.
+    /// Direction of the second component of vector slip, normal x `slides`.
     pub across: Option<[f64; 3]>,
     /// Tributary area \[m²; m per metre of thickness\].
     pub area: f64,
-    /// Shear modulus G for moments: the harmonic mean of those of the two sides \[Pa\].
+    /// Shear modulus G for moments: harmonic mean of the two sides \[Pa\].
     pub shear_modulus: f64,
-    /// Time scale of a law with one state of that meaning: θ = time exp(per s), in s.
+    /// Relation of the state variable to the state time θ, for a law with one such variable: θ = time exp(per s), in s.
     pub theta: Option<(f64, f64)>,
 }
 
@@ -39,33 +39,33 @@ pub enum Station {
     At(Vec<f64>),
 }
 
-/// A fault as outputs see it.
+/// A fault, as needed by the output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaultView {
     /// Name in the scene.
     pub name: String,
-    /// Its points among those of all faults.
+    /// Range of its points among those of all faults.
     pub points: std::ops::Range<usize>,
-    /// Behaviour of normal tractions there.
+    /// Behaviour of normal tractions on it.
     pub normal: NormalChoice,
-    /// Stations: what is asked for and the nearest point.
+    /// Stations: requested position and nearest point.
     pub stations: Vec<(Station, usize)>,
-    /// Faces all of whose nodes slide freely, by their points within the fault.
+    /// Faces whose nodes all slide freely, by their points within the fault.
     pub faces: Vec<Vec<usize>>,
 }
 
-/// The problem to integrate, and what outputs see of it.
+/// The problem to integrate, and its description for the output.
 #[derive(Debug)]
 pub struct Plan {
     /// Title.
     pub title: String,
     /// Faults.
     pub faults: Vec<FaultView>,
-    /// Their points, fault by fault, along a plane one from its upper end.
+    /// Points of the faults, fault by fault; on a plane fault, in order from its upper end.
     pub points: Vec<PointView>,
     /// The problem to integrate.
     pub problem: Problem,
-    /// Times of outputs.
+    /// Cadence of the output.
     pub cadence: Cadence,
     /// Degrees of freedom of the bodies.
     pub dofs: usize,
@@ -73,24 +73,24 @@ pub struct Plan {
     pub creeping: usize,
     /// Estimated memory of the whole run \[bytes\].
     pub memory_bytes: usize,
-    /// The bodies, where their displacements are asked for.
+    /// The bodies, if their displacements are requested.
     pub bodies: Option<BodiesView>,
-    /// Place on Earth and time of the origin.
+    /// Geographic position and epoch of the origin.
     pub frame: Option<Frame>,
-    /// True if faults are surfaces in space: there is no distance along them then.
+    /// True if faults are surfaces in 3D, which have no distance along them.
     pub in_space: bool,
-    /// Idealisation in words.
+    /// Description of the idealisation.
     pub kinematics: &'static str,
     /// Resolution of faults on which friction weakens.
     pub resolution: Vec<Resolution>,
-    /// Settings that are probably not meant as they stand in the scene.
+    /// Warnings about settings that are probably not intended.
     pub warnings: Vec<Warning>,
-    /// Facts worth knowing that are not in doubt.
+    /// Notes for the user that are not warnings.
     pub notes: Vec<String>,
 }
 
 impl Plan {
-    /// The vector in space \[m; m/s; Pa\] of the components at a point.
+    /// Vector in space \[m; m/s; Pa\] from its components at a point.
     #[must_use]
     pub fn vector<V: AsRef<[f64]>>(&self, values: &Components<V>, point: usize) -> [f64; 3] {
         let view = &self.points[point];
@@ -100,7 +100,7 @@ impl Plan {
         std::array::from_fn(|c| first[c] + second * across[c])
     }
 
-    /// Text that a person should see before the run.
+    /// Summary to be read before the run.
     #[must_use]
     pub fn summary(&self) -> String {
         let mut text = String::from("plan\n");
@@ -175,7 +175,7 @@ impl Plan {
     }
 }
 
-/// Smallest and largest value in words; none where all are 0.
+/// Smallest and largest value as text; `None` if all are 0.
 fn range(values: &[f64]) -> Option<String> {
     let (least, most) =
         values.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(*v), high.max(*v)));

@@ -1,18 +1,18 @@
-//! Positions in the output files, for a run that is resumed.
+//! Positions in the output files, from which a run is resumed.
 
 use super::cadence::Gauge;
 use super::snapshots::Taken;
 use asperity_ode::Clock;
 use serde::{Deserialize, Serialize};
 
-/// Positions in the files of a run.
+/// Positions in the output files of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Position {
-    /// Of the files, in their order.
+    /// Gauges of the files, in the order of the files.
     pub(super) gauges: Vec<Gauge>,
     /// End of the last step.
     pub(super) before: Option<Clock>,
-    /// In space.
+    /// Snapshots, in 3D.
     #[serde(default)]
     pub(super) snapshots: Option<Taken>,
 }

@@ -1,4 +1,4 @@
-//! `report.json` of a fault through cycles, and its events as CSV.
+//! Report of a run of faults, `report.json`, and its events as CSV.
 
 use super::floors::{FloorUse, uses};
 use super::located::locate;
@@ -23,37 +23,37 @@ use std::ops::Range;
 pub struct Entry {
     /// Onset \[s\].
     pub onset: f64,
-    /// Time since the onset of the one before \[s\].
+    /// Time since the onset of the previous event \[s\].
     pub interval: Option<f64>,
-    /// Duration, until all points were slower than the rate that ends events \[s\].
+    /// Duration: time until all points are slower than the rate that ends events \[s\].
     pub duration: f64,
-    /// Part of that in which the fastest point was faster than the rate that begins events \[s\]: the time the community counts.
+    /// Part of the duration in which the fastest point was faster than the rate that begins events \[s\], as defined by the SEAS community.
     pub duration_above: f64,
     /// Largest slip rate \[m/s\].
     pub peak_rate: f64,
-    /// Fault of the hypocentre.
+    /// Fault that contains the hypocentre.
     pub fault: String,
-    /// Distance of the hypocentre along it \[m\]; none in space.
+    /// Distance of the hypocentre along the fault \[m\]; not defined in 3D.
     pub hypocentre_along: Option<f64>,
-    /// Hypocentre in space \[m\].
+    /// Coordinates of the hypocentre \[m\].
     pub hypocentre: [f64; 3],
     /// Largest slip \[m\].
     pub largest_slip: f64,
-    /// Mean slip over what slipped more than a hundredth of that \[m\].
+    /// Mean slip over the points that slipped more than a hundredth of the largest slip \[m\].
     pub mean_slip: f64,
-    /// Area of what did \[m²; m per metre of thickness\].
+    /// Area of these points \[m²; m per metre of thickness\].
     pub area: f64,
-    /// Moment ∫ G slip dA \[N m; N per metre of thickness\]; where slip may turn, that of the sum of its moment tensors.
+    /// Moment ∫ G slip dA \[N m; N per metre of thickness\]; for vector slip, that of the sum of its moment tensors.
     pub moment: f64,
-    /// Mean fall of shear traction there, weighted with slip \[Pa\].
+    /// Mean drop of shear traction over these points, weighted by slip \[Pa\].
     pub stress_drop: f64,
-    /// Unit vector of ∫ G slip dA, where slip may turn.
+    /// Unit vector of ∫ G slip dA, for vector slip.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 3]>,
-    /// Angle from `rake` to mean slip where slip may turn, positive towards the normal x `rake` \[degrees\].
+    /// Angle from `rake` to mean slip, for vector slip, positive towards normal x `rake` \[degrees\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turned: Option<f64>,
-    /// Seismological parameters, where the scene has a place.
+    /// Seismological parameters, if the scene has a geographic frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub located: Option<Located>,
 }
@@ -62,7 +62,7 @@ pub struct Entry {
 const SLIPPED: f64 = 0.01;
 
 impl Entry {
-    /// Effect of the event on these points, of all faults or of one.
+    /// Entry of an event, restricted to these points of all faults or of one.
     fn new(plan: &Plan, event: &Event<Rupture>, points: &Range<usize>) -> Self {
         let slip = |p: usize| event.details.slip.size(p);
         let largest_slip = points.clone().map(slip).fold(0.0, f64::max);
@@ -75,7 +75,7 @@ impl Entry {
             .then(|| Turned::new(plan, &event.details.slip, &slipped));
         let moment =
             turning.as_ref().map_or_else(|| over(&|p| plan.points[p].shear_modulus * slip(p)), |t| t.moment);
-        // A fall is positive where traction that drives the slip becomes less.
+        // A drop is positive if a traction that drives slip decreases.
         let work =
             |p: usize| event.details.slip.at(p).zip(event.details.drop.at(p)).map(|(s, t)| s * t).sum();
         let place = &plan.points[event.details.hypocentre];
@@ -96,29 +96,29 @@ impl Entry {
             stress_drop: over(&work) / potency,
             direction: turning.as_ref().map(|t| t.direction),
             turned: turning.as_ref().map(|t| t.angle),
-            // The reader has made sure that the calendar reaches to the end of the run.
+            // The reader of the scene ensures that the calendar covers the run.
             located: plan.frame.as_ref().and_then(|frame| locate(plan, frame, event, points).ok()),
         }
     }
 }
 
-/// The entries of the events of a catalogue on these points.
+/// Entries of a catalogue, restricted to these points.
 fn entries(plan: &Plan, events: &[Event<Rupture>], points: &Range<usize>) -> Vec<Entry> {
     events.iter().map(|event| Entry::new(plan, event, points)).collect()
 }
 
-/// The catalogue of one fault of several: events by its own fastest point, with its own slip.
+/// Catalogue of one of several faults, with events detected by its own fastest point and with its own slip.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FaultEvents {
-    /// The fault.
+    /// Fault.
     pub fault: String,
-    /// Its events.
+    /// Events of the fault.
     pub events: Vec<Entry>,
-    /// Onset of one that goes on at the end \[s\].
+    /// Onset of an event in progress at the end \[s\].
     pub under_way: Option<f64>,
 }
 
-/// Slip of an event that may turn.
+/// Moment and direction of vector slip.
 struct Turned {
     moment: f64,
     direction: [f64; 3],
@@ -145,23 +145,23 @@ impl Turned {
     }
 }
 
-/// A cycle: from the end of an event to that of the next.
+/// A cycle, from the end of an event to the end of the next.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Cycle {
-    /// Duration of the run \[s\].
+    /// Duration of the cycle \[s\].
     pub duration: f64,
-    /// Slip, where it may turn along the rake, over the area in its event \[m³; m²\].
+    /// Slip integrated over the area during its event; for vector slip, along the rake \[m³; m²\].
     pub seismic: f64,
-    /// Slip over the area before its event.
+    /// Slip integrated over the area before its event.
     pub aseismic: f64,
-    /// Slip at the rates that keep tractions constant under the loads, where they are constant.
+    /// Slip at the rates that would keep tractions constant under the loads, if the loads are constant.
     pub driven: Option<f64>,
-    /// Works in it.
+    /// Energies of the cycle.
     pub energy: EnergyBalance,
 }
 
-/// Share of the slip since the event before that the loads drive where that slip is still part of what the event began: events that
-/// alternate in size drive between half of it and twice as much.
+/// Ratio of load-driven slip to all slip since the previous event below which an event counts as an aftershock, part of the previous event's slip.
+/// For events that alternate in size the ratio lies between one half and two.
 const AFTERSHOCK: f64 = 0.1;
 
 impl Cycle {
@@ -179,7 +179,7 @@ impl Cycle {
         }
     }
 
-    /// Slip over the area of the whole cycle over what the loads drive; none of an aftershock, which the event before it drives.
+    /// Slip over the area in the whole cycle, over the slip driven by the loads; `None` for an aftershock, which the previous event drives.
     #[must_use]
     pub fn closure(&self) -> Option<f64> {
         let slip = self.seismic + self.aseismic;
@@ -187,20 +187,20 @@ impl Cycle {
     }
 }
 
-/// Work, in operations that do not depend on the machine.
+/// Work as operation counts, which do not depend on the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Work {
     /// Accepted steps.
     pub steps: u64,
-    /// Steps tried and not accepted.
+    /// Rejected steps.
     pub rejected: u64,
-    /// Right-hand sides; each applies the operator once.
+    /// Evaluations of the right-hand side, each of which applies the operator once.
     pub right_hand_sides: u64,
     /// Points.
     pub points: usize,
 }
 
-/// The report of a run.
+/// Report of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Report {
     /// Outcome.
@@ -212,27 +212,27 @@ pub struct Report {
     /// Use of the floors of normal traction.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub floors: Vec<FloorUse>,
-    /// Openings of the faults that open.
+    /// Openings of the faults that may open.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub openings: Vec<OpenedFault>,
     /// Method of integration.
     pub method: String,
-    /// Error of ln V allowed in a step.
+    /// Error tolerance of ln V in a step.
     pub tolerance: f64,
-    /// Time \[s\].
+    /// Time at the end \[s\].
     pub end: f64,
-    /// Events of all faults together, by the fastest point of all.
+    /// Events of all faults together, detected by the fastest point of all.
     pub events: Vec<Entry>,
-    /// Onset of an event that goes on at the end \[s\].
+    /// Onset of an event in progress at the end \[s\].
     pub under_way: Option<f64>,
-    /// The catalogue of each fault, where there are several.
+    /// Catalogue of each fault, if there are several.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub faults: Vec<FaultEvents>,
-    /// Unit of works.
+    /// Unit of energies.
     pub unit: &'static str,
-    /// Works until the end.
+    /// Energies up to the end.
     pub energy: EnergyBalance,
-    /// From the end of each event to that of the next.
+    /// Cycles, from the end of each event to the end of the next.
     pub cycles: Vec<Cycle>,
     /// Work.
     pub counts: Work,
@@ -253,7 +253,7 @@ impl Results for Report {
     }
 }
 
-/// Reason why an integration failed, as far as the fault tells.
+/// Reason for the failure of an integration, in terms of the fault if possible.
 fn why(plan: &Plan, run: &FaultRun, reason: &str) -> String {
     if let Some(point) = run.progress.opens {
         let view = &plan.points[point];
@@ -283,7 +283,7 @@ fn why(plan: &Plan, run: &FaultRun, reason: &str) -> String {
 }
 
 impl Report {
-    /// The report of a run of a plan.
+    /// Report of a run of a plan.
     #[must_use]
     pub fn new(plan: &Plan, run: &FaultRun, balance: &mut Balance<'_>) -> Self {
         let outcome = match &run.outcome {
@@ -332,7 +332,7 @@ impl Report {
         }
     }
 
-    /// Events as catalogues of seismologists have them: those of each fault, where there are several, in the order of their onsets.
+    /// Events as entries of seismological catalogues, in order of onset. With several faults, these are the events of each fault.
     #[must_use]
     pub fn located(&self) -> Vec<Located> {
         let apart: Vec<&Entry> = self.faults.iter().flat_map(|f| &f.events).collect();
@@ -341,7 +341,7 @@ impl Report {
         all.into_iter().filter_map(|e| e.located.clone()).collect()
     }
 
-    /// A catalogue as CSV.
+    /// Catalogue as CSV.
     #[must_use]
     pub fn csv(events: &[Entry]) -> String {
         let turning = events.iter().any(|e| e.turned.is_some());
@@ -377,7 +377,7 @@ impl Report {
         text
     }
 
-    /// Words a person should read at the end.
+    /// Summary to be read at the end of the run.
     #[must_use]
     pub fn text(&self) -> String {
         let mut text = String::from("results\n");

@@ -1,4 +1,4 @@
-//! The state of faults in space in the course of a run, as VTU.
+//! Snapshots of the state of faults in 3D during a run, as VTU files.
 
 use super::cadence::{Gauge, RATE_CHANGE, Reading};
 use super::fields;
@@ -10,16 +10,16 @@ use asperity_output::{OutputError, atomic};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// The file that lists them.
+/// Name of the list of snapshots.
 pub(super) const LIST: &str = "snapshots.csv";
-/// Its header.
+/// Header of the list.
 pub(super) const HEAD: &str = "snapshot,time [s],log10 slip_rate [m/s]\n";
-/// Time between two in an event over that between profiles there: rupture crosses a few kilometres in two seconds.
+/// Time between snapshots in an event over that between profiles; a rupture crosses a few kilometres in two seconds.
 const IN_EVENTS: f64 = 2.0;
-/// Size of all snapshots together over that of a file that grows.
+/// Size of all snapshots together over the largest size of a growing file.
 const FILES: u64 = 10;
 
-/// Number of those taken, and the time of the last one.
+/// Number of snapshots taken, and the gauge that decides when the next is due.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Taken {
     count: usize,
@@ -30,21 +30,21 @@ pub(super) struct Taken {
 #[derive(Debug)]
 pub(super) struct Snapshots {
     folder: PathBuf,
-    /// By fault.
+    /// Grid of each fault.
     grids: Vec<Grid>,
     taken: Taken,
 }
 
-/// The name of a file.
+/// Name of a snapshot file.
 pub(super) fn name(fault: &str, number: usize) -> String {
     format!("{fault}_{number:05}.vtu")
 }
 
 impl Snapshots {
-    /// Surfaces of faults in space.
+    /// Snapshots of a run, if its faults are surfaces in 3D.
     ///
     /// # Errors
-    /// If the folder cannot be made.
+    /// If the folder cannot be created.
     pub fn begin(out: &Path, plan: &Plan) -> Result<Option<Self>, OutputError> {
         if !plan.in_space {
             return Ok(None);
@@ -55,17 +55,17 @@ impl Snapshots {
         Ok(Some(Self { folder, grids, taken: Taken::default() }))
     }
 
-    /// Goes on after those.
+    /// Resumes after the snapshots already taken.
     pub fn from(self, taken: Taken) -> Self {
         Self { taken, ..self }
     }
 
-    /// Number of those taken.
+    /// Number and gauge of the snapshots taken.
     pub fn taken(&self) -> Taken {
         self.taken
     }
 
-    /// Takes one where it is due, and returns its row of the list.
+    /// Takes a snapshot if it is due, and returns its row of the list.
     ///
     /// # Errors
     /// If a file cannot be written.

@@ -1,4 +1,4 @@
-//! Files of stations in the format of the SEAS community, one for each.
+//! Station files in the format of the SEAS community, one per station.
 
 use super::cadence::NO_RATE;
 use super::plan::{Plan, Station};
@@ -11,11 +11,12 @@ pub(super) fn points(plan: &Plan) -> Vec<usize> {
     plan.faults.iter().flat_map(|f| f.stations.iter().map(|s| s.1)).collect()
 }
 
-/// Names of the files of all stations with their headers.
+/// Paths of all station files, with their headers.
 pub(super) fn heads(plan: &Plan) -> Vec<(PathBuf, String)> {
     let mut heads = Vec::new();
     for fault in &plan.faults {
-        // Tenths of a kilometre in three digits, as the benchmarks name their stations, where that tells them apart.
+        // Distance in tenths of a kilometre, three digits, as in the names of the benchmarks, if this distinguishes the
+        // stations.
         let tenths = |asked: &Station| match asked {
             Station::Along(s) => (s / 100.0).round(),
             Station::At(_) => f64::NAN,
@@ -52,12 +53,12 @@ fn head(plan: &Plan, fault: &str, asked: &Station, point: usize) -> String {
     head.text()
 }
 
-/// True if the fault of a point opens.
+/// True if the fault of a point may open.
 fn opens(plan: &Plan, point: usize) -> bool {
     plan.faults.iter().any(|f| f.normal.opens && f.points.contains(&point))
 }
 
-/// The row of a station.
+/// Row of a station.
 pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
     let states = plan.problem.fault.law.states();
     let normal = now.normal(point);
@@ -69,7 +70,7 @@ pub(super) fn row(plan: &Plan, now: &Moment<'_>, point: usize) -> String {
         time: now.at.seconds(),
         slip: now.slip().at(point).collect(),
         rate: now.rate.at(point).map(rate).collect(),
-        // The traction that friction resists with: what drives less the damping.
+        // Traction that friction resists: the driving traction minus damping.
         shear: now.m().at(point).map(|m| normal * plan.problem.fault.law.scale(point) * m).collect(),
         log_state: theta,
         normal,

@@ -1,11 +1,11 @@
-//! Lengths and times in words.
+//! Lengths and times as text.
 
 use asperity_output::decimals::fixed;
 
-/// A year \[s\], as the benchmarks count it.
+/// A year as defined by the benchmarks \[s\].
 pub(super) const YEAR: f64 = 365.25 * 86_400.0;
 
-/// A length in words, in a unit that leaves digits before the point.
+/// Length as text, in a unit that leaves digits before the decimal point.
 pub(super) fn length(metres: f64) -> String {
     let (scale, unit) = match metres.abs() {
         m if m >= 1e3 => (1e-3, "km"),
@@ -16,7 +16,7 @@ pub(super) fn length(metres: f64) -> String {
     format!("{} {unit}", fixed(metres * scale, 4))
 }
 
-/// A time in words.
+/// Time as text.
 pub(super) fn time(seconds: f64) -> String {
     if seconds.abs() >= 0.1 * YEAR {
         format!("{:.5} yr", seconds / YEAR)

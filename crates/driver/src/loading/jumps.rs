@@ -1,17 +1,17 @@
-//! Forces and displacements that jump, which faults refuse: their tractions at the start are given, and follow rates from there.
+//! Checks that forces and displacements on faults do not jump. Initial tractions of faults are given, and evolve by rates from there.
 
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{Condition, Loading, Motion, Scene, Spanned, Stage, Stepper};
 use std::collections::BTreeMap;
 
-/// Prescription for a set along an axis.
+/// Prescriptions by set and axis.
 type Of<T> = BTreeMap<(String, usize), T>;
 
-/// Refuses loads and releases of a stage of faults that change a force at once; `before` are the motions and the values of the loads at the
-/// end of the stage before.
+/// Refuses loads and releases in a stage with faults that change a force abruptly. `held` and `present` are the motions and load values at the end of
+/// the previous stage.
 ///
 /// # Errors
-/// [`Diagnostic`] pointing at the condition.
+/// [`Diagnostic`] at the condition.
 pub(super) fn of_stage(
     scene: &Scene,
     stage: &Stage,

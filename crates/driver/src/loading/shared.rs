@@ -1,5 +1,5 @@
-//! Sets that share nodes and say different things about them. For generated blocks the check of the scene has found this
-//! already; which nodes the sets of other meshes share is known only from the mesh.
+//! Checks sets that share nodes for conflicting prescriptions. For generated blocks the scene check has done this already; for other meshes the
+//! shared nodes are known only from the mesh.
 
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
@@ -9,13 +9,13 @@ use asperity_fem::mesh::nodes_of_sides;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-/// A component of a set.
+/// A set and a component.
 pub(super) type Key = (String, usize);
 
-/// Prescriptions from stage to stage, and their places in the scene.
+/// Prescriptions from stage to stage, with their positions in the scene.
 #[derive(Default)]
 pub(super) struct Shared {
-    /// Places of the motions in force.
+    /// Positions in the scene of the motions in force.
     pub places: BTreeMap<Key, Range<usize>>,
     /// Displacement of each component ever prescribed; `None` once it has been free.
     present: BTreeMap<Key, Option<f64>>,
@@ -23,7 +23,7 @@ pub(super) struct Shared {
 }
 
 impl Shared {
-    /// Checks the motions of a stage, and takes them to its end.
+    /// Checks the motions of a stage and advances them to its end.
     pub fn stage<const D: usize>(
         &mut self,
         model: &Model<D>,
@@ -64,13 +64,13 @@ impl Shared {
         Ok(())
     }
 
-    /// Displacement of a component at the start of the stage, where it is known.
+    /// Displacement of a component at the start of the stage, if known.
     fn start(&self, key: &Key) -> Option<f64> {
         self.present.get(key).copied().unwrap_or((self.stages == 0).then_some(0.0))
     }
 }
 
-/// Pairs of sets that prescribe one component of common nodes, in order.
+/// Pairs of sets that prescribe the same component at common nodes, in order.
 fn pairs<'a, const D: usize>(
     model: &Model<D>,
     held: &'a BTreeMap<Key, Motion>,

@@ -1,4 +1,4 @@
-//! Materials of a scene as the bodies take them.
+//! Materials of a scene in the form used by the bodies.
 
 use crate::diagnostic::Diagnostic;
 use crate::scene::model as scene;
@@ -14,7 +14,7 @@ use std::ops::Range;
 /// The material `name` of a scene.
 ///
 /// # Errors
-/// [`Diagnostic`] at `place` with the materials that exist.
+/// [`Diagnostic`] at `place`, with the existing materials.
 pub fn find<'a>(
     scene: &'a scene::Scene,
     name: &str,
@@ -26,7 +26,7 @@ pub fn find<'a>(
     })
 }
 
-/// Its elastic part.
+/// Elastic part of a material.
 ///
 /// # Errors
 /// [`Diagnostic`] for constants out of range.
@@ -35,10 +35,10 @@ pub fn elastic(spec: &scene::Material) -> Result<Elastic, Diagnostic> {
         .map_err(|e| Diagnostic::at(spec.young.span(), e.to_string(), "0 < E and -1 < nu < 0.5"))
 }
 
-/// Refuses parameters of materials that bodies do not take.
+/// Refuses material parameters that the bodies cannot use.
 ///
 /// # Errors
-/// [`Diagnostic`] for the first material with one.
+/// [`Diagnostic`] for the first such material.
 pub fn check(scene: &scene::Scene) -> Result<(), Diagnostic> {
     for (name, material) in &scene.materials {
         behaviour(material)
@@ -47,7 +47,7 @@ pub fn check(scene: &scene::Scene) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// All of it.
+/// Complete behaviour of a material.
 ///
 /// # Errors
 /// [`Diagnostic`] for parameters out of range.
@@ -102,7 +102,7 @@ fn remedy(error: &FemError) -> &'static str {
     }
 }
 
-/// Place of the parameter of a hardening that was refused.
+/// Position of the hardening parameter that was refused.
 fn place_in(spec: &scene::Plasticity, error: &FemError) -> Option<Range<usize>> {
     let FemError::Material { name, .. } = error else { return None };
     match *name {
@@ -115,8 +115,8 @@ fn place_in(spec: &scene::Plasticity, error: &FemError) -> Option<Range<usize>> 
     .or_else(|| spec.table.as_ref().map(scene::Spanned::span))
 }
 
-/// Hardening with the parameters of its kind; which belong to it is checked with the scene, and those missing read as 0, which
-/// the bodies refuse.
+/// Hardening with the parameters of its kind. The scene check has compared the parameters with the kind; missing ones are read as 0, which the bodies
+/// refuse.
 fn hardening(spec: &scene::Plasticity) -> Result<Hardening, FemError> {
     let initial = spec.initial.as_ref().map_or(0.0, |y| y.get_ref().0);
     match spec.hardening.get_ref() {

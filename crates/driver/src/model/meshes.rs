@@ -1,4 +1,4 @@
-//! Meshes of the bodies: generated, or read from files.
+//! Meshes of the bodies, generated or read from files.
 
 use crate::diagnostic::Diagnostic;
 use crate::scene::model as scene;
@@ -15,10 +15,10 @@ use scene::Spanned;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// The mesh of a body, with its sets by their own names.
+/// Mesh of a body; its sets keep their own names.
 ///
 /// # Errors
-/// [`Diagnostic`] at the place in the scene; a file that cannot be read is named with what is wrong in it.
+/// [`Diagnostic`] at the position in the scene. For a file that cannot be read it gives the name and the error.
 pub fn of_body<const D: usize>(
     scene: &scene::Scene,
     name: &str,
@@ -72,7 +72,7 @@ fn source<const D: usize>(
     }
 }
 
-/// The same mesh as one of dimension `B`, or the error when it is of another.
+/// The same mesh typed with dimension `B`; an error if `A` differs from `B`.
 fn in_dimension<const A: usize, const B: usize>(
     mesh: Mesh<A>,
     error: impl FnOnce() -> Diagnostic,
@@ -118,7 +118,7 @@ fn block<const D: usize>(name: &str, spec: &scene::BlockMesh) -> Result<Mesh<D>,
     Ok(mesh)
 }
 
-/// A block with sizes of cells along its axes.
+/// A block with given cell sizes along its axes.
 fn spaced<const D: usize>(
     name: &str,
     kind: ElementKind,
@@ -166,7 +166,7 @@ fn curve<const D: usize>(side: &str, spec: &Spanned<scene::CurveSpec>) -> Result
     })
 }
 
-/// A block of equal or steadily growing cells.
+/// A block of equal or geometrically graded cells.
 fn divided<const D: usize>(
     name: &str,
     kind: ElementKind,
@@ -186,10 +186,10 @@ fn divided<const D: usize>(
         .map_err(|e| Diagnostic::body(name, spec.element.span(), e.to_string()))
 }
 
-/// Cells along each axis of a block.
+/// Number of cells along each axis of a block.
 ///
 /// # Errors
-/// [`Diagnostic`] where the spec is not complete or does not divide the block.
+/// [`Diagnostic`] if the entry is incomplete or does not divide the block.
 pub fn cells_along(name: &str, spec: &scene::BlockMesh) -> Result<Vec<usize>, Diagnostic> {
     let ends = spec.min.get_ref().iter().zip(spec.max.get_ref());
     let along = |(axis, (min, max)): (usize, (&Length, &Length))| match &spec.spacing {
@@ -247,7 +247,7 @@ fn fault(name: &str, spec: &scene::FaultMesh) -> Result<Mesh<2>, Diagnostic> {
     Ok(generated.map_err(|e| Diagnostic::body(name, spec.trace.span(), e.to_string()))?.mesh)
 }
 
-/// Facts about generated meshes that are in no file: the course of smooth curves between the vertices of traces.
+/// Facts about generated meshes that no file contains: the course of smooth curves between the vertices of traces.
 ///
 /// # Errors
 /// [`Diagnostic`] for traces that cannot be meshed.
@@ -271,7 +271,7 @@ pub fn notes(scene: &scene::Scene) -> Result<Vec<String>, Diagnostic> {
     Ok(notes)
 }
 
-/// A box around a fault, as it is generated. Lengths along the fault count from the first vertex of its trace.
+/// A box around a fault, as generated. Lengths along the fault are measured from the first vertex of its trace.
 fn faulted(spec: &scene::FaultMesh) -> Result<FaultMesh, Diagnostic> {
     let point = |x: &[Length; 2]| x.map(|c| c.0);
     Ok(FaultMesh {
@@ -289,7 +289,7 @@ fn faulted(spec: &scene::FaultMesh) -> Result<FaultMesh, Diagnostic> {
     })
 }
 
-/// Sizes along a line.
+/// Cell sizes along a line.
 fn spacing(spec: &scene::SpacingSpec) -> Spacing {
     match spec {
         scene::SpacingSpec::Constant(size) => Spacing::Constant(size.0),
@@ -300,7 +300,7 @@ fn spacing(spec: &scene::SpacingSpec) -> Spacing {
     }
 }
 
-/// Metres in the unit of a file.
+/// Length unit of a file in metres.
 fn unit(name: Option<&Spanned<String>>) -> Result<f64, Diagnostic> {
     let Some(name) = name else { return Ok(1.0) };
     units::parse(&format!("1 {}", name.get_ref()), Dimension::Length).map_err(|_| {
@@ -312,10 +312,10 @@ fn unit(name: Option<&Spanned<String>>) -> Result<f64, Diagnostic> {
     })
 }
 
-/// Parser of a file's bytes.
+/// Parser of the bytes of a file.
 type Parse = fn(&[u8]) -> Result<RawMesh, MeshError>;
 
-/// Reads a file, takes the cells of the groups, and splits them along the surfaces.
+/// Reads a file, selects the cells of the groups, and splits them along the surfaces.
 fn read<const D: usize>(
     scene: &scene::Scene,
     file: &Spanned<String>,
@@ -358,7 +358,7 @@ fn read<const D: usize>(
     Ok(mesh)
 }
 
-/// Path of a mesh file that was looked for, and what stands there instead.
+/// Path of a missing mesh file, and the files found there instead.
 fn looked_for(path: &Path) -> String {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     let told =
@@ -379,7 +379,7 @@ fn looked_for(path: &Path) -> String {
     format!("{told}: {}", suggest(&name, "mesh files", there.iter().map(String::as_str)))
 }
 
-/// Endings of mesh files.
+/// Extensions of mesh files.
 const MESHES: [&str; 2] = ["msh", "inp"];
 
 fn cut<const D: usize>(mesh: &mut Mesh<D>, file: &str, name: &Spanned<String>) -> Result<(), Diagnostic> {
@@ -388,7 +388,7 @@ fn cut<const D: usize>(mesh: &mut Mesh<D>, file: &str, name: &Spanned<String>) -
     let mut surface = Surface::from_side_set(mesh, name.get_ref()).map_err(|_| {
         refuse(format!("the mesh file `{file}` has no faces in a group `{}` here", name.get_ref()), known())
     })?;
-    // A group between cells holds both sides of each face.
+    // A group between cells contains both sides of each face.
     let mut seen = BTreeSet::new();
     surface.faces.retain(|face| {
         let mut nodes = face.clone();
@@ -403,8 +403,8 @@ fn cut<const D: usize>(mesh: &mut Mesh<D>, file: &str, name: &Spanned<String>) -
     })
 }
 
-/// Some blocks of a mesh, with the nodes they use and those parts of the sets that touch them. A face between a block taken and
-/// one left out thus keeps the side that is taken.
+/// Mesh of some blocks, with the nodes they use and the parts of the sets that touch them. A face between a selected block and another one thus keeps
+/// the side of the selected block.
 fn part<const D: usize>(mesh: &Mesh<D>, blocks: &[usize]) -> Mesh<D> {
     let mut used = vec![false; mesh.nodes.len()];
     blocks.iter().flat_map(|&b| &mesh.blocks[b].connectivity).for_each(|&n| used[n] = true);

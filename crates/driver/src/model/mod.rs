@@ -1,4 +1,4 @@
-//! The discrete model of a scene: one mesh of all bodies, and what each block of its cells is.
+//! The discrete model of a scene: one mesh of all bodies, and the type of each block of its cells.
 
 pub mod materials;
 pub mod meshes;
@@ -20,7 +20,7 @@ use std::ops::Range;
 
 pub use asperity_mechanics::{Body, CellBlock, Model, bounds};
 
-/// Makes or reads the meshes of a scene and the terms of its bodies.
+/// Generates or reads the meshes of a scene, and builds the terms of its bodies.
 ///
 /// # Errors
 /// [`Diagnostic`] naming the body whose mesh or material is not admissible.
@@ -74,7 +74,7 @@ pub fn build<const D: usize>(scene: &scene::Scene) -> Result<Model<D>, Diagnosti
 /// The material of a block of a body, with its name.
 ///
 /// # Errors
-/// [`Diagnostic`] when its cells have none, or several.
+/// [`Diagnostic`] if the cells have no material, or several.
 pub fn material<'a, const D: usize>(
     mesh: &Mesh<D>,
     scene: &'a scene::Scene,
@@ -118,10 +118,10 @@ pub fn material<'a, const D: usize>(
     })
 }
 
-/// The faces of a set.
+/// Faces of a set.
 ///
 /// # Errors
-/// [`Diagnostic`] when the set does not exist, with those that do.
+/// [`Diagnostic`] if the set does not exist, with the existing sets.
 pub fn sides<'a, const D: usize>(
     model: &'a Model<D>,
     set: &scene::Spanned<String>,
@@ -136,7 +136,7 @@ pub fn sides<'a, const D: usize>(
     })
 }
 
-/// Cells and nodes of each block; nodes that blocks share count for the first.
+/// Cells and nodes of each block. All nodes are counted with the first block, so that shared ones count once.
 #[must_use]
 pub fn counts<const D: usize>(mesh: &Mesh<D>) -> Vec<Counts> {
     let nodes = |b: usize| if b == 0 { mesh.nodes.len() as f64 } else { 0.0 };
@@ -145,7 +145,7 @@ pub fn counts<const D: usize>(mesh: &Mesh<D>) -> Vec<Counts> {
     mesh.blocks.iter().enumerate().map(count).collect()
 }
 
-/// The one place where it is decided whether cells are linear.
+/// Cells of a block, linear or nonlinear; no other place decides this.
 fn cell_block<const D: usize>(
     (scene, mesh): (&scene::Scene, &Mesh<D>),
     block: usize,
@@ -185,7 +185,7 @@ fn cell_block<const D: usize>(
     Ok(CellBlock::Nonlinear(Box::new(term)))
 }
 
-/// Checks that a material can bear a stress.
+/// Checks that a material can sustain a stress.
 fn admissible(stress: &[f64; 6], material: &Material) -> Result<(), String> {
     let Material::J2(j2) = material else { return Ok(()) };
     let (mises, limit) = (von_mises(stress), j2.hardening().at(0.0).stress);
@@ -197,7 +197,7 @@ fn admissible(stress: &[f64; 6], material: &Material) -> Result<(), String> {
     ))
 }
 
-/// Nodes of each connected part of some blocks, in the order of their first nodes.
+/// Nodes of each connected part of some blocks, ordered by their first nodes.
 fn connected<const D: usize>(mesh: &Mesh<D>, nodes: Range<usize>, blocks: Range<usize>) -> Vec<Vec<usize>> {
     fn root(parent: &mut [usize], mut n: usize) -> usize {
         while parent[n] != n {

@@ -1,4 +1,5 @@
-//! Sizes of bodies whose meshes come from files, where a unit that was not said makes them a thousand times too large.
+//! Checks the sizes of bodies whose meshes come from files. If their unit was omitted, they may be a thousand times too
+//! large.
 
 use super::{Body, Model, bounds};
 use crate::lengths::brief;
@@ -7,11 +8,11 @@ use crate::scene::model::{MeshSource, Scene, Spanned};
 use crate::warning::Warning;
 use std::ops::Range;
 
-/// Motion over the size of a body that nobody prescribes: it strains by a millionth, tens of kilopascals in rock, while bodies a thousand times
-/// too large make that of a strain of a thousandth, which is usual.
+/// Largest prescribed motion over the size of a body that is suspiciously small. It is a strain of a millionth, or tens of kilopascals in rock. A
+/// usual strain of a thousandth appears as this if the body is a thousand times too large.
 const NO_MOTION: f64 = 1e-6;
 
-/// Extents of the bodies that are read from files.
+/// Descriptions of the extents of bodies read from files.
 pub fn of_files<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<String> {
     let line = |body: &Body<D>| {
         let (_, unit) = file(&scene.bodies[&body.name].mesh)?;
@@ -25,7 +26,7 @@ pub fn of_files<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<String> 
     model.bodies.iter().filter_map(line).collect()
 }
 
-/// Bodies that are next to not moved for their size: those of files without unit, and blocks, whose numbers may be meant in another unit.
+/// Warnings about bodies whose motion is negligible for their size: those read from files without a unit, and blocks, which may use another unit.
 pub fn doubts<const D: usize>(scene: &Scene, model: &Model<D>, stages: &[Stage]) -> Vec<Warning> {
     let travel: f64 = stages.iter().map(Stage::travel).sum();
     if travel <= 0.0 || stages.iter().any(Stage::is_loaded) {
@@ -56,12 +57,12 @@ pub fn doubts<const D: usize>(scene: &Scene, model: &Model<D>, stages: &[Stage])
         })
     };
     let mut found: Vec<Warning> = model.bodies.iter().filter_map(doubt).collect();
-    // What was meant of one body was meant of all: the first is told of.
+    // A mistake in the unit usually concerns all bodies, so only the first is reported.
     found.truncate(1);
     found
 }
 
-/// Place and unit of a mesh file.
+/// Position in the scene and unit of a mesh file.
 fn file(mesh: &MeshSource) -> Option<(Range<usize>, Option<&Spanned<String>>)> {
     match mesh {
         MeshSource::Gmsh(file) => Some((file.file.span(), file.unit.as_ref())),

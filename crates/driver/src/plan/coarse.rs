@@ -1,15 +1,15 @@
-//! Sides of interfaces with too few faces for what is asked of them.
+//! Warnings about sides of interfaces with too few faces.
 
 use crate::scene::model::Interface as Spec;
 use crate::warning::Warning;
 use asperity_fem::mesh::MeshFace;
 use asperity_mechanics::{Measure, PlannedInterface};
 
-/// Faces of the slave over those of the master from which a warning is given: the middle of a slave face is then two master nodes from the nearest
-/// place where penetration is seen.
+/// Ratio of the sizes of slave and master faces at which a warning is given: the middle of a slave face is then two master nodes from the nearest
+/// point at which penetration is detected.
 const COARSER: f64 = 3.0;
 
-/// Doubts about the faces of an interface whose mesh nodes lie at `nodes`.
+/// Warnings about the faces of an interface whose mesh nodes lie at `nodes`.
 pub fn doubts<const D: usize>(
     nodes: &[[f64; D]],
     planned: &PlannedInterface,
@@ -18,7 +18,7 @@ pub fn doubts<const D: usize>(
     [single(planned, spec), coarser(nodes, planned, spec)].into_iter().flatten()
 }
 
-/// A slave side of a single face: its tractions do not vary, whatever the body does.
+/// Warning about a slave side with a single face: its tractions cannot vary, whatever the body does.
 fn single(planned: &PlannedInterface, spec: &Spec) -> Option<Warning> {
     (planned.slave_faces.len() == 1).then(|| {
         let message = format!(
@@ -29,7 +29,7 @@ fn single(planned: &PlannedInterface, spec: &Spec) -> Option<Warning> {
     })
 }
 
-/// Slave nodes so far apart that the master passes between them.
+/// Warning about slave nodes so far apart that the master passes between them.
 fn coarser<const D: usize>(nodes: &[[f64; D]], planned: &PlannedInterface, spec: &Spec) -> Option<Warning> {
     let of =
         |faces: &[MeshFace]| faces.iter().map(|f| extent(nodes, &f.nodes)).sum::<f64>() / faces.len() as f64;
@@ -44,7 +44,7 @@ fn coarser<const D: usize>(nodes: &[[f64; D]], planned: &PlannedInterface, spec:
     })
 }
 
-/// Largest distance of two nodes of a face \[m\].
+/// Largest distance between two nodes of a face \[m\].
 fn extent<const D: usize>(nodes: &[[f64; D]], face: &[usize]) -> f64 {
     let square = |a: usize, b: usize| (0..D).map(|c| (nodes[a][c] - nodes[b][c]).powi(2)).sum::<f64>();
     let pairs = face.iter().flat_map(|&a| face.iter().map(move |&b| (a, b)));

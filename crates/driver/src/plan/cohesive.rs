@@ -1,4 +1,5 @@
-//! Resolution of the points of an interface, and where statics says that they are too few.
+//! Resolution of the cohesive zone by the points of an interface, with an error or a warning if statics shows that it
+//! is too coarse.
 
 use crate::cohesive::enough;
 use crate::diagnostic::Diagnostic;
@@ -12,7 +13,7 @@ use asperity_fem::mesh::Side;
 use asperity_fem::surface;
 use asperity_mechanics::{Resolved, Stage};
 
-/// Of an interface, where its friction weakens with slip.
+/// Resolution of an interface whose friction weakens with slip.
 pub fn resolved<const D: usize>(model: &Model<D>, spec: &Interface, slave: &[Side]) -> Option<Resolved> {
     let law = spec.law.as_ref()?;
     let choice = laws::choose(law).ok()?;
@@ -31,7 +32,7 @@ pub fn resolved<const D: usize>(model: &Model<D>, spec: &Interface, slave: &[Sid
     Some(Resolved { one, spacing, refused_beyond, limit: limit(one, spacing), place: law.span() })
 }
 
-/// Words on the resolution and the remedy, where a run stops for it.
+/// Resolution limit and remedy, printed if a run stops because of it.
 fn limit(one: f64, spacing: f64) -> String {
     format!(
         "points {spacing:.4e} m apart resolve it up to {:.4} MPa: take them closer, in proportion, or a longer length of weakening (`l`, `d_c`); `under_resolved = \"allow\"` at the interface runs on",
@@ -39,15 +40,15 @@ fn limit(one: f64, spacing: f64) -> String {
     )
 }
 
-/// Remedy where less than one point stands on the zone.
+/// Remedy if the cohesive zone contains less than one point.
 fn remedy(resolved: &Resolved, normal: f64) -> String {
     format!("{}; or `under_resolved = \"allow\"` at the interface", enough(resolved, normal))
 }
 
-/// A warning where a mean normal traction \[Pa\] that loads are known to press with leaves too few points.
+/// Warning if a mean normal traction \[Pa\] that follows from the loads leaves too few points.
 ///
 /// # Errors
-/// [`Diagnostic`] where they are less than one and the scene does not allow it.
+/// [`Diagnostic`] if there is less than one point and the scene does not allow it.
 pub fn check(resolved: &Resolved, interface: &str, mean: f64) -> Result<Option<Warning>, Diagnostic> {
     let points = resolved.one / mean;
     if mean <= 0.0 || points >= FEW {
@@ -66,11 +67,11 @@ pub fn check(resolved: &Resolved, interface: &str, mean: f64) -> Result<Option<W
     Ok(Some(Warning::at(resolved.place.clone(), message, enough(resolved, mean))))
 }
 
-/// Sine of the angle between a surface and a plane below which it is flat, and of that between two directions below which they are one: rounding of coordinates.
+/// Sine of the angle below which a surface counts as flat and two directions count as equal: rounding of coordinates.
 const FLAT: f64 = 1e-9;
 
-/// Largest mean normal traction \[Pa\] of an interface in the stages in which its friction acts, where statics alone says it: one of its bodies is pressed by
-/// loads onto a flat side, and held along its normal by nothing else.
+/// Largest mean normal traction \[Pa\] of an interface in the stages in which its friction acts, if statics alone determines it. For this, loads must
+/// press one of its bodies onto a flat side, and nothing else may hold that body along the normal.
 pub fn pressed<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -90,7 +91,7 @@ pub fn pressed<const D: usize>(
     by(spec.slave.get_ref()).or_else(|| by(spec.master.get_ref()))
 }
 
-/// Force along the outward normal of a flat side over its area, the largest of the stages in which friction acts.
+/// Force along the outward normal of a flat side over its area; the largest of the stages in which friction acts.
 fn mean<const D: usize>(
     model: &Model<D>,
     stages: &[Stage],

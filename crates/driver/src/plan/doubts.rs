@@ -1,4 +1,4 @@
-//! Doubts about a scene once its bodies are made and its stages resolved.
+//! Warnings about a scene whose bodies have been built and whose stages have been resolved.
 
 use super::penalty::{self, Softer};
 use super::{PlannedInterface, StartGap, Stepping, coarse, cohesive, start_gaps};
@@ -10,13 +10,13 @@ use crate::scene::model::{Interface, Scene};
 use crate::warning::Warning;
 use asperity_friction::evolution;
 
-/// Share of what the conditions move that an error of slip allowed in a single step may be: beyond it nothing bounds the steps.
+/// Largest useful slip error per step, as a fraction of the prescribed motion; a larger one does not limit the steps.
 const BOUNDS_NOTHING: f64 = 0.1;
 
-/// Positions of the sides of the interfaces, and doubts about them before the first step.
+/// Positions of the sides of the interfaces before the first step, and warnings about the scene.
 ///
 /// # Errors
-/// [`Diagnostic`] for sides that cannot be meant.
+/// [`Diagnostic`] for sides that are certainly wrong.
 pub fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -45,7 +45,7 @@ pub fn of<const D: usize>(
     Ok((starts, doubts))
 }
 
-/// An evolution whose steps are of first order, which the estimate of their error takes to be of second.
+/// Warning about an evolution law whose steps are first order, while the error estimate assumes second order.
 fn first_order(name: &str, spec: &Interface) -> Option<Warning> {
     let evolution = spec.law.as_ref()?.get_ref().evolution.as_ref()?;
     evolution::definition(evolution.get_ref())?.memory?;
@@ -58,7 +58,8 @@ fn first_order(name: &str, spec: &Interface) -> Option<Warning> {
     Some(Warning::at(evolution.span(), message, help))
 }
 
-/// Few points for friction under what loads are known to press with, and a key that has nothing to decide.
+/// Warning about too few points for friction under the normal traction that follows from the loads, and about a key
+/// without effect.
 fn resolution<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -76,7 +77,7 @@ fn resolution<const D: usize>(
     known.map_or(Ok(None), |mean| cohesive::check(resolved, name, mean))
 }
 
-/// A bound on the error of slip that is as large as the motion.
+/// Warning about a slip error tolerance as large as the motion.
 fn tolerance(scene: &Scene, stages: &[Stage]) -> Option<Warning> {
     let given = scene.time.tolerance.as_ref()?;
     let travel: f64 = stages.iter().map(Stage::travel).sum();

@@ -1,4 +1,4 @@
-//! Interfaces of a scene, checked and turned into those of a plan.
+//! Interfaces of a scene, checked and converted to those of a plan.
 
 use super::enforcement::{enforced, in_pascal_per_metre};
 use super::penalty::{self, Softer};
@@ -14,13 +14,13 @@ use asperity_friction::law::Law;
 use asperity_mechanics::{self as mechanics, coordinates};
 use std::sync::Arc;
 
-/// Share of the largest tributary area of an interface below which one is zero but for rounding.
+/// Fraction of the largest tributary area of an interface below which an area is zero to within rounding.
 const NO_AREA: f64 = 1e-12;
 
 /// Plans an interface; `loading` is the largest rate that the stages prescribe \[m/s\].
 ///
 /// # Errors
-/// [`Diagnostic`] with the place in the scene.
+/// [`Diagnostic`] with the position in the scene.
 pub fn plan<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -94,7 +94,7 @@ pub fn plan<const D: usize>(
     })
 }
 
-/// The slave points of an interface, ascending, with their tributary areas.
+/// Slave points of an interface, ascending, with their tributary areas.
 fn slave_points<const D: usize>(
     model: &Model<D>,
     name: &str,
@@ -102,7 +102,7 @@ fn slave_points<const D: usize>(
     slave: &[Side],
     master: &[Side],
 ) -> Result<Vec<(usize, f64)>, Diagnostic> {
-    // The tip of a split surface lies on both sides, where they cannot part.
+    // The tip of a split surface lies on both sides, which cannot separate there.
     let master_nodes = nodes_of_sides(&model.mesh, master);
     let nodes =
         nodes_of_sides(&model.mesh, slave).into_iter().filter(|n| master_nodes.binary_search(n).is_err());
@@ -128,7 +128,7 @@ fn slave_points<const D: usize>(
     Ok(slave)
 }
 
-/// Checks that the contact can work with the faces of both sides.
+/// Checks that the contact measure supports the faces of both sides.
 fn check_faces<const D: usize>(
     model: &Model<D>,
     spec: &InterfaceSpec,

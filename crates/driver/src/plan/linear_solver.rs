@@ -1,4 +1,4 @@
-//! The choice of how linear systems are solved: from the scene alone, so that the choice and the results do not depend on the machine.
+//! Choice of the linear solver. It depends on the scene alone, so that neither the choice nor the results depend on the machine.
 
 use crate::amounts::{memory, size};
 use crate::diagnostic::Diagnostic;
@@ -12,23 +12,23 @@ use asperity_fem::term::Pattern;
 use asperity_mechanics::solver::{Method, Prepared, Solver, local, moving_mortar, retained, symmetry};
 use asperity_mechanics::{CellBlock, Model, Path, PlannedInterface, Stage, Stepping};
 
-/// Default of `tolerance`. A Newton iteration ends at 1e-11 of the largest force; with one solution at 1e-10 linear steps end
-/// after one or two.
+/// Default of `tolerance`. Newton's method converges to 1e-11 of the largest force; with linear solutions to 1e-10, linear steps take one or two
+/// iterations.
 const TOLERANCE: f64 = 1e-10;
-/// Default of `most_iterations`: twenty times what the hardest case of the benchmark takes.
+/// Default of `most_iterations`: twenty times the number for the hardest case of the benchmark.
 const MOST_ITERATIONS: usize = 2000;
-/// Memory of the iterative method over that of its matrix: 2.5 to 3.8 in the benchmark.
+/// Memory of the iterative method over that of its matrix; 2.5 to 3.8 in the benchmark.
 const HIERARCHY: usize = 4;
-/// Degrees of freedom up to which a plan analyses the system of generated blocks: that takes a second in space. Of larger ones memory follows from
-/// counts, and the run analyses.
+/// Number of degrees of freedom up to which a plan analyses the system of generated blocks, which takes a second in 3D. For larger systems memory is
+/// estimated from counts, and the run does the analysis.
 const ANALYSED: usize = 50_000;
-/// Memory of LU over that of Cholesky of the same pattern: both triangles, before any fill that pivoting adds.
+/// Memory of LU over that of Cholesky with the same pattern: both triangles, without the fill due to pivoting.
 const UNSYMMETRIC: usize = 2;
 
-/// Chooses.
+/// Chooses the linear solver.
 ///
 /// # Errors
-/// [`Diagnostic`] when the method does not serve the scene, or takes more memory than is allowed.
+/// [`Diagnostic`] if the method cannot be used for the scene, or takes more memory than is allowed.
 pub fn choose<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -57,19 +57,19 @@ impl<const D: usize> Choice<'_, D> {
         memory(self.scene)
     }
 
-    /// The first stage with an unsymmetric tangent.
+    /// First stage with an unsymmetric tangent.
     fn unsymmetric(&self) -> Option<&Stage> {
         let general =
             |s: &&Stage| symmetry(self.model, self.interfaces, self.stepping, s) == Symmetry::General;
         self.stages.iter().find(general)
     }
 
-    /// Bytes from counts alone, where the model is large and they say enough.
+    /// Bytes estimated from counts alone, if the model is large and the counts are sufficient.
     fn counted(&self, bytes: impl Fn(&Scene) -> Option<usize>) -> Option<usize> {
         if self.model.dofs() <= ANALYSED { None } else { bytes(self.scene) }
     }
 
-    /// Memory that condensation of the bodies onto `retained` needs, without the interface.
+    /// Memory for condensing the bodies onto `retained`, without the interface.
     fn condensations(&self, retained: &[Vec<usize>]) -> Result<(Prepared, usize), Diagnostic> {
         if let Some(bytes) = self.counted(forecast::condensation) {
             return Ok((Prepared::Nothing, bytes));
@@ -93,7 +93,7 @@ impl<const D: usize> Choice<'_, D> {
         let (prepared, bodies) = self.condensations(&retained)?;
         let mut kept = retained.iter().map(Vec::len).sum::<usize>();
         kept += self.interfaces.iter().map(|i| i.unknowns).sum::<usize>();
-        // The interface's matrix, its factor, and the copy a term hands over.
+        // The interface matrix, its factor, and the copy made for a term.
         let dense = 3 * kept * kept * size_of::<f64>();
         let bytes = bodies + dense;
         if bytes > self.memory() {
@@ -141,12 +141,12 @@ impl<const D: usize> Choice<'_, D> {
         Err(self.too_much(&what, bytes, unsymmetric.is_none()))
     }
 
-    /// True if the iterative method serves where factors do not fit.
+    /// True if the iterative method is a remedy when factors do not fit into memory.
     fn linear_in_space(&self) -> bool {
         D == 3 && self.interfaces.is_empty() && self.model.is_linear()
     }
 
-    /// Numbering of the first stage.
+    /// Equation numbering of the first stage.
     fn equations(&self) -> Equations {
         let constraints = Constraints { fixed: self.stages[0].fixed.clone(), channels: Vec::new() };
         constraints.equations(self.model.dofs())
@@ -213,7 +213,7 @@ impl<const D: usize> Choice<'_, D> {
         })
     }
 
-    /// An error of a system that is too large to be numbered.
+    /// Error for a system that is too large to be numbered.
     fn at_memory(&self, message: String) -> Diagnostic {
         let (solver, materials) = (&self.scene.solver, self.scene.bodies.values().map(|b| b.material.span()));
         let place = solver.memory.as_ref().map(Spanned::span).or(solver.method.as_ref().map(Spanned::span));

@@ -1,4 +1,4 @@
-//! Plans: what will be run, as data, and how it is made from a scene.
+//! Plans of runs, as data, and their construction from scenes.
 
 mod coarse;
 mod cohesive;

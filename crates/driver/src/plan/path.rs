@@ -1,4 +1,4 @@
-//! The choice between the condensed and the full system.
+//! Choice between the condensed and the full system.
 
 use super::{Path, PlannedInterface};
 use crate::diagnostic::Diagnostic;
@@ -6,10 +6,10 @@ use crate::scene::model::{Method, Path as PathChoice, Scene};
 use asperity_contact::Sliding;
 use asperity_mechanics::{Model, solver};
 
-/// Chooses the path of a scene.
+/// Chooses the condensed or the full system for a scene.
 ///
 /// # Errors
-/// [`Diagnostic`] where the scene asks for one that does not serve it.
+/// [`Diagnostic`] if the scene requests one that cannot be used.
 pub fn choose<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -34,22 +34,22 @@ pub fn choose<const D: usize>(
     }
 }
 
-/// True if all bodies together are the better system under finite sliding, whose masters may be much larger than what is in contact.
+/// True if the full system is better under finite sliding, where a master may be much larger than the contact.
 fn too_wide<const D: usize>(model: &Model<D>, interfaces: &[PlannedInterface]) -> bool {
     let kept: usize = solver::retained(model, interfaces).iter().map(Vec::len).sum();
     finite(interfaces) && kept > WIDEST
 }
 
-/// True if an interface slides by any distance.
+/// True if an interface has finite sliding.
 pub fn finite(interfaces: &[PlannedInterface]) -> bool {
     interfaces.iter().any(|i| i.sliding == Sliding::Finite)
 }
 
-/// Degrees of freedom of an interface up to which its dense factors, some seconds for this many, cost less in each iteration than sparse
-/// factors of bodies that have them on their surfaces: half a million unknowns in the plane, a hundred thousand in space.
+/// Number of interface degrees of freedom up to which the dense factors of the interface cost less per iteration than sparse factors of bodies with
+/// that many on their surfaces (half a million unknowns in 2D, a hundred thousand in 3D). Dense factors of this size take some seconds.
 const WIDEST: usize = 3000;
 
-/// The first body that is not linear, and why.
+/// First body that is not linear, with the reason.
 pub fn not_linear<const D: usize>(model: &Model<D>) -> Option<String> {
     model.bodies.iter().find_map(|b| b.nonlinear.map(|why| format!("in body `{}` {why}", b.name)))
 }

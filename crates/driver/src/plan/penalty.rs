@@ -1,8 +1,8 @@
-//! Penalties against the stiffness of the bodies beside an interface, and against what double precision carries.
+//! Checks of penalties against the stiffness of the bodies at an interface and against double precision.
 //!
-//! Compliance that a penalty E_n adds to a contact, and the change of a residual by a pair that opens or closes, are decided by
-//! the softer of the two sides: k = E_n h/E with its E and h. Gaps are differences of positions, which are known to eps X, X the size of the
-//! scene, so that tractions have an error of E_n eps X = k eps (X/h) E.
+//! The compliance that a penalty E_n adds to a contact, and the residual change when a pair opens or closes, depend on the softer of the two sides
+//! through k = E_n h/E, with its E and h. Gaps are differences of positions, which have an error of eps X for a scene of size X. Tractions therefore
+//! have an error of E_n eps X = k eps (X/h) E.
 
 use super::enforcement::in_pascal_per_metre;
 use crate::diagnostic::Diagnostic;
@@ -13,39 +13,39 @@ use crate::scene::units::Penalty;
 use crate::warning::Warning;
 use asperity_fem::mesh::Side;
 
-/// k below which the interface yields more than the row of cells beside it: as a layer of the material would whose thickness is the element
-/// size over k.
+/// k below which the interface is more compliant than the row of cells beside it: like a layer of the material with a thickness of the element size
+/// over k.
 const SOFT: f64 = 1.0;
 
-/// k above which nothing is gained and iterations are lost. The penetration is a hundred-thousandth of what a cell is compressed by, far
-/// below the error of any mesh, and a pair that closes raises the residual by k, which Newton's method answers with shortened steps:
-/// a ball on a flat takes 45 iterations at 1e5, 125 at 1e6 and 24 000 at 1e7.
+/// k above which a stiffer penalty gains nothing and costs iterations. The penetration is then a hundred-thousandth of the compression of a cell, far
+/// below the error of any mesh. A pair that closes raises the residual by k, and Newton's method responds with shortened steps: a ball on a flat
+/// takes 45 iterations at 1e5, 125 at 1e6 and 24 000 at 1e7.
 const STIFF: f64 = 1e5;
 
-/// E/h of one side over that of the other up to which they count as alike.
+/// Ratio of E/h of the two sides up to which they count as similar.
 const ALIKE: f64 = 10.0;
 
-/// Largest error of tractions from rounding of positions, over Young's modulus: a thousandth of the traction at a strain of 1e-3. Beyond it
-/// tractions have fewer than three digits, and residuals cannot be told from rounding.
+/// Largest error of tractions due to rounding of positions, over Young's modulus: a thousandth of the traction at a strain of 1e-3. Above it
+/// tractions have fewer than three digits, and residuals cannot be distinguished from rounding.
 const MOST_ROUNDING: f64 = 1e-6;
 
-/// The softer of the rows of cells on the two sides of an interface.
+/// The softer row of cells on the two sides of an interface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Softer {
-    /// Its body.
+    /// Body of these cells.
     pub body: String,
-    /// E/h of the slave over its own.
+    /// E/h of the slave over that of these cells.
     pub contrast: f64,
-    /// E/h \[Pa/m\].
+    /// Stiffness E/h \[Pa/m\].
     pub young_per_size: f64,
-    /// h \[m\].
+    /// Element size h \[m\].
     pub size: f64,
-    /// X/h.
+    /// Size of the scene over the element size, X/h.
     pub extent: f64,
 }
 
 impl Softer {
-    /// Of the bodies of the slave and the master side.
+    /// Softer row of cells of the slave and the master body.
     #[must_use]
     pub fn of<const D: usize>(
         model: &Model<D>,
@@ -66,12 +66,12 @@ impl Softer {
         }
     }
 
-    /// k of a penalty \[Pa/m\].
+    /// Ratio k of a penalty \[Pa/m\].
     fn factor(&self, penalty: f64) -> f64 {
         penalty / self.young_per_size
     }
 
-    /// Good value of `key`, and the reason why the present one is none.
+    /// Recommended value of `key`, and the reason why the present one is unsuitable.
     fn help(&self, key: &str, kind: EnforcementKind) -> String {
         let good = if kind == EnforcementKind::AugmentedLagrangian { 1.0 } else { 100.0 };
         if self.contrast > ALIKE {
@@ -93,18 +93,18 @@ impl Softer {
     }
 }
 
-/// Place of a penalty in a scene, with its value.
+/// A penalty given in a scene, with its value.
 struct Given<'a> {
     interface: &'a str,
     key: &'static str,
     kind: EnforcementKind,
     penalty: &'a Spanned<Penalty>,
-    /// \[Pa/m\].
+    /// Value \[Pa/m\].
     value: f64,
 }
 
 impl<'a> Given<'a> {
-    /// Those of an interface.
+    /// Penalties of an interface.
     fn of(name: &'a str, spec: &'a Enforcement, softer: &Softer) -> Vec<Self> {
         let keys = [("normal", Some(&spec.normal)), ("tangential", spec.tangential.as_ref())];
         let slave = softer.young_per_size * softer.contrast;
@@ -132,10 +132,10 @@ impl<'a> Given<'a> {
     }
 }
 
-/// Refuses penalties that leave tractions less than three digits.
+/// Refuses penalties that leave tractions with fewer than three digits.
 ///
 /// # Errors
-/// [`Diagnostic`] with the place.
+/// [`Diagnostic`] at the penalty.
 pub fn check(name: &str, spec: &InterfaceSpec, softer: &Softer) -> Result<(), Diagnostic> {
     let beyond = |given: &Given<'_>| {
         let error = softer.factor(given.value) * f64::EPSILON * softer.extent;
@@ -154,7 +154,7 @@ pub fn check(name: &str, spec: &InterfaceSpec, softer: &Softer) -> Result<(), Di
     Given::of(name, &spec.enforcement, softer).iter().find_map(beyond).map_or(Ok(()), Err)
 }
 
-/// Penalties that are far from the stiffness of the softer side.
+/// Warnings about penalties far from the stiffness of the softer side.
 #[must_use]
 pub fn doubts(name: &str, spec: &Enforcement, softer: &Softer) -> Vec<Warning> {
     let doubt = |given: &Given<'_>| {
@@ -172,7 +172,7 @@ pub fn doubts(name: &str, spec: &Enforcement, softer: &Softer) -> Vec<Warning> {
     Given::of(name, spec, softer).iter().filter_map(doubt).collect()
 }
 
-/// The largest penalty in words where it is so large that iterations suffer, for runs that stop.
+/// Description of the largest penalty if it is large enough to impair convergence; for runs that stop.
 #[must_use]
 pub fn blamed(name: &str, spec: &Enforcement, softer: &Softer) -> Option<String> {
     let given = Given::of(name, spec, softer);

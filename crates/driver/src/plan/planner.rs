@@ -1,4 +1,5 @@
-//! Scene -> Plan: the one place where it is decided what is modelled and how. Below it nothing asks what was declared.
+//! Turns a scene into a plan. All decisions about the model and the method are made here; later code does not refer to
+//! the scene.
 
 use super::{AnyPlan, Plan, doubts, interfaces, linear_solver, path, restraint, samples};
 use super::{start_balance, stepping, stress_level, summary};
@@ -12,19 +13,19 @@ use crate::model::{self, sizes};
 use crate::scene::model::Scene;
 use asperity_mechanics::Problem;
 
-/// Request of a scene with bodies.
+/// Plan of a scene with bodies, by kind.
 #[derive(Debug)]
 pub enum ScenePlan {
     /// Stages of bodies and interfaces.
     Bodies(Box<AnyPlan>),
-    /// Faults through earthquake cycles.
+    /// Faults over earthquake cycles.
     Faults(Box<fault::Plan>),
 }
 
 /// Plans a scene of either kind.
 ///
 /// # Errors
-/// [`Diagnostic`] with the place in the scene.
+/// [`Diagnostic`] with the position in the scene.
 pub fn plan_scene(scene: &Scene) -> Result<ScenePlan, Diagnostic> {
     Ok(if scene.faults.is_empty() {
         ScenePlan::Bodies(Box::new(plan(scene)?))
@@ -36,7 +37,7 @@ pub fn plan_scene(scene: &Scene) -> Result<ScenePlan, Diagnostic> {
 /// Plans a scene of bodies and interfaces.
 ///
 /// # Errors
-/// [`Diagnostic`] with the place in the scene.
+/// [`Diagnostic`] with the position in the scene.
 pub fn plan(scene: &Scene) -> Result<AnyPlan, Diagnostic> {
     Ok(match scene.kinematics.get_ref().dimension() {
         2 => AnyPlan::Two(Box::new(plan_in::<2>(scene)?)),

@@ -1,6 +1,6 @@
-//! Tractions that the initial stress of the bodies exerts on an interface before anything moves.
+//! Initial tractions on an interface due to the initial stress of the bodies.
 //!
-//! With the stress σ and the outward normal n of the slave the force per area on the slave is σn. Both sides need the same.
+//! With the stress σ and the outward normal n of the slave, the force per area on the slave is σn. Both sides must give the same.
 
 use super::SHARE;
 use crate::diagnostic::Diagnostic;
@@ -11,13 +11,13 @@ use asperity_fem::mesh::{Side, nodes_of_sides};
 use asperity_fem::surface;
 use asperity_mechanics::{Pressed, coordinates};
 
-/// Difference of the forces of both sides on a node over the largest up to which they balance: rounding of stresses given in a scene.
+/// Largest relative difference of the nodal forces of both sides that count as balanced: rounding of stresses given in a scene.
 const BALANCED: f64 = 1e-6;
 
-/// The tractions of an interface that starts with them.
+/// Initial tractions of an interface that has them.
 ///
 /// # Errors
-/// [`Diagnostic`] where a body has no initial stress, and where both exert different tractions.
+/// [`Diagnostic`] if a body has no initial stress, or if both bodies exert different tractions.
 pub fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -68,7 +68,7 @@ pub fn of<const D: usize>(
     }
     let masters = nodes_of_sides(&model.mesh, master);
     let nodes = nodes_of_sides(&model.mesh, slave).into_iter().enumerate();
-    // Both lists ascend by node, with one entry for each component.
+    // Both lists are ordered by node, with one entry per component.
     let points = nodes.filter(|(_, n)| masters.binary_search(n).is_err()).map(|(k, node)| {
         let entry = |list: &[(usize, f64)]| -> [f64; D] { std::array::from_fn(|c| list[k * D + c].1) };
         let normal = entry(&normals);
@@ -77,7 +77,7 @@ pub fn of<const D: usize>(
         let area = areas[&node];
         let padded = |v: [f64; D]| std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0));
         let at = here.traction(&model.mesh.nodes[node], &unit);
-        // A corner of a six-node triangle stands for no area, and has no mean.
+        // A corner of a six-node triangle has no tributary area, hence no mean.
         let mean = if area > 0.0 { entry(&forces).map(|f| f / area) } else { at };
         (padded(at), padded(mean))
     });

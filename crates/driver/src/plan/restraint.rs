@@ -1,4 +1,4 @@
-//! Bodies that their conditions do not hold: remarks where contact does, and what would help where nothing does.
+//! Bodies that are not restrained by their conditions: remarks if contact holds them, remedies if nothing does.
 
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::Scene;
@@ -6,7 +6,7 @@ use asperity_fem::mesh::face_nodes;
 use asperity_mechanics::restraint::{self, Motion};
 use asperity_mechanics::{Model, PlannedInterface, Stage, coordinates};
 
-/// Checks all bodies in all stages. Returns remarks on bodies that contact alone holds.
+/// Checks all bodies in all stages. Returns remarks about bodies that contact alone holds.
 ///
 /// # Errors
 /// [`Diagnostic`] naming the body, the motion and the stage.
@@ -34,7 +34,7 @@ pub fn check<const D: usize>(
     }
 }
 
-/// The part of a body that moves.
+/// Description of the part of a body that can move.
 fn part<const D: usize>(model: &Model<D>, moving: &Motion) -> String {
     let body = &model.bodies[moving.body];
     match body.parts.len() {
@@ -47,10 +47,10 @@ fn part<const D: usize>(model: &Model<D>, moving: &Motion) -> String {
     }
 }
 
-/// Sets of a body that are named in a remedy; more would hide it.
+/// Largest number of sets of a body named in a remedy; more would obscure it.
 const MOST_NAMED: usize = 8;
 
-/// Remedy that would hold a body.
+/// Remedy that would restrain a body.
 fn remedy<const D: usize>(model: &Model<D>, body: &str, loose: &str) -> String {
     let own = |set: &&String| set.strip_prefix(body).is_some_and(|rest| rest.starts_with('.'));
     let sets: Vec<&String> = model.mesh.side_sets.keys().filter(own).collect();
@@ -72,11 +72,11 @@ fn remedy<const D: usize>(model: &Model<D>, body: &str, loose: &str) -> String {
     )
 }
 
-/// True if the faces of a set are turned along an axis.
+/// True if the faces of a set are normal to an axis.
 fn is_across<const D: usize>(model: &Model<D>, set: &str, axis: usize) -> bool {
     let mut faces = model.mesh.side_sets[set].iter().map(|side| face_nodes(&model.mesh, side));
     faces.all(|face| axis < D && model.face_normal(&face)[axis].abs() > ACROSS)
 }
 
-/// Part of a normal along an axis from which a face lies across it: within 25 degrees.
+/// Component of a unit normal along an axis above which a face counts as normal to it: within 25 degrees.
 const ACROSS: f64 = 0.9;

@@ -1,4 +1,4 @@
-//! Points and sets of a scene whose values are asked for, found in the bodies.
+//! Points and sets whose values a scene requests, located in the bodies.
 
 use crate::diagnostic::Diagnostic;
 use crate::model::{self, Model};
@@ -7,10 +7,10 @@ use asperity_fem::mesh::locate;
 use asperity_mechanics::coordinates::in_words;
 use asperity_mechanics::{ForceSet, Point, Wanted};
 
-/// Finds the points and sets of a scene.
+/// Locates the points and sets of a scene.
 ///
 /// # Errors
-/// [`Diagnostic`] for a point outside its body and a set that does not exist.
+/// [`Diagnostic`] for a point outside its body or a set that does not exist.
 pub fn find<const D: usize>(scene: &Scene, model: &Model<D>) -> Result<Wanted, Diagnostic> {
     let points = scene.output.points.iter().map(|(name, spec)| point(model, name, spec));
     let forces = scene.output.forces.iter().map(|(name, spec)| {

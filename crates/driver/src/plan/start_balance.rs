@@ -1,4 +1,4 @@
-//! Imbalance of initial stress, weight, loads and interfaces before anything moves.
+//! Imbalance of initial stress, weight, loads and interfaces at the start.
 
 use super::{PlannedInterface, Stepping};
 use crate::diagnostic::Diagnostic;
@@ -10,38 +10,38 @@ use asperity_friction::law::{Regime, Responses, Trials};
 use asperity_mechanics::coordinates::in_words;
 use asperity_mechanics::{CellBlock, Model, Stage, declared};
 
-/// Unbalanced forces, over the largest initial stress on a face as large as a body, from which bodies settle by more than errors of the
-/// mesh: where meshes of two bodies do not match, a stress that varies leaves some h/10H on H/h cells.
+/// Ratio of the unbalanced forces to the largest initial stress on a face the size of the body, above which the body settles by more than mesh
+/// errors. Where the meshes of two bodies do not match, a varying stress leaves about h/10H with H/h cells.
 const SETTLES: f64 = 1e-2;
 
-/// Missing part, perhaps.
+/// Hints at what may be missing.
 const BEARS: &str = "interfaces bear the stress from the start with `initial_stress = true`";
 const BALANCES: &str = "weight needs a stress that grows with depth (`kind = \"lithostatic\"`), free sides the tractions that the stress exerts there; leave it \
                         so where the stress is meant as a load";
 
-/// Shares that are rounding.
+/// Ratio below which a force is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Share of a shear traction that friction may take off before a point counts as slipping: rounding.
+/// Fraction of a shear traction that friction may remove before a point counts as slipping: rounding.
 const HELD: f64 = 1e-9;
 
-/// Unbalanced force.
+/// Unbalanced force of the bodies.
 struct Left<const D: usize> {
     /// Sum of the unbalanced forces over the largest stress times a face of the size of the body \[-\].
     share: f64,
-    /// Largest unbalanced force \[N; N/m\], its node and axis.
+    /// Largest unbalanced force \[N; N/m\], with its node and axis.
     largest: (f64, usize, usize),
 }
 
-/// Start of an interface.
+/// Initial state of an interface.
 struct Start {
-    /// In words.
+    /// Description for the plan.
     remark: String,
     /// True if friction does not hold all points.
     slips: bool,
 }
 
-/// A remark on the start of bodies with an initial stress, and a warning where it is not in balance.
+/// Remarks on the start of bodies with an initial stress, and a warning if it is not in balance.
 ///
 /// # Errors
 /// [`Diagnostic`] for an interface that cannot be built.
@@ -96,7 +96,7 @@ fn unit<const D: usize>(model: &Model<D>) -> &'static str {
     if D == 2 && model.idealisation.weight(&[0.0; D]) == 1.0 { "N/m" } else { "N" }
 }
 
-/// Internal less external forces of the bodies, without displacement at time zero.
+/// Internal minus external forces of the bodies at zero displacement and time zero.
 fn of_bodies<const D: usize>(model: &Model<D>, stage: &Stage) -> Vec<f64> {
     let (mut r, u) = (vec![0.0; model.dofs()], vec![0.0; model.dofs()]);
     for channel in &stage.constraints(&u).channels {
@@ -119,7 +119,7 @@ fn of_bodies<const D: usize>(model: &Model<D>, stage: &Stage) -> Vec<f64> {
     r
 }
 
-/// Adds the forces of an interface that the initial stress presses, and says what it bears.
+/// Adds the forces of an interface that the initial stress presses, and describes its tractions.
 fn pressed<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -164,7 +164,7 @@ fn pressed<const D: usize>(
     Ok(Some(Start { remark, slips: slips > 0 }))
 }
 
-/// Points whose shear traction a law with a yield surface does not bear.
+/// Number of points whose shear traction exceeds the yield surface of the law.
 fn slipping(law: &dyn asperity_friction::law::Law, borne: &[(f64, f64)], stiffness: f64) -> usize {
     if !law.has_elastic_domain() || law.bonded() {
         return 0;
@@ -186,7 +186,7 @@ fn slipping(law: &dyn asperity_friction::law::Law, borne: &[(f64, f64)], stiffne
     out[0].iter().zip(&trial).filter(|(t, e)| **t < **e * (1.0 - HELD)).count()
 }
 
-/// Largest component of the initial stress at a node \[Pa\].
+/// Largest component of the initial stress at any node \[Pa\].
 fn largest_stress<const D: usize>(scene: &Scene, model: &Model<D>) -> f64 {
     let fields = model.bodies.iter().filter_map(|b| Some((b, initial_stress::of_body(scene, &b.name)?)));
     fields
@@ -195,7 +195,7 @@ fn largest_stress<const D: usize>(scene: &Scene, model: &Model<D>) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Force left at degrees of freedom that no condition holds, of the body where it is largest.
+/// Unbalanced force at free degrees of freedom, for the body where it is largest.
 fn of_free<const D: usize>(model: &Model<D>, stage: &Stage, r: &[f64], stress: f64) -> Left<D> {
     let components = model.idealisation.components();
     let mut left = Left { share: 0.0, largest: (0.0, 0, 0) };
@@ -216,7 +216,7 @@ fn of_free<const D: usize>(model: &Model<D>, stage: &Stage, r: &[f64], stress: f
     left
 }
 
-/// Area of a face as large as a body: the largest of its bounding box; about an axis that of the full circle \[m²; m\].
+/// Area of the largest face of the bounding box of a body; in axisymmetry, of the full circle \[m²; m\].
 fn face<const D: usize>(model: &Model<D>, nodes: std::ops::Range<usize>) -> f64 {
     let (min, max) = asperity_mechanics::bounds(&model.mesh.nodes[nodes]);
     let edge = |c: usize| max[c] - min[c];

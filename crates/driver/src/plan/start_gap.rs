@@ -5,22 +5,22 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
-/// Share of the element size from which an overlap or an opening at the start is told: less comes from facets about a curve, whose sagitta
-/// is h²/8R, a fortieth of h where eight facets span a radian.
+/// Fraction of the element size above which an initial overlap or opening is reported. Smaller ones come from facets of a curved surface: their
+/// sagitta is h²/8R, a fortieth of h with eight facets per radian.
 pub const SHARE: f64 = 0.1;
 
-/// The start of an interface.
+/// Initial gaps of an interface.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct StartGap {
     /// Interface.
     pub interface: String,
-    /// Slave points.
+    /// Number of slave points.
     pub points: usize,
-    /// Those that face the master: they have a partner, and it looks at them.
+    /// Number of points that face the master: they have a partner, and its face points towards them.
     pub facing: usize,
-    /// Those without partner.
+    /// Number of points without partner.
     pub unpaired: usize,
-    /// Least and largest gap of those that face the master \[m\], negative where the bodies overlap.
+    /// Least and largest gap of the facing points \[m\]; negative where the bodies overlap.
     pub gap: [f64; 2],
     /// Area that faces the master \[m², m per metre of thickness\].
     pub facing_area: f64,

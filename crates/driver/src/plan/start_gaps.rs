@@ -1,4 +1,4 @@
-//! Positions of the sides of the interfaces before the first step: gaps, overlaps and facing, measured as the contact will measure.
+//! Initial gaps, overlaps and facing area of the sides of the interfaces, measured as the contact measures them.
 
 use super::{PlannedInterface, SHARE, StartGap, Stepping};
 use crate::diagnostic::Diagnostic;
@@ -12,17 +12,16 @@ use asperity_fem::surface;
 use asperity_mechanics::{Model, Stage, bounds, declared};
 use std::collections::BTreeMap;
 
-/// Rounding of a gap over the size of the scene: what the contact takes for closed without traction.
+/// Rounding error of a gap over the size of the scene; contact treats smaller gaps as closed without traction.
 const ROUNDING: f64 = 1e-12;
 
-/// Distance by which sides can come together, over what the conditions prescribe: both sides may move, and a body that is squeezed bulges by
-/// less than it is squeezed.
+/// Distance by which two sides can approach, over the prescribed motion. Both sides may move, and a squeezed body bulges by less than it is squeezed.
 const REACH: f64 = 3.0;
 
-/// Measures the start of an interface.
+/// Measures the initial gaps of an interface.
 ///
 /// # Errors
-/// [`Diagnostic`] at the slave where nothing can ever touch, or where the sides are the wrong ones.
+/// [`Diagnostic`] at the slave if the sides can never touch, or are the wrong ones.
 pub fn measure<const D: usize>(
     model: &Model<D>,
     stepping: &Stepping,
@@ -31,7 +30,7 @@ pub fn measure<const D: usize>(
 ) -> Result<StartGap, Diagnostic> {
     let number: Vec<usize> = (0..model.dofs()).collect();
     let mut declared = declared::spec(model, stepping, planned, &number, 0.0, 0);
-    // Where the sides are depends neither on the law nor on the enforcement.
+    // Positions of the sides depend neither on the law nor on the enforcement.
     (declared.enforcement, declared.law) = (Enforcement::Penalty, None);
     let built = Interface::new(declared).map_err(|e| {
         Diagnostic::at(
@@ -63,7 +62,7 @@ pub fn measure<const D: usize>(
     refuse(model, planned, spec, &start, points).map_or(Ok(start), Err)
 }
 
-/// True if the slave side at a point and the master look at each other.
+/// True if the slave side at a point and the master face each other.
 fn looks_at<const D: usize>(slave: &[f64; D], points: &PointFields<D>, p: usize) -> bool {
     slave.iter().zip(&points.normal[p]).map(|(a, b)| a * b).sum::<f64>() < 0.0
 }
@@ -80,7 +79,7 @@ fn slave_normals<const D: usize>(model: &Model<D>, planned: &PlannedInterface) -
     normals
 }
 
-/// Sides that cannot be meant.
+/// Error for sides that are certainly wrong.
 fn refuse<const D: usize>(
     model: &Model<D>,
     planned: &PlannedInterface,
@@ -99,7 +98,8 @@ fn refuse<const D: usize>(
             "choose the side of each body that looks at the other",
         ));
     }
-    // Bodies that hold each other (a ring around a shaft) do not overlap by more than either is thick.
+    // Bodies that enclose each other, such as a ring around a shaft, do not overlap by more than the thickness of
+    // either.
     let deepest = -start.gap[1];
     let p = (0..points.gap.len()).find(|&p| points.gap[p].is_finite())?;
     let bodies = [slave, master].map(|set| model.body_of(set));
@@ -122,13 +122,13 @@ fn refuse<const D: usize>(
     })
 }
 
-/// Extent of a body along a direction \[m\], of its bounding box.
+/// Extent of the bounding box of a body along a direction \[m\].
 fn thickness<const D: usize>(model: &Model<D>, body: usize, n: &[f64; D]) -> f64 {
     let (min, max) = bounds(&model.mesh.nodes[model.bodies[body].nodes.clone()]);
     (0..D).map(|c| n[c].abs() * (max[c] - min[c])).sum()
 }
 
-/// Doubts about the start of an interface whose slave has cells of size `h`; a bonded one keeps the gaps it has.
+/// Warning about the initial gaps of an interface whose slave cells have size `h`; a bonded interface keeps its gaps.
 pub fn doubts(start: &StartGap, (spec, bonded): (&Spec, bool), stages: &[Stage], h: f64) -> Option<Warning> {
     let [least, largest] = start.gap;
     let name = &start.interface;

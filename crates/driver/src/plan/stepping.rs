@@ -1,4 +1,4 @@
-//! The stepper of a scene, and the control of its steps.
+//! Time stepper of a scene and its step control.
 
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::{Rule, Scene, Stepper};
@@ -8,24 +8,25 @@ use asperity_mechanics::{Control, Stage, Stepping};
 
 /// Default bound on the local error of slip per step, relative to the largest prescribed displacement.
 const SLIP_TOLERANCE: f64 = 2e-5;
-/// Default bound on the estimated error of friction coefficients of a step, where a law has a state: over velocity steps, holds and what
-/// follows them it leaves errors of up to 5e-5 (case `interface_rate_state`).
+/// Default bound on the estimated error of friction coefficients per step, if a law has a state variable. Over velocity steps, holds and the
+/// subsequent response it gives errors of up to 5e-5 (case `interface_rate_state`).
 const FRICTION_TOLERANCE: f64 = 2e-6;
-/// The kind of such laws.
+/// Kind of these laws.
 const RATE_AND_STATE: &str = "rate-and-state";
 /// Default bound r8 on |Δ ln V|.
 const RATE_CHANGE: f64 = 0.5;
 /// Default ζ of r8.
 const ZETA: f64 = 0.1;
-/// Residual a forward step may leave, over the largest force, where the scene does not say: a tenth of what tractions are read to.
+/// Default residual that a forward step may leave, over the largest force: a tenth of the precision to which tractions are read.
 const DRIFT: f64 = 1e-4;
-/// The same where laws follow rates, which feel what is out of balance: it errs in friction as much as some tens of steps may ([`FRICTION_TOLERANCE`]).
+/// The same for laws that depend on slip rate, which respond to unbalanced forces. Its error in friction is that of some tens of steps
+/// ([`FRICTION_TOLERANCE`]).
 const RATE_DRIFT: f64 = 1e-5;
 
-/// The stepper of a scene.
+/// Chooses the stepper of a scene.
 ///
 /// # Errors
-/// [`Diagnostic`] for the stepper of faults, which bodies alone do not have.
+/// [`Diagnostic`] for the stepper of faults, which bodies alone cannot use.
 pub fn choose(scene: &Scene) -> Result<Stepping, Diagnostic> {
     let time = &scene.time;
     let usual = if evolves(scene) { Rule::Bdf2 } else { Rule::BackwardEuler };
@@ -55,20 +56,20 @@ pub fn choose(scene: &Scene) -> Result<Stepping, Diagnostic> {
     })
 }
 
-/// True if some interface has a law of slip rate and state.
+/// True if an interface has a rate-and-state law.
 fn evolves(scene: &Scene) -> bool {
     let mut kinds = scene.interfaces.values().filter_map(|i| i.law.as_ref()?.get_ref().kind.as_ref());
     kinds.any(|kind| kind.get_ref() == RATE_AND_STATE)
 }
 
-/// The control of the steps of a scene with these stages.
+/// Step control of a scene with these stages.
 pub fn control(scene: &Scene, stages: &[Stage]) -> Control {
     let time = &scene.time;
     let travel = stages.iter().map(|s| s.largest_rate() * (s.end - s.start)).fold(0.0, f64::max);
-    // Where nothing is moved there is no travel to compare slip with, and static-explicit steps have the R-minimum rule.
+    // Without motion there is no displacement to compare slip with; static-explicit steps use the R-minimum rule.
     let adapts = travel > 0.0 && *time.stepper.get_ref() == Stepper::Implicit;
     let usual = if adapts { SLIP_TOLERANCE * travel } else { f64::INFINITY };
-    // Without a state nothing remembers an error of friction: what points leave behind as they begin to slip one by one need not be small.
+    // Without a state variable errors of friction do not persist, so the error as points begin to slip one by one need not be small.
     let accuracy = if evolves(scene) { FRICTION_TOLERANCE } else { f64::INFINITY };
     Control {
         tolerance: time.tolerance.as_ref().map_or(usual, |t| t.get_ref().0),

@@ -1,4 +1,4 @@
-//! Position of bodies below the level of their lithostatic stress.
+//! Check that bodies lie below the level of their lithostatic stress.
 
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress::vertical;
@@ -6,10 +6,10 @@ use crate::lengths::brief;
 use crate::model::{Model, bounds};
 use crate::scene::model::{InitialStress, Scene, Spanned, StressKind};
 
-/// Heights above the level of a lithostatic stress that are rounding, over the size of the scene.
+/// Height above the level of a lithostatic stress that counts as rounding, relative to the size of the scene.
 const ROUNDING: f64 = 1e-9;
 
-/// Refuses bodies that reach above the level of their lithostatic stress, where it would pull.
+/// Refuses bodies that reach above the level of their lithostatic stress, where the stress would be tensile.
 ///
 /// # Errors
 /// [`Diagnostic`] at the level.

@@ -1,4 +1,4 @@
-//! The plan in words.
+//! Text of the plan.
 
 use super::Summary;
 use super::path::{finite, full_because};
@@ -12,7 +12,7 @@ use asperity_mechanics::{
     CellBlock, Enforced, Measure, Model, Path, PlannedInterface, Stepping, interface_nodes,
 };
 
-/// The summary of a plan, but for what is found of its start.
+/// Summary of a plan, except for the findings about its initial state.
 pub fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -76,7 +76,7 @@ pub fn of<const D: usize>(
     }
 }
 
-/// Materials of the bodies, one line for each kind there is.
+/// Descriptions of the materials of the bodies, one line per kind.
 fn bodies_in_words<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<String> {
     let mut lines: Vec<(String, Vec<&str>, usize)> = Vec::new();
     for body in &model.bodies {
@@ -125,7 +125,7 @@ fn bodies_in_words<const D: usize>(scene: &Scene, model: &Model<D>) -> Vec<Strin
     lines.into_iter().map(line).collect()
 }
 
-/// A number with its noun.
+/// A count with its noun in the singular or plural.
 fn counted(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
@@ -149,7 +149,7 @@ fn describe(stepping: &Stepping, limits: bool, slips: bool) -> String {
     }
 }
 
-/// The enforcement of an interface in words.
+/// Description of the enforcement of an interface.
 fn enforced(interface: &PlannedInterface) -> String {
     let kind = if interface.law.as_ref().is_some_and(|l| l.bonded()) { "tied" } else { "contact" };
     match interface.enforced {

@@ -1,4 +1,4 @@
-//! A plan as data, and its summary as it is printed.
+//! A plan as data, and its summary for printing.
 
 use super::start_gap::StartGap;
 use crate::warning::Warning;
@@ -11,27 +11,27 @@ use serde::Serialize;
 pub struct Plan<const D: usize> {
     /// Title of the scene.
     pub title: String,
-    /// Computation.
+    /// Problem to compute.
     pub problem: Problem<D>,
     /// Field outputs per stage.
     pub field_outputs: usize,
     /// Profile outputs per stage.
     pub profile_outputs: usize,
-    /// Printed text.
+    /// Summary for printing.
     pub summary: Summary,
 }
 
-/// A plan in either dimension.
+/// A plan in two or three dimensions.
 #[derive(Debug)]
 pub enum AnyPlan {
-    /// Plane.
+    /// Two-dimensional.
     Two(Box<Plan<2>>),
     /// Three-dimensional.
     Three(Box<Plan<3>>),
 }
 
 impl AnyPlan {
-    /// Printed text.
+    /// Summary for printing.
     #[must_use]
     pub fn summary(&self) -> &Summary {
         match self {
@@ -40,7 +40,7 @@ impl AnyPlan {
         }
     }
 
-    /// Warnings, to be given their places.
+    /// Warnings, so that their positions in the scene can be added.
     pub fn warnings_mut(&mut self) -> &mut [Warning] {
         match self {
             Self::Two(p) => &mut p.summary.warnings,
@@ -58,28 +58,28 @@ impl AnyPlan {
     }
 }
 
-/// The plan in words and numbers.
+/// Summary of the plan.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Summary {
-    /// Physics that is present, and why.
+    /// Physics included, and the reasons.
     pub physics: Vec<String>,
-    /// Path taken, and why.
+    /// System that is solved, and the reason.
     pub path: String,
-    /// Solver of the linear systems, and why.
+    /// Linear solver, and the reason.
     pub solver: String,
     /// Stepper.
     pub stepper: String,
     /// Remarks: bodies held by contact alone, unpaired nodes.
     pub remarks: Vec<String>,
-    /// Settings that are probably not meant as they stand in the scene.
+    /// Warnings about settings that are probably not intended.
     pub warnings: Vec<Warning>,
     /// Positions of the sides of the interfaces before the first step.
     pub start_gaps: Vec<StartGap>,
     /// Degrees of freedom of the bodies.
     pub dofs: usize,
-    /// Degrees of freedom of the system a step solves.
+    /// Degrees of freedom of the system solved in a step.
     pub system_dofs: usize,
-    /// State variables of friction, in bytes; absent without interfaces.
+    /// Size of the state variables of friction \[bytes\]; absent without interfaces.
     pub state_bytes: Option<usize>,
     /// Estimated memory \[bytes\].
     pub memory_bytes: usize,

@@ -1,4 +1,4 @@
-//! Limits on the steps of an interface: derived from its law, the bodies beside it and the loads.
+//! Limits on the steps of an interface, derived from its law, the adjacent bodies and the loads.
 
 use crate::diagnostic::Diagnostic;
 use crate::model::{self, Model};
@@ -11,17 +11,17 @@ use asperity_friction::kind::{self, Weakening};
 use asperity_mechanics::LOADING;
 use std::collections::BTreeSet;
 
-/// Density where a scene declares none \[kg/m³\]: crustal rock has 2500 to 3000.
+/// Density used if a scene declares none \[kg/m³\]; crustal rock has 2500 to 3000.
 const ROCK: f64 = 2700.0;
-/// Largest slip of an implicit step over the length along which a law weakens, as limit r8 has it.
+/// Largest slip of an implicit step over the weakening length of a law, as in limit r8.
 const ZETA: f64 = 0.1;
-/// Largest slip over L, in units of a/b: up to about a L/b the equations of a step have one solution.
+/// Largest slip of a step over L, in units of a/b. Up to about a L/b the equations of a step have a unique solution.
 const UNIQUE: f64 = 0.5;
 
 /// Limits on the steps of an interface between these faces; `loading` is the largest prescribed rate \[m/s\].
 ///
 /// # Errors
-/// [`Diagnostic`] where a body has no material.
+/// [`Diagnostic`] if a body has no material.
 pub fn of<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -41,7 +41,7 @@ pub fn of<const D: usize>(
     Ok(Watch { rate, course: course(law), coarse_beyond: None })
 }
 
-/// a of a law that depends on the slip rate.
+/// Direct effect a of a law that depends on the slip rate.
 fn direct_effect(law: &LawChoice) -> Option<f64> {
     match law {
         LawChoice::Rate { strength, .. } | LawChoice::RateAndState { strength, .. } => Some(strength.a),
@@ -49,7 +49,7 @@ fn direct_effect(law: &LawChoice) -> Option<f64> {
     }
 }
 
-/// Loss of strength of a law.
+/// Course of weakening of a law.
 fn course(law: &LawChoice) -> Course {
     match law {
         LawChoice::Rate { .. } => Course::Steady,
@@ -67,7 +67,7 @@ fn course(law: &LawChoice) -> Course {
 fn by_state(a: f64, evolution: &Evolution, states: &[State]) -> Course {
     let b: f64 = states.iter().map(|s| s.b).sum();
     let length = states.iter().map(|s| s.l).fold(f64::INFINITY, f64::min);
-    // What is lost at high rates beyond the steady state, as to flash heating, has no b.
+    // Weakening at high rates beyond the steady state, such as by flash heating, is not included in b.
     let front = evolution::definition(evolution.name).map(|row| row.front);
     let weakened = matches!(front, Some(Front::Slip { weakened: Some(_) }));
     if (b > a || weakened) && length.is_finite() {

@@ -1,20 +1,21 @@
-//! Part common to every `report.json`: its schema, the outcome, and the provenance.
+//! Part common to every `report.json`: version, outcome and provenance.
 
 use asperity_cycles::Energy;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Version of the form of `report.json`. It grows where a key changes its meaning or goes, not where one is added.
+/// Version of the format of `report.json`. It increases if a key is removed or changes its meaning, not if one is
+/// added.
 pub const SCHEMA: u32 = 1;
 
-/// Command that was run.
+/// Kind of run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// Bodies with interfaces, through stages.
+    /// Bodies with interfaces, in stages.
     Bodies,
-    /// Faults through cycles.
+    /// Faults over earthquake cycles.
     Faults,
     /// Spring-sliders.
     Sliders,
@@ -24,24 +25,24 @@ pub enum Kind {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// At the end or after the events asked for.
+    /// The run reached its end, or the requested number of events.
     #[default]
     Completed,
-    /// The run could not go on; everything before `time` stands.
+    /// The run could not continue; everything before `time` is valid.
     Stopped {
-        /// Stage, where the scene has several.
+        /// Stage, if the scene has several.
         #[serde(skip_serializing_if = "Option::is_none")]
         stage: Option<String>,
-        /// Time of the last good state \[s\].
+        /// Time of the last valid state \[s\].
         time: f64,
         /// Reason.
         reason: String,
-        /// Kind of end.
+        /// Kind of failure.
         kind: Stop,
     },
-    /// A signal or its wall time ended it; everything before `time` stands.
+    /// A signal or the limit of wall time ended the run; everything before `time` is valid.
     Interrupted {
-        /// Stage, where the scene has several.
+        /// Stage, if the scene has several.
         #[serde(skip_serializing_if = "Option::is_none")]
         stage: Option<String>,
         /// Time of the last state \[s\].
@@ -62,7 +63,7 @@ impl Outcome {
         }
     }
 
-    /// Reason why the run ended before its end, where it did.
+    /// Reason why the run ended early, if it did.
     #[must_use]
     pub fn reason(&self) -> Option<&str> {
         match self {
@@ -72,30 +73,30 @@ impl Outcome {
     }
 }
 
-/// Reason why a run could not go on.
+/// Reason why a run could not continue.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Stop {
-    /// No solution was found in steps of any length.
+    /// No solution was found with steps of any length.
     NotConverged,
-    /// The accuracy asked for needs steps below the smallest allowed.
+    /// The requested accuracy needs steps below the smallest allowed.
     SmallestStep,
-    /// The rates have no integral beyond this time, or not in so many steps.
+    /// The rates cannot be integrated beyond this time, or not within the allowed number of steps.
     Integration,
-    /// A point was about to slide where less than one point stands on the length over which a front of slip loses strength.
+    /// A point was about to slide where the length over which a slip front loses strength holds less than one point.
     UnderResolved {
         /// Interface.
         interface: String,
-        /// The point \[m\].
+        /// Position of the point \[m\].
         position: [f64; 3],
     },
-    /// No quasi-static state follows the last one.
+    /// There is no quasi-static state after the last one.
     Instability {
         /// Interface.
         interface: String,
-        /// Point at which it was met \[m\].
+        /// Position of the point at which the instability was detected \[m\].
         position: [f64; 3],
-        /// Slip rate there in the state that was not accepted \[m/s\].
+        /// Slip rate there in the rejected state \[m/s\].
         slip_rate: f64,
     },
 }
@@ -104,13 +105,13 @@ pub enum Stop {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
-    /// It goes on, or was killed.
+    /// The run is in progress, or was killed.
     Running,
-    /// It ended as asked.
+    /// The run ended as requested.
     Completed,
-    /// It could not go on.
+    /// The run could not continue.
     Stopped,
-    /// A signal or its wall time ended it.
+    /// A signal or the limit of wall time ended the run.
     Interrupted,
 }
 
@@ -119,16 +120,16 @@ pub enum Status {
 pub struct Origin {
     /// Path of the scene file.
     pub scene: String,
-    /// Time at which it was begun, or resumed.
+    /// Time at which the run was begun or resumed.
     pub started: String,
 }
 
-/// Wall time per phase \[s\]; what a kind of run does not tell apart belongs to its steps.
+/// Wall time per phase \[s\]. Phases that a kind of run does not separate are included in its steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Phases {
-    /// Reading, meshes, stiffness; of faults also the condensation.
+    /// Reading, meshes and stiffness; with faults, also the condensation.
     pub plan: f64,
-    /// Condensation, pairing, factorisations of bodies.
+    /// Condensation, pairing and factorisations of bodies.
     pub set_up: f64,
     /// Steps.
     pub steps: f64,
@@ -136,17 +137,17 @@ pub struct Phases {
     pub output: f64,
 }
 
-/// Facts that may differ from machine to machine and from run to run.
+/// Facts that may differ between machines and between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Provenance<'a> {
     /// Wall time; absent until the run has ended.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seconds: Option<Phases>,
-    /// Threads.
+    /// Number of threads.
     pub threads: usize,
-    /// Commit of the program, "unknown" outside a checkout; with `-dirty` where its sources had changed since.
+    /// Commit of the program, "unknown" outside a checkout; with the suffix `-dirty` if its sources had been modified.
     pub commit: &'static str,
-    /// Most memory the process had until then \[bytes\]; absent where the system does not say.
+    /// Peak memory of the process \[bytes\]; absent if the system does not report it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak_bytes: Option<usize>,
     /// Input of the run.
@@ -154,12 +155,12 @@ pub struct Provenance<'a> {
     pub origin: &'a Origin,
 }
 
-/// A report as it is written.
+/// A report as written to its file.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Report<'a, P> {
-    /// Version of its form.
+    /// Version of the format.
     pub schema: u32,
-    /// Command that was run.
+    /// Kind of run.
     pub kind: Kind,
     /// Status of the run.
     pub status: Status,
@@ -169,27 +170,27 @@ pub struct Report<'a, P> {
     pub version: &'static str,
     /// SHA-256 of the scene file.
     pub scene_sha256: &'a str,
-    /// SHA-256 of the mesh files it reads, by their names in the scene; absent until they are read.
+    /// SHA-256 of the mesh files, by their names in the scene; absent until they are read.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub meshes_sha256: Option<&'a BTreeMap<String, String>>,
-    /// Machine-dependent.
+    /// Machine-dependent part.
     pub run: Provenance<'a>,
-    /// Part of its own kind.
+    /// Part that depends on the kind of run.
     #[serde(flatten)]
     pub results: P,
 }
 
-/// Words about a run that has not ended, or ended without results.
+/// Report of a run that has not ended, or that ended without results.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Sketch {
-    /// The error with which it ended; absent while it goes on.
+    /// Error with which the run ended; absent while it is in progress.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
 
-/// Part of the report of its own kind.
+/// Part of a report that depends on the kind of run.
 pub trait Results: Serialize {
-    /// Its kind.
+    /// Kind of run.
     const KIND: Kind;
 
     /// Outcome.
@@ -207,10 +208,10 @@ pub(crate) fn commit() -> &'static str {
 /// Energy budget with its imbalance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct EnergyBalance {
-    /// Energy budget \[J; J per metre of thickness in the plane; J/m² of spring-sliders\].
+    /// Energy budget \[J; J per metre of thickness in 2D; J/m² for spring-sliders\].
     #[serde(flatten)]
     pub parts: Energy,
-    /// |loads + opening - elastic - friction - radiated - kinetic| over the largest of them \[-\].
+    /// loads + opening - elastic - friction - radiated - kinetic| over the largest of these terms \[-\].
     pub imbalance: f64,
 }
 

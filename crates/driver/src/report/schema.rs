@@ -1,4 +1,4 @@
-//! The JSON Schema of `report.json`.
+//! JSON Schema of `report.json`.
 
 use super::RunReport;
 use super::common::{Kind, Report, Results, SCHEMA, Sketch};
@@ -7,7 +7,7 @@ use schemars::generate::{SchemaGenerator, SchemaSettings};
 use schemars::{JsonSchema, Schema};
 use serde_json::{Value, json};
 
-/// The schema, of draft 2020-12: a report is that of one of the kinds of runs, or of a run that has no results.
+/// JSON Schema, draft 2020-12. A report is that of one kind of run, or of a run without results.
 #[must_use]
 pub fn schema() -> Value {
     let mut generator = SchemaSettings::draft2020_12().for_serialize().into_generator();
@@ -26,7 +26,7 @@ pub fn schema() -> Value {
     })
 }
 
-/// The schema of the report of one kind of run, with no key beside those it names.
+/// Schema of the report of one kind of run; it allows no other keys than those it names.
 fn of<R: JsonSchema>(generator: &mut SchemaGenerator, kind: Option<Kind>) -> Schema {
     let mut schema = Report::<R>::json_schema(generator);
     if let Some(Value::Object(properties)) = schema.get_mut("properties") {

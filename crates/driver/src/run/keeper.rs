@@ -1,4 +1,4 @@
-//! Observers of a run between its steps: files, progress, checkpoints, interruption.
+//! Observers of a run between its steps: output files, progress, checkpoints and interruption.
 
 use super::stand::Stand;
 use crate::checkpoint::{self, Contents, Pauses};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Runs of bodies.
+/// Kind of a run of bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct Bodies;
 
@@ -19,7 +19,7 @@ impl Kind for Bodies {
     type Stand = Stand;
 }
 
-/// Keeps nothing and lets a run go on to its end.
+/// Observer that keeps nothing and never interrupts a run.
 pub(super) struct Unkept<'a>(pub &'a mut dyn Writer);
 
 impl Observer<Bodies> for Unkept<'_> {
@@ -37,21 +37,21 @@ impl Observer<Bodies> for Unkept<'_> {
     }
 }
 
-/// All there is to know to resume a run of bodies.
+/// Everything needed to resume a run of bodies.
 #[derive(Serialize, Deserialize)]
 pub struct Checkpoint {
     /// Hash of the scene and of the mesh files it names.
     physics: String,
     /// State of the run.
     pub stand: Stand,
-    /// Positions in its files.
+    /// Positions in the output files.
     files: FilesState,
-    /// Data drawn at the end; none where nothing is.
+    /// Data for the plots at the end, if there are any.
     recorder: Option<Recorder>,
 }
 
 impl Checkpoint {
-    /// True if the run is to draw anything at its end.
+    /// True if the run draws plots at its end.
     #[must_use]
     pub fn draws(&self) -> bool {
         self.recorder.is_some()
@@ -68,7 +68,7 @@ impl Contents for Checkpoint {
     }
 }
 
-/// Keeps a run in its directory: files, what is drawn at the end, progress, and checkpoints.
+/// Observer that keeps a run in its directory: output files, plot data, progress and checkpoints.
 pub struct Kept {
     out: PathBuf,
     physics: String,
@@ -79,12 +79,12 @@ pub struct Kept {
     resumed: bool,
     /// True if a step has been tried since the run began or was resumed.
     moved: bool,
-    /// Instant of the last checkpoint, and how long it took.
+    /// Instant of the last checkpoint, and the time that writing it took.
     written: (Instant, Duration),
 }
 
 impl Kept {
-    /// Begins a run with outputs in `out`; with `recorder` what it is to draw at the end.
+    /// Begins a run with outputs in `out`; `recorder` collects the data for the plots at the end.
     ///
     /// # Errors
     /// If the checkpoint of an earlier run cannot be removed.
@@ -100,7 +100,7 @@ impl Kept {
         Ok(Self::new(out.to_path_buf(), physics, (files, recorder), pauses, false))
     }
 
-    /// Resumes the run of a checkpoint that was read from `out`. Where the run was begun without a recorder it goes on without one.
+    /// Resumes the run of a checkpoint read from `out`. A run that was begun without a recorder continues without one.
     #[must_use]
     pub fn resume(out: &Path, read: Checkpoint, files: Files, drawn: bool, pauses: Pauses) -> (Self, Stand) {
         let Checkpoint { physics, stand, files: from, recorder } = read;
@@ -119,7 +119,7 @@ impl Kept {
         Self { out, physics, files, recorder, progress: None, pauses, resumed, moved: false, written }
     }
 
-    /// The same, for a person who waits.
+    /// Adds a progress display.
     #[must_use]
     pub fn shown(self) -> Self {
         Self { progress: Some(Progress::new()), ..self }
@@ -136,7 +136,7 @@ impl Kept {
         written
     }
 
-    /// Ends what a person waiting sees; removes the checkpoint of a run that has reached its end. What is to be drawn is returned.
+    /// Ends the progress display and removes the checkpoint of a completed run. Returns the data for the plots.
     ///
     /// # Errors
     /// If the checkpoint cannot be removed.
@@ -173,7 +173,7 @@ impl Observer<Bodies> for Kept {
         Ok(Control::Go)
     }
 
-    /// The first time no step has been tried yet, and a checkpoint would be of what was resumed.
+    /// On the first call no step has been tried, and a checkpoint would only repeat the resumed state.
     fn pause(&mut self, stand: &mut dyn FnMut() -> Stand) -> Result<Option<&'static str>, ObserveError> {
         let moved = std::mem::replace(&mut self.moved, true);
         let reason = self.pauses.reason(moved);

@@ -1,4 +1,4 @@
-//! State of a run of bodies between two trials of a step.
+//! State of a run of bodies between two trials of steps.
 
 use crate::report::{ForceResult, InterfaceResult, PointResult};
 use crate::warning::Warning;
@@ -7,16 +7,16 @@ use asperity_mechanics::{Counts, SystemState};
 use asperity_output::view::StepRecord;
 use serde::{Deserialize, Serialize};
 
-/// See the module.
+/// State of a run of bodies.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stand {
     /// Number of the stage, from 0.
     pub(super) stage: usize,
     pub(super) system: SystemState,
     pub(super) length: StepLengthState,
-    /// Trials thrown away since the last accepted step.
+    /// Number of rejected trials since the last accepted step.
     pub(super) rejected: usize,
-    /// A motion that the first of them found free, in words.
+    /// Description of an unrestrained motion found in the first of these trials.
     pub(super) free: Option<String>,
     pub(super) work: Work,
     pub(super) found: Found,
@@ -31,7 +31,7 @@ pub(super) struct Work {
     pub steps: Vec<StepRecord>,
 }
 
-/// Findings of a run in the stages it has completed.
+/// Results of the completed stages.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Found {
     pub results: Vec<InterfaceResult>,
@@ -40,7 +40,7 @@ pub(super) struct Found {
     pub warnings: Vec<Said>,
 }
 
-/// A warning about a run as a whole, which has no place in the scene file.
+/// A warning about a run as a whole, without position in the scene file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Said {
     message: String,
@@ -60,7 +60,7 @@ impl From<Said> for Warning {
 }
 
 impl Stand {
-    /// Accepted steps.
+    /// Number of accepted steps.
     #[must_use]
     pub fn steps(&self) -> usize {
         self.work.steps.len()

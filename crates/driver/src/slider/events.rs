@@ -1,4 +1,4 @@
-//! Events of sliders in the report and as a table.
+//! Events of sliders, in the report and as CSV.
 
 use asperity_cycles::Event;
 use asperity_cycles::slider::{Edge, Slide, SliderRun};
@@ -7,35 +7,36 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// An event: |V| above the upper threshold in one direction, until it falls through the lower one.
+/// An event. It begins when |V| exceeds the upper threshold in one direction, and ends when |V| falls below the lower
+/// one.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Entry {
     /// Number of the slider.
     pub slider: usize,
-    /// 1 along positive slip rates, -1 against them.
+    /// Direction of slip: 1 for positive slip rates, -1 for negative ones.
     pub direction: i8,
     /// Time at which |V| rose through the upper threshold \[s\].
     pub onset: f64,
-    /// Time since the onset before, in either direction, which keeps digits that times far from zero have lost \[s\].
+    /// Time since the previous onset in either direction, with digits that large times lose \[s\].
     pub interval: Option<f64>,
-    /// From onset to end; none where the run ended first \[s\].
+    /// Time from onset to end; unknown if the run ended first \[s\].
     pub duration: Option<f64>,
-    /// Slip from onset to end, negative against the positive direction \[m\].
+    /// Slip from onset to end; negative for negative slip rates \[m\].
     pub slip: Option<f64>,
-    /// Largest |V| at the steps (and exactly, where extremes are found) \[m/s\].
+    /// Largest |V| at the steps, or exact if extremes are located \[m/s\].
     pub peak_rate: f64,
-    /// Smallest |V| since the event before, zero where the slider turned round \[m/s\].
+    /// Smallest |V| since the previous event; zero if the slider reversed \[m/s\].
     pub least_rate: f64,
-    /// Traction at the onset less that at the end, in the direction of slip \[Pa\].
+    /// Traction at the onset minus that at the end, in the direction of slip \[Pa\].
     pub stress_drop: Option<f64>,
-    /// The slider at the onset.
+    /// State of the slider at the onset.
     pub at_onset: Edge,
-    /// The slider at the end.
+    /// State of the slider at the end.
     pub at_end: Option<Edge>,
 }
 
 impl Entry {
-    /// Events of all sliders in the order of their onsets.
+    /// Events of all sliders in order of onset.
     #[must_use]
     pub fn all(run: &SliderRun) -> Vec<Self> {
         run.catalogue.in_order().into_iter().map(|(slider, event)| Self::new(slider, event)).collect()
@@ -65,7 +66,7 @@ impl Entry {
     }
 }
 
-/// Events as CSV, with the names of the sliders; what is not known is empty.
+/// Events as CSV, with the names of the sliders; unknown values are empty.
 #[must_use]
 pub fn csv(events: &[Entry], names: &[String]) -> String {
     let states = events.iter().map(|e| e.at_onset.states.len()).max().unwrap_or(0);
@@ -103,7 +104,7 @@ pub fn csv(events: &[Entry], names: &[String]) -> String {
     text
 }
 
-/// A name as a field of CSV.
+/// A name as a CSV field.
 fn quoted(name: &str) -> String {
     if name.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", name.replace('"', "\"\""))

@@ -1,11 +1,11 @@
-//! Plots of sliders: over time, and against displacement.
+//! Plots of sliders over time and over displacement.
 
 use super::thin::Row;
 use asperity_cycles::slider::Problem;
 use asperity_output::plots::{Chart, Measure};
 use serde::{Deserialize, Serialize};
 
-/// Data of a slider that plots show.
+/// Data of a slider for plots.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Trace {
     /// Time \[s\], slip \[m\], displacement of the load point \[m\], slip rate \[m/s\], friction \[-\], traction \[Pa\].
@@ -26,7 +26,7 @@ impl Trace {
     }
 }
 
-/// End of the file name, column along and its name, column upwards and its name.
+/// End of the file name, column and label of the horizontal axis, column and label of the vertical axis.
 type Drawing = (&'static str, usize, &'static str, usize, &'static str);
 
 const DRAWINGS: [Drawing; 5] = [
@@ -47,7 +47,7 @@ fn measure(column: usize) -> Measure {
     }
 }
 
-/// The charts of a run. Those over a displacement that stays where it is are left out.
+/// Charts of a run, without those over a displacement that does not change.
 pub(super) fn charts(problem: &Problem, traces: &[&Trace]) -> Vec<Chart> {
     let moves = |column: usize| traces.iter().any(|t| t.rows.iter().any(|r| r[column] != t.rows[0][column]));
     let drawn = DRAWINGS.iter().filter(|d| moves(d.1));

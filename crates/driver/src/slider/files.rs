@@ -1,4 +1,4 @@
-//! Histories as CSV, a row of a slider where something changed or where the plan asks for one; and what plots show of them.
+//! Histories of sliders as CSV, with a row after each change or at requested times, and the data for plots.
 
 use super::figures::Trace;
 use super::thin::{Row, Thin};
@@ -9,7 +9,7 @@ use asperity_output::{Growing, OutputError, atomic, plots};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// Streams `history/<slider>.csv`; each grows by whole rows.
+/// Writes `history/<slider>.csv`; each file grows by whole rows.
 #[derive(Debug)]
 pub struct Histories {
     sliders: Vec<Kept>,
@@ -28,13 +28,13 @@ struct Kept {
 /// Position in the history of a slider.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Position {
-    /// Bytes of its file, where it has one.
+    /// Size of its file \[bytes\], if it has one.
     bytes: Option<u64>,
     thin: Thin,
     trace: Trace,
 }
 
-/// Positions in all histories, in a checkpoint.
+/// Positions in all histories, for a checkpoint.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Positions {
     sliders: Vec<Position>,
@@ -43,7 +43,7 @@ pub struct Positions {
 }
 
 impl Histories {
-    /// Makes the files with their headers.
+    /// Creates the files and writes their headers.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -51,7 +51,7 @@ impl Histories {
         Self::of(out, problem, |path, header, _| Growing::create(path, header))
     }
 
-    /// Resumes the files from where they stood; later rows are cut off.
+    /// Resumes the files at their recorded positions; later rows are cut off.
     ///
     /// # Errors
     /// If a file is missing, shorter than it was, or cannot be written.
@@ -65,7 +65,7 @@ impl Histories {
         Ok(resumed)
     }
 
-    /// With files that `open` gives, by their paths, headers and the numbers of their sliders.
+    /// Histories with files from `open`, which takes the path, the header and the number of the slider.
     fn of(
         out: &Path,
         problem: &Problem,
@@ -88,7 +88,7 @@ impl Histories {
         Ok(Self { sliders, traced: false })
     }
 
-    /// Their layout.
+    /// Current positions in the histories.
     #[must_use]
     pub fn positions(&self) -> Positions {
         let of = |kept: &Kept| Position {
@@ -107,20 +107,20 @@ impl Histories {
         self.sliders.iter().filter_map(|kept| kept.file.as_ref()).try_for_each(Growing::settle)
     }
 
-    /// Keeps what plots show.
+    /// Keeps the data for plots.
     #[must_use]
     pub fn traced(mut self) -> Self {
         self.traced = true;
         self
     }
 
-    /// True if what plots show is kept.
+    /// True if the data for plots are kept.
     #[must_use]
     pub fn are_traced(&self) -> bool {
         self.traced
     }
 
-    /// Writes the last state, if its row is not there yet.
+    /// Writes the last state if it has no row yet.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -132,7 +132,7 @@ impl Histories {
         })
     }
 
-    /// Draws the rows kept into `plots/` and returns the files.
+    /// Draws the collected rows into `plots/` and returns the paths of the files.
     ///
     /// # Errors
     /// If a file cannot be written or a drawing fails.

@@ -1,4 +1,4 @@
-//! Keeps a run of spring-sliders in its directory: histories, progress, and checkpoints.
+//! Keeps a run of spring-sliders in its directory: histories, progress and checkpoints.
 
 use super::files::{Histories, Positions};
 use crate::checkpoint::{self, Contents, Pauses, ResumeError};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// All there is to know to resume a run of spring-sliders.
+/// Everything needed to resume a run of spring-sliders.
 #[derive(Serialize, Deserialize)]
 pub struct Checkpoint {
     /// Hash of the scene.
@@ -35,7 +35,7 @@ pub struct Keeper {
     histories: Histories,
     progress: Option<Progress>,
     pauses: Pauses,
-    /// Instant of the last checkpoint, and how long it took.
+    /// Instant of the last checkpoint, and the time that writing it took.
     written: (Instant, Duration),
     interrupted: Option<&'static str>,
 }
@@ -58,10 +58,10 @@ impl Keeper {
         Ok((Self::new(out, physics, histories, pauses), SliderRun::new(problem)))
     }
 
-    /// Resumes the run of the checkpoint in `out`; none where there is none.
+    /// Resumes the run of the checkpoint in `out`; `None` if there is no checkpoint.
     ///
     /// # Errors
-    /// If the checkpoint is damaged or of another scene, or a file cannot be read or written.
+    /// If the checkpoint is damaged or belongs to another scene, or a file cannot be read or written.
     pub fn resume(
         out: &Path,
         problem: &Problem,
@@ -90,13 +90,13 @@ impl Keeper {
         }
     }
 
-    /// The same, for a person who waits.
+    /// Adds a progress display.
     #[must_use]
     pub fn shown(self) -> Self {
         Self { progress: Some(Progress::new()), ..self }
     }
 
-    /// True if the run is to draw anything at its end.
+    /// True if the run draws plots at its end.
     #[must_use]
     pub fn draws(&self) -> bool {
         self.histories.are_traced()
@@ -108,7 +108,7 @@ impl Keeper {
         self.interrupted
     }
 
-    /// Ends the histories, and removes the checkpoint of a run that has reached its end.
+    /// Completes the histories and removes the checkpoint of a completed run.
     ///
     /// # Errors
     /// If a file cannot be written or removed.
@@ -116,7 +116,7 @@ impl Keeper {
         if let Some(progress) = self.progress {
             progress.finish();
         }
-        // Rows after the checkpoint are cut off where the run is resumed.
+        // Rows after the checkpoint are cut off if the run is resumed.
         self.histories.finish()?;
         if completed {
             checkpoint::remove(&self.out)?;
@@ -156,7 +156,7 @@ impl Observer<Sliders> for Keeper {
     }
 }
 
-/// Words for a person waiting.
+/// Text of the progress display.
 fn status(now: &Now<'_>) -> String {
     let largest = now.conditions.iter().fold(0.0_f64, |most, c| most.max(c.rate.abs()));
     let (time, step, dt) = (now.at.seconds(), now.step, now.dt);

@@ -1,4 +1,4 @@
-//! Spring-sliders: from a plan to histories, plots and a report. What is computed is in [`asperity_cycles::slider`].
+//! Spring-sliders: from a plan to histories, plots and a report. The computation is in [`asperity_cycles::slider`].
 
 mod events;
 mod figures;

@@ -1,14 +1,14 @@
-//! The problem to integrate, and doubts about it.
+//! The problem to integrate, with warnings.
 
 use crate::warning::Warning;
 use asperity_cycles::slider::Problem;
 
-/// The problem to integrate.
+/// The problem to integrate, with warnings.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Sliders, springs and load, and how they are integrated.
+    /// Sliders, springs and load, and the settings of the integration.
     pub problem: Problem,
-    /// Settings that are probably not meant as they stand in the scene.
+    /// Warnings about settings that are probably not intended.
     pub warnings: Vec<Warning>,
 }
 

@@ -1,4 +1,4 @@
-//! `report.json` of a spring-slider.
+//! Report of a run of spring-sliders, `report.json`.
 
 use super::events::Entry;
 use crate::report::{EnergyBalance, Kind, Outcome, Phases, Results, Stop};
@@ -10,20 +10,20 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// Work, in operations that do not depend on the machine.
+/// Work as operation counts, which do not depend on the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Work {
     /// Accepted steps.
     pub steps: u64,
-    /// Steps tried and not accepted.
+    /// Rejected steps.
     pub rejected: u64,
-    /// Right-hand sides.
+    /// Evaluations of the right-hand side.
     pub right_hand_sides: u64,
-    /// Jacobians.
+    /// Evaluations of the Jacobian.
     pub jacobians: u64,
     /// Factorisations.
     pub factorisations: u64,
-    /// Solutions with them.
+    /// Solutions with these factorisations.
     pub solves: u64,
     /// Restarts after events.
     pub restarts: u64,
@@ -43,7 +43,7 @@ impl From<Counts> for Work {
     }
 }
 
-/// A slider at the end.
+/// State of a slider at the end.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Final {
     /// Name.
@@ -52,16 +52,16 @@ pub struct Final {
     pub slip_rate: f64,
     /// Friction coefficient \[-\].
     pub friction: f64,
-    /// State variables, as the law evolves them.
+    /// State variables, in the form that the law evolves.
     pub states: Vec<f64>,
 }
 
-/// The report of a run.
+/// Report of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Report {
-    /// Dynamics in words.
+    /// Description of the dynamics.
     pub dynamics: String,
-    /// Sliders by name.
+    /// Names of the sliders.
     pub sliders: Vec<String>,
     /// Warnings of the problem.
     pub warnings: Vec<Warning>,
@@ -73,13 +73,13 @@ pub struct Report {
     pub thresholds: Option<Thresholds>,
     /// Outcome.
     pub outcome: Outcome,
-    /// Time \[s\].
+    /// Time at the end \[s\].
     pub end: f64,
-    /// The sliders then.
+    /// Sliders at the end.
     pub last: Vec<Final>,
     /// Events.
     pub events: Vec<Entry>,
-    /// Energy budget \[J/m²\], the sum over the sliders; none of a run that was not observed.
+    /// Energy budget \[J/m²\], summed over the sliders; absent if the run was not observed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyBalance>,
     /// Work.
@@ -102,7 +102,7 @@ impl Results for Report {
 }
 
 impl Report {
-    /// The report of a run of a problem.
+    /// Report of a run of a problem.
     #[must_use]
     pub fn new(problem: &Problem, run: &SliderRun) -> Self {
         let time = run.at.seconds();
@@ -141,7 +141,7 @@ impl Report {
         }
     }
 
-    /// Words a person should read at the end.
+    /// Summary to be read at the end of the run.
     #[must_use]
     pub fn text(&self) -> String {
         let mut text = String::from("results\n");

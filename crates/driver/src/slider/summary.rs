@@ -1,11 +1,11 @@
-//! A plan in words.
+//! Text of a plan.
 
 use super::plan::Plan;
 use asperity_cycles::slider::stability;
 use std::fmt::Write as _;
 
 impl Plan {
-    /// Text that a person should see before the run.
+    /// Summary to be read before the run.
     #[must_use]
     pub fn summary(&self) -> String {
         let problem = &self.problem;

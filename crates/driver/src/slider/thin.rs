@@ -1,20 +1,21 @@
-//! Which of the rows of a slider are worth keeping.
+//! Selection of the rows of a slider that are kept.
 
 use asperity_friction::slider::Condition;
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// Rows are kept at this share of the run at least.
+/// Longest time between rows that are kept, as a fraction of the run.
 const SHARE: f64 = 1e-3;
 
-/// Change of the friction coefficient that is worth a change of ln V by one: a tenth of that takes all of a plot.
+/// Change of the friction coefficient that counts as much as a change of ln V by one; a tenth of it can span a whole
+/// plot.
 const FRICTION: f64 = 0.05;
 
-/// A slider at an instant.
+/// State of a slider at an instant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Row {
     /// Time \[s\].
     pub time: f64,
-    /// Length of the step, or time since the row before where it lies within one; 0 at the start and after a jump \[s\].
+    /// Length of the step, or time since the previous row if both lie in one step; 0 at the start and after a jump \[s\].
     pub dt: f64,
     /// Condition of the slider.
     #[serde(with = "StoredCondition")]
@@ -27,7 +28,7 @@ pub(super) struct Row {
     pub states: Vec<f64>,
 }
 
-/// A [`Condition`] as checkpoints have it.
+/// A [`Condition`] as stored in checkpoints.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Condition")]
 struct StoredCondition {
@@ -39,12 +40,12 @@ struct StoredCondition {
     traction: f64,
 }
 
-/// ln |V|, which JSON does not have of a slider at rest: what is not finite differs from every other value, see [`differs`].
+/// ln |V|. JSON cannot represent it for a slider at rest; a value that is not finite differs from every other, see [`differs`].
 fn or_none<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::NAN))
 }
 
-/// Values of the last row kept that are compared.
+/// Values of the last kept row, for comparison.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Last {
     time: f64,
@@ -53,22 +54,22 @@ struct Last {
     friction: f64,
 }
 
-/// The rows of a slider, as they come.
+/// Filter for the rows of a slider.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Thin {
     last: Option<Last>,
-    /// The row that came last, where it was not kept.
+    /// The most recent row, if it was not kept.
     pending: Option<Row>,
 }
 
 impl Thin {
-    /// The rows to be kept now that one more came: it, and that before it where it shows where a jump began. `change` is that of ln V
-    /// from row to row, `end` the end of the run \[s\].
+    /// Rows to keep after a new one: the new row, and the previous one if it shows the start of a jump. `change` is the change of ln V from row to
+    /// row, `end` the end of the run \[s\].
     pub fn next(&mut self, row: Row, asked: bool, change: Option<f64>, end: f64) -> [Option<Row>; 2] {
         let Some(change) = change else { return [None, asked.then_some(row)] };
         let by = |share: f64| self.last.is_some_and(|last| differs(&row, last, share * change));
         let late = self.last.is_none_or(|last| row.time - last.time >= SHARE * end);
-        // A jump is drawn from where it began.
+        // A jump is drawn from its start.
         let jumped = row.dt == 0.0 || by(2.0);
         let keep = asked || late || jumped || by(1.0);
         let before = if jumped { self.pending.take() } else { None };
@@ -81,7 +82,7 @@ impl Thin {
         }
     }
 
-    /// The row that came last, where it was not kept: it is worth it.
+    /// The most recent row, if it was not kept before; it is kept now.
     pub fn mark(&mut self) -> Option<Row> {
         let row = self.pending.take()?;
         self.keep(&row);
@@ -95,7 +96,7 @@ impl Thin {
     }
 }
 
-/// True if ln V or friction differ by so much. A slider at rest has no ln V to compare.
+/// True if ln V or friction differ enough. A slider at rest has no ln V, and counts as different.
 fn differs(row: &Row, Last { log_rate, friction, .. }: Last, by: f64) -> bool {
     let moved = (row.condition.log_rate - log_rate).abs();
     moved >= by || moved.is_nan() || (row.condition.friction - friction).abs() >= FRICTION * by

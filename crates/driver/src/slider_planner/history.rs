@@ -34,7 +34,7 @@ impl Planner {
         }
     }
 
-    /// Checks that the times of a table make a course.
+    /// Checks that the times of a table increase.
     fn order<Q>(&mut self, table: &[Spanned<Entry<Q>>], place: Range<usize>, name: &str) -> Option<()> {
         if table.is_empty() {
             return self.error(place, format!("the table of `{name}` has no entry"), "[[time, value], ..]");
@@ -61,7 +61,7 @@ impl Planner {
         Some(())
     }
 
-    /// A normal traction, which holds the slider at all times.
+    /// A normal traction, which must stay positive.
     pub(super) fn normal(&mut self, spec: &Spanned<Course<Pressure>>) -> Option<History> {
         let normal = self.course(spec, |p| p.0, "normal")?;
         let least = normal.least();

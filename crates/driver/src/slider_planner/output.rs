@@ -1,4 +1,4 @@
-//! Rows of histories.
+//! Rows of the histories.
 
 use super::Planner;
 use crate::scene::near;
@@ -31,14 +31,14 @@ impl Planner {
             }
         };
         let times = times?;
-        // Where times are given, they are the rows, unless a change is given as well.
+        // If times are given, they alone determine the rows, unless a change is given as well.
         let by_change = times.is_empty() && interval.is_none();
         let default = Rows::default();
         let change = change.or(default.change.filter(|_| by_change));
         Some(Rows { change, times, interval, histories })
     }
 
-    /// Times within the run, in order.
+    /// Requested times within the run, in order.
     fn times(&mut self, spec: &OutputSpec, end: f64) -> Option<Vec<f64>> {
         let Some(list) = &spec.times else { return Some(Vec::new()) };
         if list.get_ref().is_empty() {

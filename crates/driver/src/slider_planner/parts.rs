@@ -1,4 +1,4 @@
-//! The sliders with their laws, and the springs between them.
+//! The sliders with their laws and the springs between them.
 
 use super::Planner;
 use crate::diagnostic::Diagnostic;
@@ -31,7 +31,7 @@ impl Planner {
         Some(Slider { law: law?, stiffness: stiffness?, damping: damping?, mass: mass?, normal: normal? })
     }
 
-    /// The slip rate of a slider where it is imposed; the outer none is an error.
+    /// Imposed slip rate of a slider, if any; the outer `None` is an error.
     pub(super) fn imposed(&mut self, spec: &SliderSpec) -> Option<Option<History>> {
         let Some(rate) = &spec.rate else { return Some(None) };
         let idle = [
@@ -49,7 +49,7 @@ impl Planner {
         self.course(rate, |v| v.0, "rate").map(Some)
     }
 
-    /// A system with these slip rates imposed.
+    /// A system with imposed slip rates.
     pub(super) fn impose(&mut self, mut system: System, rates: Vec<Option<History>>) -> Option<System> {
         for (i, rate) in rates.into_iter().enumerate() {
             let Some(rate) = rate else { continue };
@@ -61,7 +61,7 @@ impl Planner {
         Some(system)
     }
 
-    /// Warns of sliders whose run ends where quasi-static equilibrium does.
+    /// Warnings about sliders whose run ends when quasi-static equilibrium is lost.
     pub(super) fn runaways(&mut self, scene: &SliderScene, plan: &mut Plan) {
         for (i, ratio) in stability::runaways(&plan.problem) {
             let name = &plan.problem.names[i];
@@ -126,7 +126,7 @@ impl Planner {
         Some(Spring { between: ends, stiffness })
     }
 
-    /// Checks that a chain of springs leads from each slider to the load point.
+    /// Checks that each slider is connected to the load point by a chain of springs.
     pub(super) fn held(&mut self, scene: &SliderScene, system: &System, names: &[String]) -> Option<()> {
         let each = system.sliders().iter().enumerate();
         let mut held: Vec<bool> =

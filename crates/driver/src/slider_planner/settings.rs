@@ -1,4 +1,4 @@
-//! Time integration and events.
+//! Settings of time integration and events.
 
 use super::Planner;
 use crate::diagnostic::Diagnostic;
@@ -11,7 +11,7 @@ use asperity_cycles::Thresholds;
 use asperity_ode::Method;
 use std::str::FromStr;
 
-/// `[time]`, where it was right.
+/// Settings of `[time]`; `None` for invalid values.
 pub(super) struct Settings {
     pub end: Option<f64>,
     pub method: Option<Method>,
@@ -21,9 +21,9 @@ pub(super) struct Settings {
     pub most_steps: Option<usize>,
 }
 
-/// A tolerance per step below this is rounding.
+/// Smallest tolerance per step; below it errors are rounding.
 const SMALLEST_TOLERANCE: f64 = 1e-14;
-/// A tolerance per step above this is no solution.
+/// Largest tolerance per step; above it the result is not a solution.
 const LARGEST_TOLERANCE: f64 = 0.1;
 
 impl Planner {
@@ -74,7 +74,7 @@ impl Planner {
         self.count("stop_after", spec.stop_after.as_ref());
         let on = self.positive("above", spec.above.get_ref().0, spec.above.span(), "\"1 mm/s\"")?;
         let off = match &spec.below {
-            // An order of magnitude lower, so that a rate that hovers at the threshold is one event.
+            // An order of magnitude lower, so that a rate fluctuating about the threshold counts as one event.
             None => 0.1 * on,
             Some(below) => {
                 let off = self.positive("below", below.get_ref().0, below.span(), "\"0.1 mm/s\"")?;

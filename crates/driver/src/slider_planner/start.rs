@@ -1,4 +1,4 @@
-//! Start of the sliders.
+//! Initial state of the sliders.
 
 use super::Planner;
 use crate::scene::slider::{SliderScene, SliderSpec};
@@ -54,7 +54,7 @@ impl Planner {
 }
 
 impl Planner {
-    /// Checks that the strength has a value at the slip rates that are given: not every form has one at rest and backwards.
+    /// Checks that the strength is defined at the given slip rates: not every form is at rest and for negative rates.
     fn both_ways(
         &mut self,
         spec: &SliderSpec,
@@ -77,15 +77,15 @@ impl Planner {
     }
 }
 
-/// The state variables of a slider that was in steady state at a slip rate \[m/s\], and under this normal traction \[Pa\]
-/// where the state remembers normal traction.
+/// Initial state variables of a slider: those of steady state at a slip rate \[m/s\], and under the normal traction `pressed` \[Pa\] if the state
+/// remembers normal traction.
 fn initial_states(slider: &Slider, steady: f64, pressed: Option<f64>) -> Result<Vec<f64>, Failure> {
     let n = slider.law.states();
     let mut y = vec![0.0; n + 2];
     slider.law.steady(steady.ln(), &mut y[1..=n]);
     let now = slider.normal.piece(0.0).at(0.0).0;
     if let Some(before) = pressed.filter(|&p| p != now) {
-        // As if the slider went on at its rate while the normal traction changed to that of time 0.
+        // As if the slider kept sliding at this rate while the normal traction changed to that of time 0.
         y[0] = slider.law.at_rate(steady, &y[1..=n])?;
         slider.law.jump(&mut y, before, now, 0.0, true)?;
     }

@@ -1,4 +1,4 @@
-//! Creep, profiles and stations of a scene that take no point of their fault.
+//! Errors and warnings about creep, profiles, stations and other requests of a scene that its faults cannot satisfy.
 
 use super::placed::{Placed, at};
 use crate::diagnostic::Diagnostic;
@@ -14,7 +14,7 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
 }
 
-/// The extent of some places in words: along a plane fault, by coordinates in space.
+/// Extent of some positions as text: distance along a plane fault, coordinates in 3D.
 fn extent<'a, const D: usize>(places: impl Iterator<Item = &'a Place<D>> + Clone) -> String {
     if D == 2 {
         let [low, high] = range(places.map(|p| p.along));
@@ -27,10 +27,10 @@ fn extent<'a, const D: usize>(places: impl Iterator<Item = &'a Place<D>> + Clone
     (0..D).map(axis).collect::<Vec<_>>().join(", ")
 }
 
-/// Refuses creep that takes no point of its fault.
+/// Refuses creep that applies to no point of its fault.
 ///
 /// # Errors
-/// [`Diagnostic`] at the border of the creep.
+/// [`Diagnostic`] at the boundary of the creep.
 pub(super) fn creep<const D: usize>(
     (name, spec): (&str, &Spec),
     placed: &[Placed<D>],
@@ -47,7 +47,7 @@ pub(super) fn creep<const D: usize>(
     ))
 }
 
-/// Refuses faults that are to open where none of their points may; `points` are those that may, among `placed`.
+/// Refuses faults that should open but have no point that can; `points` are the points of `placed` that can.
 ///
 /// # Errors
 /// [`Diagnostic`] at the key.
@@ -71,7 +71,7 @@ pub(super) fn opens<const D: usize>(
     Ok(())
 }
 
-/// The refusal of faults of which nothing is left to slide.
+/// Error for faults without any point that is free to slide.
 pub(super) fn nothing_slides<const D: usize>(
     faults: &[(&String, &Spec)],
     placed: &[Placed<D>],
@@ -97,7 +97,7 @@ pub(super) fn nothing_slides<const D: usize>(
     )
 }
 
-/// Warnings of profiles that do not vary over the sliding part of their fault, or are below others of their list everywhere.
+/// Warnings about profiles that are constant over the sliding part of their fault, or nowhere the largest of their list.
 pub(super) fn profiles<const D: usize>(
     (name, spec): (&str, &Spec),
     placed: &[Placed<D>],
@@ -132,7 +132,7 @@ pub(super) fn profiles<const D: usize>(
     }
 }
 
-/// The warning of a profile whose places all lie beyond the fault.
+/// Warning about a profile whose positions all lie beyond the fault.
 fn constant<const D: usize>(
     (name, key): (&str, &str),
     profile: &Profile,
@@ -169,7 +169,7 @@ fn constant<const D: usize>(
     ))
 }
 
-/// Refuses a station farther than a cell from the nearest point that slides, number `point` of `placed`.
+/// Refuses a station farther than one cell from the nearest sliding point, which is number `point` of `placed`.
 ///
 /// # Errors
 /// [`Diagnostic`] at the station.
@@ -202,7 +202,7 @@ pub(super) fn station<const D: usize>(
     ))
 }
 
-/// Largest extent of the faces at a place \[m\].
+/// Largest extent of the faces at a point \[m\].
 fn cell<const D: usize>(model: &Model<D>, spec: &Spec, place: &Place<D>) -> Result<f64, Diagnostic> {
     let mut size = 0.0_f64;
     for side in model::sides(model, &spec.minus)? {
@@ -220,7 +220,7 @@ fn cell<const D: usize>(model: &Model<D>, spec: &Spec, place: &Place<D>) -> Resu
     Ok(size)
 }
 
-/// The refusal of a body that no fault can be in.
+/// Error for a body that cannot contain a fault.
 pub(super) fn not_linear(scene: &Scene, body: &str) -> Diagnostic {
     let spec = &scene.bodies[body];
     let strain = spec.strain.as_ref().filter(|_| spec.is_finite());
@@ -229,19 +229,19 @@ pub(super) fn not_linear(scene: &Scene, body: &str) -> Diagnostic {
     Diagnostic::at(place, format!("body `{body}` is not linear: faults need linear bodies"), help)
 }
 
-/// The refusal of more stages than one, or of none.
+/// Error for a number of stages other than one.
 pub(super) fn stages(scene: &Scene) -> Diagnostic {
     let place = scene.stages.get(1).map_or_else(|| scene.time.stepper.span(), |s| s.duration.span());
     let found = format!("a scene with faults has one stage, found {}", scene.stages.len());
     Diagnostic::at(place, found, "loads that change in time are tables of one stage")
 }
 
-/// The refusal of a law of which nothing else is said.
+/// Error for a law with incomplete parameters, if there is no more specific message.
 pub(super) fn incomplete(law: &Spanned<LawSpec>) -> Diagnostic {
     Diagnostic::at(law.span(), "the law is not complete", "see the laws of friction")
 }
 
-/// The refusal of a law that faults cannot follow.
+/// Error for a law that faults cannot use.
 pub(super) fn another_law(law: &Spanned<LawSpec>) -> Diagnostic {
     Diagnostic::at(
         law.span(),

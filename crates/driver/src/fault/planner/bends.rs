@@ -1,4 +1,4 @@
-//! Turns of faults from one cell to the next.
+//! Angles of faults between neighbouring cells.
 
 use crate::diagnostic::Diagnostic;
 use crate::model::{self, Model};
@@ -7,14 +7,14 @@ use asperity_fem::mesh::{MeshFace, Side, face_nodes};
 use asperity_mechanics::coordinates;
 use std::collections::BTreeMap;
 
-/// Turn between neighbouring cells from which it is noted \[degrees\]: slip of 1 m across a corner of 2 degrees in cells of 1 km changes normal
-/// tractions by about a megapascal.
+/// Angle between neighbouring cells from which the plan notes it \[degrees\]. Slip of 1 m across a corner of 2 degrees between cells of 1 km changes
+/// normal tractions by about a megapascal.
 const NOTED: f64 = 2.0;
 
-/// A note on the sharpest turn of a fault.
+/// Note on the sharpest bend of a fault.
 ///
 /// # Errors
-/// [`Diagnostic`] for sets that are not there.
+/// [`Diagnostic`] for a missing set.
 pub(super) fn note<const D: usize>(
     model: &Model<D>,
     (name, spec): (&str, &Spec),
@@ -65,7 +65,7 @@ fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
     })
 }
 
-/// A normal of a face between its corners, of any length.
+/// Normal of a face between its corners, not normalised.
 fn normal<const D: usize>(model: &Model<D>, side: &Side) -> [f64; 3] {
     let MeshFace { kind, nodes } = MeshFace::new(&model.mesh, side);
     let x = |k: usize| -> [f64; 3] {

@@ -1,4 +1,4 @@
-//! Requirement on the two sides of a fault: the same nodes wherever one covers the other.
+//! Check that the two sides of a fault have the same nodes wherever they overlap.
 
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;
@@ -8,17 +8,18 @@ use asperity_fem::mesh::{MeshFace, Side, face_nodes};
 use asperity_mechanics::coordinates;
 use std::collections::BTreeSet;
 
-/// Distance of two nodes at one place over the size of the model: rounding of generated and of written coordinates.
+/// Largest distance of two nodes at one position, relative to the size of the model: rounding of generated and of
+/// written coordinates.
 pub(super) const TOGETHER: f64 = 1e-9;
 
-/// Distance from the plane through the corners of a face, over its size, within which a place lies on it: an arc of 45 degrees rises by that.
+/// Distance from the plane through the corners of a face within which a point lies on it, relative to its size: the rise of an arc of 45 degrees.
 const RISE: f64 = 0.1;
 
-/// Refuses nodes of the plus side that lie on faces of the minus side without a node there: nothing would hold them to the other side.
-/// A plus side that reaches beyond the minus side is free there, as its author declared it.
+/// Refuses nodes of the plus side that lie on faces of the minus side but not at a node, because nothing would tie them to the other side. Where the
+/// plus side extends beyond the minus side it is free, as given in the scene.
 ///
 /// # Errors
-/// [`Diagnostic`] at the plus side, with the first place and how many there are.
+/// [`Diagnostic`] at the plus side, with the first position and the number of such nodes.
 pub(super) fn partners<const D: usize>(
     model: &Model<D>,
     (name, spec): (&str, &Spec),
@@ -45,7 +46,7 @@ pub(super) fn partners<const D: usize>(
     ))
 }
 
-/// A warning where the nodes of the two sides agree and their faces do not: between the nodes the sides then gap and overlap.
+/// Warning if the nodes of the two sides agree but their faces do not: between the nodes the sides then gap and overlap.
 pub(super) fn same_faces<const D: usize>(
     model: &Model<D>,
     (name, spec): (&str, &Spec),
@@ -73,7 +74,7 @@ pub(super) fn same_faces<const D: usize>(
     ))
 }
 
-/// A part of a face: a line between two corners or a triangle.
+/// Part of a face: a line between two corners, or a triangle.
 struct Face<const D: usize> {
     corners: Vec<[f64; D]>,
     min: [f64; D],
@@ -90,7 +91,7 @@ fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
 }
 
 impl<const D: usize> Face<D> {
-    /// The parts of a side.
+    /// Parts of a side.
     fn of(model: &Model<D>, side: &Side) -> Vec<Self> {
         let MeshFace { kind, nodes } = MeshFace::new(&model.mesh, side);
         let parts: &[&[usize]] = match kind.corners() {
@@ -110,7 +111,7 @@ impl<const D: usize> Face<D> {
         Self { size: dot(&diagonal, &diagonal).sqrt(), corners, min, max }
     }
 
-    /// True if a place lies on it, to within `close` \[m\] along it and a share of its size across it.
+    /// True if a point lies on this part, to within `close` \[m\] along it and a fraction of its size across it.
     fn holds(&self, x: &[f64; D], close: f64) -> bool {
         let reach = RISE * self.size;
         if (0..D).any(|c| x[c] < self.min[c] - reach || x[c] > self.max[c] + reach) {
@@ -124,7 +125,7 @@ impl<const D: usize> Face<D> {
             let a = edge(1);
             vec![dot(&d, &a) / dot(&a, &a)]
         } else {
-            // Least squares of d = s a + t b.
+            // Least-squares solution of d = s a + t b.
             let (a, b) = (edge(1), edge(2));
             let (aa, ab, bb, da, db) = (dot(&a, &a), dot(&a, &b), dot(&b, &b), dot(&d, &a), dot(&d, &b));
             let det = aa * bb - ab * ab;

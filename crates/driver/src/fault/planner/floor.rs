@@ -1,4 +1,4 @@
-//! Normal tractions given in the scene.
+//! Choices for the normal tractions of a fault.
 
 use super::super::normal::NormalChoice;
 use crate::scene::model::Fault as Spec;
@@ -13,8 +13,8 @@ pub(super) fn choice(spec: &Spec) -> NormalChoice {
     }
 }
 
-/// A warning where a floor lies above what presses a fault at the start: it decides friction there, not what is pressed. Of faults that weight presses, which
-/// does not press a free surface, it may do so at up to half of the points: the plan notes how many there are.
+/// Warning if the floor exceeds the initial normal traction, so that the floor alone determines friction there. Weight does not press a fault at a
+/// free surface, so on faults pressed by weight this is allowed at up to half of the points, whose number the plan notes.
 pub(super) fn above_start(
     name: &str,
     spec: &Spec,

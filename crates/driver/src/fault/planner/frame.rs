@@ -1,11 +1,11 @@
-//! Place on Earth and time of a scene.
+//! Geographic frame of a scene.
 
 use super::super::frame::{Frame, Origin};
 use crate::diagnostic::Diagnostic;
 use crate::scene::model::Scene;
 use jiff::Timestamp;
 
-/// Of a scene that has a place.
+/// Frame of a scene, if it has a `[place]`.
 ///
 /// # Errors
 /// [`Diagnostic`] at the epoch.

@@ -1,4 +1,4 @@
-//! Reasons why bodies cannot be condensed onto faults, in words and with their place in the scene.
+//! Explanations why bodies cannot be condensed onto faults, with the position in the scene.
 
 use crate::amounts;
 use crate::diagnostic::Diagnostic;
@@ -9,7 +9,7 @@ use asperity_fem::mesh::nodes_of_sides;
 use asperity_mechanics::coordinates;
 use std::ops::Range;
 
-/// Points that the bodies are condensed onto, and what acts on them.
+/// Points that the bodies are condensed onto, and the loads on the bodies.
 #[derive(Clone, Copy)]
 pub(super) struct Asked<'a, const D: usize> {
     pub scene: &'a Scene,
@@ -18,11 +18,11 @@ pub(super) struct Asked<'a, const D: usize> {
     pub points: &'a [Point<D>],
 }
 
-/// A refusal in words.
+/// A refusal as text.
 struct Told {
-    /// The fault.
+    /// Description of the error.
     message: String,
-    /// Remedy; none where the message says it.
+    /// Remedy; `None` if the message contains it.
     help: Option<String>,
     place: Where,
 }
@@ -31,18 +31,18 @@ struct Told {
 enum Where {
     /// Conditions on a component of displacement of the two nodes of a point.
     Conditions([usize; 2], usize),
-    /// The sides of the faults.
+    /// Sides of the faults.
     Sides,
-    /// The memory that is allowed.
+    /// The memory limit.
     Memory,
     /// A body.
     Body(String),
-    /// A condition that draws a set by a spring.
+    /// A condition that loads a set by a spring.
     Spring,
 }
 
 impl<const D: usize> Asked<'_, D> {
-    /// A refusal as an error of a plan, at the condition that is at fault.
+    /// A refusal as an error of the plan, at the condition that causes it.
     pub fn error(&self, refusal: &Refusal) -> Diagnostic {
         let Told { message, help, place } = self.told(refusal);
         let found = match place {
@@ -70,7 +70,7 @@ impl<const D: usize> Asked<'_, D> {
         }
     }
 
-    /// The set and the place of the condition that prescribes a component of one of these nodes.
+    /// Set and position of the condition that prescribes a component at one of these nodes.
     fn condition(&self, nodes: [usize; 2], component: usize) -> Option<(String, Range<usize>)> {
         let axis = self.model.idealisation.axis(component);
         let conditions = self.scene.stages.iter().flat_map(|s| &s.conditions).map(|c| c.get_ref());
@@ -104,7 +104,7 @@ impl<const D: usize> Asked<'_, D> {
         found.or_else(|| scene.faults.values().next().map(|f| f.minus.span())).unwrap_or(0..0)
     }
 
-    /// The refusal of a condensation that needs more memory than is allowed.
+    /// Error for a condensation that needs more memory than is allowed.
     fn too_much(&self, points: usize, [needed, allowed]: [usize; 2]) -> Told {
         let dofs = self.model.dofs();
         let message = format!(
@@ -116,7 +116,7 @@ impl<const D: usize> Asked<'_, D> {
         Told { message, help: Some(help.into()), place: Where::Memory }
     }
 
-    /// The refusal of a body that moves without resistance.
+    /// Error for a body that can move without resistance.
     fn loose(&self, dof: usize, jumps: bool) -> Told {
         let node = dof / self.model.idealisation.components();
         let component = if jumps { "slips or opens there" } else { "can move there" };
@@ -129,7 +129,7 @@ impl<const D: usize> Asked<'_, D> {
         Told { message, help, place: Where::Body(body.into()) }
     }
 
-    /// The refusal of a condition that the frame of a jump cannot express; `dof` is the degree of freedom that it is about.
+    /// Error for a condition that cannot be expressed in the local axes of a displacement jump; `dof` is the degree of freedom concerned.
     fn oblique(&self, dof: usize) -> Told {
         let count = self.model.idealisation.components();
         let (node, component) = (dof / count, dof % count);
@@ -167,7 +167,7 @@ impl<const D: usize> Asked<'_, D> {
     }
 }
 
-/// The refusal of a spring that draws both sides of a fault.
+/// Error for a spring that loads both sides of a fault.
 fn drawn<const D: usize>(place: &Place<D>) -> Told {
     let message = format!(
         "a spring draws both sides of a fault as one at {}, which could not slip there",
@@ -176,7 +176,7 @@ fn drawn<const D: usize>(place: &Place<D>) -> Told {
     Told { message, help: Some("let it draw a side that ends at the fault".into()), place: Where::Spring }
 }
 
-/// The refusal of conditions that prescribe the motion of both sides of a point along its slip.
+/// Error for conditions that prescribe the motion of both sides of a point in the direction of slip.
 fn along_slip<const D: usize>(place: &Place<D>, component: usize) -> Told {
     Told {
         message: format!(
@@ -188,8 +188,8 @@ fn along_slip<const D: usize>(place: &Place<D>, component: usize) -> Told {
     }
 }
 
-/// The refusal of conditions that move both sides of a place by `way` \[m\] in `time` \[s\] along an axis where it creeps at `rate`, or, where
-/// that is none, does not open.
+/// Error for conditions that move the sides of a point apart by `way` \[m\] in `time` \[s\] along an axis. The fault creeps there at `rate`; if that
+/// is `None`, it does not open.
 fn moved<const D: usize>(
     place: &Place<D>,
     component: usize,

@@ -1,9 +1,9 @@
-//! Materials of the bodies at a fault, seen from its points.
+//! Effective materials of the two bodies at a fault.
 //!
-//! Slip that begins sends shear waves to both sides: with impedances Z = √(G ρ) and side velocities `v± = ∓Δτ/Z±` the slip rate is
-//! `V = v⁺ - v⁻ = -Δτ (1/Z⁺ + 1/Z⁻)`, so that `η = Z⁺ Z⁻/(Z⁺ + Z⁻)`, which is G/(2 c_s) between equal sides. In the same way slip
-//! between half-spaces of moduli G± exerts the tractions, and seen from either side makes the displacements, that it would with
-//! `G = 2 G⁺ G⁻/(G⁺ + G⁻)` (exact in antiplane motion): that G is taken for moments.
+//! Slip at its onset radiates shear waves to both sides. With impedances Z = √(G ρ) and side velocities `v± = ∓Δτ/Z±` the slip rate is `V = v⁺ - v⁻ =
+//! -Δτ (1/Z⁺ + 1/Z⁻)`. Therefore `η = Z⁺ Z⁻/(Z⁺ + Z⁻)`, which is G/(2 c_s) between equal sides. Similarly, slip between half-spaces of moduli G±
+//! causes the tractions, and from either side the displacements, of a uniform medium with `G = 2 G⁺ G⁻/(G⁺ + G⁻)` (exact in antiplane motion).
+//! Moments use that G.
 
 use super::resolution;
 use crate::diagnostic::Diagnostic;
@@ -14,25 +14,25 @@ use asperity_fem::mesh::Side;
 use asperity_fem::surface;
 use std::collections::BTreeMap;
 
-/// The medium at a point.
+/// Effective medium at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Medium {
-    /// Shear modulus for moments, the harmonic mean of the two sides \[Pa\].
+    /// Shear modulus for moments, harmonic mean of the two sides \[Pa\].
     pub shear_modulus: f64,
-    /// G' of lengths of friction, in the same way \[Pa\].
+    /// Modulus G' for the length scales of friction, averaged likewise \[Pa\].
     pub stiffness: f64,
-    /// Radiation damping η \[Pa s/m\]; none where a density is not known.
+    /// Radiation damping η \[Pa s/m\]; `None` if a density is unknown.
     pub radiation: Option<f64>,
 }
 
-/// Both sides of a fault.
+/// Materials on both sides of a fault.
 #[derive(Debug)]
 pub(super) struct Media {
     minus: BTreeMap<usize, Share>,
     plus: BTreeMap<usize, Share>,
 }
 
-/// Sums over the faces of a side at a node, weighted with what they contribute to its tributary area.
+/// Sums over the faces of a side at a node, weighted by their contributions to its tributary area.
 #[derive(Clone, Copy, Debug)]
 struct Share {
     area: f64,
@@ -42,11 +42,10 @@ struct Share {
 }
 
 impl Media {
-    /// The materials behind the sides of a fault. Where cells of several materials meet at a node of a side, their means weighted with
-    /// area hold there.
+    /// Materials behind the sides of a fault. If cells of several materials meet at a node of a side, their means weighted by area are used.
     ///
     /// # Errors
-    /// [`Diagnostic`] where a block has no material.
+    /// [`Diagnostic`] if a block has no material.
     pub fn new<const D: usize>(scene: &Scene, model: &Model<D>, spec: &Spec) -> Result<Self, Diagnostic> {
         let side = |sides| shares(scene, model, sides);
         Ok(Self {
@@ -55,7 +54,7 @@ impl Media {
         })
     }
 
-    /// The medium at a place of the fault.
+    /// Effective medium at a point of the fault.
     pub fn at<const D: usize>(&self, place: &Place<D>) -> Medium {
         let (minus, plus) = (&self.minus[&place.minus], &self.plus[&place.plus]);
         let parallel = |a: f64, b: f64| a * b / (a + b);

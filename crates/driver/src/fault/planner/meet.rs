@@ -1,7 +1,7 @@
-//! Faults that share nodes: segments of one surface that meet end to end are joined, what has no meaning is refused.
+//! Faults that share nodes. Segments of one surface that meet end to end are joined; other contacts are refused.
 //!
-//! The point where two segments meet belongs to the first of them by name, with its law and start; its area is the sum of both parts, and its
-//! normal their mean, as if the segments were one fault.
+//! The point at which two segments meet belongs to the first of them by name, with its law and initial state. Its area is the sum of both parts and
+//! its normal their mean, as if the segments were one fault.
 
 use super::place::{branches, directions};
 use super::placed::Placed;
@@ -13,10 +13,10 @@ use asperity_fem::mesh::face_nodes;
 use asperity_mechanics::coordinates;
 use std::collections::BTreeMap;
 
-/// Joins the points that faults share; gives notes on where they do.
+/// Joins the points that faults share. Returns notes on their positions.
 ///
 /// # Errors
-/// [`Diagnostic`] where two faults have a face in common, or branch.
+/// [`Diagnostic`] if two faults have a face in common, or branch.
 pub(super) fn join<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -63,7 +63,7 @@ pub(super) fn join<const D: usize>(
     Ok(notes.into_iter().map(words).collect())
 }
 
-/// Point `a` takes the area of point `b` of another fault, at the same two nodes.
+/// Adds the area of point `b` of another fault, at the same two nodes, to point `a`.
 fn absorb<const D: usize>(
     faults: &[(&String, &Spec)],
     placed: &mut [Placed<D>],
@@ -73,7 +73,7 @@ fn absorb<const D: usize>(
     let other = placed[b].point.place.clone();
     let owner = &mut placed[a];
     let place = &mut owner.point.place;
-    // Seen from the other side its normal is the opposite one.
+    // If the sides are swapped, the normal is reversed.
     let sense = if other.minus == place.minus { 1.0 } else { -1.0 };
     let sum: [f64; D] =
         std::array::from_fn(|c| place.area * place.normal[c] + sense * other.area * other.normal[c]);
@@ -85,7 +85,7 @@ fn absorb<const D: usize>(
     Ok(())
 }
 
-/// Refuses faults with a face in common: friction there would be that of both.
+/// Refuses faults with a face in common, because friction there would be ambiguous.
 fn distinct<const D: usize>(
     model: &Model<D>,
     faults: &[(&String, &Spec)],
@@ -96,7 +96,7 @@ fn distinct<const D: usize>(
         let own = placed.iter().filter(|p| p.fault == k).map(|p| &p.point.place);
         let plus: BTreeMap<usize, usize> = own.map(|p| (p.minus, p.plus)).collect();
         for side in model::sides(model, &spec.minus)? {
-            // Whichever side is called minus; a tip is both.
+            // Independent of which side is called minus; at a tip, both sides are one node.
             let pair = |n: usize| {
                 let other = plus.get(&n).copied().unwrap_or(n);
                 [n.min(other), n.max(other)]

@@ -1,4 +1,4 @@
-//! From a scene with faults to what is integrated, and how.
+//! Plans a scene with faults: the problem to integrate and the method.
 
 mod asked;
 mod bends;
@@ -53,18 +53,17 @@ use placed::{Placed, at, components, in_space, slides};
 use prestress::Prestress;
 use std::collections::BTreeMap;
 
-/// Method of scenes that name none: of the explicit ones it takes the fewest evaluations for an error of 1e-5 of the recurrence
-/// in the first events of BP1.
+/// Default method. Among the explicit ones it needs the fewest evaluations for an error of 1e-5 of the recurrence time in the first events of BP1.
 const DEFAULT_METHOD: Method = Method::Tsit5;
-/// Error of ln V in a step, where the scene gives none: errors of the onsets of BP1's first events are then some 1e-5 of the recurrence. Ten
-/// times more saves a tenth to a sixth of the work, but steps lie at the end of the stability region then, where errors of the fastest modes do not
-/// average out: on cells of 25 m slip of a cycle was 0.24 % off what the loads drive, and its length 0.1 %.
+/// Default error of ln V in a step. It gives errors of about 1e-5 of the recurrence time in the onsets of BP1's first events. A tolerance ten times
+/// larger saves a tenth to a sixth of the work, but steps then lie at the edge of the stability region, where errors of the fastest modes do not
+/// average out: on cells of 25 m the slip of a cycle differed by 0.24 % from the imposed slip, and its duration by 0.1 %.
 const DEFAULT_TOLERANCE: f64 = 1e-5;
-/// Steps after which a run is given up: a hundred times those of BP1 at full length.
+/// Number of steps after which a run is stopped: a hundred times those of BP1 at full length.
 const MOST_STEPS: usize = 20_000_000;
-/// An event begins where nothing is said \[m/s\]: radiation damping begins to matter there for rock under crustal stress.
+/// Default slip rate at which an event begins \[m/s\]. For rock under crustal stress, radiation damping begins to matter there.
 const EVENT: f64 = 1e-3;
-/// Share of the slip rate that begins an event at which it ends, where nothing is said.
+/// Default slip rate at which an event ends, over the rate at which it begins.
 const EVENT_ENDS: f64 = 0.1;
 
 /// Plans a scene whose stepper is "fault-ode".
@@ -75,7 +74,7 @@ pub fn plan(scene: &Scene) -> Result<Plan, Diagnostic> {
     plan_with(scene, Form::Fitting)
 }
 
-/// Plans such a scene with the operator in a given form.
+/// Plans such a scene with the operator in the given form.
 ///
 /// # Errors
 /// [`Diagnostic`] with the place in the scene.
@@ -91,7 +90,7 @@ pub fn plan_with(scene: &Scene, form: Form) -> Result<Plan, Diagnostic> {
     }
 }
 
-/// Refuses faults of so many points that what the bodies are condensed to alone is too much, before cells have matrices.
+/// Refuses faults with so many points that the condensed operator alone exceeds the memory, before the cell matrices are computed.
 fn admit<const D: usize>(asked: Asked<'_, D>, conditions: Conditions) -> Result<(), Diagnostic> {
     let points = asked.points;
     let free = points.iter().filter(|p| p.creep.is_none()).count();
@@ -115,9 +114,9 @@ fn loads<const D: usize>(model: &Model<D>, stage: &Stage) -> Loads {
     }
 }
 
-/// Condensation of the bodies of a scene.
+/// Settings for the condensation of the bodies of a scene.
 fn conditions(scene: &Scene, components: usize) -> Conditions {
-    // All faults of a scene have the same, which the check has seen to.
+    // The scene check ensures that all faults have the same.
     let free = |s: &Spec| s.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
     let turns = scene.faults.values().any(free);
     let keep = scene.output.bodies.as_ref().is_some_and(|b| *b.get_ref());
@@ -141,7 +140,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic
     if points.iter().all(|p| p.creep.is_some()) {
         return Err(asked::nothing_slides(&named, &placed));
     }
-    // Under weight normal tractions are known once the bodies are condensed.
+    // If weight acts, normal tractions are known only once the bodies are condensed.
     let early = if stage.weight.is_empty() { Some(resolved(scene, &placed, &mut warnings)?) } else { None };
     let held = Held::by(&model);
     let conditions = conditions(scene, model.idealisation.components());
@@ -197,7 +196,7 @@ fn plan_in<const D: usize>(scene: &Scene, form: Form) -> Result<Plan, Diagnostic
     })
 }
 
-/// The laws of all points, which are of one kind.
+/// Laws of all points, which are of one kind.
 fn friction<const D: usize>(
     faults: &[(&String, &Spec)],
     placed: &[Placed<D>],
@@ -216,7 +215,7 @@ fn friction<const D: usize>(
     laws::build_fault(&first.law, &choices).map_err(at_law)?.ok_or_else(|| asked::another_law(spec(first)))
 }
 
-/// Doubts about how loads and creep drive faults, whose points slide or creep.
+/// Warnings about the loading of faults by loads and creep; points either slide or creep.
 fn doubts<const D: usize>(
     scene: &Scene,
     (model, stage): (&Model<D>, &Stage),
@@ -225,14 +224,14 @@ fn doubts<const D: usize>(
 ) -> Vec<Warning> {
     let mut all = sense::check(scene, (placed, creeping), &surroundings.loading, stage.end);
     if all.is_empty() {
-        // One cause, one warning.
+        // One warning per cause.
         all.extend(plates::check(scene, (model, stage), (placed, creeping), surroundings));
     }
     all.extend(weight::hangs(scene, model, stage));
     all
 }
 
-/// The points of all faults, and what is to be said of them.
+/// Points of all faults, and notes on them.
 fn all_points<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -273,7 +272,7 @@ fn resolved<const D: usize>(
     Ok(all)
 }
 
-/// The operator in its form.
+/// Operator in the given form.
 fn operator<const D: usize>(tractions: Tractions, placed: &[Placed<D>], form: Form) -> Box<dyn Operator> {
     let places: Vec<[f64; 3]> = placed.iter().map(|p| in_space(&p.point.place.at)).collect();
     let areas: Vec<f64> = placed.iter().map(|p| p.point.place.area).collect();
@@ -309,7 +308,7 @@ fn points_of<const D: usize>(
         let given = stress.as_ref().filter(|_| creep.is_none());
         let given = given.map(|s| s.start(model, &place, weighs)).transpose()?;
         let shear = value(&spec.profiles.shear).or(spec.shear.as_ref().map(|s| s.get_ref().0));
-        // The check has seen to one of them; nobody asks where the fault creeps.
+        // The scene check ensures that one of them is given; where the fault creeps, neither is needed.
         let normal = value(&spec.profiles.normal).or(spec.normal.as_ref().map(|n| n.get_ref().0));
         placed.push(Placed {
             fault,
@@ -336,10 +335,11 @@ fn points_of<const D: usize>(
     Ok(placed)
 }
 
-/// Distance over the size of the model within which a point lies on the border of the creeping part: rounding.
+/// Distance from the boundary of the creeping part within which a point counts as on it, relative to the size of the
+/// model: rounding.
 const CLOSE: f64 = 1e-12;
 
-/// True if slip is prescribed at a place; at the border, to within `close` \[m\], it is.
+/// True if slip is prescribed at a point; includes points within `close` \[m\] of the boundary.
 fn creeps<const D: usize>(creep: &Creep, place: &Place<D>, close: f64) -> bool {
     if let Some(beyond) = &creep.beyond {
         return place.along >= beyond.get_ref().0 - close;
@@ -351,12 +351,12 @@ fn creeps<const D: usize>(creep: &Creep, place: &Place<D>, close: f64) -> bool {
     })
 }
 
-/// Largest value of some profiles at a place.
+/// Largest value of some profiles at a point.
 fn largest<const D: usize>(profiles: &Profiled, place: &Place<D>) -> f64 {
     profiles.0.iter().map(|p| at(p, place)).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// A law with other parameters.
+/// Law with some parameters replaced.
 fn varied(base: &LawChoice, a: Option<f64>, b: Option<f64>, l: Option<f64>) -> LawChoice {
     let mut law = base.clone();
     match &mut law {
@@ -373,7 +373,7 @@ fn varied(base: &LawChoice, a: Option<f64>, b: Option<f64>, l: Option<f64>) -> L
     law
 }
 
-/// η at a point \[Pa s/m\].
+/// Radiation damping η at a point \[Pa s/m\].
 fn damping(spec: &Spec, medium: &Medium) -> Result<f64, Diagnostic> {
     let Some(given) = &spec.damping else { return Ok(0.0) };
     match given.get_ref() {
@@ -388,7 +388,7 @@ fn damping(spec: &Spec, medium: &Medium) -> Result<f64, Diagnostic> {
     }
 }
 
-/// Pressure of the fluid that is injected.
+/// Pressure of the injected fluid.
 fn pressure<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Option<Pressure>, Diagnostic> {
     let mut pressure: Option<Pressure> = None;
     for (fault, (name, spec)) in scene.faults.iter().enumerate() {
@@ -419,7 +419,7 @@ fn pressure<const D: usize>(scene: &Scene, placed: &[Placed<D>]) -> Result<Optio
     Ok(pressure)
 }
 
-/// Unknowns at the start: every point slides at the rate of its fault.
+/// Initial unknowns: every point slides at the initial rate of its fault.
 fn start<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> Result<Vec<f64>, Failure> {
     let layout = Layout::of(fault);
     let n = fault.law.states();
@@ -441,7 +441,7 @@ fn start<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> 
         let law: &dyn FaultLaw = fault.law.as_ref();
         law.steady(p, initial.ln(), &mut y[states.clone()]);
         if let Some(shear) = point.shear {
-            // Friction is odd in the rate: its size is found for a positive one.
+            // Friction is odd in the slip rate, so its magnitude is found for a positive rate.
             let mu = (shear - fault.damping[p] * rate) * rate.signum() / pressed.normal[p];
             law.states_for(p, rate.abs(), mu, &mut y[states.clone()])?;
             y[p] = mu * rate.signum() / law.scale(p);
@@ -481,7 +481,7 @@ fn settings(scene: &Scene, end: f64) -> Result<Settings, Diagnostic> {
     })
 }
 
-/// Times of outputs.
+/// Cadence of the output.
 fn cadence(scene: &Scene, fault: &Fault, end: f64) -> Cadence {
     let lengths = (0..fault.law.points()).filter_map(|p| fault.law.length(p));
     let on = scene.events.as_ref().map_or(EVENT, |e| e.above.get_ref().0);
@@ -505,7 +505,7 @@ fn theta(law: &LawChoice) -> Option<(f64, f64)> {
     evolution::definition(evolution.name)?.variable.theta(state.b, state.l, strength.v_ref)
 }
 
-/// Faces of the minus side between these points, by their numbers.
+/// Faces of the minus side whose nodes are among these points, by point numbers.
 fn faces<const D: usize>(
     model: &Model<D>,
     spec: &Spec,
@@ -519,7 +519,7 @@ fn faces<const D: usize>(
     Ok(model::sides(model, &spec.minus)?.iter().filter_map(of).collect())
 }
 
-/// Faults and points as outputs see them.
+/// Faults and points, as needed by the output.
 fn views<const D: usize>(
     scene: &Scene,
     model: &Model<D>,

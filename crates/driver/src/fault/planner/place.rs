@@ -1,4 +1,4 @@
-//! The points of a fault: pairs of nodes, one on each side, at one place.
+//! Points of a fault: pairs of nodes, one on each side, at the same position.
 
 use super::cover::{self, TOGETHER};
 use crate::diagnostic::Diagnostic;
@@ -13,10 +13,10 @@ use asperity_fem::surface;
 use asperity_mechanics::coordinates;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The points of a fault, along a plane one from its upper end, and what is doubtful about its sides.
+/// Points of a fault, on a plane one in order from its upper end, with a warning if its sides are doubtful.
 ///
 /// # Errors
-/// [`Diagnostic`] where the sides do not lie on each other node by node, where more than two meet, or a point has no area.
+/// [`Diagnostic`] if the sides do not match node by node, if more than two sides meet, or if a point has no area.
 pub fn places<const D: usize>(
     model: &Model<D>,
     name: &str,
@@ -60,10 +60,10 @@ pub fn places<const D: usize>(
     Ok((places, doubtful))
 }
 
-/// Directions of slip and of creep at a place of a fault.
+/// Directions of slip and creep at a point of a fault.
 ///
 /// # Errors
-/// [`Diagnostic`] at a rake that is normal to the fault.
+/// [`Diagnostic`] for a rake normal to the fault.
 pub(super) fn directions<const D: usize>(
     (name, spec): (&str, &Spec),
     at: &[f64; D],
@@ -83,12 +83,13 @@ pub(super) fn directions<const D: usize>(
     Ok([rake, creeps])
 }
 
-/// Elements with which every node of a fault has an area.
+/// Elements that give every node of a fault a positive area.
 const WITH_AREAS: &str = "use an element whose faces have positive nodal areas: quad4, quad8, quad9, tri3, tri6; hex8, hex27, wedge6, tet4";
-/// Sine of the angle between rake and normal below which there is no direction in the fault: a hundredth of a degree.
+/// Sine of the angle between rake and normal below which the rake defines no direction on the fault: a hundredth of a
+/// degree.
 const NORMAL_RAKE: f64 = 2e-4;
 
-/// Part of a direction in the plane of a normal, as a unit vector; none where that is next to nothing.
+/// Unit vector of the part of a direction that is perpendicular to a normal; `None` if that part is negligible.
 fn along_rake<const D: usize>(rake: &[f64; 3], normal: &[f64; D]) -> Option<[f64; D]> {
     let rake: [f64; D] = std::array::from_fn(|c| rake[c]);
     let across: f64 = rake.iter().zip(normal).map(|(r, n)| r * n).sum();
@@ -96,7 +97,7 @@ fn along_rake<const D: usize>(rake: &[f64; 3], normal: &[f64; D]) -> Option<[f64
     (surface::length(&within) > NORMAL_RAKE * surface::length(&rake)).then(|| unit(within))
 }
 
-/// Nodes of both sides at one place; tips, where both sides are one node, are left out.
+/// Pairs of nodes of both sides at the same position, without tips, where both sides are one node.
 type Pairs = Vec<(usize, usize)>;
 
 fn pairs<const D: usize>(
@@ -110,7 +111,7 @@ fn pairs<const D: usize>(
     let nodes = |sides: &[Side]| nodes_of_sides(&model.mesh, sides);
     let (on_minus, mut on_plus) = (nodes(minus), nodes(plus));
     let x = |n: &usize| model.mesh.nodes[*n];
-    // Sorted by the first coordinate: candidates lie in a narrow band.
+    // Sorted by the first coordinate, so that candidates lie in a narrow band.
     on_plus.sort_by(|a, b| x(a)[0].total_cmp(&x(b)[0]));
     let mut partner: BTreeMap<usize, usize> = BTreeMap::new();
     let mut taken = BTreeSet::new();
@@ -149,7 +150,7 @@ fn pairs<const D: usize>(
     Ok((pairs, doubtful))
 }
 
-/// The refusal of a place where more than two sides meet.
+/// Error for a position where more than two sides meet.
 pub(super) fn branches<const D: usize>(what: &str, at: &[f64; D], spec: &Spec) -> Diagnostic {
     Diagnostic::at(
         spec.minus.span(),
@@ -159,9 +160,9 @@ pub(super) fn branches<const D: usize>(what: &str, at: &[f64; D], spec: &Spec) -
     )
 }
 
-/// Integral of the outward normal of the minus side with the shape function of each node.
+/// Integral of the outward normal of the minus side times the shape function of each node.
 fn normals<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<usize, [f64; D]> {
-    // One force for each axis of space.
+    // One component per axis.
     let idealisation = Idealisation::of_dimension(D);
     let forces = surface::integrate(&model.mesh, sides, idealisation, |point, out| {
         out[..D].copy_from_slice(&point.normal);
@@ -173,9 +174,9 @@ fn normals<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<usize, 
     normals
 }
 
-/// Distance of each node along the faces of a plane side from its upper end.
+/// Distance of each node of a plane side from its upper end, along its faces.
 fn distances<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<usize, f64> {
-    // Corners first, middle nodes last: in order along the face.
+    // Reorder from corners first, midside nodes last, to the order along the face.
     let ordered = |side: &Side| {
         let mut nodes = face_nodes(&model.mesh, side);
         nodes[1..].rotate_left(1);

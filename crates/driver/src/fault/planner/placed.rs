@@ -1,4 +1,4 @@
-//! A point of a fault while a scene is planned.
+//! A point of a fault during planning.
 
 use super::medium::Medium;
 use super::prestress::Resolved;
@@ -6,7 +6,7 @@ use crate::scene::law::LawChoice;
 use crate::scene::model::{Along, Profile};
 use asperity_cycles::medium::{Place, Point, across};
 
-/// A point with its fault and law.
+/// A point with its fault and its law.
 pub(super) struct Placed<const D: usize> {
     pub point: Point<D>,
     pub fault: usize,
@@ -18,37 +18,37 @@ pub(super) struct Placed<const D: usize> {
     pub spacing: f64,
     /// Least normal traction that friction uses \[Pa\].
     pub floor: Option<f64>,
-    /// Shear traction at the start, where it is given \[Pa\].
+    /// Initial shear traction, if given \[Pa\].
     pub shear: Option<f64>,
-    /// Tractions of the bodies at the start.
+    /// Initial tractions from the stress in the bodies.
     pub prestress: Resolved,
     pub law: LawChoice,
-    /// Rate of creep, where there is any \[m/s\].
+    /// Creep rate, if any \[m/s\].
     pub creep: Option<f64>,
-    /// Components of displacement of the bodies.
+    /// Number of displacement components of the bodies.
     pub components: usize,
 }
 
 impl<const D: usize> Placed<D> {
-    /// Turns the creep to the directions of the place, which have changed.
+    /// Recomputes the creep components after the directions of the point have changed.
     pub fn redirect(&mut self) {
         self.point.creep = self.creep.map(|rate| components(&self.point.place, rate));
     }
 }
 
 impl<const D: usize> Placed<D> {
-    /// f_n as friction uses it at the start \[Pa\].
+    /// Initial f_n as used by friction \[Pa\].
     pub fn pressed(&self) -> f64 {
         self.floor.map_or(self.normal, |floor| self.normal.max(floor))
     }
 }
 
-/// Value of a profile at a place: linear between its points, constant beyond.
+/// Value of a profile at a point: linear between its nodes, constant beyond them.
 pub(super) fn at<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
     let x = match profile.along.get_ref() {
         Along::X => place.at[0],
         Along::Y => place.at[1],
-        // The check refuses it in the plane.
+        // The scene check refuses it in 2D.
         Along::Z => place.at[D - 1],
         Along::Distance => place.along,
     };
@@ -62,7 +62,8 @@ pub(super) fn at<const D: usize>(profile: &Profile, place: &Place<D>) -> f64 {
     (1.0 - s) * a.1 + s * b.1
 }
 
-/// Direction in which plus moves where slip is positive: out of the plane, along the fault in it, or along the rake.
+/// Direction of motion of the plus side for positive slip: out of the plane, along the fault in the plane, or along the
+/// rake.
 pub(super) fn slides<const D: usize>(placed: &Placed<D>) -> [f64; 3] {
     let normal = in_space(&placed.point.place.normal);
     match placed.components {
@@ -72,7 +73,7 @@ pub(super) fn slides<const D: usize>(placed: &Placed<D>) -> [f64; 3] {
     }
 }
 
-/// A rate of creep along the rake and across it.
+/// Components of a creep rate along and across the rake.
 pub(super) fn components<const D: usize>(place: &Place<D>, rate: f64) -> [f64; 2] {
     if place.creeps == place.rake {
         return [rate, 0.0];

@@ -1,8 +1,9 @@
-//! Agreement of the sides of the bodies with the creep of a fault.
+//! Consistency of the motion of the sides of the bodies with the creep of a fault.
 //!
-//! Creep and the motion of the sides say the same thing twice where plane faults cut the bodies right through: plates that slip everywhere at the rate of the creep
-//! move rigidly and are not strained. With the forces along slip that the sides cause, F_w, that creep causes, F_c, and that slip of all other points at the rate of the creep
-//! would, F_s, plates that agree have `F_w + F_c + F_s = 0`, and the sides move past each other at `-F_w/(F_c + F_s)` times the creep otherwise.
+//! If plane faults cut right through the bodies, creep and the motion of the sides prescribe the same slip twice: plates that slip everywhere at the
+//! creep rate move rigidly and without strain. Let F_w be the force along slip caused by the sides, F_c that caused by creep, and F_s that which slip
+//! of all other points at the creep rate would cause. Consistent plates have `F_w + F_c + F_s = 0`. Otherwise the sides move past each other at
+//! `-F_w/(F_c + F_s)` times the creep rate.
 
 use super::placed::{Placed, slides};
 use crate::loading::Stage;
@@ -12,14 +13,14 @@ use crate::warning::Warning;
 use asperity_cycles::medium::{Surroundings, Tractions};
 use asperity_cycles::operator::Operator as _;
 
-/// Share of the creep by which sides may move differently without a word: a hundred times what rates are usually given to.
+/// Relative difference between the motion of the sides and creep that causes no warning: a hundred times the usual precision of given rates.
 const AGREES: f64 = 0.01;
-/// Share of the force of slip below which sides and creep exert none: sides that are free.
+/// Fraction of the force of slip below which sides and creep count as exerting none: free sides.
 const NOTHING: f64 = 1e-6;
-/// Largest distance of the product of unit vectors along one direction from 1: rounding of coordinates.
+/// Largest deviation from 1 of the product of parallel unit vectors: rounding of coordinates.
 const PARALLEL: f64 = 1e-9;
 
-/// Warnings of sides that move against the slip of a fault, or not as its creep.
+/// Warning about sides that move against the slip of a fault, or not at its creep rate.
 pub(super) fn check<const D: usize>(
     scene: &Scene,
     (model, stage): (&Model<D>, &Stage),
@@ -36,7 +37,7 @@ pub(super) fn check<const D: usize>(
     faults.filter_map(|(k, fault)| against(fault, k, placed, (&sides, creep))).next()
 }
 
-/// True if faults are plane, parallel, slip one way, creep, and cut the bodies right through.
+/// True if the faults are plane and parallel, slip in one direction, creep, and cut right through the bodies.
 fn judged<const D: usize>(
     scene: &Scene,
     model: &Model<D>,
@@ -61,7 +62,7 @@ fn judged<const D: usize>(
     scene.faults.values().all(|f| f.creep.is_some()) && all().all(|p| parallel(p) && one_way(p) && cut(p))
 }
 
-/// Sum of tractions along slip over the areas of points.
+/// Integral over the areas of the points of the traction along slip.
 fn force<const D: usize>(placed: &[Placed<D>], tractions: &[f64]) -> f64 {
     placed.iter().zip(tractions).map(|(p, t)| p.point.place.area * t).sum()
 }
@@ -70,7 +71,7 @@ fn rate(spec: &Spec) -> Option<f64> {
     spec.creep.as_ref().map(|c| c.rate.get_ref().0)
 }
 
-/// The warning of sides that do not move as the creep of the faults between them.
+/// Warning about sides that do not move at the creep rate of the faults between them.
 fn of_plates<const D: usize>(
     scene: &Scene,
     placed: &[Placed<D>],
@@ -112,7 +113,8 @@ fn of_plates<const D: usize>(
     ))
 }
 
-/// The warning of a fault that the sides of the bodies drive against `rate`, and creep more strongly along it.
+/// Warning about a fault that the sides of the bodies drive against `rate` while creep drives it more strongly along
+/// `rate`.
 fn against<const D: usize>(
     (name, spec): (&String, &Spec),
     fault: usize,
@@ -129,7 +131,7 @@ fn against<const D: usize>(
     let sense = spec.rate.get_ref().0.signum();
     let ([by_sides, size], [by_creep, _]) = (own(sides), own(creep));
     let opposed = by_sides * sense < -AGREES * size && by_creep * sense > 0.0;
-    // Where sides prevail the loads as a whole drive it against `rate`, which is warned of elsewhere.
+    // If the sides prevail, the loads as a whole drive it against `rate`; another warning covers this.
     (opposed && (by_sides + by_creep) * sense > 0.0).then(|| {
         Warning::at(
             spec.rate.span(),

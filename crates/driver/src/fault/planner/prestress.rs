@@ -1,7 +1,8 @@
-//! Tractions that an initial stress of the bodies exerts on a fault at the start.
+//! Initial tractions on a fault due to an initial stress of the bodies.
 //!
-//! With the stress σ (tension positive), the normal n from minus to plus and the direction s of slip of plus, `f_n = -n·σn` and
-//! `τ_0 = s·σn`. The bodies are taken to be in equilibrium under it at the start, whatever holds it at their outer faces: what loads and slip change comes on top.
+//! With the stress σ (tension positive), the normal n from minus to plus and the direction s of slip of the plus side, `f_n = -n·σn` and `τ_0 =
+//! s·σn`. The bodies are assumed to be in equilibrium under this stress at the start, whatever holds it at their outer faces. Changes due to loads
+//! and slip are added to it.
 
 use crate::diagnostic::Diagnostic;
 use crate::initial_stress;
@@ -11,36 +12,36 @@ use asperity_cycles::medium::{Place, across};
 use asperity_mechanics::coordinates;
 use std::ops::Range;
 
-/// Difference of the tractions on both sides over their size up to which they balance: rounding of stresses given in the scene.
+/// Largest relative difference of the tractions on both sides that count as balanced: rounding of stresses given in the scene.
 const BALANCED: f64 = 1e-6;
-/// Share of the shear traction that may point across slip that may turn, which starts along the rake: a twentieth of a degree.
+/// Largest component of the shear traction perpendicular to the rake, relative to that along it, if slip is a vector: a twentieth of a degree.
 const ALONG: f64 = 1e-3;
 
-/// The stress of the bodies on both sides of a fault.
+/// Initial stress of the bodies on both sides of a fault.
 #[derive(Debug)]
 pub struct Prestress<'a> {
     name: &'a str,
-    /// By side; xx, yy, zz, xy, yz, zx \[Pa\].
+    /// Stress of each side: xx, yy, zz, xy, yz, zx \[Pa\].
     sides: [[f64; 6]; 2],
-    /// True if it has components in the plane.
+    /// True if the stress has in-plane components.
     presses: bool,
     place: Range<usize>,
     spec: &'a Spec,
 }
 
-/// Tractions at a place \[Pa\].
+/// Tractions at a point \[Pa\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Resolved {
-    /// f_n, where the stress has components in the plane.
+    /// f_n, if the stress has in-plane components.
     pub normal: Option<f64>,
     /// τ_0.
     pub shear: f64,
-    /// The shear traction across that.
+    /// Shear traction perpendicular to τ_0.
     pub across: f64,
 }
 
 impl<'a> Prestress<'a> {
-    /// Stress of a fault, where a body beside it has an initial stress.
+    /// Initial stress at a fault, if a body beside it has one.
     pub fn new(scene: &'a Scene, (name, spec): (&'a str, &'a Spec)) -> Option<Self> {
         let bodies = [&spec.minus, &spec.plus].map(|side| scene.body_of(side));
         let given = bodies.iter().flatten().find_map(|b| b.initial_stress.as_ref())?;
@@ -49,10 +50,10 @@ impl<'a> Prestress<'a> {
         Some(Self { name, sides, presses: given.get_ref().presses(), place: given.span(), spec })
     }
 
-    /// Tractions at a place where the fault slides freely. Where weight acts as well, only their sum is judged.
+    /// Tractions at a freely sliding point. If weight acts as well, only the sum is checked, and not here.
     ///
     /// # Errors
-    /// [`Diagnostic`] where both sides are not in balance, and see [`Self::admit`].
+    /// [`Diagnostic`] if both sides are not in balance; see also [`Self::admit`].
     pub fn start<const D: usize>(
         &self,
         model: &Model<D>,
@@ -66,10 +67,10 @@ impl<'a> Prestress<'a> {
         Ok(found)
     }
 
-    /// Tractions of the stress at a place.
+    /// Tractions of the stress at a point.
     ///
     /// # Errors
-    /// [`Diagnostic`] where both sides are not in balance.
+    /// [`Diagnostic`] if both sides are not in balance.
     fn at<const D: usize>(&self, model: &Model<D>, place: &Place<D>) -> Result<Resolved, Diagnostic> {
         let n = in_space(&place.normal);
         let slides = match model.idealisation.components() {
@@ -93,10 +94,11 @@ impl<'a> Prestress<'a> {
         Ok(Resolved { normal, shear: dot(&minus, &slides), across })
     }
 
-    /// Refuses tractions at a place under which a fault does not slip as it is to, where the stress is all there is.
+    /// Refuses tractions at a point under which the fault would not slip as requested, if they are due to the initial
+    /// stress alone.
     ///
     /// # Errors
-    /// [`Diagnostic`] where the fault is not pressed, or friction would not resist its motion.
+    /// [`Diagnostic`] if the fault is not pressed, or if friction would not resist its motion.
     fn admit<const D: usize>(&self, place: &Place<D>, found: &Resolved) -> Result<(), Diagnostic> {
         let refuse = |what: String, help: &str| {
             let message = format!(
@@ -131,12 +133,12 @@ impl<'a> Prestress<'a> {
     }
 }
 
-/// True if friction under this shear traction \[Pa\] would not resist the motion at the start.
+/// True if friction under this shear traction \[Pa\] would not resist the initial motion.
 pub(super) fn against(spec: &Spec, shear: f64) -> bool {
     shear * spec.rate.get_ref().0.signum() <= 0.0
 }
 
-/// True if slip that may turn would not start along the rake.
+/// True if vector slip would not start along the rake.
 pub(super) fn strays(spec: &Spec, found: &Resolved) -> bool {
     let free = spec.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
     free && found.across.abs() > ALONG * found.shear.abs()
@@ -150,7 +152,7 @@ fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// σ n.
+/// Traction σ n.
 fn traction([xx, yy, zz, xy, yz, zx]: &[f64; 6], n: &[f64; 3]) -> [f64; 3] {
     [dot(&[*xx, *xy, *zx], n), dot(&[*xy, *yy, *yz], n), dot(&[*zx, *yz, *zz], n)]
 }

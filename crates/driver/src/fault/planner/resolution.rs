@@ -1,18 +1,20 @@
-//! Spacing of the points of a fault beside the lengths over which friction falls and over which slip nucleates.
+//! Spacing of the points of a fault, compared with the cohesive zone and the nucleation length of its friction.
 //!
-//! With the weakening `w = Σ b_i/L_i` of the coefficient with slip just behind a rupture front, the normal traction f_n and the modulus
-//! G' (G in antiplane motion and in space, where that is the shorter of both modes, G/(1 - ν) in plane strain):
+//! Let `w = Σ b_i/L_i` be the weakening of the coefficient per slip just behind a rupture front, f_n the normal traction, and G' a modulus (G in
+//! antiplane motion and in 3D, where this gives the shorter length of both modes, and G/(1 - ν) in plane strain):
 //!
-//! * the cohesive zone of a slow front is `L_b = G'/(f_n w)`, which is G' L/(b f_n) for one state: J. R. Rice, "Spatio-temporal complexity of slip
-//!   on a fault", JGR 98 (1993), 9885-9907; the SEAS benchmarks take it so;
-//! * slip of the ageing law nucleates over `2 L_b/[π (1 - a/b)²]`, and in the plane over 2.75 L_b where a/b is small: A. M. Rubin, J.-P. Ampuero, "Earthquake
-//!   nucleation on (aging) rate and state faults", JGR 110 (2005), B11312; in space over π²/4 times as much: T. Chen, N. Lapusta, JGR 114 (2009), B01311;
-//! * a front of linear slip weakening loses its strength over `9π/32 G'/(f_n w)` at rest, w = (μ_s - μ_k)/d_c: A. C. Palmer, J. R. Rice, Proc. R. Soc. A 332 (1973),
-//!   527-548, as S. M. Day et al., JGR 110 (2005), B12307, have it; its slip nucleates over 1.158 G'/(f_n w): K. Uenishi, J. R. Rice, JGR 108 (2003), 2042;
-//! * of laws that do not age, half the critical wavelength `π G' b/(f_n w (b - a))` of linear stability: J. R. Rice, A. L. Ruina, "Stability of
-//!   steady frictional slipping", J. Appl. Mech. 50 (1983), 343-349.
+//! * the cohesive zone of a slow front is `L_b = G'/(f_n w)`, which is G' L/(b f_n) for one state: J. R. Rice, "Spatio-temporal complexity
+//!   of slip on a fault", JGR 98 (1993), 9885-9907; the SEAS benchmarks use it;
+//! * with the ageing law, slip nucleates over `2 L_b/[π (1 - a/b)²]`, and in 2D over 2.75 L_b for small a/b: A. M. Rubin, J.-P. Ampuero,
+//!   "Earthquake nucleation on (aging) rate and state faults", JGR 110 (2005), B11312; in 3D over π²/4 times as much: T. Chen, N. Lapusta,
+//!   JGR 114 (2009), B01311;
+//! * with linear slip weakening, w = (μ_s - μ_k)/d_c, a front at rest loses its strength over `9π/32 G'/(f_n w)`: A. C. Palmer, J. R. Rice,
+//!   Proc. R. Soc. A 332 (1973), 527-548, as given by S. M. Day et al., JGR 110 (2005), B12307; its slip nucleates over 1.158 G'/(f_n w):
+//!   K. Uenishi, J. R. Rice, JGR 108 (2003), 2042;
+//! * with laws that do not age, the nucleation length is half the critical wavelength `π G' b/(f_n w (b - a))` of linear stability: J. R. Rice,
+//!   A. L. Ruina, "Stability of steady frictional slipping", J. Appl. Mech. 50 (1983), 343-349.
 //!
-//! Only points that weaken, b > a, count. f_n is that at the start.
+//! Only points that weaken, b > a, are considered. f_n is the initial normal traction.
 
 use super::super::resolution::{Coarsest, ENOUGH, FEW, Resolution, TOO_FEW};
 use super::super::words::length;
@@ -30,31 +32,32 @@ use asperity_friction::kind::{self, Weakening};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Half the length of nucleation over L_b where a/b is small (Rubin and Ampuero 2005).
+/// Half the nucleation length over L_b for small a/b (Rubin and Ampuero 2005).
 const SMALL_RATIO: f64 = 1.3774;
 /// Length at the tip of a front at rest over which linear slip weakening loses its strength, over G'/(f_n w): 9π/32.
 const BREAKDOWN: f64 = 9.0 * PI / 32.0;
-/// Length over which slip that weakens linearly nucleates, over G'/(f_n w) (Uenishi and Rice 2003).
+/// Nucleation length of linear slip weakening, over G'/(f_n w) (Uenishi and Rice 2003).
 const UNSTABLE: f64 = 1.158;
-/// By how much a front of the slip law, and of flash weakening, is narrower than L_b at least. Strength falls there over L whatever the drop, so that the zone
-/// narrows with the logarithm of the rise of V; with BP1 4.4 points to L_b make events in the afterslip that 8.8 do not (case `seas_bp1_16mm`).
+/// Least factor by which a front of the slip law, or of flash weakening, is narrower than L_b. Its strength falls over L whatever the drop, so that
+/// the zone narrows with the logarithm of the rise of V. With BP1, 4.4 points per L_b give events in the afterslip that 8.8 do not (case
+/// `seas_bp1_16mm`).
 const NARROWS: f64 = 2.0;
 
-/// Parts of a point.
+/// Friction, normal traction and elasticity at a point.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a> {
-    /// Friction.
+    /// Friction law.
     pub law: &'a LawChoice,
     /// Normal traction \[Pa\].
     pub normal: f64,
-    /// G' \[Pa\].
+    /// Modulus G' \[Pa\].
     pub modulus: f64,
-    /// True if slip is that of a surface in space.
+    /// True if the fault is a surface in 3D.
     pub in_space: bool,
 }
 
 impl Ground<'_> {
-    /// Cohesive zone and length of nucleation \[m\]; none where friction does not weaken.
+    /// Cohesive zone and nucleation length \[m\]; `None` if friction does not weaken.
     #[must_use]
     pub fn lengths(&self) -> Option<[f64; 2]> {
         if let LawChoice::Yielding { kind, own, .. } = self.law {
@@ -70,7 +73,7 @@ impl Ground<'_> {
             Front::Ageing => (true, 1.0),
             Front::Slip { weakened } => {
                 if let Some(weakened) = weakened.and_then(|k| evolution.own.get(k).copied().flatten()) {
-                    // Weakening at high rates goes down to the weakened coefficient.
+                    // Weakening at high rates reduces friction to the weakened coefficient.
                     let drop = (strength.mu0 - weakened).max(0.0);
                     b += drop;
                     weakening += states.iter().map(|s| drop / s.l).fold(0.0, f64::max);
@@ -84,7 +87,7 @@ impl Ground<'_> {
         let zone = self.modulus / (self.normal * weakening);
         let nucleation = if ages {
             let half = (PI * (1.0 - a / b).powi(2)).recip();
-            // In space the estimate that benchmarks are given with has no other branch.
+            // In 3D the estimate given with the benchmarks has no separate branch for small a/b.
             2.0 * zone * if self.in_space { 0.25 * PI * PI * half } else { half.max(SMALL_RATIO) }
         } else {
             0.5 * PI * zone * b / (b - a)
@@ -111,10 +114,10 @@ pub fn spacings<const D: usize>(model: &Model<D>, sides: &[Side]) -> BTreeMap<us
     largest
 }
 
-/// Neighbours among the nodes of a face: corners first, then those between them, then the one in the middle.
+/// Pairs of neighbouring nodes of a face. Nodes are ordered as corners, midside nodes, middle node.
 fn links(kind: FaceKind) -> Vec<(usize, usize)> {
     let (nodes, corners) = (kind.nodes(), kind.corners());
-    // A line has one edge, other faces as many as corners.
+    // A line has one edge; other faces have as many edges as corners.
     let count = if corners == 2 { 1 } else { corners };
     let edges = (0..count).map(|k| (k, (k + 1) % corners));
     if nodes == corners {
@@ -125,7 +128,7 @@ fn links(kind: FaceKind) -> Vec<(usize, usize)> {
     halves.chain(middle).collect()
 }
 
-/// The resolution of a fault from its points that slide freely, with their spacing; none where friction weakens nowhere.
+/// Resolution of a fault from its freely sliding points and their spacing; `None` if friction weakens nowhere.
 #[must_use]
 pub fn of_points<'a, const D: usize>(
     fault: &str,
@@ -151,7 +154,7 @@ pub fn of_points<'a, const D: usize>(
     Some(Resolution { fault: fault.to_string(), cohesive_zone, nucleation })
 }
 
-/// G' of a side \[Pa\]: G/(1 - ν) where slip is in the plane, else G.
+/// Modulus G' of a side \[Pa\]: G/(1 - ν) if slip is in the plane of a 2D model, otherwise G.
 #[must_use]
 pub fn modulus(idealisation: Idealisation, shear: f64, poisson: f64) -> f64 {
     if idealisation.dimension() == 2 && idealisation.components() == 2 {
@@ -161,10 +164,10 @@ pub fn modulus(idealisation: Idealisation, shear: f64, poisson: f64) -> f64 {
     }
 }
 
-/// A warning where points are few.
+/// Warning if the points are few.
 ///
 /// # Errors
-/// [`Diagnostic`] where they are too few and the scene does not allow it.
+/// [`Diagnostic`] if they are too few and the scene does not allow it.
 pub(super) fn check(found: &Resolution, spec: &Spec, in_space: bool) -> Result<Option<Warning>, Diagnostic> {
     let zone = &found.cohesive_zone;
     if zone.points >= FEW {
@@ -219,8 +222,8 @@ mod tests {
 
     #[test]
     fn lengths_are_those_published_with_the_benchmarks() {
-        // BP1 "process zone 340 m, nucleation 2 km", BP2 170 m and 1 km, BP5 5.98 km and 12.5 km, BP4 1.97 km and 12.4 km, BP7 64 m and 280 m:
-        // to the digits given.
+        // BP1 "process zone 340 m, nucleation 2 km", BP2 170 m and 1 km, BP5 5.98 km and 12.5 km, BP4 1.97 km and 12.4 km, BP7 64 m and 280 m, to the
+        // digits given.
         for (a, b, l, normal, in_space, zone, nucleation, share) in [
             (0.010, 0.015, 0.008, 50e6, false, 340.0, 2e3, 0.03),
             (0.010, 0.015, 0.004, 50e6, false, 170.0, 1e3, 0.03),
@@ -265,7 +268,7 @@ mod tests {
         let (ageing, slip) =
             (law(AGEING, 0.01, &[(0.015, 0.008)]), law(("slip", &[]), 0.01, &[(0.015, 0.008)]));
         let [zone, nucleation] = lengths(&slip, 5e7, false);
-        // Half of L_b, from the cells that BP1 needs with this law.
+        // Half of L_b, found from the cells that BP1 needs with this law.
         assert!((lengths(&ageing, 5e7, false)[0] / zone - 2.0).abs() < 1e-14);
         assert!((2.0 * nucleation / (PI * G * 0.008 / (5e7 * 0.005)) - 1.0).abs() < 1e-14);
     }

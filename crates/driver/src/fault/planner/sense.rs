@@ -1,15 +1,15 @@
-//! Sense in which loads and creep drive faults, and that in which they are to slip.
+//! Direction in which loads and creep drive faults, compared with the direction in which they should slip.
 
 use super::placed::{Placed, slides};
 use crate::scene::model::{Fault as Spec, Scene};
 use crate::warning::Warning;
 use asperity_cycles::Loading;
 
-/// Share of the sizes of its parts below which a sum is rounding.
+/// Fraction of the magnitude of its terms below which a sum is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Warnings of creep against `rate`, and of loads that drive a fault against it; `placed` are the points that slide, `creeping` those that
-/// creep, until `end` \[s\].
+/// Warnings about creep against `rate`, and about loads that drive a fault against it until `end` \[s\]. `placed` are the sliding points, `creeping`
+/// the creeping ones.
 pub(super) fn check<const D: usize>(
     scene: &Scene,
     (placed, creeping): (&[Placed<D>], &[Placed<D>]),
@@ -32,7 +32,7 @@ pub(super) fn check<const D: usize>(
     warnings
 }
 
-/// The warning of a fault that loads drive against `rate` when they first drive it.
+/// Warning about a fault that loads drive against `rate` when they first act on it.
 fn driven<const D: usize>(
     (name, spec): (&str, &Spec),
     placed: &[Placed<D>],

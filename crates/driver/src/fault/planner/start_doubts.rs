@@ -1,4 +1,4 @@
-//! Tractions at the start beside those of friction at the slip rate of the start.
+//! Initial tractions compared with friction at the initial slip rate.
 
 use super::placed::Placed;
 use crate::scene::model::{Fault as Spec, Scene, Spanned};
@@ -8,11 +8,11 @@ use asperity_friction::fault::FaultLaw;
 use asperity_mechanics::coordinates;
 use std::ops::Range;
 
-/// Factor by which friction at the start may differ from that of steady slip at `rate` without a warning. Laws of rock differ by tenths from it at any rate;
-/// a wrong unit, or stress that hardly shears the fault, by far more.
+/// Factor by which initial friction may differ from that of steady slip at `rate` without a warning. For rock, friction differs from it by tenths at
+/// any rate; a wrong unit, or a stress that hardly shears the fault, causes far larger differences.
 const FAR: f64 = 5.0;
 
-/// Source of the shear traction of a fault at the start.
+/// Source of the initial shear traction of a fault.
 fn source<'a>(scene: &'a Scene, spec: &'a Spec) -> (&'static str, Range<usize>) {
     if let Some(shear) = &spec.shear {
         return ("`shear`", shear.span());
@@ -29,7 +29,7 @@ fn source<'a>(scene: &'a Scene, spec: &'a Spec) -> (&'static str, Range<usize>) 
     }
 }
 
-/// A warning for each fault whose friction at the start is far from that of steady slip at `rate`.
+/// A warning for each fault whose initial friction is far from that of steady slip at `rate`.
 pub(super) fn check<const D: usize>(scene: &Scene, placed: &[Placed<D>], fault: &Fault) -> Vec<Warning> {
     let law: &dyn FaultLaw = fault.law.as_ref();
     let mut states = vec![0.0; law.states()];

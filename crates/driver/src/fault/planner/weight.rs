@@ -1,9 +1,10 @@
-//! Effect of the weight of the bodies on faults at the start.
+//! Initial tractions on faults due to the weight of the bodies.
 //!
-//! The bodies rest under their weight, elastic and held where conditions hold them, and no point of a fault has slipped yet: what they exert on its points then is
-//! their f_n and, where the scene gives no `shear`, their τ_0, on top of what an initial stress exerts. Between sides that hold all horizontal motion weight presses sideways
-//! with ν/(1 - ν) of the vertical stress. What an initial stress leaves out of balance deforms the bodies in scenes with interfaces; one that is uniform is
-//! held by its own tractions on the outer faces, and takes no part in carrying the weight.
+//! At the start the elastic bodies rest under their weight, supported by their boundary conditions, and no point of a fault has slipped. The
+//! tractions that they exert on its points are the f_n and, if the scene gives no `shear`, the τ_0 of these points, added to those of an initial
+//! stress. Between sides fixed in all horizontal directions, weight causes a horizontal pressure of ν/(1 - ν) times the vertical stress. In scenes
+//! with interfaces, the unbalanced part of an initial stress deforms the bodies. A uniform one is held by its own tractions on the outer faces and
+//! carries no weight.
 
 use super::cover::TOGETHER;
 use super::placed::Placed;
@@ -16,23 +17,23 @@ use crate::warning::Warning;
 use asperity_cycles::medium::Weight;
 use asperity_mechanics::coordinates;
 
-/// Share of the largest traction below which one is rounding of the condensation.
+/// Fraction of the largest traction below which a traction is rounding of the condensation.
 const NOTHING: f64 = 1e-9;
 
-/// Shear of a fault that weight does not cause.
+/// Advice if weight does not shear a fault.
 const SHEARS: &str = "give the shear traction that earlier motion has left, as `shear` or `profiles.shear`, or an `initial_stress` that shears the fault along `rate`";
-/// Parts of a MPa in which tractions are told.
+/// Parts of a MPa to which tractions are printed.
 const SHOWN: f64 = 1e4;
 
-/// The acceleration of a scene, which is that of all its bodies.
+/// Gravity of a scene, which is the same for all its bodies.
 fn gravity(scene: &Scene) -> Option<&Spanned<Vec<f64>>> {
     scene.bodies.values().find_map(|b| b.gravity.as_ref())
 }
 
-/// Adds what weight exerts to the tractions of points at the start.
+/// Adds the tractions due to weight to the initial tractions of the points.
 ///
 /// # Errors
-/// [`Diagnostic`] where a fault is not pressed, or friction would not resist its motion.
+/// [`Diagnostic`] if a fault is not pressed, or if friction would not resist its motion.
 pub(super) fn press<const D: usize>(
     scene: &Scene,
     (model, stage): (&Model<D>, &Stage),
@@ -41,7 +42,7 @@ pub(super) fn press<const D: usize>(
 ) -> Result<Vec<String>, Diagnostic> {
     let Some(weight) = weight else { return Ok(Vec::new()) };
     add(scene, weight, placed).map_err(|e| match hangs(scene, model, stage) {
-        // What hangs from its sides is pressed by no one's intention.
+        // If bodies hang from their sides, which is hardly intended, this is the likely cause of the error.
         Some(Warning { message, help, .. }) => {
             let carry = help.map(|help| format!("{message}. To carry them, {help}"));
             Diagnostic { help: carry, ..e }
@@ -50,7 +51,7 @@ pub(super) fn press<const D: usize>(
     })
 }
 
-/// Adds what weight exerts to the tractions of points at the start, and says so.
+/// Adds the tractions due to weight to the initial tractions of the points, and returns a description.
 fn add<const D: usize>(
     scene: &Scene,
     weight: &Weight,
@@ -76,12 +77,12 @@ fn add<const D: usize>(
     Ok(told.map(|(k, (name, spec))| words(name, given(spec), own(k))).collect())
 }
 
-/// True if the shear traction at the start is given.
+/// True if the initial shear traction is given.
 fn given(spec: &Spec) -> bool {
     spec.shear.is_some() || spec.profiles.shear.is_some()
 }
 
-/// Tractions of a point at the start; what is less than `small` \[Pa\] is rounding.
+/// Initial tractions of a point; values below `small` \[Pa\] are rounding.
 fn start_at<const D: usize>(
     scene: &Scene,
     (name, spec): (&str, &Spec),
@@ -108,7 +109,7 @@ fn start_at<const D: usize>(
         return Ok(());
     }
     if by_floor {
-        // Friction is that of the floor there, and no share of the weight's shear traction belongs to it: the state is steady.
+        // The floor determines friction there, and the shear traction due to weight does not apply: the initial state is steady.
         point.shear = None;
         return Ok(());
     }
@@ -134,7 +135,7 @@ fn start_at<const D: usize>(
     Ok(())
 }
 
-/// Tractions that weight causes on a fault, whose shear traction is `given` or not.
+/// Description of the tractions due to weight on a fault; `given` tells if its shear traction is given.
 fn words<'a, const D: usize>(
     name: &str,
     given: bool,
@@ -142,7 +143,7 @@ fn words<'a, const D: usize>(
 ) -> String {
     let range = |values: &mut dyn Iterator<Item = f64>| {
         let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)]);
-        // Without the sign of a zero.
+        // Adding zero removes the sign of a zero.
         let [low, high] = [low, high].map(|v| (v * SHOWN).round() / SHOWN + 0.0);
         format!("{low} to {high}")
     };
@@ -162,7 +163,7 @@ fn words<'a, const D: usize>(
     text
 }
 
-/// A warning where nothing beneath bodies carries them.
+/// Warning if nothing supports the bodies from below.
 pub(super) fn hangs<const D: usize>(scene: &Scene, model: &Model<D>, stage: &Stage) -> Option<Warning> {
     let given = gravity(scene)?;
     let acceleration = given.get_ref();
@@ -176,7 +177,7 @@ pub(super) fn hangs<const D: usize>(scene: &Scene, model: &Model<D>, stage: &Sta
     let along = |n: usize| acceleration.iter().enumerate().any(|(c, g)| *g != 0.0 && held(D * n + c));
     let lowest: Vec<usize> = (0..model.mesh.nodes.len()).filter(low).collect();
     let first = *lowest.first()?;
-    // Sides that are held reach down to the corners.
+    // Sides that are held include the bottom corners.
     let carried = 2 * lowest.iter().filter(|n| along(**n)).count() >= lowest.len();
     (size > 0.0 && !carried).then(|| {
         Warning::at(
