@@ -92,7 +92,7 @@ impl Followed {
         let (a, b) = (self.bits(), again.bits());
         let differ = a.iter().zip(&b).filter(|(a, b)| a != b).count() + a.len().abs_diff(b.len());
         ledger
-            .claim("numbers that differ in a run that goes on from its fourth restart")
+            .claim("numbers that differ in a run resumed from its fourth restart")
             .count(differ as u64, 0)
             .evidence(Evidence::Exact, "the run that was not broken off")
             .because("an unbroken run restarts there as well")

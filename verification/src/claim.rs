@@ -1,6 +1,6 @@
 //! Claims and their judgement.
 //!
-//! A claim states a quantity, the evidence its reference value rests on, a bound, and why the bound is what it is. The
+//! A claim states a quantity, the evidence its reference value rests on, a bound, and the reason for the bound. The
 //! harness computes the error, compares it with the bound, and then turns on itself: the same claim with its value moved by
 //! three bounds must fail, or the bound does not judge anything and the claim disagrees.
 
@@ -285,7 +285,7 @@ pub enum Verdict {
 pub enum Mark {
     /// The bound is more than ten times the error, and the claim says why.
     Slack,
-    /// The bound is more than ten times the error, and nobody says why.
+    /// The bound is more than ten times the error, without a reason.
     SlackUnexplained,
     /// The error is within a fifth of the bound.
     Thin,
@@ -308,7 +308,7 @@ pub struct Claim {
     pub source: String,
     /// Uncertainty of the reference, in its unit.
     pub uncertainty: f64,
-    /// Reason why the bound is what it is; a claim without a reason disagrees.
+    /// Reason for the bound; a claim without a reason disagrees.
     pub because: String,
     /// Reason why the bound may not be tighter, when the error is far below it.
     pub why_not_tighter: String,

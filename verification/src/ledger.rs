@@ -207,7 +207,7 @@ macro_rules! common_setters {
             self
         }
 
-        /// Reason why the bound is what it is.
+        /// Reason for the bound.
         pub fn because(mut self, reason: impl Into<String>) -> Self {
             self.common.because = reason.into();
             self

@@ -192,7 +192,7 @@ impl<const D: usize> Interface<D> {
         self.rule = rule;
     }
 
-    /// Changes or removes the law. Tangential traction, slip and states start anew: slip is counted from here. Call it
+    /// Changes or removes the law. Tangential traction, slip and states restart: slip is counted from here. Call it
     /// between steps.
     pub fn set_law(&mut self, law: Option<Arc<dyn Law>>) {
         let n = self.slave.len();
@@ -470,7 +470,7 @@ impl<const D: usize> Interface<D> {
             f.friction[p] =
                 if contact.traction > 0.0 && self.tied.is_none() { size / contact.traction } else { 0.0 };
             let rate = shear.committed.rate[p];
-            // Slip runs along the traction (without normal traction there is none, and the slip itself tells).
+            // Slip is along the traction. Without normal traction there is none, and the direction is that of slip itself.
             let along = if t[0] == 0.0 { step[p][0] } else { t[0] };
             f.slip_rate[p] = if D == 2 { rate.copysign(rate * along) } else { rate };
             if contact.closed {

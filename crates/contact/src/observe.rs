@@ -128,7 +128,7 @@ pub struct Balance<const D: usize> {
 pub struct Work {
     /// Searches (evaluations of the pairing).
     pub searches: u64,
-    /// Searches that were asked for and not made, because no node had moved as far as the last one proved harmless.
+    /// Searches that were skipped because no node had moved beyond the distance that the last search proved harmless.
     pub searches_skipped: u64,
     /// Closest-point projections on single segments during searches.
     pub projections: u64,

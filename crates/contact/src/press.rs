@@ -1,7 +1,7 @@
 //! Interfaces that are pressed before anything moves.
 //!
 //! Bodies that start with a stress exert tractions on each other while nothing is displaced. The penalty then acts about them,
-//! `f_n = <f_0 - E_n (g_n - g_0)>`, and friction goes on from `t_0`: without further loads nothing moves.
+//! `f_n = <f_0 - E_n (g_n - g_0)>`, and friction continues from `t_0`: without further loads nothing moves.
 
 use crate::interface::Interface;
 use crate::measure::{Attachment, NormalPoint};

@@ -144,7 +144,7 @@ impl Past<'_> {
         if !self.contact[p].closed {
             return (1.0, 0.0);
         }
-        // The previous slip counts as path length: its sign tells whether slip goes on or reverses.
+        // The previous slip counts as path length: its sign shows whether slip continues or reverses.
         let along = dot(&self.slip[p], direction);
         let length = norm(&self.slip[p]);
         (self.two_step.weight, if along == 0.0 { 0.0 } else { self.two_step.past * length.copysign(along) })

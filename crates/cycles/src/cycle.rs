@@ -1,7 +1,7 @@
 //! Integration of a fault from change to change of its loading.
 //!
-//! The integration restarts after each event and after every [`RESTART`] accepted steps, whether or not somebody keeps what it
-//! restarts from: a run that goes on from such a point takes the same steps, bit for bit, as one that was never broken off.
+//! The integration restarts after each event and after every [`RESTART`] accepted steps, with or without a checkpoint. A run resumed
+//! there takes the same steps, bit for bit, as one that was never interrupted.
 
 use super::catalogue::{Catalogue, Thresholds};
 use super::components::Components;
@@ -45,7 +45,7 @@ const ROUNDING: f64 = 1e-15;
 /// Integrates `fault` from `unknowns` at time 0. An integration that fails is no error: the outcome says so.
 ///
 /// # Errors
-/// If the observer cannot go on.
+/// If the observer fails.
 pub fn run(
     fault: &Fault,
     loading: &Loading,
@@ -61,7 +61,7 @@ pub fn run(
 /// Resumes a run, see [`Observer::pause`]. One that had ended is returned as it is.
 ///
 /// # Errors
-/// If the observer cannot go on.
+/// If the observer fails.
 pub fn resume(
     fault: &Fault,
     loading: &Loading,
@@ -87,7 +87,7 @@ pub fn resume(
     Ok(run)
 }
 
-/// True if all events asked for have ended.
+/// True if the requested number of events has ended.
 fn enough(run: &FaultRun, settings: &Settings) -> bool {
     settings.most_events.is_some_and(|most| run.events().len() >= most)
 }
@@ -135,7 +135,7 @@ fn leg(
     }
 }
 
-/// Integrates until the next restart, or as far as it goes; whether it is to go on.
+/// Integrates until the next restart or the end. Returns true if the run continues.
 fn piece(
     equations: &Equations<'_>,
     fault: &Fault,
@@ -185,7 +185,7 @@ fn piece(
     (run.outcome, run.at, run.unknowns) = (outcome, at, state);
     run.counts += counts;
     match &mut run.outcome {
-        // To the end exactly, so that nothing is left of it for another step.
+        // To the end exactly, so that no remainder needs another step.
         Outcome::Completed => (run.at, run.next_step) = (Clock::new(end, 0.0), None),
         Outcome::Failed { reason } => {
             if let Failure::TooManySteps { most } = reason {
@@ -216,7 +216,7 @@ struct Follow<'a> {
     equations: &'a Equations<'a>,
     fault: &'a Fault,
     observer: &'a mut dyn Observer<Faults>,
-    /// Reason why the observer cannot go on.
+    /// Failure of the observer.
     failure: Option<ObserveError>,
     catalogue: &'a mut Catalogue<Rupture>,
     detectors: &'a mut [Detector],

@@ -12,7 +12,7 @@
 //! elastic energy is that of slip and of openings since the start.
 //!
 //! The integrals run over cubic polynomials with the values and rates of both ends of each step, for slip as for tractions; the elastic
-//! energy comes from slip through the operator. The integrator knows none of them, and what the balance lacks is an error of its own
+//! energy comes from slip through the operator. The integrator uses none of them, and the imbalance is an independent error
 //! kind: of slip, against the friction that was carried along.
 
 use super::below::Used;
@@ -46,7 +46,7 @@ pub struct Energy {
     /// Work of fluid, of loads and of the normal tractions at the start on openings.
     #[serde(default, skip_serializing_if = "nothing")]
     pub opening: f64,
-    /// Sum of the sizes of that work step by step: openings give back what they take.
+    /// Sum of the absolute values of that work over steps: openings return the work they take.
     #[serde(default, skip_serializing_if = "nothing")]
     pub exchanged: f64,
 }

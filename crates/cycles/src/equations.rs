@@ -419,7 +419,7 @@ impl Problem for Equations<'_> {
         self.evaluate(at, y, dy, true);
     }
 
-    /// Slip of a point loads those around it by no more than [`Operator::stiffness`], and friction gives way with the slope
+    /// Slip of a point loads those around it by no more than [`Operator::stiffness`], and friction yields with the slope
     /// f_n a/V + η along slip, and with more across it: in the norm of the columns weighted with that slope a bound of the relaxation by elasticity, beside which states
     /// relax with V/L.
     fn spectral_radius(&self, at: Clock, y: &[f64]) -> Option<f64> {
@@ -427,7 +427,7 @@ impl Problem for Equations<'_> {
         let Scratch { rate, crack, .. } = &mut *self.scratch.borrow_mut();
         fault.law.slip_rates(0, &y[l.m()], &y[l.states()], rate);
         let pressed = fault.pressed(at, y, crack);
-        // The norm of what gives way, one matrix a point with its eigenvalues along and across slip.
+        // Norm of the compliance of friction: one matrix per point, with eigenvalues along and across slip.
         let norm = (l.components as f64).sqrt();
         let rate = Components::new(rate, l.points);
         let of = |(i, k): (usize, &f64)| {

@@ -11,7 +11,7 @@ pub enum RunError {
     /// A law has no answer at a jump of the normal traction.
     #[error(transparent)]
     Law(#[from] asperity_friction::Failure),
-    /// An observer cannot go on.
+    /// An observer failed.
     #[error("{0}")]
     Observe(#[from] ObserveError),
 }

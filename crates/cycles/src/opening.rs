@@ -89,7 +89,7 @@ impl Opening {
         format!("{shear} tractions of {} openings, {:.1} kB", self.points.len(), self.bytes() as f64 / 1e3)
     }
 
-    /// Finds the openings under what bodies press with where nothing opens, N, and adds to it what they add: nothing is left where a point is open.
+    /// Finds the openings under N, the normal tractions without opening, and adds their effect to N: it vanishes at open points.
     ///
     /// # Errors
     /// A point whose state does not settle.

@@ -34,7 +34,7 @@ impl Problem {
     /// Integrates it from its start, with its own settings or others. An integration that fails is no error: the outcome says so.
     ///
     /// # Errors
-    /// If the observer cannot go on.
+    /// If the observer fails.
     pub fn run(
         &self,
         settings: &Settings,

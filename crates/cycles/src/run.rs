@@ -4,8 +4,8 @@ use super::catalogue::Catalogue;
 use asperity_ode::{Clock, Counts, Outcome};
 use serde::{Deserialize, Serialize};
 
-/// Results of a run, or its results so far: where it restarts this is all there is to know to resume it. `D` are the details of its
-/// events, `P` its progress in terms of its kind.
+/// Results of a run, or its results so far. At a restart they suffice to resume it. `D` are the details of its events, `P` is the
+/// progress specific to its kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run<D, P> {
     /// Outcome.

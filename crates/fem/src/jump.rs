@@ -1,7 +1,7 @@
 //! The jump across a fault as a degree of freedom.
 //!
 //! Along a split surface each place has a node on the minus and one on the plus side. With `u⁺ = u⁻ + Σ_k s_k e_k`, e_k an
-//! orthonormal frame of the place, the displacement of the plus node gives way to its jump s: `u = T v`, and the stiffness of
+//! orthonormal frame of the point, the displacement of the plus node is replaced by its jump s: `u = T v`, and the stiffness of
 //! the body becomes `Tᵀ K T`, cell by cell, with the numbers of the plus node's degrees of freedom standing for the jump.
 //! No penalty is needed, and a jump that is fixed at zero joins the two sides again: where nothing opens, the opening is such
 //! a jump. The forces that belong to jumps are those that hold them, `f = ∂E/∂s`; the traction that drives slip is `-f` over the

@@ -290,7 +290,7 @@ pub trait Limited: Linearized {
     fn rate(&mut self, at: Instant, values: &mut [f64], constant: &mut [f64]) -> Result<(), Refusal>;
 
     /// Switches what answers the increment `du` otherwise than the rate tangent assumed: what was to slip and would slip backwards,
-    /// or was to stick and is at its strength already. Returns whether anything switched: the increment must then be found anew.
+    /// or was to stick and is at its strength already. Returns true if any point switched: the increment must then be recomputed.
     /// Nothing switches for ever within one step.
     fn switch(&mut self, _du: &[f64], _at: Instant) -> bool {
         false

@@ -51,7 +51,7 @@ pub enum Prepared {
 /// Returns the symmetry of the tangents in a stage, which is decided here alone. Bodies say whether their tangent is symmetric;
 /// contact that is tied or without a law has a symmetric one. Friction couples shear traction to normal traction in one direction only.
 /// Mortar contact that follows the motion is not symmetric: its forces are the averages of the pressure, not the gradient of an
-/// energy of gaps. Multipliers that are unknowns have zeros on the diagonal, for which Cholesky would be tried in vain.
+/// energy of gaps. Multipliers that are unknowns have zeros on the diagonal, for which a Cholesky factorisation always fails.
 #[must_use]
 pub fn symmetry<const D: usize>(
     model: &Model<D>,

@@ -164,7 +164,7 @@ impl Stage {
                 points.iter().map(|p| self.start + p.0).collect(),
                 points.iter().map(|p| p.1).collect(),
             ))),
-            // What a rotation adds to the place at its start is told by `turning`.
+            // `turning` gives the displacement that a rotation adds to the position at its start.
             Motion::Hold => channels.push(present(constant(1.0))),
             Motion::Fixed(_) => {}
         }

@@ -67,7 +67,7 @@ pub struct StepLength {
     imposed: Option<Vec<f64>>,
     /// True if the last trial failed: the next step does not grow, since it would fail again.
     failed: bool,
-    /// Length the error of slip asked for, where it lies below the smallest.
+    /// Length required by the error of slip, if it is below the smallest.
     needed: Option<f64>,
     reason: &'static str,
 }
@@ -178,7 +178,7 @@ impl StepLength {
         self.dt = (basis * factor).max(self.smallest).min(self.largest);
     }
 
-    /// The length the error of slip asked for after the last step and the smallest allowed \[s\], where that is longer.
+    /// Length required by the error of slip after the last step, and the smallest allowed length if that is longer \[s\].
     #[must_use]
     pub fn exhausted(&self) -> Option<(f64, f64)> {
         self.needed.map(|needed| (needed, self.smallest))

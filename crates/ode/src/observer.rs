@@ -2,7 +2,7 @@
 
 use super::report::Control;
 
-/// Reason why an observer cannot go on, as a file that cannot be written.
+/// Failure of an observer, such as a file that cannot be written.
 pub type ObserveError = Box<dyn std::error::Error + Send + Sync>;
 
 /// A kind of run, by what its observers see of it.
@@ -39,7 +39,7 @@ pub trait Observer<K: Kind> {
         Ok(())
     }
 
-    /// Says where the run may be interrupted why it is to be, if it is; `stand` copies all there is to know to resume it.
+    /// Called where the run may be interrupted. Returns the reason to interrupt it; `stand` copies the state from which it can resume.
     ///
     /// # Errors
     /// If something cannot be written.
@@ -47,7 +47,7 @@ pub trait Observer<K: Kind> {
         Ok(None)
     }
 
-    /// Sees the last good state of a run that cannot go on; [`Observer::step`] has seen it already.
+    /// Receives the last good state of a run that cannot continue; [`Observer::step`] has already received it.
     ///
     /// # Errors
     /// If something cannot be written.
@@ -55,7 +55,7 @@ pub trait Observer<K: Kind> {
         Ok(())
     }
 
-    /// Returns false where it looks at nothing: what nobody looks at is not computed.
+    /// Returns false if it observes nothing, so that its input need not be computed.
     fn watches(&self) -> bool {
         true
     }

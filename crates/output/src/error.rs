@@ -29,7 +29,7 @@ pub enum OutputError {
         /// The system's reason.
         source: std::io::Error,
     },
-    /// A table lacks rows that it had.
+    /// A table has lost rows.
     #[error(
         "{path} has {found} bytes and had {expected} at the checkpoint; restore it, or run without --resume to begin again"
     )]

@@ -72,7 +72,7 @@ pub struct FilesState {
 }
 
 impl Files {
-    /// Makes the directory and makes sure that it can be written to; writes nothing else yet.
+    /// Creates the directory and checks that it can be written to.
     ///
     /// # Errors
     /// If the directory cannot be made or written to.
@@ -427,7 +427,7 @@ fn check_bodies(mesh: &MeshView, fields: &BodyFields) -> Result<(), OutputError>
     }
 }
 
-/// Removes `<stem>_<digits>.<extension>` for the given stems where the digits are a larger number than this, and nothing else.
+/// Removes only files `<stem>_<digits>.<extension>` of the given stems whose number is larger than this.
 fn remove_numbered(dir: &Path, stems: &[&str], (extension, most): (&str, usize)) -> Result<(), OutputError> {
     let Ok(entries) = fs::read_dir(dir) else { return Ok(()) };
     for entry in entries {

@@ -50,7 +50,7 @@ impl Pulse {
                 wait = silence.saturating_sub(last.printed.elapsed());
             }
         };
-        // A system that gives no thread gives no sign of life; the run goes on.
+        // Without a thread there are no messages; the run continues.
         let thread = std::thread::Builder::new().name("pulse".into()).spawn(beat).ok();
         Self { last, looked: started, beating: thread.map(|thread| (ends, thread)) }
     }
@@ -61,7 +61,7 @@ impl Pulse {
         self.looked.elapsed() >= LOOK
     }
 
-    /// Text to print when nothing else is for long.
+    /// Text to print after a long time without other output.
     pub(super) fn hears(&mut self, words: String) {
         self.looked = Instant::now();
         held(&self.last).words = words;
@@ -102,7 +102,7 @@ mod tests {
         pulse.hears("goes on".into());
         assert!(heard.iter().any(|words| words == "goes on"));
         drop(pulse);
-        // The thread has ended, and with it whoever told something.
+        // The thread has ended and prints no more.
         assert!(heard.iter().all(|words| words == "goes on"));
     }
 

@@ -55,7 +55,7 @@ pub struct StageEnd {
     pub time: f64,
     /// Fields of the interfaces, in the order of [`Setup::interfaces`].
     pub interfaces: Vec<InterfaceFields>,
-    /// Fields of the bodies, when asked for.
+    /// Fields of the bodies, if requested.
     pub bodies: Option<BodyFields>,
 }
 

@@ -109,7 +109,7 @@ impl InterfaceFields {
     }
 }
 
-/// Nodal fields of the bodies, recovered only when asked for.
+/// Nodal fields of the bodies, recovered only on request.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BodyFields {
     /// Displacement per node \[m\].
@@ -281,7 +281,7 @@ pub trait Writer {
     /// If something cannot be written.
     fn step(&mut self, view: &StepView<'_>) -> Result<(), super::OutputError>;
 
-    /// After the last accepted step of a run that cannot go on, the last good state; [`Writer::step`] has seen it.
+    /// The last good state of a run that cannot continue; [`Writer::step`] has already received it.
     ///
     /// # Errors
     /// If something cannot be written.

@@ -35,7 +35,7 @@ pub struct Array<'a> {
     encoded: Encoded,
 }
 
-/// An array as it stands in the file.
+/// An array in its form in the file.
 #[derive(Clone, Debug)]
 struct Encoded {
     kind: &'static str,

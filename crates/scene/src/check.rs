@@ -75,7 +75,7 @@ impl Checker<'_> {
         self.errors.push(Diagnostic::at(span.clone(), message, help).and(also.0.clone(), also.1));
     }
 
-    /// A count nobody means, which would exhaust the memory.
+    /// A count that is surely a mistake, and would exhaust the memory.
     fn too_many(&mut self, count: &Spanned<usize>, name: &str, most: usize) {
         self.error(
             count.span(),

@@ -17,7 +17,7 @@ use serde::Deserialize;
 const KINEMATICS: [&str; 6] =
     ["plane-strain", "plane-stress", "axisymmetric", "antiplane", "3d", "spring-slider"];
 
-/// Part of a scene that tells its kind.
+/// Part of a scene that shows its kind.
 #[derive(Deserialize)]
 struct Head {
     kinematics: Option<Spanned<toml::Value>>,

@@ -271,7 +271,7 @@ impl Cell {
     /// Its scene.
     ///
     /// # Errors
-    /// If the scene lacks a key that is varied.
+    /// If the scene has no key that is varied.
     pub fn text(&self) -> Result<String, CaseError> {
         let way = self.pairing.way();
         let mut scene = self

@@ -300,7 +300,7 @@ fn uniform(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// The claim that a budget of energy closes.
 fn closes(ledger: &mut Ledger, what: &str, imbalance: f64, cost: &Cost) {
     ledger
-        .claim(format!("what the budget of energy lacks over its largest part, {what}"))
+        .claim(format!("imbalance of the energy budget over its largest part, {what}"))
         .value(imbalance)
         .at_most(1e-4)
         .evidence(Evidence::Exact, "conservation of energy")

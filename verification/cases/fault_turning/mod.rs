@@ -184,7 +184,7 @@ fn vectors(ledger: &mut Ledger, plan: &Plan, found: &Followed, expected: &[Slid]
     Ok(())
 }
 
-/// Energy, moment, and a run that goes on from a restart.
+/// Energy, moment, and a run resumed from a restart.
 fn balances(ledger: &mut Ledger, plan: &Plan, found: &Followed) -> Result<(), CaseError> {
     energy(ledger, "five events while slip turns", found);
     let last = found.report.events.last().ok_or("no event")?;

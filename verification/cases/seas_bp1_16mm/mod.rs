@@ -52,7 +52,7 @@ pub const LAWS: [Law; 2] = [
 /// The scene of a law with this L and cells of `size` \[m\].
 ///
 /// # Errors
-/// If the scene lacks a key that is varied.
+/// If the scene has no key that is varied.
 pub fn text(law: &Law, size: f64) -> Result<String, CaseError> {
     let scene = SceneText::new(law.scene).with("faults.main.law.l", "16 mm");
     Ok(sized(scene, size, AT_CREEP / SIZE * size).text()?)

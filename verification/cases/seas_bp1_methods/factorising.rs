@@ -49,7 +49,7 @@ struct Follow<'a> {
     rate: Vec<f64>,
     /// Onsets so far \[yr\], to the end of the step.
     onsets: Vec<f64>,
-    /// True if an event goes on.
+    /// True while an event is under way.
     within: bool,
     clock: Instant,
     limit: f64,

@@ -23,7 +23,7 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// Width and height of a plot \[px\].
 const SIZE: (u32, u32) = (760, 460);
 
-/// Okabe and Ito's colours, told apart by colour-blind readers, too; dark ones first.
+/// Okabe and Ito's colours, which colour-blind readers can distinguish; dark ones first.
 const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),

@@ -1,4 +1,4 @@
-//! Documentation comments that do not begin with what they name.
+//! Documentation comments must begin with a noun or a verb.
 
 use super::problem::Problem;
 

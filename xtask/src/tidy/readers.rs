@@ -43,7 +43,7 @@ const ROWS: [Row; 1] = [Row {
     reason: "plans are made from the scene, and what lies below them works on values",
 }];
 
-/// Finds files that name what they must not.
+/// Finds files that refer to modules outside their layer.
 pub fn check(files: &[File]) -> Vec<Problem> {
     ROWS.iter().flat_map(|row| files.iter().filter_map(move |file| broken(row, file))).collect()
 }

@@ -9,7 +9,7 @@ const CALLS: [&str; 2] = [".replace(", ".replacen("];
 
 const WHY: &str = "text replaced where it may be absent: vary scenes by key path (asperity_vary::SceneText)";
 
-/// Files whose replaced texts are no scenes, and what they are.
+/// Files in which the replaced texts are not scenes, with their subject.
 const NO_SCENES: [(&str, &str); 7] = [
     ("verification/src/readme.rs", "pages of the book, in its tests"),
     ("verification/src/report/html.rs", "names of counts, as words"),

@@ -1,4 +1,4 @@
-//! Conditions that reach the sides of a fault: which node of a point gives way to its jump, and what cannot be held.
+//! Conditions on the sides of a fault: which node of a point is replaced by its jump, and which conditions are impossible.
 
 use super::place::Place;
 use super::point::Point;
@@ -11,8 +11,8 @@ fn held<const C: usize>(node: usize, fixed: &[usize]) -> [bool; C] {
     std::array::from_fn(|c| fixed.binary_search(&(C * node + c)).is_ok())
 }
 
-/// The jump of a point, of which that node gives way that has fewer conditions: what holds one side alone leaves the jump free. A node
-/// that a spring draws, of which `drawn` tells, does not give way.
+/// The jump of a point. It replaces the node with fewer conditions: a condition on one side alone leaves the jump free. A node that a
+/// spring loads, as given by `drawn`, is not replaced.
 pub(super) fn jump<const D: usize, const C: usize>(
     point: &Point<D>,
     frame: [[f64; C]; C],

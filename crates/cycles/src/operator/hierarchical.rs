@@ -226,7 +226,7 @@ impl Compressed {
 }
 
 /// Products of blocks with a vector: not a closure, which pulp calls through a function of its own that is compiled without the
-/// vector units asked for.
+/// requested vector units.
 struct Product<'a> {
     blocks: &'a [Block],
     values: &'a [f64],

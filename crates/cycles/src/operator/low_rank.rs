@@ -64,7 +64,7 @@ pub(super) fn low_rank(block: DMatrix<f64>, error: f64, most: usize) -> Option<L
     (found.left.ncols() <= most).then_some(found)
 }
 
-/// Iterations after which singular values are not found: some hundred times what they take.
+/// Iterations after which the search for singular values fails: some hundred times the usual number.
 const MOST_ITERATIONS: usize = 10_000;
 
 /// The fewest columns for `left right'` to `error`; none where its singular values are not found. All of it runs on one thread, for

@@ -11,7 +11,7 @@
 //!
 //! The left-hand side is the work of the loads. Its last sum is over sliders of imposed slip rate, all others are over sliders that are free.
 //! The integrals are taken within each step by Gauss's rule from the dense output of the method, slip by solving for the springs. The
-//! integrator knows none of them: what the budget lacks is the error of slip against the friction that was carried along.
+//! integrator uses none of them, so that the imbalance of the budget is an independent measure of the error.
 
 use super::equations::Piece;
 use crate::energy::Energy;

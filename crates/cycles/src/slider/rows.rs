@@ -33,7 +33,7 @@ impl Rows {
     }
 }
 
-/// The times asked for, one after the other.
+/// Requested times in sequence.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Due {
     /// Of the list: the next.
@@ -43,7 +43,7 @@ pub(super) struct Due {
 }
 
 impl Due {
-    /// The next time asked for up to `until`, which is passed then.
+    /// Takes the next requested time up to `until`.
     pub fn next(&mut self, rows: &Rows, until: f64) -> Option<f64> {
         let listed = rows.times.get(self.listed).copied().unwrap_or(f64::INFINITY);
         let regular = rows.interval.map_or(f64::INFINITY, |dt| dt * self.interval as f64);

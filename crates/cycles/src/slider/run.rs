@@ -1,6 +1,6 @@
 //! Integration from break to break of the prescribed histories.
 //!
-//! The integration also restarts after as many accepted steps as the problem says, whether or not somebody keeps what it restarts from: a run that is
+//! The integration also restarts after the number of accepted steps given by the problem, with or without a checkpoint. A run
 //! resumed there takes the same steps, bit for bit, as one that was never interrupted.
 
 use super::budget::Budget;
@@ -30,7 +30,7 @@ pub struct Now<'a> {
     pub step: usize,
     /// Unknowns.
     pub unknowns: &'a [f64],
-    /// Of each slider: what it is doing.
+    /// Condition of each slider.
     pub conditions: &'a [Condition],
     /// Of each slider: slip since time 0 \[m\].
     pub slip: &'a [f64],
@@ -50,7 +50,7 @@ impl Kind for Sliders {
     type Stand = SliderRun;
 }
 
-/// A step is halved so often at most: a slider that passes rest changes ln V without bound.
+/// Largest number of halvings of a step: at a slider that passes through rest, ln V changes without bound.
 const MOST_HALVES: u32 = 8;
 
 /// A step below this share of the time is not resolved: where an undamped slider takes [`MOST_UNRESOLVED`] of them, its slip rate
@@ -66,7 +66,7 @@ const SPENT: f64 = 1e-3;
 /// Progress of a run of spring-sliders.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Progress {
-    /// Energy budget; none of a run that nobody watched.
+    /// Energy budget; none without an observer.
     pub budget: Option<Budget>,
     /// Reason why a run that failed may have failed, in terms of the scene.
     #[serde(skip)]
@@ -205,7 +205,7 @@ fn restarts(problem: &Problem, most: usize) -> Option<String> {
     let rests = problem.system.sliders().iter().any(|s| s.mass.is_some());
     (problem.method == Method::Bdf && problem.peaks && rests).then(|| {
         format!(
-            "the end is not reached in {most} steps: `bdf` begins anew at each extreme of the slip rate, of which rounding makes many where \
+            "the end is not reached in {most} steps: `bdf` restarts at each extreme of the slip rate, of which rounding makes many where \
              a mass rests; take `method = \"switching\"`, or `peaks = false`"
         )
     })
@@ -221,7 +221,7 @@ struct Following<'a> {
     ended: bool,
     /// Accepted steps since the last restart.
     steps: u64,
-    /// Reason why it makes no sense to go on: a slider has run away, or its friction has come to zero.
+    /// Reason to stop: a slider runs away, or its friction has fallen to zero.
     senseless: Option<Failure>,
 }
 
@@ -276,7 +276,7 @@ impl<'a> Following<'a> {
         }
     }
 
-    /// Shows the observer where the run restarts; whether it goes on.
+    /// Lets the observer interrupt the run at a restart. Returns true if it continues.
     fn pauses(&mut self) -> bool {
         self.run.outcome = Outcome::Completed;
         let run = &self.run;
@@ -288,7 +288,7 @@ impl<'a> Following<'a> {
         false
     }
 
-    /// True if all events asked for are over.
+    /// True if the requested number of events has ended.
     fn enough(&self) -> bool {
         // The last event counts when it is over, so that its peak and slip are known.
         self.problem.most_events.is_some_and(|n| self.run.catalogue.ended(0).len() >= n)
@@ -334,15 +334,15 @@ impl Running<'_, '_> {
         }
     }
 
-    /// Shows what lies within a step, from the dense output: so that curves are smooth where steps are long, and at the times asked
-    /// for. Returns whether the end of the step is one of them.
+    /// Passes samples within a step to the observer, from the dense output: for smooth curves in long steps, and at requested times.
+    /// Returns true if the end of the step is one of these.
     fn between(&mut self, step: &Step<'_>) -> bool {
         let problem = self.state.problem;
         let start = self.sample(step, 0.0);
         let mut samples = Vec::new();
         if problem.output.change.is_some() {
             let end = self.sample(step, 1.0);
-            // The middle is looked at in any case: what rises and falls within a step may be at its end what it was at its start.
+            // The middle is always sampled: a rate that rises and falls within a step may end at its initial value.
             let middle = self.sample(step, 0.5);
             self.halves(step, [&start, &middle], 1, &mut samples);
             samples.push(middle.clone());
@@ -378,7 +378,7 @@ impl Running<'_, '_> {
         Sample { fraction, asked: None, unknowns, logs }
     }
 
-    /// Adds the times asked for in a step to its samples. Returns whether its end is one of them.
+    /// Adds the requested times in a step to its samples. Returns true if its end is one of them.
     fn asked(&mut self, step: &Step<'_>, samples: &mut Vec<Sample>) -> bool {
         let problem = self.state.problem;
         let (end, mut ends_asked) = (step.end.seconds(), false);
@@ -461,7 +461,7 @@ impl Running<'_, '_> {
         run.progress.detectors.see(&mut run.catalogue, slider, rate);
     }
 
-    /// Tells the catalogue of the slip rates at the end of a step.
+    /// Enters the slip rates at the end of a step into the catalogue.
     fn sees(&mut self, at: Clock, unknowns: &[f64]) {
         for i in 0..self.state.problem.names.len() {
             self.see(i, self.piece.segment.slip(i, at.seconds(), unknowns).0.rate);
@@ -474,7 +474,7 @@ impl Running<'_, '_> {
 struct Sample {
     /// Share of the step that is over.
     fraction: f64,
-    /// The time, where it is one that is asked for.
+    /// The time, if it was requested.
     asked: Option<Clock>,
     unknowns: Vec<f64>,
     /// ln |V| of each slider.

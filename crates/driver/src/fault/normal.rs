@@ -25,7 +25,10 @@ impl NormalChoice {
                 floor / 1e6
             ),
             Some(floor) => {
-                format!("; friction uses {:?} MPa where they are less, and they go on below", floor / 1e6)
+                format!(
+                    "; friction uses {:?} MPa where they are lower, and they continue below it",
+                    floor / 1e6
+                )
             }
             None if self.changes => "; the run ends where one falls to zero".into(),
             None => String::new(),

@@ -393,7 +393,7 @@ impl Report {
                 e.interval.map_or(String::new(), |i| format!(", {} after the one before", time(i)));
             let _ = writeln!(
                 text,
-                "  event {} at {}{interval}: {} long, {} of it fast, peak {:.4} m/s, slip up to {}, stress drop {} MPa, begins {} `{}`",
+                "  event {} at {}{interval}: duration {}, {} of it above the threshold, peak {:.4} m/s, slip up to {}, stress drop {} MPa, nucleates {} `{}`",
                 k + 1,
                 time(e.onset),
                 time(e.duration),
@@ -431,7 +431,7 @@ impl Report {
             if self.openings.is_empty() { String::new() } else { format!(", on openings {:.6e}", e.opening) };
         let _ = writeln!(
             text,
-            "  energy: loads {:.6e}{opening}, elastic {:.6e}, friction {:.6e}, radiated {:.6e} {}; lacks {:.1e} of the largest",
+            "  energy: loads {:.6e}{opening}, elastic {:.6e}, friction {:.6e}, radiated {:.6e} {}; closes to {:.1e} of the largest",
             e.loads, e.elastic, e.friction, e.radiated, self.unit, self.energy.imbalance
         );
         for floor in &self.floors {

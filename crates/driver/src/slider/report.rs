@@ -171,7 +171,7 @@ impl Report {
                 if e.kinetic == 0.0 { String::new() } else { format!(", kinetic {:.6e}", e.kinetic) };
             let _ = writeln!(
                 text,
-                "  energy: loads {:.6e}, elastic {:.6e}, friction {:.6e}, radiated {:.6e}{kinetic} J/m²; lacks {imbalance:.1e} of the largest",
+                "  energy: loads {:.6e}, elastic {:.6e}, friction {:.6e}, radiated {:.6e}{kinetic} J/m²; closes to {imbalance:.1e} of the largest",
                 e.loads, e.elastic, e.friction, e.radiated
             );
         }

@@ -1,4 +1,4 @@
-//! Runs of faults that are killed, broken off and gone on with: their files are those of a run that was left alone.
+//! Runs of faults that are killed, interrupted and resumed: their files are those of an uninterrupted run.
 #![allow(clippy::disallowed_methods)]
 #![cfg(unix)]
 

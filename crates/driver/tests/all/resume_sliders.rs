@@ -27,7 +27,7 @@ const CHAIN: [Change<'_>; 2] = [
     ),
     Add("springs", r#"[{ between = ["block", "far"], stiffness = "0.3 GPa/m" }]"#),
 ];
-/// Jumps of the rate of the load point: the integration begins anew at each of them, and the displacement goes on.
+/// Jumps of the rate of the load point: the integration restarts at each of them, and the displacement goes on.
 const JUMPS: Change<'_> = With(
     "load.rate",
     r#"{ table = [["0 s", "1 um/s"], ["600 s", "1 um/s"], ["600 s", "3 um/s"], ["1200 s", "3 um/s"], ["1200 s", "0.5 um/s"]] }"#,
@@ -77,7 +77,7 @@ fn interrupted_everywhere(name: &str, text: &str) -> usize {
     // Errors of one tolerance in ln V in each step, by a/f of a sixtieth, if all have one sign.
     let imbalance = expected.progress.budget.unwrap().energy().imbalance();
     let most = problem.tolerance / 60.0 * expected.counts.steps as f64;
-    assert!(imbalance < most, "{name}: energy lacks {imbalance:e} of {most:e}");
+    assert!(imbalance < most, "{name}: energy closes to {imbalance:e} of {most:e}");
     let mut count = 1;
     let found = loop {
         let (run, interrupted) = part(&problem, &parts, Some(Duration::ZERO)).unwrap();

@@ -1,7 +1,7 @@
 //! A dense system, for condensed bodies.
 //!
 //! The sum of the constant terms is kept. Of the equations that no other term touches most are eliminated once ([`Eliminated`]);
-//! what is factored anew in each iteration is the rest.
+//! only the remainder is factored in each iteration.
 
 use super::dense_factor::{Cholesky, DenseFactor, Lu, Refused, copied};
 use super::eliminated::{Eliminated, Entry, ROUNDING};
@@ -18,7 +18,7 @@ const MIRRORED: f64 = 1e-12;
 /// Share of equations that must be left over for their elimination to pay.
 const WORTHWHILE: f64 = 0.125;
 /// Rings of neighbours of what is touched that are kept as well: zones of contact grow by a point or two before anything has to be
-/// eliminated anew.
+/// eliminated again.
 const RINGS: usize = 1;
 
 #[derive(Debug)]
@@ -209,7 +209,7 @@ impl DenseStore {
         *self.symmetric.get_or_insert_with(|| mirrored(constant))
     }
 
-    /// None where the rest is not positive definite although it should be: the whole matrix then tells why.
+    /// None if the remainder is unexpectedly not positive definite: the whole matrix is then factored to find the reason.
     fn factor_rest(&mut self, symmetry: Symmetry) -> Option<DenseFactor> {
         let eliminated = self.eliminated.as_ref()?;
         let matrix = eliminated.with(&self.changing.entries, self.memory.take());
@@ -236,7 +236,7 @@ impl DenseStore {
             Err(refused) => refused,
         };
         let matrix = self.matrix_in(Some(memory));
-        // The factorisation of sparse matrices tells a singular matrix from one with negative modes.
+        // The sparse factorisation distinguishes a singular matrix from one with negative modes.
         let diagonal = diagonal[equation];
         let why = SymmetricPart::of_dense(&matrix).factor().err();
         match why.unwrap_or(DirectError::NotPositive(Pivot { equation, pivot, diagonal })) {

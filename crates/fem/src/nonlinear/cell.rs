@@ -336,7 +336,7 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
-    /// Computes stresses and sensitivities after the step; nothing else is kept.
+    /// Computes stresses and sensitivities after the step and keeps only these.
     pub fn linearised<M: Constitutive>(&mut self, frame: &Frame, material: &M, dt: f64, old: &[f64]) {
         let mut unkept = std::mem::take(&mut self.unkept);
         self.stresses(frame, material, dt, old, &mut unkept, true);

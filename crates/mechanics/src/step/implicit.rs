@@ -20,7 +20,7 @@ const CONVERGED: f64 = 1e-11;
 /// Iterations that may change the pairing. A node that sits on a vertex of the master side would otherwise change segment
 /// for ever, since the normals of the two differ.
 const PAIRING: usize = 3;
-/// Times a converged state is paired anew where its pairing is no longer that of its positions. A node between two segments
+/// Number of times that a converged state is paired again because its pairing no longer fits its positions. A node between two segments
 /// may belong to either: what still changes after that is such a tie.
 const REPAIRS: usize = 2;
 /// Rounding of a force: each is a sum of products of stiffness and displacement, of some tens of terms.
@@ -134,7 +134,7 @@ impl Implicit {
     /// Tries a step of length `dt`. On success the terms have accepted and `state` has advanced.
     ///
     /// # Errors
-    /// [`Failure`]; the terms have dropped what they tried.
+    /// [`Failure`]; the terms have discarded the trial.
     pub fn step(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -222,7 +222,7 @@ impl Implicit {
         Ok((iterations, ratio))
     }
 
-    /// Iterates from `u`, where the residual has been evaluated; the first `pairing` iterations pair anew.
+    /// Iterates from `u`, where the residual has been evaluated; the first `pairing` iterations repeat the pairing.
     fn round(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -254,7 +254,7 @@ impl Implicit {
                 self.go_back(terms, u, &mut progress, at, counts)?;
                 continue;
             }
-            // Springs shorten a motion that nothing else resists: how far it went says nothing.
+            // Springs shorten a motion that is otherwise unresisted, so that its length carries no information.
             progress.moved = if direction.free { f64::INFINITY } else { taken * largest(&direction.along) };
             if iteration + 1 < pairing {
                 self.pairs_anew(terms, u, at, counts)?;

@@ -1,4 +1,4 @@
-//! Steppers: what they share.
+//! Definitions shared by the steppers.
 
 mod anchor;
 mod augmented;
@@ -31,7 +31,7 @@ pub enum Failure {
     /// The state was refused, or the iteration did not converge: a shorter step may do.
     Refused(String),
     /// Constraints were not met within the augmentations allowed. What is left shrinks with the step only in proportion, so that
-    /// shorter ones would go on for ever.
+    /// shorter ones would continue for ever.
     Violated(String),
     /// A linear system could not be solved.
     Unsolved {
@@ -149,7 +149,7 @@ pub struct Accepted {
     pub cut: Cut,
 }
 
-/// Reason why a stepper took a shorter step than it was asked for.
+/// Reason why a stepper took a shorter step than requested.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Cut {
     /// It did not.

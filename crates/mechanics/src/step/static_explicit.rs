@@ -78,7 +78,7 @@ impl StaticExplicit {
     /// Takes a step of at most `dt.0`; where accuracy asks for less than `dt.1`, one of that length.
     ///
     /// # Errors
-    /// [`Failure`]; the terms have dropped what they tried.
+    /// [`Failure`]; the terms have discarded the trial.
     pub fn step(
         &mut self,
         terms: &mut [&mut dyn Limited],
@@ -214,7 +214,7 @@ struct Foreseen {
     cause: Option<String>,
 }
 
-/// The length a limit leaves of a step of length `dt`, where `wanted` was asked for and accuracy may ask for no less than `smallest`.
+/// The length a limit leaves of a step of length `dt`, where `wanted` was requested and accuracy may require no less than `smallest`.
 fn shortened(limit: &Fraction, dt: f64, (wanted, smallest): (f64, f64)) -> f64 {
     let length = dt * limit.value;
     let length = match limit.limit {

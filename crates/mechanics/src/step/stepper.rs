@@ -16,7 +16,7 @@ pub trait Stepper {
     /// Tries a step of length `dt.0`; a forward one may be shorter, for accuracy no shorter than `dt.1`.
     ///
     /// # Errors
-    /// [`Failure`]; the terms have dropped what they tried.
+    /// [`Failure`]; the terms have discarded the trial.
     fn step(
         &mut self,
         terms: &mut [&mut dyn Limited],
@@ -41,7 +41,7 @@ pub trait Stepper {
 
 impl Stepper for Implicit {
     fn begin_stage(&mut self, symmetry: Symmetry, linear: bool) {
-        // Bodies with a history do not go on as before when their loads turn: a stepper with the rate of the stage before would
+        // Bodies with a history do not continue at the previous rate when their loads reverse: a stepper with the rate of the stage before would
         // begin far off.
         Implicit::begin_stage(self, symmetry, linear);
     }

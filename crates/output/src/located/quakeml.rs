@@ -13,7 +13,7 @@ type Xml = Writer<Vec<u8>>;
 /// Identity of events.
 const SAID: &str = "Simulated event: no such earthquake has happened.";
 
-/// The document. `id` tells runs apart, such as a hash of the scene.
+/// The document. `id` identifies the run, such as a hash of the scene.
 ///
 /// # Errors
 /// None but what the writer to memory says.

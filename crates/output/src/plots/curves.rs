@@ -48,7 +48,7 @@ pub(super) const QUANTITIES: [Quantity; 3] = [
     },
 ];
 
-/// Largest over time-weighted median velocity beyond which a linear axis would show spikes on a line and nothing else.
+/// Ratio of the largest to the time-weighted median velocity above which a linear axis would show only spikes.
 const SPIKES: f64 = 1e3;
 
 /// Decades a logarithmic axis shows at most: from plate rates to seismic slip is about twelve.
@@ -156,7 +156,7 @@ fn largest(series: &[&[f64]]) -> f64 {
     finite.fold(0.0, |most, v| most.max(v.abs()))
 }
 
-/// True if the fastest point is, at its fastest, far above what it is most of the time.
+/// True if the peak rate of the fastest point is far above its usual rate.
 pub(super) fn is_spiky(times: &[f64], series: &[&[f64]]) -> bool {
     let mut before = 0.0;
     let mut weighted: Vec<(f64, f64)> = Vec::with_capacity(times.len());

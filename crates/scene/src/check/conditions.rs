@@ -1,4 +1,4 @@
-//! Stages and their conditions: what they refer to, and whether two of them say different things about the same nodes.
+//! Stages and their conditions: their references, and contradictions between conditions on the same nodes.
 
 use super::course::Course;
 use super::interfaces::is_tied;
@@ -305,7 +305,7 @@ impl Checker<'_> {
             );
         } else if let Some((time, _)) = points.last().filter(|p| p.0 > duration * (1.0 + ROUNDING)) {
             let message = format!(
-                "the table goes on to {time:?} s, but stage `{}` ends after {duration:?} s",
+                "the table extends to {time:?} s, but stage `{}` ends after {duration:?} s",
                 stage.name
             );
             let help =
@@ -364,7 +364,7 @@ impl Checker<'_> {
         let mut found = Vec::new();
         for (i, entry) in fresh.iter().enumerate() {
             for other in held.entries.values().filter(|o| self.share_component(entry, o)) {
-                // A pair that begins with this stage is told once, at the later of the two.
+                // A pair that begins with this stage is reported once, at the later of the two.
                 let later = fresh[i + 1..].iter().any(|f| f.set == other.set && f.axis == other.axis);
                 let pair = (
                     entry.set.clone().min(other.set.clone()),

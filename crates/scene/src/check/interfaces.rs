@@ -18,7 +18,7 @@ const MOST_FRICTION: f64 = 4.0;
 type Side = (String, usize, usize);
 
 impl Checker<'_> {
-    /// Keys of the start of faults; interfaces find out or are told elsewhere.
+    /// Keys for the initial state of faults, which interfaces do not have.
     fn keys_of_faults(&mut self, name: &str, interface: &Interface) {
         let tractions = "loads press an interface, or the `initial_stress` of its bodies with `initial_stress = true` in the interface, which brings normal and \
                          shear tractions";

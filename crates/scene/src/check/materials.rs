@@ -99,7 +99,7 @@ impl Checker<'_> {
         for (key, given, kinds) in keys {
             match (given, kinds.contains(kind)) {
                 (None, true) => {
-                    let message = format!("the hardening of material `{name}` lacks `{key}`");
+                    let message = format!("the hardening of material `{name}` has no `{key}`");
                     self.error(place.clone(), message, help.clone());
                 }
                 (Some(given), false) => {

@@ -6,7 +6,7 @@ use asperity_fem::term::Pattern;
 use rayon::prelude::*;
 
 impl<const D: usize> Finite<D> {
-    /// Finds the cells anew; blocks change when they do.
+    /// Recomputes the cells, and the blocks if cells change.
     pub(super) fn pair(&mut self, examined: &mut u64) {
         self.sides.refit(&self.x);
         let facets = self.sides.facets.len();

@@ -73,7 +73,7 @@ pub(crate) fn node_values(faces: &[Segment], slave: &[SlavePoint], nodes: usize)
     for face in faces.iter().filter(|f| f.nodes.iter().any(|&n| point_of[n].is_some())) {
         let weighting = Weighting::new(face.kind, |k| point_of[face.nodes[k]]);
         for (k, &node) in face.nodes.iter().enumerate() {
-            // The functions are continuous: any facet of the node tells its values.
+            // The functions are continuous: any facet of the node gives its values.
             if out[node].is_empty() {
                 let rows = weighting.points.iter().zip(&weighting.rows);
                 out[node] = rows.map(|(&p, row)| (p, row[k])).filter(|(_, c)| *c != 0.0).collect();

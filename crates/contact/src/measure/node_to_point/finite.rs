@@ -1,6 +1,6 @@
 //! Finite sliding: the pairing follows the motion.
 //!
-//! A point is *held* by one segment between searches; the closest point x_c on the (continued) segment is found anew at
+//! A point is *held* by one segment between searches; the closest point x_c on the (continued) segment is recomputed at
 //! each measurement. The point of the last commit, its *anchor*, moves with the master as a material point x_a, and the
 //! tangential increment is `d = x_c - x_a` in the present tangent plane. On one flat segment that is `e_m Δξ_m` with the
 //! present base vectors, whatever the rotation; across coplanar segments it is the sum of the path; across a kink of angle
@@ -92,7 +92,7 @@ impl<const D: usize> Finite<D> {
         self.surface.configure(&self.x);
     }
 
-    /// Builds the blocks anew when a point's segments changed.
+    /// Rebuilds the blocks when a point's segments change.
     fn rebuild(&mut self) {
         let mut changed = false;
         for point in &mut self.points {

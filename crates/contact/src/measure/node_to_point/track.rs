@@ -6,7 +6,7 @@
 //! distance from the border now and every node has moved by δ at most, then the distance is at least d - (1 + Λ) δ and the
 //! gap at most |g_n| + (1 + Λ) δ, Λ the largest sum of |N_γ| on the grown segment; so nothing changes while
 //! `2 (1 + Λ) δ < d - |g_n|`. The foot moves continuously meanwhile: always on lines and flat triangles, on quadrilaterals
-//! while the gap is small against the radius of curvature, which is asked for with a margin of 10.
+//! while the gap is small against the radius of curvature, which is required with a margin of 10.
 
 use super::local::Local;
 use crate::search::patch::{Form, MOST_POINTS, evaluate};
@@ -27,7 +27,7 @@ const HYSTERESIS: f64 = 1e-3;
 /// their last node.
 const OVERRUN: f64 = 1e-2;
 
-/// A point beyond the rim is paired anew when it lies off the normal through the rim by less than this share of the
+/// A point beyond the rim is paired again if it lies off the normal through the rim by less than this share of the
 /// segment's size, as in small sliding.
 const RIM: f64 = 1e-6;
 
@@ -74,7 +74,7 @@ struct Tracked {
     projections: u64,
 }
 
-/// Decides anew which segment holds each point, with the nodes at `x`; gives how far they may move before that can change.
+/// Redetermines which segment holds each point, with the nodes at `x`. Returns how far nodes may move before this can change.
 pub(super) fn track<const D: usize>(
     surface: &Surface<D>,
     x: &[[f64; D]],

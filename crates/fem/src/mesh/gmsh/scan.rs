@@ -94,7 +94,7 @@ impl<'a> Scan<'a> {
         rest[..end].trim_ascii()
     }
 
-    /// Advances past the end of a line on which nothing else follows: binary data begin there.
+    /// Advances past the end of an otherwise empty line, where binary data begin.
     pub(super) fn end_line(&mut self) -> Result<(), MeshError> {
         let before = self.at;
         if self.line().is_empty() {
