@@ -78,7 +78,7 @@ pub enum FemError {
     },
     /// Faces whose shape functions have integrals that are zero or negative.
     #[error(
-        "faces of {element} have nodal areas that are zero or negative, so that their nodes cannot stand for areas: take \
+        "faces of {element} have nodal areas that are zero or negative, so that their nodes cannot represent areas: take \
          elements of first order, quad9 or hex27, or integrate over the faces"
     )]
     NodalAreas {

@@ -223,7 +223,7 @@ impl<const D: usize> Model<D> {
     /// Tributary areas of the nodes of faces \[m^(D-1); m² of the full circle about an axis\].
     ///
     /// # Errors
-    /// [`FemError::NodalAreas`] for faces in space of six or eight nodes, whose nodes cannot stand for areas.
+    /// [`FemError::NodalAreas`] for faces in space of six or eight nodes, whose nodes cannot represent areas.
     pub fn tributary_areas(&self, sides: &[Side]) -> Result<BTreeMap<usize, f64>, FemError> {
         for side in sides {
             let kind = self.mesh.blocks[side.block].kind;

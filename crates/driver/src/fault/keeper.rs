@@ -65,7 +65,7 @@ impl<'a> Keeper<'a> {
     ) -> Result<Option<(Self, FaultRun)>, ResumeError> {
         let Some(read) = Checkpoint::read(out, physics)? else { return Ok(None) };
         if read.last.run.unknowns.len() != plan.problem.start.len() {
-            return Err(checkpoint::foreign(out, "it has not the unknowns of this scene"));
+            return Err(checkpoint::foreign(out, "its unknowns differ from those of this scene"));
         }
         let Some((from, before)) = Self::from(out, plan, read)? else { return Ok(None) };
         let files = Files::resume(out, plan, &from.files)?;

@@ -60,7 +60,7 @@ pub fn check(resolved: &Resolved, interface: &str, mean: f64) -> Result<Option<W
         resolved.spacing
     );
     if points < TOO_FEW && resolved.refused_beyond.is_some() {
-        let message = format!("{message}: each point breaks by itself, and slip is that of the mesh");
+        let message = format!("{message}: each point fails independently, and slip is that of the mesh");
         return Err(Diagnostic::at(resolved.place.clone(), message, remedy(resolved, mean)));
     }
     let message = format!("{message}: fronts of slip follow the mesh");

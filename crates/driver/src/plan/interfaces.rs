@@ -48,7 +48,7 @@ pub fn plan<const D: usize>(
         return Err(Diagnostic::at(
             spec.master.span(),
             format!("the two sides of interface `{name}` are the same nodes"),
-            "an interface lies between two sides that can part; `split` in a mesh makes them",
+            "an interface lies between two sides that can separate; `split` in a mesh makes them",
         ));
     }
     let (law, watch) = match &spec.law {

@@ -72,7 +72,7 @@ impl Keeper {
             return Ok(None);
         };
         if run.unknowns.len() != problem.start.len() {
-            return Err(checkpoint::foreign(out, "it has other unknowns than this scene"));
+            return Err(checkpoint::foreign(out, "its unknowns differ from those of this scene"));
         }
         let histories = Histories::resume(out, problem, histories)?;
         Ok(Some((Self::new(out, physics, histories, pauses), run)))

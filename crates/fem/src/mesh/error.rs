@@ -256,7 +256,7 @@ pub enum MeshError {
         present: Vec<GroupName>,
     },
     /// A group number that does not exist.
-    #[error("`{name}` is to be group {tag}, but no group has this number; there are {}", list(present))]
+    #[error("`{name}` is declared as group {tag}, but no group has this number; there are {}", list(present))]
     MissingTag {
         /// Name to be given to the group.
         name: String,

@@ -161,7 +161,7 @@ fn unnamed_groups_are_named_by_their_numbers_or_by_a_map() {
     let error = read::<2>(name, &options).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "`gouge` is to be group 9, but no group has this number; there are 1, 2, 5, 7"
+        "`gouge` is declared as group 9, but no group has this number; there are 1, 2, 5, 7"
     );
 }
 

@@ -37,7 +37,7 @@ impl Checker<'_> {
         } else if let Some(stays) = fault.normal_changes.as_ref().filter(|c| !c.get_ref()) {
             self.conflict(
                 &opening.span(),
-                "`opening` stands beside `normal_changes = false`: a fault opens where its normal traction has gone",
+                "`opening` contradicts `normal_changes = false`: a fault opens where its normal traction has gone",
                 "remove one of them",
                 (&stays.span(), "normal tractions stay"),
             );
@@ -72,7 +72,7 @@ impl Checker<'_> {
         if let (Some(weight), Some(normal)) = (weight, &normal) {
             self.conflict(
                 normal,
-                "`normal` stands beside `gravity`, from which the same traction follows",
+                "`normal` is given together with `gravity`, which determines the same traction",
                 "remove `normal` and its profile, or the `gravity` of the bodies",
                 (&weight.span(), "the gravity"),
             );
@@ -82,7 +82,9 @@ impl Checker<'_> {
             let Some(place) = place else { continue };
             self.conflict(
                 &place,
-                format!("`{key}` stands beside an initial stress, from which the same traction follows"),
+                format!(
+                    "`{key}` is given together with an initial stress, which determines the same traction"
+                ),
                 format!("remove `{key}` and its profile, or the `initial_stress`"),
                 (&stress.span(), "the initial stress"),
             );
@@ -128,7 +130,7 @@ impl Checker<'_> {
             let Some(stress) = body.initial_stress.as_ref().filter(|_| !on_fault(name)) else { continue };
             self.error(
                 stress.span(),
-                format!("the initial stress of body `{name}` presses no fault, and means nothing else in a scene with faults"),
+                format!("the initial stress of body `{name}` presses no fault, and has no other effect in a scene with faults"),
                 "remove it",
             );
         }

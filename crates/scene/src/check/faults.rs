@@ -137,7 +137,7 @@ impl Checker<'_> {
                 if let Some((name, interface)) = scene.interfaces.iter().next() {
                     self.conflict(
                         &interface.slave.span(),
-                        format!("interface `{name}` stands beside faults"),
+                        format!("interface `{name}` in a scene with faults"),
                         "a scene has interfaces or faults",
                         (&fault.minus.span(), "a fault"),
                     );
@@ -215,7 +215,7 @@ impl Checker<'_> {
             self.error(
                 injection.flux.span(),
                 "`flux` must not be zero",
-                "such as `flux = \"1.25e-6 m/s\"`; negative where fluid is drawn off",
+                "such as `flux = \"1.25e-6 m/s\"`; negative for extraction",
             );
         }
         for (name, value, example) in [
@@ -326,7 +326,7 @@ impl Checker<'_> {
         match (&creep.beyond, &creep.outside) {
             (Some(beyond), Some(outside)) => self.conflict(
                 &outside.span(),
-                "`outside` stands beside `beyond`",
+                "`outside` and `beyond` are both given",
                 "one of them says where the fault creeps",
                 (&beyond.span(), "`beyond`"),
             ),
@@ -399,7 +399,7 @@ impl Checker<'_> {
         } else if !points.windows(2).all(|w| w[0].0.0 < w[1].0.0) {
             self.error(
                 profile.points.span(),
-                format!("the places of the profile of `{name}` must ascend"),
+                format!("the positions of the profile of `{name}` must ascend"),
                 example,
             );
         } else if let Some(p) = points.iter().find(|p| !(sign * p.1 > 0.0 && p.1.is_finite())) {

@@ -11,7 +11,7 @@ impl Checker<'_> {
         if self.scene.faults.is_empty() {
             self.error(
                 place.epoch.span(),
-                "only events of faults have a place, and the scene has no fault",
+                "only events of faults have a location, and the scene has no fault",
                 "remove `[place]`",
             );
         }

@@ -117,7 +117,7 @@ impl Checker<'_> {
         if densities.len() > 1 {
             self.error(
                 stress.kind.span(),
-                format!("the materials of body `{name}` differ in density, and what lies above is not known place by place"),
+                format!("the materials of body `{name}` differ in density, and the material above is not known at each point"),
                 "make a body of each layer, with the `overburden` of those above, or use `kind = \"linear\"`",
             );
         }

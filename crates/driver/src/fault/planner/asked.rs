@@ -42,7 +42,7 @@ pub(super) fn creep<const D: usize>(
     let extent = extent(placed.iter().map(|p| &p.point.place));
     Err(Diagnostic::at(
         border.unwrap_or_else(|| creep.rate.span()),
-        format!("creep takes no point of fault `{name}`, whose points lie {extent}"),
+        format!("creep covers no point of fault `{name}`, whose points lie {extent}"),
         "move the border of the creep onto the fault, or leave `creep` out",
     ))
 }
@@ -82,7 +82,7 @@ pub(super) fn nothing_slides<const D: usize>(
         return Diagnostic::at(
             faults.first().map_or(0..0, |f| f.1.minus.span()),
             "no point of the faults is free to slide",
-            "`minus` and `plus` are two sides that can part",
+            "`minus` and `plus` are two sides that can separate",
         );
     };
     let border = creep.beyond.as_ref().map(Spanned::span).or(creep.outside.as_ref().map(Spanned::span));
@@ -198,7 +198,7 @@ pub(super) fn station<const D: usize>(
         format!(
             "the station at {wanted} fault `{name}` lies off its sliding points, which lie {extent}: the nearest one is at {found}, {off} m away"
         ),
-        "a place on the part of the fault that slides freely",
+        "a position on the part of the fault that slides freely",
     ))
 }
 

@@ -143,7 +143,7 @@ fn pairs<const D: usize>(
         return Err(Diagnostic::at(
             spec.plus.span(),
             format!("both sides of fault `{name}` are the same nodes: nothing can slide there"),
-            "a fault lies between two sides that can part: two bodies, or a mesh that is split along a surface, whose sides are \
+            "a fault lies between two sides that can separate: two bodies, or a mesh that is split along a surface, whose sides are \
              `body.SURFACE.minus` and `body.SURFACE.plus`",
         ));
     }

@@ -188,7 +188,7 @@ pub(super) fn check(found: &Resolution, spec: &Spec, in_space: bool) -> Result<O
     let place = spec.law.span();
     let allowed = spec.under_resolved.as_ref().map(|u| *u.get_ref()) == Some(UnderResolved::Allow);
     if zone.points < TOO_FEW && !allowed {
-        let message = format!("{message}, so that each breaks by itself: events are those of the mesh");
+        let message = format!("{message}, so that each fails independently: events are those of the mesh");
         let help = format!("{enough}; or `under_resolved = \"allow\"` at the fault");
         return Err(Diagnostic::at(place, message, help));
     }
