@@ -1,21 +1,21 @@
 //! Tractions averaged to slave points.
 //!
-//! The tractions f_A that answer the averaged gaps of a mortar interface are coefficients of the field `p = Σ_A ψ_A f_A`, and a
-//! field that is a root at the edge of contact makes coefficients oscillate there, as a projection onto continuous functions does.
-//! The value transmitted around a point is `p_A = ∫ψ_A p / ∫ψ_A`; on facets of first order it is the force on the slave node
-//! over its area, the traction of a method with dual multipliers. With the shares `D_AC/a_A` of the slave nodes C in the averaged gap,
-//! `p_A = Σ_C (D_AC/a_A) p(x_C)`, so the averages of tractions and of gaps are the same operation. For the root at the edge of a
-//! Hertz contact they lie on the curve within (h/d)²/48 at the distance d from the edge.
+//! The tractions f_A conjugate to the averaged gaps of a mortar interface are coefficients of the field `p = Σ_A ψ_A f_A`. If
+//! the field is a square root at the edge of contact, its coefficients oscillate there, as in any projection onto continuous
+//! functions. The value transmitted around a point is `p_A = ∫ψ_A p / ∫ψ_A`. On first-order facets it is the force on the slave
+//! node over its area, which is the traction of a method with dual multipliers. With the shares `D_AC/a_A` of the slave nodes C
+//! in the averaged gap, `p_A = Σ_C (D_AC/a_A) p(x_C)`: tractions and gaps are averaged by the same operation. For the square
+//! root at the edge of a Hertz contact the averages lie on the curve within (h/d)²/48 at the distance d from the edge.
 
 use crate::measure::mortar::node_values;
 use crate::measure::{Attachment, Measure};
 use crate::spec::{MeasureKind, SlavePoint};
 use crate::vector::axpy;
 
-/// Relation of nodal values of the traction field to those of the points.
+/// Relation of nodal values of the traction field to the tractions of the points.
 #[derive(Clone, Debug)]
 pub(crate) struct Averaging {
-    /// For each node of the interface, points and coefficients; `None` where tractions are point values and stay so.
+    /// Points and coefficients for each node of the interface; `None` if tractions are point values and need no averaging.
     values: Option<Vec<Vec<(usize, f64)>>>,
     attachments: Vec<Attachment>,
 }
@@ -29,7 +29,7 @@ impl Averaging {
         Self { values, attachments: Vec::new() }
     }
 
-    /// Averages of the normal and tangential tractions of all points.
+    /// Computes the averages of the normal and tangential tractions of all points.
     pub(crate) fn apply<const D: usize>(
         &mut self,
         measure: &dyn Measure<D>,

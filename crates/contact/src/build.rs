@@ -1,4 +1,4 @@
-//! Checks of a specification, and the measure it asks for.
+//! Checks of a specification and construction of its measure.
 
 use crate::error::ContactError;
 use crate::measure::Measure;
@@ -9,7 +9,7 @@ use crate::search::surface::Surface;
 use crate::spec::{InterfaceSpec, MeasureKind, Segment, Sliding, Smoothing};
 use crate::vector::norm;
 
-/// Checks that a specification fits together.
+/// Checks that a specification is consistent.
 pub(crate) fn check<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactError> {
     let name = || spec.name.clone();
     for (side, empty) in [("slave", spec.slave.is_empty()), ("master", spec.master.is_empty())] {
@@ -97,7 +97,7 @@ fn check_numbers<const D: usize>(spec: &InterfaceSpec<D>) -> Result<(), ContactE
     }
 }
 
-/// The measure of a specification and the projections made to pair it.
+/// Builds the measure of a specification. Also returns the number of projections made to pair it.
 pub(crate) fn build_measure<const D: usize>(
     spec: &InterfaceSpec<D>,
 ) -> Result<(Box<dyn Measure<D>>, u64), ContactError> {

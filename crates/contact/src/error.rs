@@ -1,4 +1,4 @@
-//! Errors in an interface that are found before it is evaluated.
+//! Errors found in an interface before it is evaluated.
 
 use crate::SegmentKind;
 
@@ -21,7 +21,7 @@ pub enum ContactError {
         /// "slave" or "master".
         side: &'static str,
     },
-    /// Finite sliding with mortar on a segment it does not exist for.
+    /// Mortar in finite sliding on a segment kind that does not support it.
     #[error(
         "interface {name}: mortar in finite sliding does not exist on {kind} segments (it exists on seg2 in two dimensions, \
          tri3 and quad4 in three; sliding = \"small\" and node-to-point exist on all segments)"
@@ -29,10 +29,10 @@ pub enum ContactError {
     FiniteOnSecondOrder {
         /// Interface.
         name: String,
-        /// The segment kind found.
+        /// Segment kind found.
         kind: SegmentKind,
     },
-    /// Smoothing of an interface of overlaps.
+    /// Smoothing requested with mortar.
     #[error(
         "interface {name}: smoothing is a property of node-to-point; mortar integrates over the facets themselves"
     )]
@@ -40,7 +40,7 @@ pub enum ContactError {
         /// Interface.
         name: String,
     },
-    /// Smoothing of a surface of second order.
+    /// Smoothing of a second-order surface.
     #[error(
         "interface {name}: {kind} segments are curved already; smoothing exists on seg2 in two dimensions, tri3 and quad4 \
          in three"
@@ -48,10 +48,10 @@ pub enum ContactError {
     SmoothingOnSecondOrder {
         /// Interface.
         name: String,
-        /// The segment kind found.
+        /// Segment kind found.
         kind: SegmentKind,
     },
-    /// A smoothed segment with too many nodes around it.
+    /// A smoothed segment with too many surrounding nodes.
     #[error(
         "interface {name}: smoothed master segment {segment} depends on {nodes} nodes, at most {most} are possible"
     )]
@@ -60,9 +60,9 @@ pub enum ContactError {
         name: String,
         /// Index of the segment.
         segment: usize,
-        /// Nodes it depends on.
+        /// Number of nodes it depends on.
         nodes: usize,
-        /// The largest number possible.
+        /// Largest possible number.
         most: usize,
     },
     /// A crease angle outside (0, π).
@@ -73,7 +73,7 @@ pub enum ContactError {
         /// The angle \[rad\].
         angle: f64,
     },
-    /// A segment of the wrong dimension or with the wrong number of nodes.
+    /// A segment of the wrong dimension or with a wrong number of nodes.
     #[error(
         "interface {name}: {side} segment {segment} ({kind}) with {nodes} nodes does not fit {dimension} dimensions"
     )]
@@ -84,14 +84,14 @@ pub enum ContactError {
         side: &'static str,
         /// Index of the segment.
         segment: usize,
-        /// Its kind.
+        /// Kind of the segment.
         kind: SegmentKind,
         /// Number of nodes given.
         nodes: usize,
         /// Dimension of the interface.
         dimension: usize,
     },
-    /// An index into the nodes of the interface that does not exist.
+    /// An index that exceeds the nodes of the interface.
     #[error("interface {name}: node index {index} of its {side} side exceeds the {nodes} nodes given")]
     BadNode {
         /// Interface.
@@ -103,7 +103,7 @@ pub enum ContactError {
         /// Number of nodes.
         nodes: usize,
     },
-    /// A slave point at a node of no slave facet.
+    /// A slave point whose node belongs to no slave facet.
     #[error("interface {name}: slave node {label} belongs to no slave facet")]
     NoFace {
         /// Interface.
@@ -121,7 +121,7 @@ pub enum ContactError {
         /// Area.
         area: f64,
     },
-    /// A quantity that must be finite and positive.
+    /// A quantity that is not finite and positive.
     #[error("interface {name}: {what} = {value} must be finite and positive")]
     NotPositive {
         /// Interface.
@@ -131,7 +131,7 @@ pub enum ContactError {
         /// Its value.
         value: f64,
     },
-    /// A fixed pairing normal exists in small sliding only, and has a length.
+    /// A fixed normal in finite sliding, or one of zero length.
     #[error("interface {name}: a fixed normal needs small sliding and a nonzero vector")]
     BadNormal {
         /// Interface.

@@ -1,6 +1,6 @@
 //! Forward (rate-form) steps: the rate tangent at the committed state and the limits r4 to r8.
 //!
-//! At the committed state t^e = t, so with η = t/|t| and the law's answer
+//! At the committed state t^e = t. With η = t/|t| the linearised response of the law is
 //! `dt = E_t (I - η⊗η) du + η (along E_t η·du + coupling df_n + constant)`, `df_n = -E_n dg_n`.
 
 use crate::interface::Interface;
@@ -11,19 +11,20 @@ use asperity_fem::term::{Fraction, Instant, Limited, Refusal};
 use asperity_friction::Failure;
 use asperity_friction::law::{Increments, Limit, LimitKind, Present, RateBounds, Rates, Regime};
 
-/// Points this near to an event, relative to the increment that leads to it, do not limit a step but switch with it:
-/// otherwise simultaneous events of a symmetric scene would cost one step each, at fractions that are rounding.
+/// Points within this distance of an event, relative to the increment that leads to it, switch with the step instead of
+/// limiting it. Otherwise simultaneous events of a symmetric scene would cost one step each, at fractions that are pure
+/// rounding.
 const BAND: f64 = 1e-9;
 
-/// Refinements of r6 along a turning traction. Each restart removes a fixed share of the distance to the root (the ratio
-/// of the slopes of magnitude and chord, seldom below 1/3), so 1e-9 takes about 50 at worst.
+/// Most refinements of r6 along a turning traction. Each restart removes a fixed share of the distance to the root: the ratio
+/// of the slopes of magnitude and chord, seldom below 1/3. A tolerance of 1e-9 thus takes about 50 at worst.
 const REFINEMENTS: usize = 60;
 
-/// Changes of a point between stick and slip allowed before a step. Each change can turn its neighbours; more than a few are a point on
-/// the edge of slip, for which both answers are the same to rounding.
+/// Most changes of a point between stick and slip before a step. Each change can switch its neighbours. A point that changes
+/// more often is on the edge of slip, where both responses agree to rounding.
 const MOST_SWITCHES: u8 = 6;
 
-/// Increments of tractions over a forward step, in the frame.
+/// Increments over a forward step, in the carried frame.
 struct Step<'a> {
     normal: &'a [NormalPoint],
     gap: &'a [f64],
@@ -31,7 +32,7 @@ struct Step<'a> {
     present: PresentOptions,
 }
 
-/// Facts a law is given beside the points.
+/// Settings passed to a law along with the points.
 #[derive(Clone, Copy)]
 struct PresentOptions {
     dt: f64,
@@ -61,7 +62,7 @@ impl Shear {
         }
     }
 
-    /// Linearises the law at the committed state: `d_trial`, `d_normal` and, in `traction` of the slices, the constant.
+    /// Linearises the law at the committed state: `d_trial`, `d_normal` and, in `traction` of the slices, the constant term.
     fn linearise(&mut self, normal: &[NormalPoint], options: PresentOptions) -> Result<(), Failure> {
         self.gather_present(normal);
         let s = &mut self.slices;
@@ -89,7 +90,7 @@ impl Shear {
             self.points[p] = ShearPoint {
                 traction: self.committed.traction[p],
                 direction: s.direction[i],
-                // Without a direction the response along it is the response in every direction.
+                // Without a direction the response is the same in every direction.
                 ratio: if resting { s.d_trial[i] } else { 1.0 },
                 d_trial: s.d_trial[i],
                 d_normal: s.d_normal[i],
@@ -98,7 +99,7 @@ impl Shear {
         Ok(())
     }
 
-    /// Increment of the shear traction at entry `i` of the slices (in the frame), after `linearise`.
+    /// Increment of the shear traction at entry `i` of the slices, in the carried frame. Must follow `linearise`.
     fn traction_increment(&self, i: usize, step: &Step<'_>) -> [f64; 2] {
         let p = self.slices.index[i];
         let (point, du) = (&self.points[p], &step.increment[p]);
@@ -112,8 +113,8 @@ impl Shear {
         dt
     }
 
-    /// Asks the law for the smallest limit of `entries` over the part `from..to` of the step, with tractions at `from`.
-    /// The point of the answer indexes the slices, its fraction is that of the part.
+    /// Queries the law for the smallest limit of `entries` over the part `from..to` of the step, with tractions at `from`. The
+    /// point of the result indexes the slices; its fraction refers to the part.
     fn limit_within(
         &self,
         step: &Step<'_>,
@@ -148,7 +149,7 @@ impl Shear {
         Some(Limit { point: entries[limit.point], ..limit })
     }
 
-    /// The smallest limit of the law: r8 of the moving points, r6 of the resting ones.
+    /// Smallest limit of the law: r8 for moving points, r6 for resting ones.
     fn limit(&self, step: &Step<'_>, bounds: RateBounds) -> Option<Limit> {
         let floor = step.present.rate_floor;
         let elastic = self.law.has_elastic_domain();
@@ -170,18 +171,19 @@ impl Shear {
         found.into_iter().chain(turned).flatten().reduce(|a, b| if b.fraction < a.fraction { b } else { a })
     }
 
-    /// The fraction of the step at which the traction of entry `i` is smallest. Up to there it falls and then it grows: a law, which sees
-    /// magnitudes at both ends, would take a traction on its strength that turns for one that leaves it at once.
+    /// Fraction of the step at which the traction of entry `i` is smallest. The magnitude falls until then and grows
+    /// afterwards. A law sees the magnitudes at both ends only: it would take a traction that starts at its strength and turns
+    /// for one that leaves at once.
     fn nearest(&self, i: usize, step: &Step<'_>) -> f64 {
         let (t, dt) = (&self.committed.traction[self.slices.index[i]], self.traction_increment(i, step));
         let square = dot(&dt, &dt);
         if square > 0.0 { (-dot(t, &dt) / square).clamp(0.0, 1.0) } else { 0.0 }
     }
 
-    /// r6 in vector form over the part `from..to` of the step. A law sees magnitudes, that is the chord between the ends, and |t + r Δt|
-    /// is convex in r, so the chord's root is never late. Starting again from there, as long as the true magnitude lies below the chord,
-    /// converges from below to the first root, where the traction leaves the cone outwards; for a traction that does not
-    /// turn the first answer is the root.
+    /// r6 in vector form over the part `from..to` of the step. A law sees magnitudes only, that is, the chord between the ends.
+    /// Since |t + r Δt| is convex in r, the root of the chord is never late. Restarting from there, while the true magnitude
+    /// lies below the chord, converges from below to the first root at which the traction leaves the cone outwards. If the
+    /// traction does not turn, the first result is the root.
     fn leave_cone(
         &self,
         step: &Step<'_>,
@@ -196,18 +198,18 @@ impl Shear {
             let size =
                 |r: f64| norm(&along_path(&self.committed.traction[self.slices.index[found.point]], &dt, r));
             let chord = size(from) + found.fraction * (size(to) - size(from));
-            // A law takes what is this near to its strength for being there already, and says no more.
+            // A law treats a traction this close to its strength as being at it and reports no further limit.
             if chord - size(root) <= BAND * (1.0 + BAND) * chord {
                 return Some(Limit { fraction: root, ..found });
             }
             from = root;
         }
-        // Not converged from below: where the search stands is admissible.
+        // Not converged. The iteration approaches from below, so its last position is admissible.
         Some(Limit { fraction: from, point: *resting.first()?, kind: LimitKind::StickToSlip })
     }
 
-    /// Switches points whose increment contradicts their regime: slip backwards sticks, and what sticks at its strength and is
-    /// drawn further slips. Returns whether any did.
+    /// Switches points whose increment contradicts their regime: points that slip backwards stick, and points that stick at
+    /// their strength and are loaded further slip. Returns true if any point switched.
     fn switch(&mut self, step: &Step<'_>) -> bool {
         let mut any = false;
         let present = self.slices.present(self.stiffness, step.present);
@@ -222,7 +224,7 @@ impl Shear {
                 Regime::Stick => stands && dot(&self.slices.direction[i], &dt) > 0.0,
             };
             let regime = if forth { Regime::Slip } else { Regime::Stick };
-            // The last switch is one to slip: a point that sticks at its strength would leave it.
+            // The last switch allowed is to slip, since a point that sticks at its strength would exceed it.
             let most = if forth { MOST_SWITCHES + 1 } else { MOST_SWITCHES };
             if regime != self.slices.regime[i] && self.switches[p] < most {
                 self.switches[p] += 1;
@@ -235,7 +237,7 @@ impl Shear {
 }
 
 impl Slices {
-    /// The gathered points as a law sees them.
+    /// The gathered points in the form that a law takes.
     fn present(&self, stiffness: f64, options: PresentOptions) -> Present<'_> {
         Present {
             normal: &self.normal,
@@ -261,7 +263,7 @@ fn magnitude_increment(t: &[f64; 2], dt: &[f64; 2]) -> f64 {
     if sum == 0.0 { 0.0 } else { (2.0 * dot(t, dt) + dot(dt, dt)) / sum }
 }
 
-/// Slip increment: what of the tangential motion is not elastic, signed along η.
+/// Slip increment: the part of the tangential motion that is not elastic, signed along η.
 fn slip_increment(regime: Regime, point: &ShearPoint, du: &[f64; 2], dt: &[f64; 2], stiffness: f64) -> f64 {
     if regime == Regime::Stick {
         return 0.0;
@@ -284,7 +286,7 @@ impl<const D: usize> Interface<D> {
         &self.slides
     }
 
-    /// r4 and r5 over all points, unless they are bonded.
+    /// Limits r4 and r5 over all points; `None` if they are bonded.
     fn normal_limit(&self) -> Option<(f64, &'static str, usize)> {
         if self.tied.is_some() {
             return None;
@@ -340,7 +342,7 @@ impl<const D: usize> Limited for Interface<D> {
                 return Err(self.law_refusal(failure));
             }
             for (i, &p) in shear.slices.index.iter().enumerate() {
-                // A traction growing by c η pulls the slave along -η.
+                // A traction that grows by c η pulls the slave along -η.
                 let c = scaled(&shear.slices.direction[i], -shear.slices.traction[i]);
                 self.force[p] = self.geometry.tangential(p, &c);
             }
@@ -357,7 +359,7 @@ impl<const D: usize> Limited for Interface<D> {
         self.work.law_calls += 2;
         let normal = &self.contact.committed;
         let step = Step { normal, gap: &self.slides.gap, increment: &self.slides.increment, present };
-        // What the law cannot answer here it refuses when the step is taken.
+        // If the law fails here, the failure is reported when the step is taken.
         shear.linearise(normal, present).is_ok_and(|()| shear.switch(&step))
     }
 

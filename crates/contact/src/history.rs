@@ -1,4 +1,4 @@
-//! Committed history of an interface as values.
+//! Committed history of an interface as serialisable values.
 
 use crate::interface::Interface;
 use crate::measure::saved::MeasureState;
@@ -8,16 +8,16 @@ use asperity_fem::term::{Saved, Term as _};
 use asperity_friction::law::Regime;
 use serde::{Deserialize, Serialize};
 
-/// See the module. Fields that follow from others are not in it.
+/// Committed history of an interface. Fields that follow from others are left out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InterfaceState {
-    /// Length of the last step under the present law \[s\], on which two-step differences look back.
+    /// Length of the last step under the present law \[s\], for two-step differences.
     previous_dt: Option<f64>,
     /// Displacements of the nodes \[m\], one after another.
     displacements: Vec<f64>,
-    /// True if each point is closed.
+    /// True for each closed point.
     closed: Vec<bool>,
-    /// Normal tractions \[Pa\], which are the multipliers of the next step where there are any.
+    /// Normal tractions \[Pa\], which are also the multipliers of the next step if there are multipliers.
     normal_traction: Vec<f64>,
     /// Relative tangential displacement \[m\].
     relative: Vec<[f64; 2]>,
@@ -25,36 +25,36 @@ pub struct InterfaceState {
     slip: Vec<[f64; 2]>,
     /// Slip increment of the last step \[m\].
     step: Vec<[f64; 2]>,
-    /// Friction, where a law acts.
+    /// Frictional history, if a law is active.
     shear: Option<ShearState>,
     /// Multipliers that are unknowns of the system, at the last commit.
     unknowns: Vec<f64>,
-    /// Gaps at which points were bonded \[m\], none at points without a partner.
+    /// Gaps at which points were bonded \[m\]; `None` for points without a partner.
     tied: Option<Vec<Option<f64>>>,
     /// True if tractions of an initial stress still act.
     pressed: bool,
     /// Pairing.
     measure: MeasureState,
-    /// Normal and frame of points without a partner: those of the place where they lost it.
+    /// Normal and frame of points without a partner, as they were when the partner was lost.
     lost: Vec<(usize, Vec<f64>)>,
-    /// The point that lost strength in the trial dropped last.
+    /// Point that lost strength in the last rejected trial.
     soft: Option<usize>,
     /// Counts of work.
     work: Work,
 }
 
-/// Friction at all points.
+/// Frictional history of all points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct ShearState {
     /// Shear tractions \[Pa\].
     traction: Vec<[f64; 2]>,
     /// Slip rates \[m/s\].
     rate: Vec<f64>,
-    /// True if each point slips.
+    /// True for each slipping point.
     slips: Vec<bool>,
     /// State variables, point-major.
     states: Vec<f64>,
-    /// Slopes of the law in the last trial, which tell the point that weakens where the next one is refused at once.
+    /// Slopes of the law in the last trial. They identify the weakening point if the next trial is refused at once.
     slopes: Vec<f64>,
 }
 
@@ -91,7 +91,7 @@ impl ShearState {
 }
 
 impl<const D: usize> Interface<D> {
-    /// Normal and frame of points without a partner.
+    /// Normals and frames of points without a partner.
     fn lost(&self) -> Vec<(usize, Vec<f64>)> {
         let g = &self.geometry;
         let alone = (0..self.slave.len()).filter(|&p| !g.paired[p]);

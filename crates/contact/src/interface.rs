@@ -1,4 +1,4 @@
-//! The interface: measure x enforcement x law, as a term of the system.
+//! An interface: measure, enforcement and friction law combined into a term of the system.
 
 mod augmented;
 mod mixed;
@@ -20,19 +20,20 @@ use asperity_friction::Failure;
 use asperity_friction::law::{Law, RateBounds};
 use std::sync::Arc;
 
-/// Gaps up to this share of the scene's size count as closed with f_n = 0: far above the
-/// rounding of positions (1e-16 of the size) and far below any elastic displacement that matters.
+/// Gaps up to this share of the scene's size count as closed with f_n = 0. It is far above the rounding of positions (1e-16 of
+/// the size) and far below any elastic displacement that matters.
 const CLOSURE: f64 = 1e-12;
 
-/// Rounding of relative positions over the scene's size: a gap or slip is a difference of averages over some tens of positions.
+/// Rounding of relative positions as a share of the scene's size. A gap or slip is a difference of averages over some tens of
+/// positions.
 const TOUCH: f64 = 1e-14;
 
-/// Tangential motion of all points, components in the carried frame.
+/// Tangential motion of all points, as components in the carried frame.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Motion {
-    /// Relative tangential displacement since the law began to act \[m\].
+    /// Relative tangential displacement since the law became active \[m\].
     pub relative: Vec<[f64; 2]>,
-    /// Slip since the law began to act \[m\].
+    /// Slip since the law became active \[m\].
     pub slip: Vec<[f64; 2]>,
     /// Slip increment of the last step \[m\].
     pub step: Vec<[f64; 2]>,
@@ -73,9 +74,9 @@ pub struct Interface<const D: usize> {
     pub(crate) tangential_penalty: f64,
     pub(crate) multipliers: Option<Multipliers>,
     pub(crate) unknowns: Option<Box<Unknowns>>,
-    /// Gaps at which bonded points were tied \[m\]; absent where points may part.
+    /// Gaps at which bonded points were tied \[m\]; `None` if points may separate.
     pub(crate) tied: Option<Vec<f64>>,
-    /// Normal tractions about which the penalty acts, where the interface was pressed before anything moved \[Pa\].
+    /// Normal tractions that the penalty acts about \[Pa\], if the interface was pressed before the first step.
     pub(crate) pressed: Option<Vec<f64>>,
     /// See [`Shear::touch`].
     touch: [f64; 2],
@@ -83,7 +84,7 @@ pub struct Interface<const D: usize> {
     pub(crate) rate_bounds: RateBounds,
     pub(crate) label_rate: Option<f64>,
     rule: TimeRule,
-    /// Length of the step committed last under the present law, for two-step differences.
+    /// Length of the last step committed under the present law \[s\], for two-step differences.
     pub(crate) previous_dt: Option<f64>,
     pub(crate) trial_dt: f64,
     pub(crate) measure: Box<dyn Measure<D>>,
@@ -101,7 +102,7 @@ pub struct Interface<const D: usize> {
     pub(crate) work: Work,
     /// Limits on the steps.
     pub(crate) watch: Watch,
-    /// The point that lost strength with slip in the trial dropped last, where one did.
+    /// Point that lost strength with slip in the last rejected trial, if any.
     pub(crate) soft: Option<usize>,
     unpaired: usize,
 }
@@ -175,7 +176,8 @@ impl<const D: usize> Interface<D> {
         Ok(())
     }
 
-    /// Slave nodes without a partner in the reference configuration; they stay open (in finite sliding they may pair later).
+    /// Number of slave nodes without a partner in the reference configuration. They stay open; in finite sliding they may pair
+    /// later.
     #[must_use]
     pub fn unpaired(&self) -> usize {
         self.unpaired
@@ -192,8 +194,8 @@ impl<const D: usize> Interface<D> {
         self.rule = rule;
     }
 
-    /// Changes or removes the law. Tangential traction, slip and states restart: slip is counted from here. Call it
-    /// between steps.
+    /// Changes or removes the law. Tangential traction, slip and states restart, and slip is counted from this moment. Must be
+    /// called between steps.
     pub fn set_law(&mut self, law: Option<Arc<dyn Law>>) {
         let n = self.slave.len();
         self.shear = law.map(|law| Shear::new(law, self.tangential_penalty, self.touch, n));
@@ -201,20 +203,20 @@ impl<const D: usize> Interface<D> {
         self.previous_dt = None;
         self.tie();
         if self.tied.is_some() {
-            // Points are bonded without traction at the gaps they have by now.
+            // Points are bonded without traction at their present gaps.
             self.pressed = None;
         }
         self.renew_multipliers();
         self.refresh();
     }
 
-    /// Bonds the points at their present gaps where the law asks for it, and parts them where it does not.
+    /// Bonds the points at their present gaps if the law requires it, and releases them otherwise.
     fn tie(&mut self) {
         let bonded = self.shear.as_ref().is_some_and(|s| s.law.bonded());
         self.tied = bonded.then(|| self.geometry.gap.clone());
     }
 
-    /// Trial normal tractions at the geometry last measured.
+    /// Computes trial normal tractions at the geometry last measured.
     fn enforce(&mut self) {
         let (gap, out) = (&self.geometry.gap, &mut self.contact.trial);
         let multiplier = self.multipliers.as_ref().map(|m| m.normal.as_slice()).or(self.pressed.as_deref());
@@ -225,14 +227,14 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// Blocks of the unknowns follow those of the measure.
+    /// Updates the blocks of the unknowns to those of the measure.
     fn follow_pattern(&mut self) {
         if let Some(unknowns) = &mut self.unknowns {
             unknowns.renew(self.measure.as_ref(), false);
         }
     }
 
-    /// Refuses a bonded point that lost its partner.
+    /// Refuses the trial if a bonded point has lost its partner.
     fn check_bonds(&self) -> Result<(), Refusal> {
         let Some(tied) = &self.tied else { return Ok(()) };
         match tied.iter().zip(&self.geometry.gap).position(|(g0, g)| g0.is_finite() && *g == f64::INFINITY) {
@@ -241,15 +243,15 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// True if a law acts.
+    /// True if a friction law is active.
     #[must_use]
     pub fn has_law(&self) -> bool {
         self.shear.is_some()
     }
 
-    /// Overwrites the committed state variables (point-major) and shear tractions (components along the frame of
-    /// [`PointFields::tangent`], the second used in three dimensions only), for declared initial stresses. Returns false,
-    /// changing nothing, when there is no law or a length does not fit.
+    /// Overwrites the committed state variables (point-major) and shear tractions with declared initial values. Shear tractions
+    /// are components along the frame of [`PointFields::tangent`]; the second is used in three dimensions only. Returns false
+    /// and changes nothing if there is no law or a length does not fit.
     pub fn set_initial(&mut self, traction: &[[f64; 2]], states: &[f64]) -> bool {
         let Some(shear) = &mut self.shear else { return false };
         if traction.len() != shear.committed.traction.len() || states.len() != shear.committed.states.len() {
@@ -262,12 +264,12 @@ impl<const D: usize> Interface<D> {
         true
     }
 
-    /// For laws without an elastic domain: the largest prescribed rate \[m/s\] (see [`InterfaceSpec::label_rate`]).
+    /// Sets the largest prescribed rate \[m/s\], for laws without an elastic domain (see [`InterfaceSpec::label_rate`]).
     pub fn set_label_rate(&mut self, rate: Option<f64>) {
         self.label_rate = rate;
     }
 
-    /// Forward steps: floor of slip rates \[m/s\], and bounds of r8.
+    /// Sets the floor of slip rates \[m/s\] and the bounds of limit r8 for forward steps.
     pub fn set_forward(&mut self, rate_floor: f64, bounds: RateBounds) {
         self.rate_floor = rate_floor;
         self.rate_bounds = bounds;
@@ -285,7 +287,7 @@ impl<const D: usize> Interface<D> {
         self.work
     }
 
-    /// Displacements of the interface's nodes from the system vector.
+    /// Gathers the displacements of the interface's nodes from the system vector.
     pub(crate) fn gather(nodes: &[SurfaceNode<D>], u: &[f64], out: &mut [[f64; D]]) {
         for (node, o) in nodes.iter().zip(out) {
             o.copy_from_slice(&u[node.dof..node.dof + D]);
@@ -296,7 +298,7 @@ impl<const D: usize> Interface<D> {
         Refusal { term: self.name.clone(), reason }
     }
 
-    /// A failure of a law, with the mesh node instead of the index in the slice.
+    /// Turns a failure of a law into a refusal that names the mesh node instead of the index in the slice.
     pub(crate) fn law_refusal(&self, failure: Failure) -> Refusal {
         let entry = match failure {
             Failure::BareLogAtRest { point, .. }
@@ -313,7 +315,7 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// Tractions with derivatives at the state of the last residual.
+    /// Tractions and their derivatives at the state of the last residual.
     pub(crate) fn tractions(&self) -> Tractions<'_> {
         Tractions {
             normal: &self.contact.trial,
@@ -322,7 +324,7 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// Trial response at the geometry last measured.
+    /// Computes the trial response at the geometry last measured.
     fn respond(&mut self, dt: f64) -> Result<(), Refusal> {
         self.check_bonds()?;
         self.enforce();
@@ -356,7 +358,7 @@ impl<const D: usize> Interface<D> {
         Ok(())
     }
 
-    /// Trial totals of relative displacement and slip from the increments.
+    /// Accumulates the increments into the trial totals of relative displacement and slip.
     pub(crate) fn accumulate(&mut self) {
         let (old, new) = (&self.motion.committed, &mut self.motion.trial);
         for p in 0..self.slave.len() {
@@ -365,7 +367,8 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// Force per area on the slave at each point from the trial tractions, or from the multipliers where they are unknowns.
+    /// Computes the force per area on the slave at each point, from the trial tractions or, if the multipliers are unknowns,
+    /// from the multipliers.
     pub(crate) fn forces(&mut self) {
         let unknown = self.multipliers.as_ref().filter(|_| self.unknowns.is_some());
         let shear = self.shear.as_ref().map(|s| match unknown {
@@ -382,7 +385,7 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// Commits the trial history; frames that change take the tangential components with them.
+    /// Commits the trial history. Tangential components are transformed with frames that change.
     fn commit(&mut self) {
         self.u.committed.copy_from_slice(&self.u.trial);
         self.contact.committed.copy_from_slice(&self.contact.trial);
@@ -410,7 +413,7 @@ impl<const D: usize> Interface<D> {
         self.previous_dt = (self.trial_dt > 0.0).then_some(self.trial_dt);
     }
 
-    /// Recomputes the committed fields; the geometry is that of the committed displacements.
+    /// Recomputes the committed fields. The geometry must be that of the committed displacements.
     pub(crate) fn refresh(&mut self) {
         let (g, f) = (&self.geometry, &mut self.fields);
         f.gap.copy_from_slice(&g.gap);
@@ -443,7 +446,7 @@ impl<const D: usize> Interface<D> {
         );
     }
 
-    /// The part of the fields that friction decides.
+    /// Recomputes the fields that depend on friction.
     fn refresh_shear(&mut self) {
         let (g, f) = (&self.geometry, &mut self.fields);
         let step = &self.motion.committed.step;
@@ -470,7 +473,7 @@ impl<const D: usize> Interface<D> {
             f.friction[p] =
                 if contact.traction > 0.0 && self.tied.is_none() { size / contact.traction } else { 0.0 };
             let rate = shear.committed.rate[p];
-            // Slip is along the traction. Without normal traction there is none, and the direction is that of slip itself.
+            // Slip is along the traction. A point without traction takes the direction of its slip instead.
             let along = if t[0] == 0.0 { step[p][0] } else { t[0] };
             f.slip_rate[p] = if D == 2 { rate.copysign(rate * along) } else { rate };
             if contact.closed {

@@ -1,11 +1,11 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
-//! Contact interfaces: a measure (gap, normal, slip of slave points against a master surface), an enforcement (normal
-//! traction from gap) and, where there is one, a friction law, joined in [`Interface`], which is a term of the seam in
+//! Contact interfaces. A measure gives the gap, normal and slip of slave points against a master surface, an enforcement gives
+//! the normal traction from the gap, and a friction law is optional. [`Interface`] joins them and is a term in the sense of
 //! `asperity_fem::term`.
 //!
-//! Signs: gap `g_n = n·(x_s - x_c) > 0` open, n the outward unit normal of the master; slip is the motion of the slave
-//! relative to the master along the master surface; the force on the slave is `A (f_n n - t)`, so friction opposes slip;
-//! the first tangent in two dimensions is `e_1 = (-n_y, n_x)`.
+//! Signs: the gap `g_n = n·(x_s - x_c)` is positive when open, with n the outward unit normal of the master. Slip is the motion
+//! of the slave relative to the master along the master surface. The force on the slave is `A (f_n n - t)`, so friction opposes
+//! slip. The first tangent in two dimensions is `e_1 = (-n_y, n_x)`.
 
 mod average;
 mod build;
@@ -35,7 +35,7 @@ pub use spec::{InterfaceSpec, MeasureKind, Segment, SlavePoint, Sliding, Smoothi
 pub use status::Status;
 pub use watch::{Course, RateLimit, Watch};
 
-/// The example of the README, as a test.
+/// Compiles the example of the README as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

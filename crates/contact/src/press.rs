@@ -1,7 +1,7 @@
-//! Interfaces that are pressed before anything moves.
+//! Interfaces that are under pressure before the first step.
 //!
-//! Bodies that start with a stress exert tractions on each other while nothing is displaced. The penalty then acts about them,
-//! `f_n = <f_0 - E_n (g_n - g_0)>`, and friction continues from `t_0`: without further loads nothing moves.
+//! Bodies with an initial stress exert tractions on each other at zero displacement. The penalty acts about these tractions,
+//! `f_n = <f_0 - E_n (g_n - g_0)>`, and friction continues from `t_0`. Without further loads nothing moves.
 
 use crate::interface::Interface;
 use crate::measure::{Attachment, NormalPoint};
@@ -10,25 +10,27 @@ use crate::vector::{dot, norm};
 use asperity_friction::law::{Regime, Responses, Trials};
 use std::slice::from_mut;
 
-/// Share of a force on another slave node that is rounding: duals are orthogonal to the other functions up to integrals over facets.
+/// Share of a force on another slave node that counts as rounding. Dual functions are orthogonal to the other shape functions
+/// up to the rounding of integrals over facets.
 const ALONE: f64 = 1e-9;
 
-/// A step so short that no spring unloads over it \[s\].
+/// Duration of a step so short that no spring unloads over it \[s\].
 const INSTANT: f64 = 1e-60;
 
-/// Force per area that presses the slave at a point \[Pa\], the stress times its outward normal.
+/// Traction that presses the slave at a point, the stress times its outward normal \[Pa\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StartTraction<const D: usize> {
     /// At the slave node.
     pub at: [f64; D],
-    /// Mean over what the node stands for, weighted with its shape function.
+    /// Mean over the tributary area of the node, weighted with its shape function.
     pub mean: [f64; D],
 }
 
 impl<const D: usize> Interface<D> {
-    /// Presses the points that are no farther from the master than `reach` \[m\], before the first step. Where the force of a point acts on
-    /// its own slave node alone its traction is the mean, which gives the node the force that the stress exerts; where it is the
-    /// coefficient of a field, it is the value there. Points that would be pulled stay free, unless they are bonded.
+    /// Presses the points that are no farther from the master than `reach` \[m\]. Must be called before the first step. If the
+    /// force of a point acts on its own slave node alone, its traction is the mean, which gives the node the force that the
+    /// stress exerts. If it is the coefficient of a field, its traction is the value at the node. Points that would be pulled
+    /// stay free unless they are bonded.
     pub fn press(&mut self, starts: &[StartTraction<D>], reach: f64) {
         let mut pressed = vec![0.0; self.slave.len()];
         let mut attachments: Vec<Attachment> = Vec::new();
@@ -46,7 +48,7 @@ impl<const D: usize> Interface<D> {
                 continue;
             }
             let stiffness = self.penalty.stiffness;
-            // Bonded gaps count from where they were tied.
+            // Gaps of bonded points are counted from where they were tied.
             pressed[p] = normal + if self.tied.is_some() { 0.0 } else { stiffness * gap };
             self.contact.committed[p] = NormalPoint { closed: true, traction: normal, stiffness };
             if let Some(shear) = &mut self.shear {
@@ -74,15 +76,15 @@ impl<const D: usize> Interface<D> {
         self.measure.spread(&self.force, r);
     }
 
-    /// The gap at which an open point closes \[m\].
+    /// Gap at which an open point closes \[m\].
     pub(crate) fn offset(&self, p: usize) -> f64 {
         self.pressed.as_ref().map_or(0.0, |pressed| pressed[p] / self.penalty.stiffness)
     }
 }
 
 impl Shear {
-    /// Slip rates at which a law that follows rates bears the committed tractions. Where it has no answer (a bare logarithm without
-    /// traction) the first step finds one, or is refused.
+    /// Finds the slip rates at which a law that depends on rates carries the committed tractions. If it has no solution (a bare
+    /// logarithm without traction), the first step finds one or is refused.
     fn begin(&mut self, normal: &[NormalPoint]) {
         if self.law.has_elastic_domain() {
             return;

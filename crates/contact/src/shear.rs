@@ -1,7 +1,7 @@
-//! Friction of an interface: history, the gather-call-scatter around a law, and the vector form of its answer.
+//! Friction of an interface: history, the gather, call and scatter around a law, and the vector form of its response.
 //!
-//! All vectors are components in the frame carried with the master surface. With the trial traction
-//! `t^e = t_old + E_t Δu` and η = t^e/|t^e| the law turns |t^e| into τ, and `t = τ η`.
+//! All vectors are components in the frame carried with the master surface. For the trial traction `t^e = t_old + E_t Δu` and η
+//! = t^e/|t^e|, the law maps |t^e| to τ, and `t = τ η`.
 
 use crate::measure::{NormalPoint, ShearPoint};
 use crate::vector::{axpy, dot, norm, scaled};
@@ -42,7 +42,7 @@ impl History {
     }
 }
 
-/// Values of the closed points, one after another, for one call of the law. Vectors keep their capacity.
+/// Values of the closed points, one after another, for one call of the law. The vectors keep their capacity between calls.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Slices {
     /// Point of each entry.
@@ -60,8 +60,9 @@ pub(crate) struct Slices {
     pub d_trial: Vec<f64>,
     pub d_normal: Vec<f64>,
     pub states: Vec<f64>,
-    /// Slip rates at the start of the step, and estimated errors of μ at its end.
+    /// Slip rates at the start of the step \[m/s\].
     pub before: Vec<f64>,
+    /// Estimated errors of μ at the end of the step \[-\].
     pub error: Vec<f64>,
 }
 
@@ -98,7 +99,7 @@ impl Slices {
         self.old.clear();
     }
 
-    /// Sizes the answers for the entries gathered.
+    /// Sizes the response vectors for the gathered entries.
     fn size_answers(&mut self, states: usize) {
         let n = self.index.len();
         for v in [&mut self.traction, &mut self.slip, &mut self.rate, &mut self.d_trial, &mut self.d_normal] {
@@ -119,32 +120,32 @@ pub(crate) struct TwoStep {
 }
 
 impl TwoStep {
-    /// For a step `dt` after a step `previous`. With s the slip, s' of the parabola through three times is
-    /// `[(1+2w)/(1+w) (s_2 - s_1) - w²/(1+w) (s_1 - s_0)]/Δt`.
+    /// Coefficients for a step `dt` that follows a step `previous`. For slip s, the derivative of the parabola through three
+    /// times is `[(1+2w)/(1+w) (s_2 - s_1) - w²/(1+w) (s_1 - s_0)]/Δt`.
     pub(crate) fn new(dt: f64, previous: f64) -> Self {
         let w = dt / previous;
         Self { weight: (1.0 + 2.0 * w) / (1.0 + w), past: w * w / ((1.0 + w) * dt) }
     }
 }
 
-/// Values of the step before that two-step differences need.
+/// Values of the previous step that two-step differences need.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Past<'a> {
     pub two_step: TwoStep,
     /// Slip increments of the last step \[m\].
     pub slip: &'a [[f64; 2]],
-    /// Points at its end.
+    /// Points at the end of that step.
     pub contact: &'a [NormalPoint],
 }
 
 impl Past<'_> {
-    /// Weight and offset of a point whose trial traction points along `direction`. One that was open has no past: it begins with backward
-    /// Euler.
+    /// Weight and offset of a point whose trial traction points along `direction`. A point that was open has no past and starts
+    /// with backward Euler.
     fn of(&self, p: usize, direction: &[f64; 2]) -> (f64, f64) {
         if !self.contact[p].closed {
             return (1.0, 0.0);
         }
-        // The previous slip counts as path length: its sign shows whether slip continues or reverses.
+        // The previous slip enters as path length; its sign shows whether slip continues or reverses.
         let along = dot(&self.slip[p], direction);
         let length = norm(&self.slip[p]);
         (self.two_step.weight, if along == 0.0 { 0.0 } else { self.two_step.past * length.copysign(along) })
@@ -157,14 +158,14 @@ pub(crate) struct Shear {
     pub law: Arc<dyn Law>,
     /// Tangential penalty E_t \[Pa/m\].
     pub stiffness: f64,
-    /// Normal traction and trial traction up to which both are rounding of positions \[Pa\]. A point that only just touches has no
-    /// strength, and would slip in whichever direction rounding points; it sticks instead, and its tangent holds it.
+    /// Normal traction and trial traction up to which both count as rounding of positions \[Pa\]. A point that barely touches
+    /// has no strength and would slip in whichever direction rounding points. It sticks instead, so its tangent holds it.
     pub touch: [f64; 2],
     pub committed: History,
     pub trial: History,
-    /// Terms of the tangent, per point.
+    /// Terms of the tangent for each point.
     pub points: Vec<ShearPoint>,
-    /// Number of switches of the regime of each point before the present forward step.
+    /// Number of regime switches of each point before the present forward step.
     pub switches: Vec<u8>,
     pub slices: Slices,
 }
@@ -184,13 +185,13 @@ impl Shear {
         }
     }
 
-    /// Numbers of state of one point.
+    /// Number of state variables per point.
     pub(crate) fn states(&self) -> usize {
         self.law.states()
     }
 
-    /// Implicit response of the law to the tangential increments from the tractions `from` (the committed ones, where none are
-    /// given); writes the trial history, the points of the tangent and the slip increments `step`.
+    /// Computes the implicit response of the law to the tangential increments from the tractions `from` (the committed ones if
+    /// `None`). Writes the trial history, the points of the tangent and the slip increments `step`.
     pub(crate) fn respond(
         &mut self,
         from: Option<&[[f64; 2]]>,
@@ -205,8 +206,8 @@ impl Shear {
         s.size_answers(self.law.states());
         if !s.index.is_empty() {
             let lag = past.map(|_| Lag { weight: &s.weight, offset: &s.offset });
-            // The solver's own first guess is nearer than the rate of the step before wherever that changes by more than a
-            // few percent.
+            // The solver's own initial guess is better than the rate of the previous step as soon as the rate changes by more
+            // than a few percent.
             let trials =
                 Trials { normal: &s.normal, trial: &s.trial, stiffness: self.stiffness, dt, lag, near: None };
             let out = Responses {
@@ -257,14 +258,14 @@ impl Shear {
         }
     }
 
-    /// Estimated error of μ over the trial step from the points at its start, the largest of all points \[-\], as it shows in the traction: a
-    /// point whose spring takes up most of the step moves by little, and one that bore less at the start than points bear in the mean
-    /// counts by what it bore. One that only just closes has nothing to err in.
+    /// Largest error in μ over the trial step, estimated from the points at its start, as it shows in the traction \[-\]. A
+    /// point whose spring takes up most of the step moves little. A point that carried less than the mean normal traction at
+    /// the start is weighted by what it carried; one that has just closed has no weight.
     pub(crate) fn error(&mut self, start: &[NormalPoint], dt: f64) -> f64 {
         let s = &mut self.slices;
         s.before.clear();
         for (&p, direction) in s.index.iter().zip(&s.direction) {
-            // V runs along the traction, and so do rate and slip of the law along the trial direction.
+            // V is along the traction; rate and slip of the law are along the trial direction.
             let along = dot(&self.committed.traction[p], direction);
             s.before.push(if along < 0.0 { -self.committed.rate[p] } else { self.committed.rate[p] });
         }
@@ -280,7 +281,7 @@ impl Shear {
         };
         self.law.error(taken, &mut s.error);
         let mean = s.normal.iter().sum::<f64>() / s.normal.len() as f64;
-        // Where nothing is pressed friction bears nothing.
+        // Without normal traction friction carries no load.
         if mean.is_nan() || mean <= 0.0 {
             return 0.0;
         }
@@ -289,7 +290,8 @@ impl Shear {
         each.map(|((e, d_trial), share)| e * (1.0 - d_trial) * share).fold(0.0, f64::max)
     }
 
-    /// Writes each point once, the open ones at rest: on large interfaces a sweep costs what it moves.
+    /// Writes each point once, with open points at rest, so that a sweep over a large interface costs no more than the memory
+    /// traffic.
     fn scatter(&mut self, step: &mut [[f64; 2]]) {
         let k = self.law.states();
         let s = &self.slices;
@@ -308,7 +310,7 @@ impl Shear {
             let direction = s.direction[i];
             let traction = scaled(&direction, s.traction[i]);
             trial.traction[p] = traction;
-            // Two-step differences may turn traction and rate against η; the history holds V along t.
+            // Two-step differences may turn traction and rate against η. The history keeps V along t.
             trial.rate[p] = if s.traction[i] < 0.0 { -s.rate[i] } else { s.rate[i] };
             trial.regime[p] = s.regime[i];
             trial.states[p * k..(p + 1) * k].copy_from_slice(&s.states[i * k..(i + 1) * k]);

@@ -1,10 +1,10 @@
-//! The declaration of an interface, as values.
+//! The specification of an interface, as plain values.
 
 use crate::enforce::Enforcement;
 use asperity_friction::law::{Law, RateBounds};
 use std::sync::Arc;
 
-/// A node of either side.
+/// A node of the slave or master side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceNode<const D: usize> {
     /// Reference position \[m\].
@@ -15,50 +15,53 @@ pub struct SurfaceNode<const D: usize> {
     pub label: usize,
 }
 
-/// A slave node with the area it stands for.
+/// A slave node with its tributary area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlavePoint {
     /// Index into the nodes of the interface.
     pub node: usize,
-    /// Tributary area \[m²; m per unit of thickness in two dimensions\], positive. A mortar measure takes its own instead.
+    /// Tributary area \[m²; m per unit of thickness in two dimensions\], positive. A mortar measure computes its own areas
+    /// instead.
     pub area: f64,
 }
 
-/// A segment of a surface. Its nodes run so that the outward normal is `(e_y, -e_x)/|e|` with `e = x_2 - x_1` in two dimensions
-/// (the body lies to the left of the edge), and along `e_1 × e_2` in three (counter-clockwise seen from outside).
+/// A segment of a surface. In two dimensions its nodes are ordered so that the outward normal is `(e_y, -e_x)/|e|` with
+/// `e = x_2 - x_1` (the body lies to the left of the edge). In three dimensions the normal is along `e_1 × e_2`
+/// (counter-clockwise seen from outside).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Segment {
-    /// Kind.
+    /// Kind of the segment.
     pub kind: crate::SegmentKind,
     /// Indices into the nodes of the interface, in the order of the kind.
     pub nodes: Vec<usize>,
 }
 
-/// Sliding: small, with fixed pairing and normal, or finite, where both follow the motion.
+/// Sliding: small, with fixed pairing and normals, or finite, with both following the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sliding {
     /// Pairing, normals, tangents and weights fixed in the reference configuration.
     Small,
-    /// Pairing and normal follow the motion.
+    /// Pairing and normals that follow the motion.
     Finite,
 }
 
 /// Measure of gaps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MeasureKind {
-    /// Slave nodes against closest points of the master.
+    /// Slave nodes against their closest points on the master.
     NodeToPoint,
-    /// Overlaps of slave and master facets, the gap averaged to slave nodes.
+    /// Overlaps of slave and master facets, with the gap averaged to slave nodes.
     Mortar {
         /// Slave facets, oriented as master segments are (outward of the slave body). Points at their nodes take their areas
-        /// from the overlap; facet nodes that are no slave point (the tip of a split surface) leave their share to the others.
+        /// from the overlap. Facet nodes that are not slave points (the tip of a split surface) leave their share to the
+        /// others.
         faces: Vec<Segment>,
-        /// True if the first coordinate is the radius of a body of revolution: areas are then those of the full circle.
+        /// True if the first coordinate is the radius of a body of revolution. Areas are then those of the full circle.
         axisymmetric: bool,
     },
 }
 
-/// Smoothing of a master surface of first-order segments: cubic patches that share a tangent plane at their nodes.
+/// Smoothing of a master surface of first-order segments by cubic patches that share a tangent plane at their nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Smoothing {
     /// Edges across which the reference normals turn by more than this angle stay sharp \[rad\].
@@ -66,7 +69,7 @@ pub struct Smoothing {
 }
 
 impl Default for Smoothing {
-    /// 45 degrees: a circle of nine facets is smoothed, the corner of a block is not.
+    /// 45 degrees: a circle of nine facets is smoothed, and the corner of a block is not.
     fn default() -> Self {
         Self { crease: std::f64::consts::FRAC_PI_4 }
     }
@@ -78,11 +81,11 @@ pub enum TimeRule {
     /// V = Δλ/Δt.
     #[default]
     BackwardEuler,
-    /// Two-step backward difference with variable step; the first step of a law is backward Euler.
+    /// Two-step backward difference with variable step. The first step of a law is backward Euler.
     Bdf2,
 }
 
-/// Everything an interface is made of.
+/// Complete specification of an interface.
 #[derive(Clone, Debug)]
 pub struct InterfaceSpec<const D: usize> {
     /// Name for reports.
@@ -97,9 +100,9 @@ pub struct InterfaceSpec<const D: usize> {
     pub measure: MeasureKind,
     /// Small or finite sliding.
     pub sliding: Sliding,
-    /// Smoothing of the master surface; `None` = the segments as they are.
+    /// Smoothing of the master surface; `None` leaves the segments as they are.
     pub smoothing: Option<Smoothing>,
-    /// Normal of every pair instead of the segments' own (small sliding only): outward of the master; any length.
+    /// Normal of every pair in place of the segments' own, outward of the master, of any nonzero length (small sliding only).
     pub fixed_normal: Option<[f64; D]>,
     /// Enforcement of the constraints.
     pub enforcement: Enforcement,
@@ -109,13 +112,13 @@ pub struct InterfaceSpec<const D: usize> {
     pub tangential_penalty: f64,
     /// Friction; `None` = frictionless.
     pub law: Option<Arc<dyn Law>>,
-    /// Size of the scene \[m\], for the closure tolerance.
+    /// Size of the scene \[m\], which scales the closure tolerance.
     pub scale: f64,
-    /// Forward steps: slip rates below this one count as rest \[m/s\].
+    /// Forward steps: slip rates below this value count as rest \[m/s\].
     pub rate_floor: f64,
     /// Forward steps: bounds of limit r8.
     pub rate_bounds: RateBounds,
-    /// For laws without an elastic domain: the largest prescribed rate \[m/s\]; a point slower than 1e-6 of it is
-    /// labelled stick. `None` for yield-surface laws, whose regime is the label.
+    /// For laws without an elastic domain: the largest prescribed rate \[m/s\]. A point slower than 1e-6 of it is labelled
+    /// stick. `None` for yield-surface laws, whose regime is the label.
     pub label_rate: Option<f64>,
 }

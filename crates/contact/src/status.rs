@@ -2,10 +2,10 @@
 
 use asperity_friction::law::Regime;
 
-/// A point slower than this share of the largest prescribed rate is labelled stick, under laws without an elastic domain.
+/// Share of the largest prescribed rate below which a point is labelled stick, under laws without an elastic domain.
 const LABEL: f64 = 1e-6;
 
-/// Status of a point; the numbers are those of output files.
+/// Status of a point. The numbers are those of output files.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Status {
@@ -14,7 +14,7 @@ pub enum Status {
     Open = 0,
     /// Contact without slip.
     Stick = 1,
-    /// Contact with slip (always, without friction).
+    /// Contact with slip; every closed point without friction.
     Slip = 2,
 }
 

@@ -1,4 +1,4 @@
-//! Small fixed-size vectors as arrays. (nalgebra's types would serve as well; arrays keep the history plain numbers.)
+//! Small fixed-size vectors as arrays. nalgebra's types would serve as well, but arrays keep the history plain numbers.
 
 /// a·b.
 #[inline]
@@ -48,7 +48,7 @@ pub(crate) fn unit<const N: usize>(a: &[f64; N]) -> [f64; N] {
     scaled(a, norm(a).recip())
 }
 
-/// Normal of tangent vectors e_1 (and e_2): `(e_y, -e_x)` in two dimensions, `e_1 × e_2` in three; not normalised.
+/// Normal to tangent vectors e_1 (and e_2): `(e_y, -e_x)` in two dimensions, `e_1 × e_2` in three; not normalised.
 #[inline]
 pub(crate) fn perpendicular<const D: usize>(e: &[[f64; D]; 2]) -> [f64; D] {
     if D != 2 {
@@ -60,7 +60,7 @@ pub(crate) fn perpendicular<const D: usize>(e: &[[f64; D]; 2]) -> [f64; D] {
     n
 }
 
-/// a × b in three dimensions; zero in two, where it is not used.
+/// a × b in three dimensions; zero in two, where it is unused.
 #[inline]
 pub(crate) fn cross<const D: usize>(a: &[f64; D], b: &[f64; D]) -> [f64; D] {
     let mut c = [0.0; D];
@@ -73,7 +73,7 @@ pub(crate) fn cross<const D: usize>(a: &[f64; D], b: &[f64; D]) -> [f64; D] {
     c
 }
 
-/// Moment of `f` at `x` about the origin, as three components (only the last in two dimensions).
+/// Moment of a force `f` at `x` about the origin, as three components (only the last is nonzero in two dimensions).
 pub(crate) fn moment<const D: usize>(x: &[f64; D], f: &[f64; D]) -> [f64; 3] {
     if D == 2 {
         [0.0, 0.0, x[0] * f[1] - x[1] * f[0]]

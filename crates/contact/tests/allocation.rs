@@ -1,6 +1,6 @@
-//! Residual, tangent and commit of small sliding, and of mortar in finite sliding, allocate nothing.
+//! Residual, tangent and commit of small sliding, and of mortar in finite sliding, allocate no memory.
 //!
-//! A counting allocator needs `unsafe`: it only adds one to a counter before handing on to the system's.
+//! The counting allocator needs `unsafe`. It only increments a counter before it forwards the call to the system's allocator.
 #![allow(clippy::unwrap_used, unsafe_code)]
 
 mod common;
@@ -40,10 +40,10 @@ fn count<const D: usize>(interface: &mut Interface<D>, u: &[f64]) -> usize {
     COUNT.load(Ordering::Relaxed) - before
 }
 
-/// One test: the counter is of the whole process.
+/// A single test, since the counter covers the whole process.
 #[test]
 fn nothing_is_allocated_after_construction() {
-    // Threads of the pool allocate as they start, which must not fall into the count.
+    // Threads of the pool allocate as they start. This must not be counted.
     rayon::broadcast(|_| ());
     small_sliding_allocates_nothing();
     mortar_allocates_nothing_while_its_pairing_stays();

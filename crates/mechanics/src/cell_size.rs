@@ -1,12 +1,12 @@
-//! The size h of a cell that penalties are given by: the same however the cell is turned, mirrored or numbered.
+//! Cell size h on which penalties are based, independent of the rotation, mirroring and numbering of the cell.
 
 use asperity_fem::element::ElementKind;
 use asperity_fem::mesh::Mesh;
 use nalgebra::Vector3;
 
-/// Size of a cell \[m\], from the edges e_m of its linear image at its centre: the longest edge of quadrilaterals and hexahedra, √|e_1 × e_2| of triangles,
-/// ∛|e_1·(e_2 × e_3)| of tetrahedra, both of which are h for cells that halve a square or share a cube of edge h, and the longer of edge and triangle of
-/// wedges.
+/// Size of a cell \[m\], from the edges e_m of its linear image at its centre. It is the longest edge of quadrilaterals and
+/// hexahedra, √|e_1 × e_2| of triangles and ∛|e_1·(e_2 × e_3)| of tetrahedra. The latter two equal h for cells that halve a
+/// square or share a cube of edge h. For wedges it is the longer of edge and triangle.
 pub fn cell_size<const D: usize>(mesh: &Mesh<D>, block: usize, cell: usize) -> f64 {
     let cells = &mesh.blocks[block];
     let kind = cells.kind.linear();
@@ -21,12 +21,12 @@ pub fn cell_size<const D: usize>(mesh: &Mesh<D>, block: usize, cell: usize) -> f
         ElementKind::Tri3 => area.norm().sqrt(),
         ElementKind::Tet4 => area.dot(&e[2]).abs().cbrt(),
         ElementKind::Wedge6 => (2.0 * e[2].norm()).max(area.norm().sqrt()),
-        // The reference is two long.
+        // The reference element has edges of length two.
         _ => e.iter().map(|e| 2.0 * e.norm()).fold(0.0, f64::max),
     }
 }
 
-/// Position at which edges are taken; those of simplices are the same everywhere.
+/// Position at which edges are evaluated. Those of simplices are the same everywhere.
 fn centre(kind: ElementKind) -> [f64; 3] {
     if kind == ElementKind::Wedge6 { [1.0 / 3.0, 1.0 / 3.0, 0.0] } else { [0.0; 3] }
 }
@@ -38,7 +38,8 @@ mod tests {
     use asperity_fem::element::ElementKind;
     use asperity_fem::mesh::{Cells, Mesh};
 
-    /// The reference element stretched by (2, 1, 1/2), turned by `angle` about z and then about x, and mirrored in x where asked.
+    /// The reference element stretched by (2, 1, 1/2), rotated by `angle` about z and then about x, and optionally mirrored in
+    /// x.
     fn cell<const D: usize>(kind: ElementKind, angle: f64, mirrored: bool) -> Mesh<D> {
         let (s, c) = angle.sin_cos();
         let place = |xi: &[f64; 3]| {

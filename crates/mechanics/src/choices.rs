@@ -3,45 +3,45 @@
 use asperity_contact::TimeRule;
 use asperity_friction::law::RateBounds;
 
-/// Which system the steppers see.
+/// System that the steppers solve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Path {
-    /// The interface degrees of freedom, the bodies condensed onto them.
+    /// Interface degrees of freedom, with the bodies condensed onto them.
     Condensed,
     /// All degrees of freedom.
     Full,
 }
 
-/// Choice of the length of implicit steps.
+/// Control of the length of implicit steps.
 #[derive(Clone, Debug)]
 pub struct Control {
     /// Bound on the estimated local error of slip per step \[m\].
     pub tolerance: f64,
-    /// Bound on the estimated error of friction coefficients of a step \[-\].
+    /// Bound on the estimated error of friction coefficients per step \[-\].
     pub friction: f64,
-    /// First step \[s\], where given.
+    /// First step \[s\], if given.
     pub first_step: Option<f64>,
-    /// Largest step \[s\], where given.
+    /// Largest step \[s\], if given.
     pub max_step: Option<f64>,
-    /// Smallest step \[s\], where given.
+    /// Smallest step \[s\], if given.
     pub min_step: Option<f64>,
-    /// Imposed step ends \[s\].
+    /// Imposed step ends \[s\], if given.
     pub imposed: Option<Vec<f64>>,
 }
 
-/// The stepper with exactly what it needs.
+/// Stepper and its parameters.
 #[derive(Clone, Copy, Debug)]
 pub struct Stepping {
     /// Rule for the slip rate.
     pub rule: TimeRule,
     /// Bounds on slip and on the change of the slip rate in a step.
     pub bounds: RateBounds,
-    /// Residual over the largest force that a forward step may leave; none where steps are implicit.
+    /// Residual over the largest force that a forward step may leave; `None` if steps are implicit.
     pub drift: Option<f64>,
 }
 
 impl Stepping {
-    /// Returns whether the steps are forward steps with rate tangents.
+    /// True if the steps are forward steps with rate tangents.
     #[must_use]
     pub fn is_forward(&self) -> bool {
         self.drift.is_some()

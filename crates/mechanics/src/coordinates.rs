@@ -1,6 +1,6 @@
-//! Coordinates in words.
+//! Formatting of coordinates.
 
-/// A position \[m\].
+/// Formats a position \[m\].
 #[must_use]
 pub fn in_words<const D: usize>(x: &[f64; D]) -> String {
     // Adding zero turns -0 into 0.

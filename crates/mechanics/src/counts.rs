@@ -1,8 +1,8 @@
-//! Counts of the work of steppers.
+//! Counts of the operations of steppers.
 
 use serde::{Deserialize, Serialize};
 
-/// See the module.
+/// Counts of operations.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
     /// Newton iterations, or forward solves.
@@ -15,20 +15,20 @@ pub struct Counts {
     pub tangents: usize,
     /// Factorisations of the step's system.
     pub factorisations: usize,
-    /// Those of them that were LU because a symmetric system was not positive definite.
+    /// Number of these that were LU because a symmetric system was not positive definite.
     pub indefinite: usize,
-    /// Solves with such a factorisation.
+    /// Solves with factorisations of the step's system.
     pub solves: usize,
-    /// Iterations of conjugate gradients, where the method is iterative.
+    /// Iterations of conjugate gradients, if the method is iterative.
     pub linear_iterations: usize,
     /// Factorisations of bodies (condensation).
     pub body_factorisations: usize,
-    /// Right-hand sides solved with those.
+    /// Right-hand sides solved with body factorisations.
     pub body_solves: usize,
     /// Searches of contact pairs.
     pub searches: usize,
-    /// Searches left out because a bound on the motion proved that no pairing had changed.
+    /// Searches skipped because a bound on the motion proved that no pairing had changed.
     pub searches_skipped: usize,
-    /// Projections on single segments in searches.
+    /// Projections onto single segments in searches.
     pub projections: usize,
 }

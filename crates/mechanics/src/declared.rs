@@ -1,4 +1,4 @@
-//! Interfaces of a plan as the contact crate takes them.
+//! Interfaces of a plan in the form of the contact crate.
 
 use super::interface::{Measure, PlannedInterface, interface_nodes};
 use super::{Model, Stepping};
@@ -6,10 +6,10 @@ use asperity_contact::{InterfaceSpec, MeasureKind, Segment, SlavePoint, SurfaceN
 use asperity_fem::kinematics::Idealisation;
 use asperity_fem::mesh::MeshFace;
 
-/// Rate below which a forward step counts a point as at rest, over the largest prescribed rate (the floor of limit r8).
+/// Rate below which a forward step counts a point as at rest, relative to the largest prescribed rate (the floor of limit r8).
 const RATE_FLOOR: f64 = 1e-12;
 
-/// Declares an interface to the contact crate; its multipliers that are unknowns are numbered from `unknowns`.
+/// Specification of an interface for the contact crate. Multipliers that are unknowns are numbered from `unknowns`.
 #[must_use]
 pub fn spec<const D: usize>(
     model: &Model<D>,

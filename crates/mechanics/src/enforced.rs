@@ -1,20 +1,20 @@
-//! Enforcement of the constraints of interfaces, in SI, and the unknowns that it adds to the system.
+//! Enforcement of the constraints of interfaces, in SI units, and the unknowns that it adds to the system.
 
 use asperity_contact::Enforcement;
 
 /// Enforcement of the constraints of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Enforced {
-    /// A penalty.
+    /// Penalty.
     Penalty,
-    /// Multipliers that move between solutions.
+    /// Multipliers that are updated between solutions.
     Uzawa {
-        /// Largest penetration \[m\].
+        /// Largest admissible penetration \[m\].
         tolerance: f64,
-        /// Augmentations a step may take.
+        /// Most augmentations per step.
         most: usize,
     },
-    /// Multipliers as unknowns.
+    /// Multipliers that are unknowns of the system.
     AugmentedLagrangian {
         /// Young's modulus over element size of the slave body \[Pa/m\].
         unit: f64,
@@ -22,13 +22,13 @@ pub enum Enforced {
 }
 
 impl Enforced {
-    /// Unknowns beside the displacements, of `points` slave points with so many tractions each.
+    /// Number of unknowns in addition to the displacements, for `points` slave points with `tractions` tractions each.
     #[must_use]
     pub fn unknowns(self, points: usize, tractions: usize) -> usize {
         if matches!(self, Self::AugmentedLagrangian { .. }) { points * tractions } else { 0 }
     }
 
-    /// For the contact crate; unknowns are numbered from `first`.
+    /// Enforcement in the form of the contact crate. Unknowns are numbered from `first`.
     #[must_use]
     pub fn declared(self, first: usize) -> Enforcement {
         match self {

@@ -1,14 +1,14 @@
-//! Free motions in words: bodies, positions and components instead of equations.
+//! Descriptions of free motions by bodies, positions and components instead of equations.
 
 use super::Model;
 use super::coordinates::in_words;
 use asperity_fem::FemError;
 use asperity_fem::multifrontal::FreeMode;
 
-/// Axes by name.
+/// Names of the axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Reason why a system was not solved; `node_of` gives mesh node and component of a degree of freedom of the error.
+/// Describes why a system was not solved. `node_of` gives the mesh node and component of a degree of freedom of the error.
 pub(crate) fn unsolved<const D: usize>(
     model: &Model<D>,
     error: &FemError,
@@ -28,7 +28,7 @@ pub(crate) fn unsolved<const D: usize>(
     )
 }
 
-/// A motion out of the model that contact and friction do not stop.
+/// Describes a motion out of the model that contact and friction do not stop.
 pub(crate) fn adrift<const D: usize>(model: &Model<D>, (node, component): (usize, usize)) -> String {
     let axis = AXES[model.idealisation.axis(component)];
     let body = model.bodies.iter().find(|b| b.nodes.contains(&node));
@@ -39,7 +39,7 @@ pub(crate) fn adrift<const D: usize>(model: &Model<D>, (node, component): (usize
     )
 }
 
-/// A motion that nothing resists; `nodes` gives the mesh node of each node of the system.
+/// Describes a motion that nothing resists. `nodes` gives the mesh node of each node of the system.
 pub(crate) fn motion<const D: usize>(model: &Model<D>, mode: &FreeMode<D>, nodes: &[usize]) -> String {
     let moving: Vec<usize> = mode.nodes.iter().map(|&n| nodes[n]).collect();
     let bodies = model.bodies.iter().filter(|b| moving.iter().any(|n| b.nodes.contains(n)));

@@ -11,19 +11,19 @@ use std::sync::Arc;
 /// Measure of gaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// Slave nodes against closest points of the master.
+    /// Slave nodes against their closest points on the master.
     NodeToPoint,
-    /// Overlaps of slave and master facets, the gap averaged to slave nodes.
+    /// Overlaps of slave and master facets, with the gap averaged to slave nodes.
     Mortar,
 }
 
-/// A planned interface, in node numbers of the common mesh.
+/// A planned interface in the node numbering of the common mesh.
 #[derive(Debug)]
 pub struct PlannedInterface {
     /// Name in the scene.
     pub name: String,
-    /// Slave nodes, ascending, with their tributary areas \[m², or m per metre of thickness\]; a mortar interface finds its
-    /// own from the overlap, and these are ones.
+    /// Slave nodes, ascending, with their tributary areas \[m², or m per metre of thickness\]. A mortar interface computes its
+    /// own areas from the overlap, and these are ones.
     pub slave: Vec<(usize, f64)>,
     /// Slave faces, as lists of mesh nodes.
     pub slave_faces: Vec<MeshFace>,
@@ -31,29 +31,29 @@ pub struct PlannedInterface {
     pub master_faces: Vec<MeshFace>,
     /// Measure of its gaps.
     pub measure: Measure,
-    /// Sliding, finite where the pairing follows the motion.
+    /// Sliding; finite if the pairing follows the motion.
     pub sliding: Sliding,
     /// True if the master surface is smoothed.
     pub smoothed: bool,
-    /// E_n \[Pa/m\].
+    /// Normal penalty E_n \[Pa/m\].
     pub normal_penalty: f64,
-    /// E_t \[Pa/m\]; 0 without friction.
+    /// Tangential penalty E_t \[Pa/m\]; 0 without friction.
     pub tangential_penalty: f64,
     /// Enforcement of the constraints.
     pub enforced: Enforced,
-    /// Multipliers that are unknowns of the system.
+    /// Number of multipliers that are unknowns of the system.
     pub unknowns: usize,
-    /// Friction or bond, absent where the scene declares none.
+    /// Friction or bond; `None` if the scene declares none.
     pub law: Option<Arc<dyn Law>>,
-    /// Its penalty in words, where that is so large that iterations suffer.
+    /// Description of its penalty, if it is so large that it slows the iterations.
     pub blamed: Option<String>,
-    /// Tractions of the initial stress, where its bodies start with one.
+    /// Tractions of the initial stress, if its bodies have one.
     pub pressed: Option<Pressed>,
-    /// Resolution of the cohesive zone by its points, where friction weakens with slip.
+    /// Resolution of the cohesive zone by its points, if friction weakens with slip.
     pub resolved: Option<Resolved>,
     /// Conditions that steps must meet.
     pub watch: Watch,
-    /// Probe positions.
+    /// Number of probe positions.
     pub probes: usize,
 }
 

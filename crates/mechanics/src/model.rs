@@ -1,4 +1,4 @@
-//! The discrete model: one mesh of all bodies, and what each block of its cells is.
+//! The discrete model: one mesh of all bodies, and the cells of each of its blocks.
 
 use super::cell_size::cell_size;
 use asperity_fem::FemError;
@@ -13,17 +13,17 @@ use asperity_fem::term::{Blocks, Limited, Linearized, Pattern, Saved as _};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Cells of one kind and material as a term.
+/// Cells of one element kind and material as a term.
 #[derive(Clone, Debug)]
 pub enum CellBlock<const D: usize> {
-    /// Elastic, small strain.
+    /// Elastic cells in small strain.
     Linear(Box<LinearBlock<D>>),
-    /// Anything else.
+    /// All other cells.
     Nonlinear(Box<nonlinear::Block<D>>),
 }
 
 impl<const D: usize> CellBlock<D> {
-    /// The linear block, where it is one.
+    /// Linear block, if it is one.
     #[must_use]
     pub fn linear(&self) -> Option<&LinearBlock<D>> {
         match self {
@@ -32,7 +32,7 @@ impl<const D: usize> CellBlock<D> {
         }
     }
 
-    /// The block of large strain or with a history, where it is one.
+    /// Block of large strain or with a history, if it is one.
     pub fn nonlinear_mut(&mut self) -> Option<&mut nonlinear::Block<D>> {
         match self {
             Self::Linear(_) => None,
@@ -40,7 +40,7 @@ impl<const D: usize> CellBlock<D> {
         }
     }
 
-    /// Its history; none where there is nothing to remember.
+    /// History of the block; `None` if it has none.
     #[must_use]
     pub fn history(&self) -> Option<Vec<f64>> {
         match self {
@@ -49,7 +49,7 @@ impl<const D: usize> CellBlock<D> {
         }
     }
 
-    /// As a term of an implicit step.
+    /// Block as a term of an implicit step.
     pub fn linearized(&mut self) -> &mut dyn Linearized {
         match self {
             Self::Linear(block) => block.as_mut(),
@@ -57,7 +57,7 @@ impl<const D: usize> CellBlock<D> {
         }
     }
 
-    /// As a term of a forward step.
+    /// Block as a term of a forward step.
     pub fn limited(&mut self) -> &mut dyn Limited {
         match self {
             Self::Linear(block) => block.as_mut(),
@@ -65,8 +65,8 @@ impl<const D: usize> CellBlock<D> {
         }
     }
 
-    /// Forces of a cell on its nodes, in the order of its degrees of freedom \[N, or N/m of thickness\], for displacements `u`
-    /// of the common mesh; a block that is not linear knows its state itself.
+    /// Forces of a cell on its nodes, in the order of its degrees of freedom \[N, or N/m of thickness\]. `u` are displacements
+    /// of the common mesh; nonlinear blocks use the state they store instead.
     #[must_use]
     pub fn forces_of_cell(&self, cell: usize, u: &[f64]) -> Vec<f64> {
         let block = match self {
@@ -80,7 +80,7 @@ impl<const D: usize> CellBlock<D> {
         rows.map(|row| row.iter().zip(dofs).map(|(k, &dof)| k * u[dof]).sum()).collect()
     }
 
-    /// Bytes of cells with a history.
+    /// Memory of cells with a history \[bytes\].
     #[must_use]
     pub fn history_bytes(&self) -> usize {
         match self {
@@ -89,7 +89,7 @@ impl<const D: usize> CellBlock<D> {
         }
     }
 
-    /// Its degrees of freedom, cell by cell.
+    /// Degrees of freedom of the block, cell by cell.
     #[must_use]
     pub fn pattern(&self) -> &Pattern {
         match self {
@@ -104,39 +104,40 @@ impl<const D: usize> CellBlock<D> {
 pub struct Body<const D: usize> {
     /// Name in the scene.
     pub name: String,
-    /// Its nodes in the common mesh.
+    /// Range of its nodes in the common mesh.
     pub nodes: Range<usize>,
-    /// Its blocks of cells in the common mesh.
+    /// Range of its blocks of cells in the common mesh.
     pub blocks: Range<usize>,
     /// Elastic constants of each of its blocks.
     pub elastic: Vec<Elastic>,
-    /// Element size h of a generated block of equal or steadily growing cells: the largest edge of the bounding box of its first cell \[m\].
+    /// Element size h of a generated block of equal or steadily growing cells \[m\]: the largest edge of the bounding box of
+    /// its first cell. `None` for other bodies.
     pub size: Option<f64>,
-    /// Nodes of each connected part, ascending; a body that is split right through has several.
+    /// Nodes of each connected part, ascending. A body that is split completely has several parts.
     pub parts: Vec<Vec<usize>>,
-    /// Reason why it is not linear; `None` when it is.
+    /// Reason why the body is not linear; `None` if it is.
     pub nonlinear: Option<&'static str>,
-    /// Its degrees of freedom in the common mesh.
+    /// Range of its degrees of freedom in the common mesh.
     pub dofs: Range<usize>,
 }
 
 /// Mesh and bodies of a scene.
 #[derive(Debug)]
 pub struct Model<const D: usize> {
-    /// All bodies in one mesh; sets are named `body.set`.
+    /// All bodies in one mesh. Sets are named `body.set`.
     pub mesh: Mesh<D>,
-    /// Cells of the blocks of the mesh, in its order.
+    /// Cells of the blocks of the mesh, in the order of the mesh.
     pub blocks: Vec<CellBlock<D>>,
-    /// The bodies, in the order of their names.
+    /// Bodies in the order of their names.
     pub bodies: Vec<Body<D>>,
-    /// Idealisation of space: degree of freedom = node * [`Idealisation::components`] + component.
+    /// Idealisation of space. Degrees of freedom are node * [`Idealisation::components`] + component.
     pub idealisation: Idealisation,
     /// Diagonal of the bounding box \[m\].
     pub scale: f64,
 }
 
 impl<const D: usize> Model<D> {
-    /// Degrees of freedom in all.
+    /// Total number of degrees of freedom.
     #[must_use]
     pub fn dofs(&self) -> usize {
         self.mesh.nodes.len() * self.idealisation.components()
@@ -153,7 +154,7 @@ impl<const D: usize> Model<D> {
         node * self.idealisation.components() + component
     }
 
-    /// Displacement of a node in space \[m\], given that of all degrees of freedom.
+    /// Displacement of a node in space \[m\], from the displacements `u` of all degrees of freedom.
     #[must_use]
     pub fn displacement(&self, node: usize, u: &[f64]) -> [f64; 3] {
         let components = self.idealisation.components();
@@ -164,7 +165,7 @@ impl<const D: usize> Model<D> {
         displacement
     }
 
-    /// Returns whether all bodies are linear.
+    /// True if all bodies are linear.
     #[must_use]
     pub fn is_linear(&self) -> bool {
         self.bodies.iter().all(|b| b.nonlinear.is_none())
@@ -181,7 +182,7 @@ impl<const D: usize> Model<D> {
         own.into()
     }
 
-    /// The stiffness of a linear body in its own numbering, for condensation; blocks that are not linear have none.
+    /// Stiffness of a linear body in its own numbering, for condensation. Nonlinear blocks are left out.
     #[must_use]
     pub fn stiffness(&self, body: &Body<D>) -> Stiffness {
         let blocks = self.blocks[body.blocks.clone()].iter().filter_map(CellBlock::linear);
@@ -189,8 +190,8 @@ impl<const D: usize> Model<D> {
         Stiffness { pattern: self.pattern(body), values, dofs: body.dofs.len() }
     }
 
-    /// The stiffness of all bodies, which are linear, in the numbering of the model. The blocks of cells are gone then: where nothing else is
-    /// asked of them, their memory serves what follows.
+    /// Stiffness of all bodies, which must be linear, in the numbering of the model. The blocks of cells are consumed to free
+    /// their memory, so nothing may need them afterwards.
     pub fn take_stiffness(&mut self) -> Stiffness {
         let dofs = self.dofs();
         let blocks: Vec<LinearBlock<D>> = std::mem::take(&mut self.blocks)
@@ -213,7 +214,7 @@ impl<const D: usize> Model<D> {
         Stiffness { pattern: cells.into(), values: all, dofs }
     }
 
-    /// Index of the body a set belongs to, by the part of its name before the point.
+    /// Index of the body that a set belongs to, from the part of its name before the dot.
     #[must_use]
     pub fn body_of(&self, set: &str) -> Option<usize> {
         let name = set.split('.').next()?;
@@ -251,8 +252,8 @@ impl<const D: usize> Model<D> {
         n.iter().map(|c| c / length).collect()
     }
 
-    /// Young's modulus over element size behind the faces of a body \[Pa/m\]: of the first cell there, and for the size of a
-    /// generated block of the first cell of the block, of other meshes the mean of the cells at the faces.
+    /// Young's modulus over element size behind the faces of a body \[Pa/m\]. The modulus is that of the first cell there. The
+    /// size is that of the first cell in a generated block, and the mean over the cells at the faces in other meshes.
     #[must_use]
     pub fn young_per_size(&self, body: &Body<D>, sides: &[Side]) -> f64 {
         let first = sides.first().map_or(body.blocks.start, |s| s.block);
@@ -260,7 +261,7 @@ impl<const D: usize> Model<D> {
         young / self.element_size(body, sides)
     }
 
-    /// The declared element size of a body, or the mean size of the cells behind `sides` \[m\].
+    /// Element size of a generated body, or the mean size of the cells behind `sides` \[m\].
     #[must_use]
     pub fn element_size(&self, body: &Body<D>, sides: &[Side]) -> f64 {
         body.size.unwrap_or_else(|| {

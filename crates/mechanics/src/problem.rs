@@ -1,16 +1,16 @@
-//! Problem to be solved: bodies, interfaces and stages, with the methods chosen for them.
+//! The problem to be solved: bodies, interfaces and stages, with the methods chosen for them.
 
 use super::solver::Solver;
 use super::{CellBlock, Control, Model, Path, PlannedInterface, Stage, Stepping, StressField, Wanted};
 use asperity_contact::Sliding;
 use asperity_fem::nonlinear::Kinematics;
 
-/// See the module.
+/// Bodies, interfaces, stages and methods of a run.
 #[derive(Debug)]
 pub struct Problem<const D: usize> {
     /// Bodies.
     pub model: Model<D>,
-    /// Initial stress per body.
+    /// Initial stress of each body, if it has one.
     pub initial_stress: Vec<Option<StressField>>,
     /// Interfaces.
     pub interfaces: Vec<PlannedInterface>,
@@ -24,12 +24,12 @@ pub struct Problem<const D: usize> {
     pub stepping: Stepping,
     /// Step control.
     pub control: Control,
-    /// Points and sets of bodies that are looked at in every step.
+    /// Points and sets of bodies evaluated in every step.
     pub samples: Wanted,
 }
 
 impl<const D: usize> Problem<D> {
-    /// Returns whether forces depend on the current position of the bodies: finite sliding or large deformation.
+    /// True if forces depend on the current position of the bodies (finite sliding or large deformation).
     #[must_use]
     pub fn moves(&self) -> bool {
         let deformed = |b: &CellBlock<D>| match b {

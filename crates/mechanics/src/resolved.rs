@@ -1,18 +1,18 @@
-//! Resolution, by the slave points of an interface, of the zone in which friction loses its strength.
+//! Resolution of the cohesive zone by the slave points of an interface.
 
 use std::ops::Range;
 
-/// See the module.
+/// Resolution of the zone in which friction loses its strength.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resolved {
-    /// Normal traction under which the cohesive zone is as long as the largest distance between points \[Pa\].
+    /// Normal traction at which the length of the cohesive zone equals the largest distance between points \[Pa\].
     pub one: f64,
     /// Largest distance between points \[m\].
     pub spacing: f64,
-    /// Normal traction under which no point may slide \[Pa\]; none where any may.
+    /// Normal traction above which no point may slide \[Pa\]; `None` if there is no limit.
     pub refused_beyond: Option<f64>,
-    /// Resolution in words with a remedy, for a run that stops because of it.
+    /// Description of the resolution and a remedy, for a run that stops because of it.
     pub limit: String,
-    /// Bytes of the description that warnings point at.
+    /// Byte range of the scene that warnings point at.
     pub place: Range<usize>,
 }

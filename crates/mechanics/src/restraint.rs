@@ -1,7 +1,7 @@
-//! Restraint of every body, and of every part of a split one: by its conditions, by symmetry, or by contact alone.
+//! Restraint of every body, and of every part of a split body: by its conditions, by symmetry, or by contact alone.
 //!
-//! A rigid motion is free when no fixed degree of freedom sees it. It is refused when no interface of the body could
-//! hold it either, in any stage.
+//! A rigid motion is free if no fixed degree of freedom resists it. It is refused if no interface of the body could hold it in
+//! any stage either.
 
 use super::{Model, PlannedInterface, Stage};
 use asperity_fem::kinematics::Idealisation;
@@ -9,27 +9,27 @@ use asperity_fem::mesh::MeshFace;
 use nalgebra::DMatrix;
 use std::ops::Range;
 
-/// Eigenvalue of the Gram matrix of constraints, relative to the largest, below which a motion is free: rounding of a
-/// sum over at most 1e6 rows of order one.
+/// Eigenvalue of the Gram matrix of constraints, relative to the largest, below which a motion is free. It exceeds the rounding
+/// of a sum over at most 1e6 rows of order one.
 const FREE: f64 = 1e-9;
 
-/// A motion of a part of a body in a stage.
+/// Motion of a part of a body in a stage.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
     /// Number of the body.
     pub body: usize,
     /// First node of the part.
     pub node: usize,
-    /// Stage.
+    /// Name of the stage.
     pub stage: String,
-    /// The motion in words.
+    /// Description of the motion.
     pub motion: String,
 }
 
-/// Checks all bodies in all stages. Returns the motions that contact alone holds.
+/// Checks all bodies in all stages. Returns the motions that are held by contact alone.
 ///
 /// # Errors
-/// The first motion that nothing holds.
+/// The first motion that nothing resists.
 pub fn check<const D: usize>(
     model: &Model<D>,
     stages: &[Stage],
@@ -52,14 +52,15 @@ pub fn check<const D: usize>(
     Ok(held)
 }
 
-/// Rigid modes of a point, one entry a mode: translations, then rotations about the body's centre.
+/// Rigid modes at a point, one entry per mode: translations, followed by rotations about the body's centre.
 type Row = Vec<f64>;
 
 fn modes<const D: usize>() -> usize {
     D * (D + 1) / 2
 }
 
-/// The modes without strain: about an axis of revolution only the translation along it, in antiplane motion the only one there is.
+/// Range of the modes without strain. About an axis of revolution it is the translation along the axis alone; in antiplane
+/// motion it is the only translation.
 fn rigid<const D: usize>(idealisation: Idealisation) -> Range<usize> {
     match idealisation {
         Idealisation::Axisymmetric => 1..2,
@@ -68,14 +69,14 @@ fn rigid<const D: usize>(idealisation: Idealisation) -> Range<usize> {
     }
 }
 
-/// Displacement component `axis` at `x` of every rigid mode; lengths in units of the body.
+/// Displacement component `axis` at `x` of every rigid mode. Lengths are in units of the body size.
 fn row<const D: usize>(x: [f64; D], axis: usize) -> Row {
     let mut row = vec![0.0; modes::<D>()];
     row[axis] = 1.0;
     if D == 2 {
         row[2] = if axis == 0 { -x[1] } else { x[0] };
     } else {
-        // Rotation about axis k moves component i by ε_ikj ω_k x_j.
+        // Rotation about axis k displaces component i by ε_ikj ω_k x_j.
         let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
         row[3 + j] = x[k];
         row[3 + k] = -x[j];
@@ -100,7 +101,7 @@ fn condition_rows<const D: usize>(model: &Model<D>, nodes: &[usize], stage: &Sta
     held.map(|&d| row(position(d / components), d % components)).collect()
 }
 
-/// Contact holds the normal of each face; friction its tangents as well.
+/// Rows held by contact, which constrains the normal of each face. Friction also constrains the tangents.
 fn contact_rows<const D: usize>(
     model: &Model<D>,
     nodes: &[usize],
@@ -139,7 +140,7 @@ fn project(components: &[Row], normal: &[f64]) -> Row {
     sum
 }
 
-/// A rigid motion no row sees, in words.
+/// Description of a rigid motion that no row constrains, if there is one.
 fn free_motion<const D: usize>(rows: &[Row], idealisation: Idealisation) -> Option<String> {
     let rigid = rigid::<D>(idealisation);
     let m = rigid.len();

@@ -1,4 +1,4 @@
-//! Outputs of bodies beside fields: displacement and stress at points, forces on sets.
+//! Outputs of bodies other than fields: displacement and stress at points, forces on sets.
 
 use super::{CellBlock, Model, Stage, StressField};
 use asperity_fem::block::von_mises;
@@ -12,28 +12,28 @@ use nalgebra::{DMatrix, DVector};
 pub struct Point {
     /// Name in the scene.
     pub name: String,
-    /// Its body.
+    /// Name of its body.
     pub body: String,
     /// Reference position \[m\].
     pub position: Vec<f64>,
     block: usize,
     cell: usize,
-    /// Nodes of its cell, with the values of their shape functions there.
+    /// Nodes of its cell, with the values of their shape functions at the point.
     shares: Vec<(usize, f64)>,
-    /// Weight of each quadrature point of its cell in the stress there.
+    /// Weight of each quadrature point of its cell in the stress at the point.
     weights: Vec<f64>,
 }
 
-/// A set whose force is wanted.
+/// A set whose force is requested.
 #[derive(Clone, Debug)]
 pub struct ForceSet {
     /// Name in the scene.
     pub name: String,
-    /// The set, `body.set`.
+    /// Name of the set, `body.set`.
     pub set: String,
     /// Its nodes, ascending.
     nodes: Vec<usize>,
-    /// Cells that have one of them: block and cell.
+    /// Cells that contain one of these nodes: block and cell.
     cells: Vec<(usize, usize)>,
 }
 
@@ -57,28 +57,28 @@ pub struct PointValues {
     pub mises: f64,
 }
 
-/// Values at what is [`Wanted`].
+/// Values at the points and sets [`Wanted`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Samples {
-    /// One entry a point.
+    /// Values at each point.
     pub points: Vec<PointValues>,
-    /// Force that acts on the body through the nodes of each set \[N, or N/m of thickness in the plane\]: what holds them, what is
-    /// in contact with them, and the loads on the set.
+    /// Force that acts on the body through the nodes of each set \[N, or N/m of thickness in the plane\]. It is the sum of
+    /// constraint forces, contact forces and the loads on the set.
     pub forces: Vec<[f64; 3]>,
 }
 
-/// Loads of a stage on the nodes of a set that are not the set's own: resultant at unit amplitude \[N, or N/m of thickness\],
+/// Loads of a stage that act on nodes of a set but do not belong to it: resultant at unit amplitude \[N, or N/m of thickness\],
 /// and amplitude.
 pub type Beside = Vec<([f64; 3], Table)>;
 
 impl Wanted {
-    /// Returns whether nothing is requested.
+    /// True if nothing is requested.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.points.is_empty() && self.forces.is_empty()
     }
 
-    /// Loads of a stage beside those of each set.
+    /// Loads of a stage on the nodes of each set that do not belong to the set.
     #[must_use]
     pub fn beside<const D: usize>(&self, model: &Model<D>, stage: &Stage) -> Vec<Beside> {
         let components = model.idealisation.components();
@@ -97,8 +97,8 @@ impl Wanted {
         self.forces.iter().map(one).collect()
     }
 
-    /// Present values, for displacements `u` of the common mesh; `blocks` are those of the mesh in their present state, `beside`
-    /// the loads of the present stage.
+    /// Present values for displacements `u` of the common mesh. `blocks` are the blocks of the mesh in their present state,
+    /// `beside` the loads of the present stage.
     #[must_use]
     pub fn values<const D: usize>(
         &self,
@@ -127,7 +127,7 @@ impl Wanted {
 }
 
 impl Point {
-    /// A point of a body that was found in a cell.
+    /// Makes a point of a body from the cell in which it was found.
     #[must_use]
     pub fn new<const D: usize>(
         model: &Model<D>,
@@ -174,7 +174,7 @@ impl Point {
         for (stress, weight) in stresses.iter().zip(&self.weights) {
             sum.iter_mut().zip(stress).for_each(|(s, t)| *s += weight * t);
         }
-        // Blocks that are not linear keep their initial stress themselves.
+        // Nonlinear blocks include their initial stress themselves.
         let body = model.bodies.iter().position(|b| b.blocks.contains(&self.block));
         if let (Some(initial), CellBlock::Linear(_)) = (body.and_then(|b| initial[b].as_ref()), block) {
             sum.iter_mut().zip(initial.at(&self.position)).for_each(|(s, t)| *s += t);
@@ -184,7 +184,7 @@ impl Point {
 }
 
 impl ForceSet {
-    /// A set of these faces.
+    /// Makes a set of these faces.
     #[must_use]
     pub fn new<const D: usize>(model: &Model<D>, (name, set): (&str, &str), sides: &[Side]) -> Self {
         let nodes = nodes_of_sides(&model.mesh, sides);
@@ -221,9 +221,9 @@ fn cells_with<const D: usize>(model: &Model<D>, nodes: &[usize]) -> Vec<(usize, 
         .collect()
 }
 
-/// Weights of values at the points of a rule that give, at `xi`, the linear polynomial in natural coordinates nearest to them in
-/// the sense of least squares; their mean where the points do not determine one. Stresses are most accurate at these points
-/// (Barlow 1976), and the polynomial carries that to the boundary of the cell.
+/// Weights of values at the points of a rule that give, at `xi`, their least-squares fit by a linear polynomial in natural
+/// coordinates; equal weights if the points do not determine a fit. Stresses are most accurate at these points (Barlow 1976),
+/// and the polynomial carries this accuracy to the boundary of the cell.
 fn weights(kind: ElementKind, rule: &[[f64; 3]], xi: &[f64; 3]) -> Vec<f64> {
     let (n, terms) = (rule.len(), kind.dimension() + 1);
     let basis = |x: &[f64; 3], k: usize| if k == 0 { 1.0 } else { x[k - 1] };

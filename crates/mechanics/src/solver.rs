@@ -1,4 +1,4 @@
-//! Choice of the solver of the steps' linear systems, as data; properties of their matrices, and the extent of condensation.
+//! Choice of the solver of the steps' linear systems, symmetry of their matrices, and extent of condensation.
 
 use super::interface::{Measure, PlannedInterface, interface_nodes};
 use super::{CellBlock, Model, Stage, Stepping};
@@ -6,33 +6,33 @@ use asperity_contact::Sliding;
 use asperity_fem::assembly::{Analysis, Symmetry};
 use asperity_fem::condense;
 
-/// Solver of the linear systems.
+/// Solver of the linear systems of the steps.
 #[derive(Debug)]
 pub struct Solver {
     /// Method.
     pub method: Method,
-    /// Bytes a factorisation may take.
+    /// Memory that a factorisation may use \[bytes\].
     pub memory: usize,
     /// Analyses from which the memory was predicted.
     pub prepared: Prepared,
-    /// Bytes the method is predicted to take.
+    /// Predicted memory of the method \[bytes\].
     pub bytes: usize,
-    /// Reason why this method.
+    /// Reason for the choice of this method.
     pub why: String,
 }
 
-/// Methods.
+/// Methods of solving linear systems.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
-    /// Dense factors, of what condensation keeps.
+    /// Dense factorisation of the condensed system.
     Dense,
-    /// Sparse factors.
+    /// Sparse factorisation.
     Sparse,
-    /// Conjugate gradients with smoothed aggregation.
+    /// Conjugate gradients preconditioned with smoothed aggregation.
     Iterative {
         /// Relative residual at which a solution is accepted.
         tolerance: f64,
-        /// Iterations after which a solution is given up.
+        /// Iterations after which the solution is abandoned.
         most_iterations: usize,
     },
 }
@@ -40,18 +40,19 @@ pub enum Method {
 /// Symbolic analyses for the degrees of freedom fixed in the first stage.
 #[derive(Debug)]
 pub enum Prepared {
-    /// None.
+    /// No analysis.
     Nothing,
-    /// Of the bodies, for condensation.
+    /// Analyses of the bodies, for condensation.
     Bodies(Vec<condense::Analysis>),
-    /// Of the system of all bodies, interfaces apart.
+    /// Analysis of the system of all bodies, without interfaces.
     System(Analysis),
 }
 
-/// Returns the symmetry of the tangents in a stage, which is decided here alone. Bodies say whether their tangent is symmetric;
-/// contact that is tied or without a law has a symmetric one. Friction couples shear traction to normal traction in one direction only.
-/// Mortar contact that follows the motion is not symmetric: its forces are the averages of the pressure, not the gradient of an
-/// energy of gaps. Multipliers that are unknowns have zeros on the diagonal, for which a Cholesky factorisation always fails.
+/// Symmetry of the tangents in a stage; this is the only place that decides it. Bodies report the symmetry of their tangents.
+/// Contact that is tied or without a law has a symmetric tangent. Friction couples shear traction to normal traction in one
+/// direction only. Mortar contact that follows the motion is unsymmetric: its forces are averages of the pressure and not the
+/// gradient of an energy of gaps. Multipliers that are unknowns have zeros on the diagonal, for which a Cholesky factorisation
+/// always fails.
 #[must_use]
 pub fn symmetry<const D: usize>(
     model: &Model<D>,
@@ -78,13 +79,13 @@ pub fn symmetry<const D: usize>(
     }
 }
 
-/// Mortar contact over an overlap that follows the motion.
+/// True for mortar contact over an overlap that follows the motion.
 #[must_use]
 pub fn moving_mortar(i: &PlannedInterface) -> bool {
     i.measure == Measure::Mortar && i.sliding == Sliding::Finite
 }
 
-/// Degrees of freedom of the interfaces that each body keeps when it is condensed, in mesh numbering.
+/// Interface degrees of freedom that each body retains in condensation, in mesh numbering.
 #[must_use]
 pub fn retained<const D: usize>(model: &Model<D>, interfaces: &[PlannedInterface]) -> Vec<Vec<usize>> {
     let mut nodes: Vec<usize> = interfaces.iter().flat_map(interface_nodes).collect();
@@ -98,7 +99,7 @@ pub fn retained<const D: usize>(model: &Model<D>, interfaces: &[PlannedInterface
     model.bodies.iter().map(|b| of_body(&b.nodes)).collect()
 }
 
-/// Members of a sorted list that lie in `dofs`, counted from its start.
+/// Members of a sorted list that lie in `dofs`, relative to its start.
 #[must_use]
 pub fn local(list: &[usize], dofs: &std::ops::Range<usize>) -> Vec<usize> {
     list.iter().filter(|d| dofs.contains(d)).map(|d| d - dofs.start).collect()

@@ -5,22 +5,22 @@ use asperity_fem::dof::{Channel, Constraints};
 use asperity_fem::table::Table;
 use std::ops::Range;
 
-/// Slip rates up to so many times the largest prescribed rate are the loading's, whatever its unit of time: two e-folds beyond
-/// what velocity steps of experiments span.
+/// Slip rates up to this multiple of the largest prescribed rate are attributed to the loading, whatever its unit of time. The
+/// factor is two e-folds beyond the span of velocity steps in experiments.
 pub const LOADING: f64 = 100.0;
 
-/// Motion of a component during a stage.
+/// Prescribed motion of a component during a stage.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
-    /// A displacement that is there from the start \[m\].
+    /// Displacement present from the start \[m\].
     Fixed(f64),
-    /// In proportion to time, to a displacement at the end \[m\].
+    /// Displacement proportional to time, up to this value at the end \[m\].
     To(f64),
-    /// At a rate \[m/s\].
+    /// Constant rate \[m/s\].
     Rate(f64),
-    /// Times since the start of the stage \[s\] and displacements there \[m\].
+    /// Times since the start of the stage \[s\] and displacements at these times \[m\].
     Table(Vec<(f64, f64)>),
-    /// As displaced as at the start, what turns aside.
+    /// Displacement held at its value at the start, apart from rotation.
     Hold,
 }
 
@@ -33,37 +33,37 @@ pub struct Stage {
     pub start: f64,
     /// End \[s\].
     pub end: f64,
-    /// Number of equal steps, where the scene says so.
+    /// Number of equal steps, if the scene gives it.
     pub steps: Option<usize>,
     /// Names of interfaces without friction.
     pub frictionless: Vec<String>,
     /// Motions, with the degrees of freedom they prescribe.
     pub motions: Vec<(Vec<usize>, Motion)>,
-    /// Components that turn with their sets.
+    /// Components that rotate with their sets.
     pub turning: Vec<Turning>,
-    /// Loads, with the set they act on, where it is one.
+    /// Loads, each with the set it acts on, if it acts on a set.
     pub loads: Vec<(Option<String>, Channel)>,
     /// Fixed degrees of freedom, sorted.
     pub fixed: Vec<usize>,
     /// Sets that a spring moves as one.
     pub springs: Vec<Spring>,
-    /// In scenes with faults, nodal forces of the weight of the bodies, which is there before the start.
+    /// Nodal forces of the weight of the bodies, in scenes with faults. It acts before the start.
     pub weight: Vec<(usize, f64)>,
 }
 
-/// Degrees of freedom that move as one, drawn by a spring.
+/// Degrees of freedom that move as one and are pulled by a spring.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spring {
-    /// The degrees of freedom.
+    /// Degrees of freedom that move as one.
     pub dofs: Vec<usize>,
     /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
     pub stiffness: f64,
-    /// Rate of its other end \[m/s\].
+    /// Rate of the spring's other end \[m/s\].
     pub rate: f64,
 }
 
 impl Stage {
-    /// Constraints of the stage, given the displacement `u0` at its start \[m\].
+    /// Constraints of the stage, from the displacement `u0` at its start \[m\].
     #[must_use]
     pub fn constraints(&self, u0: &[f64]) -> Constraints {
         let mut channels: Vec<Channel> = self.loads.iter().map(|(_, channel)| channel.clone()).collect();
@@ -75,7 +75,7 @@ impl Stage {
         Constraints { fixed: self.fixed.clone(), channels }
     }
 
-    /// Loads that do not act on this set.
+    /// Loads other than those on this set.
     pub fn loads_beside(&self, set: &str) -> impl Iterator<Item = &Channel> {
         self.loads.iter().filter(move |(on, _)| on.as_deref() != Some(set)).map(|(_, channel)| channel)
     }
@@ -99,7 +99,7 @@ impl Stage {
         })
     }
 
-    /// Largest displacement the stage prescribes beyond those before it \[m\].
+    /// Largest displacement that the stage prescribes in addition to those before it \[m\].
     #[must_use]
     pub fn travel(&self) -> f64 {
         let held =
@@ -107,20 +107,20 @@ impl Stage {
         held.fold(self.largest_rate() * (self.end - self.start), f64::max)
     }
 
-    /// Returns whether anything but prescribed motions acts: loads, weight, initial stress or springs.
+    /// True if anything other than prescribed motions acts: loads, weight, initial stress or springs.
     #[must_use]
     pub fn is_loaded(&self) -> bool {
         !self.springs.is_empty() || self.loads.iter().any(|(_, channel)| !channel.forces.is_empty())
     }
 
-    /// Returns whether conditions hold any of some degrees of freedom along the given components.
+    /// True if conditions hold any of these degrees of freedom along the given components.
     #[must_use]
     pub fn holds(&self, dofs: &Range<usize>, components: &[bool]) -> bool {
         let fixed = self.fixed.iter().chain(self.springs.iter().flat_map(|s| &s.dofs));
         fixed.into_iter().any(|d| dofs.contains(d) && components[d % components.len()])
     }
 
-    /// Largest force along a direction that loads exert on some degrees of freedom at any time of the stage \[N; N/m\].
+    /// Largest force along a direction that loads exert on these degrees of freedom at any time of the stage \[N; N/m\].
     #[must_use]
     pub fn largest_force(&self, dofs: &Range<usize>, along: &[f64]) -> f64 {
         let channels = || self.loads.iter().map(|(_, channel)| channel);
@@ -135,7 +135,7 @@ impl Stage {
         times.map(|t| parts.iter().map(|(a, f)| f * a.value(t)).sum()).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Returns whether tractions or pressures act on sets.
+    /// True if tractions or pressures act on sets.
     #[must_use]
     pub fn has_loads(&self) -> bool {
         self.loads.iter().any(|(set, _)| set.is_some())
@@ -164,7 +164,7 @@ impl Stage {
                 points.iter().map(|p| self.start + p.0).collect(),
                 points.iter().map(|p| p.1).collect(),
             ))),
-            // `turning` gives the displacement that a rotation adds to the position at its start.
+            // `turning` gives the displacement that a rotation adds to the positions at the start of the stage.
             Motion::Hold => channels.push(present(constant(1.0))),
             Motion::Fixed(_) => {}
         }

@@ -1,52 +1,52 @@
-//! The length of the next step.
+//! Choice of the length of the next step.
 
 use super::step::Cut;
 use super::{Control, Stage};
 use serde::{Deserialize, Serialize};
 
-/// Share of the optimal length that is tried: the usual safety of step controllers.
+/// Share of the optimal length that is tried, the usual safety factor of step controllers.
 const SAFETY: f64 = 0.9;
-/// Largest growth from one step to the next.
+/// Largest growth factor from one step to the next.
 const GROWTH: f64 = 2.0;
-/// Largest shrinkage after an accepted step.
+/// Smallest factor from an accepted step to the next.
 const SHRINK: f64 = 0.3;
-/// First step as a share of the stage, where the scene gives none.
+/// First step as a share of the stage, if the scene gives none.
 const FIRST: f64 = 1e-3;
-/// Smallest step as a share of the stage, where the scene gives none: six orders below the first, as many as the factor by which slip
-/// accelerates from the rate of the loads to where quasi-static states end.
+/// Smallest step as a share of the stage, if the scene gives none. It is six orders below the first, the factor by which slip
+/// accelerates from the rate of the loads to the limit of quasi-static states.
 const SMALLEST: f64 = 1e-9;
-/// The same where no law weakens: ten orders below the first, for sets of contacts and yielding points that change one by one.
+/// Same share if no law weakens: ten orders below the first, for sets of contacts and yielding points that change one by one.
 const LEAST: f64 = 1e-13;
-/// Smallest step over the spacing of times at the end of the stage: below it steps add up to nothing.
+/// Smallest step over the spacing of floating-point times at the end of the stage. Shorter steps do not advance the time.
 const SPACING: f64 = 4.0 * f64::EPSILON;
-/// Largest step as a share of the stage, where the scene gives none.
+/// Largest step as a share of the stage, if the scene gives none.
 const LARGEST: f64 = 0.05;
-/// Newton iterations up to which a step may grow: a contact that changes takes three to six.
+/// Newton iterations up to which a step may grow. A change of contact takes three to six.
 const EASY: usize = 8;
-/// Newton iterations beyond which the next step is halved: half of those after which it would fail.
+/// Newton iterations above which the next step is halved, half the number at which it would fail.
 const HARD: usize = 15;
-/// Error of friction coefficients up to which a step stands, over the bound.
+/// Error of friction coefficients, relative to the bound, up to which a step is accepted.
 const STANDS: f64 = 2.0;
-/// A remainder below this share of the step is not worth a step of its own.
+/// Share of the step below which a remainder is not taken as a separate step.
 const REMAINDER: f64 = 1e-9;
 
-/// Figures of an accepted step from which the length of the next is chosen.
+/// Figures of an accepted step that determine the length of the next.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Figures {
     /// Estimated error of slip \[m\].
     pub slip: f64,
     /// Estimated error of friction coefficients \[-\].
     pub friction: f64,
-    /// Slip over the largest that the laws allow a step \[-\].
+    /// Slip over the largest slip per step that the laws allow \[-\].
     pub fill: f64,
     /// Newton iterations.
     pub iterations: usize,
 }
 
-/// State that the choice of step lengths keeps from step to step.
+/// State that the choice of step lengths keeps between steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StepLengthState {
-    /// Length wanted next \[s\]; none where imposed ends alone decide.
+    /// Requested length of the next step \[s\]; `None` if imposed ends alone set it.
     wanted: Option<f64>,
     /// True if the last trial failed.
     failed: bool,
@@ -56,16 +56,16 @@ pub struct StepLengthState {
 #[derive(Debug)]
 pub struct StepLength {
     end: f64,
-    /// Length wanted next; with imposed ends, only while recovering from a halved step.
+    /// Requested length of the next step \[s\]. With imposed ends it is finite only while recovering from a halved step.
     dt: f64,
     smallest: f64,
     largest: f64,
     tolerance: Option<f64>,
-    /// Bound of the error of friction coefficients, where steps are adapted to it \[-\].
+    /// Bound of the error of friction coefficients \[-\], if steps are adapted to it.
     friction: Option<f64>,
-    /// Ends of imposed steps still to come, last first.
+    /// Remaining ends of imposed steps, last first.
     imposed: Option<Vec<f64>>,
-    /// True if the last trial failed: the next step does not grow, since it would fail again.
+    /// True if the last trial failed. The next step then does not grow, since it would fail again.
     failed: bool,
     /// Length required by the error of slip, if it is below the smallest.
     needed: Option<f64>,
@@ -73,7 +73,7 @@ pub struct StepLength {
 }
 
 impl StepLength {
-    /// Lengths for `stage`; `watched` where a law follows rates or weakens.
+    /// Chooses lengths for `stage`. `watched` is true if a law depends on rates or weakens.
     #[must_use]
     pub fn new(control: &Control, stage: &Stage, watched: bool) -> Self {
         let duration = stage.end - stage.start;
@@ -101,7 +101,7 @@ impl StepLength {
         }
     }
 
-    /// The end the next step may not pass: an imposed one, or the stage's.
+    /// End that the next step may not pass: an imposed one, or that of the stage.
     fn target(&self) -> f64 {
         self.imposed.as_ref().and_then(|ends| ends.last().copied()).unwrap_or(self.end)
     }
@@ -120,25 +120,26 @@ impl StepLength {
         Some(if self.dt >= left * (1.0 - REMAINDER) { left } else { self.dt })
     }
 
-    /// The target where `time` misses it by rounding of the sum only, else `time`.
+    /// The target if `time` misses it only by rounding of the sum, otherwise `time`.
     #[must_use]
     pub fn snap(&self, time: f64) -> f64 {
         let target = self.target();
         if (time - target).abs() <= 4.0 * f64::EPSILON * target.abs() { target } else { time }
     }
 
-    /// The error of friction coefficients up to which a step of length `dt` stands: twice what is wanted, so that the next one is in time to
-    /// correct. The shortest steps stand whatever it is.
+    /// Error of friction coefficients up to which a step of length `dt` is accepted. It is twice the bound requested, so that
+    /// the next step can still correct it. The shortest steps are accepted whatever their error.
     #[must_use]
     pub fn bound(&self, dt: f64) -> f64 {
         self.friction.filter(|_| 0.5 * dt >= self.smallest).map_or(f64::INFINITY, |wanted| STANDS * wanted)
     }
 
-    /// Takes note of an accepted step: its length, why the stepper cut it where it did, and its figures. No step is made shorter than the
-    /// smallest.
+    /// Records an accepted step: its length, the reason if the stepper shortened it, and its figures. No step becomes shorter
+    /// than the smallest.
     pub fn accepted(&mut self, (taken, cut): (f64, Cut), figures: Figures) {
         let Figures { slip, friction, fill, iterations } = figures;
-        // The error of slip of a backward-Euler step and that of V of a two-step difference fall with the square of its length.
+        // Both the error of slip in a backward-Euler step and that of V in a two-step difference fall with the square of the
+        // step length.
         let by = |tolerance: Option<f64>, error: f64| match tolerance {
             Some(tolerance) if error > 0.0 => (SAFETY * (tolerance / error).sqrt()).clamp(SHRINK, GROWTH),
             _ => GROWTH,
@@ -156,7 +157,7 @@ impl StepLength {
             0.5
         };
         let factor = by_error.min(by_iterations).min(by_slip);
-        // A step cut short by an event or by the end of an interval says nothing against the length that was wanted.
+        // A step shortened by an event or by the end of an interval is no reason to reduce the requested length.
         let basis = if cut == Cut::Accuracy { taken } else { self.dt.min(self.largest).max(taken) };
         self.reason = if self.imposed.is_some() {
             "imposed"
@@ -184,13 +185,13 @@ impl StepLength {
         self.needed.map(|needed| (needed, self.smallest))
     }
 
-    /// Returns the state kept from step to step.
+    /// State kept between steps.
     #[must_use]
     pub fn save(&self) -> StepLengthState {
         StepLengthState { wanted: self.dt.is_finite().then_some(self.dt), failed: self.failed }
     }
 
-    /// Restores the state that another choice kept for the same stage.
+    /// Restores the state that another controller saved for the same stage.
     #[must_use]
     pub fn restored(self, saved: &StepLengthState) -> Self {
         Self { dt: saved.wanted.unwrap_or(f64::INFINITY), failed: saved.failed, ..self }
@@ -202,13 +203,13 @@ impl StepLength {
         self.smallest
     }
 
-    /// Returns the limit that set the length of the last step.
+    /// Limit that set the length of the last step.
     #[must_use]
     pub fn reason(&self) -> &'static str {
         self.reason
     }
 
-    /// Halves the step after a failure; false when it would fall below the smallest.
+    /// Halves the step after a failure. Returns false if it falls below the smallest.
     pub fn halve(&mut self, dt: f64) -> bool {
         self.dt = 0.5 * dt;
         self.reason = "halved";
@@ -217,7 +218,7 @@ impl StepLength {
     }
 }
 
-/// Imposed ends within a stage, last first, the stage's end included.
+/// Imposed ends within a stage, last first, including the end of the stage.
 fn within(times: &[f64], stage: &Stage) -> Vec<f64> {
     let mut ends: Vec<f64> = times.iter().copied().filter(|&t| t > stage.start && t < stage.end).collect();
     ends.push(stage.end);

@@ -1,8 +1,8 @@
-//! Sets that turn as rigid bodies.
+//! Sets that rotate as rigid bodies.
 //!
-//! With r the place of a node at the start of the stage relative to a point of the axis, a the unit vector along it and φ the
-//! angle, Rodrigues' formula moves the node by `(cos φ - 1) (r - (a·r) a) + sin φ a × r`: two channels with amplitudes
-//! that are functions of a ramp.
+//! Let r be the position of a node at the start of the stage relative to a point on the axis, a the unit vector along the axis
+//! and φ the angle. Rodrigues' formula displaces the node by `(cos φ - 1) (r - (a·r) a) + sin φ a × r`. These are two channels
+//! whose amplitudes are functions of a ramp.
 
 use asperity_fem::dof::Channel;
 use asperity_fem::table::{Function, Table};
@@ -12,7 +12,7 @@ use asperity_fem::table::{Function, Table};
 pub struct Rotation {
     /// Angle at the end of the stage \[rad\].
     pub angle: f64,
-    /// A point of the axis \[m\].
+    /// A point on the axis \[m\].
     pub about: [f64; 3],
     /// Unit vector along the axis.
     pub axis: [f64; 3],
@@ -25,13 +25,13 @@ pub struct Turning {
     pub dofs: Vec<usize>,
     /// Reference positions of their nodes \[m\].
     pub places: Vec<[f64; 3]>,
-    /// Components of the displacement of a node.
+    /// Number of displacement components per node.
     pub components: usize,
-    /// The rotation.
+    /// Rotation of the set.
     pub rotation: Rotation,
 }
 
-/// `(r - (a·r) a, a × r)`.
+/// Vectors `r - (a·r) a` and `a × r`.
 fn parts(r: &[f64; 3], a: &[f64; 3]) -> ([f64; 3], [f64; 3]) {
     let along: f64 = r.iter().zip(a).map(|(r, a)| r * a).sum();
     let across = std::array::from_fn(|c| r[c] - along * a[c]);
@@ -40,7 +40,7 @@ fn parts(r: &[f64; 3], a: &[f64; 3]) -> ([f64; 3], [f64; 3]) {
 }
 
 impl Turning {
-    /// Channels of the motion from `start` to `end` beyond the displacement `u0` at the start.
+    /// Channels of the motion from `start` to `end`, relative to the displacement `u0` at the start.
     pub fn channels(&self, (start, end): (f64, f64), u0: &[f64]) -> [Channel; 2] {
         let n = self.components;
         let place = |k: usize| -> [f64; 3] {

@@ -1,5 +1,4 @@
-//! Enforcement of the contact constraint: normal traction from gap, by a penalty, and multipliers about which the penalty
-//! acts.
+//! Enforcement of the contact constraint: normal traction from the gap by a penalty, optionally about multipliers.
 
 mod unknown;
 mod uzawa;
@@ -8,27 +7,26 @@ use crate::measure::NormalPoint;
 pub(crate) use unknown::{Buffers, REGULAR, Unknowns};
 pub(crate) use uzawa::{Multipliers, tangential};
 
-/// Methods that bring gaps and slips to zero where they should be.
+/// Methods of enforcing the contact constraints.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Enforcement {
     /// Tractions proportional to the penetration and to the elastic part of the tangential motion.
     #[default]
     Penalty,
-    /// Tractions of that kind about multipliers, which become the tractions found until these change no more (Uzawa's
-    /// method; Hestenes 1969, Powell 1969; with friction Simo and Laursen 1992).
+    /// Penalty tractions about multipliers. The multipliers are set to the tractions found until these no longer change
+    /// (Uzawa's method; Hestenes 1969, Powell 1969; with friction Simo and Laursen 1992).
     Uzawa {
-        /// Largest penetration, and largest elastic part of the tangential motion of a step \[m\].
+        /// Largest admissible penetration, and largest admissible elastic part of the tangential motion of a step \[m\].
         tolerance: f64,
-        /// Augmentations a step may take.
+        /// Most augmentations per step.
         most: usize,
     },
-    /// Multipliers that are unknowns of the system (Alart and Curnier 1991): the constraints hold to rounding, and the
-    /// penalties only tell on which side of a kink an iterate is.
+    /// Multipliers that are unknowns of the system (Alart and Curnier 1991). The constraints hold to rounding, and the
+    /// penalties only decide on which side of a kink an iterate lies.
     AugmentedLagrangian {
-        /// First of the unknowns' degrees of freedom: one a slave point, or as many as there are dimensions with a law, one
-        /// point after another.
+        /// First degree of freedom of the unknowns. Each slave point has one unknown, or D with a law, one point after another.
         first: usize,
-        /// Stiffness that makes a traction a length of the size of displacements: Young's modulus over the size of elements
+        /// Stiffness that scales tractions to lengths of the size of displacements: Young's modulus over the element size
         /// \[Pa/m\].
         unit: f64,
     },
@@ -39,12 +37,12 @@ pub enum Enforcement {
 pub struct Penalty {
     /// Normal penalty E_n \[Pa/m\].
     pub stiffness: f64,
-    /// Gaps up to this one count as closed, with f_n = 0, so that their stiffness is present \[m\].
+    /// Gaps up to this value count as closed with f_n = 0, so that their stiffness enters the tangent \[m\].
     pub closure: f64,
 }
 
 impl Penalty {
-    /// Normal tractions of all points from their gaps \[m\].
+    /// Computes the normal tractions of all points from their gaps \[m\].
     pub fn enforce(&self, gap: &[f64], out: &mut [NormalPoint]) {
         for (g, o) in gap.iter().zip(out) {
             let closed = *g <= self.closure;
@@ -56,7 +54,7 @@ impl Penalty {
         }
     }
 
-    /// The same about multipliers λ \[Pa\]: `f_n = <λ - E_n g_n>`.
+    /// Computes the normal tractions about multipliers λ \[Pa\]: `f_n = <λ - E_n g_n>`.
     pub fn augmented(&self, gap: &[f64], multiplier: &[f64], out: &mut [NormalPoint]) {
         for ((g, l), o) in gap.iter().zip(multiplier).zip(out) {
             let push = l - self.stiffness * g;
@@ -69,8 +67,8 @@ impl Penalty {
         }
     }
 
-    /// Bonded points: `f_n = λ - E_n (g_n - g_0)` of either sign, g_0 the gap they were tied at \[m\], infinite where a point has
-    /// no partner and is free.
+    /// Computes the normal tractions of bonded points: `f_n = λ - E_n (g_n - g_0)` of either sign. g_0 is the gap at which a
+    /// point was tied \[m\]; it is infinite for points without a partner, which are free.
     pub fn bonded(&self, gap: &[f64], tied: &[f64], multiplier: Option<&[f64]>, out: &mut [NormalPoint]) {
         for (p, ((g, g0), o)) in gap.iter().zip(tied).zip(out).enumerate() {
             *o = if g0.is_finite() {

@@ -1,9 +1,10 @@
-//! Multipliers, and how they move between solutions.
+//! Multipliers, and their update between solutions.
 //!
-//! With multipliers λ_n and λ_t the tractions are `f_n = <λ_n - E_n g_n>` and those of the friction law from the trial
-//! `t^e = λ_t + E_t Δu`. Where `λ_n = f_n` and `λ_t = t` the gap of a closed point is zero, and so is `E_t (Δu - Δλ) = t - λ_t`:
-//! slip is the whole tangential motion, whatever the penalties. At the start of a step the multipliers are the committed
-//! tractions, so that without augmentation the step is that of the penalty, about a state that violates nothing.
+//! With multipliers λ_n and λ_t the normal tractions are `f_n = <λ_n - E_n g_n>`, and the tangential ones are those of the
+//! friction law at the trial `t^e = λ_t + E_t Δu`. If `λ_n = f_n` and `λ_t = t`, the gap of a closed point is zero, and so is
+//! `E_t (Δu - Δλ) = t - λ_t`: slip is the whole tangential motion, whatever the penalties. At the start of a step the
+//! multipliers are the committed tractions. Without augmentation the step is thus a penalty step about a state that violates no
+//! constraint.
 //!
 //! Simo, J. C. and Laursen, T. A. (1992), An augmented Lagrangian treatment of contact problems involving friction,
 //! Computers and Structures 42, 97-116.
@@ -13,7 +14,7 @@ use super::Enforcement;
 /// Multipliers of all points.
 #[derive(Clone, Debug)]
 pub(crate) struct Multipliers {
-    /// Largest violation \[m\] and the augmentations a step may take, where they move between solutions.
+    /// Largest violation \[m\] and most augmentations per step, if the multipliers are updated between solutions.
     pub moved: Option<(f64, usize)>,
     /// λ_n \[Pa\].
     pub normal: Vec<f64>,
@@ -32,7 +33,7 @@ impl Multipliers {
     }
 }
 
-/// λ_t, where there are tangential multipliers.
+/// λ_t, if there are multipliers.
 pub(crate) fn tangential(multipliers: Option<&Multipliers>) -> Option<&[[f64; 2]]> {
     multipliers.map(|m| m.shear.as_slice())
 }

@@ -1,4 +1,4 @@
-//! Multipliers that move between solutions.
+//! Multipliers that are updated between solutions.
 
 use super::Interface;
 use crate::enforce::Multipliers;
@@ -6,17 +6,17 @@ use crate::shear::Shear;
 use crate::vector::{norm, sub};
 use asperity_fem::term::{Augmented, Refusal};
 
-/// The constraint that the present solution violates.
+/// Constraint that the present solution violates most.
 #[derive(Clone, Copy)]
 struct Worst {
-    /// \[m\].
+    /// Violation \[m\].
     value: f64,
     point: usize,
     tangential: bool,
 }
 
 impl<const D: usize> Interface<D> {
-    /// Makes the committed tractions the multipliers.
+    /// Sets the multipliers to the committed tractions.
     pub(crate) fn renew_multipliers(&mut self) {
         let Some(multipliers) = &mut self.multipliers else { return };
         for (l, c) in multipliers.normal.iter_mut().zip(&self.contact.committed) {
@@ -25,9 +25,8 @@ impl<const D: usize> Interface<D> {
         follow(&mut multipliers.shear, self.shear.as_ref(), |s| &s.committed.traction);
     }
 
-    /// The largest distance by which the tractions of the last residual moved from the multipliers, in units of length:
-    /// penetration, the gap over which a point that parts is pulled, and the elastic part of a tangential increment. NaN
-    /// counts as the largest.
+    /// Largest change of the tractions from the multipliers in the last residual, as a length. It covers penetration, the gap
+    /// over which a separating point is pulled, and the elastic part of a tangential increment. NaN counts as the largest.
     fn worst(&self, multipliers: &Multipliers) -> Worst {
         let mut worst = Worst { value: 0.0, point: 0, tangential: false };
         let mut take = |value: f64, point: usize, tangential: bool| {
@@ -47,7 +46,7 @@ impl<const D: usize> Interface<D> {
     }
 }
 
-/// Copies the tractions of a law, where there is one.
+/// Copies the tractions of the law, if there is one.
 fn follow(to: &mut Vec<[f64; 2]>, shear: Option<&Shear>, of: impl Fn(&Shear) -> &Vec<[f64; 2]>) {
     to.clear();
     if let Some(shear) = shear {

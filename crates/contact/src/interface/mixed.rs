@@ -1,4 +1,4 @@
-//! Multipliers as unknowns of the system: equations and tangent of the points ([`Unknowns`] has the formulas).
+//! Multipliers as unknowns of the system: equations and tangent of the points. [`Unknowns`] has the formulas.
 
 use super::Interface;
 use crate::enforce::{Buffers, REGULAR, Unknowns};
@@ -9,7 +9,7 @@ use asperity_friction::law::Regime;
 use std::ops::Range;
 
 impl<const D: usize> Interface<D> {
-    /// Multipliers at the system vector, where they are unknowns.
+    /// Reads the multipliers from the system vector, if they are unknowns.
     pub(crate) fn read_multipliers(&mut self, u: &[f64]) {
         if self.unknowns.is_some() {
             self.renew_multipliers();
@@ -19,8 +19,8 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// Makes the multipliers the trial tractions of the closed points: they are what the bodies feel, and do not carry the
-    /// rounding of gaps times a large penalty.
+    /// Sets the trial tractions of the closed points to the multipliers. The multipliers are the tractions that act on the
+    /// bodies, and they do not carry the rounding of gaps times a large penalty.
     pub(crate) fn adopt_multipliers(&mut self) {
         let (Some(unknowns), Some(multipliers)) = (&mut self.unknowns, &self.multipliers) else { return };
         unknowns.committed.copy_from_slice(&unknowns.present);
@@ -33,7 +33,7 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// Adds the equations of the points.
+    /// Adds the equations of the points to the residual.
     pub(crate) fn returns(&self, r: &mut [f64]) {
         let (Some(unknowns), Some(multipliers)) = (&self.unknowns, &self.multipliers) else { return };
         for (p, w) in unknowns.weights.iter().enumerate() {
@@ -47,7 +47,7 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// c_n and c_t of point `p`.
+    /// Scales c_n and c_t of point `p`.
     fn scales(&self, p: usize, unit: f64) -> (f64, f64) {
         if !self.contact.trial[p].closed {
             return (1.0, 1.0);
@@ -57,7 +57,7 @@ impl<const D: usize> Interface<D> {
         (unit / self.penalty.stiffness, if held { unit / self.tangential_penalty } else { 1.0 })
     }
 
-    /// Writes the tangent of forces and equations.
+    /// Writes the tangent of the forces and of the points' equations.
     pub(crate) fn mixed_tangent(&mut self, values: &mut [f64]) {
         let Some(mut unknowns) = self.unknowns.take() else { return };
         let mut buffers = std::mem::take(&mut unknowns.buffers);
@@ -79,7 +79,7 @@ impl<const D: usize> Interface<D> {
         self.unknowns = Some(unknowns);
     }
 
-    /// The measure's tangent for unit stiffness without traction, of the closed points.
+    /// Computes the measure's tangent over the closed points for unit stiffness and no traction.
     fn gradients(&self, buffers: &mut Buffers) {
         for (n, c) in buffers.normal.iter_mut().zip(&self.contact.trial) {
             *n = NormalPoint { closed: c.closed, traction: 0.0, stiffness: 1.0 };
@@ -92,7 +92,7 @@ impl<const D: usize> Interface<D> {
         self.measure.tangent(&self.geometry, tractions, &mut buffers.gradients);
     }
 
-    /// The measure's tangent for the multipliers as tractions without stiffness, where forces follow the motion.
+    /// Computes the measure's tangent with the multipliers as tractions and no stiffness, if forces follow the motion.
     fn geometric(&self, buffers: &mut Buffers) {
         buffers.geometric.clear();
         let (true, Some(multipliers)) = (self.measure.follows(), &self.multipliers) else { return };
@@ -109,7 +109,7 @@ impl<const D: usize> Interface<D> {
         self.measure.tangent(&self.geometry, tractions, &mut buffers.geometric);
     }
 
-    /// Block `b`; `inner` is the range of its displacements' part among the values of the measure.
+    /// Writes block `b`. `inner` is the range of its displacement part among the values of the measure.
     fn mixed_block(
         &self,
         unknowns: &Unknowns,
@@ -143,7 +143,7 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// Forces of the multipliers on the nodes.
+    /// Writes the columns of the multipliers: their forces on the nodes.
     fn columns(&self, unknowns: &Unknowns, p: usize, n: usize, buffers: &Buffers, block: &mut [f64]) {
         let size = n + unknowns.each;
         let (normal, frame) = (&self.geometry.normal[p], &self.geometry.frame[p]);
@@ -160,7 +160,7 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// ∇g and ∇Δu from the rows of the node with the largest weight.
+    /// Reads ∇g and ∇Δu from the rows of the node with the largest weight.
     fn read_gradients(&self, p: usize, inner: &Range<usize>, n: usize, buffers: &mut Buffers) {
         let mut best = (0, 0.0_f64);
         for (a, &place) in buffers.attachments.iter().zip(&buffers.places) {
@@ -178,7 +178,7 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// The equations of a closed point.
+    /// Writes the equations of a closed point.
     fn closed_rows(&self, unknowns: &Unknowns, p: usize, n: usize, gradients: &[f64], block: &mut [f64]) {
         let size = n + unknowns.each;
         let (e_n, e_t, s) = (self.penalty.stiffness, self.tangential_penalty, unknowns.unit);
@@ -214,10 +214,10 @@ impl<const D: usize> Interface<D> {
     }
 }
 
-/// Finds the attachments among the nodes of a block.
+/// Finds the positions of the attachments among the nodes of a block.
 fn place<const D: usize>(nodes: &[SurfaceNode<D>], dofs: &[usize], buffers: &mut Buffers) {
     buffers.places.clear();
-    // Every node a point acts on is in its block by construction.
+    // By construction, every node that a point acts on is in its block.
     let find = |a: &Attachment| dofs.iter().step_by(D).position(|&d| d == nodes[a.node].dof);
     buffers.places.extend(buffers.attachments.iter().filter_map(find));
 }

@@ -1,4 +1,4 @@
-//! Limits on what a step of an interface can follow.
+//! Limits on the events that a step of an interface can resolve.
 
 use super::Interface;
 use crate::shear::Shear;
@@ -9,27 +9,27 @@ use asperity_fem::term::Objection;
 use asperity_friction::Failure;
 use asperity_friction::law::Regime;
 
-/// A point that leaves rest drops where its traction falls by more than this share: what falls with the normal traction over a
-/// short step is less.
+/// A point that leaves rest counts as dropping if its traction falls by more than this share. The fall that follows the normal
+/// traction over a short step is smaller.
 const DROP: f64 = 1e-3;
-/// Share of the area in contact that may let go within a step of a law whose strength drops at once. What lets go in parts is held by
-/// the rest; more than half of it at once is not.
+/// Share of the area in contact that may let go within a step of a law whose strength drops at once. A partial failure is held
+/// by the rest of the area; a failure of more than half of it at once is not.
 const AT_ONCE: f64 = 0.5;
-/// Distance to its strength, over the strength, at which the traction of a sticking point counts as being there: normal tractions change by less along
-/// the shortest steps.
+/// Relative distance to the strength within which the traction of a sticking point counts as being at it. Normal tractions
+/// change by less along the shortest steps.
 const NEAR: f64 = 1e-3;
 /// Pa in a MPa.
 const MEGA: f64 = 1e6;
-/// Rounding of the slope of a law's answer, over 1.
+/// Rounding of the slope of a law's response, relative to 1.
 const ROUNDING: f64 = 1e-9;
 
 impl<const D: usize> Interface<D> {
-    /// Sets what steps may not do; nothing is watched before.
+    /// Sets the limits on steps. By default there are none.
     pub fn set_watch(&mut self, watch: Watch) {
         self.watch = watch;
     }
 
-    /// Slip of the last step over the largest the course of the law allows; 0 where it allows any \[-\].
+    /// Slip of the last step over the largest that the law's loss of strength allows; 0 if it sets no limit \[-\].
     #[must_use]
     pub fn fill(&self) -> f64 {
         let Some(shear) = &self.shear else { return 0.0 };
@@ -44,7 +44,7 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// The point that slips fastest in the committed state, with its slip rate \[m/s\].
+    /// Fastest point in the committed state, with its slip rate \[m/s\].
     #[must_use]
     pub fn fastest(&self) -> Option<(usize, f64)> {
         let rates = self.fields.slip_rate.iter().map(|v| v.abs()).enumerate();
@@ -58,14 +58,15 @@ impl<const D: usize> Interface<D> {
         std::array::from_fn(|c| if c < D { x[c] } else { 0.0 })
     }
 
-    /// The point that lost strength with slip fastest in the trial dropped last, or one that stands at the strength it would lose.
+    /// Point that lost strength with slip fastest in the last rejected trial, or else one that is about to reach the strength
+    /// it would lose.
     #[must_use]
     pub fn weakens(&self) -> Option<usize> {
         self.soft.or_else(|| self.stands_at_strength())
     }
 
-    /// A point of a law that loses strength by slipping that has all but reached it: Newton's method turns between sticking and slipping
-    /// there where neither is in balance.
+    /// Point that has all but reached its strength under a law that loses strength by slipping. Newton's method alternates
+    /// between sticking and slipping at such a point if neither is in equilibrium.
     fn stands_at_strength(&self) -> Option<usize> {
         let falls = matches!(self.watch.course, Course::Branch { .. } | Course::Drop);
         let shear = self.shear.as_ref().filter(|_| falls)?;
@@ -74,20 +75,20 @@ impl<const D: usize> Interface<D> {
         let mut mu = vec![0.0; normal.len()];
         shear.law.coefficient(&normal, &state.rate, &state.states, &mut mu).ok()?;
         let strength = |p: usize| mu[p] * normal[p];
-        // A law that drops at once has nothing left to lose where it slips.
+        // Under a law that drops at once, a point that slips has no strength left to lose.
         let dropped = |p: usize| self.watch.course == Course::Drop && state.regime[p] == Regime::Slip;
         let stands = |p: usize| norm(&state.traction[p]) >= (1.0 - NEAR) * strength(p);
         (0..normal.len()).find(|&p| strength(p) > 0.0 && !dropped(p) && stands(p))
     }
 
-    /// Keeps the point at which a law weakens faster than the spring behind it unloads.
+    /// Remembers the point at which the law weakens faster than the spring behind it unloads.
     pub(crate) fn note_softness(&mut self, failure: &Failure) {
         if let (Failure::Unstable { point, .. }, Some(shear)) = (failure, &self.shear) {
             self.soft = shear.slices.index.get(*point).copied();
         }
     }
 
-    /// The point that loses strength with slip fastest in the present trial state.
+    /// Point that loses strength with slip fastest in the present trial state.
     pub(crate) fn softest(&self) -> Option<usize> {
         let shear = self.shear.as_ref()?;
         let points = shear.points.iter().zip(&shear.trial.regime).enumerate();
@@ -103,13 +104,13 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// Reason why the trial state should not be accepted.
+    /// Reason for which the trial state should not be accepted, if any.
     pub(crate) fn objects(&self) -> Option<Objection> {
         let shear = self.shear.as_ref()?;
         self.leaps(shear).or_else(|| self.runs_away(shear)).or_else(|| self.stands_too_coarsely(shear))
     }
 
-    /// A point slides under more normal traction than the points resolve.
+    /// Objects if a point slides under more normal traction than the spacing of the points resolves.
     fn stands_too_coarsely(&self, shear: &Shear) -> Option<Objection> {
         let most = self.watch.coarse_beyond?;
         let slides = |p: &usize| {
@@ -123,7 +124,7 @@ impl<const D: usize> Interface<D> {
         Some(Objection { coarse: true, ..self.objection_at(shear, p, &reason, false) })
     }
 
-    /// The trial state lies beyond what a step may span.
+    /// Objects if the trial state is beyond the reach of one step.
     fn leaps(&self, shear: &Shear) -> Option<Objection> {
         let slip = |p: usize| norm(&self.motion.trial.step[p]);
         let farthest = |counts: &dyn Fn(usize) -> bool| {
@@ -151,7 +152,7 @@ impl<const D: usize> Interface<D> {
         }
     }
 
-    /// More of the surface leaves rest within the step, with a drop of its traction, than the rest of it holds.
+    /// Objects if more of the surface leaves rest within the step, with a drop of its traction, than the rest of it can hold.
     fn lets_go_at_once(&self, shear: &Shear) -> Option<Objection> {
         let area = |p: usize| self.fields.area[p];
         let held = |p: &usize| self.contact.committed[*p].closed && self.contact.trial[*p].closed;
@@ -171,7 +172,7 @@ impl<const D: usize> Interface<D> {
         Some(self.objection_at(shear, p, &reason, true))
     }
 
-    /// A slip rate beyond the limit.
+    /// Objects if a slip rate exceeds the limit.
     fn runs_away(&self, shear: &Shear) -> Option<Objection> {
         let limit = self.watch.rate?;
         let closed = |p: &usize| self.contact.trial[*p].closed;
@@ -179,7 +180,7 @@ impl<const D: usize> Interface<D> {
         let rate = |p: usize| shear.trial.rate[p].abs();
         let p = (0..self.slave.len()).filter(closed).max_by(|&a, &b| rate(a).total_cmp(&rate(b)))?;
         let most = limit.under(normal);
-        // Without normal traction there is no friction, and slip is what the bodies do.
+        // Without normal traction there is no friction, and the motion of the bodies alone sets the slip rate.
         if normal <= 0.0 || rate(p) <= most {
             return None;
         }
@@ -207,12 +208,12 @@ impl<const D: usize> Interface<D> {
     }
 }
 
-/// True if traction falls with slip at an answer: the slope is H/(E_t + H) with H < 0, beyond 1 where the spring is softer still.
+/// True if the traction falls with slip. The slope is H/(E_t + H) with H < 0; it exceeds 1 if the spring is softer still.
 fn softens(slope: f64) -> bool {
     !(-ROUNDING..=1.0 + ROUNDING).contains(&slope)
 }
 
-/// True if a point leaves rest in the trial state, with a drop of its traction.
+/// True if a point leaves rest in the trial state and its traction drops.
 fn lets_go(shear: &Shear, p: usize) -> bool {
     let (before, after) = (norm(&shear.committed.traction[p]), norm(&shear.trial.traction[p]));
     shear.committed.regime[p] == Regime::Stick

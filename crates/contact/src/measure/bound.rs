@@ -1,41 +1,41 @@
-//! Distance that nodes may move before a search has to be repeated.
+//! Distance that nodes may move before a search must be repeated.
 
 use super::saved::Proved;
 use crate::vector::{dot, sub};
 
-/// Proof of a search: its result stays while no node moves by as much as `radius` from `x`.
+/// Range of validity of a search: its result holds while no node has moved by `radius` or more from `x`.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bound<const D: usize> {
     x: Vec<[f64; D]>,
     radius: f64,
 }
 
-/// True if what was proved is about so many nodes, or nothing was.
+/// True if the saved range is empty or belongs to this number of nodes.
 pub(super) fn fits<const D: usize>(saved: &Proved, nodes: usize) -> bool {
     saved.positions.is_empty() || saved.positions.len() == nodes * D
 }
 
 impl<const D: usize> Bound<D> {
-    /// A search at positions `x` holds within `radius` \[m\].
+    /// Records that a search at positions `x` holds within `radius` \[m\].
     pub(super) fn prove(&mut self, x: &[[f64; D]], radius: f64) {
         self.x.clear();
         self.x.extend_from_slice(x);
         self.radius = radius;
     }
 
-    /// As values.
+    /// Range as serialisable values.
     pub(super) fn save(&self) -> Proved {
         let positions = self.x.iter().flatten().copied().collect();
         Proved { positions, radius: self.radius.is_finite().then_some(self.radius) }
     }
 
-    /// From values.
+    /// Restores the range from saved values.
     pub(super) fn of(saved: &Proved) -> Self {
         let x = saved.positions.as_chunks::<D>().0.to_vec();
         Self { x, radius: saved.radius.unwrap_or(f64::INFINITY) }
     }
 
-    /// True if the result is certain at positions `x`.
+    /// True if the result certainly holds at positions `x`.
     pub(super) fn holds(&self, x: &[[f64; D]]) -> bool {
         let limit = self.radius * self.radius;
         self.radius > 0.0

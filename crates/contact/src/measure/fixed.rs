@@ -1,14 +1,14 @@
-//! Pairing fixed in the reference configuration: every slave point acts on the same nodes with the same weights and the
-//! same normal throughout.
+//! Pairing fixed in the reference configuration: every slave point always acts on the same nodes with the same weights and the
+//! same normal.
 //!
-//! With s_k the weights of the nodes, positive on the slave side and negative on the master's, and `w = Σ_k s_k u_k` the
-//! relative displacement, the gap is `g_n = g_0 + n·w` and the tangential increment the tangential part of
-//! `w - w_committed`. Normal, frame and weights are constants, so the residual of node k is `-A s_k (f_n n - t)` and the
-//! tangent block `A s_k s_j M` with one matrix M per point:
+//! Let s_k be the weights of the nodes, positive on the slave side and negative on the master side, and `w = Σ_k s_k u_k` the
+//! relative displacement. The gap is `g_n = g_0 + n·w`, and the tangential increment is the tangential part of
+//! `w - w_committed`. Normal, frame and weights are constant. The residual of node k is thus `-A s_k (f_n n - t)`, and the
+//! tangent block is `A s_k s_j M` with one matrix M per point:
 //!
 //! `M = E_n n⊗n + T [ratio E_t (I - η⊗η) + d_trial E_t η⊗η] Tᵀ - E_n d_normal (Tη)⊗n`,
 //!
-//! T the two tangents as columns. M is unsymmetric in slip through its last part.
+//! with the two tangents as columns of T. The last term makes M unsymmetric in slip.
 
 use crate::measure::saved::MeasureState;
 use crate::measure::{Attachment, Exit, Geometry, Measure, NormalPoint, ShearPoint, Slides, Tractions};
@@ -23,7 +23,7 @@ struct Pair<const D: usize> {
     point: usize,
     /// Start of its nodes in the flat arrays.
     from: usize,
-    /// Start of the master's among them.
+    /// Start of the master nodes among them.
     split: usize,
     /// End of its nodes in the flat arrays.
     to: usize,
@@ -33,17 +33,17 @@ struct Pair<const D: usize> {
     area: f64,
     /// Tangential components of the committed relative displacement \[m\].
     committed: [f64; 2],
-    /// The same at the configuration last measured.
+    /// Tangential components of the relative displacement at the configuration last measured \[m\].
     present: [f64; 2],
 }
 
-/// The measure.
+/// Measure with fixed pairing.
 #[derive(Clone, Debug)]
 pub struct Fixed<const D: usize> {
     pairs: Vec<Pair<D>>,
-    /// Interface nodes of all pairs, the slave's first.
+    /// Interface nodes of all pairs. Each pair lists its slave nodes first.
     nodes: Vec<usize>,
-    /// s_k of the nodes.
+    /// Weights s_k of the nodes.
     signs: Vec<f64>,
     /// First degrees of freedom of the nodes.
     dofs: Vec<usize>,
@@ -53,7 +53,7 @@ pub struct Fixed<const D: usize> {
 }
 
 impl<const D: usize> Fixed<D> {
-    /// No pairs yet, of slave points with these areas; `collocated` as in [`Measure::collocated`].
+    /// A measure without pairs yet, for slave points with these areas; `collocated` as in [`Measure::collocated`].
     pub(super) fn new(areas: Vec<f64>, collocated: bool) -> Self {
         Self {
             pairs: Vec::new(),
@@ -66,7 +66,7 @@ impl<const D: usize> Fixed<D> {
         }
     }
 
-    /// Pairs slave point `point` (ascending from call to call) by nodes and weights of either side. `apart` is
+    /// Pairs slave point `point` (ascending from call to call) through the nodes and weights of either side. `apart` is
     /// `Σ_k s_k X_k`.
     pub(super) fn pair(
         &mut self,
@@ -114,8 +114,8 @@ impl<const D: usize> Fixed<D> {
     }
 }
 
-/// Frame of a fixed normal: `(-n_y, n_x)` in two dimensions; in three, the x axis (the y axis where n is within about 25
-/// degrees of x) laid into the plane, and `n × e_1`, so that neighbouring points share their signs.
+/// Frame of a fixed normal. In two dimensions it is `(-n_y, n_x)`. In three, e_1 is the x axis (the y axis if n is within about
+/// 25 degrees of x) projected onto the plane, and e_2 is `n × e_1`, so that neighbouring points have the same signs.
 pub(super) fn fixed_frame<const D: usize>(n: &[f64; D]) -> [[f64; D]; 2] {
     let mut e1 = [0.0; D];
     if D == 2 {
@@ -130,7 +130,7 @@ pub(super) fn fixed_frame<const D: usize>(n: &[f64; D]) -> [[f64; D]; 2] {
     [e1, crate::vector::cross(n, &e1)]
 }
 
-/// The matrix M of a closed point.
+/// Matrix M of a closed point.
 #[inline]
 fn point_matrix<const D: usize>(
     normal: &[f64; D],
@@ -252,7 +252,7 @@ impl<const D: usize> Measure<D> for Fixed<D> {
 
     fn attachments(&self, p: usize, out: &mut Vec<Attachment>) {
         out.clear();
-        // Pairs are in the order of the points.
+        // Pairs are sorted by point.
         if let Ok(i) = self.pairs.binary_search_by_key(&p, |pair| pair.point) {
             let pair = &self.pairs[i];
             for k in pair.from..pair.to {

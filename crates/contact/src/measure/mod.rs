@@ -1,8 +1,7 @@
 //! Measures of gaps and slip, and the action of tractions on the nodes of an interface.
 //!
-//! A measure is reached by one `dyn` call for the whole interface. Tangential history is kept by the interface as two
-//! components in an orthonormal frame that is carried along with the master surface, so that the frame, and nothing else,
-//! knows about rotation.
+//! A measure is called once per operation for the whole interface, through `dyn`. The interface stores tangential history as
+//! two components in an orthonormal frame that is carried with the master surface. Only the frame is affected by rotation.
 
 mod bound;
 pub mod fixed;
@@ -19,14 +18,14 @@ use std::fmt;
 pub struct Geometry<const D: usize> {
     /// True if the point has a partner on the master side.
     pub paired: Vec<bool>,
-    /// Gap g_n = n·(x_s - x_c) \[m\]; infinite where unpaired.
+    /// Gap g_n = n·(x_s - x_c) \[m\]; infinite if unpaired.
     pub gap: Vec<f64>,
     /// Outward unit normal n of the master.
     pub normal: Vec<[f64; D]>,
-    /// Orthonormal tangents: the frame of the last commit, carried to the present configuration. In two dimensions only
-    /// the first, `e_1 = (-n_y, n_x)`, exists and the second is zero.
+    /// Orthonormal tangents: the frame of the last commit, carried to the present configuration. In two dimensions the first is
+    /// `e_1 = (-n_y, n_x)` and the second is zero.
     pub frame: Vec<[[f64; D]; 2]>,
-    /// Tangential displacement of the slave relative to the master since the last commit \[m\], components in `frame`.
+    /// Tangential displacement of the slave relative to the master since the last commit \[m\], as components in `frame`.
     pub increment: Vec<[f64; 2]>,
 }
 
@@ -43,7 +42,7 @@ impl<const D: usize> Geometry<D> {
         }
     }
 
-    /// The vector with components `c` in the frame of point `p`.
+    /// Vector with components `c` in the frame of point `p`.
     #[inline]
     #[must_use]
     pub fn tangential(&self, p: usize, c: &[f64; 2]) -> [f64; D] {
@@ -52,68 +51,68 @@ impl<const D: usize> Geometry<D> {
     }
 }
 
-/// Terms of the tangent from a point's normal traction.
+/// Contribution of a point's normal traction to the tangent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NormalPoint {
-    /// True if the point is closed; an open one has no traction and no stiffness.
+    /// True if the point is closed. An open point has no traction and no stiffness.
     pub closed: bool,
-    /// f_n \[Pa\].
+    /// Normal traction f_n \[Pa\].
     pub traction: f64,
-    /// -∂f_n/∂g_n \[Pa/m\].
+    /// Stiffness -∂f_n/∂g_n \[Pa/m\].
     pub stiffness: f64,
 }
 
-/// Terms of the tangent from a point's shear traction, components in the carried frame:
+/// Contribution of a point's shear traction to the tangent, as components in the carried frame:
 /// `dt = ratio (I - η⊗η) dt^e + η (d_trial η·dt^e + d_normal df_n)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ShearPoint {
-    /// t \[Pa\].
+    /// Shear traction t \[Pa\].
     pub traction: [f64; 2],
-    /// η = t^e/|t^e|, zero at t^e = 0.
+    /// Direction η = t^e/|t^e|, zero at t^e = 0.
     pub direction: [f64; 2],
-    /// τ/|t^e| \[-\].
+    /// Ratio τ/|t^e| \[-\].
     pub ratio: f64,
-    /// ∂τ/∂|t^e| \[-\].
+    /// Derivative ∂τ/∂|t^e| \[-\].
     pub d_trial: f64,
-    /// ∂τ/∂f_n \[-\].
+    /// Derivative ∂τ/∂f_n \[-\].
     pub d_normal: f64,
 }
 
-/// Tractions of all points with their derivatives.
+/// Tractions of all points and their derivatives.
 #[derive(Clone, Copy, Debug)]
 pub struct Tractions<'a> {
     /// Normal part.
     pub normal: &'a [NormalPoint],
-    /// Tangential part, where there is friction.
+    /// Tangential part, if there is friction.
     pub shear: Option<&'a [ShearPoint]>,
-    /// Tangential penalty E_t \[Pa/m\], where there is friction.
+    /// Tangential penalty E_t \[Pa/m\], used if there is friction.
     pub stiffness: f64,
 }
 
-/// Increments of a forward step by the linearised geometry.
+/// Increments of a forward step, by the linearised geometry.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Slides {
-    /// dg_n \[m\].
+    /// Gap increment dg_n \[m\].
     pub gap: Vec<f64>,
-    /// Convected tangential increment `e_m dξ_m` \[m\], components in the frame.
+    /// Convected tangential increment `e_m dξ_m` \[m\], as components in the frame.
     pub increment: Vec<[f64; 2]>,
 }
 
 /// A point leaving its segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exit {
-    /// Fraction of the increment.
+    /// Fraction of the increment at which it leaves.
     pub fraction: f64,
-    /// The point.
+    /// Index of the point.
     pub point: usize,
 }
 
-/// A node a point acts on.
+/// A node on which a point acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attachment {
     /// Index into the nodes of the interface.
     pub node: usize,
-    /// s_k: the share of the point's force that acts on the node, negative for the reaction on the master.
+    /// Weight s_k: the share of the point's force that acts on the node, negative for the reaction on the master.
     pub weight: f64,
     /// True if the node belongs to the slave side.
     pub slave: bool,
@@ -121,14 +120,14 @@ pub struct Attachment {
 
 /// A measure of contact. `u` holds the displacements of the interface's nodes \[m\], not the system vector.
 pub trait Measure<const D: usize>: Send + Sync + fmt::Debug {
-    /// Blocks of degrees of freedom, one block for each point that has one.
+    /// Blocks of degrees of freedom, one for each paired point.
     fn pattern(&self) -> &Pattern;
 
     /// Adds the slave point of each block of the pattern to `out`.
     fn block_points(&self, out: &mut Vec<usize>);
 
-    /// Updates the pairing at `u`; the only place where pairing and pattern change. Counts projections in `projections`
-    /// and returns whether a search was made.
+    /// Updates the pairing at `u`. Pairing and pattern change nowhere else. Counts projections in `projections` and returns
+    /// true if a search was made.
     fn search(&mut self, u: &[[f64; D]], projections: &mut u64) -> bool;
 
     /// Evaluates gaps, normals, frames and tangential increments at `u`.
@@ -143,34 +142,34 @@ pub trait Measure<const D: usize>: Send + Sync + fmt::Debug {
     /// Linearised increments for displacement increments `du` of the interface's nodes at the configuration last measured.
     fn slides(&self, geometry: &Geometry<D>, du: &[[f64; D]], out: &mut Slides);
 
-    /// r7: the first point to leave its segment for the increment `du`; `None` where pairing is fixed.
+    /// Limit r7: the first point to leave its segment for the increment `du`; `None` if the pairing is fixed.
     fn exit(&self, du: &[[f64; D]]) -> Option<Exit>;
 
-    /// Makes the configuration last measured the committed one. Tangential components in the frame of `geometry` must be
-    /// turned into the new frame by the caller: `reframe` receives, for each point whose frame is replaced, the point and
-    /// the new frame (given in the present configuration).
+    /// Commits the configuration last measured. The caller must transform tangential components from the frame of `geometry` to
+    /// the new frame. For each point whose frame is replaced, `reframe` receives the point and the new frame (in the present
+    /// configuration).
     fn commit(&mut self, geometry: &Geometry<D>, reframe: &mut dyn FnMut(usize, &[[f64; D]; 2]));
 
-    /// Returns to the pairing of the last commit; the pattern keeps its blocks until the next search.
+    /// Restores the pairing of the last commit. The pattern keeps its blocks until the next search.
     fn revert(&mut self);
 
-    /// Nodes of both sides point `p` acts on at the configuration last measured, written to `out` (cleared first); none
-    /// where it is unpaired.
+    /// Writes to `out` (cleared first) the nodes of both sides on which point `p` acts at the configuration last measured; none
+    /// if it is unpaired.
     fn attachments(&self, p: usize, out: &mut Vec<Attachment>);
 
-    /// Areas the points stand for at the configuration last measured \[m², m in two dimensions\].
+    /// Writes the tributary areas of the points at the configuration last measured \[m², m in two dimensions\].
     fn areas(&self, out: &mut [f64]);
 
-    /// True if a point's force acts at its slave node and on the closest master point, so that the arm of the couple is
-    /// `g_n n`; otherwise both act on averages over facets, and the arm is the averaged `x_s - x_c`.
+    /// True if a point's force acts on its slave node and on the closest master point, so that the arm of the couple is
+    /// `g_n n`. Otherwise both forces act on averages over facets, and the arm is the averaged `x_s - x_c`.
     fn collocated(&self) -> bool;
 
-    /// True if forces act on the current configuration (moments are then taken there).
+    /// True if forces act on the current configuration. Moments are then taken there.
     fn follows(&self) -> bool;
 
-    /// Committed history, pairing, and what the last search proved.
+    /// Committed history, pairing, and the range of the last search.
     fn save(&self) -> MeasureState;
 
-    /// Restores what a measure of the same interface saved. Returns false, changing nothing, where it does not fit.
+    /// Restores the saved state of a measure of the same interface. Returns false and changes nothing if it does not fit.
     fn restore(&mut self, saved: &MeasureState) -> bool;
 }

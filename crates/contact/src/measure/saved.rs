@@ -1,26 +1,26 @@
-//! State that a measure keeps from step to step, as values.
+//! Serialisable state that a measure keeps between steps.
 
 use serde::{Deserialize, Serialize};
 
-/// See the module: that of small sliding, or of one of the measures of finite sliding.
+/// State of a measure of small sliding, or of one of the measures of finite sliding.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum MeasureState {
-    /// Tangential components of the committed relative displacement of each pair \[m\].
+    /// Small sliding: tangential components of the committed relative displacement of each pair \[m\].
     Fixed(Vec<[f64; 2]>),
-    /// Node to point, finite sliding.
+    /// Node-to-point, finite sliding.
     NodeToPoint {
-        /// The slave points.
+        /// State of the slave points.
         points: Vec<Tracked>,
-        /// Proof of the last search.
+        /// Range in which the result of the last search holds.
         proved: Proved,
     },
     /// Mortar, finite sliding.
     Mortar {
-        /// The slave points.
+        /// State of the slave points.
         points: Vec<Facing>,
         /// Slave and master facets that may overlap.
         pairs: Vec<[usize; 2]>,
-        /// Proof of the last search.
+        /// Range in which the result of the last search holds.
         proved: Proved,
     },
 }
@@ -30,30 +30,30 @@ pub enum MeasureState {
 pub struct Tracked {
     /// Segment and natural coordinates of the closest point.
     pub anchor: Option<(usize, [f64; 2])>,
-    /// True if it is leaving its segment.
+    /// True if the point is leaving its segment.
     pub leaving: bool,
-    /// Segments that its block was made for.
+    /// Segments for which its block was made.
     pub block: Option<(usize, usize)>,
 }
 
-/// Segment that a slave point faces.
+/// State of a slave point of a mortar measure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Facing {
     /// Nodes of its block.
     pub nodes: Vec<usize>,
-    /// Number of slaves among them.
+    /// Number of slave nodes among them.
     pub slaves: usize,
-    /// Their weights at the last commit.
+    /// Weights of the nodes at the last commit.
     pub then: Vec<f64>,
-    /// True if these exist.
+    /// True if these weights are set.
     pub anchored: bool,
 }
 
-/// Proof of a search.
+/// Range of motion in which the result of a search holds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Proved {
     /// Positions of the nodes \[m\], one after another.
     pub positions: Vec<f64>,
-    /// Distance that each may move \[m\]; none where the result holds for ever.
+    /// Distance that each node may move \[m\]; `None` if the result always holds.
     pub radius: Option<f64>,
 }

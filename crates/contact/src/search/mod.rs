@@ -1,4 +1,4 @@
-//! Finding the closest point of a surface: boxes in a tree for candidates, projections for the answer.
+//! Search for the closest point of a surface: a tree of boxes for candidates, projections for the result.
 
 pub mod patch;
 pub mod project;

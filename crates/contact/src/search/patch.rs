@@ -1,22 +1,22 @@
-//! The geometry of a master segment at one point: position, tangents, second derivatives.
+//! Geometry of a master segment at one point: position, tangents, second derivatives.
 //!
-//! A segment is either the polynomial of its own nodes or, on smoothed surfaces, a cubic Bézier patch on control points
-//! that are linear in nodal positions (see [`super::smooth`]). Both are evaluated here from their points.
+//! A segment is either the polynomial through its own nodes or, on smoothed surfaces, a cubic Bézier patch whose control points
+//! are linear in nodal positions (see [`super::smooth`]). Both are evaluated here from their points.
 
 use crate::SegmentKind;
 use crate::shape::{MOST_NODES, corners, shape};
 use crate::vector::axpy;
 
-/// Most points a form has: those of a bicubic patch.
+/// Most points of a form, those of a bicubic patch.
 pub const MOST_POINTS: usize = 16;
 
-/// Description of a segment.
+/// Geometric description of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// By its own nodes.
+    /// Polynomial through its own nodes.
     Nodes(SegmentKind),
-    /// By Bézier control points, over the natural coordinates of the kind: 4 on seg2 (from end to end), 10 on tri3 (by
-    /// rows of constant ξ_2), 16 on quad4 (ξ_1 fastest).
+    /// Bézier control points over the natural coordinates of the kind: 4 on seg2 (from end to end), 10 on tri3 (by rows of
+    /// constant ξ_2), 16 on quad4 (ξ_1 fastest).
     Cubic(SegmentKind),
 }
 
@@ -52,11 +52,11 @@ pub struct Patch<const D: usize> {
     pub point: [f64; D],
     /// Base vectors e_m; the second is zero in two dimensions.
     pub e: [[f64; D]; 2],
-    /// e_1,1, e_1,2, e_2,2.
+    /// Second derivatives e_1,1, e_1,2, e_2,2.
     pub curvature: [[f64; D]; 3],
 }
 
-/// Values and derivatives of the functions that weigh the points of a form; entries beyond its points are zero.
+/// Values and derivatives of the functions that weight the points of a form. Entries beyond its points are zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Basis {
     /// Values.
@@ -130,10 +130,10 @@ impl Basis {
     }
 }
 
-/// 0! to 3!.
+/// Factorials 0! to 3!.
 const FACTORIAL: [f64; 4] = [1.0, 1.0, 2.0, 6.0];
 
-/// Exponents of the control points of a cubic triangle, row by row from corner 1 towards corner 3.
+/// Exponents of the control points of a cubic triangle, by rows from corner 1 towards corner 3.
 pub(super) const TRIANGLE: [[usize; 3]; 10] = [
     [3, 0, 0],
     [2, 1, 0],
@@ -169,8 +169,8 @@ fn bernstein(x: f64) -> [[f64; 4]; 3] {
     ]
 }
 
-/// Evaluates a form with points `x` at `xi`. Lines of two nodes, flat triangles and bilinear quadrilaterals, which most
-/// surfaces are made of, have their formulas written out.
+/// Evaluates a form with points `x` at `xi`. The formulas of two-node lines, flat triangles and bilinear quadrilaterals are
+/// written out, since most surfaces consist of these.
 #[inline]
 #[must_use]
 pub fn evaluate<const D: usize>(form: Form, x: &[[f64; D]], xi: [f64; 2]) -> Patch<D> {

@@ -1,41 +1,42 @@
 //! Closest-point projection of a point onto one segment, with a typed outcome.
 //!
-//! The foot of the perpendicular solves `(p - x(ξ))·e_m = 0`. It is sought by Newton's method, which on a straight edge or
-//! a flat triangle is exact after one step; when it falls outside, the closest point lies on the border, which is
-//! projected on edge by edge.
+//! The foot of the perpendicular solves `(p - x(ξ))·e_m = 0`. It is found by Newton's method, which is exact after one step on
+//! a straight edge or a flat triangle. If the foot lies outside the segment, the closest point is on the border, and the point
+//! is projected onto the border edge by edge.
 
 use super::patch::{Form, Patch, evaluate};
 use crate::SegmentKind;
 use crate::shape::{MOST_NODES, Shape, corners};
 use crate::vector::{axpy, dot, solve_tangential, sub};
 
-/// Natural coordinates this near to a border count as on it: rounding of a projection is 1e-16 times the aspect ratio of
-/// the segment, and a point on a border must be recognised from both sides.
+/// Distance in natural coordinates within which a point counts as on a border. The rounding of a projection is 1e-16 times the
+/// aspect ratio of the segment, and a point on a border must be recognised from both sides.
 pub const BORDER: f64 = 1e-9;
 
-/// Newton iterations of a foot. Flat segments need 1 to 4; what has not converged by then lies far outside.
+/// Most Newton iterations for a foot. Flat segments need 1 to 4; an iteration that has not converged by then is far outside.
 const ITERATIONS: usize = 30;
 
-/// After a full Newton step of this size in natural coordinates the error is about its square, which is below rounding.
+/// Size of a full Newton step in natural coordinates after which the iteration has converged. The remaining error is about its
+/// square, which is below rounding.
 const CONVERGED: f64 = 1e-9;
 
-/// Natural coordinates beyond this one are outside for certain; iterates are held within it.
+/// Bound on natural coordinates. Points beyond it are certainly outside; iterates are kept within it.
 const FAR: f64 = 4.0;
 
-/// Closest point of a segment.
+/// Part of a segment on which the closest point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// In the interior of the segment.
     Inside,
-    /// On the edge of this local number (three dimensions).
+    /// On the edge with this local number (three dimensions).
     OnEdge(usize),
-    /// On the corner of this local number.
+    /// On the corner with this local number.
     OnVertex(usize),
-    /// The projection could not be found (degenerate segment or no finite point).
+    /// No projection was found (degenerate segment or non-finite point).
     None,
 }
 
-/// The closest point of a segment.
+/// Closest point of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection<const D: usize> {
     /// Natural coordinates.
@@ -44,7 +45,7 @@ pub struct Projection<const D: usize> {
     pub point: [f64; D],
     /// Squared distance \[m²\].
     pub distance_squared: f64,
-    /// Its position.
+    /// Part of the segment on which it lies.
     pub outcome: Outcome,
 }
 
@@ -72,13 +73,13 @@ pub fn margins(kind: SegmentKind, xi: [f64; 2]) -> [f64; 4] {
     }
 }
 
-/// Smallest margin: positive inside.
+/// Smallest margin; positive inside.
 #[must_use]
 pub fn depth(kind: SegmentKind, xi: [f64; 2]) -> f64 {
     margins(kind, xi).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Position and tangent vectors at `shape`.
+/// Position and tangent vectors for shape functions `s`.
 #[inline]
 pub fn interpolate<const D: usize>(s: &Shape, x: &[[f64; D]]) -> ([f64; D], [[f64; D]; 2]) {
     let mut p = [0.0; D];
@@ -91,11 +92,11 @@ pub fn interpolate<const D: usize>(s: &Shape, x: &[[f64; D]]) -> ([f64; D], [[f6
     (p, e)
 }
 
-/// Foot of the perpendicular from `p` on the unbounded continuation of the segment, from the guess `xi`; `None` when
+/// Foot of the perpendicular from `p` on the unbounded continuation of the segment, from the initial guess `xi`; `None` if
 /// Newton's method does not converge.
 pub fn foot<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D], mut xi: [f64; 2]) -> Option<[f64; 2]> {
     if form == Form::Nodes(SegmentKind::Seg2) {
-        // Relative to the middle of the segment: both ends are treated alike, and ξ is exact for a point far along.
+        // Measured from the middle of the segment, so that both ends are treated alike and ξ is exact for a point far along it.
         let e = sub(&x[1], &x[0]);
         let middle: [f64; D] = std::array::from_fn(|i| 0.5 * (x[0][i] + x[1][i]));
         let s = 2.0 * dot(&sub(p, &middle), &e) / dot(&e, &e);
@@ -123,14 +124,14 @@ pub fn foot<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D], mut xi: [f
             return Some(xi);
         }
     }
-    // Gauss-Newton converges linearly; what is still moving visibly is not a foot.
+    // Gauss-Newton converges linearly. An iterate that still moves visibly is not a foot.
     let patch = evaluate(form, x, xi);
     let d = sub(p, &patch.point);
     let off = (0..m).map(|k| dot(&d, &patch.e[k]).abs() / dot(&patch.e[k], &patch.e[k])).fold(0.0, f64::max);
     (off <= BORDER).then_some(xi)
 }
 
-/// `C - d·e_m,l` where that is positive definite (true), otherwise the metric C alone (Gauss-Newton, false).
+/// Matrix `C - d·e_m,l` if it is positive definite (true), otherwise the metric C alone (Gauss-Newton, false).
 #[inline]
 fn newton_matrix<const D: usize>(patch: &Patch<D>, d: &[f64; D]) -> ([f64; 3], bool) {
     let e = &patch.e;
@@ -145,7 +146,7 @@ pub fn project<const D: usize>(kind: SegmentKind, x: &[[f64; D]], p: &[f64; D]) 
     project_on(Form::Nodes(kind), x, p)
 }
 
-/// The same for a segment of either form with points `x`.
+/// Closest point of a segment of either form with points `x`.
 pub fn project_on<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D]) -> Projection<D> {
     let start = if corners(form.kind()) == 3 { [1.0 / 3.0; 2] } else { [0.0; 2] };
     let inside = foot(form, x, p, start)
@@ -156,7 +157,7 @@ pub fn project_on<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D]) -> P
     {
         return found;
     }
-    // On a curved segment a foot need not be the closest point: the border competes.
+    // On a curved segment a foot need not be the closest point, so the border is also considered.
     let border = if D == 2 { nearest_end(form, x, p) } else { nearest_edge(form, x, p) };
     match inside {
         Some(found) if found.distance_squared <= border.distance_squared => found,
@@ -220,12 +221,13 @@ fn on_edge<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D], k: usize) -
     at(form, x, p, xi, outcome)
 }
 
-/// The point of the line from `a` to `b` with parameter `s` in [-1, 1].
+/// Point with parameter `s` in [-1, 1] on the line from `a` to `b`.
 fn between(a: [f64; 2], b: [f64; 2], s: f64) -> [f64; 2] {
     std::array::from_fn(|c| 0.5 * ((1.0 - s) * a[c] + (1.0 + s) * b[c]))
 }
 
-/// Closest parameter in [-1, 1] of the curved edge over the line from `a` to `b`: Newton from the best of a few samples.
+/// Closest parameter in [-1, 1] of the curved edge over the line from `a` to `b`, by Newton's method from the best of a few
+/// samples.
 fn edge_parameter<const D: usize>(form: Form, x: &[[f64; D]], p: &[f64; D], a: [f64; 2], b: [f64; 2]) -> f64 {
     let along = [0.5 * (b[0] - a[0]), 0.5 * (b[1] - a[1])];
     let distance = |s: f64| {

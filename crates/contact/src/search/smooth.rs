@@ -1,17 +1,19 @@
-//! Smoothed master surfaces: one cubic Bézier patch a segment, on control points that are linear in nodal positions.
+//! Smoothed master surfaces: one cubic Bézier patch per segment, with control points that are linear in nodal positions.
 //!
-//! Each node gets a tangent line (in two dimensions) or a tangent plane from the nodes around it, and every edge leaves the
-//! node along it: `b = x_i + t/3` with t the tangent vector that belongs to the edge. Patches that meet in a node therefore
-//! share its tangent plane, whatever the deformation, and in two dimensions the surface has a continuous normal. Across the
-//! edges of faces the normals agree at both ends and differ in between by the square of the angle of the facets. The
-//! vectors t are estimated with fixed weights g from the reference configuration, `t = Σ_j g_j (x_j - x_i)`, exact for
-//! affine maps: the position x(ξ) = Σ_γ N_γ(ξ) x_γ stays linear in the positions of the nodes around the segment, so that
-//! reactions N_γ f balance in force and moment and every derivative has the form it has on an ordinary segment. (Nagata's
-//! quadratic edges are not linear in the positions and do not exist for an edge between parallel normals it is not
-//! perpendicular to, which is every point of inflection.)
+//! Each node has a tangent line (in two dimensions) or a tangent plane estimated from the surrounding nodes. Every edge leaves
+//! the node along it: `b = x_i + t/3` with t the tangent vector of the edge. Patches that meet in a node therefore share its
+//! tangent plane, whatever the deformation, and in two dimensions the surface has a continuous normal. Across the edges of
+//! faces the normals agree at both ends and differ in between by the square of the angle between the facets.
 //!
-//! Interior control points: triangles `b_111 = E + (E - V)/2`, E the mean of the six edge points and V of the corners
-//! (Vlachos et al. 2001), which reproduces parabolas; quadrilaterals the bilinearly blended Coons patch of their edges.
+//! The vectors t are estimated with fixed weights g from the reference configuration, `t = Σ_j g_j (x_j - x_i)`, exact for
+//! affine maps. The position x(ξ) = Σ_γ N_γ(ξ) x_γ stays linear in the positions of the nodes around the segment. Reactions
+//! N_γ f thus balance in force and moment, and every derivative has the form it has on an ordinary segment. Nagata's quadratic
+//! edges, in contrast, are not linear in the positions. They do not exist for an edge between parallel normals that is not
+//! perpendicular to them, as at every inflection point.
+//!
+//! Interior control points: on triangles `b_111 = E + (E - V)/2`, with E the mean of the six edge points and V that of the
+//! corners, which reproduces parabolas (Vlachos et al. 2001). On quadrilaterals they form the bilinearly blended Coons patch of
+//! the edges.
 
 use super::patch::Form;
 use crate::error::ContactError;
@@ -21,26 +23,26 @@ use crate::vector::{add, axpy, cross, dot, norm, perpendicular, scaled, sub, uni
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
-/// Most nodes a smoothed segment may depend on: 16 in a regular mesh of quadrilaterals, 12 of triangles, more at nodes
-/// where many segments meet.
+/// Most nodes on which a smoothed segment may depend: 16 in a regular mesh of quadrilaterals, 12 of triangles, more at nodes at
+/// which many segments meet.
 pub(crate) const MOST_SUPPORT: usize = 40;
 
-/// Smallest ratio of singular values at which a fit of the second order is used; below, the nodes around do not determine
-/// it (on the rim they lie on one line too few) and the fit is of the first order.
+/// Smallest ratio of singular values at which a second-order fit is used. Below it the surrounding nodes do not determine the
+/// fit (those of a rim node lie on one line too few), and a first-order fit is used.
 const DETERMINED: f64 = 1e-2;
 
-/// Weights below this one are rounding of the fit and leave the pattern.
+/// Weights below this value are rounding of the fit and are left out of the pattern.
 const NEGLIGIBLE: f64 = 1e-12;
 
-/// Control points of all segments as weights of nodes.
+/// Control points of all segments, as weights of nodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Smooth {
     forms: Vec<Form>,
-    /// Nodes each segment depends on, its own first.
+    /// Nodes on which each segment depends, its own first.
     support: Vec<usize>,
     /// Start of each segment in `support`.
     starts: Vec<usize>,
-    /// Weights: per segment one row of its support for each control point.
+    /// Weights: for each segment, one row over its support for each control point.
     weights: Vec<f64>,
     /// Start of each segment in `weights`.
     rows: Vec<usize>,
@@ -48,21 +50,21 @@ pub(crate) struct Smooth {
     points: Vec<usize>,
 }
 
-/// Tangent plane of a node: for each node around it the weight of `x_j - x_i` in the two tangent vectors.
+/// Tangent plane of a node. For each surrounding node it has the weight of `x_j - x_i` in the two tangent vectors.
 #[derive(Clone, Debug)]
 struct Plane<const D: usize> {
     basis: [[f64; D]; 2],
     weights: Vec<(usize, [f64; 2])>,
 }
 
-/// A vector as weights of nodal positions.
+/// A vector as a weighted sum of nodal positions.
 type Sum = Vec<(usize, f64)>;
 
-/// For each corner of a segment the vectors b - x_i towards the next corner and, on faces, the previous one.
+/// Vectors b - x_i at each corner of a segment, towards the next corner and, on faces, the previous one.
 type Handles = Vec<Vec<Sum>>;
 
 impl Smooth {
-    /// Control points of `segments`, all of the first order, on nodes at the reference positions.
+    /// Control points of `segments`, all first-order, on nodes at the reference positions.
     pub(crate) fn new<const D: usize>(
         name: &str,
         segments: &[Segment],
@@ -88,7 +90,7 @@ impl Smooth {
         Ok(smooth)
     }
 
-    /// Adds a segment from its handles.
+    /// Adds a segment with its handles.
     fn push(
         &mut self,
         name: &str,
@@ -144,13 +146,13 @@ impl Smooth {
         self.forms[segment]
     }
 
-    /// Nodes a segment depends on, its own first.
+    /// Nodes on which a segment depends, its own first.
     #[inline]
     pub(crate) fn support(&self, segment: usize) -> &[usize] {
         &self.support[self.starts[segment]..self.starts[segment + 1]]
     }
 
-    /// Rows of weights of a segment's control points.
+    /// Weights of a segment's control points, by row.
     #[inline]
     pub(crate) fn weights(&self, segment: usize) -> &[f64] {
         &self.weights[self.rows[segment]..self.rows[segment + 1]]
@@ -175,7 +177,8 @@ impl Smooth {
     }
 }
 
-/// Control points at the corners of a segment with `c` corners, and of the handles towards the next and previous corner.
+/// Indices of the control points at the corners of a segment with `c` corners, and of the handles towards the next and previous
+/// corner.
 fn places(c: usize) -> (&'static [usize], &'static [[usize; 2]]) {
     match c {
         2 => (&[0, 3], &[[1, 1], [2, 2]]),
@@ -227,14 +230,14 @@ fn line_handles<const D: usize>(
     positions: &[[f64; D]],
     smoothing: Smoothing,
 ) -> Vec<Handles> {
-    // The segments that end and begin in a node.
+    // Segments that end and begin at each node.
     let mut ends: Vec<[Vec<usize>; 2]> = vec![[Vec::new(), Vec::new()]; positions.len()];
     for (k, s) in segments.iter().enumerate() {
         ends[s.nodes[1]][0].push(k);
         ends[s.nodes[0]][1].push(k);
     }
     let along = |k: usize| unit(&sub(&positions[segments[k].nodes[1]], &positions[segments[k].nodes[0]]));
-    // The neighbours of a smooth node, before and after it.
+    // Neighbours of a smooth node, before and after it.
     let around = |node: usize| match (&ends[node][0][..], &ends[node][1][..]) {
         ([a], [b]) if a != b && dot(&along(*a), &along(*b)) >= smoothing.crease.cos() => {
             Some([segments[*a].nodes[0], segments[*b].nodes[1]])
@@ -249,8 +252,8 @@ fn line_handles<const D: usize>(
             (0..2)
                 .map(|end| {
                     let (i, j) = (s.nodes[end], s.nodes[1 - end]);
-                    // The tangent towards j, times h: of the parabola through the node and its neighbours over the length
-                    // of their chords, or one-sided where the surface ends or has a corner.
+                    // Tangent towards j, times h: that of the parabola through the node and its neighbours over the length of
+                    // their chords, or a one-sided one if the surface ends or has a corner.
                     let tangent = match (around(i), around(j)) {
                         (Some([p, q]), _) => {
                             let back = if q == j { p } else { q };
@@ -311,7 +314,7 @@ fn face_handles<const D: usize>(
         .collect()
 }
 
-/// Normal of a flat or bilinear segment at its middle, with the length of its area (twice that of a triangle).
+/// Normal of a flat or bilinear segment at its middle, with the length of its area (twice the area for a triangle).
 fn area_normal<const D: usize>(s: &Segment, positions: &[[f64; D]]) -> [f64; D] {
     let x = |k: usize| positions[s.nodes[k]];
     if corners(s.kind) == 3 {
@@ -321,7 +324,7 @@ fn area_normal<const D: usize>(s: &Segment, positions: &[[f64; D]]) -> [f64; D] 
     }
 }
 
-/// Tangent planes of all nodes; `None` where the surface has a crease.
+/// Tangent planes of all nodes; `None` for nodes on a crease.
 fn planes<const D: usize>(
     segments: &[Segment],
     positions: &[[f64; D]],
@@ -356,7 +359,7 @@ fn planes<const D: usize>(
         .collect()
 }
 
-/// Tangent plane of node `i` from the nodes of the segments around it, by least squares with weights 1/distance.
+/// Tangent plane of node `i` from the nodes of the surrounding segments, by least squares with weights 1/distance.
 fn plane<const D: usize>(
     i: usize,
     around: &[usize],

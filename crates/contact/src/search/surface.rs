@@ -1,4 +1,4 @@
-//! The master surface: its segments, which of their borders are shared, and the closest point among all of them.
+//! The master surface: its segments, their shared borders, and the closest point among all segments.
 
 use super::patch::{Basis, Form, MOST_POINTS, Patch, evaluate};
 use super::project::{Outcome, Projection, foot, project_on};
@@ -11,19 +11,19 @@ use crate::vector::{norm, sub};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Boxes of curved segments grow by this share of their size: a parabola through the nodes bulges out of their box by at
-/// most 1/8 of it in each direction, twice over on a biquadratic face.
+/// Share of their size by which boxes of curved segments are enlarged. A parabola through the nodes bulges out of their box by
+/// at most 1/8 of it in each direction, twice that on a biquadratic face.
 const BULGE: f64 = 0.25;
 
-/// Segments whose control points are computed together on one thread.
+/// Number of segments whose control points are computed together on one thread.
 const CHUNK: usize = 256;
 
-/// Weights of nodes at one point of a segment, over at most `M` nodes; entries beyond the support are zero.
+/// Weights of nodes at one point of a segment, for at most `M` nodes. Entries beyond the support are zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Weights<const M: usize> {
-    /// N_γ.
+    /// Weights N_γ.
     pub value: [f64; M],
-    /// N_γ,m.
+    /// Slopes N_γ,m.
     pub first: [[f64; M]; 2],
 }
 
@@ -34,9 +34,9 @@ pub struct Surface<const D: usize> {
     smooth: Option<Smooth>,
     /// Control points of the smoothed segments at the configuration last set \[m\].
     controls: Vec<[f64; D]>,
-    /// True if a node lies on the rim of the surface.
+    /// True for each node on the rim of the surface.
     rim: Vec<bool>,
-    /// Per segment and edge (three dimensions): whether no other segment shares it.
+    /// True for each border (end of a line or edge of a face) of a segment that no other segment shares.
     free: Vec<[bool; 4]>,
     boxes: Vec<Aabb<D>>,
     tree: Tree<D>,
@@ -49,10 +49,10 @@ impl<const D: usize> Surface<D> {
         Self::build(segments, positions, None)
     }
 
-    /// Builds a smoothed surface of the interface `name`; all segments are of the first order.
+    /// Builds a smoothed surface of the interface `name`. All segments must be first-order.
     ///
     /// # Errors
-    /// [`ContactError::SmoothingTooWide`] when too many segments meet in a node.
+    /// [`ContactError::SmoothingTooWide`] if too many segments meet in a node.
     pub fn smoothed(
         name: &str,
         segments: Vec<Segment>,
@@ -81,13 +81,13 @@ impl<const D: usize> Surface<D> {
         surface
     }
 
-    /// The segments.
+    /// Segments of the surface.
     #[must_use]
     pub fn segments(&self) -> &[Segment] {
         &self.segments
     }
 
-    /// Nodes a segment depends on, its own first; more than its own on smoothed surfaces.
+    /// Nodes on which a segment depends, its own first. On smoothed surfaces there are more than its own.
     #[inline]
     #[must_use]
     pub fn support(&self, segment: usize) -> &[usize] {
@@ -97,7 +97,7 @@ impl<const D: usize> Surface<D> {
         }
     }
 
-    /// Description of a segment.
+    /// Geometric description of a segment.
     #[inline]
     #[must_use]
     pub fn form(&self, segment: usize) -> Form {
@@ -107,7 +107,7 @@ impl<const D: usize> Surface<D> {
         }
     }
 
-    /// Moves the surface to new positions; the boxes of the search stay until [`Surface::refit`].
+    /// Moves the surface to new positions. The search boxes remain until [`Surface::refit`].
     pub fn configure(&mut self, positions: &[[f64; D]]) {
         let Some(smooth) = &self.smooth else { return };
         let form = smooth.form(0);
@@ -125,7 +125,7 @@ impl<const D: usize> Surface<D> {
         }
     }
 
-    /// Moves the boxes of the search to the positions last set.
+    /// Moves the search boxes to the positions last set.
     pub fn refit(&mut self, positions: &[[f64; D]]) {
         for k in 0..self.segments.len() {
             self.boxes[k] = self.segment_box(k, positions);
@@ -133,7 +133,7 @@ impl<const D: usize> Surface<D> {
         self.tree.refit(&self.boxes);
     }
 
-    /// The points of a segment's form, gathered from the nodes or from the control points.
+    /// Points of a segment's form, gathered from the nodes or the control points.
     #[inline]
     pub fn points<'a>(
         &'a self,
@@ -159,7 +159,7 @@ impl<const D: usize> Surface<D> {
         evaluate(self.form(segment), self.points(segment, positions, &mut buffer), xi)
     }
 
-    /// Foot of the perpendicular from `p` on the continued segment, from the guess `xi`.
+    /// Foot of the perpendicular from `p` on the continued segment, from the initial guess `xi`.
     #[inline]
     #[must_use]
     pub fn foot(
@@ -225,7 +225,7 @@ impl<const D: usize> Surface<D> {
         project_on(self.form(segment), self.points(segment, positions, &mut buffer), p)
     }
 
-    /// The segment closest to `p` with its projection; `count` grows by the number of projections made.
+    /// Segment closest to `p`, with its projection. `count` grows by the number of projections made.
     pub fn closest(
         &self,
         positions: &[[f64; D]],
@@ -235,7 +235,7 @@ impl<const D: usize> Surface<D> {
         self.closest_but(usize::MAX, positions, p, count)
     }
 
-    /// The same among all segments but `excluded`.
+    /// Segment closest to `p` among all but `excluded`, with its projection.
     pub fn closest_but(
         &self,
         excluded: usize,
@@ -254,7 +254,7 @@ impl<const D: usize> Surface<D> {
         found.map(|(k, _)| (k, self.project(k, positions, p)))
     }
 
-    /// True if a projection lies on the rim of the surface, where the surface ends.
+    /// True if a projection lies on the rim of the surface.
     #[must_use]
     pub fn on_rim(&self, segment: usize, outcome: Outcome) -> bool {
         match outcome {
@@ -265,7 +265,7 @@ impl<const D: usize> Surface<D> {
         }
     }
 
-    /// True if border `k` of a segment (end of a line, edge of a face) is shared with no other segment.
+    /// True if no other segment shares border `k` of a segment (end of a line, edge of a face).
     #[must_use]
     pub fn border_is_free(&self, segment: usize, k: usize) -> bool {
         self.free[segment][k]

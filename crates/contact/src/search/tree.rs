@@ -10,13 +10,13 @@ pub struct Aabb<const D: usize> {
 }
 
 impl<const D: usize> Aabb<D> {
-    /// The box of no point.
+    /// Empty box, which contains no point.
     #[must_use]
     pub fn empty() -> Self {
         Self { min: [f64::INFINITY; D], max: [f64::NEG_INFINITY; D] }
     }
 
-    /// Grows to hold `p`.
+    /// Enlarges the box to contain `p`.
     pub fn include(&mut self, p: &[f64; D]) {
         for ((lo, hi), x) in self.min.iter_mut().zip(&mut self.max).zip(p) {
             *lo = lo.min(*x);
@@ -24,13 +24,13 @@ impl<const D: usize> Aabb<D> {
         }
     }
 
-    /// Grows to hold another box.
+    /// Enlarges the box to contain another box.
     pub fn merge(&mut self, other: &Self) {
         self.include(&other.min);
         self.include(&other.max);
     }
 
-    /// Grows by `margin` on every side.
+    /// Enlarges the box by `margin` on every side.
     #[must_use]
     pub fn inflated(mut self, margin: f64) -> Self {
         for i in 0..D {
@@ -72,10 +72,10 @@ impl<const D: usize> Aabb<D> {
     }
 }
 
-/// Boxes a leaf holds: few enough that testing them all costs less than a further level.
+/// Most boxes in a leaf. Testing these few costs less than a further level.
 const LEAF: usize = 4;
 
-/// Deepest stack of a query: a median split halves, so 64 levels exceed any address space.
+/// Size of the stack of a query. A median split halves the boxes, so 64 levels exceed any address space.
 const DEPTH: usize = 64;
 
 #[derive(Clone, Debug)]
@@ -87,7 +87,7 @@ struct Node<const D: usize> {
     children: Option<(usize, usize)>,
 }
 
-/// The tree over numbered boxes.
+/// A tree over numbered boxes.
 #[derive(Clone, Debug)]
 pub struct Tree<const D: usize> {
     nodes: Vec<Node<D>>,
@@ -95,7 +95,7 @@ pub struct Tree<const D: usize> {
 }
 
 impl<const D: usize> Tree<D> {
-    /// Builds the tree over `boxes`; at least one box.
+    /// Builds the tree over `boxes`, of which there must be at least one.
     #[must_use]
     pub fn build(boxes: &[Aabb<D>]) -> Self {
         let mut tree = Self { nodes: Vec::new(), order: (0..boxes.len()).collect() };
@@ -143,8 +143,8 @@ impl<const D: usize> Tree<D> {
         }
     }
 
-    /// The item of smallest squared distance to `p`, and that distance, by branch and bound. `measure` gives the squared
-    /// distance of an item, or `None` for one that does not take part; equal distances go to the lower number.
+    /// Item with the smallest squared distance to `p`, and that distance, by branch and bound. `measure` gives the squared
+    /// distance of an item, or `None` to exclude it. Ties go to the lower number.
     pub fn nearest(
         &self,
         p: &[f64; D],
@@ -184,8 +184,8 @@ impl<const D: usize> Tree<D> {
         best
     }
 
-    /// Calls `found` for every item whose box (one of `boxes`, as last given to `build` or `refit`) meets `query`, in the
-    /// order of the tree.
+    /// Calls `found` for every item whose box meets `query`, in the order of the tree. `boxes` are those last passed to `build`
+    /// or `refit`.
     pub fn overlapping(&self, query: &Aabb<D>, boxes: &[Aabb<D>], mut found: impl FnMut(usize)) {
         let mut stack = [0usize; DEPTH];
         let mut top = usize::from(!self.nodes.is_empty());

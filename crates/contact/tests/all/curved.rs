@@ -1,4 +1,4 @@
-//! Finite sliding on curved, warped and smoothed masters: derivatives, rotation, balances.
+//! Finite sliding on curved, warped and smoothed masters: derivatives, rotation and balances.
 
 use crate::common::curved::*;
 use crate::common::*;
@@ -24,7 +24,7 @@ const BOWL: [[[f64; 3]; 5]; 2] = [
     [[0.01, 0.01, -0.06], [0.3, 0.2, -0.06], [-0.75, 0.3, -0.07], [0.0, 0.1, 0.3], [0.1, -0.25, -0.07]],
 ];
 
-/// The interface after a committed first contact, prepared for the second displacement, which is returned.
+/// Interface after a committed first contact, prepared for the second displacement, which is also returned.
 fn settled<const D: usize>(
     spec: InterfaceSpec<D>,
     angle: f64,
@@ -108,7 +108,7 @@ fn positions<const D: usize>(spec: &InterfaceSpec<D>) -> Vec<[f64; D]> {
     spec.nodes.iter().map(|n| n.position).collect()
 }
 
-/// Displacement that takes the configuration `x + u` to its image turned by `angle`.
+/// Displacement that takes the configuration `x + u` to its image rotated by `angle`.
 fn turned<const D: usize>(x: &[[f64; D]], u: &[f64], angle: f64) -> Vec<f64> {
     let mut out = Vec::new();
     for (k, x) in x.iter().enumerate() {
@@ -119,7 +119,7 @@ fn turned<const D: usize>(x: &[[f64; D]], u: &[f64], angle: f64) -> Vec<f64> {
     out
 }
 
-/// The second displacement and its image under a rotation give forces that are images of each other.
+/// Asserts that the second displacement and its rotated image give forces that are rotated images of each other.
 fn assert_turns<const D: usize>(spec: &InterfaceSpec<D>, moves: &[[[f64; D]; 5]; 2]) {
     let x = positions(spec);
     let (mut plain, u) = settled(spec.clone(), 0.0, moves);
@@ -149,7 +149,8 @@ fn a_common_rotation_by_any_angle_turns_the_forces_on_every_kind_of_segment() {
     }
 }
 
-/// Spin of the configuration `x + u` about the axis of `rotate`, and of the forces `r` with it.
+/// Velocity of the configuration `x + u` in a spin about the axis of `rotate`. Applied to forces it gives their rate of
+/// rotation.
 fn spin<const D: usize>(x: &[[f64; D]], u: &[f64]) -> Vec<f64> {
     let k = [1.0, 2.0, 3.0].map(|v: f64| v / 14.0f64.sqrt());
     let mut out = Vec::new();
@@ -164,7 +165,7 @@ fn spin<const D: usize>(x: &[[f64; D]], u: &[f64]) -> Vec<f64> {
     out
 }
 
-/// K (w × x) = w × r for the consistent tangent and, from a committed state, for the rate tangent.
+/// Asserts K (w × x) = w × r for the consistent tangent and, from a committed state, for the rate tangent.
 fn assert_rate_identity<const D: usize>(spec: InterfaceSpec<D>, moves: &[[[f64; D]; 5]; 2]) {
     let x = positions(&spec);
     let (mut interface, u) = settled(spec, 0.0, moves);
@@ -197,10 +198,10 @@ fn a_common_spin_turns_the_rate_of_force_exactly() {
     }
 }
 
-/// Error of what the rate tangent foresees of the nodal forces, over their size, where everything turns by 1/`n` of a quarter.
+/// Relative error of the nodal forces predicted by the rate tangent when everything rotates by 1/`n` of a quarter turn.
 fn foreseen_turn<const D: usize>(spec: &InterfaceSpec<D>, moves: &[[[f64; D]; 5]; 2], n: u32) -> f64 {
     let x = positions(spec);
-    // All points stick: the first motion alone, once more.
+    // All points stick, since the first motion alone is repeated.
     let (mut interface, _) = settled(spec.clone(), 0.0, moves);
     interface.reject();
     let u = moved(spec, 0.0, &moves[0], 1e-3, 1);

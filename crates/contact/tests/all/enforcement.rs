@@ -1,4 +1,4 @@
-//! Multipliers: tangents, what they leave unchanged, and what they enforce; bonded points.
+//! Multipliers: their tangents, the quantities they leave unchanged, and the constraints they enforce. Bonded points.
 
 use crate::common::*;
 use asperity_contact::{
@@ -15,7 +15,7 @@ fn laws() -> [LawOption; 4] {
     [None, coulomb(), viscous(), Some(Arc::new(Tied))]
 }
 
-/// Stick, slip, slip the other way, open; after a committed first contact.
+/// Motions of the slaves of the line: a committed first contact, then stick, slip, slip the other way, open.
 const LINE: [[[f64; 2]; 4]; 2] = [
     [[0.01, -0.10], [0.0, -0.08], [0.0, -0.07], [0.0, -0.05]],
     [[0.02, -0.11], [0.25, -0.10], [-0.35, -0.09], [0.0, 0.25]],
@@ -28,12 +28,12 @@ const PLATE: [[[f64; 3]; 5]; 2] = [
 
 const UZAWA: Enforcement = Enforcement::Uzawa { tolerance: 1e-9, most: 20 };
 
-/// Multipliers as unknowns, after the displacements.
+/// Multipliers as unknowns, numbered after the displacements.
 fn unknown<const D: usize>(spec: &InterfaceSpec<D>) -> Enforcement {
     Enforcement::AugmentedLagrangian { first: D * spec.nodes.len(), unit: 800.0 }
 }
 
-/// With mortar instead of points.
+/// Replaces node-to-point by mortar.
 fn mortar<const D: usize>(mut spec: InterfaceSpec<D>) -> InterfaceSpec<D> {
     let (kind, faces): (_, Vec<Vec<usize>>) = if D == 2 {
         (SegmentKind::Seg2, vec![vec![7, 6], vec![6, 5], vec![5, 4]])
@@ -46,7 +46,7 @@ fn mortar<const D: usize>(mut spec: InterfaceSpec<D>) -> InterfaceSpec<D> {
     spec
 }
 
-/// Displacements after which multipliers follow: those of `base`, moved by noise.
+/// Appends the unknowns of the multipliers to the displacements: `base` along the normal, plus noise.
 fn with_unknowns<const D: usize>(
     spec: &InterfaceSpec<D>,
     mut u: Vec<f64>,
@@ -61,7 +61,7 @@ fn with_unknowns<const D: usize>(
     u
 }
 
-/// Commits a first contact and prepares the second.
+/// Commits a first contact and prepares the second displacement.
 fn case<const D: usize>(
     spec: InterfaceSpec<D>,
     angle: f64,
@@ -116,11 +116,12 @@ fn the_tangent_with_multipliers_as_unknowns_is_the_derivative_of_the_residual() 
     }
 }
 
-/// A flat side of 150 points in an order of its own above one of 100 segments: more points than the measure works on at once.
+/// A flat side of 150 points, numbered in scrambled order, above one of 100 segments. There are more points than the measure
+/// processes in one piece.
 fn long_line() -> InterfaceSpec<2> {
     let (masters, slaves) = (101, 150);
     let mut x: Vec<[f64; 2]> = (0..masters).map(|k| [0.3 * (100 - k) as f64, 0.0]).collect();
-    // 67 and 150 have no common factor.
+    // 67 and 150 are coprime.
     let node = |k: usize| masters + k * 67 % slaves;
     let mut above = vec![[0.0; 2]; slaves];
     (0..slaves).for_each(|k| above[node(k) - masters] = [0.05 + 0.2 * k as f64, 0.0]);
@@ -307,7 +308,7 @@ fn without_friction_the_tangent_with_unknown_multipliers_is_symmetric() {
         apply(interface, &e)
     };
     let matrix: Vec<Vec<f64>> = (0..n).map(|k| column(&mut interface, k)).collect();
-    // The unknown of an open point acts on the bodies and feels nothing of them.
+    // The unknown of an open point acts on the bodies but does not depend on them.
     residual(&mut interface, &u);
     interface.accept();
     let points = interface.points();

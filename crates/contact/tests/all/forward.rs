@@ -1,4 +1,4 @@
-//! Forward steps: rate tangent and limits.
+//! Rate tangent and limits of forward steps.
 
 use crate::common::*;
 use approx::assert_relative_eq;
@@ -13,12 +13,12 @@ fn flat(sliding: Sliding, law: Option<Arc<dyn Law>>) -> InterfaceSpec<2> {
     spec(&x, &[2, 3], master, sliding, law)
 }
 
-/// Moves of the two slave nodes.
+/// Displacements of the two slave nodes.
 fn du(a: [f64; 2], b: [f64; 2]) -> Vec<f64> {
     vec![0.0, 0.0, 0.0, 0.0, a[0], a[1], b[0], b[1]]
 }
 
-/// Goes on by an increment, as the state after a step is found.
+/// Advances by an increment and commits the state found there, as after a step.
 fn advance<const D: usize>(interface: &mut Interface<D>, u: &mut Vec<f64>, du: &[f64]) {
     u.resize(du.len(), 0.0);
     u.iter_mut().zip(du).for_each(|(u, du)| *u += du);
@@ -60,7 +60,7 @@ fn a_sticking_point_is_limited_where_it_leaves_the_cone_and_slides_then() {
     }
 }
 
-/// The friction crate's cone.
+/// Coulomb cone of the friction crate.
 fn cone() -> Option<Arc<dyn Law>> {
     Some(Arc::new(asperity_friction::coulomb::Coulomb::new(0.5, None).unwrap()))
 }
@@ -78,7 +78,7 @@ fn leaves_the_cone_and_slides(law: Option<Arc<dyn Law>>) {
     advance(&mut interface, &mut u, &scaled);
     let p = interface.points();
     assert_relative_eq!(p.shear_measure[0], -0.5 * p.normal_traction[0], max_relative = 1e-12);
-    // Sliding: the traction follows mu f_n, along -e_1.
+    // Sliding: the traction follows mu f_n along -e_1.
     advance(&mut interface, &mut u, &du([0.5, -0.1], [0.0, 0.0]));
     let p = interface.points();
     assert_relative_eq!(p.shear_measure[0], -0.5 * p.normal_traction[0], max_relative = 1e-12);
@@ -107,7 +107,7 @@ fn turns_out_of_the_cone(law: Option<Arc<dyn Law>>) {
         d
     };
     advance(&mut interface, &mut u, &step(0.1, 0.0, -0.2));
-    // t = (70, 0), f = 200; the increment turns t: dt = 700 (-0.15, 0.2), df = 50.
+    // t = (70, 0), f = 200. The increment rotates t: dt = 700 (-0.15, 0.2), df = 50.
     let push = step(-0.15, 0.2, -0.05);
     let r6 = interface.limit(&push, AT).unwrap();
     assert_eq!(r6.limit, "r6");
@@ -118,7 +118,7 @@ fn turns_out_of_the_cone(law: Option<Arc<dyn Law>>) {
     };
     assert!(margin(r).abs() < 1e-7, "off the cone by {}", margin(r));
     assert!(margin(r + 1e-6) > 0.0 && margin(r - 1e-6) < 0.0);
-    // A turn that stays within the cone does not limit, though the chord of its magnitude is no bound.
+    // A rotation that stays within the cone sets no limit, though the chord of its magnitude is not a bound.
     assert!(interface.limit(&step(-0.1, 0.1, 0.0), AT).is_none());
 }
 
@@ -146,12 +146,12 @@ fn leaving_a_segment_limits_in_finite_sliding_and_the_next_one_takes_over() {
         version,
         "a point on a vertex belongs to the segment it is entering"
     );
-    // 1 to 2 along the segment being entered: its far end limits.
+    // From 1 to 2 along the segment being entered: its far end sets the limit.
     let r7 = interface.limit(&step(2.0, 0.0), AT).unwrap();
     assert_relative_eq!(r7.value, 0.5, max_relative = 1e-12);
 }
 
-/// After an implicit step at `u` the rate tangent predicts the force of the advanced state to first order.
+/// Asserts that after an implicit step at `u` the rate tangent predicts the force of the advanced state to first order.
 fn assert_rate<const D: usize>(interface: &mut Interface<D>, u: &[f64], seed: u64) {
     interface.prepare(u).unwrap();
     residual(interface, u);
@@ -185,7 +185,7 @@ fn assert_rate<const D: usize>(interface: &mut Interface<D>, u: &[f64], seed: u6
 
 #[test]
 fn the_rate_tangent_predicts_the_force_of_the_advanced_state_under_stick() {
-    // Strong friction: everything sticks, and there and back is reversible.
+    // Strong friction: everything sticks, so that motion back and forth is reversible.
     let law: Option<Arc<dyn Law>> = Some(Arc::new(Mu(50.0)));
     let moves = [[0.01, -0.1], [0.02, -0.1], [-0.03, -0.09], [0.0, -0.08]];
     for sliding in [Sliding::Small, Sliding::Finite] {
@@ -231,7 +231,7 @@ fn a_reversing_traction_is_limited_on_the_far_side_of_the_cone() {
     let mut interface = Interface::new(flat(Sliding::Small, cone())).unwrap();
     let mut u = Vec::new();
     advance(&mut interface, &mut u, &du([0.1, -0.2], [0.0, 0.0]));
-    // t = -70 along e_1, strength 100: back through zero to the other side, 700 * 0.5 r = 170.
+    // t = -70 along e_1, strength 100: the traction reverses through zero to the other side, 700 * 0.5 r = 170.
     let r6 = interface.limit(&du([-0.5, 0.0], [0.0, 0.0]), AT).unwrap();
     assert_eq!(r6.limit, "r6");
     assert_relative_eq!(r6.value, 170.0 / 350.0, max_relative = 1e-9);
@@ -244,7 +244,7 @@ fn a_traction_on_its_strength_that_turns_is_limited_on_the_far_side_of_the_cone(
     advance(&mut interface, &mut u, &du([0.1, -0.2], [0.0, 0.0]));
     let r6 = interface.limit(&du([0.5, 0.0], [0.0, 0.0]), AT).unwrap();
     advance(&mut interface, &mut u, &du([0.5 * r6.value, 0.0], [0.0, 0.0]));
-    // It slips by now; drawn back it sticks, from one side of the cone, 100, to the other.
+    // The point now slips. When reversed it sticks, from one side of the cone, 100, to the other.
     advance(&mut interface, &mut u, &du([0.01, 0.0], [0.0, 0.0]));
     let back = du([-0.5, 0.0], [0.0, 0.0]);
     let strength = interface.points().shear_measure[0].abs();
@@ -257,7 +257,7 @@ fn a_traction_on_its_strength_that_turns_is_limited_on_the_far_side_of_the_cone(
     let r6 = interface.limit(&back, AT).unwrap();
     assert_eq!(r6.limit, "r6");
     assert_relative_eq!(r6.value, 2.0 * strength / 350.0, max_relative = 1e-9);
-    // Drawn on, it slips.
+    // Loaded further, it slips.
     let on = du([0.5, 0.0], [0.0, 0.0]);
     assert!(interface.switch(&on, AT), "what sticks at its strength and is drawn on slips");
 }

@@ -1,4 +1,4 @@
-//! Tests of contact, in one binary; `allocation` counts allocations in its own.
+//! Tests of contact in one binary. `allocation` counts allocations and needs a binary to itself.
 #![allow(clippy::unwrap_used)]
 
 #[path = "../common/mod.rs"]

@@ -1,4 +1,4 @@
-//! The mortar measure: patch test, balances, tangents, objectivity.
+//! Mortar measures: patch test, balances, tangents and objectivity.
 #![allow(clippy::needless_range_loop)]
 
 use crate::common::*;
@@ -33,7 +33,7 @@ fn interface_spec<const D: usize>(
     out
 }
 
-/// A line from x = a to b at height y with `n` segments of uneven length. `up`: the outward normal is +y.
+/// A line from x = a to b at height y with `n` segments of uneven length. With `up` the outward normal is +y.
 fn line_side(a: f64, b: f64, y: f64, n: usize, order: usize, up: bool, seed: u64) -> Side<2> {
     let mut noise = Noise::new(seed);
     let mut ends: Vec<f64> = (0..=n)
@@ -58,8 +58,8 @@ fn line_side(a: f64, b: f64, y: f64, n: usize, order: usize, up: bool, seed: u64
     Side { x, faces }
 }
 
-/// A unit square at height z of n x n facets. Inner nodes are moved by `noise`; `turn` rotates the inner grid's numbering only
-/// through the geometry: the map (a, b) of the square onto itself is turned by it, up to its rim.
+/// A unit square of n x n facets at height z, with outward normal +z if `up`. Its nodes are displaced by `noise` in the plane;
+/// those on the rim stay on it.
 fn square_side(kind: SegmentKind, n: usize, z: f64, up: bool, noise: f64, seed: u64) -> Side<3> {
     let mut source = Noise::new(seed);
     let mut x: Vec<[f64; 3]> = Vec::new();
@@ -115,7 +115,7 @@ fn turned<const D: usize>(side: &Side<D>, angle: f64) -> Side<D> {
     Side { x: side.x.iter().map(|x| rotate(x, angle)).collect(), faces: side.faces.clone() }
 }
 
-/// Integrals of the shape functions over the facets, by a rule far more than exact.
+/// Integrals of the shape functions over the facets, by a rule of far more than sufficient order.
 fn loads<const D: usize>(side: &Side<D>, axisymmetric: bool) -> Vec<f64> {
     let mut out = vec![0.0; side.x.len()];
     for f in &side.faces {
@@ -153,8 +153,8 @@ fn loads<const D: usize>(side: &Side<D>, axisymmetric: bool) -> Vec<f64> {
     out
 }
 
-/// Presses a slave evenly into the master and returns the largest deviation of a nodal force from the pressure times the
-/// integral of the node's shape function, relative to the largest such load.
+/// Presses a slave evenly into the master. Returns the largest deviation of a nodal force from the pressure times the integral
+/// of the node's shape function, relative to the largest such load.
 fn patch_error<const D: usize>(
     slave: &Side<D>,
     master: &Side<D>,
@@ -179,7 +179,7 @@ fn patch_error<const D: usize>(
     let mut worst = 0.0f64;
     for (k, e) in exact.iter().enumerate() {
         for i in 0..D {
-            // The slave is pushed back, against `down`.
+            // The slave is pushed back against `down`.
             let force = -e * down[i] / depth;
             worst = worst.max((-r[D * k + i] + force).abs());
         }
@@ -232,7 +232,7 @@ fn a_uniform_pressure_loads_both_faces_with_the_integrals_of_their_shape_functio
     }
 }
 
-/// A slave that overhangs the curved, uneven master at one end, with points that stick, slip, and are open.
+/// A slave that overhangs the curved, uneven master at one end, with sticking, slipping and open points.
 fn line_scene(sliding: Sliding, law: LawOption, angle: f64) -> (Interface<2>, Vec<f64>) {
     let bend = |side: Side<2>| Side {
         x: side.x.iter().map(|x| [x[0], x[1] - 0.15 * x[0] * x[0]]).collect(),
@@ -348,7 +348,7 @@ fn forces_and_moments_balance() {
     }
 }
 
-/// Turns the committed bodies by `angle` and returns the deviation of the forces from the turned ones.
+/// Rotates the committed bodies by `angle` and returns the deviation of the forces from the rotated ones.
 fn rotation_error<const D: usize>(
     (mut interface, u): (Interface<D>, Vec<f64>),
     x: &[[f64; D]],
@@ -476,7 +476,7 @@ fn rejected_steps_leave_no_trace() {
     assert_eq!(interface.pattern().id(), pattern, "an unchanged pairing keeps its pattern");
 }
 
-/// Linearised increments of gap and relative motion against those measured, without friction.
+/// Errors of the linearised increments of gap and relative motion against those measured, without friction.
 fn slide_errors<const D: usize>(make: impl Fn() -> (Interface<D>, Vec<f64>)) -> Vec<f64> {
     [1e-2, 1e-3, 1e-4]
         .into_iter()
@@ -520,7 +520,7 @@ fn forward_increments_are_the_derivatives_of_the_measured_ones() {
     }
 }
 
-/// Residual, tangent and counts of two steps on so many threads.
+/// Residual, tangent and counts of two steps on the given number of threads.
 fn on_threads<const D: usize>(
     threads: usize,
     make: impl Fn() -> InterfaceSpec<D> + Sync,
@@ -568,7 +568,7 @@ fn results_have_the_same_bits_for_any_number_of_threads() {
     }
 }
 
-/// Presses and shears a flat slave unevenly, so that some of it opens.
+/// Presses and shears a flat slave unevenly, so that part of it opens.
 fn uneven<const D: usize>(slave: &Side<D>, master: &Side<D>) -> (Interface<D>, Vec<f64>) {
     let mut interface =
         Interface::new(interface_spec(slave, master, Sliding::Small, coulomb(), false)).unwrap();

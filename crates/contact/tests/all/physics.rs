@@ -1,4 +1,4 @@
-//! Signs, balances and objectivity.
+//! Signs, balances and objectivity of contact.
 
 use crate::common::*;
 use approx::assert_relative_eq;
@@ -7,7 +7,7 @@ use asperity_contact::{
 };
 use asperity_fem::term::{Instant, Linearized, Saved, Term};
 
-/// Slave nodes 2.. on a horizontal master of one segment from (0, 0) to (4, 0), outward normal +y.
+/// Slave nodes, numbered from 2, on a horizontal master of one segment from (0, 0) to (4, 0) with outward normal +y.
 fn flat(slaves: &[f64], sliding: Sliding, friction: bool) -> InterfaceSpec<2> {
     let mut x = vec![[4.0, 0.0], [0.0, 0.0]];
     x.extend(slaves.iter().map(|s| [*s, 0.0]));
@@ -27,7 +27,7 @@ fn step<const D: usize>(interface: &mut Interface<D>, u: &[f64]) -> Vec<f64> {
 fn friction_opposes_slip_and_penetration_pushes_out() {
     for sliding in [Sliding::Small, Sliding::Finite] {
         let mut interface = Interface::new(flat(&[1.0], sliding, true)).unwrap();
-        // e_1 = (-n_y, n_x) = (-1, 0): motion of the slave to the right is negative.
+        // e_1 = (-n_y, n_x) = (-1, 0): motion of the slave to the right counts as negative.
         let r = step(&mut interface, &[0.0, 0.0, 0.0, 0.0, 0.3, -0.2]);
         let fields = interface.points();
         assert_relative_eq!(fields.normal_traction[0], 200.0, max_relative = 1e-14);
@@ -98,7 +98,8 @@ fn two_step_differences_are_exact_for_quadratic_slip_with_variable_steps() {
     }
 }
 
-/// A line and a plate after a frictional step with open, sticking and slipping points, and the displacement of a next one.
+/// A line, the displacements of a frictional step with open, sticking and slipping points and of the step that follows, and the
+/// positions of the nodes.
 fn line_scene(sliding: Sliding) -> (Interface<2>, Vec<f64>, Vec<f64>, Vec<[f64; 2]>) {
     let moves = |k: f64| [[0.01, -0.1], [0.2 * k, -0.1], [-0.3 * k, -0.09], [0.0, 0.05]];
     let spec = line_spec(0.4, sliding, coulomb());
@@ -152,7 +153,7 @@ fn forces_balance_and_moments_balance_after_the_couple() {
     }
 }
 
-/// Displacement after turning the configuration `x + u` by `angle`.
+/// Displacement that takes the configuration `x + u` to its image rotated by `angle`.
 fn turned<const D: usize>(x: &[[f64; D]], u: &[f64], angle: f64) -> Vec<f64> {
     let mut out = Vec::new();
     for (k, x) in x.iter().enumerate() {
@@ -169,7 +170,7 @@ fn assert_turns<const D: usize>(make: impl Fn() -> (Interface<D>, Vec<f64>, Vec<
     let (mut spun, ..) = make();
     step(&mut plain, &a);
     step(&mut spun, &a);
-    // The whole turn within one step, together with the deformation of that step.
+    // The whole rotation occurs within one step, together with the deformation of that step.
     let r = step(&mut plain, &b);
     let s = step(&mut spun, &turned(&x, &b, angle));
     let scale = size(&r);
@@ -187,7 +188,7 @@ fn assert_turns<const D: usize>(make: impl Fn() -> (Interface<D>, Vec<f64>, Vec<
     for p in 0..plain.points().gap.len() {
         assert!((plain.points().slip_measure[p] - spun.points().slip_measure[p]).abs() < 1e-12);
     }
-    // A common spin alone, under penetration and shear, is no slip: the raw relative velocity would see g_n w x n.
+    // A common spin alone, under penetration and shear, is not slip. The raw relative velocity would include g_n w x n.
     let before = plain.points().shear_measure.clone();
     step(&mut plain, &turned(&x, &b, -1.1));
     assert!(plain.points().largest_penetration() > 0.01);
@@ -230,7 +231,7 @@ fn slip_across_coplanar_segments_is_the_sum_of_the_path() {
 
 #[test]
 fn a_point_that_hangs_over_the_rim_slides_along_it_from_segment_to_segment() {
-    // A strip of three squares; the slave starts on its long rim and leaves it by up to 1.3e-3 of a square.
+    // A strip of three squares. The slave starts on its long rim and moves beyond it by up to 1.3e-3 of a square.
     let mut x: Vec<[f64; 3]> = (0..8).map(|k| [f64::from(k / 2), f64::from(k % 2), 0.0]).collect();
     x.push([0.5, 0.0, 0.0]);
     let quad = |k: usize| Segment { kind: SegmentKind::Quad4, nodes: vec![k, k + 2, k + 3, k + 1] };
@@ -239,17 +240,17 @@ fn a_point_that_hangs_over_the_rim_slides_along_it_from_segment_to_segment() {
     for k in 1..=17 {
         let mut u = vec![0.0; 27];
         u[24] = 0.1 * f64::from(k);
-        // At first less than what the search takes for rounding.
+        // Less at first than the search takes for rounding.
         let hangs = |k: i32| -1e-8 * (2f64.powi(k) - 1.0);
         (u[25], u[26]) = (hangs(k), -0.01);
         interface.prepare(&u).unwrap();
         residual(&mut interface, &u);
-        // As after an iteration of Newton's method: the pairing is asked for once more before the step is accepted.
+        // As after a Newton iteration: the pairing is updated once more before the step is accepted.
         interface.prepare(&u).unwrap();
         interface.accept();
         let points = interface.points();
         assert_relative_eq!(points.gap[0], -0.01, max_relative = 1e-12);
-        // Rounding of positions of the size 1 m.
+        // Rounding of positions of about 1 m.
         assert_relative_eq!(points.slip_increment[0][0], 0.1, epsilon = 1e-14);
         assert_relative_eq!(points.slip_increment[0][1], hangs(k) - hangs(k - 1), epsilon = 1e-14);
     }

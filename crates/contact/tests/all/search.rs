@@ -11,7 +11,7 @@ fn noisy<const D: usize>(noise: &mut Noise, by: f64) -> [f64; D] {
     std::array::from_fn(|_| by * noise.next())
 }
 
-/// Smallest distance over a fine grid of the segment's natural coordinates.
+/// Smallest distance over a fine grid in the segment's natural coordinates.
 fn brute<const D: usize>(kind: SegmentKind, x: &[[f64; D]], p: &[f64; D]) -> f64 {
     let n = 200;
     let mut best = f64::INFINITY;
@@ -29,7 +29,7 @@ fn brute<const D: usize>(kind: SegmentKind, x: &[[f64; D]], p: &[f64; D]) -> f64
     best.sqrt()
 }
 
-/// A segment of unit size, flat when first order, slightly bulged when second, turned by an angle.
+/// A segment of unit size, rotated by an angle; flat if first-order, slightly bulged if second-order.
 fn segment<const D: usize>(kind: SegmentKind, noise: &mut Noise, angle: f64) -> Vec<[f64; D]> {
     let natural: Vec<[f64; 2]> = match kind {
         SegmentKind::Seg2 => vec![[-1.0, 0.0], [1.0, 0.0]],
@@ -77,7 +77,7 @@ fn check<const D: usize>(kind: SegmentKind, seed: u64) {
     assert!(grid <= distance + 0.03, "{kind}: {distance} against {grid} on the grid");
     assert!(depth(kind, found.xi) >= -1e-12);
     let (q, _) = interpolate(&shape(kind, found.xi), &x);
-    // Written out differently for the commonest kinds: the same to rounding.
+    // The commonest kinds have formulas of their own, which agree to rounding.
     assert!((0..D).all(|i| (q[i] - found.point[i]).abs() < 1e-14));
 }
 

@@ -1,5 +1,5 @@
-//! Sliding far: over segments, edges and corners, off the end and back; searches left out; threads; smoothing against the
-//! curve it stands for.
+//! Large sliding: over segments, edges and corners, off the end and back; skipped searches; threads; smoothed surfaces against
+//! the curves they approximate.
 
 use crate::common::curved::*;
 use crate::common::*;
@@ -17,7 +17,7 @@ fn step<const D: usize>(interface: &mut Interface<D>, u: &[f64]) {
     interface.accept();
 }
 
-/// A flat plate of `kind`, 5 x 5 nodes with jitter in the plane, and one slave.
+/// A flat plate of `kind`, with 5 x 5 nodes jittered in the plane, and one slave.
 fn flat_plate(kind: SegmentKind, smoothed: bool) -> InterfaceSpec<3> {
     let mut spec = bowl_spec(kind, smoothed, 0.0, &[[0.5, 0.7]], None);
     for n in &mut spec.nodes {
@@ -61,7 +61,7 @@ fn slip_across_coplanar_segments_of_every_kind_is_the_path() {
 
 #[test]
 fn slip_on_a_curved_surface_is_the_path_to_second_order_in_the_step() {
-    // On the smoothed arc, from -0.5 to 0.5 at a gap of -0.01: the foot runs over the arc's own length.
+    // On the smoothed arc, from -0.5 to 0.5 at a gap of -0.01. The foot runs over the length of the arc itself.
     let path = |n: u32| {
         let mut spec = arc_spec(SegmentKind::Seg2, true, 0.0, &[-0.5], None);
         spec.nodes[7].position = on_arc(-0.5, 0.0);
@@ -80,11 +80,11 @@ fn slip_on_a_curved_surface_is_the_path_to_second_order_in_the_step() {
         let order = ((w[0] - fine) / (w[1] - fine)).abs().log2();
         assert!((1.9..2.1).contains(&order), "{errors:?} towards {fine}, order {order}");
     }
-    // The patches stand for the circle: its arc from -0.5 to 0.5 is 2.
+    // The patches approximate the circle, whose arc from -0.5 to 0.5 has length 2.
     assert_relative_eq!(fine, 2.0, max_relative = 1e-4);
 }
 
-/// Two segments with a kink at the origin: rising by `slope` on both sides (valley, concave) or falling (ridge, convex).
+/// Two segments with a kink at the origin, rising by `slope` on both sides (valley, concave) or falling (ridge, convex).
 fn kinked(slope: f64, at: [f64; 2]) -> InterfaceSpec<2> {
     let x = [[2.0, 2.0 * slope], [0.0, 0.0], [-2.0, 2.0 * slope], at];
     let master = (0..2).map(|k| Segment { kind: SegmentKind::Seg2, nodes: vec![k, k + 1] }).collect();
@@ -123,7 +123,7 @@ fn a_point_slides_over_a_ridge_and_through_a_valley() {
             let points = interface.points();
             assert!(points.gap[0].abs() < 1e-3, "gap {} at x = {x}", points.gap[0]);
         }
-        // The chord over the kink is shorter than the path by theta²/8 of the one step that crosses.
+        // The chord over the kink is shorter than the path by theta²/8 of the one step that crosses it.
         let theta = 2.0 * slope.atan();
         let missing = 3.0 * length - interface.points().slip_measure[0];
         assert!(missing.abs() <= 0.05 * length * theta * theta / 8.0 + 1e-12, "missing {missing}");
@@ -157,8 +157,8 @@ fn a_point_that_slid_off_the_end_and_returns_starts_anew() {
     assert_relative_eq!(interface.points().shear_measure[0], 0.05 * 700.0, max_relative = 1e-12);
 }
 
-/// Measures of `spec` along a path of small and large motions: all gaps and increments, and the searches made. With
-/// `always`, no search is left out.
+/// Geometries of `spec` along a path of small and large motions, and the number of searches made. With `always`, no search is
+/// skipped.
 fn followed<const D: usize>(spec: &InterfaceSpec<D>, always: bool) -> (Vec<Geometry<D>>, u32) {
     let positions: Vec<_> = spec.nodes.iter().map(|n| n.position).collect();
     let surface = Surface::new(spec.master.clone(), &positions);
@@ -209,7 +209,7 @@ fn searches_left_out_change_nothing() {
 
 #[test]
 fn the_bound_never_hides_a_change_of_segment() {
-    // After a search, move as far as the bound allows in the worst directions: a new search finds the same segments.
+    // After a search, move as far as the bound allows in the worst directions. A new search must find the same segments.
     let spec = arc_spec(SegmentKind::Seg2, false, 0.0, &[-0.45, -0.21, 0.05, 0.25, 0.4], None);
     let mut interface = Interface::new(spec.clone()).unwrap();
     let mut noise = Noise::new(5);
@@ -279,7 +279,7 @@ fn smoothed_lines_have_one_normal_and_stand_for_a_circle_to_fourth_order() {
 
 #[test]
 fn edges_sharper_than_the_crease_stay_sharp_and_flat_sides_flat() {
-    // A unit square's upper right corner, its sides divided in two.
+    // The upper right corner of a unit square, with each side divided in two.
     let positions = [[1.0, 0.0], [1.0, 0.5], [1.0, 1.0], [0.5, 1.0], [0.0, 1.0]];
     let segments: Vec<Segment> =
         (0..4).map(|k| Segment { kind: SegmentKind::Seg2, nodes: vec![k, k + 1] }).collect();
@@ -292,8 +292,8 @@ fn edges_sharper_than_the_crease_stay_sharp_and_flat_sides_flat() {
     }
 }
 
-/// Largest distance of the inner patches of a smoothed sphere from it, over that of the facets; jump of the normal across
-/// edges.
+/// Largest distance of the inner patches of a smoothed sphere from the sphere, that of the facets, and the largest deviation of
+/// the patches' normals from that of the sphere.
 fn off_sphere(n: usize, kind: SegmentKind) -> (f64, f64, f64) {
     let mut x = Vec::new();
     for j in 0..=n {
@@ -336,7 +336,7 @@ fn off_sphere(n: usize, kind: SegmentKind) -> (f64, f64, f64) {
             let [a, b] = p.e;
             let c: [f64; 3] =
                 std::array::from_fn(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
-            // Across an edge both normals lie this near to that of the sphere.
+            // Both normals at an edge are this close to that of the sphere, which bounds the jump between them.
             tilt = tilt.max(size(&std::array::from_fn::<f64, 3, _>(|i| {
                 c[i] / size(&c) - p.point[i] / size(&p.point)
             })));

@@ -1,4 +1,4 @@
-//! The tangent is the derivative of the residual, in every combination.
+//! The tangent is the derivative of the residual in every combination.
 
 use crate::common::*;
 use asperity_contact::{Interface, SegmentKind, Sliding, Status, TimeRule};
@@ -16,7 +16,7 @@ fn laws() -> [LawOption; 3] {
     [None, coulomb(), viscous()]
 }
 
-/// Stick, slip, slip the other way, open; after a committed first contact.
+/// Motions of the slaves of the line: a committed first contact, then stick, slip, slip the other way, open.
 const LINE: ([[f64; 2]; 4], [[f64; 2]; 4]) = (
     [[0.01, -0.10], [0.0, -0.08], [0.0, -0.07], [0.0, -0.05]],
     [[0.02, -0.11], [0.25, -0.10], [-0.35, -0.09], [0.0, 0.05]],
@@ -90,7 +90,7 @@ fn tangent_is_the_derivative_of_the_residual_in_three_dimensions() {
 #[test]
 fn the_cases_contain_open_stick_slip_and_a_crossing_of_segments() {
     let (mut interface, u) = line_case(Sliding::Finite, coulomb(), TimeRule::BackwardEuler, 0.7);
-    // Slave, held segment, and the far node of the segment the anchor lies on.
+    // Slave, held segment, and the far node of the anchor's segment.
     assert!(interface.pattern().blocks().any(|b| b.len() == 4 * 2));
     residual(&mut interface, &u);
     interface.accept();
@@ -115,7 +115,7 @@ fn tangent_remains_exact_after_a_commit_without_search() {
     assert_taylor(&mut interface, &moved, 13);
 }
 
-/// The friction crate's own laws: a capped cone, a rate law and two rate-and-state laws.
+/// Laws of the friction crate itself: a capped cone, a rate law and two rate-and-state laws.
 fn product_laws() -> Vec<LawOption> {
     let form = || Regularised(Parameters::new(0.4, 0.05, 0.1).unwrap());
     vec![

@@ -6,15 +6,15 @@ use asperity_contact::{InterfaceSpec, Segment, SegmentKind, Sliding, Smoothing};
 use asperity_friction::law::Law;
 use std::sync::Arc;
 
-/// Radius of the arc, whose top is the origin.
+/// Radius of the arc. Its top is the origin.
 pub const RADIUS: f64 = 2.0;
 
-/// The point of the arc's circle (or one off it by `gap`) at angle `a` from its top, counter-clockwise.
+/// Point at angle `a` from the top of the arc's circle, counter-clockwise, at distance `gap` from the circle.
 pub fn on_arc(a: f64, gap: f64) -> [f64; 2] {
     [-(RADIUS + gap) * a.sin(), (RADIUS + gap) * a.cos() - RADIUS]
 }
 
-/// Six segments (three of second order) over 72 degrees of the arc; slaves at `angles` of it, turned by `angle`.
+/// Six segments (three if second-order) over 72 degrees of the arc, with slaves at `angles` on it, all rotated by `angle`.
 pub fn arc_spec(
     kind: SegmentKind,
     smoothed: bool,
@@ -43,8 +43,8 @@ pub fn bowl(x: f64, y: f64) -> f64 {
     0.06 * (x - 2.0).powi(2) + 0.03 * (y - 1.5).powi(2) + 0.02 * x * y
 }
 
-/// 4 x 4 first-order cells (2 x 2 of second order, or twice as many triangles) on 25 jittered nodes of the bowl; slaves on
-/// it at `at`, all turned by `angle`.
+/// 4 x 4 first-order cells (2 x 2 if second-order, or twice as many triangles) on 25 jittered nodes of the bowl, with slaves on
+/// it at `at`, all rotated by `angle`.
 pub fn bowl_spec(
     kind: SegmentKind,
     smoothed: bool,
@@ -75,7 +75,7 @@ pub fn bowl_spec(
     spec
 }
 
-/// The segments of one cell of the 5 x 5 grid.
+/// Segments of one cell of the 5 x 5 grid.
 fn cells(kind: SegmentKind, i: usize, j: usize, out: &mut Vec<Segment>) {
     let first = 5 * j + i;
     let g = |a: usize, b: usize| 5 * (2 * j + b) + 2 * i + a;
@@ -94,11 +94,11 @@ fn cells(kind: SegmentKind, i: usize, j: usize, out: &mut Vec<Segment>) {
     }));
 }
 
-/// Kinds and smoothings of lines.
+/// Segment kinds and smoothings in two dimensions.
 pub const LINES: [(SegmentKind, bool); 3] =
     [(SegmentKind::Seg2, false), (SegmentKind::Seg3, false), (SegmentKind::Seg2, true)];
 
-/// Kinds and smoothings of faces.
+/// Segment kinds and smoothings in three dimensions.
 pub const FACES: [(SegmentKind, bool); 7] = [
     (SegmentKind::Tri3, false),
     (SegmentKind::Quad4, false),

@@ -14,7 +14,7 @@ use asperity_friction::law::{
 };
 use std::sync::Arc;
 
-/// Coulomb friction, written here a second time and independently of the friction crate.
+/// Coulomb friction, implemented independently of the friction crate.
 #[derive(Debug)]
 pub struct Mu(pub f64);
 
@@ -65,7 +65,7 @@ impl Law for Mu {
             if p.regime[i] == Regime::Slip {
                 continue;
             }
-            // Linear in r on each branch of |τ + r Δτ| = μ (f + r Δf): the first root that leaves the cone.
+            // Linear in r on each branch of |τ + r Δτ| = μ (f + r Δf); finds the first root that leaves the cone.
             for sign in [1.0, -1.0] {
                 let (slack, closing) = (
                     self.0 * p.normal[i] - sign * p.traction[i],
@@ -86,7 +86,7 @@ impl Law for Mu {
     }
 }
 
-/// mu = a asinh(V/(2 Vref) exp(mu0/a)), solved by bisection in V and finished by Newton steps.
+/// Rate law mu = a asinh(V/(2 Vref) exp(mu0/a)), solved by bisection in V followed by Newton steps.
 #[derive(Debug)]
 pub struct Viscous {
     pub mu0: f64,
@@ -170,7 +170,7 @@ pub fn viscous() -> Option<Arc<dyn Law>> {
 
 pub const AT: Instant = Instant { time: 1.0, dt: 0.1 };
 
-/// Rotation about the axis (1, 2, 3) in three dimensions, in the plane in two.
+/// Rotation about the axis (1, 2, 3) in three dimensions and in the plane in two.
 pub fn rotate<const D: usize>(x: &[f64; D], angle: f64) -> [f64; D] {
     let (s, c) = angle.sin_cos();
     let mut y = [0.0; D];
@@ -243,7 +243,7 @@ pub fn spec<const D: usize>(
     }
 }
 
-/// Three segments with outward normal +y (then rotated), nodes 0..4, and slaves above at nodes 4..8.
+/// Three segments with outward normal +y (then rotated), nodes 0..4, and slaves above them at nodes 4..8.
 pub fn line(angle: f64, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Interface<2> {
     Interface::new(line_spec(angle, sliding, law)).unwrap()
 }
@@ -256,7 +256,8 @@ pub fn line_spec(angle: f64, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Int
     spec(&x, &[4, 5, 6, 7], master, sliding, law)
 }
 
-/// A 3 x 3 grid of nodes with outward normal +z (then rotated), as quads or triangles, slightly irregular; slaves above.
+/// A slightly irregular 3 x 3 grid of nodes with outward normal +z (then rotated), as quadrilaterals or triangles, with slaves
+/// above it.
 pub fn plate_spec(
     angle: f64,
     kind: SegmentKind,
@@ -289,7 +290,7 @@ pub fn plate_spec(
     spec(&x, &[9, 10, 11, 12, 13], master, sliding, law)
 }
 
-/// Displacement that moves every slave node of `spec` by its own vector (in unrotated axes), the rest by noise.
+/// Displacement that moves every slave node of `spec` by its own vector (in unrotated axes) and all other nodes by noise.
 pub fn moved<const D: usize>(
     spec: &InterfaceSpec<D>,
     angle: f64,
@@ -314,7 +315,7 @@ pub fn residual<const D: usize>(interface: &mut Interface<D>, u: &[f64]) -> Vec<
     r
 }
 
-/// K v from the blocks of the present tangent.
+/// Product K v from the blocks of the present tangent.
 pub fn apply<const D: usize>(interface: &mut Interface<D>, v: &[f64]) -> Vec<f64> {
     let pattern = interface.pattern().clone();
     let mut values = vec![f64::NAN; pattern.values()];
@@ -340,7 +341,7 @@ pub fn size(v: &[f64]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// Asserts that |r(u + h v) - r(u) - h K v| falls with the square of h (or is rounding throughout).
+/// Asserts that |r(u + h v) - r(u) - h K v| falls with the square of h (or stays at rounding throughout).
 pub fn assert_taylor<const D: usize>(interface: &mut Interface<D>, u: &[f64], seed: u64) {
     let v = Noise::new(seed).vector(u.len());
     let r0 = residual(interface, u);
@@ -360,7 +361,7 @@ pub fn assert_taylor<const D: usize>(interface: &mut Interface<D>, u: &[f64], se
     }
 }
 
-/// Largest |K - K'| over the largest entry.
+/// Largest |K - K'| relative to the largest entry.
 fn asymmetry(pattern: &asperity_fem::term::Pattern, values: &[f64]) -> f64 {
     let largest = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let (mut worst, mut at) = (0.0_f64, 0);
@@ -374,7 +375,7 @@ fn asymmetry(pattern: &asperity_fem::term::Pattern, values: &[f64]) -> f64 {
     worst / largest
 }
 
-/// Asymmetries of the consistent tangent at `u`, and of the rate tangent after it is accepted.
+/// Asymmetries of the consistent tangent at `u` and of the rate tangent after the step is accepted.
 pub fn asymmetries<const D: usize>((mut interface, u): (Interface<D>, Vec<f64>)) -> [f64; 2] {
     residual(&mut interface, &u);
     let pattern = interface.pattern().clone();

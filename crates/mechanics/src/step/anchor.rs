@@ -1,14 +1,14 @@
-//! A weak spring on every free degree of freedom, in the tangent only.
+//! Weak springs on all free degrees of freedom, in the tangent only.
 
 use asperity_fem::term::{Instant, Linearized, Pattern, Refusal, Term};
 
-/// Stiffness of the springs over the largest entry of the system's matrix. That is a penalty, some hundred times the stiffness
-/// of the bodies, so that the springs of a body's some hundred nodes together resist like the body itself: softer ones throw a
-/// free body far, stiffer ones slow what is held.
+/// Stiffness of the springs over the largest entry of the system's matrix. That entry is a penalty, some hundred times the
+/// stiffness of the bodies. The springs on the hundred or so nodes of a body thus resist together as much as the body itself.
+/// Softer springs let a free body move far; stiffer ones slow down bodies that are held.
 const STIFFNESS: f64 = 1e-4;
 
-/// The springs. Their forces are absent from the residual: what they hold back is put right by the next iterations, and a
-/// solution found with them is one without.
+/// Springs without forces in the residual. The next iterations correct the motion they hold back, so a solution found with them
+/// is also one without them.
 #[derive(Debug)]
 pub(super) struct Anchor {
     pattern: Pattern,
@@ -16,7 +16,7 @@ pub(super) struct Anchor {
 }
 
 impl Anchor {
-    /// Springs on the degrees of freedom `free`, for a matrix whose largest entry is `largest`.
+    /// Places springs on the degrees of freedom `free`, for a matrix whose largest entry is `largest`.
     pub(super) fn new(free: &[usize], largest: f64) -> Self {
         let pattern = Pattern::of_blocks(free.chunks(1));
         Self { pattern, stiffness: STIFFNESS * largest }

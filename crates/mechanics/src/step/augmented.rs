@@ -1,7 +1,7 @@
-//! The outer loop of implicit steps: constraints enforced by multipliers that move between solutions.
+//! Outer loop of implicit steps for constraints enforced by multipliers that are updated between solutions.
 //!
-//! Each round solves the balance of forces and makes the tractions found the multipliers of the next. What is left of a
-//! violation after a round is 1/(1 + E k) of it, E the penalty and k the compliance of the bodies in the contact.
+//! Each round solves the balance of forces and uses the resulting tractions as multipliers of the next. A round reduces a
+//! violation to 1/(1 + E k) of its size, with E the penalty and k the compliance of the bodies at the contact.
 
 use super::implicit::Implicit;
 use super::{Failure, Solved};
@@ -9,7 +9,7 @@ use crate::Counts;
 use asperity_fem::term::{Augmented, Instant, Linearized};
 
 impl Implicit {
-    /// Solves the balance of forces until the terms with multipliers violate nothing beyond their tolerance.
+    /// Solves the balance of forces until the violations of all terms with multipliers are within tolerance.
     pub(super) fn augmented(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -34,12 +34,12 @@ impl Implicit {
     }
 }
 
-/// The term that violates its constraints most, where any does beyond its tolerance.
+/// Term that violates its constraints most, if any exceeds its tolerance.
 fn most_violated<'t>(terms: &'t mut [&mut dyn Linearized]) -> Option<&'t mut dyn Augmented> {
     let mut worst: Option<(f64, &mut dyn Augmented)> = None;
     for term in terms.iter_mut().filter_map(|t| t.augmented()) {
         let violation = term.violation();
-        // A violation that is no number is one.
+        // A NaN violation counts as exceeding the tolerance.
         let beyond = violation > 1.0 || violation.is_nan();
         if beyond && worst.as_ref().is_none_or(|(most, _)| violation.is_nan() || violation > *most) {
             worst = Some((violation, term));

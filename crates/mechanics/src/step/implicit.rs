@@ -1,10 +1,13 @@
 //! The implicit stepper: Newton's method on the balance of forces at the end of the step.
 //!
-//! Contact makes the residual piecewise smooth: each set of closed and slipping points has its own linear piece, and a full
-//! step lands on the solution of the piece it starts from. As a rule a few full steps find the right set, whatever the residual
-//! does meanwhile. Where they run in circles, the iteration goes back to its best point, and each further step ends where the work of the residual along it changes sign
-//! ([`super::line`]), which contact and friction cannot overshoot. A body that nothing holds at some iterate, because all that
-//! holds it is open or slips there, is held by weak springs for that iteration ([`super::anchor`]).
+//! Contact makes the residual piecewise smooth. Each set of closed and slipping points has its own linear piece, and a full
+//! step leads to the solution of the piece from which it starts. As a rule a few full steps find the right set, whatever the
+//! residual does meanwhile.
+//!
+//! If full steps cycle, the iteration returns to its best iterate. From there each step ends where the work of the residual
+//! along it changes sign ([`super::line`]), which contact and friction cannot overshoot. At some iterate a body may be
+//! unsupported because all points that hold it are open or slip there. Weak springs then hold it for that iteration
+//! ([`super::anchor`]).
 
 use super::anchor::Anchor;
 use super::{Accepted, Balance, Before, Failure, Solved, State, StepperState, accurate, line, unopposed};
@@ -14,36 +17,36 @@ use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{Instant, Linearized, PatternId};
 
-/// Residual over the largest force at which an iteration has converged. Rounding leaves 1e-14 to 1e-12 (the condensed
-/// stiffness acts on displacements some hundred times the elastic ones); a Newton step below this bound squares it.
+/// Residual over the largest force at which an iteration has converged. Rounding leaves 1e-14 to 1e-12 (the condensed stiffness
+/// acts on displacements some hundred times the elastic ones). A Newton step below this bound squares it.
 const CONVERGED: f64 = 1e-11;
-/// Iterations that may change the pairing. A node that sits on a vertex of the master side would otherwise change segment
-/// for ever, since the normals of the two differ.
+/// Iterations that may change the pairing. Without this limit a node at a vertex of the master side would change segment
+/// indefinitely, since the normals of the two segments differ.
 const PAIRING: usize = 3;
-/// Number of times that a converged state is paired again because its pairing no longer fits its positions. A node between two segments
-/// may belong to either: what still changes after that is such a tie.
+/// Number of times that a converged state is paired again because its pairing no longer fits its positions. A node between two
+/// segments may belong to either; a pairing that still changes afterwards is such a tie.
 const REPAIRS: usize = 2;
-/// Rounding of a force: each is a sum of products of stiffness and displacement, of some tens of terms.
+/// Rounding of a force, which is a sum of some tens of products of stiffness and displacement.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// Largest change of the displacements, over the displacements themselves, in an iteration that ends with a residual of rounding.
-/// A body that slides away without resistance moves by its whole displacement each time, where rounding of its forces would
-/// pass for balance; a solution moves by rounding times the condition, which contact seldom raises beyond 1e10.
+/// Largest relative change of the displacements in an iteration that ends with a residual at the level of rounding. A body that
+/// slides away without resistance moves by its whole displacement in each iteration, and rounding of its forces would pass for
+/// equilibrium. A solution moves by rounding times the condition number, which contact seldom raises above 1e10.
 const SETTLED: f64 = 1e-3;
-/// A step whose iteration needs more is better halved.
+/// Most iterations of a step. A step that needs more is better halved.
 const MOST_ITERATIONS: usize = 30;
-/// Displacements beyond so many sizes of the model and of all that is prescribed are none.
+/// Displacements beyond this multiple of the model size plus all prescribed motion count as leaving the model.
 const FARTHEST: f64 = 10.0;
-/// Halvings of the line search: beyond 2^-10 the direction itself is wrong.
+/// Most halvings of the line search. If 2^-10 is not enough, the direction itself is wrong.
 const MOST_HALVINGS: usize = 10;
-/// A step of length s is taken when it lowers the residual by this share of s (Armijo's rule with its usual constant).
+/// Share of the step length by which a step must lower the residual (Armijo's rule with its usual constant).
 const DECREASE: f64 = 1e-4;
-/// Rise of the residual a full step may cause: pairs that open, close or begin to slip raise it once, by the ratio of the
-/// penalty to the stiffness of the bodies (some hundred), and a shorter step would only spread that over many iterations.
+/// Rise of the residual allowed in a full step. Pairs that open, close or begin to slip raise it once, by the ratio of the
+/// penalty to the stiffness of the bodies (some hundred). A shorter step would only spread this over many iterations.
 const NONMONOTONE: f64 = 100.0;
-/// Iterations without a residual half the least so far after which full steps are no longer taken on trust, and after as many
-/// more are again: a set of contacts that changes as a whole takes three or four to settle.
+/// Number of iterations without a halving of the least residual after which full steps are no longer trusted. After as many
+/// more iterations they are trusted again. A set of contacts that changes as a whole takes three or four iterations to settle.
 const PATIENCE: usize = 5;
-/// Growth of the length of a step along which nothing resists.
+/// Growth factor of the length of a step that meets no resistance.
 const STRIDE: f64 = 4.0;
 
 /// Working memory of the stepper.
@@ -52,21 +55,21 @@ pub struct Implicit {
     system: System,
     balance: Balance,
     trial: Balance,
-    /// Size of the positions gaps are differences of \[m\]; 0 where gaps are differences of displacements.
+    /// Size of the positions of which gaps are differences \[m\]; 0 if gaps are differences of displacements.
     position: f64,
     /// Size of the model \[m\].
     extent: f64,
-    /// Displacements no iterate may reach \[m\].
+    /// Displacement that no iterate may exceed \[m\].
     farthest: f64,
-    /// Displacement increment of the last accepted step and its length, for the prediction of the next.
+    /// Displacement increment \[m\] and length \[s\] of the last accepted step, from which the next is predicted.
     last: Option<(Vec<f64>, f64)>,
-    /// Largest error of friction coefficients a step may leave \[-\].
+    /// Largest error of friction coefficients that a step may leave \[-\].
     bound: f64,
 }
 
 impl Implicit {
-    /// A stepper for `system` of a model of size `extent` \[m\] whose parts are moved by `travel` \[m\] in all. Where terms work
-    /// on current positions, `position` is their size \[m\], else 0.
+    /// Makes a stepper for `system`, for a model of size `extent` \[m\] whose parts move by `travel` \[m\] in total. `position`
+    /// is the size of current positions \[m\] if terms depend on them, otherwise 0.
     #[must_use]
     pub fn new(system: System, position: f64, extent: f64, travel: f64) -> Self {
         let (balance, trial) = (Balance::default(), Balance::default());
@@ -82,23 +85,23 @@ impl Implicit {
         }
     }
 
-    /// Steps that leave a larger error of friction coefficients are not accepted \[-\].
+    /// Sets the largest error of friction coefficients with which a step is accepted \[-\].
     pub fn set_bound(&mut self, bound: f64) {
         self.bound = bound;
     }
 
-    /// Largest error of friction coefficients a step may leave \[-\].
+    /// Largest error of friction coefficients that a step may leave \[-\].
     pub(super) fn bound(&self) -> f64 {
         self.bound
     }
 
-    /// The linear system, for its counts.
+    /// Linear system, for its counts.
     #[must_use]
     pub fn system(&self) -> &System {
         &self.system
     }
 
-    /// The linear system, for what else is solved with it.
+    /// Linear system, for other solves with it.
     pub(super) fn system_mut(&mut self) -> &mut System {
         &mut self.system
     }
@@ -108,7 +111,8 @@ impl Implicit {
         &self.balance.r
     }
 
-    /// Goes on with another stage: what is known of its tangents, and whether the rate of the last step holds there.
+    /// Begins another stage with this symmetry of its tangents. `goes_on` is true if the rate of the last step still holds
+    /// there.
     pub fn begin_stage(&mut self, symmetry: Symmetry, goes_on: bool) {
         self.system.set_symmetry(symmetry);
         if !goes_on {
@@ -116,12 +120,12 @@ impl Implicit {
         }
     }
 
-    /// Returns the values kept from step to step.
+    /// Values kept between steps.
     pub(super) fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState {
         StepperState { last: self.last.clone(), left: Vec::new(), system: self.system.memory(terms) }
     }
 
-    /// Restores the values kept by a stepper of the same system, and returns whether they fit.
+    /// Restores the values kept by a stepper of the same system. Returns true if they fit.
     pub(super) fn restore(&mut self, saved: &StepperState, terms: &mut [&mut dyn Linearized]) -> bool {
         let dofs = self.system.equations().number.len();
         if saved.last.as_ref().is_some_and(|(increment, _)| increment.len() != dofs) {
@@ -172,7 +176,7 @@ impl Implicit {
         }
     }
 
-    /// Displacement extrapolated with the last rate.
+    /// Displacement extrapolated at the last rate.
     fn predict(&self, state: &State, dt: f64) -> Vec<f64> {
         match &self.last {
             None => state.u.clone(),
@@ -182,7 +186,7 @@ impl Implicit {
         }
     }
 
-    /// Removes the residual at `u` where it exceeds `drift` times the largest force.
+    /// Removes the residual at `u` if it exceeds `drift` times the largest force.
     pub(super) fn correct(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -201,7 +205,7 @@ impl Implicit {
         Ok(Corrected { iterations, drift: left, residual_ratio })
     }
 
-    /// Iterates until forces are in balance and the pairing is that of the positions.
+    /// Iterates until forces are in balance and the pairing fits the positions.
     pub(super) fn iterate(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -222,7 +226,8 @@ impl Implicit {
         Ok((iterations, ratio))
     }
 
-    /// Iterates from `u`, where the residual has been evaluated; the first `pairing` iterations repeat the pairing.
+    /// Iterates from `u`, where the residual must have been evaluated. The pairing is updated during the first `pairing`
+    /// iterations.
     fn round(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -254,7 +259,7 @@ impl Implicit {
                 self.go_back(terms, u, &mut progress, at, counts)?;
                 continue;
             }
-            // Springs shorten a motion that is otherwise unresisted, so that its length carries no information.
+            // Springs shorten a motion without other resistance, so its length carries no information.
             progress.moved = if direction.free { f64::INFINITY } else { taken * largest(&direction.along) };
             if iteration + 1 < pairing {
                 self.pairs_anew(terms, u, at, counts)?;
@@ -285,8 +290,8 @@ impl Implicit {
         self.evaluate(terms, u, at, counts)
     }
 
-    /// Returns whether `u` is in balance; `moved` where an iteration has responded to the loads of the step.
-    /// A residual that no longer falls is in balance when it is rounding of the forces it is the sum of.
+    /// True if `u` is in balance. `moved` is true once an iteration has responded to the loads of the step. A residual that no
+    /// longer falls counts as balanced if it is rounding of the forces of which it is the sum.
     fn has_converged(&self, norm: f64, u: &[f64], progress: &Progress, moved: bool) -> bool {
         let settled = progress.moved <= SETTLED * largest(u).max(self.position);
         norm == 0.0
@@ -298,7 +303,7 @@ impl Implicit {
         CONVERGED.max(self.system.tolerance())
     }
 
-    /// Pairs at `u`, and returns whether that changed anything. The residual is then the one of the new pairing.
+    /// Updates the pairing at `u` and returns true if it changed. The residual is then evaluated with the new pairing.
     fn pairs_anew(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -333,12 +338,12 @@ impl Implicit {
         if norm.is_finite() { Ok(norm) } else { Err("the residual is not finite".into()) }
     }
 
-    /// Rounding of the forces at `u`.
+    /// Rounding of the forces at `u` \[N\].
     fn rounding(&self, u: &[f64]) -> f64 {
         ROUNDING * self.system.largest_entry() * largest(u).max(self.position)
     }
 
-    /// A residual over the largest force; zero where no force exceeds rounding, as in bodies that nothing touches.
+    /// Residual over the largest force; zero if no force exceeds rounding, as in bodies without loads.
     fn ratio(&self, residual: f64, u: &[f64]) -> f64 {
         if self.balance.largest_force <= self.rounding(u) { 0.0 } else { residual / self.scale() }
     }
@@ -347,7 +352,7 @@ impl Implicit {
         if self.balance.largest_force > 0.0 { self.balance.largest_force } else { 1.0 }
     }
 
-    /// Newton's direction over all degrees of freedom (zero where fixed).
+    /// Newton direction over all degrees of freedom (zero at fixed ones).
     fn direction(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -368,8 +373,8 @@ impl Implicit {
         }
     }
 
-    /// The failure of an iteration that leaves the model from `u` along a direction: singular, where the tangent is, else the
-    /// largest motion by name.
+    /// Failure of an iteration that leaves the model from `u` along a direction. It reports the singularity if the tangent is
+    /// singular, and otherwise the degree of freedom with the largest motion.
     fn adrift(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -415,8 +420,9 @@ impl Implicit {
         Ok(direction)
     }
 
-    /// Moves `u` along a direction and returns the length of the step, infinite where nothing stops it. The full step is taken where it lowers the residual and,
-    /// while full steps are trusted, where it raises it by up to [`NONMONOTONE`].
+    /// Moves `u` along a direction and returns the length of the step, which is infinite if nothing stops the motion. While
+    /// full steps are trusted, a full step is taken if it lowers the residual or raises it by at most a factor of
+    /// [`NONMONOTONE`].
     fn search(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -451,8 +457,8 @@ impl Implicit {
         Ok(length)
     }
 
-    /// The length of a step along a motion that nothing resists as yet: up to where something does;
-    /// infinite where nothing does over the size of the model.
+    /// Length of a step along a motion that meets no resistance yet, up to where it does; infinite if it meets none over the
+    /// size of the model.
     fn stride(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -476,7 +482,7 @@ impl Implicit {
         f64::INFINITY
     }
 
-    /// Backtracking on the largest residual, where a direction does not lead downhill.
+    /// Backtracks on the largest residual, for a direction that does not lead downhill.
     fn backtrack(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -502,7 +508,7 @@ impl Implicit {
         Ok(length)
     }
 
-    /// Residual at `u`, and its work along a direction; not numbers where the terms refuse.
+    /// Residual at `u` and its work along a direction; NaN if a term refuses the state.
     fn trial(
         &mut self,
         terms: &mut [&mut dyn Linearized],
@@ -521,41 +527,41 @@ impl Implicit {
     }
 }
 
-/// A state whose residual was removed where it was large.
+/// A state with its residual removed if that was large.
 pub(super) struct Corrected {
     pub iterations: usize,
-    /// Residual over the largest force before \[-\].
+    /// Residual over the largest force before the correction \[-\].
     pub drift: f64,
-    /// And after \[-\].
+    /// Residual over the largest force after the correction \[-\].
     pub residual_ratio: f64,
 }
 
-/// A direction.
+/// Direction of an iteration.
 struct Direction {
     along: Vec<f64>,
-    /// True if springs had to hold it.
+    /// True if springs were needed to hold the system.
     free: bool,
 }
 
-/// A point of a search.
+/// A trial point of a search.
 struct Trial {
     norm: f64,
     /// Work of the residual along the direction, per length.
     slope: f64,
 }
 
-/// Progress of an iteration. Full steps are trusted for a while. Where they lead nowhere, the iteration returns to the best iterate
-/// and shortens its steps for a while; then it trusts full steps again, and so on.
+/// Progress of an iteration. Full steps are trusted for a number of iterations. If they make no progress, the iteration returns
+/// to the best iterate and shortens its steps for as many iterations; then it trusts full steps again, and so on.
 struct Progress {
     /// Least residual so far.
     best: f64,
     /// Displacement with that residual.
     best_u: Vec<f64>,
-    /// Iterations since it was last halved.
+    /// Iterations since the least residual was last halved.
     since: usize,
     /// Largest change of displacement in the last iteration \[m\].
     moved: f64,
-    /// True if some iterate was not held, or left the model.
+    /// True if an iterate was not held or left the model.
     adrift: bool,
 }
 
@@ -572,23 +578,23 @@ impl Progress {
         }
     }
 
-    /// Returns whether full steps that raise the residual are accepted.
+    /// True if full steps that raise the residual are accepted.
     fn trusts(&self) -> bool {
         self.since % (2 * PATIENCE) < PATIENCE
     }
 
-    /// Returns whether they were accepted until now.
+    /// True if such steps have just ceased to be accepted.
     fn gives_up_trust(&self) -> bool {
         self.since % (2 * PATIENCE) == PATIENCE
     }
 }
 
-/// Lets the terms search and pair at `u`.
+/// Lets the terms search and update their pairing at `u`.
 fn prepare(terms: &mut [&mut dyn Linearized], u: &[f64]) -> Result<(), String> {
     terms.iter_mut().try_for_each(|term| term.prepare(u)).map_err(|e| e.to_string())
 }
 
-/// Largest displacement.
+/// Largest displacement in magnitude.
 fn largest(u: &[f64]) -> f64 {
     u.iter().fold(0.0, |m, x| m.max(x.abs()))
 }

@@ -1,18 +1,20 @@
-//! Length along a direction at which the work of the residual changes sign.
+//! Line search for the length at which the work of the residual along a direction changes sign.
 //!
-//! With d a direction and r(s) the residual at `u + s d`, `g(s) = d.r(s)` is the slope of the energy along d where there is
-//! one, and where friction leaves none it is still what resists the motion along d. A pair that closes or slips makes g rise
-//! steeply from there on, so that g has a kink and false position alone creeps up to it from one side.
+//! Let d be a direction and r(s) the residual at `u + s d`. `g(s) = d.r(s)` is the slope of the energy along d if there is an
+//! energy. With friction there is none, and g is still the resistance to the motion along d. A pair that closes or slips makes
+//! g rise steeply from there on. g then has a kink, and false position alone approaches the root slowly from one side.
 
-/// |g| over |g(0)| at which the search ends: the next direction is new anyway, and a sharper root does not lengthen its reach.
+/// Value of |g| over |g(0)| at which the search ends. The next direction differs anyway, and a more accurate root does not
+/// extend its reach.
 const NEAR: f64 = 0.1;
-/// Evaluations of one search: each second one halves the interval, which then is a thirtieth of the first at most.
+/// Most evaluations of one search. Every second one halves the interval, which is thus reduced to at most a thirtieth.
 const MOST: usize = 10;
 
-/// A length where `slope` is about zero, between `from` with a slope below 0 and `to` with one that is not (or not a number, where
-/// a state cannot be evaluated). The points are, in turn, the middle of what remains and a zero of a line: the chord, or once two
-/// points lie above, the line through those, which beyond a kink is the slope itself. Without `sharp` that line is left out: the
-/// search then ends some way beyond a steep kink, where all that closes together is closed.
+/// Finds a length at which `slope` is about zero, between `from` with a negative slope and `to` with one that is not negative
+/// (or is NaN, if the state cannot be evaluated). The trial points alternate between the middle of the interval and the zero of
+/// a line. The line is the chord or, once two points lie above zero, the line through those, which has the true slope beyond a
+/// kink. Without `sharp` only the chord is used. The search then ends some way beyond a steep kink, where all pairs that close
+/// together are closed.
 pub(super) fn root(
     (mut from, mut below): (f64, f64),
     (mut to, mut above): (f64, f64),
@@ -44,7 +46,7 @@ pub(super) fn root(
             (to, above) = (s, g);
         }
     }
-    // Short of the root nothing new has come into play; beyond it stands what the next tangent must know of.
+    // Short of the root no new contact has been met. The next tangent must include the contacts found beyond it.
     if above.is_finite() { to } else { from }
 }
 

@@ -16,7 +16,7 @@ use asperity_fem::FemError;
 use asperity_fem::assembly::System;
 use asperity_fem::term::{Instant, Linearized, Objection, Refusal, Term};
 
-/// Displacements of the system and where they stand in time.
+/// Displacements of the system and their time.
 #[derive(Clone, Debug)]
 pub struct State {
     /// Displacement per degree of freedom of the system \[m\].
@@ -28,34 +28,34 @@ pub struct State {
 /// Reason why a trial step failed. Nothing was committed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
-    /// The state was refused, or the iteration did not converge: a shorter step may do.
+    /// The state was refused, or the iteration did not converge. A shorter step may succeed.
     Refused(String),
-    /// Constraints were not met within the augmentations allowed. What is left shrinks with the step only in proportion, so that
-    /// shorter ones would continue for ever.
+    /// Constraints were not met within the allowed augmentations. The remaining violation shrinks only in proportion to the
+    /// step, so that halving would continue indefinitely.
     Violated(String),
     /// A linear system could not be solved.
     Unsolved {
         /// Reason.
         error: FemError,
-        /// True if it fails in steps of any length, so that a shorter one does not help.
+        /// True if steps of any length fail, so that a shorter one does not help.
         always: bool,
     },
-    /// The iteration leaves the model: next to nothing resists the motion that has its largest part in a degree of freedom.
+    /// The iteration leaves the model, since next to nothing resists the motion. Its largest component is given.
     Adrift {
-        /// The degree of freedom.
+        /// Degree of freedom of the largest component.
         dof: usize,
     },
-    /// The equations of the step hold, and friction coefficients are off by more than may stand.
+    /// The equations of the step hold, but the error of friction coefficients is too large.
     Inaccurate {
         /// Estimated error \[-\].
         error: f64,
     },
-    /// The equations of the step hold, and a term objects to their solution.
+    /// The equations of the step hold, but a term objects to their solution.
     Objected(Objection),
 }
 
 impl Failure {
-    /// Returns whether shorter steps fail as well.
+    /// True if shorter steps fail as well.
     #[must_use]
     pub fn always(&self) -> bool {
         match self {
@@ -66,13 +66,13 @@ impl Failure {
         }
     }
 
-    /// Returns whether a motion was found free.
+    /// True if a free motion was found.
     #[must_use]
     pub fn is_singular(&self) -> bool {
         matches!(self, Self::Unsolved { error, .. } if error.is_singular())
     }
 
-    /// A failure of the linear system of some terms.
+    /// Failure of the linear system of these terms.
     fn unsolved<T: Linearized + ?Sized>(error: FemError, terms: &[&mut T]) -> Self {
         Self::Unsolved { error, always: terms.iter().all(|t| t.constant_tangent().is_some()) }
     }
@@ -90,18 +90,18 @@ impl From<Refusal> for Failure {
     }
 }
 
-/// The first objection of a term to the step it has been solved for.
+/// Fails with the first objection of a term to the solved step.
 fn unopposed<T: Term + ?Sized>(terms: &[&mut T]) -> Result<(), Failure> {
     terms.iter().find_map(|t| t.objection()).map_or(Ok(()), |objection| Err(Failure::Objected(objection)))
 }
 
-/// Estimated error that a solved step leaves in friction coefficients, where it is no more than `bound`.
+/// Estimated error that a solved step leaves in friction coefficients; fails if it exceeds `bound`.
 fn accurate<T: Term + ?Sized>(terms: &mut [&mut T], bound: f64) -> Result<f64, Failure> {
     let error = terms.iter_mut().map(|t| t.error()).fold(0.0, f64::max);
     if error > bound { Err(Failure::Inaccurate { error }) } else { Ok(error) }
 }
 
-/// Work of a linear system before a step.
+/// Counts of a linear system before a step.
 #[derive(Clone, Copy)]
 struct Before {
     indefinite: usize,
@@ -113,7 +113,7 @@ impl Before {
         Self { indefinite: system.indefinite, iterations: system.iterations }
     }
 
-    /// Adds what was done since.
+    /// Adds the operations performed since.
     fn count(self, system: &System, counts: &mut Counts) {
         counts.indefinite += system.indefinite - self.indefinite;
         counts.linear_iterations += system.iterations - self.iterations;
@@ -141,9 +141,9 @@ pub struct Accepted {
     pub residual_ratio: f64,
     /// Estimated error of friction coefficients \[-\].
     pub error: f64,
-    /// The same as a forward step left it, before it was corrected \[-\].
+    /// Residual over the largest force that a forward step left before its correction \[-\].
     pub drift: f64,
-    /// Limit that set the length, where the stepper itself did.
+    /// Limit that set the length, if the stepper itself did.
     pub limited_by: Option<String>,
     /// Reason why the stepper shortened the step.
     pub cut: Cut,
@@ -152,21 +152,21 @@ pub struct Accepted {
 /// Reason why a stepper took a shorter step than requested.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Cut {
-    /// It did not.
+    /// The step was not shortened.
     #[default]
     Nothing,
-    /// Up to an event: the next step may be as long as was wanted.
+    /// The step ends at an event. The next one may be as long as was requested.
     Event,
-    /// Longer steps would not be accurate.
+    /// A longer step would not be accurate.
     Accuracy,
 }
 
-/// Sums residuals of terms, keeping the largest force any of them exerts.
+/// Sum of the residuals of terms, with the largest force of any term.
 #[derive(Debug, Default)]
 pub struct Balance {
     /// Residual of the system.
     pub r: Vec<f64>,
-    /// Largest component of a single term's forces: what the residual is measured against.
+    /// Largest component of a single term's forces, which the residual is compared with.
     pub largest_force: f64,
     part: Vec<f64>,
 }
@@ -199,7 +199,7 @@ impl Balance {
         Ok(())
     }
 
-    /// Largest residual over `free`, NaN when any is.
+    /// Largest residual over `free`; NaN if any entry is.
     #[must_use]
     pub fn largest_residual(&self, free: &[usize]) -> f64 {
         free.iter().map(|&d| self.r[d].abs()).fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a })

@@ -1,11 +1,12 @@
-//! The source's static-explicit stepper, with its equilibrium corrected: a forward solve with the rate tangent foresees the step, the
-//! R-minimum rule limits its length, and the terms answer what was foreseen by their own laws.
+//! The source's static-explicit stepper with its equilibrium corrected. A forward solve with the rate tangent predicts the
+//! step, the R-minimum rule limits its length, and the terms respond to the predicted increment with their own laws.
 //!
-//! With the a-term of the friction law, or a carried residual, the increment is affine in the step and not proportional to
-//! it, so that scaling it would not be exact: the step is solved again at `R dt` until no limit binds.
+//! With the a-term of the friction law or a carried residual, the increment is affine in the step length and not proportional
+//! to it, so scaling it would not be exact. The step is solved again at `R dt` until no limit binds.
 //!
-//! After the step gaps, friction laws and yield surfaces hold at every point. What the linearisation missed is the balance of
-//! forces: the drift. A small one is carried into the next step, a larger one is removed by Newton's method before the step stands.
+//! After the step gaps, friction laws and yield surfaces hold at every point. The error of the linearisation appears in the
+//! balance of forces as drift. A small drift is carried into the next step; a larger one is removed by Newton's method before
+//! the step is accepted.
 
 use super::implicit::Implicit;
 use super::{Accepted, Before, Cut, Failure, State, StepperState, accurate, unopposed};
@@ -14,58 +15,59 @@ use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{Fraction, Instant, Limited, Linearized, Pattern};
 
-/// A fraction this close to 1 does not bind: events within 1e-9 of the step's end switch with it.
+/// Fractions this close to 1 do not bind. Events within 1e-9 of the step's end switch with it.
 const WHOLE: f64 = 1.0 - 1e-9;
-/// Solves within one step. The fraction settles in two or three, and points that switch between stick and slip settle in as many; what
-/// has not settled by then is left to the correction.
+/// Most solves within one step. The fraction settles in two or three, and points that switch between stick and slip settle in
+/// as many. Anything unsettled by then is left to the correction.
 const MOST_SOLVES: usize = 12;
-/// Limits on the change of the slip rate and the slip increment are bounds on accuracy, not events: a step that keeps them
-/// to this share of the bound is taken as it is.
+/// Share of the bound to which steps are shortened by limits on the change of the slip rate and on the slip increment. These
+/// bound accuracy and are not events, so a step that meets them is taken as it is.
 const SOFT: f64 = 0.9;
-/// Share of the wanted length below which events do not shorten a step. Where they crowd, as in a rolling contact or a body that yields
-/// point by point, a step passes several of them, and the correction finds the state after all of them.
+/// Share of the requested length below which events do not shorten a step. Events may be dense, as in a rolling contact or a
+/// body that yields point by point. A step then passes several of them, and the correction finds the state after all of them.
 const LEAST: f64 = 0.05;
 
 /// Working memory of the stepper.
 #[derive(Debug)]
 pub struct StaticExplicit {
-    /// Owner of the linear system, and the corrector.
+    /// Corrector, which also owns the linear system.
     newton: Implicit,
     /// Residual over the largest force beyond which it is removed at once \[-\].
     drift: f64,
-    /// Residual left by the step before; empty before the first.
+    /// Residual left by the previous step \[N\]; empty before the first.
     left: Vec<f64>,
 }
 
 impl StaticExplicit {
-    /// A stepper that foresees with the system of `newton`, and corrects with it what is beyond `drift` of the largest force.
+    /// Makes a stepper that predicts with the system of `newton` and uses it to correct residuals above `drift` times the
+    /// largest force.
     #[must_use]
     pub fn new(newton: Implicit, drift: f64) -> Self {
         Self { newton, drift, left: Vec::new() }
     }
 
-    /// The linear system, for its counts.
+    /// Linear system, for its counts.
     #[must_use]
     pub fn system(&self) -> &System {
         self.newton.system()
     }
 
-    /// Steps that leave a larger error of friction coefficients are not accepted \[-\].
+    /// Sets the largest error of friction coefficients with which a step is accepted \[-\].
     pub fn set_bound(&mut self, bound: f64) {
         self.newton.set_bound(bound);
     }
 
-    /// Goes on with another stage.
+    /// Begins another stage.
     pub fn begin_stage(&mut self, symmetry: Symmetry) {
         self.newton.begin_stage(symmetry, false);
     }
 
-    /// Returns the values kept from step to step.
+    /// Values kept between steps.
     pub(super) fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState {
         StepperState { left: self.left.clone(), ..self.newton.save(terms) }
     }
 
-    /// Restores the values kept by a stepper of the same system, and returns whether they fit.
+    /// Restores the values kept by a stepper of the same system. Returns true if they fit.
     pub(super) fn restore(&mut self, saved: &StepperState, terms: &mut [&mut dyn Linearized]) -> bool {
         let dofs = self.system().equations().number.len();
         if !saved.left.is_empty() && saved.left.len() != dofs {
@@ -75,7 +77,7 @@ impl StaticExplicit {
         self.newton.restore(saved, terms)
     }
 
-    /// Takes a step of at most `dt.0`; where accuracy asks for less than `dt.1`, one of that length.
+    /// Takes a step of at most `dt.0`. If accuracy requires less than `dt.1`, the step has that length.
     ///
     /// # Errors
     /// [`Failure`]; the terms have discarded the trial.
@@ -96,8 +98,8 @@ impl StaticExplicit {
         result
     }
 
-    /// The increment of a step of at most `wanted` by the rate tangent, and the length that the R-minimum rule leaves it, accuracy no less
-    /// than `smallest`.
+    /// Predicts the increment of a step of at most `wanted` by the rate tangent, and the length left by the R-minimum rule.
+    /// Accuracy does not shorten it below `smallest`.
     fn foresee(
         &mut self,
         terms: &mut [&mut dyn Limited],
@@ -140,7 +142,7 @@ impl StaticExplicit {
         }
     }
 
-    /// Lets the terms answer the increment, and removes what is out of balance beyond the drift allowed.
+    /// Lets the terms respond to the increment, and removes an imbalance above the allowed drift.
     fn correct(
         &mut self,
         terms: &mut [&mut dyn Limited],
@@ -171,7 +173,7 @@ impl StaticExplicit {
         })
     }
 
-    /// Solves `K Δu = ΔF - r` over the step `at`, r what the step before left.
+    /// Solves `K Δu = ΔF - r` over the step `at`, with r the residual left by the previous step.
     fn solve(
         &mut self,
         terms: &mut [&mut dyn Limited],
@@ -206,7 +208,7 @@ impl StaticExplicit {
     }
 }
 
-/// A step before the terms have answered it.
+/// A predicted step to which the terms have not yet responded.
 struct Foreseen {
     at: Instant,
     du: Vec<f64>,
@@ -214,7 +216,8 @@ struct Foreseen {
     cause: Option<String>,
 }
 
-/// The length a limit leaves of a step of length `dt`, where `wanted` was requested and accuracy may require no less than `smallest`.
+/// Length that a limit leaves of a step of length `dt`, when `wanted` was requested and accuracy may require no less than
+/// `smallest`.
 fn shortened(limit: &Fraction, dt: f64, (wanted, smallest): (f64, f64)) -> f64 {
     let length = dt * limit.value;
     let length = match limit.limit {
@@ -251,7 +254,7 @@ fn add_product(pattern: &Pattern, values: &[f64], du: &[f64], r: &mut [f64]) {
     }
 }
 
-/// The smallest admissible fraction over all terms.
+/// Smallest admissible fraction over all terms.
 fn smallest(terms: &mut [&mut dyn Limited], du: &[f64], at: Instant) -> Option<Fraction> {
     let mut smallest: Option<Fraction> = None;
     for term in terms.iter_mut() {

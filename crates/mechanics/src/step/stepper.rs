@@ -1,4 +1,4 @@
-//! Steppers as one kind of object.
+//! Common interface of the steppers.
 
 use super::implicit::Implicit;
 use super::static_explicit::StaticExplicit;
@@ -8,12 +8,12 @@ use asperity_fem::assembly::{Symmetry, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::{Limited, Linearized};
 
-/// A stepper, whichever it is.
+/// A stepper of either kind.
 pub trait Stepper {
-    /// Goes on with another stage: what is known of its tangents, and whether all bodies are linear.
+    /// Begins another stage with this symmetry of its tangents. `linear` is true if all bodies are linear.
     fn begin_stage(&mut self, symmetry: Symmetry, linear: bool);
 
-    /// Tries a step of length `dt.0`; a forward one may be shorter, for accuracy no shorter than `dt.1`.
+    /// Tries a step of length `dt.0`. A forward step may be shorter, but for accuracy no shorter than `dt.1`.
     ///
     /// # Errors
     /// [`Failure`]; the terms have discarded the trial.
@@ -26,23 +26,23 @@ pub trait Stepper {
         counts: &mut Counts,
     ) -> Result<Accepted, Failure>;
 
-    /// Steps that leave a larger error of friction coefficients are not accepted \[-\].
+    /// Sets the largest error of friction coefficients with which a step is accepted \[-\].
     fn set_bound(&mut self, bound: f64);
 
-    /// The linear system, for its counts.
+    /// Linear system, for its counts.
     fn system(&self) -> &System;
 
-    /// Returns the values kept from step to step for these terms.
+    /// Values kept between steps for these terms.
     fn save(&self, terms: &[&mut dyn Linearized]) -> StepperState;
 
-    /// Restores the values kept by a stepper of the same terms, and returns whether they fit.
+    /// Restores the values kept by a stepper of the same terms. Returns true if they fit.
     fn restore(&mut self, saved: &StepperState, terms: &mut [&mut dyn Linearized]) -> bool;
 }
 
 impl Stepper for Implicit {
     fn begin_stage(&mut self, symmetry: Symmetry, linear: bool) {
-        // Bodies with a history do not continue at the previous rate when their loads reverse: a stepper with the rate of the stage before would
-        // begin far off.
+        // Bodies with a history do not continue at the previous rate when their loads reverse. A prediction at the rate of the
+        // previous stage would start far from the solution.
         Implicit::begin_stage(self, symmetry, linear);
     }
 

@@ -1,44 +1,44 @@
-//! The bodies of a system at work, condensed or not.
+//! The bodies of a system during a run, condensed or not.
 
 use crate::{CellBlock, Counts};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::Limited;
 use serde::{Deserialize, Serialize};
 
-/// The state of bodies.
+/// State of the bodies.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BodiesState {
     /// History of each block that has one.
     pub(super) histories: Vec<Vec<f64>>,
     /// Factorisations so far.
     pub(super) factorisations: usize,
-    /// Right-hand sides solved with them.
+    /// Right-hand sides solved with these factorisations.
     pub(super) solves: usize,
 }
 
-/// See the module.
+/// Operations of the bodies that the system needs.
 pub trait Bodies<const D: usize> {
-    /// Puts the loads and motions of a stage in force; `renewed` where other degrees of freedom are fixed than before.
+    /// Applies the loads and motions of a stage. `renewed` is true if the set of fixed degrees of freedom has changed.
     ///
     /// # Errors
-    /// The reason in words when a body cannot be factored.
+    /// A description if a body cannot be factorised.
     fn load(&mut self, constraints: &Constraints, renewed: bool) -> Result<(), String>;
 
-    /// Their terms in the system.
+    /// Terms of the bodies in the system.
     fn terms(&mut self) -> Vec<&mut dyn Limited>;
 
-    /// Displacement of all degrees of freedom of the mesh, for those of the system and the time \[s\].
+    /// Displacement of all degrees of freedom of the mesh, from those of the system and the time \[s\].
     fn displacement(&self, u: &[f64], time: f64) -> Vec<f64>;
 
     /// Blocks of the mesh in their present state.
     fn blocks(&self) -> &[CellBlock<D>];
 
-    /// Adds the work done outside the steps.
+    /// Adds operations performed outside the steps.
     fn add_counts(&self, counts: &mut Counts);
 
-    /// Committed histories, and counts of work.
+    /// Committed histories and counts of operations.
     fn save(&self) -> BodiesState;
 
-    /// Takes up what the same bodies saved; whether it fits.
+    /// Restores the saved state of the same bodies. Returns true if it fits.
     fn restore(&mut self, saved: &BodiesState) -> bool;
 }

@@ -1,4 +1,4 @@
-//! Bodies that are condensed onto the degrees of freedom of their interfaces.
+//! Bodies condensed onto the degrees of freedom of their interfaces.
 
 use super::bodies::{Bodies, BodiesState};
 use crate::solver::{self, Prepared};
@@ -8,7 +8,7 @@ use asperity_fem::condense::{Analysis, Condensation, Condensed};
 use asperity_fem::dof::{Channel, Constraints};
 use asperity_fem::term::Limited;
 
-/// One term a body, on its retained degrees of freedom; none before the first stage.
+/// One term per body, on its retained degrees of freedom; none before the first stage.
 pub struct CondensedBodies<'a, const D: usize> {
     problem: &'a Problem<D>,
     retained: Vec<Vec<usize>>,
@@ -18,7 +18,7 @@ pub struct CondensedBodies<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> CondensedBodies<'a, D> {
-    /// The bodies of a problem, which keep these degrees of freedom.
+    /// Takes the bodies of a problem, with the degrees of freedom that each retains.
     #[must_use]
     pub fn new(problem: &'a Problem<D>, retained: Vec<Vec<usize>>) -> Self {
         Self { problem, retained, terms: Vec::new(), factorisations: 0, solves: 0 }
@@ -66,7 +66,7 @@ impl<const D: usize> Bodies<D> for CondensedBodies<'_, D> {
 
     fn restore(&mut self, saved: &BodiesState) -> bool {
         self.factorisations = saved.factorisations;
-        // Those of the present factors have been made before.
+        // Solves with the present factors have already been counted.
         self.solves = saved.solves.saturating_sub(self.solves());
         saved.histories.is_empty()
     }

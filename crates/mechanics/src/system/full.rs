@@ -1,4 +1,4 @@
-//! Bodies whose degrees of freedom are all in the system.
+//! Bodies with all their degrees of freedom in the system.
 
 use super::bodies::{Bodies, BodiesState};
 use crate::{CellBlock, Counts, Model};
@@ -14,7 +14,7 @@ pub struct Full<const D: usize> {
 }
 
 impl<const D: usize> Full<D> {
-    /// The bodies of a model.
+    /// Takes the bodies of a model.
     #[must_use]
     pub fn new(model: &Model<D>) -> Self {
         Self { dofs: model.dofs(), blocks: model.blocks.clone(), loads: ExternalForces::new(Vec::new()) }

@@ -1,4 +1,4 @@
-//! A problem brought to life: terms, constraints, stepper and state.
+//! A problem assembled for stepping: terms, constraints, stepper and state.
 
 mod bodies;
 mod condensed;
@@ -24,7 +24,7 @@ use asperity_fem::assembly::{Iterative, NearNull, Storage, System};
 use asperity_fem::dof::Constraints;
 use asperity_fem::term::Limited;
 
-/// See the module.
+/// Terms, constraints, stepper and state of a problem.
 pub struct Assembled<'a, const D: usize> {
     problem: &'a Problem<D>,
     bodies: Box<dyn Bodies<D> + 'a>,
@@ -38,9 +38,9 @@ pub struct Assembled<'a, const D: usize> {
     state: State,
     /// Displacements of the mesh at the start of the present stage \[m\].
     begin: Vec<f64>,
-    /// Areas of the points of each interface at the start.
+    /// Areas of the points of each interface at the start \[m², m in two dimensions\].
     areas: Vec<Vec<f64>>,
-    /// Loads of the present stage beside those of each set whose force is wanted.
+    /// Loads of the present stage on the nodes of each requested set that do not belong to the set.
     beside: Vec<Beside>,
 }
 
@@ -48,7 +48,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     /// Builds interfaces and the numbering of the system.
     ///
     /// # Errors
-    /// The reason in words when an interface cannot be paired.
+    /// A description if an interface cannot be paired.
     pub fn new(problem: &'a Problem<D>) -> Result<Self, String> {
         let model = &problem.model;
         let (bodies, numbering): (Box<dyn Bodies<D> + 'a>, _) = match problem.path {
@@ -79,18 +79,17 @@ impl<'a, const D: usize> Assembled<'a, D> {
         })
     }
 
-    /// Puts the conditions of a stage in force. Bodies are factored again only where the set of fixed degrees of freedom
-    /// changed.
+    /// Applies the conditions of a stage. Bodies are factorised again only if the set of fixed degrees of freedom changes.
     ///
     /// # Errors
-    /// The reason in words when a body cannot be factored.
+    /// A description if a body cannot be factorised.
     pub fn begin_stage(&mut self, stage: &Stage) -> Result<(), String> {
         let start = self.fixed.is_none();
         let u0 = if start { vec![0.0; self.problem.model.dofs()] } else { self.displacement() };
         self.begin_from(stage, u0)
     }
 
-    /// The same from the displacements `u0` of the mesh.
+    /// Applies the conditions of a stage from the displacements `u0` of the mesh.
     fn begin_from(&mut self, stage: &Stage, u0: Vec<f64>) -> Result<(), String> {
         let problem = self.problem;
         let constraints = stage.constraints(&u0);
@@ -118,7 +117,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
 
     fn new_stepper(&self) -> Result<Box<dyn Stepper>, String> {
         let problem = self.problem;
-        // Forces are computed from positions in finite sliding and large deformation, which are of the size of the scene.
+        // In finite sliding and large deformation forces are computed from positions, which are of the size of the scene.
         let position = if problem.moves() { problem.model.scale } else { 0.0 };
         let travel = problem.stages.iter().map(Stage::travel).sum();
         let newton = Implicit::new(self.linear_system()?, position, problem.model.scale, travel);
@@ -128,7 +127,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
         })
     }
 
-    /// An empty system of the method of the problem.
+    /// Empty system for the solution method of the problem.
     fn linear_system(&self) -> Result<System, String> {
         let equations = self.constraints.equations(self.state.u.len());
         let (model, solver) = (&self.problem.model, &self.problem.solver);
@@ -150,10 +149,10 @@ impl<'a, const D: usize> Assembled<'a, D> {
         })
     }
 
-    /// Tries a step of length `dt`; a forward one may be shorter, for accuracy no shorter than `smallest`.
+    /// Tries a step of length `dt`. A forward step may be shorter, but for accuracy no shorter than `smallest`.
     ///
     /// # Errors
-    /// [`Failure`]; nothing was committed.
+    /// [`Failure`], in which case nothing was committed.
     pub fn step(&mut self, (dt, smallest): (f64, f64), counts: &mut Counts) -> Result<Accepted, Failure> {
         let Some(stepper) = &mut self.stepper else {
             return Err(Failure::Refused("no stage has begun".into()));
@@ -163,7 +162,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
         stepper.step(&mut terms, &self.constraints, &mut self.state, (dt, smallest), counts)
     }
 
-    /// Steps that leave a larger error of friction coefficients are not accepted \[-\].
+    /// Sets the largest error of friction coefficients with which a step is accepted \[-\].
     pub fn set_bound(&mut self, bound: f64) {
         if let Some(stepper) = &mut self.stepper {
             stepper.set_bound(bound);
@@ -176,7 +175,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
         self.state.time
     }
 
-    /// Corrects the time by rounding.
+    /// Corrects the time for rounding \[s\].
     pub fn set_time(&mut self, time: f64) {
         self.state.time = time;
     }
@@ -187,8 +186,8 @@ impl<'a, const D: usize> Assembled<'a, D> {
         self.interfaces.iter().flat_map(|i| i.points().slip_rate.iter().copied()).collect()
     }
 
-    /// Estimated error of slip of the last step: what the trapezoidal rule over the rates of both ends would slip differently \[m\]. After
-    /// backward Euler this is half the change of V times the step.
+    /// Estimated error of slip in the last step: the difference to the slip by the trapezoidal rule over the rates at both ends
+    /// \[m\]. After backward Euler it is half the change of V times the step.
     #[must_use]
     pub fn slip_error(&self, before: &[f64], dt: f64) -> f64 {
         let increments = self.interfaces.iter().flat_map(|i| i.points().signed_increments());
@@ -200,13 +199,13 @@ impl<'a, const D: usize> Assembled<'a, D> {
             .fold(0.0, f64::max)
     }
 
-    /// Slip of the last step over the largest that the laws allow a step \[-\].
+    /// Slip of the last step over the largest slip per step that the laws allow \[-\].
     #[must_use]
     pub fn slip_fill(&self) -> f64 {
         self.interfaces.iter().map(Interface::fill).fold(0.0, f64::max)
     }
 
-    /// The interfaces.
+    /// Interfaces of the system.
     #[must_use]
     pub fn interfaces(&self) -> &[Interface<D>] {
         &self.interfaces
@@ -224,13 +223,13 @@ impl<'a, const D: usize> Assembled<'a, D> {
         self.bodies.displacement(&self.state.u, self.state.time)
     }
 
-    /// Areas of the points of each interface at the start.
+    /// Areas of the points of each interface at the start \[m², m in two dimensions\].
     #[must_use]
     pub fn areas(&self) -> &[Vec<f64>] {
         &self.areas
     }
 
-    /// Resolution of the cohesive zone by the points of the interface of this name, where friction weakens on it.
+    /// Resolution of the cohesive zone by the points of the interface of this name, if its friction weakens.
     #[must_use]
     pub fn resolved(&self, interface: &str) -> Option<&Resolved> {
         self.problem.interfaces.iter().find(|i| i.name == interface)?.resolved.as_ref()
@@ -242,7 +241,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
         self.bodies.blocks()
     }
 
-    /// Present values at the points and sets that are looked at; costs a solve on the condensed path.
+    /// Present values at the requested points and sets. On the condensed path this costs a solve.
     #[must_use]
     pub fn samples(&self) -> Samples {
         let (problem, wanted) = (self.problem, &self.problem.samples);
@@ -254,7 +253,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
         wanted.values(&problem.model, bodies, (&now.0, now.1), &self.beside)
     }
 
-    /// Adds the work done outside the steps.
+    /// Adds operations performed outside the steps.
     pub fn add_counts(&self, counts: &mut Counts) {
         self.bodies.add_counts(counts);
         for work in self.interfaces.iter().map(Interface::work) {
@@ -265,7 +264,7 @@ impl<'a, const D: usize> Assembled<'a, D> {
     }
 }
 
-/// An interface as a term of the system; its multipliers that are unknowns are numbered from `unknowns`.
+/// Interface as a term of the system. Multipliers that are unknowns are numbered from `unknowns`.
 fn interface<const D: usize>(
     problem: &Problem<D>,
     planned: &PlannedInterface,

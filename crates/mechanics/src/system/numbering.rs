@@ -1,30 +1,30 @@
-//! Numbers of degrees of freedom in the system of a step.
+//! Numbering of degrees of freedom in the system of a step.
 
 use crate::Model;
 use asperity_fem::dof::{Channel, Constraints};
 
-/// Numbers of those that are condensed away.
+/// Number assigned to degrees of freedom that are condensed out.
 const NONE: usize = usize::MAX;
 
-/// See the module.
+/// Relation of the degrees of freedom of the system to those of the mesh.
 pub struct Numbering {
     /// System number of each degree of freedom of the mesh.
     pub number: Vec<usize>,
     /// Mesh node of each node of the system.
     pub nodes: Vec<usize>,
-    /// Degrees of freedom of the system.
+    /// Number of degrees of freedom of the system.
     pub dofs: usize,
 }
 
 impl Numbering {
-    /// All degrees of freedom, as in the mesh.
+    /// Numbering of all degrees of freedom, as in the mesh.
     #[must_use]
     pub fn full<const D: usize>(model: &Model<D>) -> Self {
         let dofs = model.dofs();
         Self { number: (0..dofs).collect(), nodes: (0..model.mesh.nodes.len()).collect(), dofs }
     }
 
-    /// Those that bodies keep when they are condensed, in mesh numbering.
+    /// Numbering of the degrees of freedom `retained` in condensation, which are given in mesh numbering.
     #[must_use]
     pub fn condensed<const D: usize>(model: &Model<D>, retained: &[Vec<usize>]) -> Self {
         let mut number = vec![NONE; model.dofs()];
@@ -38,7 +38,7 @@ impl Numbering {
         Self { number, nodes, dofs }
     }
 
-    /// Prescribed values of the system under constraints; forces act on the bodies.
+    /// Prescribed values of the system for these constraints. Forces are left out, since they act on the bodies.
     #[must_use]
     pub fn constraints(&self, constraints: &Constraints) -> Constraints {
         let map = |dof: usize| Some(self.number[dof]).filter(|&n| n != NONE);

@@ -1,5 +1,5 @@
-//! The state of a system between two steps, as values: what a run that is resumed needs to take the same steps, bit for bit, as if it had
-//! never been interrupted.
+//! State of a system between two steps, as serialisable values. A run resumed from it takes the same steps, bit for bit, as if
+//! it had never been interrupted.
 
 use super::Assembled;
 use super::bodies::BodiesState;
@@ -10,14 +10,14 @@ use asperity_fem::term::{Limited, Linearized, Saved as _};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// See the module.
+/// State of a system between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SystemState {
     /// Time \[s\].
     time: f64,
-    /// Unknowns of the system: displacements \[m\], then multipliers where they are unknowns.
+    /// Unknowns of the system: displacements \[m\], followed by multipliers if they are unknowns.
     unknowns: Vec<f64>,
-    /// Displacements of the mesh when the present stage began \[m\].
+    /// Displacements of the mesh at the start of the present stage \[m\].
     begin: Vec<f64>,
     bodies: BodiesState,
     /// Interfaces, in the order of the problem.
@@ -33,28 +33,28 @@ impl SystemState {
     }
 }
 
-/// Reason why a state is not that of a system.
+/// Reason why a state does not fit a system.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mismatch {
-    /// The number of unknowns is another.
+    /// The numbers of unknowns differ.
     Unknowns {
-        /// Of the state.
+        /// Number in the state.
         found: usize,
-        /// Of the system.
+        /// Number in the system.
         expected: usize,
     },
-    /// The number of nodes or the histories of cells are others.
+    /// The numbers of nodes or the histories of cells differ.
     Bodies,
-    /// The number of interfaces is another.
+    /// The numbers of interfaces differ.
     Interfaces {
-        /// In the state.
+        /// Number in the state.
         found: usize,
-        /// In the system.
+        /// Number in the system.
         expected: usize,
     },
-    /// An interface has other points, another measure or another law.
+    /// An interface has different points, another measure or another law.
     Interface(String),
-    /// The linear system is another.
+    /// The linear systems differ.
     Stepper,
     /// The stage cannot be set up.
     SetUp(String),
@@ -80,7 +80,7 @@ impl fmt::Display for Mismatch {
 impl std::error::Error for Mismatch {}
 
 impl<const D: usize> Assembled<'_, D> {
-    /// The state between two steps of the present stage.
+    /// State between two steps of the present stage.
     #[must_use]
     pub fn save(&mut self) -> SystemState {
         let interfaces = self.interfaces.iter().map(asperity_fem::term::Saved::save).collect();
@@ -103,10 +103,10 @@ impl<const D: usize> Assembled<'_, D> {
         }
     }
 
-    /// Takes up a state of the same problem, in the stage in which it was saved.
+    /// Restores a state of the same problem, in the stage in which it was saved.
     ///
     /// # Errors
-    /// [`Mismatch`] where it is the state of another problem; what was restored until then is of no use.
+    /// [`Mismatch`] if it is the state of another problem. The system is then only partly restored and must not be used.
     pub fn restore(&mut self, stage: &Stage, saved: &SystemState) -> Result<(), Mismatch> {
         let (found, expected) = (saved.unknowns.len(), self.state.u.len());
         if found != expected {

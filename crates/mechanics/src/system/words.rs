@@ -4,7 +4,7 @@ use super::Assembled;
 use crate::{Failure, free};
 
 impl<const D: usize> Assembled<'_, D> {
-    /// A failed step in words: degrees of freedom by body and place.
+    /// Describes a failed step, with degrees of freedom given by body and position.
     #[must_use]
     pub fn in_words(&self, failure: &Failure) -> String {
         match failure {
@@ -28,12 +28,12 @@ impl<const D: usize> Assembled<'_, D> {
         }
     }
 
-    /// A penalty so large that iterations suffer, in words.
+    /// Description of a penalty so large that it slows the iterations, if there is one.
     pub fn blamed(&self) -> Option<&str> {
         self.problem.interfaces.iter().find_map(|i| i.blamed.as_deref())
     }
 
-    /// Describes the traction that an unknown stands for, where it is a multiplier.
+    /// Describes the traction that an unknown represents, if it is a multiplier.
     fn multiplier_in_words(&self, unknown: usize, nodes: &[usize]) -> Option<String> {
         let mut first = nodes.len() * self.problem.model.idealisation.components();
         for (planned, interface) in self.problem.interfaces.iter().zip(&self.interfaces) {
@@ -56,7 +56,7 @@ impl<const D: usize> Assembled<'_, D> {
         (self.numbering.nodes[dof / components], dof % components)
     }
 
-    /// The motion that the system assembled last does not resist, in words, where there is one.
+    /// Description of a motion that the system assembled last does not resist, if there is one.
     #[must_use]
     pub fn free_motion(&self) -> Option<String> {
         let system = self.stepper.as_ref()?.system();

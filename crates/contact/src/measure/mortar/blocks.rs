@@ -1,8 +1,8 @@
 //! The tangent of mortar contact in finite sliding, block by block.
 //!
-//! A point's force on node k is `w_k f`, w its weights there. They change with the overlap, and f with the averaged distance, which changes
-//! with the overlap and with the nodes. The former is added up over the cells beside the point, column by column of its block, before
-//! the force's change is spread once.
+//! The force of a point on node k is `w_k f` with w its weights. They change with the overlap; f changes with the averaged
+//! distance, which depends on the overlap and on the nodes. The change of the distance with the overlap is first summed over
+//! the adjacent cells, column by column of the block. The change of the force is then distributed to the nodes once.
 
 use super::cell::{Sums, integrate};
 use super::local::{Change, Traction};
@@ -13,21 +13,21 @@ use crate::measure::Tractions;
 use crate::vector::{axpy, scaled};
 use std::sync::PoisonError;
 
-/// Numbers that vary in a cell of the plane: two facets of two nodes.
+/// Number of variables in a cell of the plane: two coordinates of the two nodes of two facets.
 const LINES: usize = 8;
 
 /// Blocks of one piece of the work order.
 struct Blocks<'a, const D: usize> {
     piece: usize,
-    /// Start of the first of them among all values.
+    /// Start of the first block among all values.
     start: usize,
     values: &'a mut [f64],
-    /// Changes of the averaged distance of each point with the overlap, by columns.
+    /// Changes of each point's averaged distance with the overlap, by column.
     slides: &'a mut [[f64; D]],
 }
 
 impl<const D: usize> Blocks<'_, D> {
-    /// The block of a point of the piece, and its changes of the averaged distance.
+    /// Block of a point of the piece, and the changes of its averaged distance.
     #[inline]
     fn of(&mut self, point: &Point) -> (&mut [f64], &mut [[f64; D]]) {
         let (at, size) = (point.at - self.start, point.nodes.len() * D);
@@ -36,7 +36,7 @@ impl<const D: usize> Blocks<'_, D> {
 }
 
 impl<const D: usize> Finite<D> {
-    /// Blocks of the pieces `from..to` of the work order.
+    /// Writes the blocks of the pieces `from..to` of the work order.
     pub(super) fn blocks(&self, (from, to): (usize, usize), tractions: &Tractions<'_>, values: &mut [f64]) {
         let start = |piece: usize| self.order.points(piece).first().map_or(0, |&p| self.points[p].at);
         if to - from > 1 {
@@ -76,7 +76,8 @@ impl<const D: usize> Finite<D> {
         }
     }
 
-    /// Derivatives of the weights of a cell, by rows; the master's without their sign. False where the facets do not meet.
+    /// Computes the derivatives of the weights of a cell in the plane, by row; those of the master without their sign. Returns
+    /// false if the facets do not overlap.
     fn slopes_of_lines(&self, c: &Cell, out: &mut Derivatives) -> bool {
         let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
         let (s, m) = (facet.nodes.len(), master.nodes.len());
@@ -98,7 +99,7 @@ impl<const D: usize> Finite<D> {
         true
     }
 
-    /// See [`Finite::slopes_of_lines`].
+    /// Computes the derivatives of the weights of a cell in space, in the layout of [`Finite::slopes_of_lines`].
     fn slopes_of_faces(&self, c: &Cell, out: &mut Derivatives) -> bool {
         let overlaps = self.in_space(c, |facets| {
             let mut raw = [[[[0.0; 3]; BOTH]; BOTH]; NODES];
@@ -120,7 +121,7 @@ impl<const D: usize> Finite<D> {
         true
     }
 
-    /// Adds the part of the changing overlap of a cell to the blocks of its points that belong to the piece.
+    /// Adds the contribution of a cell's changing overlap to the blocks of those of its points that belong to the piece.
     fn overlap_tangent(
         &self,
         c: &Cell,
@@ -131,7 +132,7 @@ impl<const D: usize> Finite<D> {
         let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
         let (s, m) = (facet.nodes.len(), master.nodes.len());
         let (own, other) = self.gather(c);
-        // Slots of the slave's nodes, then of the master's.
+        // Slots of the slave's nodes, followed by those of the master.
         let slots = || (0..s).chain(NODES..NODES + m);
         for (a, &p) in facet.weighting.points.iter().enumerate() {
             let traction = traction_of(tractions, p);
@@ -146,7 +147,7 @@ impl<const D: usize> Finite<D> {
             let share = point.area.recip();
             for (k, &place) in slots().zip(places) {
                 let sign = if k < NODES { 1.0 } else { -1.0 };
-                // Weight times distance from the mean: the slave's weights change the area too.
+                // Weight times distance from the mean, since the slave's weights change the area too.
                 let mut arm = if k < NODES { own[k] } else { other[k - NODES] };
                 if k < NODES {
                     axpy(&mut arm, -1.0, &local.d);
@@ -165,7 +166,7 @@ impl<const D: usize> Finite<D> {
         }
     }
 
-    /// Adds the motion of a point's nodes at fixed weights, and the change of its averaged distance, to its block.
+    /// Adds to a point's block the motion of its nodes at fixed weights and the change of its averaged distance.
     fn point_tangent(&self, p: usize, traction: &Traction<'_>, blocks: &mut Blocks<'_, D>) {
         let (point, local) = (&self.points[p], &self.locals[p]);
         let (block, slides) = blocks.of(point);
@@ -185,7 +186,7 @@ impl<const D: usize> Finite<D> {
                 slides[column] = local.force_change(traction, &change);
             }
         }
-        // Minus weight δf of every node, row by row.
+        // Subtract weight times δf for every node, row by row.
         for (k, &w) in point.weights.iter().enumerate().filter(|(_, w)| **w != 0.0) {
             for (i, row) in block[k * D * size..(k + 1) * D * size].chunks_exact_mut(size).enumerate() {
                 row.iter_mut().zip(slides.iter()).for_each(|(r, df)| *r -= w * df[i]);
@@ -208,12 +209,12 @@ pub(super) fn traction_of<'a>(tractions: &Tractions<'a>, p: usize) -> Traction<'
     }
 }
 
-/// Positions whose coordinates are the variables from `first` on.
+/// Positions whose coordinates are the variables numbered from `first`.
 fn seeded<const D: usize, const M: usize>(x: &[[f64; D]; NODES], first: usize) -> [[Dual<M>; D]; NODES] {
     std::array::from_fn(|k| {
         std::array::from_fn(|i| {
             let mut d = [0.0; M];
-            // Slots beyond a facet's nodes are not used.
+            // Slots beyond a facet's nodes are unused.
             if let Some(one) = d.get_mut(first + k * D + i) {
                 *one = 1.0;
             }

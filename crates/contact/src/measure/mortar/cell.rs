@@ -1,9 +1,9 @@
-//! The overlap of a slave with a master facet, integrated.
+//! Integrals over the overlap of a slave facet with a master facet.
 //!
-//! Both are projected along the slave facet's normal onto its (mean) plane, where they are polygons (in two dimensions
-//! intervals) and meet in a polygon. At each Gauss point of its triangles the natural coordinates on either facet follow
-//! from the position in the plane. The measure is the reference area of the slave, `w J_0/J` (times 2 π r about an axis), so
-//! that tractions are forces per reference area, as those of bodies and of node-to-point contact are.
+//! Both facets are projected along the slave facet's normal onto its (mean) plane. There they are polygons (in two dimensions
+//! intervals), and so is their intersection. At each Gauss point of its triangles the natural coordinates on either facet
+//! follow from the position in the plane. The measure is the reference area of the slave, `w J_0/J` (times 2 π r about an
+//! axis). Tractions are thus forces per reference area, as they are for bodies and in node-to-point contact.
 
 use super::clip::{Polygon, twice_area};
 use super::rule::Rule;
@@ -13,31 +13,31 @@ use crate::SegmentKind;
 use crate::shape::{MOST_NODES, Shape, shape};
 use crate::vector::dot;
 
-/// Newton iterations for natural coordinates: those of facets without re-entrant corners converge in 3 to 6.
+/// Most Newton iterations for natural coordinates. Facets without re-entrant corners converge in 3 to 6.
 const ITERATIONS: usize = 30;
 
-/// A step in natural coordinates below this one has converged: a few units of rounding.
+/// Step in natural coordinates below which the iteration has converged: a few units of rounding.
 const CONVERGED: f64 = 1e-15;
 
-/// Pieces smaller than this share of the slave facet are rounding of coinciding edges.
+/// Pieces smaller than this share of the slave facet result from rounding of coinciding edges.
 const SLIVER: f64 = 1e-15;
 
-/// Data of a slave facet that are the same in all configurations.
+/// Data of a slave facet that do not depend on the configuration.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frozen<'a, const D: usize> {
     pub kind: SegmentKind,
     pub weighting: &'a Weighting,
-    /// Reference positions of its nodes.
+    /// Reference positions of the facet's nodes.
     pub reference: &'a [[f64; D]],
     pub axisymmetric: bool,
 }
 
-/// Integrals over the overlap: row a is a point of the slave facet.
+/// Integrals over the overlap. Row a belongs to a point of the slave facet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sums<T, const N: usize> {
-    /// ∫ ψ_a N_B.
+    /// Integrals ∫ ψ_a N_B over slave nodes.
     pub own: [[T; N]; N],
-    /// ∫ ψ_a N_γ, master.
+    /// Integrals ∫ ψ_a N_γ over master nodes.
     pub other: [[T; N]; N],
 }
 
@@ -47,7 +47,7 @@ impl<T: Scalar, const N: usize> Sums<T, N> {
     }
 }
 
-/// One pair of facets in the plane of the slave.
+/// A pair of facets in the plane of the slave.
 struct Pair<'a, T, const D: usize, const N: usize> {
     frozen: Frozen<'a, D>,
     slave: [[T; 2]; N],
@@ -55,8 +55,8 @@ struct Pair<'a, T, const D: usize, const N: usize> {
     master: [[T; 2]; N],
 }
 
-/// Integrates the overlap of a slave facet at `x` with a master facet at `y`; false where there is none. Sums that cannot be
-/// computed (a degenerate facet) are not numbers.
+/// Integrates the overlap of a slave facet at `x` with a master facet at `y`. Returns false if there is none. Sums that cannot
+/// be computed (a degenerate facet) are NaN.
 pub(super) fn integrate<T: Scalar, const D: usize, const N: usize>(
     frozen: Frozen<'_, D>,
     x: &[[T; D]],
@@ -78,10 +78,10 @@ pub(super) fn integrate<T: Scalar, const D: usize, const N: usize>(
 }
 
 impl<T: Scalar, const D: usize, const N: usize> Pair<'_, T, D, N> {
-    /// Two dimensions: the common interval.
+    /// Integrates over the common interval, in two dimensions.
     fn interval(&self, gauss: &[[f64; 2]], sums: &mut Sums<T, N>) -> bool {
         let (a, b) = (self.slave[0][0], self.slave[1][0]);
-        // The master's sense is opposite.
+        // The master runs in the opposite direction.
         let (c, d) = (self.master[1][0], self.master[0][0]);
         let from = if c.value() > a.value() { c } else { a };
         let to = if d.value() < b.value() { d } else { b };
@@ -95,7 +95,7 @@ impl<T: Scalar, const D: usize, const N: usize> Pair<'_, T, D, N> {
         true
     }
 
-    /// Three dimensions: the common polygons of all parts, as fans of triangles.
+    /// Integrates over the common polygons of all parts as fans of triangles, in three dimensions.
     fn polygons(&self, rule: &Rule, sums: &mut Sums<T, N>) -> bool {
         let mut found = false;
         let whole = |part: &Polygon<T>| {
@@ -155,7 +155,7 @@ impl<T: Scalar, const D: usize, const N: usize> Pair<'_, T, D, N> {
         }
     }
 
-    /// Reference area per area of the plane, times 2 π r about an axis.
+    /// Ratio of the reference area to the area in the plane, times 2 π r about an axis.
     fn density(&self, s: &Shape, xi: &[T; 2]) -> T {
         let nodes = self.frozen.kind.nodes();
         let flat = bases(s, xi, nodes, |k| self.slave[k]);
@@ -182,7 +182,7 @@ impl<T: Scalar, const D: usize, const N: usize> Pair<'_, T, D, N> {
     }
 }
 
-/// N_k with derivatives.
+/// Shape function N_k with derivatives.
 #[inline]
 fn value<T: Scalar>(s: &Shape, k: usize, xi: &[T; 2]) -> T {
     T::chain(s.value[k], [s.first[0][k], s.first[1][k]], xi)
@@ -218,8 +218,8 @@ pub(super) fn inner<T: Scalar, const L: usize>(a: &[T; L], b: &[T; L]) -> T {
     s
 }
 
-/// Origin and orthonormal base of the plane a facet is projected on: through its first node, normal to its chord, or to the
-/// sum of its corners' normals, so that the projection runs counter-clockwise.
+/// Origin and orthonormal basis of the plane on which a facet is projected. The plane passes through the first node, normal to
+/// the sum of the corners' normals (in two dimensions along the chord), so that the projection runs counter-clockwise.
 fn plane<T: Scalar, const D: usize>(kind: SegmentKind, x: &[[T; D]]) -> ([T; D], [[T; D]; 2]) {
     let minus = |a: &[T; D], b: &[T; D]| -> [T; D] { std::array::from_fn(|i| a[i] - b[i]) };
     let over = |a: [T; D], c: T| -> [T; D] { a.map(|v| v / c) };
@@ -246,8 +246,8 @@ fn cross<T: Scalar, const D: usize>(a: &[T; D], b: &[T; D]) -> [T; D] {
     })
 }
 
-/// Natural coordinates of a point of the plane. The values are found by Newton's method; one step more with the numbers
-/// themselves then gives the derivatives of the implicit function.
+/// Natural coordinates of a point of the plane. The values are found by Newton's method. One further step in the numbers
+/// themselves gives the derivatives of the implicit function.
 fn locate<T: Scalar, const D: usize>(kind: SegmentKind, x: &[[T; 2]], y: &[T; 2]) -> [T; 2] {
     let target = [y[0].value(), y[1].value()];
     let mut xi =
@@ -287,8 +287,8 @@ fn locate<T: Scalar, const D: usize>(kind: SegmentKind, x: &[[T; 2]], y: &[T; 2]
     std::array::from_fn(|m| T::of(xi[m]) + off[0].times(inverse[m][0]) + off[1].times(inverse[m][1]))
 }
 
-/// Convex parts of a facet, corners in natural coordinates: itself when of first order, a fan of triangles about its centre
-/// through the mid-nodes otherwise.
+/// Convex parts of a facet, with corners in natural coordinates. A first-order facet is its own part. A second-order facet is
+/// divided into a fan of triangles about its centre through the mid-nodes.
 fn parts(kind: SegmentKind) -> &'static [&'static [[f64; 2]]] {
     const C: [f64; 2] = [1.0 / 3.0; 2];
     const O: [f64; 2] = [0.0; 2];
@@ -317,7 +317,7 @@ fn parts(kind: SegmentKind) -> &'static [&'static [[f64; 2]]] {
     }
 }
 
-/// A part in the plane.
+/// Outline of a part in the plane.
 fn outline<T: Scalar, const N: usize>(kind: SegmentKind, x: &[[T; 2]; N], part: &[[f64; 2]]) -> Polygon<T> {
     let mut out = Polygon::empty();
     if kind.first_order() {
@@ -337,7 +337,7 @@ fn outline<T: Scalar, const N: usize>(kind: SegmentKind, x: &[[T; 2]; N], part: 
     out
 }
 
-/// True if the boxes of two polygons are apart.
+/// True if the bounding boxes of two polygons do not overlap.
 fn apart<T: Scalar>(a: &Polygon<T>, b: &Polygon<T>) -> bool {
     let range = |p: &Polygon<T>, i: usize| {
         p.at[..p.corners]

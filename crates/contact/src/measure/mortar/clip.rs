@@ -1,8 +1,9 @@
-//! Intersection of convex polygons in a plane (Sutherland and Hodgman 1974), with derivatives where the numbers carry them.
+//! Intersection of convex polygons in a plane (Sutherland and Hodgman 1974), with derivatives if the numbers carry them.
 
 use super::scalar::Scalar;
 
-/// Corners of an intersection of two quadrilaterals are 8 at most, since each cut adds one; two are spare for rounding.
+/// Largest number of corners. The intersection of two quadrilaterals has at most 8, since each cut adds one; two are spare for
+/// rounding.
 const MOST_CORNERS: usize = 10;
 
 /// A convex polygon, counter-clockwise.
@@ -25,12 +26,12 @@ impl<T: Scalar> Polygon<T> {
         }
     }
 
-    /// Reverses the sense of rotation.
+    /// Reverses the orientation.
     pub(super) fn reverse(&mut self) {
         self.at[..self.corners].reverse();
     }
 
-    /// The part inside the convex polygon `other`.
+    /// Part of the polygon inside the convex polygon `other`.
     pub(super) fn clipped(&self, other: &Self) -> Self {
         let mut out = *self;
         for k in 0..other.corners {
@@ -43,7 +44,7 @@ impl<T: Scalar> Polygon<T> {
         out
     }
 
-    /// Triangles that make it up: about its centroid, else about its first corner.
+    /// Triangles of a fan that covers the polygon, about its centroid or else about its first corner.
     pub(super) fn fan(&self, centred: bool) -> impl Iterator<Item = [[T; 2]; 3]> {
         let apex = if centred { self.centroid() } else { self.at[0] };
         let first = if centred { 0 } else { 1 };
@@ -51,7 +52,7 @@ impl<T: Scalar> Polygon<T> {
         (first..last.max(first)).map(move |k| [apex, self.at[k], self.at[(k + 1) % self.corners]])
     }
 
-    /// Centroid of its area.
+    /// Centroid of the polygon's area.
     fn centroid(&self) -> [T; 2] {
         let o = self.at[0];
         let mut whole = T::of(0.0);
@@ -66,7 +67,7 @@ impl<T: Scalar> Polygon<T> {
         std::array::from_fn(|i| o[i] + sum[i] * share)
     }
 
-    /// The part left of the line from `a` to `b`.
+    /// Part of the polygon left of the line from `a` to `b`.
     fn left_of(&self, a: &[T; 2], b: &[T; 2]) -> Self {
         let mut out = Self::empty();
         let side = |p: &[T; 2]| twice_area(a, b, p);

@@ -1,11 +1,11 @@
-//! Dual functions on facets of first order that face the master everywhere.
+//! Dual functions on first-order facets that face the master everywhere.
 //!
-//! `Φ_a = Σ_b A_ab N_b` with `A = diag(m) M⁻¹`, `M_ab = ∫N_a N_b`, `m_a = ∫N_a` over the facet, so that
-//! `∫Φ_a N_b = δ_ab m_a` (Wohlmuth 2000) in the very quadrature the overlap has. They are a partition of unity, since
-//! `1ᵀA = mᵀM⁻¹ = 1ᵀ`, have the areas of the shape functions, and couple a slave point to its own node alone: the traction of a
-//! point is the force on its node over its area and ends at the last node in contact, where shape functions carry it one facet
-//! further. They are negative in places; a facet partly beyond the master's rim keeps its shape functions, since duals of a part of a
-//! facet grow without bound as the part shrinks.
+//! `Φ_a = Σ_b A_ab N_b` with `A = diag(m) M⁻¹`, `M_ab = ∫N_a N_b`, `m_a = ∫N_a` over the facet, so that `∫Φ_a N_b = δ_ab m_a`
+//! (Wohlmuth 2000) in the same quadrature as the overlap. The duals are a partition of unity, since `1ᵀA = mᵀM⁻¹ = 1ᵀ`, and
+//! have the areas of the shape functions. They couple a slave point to its own node alone. The traction of a point is the force
+//! on its node over its area. It ends at the last node in contact; with shape functions it extends one facet further. Duals are
+//! negative in places. A facet partly beyond the master's rim keeps its shape functions, since the duals of part of a facet
+//! grow without bound as the part shrinks.
 //!
 //! Wohlmuth, B. I. (2000), A mortar finite element method using dual spaces for the Lagrange multiplier, SIAM Journal on Numerical
 //! Analysis 38, 989-1012.
@@ -15,14 +15,13 @@ use super::rule::Rule;
 use crate::shape::MOST_NODES;
 use nalgebra::DMatrix;
 
-/// Share of a facet that may lie beyond the master: rounding of rims that coincide.
+/// Share of a facet that may lie beyond the master, for the rounding of coinciding rims.
 const UNFACED: f64 = 1e-9;
 
-/// The integrals of a facet with one master facet.
+/// Integrals of a facet with one master facet.
 pub(super) type Part = (usize, Sums<f64, MOST_NODES>);
 
-/// Replaces the shape functions by their duals in the integrals of a facet at `x` with all its master facets, where it has
-/// duals.
+/// Replaces the shape functions by their duals in the integrals of a facet at `x` with all its master facets, if it has duals.
 pub(super) fn dualise<const D: usize>(
     frozen: Frozen<'_, D>,
     x: &[[f64; D]],
@@ -45,7 +44,7 @@ pub(super) fn dualise<const D: usize>(
     }
 }
 
-/// Area of the whole facet: its overlap with itself seen from the other side.
+/// Area of the whole facet, computed as its overlap with its own reverse side.
 fn area<const D: usize>(frozen: Frozen<'_, D>, x: &[[f64; D]], rule: &Rule) -> f64 {
     let back: Vec<[f64; D]> = x.iter().rev().copied().collect();
     let mut sums = Sums::<f64, MOST_NODES>::zero();

@@ -1,16 +1,16 @@
-//! Finite sliding: the overlap of the present configuration.
+//! Finite sliding with the overlap of the present configuration.
 //!
-//! The tangential increment since the last commit is the growth of the averaged distance between material points that
-//! faced each other then: with the weights `s = (D, -M)/a` of then and now, `v = Σ_k (s_k^then - s_k^now) x_k` at present
-//! positions, in components along the frame (Puso and Laursen 2004b: the change of the mortar matrices, which vanishes
-//! in a common rigid motion). The frame turns with the slave surface, by the polar rotation of two of
-//! its material vectors, so that history needs no turning.
+//! The tangential increment since the last commit is the growth of the averaged distance between material points that faced
+//! each other then. With the weights `s = (D, -M)/a` of the last commit and of now, it is `v = Σ_k (s_k^then - s_k^now) x_k` at
+//! present positions, in components along the frame. This is the change of the mortar matrices of Puso and Laursen (2004b),
+//! which vanishes in a common rigid motion. The frame turns with the slave surface by the polar rotation of two of its material
+//! vectors, so that history needs no rotation.
 //!
-//! The tangent (`blocks`) has the derivatives of the overlap: in space those of `overlap`, in the plane number by number
-//! (`scalar::Dual`). Corners of the polygons that are corners of both facets at once have one-sided derivatives there.
+//! The tangent (`blocks`) includes the derivatives of the overlap: in space those of `overlap`, in the plane by forward
+//! differentiation (`scalar::Dual`). Polygon corners at which corners of both facets coincide have one-sided derivatives.
 //!
-//! Cells and points are worked on in pieces on any number of threads. Each point adds up its cells in one order, so that results
-//! do not depend on the number.
+//! Cells and points are processed in pieces on any number of threads. Each point sums over its cells in a fixed order, so
+//! results do not depend on the number of threads.
 //!
 //! Puso, M. A. and Laursen, T. A. (2004b), A mortar segment-to-segment frictional contact method for large deformations,
 //! Computer Methods in Applied Mechanics and Engineering 193, 4891-4913.
@@ -33,7 +33,7 @@ use crate::vector::{add, axpy, cross, dot, norm, perpendicular, scaled, solve_ta
 use asperity_fem::term::Pattern;
 use rayon::prelude::*;
 
-/// Builds the measure in the reference configuration. Returns it with the number of pairs of facets examined.
+/// Builds the measure in the reference configuration. Also returns the number of facet pairs examined.
 #[must_use]
 pub fn finite<const D: usize>(
     nodes: &[SurfaceNode<D>],
@@ -97,7 +97,8 @@ impl<const D: usize> Finite<D> {
         (own, other)
     }
 
-    /// Rows of D and M at the present positions: cells are integrated one by one, then each point adds up its own.
+    /// Computes the rows of D and M at the present positions. Cells are integrated one by one; each point then sums over its
+    /// own cells.
     fn weigh(&mut self) {
         let mut integrals = std::mem::take(&mut self.integrals);
         self.integrate_cells((0, self.cells.len()), &mut integrals);
@@ -108,7 +109,7 @@ impl<const D: usize> Finite<D> {
         self.integrals = integrals;
     }
 
-    /// Integrals of the cells `from..to`.
+    /// Computes the integrals of the cells `from..to`.
     fn integrate_cells(&self, (from, to): (usize, usize), out: &mut [f64]) {
         if to - from > CHUNK {
             let middle = from + (to - from).div_ceil(2);
@@ -129,7 +130,8 @@ impl<const D: usize> Finite<D> {
         }
     }
 
-    /// Rows of a cell: those of the slave's nodes, then those of the master's with the opposite sign.
+    /// Computes the rows of a cell in the plane: those of the slave's nodes, followed by those of the master's with opposite
+    /// sign.
     fn integrate_lines(&self, c: &Cell, mine: &mut [f64]) {
         let (own, other) = self.gather(c);
         let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
@@ -147,7 +149,7 @@ impl<const D: usize> Finite<D> {
         }
     }
 
-    /// See [`Finite::integrate_lines`].
+    /// Computes the rows of a cell in space, in the layout of [`Finite::integrate_lines`].
     fn integrate_faces(&self, c: &Cell, mine: &mut [f64]) {
         mine.fill(0.0);
         let facet = &self.sides.facets[c.facet];
@@ -163,7 +165,7 @@ impl<const D: usize> Finite<D> {
         }
     }
 
-    /// Does something with the overlap of a cell in space.
+    /// Applies `work` to the facets of a cell in space.
     pub(super) fn in_space<R>(&self, c: &Cell, work: impl Fn(&overlap::Facets<'_>) -> R) -> R {
         let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
         let (own, other) = self.gather(c);
@@ -185,7 +187,7 @@ impl<const D: usize> Finite<D> {
         &self.cells[self.first[facet]..self.first[facet + 1]]
     }
 
-    /// Weights and area of point `p` from the integrals of the cells beside it.
+    /// Sums weights and area of point `p` over the integrals of the adjacent cells.
     fn add_up(&self, p: usize, point: &mut Point, integrals: &[f64]) {
         point.weights.fill(0.0);
         point.area = 0.0;
@@ -203,7 +205,7 @@ impl<const D: usize> Finite<D> {
         }
     }
 
-    /// Points that meet the master now have slipped nothing before.
+    /// Anchors points that now meet the master for the first time; they have not slipped before.
     fn anchor(&mut self) {
         self.weigh();
         for point in &mut self.points {
@@ -227,7 +229,7 @@ impl<const D: usize> Finite<D> {
         Local::new(&self.sides.normal_sum(p, &self.x), material, d, v)
     }
 
-    /// δn and δframe for a unit displacement along axis `i` of `node`, one of the slaves of point `p`.
+    /// Computes δn and δframe for a unit displacement along axis `i` of `node`, one of the slave nodes of point `p`.
     pub(super) fn turn(&self, p: usize, node: usize, i: usize, out: &mut Change<D>) {
         let (mut normals, mut material) = ([0.0; D], [[0.0; D]; 2]);
         for (k, b) in self.sides.beside[p].iter().enumerate() {
@@ -253,7 +255,7 @@ impl<const D: usize> Finite<D> {
         self.locals[p].turn(&normals, &material, out);
     }
 
-    /// Adds the part of `slides` that comes from the changing overlap of a cell.
+    /// Adds to `slides` the contribution of the changing overlap of a cell.
     fn overlap_slide(&self, c: &Cell, du: &[[f64; D]], out: &mut Slides) {
         let (facet, master) = (&self.sides.facets[c.facet], &self.sides.master[c.master]);
         let (s, m) = (facet.nodes.len(), master.nodes.len());
@@ -293,7 +295,7 @@ impl<const D: usize> Finite<D> {
 }
 
 impl<const D: usize> Finite<D> {
-    /// True if all nodes of a pair of facets are in the blocks of its points.
+    /// True if all nodes of a pair of facets are in the blocks of the pair's points.
     fn beside_blocks(&self, [facet, master]: &[usize; 2], points: &[Facing]) -> bool {
         let (own, other) = (&self.sides.facets[*facet], &self.sides.master[*master]);
         let mut nodes = own.nodes.iter().chain(&other.nodes);
@@ -302,12 +304,12 @@ impl<const D: usize> Finite<D> {
 }
 
 impl Point {
-    /// True if it faces the master.
+    /// True if the point faces the master.
     fn faces(&self) -> bool {
         self.area > FACED * self.whole
     }
 
-    /// Keeps the present weights as those of the last commit.
+    /// Stores the present weights as those of the last commit.
     fn keep(&mut self) {
         for (then, w) in self.then.iter_mut().zip(&self.weights) {
             *then = w / self.area;
@@ -316,12 +318,12 @@ impl Point {
     }
 }
 
-/// A place as three coordinates.
+/// Position padded to three coordinates.
 fn three<const D: usize>(x: [f64; D]) -> [f64; 3] {
     std::array::from_fn(|i| x.get(i).copied().unwrap_or(0.0))
 }
 
-/// Components of the small-sliding frame's vectors in the base vectors of the first facet beside point `p`.
+/// Components of the small-sliding frame's vectors in the base vectors of the first facet adjacent to point `p`.
 fn along<const D: usize>(sides: &Sides<D>, p: usize, x: &[[f64; D]]) -> [[f64; 2]; 2] {
     let first: Beside = sides.beside[p][0];
     let e = sides.bases(first, x);
@@ -360,7 +362,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
         indexed.for_each(|(p, local)| *local = self.local(p));
         self.locals = locals;
         for (p, (point, local)) in self.points.iter().zip(&self.locals).enumerate() {
-            // An area that is not a number must not pass for a point without partner.
+            // A NaN area must not make the point count as unpaired.
             out.paired[p] = point.anchored && (point.faces() || point.area.is_nan());
             out.gap[p] = if out.paired[p] { local.gap() } else { f64::INFINITY };
             out.increment[p] = if out.paired[p] { local.increment() } else { [0.0; 2] };

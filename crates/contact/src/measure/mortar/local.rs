@@ -1,4 +1,4 @@
-//! A slave point in the present configuration, and how its traction changes with the geometry.
+//! Geometry of a slave point in the present configuration, and the change of its traction with the geometry.
 
 use crate::measure::{NormalPoint, ShearPoint};
 use crate::vector::{add, axpy, cross, dot, norm, scaled, unit};
@@ -6,25 +6,25 @@ use crate::vector::{add, axpy, cross, dot, norm, scaled, unit};
 /// Normal, frame and averaged distances of a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Local<const D: usize> {
-    /// n, outward from the master.
+    /// Normal n, outward from the master.
     pub n: [f64; D],
     /// Length of the sum of facet normals.
     length: f64,
-    /// m_1 + m_2 × n, which the frame is laid along: m_1 and m_2 are material tangent vectors, at right angles at the start. The
-    /// frame then turns as the surface does in the mean (the polar rotation), whichever vectors are chosen.
+    /// Vector m_1 + m_2 × n, which the frame is aligned with. m_1 and m_2 are material tangent vectors, perpendicular at the
+    /// start. The frame then turns with the mean rotation of the surface (the polar rotation), whichever vectors are chosen.
     e: [f64; D],
-    /// m_2.
+    /// Material vector m_2.
     second: [f64; D],
-    /// Length of its projection on the tangent plane.
+    /// Length of the projection of `e` on the tangent plane.
     projected: f64,
     pub frame: [[f64; D]; 2],
-    /// Averaged x_s - x_c: `Σ_k s_k x_k`.
+    /// Averaged distance x_s - x_c: `Σ_k s_k x_k`.
     pub d: [f64; D],
-    /// Its growth since the last commit at fixed material points: `Σ_k (s_k of the last commit) x_k - d`.
+    /// Growth of `d` since the last commit at fixed material points: `Σ_k (s_k of the last commit) x_k - d`.
     pub v: [f64; D],
 }
 
-/// Changes of a point's geometry.
+/// Changes of the geometry of a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Change<const D: usize> {
     pub n: [f64; D],
@@ -39,17 +39,18 @@ impl<const D: usize> Change<D> {
     }
 }
 
-/// Tractions of a point with their derivatives.
+/// Tractions of a point and their derivatives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Traction<'a> {
     pub normal: &'a NormalPoint,
     pub shear: Option<&'a ShearPoint>,
-    /// E_t \[Pa/m\].
+    /// Tangential penalty E_t \[Pa/m\].
     pub stiffness: f64,
 }
 
 impl<const D: usize> Local<D> {
-    /// From the sum of the outward slave normals and two material tangent vectors (unused in two dimensions).
+    /// Constructs the geometry from the sum of the outward slave normals and two material tangent vectors (unused in two
+    /// dimensions).
     pub(super) fn new(normals: &[f64; D], material: [[f64; D]; 2], d: [f64; D], v: [f64; D]) -> Self {
         let length = norm(normals);
         let n = scaled(normals, -length.recip());
@@ -65,17 +66,17 @@ impl<const D: usize> Local<D> {
         Self { n, length, e, second, projected: norm(&q), frame: [first, cross(&n, &first)], d, v }
     }
 
-    /// g_n.
+    /// Gap g_n.
     pub(super) fn gap(&self) -> f64 {
         dot(&self.n, &self.d)
     }
 
-    /// Tangential displacement since the last commit.
+    /// Tangential displacement since the last commit \[m\], in the frame.
     pub(super) fn increment(&self) -> [f64; 2] {
         [dot(&self.frame[0], &self.v), dot(&self.frame[1], &self.v)]
     }
 
-    /// δn and δframe for changes of the normals' sum and of the tangent vectors.
+    /// Computes δn and δframe from the changes of the sum of normals and of the tangent vectors.
     pub(super) fn turn(&self, normals: &[f64; D], [first, second]: &[[f64; D]; 2], out: &mut Change<D>) {
         let mut dn = scaled(normals, -self.length.recip());
         let out_of_plane = dot(&self.n, &dn);
@@ -97,7 +98,7 @@ impl<const D: usize> Local<D> {
         out.frame = [first_change, add(&cross(&dn, first), &cross(&self.n, &first_change))];
     }
 
-    /// Force per area on the slave.
+    /// Force per area on the slave \[Pa\].
     pub(super) fn force(&self, t: &Traction<'_>) -> [f64; D] {
         let mut f = scaled(&self.n, t.normal.traction);
         if let Some(s) = t.shear {
@@ -107,7 +108,7 @@ impl<const D: usize> Local<D> {
         f
     }
 
-    /// Its change.
+    /// Change of the force per area.
     pub(super) fn force_change(&self, t: &Traction<'_>, c: &Change<D>) -> [f64; D] {
         let df_n = -t.normal.stiffness * (dot(&c.n, &self.d) + dot(&self.n, &c.d));
         let mut df = scaled(&self.n, df_n);
@@ -124,7 +125,7 @@ impl<const D: usize> Local<D> {
     }
 }
 
-/// `(-n_y, n_x)`.
+/// Vector `(-n_y, n_x)`.
 fn quarter<const D: usize>(n: &[f64; D]) -> [f64; D] {
     let mut a = [0.0; D];
     a[0] = -n[1];

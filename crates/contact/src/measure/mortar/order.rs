@@ -1,21 +1,21 @@
-//! Points in pieces that lie together, so that few cells are needed by two of them.
+//! Order of points in compact pieces, so that few cells are needed by two pieces.
 
 use super::sides::Sides;
 
-/// Cells, facets or points worked on together on one thread: a microsecond each, and more.
+/// Number of cells, facets or points processed together on one thread; each takes a microsecond or more.
 pub(super) const CHUNK: usize = 64;
 
-/// An order of the slave points, cut into pieces of [`CHUNK`].
+/// Order of the slave points, divided into pieces of [`CHUNK`].
 #[derive(Clone, Debug)]
 pub(super) struct WorkOrder {
     points: Vec<usize>,
     piece: Vec<usize>,
-    /// Facets beside the points of each piece, ascending.
+    /// Facets adjacent to the points of each piece, ascending.
     facets: Vec<Vec<usize>>,
 }
 
 impl WorkOrder {
-    /// Bisects the points at positions `x` of the interface's nodes, again and again across their largest extent.
+    /// Orders the points by repeated bisection across their largest extent, with the interface's nodes at positions `x`.
     pub(super) fn new<const D: usize>(sides: &Sides<D>, x: &[[f64; D]]) -> Self {
         let place: Vec<[f64; D]> =
             sides.beside.iter().map(|b| x[sides.facets[b[0].facet].nodes[b[0].local]]).collect();
@@ -49,19 +49,19 @@ impl WorkOrder {
         &self.points[piece * CHUNK..((piece + 1) * CHUNK).min(self.points.len())]
     }
 
-    /// Facets beside the points of a piece.
+    /// Facets adjacent to the points of a piece.
     pub(super) fn facets(&self, piece: usize) -> &[usize] {
         &self.facets[piece]
     }
 
-    /// The piece of a point.
+    /// Piece of a point.
     #[inline]
     pub(super) fn piece(&self, point: usize) -> usize {
         self.piece[point]
     }
 }
 
-/// Sorts points so that every piece lies together; ties by number, so that the order is one for all machines.
+/// Sorts points so that every piece is compact. Ties are broken by number, so that the order is the same on all machines.
 fn bisect<const D: usize>(points: &mut [usize], x: &[[f64; D]]) {
     if points.len() <= CHUNK {
         points.sort_unstable();
@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn pieces_are_full_and_lie_together() {
-        // A grid of 40 x 40, numbered at random.
+        // A grid of 40 x 40 with shuffled numbers.
         let mut x: Vec<[f64; 2]> = (0..1600).map(|k| [f64::from(k % 40), f64::from(k / 40)]).collect();
         (0..1600).for_each(|k| x.swap(k, (k * 7919 + 13) % 1600));
         let mut points: Vec<usize> = (0..1600).collect();

@@ -1,13 +1,15 @@
-//! The overlap of two facets of first order in space, with the derivatives of its integrals by the positions of all nodes.
+//! Overlap of two first-order facets in space, with the derivatives of its integrals with respect to the positions of all
+//! nodes.
 //!
-//! The same integrals as those of `cell`, for the kind of facets finite sliding has. What is differentiated are 26 integrals of products of
-//! shape functions in the plane of the slave. A corner of the common polygon is a node of either facet or the crossing of two
-//! edges; a Gauss point is a mean of three corners. So each Gauss point adds to few numbers: to the slopes by the corners of its triangle
-//! and, where they move at a fixed place, by the nodes of both facets. Corners hand theirs on to nodes; and since a rigid
-//! motion in the plane changes no integral, of the motion of the plane itself its tilt alone remains.
+//! The integrals are those of `cell`, for the facet kinds supported by finite sliding. There are 26 integrals to differentiate,
+//! of products of shape functions in the plane of the slave. A corner of the common polygon is a node of either facet or the
+//! intersection of two edges; a Gauss point is a mean of three corners. Each Gauss point thus contributes to few numbers. These
+//! are the slopes with respect to the corners of its triangle and, for motion of the facets at a fixed position, with respect
+//! to the nodes of both facets. The slopes of corners are then passed on to nodes. A rigid motion in the plane changes no
+//! integral, so of the motion of the plane itself only its tilt remains.
 //!
-//! With y = X(xi), X bilinear: `δxi = X'^-1 (δy - Σ N_k δx_k)`. Points of the plane are `b_m·(x - o)`, a tilt δn moves them by
-//! `-h (b_m·δn)`, where h is the height above the plane.
+//! With y = X(xi) and X bilinear: `δxi = X'^-1 (δy - Σ N_k δx_k)`. Points of the plane are `b_m·(x - o)`. A tilt δn moves them
+//! by `-h (b_m·δn)`, with h the height above the plane.
 
 use super::clip::twice_area;
 use super::polygon::{Corner, Crossing, Polygon};
@@ -15,24 +17,24 @@ use super::rule::Rule;
 use crate::SegmentKind;
 use crate::vector::{axpy, cross, dot, norm, scaled, sub, unit};
 
-/// Most nodes of a facet of first order.
+/// Most nodes of a first-order facet.
 pub(super) const NODES: usize = 4;
 
-/// Nodes of both facets: the slave's first.
+/// Number of slots for the nodes of both facets, the slave's first.
 pub(super) const BOTH: usize = 2 * NODES;
 
-/// Products of slave with slave functions, `b <= k`.
+/// Number of products of two slave functions b and k, with `b <= k`.
 const OWN: usize = NODES * (NODES + 1) / 2;
 
-/// All products.
+/// Number of all products.
 const ALL: usize = OWN + NODES * NODES;
 
-/// Newton iterations for natural coordinates, and the step at which they end: as in `cell`.
+/// Most Newton iterations for natural coordinates, as in `cell`.
 const ITERATIONS: usize = 30;
-/// See [`ITERATIONS`].
+/// Step in natural coordinates below which the iteration has converged, as in `cell`.
 const CONVERGED: f64 = 1e-15;
 
-/// Pieces smaller than this share of the slave facet are rounding of coinciding edges.
+/// Pieces smaller than this share of the slave facet result from rounding of coinciding edges.
 const SLIVER: f64 = 1e-15;
 
 /// A facet in the plane: `X = a + b ξ + c η + d ξ η`.
@@ -64,7 +66,7 @@ impl<const L: usize> Bilinear<L> {
 }
 
 impl Bilinear<2> {
-    /// X'^-1 at ξ.
+    /// Inverse X'^-1 at ξ.
     #[inline]
     fn inverse(&self, xi: &[f64; 2]) -> [[f64; 2]; 2] {
         let e = [self.b[0] + self.d[0] * xi[1], self.b[1] + self.d[1] * xi[1]];
@@ -73,7 +75,7 @@ impl Bilinear<2> {
         [[f[1] * share, -f[0] * share], [-e[1] * share, e[0] * share]]
     }
 
-    /// Natural coordinates of a place in the plane, by Newton's method, with X'^-1 there.
+    /// Natural coordinates of a position in the plane by Newton's method, with X'^-1 there.
     #[inline]
     fn locate(&self, y: &[f64; 2], start: [f64; 2]) -> ([f64; 2], [[f64; 2]; 2]) {
         let mut xi = start;
@@ -106,11 +108,11 @@ fn functions(kind: SegmentKind, xi: &[f64; 2]) -> ([f64; NODES], [[f64; NODES]; 
     )
 }
 
-/// Reference area per area of the plane.
+/// Ratio of the reference area to the area in the plane.
 struct Density {
-    /// e_1 × e_2 in the reference configuration: constant part, slopes in ξ and η.
+    /// Product e_1 × e_2 in the reference configuration: constant part, slopes in ξ and η.
     reference: [[f64; 3]; 3],
-    /// The same in the plane.
+    /// Same product in the plane.
     plane: [f64; 3],
 }
 
@@ -124,7 +126,7 @@ impl Density {
         }
     }
 
-    /// Density, its slopes, and the area of the plane.
+    /// Density, its slopes, and the Jacobian of the plane.
     #[inline]
     fn at(&self, xi: &[f64; 2]) -> (f64, [f64; 2], f64) {
         let v: [f64; 3] = std::array::from_fn(|i| {
@@ -137,11 +139,11 @@ impl Density {
     }
 }
 
-/// Data needed of a facet.
+/// Kind and positions of a facet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side<'a> {
     pub kind: SegmentKind,
-    /// Present positions.
+    /// Present positions of the nodes.
     pub x: &'a [[f64; 3]],
 }
 
@@ -151,33 +153,33 @@ impl Side<'_> {
     }
 }
 
-/// The pair in the plane.
+/// A pair of facets in the plane of the slave.
 struct Pair<'a> {
     sides: [Side<'a>; 2],
-    /// Nodes of both in the plane.
+    /// Nodes of both facets in the plane.
     flat: [[f64; 2]; BOTH],
     bilinear: [Bilinear<2>; 2],
     density: Density,
     base: [[f64; 3]; 2],
     normal: [f64; 3],
-    /// Length of the product that gives the normal.
+    /// Length of the vector product that gives the normal.
     length: f64,
     polygon: Polygon,
-    /// Twice the area below which a triangle is rounding.
+    /// Twice the area below which a triangle is negligible.
     least: f64,
 }
 
-/// The apex of fans about the centroid among the corners.
+/// Index of the centroid among the corners, as the apex of a fan.
 const CENTROID: usize = Polygon::MOST;
 
-/// Slopes of the integrals in the plane: by corners of the polygon and by nodes, each along both axes.
+/// Slopes of the integrals in the plane with respect to corners of the polygon and to nodes, along both axes.
 struct Slopes {
-    /// The last is the centroid, where a fan has it as its apex.
+    /// Slopes with respect to corners. The last is the centroid, used if it is the apex of the fan.
     corners: [[[f64; ALL]; 2]; CENTROID + 1],
     nodes: [[[f64; ALL]; 2]; BOTH],
 }
 
-/// The facets of a cell and how they are integrated.
+/// The facets of a cell and their quadrature rule.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facets<'a> {
     pub slave: Side<'a>,
@@ -187,13 +189,13 @@ pub(super) struct Facets<'a> {
     pub rule: &'a Rule,
 }
 
-/// Integrals over the overlap, for functions b of the slave: ∫ N_b N_k of slave nodes, then ∫ N_b N_γ of master nodes.
+/// Integrals over the overlap for functions b of the slave: ∫ N_b N_k for slave nodes, followed by ∫ N_b N_γ for master nodes.
 pub(super) type Integrals = [[f64; BOTH]; NODES];
 
-/// Their derivatives: by node (the slave's first) and axis.
+/// Derivatives of the integrals with respect to node (the slave's first) and axis.
 pub(super) type Derivatives = [[[[f64; 3]; BOTH]; BOTH]; NODES];
 
-/// Place of a product among all: of slave nodes b and k, or of slave node b with master node k - [`NODES`].
+/// Index of a product among all: of slave nodes b and k, or of slave node b with master node k - [`NODES`].
 #[inline]
 fn place(b: usize, k: usize) -> usize {
     if k >= NODES {
@@ -203,7 +205,7 @@ fn place(b: usize, k: usize) -> usize {
     low * (2 * NODES + 1 - low) / 2 + high - low
 }
 
-/// Integrates the overlap of a slave with a master facet; `None` where there is none.
+/// Integrates the overlap of a slave facet with a master facet; `None` if they do not overlap.
 pub(super) fn integrals(facets: &Facets<'_>) -> Option<Integrals> {
     let pair = Pair::new(facets)?;
     let mut sums = [0.0; ALL];
@@ -213,7 +215,7 @@ pub(super) fn integrals(facets: &Facets<'_>) -> Option<Integrals> {
     Some(std::array::from_fn(|b| std::array::from_fn(|k| sums[place(b, k)])))
 }
 
-/// The derivatives of these integrals; false where there is no overlap.
+/// Computes the derivatives of these integrals. Returns false if the facets do not overlap.
 pub(super) fn derivatives(facets: &Facets<'_>, out: &mut Derivatives) -> bool {
     let Some(pair) = Pair::new(facets) else { return false };
     let mut slopes = Slopes { corners: [[[0.0; ALL]; 2]; CENTROID + 1], nodes: [[[0.0; ALL]; 2]; BOTH] };
@@ -228,14 +230,14 @@ pub(super) fn derivatives(facets: &Facets<'_>, out: &mut Derivatives) -> bool {
     true
 }
 
-/// A triangle of the fan: the corners it is made of, their places, twice its area.
+/// A triangle of the fan: its corners, their positions, and twice its area.
 struct Triangle {
     corners: [usize; 3],
     at: [[f64; 2]; 3],
     double: f64,
 }
 
-/// A Gauss point.
+/// Values at a Gauss point.
 struct Point {
     own: [f64; NODES],
     own_slopes: [[f64; NODES]; 2],
@@ -250,7 +252,7 @@ struct Point {
 }
 
 impl<'a> Pair<'a> {
-    /// `None` where the facets do not meet.
+    /// Projects a pair of facets; `None` if they do not overlap.
     fn new(facets: &Facets<'a>) -> Option<Self> {
         let Facets { slave, reference, master, .. } = *facets;
         let x = slave.x;
@@ -277,7 +279,7 @@ impl<'a> Pair<'a> {
         put(&mut flat[NODES..], master.x);
         let (s, m) = (x.len(), master.x.len());
         let own = Polygon::of((0..s).map(|k| (flat[k], k)));
-        // The master's sense is opposite.
+        // The master runs in the opposite direction.
         let other = Polygon::of((0..m).rev().map(|k| (flat[NODES + k], NODES + k)));
         if other.twice_area() <= 0.0 || own.apart(&other) {
             return None;
@@ -294,7 +296,7 @@ impl<'a> Pair<'a> {
         Some(Self { sides: [slave, master], flat, bilinear, density, base, normal, length, polygon, least })
     }
 
-    /// Triangles of the overlap, but for those that are rounding: a fan about the centroid, else about the first corner.
+    /// Triangles of the overlap that are not negligible, in a fan about the centroid or else about the first corner.
     fn triangles(&self, rule: &Rule) -> impl Iterator<Item = Triangle> {
         let corners = self.polygon.corners;
         let centroid = if rule.centred { self.polygon.centroid() } else { [0.0; 2] };
@@ -309,7 +311,7 @@ impl<'a> Pair<'a> {
         range.map(triangle).filter(|t| t.double > self.least)
     }
 
-    /// Data known at a place in the plane.
+    /// Evaluates the pair at a position in the plane.
     #[inline]
     fn point(&self, y: &[f64; 2]) -> Point {
         let (xi, inverse) = self.bilinear[0].locate(y, self.sides[0].centre());
@@ -368,7 +370,7 @@ impl<'a> Pair<'a> {
                 }
             }
         }
-        // The area of the triangle scales all of it.
+        // The area of the triangle scales the whole contribution.
         for (i, c) in t.corners.iter().enumerate() {
             let (p, q) = (&t.at[(i + 1) % 3], &t.at[(i + 2) % 3]);
             add_scaled(&mut slopes.corners[*c][0], (p[1] - q[1]) / t.double, &sums);
@@ -376,7 +378,7 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Hands the slopes by the centroid on to the corners it follows.
+    /// Passes the slopes with respect to the centroid on to the corners.
     fn hand_on_centroid(&self, corners: &mut [[[f64; ALL]; 2]; CENTROID + 1]) {
         let (corners, centroid) = corners.split_at_mut(CENTROID);
         for (to, slope) in corners.iter_mut().zip(self.polygon.centroid_slopes()) {
@@ -386,7 +388,7 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Change of the area of the plane at a Gauss point with the slave nodes in it.
+    /// Change of the area element at a Gauss point with the slave nodes in the plane.
     #[inline]
     fn plane_slopes(&self, g: &Point) -> [[f64; 2]; NODES] {
         let p = &self.bilinear[0];
@@ -396,7 +398,7 @@ impl<'a> Pair<'a> {
         std::array::from_fn(|k| [s[k] * f[1] - t[k] * e[1], t[k] * e[0] - s[k] * f[0]])
     }
 
-    /// Hands the slopes by corners on to the nodes they depend on.
+    /// Passes the slopes with respect to corners on to the nodes on which they depend.
     fn hand_on(&self, slopes: &mut Slopes) {
         let Slopes { corners, nodes } = slopes;
         for (corner, by) in self.polygon.at[..self.polygon.corners].iter().zip(corners.iter()) {
@@ -416,7 +418,7 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// From motions in the plane to motions in space.
+    /// Converts motions in the plane to motions in space.
     fn spread(&self, slopes: &Slopes, out: &mut Derivatives) {
         let origin = self.sides[0].x[0];
         let mut height = [0.0; BOTH];
@@ -443,7 +445,7 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// `b_m·δn` by the positions of the slave nodes.
+    /// Derivatives of `b_m·δn` with respect to the positions of the slave nodes.
     fn tilts(&self) -> [[[f64; 3]; 2]; NODES] {
         let x = self.sides[0].x;
         let share = self.length.recip();
@@ -455,7 +457,7 @@ impl<'a> Pair<'a> {
             (sub(&x[2], &x[0]), sub(&x[3], &x[1]))
         };
         for (m, b) in self.base.iter().enumerate() {
-            // b·(δp × q + p × δq)
+            // Product b·(δp × q + p × δq).
             let (dp, dq) = (scaled(&cross(&q, b), share), scaled(&cross(b, &p), share));
             if triangle {
                 (out[1][m], out[2][m]) = (dp, dq);
@@ -474,13 +476,13 @@ fn mean(corners: &[[f64; 2]; 3], share: &[f64; 3]) -> [f64; 2] {
     std::array::from_fn(|i| share[0] * corners[0][i] + share[1] * corners[1][i] + share[2] * corners[2][i])
 }
 
-/// All products at a Gauss point, times its weight, with their slopes by its place: through the slave's natural coordinates,
-/// and through the master's.
+/// All products at a Gauss point, times its weight, and their slopes with respect to its position: through the natural
+/// coordinates of the slave, and through those of the master.
 #[inline]
 fn products(g: &Point, w: f64) -> ([f64; ALL], [[f64; ALL]; 2], [[f64; OWN_OTHER]; 2]) {
     let (mut values, mut by_own, mut by_other) = ([0.0; ALL], [[0.0; ALL]; 2], [[0.0; OWN_OTHER]; 2]);
     let wd = w * g.density;
-    // Slopes of the functions by the place.
+    // Slopes of the functions with respect to the position.
     let along = |slopes: &[[f64; NODES]; 2], inverse: &[[f64; 2]; 2], i: usize, k: usize| {
         slopes[0][k] * inverse[0][i] + slopes[1][k] * inverse[1][i]
     };
@@ -507,7 +509,7 @@ fn products(g: &Point, w: f64) -> ([f64; ALL], [[f64; ALL]; 2], [[f64; OWN_OTHER
     (values, by_own, by_other)
 }
 
-/// Products with functions of the master.
+/// Number of products with functions of the master.
 const OWN_OTHER: usize = NODES * NODES;
 
 #[inline]
@@ -531,7 +533,7 @@ mod tests {
 
     type Number = Dual<24>;
 
-    /// A unit facet at `above` the plane, moved by `noise`, turned down for the slave.
+    /// A unit facet at height `above` over the plane, perturbed by `noise`, facing down for the slave.
     fn facet(kind: SegmentKind, above: f64, size: f64, noise: &[f64]) -> Vec<[f64; 3]> {
         let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let corners: &[[f64; 2]] = if kind == SegmentKind::Tri3 { &square[..3] } else { &square };
@@ -546,7 +548,7 @@ mod tests {
         x
     }
 
-    /// The integrals and derivatives of `cell`, by numbers that carry derivatives.
+    /// The integrals and derivatives of `cell`, by forward differentiation.
     fn forward(
         slave: Side<'_>,
         reference: &[[f64; 3]],
@@ -626,7 +628,7 @@ mod tests {
                 let numbers = |k: usize| if k < NODES { expected.own[b][k] } else { expected.other[b][k - NODES] };
                 let slots = (0..own.len()).chain(NODES..NODES + other.len());
                 let largest = slots.clone().flat_map(|k| numbers(k).d).fold(0.0f64, |m, d| m.max(d.abs()));
-                // Natural coordinates of bent facets magnify rounding.
+                // Natural coordinates of bent facets amplify rounding.
                 let bound = 1e-11 * (1.0 + largest);
                 for k in slots.clone() {
                     prop_assert!((found[b][k] - numbers(k).v).abs() < bound, "{} {}: {} {}", b, k, found[b][k], numbers(k).v);

@@ -1,4 +1,4 @@
-//! Which facets may overlap in finite sliding, and the blocks that follow.
+//! Search for facets that may overlap in finite sliding, and the blocks that result.
 
 use super::order::CHUNK;
 use super::state::{Cell, Finite, Found, Scratch};
@@ -6,7 +6,7 @@ use asperity_fem::term::Pattern;
 use rayon::prelude::*;
 
 impl<const D: usize> Finite<D> {
-    /// Recomputes the cells, and the blocks if cells change.
+    /// Recomputes the cells, and the blocks if the cells change.
     pub(super) fn pair(&mut self, examined: &mut u64) {
         self.sides.refit(&self.x);
         let facets = self.sides.facets.len();
@@ -65,7 +65,7 @@ impl<const D: usize> Finite<D> {
         self.tabulate(pairs);
     }
 
-    /// Places of the cells' nodes in the blocks, and the pattern.
+    /// Computes the positions of the cells' nodes in the blocks, and the pattern.
     pub(super) fn tabulate(&mut self, pairs: &[(usize, usize)]) {
         self.cells.clear();
         self.places.clear();
@@ -77,7 +77,7 @@ impl<const D: usize> Finite<D> {
             for &p in &own.weighting.points {
                 let block = &self.points[p].nodes;
                 for n in own.nodes.iter().chain(&other.nodes) {
-                    // Every node of a cell is in the blocks of its points by construction.
+                    // By construction, every node of a cell is in the blocks of its points.
                     self.places.extend(block.iter().position(|m| m == n));
                 }
             }
@@ -125,7 +125,8 @@ mod tests {
         rng.random_range(-1.0..1.0)
     }
 
-    /// Two wavy layers of `n` and `n + 1` quadrilaterals a side (lines in the plane), the slave above, its facets turned down.
+    /// Two wavy layers of `n` and `n + 1` quadrilaterals per side (lines in the plane). The slave is above, with its facets
+    /// facing down.
     fn layers<const D: usize>(n: usize, rng: &mut TestRng) -> (Vec<[f64; D]>, [Vec<Segment>; 2]) {
         let mut x = Vec::new();
         let mut sides = [Vec::new(), Vec::new()];
@@ -172,7 +173,7 @@ mod tests {
         assert!(radius > 0.0 && radius.is_finite(), "{radius}");
         let known: Vec<(usize, usize)> = measure.cells.iter().map(|c| (c.facet, c.master)).collect();
         assert!(!known.is_empty());
-        // Every node to the surface of its cube.
+        // Move every node to the surface of its cube.
         let by = 0.999 * radius / (D as f64).sqrt();
         measure.x =
             reference.iter().map(|p| p.map(|v| v + if noise(rng) > 0.0 { by } else { -by })).collect();

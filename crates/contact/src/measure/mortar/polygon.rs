@@ -1,22 +1,22 @@
-//! Intersection of convex polygons whose corners know on which nodes they depend (`clip` has the same for numbers that carry
-//! derivatives).
+//! Intersection of convex polygons whose corners record the nodes on which they depend. `clip` does the same for numbers that
+//! carry derivatives.
 
 use super::clip::twice_area;
 use crate::vector::{dot, sub};
 
-/// Two nodes: an edge of a facet, and the line through them.
+/// Pair of nodes: an edge of a facet and the line through it.
 type Line = [usize; 2];
 
 /// Dependence of a corner on nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Crossing {
-    /// It is one.
+    /// The corner is a node.
     None(usize),
-    /// Two lines meet there.
+    /// The corner is the intersection of two lines.
     Of([Line; 2]),
 }
 
-/// A corner, and the line its leaving edge lies on.
+/// A corner, with the line of the edge that leaves it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     pub at: [f64; 2],
@@ -31,11 +31,12 @@ pub(super) struct Polygon {
     pub at: [Corner; Polygon::MOST],
 }
 
-/// Sine of the angle between two edges below which the place where they cross is rounding: it takes half of the digits.
+/// Sine of the angle between two edges below which their intersection is dominated by rounding: it loses half of the digits.
 const PARALLEL: f64 = 1e-8;
 
 impl Polygon {
-    /// Corners of an intersection of two quadrilaterals are 8 at most, since each cut adds one; two are spare for rounding.
+    /// Largest number of corners. The intersection of two quadrilaterals has at most 8, since each cut adds one; two are spare
+    /// for rounding.
     pub(super) const MOST: usize = 10;
 
     fn empty() -> Self {
@@ -43,7 +44,7 @@ impl Polygon {
         Self { corners: 0, at: [nowhere; Self::MOST] }
     }
 
-    /// From places and nodes, in order.
+    /// Makes a polygon from positions and nodes, in order.
     pub(super) fn of(nodes: impl Iterator<Item = ([f64; 2], usize)>) -> Self {
         let mut out = Self::empty();
         nodes.for_each(|(at, v)| out.push(Corner { at, of: Crossing::None(v), line: [v; 2] }));
@@ -62,12 +63,12 @@ impl Polygon {
         }
     }
 
-    /// Twice its area.
+    /// Twice the area of the polygon.
     pub(super) fn twice_area(&self) -> f64 {
         (2..self.corners).map(|k| twice_area(&self.at[0].at, &self.at[k - 1].at, &self.at[k].at)).sum()
     }
 
-    /// Centroid of its area.
+    /// Centroid of the polygon's area.
     pub(super) fn centroid(&self) -> [f64; 2] {
         let o = self.at[0].at;
         let (mut whole, mut sum) = (0.0, [0.0; 2]);
@@ -80,8 +81,8 @@ impl Polygon {
         std::array::from_fn(|i| o[i] + sum[i] / (3.0 * whole))
     }
 
-    /// Slopes of the centroid, `δ(centroid)_i = Σ c[i][m] δ(corner)_m`, one after the other of the corners: the centroid is
-    /// `Σ (p_k + p_k+1) (p_k × p_k+1) / (3 Σ p_k × p_k+1)` about any place, here about itself.
+    /// Slopes of the centroid with respect to each corner in turn, `δ(centroid)_i = Σ c[i][m] δ(corner)_m`. The centroid is
+    /// `Σ (p_k + p_k+1) (p_k × p_k+1) / (3 Σ p_k × p_k+1)` about any origin, here about the centroid itself.
     pub(super) fn centroid_slopes(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
         let (n, centroid) = (self.corners, self.centroid());
         let of = move |k: usize| sub(&self.at[k % n].at, &centroid);
@@ -90,7 +91,7 @@ impl Polygon {
         (0..n).map(move |k| {
             let (before, here, after) = (of(k + n - 1), of(k), of(k + 1));
             let products = flat(&before, &here) + flat(&here, &after);
-            // Slopes of both products by this corner.
+            // Slopes of both products with respect to this corner.
             let (left, right) = ([-before[1], before[0]], [after[1], -after[0]]);
             std::array::from_fn(|i| {
                 std::array::from_fn(|m| {
@@ -101,7 +102,7 @@ impl Polygon {
         })
     }
 
-    /// True if the boxes of two polygons are apart.
+    /// True if the bounding boxes of two polygons do not overlap.
     pub(super) fn apart(&self, other: &Self) -> bool {
         let range = |p: &Self, i: usize| {
             let values = p.at[..p.corners].iter().map(|c| c.at[i]);
@@ -113,7 +114,7 @@ impl Polygon {
         })
     }
 
-    /// The part inside a convex polygon of nodes (Sutherland and Hodgman 1974).
+    /// Part of the polygon inside another convex polygon (Sutherland and Hodgman 1974).
     pub(super) fn clipped(&self, other: &Self, nodes: &[[f64; 2]]) -> Self {
         let mut out = *self;
         for k in 0..other.corners {
@@ -148,8 +149,9 @@ impl Polygon {
 }
 
 impl Corner {
-    /// The nodes the crossing of two lines follows, with `δ(corner)_i = Σ c[i][m] δ(node)_m`. It stays on both lines: across each it
-    /// moves as their nodes do in the mean. Along lines that all but coincide it is material of the first.
+    /// Nodes on which the intersection of two lines depends, with `δ(corner)_i = Σ c[i][m] δ(node)_m`. The intersection stays
+    /// on both lines; normal to each it moves with the interpolated motion of the line's nodes. If the lines nearly coincide,
+    /// it is a material point of the first.
     pub(super) fn slopes(&self, lines: &[Line; 2], nodes: &[[f64; 2]]) -> [(usize, [[f64; 2]; 2]); 4] {
         let ends = lines.map(|l| l.map(|v| nodes[v]));
         let along = ends.map(|[a, b]| sub(&b, &a));
@@ -163,7 +165,8 @@ impl Corner {
             let [v, w] = lines[0];
             return [(v, unit(1.0 - share[0])), (w, unit(share[0])), (v, unit(0.0)), (w, unit(0.0))];
         }
-        // (direction moved along, normal of the line that moves), over the product of the lines.
+        // Arguments: direction of the motion, and direction of the moving line, whose normal enters. Divided by the cross
+        // product.
         let block = |t: [f64; 2], of: [f64; 2], c: f64| -> [[f64; 2]; 2] {
             let normal = [-of[1], of[0]];
             std::array::from_fn(|i| std::array::from_fn(|m| c * t[i] * normal[m] / product))

@@ -5,32 +5,32 @@ use crate::shape::shape;
 use crate::vector::{axpy, cross, dot, norm};
 use asperity_fem::quadrature::{triangle_1, triangle_3, triangle_6};
 
-/// Most Gauss points in one direction. Faces so distorted that the product of shape functions needs more are integrated
-/// to a smaller accuracy, as every element is.
+/// Most Gauss points in one direction. Faces so distorted that the product of shape functions needs more are integrated to
+/// lower accuracy, as elements are.
 const MOST: usize = 12;
 
-/// Accuracy for which the number of points on irregular quadrilaterals is chosen: rounding.
+/// Accuracy for which the number of points on irregular quadrilaterals is chosen, at the level of rounding.
 const ACCURACY: f64 = 1e-16;
 
-/// A facet whose Jacobian varies by less than this share is a parallelogram but for the rounding of coordinates.
+/// A facet whose Jacobian varies by less than this share is a parallelogram up to the rounding of coordinates.
 const REGULAR: f64 = 1e-10;
 
 /// Quadrature on the pieces of an overlap.
 #[derive(Clone, Debug)]
 pub(super) struct Rule {
-    /// On [0, 1]: abscissa and weight.
+    /// Abscissae and weights on [0, 1].
     pub line: Vec<[f64; 2]>,
-    /// On triangles: shares of the corners, and weights of sum 1/2.
+    /// Barycentric coordinates and weights on triangles; the weights sum to 1/2.
     pub triangle: Vec<([f64; 3], f64)>,
-    /// True if a polygon is a fan about its centroid. With the symmetric rule of degree 4 its integrals then depend neither on the
-    /// corner that comes first nor on corners that rounding adds. Rules of a lower degree serve triangles, and are exact on them;
-    /// those of a higher one have enough points for any fan.
+    /// True if a polygon is divided into a fan about its centroid. With the symmetric rule of degree 4 its integrals then
+    /// depend neither on the choice of the first corner nor on corners added by rounding. Rules of lower degree are used on
+    /// triangles and are exact there; rules of higher degree have enough points for any fan.
     pub centred: bool,
 }
 
 impl Rule {
-    /// Gauss-Legendre points on [0, 1]. On triangles a symmetric rule of degree 2n - 2 where one is at hand, else the square's
-    /// collapsed, of the same degree.
+    /// Makes a rule of Gauss-Legendre points on [0, 1]. On triangles it is a symmetric rule of degree 2n - 2 if one is
+    /// available, otherwise the collapsed rule of the square, of the same degree.
     fn new(n: usize) -> Self {
         let line = legendre(n);
         let shares = |([x, y, _], weight): ([f64; 3], f64)| ([1.0 - x - y, x, y], weight);
@@ -44,7 +44,7 @@ impl Rule {
     }
 }
 
-/// The square's rule collapsed onto a triangle.
+/// Rule of the square collapsed onto a triangle.
 fn collapsed(line: &[[f64; 2]]) -> Vec<([f64; 3], f64)> {
     let point = |[s, ws]: [f64; 2], [t, wt]: [f64; 2]| {
         let v = t * (1.0 - s);
@@ -64,14 +64,14 @@ impl Rules {
         Self { rules: (1..=MOST).map(Rule::new).collect() }
     }
 
-    /// The rule of `n` points.
+    /// Rule of `n` points.
     #[inline]
     pub(super) fn of(&self, n: usize) -> &Rule {
         &self.rules[n - 1]
     }
 }
 
-/// Zeros of the Legendre polynomial by Newton's method with their weights 2/((1 - x²) P'²), on [0, 1].
+/// Zeros of the Legendre polynomial by Newton's method, with their weights 2/((1 - x²) P'²), on [0, 1].
 fn legendre(n: usize) -> Vec<[f64; 2]> {
     #[expect(clippy::cast_precision_loss, reason = "n is at most MOST")]
     let count = n as f64;
@@ -80,7 +80,7 @@ fn legendre(n: usize) -> Vec<[f64; 2]> {
             #[expect(clippy::cast_precision_loss, reason = "i is below MOST")]
             let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (count + 0.5)).cos();
             let mut slope = 1.0;
-            // Quadratic convergence from a guess good to two digits: rounding after four steps.
+            // The initial guess is good to two digits. Quadratic convergence reaches rounding after four steps.
             for _ in 0..8 {
                 let (mut p, mut before) = (1.0, 0.0);
                 for k in 0..n {
@@ -96,8 +96,8 @@ fn legendre(n: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Gauss points in one direction for the product of shape functions (and the radius) of a facet of this kind with one of
-/// kind `other`: exact where the shape functions are polynomials in the plane.
+/// Number of Gauss points in one direction for the product of shape functions (and the radius) of a facet of this kind with one
+/// of kind `other`. It is exact if the shape functions are polynomials in the plane.
 pub(super) fn points(kind: SegmentKind, other: SegmentKind, distortion: f64) -> usize {
     let degree = |k: SegmentKind| match k {
         SegmentKind::Seg2 | SegmentKind::Tri3 => 1,
@@ -106,13 +106,13 @@ pub(super) fn points(kind: SegmentKind, other: SegmentKind, distortion: f64) -> 
         SegmentKind::Quad9 => 4,
     };
     let of_products = degree(kind) + degree(other).max(degree(kind));
-    // 2n - 1 on lines, where the radius of a body of revolution adds one; 2n - 2 on triangles.
+    // 2n - 1 on lines, where the radius of a body of revolution adds one degree; 2n - 2 on triangles.
     let n = (of_products + 3) / 2;
     if distortion < REGULAR {
         return n;
     }
-    // The inverse of the bilinear map is analytic up to where the Jacobian vanishes, at 1/distortion in natural coordinates:
-    // Gauss points converge with the square of the parameter of that ellipse.
+    // The inverse of the bilinear map is analytic up to the zeros of the Jacobian, at 1/distortion in natural coordinates.
+    // Gauss quadrature converges with the square of the parameter of that ellipse.
     let far = distortion.min(1.0).recip();
     let ellipse = (far + (far * far - 1.0).max(0.0).sqrt()).max(1.0 + REGULAR);
     let more = -ACCURACY.ln() / (2.0 * ellipse.ln());
@@ -125,7 +125,7 @@ pub(super) fn points(kind: SegmentKind, other: SegmentKind, distortion: f64) -> 
     (n + more).min(MOST)
 }
 
-/// Largest relative deviation of the Jacobian from its mean at the corners of a facet with nodes `x`; 0 on lines and on
+/// Largest relative deviation of the Jacobian from its mean at the corners of a facet with nodes `x`. It is 0 on lines and on
 /// triangles with straight edges and centred mid-nodes.
 pub(super) fn distortion<const D: usize>(kind: SegmentKind, x: &[[f64; D]]) -> f64 {
     let corners: &[[f64; 2]] = match kind {

@@ -1,4 +1,4 @@
-//! Numbers with which an overlap is computed: plain, or carrying their derivatives along (forward differentiation).
+//! Numbers for computing an overlap: plain, or carrying derivatives (forward differentiation).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -6,15 +6,15 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 pub(super) trait Scalar:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
-    /// A constant.
+    /// Makes a constant.
     fn of(value: f64) -> Self;
-    /// The value.
+    /// Value of the number.
     fn value(&self) -> f64;
-    /// Its square root.
+    /// Square root.
     fn sqrt(self) -> Self;
-    /// c times it.
+    /// Product with c.
     fn times(self, c: f64) -> Self;
-    /// A function of `arguments` with this value and these partial derivatives at the arguments' values.
+    /// A function of `arguments` with this value and these partial derivatives at the values of the arguments.
     fn chain(value: f64, slopes: [f64; 2], arguments: &[Self; 2]) -> Self;
 }
 
@@ -51,13 +51,13 @@ pub(super) struct Dual<const M: usize> {
 }
 
 impl<const M: usize> Dual<M> {
-    /// f(self) from value and slope.
+    /// Function f(self), from its value and slope.
     #[inline]
     fn map(&self, v: f64, slope: f64) -> Self {
         Self { v, d: std::array::from_fn(|k| slope * self.d[k]) }
     }
 
-    /// The value with derivatives `a self.d + b other.d`.
+    /// Number with value `v` and derivatives `a self.d + b other.d`.
     #[inline]
     fn blend(&self, v: f64, a: f64, other: &Self, b: f64) -> Self {
         Self { v, d: std::array::from_fn(|k| a * self.d[k] + b * other.d[k]) }

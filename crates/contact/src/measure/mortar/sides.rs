@@ -1,4 +1,5 @@
-//! The two surfaces of a mortar interface: facets with their weightings, averaged normals, and which facets may overlap.
+//! The two surfaces of a mortar interface: facets with their weightings, averaged normals, and the search for facets that may
+//! overlap.
 
 use super::cell::Frozen;
 use super::rule::{self, Rule, Rules};
@@ -9,11 +10,11 @@ use crate::shape::{MOST_NODES, shape};
 use crate::spec::{Segment, SlavePoint};
 use crate::vector::{axpy, dot, norm, perpendicular, scaled, sub};
 
-/// Facets whose normals enclose less than about 96 degrees with each other do not face: along the slave's normal the
-/// projection of such a master facet degenerates.
+/// Bound on the product of facet normals, which excludes facets whose normals enclose less than about 96 degrees. Along the
+/// slave's normal the projection of such a master facet degenerates.
 const FACING: f64 = 0.1;
 
-/// Boxes of the search grow by this share of a facet, so that candidates change only when the motion reaches it.
+/// Share of a facet by which the boxes of the search are enlarged, so that candidates change only when the motion reaches it.
 const MARGIN: f64 = 0.25;
 
 /// A slave facet.
@@ -22,24 +23,24 @@ pub(super) struct Facet {
     pub kind: SegmentKind,
     pub nodes: Vec<usize>,
     pub weighting: Weighting,
-    /// Start of its nodes' reference positions.
+    /// Start of its nodes among the reference positions.
     from: usize,
     distortion: f64,
 }
 
-/// A slave facet beside a slave point's node: facet and local number of the node there.
+/// A slave facet adjacent to a slave point: the facet and the local number of the point's node in it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beside {
     pub facet: usize,
     pub local: usize,
 }
 
-/// Both surfaces.
+/// Both surfaces of an interface.
 #[derive(Clone, Debug)]
 pub(super) struct Sides<const D: usize> {
     pub facets: Vec<Facet>,
     pub master: Vec<Segment>,
-    /// Facets beside each slave point.
+    /// Facets adjacent to each slave point.
     pub beside: Vec<Vec<Beside>>,
     pub axisymmetric: bool,
     reference: Vec<[f64; D]>,
@@ -50,7 +51,7 @@ pub(super) struct Sides<const D: usize> {
 }
 
 impl<const D: usize> Sides<D> {
-    /// Facets at reference `positions` of the interface's nodes; facets none of whose nodes is a slave point are left out.
+    /// Collects the facets at reference `positions` of the interface's nodes. Facets without a slave point are left out.
     pub(super) fn new(
         faces: &[Segment],
         slave: &[SlavePoint],
@@ -105,7 +106,7 @@ impl<const D: usize> Sides<D> {
         }
     }
 
-    /// The quadrature rule for slave facet `f` with master facet `m`; chosen by the reference configuration.
+    /// Quadrature rule for slave facet `f` with master facet `m`, chosen in the reference configuration.
     #[inline]
     pub(super) fn rule(&self, f: usize, m: usize) -> &Rule {
         let distortion = self.facets[f].distortion.max(self.distortion[m]);
@@ -119,7 +120,7 @@ impl<const D: usize> Sides<D> {
         bases(facet.kind, &facet.nodes, x, node_at(facet.kind, b.local))
     }
 
-    /// Sum of the outward normals of the facets beside slave point `p`, each weighted by its Jacobian there.
+    /// Sum of the outward normals of the facets adjacent to slave point `p`, each weighted with its Jacobian there.
     #[inline]
     pub(super) fn normal_sum(&self, p: usize, x: &[[f64; D]]) -> [f64; D] {
         let mut sum = [0.0; D];
@@ -129,7 +130,7 @@ impl<const D: usize> Sides<D> {
         sum
     }
 
-    /// About the area of each point's function over the whole slave surface, in the reference configuration.
+    /// Approximate area of each point's function over the whole slave surface, in the reference configuration.
     pub(super) fn whole_areas(&self, points: usize) -> Vec<f64> {
         let mut out = vec![0.0; points];
         for f in 0..self.facets.len() {
@@ -148,7 +149,7 @@ impl<const D: usize> Sides<D> {
         out
     }
 
-    /// Moves the search to `x`.
+    /// Moves the search boxes to positions `x`.
     pub(super) fn refit(&mut self, x: &[[f64; D]]) {
         for (b, m) in self.boxes.iter_mut().zip(&self.master) {
             *b = box_of(&m.nodes, x);
@@ -156,13 +157,15 @@ impl<const D: usize> Sides<D> {
         self.tree.refit(&self.boxes);
     }
 
-    /// Master facets that may overlap slave facet `f` at `x`, ascending. They face it, and lie along its normal no farther
-    /// than the nearest master node does from its middle, plus its own size: of several layers of a master the nearest counts.
+    /// Finds the master facets that may overlap slave facet `f` at `x`, ascending. They face it, and their distance along its
+    /// normal is at most that of the master node nearest to its middle plus its own size. Of several layers of a master the
+    /// nearest thus counts.
     ///
-    /// Returns how far δ all nodes may move before a facet may overlap that is not among them. The box of the slave facet, drawn out
-    /// by the reach R along its normal n, and those of the masters grow by δ each; R is a distance between nodes (2 δ) and a
-    /// diagonal (2 √D δ), and `|Δ(R n)| <= ΔR + R |Δn|`. The boxes were met with a margin. A master begins to face when the
-    /// product of the normals has changed by what it lacks, `|Δn|` of either facet.
+    /// Returns the distance δ that all nodes may move before another facet may overlap. The box of the slave facet, extended by
+    /// the reach R along its normal n, and the boxes of the masters grow by δ each. R is a distance between nodes (2 δ) plus a
+    /// diagonal (2 √D δ), and `|Δ(R n)| <= ΔR + R |Δn|`. The boxes were tested with a margin. A master begins to face the slave
+    /// once the product of the normals has changed by the amount by which it misses the bound; it changes by `|Δn|` of either
+    /// facet.
     pub(super) fn candidates(&self, f: usize, x: &[[f64; D]], out: &mut Vec<usize>, count: &mut u64) -> f64 {
         out.clear();
         let facet = &self.facets[f];
@@ -213,15 +216,15 @@ fn box_of<const D: usize>(nodes: &[usize], x: &[[f64; D]]) -> Aabb<D> {
     b
 }
 
-/// Outward unit normal in the middle of a facet.
+/// Outward unit normal at the middle of a facet.
 fn facet_normal<const D: usize>(kind: SegmentKind, nodes: &[usize], x: &[[f64; D]]) -> [f64; D] {
     let n = perpendicular(&bases(kind, nodes, x, middle(kind)));
     scaled(&n, norm(&n).recip())
 }
 
-/// `|Δn|/δ` at most, of the normal in the middle of a facet of first order whose nodes move by δ, while δ is below the length of its
-/// base vectors e: they change by 2 δ at most (differences of two positions or of two means), their product by
-/// 2 δ (|e_1| + |e_2|) + 4 δ² <= 4 δ (|e_1| + |e_2|), and a unit vector by twice the change over the length.
+/// Upper bound of `|Δn|/δ` for the normal at the middle of a first-order facet whose nodes move by δ, for δ below the length of
+/// its base vectors e. They change by at most 2 δ (differences of two positions or of two means). Their product changes by at
+/// most `2 δ (|e_1| + |e_2|) + 4 δ² <= 4 δ (|e_1| + |e_2|)`, and a unit vector by twice the change over the length.
 fn turning<const D: usize>(kind: SegmentKind, nodes: &[usize], x: &[[f64; D]]) -> f64 {
     let e = bases(kind, nodes, x, middle(kind));
     if D == 2 {
@@ -234,7 +237,7 @@ fn middle(kind: SegmentKind) -> [f64; 2] {
     if matches!(kind, SegmentKind::Tri3 | SegmentKind::Tri6) { [1.0 / 3.0; 2] } else { [0.0; 2] }
 }
 
-/// Base vectors at natural coordinates.
+/// Base vectors at natural coordinates `xi`.
 #[inline]
 pub(super) fn bases<const D: usize>(
     kind: SegmentKind,

@@ -1,4 +1,4 @@
-//! Small sliding: the overlap of the reference configuration.
+//! Small sliding with the overlap of the reference configuration.
 
 use super::cell::{Sums, integrate};
 use super::dual::{Part, dualise};
@@ -8,11 +8,11 @@ use crate::spec::{Segment, SlavePoint, SurfaceNode};
 use crate::vector::{axpy, scaled, unit};
 use std::collections::BTreeMap;
 
-/// A point that faces the master over less than this share of the area of its functions is unpaired: what is left is the
-/// rounding of rims that coincide.
+/// A point is unpaired if it faces the master over less than this share of the area of its function. Such a remainder is the
+/// rounding of coinciding rims.
 pub(super) const FACED: f64 = 1e-9;
 
-/// Row A of `D` and `M`.
+/// Row of slave point A in `D` and `M`.
 #[derive(Clone, Debug, Default)]
 struct Row {
     area: f64,
@@ -20,7 +20,7 @@ struct Row {
     master: BTreeMap<usize, f64>,
 }
 
-/// Integrates the overlaps in the reference configuration. Returns the measure and the number of pairs of facets examined.
+/// Integrates the overlaps in the reference configuration. Also returns the number of facet pairs examined.
 #[must_use]
 pub fn small<const D: usize>(
     nodes: &[SurfaceNode<D>],
@@ -40,7 +40,7 @@ pub fn small<const D: usize>(
     let mut measure = Fixed::new(areas, false);
     for (p, row) in rows.iter().enumerate().filter(|(p, _)| paired(*p)) {
         let normal = fixed_normal.unwrap_or_else(|| scaled(&sides.normal_sum(p, &x), -1.0));
-        // A node of both sides (the tip of a split surface) acts with the difference of its weights.
+        // A node that belongs to both sides (the tip of a split surface) acts with the difference of its weights.
         let mut own = row.slave.clone();
         let mut other = row.master.clone();
         own.iter_mut().for_each(|(n, w)| *w -= other.remove(n).unwrap_or(0.0));

@@ -9,26 +9,26 @@ use std::sync::{Mutex, PoisonError};
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Point {
-    /// Nodes of its block: those of the slave facets beside it, then those of the masters near it.
+    /// Nodes of its block: those of the adjacent slave facets, followed by those of nearby master facets.
     pub(super) nodes: Vec<usize>,
-    /// Number of slaves among them.
+    /// Number of slave nodes among them.
     pub(super) slaves: usize,
     /// Rows of D and -M on these nodes.
     pub(super) weights: Vec<f64>,
-    /// s_k of the last commit.
+    /// Weights s_k of the last commit.
     pub(super) then: Vec<f64>,
     pub(super) area: f64,
-    /// About its area when all of its facets face the master.
+    /// Approximate area if all its facets face the master.
     pub(super) whole: f64,
-    /// True if `then` exists: the point faced the master at the last commit, or has met it since.
+    /// True if `then` is set: the point faced the master at the last commit or has met it since.
     pub(super) anchored: bool,
-    /// Met it since.
+    /// True if the point has met the master since the last commit.
     pub(super) fresh: bool,
-    /// Start of its block among the values.
+    /// Start of its block among the values of the tangent.
     pub(super) at: usize,
     /// Start of its columns among those of its piece.
     pub(super) column: usize,
-    /// The frame's material vectors in the base vectors of the first facet beside the point.
+    /// Components of the frame's material vectors in the base vectors of the first facet adjacent to the point.
     pub(super) along: [[f64; 2]; 2],
 }
 
@@ -37,11 +37,12 @@ pub(super) struct Point {
 pub(super) struct Cell {
     pub(super) facet: usize,
     pub(super) master: usize,
-    /// Start of its table in `places`: for each point of the facet the places of slave and master nodes in its block.
+    /// Start of its table in `places`: for each point of the facet, the positions of slave and master nodes in the point's
+    /// block.
     pub(super) table: usize,
 }
 
-/// The measure.
+/// Mortar measure of finite sliding.
 #[derive(Clone, Debug)]
 pub(super) struct Finite<const D: usize> {
     pub(super) sides: Sides<D>,
@@ -50,9 +51,9 @@ pub(super) struct Finite<const D: usize> {
     pub(super) points: Vec<Point>,
     pub(super) locals: Vec<Local<D>>,
     pub(super) x: Vec<[f64; D]>,
-    /// In the order of their facets.
+    /// Cells, sorted by facet.
     pub(super) cells: Vec<Cell>,
-    /// First cell of each facet, and the end.
+    /// First cell of each facet, and the end of the last.
     pub(super) first: Vec<usize>,
     pub(super) places: Vec<usize>,
     /// Integrals of the cells, laid out as `places`.
@@ -60,20 +61,20 @@ pub(super) struct Finite<const D: usize> {
     /// Points in the order of their blocks.
     pub(super) order: WorkOrder,
     pub(super) pattern: Pattern,
-    /// Contributions to the tangent, by piece.
+    /// Contributions to the tangent for each piece.
     pub(super) scratch: Vec<Scratch<D>>,
-    /// Result of the search, facet by facet in pieces.
+    /// Results of the search, in pieces of the slave facets.
     pub(super) found: Vec<Found>,
-    /// Range in which it holds.
+    /// Range in which the result of the last search holds.
     pub(super) bound: Bound<D>,
 }
 
-/// Buffers of a piece, which one thread works on at a time.
+/// Buffer of a piece. Only one thread uses it at a time.
 #[derive(Debug)]
 pub(super) struct Scratch<const D: usize>(pub(super) Mutex<Vec<[f64; D]>>);
 
 impl<const D: usize> Scratch<D> {
-    /// For this number of columns.
+    /// Makes a buffer of this number of columns.
     pub(super) fn new(columns: usize) -> Self {
         Self(Mutex::new(vec![[0.0; D]; columns]))
     }
@@ -88,12 +89,12 @@ impl<const D: usize> Clone for Scratch<D> {
 /// Result of the search for a piece of the slave facets.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Found {
-    /// Slave and master facets.
+    /// Pairs of slave and master facets.
     pub(super) pairs: Vec<(usize, usize)>,
-    /// Buffer: candidates of one facet.
+    /// Buffer for the candidates of one facet.
     pub(super) candidates: Vec<usize>,
-    /// Pairs looked at.
+    /// Number of pairs examined.
     pub(super) examined: u64,
-    /// Distance that nodes may move before there are other pairs \[m\].
+    /// Distance that nodes may move before other pairs can appear \[m\].
     pub(super) free: f64,
 }

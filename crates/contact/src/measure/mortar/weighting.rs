@@ -1,18 +1,19 @@
-//! The functions ψ_A with which the gap is averaged to slave nodes: a partition of unity that is nowhere negative.
+//! Weighting functions ψ_A that average the gap to slave nodes: a non-negative partition of unity.
 //!
-//! On faces of first order they are the shape functions. Those of second order are negative in places, and on six-node
-//! triangles and eight-node quadrilaterals the integral of a corner's function is zero or negative: no average can be
-//! taken with it. There a share of each mid-node's function is given to the ends of its edge: 1/4 on lines, triangles and
-//! nine-node quadrilaterals, which yields the Bernstein polynomials of second degree, and 3/8 on those of eight nodes.
+//! On first-order faces they are the shape functions. Second-order shape functions are negative in places, and on six-node
+//! triangles and eight-node quadrilaterals the integral of a corner's function is zero or negative, so no average can be taken
+//! with it. On these faces a share of each mid-node's function is given to the ends of its edge. The share is 1/4 on lines,
+//! triangles and nine-node quadrilaterals, which yields the Bernstein polynomials of second degree, and 3/8 on eight-node
+//! quadrilaterals.
 //!
-//! Any partition of unity transmits a uniform pressure exactly, because `Σ_A ψ_A p = p`; one that is nowhere negative
-//! makes tensile tractions impossible between the nodes too.
+//! Any partition of unity transmits a uniform pressure exactly, because `Σ_A ψ_A p = p`. A non-negative one also excludes
+//! tensile tractions between the nodes.
 
 use crate::SegmentKind;
 use crate::shape::{MOST_NODES, Shape};
 use crate::spec::{Segment, SlavePoint};
 
-/// ψ_a = Σ_B c_aB N_B on one facet, one row for each of its points.
+/// Functions ψ_a = Σ_B c_aB N_B on one facet, one row for each of its points.
 #[derive(Clone, Debug)]
 pub(super) struct Weighting {
     /// Slave point of each row.
@@ -21,8 +22,8 @@ pub(super) struct Weighting {
 }
 
 impl Weighting {
-    /// The functions of a facet. `point_of` gives the slave point of a local node; a node without one (the tip of a split
-    /// surface) leaves its function to the others in equal parts.
+    /// Makes the functions of a facet. `point_of` gives the slave point of a local node. The function of a node without one
+    /// (the tip of a split surface) is divided equally among the others.
     pub(super) fn new(kind: SegmentKind, point_of: impl Fn(usize) -> Option<usize>) -> Self {
         let all: Vec<[f64; MOST_NODES]> = (0..kind.nodes()).map(|k| row(kind, k)).collect();
         let mut out = Self { points: Vec::new(), rows: Vec::new() };
@@ -43,13 +44,13 @@ impl Weighting {
         out
     }
 
-    /// c_aB.
+    /// Coefficient c_aB.
     #[inline]
     pub(super) fn coefficient(&self, row: usize, node: usize) -> f64 {
         self.rows[row][node]
     }
 
-    /// ψ_a at a point, from the values of the shape functions there, and derivatives likewise from derivatives.
+    /// Value of ψ_a at a point from the values of the shape functions there, or a derivative of ψ_a from their derivatives.
     #[inline]
     pub(super) fn at(&self, row: usize, nodes: usize, values: &[f64; MOST_NODES]) -> f64 {
         self.rows[row].iter().zip(values).take(nodes).map(|(c, v)| c * v).sum()
@@ -62,8 +63,8 @@ impl Weighting {
     }
 }
 
-/// For each node of an interface the points whose functions do not vanish there, with their values: `Σ_A ψ_A f_A` at the node is the
-/// sum of these values times f_A. Empty for nodes of no facet.
+/// Points whose functions do not vanish at each node of an interface, with their values: `Σ_A ψ_A f_A` at the node is the sum
+/// of these values times f_A. Empty for nodes that belong to no facet.
 pub(crate) fn node_values(faces: &[Segment], slave: &[SlavePoint], nodes: usize) -> Vec<Vec<(usize, f64)>> {
     let mut point_of = vec![None; nodes];
     for (p, s) in slave.iter().enumerate() {
@@ -73,7 +74,7 @@ pub(crate) fn node_values(faces: &[Segment], slave: &[SlavePoint], nodes: usize)
     for face in faces.iter().filter(|f| f.nodes.iter().any(|&n| point_of[n].is_some())) {
         let weighting = Weighting::new(face.kind, |k| point_of[face.nodes[k]]);
         for (k, &node) in face.nodes.iter().enumerate() {
-            // The functions are continuous: any facet of the node gives its values.
+            // The functions are continuous, so any facet of the node gives the same values.
             if out[node].is_empty() {
                 let rows = weighting.points.iter().zip(&weighting.rows);
                 out[node] = rows.map(|(&p, row)| (p, row[k])).filter(|(_, c)| *c != 0.0).collect();
@@ -96,14 +97,14 @@ fn row(kind: SegmentKind, k: usize) -> [f64; MOST_NODES] {
         SegmentKind::Seg2 | SegmentKind::Tri3 | SegmentKind::Quad4 => c[k] = 1.0,
         SegmentKind::Seg3 => share(&mut c, k, 0.25, 2, &[[0, 1]]),
         SegmentKind::Tri6 => share(&mut c, k, 0.25, 3, &[[0, 1], [1, 2], [2, 0]]),
-        // N_k of a corner is the bilinear function less half of its mid-nodes': a quarter would leave it negative.
+        // N_k of a corner is the bilinear function minus half of its mid-nodes' functions. A quarter would leave it negative.
         SegmentKind::Quad8 => share(&mut c, k, 0.375, 4, &[[0, 1], [1, 2], [2, 3], [3, 0]]),
         SegmentKind::Quad9 => return nine(k),
     }
     c
 }
 
-/// A corner takes this `part` of its mid-nodes' functions, a mid-node keeps the rest of its own.
+/// Gives a corner this `part` of its mid-nodes' functions; a mid-node keeps the rest of its own.
 fn share(c: &mut [f64; MOST_NODES], k: usize, part: f64, corners: usize, edges: &[[usize; 2]]) {
     if k >= corners {
         c[k] = 1.0 - 2.0 * part;
@@ -117,7 +118,7 @@ fn share(c: &mut [f64; MOST_NODES], k: usize, part: f64, corners: usize, edges: 
     }
 }
 
-/// Products of the line's coefficients; nodes as (end, end, middle) in either direction.
+/// Products of the line's coefficients. Nodes are numbered (end, end, middle) in either direction.
 fn nine(k: usize) -> [f64; MOST_NODES] {
     const AT: [[usize; 2]; 9] = [[0, 0], [1, 0], [1, 1], [0, 1], [2, 0], [1, 2], [2, 1], [0, 2], [2, 2]];
     let line = |i: usize| match i {

@@ -1,23 +1,23 @@
-//! Finite sliding: the pairing follows the motion.
+//! Finite sliding with a pairing that follows the motion.
 //!
-//! A point is *held* by one segment between searches; the closest point x_c on the (continued) segment is recomputed at
-//! each measurement. The point of the last commit, its *anchor*, moves with the master as a material point x_a, and the
-//! tangential increment is `d = x_c - x_a` in the present tangent plane. On one flat segment that is `e_m Δξ_m` with the
-//! present base vectors, whatever the rotation; across coplanar segments it is the sum of the path; across a kink of angle
-//! θ it is the chord, shorter than the path by at most θ²/8 of it within the one step that crosses.
+//! A point is *held* by one segment between searches. The closest point x_c on the (continued) segment is recomputed at each
+//! measurement. The closest point of the last commit, the *anchor*, moves with the master as a material point x_a, and the
+//! tangential increment is `d = x_c - x_a` in the present tangent plane. On one flat segment it equals `e_m Δξ_m` with the
+//! present base vectors, whatever the rotation. Across coplanar segments it is the sum of the path. Across a kink of angle θ it
+//! is the chord, which is shorter than the path by at most θ²/8 of it, in the one step that crosses.
 //!
-//! Tangential history is kept as components in the orthonormal frame of the anchor, `a_1 = e_1/|e_1|`, `a_2 = n_a × a_1`,
-//! carried to the present tangent plane by the smallest rotation that takes n_a to n:
-//! `a' = a - (n·a)/(1 + n_a·n) (n_a + n)`. Components are therefore unchanged by a rigid rotation, and the force turns
-//! with the master.
+//! Tangential history is stored as components in the orthonormal frame of the anchor, `a_1 = e_1/|e_1|`, `a_2 = n_a × a_1`.
+//! This frame is carried to the present tangent plane by the smallest rotation that takes n_a to n:
+//! `a' = a - (n·a)/(1 + n_a·n) (n_a + n)`. Components are therefore unchanged by a rigid rotation, and the force turns with the
+//! master.
 //!
 //! Linearisation, with `A_ml = e_m·e_l - g_n n·e_m,l` the curvature-corrected metric:
-//! `A_ml δξ_l = δ(u_s - N u)·e_m + g_n n·N_γ,m δx_γ`, `δg_n = n·δ(u_s - N u)`,
-//! `δn = -(n·δe_m) e^m`, `δe_m = N_γ,m δx_γ + e_m,l δξ_l`. The reaction `N_γ f` moves with ξ, hence `N_γ,m δξ_m f`; the
-//! blocks are built in [`super::kernel`]. On smoothed surfaces γ runs over all nodes the segment depends on.
+//! `A_ml δξ_l = δ(u_s - N u)·e_m + g_n n·N_γ,m δx_γ`, `δg_n = n·δ(u_s - N u)`, `δn = -(n·δe_m) e^m`,
+//! `δe_m = N_γ,m δx_γ + e_m,l δξ_l`. The reaction `N_γ f` moves with ξ, which adds `N_γ,m δξ_m f`. The blocks are built in
+//! [`super::kernel`]. On smoothed surfaces γ runs over all nodes on which the segment depends.
 //!
-//! Points are worked on in pieces of fixed size on any number of threads; no point sees another, so that results do not
-//! depend on the number.
+//! Points are processed in pieces of fixed size on any number of threads. No point depends on another, so results do not depend
+//! on the number of threads.
 
 use super::kernel::{Columns, Friction, Kernel};
 use super::local::Local;
@@ -32,7 +32,7 @@ use crate::spec::{SlavePoint, SurfaceNode};
 use crate::vector::{add, axpy, dot, sub};
 use asperity_fem::term::{Blocks, Pattern};
 
-/// The measure.
+/// Node-to-point measure of finite sliding.
 #[derive(Clone, Debug)]
 pub struct Finite<const D: usize> {
     surface: Surface<D>,
@@ -41,11 +41,11 @@ pub struct Finite<const D: usize> {
     points: Vec<Point>,
     /// Positions of all nodes at the last measurement.
     x: Vec<[f64; D]>,
-    /// Proof of the last search.
+    /// Range in which the result of the last search holds.
     bound: Bound<D>,
-    /// Most nodes a segment depends on.
+    /// Largest number of nodes on which a segment depends.
     widest: usize,
-    /// Nodes of all blocks: the slave, those the held segment depends on, those of the anchor's that are not yet there.
+    /// Nodes of all blocks: the slave, those of the held segment, and those of the anchor's segment that are not among them.
     nodes: Vec<usize>,
     /// Start of each point's block in `nodes`.
     starts: Vec<usize>,
@@ -55,7 +55,7 @@ pub struct Finite<const D: usize> {
 }
 
 impl<const D: usize> Finite<D> {
-    /// Pairs the slave points on `surface` in the reference configuration. Returns the measure and the projections made.
+    /// Pairs the slave points on `surface` in the reference configuration. Also returns the number of projections made.
     #[must_use]
     pub fn new(nodes: &[SurfaceNode<D>], slave: &[SlavePoint], surface: Surface<D>) -> (Self, u64) {
         let reference: Vec<[f64; D]> = nodes.iter().map(|n| n.position).collect();
@@ -80,7 +80,7 @@ impl<const D: usize> Finite<D> {
         (measure, projections)
     }
 
-    /// Forgets what the last search proved, so that the next one is made in full.
+    /// Discards the range of the last search, so that the next search is made in full.
     pub fn forget(&mut self) {
         self.bound = Bound::default();
     }
@@ -92,7 +92,7 @@ impl<const D: usize> Finite<D> {
         self.surface.configure(&self.x);
     }
 
-    /// Rebuilds the blocks when a point's segments change.
+    /// Rebuilds the blocks if the segments of a point have changed.
     fn rebuild(&mut self) {
         let mut changed = false;
         for point in &mut self.points {
@@ -105,7 +105,7 @@ impl<const D: usize> Finite<D> {
         }
     }
 
-    /// Builds the blocks of the points' segments; the pattern is a new one then.
+    /// Builds the blocks of the points' segments and a new pattern.
     fn build(&mut self) {
         self.nodes.clear();
         let mut blocks = Blocks::default();
@@ -156,7 +156,7 @@ impl<const D: usize> Finite<D> {
         local.rates(gap, &relative, stretch)
     }
 
-    /// The places in the block of point `p` of the nodes a segment depends on; `leading` when they follow the slave.
+    /// Finds the rows of a segment's nodes in the block of point `p`. With `leading` they directly follow the slave.
     fn rows<const M: usize>(&self, p: usize, segment: usize, leading: bool, rows: &mut [usize; M]) -> usize {
         let support = self.surface.support(segment);
         let block = &self.nodes[self.starts[p]..self.starts[p + 1]];
@@ -212,7 +212,7 @@ impl<const D: usize> Finite<D> {
         kernel.write(point.slave.area, nodes, &columns, &rows[..n], &weights, block);
     }
 
-    /// Blocks of the points `from..to`, in pieces.
+    /// Writes the blocks of the points `from..to`, in pieces.
     fn blocks<const M: usize, const K: usize>(
         &self,
         (from, to): (usize, usize),
@@ -237,7 +237,7 @@ impl<const D: usize> Finite<D> {
         }
     }
 
-    /// Evaluates one point; returns its increment's chord in the carried frame through `out`.
+    /// Evaluates one point and writes it to `out`; the increment is the chord in the carried frame.
     fn measure_point(
         surface: &Surface<D>,
         x: &[[f64; D]],
@@ -283,7 +283,7 @@ impl<const D: usize> Finite<D> {
     }
 }
 
-/// Part of a geometry.
+/// Mutable view of part of a geometry.
 struct View<'a, const D: usize> {
     paired: &'a mut [bool],
     gap: &'a mut [f64],
@@ -345,7 +345,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
     fn spread(&self, force: &[[f64; D]], residual: &mut [f64]) {
         for (point, f) in self.points.iter().zip(force) {
             let Some(place) = point.place else { continue };
-            // An open point has no force.
+            // Open points exert no force.
             if *f == [0.0; D] {
                 continue;
             }
@@ -370,7 +370,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
 
     fn tangent(&self, geometry: &Geometry<D>, tractions: Tractions<'_>, values: &mut [f64]) {
         let range = (0, self.points.len());
-        // Twice the nodes of a segment, for the anchor's, and the slave.
+        // Room for twice the nodes of a segment (held segment and anchor's segment) and the slave.
         match self.widest {
             0..=2 => self.blocks::<2, 5>(range, geometry, &tractions, values),
             3..=4 => self.blocks::<4, 9>(range, geometry, &tractions, values),
@@ -407,7 +407,7 @@ impl<const D: usize> Measure<D> for Finite<D> {
             let (_, dxi) = self.rates(point, &place, &local, gap, du);
             let (now, then) = (margins(kind, place.xi), margins(kind, add(&place.xi, &dxi)));
             for (a, b) in now.into_iter().zip(then) {
-                // A point on the border, or beyond it, is already leaving and does not limit.
+                // A point on or beyond the border is already leaving and sets no limit.
                 if a > BORDER && b < 0.0 && best.is_none_or(|e| a / (a - b) < e.fraction) {
                     best = Some(Exit { fraction: a / (a - b), point: p });
                 }

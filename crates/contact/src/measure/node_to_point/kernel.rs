@@ -1,44 +1,44 @@
 //! The tangent block of one tracked point.
 //!
-//! A displacement δu of node k enters through few scalars: its weight N_k and slopes N_k,m on the held segment, those on
-//! the anchor's segment (v_k, v_k,m), and w_k = 1 for the slave, -N_k for master nodes. With the inverse a of
+//! A displacement δu of node k enters through few scalars. These are its weight N_k and slopes N_k,m on the held segment, the
+//! same on the anchor's segment (v_k, v_k,m), and w_k = 1 for the slave, -N_k for master nodes. With the inverse a of
 //! `A = C - g_n b`, dual vectors e^m, and f the force per area,
 //!
 //! `δξ_m = w a_ml e_l·δu + g_n a_ml N_k,l n·δu`, `δn = -e^m (N_k,m n·δu + b_ml δξ_l)`, `δf_n = -E_n w n·δu`,
 //! `δt = Y δ(x_c - x_a) + G δn + anchor terms + d_normal δf_n η`,
 //!
-//! so that `δf = [w J + (N_k,m r_m) ⊗ n - (N_k - v_k) Y - v_k,m h_m ⊗ n_a - v_k,1 h ⊗ a_2] δu` with matrices and vectors of
-//! the point alone: the cost of a block is that of its cells.
+//! so that `δf = [w J + (N_k,m r_m) ⊗ n - (N_k - v_k) Y - v_k,m h_m ⊗ n_a - v_k,1 h ⊗ a_2] δu`. The matrices and vectors depend
+//! on the point alone, so the cost of a block is that of its entries.
 
 use super::local::{Local, inverse};
 use crate::measure::{NormalPoint, ShearPoint};
 use crate::search::surface::Weights;
 use crate::vector::{add, axpy, dot, norm, scaled, sub};
 
-/// Everything about a point that does not depend on the node displaced.
+/// Quantities of a point that do not depend on the displaced node.
 pub(super) struct Kernel<const D: usize> {
     n: [f64; D],
     force: [f64; D],
-    /// a_ml e_l.
+    /// Products a_ml e_l.
     dxi: [[f64; D]; 2],
-    /// g_n a_11, g_n a_12, g_n a_22.
+    /// Products g_n a_11, g_n a_12, g_n a_22.
     spread: [f64; 3],
-    /// J.
+    /// Matrix J.
     relative: [[f64; D]; D],
-    /// r_m.
+    /// Vectors r_m.
     slope: [[f64; D]; 2],
     drag: Option<Drag<D>>,
 }
 
-/// The part of friction that the anchor takes.
+/// Contribution of friction through the anchor.
 struct Drag<const D: usize> {
-    /// Y.
+    /// Matrix Y.
     chord: [[f64; D]; D],
-    /// n_a, a_2 of the anchor.
+    /// Vectors n_a and a_2 of the anchor.
     anchor: [[f64; D]; 2],
-    /// h_m.
+    /// Vectors h_m.
     turn: [[f64; D]; 2],
-    /// h.
+    /// Vector h.
     twist: [f64; D],
 }
 
@@ -56,10 +56,10 @@ impl<const K: usize> Columns<K> {
     }
 }
 
-/// State of friction at a point.
+/// Frictional state of a point.
 pub(super) struct Friction<'a, const D: usize> {
     pub point: &'a ShearPoint,
-    /// E_t.
+    /// Tangential penalty E_t \[Pa/m\].
     pub stiffness: f64,
     /// Geometry at the anchor.
     pub there: &'a Local<D>,
@@ -120,7 +120,7 @@ impl<const D: usize> Kernel<D> {
         Self { n, force, dxi, spread, relative, slope, drag }
     }
 
-    /// ∂f/∂u_k and ∂ξ_m/∂u_k.
+    /// Derivatives ∂f/∂u_k and ∂ξ_m/∂u_k.
     #[inline]
     fn column<const K: usize>(&self, c: &Columns<K>, k: usize) -> ([[f64; D]; D], [[f64; D]; 2]) {
         let w = if k == 0 { 1.0 } else { -c.value[k] };
@@ -153,7 +153,7 @@ impl<const D: usize> Kernel<D> {
         (df, dxi)
     }
 
-    /// Writes the block of `nodes` nodes; `rows` are the places of the held segment's nodes in it, with their weights.
+    /// Writes the block of `nodes` nodes. `rows` are the positions of the held segment's nodes in it, with their weights.
     pub(super) fn write<const M: usize, const K: usize>(
         &self,
         area: f64,
@@ -195,16 +195,16 @@ struct Slide<'a, const D: usize> {
     here: &'a Local<D>,
     there: &'a Local<D>,
     t: [f64; 2],
-    /// V_k = Σ_j a'_j m_jk.
+    /// Vectors V_k = Σ_j a'_j m_jk.
     v: [[f64; D]; 2],
-    /// Y = Σ_k V_k ⊗ a'_k.
+    /// Matrix Y = Σ_k V_k ⊗ a'_k.
     chord: [[f64; D]; D],
-    /// d = x_c - x_a.
+    /// Chord d = x_c - x_a.
     d: [f64; D],
-    /// n_a + n and 1 + n_a·n.
+    /// Vector n_a + n, and β = 1 + n_a·n in `beta`.
     sum: [f64; D],
     beta: f64,
-    /// n·a_j/β.
+    /// Products n·a_j/β.
     lean: [f64; 2],
 }
 
@@ -239,7 +239,7 @@ impl<'a, const D: usize> Slide<'a, D> {
         }
     }
 
-    /// G x = Σ_j L_j G_j x with `G_j = -(n_a + n) ⊗ (a_j - lean_j n_a)/β - lean_j I`.
+    /// Product G x = Σ_j L_j G_j x with `G_j = -(n_a + n) ⊗ (a_j - lean_j n_a)/β - lean_j I`.
     fn turned(&self, x: &[f64; D]) -> [f64; D] {
         let mut out = [0.0; D];
         for j in 0..2 {
@@ -252,7 +252,7 @@ impl<'a, const D: usize> Slide<'a, D> {
         out
     }
 
-    /// L_j Q x with `Q = I - (n_a + n) ⊗ n/β`.
+    /// Product L_j Q x with `Q = I - (n_a + n) ⊗ n/β`.
     fn carried(&self, j: usize, x: &[f64; D]) -> [f64; D] {
         let mut y = *x;
         axpy(&mut y, -dot(&self.here.n, x) / self.beta, &self.sum);
@@ -261,8 +261,8 @@ impl<'a, const D: usize> Slide<'a, D> {
         out
     }
 
-    /// The derivatives by the anchor's base vectors: δn_a = -e_a^m n_a·δe_a,m, δa_1 = (n_a ⊗ n_a + a_2 ⊗ a_2) δe_a,1/|e_a,1|,
-    /// δa_2 = -(a_2·δn_a) n_a - (a_2·δa_1) a_1.
+    /// Derivatives with respect to the anchor's base vectors: δn_a = -e_a^m n_a·δe_a,m, δa_1 = (n_a ⊗ n_a + a_2 ⊗ a_2)
+    /// δe_a,1/|e_a,1|, δa_2 = -(a_2·δn_a) n_a - (a_2·δa_1) a_1.
     fn on_anchor(self) -> Drag<D> {
         let there = self.there;
         let [a1, a2] = &there.frame;
@@ -287,7 +287,7 @@ impl<'a, const D: usize> Slide<'a, D> {
     }
 }
 
-/// M x.
+/// Product M x.
 #[inline]
 fn times<const D: usize>(m: &[[f64; D]; D], x: &[f64; D]) -> [f64; D] {
     std::array::from_fn(|i| dot(&m[i], x))

@@ -3,14 +3,14 @@
 use crate::search::patch::Patch;
 use crate::vector::{add, axpy, cross, dot, perpendicular, solve_tangential, unit};
 
-/// Position, base vectors and what follows from them.
+/// Position, base vectors and derived quantities.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Local<const D: usize> {
     /// Position \[m\].
     pub point: [f64; D],
     /// Base vectors e_m; the second is zero in two dimensions.
     pub e: [[f64; D]; 2],
-    /// e_1,1, e_1,2, e_2,2.
+    /// Second derivatives e_1,1, e_1,2, e_2,2.
     pub curvature: [[f64; D]; 3],
     /// Outward unit normal.
     pub n: [f64; D],
@@ -26,20 +26,20 @@ impl<const D: usize> Local<D> {
         Self { point: patch.point, e: patch.e, curvature: patch.curvature, n, frame: [a1, cross(&n, &a1)] }
     }
 
-    /// C_11, C_12, C_22.
+    /// Metric C_11, C_12, C_22.
     #[inline]
     pub(super) fn metric(&self) -> [f64; 3] {
         [dot(&self.e[0], &self.e[0]), dot(&self.e[0], &self.e[1]), dot(&self.e[1], &self.e[1])]
     }
 
-    /// `C - g_n b`, b_ml = n·e_m,l.
+    /// Corrected metric `C - g_n b` with b_ml = n·e_m,l.
     #[inline]
     pub(super) fn corrected_metric(&self, gap: f64) -> [f64; 3] {
         let metric = self.metric();
         std::array::from_fn(|k| metric[k] - gap * dot(&self.n, &self.curvature[k]))
     }
 
-    /// The frame of `anchor`, carried to this tangent plane by the smallest rotation from its normal to this one.
+    /// Frame of `anchor`, carried to this tangent plane by the smallest rotation from its normal to this one.
     #[inline]
     pub(super) fn carry(&self, anchor: &Self) -> [[f64; D]; 2] {
         let sum = add(&anchor.n, &self.n);
@@ -52,7 +52,7 @@ impl<const D: usize> Local<D> {
         })
     }
 
-    /// Increments of gap and ξ for the relative displacement `slave - Σ N_γ u_γ` and the normal parts `n·Σ N_γ,m u_γ`.
+    /// Increments of gap and ξ for the relative displacement `slave - Σ N_γ u_γ` and the normal components `n·Σ N_γ,m u_γ`.
     #[inline]
     pub(super) fn rates(&self, gap: f64, relative: &[f64; D], stretch: [f64; 2]) -> (f64, [f64; 2]) {
         let rhs = std::array::from_fn(|m| dot(relative, &self.e[m]) + gap * stretch[m]);

@@ -1,4 +1,4 @@
-//! Slave nodes against the closest point of a master segment.
+//! Node-to-point measures: slave nodes against the closest point of a master segment.
 
 pub mod finite;
 mod kernel;

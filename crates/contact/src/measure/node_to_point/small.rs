@@ -1,4 +1,4 @@
-//! Small sliding: every slave node keeps the point of the master surface that was closest in the reference configuration.
+//! Small sliding: every slave node keeps the point of the master surface that is closest in the reference configuration.
 
 use crate::measure::fixed::Fixed;
 use crate::search::project::{Outcome, Projection};
@@ -7,8 +7,8 @@ use crate::search::surface::{Surface, Weights};
 use crate::spec::{SlavePoint, SurfaceNode};
 use crate::vector::{axpy, dot, norm, perpendicular, sub, unit};
 
-/// A slave node beyond the rim of the master surface still pairs when it lies off the normal through the rim by less than
-/// this share of the segment's size: matching meshes meet at their ends up to the rounding of mesh files.
+/// A slave node beyond the rim of the master surface still pairs if it is off the normal through the rim by less than this
+/// share of the segment's size. Matching meshes meet at their ends up to the rounding of mesh files.
 const RIM: f64 = 1e-6;
 
 /// Pairs each slave point with the closest point of `surface` in the reference configuration. Returns the measure and the
@@ -54,7 +54,7 @@ fn pair<const D: usize>(
         return;
     }
     let normal = fixed_normal.map_or(own, |n| unit(&n));
-    // A point on a corner acts on that corner alone; the other weights are exact zeros and leave the pattern.
+    // A point on a corner acts on that corner alone. The other weights are exact zeros and are left out of the pattern.
     let support = surface.support(segment).iter().zip(weights.value);
     let master: Vec<(usize, f64)> = support.filter(|(_, n)| *n != 0.0).map(|(&k, n)| (k, -n)).collect();
     measure.pair(point, &[(slave.node, 1.0)], &master, normal, &apart);

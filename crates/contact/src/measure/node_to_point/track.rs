@@ -1,12 +1,12 @@
-//! Which segment holds each point, and how long that is certain.
+//! Assignment of points to segments, and the range of motion within which it is certain.
 //!
-//! A held point stays with its segment while its foot lies within the segment, grown by a margin. For segments with
-//! straight edges the search proves how far everything may move before that can change: for the foot to cross the border
-//! of the grown segment the point must lie on the normal of a point of the border, at the distance of its gap. If d is the
-//! distance from the border now and every node has moved by δ at most, then the distance is at least d - (1 + Λ) δ and the
-//! gap at most |g_n| + (1 + Λ) δ, Λ the largest sum of |N_γ| on the grown segment; so nothing changes while
-//! `2 (1 + Λ) δ < d - |g_n|`. The foot moves continuously meanwhile: always on lines and flat triangles, on quadrilaterals
-//! while the gap is small against the radius of curvature, which is required with a margin of 10.
+//! A held point stays with its segment while its foot lies within the segment, enlarged by a margin. For segments with straight
+//! edges the search proves how far all nodes may move before that can change. For the foot to cross the border of the enlarged
+//! segment, the point must lie on the normal of a border point, at the distance of its gap. Let d be the present distance from
+//! the border, and Λ the largest sum of |N_γ| on the enlarged segment. If no node has moved by more than δ, the distance is at
+//! least d - (1 + Λ) δ and the gap at most |g_n| + (1 + Λ) δ. Nothing changes while `2 (1 + Λ) δ < d - |g_n|`. This requires
+//! that the foot move continuously. It always does on lines and flat triangles; on quadrilaterals it does while the gap is
+//! small compared with the radius of curvature, which is required with a margin of 10.
 
 use super::local::Local;
 use crate::search::patch::{Form, MOST_POINTS, evaluate};
@@ -16,26 +16,27 @@ use crate::shape::corners;
 use crate::spec::SlavePoint;
 use crate::vector::{add, axpy, dot, norm, scaled, sub};
 
-/// Points worked on together on one thread: some 50 microseconds of work, and a tangent that fits the second-level cache.
+/// Number of points processed together on one thread: some 50 microseconds of work, and a tangent that fits the second-level
+/// cache.
 pub(super) const CHUNK: usize = 128;
 
-/// A held segment keeps its point until it lies this far outside, in natural coordinates: rounding and small movements
-/// at a shared border do not change the pairing back and forth, and the continued segment is off by this times the kink.
+/// Distance outside its segment, in natural coordinates, up to which a point is still held. Rounding and small movements at a
+/// shared border then do not switch the pairing back and forth. The error is this distance times the kink.
 const HYSTERESIS: f64 = 1e-3;
 
-/// The same where the border is the rim of the surface: bodies that end together and deform differently must not lose
-/// their last node.
+/// Same distance at the rim of the surface. Bodies that end together and deform differently must not lose their last node.
 const OVERRUN: f64 = 1e-2;
 
-/// A point beyond the rim is paired again if it lies off the normal through the rim by less than this share of the
-/// segment's size, as in small sliding.
+/// A point beyond the rim is paired again if it is off the normal through the rim by less than this share of the segment's
+/// size, as in small sliding.
 const RIM: f64 = 1e-6;
 
-/// 2 (1 + Λ): on a bilinear segment grown by [`OVERRUN`] the sum of |N_γ| is at most 1.01², and rounding is far below.
+/// Value of 2 (1 + Λ). On a bilinear segment enlarged by [`OVERRUN`] the sum of |N_γ| is at most 1.01², and rounding is far
+/// below.
 const REACH: f64 = 4.05;
 
-/// Largest gap, as a share of the radius of curvature, and motion, as a share of the shortest base vector, for which the
-/// bound is used on quadrilaterals.
+/// Largest gap, as a share of the radius of curvature, and largest motion, as a share of the shortest base vector, for which
+/// the bound is used on quadrilaterals.
 const GENTLE: f64 = 0.1;
 
 /// A point of a segment.
@@ -45,19 +46,19 @@ pub(super) struct Place {
     pub xi: [f64; 2],
 }
 
-/// A slave point and where it is.
+/// A slave point and its position on the master.
 #[derive(Clone, Debug)]
 pub(super) struct Point {
     pub slave: SlavePoint,
     /// Position of the closest point; the segment changes in searches only.
     pub place: Option<Place>,
-    /// Its position at the last commit.
+    /// Closest point at the last commit.
     pub anchor: Option<Place>,
-    /// Paired since the last commit: the anchor is where the first search of the step found the point.
+    /// True if paired since the last commit. The anchor is then the point found by the first search of the step.
     pub fresh: bool,
-    /// The last committed step ended on a border of the segment, moving outwards.
+    /// True if the last committed step ended on a border of the segment, moving outwards.
     pub leaving: bool,
-    /// Held segment and anchor's segment its block was made for.
+    /// Held segment and anchor's segment for which the block was made.
     pub key: Option<(usize, usize)>,
 }
 
@@ -74,7 +75,8 @@ struct Tracked {
     projections: u64,
 }
 
-/// Redetermines which segment holds each point, with the nodes at `x`. Returns how far nodes may move before this can change.
+/// Updates the assignment of points to segments with the nodes at `x`. Returns the distance that nodes may move before it can
+/// change.
 pub(super) fn track<const D: usize>(
     surface: &Surface<D>,
     x: &[[f64; D]],
@@ -101,7 +103,7 @@ fn track_range<const D: usize>(surface: &Surface<D>, x: &[[f64; D]], points: &mu
             point.leaving = false;
         }
         point.place = place;
-        // A point that meets the master within this step has slipped nothing before.
+        // A point that meets the master within this step has not slipped before.
         point.fresh |= point.anchor.is_none() && place.is_some();
         point.anchor = point.anchor.or(place);
         all.radius = all.radius.min(if point.leaving { 0.0 } else { radius });
@@ -117,9 +119,9 @@ struct Tracker<'a, const D: usize> {
 }
 
 impl<const D: usize> Tracker<'_, D> {
-    /// The segment that shall hold a point, with natural coordinates, from the present one, and how far all nodes may move
-    /// before that can change. A point that stays keeps its coordinates as they are: what follows does not depend on
-    /// whether a search was made.
+    /// Determines the segment that holds a point, with natural coordinates, starting from the present one. Also returns the
+    /// distance that all nodes may move before this can change. A point that stays keeps its coordinates unchanged, so that
+    /// results do not depend on whether a search was made.
     fn hold(&self, point: &Point, projections: &mut u64) -> (Option<Place>, f64) {
         let held = point.place.and_then(|h| self.foot(&h));
         if let Some(h) = held
@@ -137,27 +139,27 @@ impl<const D: usize> Tracker<'_, D> {
             return (None, 0.0);
         }
         let place = Place { segment, xi: projection.xi };
-        // Next to a corner that stands out the closest point is the corner, and the foot lies outside.
+        // Next to a protruding corner the closest point is the corner, and the foot lies outside.
         let foot = self.foot(&place).filter(|f| self.keeps(f));
         let radius = foot.map_or(0.0, |f| self.certain(&f));
         if foot.is_some() && point.place.is_some_and(|h| h.segment == segment) {
             return (point.place, radius);
         }
         if self.surface.on_rim(segment, projection.outcome) && self.off_normal(segment, &projection) {
-            // A point that hangs over the rim slides along it from segment to segment.
+            // A point that overhangs the rim slides along it from segment to segment.
             let slides = foot.filter(|_| point.place.is_some());
             return (slides.or(held.filter(|h| self.keeps(h))), 0.0);
         }
         (Some(place), radius)
     }
 
-    /// The foot on the continued segment of `place`.
+    /// Foot of the perpendicular on the continuation of the segment of `place`.
     fn foot(&self, place: &Place) -> Option<Place> {
         let xi = self.surface.foot(place.segment, self.x, &self.p, place.xi)?;
         Some(Place { segment: place.segment, xi })
     }
 
-    /// A point on a border belongs to the segment it is entering: another one than `held`, as close as the closest.
+    /// Segment that a point on a border is entering: one other than `held` that is equally close, if there is one.
     fn entering(
         &self,
         held: Option<Place>,
@@ -171,12 +173,12 @@ impl<const D: usize> Tracker<'_, D> {
         other.filter(|(_, o)| o.distance_squared <= reach).unwrap_or((segment, found))
     }
 
-    /// Growth of border `k` of a segment.
+    /// Margin by which border `k` of a segment is enlarged.
     fn margin(&self, segment: usize, k: usize) -> f64 {
         if self.surface.border_is_free(segment, k) { OVERRUN } else { HYSTERESIS }
     }
 
-    /// True if a held segment keeps its point.
+    /// True if the held segment keeps its point.
     fn keeps(&self, place: &Place) -> bool {
         let kind = self.surface.segments()[place.segment].kind;
         let borders = if D == 2 { 2 } else { corners(kind) };
@@ -194,7 +196,7 @@ impl<const D: usize> Tracker<'_, D> {
         norm(&off) > RIM * self.surface.size(segment)
     }
 
-    /// Distance that every node may move while the point is certain to stay on its segment; 0 when that is not known.
+    /// Distance that every node may move while the point is certain to stay on its segment; 0 if none is known.
     fn certain(&self, place: &Place) -> f64 {
         let form = self.surface.form(place.segment);
         if !form.straight() {
@@ -215,7 +217,7 @@ impl<const D: usize> Tracker<'_, D> {
         ((distance - gap) / REACH).clamp(0.0, cap)
     }
 
-    /// Distance of the point from the border of the grown segment, whose edges are straight.
+    /// Distance of the point from the border of the enlarged segment, whose edges are straight.
     fn border_distance(&self, form: Form, segment: usize) -> f64 {
         let mut buffer = [[0.0; D]; MOST_POINTS];
         let x = self.surface.points(segment, self.x, &mut buffer);
