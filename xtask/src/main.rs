@@ -5,6 +5,7 @@
     reason = "a program speaks through its standard streams"
 )]
 
+mod defects;
 mod interop;
 mod report;
 mod stage;
@@ -36,6 +37,18 @@ enum Chore {
     },
     /// Checks what the compiler and clippy do not.
     Tidy,
+    /// Makes each planted defect in a copy of the tree, and shows which claims notice it.
+    Defects {
+        /// Only defects with this in their names.
+        #[arg(value_name = "PART")]
+        only: Option<String>,
+        /// Run only the cases that a defect names, instead of the quick suite.
+        #[arg(long)]
+        expected: bool,
+        /// Run defects again that have a result.
+        #[arg(long)]
+        again: bool,
+    },
     /// Runs the benches.
     Bench,
     /// Says where the last verification report is, and what it says.
@@ -51,6 +64,9 @@ fn main() -> ExitCode {
     let result = match Options::parse().chore {
         Chore::Verify { full, case } => verify(&root, full, case.as_deref()),
         Chore::Tidy => tidy(&root),
+        Chore::Defects { only, expected, again } => {
+            defects::run(&root, &defects::Choice { only, expected, again })
+        }
         Chore::Bench => Stage::new("bench", "cargo").args(["bench", "-p", "asperity-benches"]).run(&root),
         Chore::Report => report::print(&root),
         Chore::Docs => docs(&root),

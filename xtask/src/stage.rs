@@ -60,6 +60,14 @@ pub enum Failure {
         /// Reason.
         source: serde_json::Error,
     },
+    /// A planted defect that is none.
+    #[error("defect `{name}`: {reason}")]
+    Defect {
+        /// Its name.
+        name: String,
+        /// Reason.
+        reason: String,
+    },
     /// Cargo's description of the workspace.
     #[error("cargo metadata: {0}")]
     Metadata(#[from] cargo_metadata::Error),

@@ -2,6 +2,7 @@
 
 mod book;
 mod circles;
+mod defects;
 mod docstrings;
 mod features;
 mod graph;
@@ -38,6 +39,7 @@ pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
     found.extend(lints::check(&files));
     found.extend(book::check(&files, &|path| root.join(path).exists()));
     found.extend(circles::check(&files));
+    found.extend(defects::check(&files));
     found.extend(readers::check(&files));
     found.extend(variation::check(&files));
     found.sort();

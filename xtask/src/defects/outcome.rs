@@ -1,0 +1,128 @@
+//! Result of the suite for a defect.
+
+use crate::stage::Failure;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::path::Path;
+
+/// The end of building and running the suite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// It ran.
+    Ran,
+    /// It does not build.
+    DoesNotBuild,
+    /// A run was killed because it took too long.
+    DoesNotEnd,
+}
+
+/// A claim that disagrees.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Noticed {
+    /// Case.
+    pub case: String,
+    /// Quantity.
+    pub claim: String,
+    /// Error over bound; none where no error was computed.
+    pub margin: Option<f64>,
+}
+
+/// The result of a defect.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// End of the run.
+    pub status: Status,
+    /// Claims that disagree.
+    pub noticed: Vec<Noticed>,
+}
+
+impl Outcome {
+    /// A result that was kept.
+    pub fn read(path: &Path) -> Option<Self> {
+        serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
+    }
+
+    /// Keeps the result.
+    pub fn write(&self, path: &Path) -> Result<(), Failure> {
+        let text = serde_json::to_string_pretty(self)
+            .map_err(|source| Failure::Report { path: path.to_owned(), source })?;
+        std::fs::write(path, text).map_err(|source| Failure::Read { path: path.to_owned(), source })
+    }
+
+    /// True if a claim disagrees.
+    pub fn is_noticed(&self) -> bool {
+        !self.noticed.is_empty()
+    }
+
+    /// Adds the claims of a report that disagree.
+    pub fn add(&mut self, report: &Path) -> Result<(), Failure> {
+        let text = std::fs::read_to_string(report)
+            .map_err(|source| Failure::Read { path: report.to_owned(), source })?;
+        let value: Value = serde_json::from_str(&text)
+            .map_err(|source| Failure::Report { path: report.to_owned(), source })?;
+        self.noticed.extend(disagreeing(&value));
+        Ok(())
+    }
+
+    /// The result in words: by case the number of claims and the largest margin.
+    pub fn words(&self) -> String {
+        let mut parts: Vec<String> = Vec::new();
+        match self.status {
+            Status::Ran => {}
+            Status::DoesNotBuild => parts.push("does not build".into()),
+            Status::DoesNotEnd => parts.push("a run did not end".into()),
+        }
+        let mut cases: Vec<&str> = self.noticed.iter().map(|n| n.case.as_str()).collect();
+        cases.dedup();
+        for case in cases {
+            let of: Vec<&Noticed> = self.noticed.iter().filter(|n| n.case == case).collect();
+            let margin = of.iter().filter_map(|n| n.margin).fold(0.0, f64::max);
+            parts.push(format!("{case}: {} ({margin:.1e})", of.len()));
+        }
+        if parts.is_empty() { "NOT NOTICED".into() } else { parts.join(", ") }
+    }
+}
+
+/// The claims of a report that disagree.
+fn disagreeing(report: &Value) -> Vec<Noticed> {
+    let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
+    let mut found = Vec::new();
+    for case in list(&report["cases"]) {
+        for claim in list(&case["claims"]).iter().filter(|c| c["verdict"] == "disagrees") {
+            let margin = match (claim["measured"]["error"].as_f64(), claim["measured"]["bound"].as_f64()) {
+                (Some(error), Some(bound)) if bound > 0.0 => Some(error / bound),
+                _ => None,
+            };
+            found.push(Noticed {
+                case: case["name"].as_str().unwrap_or_default().to_owned(),
+                claim: claim["claim"]["quantity"].as_str().unwrap_or_default().to_owned(),
+                margin,
+            });
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Outcome, Status, disagreeing};
+    use serde_json::json;
+
+    #[test]
+    fn claims_that_disagree_are_found_with_their_margin() {
+        let measured = json!({ "error": 3.0, "bound": 0.5 });
+        let holds = json!({ "verdict": "holds", "measured": measured, "claim": { "quantity": "p" } });
+        let off = json!({ "verdict": "disagrees", "measured": measured, "claim": { "quantity": "q" } });
+        let found = disagreeing(&json!({ "cases": [{ "name": "hertz_line", "claims": [holds, off] }] }));
+        let outcome = Outcome { status: Status::Ran, noticed: found };
+        assert!(outcome.is_noticed());
+        assert_eq!(outcome.words(), "hertz_line: 1 (6.0e0)");
+    }
+
+    #[test]
+    fn a_defect_that_no_claim_notices_says_so() {
+        let outcome = Outcome { status: Status::Ran, noticed: Vec::new() };
+        assert_eq!(outcome.words(), "NOT NOTICED");
+    }
+}

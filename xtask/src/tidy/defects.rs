@@ -1,0 +1,64 @@
+//! Planted defects still fit the source: each text that they change occurs once, and each case that they name exists.
+
+use super::problem::Problem;
+use super::tree::File;
+use crate::defects::{Defect, FOLDER};
+
+/// Checks the defects against the files of the workspace.
+pub fn check(files: &[File]) -> Vec<Problem> {
+    let mut found = Vec::new();
+    for file in files.iter().filter(|f| f.path.starts_with(FOLDER) && f.path.ends_with(".toml")) {
+        match Defect::read(&file.path, &file.text) {
+            Ok(defect) => found.extend(misfits(&defect, files)),
+            Err(error) => found.push(Problem::new(&file.path, 0, format!("no defect: {}", error.message()))),
+        }
+    }
+    found
+}
+
+fn misfits(defect: &Defect, files: &[File]) -> Vec<Problem> {
+    let mut found = Vec::new();
+    let mut problem = |message: String| found.push(Problem::new(&defect.name, 0, message));
+    if defect.change.is_empty() || defect.wrong.is_empty() || defect.why.is_empty() {
+        problem("a defect says what is wrong and why, and changes something".into());
+    }
+    for change in &defect.change {
+        let file = files.iter().find(|f| f.path == change.file);
+        if file.and_then(|f| change.applied(&f.text)).is_none() {
+            problem(format!("its old text does not occur exactly once in {}", change.file));
+        }
+    }
+    for case in &defect.expected {
+        let readme = format!("verification/cases/{case}/README.md");
+        if !files.iter().any(|f| f.path == readme) {
+            problem(format!("there is no case `{case}`"));
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{File, check};
+
+    fn problems(old: &str, case: &str) -> usize {
+        let file = |path: &str, text: &str| File { path: path.into(), text: text.into() };
+        let defect = format!(
+            "wrong = \"w\"\nwhy = \"y\"\nexpected = [\"{case}\"]\n[[change]]\nfile = \"a.rs\"\nold = \"{old}\"\nnew = \"n\"\n"
+        );
+        let files = [
+            file("a.rs", "one two two\n"),
+            file("verification/cases/hertz_line/README.md", "# Hertz\n"),
+            file("verification/defects/d.toml", &defect),
+        ];
+        check(&files).len()
+    }
+
+    #[test]
+    fn a_text_that_occurs_not_or_twice_and_an_unknown_case_are_found() {
+        assert_eq!(problems("one", "hertz_line"), 0);
+        assert_eq!(problems("three", "hertz_line"), 1);
+        assert_eq!(problems("two", "hertz_line"), 1);
+        assert_eq!(problems("one", "hertz"), 1);
+    }
+}
