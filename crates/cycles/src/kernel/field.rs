@@ -32,6 +32,12 @@ impl Field {
         (self.gradient + self.gradient.transpose()) * rock.shear() + Matrix3::from_diagonal_element(volume)
     }
 
+    /// Traction σ n \[Pa\] that the side to which the unit vector n points exerts on the other side.
+    #[must_use]
+    pub fn traction(&self, rock: &Elastic, normal: &Vector3<f64>) -> Vector3<f64> {
+        self.stress(rock) * normal
+    }
+
     /// The same field in axes whose unit vectors are the columns of `axes`.
     pub(super) fn turned(&self, axes: &Matrix3<f64>) -> Self {
         Self { displacement: axes * self.displacement, gradient: axes * self.gradient * axes.transpose() }

@@ -78,10 +78,14 @@ fn depth(side: &Side, line: &Line, w: &Vector3<f64>, sinking: f64, alpha: f64) -
     Field { displacement: u, gradient }
 }
 
+/// Rise of a side over its length that rounding of its ends may cause. The term of such a side is rounding, too, and is left
+/// out, as it has no limit on the continuation of a side within the surface.
+const LEVEL: f64 = 4.0 * f64::EPSILON;
+
 /// `factor` times t_z ∇(v·∇W) of a side and its gradient, from the functions I3 and I4 at both ends.
 fn risen(side: &Side, line: &Line, slip: &Vector3<f64>, factor: f64) -> Field {
     let t = side.along;
-    if t.z == 0.0 {
+    if t.z.abs() <= LEVEL {
         return Field::ZERO;
     }
     let (sign, lower, upper) = if t.z > 0.0 { (1.0, 0, 1) } else { (-1.0, 1, 0) };

@@ -179,7 +179,7 @@ fn the_work_of_one_slip_on_another_is_mutual() {
             let (list, normal) = points(&all[receiver]);
             let of = |at: &V| -> Field { all[source].field(at, &slips[source], POISSON) };
             list.iter()
-                .map(|(at, weight)| weight * (of(at).stress(&rock(POISSON)) * normal).dot(&slips[receiver]))
+                .map(|(at, weight)| weight * of(at).traction(&rock(POISSON), &normal).dot(&slips[receiver]))
                 .sum()
         };
         for (i, j) in [(0, 1), (0, 2), (1, 2)] {

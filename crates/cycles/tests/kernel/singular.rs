@@ -42,6 +42,26 @@ fn fields_are_smooth_on_the_continuations_of_sides() {
 }
 
 #[test]
+fn fields_are_smooth_at_the_surface_beside_an_outcrop() {
+    let slip = V::new(0.6, -0.3, 0.8);
+    let rectangle = Rectangle::new(Space::Half, &Placement { centre: [0.0, 0.0, -0.5], ..PLACE }).unwrap();
+    // Sides within the surface, one of them up to rounding.
+    let triangles = [0.0, -1e-17]
+        .map(|z| Triangle::new(Space::Half, [[-1.0, 0.0, 0.0], [0.2, 0.1, -1.0], [1.0, 0.0, z]]).unwrap());
+    for x in [-3.0, -1.25, 1.5, 4.0] {
+        let (at, aside) = (V::new(x, 0.0, 0.0), V::new(3e-7, 8e-7, 0.0));
+        let around = |field: &dyn Fn(&V) -> Field| {
+            let d = apart(&field(&at), &mean(&field(&(at + aside)), &field(&(at - aside))));
+            assert!(d < 1e-10, "{x}: {d:e}");
+        };
+        around(&|x| rectangle.field(x, &slip, 0.25));
+        for triangle in &triangles {
+            around(&|x| triangle.field(x, &slip, 0.25));
+        }
+    }
+}
+
+#[test]
 fn fields_are_smooth_in_the_dip_at_the_vertical() {
     let slip = V::new(0.6, -0.3, 0.8);
     for (centre, at) in
