@@ -10,6 +10,7 @@ mod equations;
 mod error;
 mod fault_run;
 mod floor;
+pub mod kernel;
 mod loading;
 pub mod medium;
 mod moment;
