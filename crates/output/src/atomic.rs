@@ -1,4 +1,4 @@
-//! Files that exist whole or not at all: written under a temporary name in the same directory, then renamed.
+//! Files that exist completely or not at all: written under a temporary name in the same directory, then renamed.
 
 use super::OutputError;
 use std::fs;
@@ -8,25 +8,26 @@ use std::path::{Path, PathBuf};
 /// Creates a directory and its parents.
 ///
 /// # Errors
-/// Names the directory that could not be made.
+/// If the directory cannot be created.
 pub fn create_dir(path: &Path) -> Result<(), OutputError> {
     fs::create_dir_all(path).map_err(|source| OutputError::Directory { path: path.to_path_buf(), source })
 }
 
-/// Writes `bytes` to `path`, replacing what was there in one step. A reader sees the old file or the new one.
+/// Writes `bytes` to `path` and replaces an existing file atomically. A reader sees either the old file or the new one.
 ///
 /// # Errors
-/// Names the file that could not be written; the temporary file is removed.
+/// If the file cannot be written. The temporary file is removed.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let temporary = temporary_name(path);
     fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path)).map_err(|source| {
-        // The first error is the one to report; a leftover that cannot be removed either adds nothing to it.
+        // The first error is the one to report; failure to remove the temporary file adds nothing to it.
         let _ = fs::remove_file(&temporary);
         OutputError::write(path, source)
     })
 }
 
-/// Like [`write`], and on the disc before it returns: a machine that fails leaves the old file or the new one.
+/// Like [`write`], but flushes the file to disk before the renaming. After a machine failure either the old file or the new one
+/// exists.
 ///
 /// # Errors
 /// See [`write`].
@@ -43,10 +44,10 @@ pub fn write_durably(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     })
 }
 
-/// Creates an output directory and makes sure that files can be written into it, before anything is computed.
+/// Creates an output directory and checks that files can be written into it, before anything is computed.
 ///
 /// # Errors
-/// Names the directory, or the file that could not be written into it.
+/// If the directory cannot be created, or a file cannot be written into it.
 pub fn writable_dir(path: &Path) -> Result<(), OutputError> {
     create_dir(path)?;
     let trial = path.join(".writable");

@@ -1,6 +1,7 @@
-//! Decimals for readers: what rounds to zero has no sign. All numbers of text files that may be negative are written here.
+//! Formatting of decimals: values that round to zero have no sign. All numbers of text files that may be negative are formatted
+//! here.
 
-/// With so many decimals.
+/// Formats with a fixed number of decimals.
 #[must_use]
 pub fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
@@ -10,7 +11,7 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// With so many decimals and an exponent.
+/// Formats with a fixed number of decimals and an exponent.
 #[must_use]
 pub fn scientific(value: f64, decimals: usize) -> String {
     // Adding zero turns -0 into 0.
@@ -23,7 +24,7 @@ pub fn shortest(value: f64) -> String {
     format!("{}", value + 0.0)
 }
 
-/// The same with an exponent.
+/// The shortest decimal with an exponent that reads back as the same number.
 #[must_use]
 pub fn shortest_scientific(value: f64) -> String {
     format!("{:e}", value + 0.0)

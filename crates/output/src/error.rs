@@ -1,32 +1,32 @@
-//! Reason why an output could not be made.
+//! Errors of outputs.
 
 use std::path::{Path, PathBuf};
 
-/// Reason why an output could not be made.
+/// Reason why an output could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// A directory could not be made.
+    /// A directory could not be created.
     #[error("cannot create the output directory {path}: {source}")]
     Directory {
         /// The directory.
         path: PathBuf,
-        /// The system's reason.
+        /// Reason given by the system.
         source: std::io::Error,
     },
-    /// A file could not be written (or renamed into its place, or removed).
+    /// A file could not be written, renamed or removed.
     #[error("cannot write {path}: {source}")]
     Write {
         /// The file.
         path: PathBuf,
-        /// The system's reason.
+        /// Reason given by the system.
         source: std::io::Error,
     },
-    /// A table that is to grow on cannot be opened.
+    /// A table to be continued could not be opened.
     #[error("cannot read {path}: {source}")]
     Read {
         /// The file.
         path: PathBuf,
-        /// The system's reason.
+        /// Reason given by the system.
         source: std::io::Error,
     },
     /// A table has lost rows.
@@ -36,9 +36,9 @@ pub enum OutputError {
     Shorter {
         /// The file.
         path: PathBuf,
-        /// Bytes it has.
+        /// Bytes found.
         found: u64,
-        /// Bytes it had.
+        /// Bytes at the checkpoint.
         expected: u64,
     },
     /// A plot could not be drawn.
@@ -46,15 +46,15 @@ pub enum OutputError {
     Draw {
         /// The plot.
         path: PathBuf,
-        /// Words of the plotting library.
+        /// Message of the plotting library.
         reason: String,
     },
-    /// The step shows something else than the set-up announced.
+    /// The fields of a step do not have the announced lengths.
     #[error("{what}: {found} values where the set-up announced {expected}")]
     Shape {
-        /// Which field, of which part.
+        /// Field and the part to which it belongs.
         what: String,
-        /// Length announced.
+        /// Announced length.
         expected: usize,
         /// Length found.
         found: usize,
@@ -62,14 +62,14 @@ pub enum OutputError {
 }
 
 impl OutputError {
-    /// A file could not be written.
+    /// Error of a file that could not be written.
     #[must_use]
     pub fn write(path: &Path, source: std::io::Error) -> Self {
         Self::Write { path: path.to_path_buf(), source }
     }
 }
 
-/// Refuses a field whose length is not the announced one.
+/// Refuses a field that does not have the announced length.
 pub(crate) fn expect_length(what: &str, expected: usize, found: usize) -> Result<(), OutputError> {
     if expected == found {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Files written during the run, so that nothing computed is lost if it stops: fields for ParaView, profiles and probes.
+//! Files written during the run, so that no results are lost if it stops: fields for ParaView, profiles and probes.
 //!
 //! ```text
 //! fields.pvd  fields/bodies_00001.vtu  fields/fault_00001.vtu  profiles/fault_001.csv  probes/fault.csv  points/tip.csv
@@ -17,7 +17,8 @@ use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Streams fields, profiles and probes into a directory. Each file appears whole; a table of probes grows by whole rows.
+/// Writes fields, profiles and probes into a directory during the run. Each file appears complete; tables of probes grow by whole
+/// rows.
 #[derive(Debug)]
 pub struct Files {
     out: PathBuf,
@@ -30,7 +31,7 @@ pub struct Files {
     forces: Vec<Growing>,
     collection: Vec<PvdEntry>,
     field_number: usize,
-    /// Times of the profiles and fields written last \[s\].
+    /// Times of the last profiles and the last fields written \[s\].
     written: [Option<f64>; 2],
     profile_number: usize,
     setup: Setup,
@@ -38,7 +39,7 @@ pub struct Files {
     resumed: Option<FilesState>,
 }
 
-/// The bodies' fixed part.
+/// Constant data of the bodies.
 #[derive(Debug)]
 struct Bodies {
     grid: Grid,
@@ -46,28 +47,28 @@ struct Bodies {
     body: Vec<i64>,
 }
 
-/// An interface's fixed part.
+/// Constant data of an interface.
 #[derive(Debug)]
 struct Part {
-    /// Name of its files.
+    /// Stem of its file names.
     stem: String,
     grid: Grid,
-    /// State variables of its law.
+    /// Number of state variables of its law.
     states: usize,
     probes: Option<Growing>,
 }
 
-/// Positions in the files of a run.
+/// Positions in the files of a run, from which it can be resumed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FilesState {
-    /// Intervals of each stage that have fields and profiles.
+    /// Number of intervals of each stage for which fields and profiles have been written.
     passed: [Vec<usize>; 2],
-    /// Numbers of the fields and profiles written last.
+    /// Numbers of the last fields and the last profiles written.
     numbers: [usize; 2],
-    /// Times of the profiles and fields written last \[s\].
+    /// Times of the last profiles and the last fields written \[s\].
     written: [Option<f64>; 2],
     collection: Vec<PvdEntry>,
-    /// Bytes of the tables, those of probes first, then of points and of forces.
+    /// Bytes of the tables: first those of probes, then of points, then of forces.
     bytes: Vec<u64>,
 }
 
@@ -75,7 +76,7 @@ impl Files {
     /// Creates the directory and checks that it can be written to.
     ///
     /// # Errors
-    /// If the directory cannot be made or written to.
+    /// If the directory cannot be created or written to.
     pub fn create(out: &Path, schedule: FieldSchedule) -> Result<Self, OutputError> {
         atomic::writable_dir(out)?;
         Ok(Self {
@@ -96,7 +97,7 @@ impl Files {
         })
     }
 
-    /// The same, of a run that is resumed where its files stood so: what was written after that is cut off.
+    /// Resumes a run from these positions in its files. Output written after them is removed.
     #[must_use]
     pub fn resumed(self, from: FilesState) -> Self {
         Self { resumed: Some(from), ..self }
@@ -114,10 +115,10 @@ impl Files {
         }
     }
 
-    /// Waits until all rows are on the disc.
+    /// Flushes all rows to disk.
     ///
     /// # Errors
-    /// If something could not be written.
+    /// If something cannot be written.
     pub fn settle(&self) -> Result<(), OutputError> {
         self.tables().try_for_each(Growing::settle)
     }
@@ -128,13 +129,13 @@ impl Files {
         probes.chain(&self.points).chain(&self.forces)
     }
 
-    /// The directory.
+    /// Output directory.
     #[must_use]
     pub fn directory(&self) -> &Path {
         &self.out
     }
 
-    /// The data sets written so far.
+    /// Data sets written so far.
     #[must_use]
     pub fn collection(&self) -> &[PvdEntry] {
         &self.collection
@@ -201,7 +202,7 @@ impl Files {
         Ok(())
     }
 
-    /// Begins the tables, or reopens them at so many bytes each.
+    /// Creates the tables, or reopens them at these sizes in bytes.
     fn begin_tables(&mut self, setup: &Setup, bytes: Option<Vec<u64>>) -> Result<(), OutputError> {
         let (mut left, reopens) = (bytes.iter().flatten(), bytes.is_some());
         let mut table = |path: PathBuf, header: &[u8]| match left.next() {
@@ -234,7 +235,7 @@ impl Files {
         Ok(())
     }
 
-    /// Removes what an earlier run of these interfaces left, so that its files are not taken for this run's.
+    /// Removes the files of an earlier run of these interfaces, so that they are not taken for output of this run.
     fn remove_earlier(&self) -> Result<(), OutputError> {
         self.remove_beyond([0; 2])?;
         let mut once: Vec<PathBuf> =
@@ -243,7 +244,7 @@ impl Files {
         once.iter().filter(|path| path.exists()).try_for_each(|path| remove(path))
     }
 
-    /// Removes fields and profiles with larger numbers than these.
+    /// Removes fields and profiles with numbers larger than these.
     fn remove_beyond(&self, [fields, profiles]: [usize; 2]) -> Result<(), OutputError> {
         let stems: Vec<&str> = self.interfaces.iter().map(|part| part.stem.as_str()).collect();
         remove_numbered(&self.out.join("profiles"), &stems, ("csv", profiles))?;
@@ -251,7 +252,7 @@ impl Files {
         remove_numbered(&self.out.join("fields"), &with_bodies, ("vtu", fields))
     }
 
-    /// Takes up the files where they stood, and cuts off what was written after that.
+    /// Restores the positions in the files, and removes output written after them. Returns the sizes of the tables.
     fn reopen(&mut self, from: FilesState) -> Result<Vec<u64>, OutputError> {
         let FilesState { passed: [fields, profiles], numbers, written, collection, bytes } = from;
         self.fields_due = std::mem::take(&mut self.fields_due).from(fields);
@@ -323,7 +324,7 @@ impl Writer for Files {
         Ok(())
     }
 
-    /// The last good state is written whether or not it was due.
+    /// Writes the last good state unless it has been written.
     fn end(&mut self, view: &StepView<'_>) -> Result<(), OutputError> {
         let now = Some(view.record.time);
         if self.schedule.profiles > 0 && self.written[0] != now {
@@ -395,7 +396,7 @@ impl Part {
     }
 }
 
-/// The slave side as VTK cells; bare points where it has no faces.
+/// The slave side as VTK cells; vertices if it has no faces.
 fn interface_grid(mesh: &InterfaceMesh, dimension: usize) -> Grid {
     // VTK cell types: 1 vertex, 3 line, 4 polyline, 5 triangle, 7 polygon, 9 quadrilateral.
     let kind = |nodes: usize| match (dimension, nodes) {
@@ -427,7 +428,7 @@ fn check_bodies(mesh: &MeshView, fields: &BodyFields) -> Result<(), OutputError>
     }
 }
 
-/// Removes only files `<stem>_<digits>.<extension>` of the given stems whose number is larger than this.
+/// Removes only files `<stem>_<digits>.<extension>` of the given stems with a number larger than this.
 fn remove_numbered(dir: &Path, stems: &[&str], (extension, most): (&str, usize)) -> Result<(), OutputError> {
     let Ok(entries) = fs::read_dir(dir) else { return Ok(()) };
     for entry in entries {

@@ -6,7 +6,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-/// See the module.
+/// A table that grows by whole rows.
 #[derive(Debug)]
 pub struct Growing {
     path: PathBuf,
@@ -16,7 +16,7 @@ pub struct Growing {
 }
 
 impl Growing {
-    /// A new one, with its header.
+    /// Creates a table with its header.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -28,10 +28,10 @@ impl Growing {
         }
     }
 
-    /// One that had so many bytes; later ones are cut off.
+    /// Reopens a table at a size in bytes and truncates it to this size.
     ///
     /// # Errors
-    /// If the file is missing, shorter than that, or cannot be written.
+    /// If the file is missing, shorter than `expected`, or cannot be written.
     pub fn reopen(path: PathBuf, expected: u64) -> Result<Self, OutputError> {
         let file = fs::OpenOptions::new().append(true).open(&path);
         let found = file.and_then(|file| Ok((file.metadata()?.len(), file)));
@@ -46,7 +46,7 @@ impl Growing {
         Ok(Self { path, file, bytes: expected })
     }
 
-    /// One write per row: a run that is killed leaves whole rows.
+    /// Appends a row in a single write, so that an interrupted run leaves whole rows.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -67,10 +67,10 @@ impl Growing {
         &self.path
     }
 
-    /// Waits until its rows are on the disc.
+    /// Flushes all rows to disk.
     ///
     /// # Errors
-    /// If they could not be written.
+    /// If the rows cannot be written.
     pub fn settle(&self) -> Result<(), OutputError> {
         self.file.sync_data().map_err(|source| OutputError::write(&self.path, source))
     }

@@ -1,18 +1,18 @@
-//! One observer that forwards to several.
+//! An observer that forwards to several others.
 
 use super::OutputError;
 use super::view::{BodyFields, Setup, StepView, Writer};
 use std::cell::OnceCell;
 
-/// Forwards to its observers in the order given. The fields of the bodies are recovered at most once a step, however
-/// many of them ask.
+/// Forwards to its observers in the order given. The fields of the bodies are recovered at most once per step, regardless of the
+/// number of observers that request them.
 #[derive(Default)]
 pub struct Multi<'a> {
     observers: Vec<&'a mut dyn Writer>,
 }
 
 impl<'a> Multi<'a> {
-    /// From observers that the caller keeps.
+    /// Forwards to observers owned by the caller.
     #[must_use]
     pub fn new(observers: Vec<&'a mut dyn Writer>) -> Self {
         Self { observers }
@@ -44,7 +44,7 @@ impl Writer for Multi<'_> {
     }
 }
 
-/// The view with fields that are recovered once.
+/// The same view with fields that are recovered only once.
 fn sharing<'a>(view: &StepView<'a>, fields: &'a dyn Fn() -> BodyFields) -> StepView<'a> {
     StepView {
         record: view.record,

@@ -1,6 +1,7 @@
-//! Names of files.
+//! File names.
 
-/// File names for names of interfaces: letters, digits, `-` and `_` stay; what would collide gets its number.
+/// File names for interfaces. Letters, digits, `-` and `_` are kept, other characters become `_`; names that would collide get a
+/// number.
 #[must_use]
 pub fn stems<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut taken: Vec<String> = vec!["bodies".to_string()];

@@ -1,13 +1,13 @@
-//! Numbers read back from JSON, which has no infinite numbers and none that are not numbers: both are written as `null`.
+//! Numbers read back from JSON, which has neither infinity nor NaN: both are written as `null`.
 
 use serde::{Deserialize, Deserializer};
 
-/// Numbers of which those that are not finite were infinite.
+/// Reads numbers; `null` stands for infinity.
 pub(crate) fn or_infinite<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
     filled(from, f64::INFINITY)
 }
 
-/// Numbers of which those that are not finite were none.
+/// Reads numbers; `null` stands for NaN.
 pub(crate) fn or_nan<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<f64>, D::Error> {
     filled(from, f64::NAN)
 }

@@ -1,11 +1,11 @@
-//! Standard output and standard error, which may be closed (`| head -1`) or full: what cannot be printed is left out, and the run goes
-//! on. The only place that prints.
+//! Standard output and standard error, which may be closed (`| head -1`) or full. Text that cannot be printed is dropped, and the
+//! run continues. This is the only module that prints.
 
 use std::fmt::Arguments;
 use std::io::{ErrorKind, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A stream, and whether something was left out of it.
+/// A stream, with a flag that is set once output has been lost.
 struct Stream {
     lost: AtomicBool,
 }
@@ -14,7 +14,7 @@ static OUT: Stream = Stream { lost: AtomicBool::new(false) };
 static ERR: Stream = Stream { lost: AtomicBool::new(false) };
 
 impl Stream {
-    /// Prints, unless something before it was lost: what is read is the beginning of what there was to read. The error, the first time.
+    /// Prints unless earlier output was lost, so that the printed text has no gaps. Returns the first error only.
     fn print(&self, to: &mut dyn Write, text: Arguments<'_>) -> Option<std::io::Error> {
         if self.lost.load(Ordering::Relaxed) {
             return None;
@@ -25,7 +25,7 @@ impl Stream {
     }
 }
 
-/// Prints on standard output. Where that fails for another reason than a reader that has enough, standard error says so once.
+/// Prints on standard output. A failure other than a closed pipe is reported once on standard error.
 pub fn out(text: Arguments<'_>) {
     let error = OUT.print(&mut std::io::stdout().lock(), text);
     if let Some(error) = error.filter(|e| e.kind() != ErrorKind::BrokenPipe) {
@@ -42,7 +42,7 @@ pub fn err(text: Arguments<'_>) {
 mod tests {
     use super::*;
 
-    /// Takes so many bytes and is full then.
+    /// Accepts this number of bytes and is then full.
     struct Full(usize, Vec<u8>);
 
     impl Write for Full {

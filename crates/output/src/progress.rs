@@ -1,4 +1,5 @@
-//! Progress for a person waiting: a bar on a terminal, one line per interval otherwise. The only place here that reads a clock.
+//! Progress for an interactive user: a bar on a terminal, otherwise one line per interval. In this crate only this module and
+//! [`Pulse`] read a clock.
 
 use super::OutputError;
 use super::pulse::Pulse;
@@ -8,13 +9,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
-/// Lines per run where there is no terminal: one every 5 % of the simulated time.
+/// Lines per run without a terminal: one for every 5 % of the simulated time.
 const LINES: f64 = 20.0;
 
-/// Wall time between two changes of the bar.
+/// Wall time between two updates of the bar.
 const REFRESH: Duration = Duration::from_millis(100);
 
-/// Resolution of the bar: thousandths of the simulated time.
+/// Number of parts of the simulated time that the bar resolves.
 const TICKS: f64 = 1000.0;
 
 /// Shows simulated time, step length, iterations and step number on standard error.
@@ -28,7 +29,7 @@ enum Sink {
 }
 
 impl Progress {
-    /// A bar when standard error is a terminal, lines otherwise.
+    /// Creates a bar if standard error is a terminal, and lines otherwise.
     #[must_use]
     pub fn new() -> Self {
         let sink = if std::io::stderr().is_terminal() {
@@ -39,12 +40,12 @@ impl Progress {
         Self { sink }
     }
 
-    /// Shows that this part of the simulated time is done, with a line about the present step.
+    /// Shows the completed part of the simulated time, with a line about the current step.
     pub fn show(&mut self, part: f64, status: impl FnOnce() -> String) {
         let part = part.clamp(0.0, 1.0);
         match &mut self.sink {
             Sink::Bar { bar, shown } => {
-                // A person does not read faster; steps may.
+                // Steps may be faster than anyone can read.
                 if shown.is_none_or(|at| at.elapsed() >= REFRESH) {
                     *shown = Some(Instant::now());
                     bar.set_position((part * TICKS) as u64);
@@ -65,7 +66,7 @@ impl Progress {
         }
     }
 
-    /// Takes the bar off the screen, so that what follows stands below clean output.
+    /// Clears the bar, so that later output starts on a clean line.
     pub fn finish(&self) {
         if let Sink::Bar { bar, .. } = &self.sink {
             bar.finish_and_clear();
@@ -81,7 +82,7 @@ impl Default for Progress {
 
 fn bar() -> ProgressBar {
     let bar = ProgressBar::new(TICKS as u64);
-    // A template that does not parse would be a slip in the literal below; the default style shows progress as well.
+    // The template is a literal; if it did not parse, the default style would still show progress.
     if let Ok(style) = ProgressStyle::with_template("{elapsed_precise} {bar:32} {percent:>3} %  {msg}") {
         bar.set_style(style.progress_chars("━╸ "));
     }
@@ -109,7 +110,7 @@ impl Writer for Progress {
     }
 }
 
-/// The interval that `part` of the run has reached, when it lies beyond the one shown last.
+/// Interval reached by `part` of the run, if it lies beyond the last one shown.
 fn passed(part: f64, shown: usize) -> Option<usize> {
     let now = (part * LINES) as usize;
     (now > shown).then_some(now)

@@ -1,4 +1,4 @@
-//! A sign of life at intervals of wall time where there is no terminal: what was done last, also while a step takes long.
+//! Progress messages without a terminal: the last activity, printed at intervals of wall time even during a long step.
 
 use crate::printing;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
@@ -6,19 +6,19 @@ use std::sync::{Arc, Mutex, MutexGuard};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Wall time without a line after which one is printed.
+/// Wall time without output after which a line is printed.
 const SILENCE: Duration = Duration::from_secs(30);
 
-/// Wall time between two looks at what a run does: writing it in words costs more than a small step.
+/// Wall time between updates of the activity. Formatting it costs more than a small step.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// Last activity, and when it was printed.
+/// Last activity and time of its last printing.
 struct Last {
     words: String,
     printed: Instant,
 }
 
-/// See the module. It ends when it is dropped.
+/// Prints the last activity at intervals until it is dropped.
 pub struct Pulse {
     last: Arc<Mutex<Last>>,
     looked: Instant,
@@ -26,7 +26,7 @@ pub struct Pulse {
 }
 
 impl Pulse {
-    /// Begins with these words.
+    /// Starts with this activity.
     #[must_use]
     pub fn new(words: &str) -> Self {
         Self::every(SILENCE, words, |words, wall| {
@@ -55,26 +55,26 @@ impl Pulse {
         Self { last, looked: started, beating: thread.map(|thread| (ends, thread)) }
     }
 
-    /// True if it is time to hear what the run does.
+    /// True if the activity is due for an update.
     #[must_use]
     pub(super) fn listens(&self) -> bool {
         self.looked.elapsed() >= LOOK
     }
 
-    /// Text to print after a long time without other output.
+    /// Sets the text to be printed after a long time without other output.
     pub(super) fn hears(&mut self, words: String) {
         self.looked = Instant::now();
         held(&self.last).words = words;
     }
 
-    /// Text printed just now.
+    /// Sets the text and marks it as printed just now.
     pub(super) fn said(&mut self, words: String) {
         self.hears(words);
         held(&self.last).printed = self.looked;
     }
 }
 
-/// Last activity; a thread that ended while it wrote leaves words that can be read all the same.
+/// Locks the last activity. If the other thread panicked while writing, its text is still readable.
 fn held(last: &Mutex<Last>) -> MutexGuard<'_, Last> {
     last.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
@@ -83,7 +83,7 @@ impl Drop for Pulse {
     fn drop(&mut self) {
         if let Some((ends, thread)) = self.beating.take() {
             drop(ends);
-            // It does nothing but print; where it failed there is nothing left to do.
+            // The thread only prints; if it failed there is nothing to do.
             let _ = thread.join();
         }
     }
@@ -102,7 +102,7 @@ mod tests {
         pulse.hears("goes on".into());
         assert!(heard.iter().any(|words| words == "goes on"));
         drop(pulse);
-        // The thread has ended and prints no more.
+        // The thread has ended and prints nothing more.
         assert!(heard.iter().all(|words| words == "goes on"));
     }
 

@@ -1,16 +1,16 @@
-//! A run kept in memory: the records of all steps, histories at points of the interfaces, and states at stage ends.
+//! A run kept in memory: records of all steps, histories at points of the interfaces, and states at the ends of stages.
 
 use super::view::{BodyFields, InterfaceFields, Samples, Setup, StepRecord, StepView, Writer};
 use crate::error::{OutputError, expect_length};
 use crate::numbers;
 use serde::{Deserialize, Serialize};
 
-/// Histories at one slave node, one value a step (see [`InterfaceFields`] for signs).
+/// Histories at one slave node, one value per step (see [`InterfaceFields`] for signs).
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct PointHistory {
     /// Index of the slave node in the interface.
     pub node: usize,
-    /// Its reference position \[m\].
+    /// Reference position of the node \[m\].
     pub position: [f64; 3],
     /// Relative tangential displacement \[m\].
     #[serde(deserialize_with = "numbers::or_nan")]
@@ -30,7 +30,7 @@ pub struct PointHistory {
     /// Shear traction \[Pa\].
     #[serde(deserialize_with = "numbers::or_nan")]
     pub shear_traction: Vec<f64>,
-    /// Area the node stands for \[m², m\].
+    /// Tributary area of the node \[m², m\].
     #[serde(deserialize_with = "numbers::or_nan")]
     pub area: Vec<f64>,
 }
@@ -40,16 +40,16 @@ pub struct PointHistory {
 pub struct InterfaceHistory {
     /// Name of the interface.
     pub name: String,
-    /// Its points, in the order of the probes (or of the slave nodes, when all are kept).
+    /// Points in the order of the probes, or of the slave nodes if all are kept.
     pub points: Vec<PointHistory>,
 }
 
-/// The state at the end of a stage.
+/// State at the end of a stage.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct StageEnd {
     /// Stage number, from 0.
     pub stage: usize,
-    /// Its name.
+    /// Stage name.
     pub name: String,
     /// Time \[s\].
     pub time: f64,
@@ -64,7 +64,7 @@ pub struct StageEnd {
 pub struct Recorder {
     all_nodes: bool,
     with_bodies: bool,
-    /// Announcement of a run whenever it begins or is resumed.
+    /// Announcement of the run, given whenever it begins or is resumed.
     #[serde(skip)]
     setup: Setup,
     records: Vec<StepRecord>,
@@ -75,13 +75,13 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Keeps step records, histories at the probes, and interface fields at stage ends.
+    /// Keeps step records, histories at the probes, and interface fields at the ends of stages.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Keeps the bodies' fields at stage ends as well (one recovery each).
+    /// Also keeps the fields of the bodies at the ends of stages, at the cost of one recovery each.
     #[must_use]
     pub fn with_bodies(mut self) -> Self {
         self.with_bodies = true;
@@ -95,10 +95,10 @@ impl Recorder {
         self
     }
 
-    /// Goes on with a run that is resumed, and announces this again.
+    /// Continues the record of a resumed run, which is announced again.
     ///
     /// # Errors
-    /// If it is not the run that is kept.
+    /// If the announcement does not fit the record.
     pub fn resume(&mut self, setup: &Setup) -> Result<(), OutputError> {
         check_probes(setup)?;
         expect_length("interfaces kept", setup.interfaces.len(), self.histories.len())?;
@@ -130,7 +130,7 @@ impl Recorder {
         &self.samples
     }
 
-    /// Histories, one entry an interface in the order of [`Setup::interfaces`].
+    /// Histories, one entry per interface in the order of [`Setup::interfaces`].
     #[must_use]
     pub fn histories(&self) -> &[InterfaceHistory] {
         &self.histories
@@ -142,7 +142,7 @@ impl Recorder {
         self.histories.iter().find(|history| history.name == interface)
     }
 
-    /// States at the ends of the stages reached.
+    /// States at the ends of the stages reached so far.
     #[must_use]
     pub fn stage_ends(&self) -> &[StageEnd] {
         &self.stage_ends
@@ -221,7 +221,7 @@ impl PointHistory {
     }
 }
 
-/// Refuses probes that are no slave nodes.
+/// Refuses probes that are not slave nodes.
 pub(super) fn check_probes(setup: &Setup) -> Result<(), OutputError> {
     for mesh in &setup.interfaces {
         let n = mesh.positions.len();

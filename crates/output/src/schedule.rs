@@ -1,11 +1,11 @@
-//! Times of fields and profiles.
+//! Schedule of fields and profiles.
 
-/// Frequency of fields and profiles: equal intervals of each stage; the end of a stage always counts.
+/// Number of outputs of fields and profiles: equal intervals of each stage. The end of a stage is always included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FieldSchedule {
-    /// Intervals per stage for body and interface fields (`.vtu`); 0 = none.
+    /// Intervals per stage for body and interface fields (`.vtu`); 0: none.
     pub fields: usize,
-    /// Intervals per stage for profiles (`.csv`); 0 = none.
+    /// Intervals per stage for profiles (`.csv`); 0: none.
     pub profiles: usize,
 }
 
@@ -16,8 +16,8 @@ impl Default for FieldSchedule {
 }
 
 impl FieldSchedule {
-    /// The times at which something is due, ascending and without repetition \[s\]: a stepper that lands on them makes
-    /// the outputs fall on round times, one that does not gets them at the first step past each.
+    /// Due times, ascending and without repetition \[s\]. With a stepper that lands on them, outputs have round times; otherwise
+    /// they follow at the first step past each.
     #[must_use]
     pub fn times(&self, stages: &[(String, f64)]) -> Vec<f64> {
         let mut times = Vec::new();
@@ -36,17 +36,17 @@ impl FieldSchedule {
     }
 }
 
-/// Relative slack within which a step counts as having reached a due time: the sum of many step lengths misses it by a
-/// few units in the last place.
+/// Relative tolerance within which a step counts as having reached a due time. The sum of many step lengths is off by a few units
+/// in the last place.
 const ROUNDING: f64 = 1e-9;
 
-/// Tracks which intervals of each stage have been written.
+/// Tracks the intervals of each stage for which output has been written.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Due {
     intervals: usize,
     /// Start and end of each stage \[s\].
     stages: Vec<(f64, f64)>,
-    /// Intervals of each stage already passed.
+    /// Number of intervals of each stage already passed.
     passed: Vec<usize>,
 }
 
@@ -61,24 +61,24 @@ impl Due {
         Self { intervals, passed: vec![0; spans.len()], stages: spans }
     }
 
-    /// Intervals of each stage already passed.
+    /// Number of intervals of each stage already passed.
     pub(super) fn passed(&self) -> &[usize] {
         &self.passed
     }
 
-    /// The same with so many intervals of each stage passed.
+    /// The same schedule with these numbers of intervals passed.
     pub(super) fn from(self, passed: Vec<usize>) -> Self {
         Self { passed: if passed.len() == self.passed.len() { passed } else { self.passed }, ..self }
     }
 
-    /// True if the step that ends at `time` passes a due time not yet passed.
+    /// True if the step that ends at `time` passes a new due time, which is marked as passed.
     pub(super) fn take(&mut self, stage: usize, time: f64, ends_stage: bool) -> bool {
         let Some(&(start, end)) = self.stages.get(stage) else { return self.intervals > 0 && ends_stage };
         let now = if ends_stage {
             self.intervals
         } else {
             let part = (time - start) / (end - start) * (1.0 + ROUNDING);
-            // The end of the stage is kept for the step that says so.
+            // The last interval is reserved for the step flagged as the end of the stage.
             ((part * self.intervals as f64).max(0.0) as usize).min(self.intervals.saturating_sub(1))
         };
         let due = now > self.passed[stage];

@@ -1,8 +1,8 @@
-//! Files of stations in the format of the SEAS community.
+//! Station files in the format of the SEAS community.
 
 use crate::decimals::{fixed, scientific};
 
-/// Content of the head of a file.
+/// Contents of the header of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Head<'a> {
     /// Title of the scene.
@@ -11,22 +11,22 @@ pub struct Head<'a> {
     pub version: &'a str,
     /// Tributary area of the point \[m^2, or m per metre out of the plane\].
     pub area: f64,
-    /// True if that is an area.
+    /// True if `area` is an area, not a length.
     pub in_space: bool,
     /// Position of the station.
     pub location: &'a str,
-    /// Directions 2 and 3 of slip, where it may turn.
+    /// Directions 2 and 3 of slip, if its direction may turn.
     pub directions: Option<[[f64; 3]; 2]>,
     /// True if the fault opens.
     pub opens: bool,
 }
 
-/// Names of columns with their units, and of fields.
+/// Names of the columns with units and names of the fields, for slip in a fixed direction.
 const ALONG_A_LINE: (&[&str], &str) = (
     &["Slip (m)", "Slip rate (log10 m/s)", "Shear stress (MPa)", "State (log10 s)", "Normal stress (MPa)"],
     "t slip slip_rate shear_stress state normal_stress",
 );
-/// Direction of slip, where it may turn.
+/// Names of the columns with units and names of the fields, for slip whose direction may turn.
 const IN_A_PLANE: (&[&str], &str) = (
     &[
         "Slip_2 (m)",
@@ -42,7 +42,7 @@ const IN_A_PLANE: (&[&str], &str) = (
 );
 
 impl Head<'_> {
-    /// The lines before the rows.
+    /// The lines above the rows.
     #[must_use]
     pub fn text(&self) -> String {
         let Head { title, version, area, location, .. } = self;
@@ -65,30 +65,30 @@ impl Head<'_> {
     }
 }
 
-/// The point at a time. Slip, rate and traction have one component, or two where slip may turn.
+/// Values of the station at a time. Slip, rate and traction have one component, or two if the direction of slip may turn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Time \[s\].
     pub time: f64,
     /// Slip \[m\].
     pub slip: Vec<f64>,
-    /// Slip rate \[m/s\], above zero.
+    /// Slip rate \[m/s\], positive.
     pub rate: Vec<f64>,
     /// Shear traction \[Pa\].
     pub shear: Vec<f64>,
-    /// Decadic logarithm of the state over 1 s; not a number where there is none.
+    /// Decadic logarithm of the state over 1 s; NaN without a state.
     pub log_state: f64,
     /// Normal traction \[Pa\].
     pub normal: f64,
-    /// Opening \[m\], where the fault opens.
+    /// Opening \[m\], if the fault opens.
     pub opening: Option<f64>,
 }
 
-/// Pascals in a megapascal.
+/// Pascals per megapascal.
 const MPA: f64 = 1e6;
 
 impl Row {
-    /// The line.
+    /// Formats the line.
     #[must_use]
     pub fn text(&self) -> String {
         let mut row = format!("{:.14e}", self.time);

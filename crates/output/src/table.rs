@@ -1,9 +1,9 @@
-//! Tables as CSV: profiles along an interface at one time, and histories at its probes.
+//! CSV tables: profiles along an interface at one time, and histories at its probes.
 
 use super::decimals::{shortest, shortest_scientific};
 use super::view::{InterfaceFields, InterfaceMesh, PointValues};
 
-/// One column of an interface's table: its name with unit, and how to read it.
+/// A column of an interface table: its name with unit, and the function that reads it.
 type Column = (&'static str, fn(&InterfaceFields, usize) -> f64);
 
 /// Columns of a profile.
@@ -31,7 +31,7 @@ const PROBE: [Column; 6] = [
     ("shear_traction [Pa]", |f, i| f.shear_traction[i]),
 ];
 
-/// Further columns of both in space.
+/// Additional columns of profiles and probes in space.
 const SPACE: [Column; 6] = [
     ("slip_x [m]", |f, i| f.slip_vector[i][0]),
     ("slip_y [m]", |f, i| f.slip_vector[i][1]),
@@ -41,14 +41,14 @@ const SPACE: [Column; 6] = [
     ("shear_traction_z [Pa]", |f, i| f.shear_vector[i][2]),
 ];
 
-/// Columns of an interface after those of a table.
+/// Columns of a table with the additional columns in space.
 fn columns(table: &'static [Column], mesh: &InterfaceMesh) -> impl Iterator<Item = &'static Column> + use<> {
     table.iter().chain(if mesh.in_space { &SPACE[..] } else { &[] })
 }
 
-/// The shortest decimal that reads back as the same number, with an exponent where that is easier to read.
+/// The shortest decimal that reads back as the same number, with an exponent if that is easier to read.
 fn number(value: f64) -> String {
-    // Outside these decades positional notation is mostly zeros.
+    // Outside this range positional notation is mostly zeros.
     if value == 0.0 {
         return "0".into();
     }
@@ -60,7 +60,7 @@ fn states(mesh: &InterfaceMesh) -> impl Iterator<Item = String> {
     (1..=mesh.states).map(|k| format!("state_{k}"))
 }
 
-/// One row per slave node: time, position, tributary area and all fields.
+/// Profile with one row per slave node: time, position, tributary area and all fields.
 pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields) -> Vec<u8> {
     let mut rows = Rows::default();
     let head = ["time [s]", "node", "x [m]", "y [m]", "z [m]", "area [m2]"];
@@ -80,7 +80,7 @@ pub(super) fn profile(time: f64, mesh: &InterfaceMesh, fields: &InterfaceFields)
     rows.bytes()
 }
 
-/// The header of a table of probes.
+/// Header of a table of probes.
 pub(super) fn probe_header(mesh: &InterfaceMesh) -> Vec<u8> {
     let mut rows = Rows::default();
     let labels = crate::plots::labels::position_labels(mesh.probes.iter().map(|&node| mesh.positions[node]));
@@ -106,7 +106,7 @@ pub(super) fn probe_row(
     history_row(time, stage, step, &values.collect::<Vec<f64>>())
 }
 
-/// Columns of a point of a body.
+/// Columns of a history at a point of a body.
 const POINT: [&str; 10] = [
     "displacement_x [m]",
     "displacement_y [m]",
@@ -120,14 +120,14 @@ const POINT: [&str; 10] = [
     "mises [Pa]",
 ];
 
-/// The header of a history at a point of a body.
+/// Header of a history at a point of a body.
 pub(super) fn point_header() -> Vec<u8> {
     let mut rows = Rows::default();
     rows.push(WHEN.iter().chain(&POINT).map(ToString::to_string));
     rows.bytes()
 }
 
-/// The header of a history of a force in this unit.
+/// Header of a history of a force in this unit.
 pub(super) fn force_header(unit: &str) -> Vec<u8> {
     let mut rows = Rows::default();
     let columns = ["x", "y", "z"].iter().map(|axis| format!("force_{axis} [{unit}]"));
@@ -143,7 +143,7 @@ pub(super) fn history_row(time: f64, stage: usize, step: usize, values: &[f64]) 
     rows.bytes()
 }
 
-/// The values of a point in the order of its columns.
+/// Values of a point in the order of its columns.
 pub(super) fn point_values(point: &PointValues) -> Vec<f64> {
     point.displacement.iter().chain(&point.stress).copied().chain([point.mises]).collect()
 }
@@ -151,7 +151,7 @@ pub(super) fn point_values(point: &PointValues) -> Vec<f64> {
 /// First columns of a history.
 const WHEN: [&str; 3] = ["time [s]", "stage", "step"];
 
-/// Rows in memory.
+/// CSV rows in memory.
 struct Rows(csv::Writer<Vec<u8>>);
 
 impl Default for Rows {

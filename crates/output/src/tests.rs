@@ -1,4 +1,4 @@
-//! Observers on a small made-up run: two blocks of quad4 (or hex8) pressed and sheared.
+//! Observers on a small synthetic run: two blocks of quad4 (or hex8) pressed together and sheared.
 
 mod fake;
 mod outputs;

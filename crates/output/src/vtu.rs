@@ -1,8 +1,8 @@
 //! VTK XML unstructured grids: appended data, base64, zlib blocks, 64-bit headers (file format version 1.0).
 //!
-//! Layout of one array in the appended section, after VTK's `vtkXMLDataParser`: the header `[blocks, block size, size of
-//! the last block if partial else 0, compressed size of each block]` as little-endian u64, base64-encoded on its own;
-//! then the zlib streams of all blocks, concatenated and base64-encoded together. Offsets count characters after `_`.
+//! Layout of one array in the appended section, after VTK's `vtkXMLDataParser`. The header `[blocks, block size, size of the last
+//! block if partial else 0, compressed size of each block]` is little-endian u64, base64-encoded separately. The zlib streams of
+//! all blocks follow, concatenated and base64-encoded together. Offsets count characters after `_`.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 use std::io::Write as _;
 
-/// Uncompressed bytes per zlib block: VTK's own default.
+/// Uncompressed bytes per zlib block, the default of VTK.
 const BLOCK: usize = 1 << 15;
 
 /// Values of a data array.
@@ -35,7 +35,7 @@ pub struct Array<'a> {
     encoded: Encoded,
 }
 
-/// An array in its form in the file.
+/// An array as encoded in the file.
 #[derive(Clone, Debug)]
 struct Encoded {
     kind: &'static str,
@@ -80,7 +80,7 @@ impl<'a> Array<'a> {
     }
 }
 
-/// The part of a file that does not change from time to time: points and cells, encoded once.
+/// Part of a file that does not change with time: points and cells, encoded once.
 #[derive(Clone, Debug)]
 pub struct Grid {
     points: Encoded,
@@ -90,7 +90,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// From node positions \[m\] and cells (VTK type, node numbers in VTK order).
+    /// Encodes node positions \[m\] and cells (VTK type, node numbers in VTK order).
     #[must_use]
     pub fn new(points: &[[f64; 3]], cells: &[(u8, Vec<usize>)]) -> Self {
         let connectivity: Vec<i64> = cells.iter().flat_map(|(_, nodes)| nodes).map(|&n| n as i64).collect();
@@ -123,8 +123,8 @@ impl Grid {
         self.types.length
     }
 
-    /// The bytes of a file with these arrays at `time` \[s\]. Lengths must fit the grid (checked by the caller's types of
-    /// fields; asserted in debug builds).
+    /// Contents of a file with these arrays at `time` \[s\]. The lengths of the arrays must fit the grid; callers ensure this,
+    /// and debug builds assert it.
     #[must_use]
     pub fn file(&self, time: f64, point_data: &[Array<'_>], cell_data: &[Array<'_>]) -> Vec<u8> {
         debug_assert!(point_data.iter().all(|array| array.tuples() == self.points()));
@@ -173,7 +173,7 @@ fn little_endian<T: Copy>(values: &[T], bytes: impl Fn(T) -> [u8; 8]) -> Vec<u8>
     out
 }
 
-/// Header and blocks of one array (see the module's head).
+/// Encodes header and blocks of one array as described in the module.
 fn encode(bytes: &[u8]) -> String {
     let mut header = vec![bytes.len().div_ceil(BLOCK) as u64, BLOCK as u64, (bytes.len() % BLOCK) as u64];
     let mut data = Vec::with_capacity(bytes.len() / 2);
@@ -188,14 +188,14 @@ fn encode(bytes: &[u8]) -> String {
     text
 }
 
-/// A zlib stream, at the level meant for speed: on fields of doubles it takes a seventh of the time of the default level for
+/// Compresses to a zlib stream at the fast level. On fields of doubles it takes a seventh of the time of the default level, for
 /// files 3 % larger.
 pub(super) fn deflate(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
     encoder.write_all(bytes).and_then(|()| encoder.finish()).expect("writing to a Vec cannot fail")
 }
 
-/// Head and appended section of a file as they grow.
+/// Head and appended section of a file while they grow.
 #[derive(Default)]
 struct Writer {
     head: String,
@@ -241,23 +241,23 @@ impl Writer {
     }
 }
 
-/// Text with a mark for each character that XML does not admit, control characters above all.
+/// Replaces characters that XML does not admit, mostly control characters, by U+FFFD.
 pub(crate) fn admitted(text: &str) -> String {
     let bad = |c: char| (c.is_control() && !matches!(c, '\t' | '\n')) || matches!(c, '\u{fffe}' | '\u{ffff}');
     text.replace(bad, "\u{fffd}")
 }
 
-/// Text as the value of an XML attribute, or as its content.
+/// Escapes text for the value of an XML attribute or for content.
 pub(super) fn escape(text: &str) -> String {
     admitted(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// One data set of a collection.
+/// A data set of a collection.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PvdEntry {
     /// Time \[s\].
     pub time: f64,
-    /// Part number: 0 the bodies, 1.. the interfaces.
+    /// Part number: 0 for the bodies, from 1 for the interfaces.
     pub part: usize,
     /// Name of the part.
     pub name: String,
@@ -265,7 +265,7 @@ pub struct PvdEntry {
     pub file: String,
 }
 
-/// The bytes of a ParaView collection.
+/// Contents of a ParaView collection file.
 #[must_use]
 pub fn pvd(entries: &[PvdEntry]) -> Vec<u8> {
     let mut out = String::from(
@@ -299,7 +299,7 @@ mod tests {
                 .collect()
         };
         let text = &appended[offset..];
-        // Three words fill 32 characters exactly.
+        // Three words take exactly 32 characters.
         let blocks = words(&text[..32])[0] as usize;
         let header_length = ((3 + blocks) * 8).div_ceil(3) * 4;
         let header = words(&text[..header_length]);
@@ -337,7 +337,7 @@ mod tests {
 
     #[test]
     fn a_file_decodes_to_what_went_in() {
-        // 4096 points are exactly three blocks of positions, 5000 leave a partial one.
+        // 4096 points are exactly three blocks of positions; 5000 leave a partial block.
         for n in [4096, 5000] {
             let points: Vec<[f64; 3]> = (0..n).map(|i| [i as f64, 0.5 * i as f64, -1.0]).collect();
             let cells: Vec<(u8, Vec<usize>)> = (0..n - 1).map(|i| (3, vec![i, i + 1])).collect();

@@ -1,4 +1,4 @@
-//! Errors of a scene that can be found before anything is built. All of them are collected.
+//! Checks of a scene before anything is built. All errors are collected.
 
 mod bodies;
 mod conditions;
@@ -23,7 +23,7 @@ use crate::names::SIDES;
 use crate::warning::Warning;
 use std::ops::Range;
 
-/// Everything wrong in a scene, and everything doubtful, in the order of the file.
+/// All errors and warnings of a scene, in the order of the file.
 #[must_use]
 pub fn check(scene: &Scene, laws: &Laws) -> (Vec<Diagnostic>, Vec<Warning>) {
     let mut checker = Checker { scene, laws, errors: Vec::new(), warnings: Vec::new() };
@@ -44,7 +44,7 @@ pub fn check(scene: &Scene, laws: &Laws) -> (Vec<Diagnostic>, Vec<Warning>) {
     (errors, warnings)
 }
 
-/// Axes by name.
+/// Names of the axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 struct Checker<'a> {
@@ -59,12 +59,12 @@ impl Checker<'_> {
         self.errors.push(Diagnostic::at(span, message, help));
     }
 
-    /// Something that runs, and probably is not meant so.
+    /// Adds a warning about a setting that is admissible but probably not intended.
     fn warn(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
         self.warnings.push(Warning::at(span, message, help));
     }
 
-    /// An error about one place that another takes part in.
+    /// Adds an error about one position that involves a second one.
     fn conflict(
         &mut self,
         span: &Range<usize>,
@@ -75,7 +75,7 @@ impl Checker<'_> {
         self.errors.push(Diagnostic::at(span.clone(), message, help).and(also.0.clone(), also.1));
     }
 
-    /// A count that is surely a mistake, and would exhaust the memory.
+    /// Reports a count that is surely a mistake and would exhaust the memory.
     fn too_many(&mut self, count: &Spanned<usize>, name: &str, most: usize) {
         self.error(
             count.span(),
@@ -88,12 +88,12 @@ impl Checker<'_> {
         self.scene.kinematics.get_ref().dimension()
     }
 
-    /// The idealisation in words.
+    /// Name of the idealisation.
     fn idealisation(&self) -> &'static str {
         self.scene.kinematics.get_ref().words()
     }
 
-    /// Axes of space along which bodies move.
+    /// Axes along which bodies move.
     fn motions(&self) -> Vec<usize> {
         if self.is_antiplane() { vec![2] } else { (0..self.dimension()).collect() }
     }
@@ -113,7 +113,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Names become parts of set names and of files.
+    /// Checks a name. Names become parts of set names and of file names.
     fn name(&mut self, what: &str, name: &str, place: Range<usize>) {
         if name.is_empty() || !name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-') {
             self.error(
@@ -124,8 +124,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Body and axis and end (0 lower, 1 upper) of a set `body.side` of a rectangular block, where it exists. Sets of other
-    /// meshes are known only when these are made or read.
+    /// Body, axis and end (0 lower, 1 upper) of a set `body.side` of a rectangular block. A missing set is reported. Sets of
+    /// other meshes are known only once these are generated or read.
     fn set(&mut self, set: &Spanned<String>) -> Option<(String, usize, usize)> {
         let body = set.get_ref().split('.').next().and_then(|name| self.scene.bodies.get(name));
         if body.is_some_and(|b| !matches!(b.mesh, MeshSource::Block(_))) && set.get_ref().contains('.') {
@@ -138,7 +138,7 @@ impl Checker<'_> {
         found
     }
 
-    /// Body, axis and end of a side of a rectangular block.
+    /// Body, axis and end of a side of a rectangular block; `None` for any other set.
     fn block_side<'s>(&self, set: &'s str) -> Option<(&'s str, usize, usize)> {
         let is_block = |b: &Body| matches!(b.mesh, MeshSource::Block(_));
         split(set, self.dimension()).filter(|side| self.scene.bodies.get(side.0).is_some_and(is_block))
@@ -149,7 +149,7 @@ impl Checker<'_> {
         let sides: Vec<&str> = SIDES[..self.dimension()].iter().flatten().copied().collect();
         let dotted = |b: &String| b.contains('.') && name.strip_prefix(b).is_some_and(|s| s.starts_with('.'));
         if self.scene.bodies.keys().any(dotted) {
-            return; // The name of the body is the error, and is told once.
+            return; // The error is in the name of the body and is reported only once.
         }
         let Some((body, side)) = name.split_once('.') else {
             let list = format!("a set is `body.side`, with the sides {}", sides.join(", "));
@@ -167,7 +167,7 @@ impl Checker<'_> {
     }
 }
 
-/// Body, axis and end of a side set of a block.
+/// Splits the name of a side set of a block into body, axis and end.
 fn split(set: &str, dimension: usize) -> Option<(&str, usize, usize)> {
     let (body, side) = set.split_once('.')?;
     SIDES[..dimension]

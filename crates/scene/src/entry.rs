@@ -1,4 +1,4 @@
-//! An entry of a table over time.
+//! An entry of a table of values over time.
 
 use super::units::Time;
 use crate::shape::shaped;
@@ -6,12 +6,12 @@ use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
 
-/// An entry of a table, `[time, value]`, and nothing after it.
+/// An entry of a table, `[time, value]`. Further elements are an error.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry<Q> {
     /// Time \[s\].
     pub time: Time,
-    /// Value then.
+    /// Value at that time.
     pub value: Q,
 }
 

@@ -1,4 +1,4 @@
-//! Lists of a fixed length that refuse what comes after: the reader of TOML would leave it out.
+//! Lists of fixed length. Surplus entries are an error; the TOML reader would ignore them.
 
 use crate::spanned::Spanned;
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
@@ -39,7 +39,7 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N
     }
 }
 
-/// Entries that are left.
+/// Counts the remaining entries.
 fn rest<'de, A: SeqAccess<'de>>(entries: &mut A) -> Result<usize, A::Error> {
     let mut length = 0;
     while entries.next_element::<de::IgnoredAny>()?.is_some() {
@@ -74,50 +74,50 @@ impl<'de, A: Deserialize<'de>, B: Deserialize<'de>> Deserialize<'de> for Pair<A,
     }
 }
 
-/// The same value, of another type, at its place.
+/// Converts a value and keeps its position.
 fn at<T, U>(value: Spanned<T>, change: impl FnOnce(T) -> U) -> Spanned<U> {
     Spanned::new(value.span(), change(value.into_inner()))
 }
 
-/// A list of `N` values.
+/// Reads a list of `N` values.
 pub fn list<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
     from: D,
 ) -> Result<Spanned<[T; N]>, D::Error> {
     Ok(at(Spanned::<Exactly<T, N>>::deserialize(from)?, |v| v.0))
 }
 
-/// A list of `N` values that may be left out.
+/// Reads an optional list of `N` values.
 pub fn optional<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
     from: D,
 ) -> Result<Option<Spanned<[T; N]>>, D::Error> {
     list(from).map(Some)
 }
 
-/// `M` lists of `N` values.
+/// Reads `M` lists of `N` values.
 pub fn lists<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize, const M: usize>(
     from: D,
 ) -> Result<Spanned<[[T; N]; M]>, D::Error> {
     Ok(at(Spanned::<Exactly<Exactly<T, N>, M>>::deserialize(from)?, |v| v.0.map(|x| x.0)))
 }
 
-/// Any number of lists of `N` values.
+/// Reads any number of lists of `N` values.
 pub fn many<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
     from: D,
 ) -> Result<Spanned<Vec<[T; N]>>, D::Error> {
     Ok(at(Spanned::<Vec<Exactly<T, N>>>::deserialize(from)?, |v| v.into_iter().map(|x| x.0).collect()))
 }
 
-/// Pairs at their place.
+/// Pairs with their position in the file.
 type Pairs<A, B> = Spanned<Vec<(A, B)>>;
 
-/// Any number of pairs.
+/// Reads any number of pairs.
 pub fn pairs<'de, D: Deserializer<'de>, A: Deserialize<'de>, B: Deserialize<'de>>(
     from: D,
 ) -> Result<Pairs<A, B>, D::Error> {
     Ok(at(Spanned::<Vec<Pair<A, B>>>::deserialize(from)?, |v| v.into_iter().map(|p| (p.0, p.1)).collect()))
 }
 
-/// Pairs that may be left out.
+/// Reads an optional list of pairs.
 pub fn optional_pairs<'de, D: Deserializer<'de>, A: Deserialize<'de>, B: Deserialize<'de>>(
     from: D,
 ) -> Result<Option<Pairs<A, B>>, D::Error> {

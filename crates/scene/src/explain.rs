@@ -1,10 +1,10 @@
-//! Errors of the TOML reader in the words of a scene.
+//! Translation of errors of the TOML reader into terms of a scene.
 
 use super::near::suggest;
 use crate::diagnostic::Diagnostic;
 use std::ops::Range;
 
-/// Keys of a scene that are tables, with how a table of each begins.
+/// Keys of a scene that are tables, each with the header of such a table.
 const TABLES: [(&str, &str); 4] = [
     ("materials", "[materials.NAME]"),
     ("bodies", "[bodies.NAME]"),
@@ -12,7 +12,7 @@ const TABLES: [(&str, &str); 4] = [
     ("time", "[time]"),
 ];
 
-/// An error of the TOML reader about `text`, with what was probably meant.
+/// Explains an error of the TOML reader about `text`, with a suggestion of what was probably meant.
 #[must_use]
 pub(super) fn explain(error: &toml::de::Error, text: &str) -> Diagnostic {
     let place = error.span().unwrap_or(0..0);
@@ -24,10 +24,10 @@ pub(super) fn explain(error: &toml::de::Error, text: &str) -> Diagnostic {
     Diagnostic { message, help, span: visible(place, text), also: Vec::new() }
 }
 
-/// A message and what would be right.
+/// A message and, if known, a suggestion.
 type Words = (String, Option<String>);
 
-/// Errors in a file that is TOML, but no scene.
+/// Explains errors in a file that is valid TOML but not a scene.
 fn content(message: &str) -> Option<Words> {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     let wrong = quoted.first().copied().unwrap_or_default();
@@ -72,7 +72,7 @@ fn content(message: &str) -> Option<Words> {
     }
 }
 
-/// Errors in a file that is no TOML, where the reader's own words mislead.
+/// Explains errors in a file that is not TOML and whose messages by the reader are misleading.
 fn syntax(message: &str, found: &str, next: Option<char>) -> Option<Words> {
     if message.starts_with("string values must be quoted") {
         return Some(if found.is_empty() {
@@ -98,7 +98,7 @@ fn syntax(message: &str, found: &str, next: Option<char>) -> Option<Words> {
     None
 }
 
-/// The types of the reader as a person would call them.
+/// Plain names of the types that the reader expects.
 fn wanted(expected: &str) -> &str {
     match expected {
         "a sequence" => "a list",
@@ -113,7 +113,7 @@ fn wanted(expected: &str) -> &str {
     }
 }
 
-/// Findings of the reader, as a person would call them.
+/// Plain names of what the reader found.
 fn given(found: &str) -> String {
     match found {
         "map" => return "a table".into(),
@@ -130,7 +130,7 @@ fn given(found: &str) -> String {
     found.to_string()
 }
 
-/// A place of at least one character: where something is missing, the reader points between two.
+/// Extends an empty span to at least one character: for something missing, the reader points between two characters.
 fn visible(span: Range<usize>, text: &str) -> Range<usize> {
     if !span.is_empty() || text.is_empty() {
         return span;

@@ -1,4 +1,4 @@
-//! Which friction law a scene means, complete and in range.
+//! The friction law chosen by a scene, complete and with parameters in range.
 
 mod choice;
 mod given;
@@ -17,7 +17,7 @@ use crate::diagnostic::Diagnostic;
 use choice::FORMS;
 use reader::Reader;
 
-/// Kinds of law whose strength depends on the slip rate, with the parameters of each; evolutions have more of their own.
+/// Kinds of law whose strength depends on the slip rate, with the parameters of each. Evolutions add parameters.
 const KINDS: [(&str, &[&str]); 2] = [
     ("rate", &["form", "mu0", "a", "v_ref", "v_cut", "activation", "t_ref", "temperature", "f_limit"]),
     (
@@ -42,10 +42,10 @@ const KINDS: [(&str, &[&str]); 2] = [
     ),
 ];
 
-/// The kind of law whose state evolves.
+/// The kind of law with an evolving state.
 const EVOLVES: &str = "rate-and-state";
 
-/// The law of a specification, of those that the program knows.
+/// Chooses the law of a specification among those known to the program.
 ///
 /// # Errors
 /// Every parameter that is missing, belongs to another law, or is out of range.
@@ -53,7 +53,7 @@ pub fn choose(spec: &Spanned<LawSpec>, laws: &Laws) -> Result<LawChoice, Vec<Dia
     choose_with(spec, laws, false)
 }
 
-/// The law of a slider, whose evolution effect `b` may be negative.
+/// Chooses the law of a slider, whose evolution effect `b` may be negative.
 ///
 /// # Errors
 /// As [`choose`].
@@ -90,7 +90,7 @@ fn names(laws: &Laws) -> impl Iterator<Item = &'static str> {
     laws.kinds.iter().map(|row| row.name).chain(KINDS.iter().map(|k| k.0))
 }
 
-/// Parameters of a kind of law, those of its evolutions last.
+/// Parameters of a kind of law; those of its evolutions come last.
 fn parameters(kind: &str, laws: &Laws) -> Vec<&'static str> {
     if let Some(row) = laws.kind(kind) {
         return row.parameters.iter().map(|p| p.key).chain(row.capped.then_some("f_limit")).collect();
@@ -125,7 +125,7 @@ fn foreign(law: &LawSpec, kind: &str, laws: &Laws) -> Vec<Diagnostic> {
         .collect()
 }
 
-/// Parameters of a form or evolution other than the chosen one.
+/// Reports parameters that belong to another form or evolution than the chosen one.
 fn particular(law: &LawSpec, kind: &str, laws: &Laws) -> Vec<Diagnostic> {
     let parameters = parameters(kind, laws);
     let form = law.form.as_ref().map_or(FORMS[0], |f| f.get_ref());

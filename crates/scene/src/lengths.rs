@@ -1,6 +1,6 @@
-//! Lengths in words, as scenes write them.
+//! Lengths as text with a unit, as written in scenes.
 
-/// A length in the unit that shows it shortest.
+/// Formats a length in metres in the largest unit from nm to km in which it is at least 1.
 #[must_use]
 pub fn show(length: f64) -> String {
     let (factor, unit) = match length.abs() {
@@ -15,7 +15,7 @@ pub fn show(length: f64) -> String {
     format!("{rounded} {unit}")
 }
 
-/// A measured length: four digits of it.
+/// Formats a measured length to four significant digits.
 #[must_use]
 pub fn brief(length: f64) -> String {
     show(format!("{length:.3e}").parse().unwrap_or(length))

@@ -28,10 +28,10 @@ use law::Laws;
 use model::Scene;
 use std::path::Path;
 
-/// Reads and checks a scene whose mesh files are named relative to `folder`, with the friction laws that the program knows.
+/// Reads and checks a scene with the friction laws known to the program. Mesh files are named relative to `folder`.
 ///
 /// # Errors
-/// All that is wrong with it, or the first thing that keeps it from being read.
+/// All errors of the checks, or the first error of the reader.
 pub fn read(text: &str, folder: &Path, laws: &Laws) -> Result<Scene, Diagnostics> {
     let mut scene: Scene = toml::from_str(text).map_err(|e| Diagnostics(vec![explain::explain(&e, text)]))?;
     scene.folder = folder.to_path_buf();

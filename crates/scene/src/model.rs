@@ -1,7 +1,7 @@
-//! The scene as a value: what a scene file says, in SI units, before any decision is taken.
+//! The scene as a value: the contents of a scene file in SI units, before any decision is made.
 //!
-//! Names that the plan looks up later are [`Spanned`], so that an error can point into the file. A scene built in Rust
-//! uses the empty span (see [`here`]), and its errors name the key instead.
+//! Names that the plan looks up later are [`Spanned`], so that errors can point into the file. Scenes built in Rust use the empty
+//! span (see [`here`]); their errors name the key instead.
 
 mod body;
 mod fault;
@@ -32,7 +32,7 @@ pub use stress::*;
 pub struct Scene {
     /// Version of the scene format; 1.
     pub schema: Spanned<u32>,
-    /// Title, shown in reports: one line of characters that can be seen.
+    /// Title shown in reports: one line of printable characters.
     #[serde(deserialize_with = "crate::title::read")]
     pub title: String,
     /// Idealisation.
@@ -49,7 +49,7 @@ pub struct Scene {
     pub faults: BTreeMap<String, Fault>,
     /// Events of faults.
     pub events: Option<EventSpec>,
-    /// Place and time of them.
+    /// Geographical position of the origin and time zero, for catalogues.
     pub place: Option<Place>,
     /// Stages in sequence.
     pub stages: Vec<Stage>,
@@ -61,22 +61,22 @@ pub struct Scene {
     /// Outputs.
     #[serde(default)]
     pub output: Output,
-    /// Folder of the scene file, which the paths of mesh files are relative to; empty: the present one.
+    /// Folder of the scene file, to which the paths of mesh files are relative; empty: the current folder.
     #[serde(skip)]
     pub folder: PathBuf,
-    /// Doubts of the check.
+    /// Warnings of the checks.
     #[serde(skip)]
     pub warnings: Vec<Warning>,
 }
 
 impl Scene {
-    /// The body that a set `body.side` belongs to.
+    /// The body to which a set `body.side` belongs.
     #[must_use]
     pub fn body_of(&self, set: &Spanned<String>) -> Option<&Body> {
         self.bodies.get(set.get_ref().split('.').next()?)
     }
 
-    /// Names of the mesh files the scene reads.
+    /// Names of the mesh files of the scene.
     pub fn mesh_files(&self) -> impl Iterator<Item = &str> {
         self.bodies.values().filter_map(|body| match &body.mesh {
             MeshSource::Gmsh(mesh) => Some(mesh.file.get_ref().as_str()),
@@ -104,31 +104,31 @@ pub struct Interface {
     pub enforcement: Enforcement,
     /// A [friction law](laws.md) or a bond; absent: frictionless.
     pub law: Option<Spanned<LawSpec>>,
-    /// Treatment of points too far apart for friction that weakens: `"refuse"` (default) or `"allow"`.
+    /// Treatment of points too far apart to resolve friction that weakens: `"refuse"` (default) or `"allow"`.
     pub under_resolved: Option<Spanned<UnderResolved>>,
     /// `true`: the interface starts with the tractions of the [initial stress](bodies.md) of its bodies; default `false`.
     pub initial_stress: Option<Spanned<bool>>,
-    /// Key of a fault; refused here.
+    /// A key of faults; refused here.
     #[schemars(skip)]
     pub normal: Option<Spanned<IgnoredAny>>,
-    /// Key of a fault; refused here.
+    /// A key of faults; refused here.
     #[schemars(skip)]
     pub shear: Option<Spanned<IgnoredAny>>,
-    /// Key of a fault; refused here.
+    /// A key of faults; refused here.
     #[schemars(skip)]
     pub rate: Option<Spanned<IgnoredAny>>,
-    /// Key of a fault; refused here.
+    /// A key of faults; refused here.
     #[schemars(skip)]
     pub profiles: Option<Spanned<IgnoredAny>>,
 }
 
-/// Measures that exist.
+/// Measures of gaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Measure {
-    /// Slave node against the closest point of a master segment.
+    /// Gap of each slave node to the closest point of a master segment.
     NodeToPoint,
-    /// Slave facets against master facets over their overlap, the gap averaged to slave nodes.
+    /// Gaps between slave and master facets over their overlap, averaged to slave nodes.
     Mortar,
 }
 
@@ -136,7 +136,7 @@ pub enum Measure {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sliding {
-    /// Pairing fixed in the reference configuration; condensation possible.
+    /// Pairing fixed in the reference configuration; allows condensation.
     Small,
     /// Pairing and normal follow the motion.
     Finite,
@@ -160,25 +160,25 @@ pub struct Enforcement {
     pub normal: Spanned<Penalty>,
     /// Tangential penalty E_t \[Pa/m\]; needed with friction.
     pub tangential: Option<Spanned<Penalty>>,
-    /// Uzawa: largest penetration, and largest tangential motion without slip in a step.
+    /// Uzawa: largest admissible penetration, and largest admissible elastic part of the tangential motion of a step.
     pub penetration: Option<Spanned<Penetration>>,
-    /// Uzawa: augmentations a step may take.
+    /// Uzawa: largest number of augmentations per step.
     pub augmentations: Option<Spanned<usize>>,
 }
 
-/// Enforcements that exist.
+/// Methods of enforcement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum EnforcementKind {
     /// Traction proportional to penetration.
     Penalty,
-    /// The same about multipliers that move between solutions.
+    /// Penalty tractions about multipliers that are updated between solutions.
     Uzawa,
     /// Multipliers as unknowns of the system.
     AugmentedLagrangian,
 }
 
-/// A friction law as written in a scene. Which parameters belong to which kind is checked by the plan.
+/// A friction law as written in a scene. The plan checks which parameters belong to which kind.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LawSpec {
@@ -188,7 +188,7 @@ pub struct LawSpec {
     pub mu: Option<Spanned<f64>>,
     /// Static-kinetic, slip-weakening: coefficient before slip \[-\].
     pub mu_s: Option<Spanned<f64>>,
-    /// Static-kinetic, slip-weakening: coefficient in or after slip \[-\].
+    /// Static-kinetic, slip-weakening: coefficient during or after slip \[-\].
     pub mu_k: Option<Spanned<f64>>,
     /// Slip-weakening: slip over which the coefficient falls \[m\].
     pub d_c: Option<Spanned<Length>>,
@@ -236,11 +236,11 @@ pub struct LawSpec {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stage {
-    /// Name, unique to each stage.
+    /// Name, unique among the stages.
     pub name: String,
     /// Duration \[s\].
     pub duration: Spanned<Time>,
-    /// Interfaces without friction in this stage.
+    /// Interfaces that are frictionless in this stage.
     #[serde(default)]
     pub frictionless: Vec<Spanned<String>>,
     /// Conditions that begin with this stage; earlier ones continue unless they are replaced.
@@ -264,18 +264,18 @@ pub struct Condition {
     pub z: Option<Spanned<Motion>>,
     /// Rotation of the set as a rigid body.
     pub rotate: Option<Spanned<RotationSpec>>,
-    /// `true`: no displacement along the normal of the side, which is parallel to an axis.
+    /// `true`: no displacement normal to the side, which must be parallel to an axis.
     pub symmetry: Option<Spanned<bool>>,
-    /// Loads, one per axis of motion.
+    /// Tractions, one per axis of motion.
     pub traction: Option<Spanned<Vec<Loading>>>,
-    /// Load, positive into the body.
+    /// Pressure, positive into the body.
     pub pressure: Option<Spanned<Loading>>,
 }
 
 /// Motion of a displacement component during a stage.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
-    /// Held at this displacement \[m\] (a step, applied with the first increment, when it differs from the present one).
+    /// Held at this displacement \[m\]. A difference from the present value is applied as a step with the first increment.
     Fixed(f64),
     /// Ramped linearly from the present value to this one at the end of the stage \[m\].
     To(f64),
@@ -283,36 +283,36 @@ pub enum Motion {
     Rate(f64),
     /// Piecewise linear: (time since the stage began \[s\], displacement \[m\]).
     Table(Vec<(f64, f64)>),
-    /// Moved as one by a spring whose other end moves at a rate.
+    /// Pulled as a whole by a spring whose other end moves at a constant rate.
     Spring {
         /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
         stiffness: f64,
         /// Rate of the other end \[m/s\].
         rate: f64,
     },
-    /// One component of a rotation that begins and ends with the stage.
+    /// One component of a rotation over the whole stage.
     Rotate(Rotation),
-    /// Held at the value it has.
+    /// Held at the present value.
     Hold,
-    /// Released.
+    /// Released: free of constraints.
     Free,
 }
 
-/// A rotation as a scene says it.
+/// A rotation as written in a scene.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RotationSpec {
-    /// Angle by which the set has turned at the end of the stage, from its place at the start \[rad\].
+    /// Angle of rotation at the end of the stage, from the position at its start \[rad\].
     pub by: Spanned<Angle>,
     /// A point of the axis \[m\].
     pub about: Spanned<Vec<Length>>,
-    /// Direction of the axis, of any length; in two dimensions it is z and not given.
+    /// Direction of the axis, of any length; in two dimensions it is z and must not be given.
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub axis: Option<Spanned<[f64; 3]>>,
 }
 
 impl RotationSpec {
-    /// As a motion; a third coordinate that is not given is zero.
+    /// Converts the specification to a motion. An absent third coordinate is zero.
     #[must_use]
     pub fn motion(&self) -> Motion {
         let axis = self.axis.as_ref().map_or([0.0, 0.0, 1.0], |a| *a.get_ref());
@@ -360,9 +360,9 @@ pub struct TimeControl {
     /// Both: `"auto"` (default), `"condensed"` or `"full"`.
     #[serde(default)]
     pub path: Path,
-    /// Implicit: estimated error of slip per step; default 2e-5 of the largest prescribed travel \[m\].
+    /// Implicit: largest estimated error of slip per step; default 2e-5 of the largest prescribed travel \[m\].
     pub tolerance: Option<Spanned<Length>>,
-    /// Implicit: estimated error of friction coefficients per step, 1e-9 to 1e-2 \[-\].
+    /// Implicit: largest estimated error of friction coefficients per step, 1e-9 to 1e-2 \[-\].
     pub friction_tolerance: Option<Spanned<f64>>,
     /// Both: first step; default 1/1000 of the stage \[s\].
     pub first_step: Option<Spanned<Time>>,
@@ -374,28 +374,28 @@ pub struct TimeControl {
     pub slip_rate_limit: Option<Spanned<Velocity>>,
     /// Fault-ode: `"tsit5"` (default), `"dop853"`, `"rkc2"`, `"stabilised"` or `"tsit45"`.
     pub method: Option<Spanned<String>>,
-    /// Fault-ode: error of ln V allowed in a step; default 1e-5 \[-\].
+    /// Fault-ode: admissible error of ln V per step; default 1e-5 \[-\].
     pub log_rate_tolerance: Option<Spanned<f64>>,
-    /// Static-explicit: largest residual over the largest force that a step may leave, at most 1e-2; default 1e-4 \[-\].
+    /// Static-explicit: largest admissible residual of a step over the largest force, at most 1e-2; default 1e-4 \[-\].
     pub drift: Option<Spanned<f64>>,
     /// Static-explicit: bound on the change of ln V per step; default 0.5 \[-\].
     pub rate_change: Option<Spanned<f64>>,
     /// Static-explicit: slip per step over L; default 0.1 \[-\].
     pub zeta: Option<Spanned<f64>>,
-    /// Not readable from a file: the ends of all steps of the run, imposed \[s\].
+    /// Imposed ends of all steps of the run \[s\]; cannot be read from a file.
     #[serde(skip)]
     pub imposed: Option<Vec<f64>>,
 }
 
-/// Steppers that exist.
+/// Steppers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stepper {
-    /// Newton with line search.
+    /// Newton's method with line search.
     Implicit,
     /// Forward steps limited by the R-minimum rule.
     StaticExplicit,
-    /// Faults whose bodies are condensed onto them, through earthquake cycles.
+    /// Integration of faults through earthquake cycles, with their bodies condensed onto them.
     FaultOde,
 }
 
@@ -406,18 +406,18 @@ pub enum Rule {
     /// First order.
     #[default]
     BackwardEuler,
-    /// Second order, laws of the slip rate.
+    /// Second order, for laws that depend on the slip rate.
     Bdf2,
 }
 
-/// Which system is solved.
+/// System to be solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Path {
-    /// Condensed where the scene allows it.
+    /// Condensed if the scene allows it.
     #[default]
     Auto,
-    /// Condensed, or an error.
+    /// Condensed; it is an error if the scene does not allow it.
     Condensed,
     /// All degrees of freedom.
     Full,
@@ -430,7 +430,7 @@ pub struct Output {
     /// Number of positions along the slave side, recorded at every step.
     #[serde(default)]
     pub probes: BTreeMap<String, Spanned<usize>>,
-    /// `{ body = "A", at = ["48 mm", "52 mm"] }`: displacement and stress at a position of the undeformed body, at every step.
+    /// `{ body = "A", at = ["48 mm", "52 mm"] }`: displacement and stress at a position in the undeformed body, at every step.
     #[serde(default)]
     pub points: BTreeMap<String, Spanned<PointSpec>>,
     /// `{ set = "A.left" }`: total force on a set, at every step.
@@ -447,13 +447,13 @@ pub struct Output {
     pub stations: BTreeMap<String, Spanned<Vec<Spanned<Station>>>>,
     /// Changes after which rows of stations and of the largest slip rate are written.
     pub cadence: Option<Spanned<CadenceSpec>>,
-    /// Times between profiles of slip: between events, and in them \[s\].
+    /// Intervals between profiles of slip: between events, and during them \[s\].
     pub contours: Option<Spanned<[Time; 2]>>,
     /// Largest size of a file that grows; default `"100 MB"`, at least `"10 kB"`.
     pub largest_file: Option<Spanned<Memory>>,
 }
 
-/// Limits that make rows due.
+/// Changes after which a row is due.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CadenceSpec {
@@ -461,9 +461,9 @@ pub struct CadenceSpec {
     pub decades: Option<Spanned<f64>>,
     /// Slip.
     pub slip: Option<Spanned<Length>>,
-    /// Longest time between two.
+    /// Longest time between two rows.
     pub longest: Option<Spanned<Time>>,
-    /// Least time between two that slip makes due.
+    /// Shortest time between two rows that are due to slip.
     pub shortest: Option<Spanned<Time>>,
 }
 
@@ -473,11 +473,11 @@ pub struct CadenceSpec {
 pub struct PointSpec {
     /// The body.
     pub body: Spanned<String>,
-    /// Its place in the reference configuration \[m\].
+    /// Position in the reference configuration \[m\].
     pub at: Spanned<Vec<Length>>,
 }
 
-/// A set whose force is wanted.
+/// A set whose force is reported.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ForceSpec {

@@ -1,4 +1,4 @@
-//! Format of motions and loadings.
+//! Reading of motions and loadings.
 
 use super::entry::Entry;
 use super::model::{Loading, Motion};
@@ -72,7 +72,7 @@ impl<'de> Deserialize<'de> for Motion {
     }
 }
 
-/// Stiffness of a spring that draws a whole side \[N/m; N/m per metre of thickness in the plane\].
+/// Stiffness of a spring that pulls a whole side \[N/m; N/m per metre of thickness in the plane\].
 struct SideSpring(f64);
 
 shaped!(SideSpring as f64);
@@ -117,7 +117,7 @@ impl<'de> Deserialize<'de> for SideSpring {
     }
 }
 
-/// Expectation of a visitor, in words.
+/// Formats what a visitor expects.
 struct Expected<'a, V>(&'a V);
 
 impl<'de, V: Visitor<'de>> fmt::Display for Expected<'_, V> {

@@ -1,6 +1,6 @@
-//! Names in scenes of what finite elements have their own types for.
+//! Names used in scenes for elements and sides, which have their own types in the finite-element crates.
 
-/// Elements, with their dimensions.
+/// Names of elements, with their dimensions.
 pub const ELEMENTS: [(&str, usize); 12] = [
     ("tri3", 2),
     ("tri6", 2),

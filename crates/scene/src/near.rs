@@ -1,7 +1,7 @@
-//! Probable meaning: the nearest of the names that exist.
+//! Suggestions for misspelled names: the nearest existing name.
 
-/// The nearest of `known` to `name` by insertions, deletions, substitutions and transpositions of neighbours, where it is near enough to
-/// have been meant.
+/// Name of `known` nearest to `name` by insertions, deletions, substitutions and transpositions of neighbours. `None` unless it
+/// is near enough to have been meant.
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = name.to_lowercase();

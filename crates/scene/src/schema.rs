@@ -1,10 +1,10 @@
-//! JSON Schema of scenes, as values of TOML are values of JSON.
+//! JSON Schema of scenes. Values of TOML are treated as values of JSON.
 
 use super::model::Scene;
 use super::slider::SliderScene;
 use schemars::{Schema, generate::SchemaSettings};
 
-/// The schema of scenes: of bodies with interfaces or faults, or of spring-sliders.
+/// Schema of scenes of both kinds: bodies with interfaces or faults, and spring-sliders.
 #[must_use]
 pub fn schema() -> Schema {
     let mut generator = SchemaSettings::draft2020_12().into_generator();

@@ -1,4 +1,4 @@
-//! Shapes of values that are read by hand, for the JSON Schema of scenes.
+//! JSON Schemas of types with hand-written readers.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use std::borrow::Cow;

@@ -13,11 +13,11 @@ use super::{explain, near};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use serde::Deserialize;
 
-/// The kinematics there are.
+/// Known kinematics.
 const KINEMATICS: [&str; 6] =
     ["plane-strain", "plane-stress", "axisymmetric", "antiplane", "3d", "spring-slider"];
 
-/// Part of a scene that shows its kind.
+/// Keys of a scene that determine its kind.
 #[derive(Deserialize)]
 struct Head {
     kinematics: Option<Spanned<toml::Value>>,
@@ -25,7 +25,7 @@ struct Head {
 }
 
 impl Head {
-    /// True if there are bodies in such a scene.
+    /// True if the scene is one of bodies.
     fn bodies(&self) -> bool {
         let known = |k: &Spanned<toml::Value>| {
             k.get_ref().as_str().is_none_or(|k| k != "spring-slider" && KINEMATICS.contains(&k))
@@ -33,7 +33,7 @@ impl Head {
         self.sliders.is_none() && self.kinematics.as_ref().is_none_or(known)
     }
 
-    /// Error in the kinematics of a scene of sliders.
+    /// Error in the kinematics of a scene of sliders, if any.
     fn error(&self) -> Option<Diagnostic> {
         let help = "sliders belong to `kinematics = \"spring-slider\"`";
         let Some(kinematics) = &self.kinematics else {
@@ -56,7 +56,7 @@ impl Head {
     }
 }
 
-/// True if a scene file is read by [`read`]: its kinematics are spring-sliders or none that there are, or it has sliders.
+/// True if a scene file is to be read by [`read`]: it has sliders, or its kinematics is "spring-slider" or unknown.
 #[must_use]
 pub fn is_slider(text: &str) -> bool {
     toml::from_str::<Head>(text).is_ok_and(|head| !head.bodies())
@@ -65,7 +65,7 @@ pub fn is_slider(text: &str) -> bool {
 /// Reads a scene of spring-sliders.
 ///
 /// # Errors
-/// The first thing that keeps it from being read.
+/// The first error of the reader.
 pub fn read(text: &str) -> Result<SliderScene, Diagnostics> {
     if let Some(error) = toml::from_str::<Head>(text).ok().and_then(|head| head.error()) {
         return Err(Diagnostics(vec![error]));

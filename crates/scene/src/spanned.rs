@@ -1,4 +1,4 @@
-//! A value with its place in the file.
+//! A value with its position in the file.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
@@ -6,18 +6,18 @@ use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 
-/// A value with the bytes of the file that it stands on.
+/// A value with its byte range in the file.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
 #[serde(transparent)]
 pub struct Spanned<T>(serde_spanned::Spanned<T>);
 
 impl<T> Spanned<T> {
-    /// A value at these bytes.
+    /// Creates a value at these bytes.
     pub fn new(span: Range<usize>, value: T) -> Self {
         Self(serde_spanned::Spanned::new(span, value))
     }
 
-    /// Bytes of the file.
+    /// Byte range in the file.
     #[must_use]
     pub fn span(&self) -> Range<usize> {
         self.0.span()
@@ -29,12 +29,12 @@ impl<T> Spanned<T> {
         self.0.get_ref()
     }
 
-    /// The value, for changes.
+    /// Mutable reference to the value.
     pub fn get_mut(&mut self) -> &mut T {
         self.0.get_mut()
     }
 
-    /// The value without its place.
+    /// Value without its position.
     #[must_use]
     pub fn into_inner(self) -> T {
         self.0.into_inner()

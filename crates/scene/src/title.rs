@@ -1,18 +1,18 @@
-//! The title of a scene, which stands in reports, plots, catalogues and heads of files.
+//! The title of a scene, as printed in reports, plots, catalogues and file headers.
 
 use serde::{Deserialize, Deserializer, de};
 
-/// Reads a title. One that has control characters would break XML and heads of files, and a terminal that shows it.
+/// Reads a title. Control characters are refused: they would break XML, file headers and terminals.
 pub(super) fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
     let title = String::deserialize(deserializer)?;
-    // Separators of lines and paragraphs are no control characters by their class.
+    // `is_control` does not cover the line and paragraph separators.
     let unseen = |c: &char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}' | '\u{fffe}' | '\u{ffff}');
     match title.chars().find(unseen) {
         Some('\n' | '\r' | '\u{2028}' | '\u{2029}') => Err(de::Error::custom(
-            "the title has more than one line; it is one line of characters that can be seen",
+            "the title has more than one line; it is one line of printable characters",
         )),
         Some(c) => Err(de::Error::custom(format!(
-            "the title has the control character U+{:04X}; it is one line of characters that can be seen",
+            "the title has the control character U+{:04X}; it is one line of printable characters",
             u32::from(c)
         ))),
         None => Ok(title),

@@ -8,7 +8,7 @@ use serde::de::{self, Deserialize, Deserializer, Visitor};
 use std::borrow::Cow;
 use std::fmt;
 
-/// Quantity of a unit.
+/// Physical dimension of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dimension {
     /// \[m\].
@@ -21,11 +21,11 @@ pub enum Dimension {
     Velocity,
     /// \[kg/m³\].
     Density,
-    /// \[Pa/m\], of a contact.
+    /// \[Pa/m\], penalty of a contact.
     Stiffness,
-    /// \[Pa/m\], of a spring per area.
+    /// \[Pa/m\], stiffness of a spring per area.
     Spring,
-    /// \[Pa/m\], of a stress along an axis.
+    /// \[Pa/m\], gradient of a stress along an axis.
     Gradient,
     /// \[Pa s/m\].
     Damping,
@@ -40,7 +40,7 @@ pub enum Dimension {
 }
 
 impl Dimension {
-    /// In words, with the article.
+    /// Name with its article.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -78,7 +78,7 @@ impl Dimension {
         }
     }
 
-    /// Its unit in SI.
+    /// SI unit.
     #[must_use]
     pub fn si(self) -> &'static str {
         match self {
@@ -114,7 +114,7 @@ impl Dimension {
     }
 }
 
-/// A unit: the SI value of one of it is `factor * 10^power`.
+/// A unit whose SI value is `factor * 10^power`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Unit {
     dimension: Dimension,
@@ -122,13 +122,13 @@ struct Unit {
     factor: f64,
 }
 
-/// Degrees in radians.
+/// One degree \[rad\].
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 const KIBIBYTE: f64 = 1024.0;
 const MINUTE: f64 = 60.0;
 const HOUR: f64 = 3600.0;
 const DAY: f64 = 86400.0;
-/// The Julian year, 365.25 days.
+/// The Julian year of 365.25 days \[s\].
 const YEAR: f64 = 365.25 * DAY;
 
 fn simple(name: &str) -> Option<Unit> {
@@ -203,7 +203,7 @@ fn unit(name: &str) -> Option<Unit> {
     Some(Unit { dimension, power: over.power - under.power, factor: over.factor / under.factor })
 }
 
-/// Splits `"1e-3 mm/s"` into the number and the unit.
+/// Splits a text such as `"1e-3 mm/s"` into number and unit.
 fn split(text: &str) -> (&str, &str) {
     let text = text.trim();
     let bytes = text.as_bytes();
@@ -229,10 +229,10 @@ fn shifted(number: &str, power: i32) -> Option<f64> {
     format!("{mantissa}e{}", exponent.checked_add(power)?).parse().ok()
 }
 
-/// The SI value of a text with a unit.
+/// Parses a text with a unit into its SI value.
 ///
 /// # Errors
-/// Expected and found.
+/// A message with the expected and the found.
 pub fn parse(text: &str, wanted: Dimension) -> Result<f64, String> {
     let (number, name) = split(text);
     let refuse = |why: &str| Err(format!("expected {}, found \"{text}\" ({why})", wanted.expected()));
@@ -248,7 +248,7 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, String> {
     let Some(unit) = unit(name) else {
         return refuse(&format!("there is no unit `{name}`; units here are {}", wanted.units()));
     };
-    // A pressure per length is one, of a contact, of a spring or along an axis.
+    // A pressure per length may be a contact penalty, a stiffness of springs or a gradient along an axis.
     let per_length = matches!(wanted, Dimension::Spring | Dimension::Gradient);
     let same = unit.dimension == wanted || (unit.dimension == Dimension::Stiffness && per_length);
     if !same {
@@ -266,7 +266,7 @@ pub fn parse(text: &str, wanted: Dimension) -> Result<f64, String> {
     }
 }
 
-/// Reads a finite number in SI or a text with a unit.
+/// Reads a finite number in SI units or a text with a unit.
 struct ValueVisitor(Dimension);
 
 impl Visitor<'_> for ValueVisitor {
@@ -293,7 +293,7 @@ impl Visitor<'_> for ValueVisitor {
     }
 }
 
-/// A number that is finite.
+/// Checks that a number is finite.
 pub(super) fn finite<E: de::Error>(value: f64, dimension: Dimension) -> Result<f64, E> {
     if value.is_finite() {
         Ok(value)
@@ -302,7 +302,7 @@ pub(super) fn finite<E: de::Error>(value: f64, dimension: Dimension) -> Result<f
     }
 }
 
-/// Schema of a value with a unit: a number in SI, or a text such as "25 mm".
+/// Schema of a value with a unit: a number in SI units, or a text such as "25 mm".
 fn value(dimension: Dimension) -> Schema {
     schemars::json_schema!({
         "description": format!("Expected: {}.", dimension.expected()),
@@ -348,7 +348,7 @@ quantity! {
     Density: Density,
     /// A stiffness per area \[Pa/m\].
     Spring: Spring,
-    /// Change of a stress per length \[Pa/m\].
+    /// Gradient of a stress \[Pa/m\].
     Gradient: Gradient,
     /// Radiation damping \[Pa s/m\].
     Damping: Damping,
@@ -365,7 +365,7 @@ quantity! {
 /// A contact penalty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Penalty {
-    /// As such \[Pa/m\].
+    /// Absolute value \[Pa/m\].
     Value(f64),
     /// This factor times Young's modulus of the slave body over its element size.
     YoungPerSize(f64),
@@ -412,10 +412,10 @@ impl<'de> Deserialize<'de> for Penalty {
     }
 }
 
-/// A penetration that may remain.
+/// An admissible penetration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Penetration {
-    /// As such \[m\].
+    /// Absolute value \[m\].
     Value(f64),
     /// This factor times the element size of the slave body.
     Sizes(f64),

@@ -1,4 +1,4 @@
-//! Warnings: what a scene says that runs, and probably does not mean what its author wants.
+//! Warnings about settings of a scene that are admissible but probably not intended.
 
 use crate::diagnostic::line_column;
 use schemars::JsonSchema;
@@ -6,7 +6,7 @@ use serde::Serialize;
 use std::fmt;
 use std::ops::Range;
 
-/// Place of a warning, counted from 1.
+/// Position of a warning; lines and columns count from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Place {
     /// Line of the scene file.
@@ -18,26 +18,26 @@ pub struct Place {
 /// A warning of a plan.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Warning {
-    /// Doubt.
+    /// Message.
     pub message: String,
-    /// Remedy.
+    /// Suggested remedy.
     pub help: Option<String>,
-    /// Place; none where the scene was built in Rust, or where it is about no single place.
+    /// Position; absent if the scene was built in Rust or the warning is not about a single position.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place: Option<Place>,
-    /// Bytes of the scene file it is about; empty when there is no file.
+    /// Byte range in the scene file; empty if there is no file.
     #[serde(skip)]
     pub span: Range<usize>,
 }
 
 impl Warning {
-    /// A warning with a place and a remedy.
+    /// Creates a warning with a position and a remedy.
     #[must_use]
     pub fn at(span: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { message: message.into(), help: Some(help.into()), place: None, span }
     }
 
-    /// Finds the line and column in the text of the scene.
+    /// Sets the line and column from the text of the scene.
     pub fn locate(&mut self, text: &str) {
         if !self.span.is_empty() {
             let (line, column) = line_column(text, self.span.start);

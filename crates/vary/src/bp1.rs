@@ -1,4 +1,4 @@
-//! The benchmark BP1-QD with other cells.
+//! The benchmark BP1-QD with other cell sizes.
 
 use crate::SceneText;
 
@@ -6,16 +6,17 @@ use crate::SceneText;
 pub const BP1: &str = include_str!("../../../scenes/bp1.toml");
 /// Size of the smallest cells of the scene \[m\].
 pub const SIZE: f64 = 156.25;
-/// Size of its cells where the fault begins to creep \[m\].
+/// Size of its cells at the depth at which the fault begins to creep \[m\].
 pub const AT_CREEP: f64 = 600.0;
 
-/// The scene with all cells down to the creeping part in proportion; `size` \[m\] is that of the smallest.
+/// The scene with smallest cells of `size` \[m\]. All cells down to the creeping part are scaled in proportion.
 #[must_use]
 pub fn bp1(size: f64) -> SceneText {
     sized(SceneText::new(BP1), size, AT_CREEP / SIZE * size)
 }
 
-/// A scene of the family with the smallest cells of `size` \[m\], and cells of `at_creep` \[m\] where the fault begins to creep.
+/// A scene of the family with smallest cells of `size` \[m\], and cells of `at_creep` \[m\] at the depth at which the fault
+/// begins to creep.
 #[must_use]
 pub fn sized(scene: SceneText, size: f64, at_creep: f64) -> SceneText {
     scene

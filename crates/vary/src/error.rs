@@ -1,12 +1,12 @@
 //! Errors in a variation of a scene.
 
-/// A change that would not make another scene.
+/// A change that cannot be made, or that leaves the scene as it is.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum VaryError {
-    /// The scene is no TOML.
+    /// The scene is not TOML.
     #[error("the scene cannot be read: {0}")]
     Text(toml_edit::TomlError),
-    /// The path is no path.
+    /// The path is malformed.
     #[error("`{path}` is no path of keys: write it like stages[0].conditions[1].x")]
     Path {
         /// The path.
@@ -17,16 +17,16 @@ pub enum VaryError {
     Absent {
         /// The path.
         path: String,
-        /// The nearest key there is.
+        /// Nearest existing key, or another description of what exists.
         near: String,
     },
-    /// The key is there already.
+    /// The key exists already.
     #[error("the scene has `{path}` already: replace its value")]
     Present {
         /// The path.
         path: String,
     },
-    /// The value is the one that is there.
+    /// The path has this value already.
     #[error("`{path}` has this value already: the variant would be the scene itself")]
     Same {
         /// The path.
@@ -40,20 +40,20 @@ pub enum VaryError {
         /// Error of the TOML reader.
         source: toml_edit::TomlError,
     },
-    /// A table was needed.
+    /// The change needs a table.
     #[error("`{path}` needs a table, not a value of the kind {kind}")]
     NoTable {
         /// The path.
         path: String,
-        /// Kind of the value that is there.
+        /// Kind of the value found.
         kind: &'static str,
     },
-    /// A list was needed.
+    /// The change needs a list.
     #[error("`{path}` is no list but of the kind {kind}")]
     NoList {
         /// The path.
         path: String,
-        /// Kind of the value that is there.
+        /// Kind of the value found.
         kind: &'static str,
     },
 }

@@ -11,28 +11,28 @@ use path::Path;
 use std::fmt::Display;
 use toml_edit::{DocumentMut, Item, Table, Value};
 
-/// One change of a scene, for lists of variants. See the method of [`SceneText`] of the same name.
+/// One change of a scene, for lists of variants. Each variant is described at the method of [`SceneText`] that it names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change<'a> {
-    /// Another value at a path: [`SceneText::with`].
+    /// Replaces the value at a path by a different one: [`SceneText::with`].
     With(&'a str, &'a str),
-    /// A value at a path, which may be the one that is there: [`SceneText::with_or_same`].
+    /// Replaces the value at a path, possibly by the same value: [`SceneText::with_or_same`].
     WithOrSame(&'a str, &'a str),
-    /// A new key: [`SceneText::add`].
+    /// Adds a new key: [`SceneText::add`].
     Add(&'a str, &'a str),
-    /// A new entry at the end of a list: [`SceneText::push`].
+    /// Adds an entry at the end of a list: [`SceneText::push`].
     Push(&'a str, &'a str),
-    /// A key or an entry that goes: [`SceneText::without`].
+    /// Removes a key or an entry: [`SceneText::without`].
     Without(&'a str),
 }
 
-/// The text of a scene, and changes of it by key path.
+/// The text of a scene, with changes by key path.
 ///
-/// A path is written like `stages[0].conditions[1].x`; keys of dotted, inline and headed tables are the same. A value is TOML: `0.3`,
-/// `[0, 1]`, `{ kind = "tied" }`. A text that is no TOML value is a string, so that `78 m` needs no further quotes. The rest of
-/// the text keeps its comments and order.
+/// A path is written like `stages[0].conditions[1].x`; dotted keys, inline tables and tables with headers are treated alike. A
+/// value is TOML: `0.3`, `[0, 1]`, `{ kind = "tied" }`. Text that is not a TOML value is a string, so `78 m` needs no further
+/// quotes. The rest of the text keeps its comments and order.
 ///
-/// The first change that fails is kept, and [`SceneText::text`] returns it.
+/// The first error is kept, and [`SceneText::text`] returns it.
 #[derive(Clone, Debug)]
 pub struct SceneText(Result<DocumentMut, VaryError>);
 
@@ -43,43 +43,43 @@ impl SceneText {
         Self(text.parse().map_err(VaryError::Text))
     }
 
-    /// Replaces the value at a path. It is an error when nothing is there, or when this value is.
+    /// Replaces the value at a path. It is an error if the path is absent or already has this value.
     #[must_use]
     pub fn with(self, path: &str, value: impl Display) -> Self {
         self.changed_by(|scene| set(scene, path, &value.to_string(), false))
     }
 
-    /// Replaces the value at a path, which must be there, for loops over values that include the scene's own.
+    /// Replaces the value at an existing path, possibly by the same value. For loops over values that include that of the scene.
     #[must_use]
     pub fn with_or_same(self, path: &str, value: impl Display) -> Self {
         self.changed_by(|scene| set(scene, path, &value.to_string(), true))
     }
 
-    /// Adds a key. It is an error when it is there already, or when the table it belongs to is not.
+    /// Adds a key. It is an error if the key exists, or if its table does not.
     #[must_use]
     pub fn add(self, path: &str, value: impl Display) -> Self {
         self.changed_by(|scene| add(scene, path, &value.to_string()))
     }
 
-    /// Adds an entry at the end of a list, which must be there.
+    /// Adds an entry at the end of an existing list.
     #[must_use]
     pub fn push(self, path: &str, value: impl Display) -> Self {
         self.changed_by(|scene| push(scene, path, &value.to_string()))
     }
 
-    /// Removes a key of a table or an entry of a list, which must be there.
+    /// Removes an existing key of a table or entry of a list.
     #[must_use]
     pub fn without(self, path: &str) -> Self {
         self.changed_by(|scene| remove(scene, path))
     }
 
-    /// Gives a key of a table another name, under which there is none. What names it elsewhere is not changed.
+    /// Renames a key of a table; the new name must be free. References to the old name are not changed.
     #[must_use]
     pub fn renamed(self, path: &str, name: &str) -> Self {
         self.changed_by(|scene| rename(scene, path, name))
     }
 
-    /// Makes all changes, one after the other.
+    /// Applies the changes in order.
     #[must_use]
     pub fn changed(self, changes: &[Change<'_>]) -> Self {
         changes.iter().fold(self, |scene, change| match *change {
@@ -94,7 +94,7 @@ impl SceneText {
     /// Returns the text of the changed scene.
     ///
     /// # Errors
-    /// The first change that could not be made.
+    /// The error of the first change that failed.
     pub fn text(self) -> Result<String, VaryError> {
         self.0.map(|scene| scene.to_string())
     }
@@ -121,7 +121,7 @@ fn set(scene: &mut Item, path: &str, value: &str, may_be_same: bool) -> Result<(
     Ok(())
 }
 
-/// Puts a value in the place of a table or tables with headers of their own.
+/// Replaces a table with its own header, or a list of such tables or an entry of it, by a value.
 fn replace(scene: &mut Item, path: &str, value: Value) -> Result<(), VaryError> {
     let whole = Path::new(path)?;
     if let Some((list, k)) = whole.entry() {
@@ -139,7 +139,7 @@ fn replace(scene: &mut Item, path: &str, value: Value) -> Result<(), VaryError> 
     Ok(())
 }
 
-/// A table that may have a header of its own.
+/// Converts an inline table to a table that may have its own header.
 fn headed(path: &str, value: Value) -> Result<Table, VaryError> {
     match value {
         Value::InlineTable(table) => Ok(table.into_table()),
@@ -203,7 +203,7 @@ fn rename(scene: &mut Item, path: &str, name: &str) -> Result<(), VaryError> {
     Ok(())
 }
 
-/// A TOML value, or a string where the text is none.
+/// Parses a TOML value; text that is not TOML becomes a string.
 fn parsed(path: &str, text: &str) -> Result<Value, VaryError> {
     match text.trim().parse::<Value>() {
         Ok(mut value) => {

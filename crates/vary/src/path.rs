@@ -34,7 +34,7 @@ impl Path {
         Ok(Self { whole: path.to_owned(), steps })
     }
 
-    /// The path of the table, and the key in it.
+    /// Splits the path into that of the table and the key in it.
     pub fn split(mut self) -> Result<(Self, String), VaryError> {
         match self.steps.pop() {
             Some(Step::Key(key)) => Ok((self, key)),
@@ -42,7 +42,7 @@ impl Path {
         }
     }
 
-    /// The path of the list, and the number of the entry in it, of a path that ends with an index.
+    /// Path of the list and index of the entry, if the path ends with an index.
     pub fn entry(&self) -> Option<(Self, usize)> {
         let (last, list) = self.steps.split_last()?;
         let Step::Index(k) = last else { return None };
@@ -53,7 +53,7 @@ impl Path {
     pub fn find<'a>(&self, scene: &'a mut Item) -> Result<&'a mut Item, VaryError> {
         let mut item = scene;
         for (depth, step) in self.steps.iter().enumerate() {
-            // A look at an absent key through a mutable table would make it.
+            // Indexing an absent key of a mutable table would create it.
             let found = match step {
                 Step::Key(key) => item.get(key.as_str()),
                 Step::Index(k) => item.get(*k),
@@ -70,7 +70,7 @@ impl Path {
         Ok(item)
     }
 
-    /// The nearest of the keys at this depth, where the path ends.
+    /// Describes the nearest existing key at this depth, at which the search failed.
     fn near(&self, item: &Item, depth: usize) -> String {
         let so_far = written(&self.steps[..depth]);
         match &self.steps[depth] {

@@ -1,8 +1,9 @@
-//! Equality of values of scenes.
+//! Equality of values in scenes.
 
 use toml_edit::{Item, TableLike, Value};
 
-/// Returns whether an item of a scene equals this value, however it is written: 2 is 2.0, and a headed table is an inline one.
+/// Returns true if an item of a scene equals this value, regardless of notation: 2 equals 2.0, and a table with a header equals
+/// an inline one.
 #[allow(clippy::float_cmp, reason = "two numbers as written are one number or they are not")]
 pub fn same(item: &Item, value: &Value) -> bool {
     if let (Some(a), Some(b)) = (item.as_table_like(), value.as_inline_table()) {

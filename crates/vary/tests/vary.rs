@@ -1,4 +1,4 @@
-//! Scenes are varied by key path, and a change that changes nothing is an error.
+//! Variation of scenes by key path. A change that changes nothing is an error.
 
 #![allow(clippy::unwrap_used, reason = "tests")]
 
@@ -33,7 +33,7 @@ fn refused(change: Change<'_>) -> String {
     SceneText::new(SCENE).changed(&[change]).text().unwrap_err().to_string()
 }
 
-/// The lines that differ, of texts with equally many.
+/// Lines that differ from the scene; both texts must have the same number of lines.
 fn changed_lines(text: &str) -> Vec<&str> {
     assert_eq!(text.lines().count(), SCENE.lines().count(), "{text}");
     text.lines().zip(SCENE.lines()).filter(|(a, b)| a != b).map(|(a, _)| a).collect()

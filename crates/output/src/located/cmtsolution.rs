@@ -1,24 +1,25 @@
-//! The catalogue in the format CMTSOLUTION of global centroid solutions, event after event.
+//! The catalogue in the CMTSOLUTION format of global centroid solutions, one event after another.
 //!
-//! Units are dyn cm, degrees, km and s. The first line is the hypocentre; the centroid's place is the mean place of slip, its time the
-//! onset (shift zero), and the half duration half the time above the thresholds.
+//! Units are dyn cm, degrees, km and s. The first line is the hypocentre. The position of the centroid is the mean position of
+//! slip and its time the onset (zero shift). The half duration is half the time above the thresholds.
 
 use super::event::Located;
 use crate::decimals::{fixed, scientific};
 use jiff::tz::TimeZone;
 use std::fmt::Write as _;
 
-/// Dyne centimetres in a newton metre.
+/// Dyne centimetres per newton metre.
 const DYNE_CM: f64 = 1e7;
 
-/// The file; none where the moment is unknown, since the length out of the plane is not declared.
+/// The file; `None` if the moment is unknown because the length out of the plane is not declared.
 #[must_use]
 pub fn cmtsolution(title: &str, events: &[Located]) -> Option<String> {
     let mut text = String::new();
     for (k, event) in events.iter().enumerate() {
         let (spot, centroid, magnitude) = (&event.hypocentre, &event.centroid, event.magnitude?);
         let time = event.onset.to_zoned(TimeZone::UTC);
-        // Readers take the place from fixed columns, which leave the seconds two decimals: the shift has the rest.
+        // Readers expect the position in fixed columns, which leaves two decimals for the seconds. The time shift holds the
+        // remainder.
         let hundredths = time.subsec_nanosecond() / HUNDREDTH;
         let shift = f64::from(time.subsec_nanosecond() % HUNDREDTH) / 1e9;
         let _ = writeln!(
@@ -51,12 +52,12 @@ pub fn cmtsolution(title: &str, events: &[Located]) -> Option<String> {
     Some(text)
 }
 
-/// Nanoseconds.
+/// Nanoseconds in a hundredth of a second.
 const HUNDREDTH: i32 = 10_000_000;
-/// Columns of a line.
+/// Width of the lines in columns.
 const WIDTH: usize = 28;
 
-/// With six decimals and an exponent of a sign and two digits, as Fortran writes it.
+/// Formats with six decimals and an exponent with sign and two digits, as in Fortran.
 fn exponential(value: f64) -> String {
     let text = scientific(value, 6);
     let Some((digits, exponent)) = text.split_once('e') else { return text };
@@ -64,7 +65,7 @@ fn exponential(value: f64) -> String {
     format!("{digits}E{}{:02}", if exponent < 0 { '-' } else { '+' }, exponent.abs())
 }
 
-/// One word of the format's letters.
+/// A single word of characters admitted by the format.
 fn word(text: &str) -> String {
     text.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' }).collect()
 }

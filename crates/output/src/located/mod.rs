@@ -1,4 +1,4 @@
-//! Catalogues of simulated events in the formats of real ones.
+//! Catalogues of simulated events in the formats of observed ones.
 
 mod cmtsolution;
 mod event;

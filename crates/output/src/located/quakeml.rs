@@ -10,13 +10,13 @@ use std::io;
 
 type Xml = Writer<Vec<u8>>;
 
-/// Identity of events.
+/// Statement that an event is simulated.
 const SAID: &str = "Simulated event: no such earthquake has happened.";
 
-/// The document. `id` identifies the run, such as a hash of the scene.
+/// The document. `id` identifies the run, for example by a hash of the scene.
 ///
 /// # Errors
-/// None but what the writer to memory says.
+/// Only errors of the writer to memory.
 pub fn quakeml(title: &str, id: &str, events: &[Located]) -> io::Result<Vec<u8>> {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
@@ -50,7 +50,7 @@ fn text(xml: &mut Xml, name: &str, value: &str) -> io::Result<()> {
     Ok(())
 }
 
-/// A quantity: its value in an element of its own.
+/// A quantity with its value in an element of its own.
 fn quantity(xml: &mut Xml, name: &str, value: &str) -> io::Result<()> {
     xml.create_element(name).write_inner_content(|xml| text(xml, "value", value))?;
     Ok(())

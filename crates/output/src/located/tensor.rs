@@ -1,7 +1,8 @@
 //! Moment tensors and their nodal planes.
 //!
-//! K. Aki, P. G. Richards, "Quantitative Seismology", 2nd ed. (2002), section 4.4: strike clockwise from north with the fault dipping to the
-//! right of it, rake from the strike in the plane of the fault, of the hanging wall relative to the foot wall.
+//! Conventions: K. Aki, P. G. Richards, "Quantitative Seismology", 2nd ed. (2002), section 4.4. Strike is clockwise from north,
+//! with the fault dipping to its right. Rake is measured from the strike in the fault plane, for slip of the hanging wall
+//! relative to the foot wall.
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use schemars::JsonSchema;
@@ -14,28 +15,28 @@ pub struct Tensor(pub [f64; 6]);
 /// A nodal plane \[degrees\].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Plane {
-    /// Clockwise from north, 0 to 360.
+    /// Strike, clockwise from north, 0 to 360.
     pub strike: f64,
-    /// Down from the horizontal, 0 to 90.
+    /// Dip, down from the horizontal, 0 to 90.
     pub dip: f64,
-    /// -180 to 180.
+    /// Rake, -180 to 180.
     pub rake: f64,
 }
 
 impl Tensor {
-    /// From the components in east, north, up.
+    /// Tensor with these components in east, north, up.
     #[must_use]
     pub fn of_east_north_up(m: &Matrix3<f64>) -> Self {
         Self([m[(2, 2)], m[(1, 1)], m[(0, 0)], -m[(1, 2)], m[(0, 2)], -m[(0, 1)]])
     }
 
-    /// The double couple of a plane with this moment \[N m\].
+    /// Double couple of a plane with this moment \[N m\].
     #[must_use]
     pub fn of_plane(plane: &Plane, moment: f64) -> Self {
         let [normal, slip] = plane.vectors();
         let mut m = normal * slip.transpose() * moment;
         m += m.transpose();
-        // North, east, down to east, north, up.
+        // Rotation from north, east, down to east, north, up.
         let turn = Matrix3::new(0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0);
         Self::of_east_north_up(&(turn * m * turn.transpose()))
     }
@@ -46,15 +47,15 @@ impl Tensor {
         Matrix3::new(tt, -tp, rt, -tp, pp, -rp, rt, -rp, rr)
     }
 
-    /// Scalar moment: half the difference of the largest and the smallest eigenvalue, which is that of the double couple nearest in its
-    /// axes \[N m\].
+    /// Scalar moment: half the difference of the largest and the smallest eigenvalue, which is the moment of the nearest
+    /// double couple with the same axes \[N m\].
     #[must_use]
     pub fn moment(&self) -> f64 {
         let values = SymmetricEigen::new(self.north_east_down()).eigenvalues;
         0.5 * (values.max() - values.min())
     }
 
-    /// The nodal planes of the double couple with the same axes of tension and pressure.
+    /// Nodal planes of the double couple with the same axes of tension and pressure.
     #[must_use]
     pub fn planes(&self) -> [Plane; 2] {
         let eigen = SymmetricEigen::new(self.north_east_down());
@@ -65,11 +66,11 @@ impl Tensor {
     }
 }
 
-/// Sine of the dip below which a plane is horizontal to rounding, and its strike that of the north.
+/// Sine of the dip below which a plane is horizontal to rounding and its strike is set to north.
 const HORIZONTAL: f64 = 1e-9;
 
 impl Plane {
-    /// From a normal and a slip vector in north, east, down.
+    /// Plane of a normal and a slip vector in north, east, down.
     fn of(normal: &Vector3<f64>, slip: &Vector3<f64>) -> Self {
         // The normal points up, from the foot wall to the hanging wall.
         let sign = if normal.z > 0.0 { -1.0 } else { 1.0 };
@@ -81,7 +82,7 @@ impl Plane {
         let along = d.x * cosine + d.y * sine;
         let up_dip = (d.x * sine - d.y * cosine) * dip.cos() - d.z * dip.sin();
         Self {
-            // What is below zero by rounding alone comes out as 360.
+            // For angles below zero by rounding alone the first remainder is 360; the second makes it 0.
             strike: strike.to_degrees().rem_euclid(360.0) % 360.0,
             dip: dip.to_degrees(),
             rake: up_dip.atan2(along).to_degrees(),
@@ -111,11 +112,11 @@ mod tests {
     #[test]
     fn tensors_of_known_mechanisms_are_those_of_the_textbook() {
         let of = |strike, dip, rake| Tensor::of_plane(&Plane { strike, dip, rake }, 1.0);
-        // A vertical strike-slip fault to the north, left-lateral: Mxy = 1 in north and east, Mtp = -Mxy.
+        // A vertical left-lateral strike-slip fault that strikes north: Mxy = 1 in north and east, Mtp = -Mxy.
         assert!(differ(&of(0.0, 90.0, 0.0), &Tensor([0.0, 0.0, 0.0, 0.0, 0.0, -1.0])) < 1e-15);
-        // A thrust of 45 degrees that strikes north: up and down 1, east and west -1.
+        // A thrust that strikes north and dips at 45 degrees: up and down 1, east and west -1.
         assert!(differ(&of(0.0, 45.0, 90.0), &Tensor([1.0, 0.0, -1.0, 0.0, 0.0, 0.0])) < 1e-15);
-        // A normal fault of 45 degrees that strikes east.
+        // A normal fault that strikes east and dips at 45 degrees.
         assert!(differ(&of(90.0, 45.0, -90.0), &Tensor([-1.0, 1.0, 0.0, 0.0, 0.0, 0.0])) < 1e-15);
     }
 
@@ -129,7 +130,7 @@ mod tests {
                     assert!((tensor.moment() - 3.0).abs() < 1e-13);
                     for found in tensor.planes() {
                         let off = differ(&Tensor::of_plane(&found, 3.0), &tensor);
-                        // Angles of a plane within 1e-9 of the horizontal are those of a horizontal one.
+                        // A plane within 1e-9 of the horizontal gets the angles of a horizontal plane.
                         assert!(off < 1e-8, "{plane:?} {found:?} {off:e}");
                         assert!((0.0..360.0).contains(&found.strike) && (0.0..=90.0).contains(&found.dip));
                     }

@@ -1,4 +1,4 @@
-//! Axes: ranges, ticks, and the frame they stand on.
+//! Axes: ranges, ticks, and their frame.
 
 use super::colour::{GRID, INK};
 use super::figure::{Anchor, Figure, Point};
@@ -11,7 +11,7 @@ pub(super) const LABEL_TEXT: f64 = 14.5;
 /// An axis in its own unit.
 #[derive(Clone, Debug)]
 pub(super) struct Axis {
-    /// Ends: values, or their decadic logarithms.
+    /// Values at the ends, or their decadic logarithms.
     pub range: (f64, f64),
     /// True if the axis is logarithmic.
     pub log: bool,
@@ -20,8 +20,8 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// A linear axis around `values`, which need not be finite or different; it starts at zero when the values come near
-    /// it from above. `margin` is the room left at the ends, as a fraction.
+    /// Linear axis around `values`, which may be non-finite or all equal. It starts at zero if positive values come near zero.
+    /// `margin` is the relative room left at the ends.
     pub(super) fn linear(values: impl Iterator<Item = f64>, margin: f64, label: String) -> Self {
         let (lo, hi) = bounds(values).unwrap_or((0.0, 1.0));
         let range = if hi - lo <= FLAT * lo.abs().max(hi.abs()) {
@@ -29,18 +29,18 @@ impl Axis {
             (lo - room, hi + room)
         } else {
             let room = margin * (hi - lo);
-            // Three tenths: below that the empty part costs less than the missing zero misleads.
+            // Below a ratio of 0.3 the empty part of the axis is a smaller cost than a missing zero, which misleads.
             (if lo >= 0.0 && lo < 0.3 * hi { 0.0 } else { lo - room }, hi + room)
         };
         Self { range, log: false, label }
     }
 
-    /// A linear axis that ends exactly where the values end.
+    /// Linear axis with exactly this range.
     pub(super) fn exact(range: (f64, f64), label: String) -> Self {
         Self { range, log: false, label }
     }
 
-    /// A logarithmic axis over whole decades around the positive values, at most `decades` of them from the top.
+    /// Logarithmic axis over whole decades around the positive values, at most `decades` below the top.
     pub(super) fn logarithmic(values: impl Iterator<Item = f64>, decades: f64, label: String) -> Self {
         let (lo, hi) = bounds(values.filter(|v| *v > 0.0)).unwrap_or((1.0, 10.0));
         let hi = hi.log10().ceil();
@@ -48,18 +48,18 @@ impl Axis {
         Self { range: (lo, hi), log: true, label }
     }
 
-    /// Position of a value along the axis, 0..=1 inside; values below a logarithmic axis stand on its start.
+    /// Relative position of a value along the axis, 0..=1 inside. On a logarithmic axis smaller values are placed at its start.
     pub(super) fn place(&self, value: f64) -> f64 {
         let (lo, hi) = self.range;
         let value = if self.log { if value > 0.0 { value.log10().max(lo) } else { lo } } else { value };
         (value - lo) / (hi - lo)
     }
 
-    /// Ticks: place along the axis and text.
+    /// Ticks: relative position along the axis, and text.
     pub(super) fn ticks(&self, about: usize) -> Vec<(f64, String)> {
         let (lo, hi) = self.range;
         if hi < lo {
-            // An axis that falls, such as one of depth.
+            // A falling axis, for example of depth.
             let back = Self { range: (hi, lo), ..self.clone() };
             return back.ticks(about).into_iter().map(|(place, text)| (1.0 - place, text)).collect();
         }
@@ -86,7 +86,7 @@ impl Axis {
     }
 }
 
-/// Values closer than this fraction of their size are one value on a plot.
+/// Values closer than this relative difference are the same on a plot.
 const FLAT: f64 = 1e-9;
 
 /// Smallest and largest finite value.
@@ -97,14 +97,14 @@ fn bounds(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
-/// The step of 1, 2, 2.5 or 5 times a power of ten next above `rough`.
+/// Smallest step of 1, 2, 2.5 or 5 times a power of ten that is not below `rough`.
 fn nice_step(rough: f64) -> f64 {
     let power = 10.0_f64.powf(rough.log10().floor());
     let steps = [1.0, 2.0, 2.5, 5.0, 10.0];
     steps.iter().map(|s| s * power).find(|step| *step >= rough * (1.0 - FLAT)).unwrap_or(10.0 * power)
 }
 
-/// True if a step is 2.5 times a power of ten, which takes one more decimal.
+/// True if a step is 2.5 times a power of ten, which needs one more decimal.
 fn is_quarter(step: f64) -> bool {
     let mantissa = step / 10.0_f64.powf(step.log10().floor());
     (mantissa - 2.5).abs() < 0.1 && step < 10.0
@@ -129,12 +129,12 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// Position of a pair of values.
+    /// Position of a pair of values in the figure.
     pub(super) fn point(&self, x: f64, y: f64) -> Point {
         (self.at.0 + self.x.place(x) * self.size.0, self.at.1 + (1.0 - self.y.place(y)) * self.size.1)
     }
 
-    /// Light lines at the ticks, to be drawn before the data.
+    /// Draws light lines at the ticks. Called before the data are drawn.
     pub(super) fn grid(&self, figure: &mut Figure) {
         let ((left, top), (width, height)) = (self.at, self.size);
         for (place, _) in self.x.ticks(X_TICKS) {
@@ -147,7 +147,7 @@ impl Frame {
         }
     }
 
-    /// Frame, ticks and labels, to be drawn after the data.
+    /// Draws frame, ticks and labels. Called after the data are drawn.
     pub(super) fn draw(&self, figure: &mut Figure) {
         let ((left, top), (width, height)) = (self.at, self.size);
         let (right, bottom) = (left + width, top + height);
@@ -171,19 +171,19 @@ impl Frame {
     }
 }
 
-/// Room a tick label needs along x, and along y.
+/// Room per tick label along x.
 const X_ROOM: f64 = 60.0;
-/// See [`X_ROOM`].
+/// Room per tick label along y.
 const Y_ROOM: f64 = 26.0;
 
-/// Intervals aimed at along an axis of this length: `most`, and fewer where their labels would overlap.
+/// Approximate number of intervals along an axis of this length: `most`, or fewer if their labels would overlap.
 fn fitting(length: f64, room: f64, most: usize) -> usize {
     ((length / room) as usize).clamp(1, most)
 }
 
-/// Intervals aimed at along x.
+/// Approximate number of intervals along x.
 const X_TICKS: usize = 7;
-/// Intervals aimed at along y.
+/// Approximate number of intervals along y.
 pub(super) const Y_TICKS: usize = 7;
 
 #[cfg(test)]

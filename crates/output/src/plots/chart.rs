@@ -7,18 +7,18 @@ use super::figure::{Figure, Point};
 use super::title::title;
 use super::units::{self, Units};
 
-/// Quantity of an axis, in SI.
+/// Quantity of an axis in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// \[s\].
+    /// Time \[s\].
     Time,
-    /// \[m\].
+    /// Length \[m\].
     Length,
-    /// \[m/s\]; logarithmic where most of the time it is far below its largest value.
+    /// Velocity \[m/s\]; the axis is logarithmic if the velocity is mostly far below its largest value.
     Velocity,
-    /// \[Pa\].
+    /// Stress \[Pa\].
     Stress,
-    /// \[-\].
+    /// Dimensionless number \[-\].
     Number,
 }
 
@@ -37,29 +37,29 @@ impl Measure {
 /// Curves in one frame.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    /// Name of its files.
+    /// Stem of the file names.
     pub file: String,
     /// Title of the scene.
     pub title: String,
-    /// Quantity along, with its name.
+    /// Name and quantity of the horizontal axis.
     pub x: (&'static str, Measure),
-    /// Quantity upwards, with its name.
+    /// Name and quantity of the vertical axis.
     pub y: (&'static str, Measure),
     /// Names and points of the curves.
     pub curves: Vec<(String, Vec<(f64, f64)>)>,
 }
 
-/// Place and size of the frame.
+/// Position of the frame.
 const AT: Point = (96.0, 40.0);
-/// See [`AT`].
+/// Size of the frame.
 const SIZE: Point = (560.0, 380.0);
-/// Room right of it for the legend.
+/// Width right of the frame for the legend.
 const LEGEND: f64 = 170.0;
-/// Curves that the legend has room for.
+/// Largest number of curves named in the legend.
 const NAMED: usize = 16;
 
 impl Chart {
-    /// The figure; none without points.
+    /// The figure; `None` without points.
     pub(super) fn figure(&self) -> Option<Figure> {
         let points = || self.curves.iter().flat_map(|c| c.1.iter());
         points().next()?;
@@ -86,7 +86,7 @@ impl Chart {
             for piece in curve.split(|p| !(p.0.is_finite() && p.1.is_finite())).filter(|p| !p.is_empty()) {
                 let line: Vec<Point> =
                     piece.iter().map(|p| frame.point(p.0 / x_unit.factor, up(p.1))).collect();
-                // Columns are those of a curve that runs one way.
+                // Thinning by columns is valid only for curves with monotonic x.
                 let line = if self.x.1 == Measure::Time { thin(line) } else { line };
                 figure.line(line, 1.8, of_curve(i, self.curves.len()));
             }
@@ -96,7 +96,7 @@ impl Chart {
         Some(figure)
     }
 
-    /// Names of the curves; of many the first ones.
+    /// Legend entries of the first curves, with a note if there are more.
     fn entries(&self) -> Vec<Entry> {
         let n = self.curves.len();
         let entry = |(i, curve): (usize, &(String, Vec<Point>))| Entry {

@@ -5,13 +5,13 @@ use std::sync::OnceLock;
 /// Red, green, blue.
 pub(super) type Rgb = [u8; 3];
 
-/// Text and frames.
+/// Colour of text and frames.
 pub(super) const INK: Rgb = [34, 34, 34];
-/// Lines that only guide the eye.
+/// Colour of grid lines.
 pub(super) const GRID: Rgb = [228, 228, 228];
-/// Marks of stages.
+/// Colour of stage marks.
 pub(super) const MARK: Rgb = [130, 130, 130];
-/// The paper.
+/// Background colour.
 pub(super) const PAPER: Rgb = [255, 255, 255];
 
 /// Viridis (Smith and van der Walt 2015, CC0) at 17 equidistant values.
@@ -35,7 +35,7 @@ const VIRIDIS: [Rgb; 17] = [
     [253, 231, 37],
 ];
 
-/// The colour of `value` in 0..=1, one of 256; what lies outside takes the end's, what is no number light grey.
+/// One of 256 colours for `value` in 0..=1. Values outside take the colour of the nearer end; NaN is light grey.
 pub(super) fn viridis(value: f64) -> Rgb {
     static COLOURS: OnceLock<[Rgb; 256]> = OnceLock::new();
     if value.is_nan() {
@@ -45,7 +45,7 @@ pub(super) fn viridis(value: f64) -> Rgb {
     colours[(value.clamp(0.0, 1.0) * 255.0 + 0.5) as usize]
 }
 
-/// The colour at a place between the given ones.
+/// Colour interpolated between the given ones.
 fn between(value: f64) -> Rgb {
     let place = value * (VIRIDIS.len() - 1) as f64;
     let below = (place as usize).min(VIRIDIS.len() - 2);
@@ -56,7 +56,7 @@ fn between(value: f64) -> Rgb {
     })
 }
 
-/// The colour of curve `i` of `n`: along the map, without its palest end, which is hard to see on white.
+/// Colour of curve `i` of `n`. The palest end of the map is omitted because it is hard to see on white.
 pub(super) fn of_curve(i: usize, n: usize) -> Rgb {
     let last = n.saturating_sub(1).max(1) as f64;
     viridis(0.9 * i as f64 / last)

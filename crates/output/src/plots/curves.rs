@@ -1,4 +1,4 @@
-//! Histories at the probes of an interface: relative displacement, friction coefficient, relative velocity against time.
+//! Histories at the probes of an interface: relative displacement, friction coefficient and relative velocity over time.
 
 use super::super::Recorder;
 use super::super::record::PointHistory;
@@ -10,10 +10,10 @@ use super::title::{title, within};
 use super::units::TIME;
 use super::units::{self, Unit, Units};
 
-/// A quantity drawn against time.
+/// A quantity plotted over time.
 #[derive(Clone, Copy)]
 pub(super) struct Quantity {
-    /// End of its file name.
+    /// Last part of its file name.
     pub file: &'static str,
     /// Name on the axis.
     name: &'static str,
@@ -23,7 +23,7 @@ pub(super) struct Quantity {
     read: fn(&PointHistory) -> &[f64],
 }
 
-/// Drawings of each interface.
+/// Quantities plotted for each interface.
 pub(super) const QUANTITIES: [Quantity; 3] = [
     Quantity {
         file: "relative_displacement",
@@ -51,16 +51,16 @@ pub(super) const QUANTITIES: [Quantity; 3] = [
 /// Ratio of the largest to the time-weighted median velocity above which a linear axis would show only spikes.
 const SPIKES: f64 = 1e3;
 
-/// Decades a logarithmic axis shows at most: from plate rates to seismic slip is about twelve.
+/// Most decades of a logarithmic axis; plate rates and seismic slip rates are about twelve decades apart.
 pub(super) const DECADES: f64 = 14.0;
 
-/// Columns into which a curve is thinned, keeping the extremes of each: twice what a screen resolves.
+/// Columns into which a curve is thinned, keeping the extremes of each: twice the resolution of a screen.
 const COLUMNS: usize = 2000;
 
-/// Room right of the frame for the legend.
+/// Width right of the frame for the legend.
 const LEGEND: f64 = 170.0;
 
-/// Draws one quantity of one interface; `None` when it has no probes or no steps.
+/// Draws one quantity of one interface; `None` without probes or steps.
 pub(super) fn history(recorder: &Recorder, interface: usize, quantity: &Quantity) -> Option<Figure> {
     let points = &recorder.histories().get(interface)?.points;
     let times = recorder.times();
@@ -113,7 +113,7 @@ pub(super) struct Entry {
     pub dashed: bool,
 }
 
-/// Names of the curves with their colours, right of the frame.
+/// Draws the names of the curves with their colours, right of the frame.
 pub(super) fn legend(figure: &mut Figure, frame: &Frame, entries: impl Iterator<Item = Entry>) {
     let left = frame.at.0 + frame.size.0 + 16.0;
     let entries: Vec<Entry> = entries.collect();
@@ -131,14 +131,14 @@ pub(super) fn legend(figure: &mut Figure, frame: &Frame, entries: impl Iterator<
     }
 }
 
-/// A dashed line where each stage but the last ends, and the names of the stages along the top.
+/// Draws a dashed line at the end of each stage but the last, and the names of the stages along the top.
 fn stage_marks(figure: &mut Figure, frame: &Frame, recorder: &Recorder, time: Unit) {
     let (left, top) = frame.at;
     let (mut from, shown) = (0.0, frame.x.range.1);
     for (name, end) in &recorder.setup().stages {
         let to = (end / time.factor).min(shown);
         let middle = frame.x.place((from + to) / 2.0);
-        // Seven units a character: a name that does not fit its stage is left out.
+        // Names that do not fit their stage, at 7.5 units per character, are omitted.
         if (to - from) / shown * frame.size.0 > 7.5 * name.chars().count() as f64 {
             figure.text((left + middle * frame.size.0, top + 11.0), name, 11.5, Anchor::Middle, MARK);
         }
@@ -156,7 +156,7 @@ fn largest(series: &[&[f64]]) -> f64 {
     finite.fold(0.0, |most, v| most.max(v.abs()))
 }
 
-/// True if the peak rate of the fastest point is far above its usual rate.
+/// True if the peak rate of the fastest point is far above its median rate over time.
 pub(super) fn is_spiky(times: &[f64], series: &[&[f64]]) -> bool {
     let mut before = 0.0;
     let mut weighted: Vec<(f64, f64)> = Vec::with_capacity(times.len());
@@ -180,7 +180,7 @@ pub(super) fn is_spiky(times: &[f64], series: &[&[f64]]) -> bool {
     }
 }
 
-/// The finite stretches of a curve.
+/// Parts of a curve with finite values.
 fn pieces(times: &[f64], values: &[f64]) -> Vec<Vec<Point>> {
     let mut pieces = vec![Vec::new()];
     for (&time, &value) in times.iter().zip(values) {
@@ -193,7 +193,7 @@ fn pieces(times: &[f64], values: &[f64]) -> Vec<Vec<Point>> {
     pieces
 }
 
-/// Thins a curve to the first, lowest, highest and last point of each column of its width.
+/// Thins a curve to the first, lowest, highest and last point of each column.
 pub(super) fn thin(points: Vec<Point>) -> Vec<Point> {
     if points.len() <= 2 * COLUMNS {
         return points;
@@ -203,10 +203,10 @@ pub(super) fn thin(points: Vec<Point>) -> Vec<Point> {
     thinner.finish()
 }
 
-/// Points of a column at most before its extremes are taken.
+/// Largest number of points collected in a column before it is reduced to its extremes.
 const GROUP: usize = 4096;
 
-/// Thins a curve as it comes.
+/// Thins a curve point by point.
 #[derive(Debug)]
 pub(super) struct Thinner {
     left: f64,
@@ -216,7 +216,7 @@ pub(super) struct Thinner {
 }
 
 impl Thinner {
-    /// Of a curve from `left` to `right`.
+    /// Thinner of a curve from `left` to `right`.
     pub(super) fn new(left: f64, right: f64) -> Self {
         Self { left, width: right - left, group: Vec::new(), kept: Vec::new() }
     }
@@ -241,7 +241,7 @@ impl Thinner {
     }
 }
 
-/// First, lowest, highest and last point.
+/// First, lowest, highest and last point of a group.
 fn extremes(group: &[Point]) -> Vec<Point> {
     if group.is_empty() {
         return Vec::new();

@@ -1,6 +1,7 @@
-//! Plots of faults through earthquake cycles: largest slip rate, slip contours, slip rate over space and time, phase portrait.
+//! Plots of faults in earthquake cycles: largest slip rate, slip contours, slip rate over space and time, phase portrait.
 //!
-//! Each goes through the rows of a table twice, for the ranges of its axes and for what it draws; what it keeps does not grow with the rows.
+//! Each plot reads the rows of a table twice: for the ranges of its axes and for drawing. Memory does not grow with the number of
+//! rows.
 
 use super::super::OutputError;
 use super::axes::{Axis, Frame};
@@ -18,9 +19,9 @@ use std::ops::Range;
 pub struct Line {
     /// Name.
     pub name: String,
-    /// Its columns in the rows of profiles.
+    /// Range of its columns in the rows of profiles.
     pub columns: Range<usize>,
-    /// Distances of its points from its upper end, ascending \[m\].
+    /// Distances of its points from the upper end, ascending \[m\].
     pub along: Vec<f64>,
 }
 
@@ -35,30 +36,30 @@ pub enum Table {
     Rate,
 }
 
-/// The tables of a run.
+/// Access to the tables of a run.
 pub trait Rows {
-    /// Looks at the rows of a table from the first to the last.
+    /// Passes the rows of a table to `look`, from the first to the last.
     ///
     /// # Errors
-    /// If it cannot be read.
+    /// If the table cannot be read.
     fn each(&self, table: Table, look: &mut dyn FnMut(&[f64])) -> Result<(), OutputError>;
 }
 
-/// Drawing.
+/// Plots of a run.
 pub struct Cycles<'a> {
     /// Title of the scene.
     pub title: String,
     /// Faults along lines.
     pub lines: Vec<Line>,
-    /// The tables.
+    /// Tables of the run.
     pub rows: &'a dyn Rows,
-    /// Onsets and ends of events \[s\].
+    /// Times of onset and end of the events \[s\].
     pub events: Vec<(f64, f64)>,
-    /// Time between slip contours between events, and in events, in words.
+    /// Time between slip contours, between events and during events, as text.
     pub intervals: [String; 2],
 }
 
-/// Smallest and largest finite value of what has been seen.
+/// Smallest and largest of the finite values seen.
 #[derive(Clone, Copy, Debug)]
 struct Bounds(f64, f64);
 
@@ -71,43 +72,43 @@ impl Bounds {
         }
     }
 
-    /// True if anything was seen.
+    /// True if any value was seen.
     fn any(self) -> bool {
         self.0 <= self.1
     }
 
-    /// Both, in a unit.
+    /// Both values in a unit.
     fn over(self, factor: f64) -> impl Iterator<Item = f64> {
         [self.0 / factor, self.1 / factor].into_iter()
     }
 }
 
-/// Points of the phase portrait nearer to each other than this are one: half a pixel of a screen.
+/// Distance below which points of the phase portrait coincide: half a pixel of a screen.
 const NEAR: f64 = 0.5;
-/// Points of the phase portrait at most: some hundred cycles, on which later ones lie.
+/// Largest number of points of the phase portrait, enough for some hundred cycles; later ones lie on top of these.
 const MOST_POINTS: usize = 200_000;
 
-/// Slip in events.
+/// Colour of slip during events.
 const SEISMIC: Rgb = [205, 92, 38];
-/// Slip between them.
+/// Colour of slip between events.
 const ASEISMIC: Rgb = [52, 84, 160];
-/// Place and size of the frame.
+/// Position of the frame.
 const AT: Point = (96.0, 40.0);
-/// See [`AT`].
+/// Size of the frame.
 const SIZE: Point = (560.0, 380.0);
-/// Room right of it.
+/// Width right of the frame.
 const ROOM: f64 = 230.0;
-/// Pixels of an image at most.
+/// Largest number of columns and rows of pixels of an image.
 const PIXELS: (usize, usize) = (1120, 760);
-/// Contours nearer to the one before than this share of the axis are left out: a pixel of a screen.
+/// Distance to the preceding contour, as a share of the axis, below which a contour is omitted: a pixel of a screen.
 const TOGETHER: f64 = 2e-3;
-/// Decades below the fastest that the image of slip rates shows: what lies lower is locked.
+/// Decades below the fastest rate shown by the image of slip rates. Slower points are locked.
 const SHOWN: f64 = 14.0;
 
 type Drawn = Result<Option<Figure>, OutputError>;
 
 impl Cycles<'_> {
-    /// All figures with the names of their files.
+    /// All figures with their file names.
     pub(super) fn figures(&self) -> Result<Vec<(String, Figure)>, OutputError> {
         let mut figures = Vec::new();
         let mut add = |name: String, figure: Option<Figure>| figures.extend(figure.map(|f| (name, f)));
@@ -188,7 +189,7 @@ impl Cycles<'_> {
         k > 0 && time <= self.events[k - 1].1
     }
 
-    /// The axis along a fault, downwards, and its unit.
+    /// Axis along a fault, downwards, and its unit \[m\].
     fn along(line: &Line) -> Option<(Axis, f64)> {
         let (first, last) = (*line.along.first()?, *line.along.last()?);
         let unit = LENGTH.of(last.abs().max(first.abs()));
@@ -197,7 +198,7 @@ impl Cycles<'_> {
             .then(|| (Axis::exact(range, format!("Distance along the fault [{}]", unit.name)), unit.factor))
     }
 
-    /// Looks at the times of a table of profiles and their values on a line.
+    /// Passes the times of a table of profiles and the values on a line to `look`.
     fn profiles(
         &self,
         table: Table,
@@ -233,7 +234,7 @@ impl Cycles<'_> {
                 curves.push(points.map(|(s, a)| frame.point(s / unit.factor, a / scale)).collect());
             }
         })?;
-        // Slip between events over that in events, which would hide it.
+        // Slip between events is drawn over slip during events, which would hide it.
         let [between, within] = kept.map(|(curves, _)| curves);
         for (curves, colour, width) in [(within, SEISMIC, 0.5), (between, ASEISMIC, 0.9)] {
             curves.into_iter().for_each(|curve| figure.line(curve, width, colour));
@@ -248,8 +249,8 @@ impl Cycles<'_> {
         Ok(Some(figure))
     }
 
-    /// Slip rates over distance and output rows, which come by time and by change, so that events take as much room as what lies
-    /// between them.
+    /// Image of slip rates over distance and output rows. Rows are written by time and by change, so that events take as much
+    /// room as the time between them.
     fn space_time(&self, line: &Line) -> Drawn {
         let Some((y, _)) = Self::along(line) else { return Ok(None) };
         let (mut count, mut range) = (0, Bounds::NONE);
@@ -270,7 +271,7 @@ impl Cycles<'_> {
         title(&mut figure, &frame, &self.title, &format!("slip rate of {}", line.name));
         let columns = count.clamp(1, PIXELS.0);
         let nearest = nearest(&line.along);
-        // The fastest of the rows in a column: what is short is not lost.
+        // Each column shows the fastest of its rows, so that short events are not lost.
         let (mut fastest, mut row) = (vec![f64::MIN; columns * nearest.len()], 0);
         self.profiles(Table::Rate, line, &mut |_, rates| {
             row += 1;
@@ -289,7 +290,7 @@ impl Cycles<'_> {
     }
 }
 
-/// The point nearest to each row of pixels.
+/// Point nearest to each row of pixels.
 fn nearest(along: &[f64]) -> Vec<usize> {
     let (first, last) = (along[0], along[along.len() - 1]);
     let nearest = |k: usize| {
@@ -370,7 +371,7 @@ mod tests {
         });
         let image = image.unwrap();
         assert_eq!(image.columns, 2);
-        // The second row of rates at the upper end is the fastest, the lower end the slowest.
+        // At the upper end the second row of rates is the fastest; the lower end is the slowest.
         assert_eq!(image.rgb[1], viridis((0.5 + 9.0) / 10.0));
         assert_eq!(image.rgb[image.rgb.len() - 1], viridis(0.0));
     }

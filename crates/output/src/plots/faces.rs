@@ -1,37 +1,37 @@
-//! Visible part of a mesh: its cells in two dimensions, its outer faces seen from z = +∞ in three; as triangles to fill
-//! and outlines to draw.
+//! Visible part of a mesh, as triangles to fill and outlines to draw: its cells in two dimensions, its outer faces seen from
+//! z = +∞ in three.
 
 use super::super::view::MeshView;
 use std::collections::BTreeMap;
 
-/// A corner of a triangle: the mean of some nodes (one node, or the centre of a face).
+/// A corner of a triangle as the mean of some nodes: a single node, or the centre of a face.
 pub(super) type Corner = Vec<usize>;
 
-/// Layers to draw, in order.
+/// Parts to draw, in drawing order.
 #[derive(Debug, Default)]
 pub(super) struct Visible {
     pub triangles: Vec<[Corner; 3]>,
-    /// Lines of nodes along which a body ends.
+    /// Lines of nodes along the boundary of a body.
     pub outline: Vec<Vec<usize>>,
 }
 
-/// A face: its nodes around the boundary, midside nodes in their places, and its centre node if it has one.
+/// A face: its nodes around the boundary including midside nodes, and its centre node, if any.
 struct Face {
     ring: Vec<usize>,
     centre: Option<usize>,
     body: usize,
 }
 
-/// Corner faces of the solid cells, VTK numbering, outward by the right-hand rule.
+/// Corner nodes of the faces of a tetrahedron in VTK numbering, outward by the right-hand rule.
 const TET: [&[usize]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
-/// See [`TET`].
+/// Corner nodes of the faces of a hexahedron, see [`TET`].
 const HEX: [&[usize]; 6] =
     [&[0, 3, 2, 1], &[4, 5, 6, 7], &[0, 1, 5, 4], &[1, 2, 6, 5], &[2, 3, 7, 6], &[3, 0, 4, 7]];
 
-/// See [`TET`].
+/// Corner nodes of the faces of a wedge, see [`TET`].
 const WEDGE: [&[usize]; 5] = [&[0, 2, 1], &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]];
 
-/// The visible part of a mesh.
+/// Collects the visible part of a mesh.
 pub(super) fn visible(mesh: &MeshView) -> Visible {
     let faces = if mesh.dimension == 3 { upper_faces(mesh) } else { flat_cells(mesh) };
     let triangles = faces.iter().flat_map(Face::triangles).collect();
@@ -39,8 +39,8 @@ pub(super) fn visible(mesh: &MeshView) -> Visible {
 }
 
 impl Face {
-    /// A fan around the centre, so that a bilinear field keeps its value there. A face without a centre node uses the
-    /// mean of its ring (of the midside nodes where there are some: the serendipity value's dominant part).
+    /// Triangles in a fan around the centre, so that a bilinear field keeps its value there. Without a centre node, the mean of
+    /// the ring is used, or of its midside nodes if there are any: the dominant part of the serendipity value.
     fn triangles(&self) -> Vec<[Corner; 3]> {
         let n = self.ring.len();
         if n == 3 {
@@ -55,7 +55,7 @@ impl Face {
     }
 }
 
-/// Nodes around a flat cell, with the centre node of quad9.
+/// Faces of flat cells, with the centre node of quad9.
 fn flat_cells(mesh: &MeshView) -> Vec<Face> {
     let ring = |nodes: &[usize], corners: usize| -> Vec<usize> {
         (0..corners).flat_map(|i| [nodes[i], nodes[corners + i]]).collect()
@@ -74,7 +74,7 @@ fn flat_cells(mesh: &MeshView) -> Vec<Face> {
     cells.filter_map(face).collect()
 }
 
-/// Outer faces whose normal has a positive z component, farthest first.
+/// Outer faces whose normal has a positive z component, from the lowest to the highest.
 fn upper_faces(mesh: &MeshView) -> Vec<Face> {
     let mut outer: BTreeMap<Vec<usize>, Option<Face>> = BTreeMap::new();
     for ((kind, nodes), &body) in mesh.cells.iter().zip(&mesh.cell_body) {
@@ -88,7 +88,7 @@ fn upper_faces(mesh: &MeshView) -> Vec<Face> {
             let ring: Vec<usize> = face.iter().map(|&i| nodes[i]).collect();
             let mut key = ring.clone();
             key.sort_unstable();
-            // A face met twice lies inside.
+            // A face that occurs twice is interior.
             outer.entry(key).and_modify(|face| *face = None).or_insert(Some(Face {
                 ring,
                 centre: None,
@@ -104,7 +104,7 @@ fn upper_faces(mesh: &MeshView) -> Vec<Face> {
     faces
 }
 
-/// True if the area of the ring, projected along z, is positive (beyond rounding).
+/// True if the area of the ring projected along z is positive beyond rounding.
 fn looks_up(mesh: &MeshView, ring: &[usize]) -> bool {
     let (mut area, mut size) = (0.0, 0.0);
     for i in 0..ring.len() {
@@ -116,10 +116,10 @@ fn looks_up(mesh: &MeshView, ring: &[usize]) -> bool {
     area > EDGE_ON * size
 }
 
-/// Projected area over squared edges below which a face is seen edge-on.
+/// Ratio of projected area to squared edges below which a face is seen edge-on.
 const EDGE_ON: f64 = 1e-6;
 
-/// Edges of the faces that belong to one face of their body only, joined to lines.
+/// Edges that belong to a single face of their body, joined into lines.
 fn outline(faces: &[Face]) -> Vec<Vec<usize>> {
     let mut count: BTreeMap<(usize, usize, usize), usize> = BTreeMap::new();
     for face in faces {

@@ -1,5 +1,5 @@
-//! The Mises field at the end of a stage, interpolated from the nodes, over the bodies where their equations hold: where they are by then under
-//! finite sliding and large deformation, otherwise where they were at the start.
+//! The Mises field at the end of a stage, interpolated from the nodes. With finite sliding or finite strain it is drawn on the
+//! current configuration of the bodies, otherwise on the reference configuration.
 
 use super::super::record::StageEnd;
 use super::super::view::{BodyFields, MeshView};
@@ -12,19 +12,19 @@ use super::units::{LENGTH, STRESS, Unit};
 /// Largest width and height of the map.
 const ROOM: Point = (560.0, 460.0);
 
-/// Least height of the bar of colours: its label and ticks need the room, however flat the body.
+/// Smallest height of the colour bar. Its label and ticks need this room even beside a flat body.
 const BAR: f64 = 170.0;
 
 /// Pixels of the map per unit of the figure.
 const FINE: f64 = 2.0;
 
-/// Share of the nodes whose values the colours cover when a few singular corners lie far above them.
+/// Share of the nodes whose values the colours cover if a few singular corners lie far above them.
 const COVERED: f64 = 0.99;
 
-/// Excess of the largest value over the covered ones for the colours to stop below it.
+/// Ratio of the largest value to the covered ones above which the colours do not extend to the largest value.
 const FAR_ABOVE: f64 = 1.15;
 
-/// Draws the field; `None` when there is no face to draw or no finite position.
+/// Draws the field; `None` if there is no face to draw or no finite position.
 pub(super) fn mises(scene: &str, mesh: &MeshView, end: &StageEnd, fields: &BodyFields) -> Option<Figure> {
     let seen = visible(mesh);
     let places = places(mesh, fields);
@@ -70,12 +70,12 @@ fn places(mesh: &MeshView, fields: &BodyFields) -> Vec<[f64; 3]> {
     mesh.nodes.iter().zip(&fields.displacement).map(moved).collect()
 }
 
-/// Which stresses the colours cover.
+/// Range of stresses covered by the colours.
 struct Colours {
     unit: Unit,
     lo: f64,
     hi: f64,
-    /// The largest value, when it lies above the colours.
+    /// Largest value, if it lies above the range of the colours.
     above: Option<f64>,
 }
 
@@ -91,7 +91,7 @@ impl Colours {
         };
         let covered = sorted[((sorted.len() - 1) as f64 * COVERED) as usize];
         let (hi, above) = if most > FAR_ABOVE * covered { (covered, Some(most)) } else { (most, None) };
-        // A uniform field gets a bar around its value.
+        // A uniform field gets a colour bar around its value.
         let room =
             if hi - lo <= FLAT * hi.abs() { if hi == 0.0 { 1.0 } else { 0.1 * hi.abs() } } else { 0.0 };
         Self { unit: STRESS.of(most.abs()), lo: lo - room, hi: hi + room, above }
@@ -102,10 +102,10 @@ impl Colours {
     }
 }
 
-/// Relative spread below which a field counts as uniform: what solvers leave of a constant.
+/// Relative spread below which a field counts as uniform: solver errors in a constant field.
 const FLAT: f64 = 1e-6;
 
-/// Lower left and upper right corner of what is seen.
+/// Lower left and upper right corner of the visible part.
 fn extent(places: &[[f64; 3]], seen: &Visible) -> Option<(Point, Point)> {
     let start = ((f64::INFINITY, f64::INFINITY), (f64::NEG_INFINITY, f64::NEG_INFINITY));
     let nodes = seen.triangles.iter().flatten().flatten();
@@ -117,7 +117,7 @@ fn extent(places: &[[f64; 3]], seen: &Visible) -> Option<(Point, Point)> {
     (fine(lo.0, hi.0) && fine(lo.1, hi.1)).then_some((lo, hi))
 }
 
-/// Fills the triangles into an image that covers the frame.
+/// Renders the triangles into an image that covers the frame.
 fn map(
     places: &[[f64; 3]],
     seen: &Visible,
@@ -142,7 +142,7 @@ fn map(
     Image { at: frame.at, size: frame.size, columns, rgb }
 }
 
-/// Fills one triangle of (column, row, value), linear in between.
+/// Fills one triangle with corners (column, row, value), interpolating linearly.
 fn fill(rgb: &mut [Rgb], columns: usize, [a, b, c]: [(f64, f64, f64); 3], colours: &Colours) {
     let twice = (b.0 - a.0) * (c.1 - a.1) - (c.0 - a.0) * (b.1 - a.1);
     if twice == 0.0 || !twice.is_finite() {
@@ -154,7 +154,7 @@ fn fill(rgb: &mut [Rgb], columns: usize, [a, b, c]: [(f64, f64, f64); 3], colour
     };
     let (left, right) = span(a.0, b.0, c.0, columns);
     let (top, bottom) = span(a.1, b.1, c.1, rows);
-    // Barycentric coordinates and value grow by the same amounts from one column to the next.
+    // Barycentric coordinates and value change by constant increments from column to column.
     let (du, dv) = ((c.1 - a.1) / twice, -(b.1 - a.1) / twice);
     let dw = du * (b.2 - a.2) + dv * (c.2 - a.2);
     for row in top..bottom {
@@ -171,7 +171,7 @@ fn fill(rgb: &mut [Rgb], columns: usize, [a, b, c]: [(f64, f64, f64); 3], colour
     }
 }
 
-/// First and last of `n` steps k for which all `start + k growth` are above zero, but for [`ON_EDGE`].
+/// First and last k of `n` steps for which all `start + k growth` are positive, within the tolerance [`ON_EDGE`].
 fn inside(sides: [(f64, f64); 3], n: usize) -> Option<(usize, usize)> {
     let (mut lo, mut hi) = (0.0_f64, n as f64 - 1.0);
     for (start, growth) in sides {
@@ -187,14 +187,14 @@ fn inside(sides: [(f64, f64); 3], n: usize) -> Option<(usize, usize)> {
     (lo <= hi).then_some((lo as usize, hi as usize))
 }
 
-/// Slack of the inside test, so that a pixel on a shared edge is filled by one of its triangles in spite of rounding.
+/// Tolerance of the inside test, so that despite rounding a pixel on a shared edge is filled by one of its triangles.
 const ON_EDGE: f64 = 1e-9;
 
-/// The bar of colours right of a map.
+/// The colour bar right of a map.
 pub(super) struct Bar {
-    /// Values at its ends.
+    /// Values at the ends of the bar.
     pub range: (f64, f64),
-    /// A word on values above it, which it then shows with an arrow.
+    /// Note on values above the range, which are then marked with an arrow.
     pub above: Option<String>,
     /// Quantity and unit.
     pub label: String,
@@ -224,7 +224,7 @@ impl Bar {
             let y = bottom - place * body;
             widest = widest.max(text.chars().count());
             figure.line(vec![(right, y), (right + 5.0, y)], 1.0, INK);
-            // The note on the maximum needs the room above.
+            // The note on the maximum needs the space at the top.
             if self.above.is_none() || y > top + 20.0 {
                 figure.text((right + 9.0, y), text, 13.0, Anchor::Start, INK);
             }

@@ -1,11 +1,11 @@
-//! A figure as a list of shapes, in units of which 96 make an inch; x to the right, y down.
+//! A figure as a list of shapes, in units of 1/96 inch; x to the right, y down.
 
 use super::colour::Rgb;
 
 /// A point of the figure.
 pub(super) type Point = (f64, f64);
 
-/// Position of a text relative to its point; vertically it is always centred.
+/// Horizontal position of a text relative to its point; vertically it is always centred.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -21,7 +21,7 @@ pub(super) struct Text {
     /// Em size.
     pub size: f64,
     pub anchor: Anchor,
-    /// Reads upwards.
+    /// True if the text reads upwards.
     pub vertical: bool,
     pub colour: Rgb,
 }

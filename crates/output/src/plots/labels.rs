@@ -3,7 +3,7 @@
 use super::units;
 use std::collections::BTreeSet;
 
-/// Labels that tell positions apart: the coordinates that differ among them, in one unit.
+/// Labels that distinguish positions: the coordinates in which they differ, in a common unit.
 pub(crate) fn position_labels(positions: impl Iterator<Item = [f64; 3]>) -> Vec<String> {
     let positions: Vec<[f64; 3]> = positions.collect();
     let bounds = |axis: usize| {
@@ -22,7 +22,7 @@ pub(crate) fn position_labels(positions: impl Iterator<Item = [f64; 3]>) -> Vec<
     }
     let unit = units::LENGTH.of(largest);
     let label = |p: &[f64; 3], digits: i32| {
-        // Rounds to this many digits of the largest coordinate.
+        // Round to this number of digits of the largest coordinate.
         let fine = 10.0_f64.powi(digits - 1 - (largest / unit.factor).max(1.0).log10() as i32);
         let parts = axes.iter().map(|&axis| {
             let value = (p[axis] / unit.factor * fine).round() / fine + 0.0;
@@ -32,9 +32,9 @@ pub(crate) fn position_labels(positions: impl Iterator<Item = [f64; 3]>) -> Vec<
     };
     let labels = |digits: i32| positions.iter().map(|p| label(p, digits)).collect::<Vec<_>>();
     let different = |labels: &[String]| labels.iter().collect::<BTreeSet<_>>().len() == labels.len();
-    // Four digits read well; positions that need more get them.
+    // Four digits are easy to read; more are used only if they are needed.
     (4..9).map(labels).find(|labels| different(labels)).unwrap_or_else(|| labels(9))
 }
 
-/// Coordinates closer than this fraction of the largest one count as equal: generated meshes place nodes to rounding.
+/// Coordinates closer than this fraction of the largest one count as equal, as generated meshes place nodes to rounding.
 const SAME_PLACE: f64 = 1e-9;

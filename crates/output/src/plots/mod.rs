@@ -1,7 +1,7 @@
-//! Plots of a finished (or stopped) run, each as SVG and PNG under `plots/`: the Mises field at stage ends, histories at
-//! the probes, tractions along the interfaces.
+//! Plots of a finished or stopped run, each as SVG and PNG under `plots/`: the Mises field at the ends of stages, histories at
+//! the probes, and tractions along the interfaces.
 //!
-//! A plot is first a list of shapes (`figure::Figure`); one painter writes it as SVG, another as PNG.
+//! A plot is first built as a list of shapes (`figure::Figure`). One painter writes it as SVG, another as PNG.
 
 mod axes;
 mod chart;
@@ -26,8 +26,8 @@ use crate::names::stems;
 use figure::Figure;
 use std::path::{Path, PathBuf};
 
-/// Draws all plots of a run into `folder` and returns the files, in the order written. The recorder must have kept
-/// the bodies ([`Recorder::with_bodies`]) for the Mises fields to be drawn; what a stopped run did not reach is left out.
+/// Draws all plots of a run into `folder` and returns the files in the order written. Mises fields are drawn only if the recorder
+/// has kept the bodies ([`Recorder::with_bodies`]). Stages that a stopped run did not reach are omitted.
 ///
 /// # Errors
 /// If a file cannot be written or a drawing fails.
@@ -35,7 +35,7 @@ pub fn draw_all(folder: &Path, recorder: &Recorder) -> Result<Vec<PathBuf>, Outp
     write_all(folder, figures(recorder))
 }
 
-/// Draws the plots of faults through cycles into `folder` and returns the files, in the order written.
+/// Draws the plots of faults in earthquake cycles into `folder` and returns the files in the order written.
 ///
 /// # Errors
 /// See [`draw_all`].
@@ -43,7 +43,7 @@ pub fn draw_cycles(folder: &Path, cycles: &Cycles) -> Result<Vec<PathBuf>, Outpu
     write_all(folder, cycles.figures()?)
 }
 
-/// Draws curves of two quantities against each other into `folder` and returns the files, in the order written.
+/// Draws curves of two quantities against each other into `folder` and returns the files in the order written.
 ///
 /// # Errors
 /// See [`draw_all`].
@@ -64,7 +64,7 @@ fn write_all(folder: &Path, figures: Vec<(String, Figure)>) -> Result<Vec<PathBu
     Ok(written)
 }
 
-/// All figures of a run with the names of their files.
+/// All figures of a run with their file names.
 fn figures(recorder: &Recorder) -> Vec<(String, Figure)> {
     let setup = recorder.setup();
     let mut figures = Vec::new();

@@ -1,5 +1,5 @@
-//! A figure as PNG: texts and areas by plotters with an embedded font, lines by their distance (smooth, with round
-//! joints), all into one buffer that is encoded here.
+//! A figure as PNG. Plotters draws texts and areas with an embedded font. Lines are drawn here by the distance of pixels, smooth
+//! and with round joints. All go into one buffer, which is encoded here.
 
 use super::super::vtu::deflate;
 use super::colour::{PAPER, Rgb};
@@ -13,19 +13,19 @@ use std::sync::OnceLock;
 /// Pixels per unit of the figure.
 const SCALE: f64 = 2.0;
 
-/// DejaVu Sans 2.37 (its licence stands beside it).
+/// DejaVu Sans 2.37; its licence is in the same folder.
 static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans.ttf");
 
-/// Height of DejaVu's line over its em: plotters sizes fonts by the former.
+/// Line height of DejaVu over its em; plotters sizes fonts by line height.
 const LINE_OVER_EM: f64 = 1.164;
 
-/// By how much of an em plotters places the middle of capitals too high (measured with this font).
+/// Share of an em by which plotters places the middle of capitals too high (measured with this font).
 const HANGS: f64 = 0.21;
 
-/// The bytes of a PNG file.
+/// Contents of a PNG file.
 ///
 /// # Errors
-/// Words of the plotting library.
+/// Message of the plotting library.
 pub(super) fn paint(figure: &Figure) -> Result<Vec<u8>, String> {
     font_ready()?;
     let (columns, rows) = ((figure.width * SCALE).ceil() as usize, (figure.height * SCALE).ceil() as usize);
@@ -45,14 +45,14 @@ pub(super) fn paint(figure: &Figure) -> Result<Vec<u8>, String> {
     Ok(encode(columns, &pixels))
 }
 
-/// Registers the font, once.
+/// Registers the font once.
 fn font_ready() -> Result<(), String> {
     static READY: OnceLock<bool> = OnceLock::new();
     let ready = READY.get_or_init(|| register_font("sans-serif", FontStyle::Normal, FONT).is_ok());
     if *ready { Ok(()) } else { Err("the embedded font is not readable".to_string()) }
 }
 
-/// Areas and texts, by plotters.
+/// Draws an area or a text with plotters.
 fn plotted<B: DrawingBackend>(backend: B, shape: &Shape) -> Result<(), Box<dyn std::error::Error>>
 where
     B::ErrorType: 'static,
@@ -82,7 +82,7 @@ fn style(text: &Text) -> TextStyle<'static> {
     TextStyle { font, color: rgb(text.colour).to_backend_color(), pos: Pos::new(horizontal, VPos::Center) }
 }
 
-/// Height at which plotters has to centre a text so that the middle of its capitals stands at its point.
+/// Point at which plotters must centre a text so that the middle of its capitals lies at the requested point.
 fn middle(text: &Text) -> (i32, i32) {
     let drop = HANGS * text.size;
     let (x, y) = text.at;
@@ -97,12 +97,12 @@ fn pixel((x, y): Point) -> (i32, i32) {
     ((x * SCALE).round() as i32, (y * SCALE).round() as i32)
 }
 
-/// Draws polylines: each pixel is covered by how far its centre lies inside half the width from the nearest segment.
+/// Draws polylines. The coverage of a pixel follows from the distance of its centre to the nearest segment and the half width.
 struct Pen {
     columns: usize,
     /// Coverage of each pixel by the line; zero between lines.
     cover: Vec<f64>,
-    /// Pixels where it is not zero.
+    /// Pixels with non-zero coverage.
     inked: Vec<usize>,
 }
 
@@ -119,12 +119,12 @@ impl Pen {
         for i in self.inked.drain(..) {
             let alpha = std::mem::take(&mut self.cover[i]);
             let mix = |c: usize| f64::from(pixels[i][c]) * (1.0 - alpha) + f64::from(colour[c]) * alpha;
-            // Rounds: what is mixed is not negative.
+            // Rounds to nearest, as the mixed value is not negative.
             pixels[i] = std::array::from_fn(|c| (mix(c) + 0.5) as u8);
         }
     }
 
-    /// Covers what one segment covers.
+    /// Adds the coverage by one segment.
     fn segment(&mut self, a: Point, b: Point, half: f64) {
         let rows = self.cover.len() / self.columns;
         let reach = half + 1.0;
@@ -134,7 +134,7 @@ impl Pen {
         for y in top..=bottom {
             let middle = y as f64 + 0.5;
             let (mut lo, mut hi) = (a.0.min(b.0) - reach, a.0.max(b.0) + reach);
-            // A row meets the strip of this reach about the line through both ends in an interval.
+            // Within each row, only the interval inside a strip of half width `reach` around the segment's line is visited.
             let (centre, side) = (a.0 + ux * (middle - a.1) / uy, reach * length / uy.abs());
             if (centre - side).is_finite() && (centre + side).is_finite() {
                 (lo, hi) = (lo.max(centre - side), hi.min(centre + side));
@@ -159,7 +159,7 @@ impl Pen {
     }
 }
 
-/// Pixels between two places along one axis; `None` where there are none among `most`.
+/// Pixels between two positions along one axis; `None` if none of the `most` pixels lies there.
 fn span(lo: f64, hi: f64, most: usize) -> Option<(usize, usize)> {
     let (from, to) = (lo.max(0.0) as usize, (hi.max(0.0) as usize).min(most.saturating_sub(1)));
     (from <= to && hi >= 0.0).then_some((from, to))
@@ -175,7 +175,7 @@ fn distance(p: Point, a: Point, b: Point) -> f64 {
     (dx * dx + dy * dy).sqrt()
 }
 
-/// Copies an image, nearest pixel.
+/// Copies an image with nearest-pixel scaling.
 fn blit(pixels: &mut [Rgb], columns: usize, image: &Image) {
     let rows = pixels.len() / columns;
     let image_rows = image.rgb.len() / image.columns.max(1);
@@ -193,15 +193,15 @@ fn blit(pixels: &mut [Rgb], columns: usize, image: &Image) {
     }
 }
 
-/// A PNG file of 8-bit colours, after the PNG specification (W3C, second edition). Of the filters `Sub` and `Up` each row gets
-/// the one that leaves more zeros: figures are mostly paper, and where they are not, rows repeat each other.
+/// A PNG file of 8-bit colours, after the PNG specification (W3C, second edition). Each row uses the filter, `Sub` or `Up`, that
+/// leaves more zeros: figures are mostly background, and elsewhere rows repeat each other.
 pub(super) fn encode(columns: usize, rgb: &[Rgb]) -> Vec<u8> {
     let width = 3 * columns;
     let rows = rgb.len() / columns.max(1);
     let mut header = Vec::new();
     header.extend((columns as u32).to_be_bytes());
     header.extend((rows as u32).to_be_bytes());
-    // 8 bits, true colour, and the only compression, filter and interlace methods there are.
+    // 8 bits, true colour, and the only compression and filter methods, without interlacing.
     header.extend([8, 2, 0, 0, 0]);
     let mut out = b"\x89PNG\r\n\x1a\n".to_vec();
     chunk(&mut out, *b"IHDR", &header);
@@ -210,7 +210,7 @@ pub(super) fn encode(columns: usize, rgb: &[Rgb]) -> Vec<u8> {
     out
 }
 
-/// Rows of `width` bytes with their filters.
+/// Rows of `width` bytes, each filtered and preceded by the number of its filter.
 fn filtered(width: usize, bytes: &[u8]) -> Vec<u8> {
     let mut out = vec![0; bytes.len() + bytes.len() / width.max(1)];
     let paper = vec![0; width];
@@ -233,12 +233,12 @@ fn filtered(width: usize, bytes: &[u8]) -> Vec<u8> {
     out
 }
 
-/// Numbers of the filters.
+/// Number of the filter `Sub`.
 const SUB: u8 = 1;
-/// See [`SUB`].
+/// Number of the filter `Up`.
 const UP: u8 = 2;
 
-/// Number of bytes of `row` that differ from those of `other`; counted in bytes, which processors do many at once.
+/// Number of bytes of `row` that differ from those of `other`. Partial sums in bytes allow the compiler to vectorise.
 fn changes(row: &[u8], other: &[u8]) -> usize {
     let some = |a: &[u8], b: &[u8]| a.iter().zip(b).map(|(a, b)| u8::from(a != b)).sum::<u8>();
     row.chunks(255).zip(other.chunks(255)).map(|(a, b)| usize::from(some(a, b))).sum()
@@ -265,7 +265,7 @@ mod tests {
 
     #[test]
     fn an_encoded_image_decodes_to_its_pixels() {
-        // A second row like the first, a third that differs in one pixel, a fourth of its own.
+        // The second row equals the first, the third differs in one pixel, the fourth is different.
         let mut rgb: Vec<Rgb> = (0..16_u8).map(|i| [i.wrapping_mul(40), 255 - i, 7]).collect();
         rgb.copy_within(0..4, 4);
         rgb.copy_within(0..4, 8);
@@ -298,7 +298,7 @@ mod tests {
     fn a_stroke_covers_its_width_and_nothing_else() {
         let mut pixels = vec![PAPER; 20 * 20];
         Pen::new(20, 400).stroke(&mut pixels, &[(2.0, 5.0), (8.0, 5.0)], 1.0, [0, 0, 0]);
-        // At two pixels a unit the line covers rows 9 and 10 of columns 4 to 15.
+        // At two pixels per unit the line covers rows 9 and 10 of columns 4 to 15.
         assert_eq!(pixels[9 * 20 + 10], [0, 0, 0]);
         assert_eq!(pixels[10 * 20 + 10], [0, 0, 0]);
         assert_eq!(pixels[7 * 20 + 10], PAPER);

@@ -1,4 +1,4 @@
-//! Tractions along an interface at stage ends.
+//! Tractions along an interface at the ends of stages.
 
 use super::super::record::StageEnd;
 use super::super::view::InterfaceMesh;
@@ -9,21 +9,21 @@ use super::figure::{Figure, Point};
 use super::title::title;
 use super::units::{LENGTH, STRESS};
 
-/// Two positions closer than this fraction of the interface's extent are one: nodes of one line across it.
+/// Nodes closer than this fraction of the extent of the interface count as one position: they lie on the same line across it.
 const SAME_LINE: f64 = 1e-6;
 
-/// Room right of the frame for the legend, whose entries name stages.
+/// Width right of the frame for the legend, whose entries name stages.
 const LEGEND: f64 = 240.0;
 
-/// A traction along the interface.
+/// Curve of a traction along the interface.
 struct Curve {
     entry: Entry,
-    /// Position and traction, in SI.
+    /// Position \[m\] and traction \[Pa\].
     points: Vec<Point>,
 }
 
-/// Normal (full) and shear traction (dashed) along the longest extent of the interface, averaged across it by area;
-/// `None` when there is nothing to draw.
+/// Normal (solid) and shear traction (dashed) along the longest extent of the interface, averaged across it by area. `None` if
+/// there is nothing to draw.
 pub(super) fn tractions(
     scene: &str,
     mesh: &InterfaceMesh,
@@ -66,7 +66,7 @@ pub(super) fn tractions(
     Some(figure)
 }
 
-/// Two curves for each stage end.
+/// Two curves for the end of each stage.
 fn curves(mesh: &InterfaceMesh, places: &[f64], interface: usize, ends: &[StageEnd]) -> Vec<Curve> {
     let mut curves = Vec::with_capacity(2 * ends.len());
     for (i, end) in ends.iter().enumerate() {
@@ -82,7 +82,7 @@ fn curves(mesh: &InterfaceMesh, places: &[f64], interface: usize, ends: &[StageE
     curves
 }
 
-/// The axis along which the interface is longest; `None` when it is a point.
+/// Axis along which the interface is longest; `None` if it is a point.
 fn longest(mesh: &InterfaceMesh) -> Option<usize> {
     let extent = |axis: usize| {
         let (lo, hi) = bounds(&mesh.positions.iter().map(|p| p[axis]).collect::<Vec<_>>());
@@ -96,7 +96,7 @@ fn bounds(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &x| (lo.min(x), hi.max(x)))
 }
 
-/// Values sorted by place; those at one place become their mean, weighted by area.
+/// Values sorted by position. Values at the same position are replaced by their mean, weighted by area.
 fn averaged(places: &[f64], areas: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by(|&a, &b| places[a].total_cmp(&places[b]));

@@ -1,5 +1,5 @@
-//! A figure as SVG. Written here because plotters rounds to whole pixels and embeds images under a media type that
-//! browsers refuse.
+//! A figure as SVG. Plotters is not used because it rounds to whole pixels and embeds images under a media type that browsers
+//! refuse.
 
 use super::super::vtu::escape;
 use super::colour::{PAPER, Rgb};
@@ -43,7 +43,7 @@ fn hex([r, g, b]: Rgb) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Points to hundredths of a unit: finer than any screen shows.
+/// Formats points to hundredths of a unit, finer than the resolution of screens.
 fn list(points: &[Point]) -> String {
     points.iter().map(|(x, y)| format!("{},{}", fixed(*x, 2), fixed(*y, 2))).collect::<Vec<_>>().join(" ")
 }
@@ -57,7 +57,7 @@ fn label(text: &Text) -> String {
     };
     let turn =
         if text.vertical { format!(" transform=\"rotate(-90 {x:.2} {y:.2})\"") } else { String::new() };
-    // The middle of capitals lies .36 em above the base line.
+    // The middle of capitals lies .36 em above the baseline.
     format!(
         "<text x=\"{x:.2}\" y=\"{y:.2}\" dy=\".36em\" font-size=\"{}\" text-anchor=\"{anchor}\" fill=\"{}\"{turn}>{}</text>",
         text.size,

@@ -1,21 +1,22 @@
-//! Titles that stay on the canvas.
+//! Titles that fit on the canvas.
 
 use super::axes::{Frame, LABEL_TEXT};
 use super::colour::INK;
 use super::figure::{Anchor, Figure};
 
-/// Mean width of a character of DejaVu Sans over its em, capitals and digits among them: a little above that of plain text.
+/// Mean width of a character of DejaVu Sans over its em, for text with capitals and digits: slightly more than for plain text.
 const CHARACTER: f64 = 0.62;
-/// Room kept free at the right end.
+/// Margin at the right end.
 const MARGIN: f64 = 12.0;
-/// Smallest text that is still read easily.
+/// Smallest em size that is still easy to read.
 const SMALLEST: f64 = 10.5;
-/// Smallest text of a legend.
+/// Smallest em size in a legend.
 const LEAST: f64 = 6.0;
-/// From the last line of a title to the frame.
+/// Distance from the last line of a title to the frame.
 const ABOVE: f64 = 14.0;
 
-/// Scene and part, above the frame: smaller or in two lines where they are long; what two lines do not hold is cut from the scene.
+/// Draws a title of scene and part above the frame. A long title is smaller or has two lines; if these do not suffice, the name
+/// of the scene is shortened.
 pub(super) fn title(figure: &mut Figure, frame: &Frame, scene: &str, part: &str) {
     let room = figure.width - frame.at.0 - MARGIN;
     let (lines, size) = shortened(scene, part, room);
@@ -26,7 +27,7 @@ pub(super) fn title(figure: &mut Figure, frame: &Frame, scene: &str, part: &str)
     }
 }
 
-/// The lines and their size, with as much of the scene as fits beside the part.
+/// Lines and em size of a title, with as much of the scene as fits in addition to the part.
 fn shortened(scene: &str, part: &str, room: f64) -> (Vec<String>, f64) {
     let whole = fit(&format!("{scene}: {part}"), room);
     if whole.2 {
@@ -41,12 +42,12 @@ fn shortened(scene: &str, part: &str, room: f64) -> (Vec<String>, f64) {
     (lines, size)
 }
 
-/// The size of a line of at most `size` that stays within a room of this width, where that can be read at all.
+/// Em size, at most `size`, at which a line fits a width of `room`; it is never smaller than [`LEAST`].
 pub(super) fn within(text: &str, room: f64, size: f64) -> f64 {
     size.min(room / (CHARACTER * text.chars().count().max(1) as f64)).max(LEAST)
 }
 
-/// The lines of a text and their size, for a room of this width, and whether all of it is there.
+/// Lines and em size of a text for a width of `room`; true if the text is complete.
 fn fit(text: &str, room: f64) -> (Vec<String>, f64, bool) {
     let characters = |text: &str| text.chars().count() as f64;
     let one = room / (CHARACTER * characters(text).max(1.0));
@@ -62,7 +63,7 @@ fn fit(text: &str, room: f64) -> (Vec<String>, f64, bool) {
     (vec![first, second], SMALLEST, whole)
 }
 
-/// The words that `most` characters hold, at least one of them or a part of it, and what is left.
+/// Splits off the words that fit `most` characters, at least one word or a part of it, from the remainder.
 fn part(text: &str, most: usize) -> (String, String) {
     if text.chars().count() <= most {
         return (text.to_string(), String::new());

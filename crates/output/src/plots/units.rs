@@ -1,18 +1,18 @@
-//! Units in which a quantity reads well.
+//! Units that make values easy to read.
 
-/// A unit: its name and its size in SI.
+/// A unit: its name and its value in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Unit {
     pub name: &'static str,
     pub factor: f64,
 }
 
-/// Units of one quantity, ascending, each with the SI value from which it is used.
+/// Units of one quantity, ascending, each with the SI value above which it is used.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Units(&'static [(Unit, f64)]);
 
 impl Units {
-    /// The unit for values up to `largest` (SI). Zero and what is not finite take the unit of value 1, if there is one.
+    /// Unit for values up to `largest` (SI). For zero and non-finite values it is the unit for 1.
     pub(super) fn of(self, largest: f64) -> Unit {
         let largest = if largest.is_finite() && largest > 0.0 { largest } else { 1.0 };
         let fitting = self.0.iter().rev().find(|(_, from)| *from <= largest);
@@ -20,21 +20,21 @@ impl Units {
     }
 }
 
-/// A unit used from half of itself on, so that what approaches 1 from below does not read as 999 of the next smaller.
+/// A unit used from half of itself, so that values just below 1 do not read as 999 of the next smaller unit.
 const fn unit(name: &'static str, factor: f64) -> (Unit, f64) {
     (Unit { name, factor }, 0.5 * factor)
 }
 
-/// A unit used only from `from` on.
+/// A unit used only from `from`.
 const fn later(name: &'static str, factor: f64, from: f64) -> (Unit, f64) {
     (Unit { name, factor }, from)
 }
 
-/// SI prefixes.
+/// SI prefix nano.
 const NANO: f64 = 1e-9;
-/// SI prefixes.
+/// SI prefix micro.
 const MICRO: f64 = 1e-6;
-/// SI prefixes.
+/// SI prefix milli.
 const MILLI: f64 = 1e-3;
 
 /// Lengths.
@@ -49,7 +49,7 @@ pub(super) const VELOCITY: Units =
 pub(super) const STRESS: Units =
     Units(&[unit("Pa", 1.0), unit("kPa", 1e3), unit("MPa", 1e6), later("GPa", 1e9, 1e10)]);
 
-/// Times: seconds up to some hours, then days, then years of 365.25 days.
+/// Times: up to seconds, then hours, days, and years of 365.25 days.
 pub(super) const TIME: Units = Units(&[
     unit("µs", MICRO),
     unit("ms", MILLI),
@@ -59,7 +59,7 @@ pub(super) const TIME: Units = Units(&[
     later("a", 31_557_600.0, 63_115_200.0),
 ]);
 
-/// Numbers without a unit.
+/// Dimensionless numbers.
 pub(super) const NUMBER: Units = Units(&[(Unit { name: "–", factor: 1.0 }, 0.0)]);
 
 #[cfg(test)]

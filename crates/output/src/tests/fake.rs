@@ -1,4 +1,4 @@
-//! A made-up run with the shape of the sandwich: no mechanics, smooth fields.
+//! A synthetic run in the shape of a sandwich: smooth fields without mechanics.
 
 use super::super::OutputError;
 use super::super::view::*;
@@ -109,7 +109,7 @@ fn fields_at(setup: &Setup, time: f64, spoil: Option<f64>) -> InterfaceFields {
     }
 }
 
-/// Values of points and sets that grow with time.
+/// Values at points and forces on sets that grow with time.
 pub(crate) fn samples_at(setup: &Setup, time: f64) -> Samples {
     let point = |k: usize| PointValues {
         displacement: [1e-3 * time, -1e-4 * k as f64, 0.0],
@@ -141,7 +141,7 @@ pub(crate) fn body_fields(mesh: &MeshView, time: f64, spoil: Option<f64>) -> Bod
     }
 }
 
-/// Plays the run to an observer, `per_stage` steps a stage; `spoil` replaces every value.
+/// Plays the run to an observer with `per_stage` steps per stage; `spoil` replaces every value.
 pub(crate) fn play(
     setup: &Setup,
     per_stage: usize,

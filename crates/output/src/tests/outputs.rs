@@ -1,4 +1,4 @@
-//! Files that the observers leave behind.
+//! Files written by the observers.
 
 use super::super::*;
 use super::fake::{body_fields, play, setup};
@@ -12,7 +12,7 @@ fn schedule() -> FieldSchedule {
     FieldSchedule { fields: 2, profiles: 10 }
 }
 
-/// Directory for the output of a test; kept under `ASPERITY_KEEP` for readers of other people, when that is set.
+/// Directory for the output of a test. It is kept under `ASPERITY_KEEP`, if set, for inspection by other readers.
 fn directory(name: &str) -> (tempfile::TempDir, PathBuf) {
     let dir = tempfile::tempdir().unwrap();
     let out = std::env::var_os("ASPERITY_KEEP").map_or(dir.path().to_path_buf(), PathBuf::from).join(name);
@@ -219,7 +219,7 @@ fn fields_that_do_not_fit_the_set_up_are_refused() {
     assert_eq!(error.to_string(), "gap of interface fault: 21 values where the set-up announced 20");
 }
 
-/// Announces another set-up than the one played.
+/// Announces a set-up that differs from the one played.
 struct Swapped<'a> {
     inner: &'a mut Recorder,
     announced: &'a Setup,
@@ -289,7 +289,7 @@ fn times_of_outputs_are_those_at_which_they_appear() {
     let ends = [(0.1, false), (0.25, false), (0.3, false), (0.8, false), (0.99, false), (1.0, true)];
     let taken = ends.map(|(time, ends_stage)| due.take(0, time, ends_stage));
     assert_eq!(taken, [false, true, false, true, false, true]);
-    // Ten steps of 0.1 reach the first due time in spite of rounding, and a stage that ends early has ended.
+    // Ten steps of 0.1 reach the first due time despite rounding. A stage that ends early has ended.
     let mut time = 1.0;
     let late: Vec<bool> = (0..10)
         .map(|_| {

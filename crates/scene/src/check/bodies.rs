@@ -30,7 +30,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Declarations that a body in antiplane motion cannot have.
+    /// Refuses settings that do not exist in antiplane motion.
     fn antiplane(&mut self, name: &str, body: &Body) {
         let refused = [
             body.strain

@@ -1,4 +1,4 @@
-//! Stages and their conditions: their references, and contradictions between conditions on the same nodes.
+//! Stages and their conditions: references, and contradictions between conditions on the same nodes.
 
 use super::course::Course;
 use super::interfaces::is_tied;
@@ -19,24 +19,24 @@ struct Entry {
     symmetry: bool,
 }
 
-/// Prescriptions from stage to stage.
+/// Prescribed components, carried from stage to stage.
 #[derive(Default)]
 struct Held {
     entries: BTreeMap<(String, usize), Entry>,
-    /// Displacement of each component ever prescribed; `None` once it has been free.
+    /// Displacement of each component that has been prescribed; `None` if unknown, as after a release.
     present: BTreeMap<(String, usize), Option<f64>>,
-    /// Pairs of sets already found to say different things about a component.
+    /// Pairs of sets, with the axis, whose contradiction has been reported.
     told: Vec<(String, String, usize)>,
 }
 
 impl Held {
-    /// Displacement of a component at the start of a stage, where it is known.
+    /// Displacement of a component at the start of a stage, if known.
     fn start(&self, entry: &Entry, first: bool) -> Option<f64> {
         let key = (entry.set.clone(), entry.axis);
         self.present.get(&key).copied().unwrap_or(first.then_some(0.0))
     }
 
-    /// Courses of two entries at the nodes they share, which start from where either entry is known to be.
+    /// Courses of two entries at their shared nodes. If the start of one entry is unknown, that of the other is used.
     fn courses(&self, a: &Entry, b: &Entry, (first, duration): (bool, f64)) -> (Course, Course) {
         let (from_a, from_b) = (self.start(a, first), self.start(b, first));
         (
@@ -45,7 +45,7 @@ impl Held {
         )
     }
 
-    /// Ends a stage: targets that were reached are held.
+    /// Ends a stage. Targets that have been reached are held from now on.
     fn settle(&mut self, first: bool, duration: f64) {
         let ends: Vec<_> = self
             .entries
@@ -64,9 +64,9 @@ impl Held {
     }
 }
 
-/// Excess of a table past the end of its stage that passes, relative to the duration: the rounding of decimal input.
+/// Admissible excess of a table past the end of its stage, relative to the duration: rounding of decimal input.
 const ROUNDING: f64 = 1e-9;
-/// More equal steps than this are a slip of the keyboard: a thousand times what a long run takes.
+/// Largest number of equal steps, a thousand times that of a long run. More are a typing error.
 const MOST_STEPS: usize = 10_000_000;
 
 impl Checker<'_> {
@@ -191,7 +191,7 @@ impl Checker<'_> {
         self.load_values(stage, c);
     }
 
-    /// A rotation, which only bodies with large deformation can follow.
+    /// Checks a rotation, which only bodies with finite strain can follow.
     fn rotation(&mut self, set: &Spanned<String>, rotate: &Spanned<RotationSpec>, fresh: &mut Vec<Entry>) {
         let spec = rotate.get_ref();
         let plane = self.dimension() == 2;
@@ -250,7 +250,7 @@ impl Checker<'_> {
         self.error(place, message, help);
     }
 
-    /// Conditions about the plane, which say nothing of a motion along z.
+    /// Refuses conditions that act in the plane and do not affect motion along z.
     fn in_plane(&mut self, c: &Condition) {
         let symmetry = c.symmetry.as_ref().filter(|s| *s.get_ref()).map(|s| ("symmetry", s.span()));
         let pressure = c.pressure.as_ref().map(|p| ("pressure", p.span()));
@@ -282,7 +282,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A table lies within its stage: what comes after the end would be silently lost, or taken for reached.
+    /// Checks that a table lies within its stage. Values past the end would be lost silently, or taken as reached.
     fn table(&mut self, points: &[(f64, f64)], place: Range<usize>, stage: &Stage) {
         let duration = stage.duration.get_ref().0;
         if points.len() < 2 {
@@ -315,7 +315,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The same component of the same set twice in one stage.
+    /// Reports components and loads of a set that are prescribed twice in a stage.
     fn twice(&mut self, stage: &Stage, fresh: &[Entry]) {
         for (i, second) in fresh.iter().enumerate() {
             let Some(first) = fresh[..i].iter().find(|f| f.set == second.set && f.axis == second.axis) else {
@@ -353,7 +353,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Two sides of a body that meet at an edge or corner and move the nodes there differently.
+    /// Reports sides of a body that meet at an edge or corner and prescribe different motions of its nodes.
     fn shared_nodes(
         &mut self,
         stage: &Stage,
@@ -364,7 +364,7 @@ impl Checker<'_> {
         let mut found = Vec::new();
         for (i, entry) in fresh.iter().enumerate() {
             for other in held.entries.values().filter(|o| self.share_component(entry, o)) {
-                // A pair that begins with this stage is reported once, at the later of the two.
+                // If both entries of a pair are new in this stage, the pair is reported once, at the later entry.
                 let later = fresh[i + 1..].iter().any(|f| f.set == other.set && f.axis == other.axis);
                 let pair = (
                     entry.set.clone().min(other.set.clone()),
@@ -394,13 +394,13 @@ impl Checker<'_> {
         }
     }
 
-    /// True if two entries prescribe one component of common nodes.
+    /// True if two entries prescribe the same component of common nodes.
     fn share_component(&self, a: &Entry, b: &Entry) -> bool {
         let free = a.motion == Motion::Free || b.motion == Motion::Free;
         a.axis == b.axis && !free && self.meet(&a.set, &b.set)
     }
 
-    /// True if two sides are of one body and have an edge or corner in common.
+    /// True if two sides belong to the same body and share an edge or corner.
     fn meet(&self, a: &str, b: &str) -> bool {
         match (self.block_side(a), self.block_side(b)) {
             (Some((a, i, _)), Some((b, j, _))) => a == b && i != j,
@@ -408,7 +408,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Loads on components whose motion is prescribed would do nothing.
+    /// Reports loads on components with prescribed motion, which would have no effect.
     fn loads(&mut self, stage: &Stage, held: &Held) {
         for condition in &stage.conditions {
             let c = condition.get_ref();

@@ -3,8 +3,8 @@
 use crate::lengths::show;
 use crate::model::Motion;
 
-/// Differences of displacement below this share of the larger one come from rounding: a rate times a duration against
-/// a target written out.
+/// Admissible difference of displacements relative to the larger one: rounding, as of a rate times a duration compared with a
+/// written target.
 const ROUNDING: f64 = 1e-9;
 
 /// Course of a prescribed value in a stage.
@@ -12,12 +12,12 @@ const ROUNDING: f64 = 1e-9;
 pub enum Course {
     /// Piecewise linear through (time since the stage began \[s\], displacement \[m\]), constant beyond.
     Known(Vec<(f64, f64)>),
-    /// It depends on where the nodes are.
+    /// Depends on the positions of the nodes.
     Relative(Motion),
 }
 
 impl Course {
-    /// The course of `motion` over `duration`, from the displacement `present` where that is known.
+    /// Course of `motion` over `duration`, from the displacement `present` if known.
     pub fn new(motion: &Motion, present: Option<f64>, duration: f64) -> Self {
         match (motion, present) {
             (Motion::Fixed(value), _) => Self::Known(vec![(0.0, *value)]),
@@ -31,7 +31,7 @@ impl Course {
         }
     }
 
-    /// Displacement at a time since the stage began, where it is known.
+    /// Displacement at a time since the stage began, if known.
     pub fn at(&self, time: f64) -> Option<f64> {
         let Self::Known(points) = self else { return None };
         let after = points.iter().position(|p| p.0 > time);
@@ -45,7 +45,7 @@ impl Course {
         })
     }
 
-    /// True if both courses are the same during a stage, however they are written.
+    /// True if both courses agree during a stage, regardless of how they are written.
     pub fn agrees(&self, other: &Self, duration: f64) -> bool {
         match (self, other) {
             (Self::Known(a), Self::Known(b)) => {
@@ -61,7 +61,7 @@ impl Course {
         }
     }
 
-    /// In words, with units.
+    /// Description in words, with units.
     pub fn words(&self) -> String {
         match self {
             Self::Known(points) => match points[..] {

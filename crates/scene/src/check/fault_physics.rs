@@ -1,4 +1,5 @@
-//! Restrictions on the parts of a fault through cycles: keys that hold at interfaces and sliders would be left out without a word.
+//! Restrictions on faults in earthquake cycles. Without them, keys that apply to interfaces and sliders would be ignored
+//! silently.
 
 use super::Checker;
 use crate::model::{Fault, Spanned};
@@ -6,7 +7,7 @@ use crate::model::{Fault, Spanned};
 impl Checker<'_> {
     pub(super) fn physics_of(&mut self, fault: &Fault) {
         if let Some(limit) = &fault.law.get_ref().f_limit {
-            // At the limit friction no longer depends on the slip rate, which is what the rate is found from.
+            // At the limit friction does not depend on the slip rate, so the rate cannot be computed from it.
             self.error(
                 limit.span(),
                 "a fault through cycles has no limit of the shear traction: the slip rate would not follow from friction that has reached it",
@@ -25,7 +26,7 @@ impl Checker<'_> {
         self.tractions_at_the_start(fault);
     }
 
-    /// Requirements of a fault that opens.
+    /// Checks the requirements of a fault that opens.
     fn opening_of(&mut self, fault: &Fault) {
         let Some(opening) = fault.opening.as_ref().filter(|o| *o.get_ref()) else { return };
         if self.is_antiplane() {
@@ -50,7 +51,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Tractions at the start come from keys of the fault or from an initial stress of its bodies.
+    /// Checks the source of the initial tractions: keys of the fault or an initial stress of its bodies.
     fn tractions_at_the_start(&mut self, fault: &Fault) {
         let profile = |p: &Option<crate::model::Profiled>| {
             p.as_ref().and_then(|p| p.0.first()).map(|p| p.points.span())
@@ -91,7 +92,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Weight presses faults in the plane, and acts on all bodies alike.
+    /// Checks gravity in a scene with faults: none in antiplane motion, and the same for all bodies.
     pub(super) fn weight_beside_faults(&mut self) {
         let scene = self.scene;
         let mut weighing = scene.bodies.iter().filter_map(|(name, b)| Some((name, b.gravity.as_ref()?)));
@@ -116,7 +117,7 @@ impl Checker<'_> {
         }
     }
 
-    /// An initial stress of a body without a fault would mean nothing.
+    /// Refuses an initial stress of a body without a fault, which would have no effect.
     pub(super) fn stress_beside_faults(&mut self) {
         let scene = self.scene;
         if scene.faults.is_empty() {

@@ -1,4 +1,4 @@
-//! Faults through earthquake cycles.
+//! Faults in earthquake cycles.
 
 use super::Checker;
 use crate::law;
@@ -8,7 +8,7 @@ use crate::model::{
 };
 use crate::near::suggest;
 
-/// Kinds of law whose slip rate does not follow from the traction.
+/// Kinds of law from which the slip rate cannot be computed.
 const WITHOUT_RATE: [&str; 3] = ["coulomb", "static-kinetic", "slip-weakening"];
 
 impl Checker<'_> {
@@ -52,7 +52,7 @@ impl Checker<'_> {
         self.left_out();
     }
 
-    /// Keys that mean nothing to faults, which would be left out without a word.
+    /// Refuses keys that do not apply to faults and would be ignored silently.
     fn left_out(&mut self) {
         let scene = self.scene;
         let Some(fault) = scene.faults.values().next() else {
@@ -92,7 +92,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Springs draw sides of bodies around faults only.
+    /// Checks springs, which pull sides only in scenes with faults.
     fn springs(&mut self) {
         let scene = self.scene;
         for condition in scene.stages.iter().flat_map(|s| &s.conditions) {
@@ -117,7 +117,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Faults and the stepper "fault-ode" go together, without interfaces, in one stage.
+    /// Checks that faults and the stepper "fault-ode" are used together, without interfaces and in one stage.
     fn stepper_of_faults(&mut self) {
         let (scene, stepper) = (self.scene, &self.scene.time.stepper);
         let ode = *stepper.get_ref() == Stepper::FaultOde;
@@ -255,7 +255,7 @@ impl Checker<'_> {
         *self.scene.kinematics.get_ref() == Kinematics::ThreeD
     }
 
-    /// In space the direction of slip is declared, in the plane there is one only.
+    /// Checks the direction of slip. It must be given in space, and is unique in the plane.
     fn rake(&mut self, fault: &Fault) {
         let free = fault.slip.as_ref().is_some_and(|s| *s.get_ref() == SlipSpec::Free);
         match (&fault.rake, self.in_space()) {
@@ -299,7 +299,7 @@ impl Checker<'_> {
         }
     }
 
-    /// All faults slip along their rakes, or all may turn.
+    /// Checks that all faults slip along their rakes, or that all may turn.
     fn directions_of_slip(&mut self) {
         let scene = self.scene;
         let kind = |f: &Fault| f.slip.as_ref().map_or(SlipSpec::AlongRake, |s| *s.get_ref());

@@ -11,14 +11,14 @@ pub(super) fn is_tied(law: &Spanned<LawSpec>) -> bool {
     law.get_ref().kind.as_ref().is_some_and(|k| k.get_ref() == "tied")
 }
 
-/// A larger coefficient of friction is a slip of the keyboard: rock has up to 1, rubber up to 2 or 3.
+/// Largest plausible friction coefficient; rock has up to 1, rubber up to 2 or 3. A larger value is a typing error.
 const MOST_FRICTION: f64 = 4.0;
 
 /// Body, axis and end of a side.
 type Side = (String, usize, usize);
 
 impl Checker<'_> {
-    /// Keys for the initial state of faults, which interfaces do not have.
+    /// Refuses keys for the initial state of faults, which interfaces do not have.
     fn keys_of_faults(&mut self, name: &str, interface: &Interface) {
         let tractions = "loads press an interface, or the `initial_stress` of its bodies with `initial_stress = true` in the interface, which brings normal and \
                          shear tractions";
@@ -90,7 +90,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Coefficients of friction that are percentages, or tractions.
+    /// Warns of friction coefficients that appear to be percentages or tractions.
     fn coefficients(&mut self, law: &LawSpec) {
         let keys = [("mu", &law.mu), ("mu0", &law.mu0), ("mu_s", &law.mu_s), ("mu_k", &law.mu_k)];
         for (key, given) in keys.into_iter().filter_map(|(key, given)| Some((key, given.as_ref()?))) {
@@ -102,7 +102,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Keys of an enforcement that it needs, and those of others.
+    /// Checks that an enforcement has the keys it needs and none of another kind.
     fn enforcement(&mut self, name: &str, enforcement: &Enforcement) {
         let kind = &enforcement.kind;
         let uzawa = *kind.get_ref() == EnforcementKind::Uzawa;
@@ -150,7 +150,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Checks that a strength without state has a value where the interface starts.
+    /// Refuses strengths without state that are undefined at rest, where the interface starts.
     fn at_rest(&mut self, form: &Spanned<String>) {
         let strength = match form.get_ref().as_str() {
             "bare" => "the bare logarithm",
@@ -172,7 +172,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Checks that two sides can be in contact: of two bodies, face to face, and not paired already.
+    /// Checks that two sides can be in contact: they belong to different bodies, face each other, and are not paired already.
     fn pairing(&mut self, name: &str, interface: &Interface, slave: &Side, master: &Side) {
         let (slave_name, master_name) = (interface.slave.get_ref(), interface.master.get_ref());
         let (place, also) = (interface.master.span(), (&interface.slave.span(), "the slave"));

@@ -4,10 +4,10 @@ use super::Checker;
 use crate::model::{Hardening, Material, Plasticity, Spanned};
 use std::ops::{Range, RangeInclusive};
 
-/// A parameter of hardening: its key, its place where it is given, and the kinds it belongs to.
+/// A parameter of hardening: its key, its position if given, and the kinds to which it belongs.
 type Key = (&'static str, Option<Range<usize>>, &'static [Hardening]);
 
-/// Densities from foam of rock to the heaviest metals, with room on both sides \[kg/m³\].
+/// Densities from rock foam to the heaviest metals, with margins on both sides \[kg/m³\].
 const DENSITIES: RangeInclusive<f64> = 100.0..=30_000.0;
 
 impl Checker<'_> {
@@ -53,7 +53,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Properties of a material beside its elasticity.
+    /// Checks the inelastic properties of a material.
     fn behaviour(&mut self, name: &str, material: &Material) {
         let viscous = [
             material.viscosity.as_ref().map(|v| ("viscosity", v.span())),
@@ -73,13 +73,13 @@ impl Checker<'_> {
             self.conflict(&place, message, help, (&plasticity.span(), "and here"));
             return;
         }
-        // What the parameters themselves must satisfy is known where they are used.
+        // The values of the parameters are checked where they are used.
         if let Some(plasticity) = &material.plasticity {
             self.plasticity(name, plasticity);
         }
     }
 
-    /// Which parameters belong to a hardening.
+    /// Checks that the parameters are those of the hardening.
     fn plasticity(&mut self, name: &str, plasticity: &Spanned<Plasticity>) {
         let p = plasticity.get_ref();
         let keys: [Key; 5] = [

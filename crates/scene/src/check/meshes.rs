@@ -1,4 +1,4 @@
-//! Meshes: what can be known of them before they are made or read.
+//! Checks of meshes before they are generated or read.
 
 use super::{AXES, Checker};
 use crate::lengths::show;
@@ -10,16 +10,16 @@ use crate::near::suggest;
 use crate::units::{self, Dimension, Length};
 use std::ops::Range;
 
-/// Distance of an edge over a size from a whole number that passes, relative to it: the rounding of decimal input with room to
-/// spare, and less than any intended difference.
+/// Admissible relative distance of edge over size from a whole number. It allows for rounding of decimal input, and is less than
+/// any intended difference.
 const WHOLE: f64 = 1e-9;
-/// Range around the nearest number of elements in which a size that divides all edges is looked for.
+/// Range around the nearest number of elements in which to search for a size that divides all edges.
 const SEARCH: usize = 1000;
-/// More elements than this are a slip of the keyboard: their stiffness alone would take 50 GB.
+/// Largest number of elements. More are a typing error: their stiffness alone would take 50 GB.
 const MOST_ELEMENTS: f64 = 1e8;
 
 impl Checker<'_> {
-    /// The mesh of a body.
+    /// Checks the mesh of a body.
     pub(super) fn mesh(&mut self, name: &str, body: &Body) {
         self.layers(name, body);
         match &body.mesh {
@@ -37,7 +37,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Heights of layers.
+    /// Checks the coordinates of the layers of an extrusion.
     fn layers(&mut self, name: &str, body: &Body) {
         let Some(layers) = &body.extrude else { return };
         if self.dimension() == 2 {
@@ -64,7 +64,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A plane mesh in three dimensions needs layers.
+    /// Checks the element of a plane mesh, which in three dimensions needs layers.
     fn flat(&mut self, name: &str, body: &Body, element: &Spanned<String>) {
         if self.dimension() == 3 && body.extrude.is_none() {
             self.error(
@@ -101,7 +101,7 @@ impl Checker<'_> {
         self.radius(patch.corners.span(), x.iter().map(|p| p[0]));
     }
 
-    /// About an axis x is the radius.
+    /// Checks that x is not negative in axial symmetry, where it is the radius.
     fn radius(&mut self, place: Range<usize>, x: impl Iterator<Item = f64>) {
         let axial = *self.scene.kinematics.get_ref() == Kinematics::Axisymmetric;
         if let Some(least) = x.reduce(f64::min).filter(|x| axial && *x < 0.0) {
@@ -140,7 +140,7 @@ impl Checker<'_> {
         self.radius(fault.min.span(), std::iter::once(fault.min.get_ref()[0].0));
     }
 
-    /// Words about a file.
+    /// Checks the unit, groups and surfaces of a mesh file.
     fn file(
         &mut self,
         unit: Option<&Spanned<String>>,
@@ -179,7 +179,7 @@ impl Checker<'_> {
         );
     }
 
-    /// True if a vector has one entry for each of some axes.
+    /// Checks that a vector has one entry for each of these axes.
     pub(super) fn count<T>(&mut self, values: &Spanned<Vec<T>>, what: &str, axes: &[usize]) -> bool {
         let (found, wanted) = (values.get_ref().len(), axes.len());
         if found != wanted {
@@ -236,7 +236,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Sizes along the axes of a block instead of `size`, `divisions` and `grading`.
+    /// Checks the sizes along the axes of a block, which replace `size`, `divisions` and `grading`.
     fn spacing(&mut self, name: &str, block: &BlockMesh, axes: &[usize]) {
         let Some(spacing) = &block.spacing else { return };
         self.count(spacing, "spacing", axes);
@@ -289,7 +289,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Lengths of the edges \[m\], where all are positive.
+    /// Lengths of the edges \[m\]. An error is reported unless all are positive.
     fn edges(&mut self, name: &str, block: &BlockMesh) -> Option<Vec<f64>> {
         let pairs = block.min.get_ref().iter().zip(block.max.get_ref());
         let edges: Vec<f64> = pairs.map(|(a, b)| b.0 - a.0).collect();
@@ -349,7 +349,7 @@ fn divides(size: f64, edge: f64) -> bool {
     whole >= 1.0 && (ratio - whole).abs() <= WHOLE * whole
 }
 
-/// Divisions of all edges by one size, that nearest to `size`.
+/// Divisions of all edges by a common size, the one nearest to `size`.
 fn fitting_divisions(size: f64, edges: &[f64]) -> Option<Vec<usize>> {
     let near = ((edges[0] / size).round() as usize).max(1);
     let candidates = (near.saturating_sub(SEARCH).max(1)..=near.saturating_add(SEARCH)).filter_map(|n| {

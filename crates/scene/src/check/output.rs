@@ -1,13 +1,13 @@
-//! Outputs: how many, of what.
+//! Numbers and kinds of outputs.
 
 use super::Checker;
 use crate::model::Spanned;
 use crate::near::suggest;
 
-/// More probes of an interface, or outputs of a stage, than this are a slip of the keyboard: each output is a file.
+/// Largest number of probes of an interface, or of outputs of a stage. More are a typing error: each output is a file.
 const MOST_OUTPUTS: usize = 100_000;
 
-/// A growing file that may not have so many bytes has no room for a profile of a fault.
+/// Smallest admissible limit of a growing file \[bytes\]. Below it there is no room for a profile of a fault.
 const LEAST_FILE: f64 = 1e4;
 
 impl Checker<'_> {
@@ -49,7 +49,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Points and forces.
+    /// Checks points and forces.
     fn samples(&mut self) {
         let axes: Vec<usize> = (0..self.dimension()).collect();
         for (name, spec) in &self.scene.output.points {
@@ -71,7 +71,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Outputs of faults in a scene that has none.
+    /// Refuses outputs of faults in a scene without faults.
     pub(super) fn cadence_without_faults(&mut self) {
         let output = &self.scene.output;
         let keys = [
@@ -88,7 +88,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Times of outputs of faults.
+    /// Checks the times of outputs of faults.
     pub(super) fn cadence(&mut self) {
         let output = &self.scene.output;
         let mut amounts = Vec::new();

@@ -1,4 +1,4 @@
-//! Place and time of the events of a scene.
+//! Geographical position and time of the events of a scene.
 
 use super::Checker;
 use crate::model::{Kinematics, Place, Spanned};
@@ -37,7 +37,7 @@ impl Checker<'_> {
         self.epoch(&place.epoch);
     }
 
-    /// Directions of space: up, and across it the one that `strike` is of.
+    /// Checks the directions in space: up, and the horizontal direction whose azimuth is `strike`.
     fn axes(&mut self, place: &Place) {
         let in_space = *self.scene.kinematics.get_ref() == Kinematics::ThreeD;
         for (name, given) in [("up", &place.up), ("along", &place.along)] {
@@ -68,7 +68,7 @@ impl Checker<'_> {
 
     fn angle(&mut self, name: &str, angle: &Spanned<Angle>, (least, most): (f64, f64)) {
         let degrees = angle.get_ref().0.to_degrees();
-        // "90 deg" is not 90 to the last bit.
+        // The conversion to radians and back is not exact.
         if !(degrees >= least - ROUNDING && degrees <= most + ROUNDING) {
             self.error(
                 angle.span(),
@@ -78,7 +78,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The calendar must reach from the epoch to the end.
+    /// Checks that the calendar covers the time from the epoch to the end of the run.
     fn epoch(&mut self, epoch: &Spanned<String>) {
         let time = match epoch.get_ref().parse::<Timestamp>() {
             Ok(time) => time,
@@ -103,7 +103,7 @@ impl Checker<'_> {
     }
 }
 
-/// Sine of the angle by which `along` may differ from the horizontal: rounding of components written with seven digits.
+/// Largest admissible sine of the angle between `along` and the horizontal: rounding of components written with seven digits.
 const LEVEL: f64 = 1e-6;
-/// Rounding of degrees.
+/// Admissible rounding of angles \[deg\].
 const ROUNDING: f64 = 1e-9;

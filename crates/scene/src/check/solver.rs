@@ -1,10 +1,10 @@
-//! Solution of linear systems.
+//! Solution of the linear systems.
 
 use super::Checker;
 use crate::model::{Method, Path, Spanned};
 use std::ops::RangeInclusive;
 
-/// Tolerances of the iterative method: rounding leaves about 1e-14, and beyond a hundredth no step would end.
+/// Tolerances of the iterative method. Rounding leaves about 1e-14; above 1e-2 no step would converge.
 const TOLERANCES: RangeInclusive<f64> = 1e-14..=1e-2;
 
 impl Checker<'_> {

@@ -1,4 +1,4 @@
-//! The stress that bodies start with.
+//! Initial stress of bodies.
 
 use super::Checker;
 use crate::model::{Body, InitialStress, Kinematics, Spanned, StressKind, VaryingStress};
@@ -28,7 +28,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Checks that a list has the components of a stress.
+    /// Checks that a list has the right number of stress components.
     fn components(&mut self, key: &str, place: &Range<usize>, given: usize) {
         let (short, right) = match (self.dimension(), self.is_antiplane()) {
             (_, true) => (2, "[yz, zx] or [xx, yy, zz, xy, yz, zx]"),
@@ -44,7 +44,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Nothing acts through the thickness of a sheet.
+    /// Refuses a stress zz in plane stress.
     fn sheet(&mut self, place: &Range<usize>, given: usize, through: Option<f64>) {
         let sheet = *self.scene.kinematics.get_ref() == Kinematics::PlaneStress;
         if let (true, 6, Some(zz)) = (sheet, given, through.filter(|z| *z != 0.0)) {

@@ -4,15 +4,16 @@ use super::Checker;
 use crate::model::{Rule, Spanned, Stepper};
 use std::ops::Range;
 
-/// Largest residual over the largest force that scenes may leave: tractions of the pressed surface, which are of the size of the largest force over its
-/// area, then err by a percent.
+/// Largest admissible residual over the largest force. Tractions of the pressed surface are of the size of the largest force over
+/// its area, and then err by a percent.
 const MOST_DRIFT: f64 = 1e-2;
 
-/// Errors of friction coefficients that steps may be bounded by: Newton's method leaves 1e-11 of the largest force, which hides less, and more than
-/// a hundredth is more than what rates and states change friction by.
+/// Admissible bounds on the error of friction coefficients. Newton's method leaves 1e-11 of the largest force, which hides
+/// smaller errors. A hundredth is more than the changes of friction by rates and states.
 const FRICTION_TOLERANCES: Range<f64> = 1e-9..1e-2;
 
-/// Kinds of law whose strength depends on slip and not on its rate, which backward differentiation of order 2 is not for.
+/// Kinds of law whose strength depends on slip rather than slip rate, for which second-order backward differentiation is not
+/// suited.
 const OF_SLIP: [&str; 2] = ["static-kinetic", "slip-weakening"];
 
 impl Checker<'_> {
@@ -127,7 +128,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Keys that belong to other steppers.
+    /// Reports keys that belong to other steppers.
     fn foreign_keys(&mut self, stepper: Stepper) {
         use Stepper::{FaultOde, Implicit, StaticExplicit};
         let time = &self.scene.time;

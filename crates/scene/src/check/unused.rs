@@ -1,29 +1,29 @@
-//! Values that would have no effect beside others.
+//! Values that have no effect in combination with others.
 
 use super::Checker;
 use crate::model::{Spanned, Stage, Stepper};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// Share of a step by which equal steps may miss a bound: rounding of durations over numbers of steps.
+/// Share of a step by which equal steps may violate a bound: rounding of durations divided by numbers of steps.
 const ROUNDING: f64 = 1e-9;
 
-/// First step as a share of its stage where none is given, as the steps are chosen.
+/// Default first step as a share of the duration of its stage, as in the step control.
 const FIRST: f64 = 1e-3;
 
-/// Largest step as a share of its stage where none is given, as the steps are chosen.
+/// Default largest step as a share of the duration of its stage, as in the step control.
 const LARGEST: f64 = 0.05;
 
-/// Share of the first step of a stage that the distance of neighbouring times may be: below it increments of motions and of time differ by
-/// as much.
+/// Largest spacing of neighbouring floating-point times, as a share of the first step of a stage. Increments of motions and of
+/// time differ by this share.
 const RESOLVED: f64 = 0.01;
 
-/// Laws with a slip over which they change, which `zeta` bounds.
+/// Laws with a characteristic slip, to which `zeta` applies.
 const WITH_LENGTH: [&str; 2] = ["slip-weakening", "rate-and-state"];
-/// Laws with a slip rate, which `rate_change` bounds.
+/// Laws that depend on the slip rate, to which `rate_change` applies.
 const WITH_RATE: [&str; 2] = ["rate", "rate-and-state"];
 
-/// A key that is given: its name and place.
+/// A given key: its name and position.
 type Key = (&'static str, Range<usize>);
 
 fn key<T>(name: &'static str, given: Option<&Spanned<T>>) -> Option<Key> {
@@ -45,7 +45,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Equal steps of a stage against the bounds of `[time]`, which they would override.
+    /// Checks the equal steps of a stage against the bounds of `[time]`, which they would override.
     fn equal_steps(&mut self, stage: &Stage) {
         let Some(steps) = stage.steps.as_ref().filter(|s| *s.get_ref() > 0) else { return };
         let (duration, n) = (stage.duration.get_ref().0, *steps.get_ref() as f64);
@@ -70,7 +70,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Times count from the start of the run: a stage whose steps are lost in the rounding of its start cannot be run.
+    /// Refuses stages whose steps are lost in the rounding of their start time, as times count from the start of the run.
     fn resolution(&mut self) {
         let mut start = 0.0;
         let first_step = self.scene.time.first_step.as_ref().map(|f| f.get_ref().0);
@@ -110,7 +110,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Keys about steps that are adapted, where all are equal.
+    /// Reports keys of adaptive steps if the steps of all stages are equal.
     fn without_adaption(&mut self) {
         let (stages, time) = (&self.scene.stages, &self.scene.time);
         if stages.is_empty() || stages.iter().any(|s| s.steps.is_none()) {
@@ -128,7 +128,7 @@ impl Checker<'_> {
         }
     }
 
-    /// First and smallest steps that defaults of the other bounds would override.
+    /// Reports first and smallest steps that would be overridden by defaults of other bounds.
     fn beside_defaults(&mut self) {
         let time = &self.scene.time;
         let adaptive = self.scene.stages.iter().filter(|s| s.steps.is_none());
@@ -158,7 +158,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Keys about slip, where nothing slips.
+    /// Reports keys about slip in a scene without interfaces.
     fn without_interface(&mut self) {
         let time = &self.scene.time;
         if !self.scene.interfaces.is_empty() {
@@ -181,7 +181,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Bounds of the forward steps on what no law of the scene has.
+    /// Reports keys that bound steps by a quantity that no law of the scene has.
     fn without_law(&mut self) {
         let time = &self.scene.time;
         if self.scene.interfaces.is_empty() {

@@ -1,4 +1,4 @@
-//! Errors in a scene, found when it is read or when it is planned.
+//! Errors in a scene, found in reading or in planning.
 
 mod position;
 
@@ -7,34 +7,34 @@ pub use position::line_column;
 use std::fmt;
 use std::ops::Range;
 
-/// Something wrong in a scene.
+/// An error in a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct Diagnostic {
-    /// The fault.
+    /// Message.
     pub message: String,
-    /// Remedy.
+    /// Suggested remedy.
     pub help: Option<String>,
-    /// Bytes of the scene file it is about; empty when there is no file.
+    /// Byte range in the scene file; empty if there is no file.
     pub span: Range<usize>,
-    /// Other places that take part in it, each with a few words.
+    /// Other positions involved, each with a short label.
     pub also: Vec<(Range<usize>, String)>,
 }
 
 impl Diagnostic {
-    /// An error with a place and a remedy.
+    /// Creates an error with a position and a remedy.
     #[must_use]
     pub fn at(span: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { message: message.into(), help: Some(help.into()), span, also: Vec::new() }
     }
 
-    /// An error about a body.
+    /// Creates an error about a body.
     #[must_use]
     pub fn body(name: &str, span: Range<usize>, message: String) -> Self {
         Self { message: format!("body `{name}`: {message}"), help: None, span, also: Vec::new() }
     }
 
-    /// The same error, pointing to another place as well.
+    /// Adds another position to the error.
     #[must_use]
     pub fn and(mut self, span: Range<usize>, words: impl Into<String>) -> Self {
         self.also.push((span, words.into()));
@@ -42,7 +42,7 @@ impl Diagnostic {
     }
 }
 
-/// Everything wrong in a scene, in the order of the file.
+/// All errors in a scene, in the order of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostics(pub Vec<Diagnostic>);
 

@@ -1,6 +1,6 @@
-//! Bytes of a text as lines and columns.
+//! Lines and columns of positions in a text.
 
-/// Line and column of a byte of a text, both counted from 1; columns count characters.
+/// Line and column of a byte offset in a text. Both count from 1; columns count characters.
 #[must_use]
 pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     let mut end = offset.min(text.len());

@@ -1,25 +1,25 @@
-//! A friction law with what it needs.
+//! A complete friction law.
 
 /// Forms of the rate-dependent strength.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
-    /// With asinh: regular at rest.
+    /// With asinh; regular at rest.
     Regularised,
-    /// The bare logarithm: not defined at rest.
+    /// The bare logarithm; undefined at rest.
     Bare,
-    /// With a direct effect that saturates: not defined at rest.
+    /// With a direct effect that saturates; undefined at rest.
     CutOff {
         /// Cut-off rate V1 of the direct effect \[m/s\].
         v_cut: f64,
     },
 }
 
-/// Temperature of the interface, by an Arrhenius factor of the slip rate.
+/// Effect of the temperature of the interface: an Arrhenius factor of the slip rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heat {
     /// Activation energy Q \[J/mol\].
     pub activation: f64,
-    /// Temperature of the parameters \[K\].
+    /// Reference temperature, at which the parameters hold \[K\].
     pub t_ref: f64,
     /// Temperature \[K\].
     pub temperature: f64,
@@ -36,7 +36,7 @@ pub struct Strength {
     pub a: f64,
     /// Reference slip rate \[m/s\].
     pub v_ref: f64,
-    /// Temperature, where it matters.
+    /// Temperature effect, if any.
     pub heat: Option<Heat>,
 }
 
@@ -45,7 +45,7 @@ pub struct Strength {
 pub struct Evolution {
     /// Name.
     pub name: &'static str,
-    /// Values of its own parameters in SI, in the order of its row in [`Laws`](super::Laws).
+    /// Values of its specific parameters in SI units, in the order of its row in [`Laws`](super::Laws).
     pub own: Vec<Option<f64>>,
 }
 
@@ -67,7 +67,7 @@ pub enum LawChoice {
     Yielding {
         /// Kind.
         kind: &'static str,
-        /// Values of its parameters in SI, in the order of its row in [`Laws`](super::Laws).
+        /// Values of its parameters in SI units, in the order of its row in [`Laws`](super::Laws).
         own: Vec<f64>,
         /// Largest shear traction \[Pa\].
         f_limit: Option<f64>,
@@ -83,13 +83,13 @@ pub enum LawChoice {
     RateAndState {
         /// Strength.
         strength: Strength,
-        /// Evolution of every state variable.
+        /// Evolution of all state variables.
         evolution: Evolution,
         /// The state variables.
         states: Vec<State>,
-        /// Slip rate of the steady state the points start from \[m/s\].
+        /// Slip rate of the initial steady state \[m/s\].
         v_initial: f64,
-        /// Normal traction of that steady state \[Pa\], where a state variable remembers normal traction.
+        /// Normal traction of the initial steady state \[Pa\]; needed if a state variable remembers normal traction.
         normal_initial: Option<f64>,
         /// Largest shear traction \[Pa\].
         f_limit: Option<f64>,
@@ -97,7 +97,8 @@ pub enum LawChoice {
 }
 
 impl LawChoice {
-    /// True if two laws differ in parameters of their points only: a, b, L and the start.
+    /// True if two rate-dependent laws differ only in parameters that may vary from point to point. Their form, temperature,
+    /// evolution and number of states are the same.
     #[must_use]
     pub fn same_kind(&self, other: &Self) -> bool {
         match (self, other) {
@@ -113,5 +114,5 @@ impl LawChoice {
     }
 }
 
-/// Forms.
+/// Names of the forms; the first is the default.
 pub(super) const FORMS: [&str; 3] = ["regularised", "bare", "cut-off"];

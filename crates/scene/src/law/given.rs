@@ -1,10 +1,10 @@
-//! Parameters that a specification gives, with their places.
+//! Parameters given in a specification, with their positions.
 
 use crate::model::{LawSpec, Spanned};
 use crate::units::{Length, Pressure, Velocity};
 use std::ops::Range;
 
-/// A value of the specification in SI.
+/// A value of the specification, convertible to SI units.
 pub(super) trait Quantity: Copy {
     fn si(self) -> f64;
 }
@@ -27,14 +27,14 @@ macro_rules! quantities {
 
 quantities!(Length Pressure Velocity);
 
-/// Keys with their places where they are given.
+/// Keys with the positions of their values, if given.
 macro_rules! places {
     ($law:ident: $($key:ident)*) => {
         [$((stringify!($key), $law.$key.as_ref().map(Spanned::span))),*]
     };
 }
 
-/// Parameters given, with their places, in the order of the specification.
+/// Parameters that are given, with their positions, in the order of the specification.
 #[must_use]
 pub fn given(law: &LawSpec) -> Vec<(&'static str, Range<usize>)> {
     let places = places!(law: mu mu_s mu_k d_c form evolution mu0 a b l v_ref v_initial v_cut v_cut_state alpha normal_initial
@@ -42,7 +42,7 @@ pub fn given(law: &LawSpec) -> Vec<(&'static str, Range<usize>)> {
     places.into_iter().filter_map(|(name, place)| place.map(|p| (name, p))).collect()
 }
 
-/// Value in SI of a parameter that is one number, with its place, where it is given.
+/// SI value and position of a parameter that is a single number; `None` if absent.
 pub(super) fn scalar(law: &LawSpec, key: &str) -> Option<(f64, Range<usize>)> {
     macro_rules! of {
         ($($name:ident)*) => {

@@ -1,4 +1,4 @@
-//! Reads the parameters of a law and collects what is wrong with them.
+//! Reading of the parameters of a law. All errors are collected.
 
 use super::choice::{Evolution, FORMS, Form, Heat, LawChoice, State, Strength};
 use super::given::{Quantity, scalar};
@@ -10,16 +10,16 @@ use crate::model::{LawSpec, Spanned};
 use crate::near;
 use std::ops::Range;
 
-/// State variables of a law, at most: those a slider can hold.
+/// Largest number of state variables of a law: those that a slider can hold.
 const MOST_STATES: usize = 14;
 
-/// A value with its place.
+/// A value with its position.
 type Placed = (f64, Range<usize>);
 
 /// Molar gas constant \[J/(mol K)\], exact in the SI since 2019.
 const GAS: f64 = 8.314_462_618_153_24;
 
-/// See the module.
+/// Reader of the parameters of one law.
 pub(super) struct Reader<'a> {
     pub kind: &'static str,
     pub place: Range<usize>,
@@ -67,7 +67,7 @@ impl<'a> Reader<'a> {
         self.error(self.place.clone(), message, help);
     }
 
-    /// A parameter that must be given.
+    /// Reads a required parameter.
     fn value<Q: Quantity>(
         &mut self,
         name: &str,
@@ -82,7 +82,7 @@ impl<'a> Reader<'a> {
         self.within(name, (given.get_ref().si(), given.span()), example, bound)
     }
 
-    /// A parameter that may be given.
+    /// Reads an optional parameter.
     fn optional<Q: Quantity>(
         &mut self,
         name: &str,
@@ -113,7 +113,7 @@ impl<'a> Reader<'a> {
         None
     }
 
-    /// The entries of a parameter that each state variable has, with their places.
+    /// Reads a parameter with one entry per state variable. Returns the entries with their positions.
     fn entries<Q: Quantity>(
         &mut self,
         name: &str,
@@ -136,7 +136,7 @@ impl<'a> Reader<'a> {
         read.into_iter().collect()
     }
 
-    /// The parameters of a law with an elastic domain.
+    /// Reads the parameters of a law with an elastic domain.
     fn yielding(&mut self, law: &LawSpec, row: &KindRow) -> Option<Vec<f64>> {
         let read: Vec<Option<f64>> = row.parameters.iter().map(|p| self.own(law, p).flatten()).collect();
         if let Some(OrderRow { lower, upper, equal, help }) = row.order
@@ -202,7 +202,7 @@ impl<'a> Reader<'a> {
         None
     }
 
-    /// Temperature: three parameters or none.
+    /// Reads the temperature effect: all three parameters or none.
     fn heat(&mut self, law: &LawSpec) -> Option<Option<Heat>> {
         let given = [
             ("activation", &law.activation, "150e3", NotNegative),
@@ -261,7 +261,7 @@ impl<'a> Reader<'a> {
         Some((row, Evolution { name: row.name, own: own.into_iter().collect::<Option<_>>()? }))
     }
 
-    /// A parameter of a row.
+    /// Reads a parameter of a row.
     fn own(&mut self, law: &LawSpec, row: &ParameterRow) -> Option<Option<f64>> {
         let &ParameterRow { key, bound, optional, example } = row;
         let Some((value, place)) = scalar(law, key) else {
@@ -282,7 +282,7 @@ impl<'a> Reader<'a> {
         Some(Some(value))
     }
 
-    /// The state variables: `b`, `l` and `alpha` of each.
+    /// Reads the state variables: `b`, `l` and `alpha` of each.
     fn states(
         &mut self,
         law: &LawSpec,
@@ -321,7 +321,7 @@ impl<'a> Reader<'a> {
         Some(states.map(|((b, l), alpha)| State { b: b.0, l: l.0, alpha: alpha.0 }).collect())
     }
 
-    /// Checks that the evolution can have these state variables.
+    /// Checks that the evolution admits these state variables.
     fn admitted(
         &mut self,
         (row, evolution): &(&EvolutionRow, Evolution),

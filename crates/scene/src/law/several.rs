@@ -1,4 +1,4 @@
-//! One value or a list of them, one for each state variable.
+//! A single value or a list with one value for each state variable.
 
 use crate::here::here;
 use crate::shape::{Either, shaped};
@@ -7,7 +7,7 @@ use serde::de::{Deserialize, Deserializer, Error, IntoDeserializer, SeqAccess, V
 use std::fmt;
 use std::marker::PhantomData;
 
-/// The values with their places; a value that is not in a list has the place of the whole.
+/// Values with their positions. A single value has an empty span, and its position is that of the whole.
 #[derive(Clone, Debug)]
 pub struct Several<T>(pub Vec<Spanned<T>>);
 
@@ -31,7 +31,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Several<T> {
     }
 }
 
-/// Reads a list itself and leaves everything else to the value.
+/// Reads lists itself and delegates single values to `T`.
 struct SeveralVisitor<T>(PhantomData<T>);
 
 impl<'de, T: Deserialize<'de>> Visitor<'de> for SeveralVisitor<T> {

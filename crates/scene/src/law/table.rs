@@ -1,6 +1,6 @@
-//! Laws that scenes may name, as plain values: the program that reads a scene says which it knows.
+//! Tables of the laws that scenes may name, as plain values supplied by the program.
 
-/// Admissible values of a parameter; all are finite.
+/// Admissible values of a parameter; all of them are finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bound {
     /// Above zero.
@@ -13,7 +13,8 @@ pub enum Bound {
     BelowReference,
 }
 
-/// Friction laws that the program knows. Those whose strength depends on the slip rate, and their forms, belong to the language.
+/// Friction laws known to the program. Laws whose strength depends on the slip rate, and their forms, are built into the scene
+/// language and not listed here.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Laws {
     /// Kinds of law with an elastic domain.
@@ -27,9 +28,9 @@ pub struct Laws {
 pub struct EvolutionRow {
     /// Name.
     pub name: &'static str,
-    /// Parameters that this evolution has and others have not.
+    /// Parameters specific to this evolution.
     pub parameters: Vec<ParameterRow>,
-    /// Reason why it has one state variable, where it may not have several.
+    /// Reason why only one state variable is admitted; `None` if several are.
     pub one_state: Option<&'static str>,
     /// True if memories act on the logarithm of θ, through 1/b.
     pub of_logarithm: bool,
@@ -42,15 +43,15 @@ pub struct EvolutionRow {
 pub struct KindRow {
     /// Name.
     pub name: &'static str,
-    /// Parameters, all of them needed.
+    /// Parameters, all required.
     pub parameters: Vec<ParameterRow>,
     /// True if `f_limit` may cap the strength.
     pub capped: bool,
-    /// Order of two parameters.
+    /// Required order of two parameters, if any.
     pub order: Option<OrderRow>,
 }
 
-/// Order of two parameters.
+/// Required order of two parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OrderRow {
     /// Index of the lower one.
@@ -59,7 +60,7 @@ pub struct OrderRow {
     pub upper: usize,
     /// True if they may be equal.
     pub equal: bool,
-    /// Remedy where they are not in this order.
+    /// Suggested remedy if the order is violated.
     pub help: &'static str,
 }
 
@@ -72,7 +73,7 @@ pub struct ParameterRow {
     pub bound: Bound,
     /// True if it may be left out.
     pub optional: bool,
-    /// A usual value, as in scenes.
+    /// A typical value, as written in scenes.
     pub example: &'static str,
 }
 
@@ -93,7 +94,7 @@ impl Laws {
         self.evolutions.iter().map(|row| row.name)
     }
 
-    /// Returns the evolution that has a parameter alone.
+    /// Returns the evolution to which a parameter is specific.
     pub(super) fn owner(&self, key: &str) -> Option<&'static str> {
         let owns = |row: &&EvolutionRow| row.parameters.iter().any(|p| p.key == key);
         self.evolutions.iter().find(owns).map(|row| row.name)

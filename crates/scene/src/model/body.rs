@@ -1,4 +1,4 @@
-//! Materials, bodies and meshes as a scene declares them.
+//! Materials, bodies and meshes as declared in a scene.
 
 use super::stress::InitialStress;
 use crate::exact::{self, Exactly};
@@ -14,7 +14,7 @@ use serde::de::{
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Idealisations a scene can name.
+/// Idealisations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 pub enum Kinematics {
     /// Two-dimensional, ε_zz = 0.
@@ -23,10 +23,10 @@ pub enum Kinematics {
     /// Two-dimensional, σ_zz = 0; a sheet of thickness 1 m.
     #[serde(rename = "plane-stress")]
     PlaneStress,
-    /// x is the radius, y the axis of revolution; over the full circle.
+    /// x is the radius and y the axis of revolution; quantities are for the full circle.
     #[serde(rename = "axisymmetric")]
     Axisymmetric,
-    /// Two-dimensional, u_z(x, y) alone.
+    /// Two-dimensional, with the single displacement u_z(x, y).
     #[serde(rename = "antiplane")]
     Antiplane,
     /// Three-dimensional.
@@ -41,7 +41,7 @@ impl Kinematics {
         if self == Self::ThreeD { 3 } else { 2 }
     }
 
-    /// In words.
+    /// Name in words.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -54,7 +54,7 @@ impl Kinematics {
     }
 }
 
-/// An isotropic material: elastic, and perhaps plastic or viscous.
+/// An isotropic material: elastic, optionally plastic or viscous.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
@@ -73,7 +73,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// True if the stress follows from the strain alone, linearly.
+    /// True if the stress is a linear function of the strain alone.
     #[must_use]
     pub fn is_elastic(&self) -> bool {
         self.plasticity.is_none() && self.viscosity.is_none() && self.maxwell.is_none()
@@ -84,7 +84,7 @@ impl Material {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plasticity {
-    /// Initial yield stress Y0 \[Pa\]; not with a table.
+    /// Initial yield stress Y0; not with a table \[Pa\].
     #[serde(rename = "yield")]
     pub initial: Option<Spanned<Pressure>>,
     /// Hardening of the yield stress.
@@ -100,7 +100,7 @@ pub struct Plasticity {
     pub table: Option<Spanned<Vec<(f64, Pressure)>>>,
 }
 
-/// Hardenings that exist.
+/// Hardening laws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Hardening {
@@ -130,30 +130,30 @@ pub struct Branch {
 pub struct Body {
     /// Source of the mesh: exactly one of the [kinds of mesh](meshes.md).
     pub mesh: MeshSource,
-    /// Heights of the layers through which a plane mesh is extruded, in `"3d"` \[m\].
+    /// Coordinates of the layers through which a plane mesh is extruded, in `"3d"` \[m\].
     pub extrude: Option<Spanned<Vec<Length>>>,
     /// Name of a material, or a table of names by groups of cells: `{ lower = "a", upper = "b" }`.
     pub material: Spanned<MaterialChoice>,
     /// Treatment of the dilatation: `"standard"` (default) or `"b-bar"`.
     #[serde(default)]
     pub formulation: Option<Spanned<Formulation>>,
-    /// Size of strains: `"small"` (default) or `"finite"`.
+    /// Measure of strains: `"small"` (default) or `"finite"`.
     #[serde(default)]
     pub strain: Option<Spanned<Strain>>,
-    /// Stress at the start, tension positive: a list, or a [table](#stress-that-grows-with-depth); 0 where not given \[Pa\].
+    /// Initial stress, tension positive: a list, or a [table](#stress-that-grows-with-depth); default 0 \[Pa\].
     pub initial_stress: Option<Spanned<InitialStress>>,
-    /// Acceleration: plain numbers, one per axis of motion; needs `density` \[m/s2\].
+    /// Acceleration of gravity: plain numbers, one per axis of motion; needs `density` \[m/s2\].
     pub gravity: Option<Spanned<Vec<f64>>>,
 }
 
 impl Body {
-    /// True if large deformation is followed.
+    /// True if the body undergoes finite strain.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.strain.as_ref().is_some_and(|s| *s.get_ref() == Strain::Finite)
     }
 
-    /// Names of its materials: each with the group it belongs to, if any, and its place.
+    /// Names of the materials, each with its group of cells, if any, and its position in the file.
     pub fn materials(&self) -> impl Iterator<Item = (Option<&str>, &str, std::ops::Range<usize>)> {
         let (one, groups) = match self.material.get_ref() {
             MaterialChoice::One(name) => (Some((None, name.as_str(), self.material.span())), None),
@@ -169,7 +169,7 @@ impl Body {
 pub enum MaterialChoice {
     /// One for all cells.
     One(String),
-    /// By groups of cells.
+    /// One for each group of cells.
     ByGroup(BTreeMap<String, Spanned<String>>),
 }
 
@@ -201,19 +201,19 @@ impl<'de> Deserialize<'de> for MaterialChoice {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Formulation {
-    /// As the shape functions give it.
+    /// Standard: integrated as the shape functions give it.
     Standard,
-    /// Projected cell by cell: does not lock near incompressibility.
+    /// Projected in each cell; avoids locking near incompressibility.
     BBar,
 }
 
-/// Sizes of strain.
+/// Measures of strain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Strain {
-    /// On the reference geometry.
+    /// Infinitesimal, on the reference geometry.
     Small,
-    /// Updated Lagrangian, Jaumann rate of the Kirchhoff stress.
+    /// Finite: updated Lagrangian, Jaumann rate of the Kirchhoff stress.
     Finite,
 }
 
@@ -241,15 +241,15 @@ pub struct BlockMesh {
     pub min: Spanned<Vec<Length>>,
     /// Upper corner \[m\].
     pub max: Spanned<Vec<Length>>,
-    /// Size of the cells; it must divide each edge \[m\].
+    /// Size of the cells; must divide each edge \[m\].
     pub size: Option<Spanned<Length>>,
     /// Number of cells along each axis.
     pub divisions: Option<Spanned<Vec<usize>>>,
-    /// Sizes of cells along each axis \[m\].
+    /// Sizes of the cells along each axis \[m\].
     pub spacing: Option<Spanned<Vec<Spanned<SpacingSpec>>>>,
-    /// With `size` or `divisions`: last cell over first cell along each axis; absent: 1 \[-\].
+    /// With `size` or `divisions`: ratio of the last cell size to the first along each axis; absent: 1 \[-\].
     pub grading: Option<Spanned<Vec<f64>>>,
-    /// Curved sides by their names.
+    /// Curved sides by name.
     #[serde(default)]
     pub curves: BTreeMap<String, Spanned<CurveSpec>>,
     /// Name of the element, such as `"quad4"`.
@@ -262,9 +262,9 @@ pub struct BlockMesh {
 pub struct CurveSpec {
     /// Shape.
     pub kind: Spanned<CurveKind>,
-    /// Radius of curvature at the apex \[m\], positive where the body is convex.
+    /// Radius of curvature at the apex, positive if the body is convex \[m\].
     pub radius: Spanned<Length>,
-    /// Line along which the side touches that of the block.
+    /// Line along which the side touches the straight side of the block.
     pub apex: Spanned<Apex>,
 }
 
@@ -278,20 +278,20 @@ pub enum CurveKind {
     Circle,
 }
 
-/// Coordinates of an apex along the axes a side bends over.
+/// Coordinates of an apex along the axes over which a side curves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Apex {
-    /// \[m\].
+    /// Coordinate x \[m\].
     pub x: Option<Length>,
-    /// \[m\].
+    /// Coordinate y \[m\].
     pub y: Option<Length>,
-    /// \[m\].
+    /// Coordinate z \[m\].
     pub z: Option<Length>,
 }
 
 impl Apex {
-    /// By axis.
+    /// Coordinate along an axis.
     #[must_use]
     pub fn along(&self, axis: usize) -> Option<Length> {
         [self.x, self.y, self.z][axis]
@@ -308,7 +308,7 @@ pub struct QuadrilateralMesh {
     /// Number of cells from left to right and from bottom to top.
     #[serde(deserialize_with = "exact::list")]
     pub divisions: Spanned<[usize; 2]>,
-    /// Last cell over first cell in both directions; absent: 1 \[-\].
+    /// Ratio of the last cell size to the first in both directions; absent: 1 \[-\].
     #[serde(default, deserialize_with = "exact::optional")]
     pub grading: Option<Spanned<[f64; 2]>>,
     /// Name of the element, such as `"quad4"`.
@@ -322,10 +322,10 @@ pub struct FaultMesh {
     /// Vertices of the fault from tip to tip, `[[x, y], ..]`, y up; monotonic in y \[m\].
     #[serde(deserialize_with = "exact::many")]
     pub trace: Spanned<Vec<[Length; 2]>>,
-    /// Line between the vertices: `"spline"` (default), a smooth curve, or `"polyline"`, straight lines with corners.
+    /// Curve through the vertices: `"spline"` (default), a smooth curve, or `"polyline"`, straight lines with corners.
     #[serde(default)]
     pub interpolation: InterpolationSpec,
-    /// Sizes of cells along the fault, in one of the three forms above; distances are measured from the first vertex \[m\].
+    /// Sizes of the cells along the fault, in one of the three forms above; distances are measured from the first vertex \[m\].
     pub spacing: Spanned<SpacingSpec>,
     /// Thickness of the first cells across the fault; default: the smallest size along it \[m\].
     pub thickness: Option<Spanned<Length>>,
@@ -341,39 +341,39 @@ pub struct FaultMesh {
     pub element: Spanned<String>,
 }
 
-/// The line between the vertices of a trace.
+/// Curve through the vertices of a trace.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum InterpolationSpec {
     /// A smooth curve.
     #[default]
     Spline,
-    /// Straight lines, which meet in corners.
+    /// Straight lines that meet in corners.
     Polyline,
 }
 
-/// Sizes along a fault.
+/// Cell sizes along a fault.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SpacingSpec {
-    /// One size \[m\].
+    /// Constant size \[m\].
     Constant(Length),
-    /// One size within a zone, growing beyond.
+    /// Constant size within a zone, growing beyond it.
     Zone(Zone),
-    /// Sizes at distances along the fault \[m\].
+    /// Pairs of distance along the fault and size \[m\].
     Graded(Vec<[Length; 2]>),
 }
 
-/// A zone of constant size along a fault.
+/// A zone of constant cell size along a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Zone {
-    /// Size within \[m\].
+    /// Size within the zone \[m\].
     pub size: Length,
-    /// Begin along the fault \[m\].
+    /// Start of the zone along the fault \[m\].
     pub from: Length,
-    /// End \[m\].
+    /// End of the zone along the fault \[m\].
     pub to: Length,
-    /// Largest ratio of neighbouring sizes beyond \[-\].
+    /// Largest ratio of neighbouring sizes beyond the zone \[-\].
     pub ratio: f64,
 }
 
@@ -414,34 +414,34 @@ impl<'de> Deserialize<'de> for SpacingSpec {
     }
 }
 
-/// A mesh read from a file of Gmsh.
+/// A mesh read from a Gmsh file.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GmshMesh {
     /// Path, relative to the folder of the scene.
     pub file: Spanned<String>,
-    /// Physical groups of cells the body consists of; absent: all cells.
+    /// Physical groups of cells that form the body; absent: all cells.
     pub groups: Option<Spanned<Vec<Spanned<String>>>>,
     /// Unit of length of the file, default `"m"`.
     pub unit: Option<Spanned<String>>,
-    /// Names for groups by their numbers.
+    /// Numbers of groups by name.
     #[serde(default)]
     pub tags: BTreeMap<String, Spanned<TagSpec>>,
-    /// Named surfaces inside the body that become two sides, `BODY.NAME.minus` and `BODY.NAME.plus`.
+    /// Named surfaces inside the body along which it is split into two sides, `BODY.NAME.minus` and `BODY.NAME.plus`.
     #[serde(default)]
     pub split: Vec<Spanned<String>>,
 }
 
-/// The number of a group.
+/// Number of a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TagSpec {
     /// Number of the physical group, or N of a group named `material-id:N`.
     pub tag: i64,
-    /// Dimension of its elements; absent: groups of this number on every dimension.
+    /// Dimension of its elements; absent: groups of this number of every dimension.
     pub dimension: Option<usize>,
 }
 
-/// The long form.
+/// Number of a group as a table.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct TagTable {
@@ -489,13 +489,13 @@ impl<'de> Deserialize<'de> for TagSpec {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AbaqusMesh {
-    /// The file, relative to the scene's folder.
+    /// Path, relative to the folder of the scene.
     pub file: Spanned<String>,
-    /// Element sets the body consists of; absent: all elements.
+    /// Element sets that form the body; absent: all elements.
     pub elsets: Option<Spanned<Vec<Spanned<String>>>>,
-    /// Unit of length of the file; absent: m.
+    /// Unit of length of the file, default `"m"`.
     pub unit: Option<Spanned<String>>,
-    /// Named internal surfaces along which the mesh is split.
+    /// Named surfaces inside the body along which it is split into two sides, `BODY.NAME.minus` and `BODY.NAME.plus`.
     #[serde(default)]
     pub split: Vec<Spanned<String>>,
 }

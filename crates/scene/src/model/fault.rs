@@ -1,4 +1,4 @@
-//! Faults through earthquake cycles as a scene declares them.
+//! Faults as declared in a scene, for simulations of earthquake cycles.
 
 use super::LawSpec;
 use crate::shape::{Either, shaped};
@@ -10,7 +10,7 @@ use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 
-/// A fault: two sides at one place that slide past each other; their jump is the unknown.
+/// A fault: two coincident sides that slide past each other. Their displacement jump is the unknown.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fault {
@@ -23,40 +23,40 @@ pub struct Fault {
     /// Values of `a`, `b`, `l`, `normal` or `shear` along the fault.
     #[serde(default)]
     pub profiles: Profiles,
-    /// Normal traction at the start, compression positive; absent where the initial stress of the bodies gives it \[Pa\].
+    /// Initial normal traction, compression positive; absent: given by the initial stress of the bodies \[Pa\].
     pub normal: Option<Spanned<Pressure>>,
-    /// Slip rate of all points at the start; its sign is the sense of slip \[m/s\].
+    /// Initial slip rate of all points; its sign is the sense of slip \[m/s\].
     pub rate: Spanned<Velocity>,
-    /// Shear traction at the start, of the sign of `rate`; absent: that of the law's initial steady state \[Pa\].
+    /// Initial shear traction, of the sign of `rate`; absent: that of the law's initial steady state \[Pa\].
     pub shear: Option<Spanned<Pressure>>,
     /// Radiation damping η, or `"radiation"`; absent: none \[Pa s/m\].
     pub damping: Option<Spanned<DampingSpec>>,
-    /// Part of the fault that slips at a given rate.
+    /// Part of the fault that slips at an imposed rate.
     pub creep: Option<Creep>,
-    /// In space: direction of slip `[x, y, z]`, of any length; its part along the fault counts.
+    /// In space: direction of slip `[x, y, z]`, of any length; only its component along the fault counts.
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub rake: Option<Spanned<[f64; 3]>>,
-    /// In space: slip `"along-rake"` (default) or `"free"`, with a direction that may turn.
+    /// In space: `"along-rake"` (default), or `"free"` for slip whose direction may turn.
     pub slip: Option<Spanned<SlipSpec>>,
-    /// Fluid that enters at one position and diffuses along the fault.
+    /// Fluid injected at one position that diffuses along the fault.
     pub injection: Option<Injection>,
     /// Treatment of less than one point per cohesive zone: `"refuse"` (default) or `"allow"`.
     pub under_resolved: Option<Spanned<UnderResolved>>,
     /// `false`: slip and loads do not change normal tractions; default `true`.
     pub normal_changes: Option<Spanned<bool>>,
-    /// Smallest normal traction that friction uses \[Pa\].
+    /// Smallest normal traction used by friction \[Pa\].
     pub normal_floor: Option<Spanned<Pressure>>,
-    /// `true`: the sides separate where no compression is left; needs `normal_floor`; default `false`.
+    /// `true`: the sides separate where there is no compression; needs `normal_floor`; default `false`.
     pub opening: Option<Spanned<bool>>,
 }
 
-/// Treatment of a fault whose points stand farther apart than the cohesive zone is long.
+/// Treatment of a fault whose points are farther apart than the length of the cohesive zone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum UnderResolved {
     /// The scene is refused.
     Refuse,
-    /// It runs with a warning.
+    /// The scene runs with a warning.
     Allow,
 }
 
@@ -66,11 +66,11 @@ pub enum UnderResolved {
 pub enum SlipSpec {
     /// Along `rake`; slip across it is held at zero.
     AlongRake,
-    /// Along the shear traction, wherever it points in the fault; along `rake` at the start.
+    /// Along the shear traction, whatever its direction in the fault; along `rake` at the start.
     Free,
 }
 
-/// Parameters that vary along a fault; their value in the law, or beside it, is not used then.
+/// Parameters that vary along a fault. Their values in the law or in the fault are then not used.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Profiles {
@@ -80,13 +80,13 @@ pub struct Profiles {
     pub b: Option<Profiled>,
     /// Characteristic slip L \[m\]; laws with one state variable.
     pub l: Option<Profiled>,
-    /// Normal traction at the start \[Pa\].
+    /// Initial normal traction \[Pa\].
     pub normal: Option<Profiled>,
-    /// Shear traction at the start \[Pa\].
+    /// Initial shear traction \[Pa\].
     pub shear: Option<Profiled>,
 }
 
-/// A parameter as one profile or the largest of several.
+/// A parameter as one profile, or as the maximum of several.
 #[derive(Clone, Debug)]
 pub struct Profiled(pub Vec<Profile>);
 
@@ -114,13 +114,13 @@ impl<'de> Deserialize<'de> for Profiled {
     }
 }
 
-/// A parameter along a fault.
+/// A profile of a parameter along a fault.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Profile {
-    /// Its dependence.
+    /// Coordinate on which the parameter depends.
     pub along: Spanned<Along>,
-    /// Pairs of place \[m\] and value in SI, the places ascending: linear between, constant beyond.
+    /// Pairs of position \[m\] and value in SI units, with ascending positions; linear in between, constant beyond.
     #[serde(deserialize_with = "crate::exact::pairs")]
     pub points: Spanned<Vec<(Length, f64)>>,
 }
@@ -139,42 +139,42 @@ pub enum Along {
     Distance,
 }
 
-/// The part of a fault that slips at a given rate.
+/// The part of a fault that slips at an imposed rate.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Creep {
-    /// Distance along a plane fault from its upper end beyond which it does \[m\].
+    /// Distance along a plane fault from its upper end beyond which the slip rate is imposed \[m\].
     pub beyond: Option<Spanned<Length>>,
-    /// The part outside which it does.
+    /// Ranges of coordinates outside which the slip rate is imposed.
     pub outside: Option<Spanned<Outside>>,
     /// Slip rate \[m/s\].
     pub rate: Spanned<Velocity>,
-    /// Direction of the slip rate where slip may turn, of any length; absent: that of the fault.
+    /// Direction of the slip rate if the direction of slip may turn, of any length; absent: that of the fault.
     #[serde(default, deserialize_with = "crate::exact::optional")]
     pub rake: Option<Spanned<[f64; 3]>>,
 }
 
-/// Ranges of coordinates within which, in all of them, a fault slides freely.
+/// Ranges of coordinates. A fault slides freely within all of them.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Outside {
-    /// Of x.
+    /// Range of x.
     pub x: Option<Extent>,
-    /// Of y.
+    /// Range of y.
     pub y: Option<Extent>,
-    /// Of z.
+    /// Range of z.
     pub z: Option<Extent>,
 }
 
 impl Outside {
-    /// By axis.
+    /// Ranges by axis.
     #[must_use]
     pub fn ranges(&self) -> [Option<Extent>; 3] {
         [self.x, self.y, self.z]
     }
 }
 
-/// A range of a coordinate; its ends do not belong to it, and an end that is not given does not bound it.
+/// An open range of a coordinate; an absent end leaves it unbounded.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Extent {
@@ -228,13 +228,13 @@ impl<'de> Deserialize<'de> for Station {
     }
 }
 
-/// Fluid injected at one place of a fault at a steady flux.
+/// Fluid injected at one position of a fault at constant flux.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Injection {
     /// Distance along the fault \[m\].
     pub at: Spanned<Length>,
-    /// Volume per area of the cross section and time, both ways; negative: extraction \[m/s\].
+    /// Volume per cross-sectional area and time, in both directions together; negative: extraction \[m/s\].
     pub flux: Spanned<Velocity>,
     /// Hydraulic diffusivity \[m²/s\].
     pub diffusivity: Spanned<f64>,
@@ -242,11 +242,11 @@ pub struct Injection {
     pub porosity: Spanned<f64>,
     /// Compressibility of fluid and pores \[1/Pa\].
     pub compressibility: Spanned<f64>,
-    /// End of the injection; absent: never \[s\].
+    /// End of the injection; absent: no end \[s\].
     pub until: Option<Spanned<Time>>,
 }
 
-/// Radiation damping: a number, or from the material.
+/// Radiation damping: a number, or derived from the material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DampingSpec {
     /// η \[Pa s/m\].

@@ -1,11 +1,11 @@
-//! Place and time of the events of a scene.
+//! Geographical position and time of the events of a scene.
 
 use crate::spanned::Spanned;
 use crate::units::{Angle, Length};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Place and time, with which catalogues are written as those of real events.
+/// Geographical position and time, for catalogues in the formats of real events.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Place {
@@ -30,7 +30,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// In space: the directions up and along the strike, of any length.
+    /// In space: the directions up and along strike, of any length.
     #[must_use]
     pub fn axes(&self) -> ([f64; 3], [f64; 3]) {
         let of = |given: &Option<Spanned<[f64; 3]>>, other| given.as_ref().map_or(other, |v| *v.get_ref());

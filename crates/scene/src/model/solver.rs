@@ -1,4 +1,4 @@
-//! The table `[solver]`: how the linear systems of the steps are solved.
+//! The table `[solver]`: solution of the linear systems of the steps.
 
 use super::Spanned;
 use crate::units::Memory;
@@ -14,17 +14,17 @@ pub struct Solver {
     pub method: Option<Spanned<Method>>,
     /// Memory limit of the solver; default `"8 GiB"`.
     pub memory: Option<Spanned<Memory>>,
-    /// Iterative: residual of a solution over its load, 1e-14 to 1e-2, default 1e-10 \[-\].
+    /// Iterative: admissible residual of a solution over its load, 1e-14 to 1e-2, default 1e-10 \[-\].
     pub tolerance: Option<Spanned<f64>>,
-    /// Iterative: largest number of iterations of a solution, default 2000.
+    /// Iterative: largest number of iterations per solution, default 2000.
     pub most_iterations: Option<Spanned<usize>>,
 }
 
-/// Methods that exist.
+/// Methods of solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// Direct where it fits into the memory; else iterative for linear bodies in space without interfaces.
+    /// Direct if it fits into memory; otherwise iterative for linear bodies in space without interfaces.
     #[default]
     Auto,
     /// Factorisation.
@@ -34,7 +34,7 @@ pub enum Method {
 }
 
 impl Solver {
-    /// The method.
+    /// Method, with its default.
     #[must_use]
     pub fn method(&self) -> Method {
         self.method.as_ref().map(|m| *m.get_ref()).unwrap_or_default()

@@ -1,4 +1,4 @@
-//! The stress that a body starts with.
+//! Initial stress of a body.
 
 use crate::shape::{Either, shaped};
 use crate::spanned::Spanned;
@@ -9,17 +9,17 @@ use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 
-/// The stress of a body at the start, tension positive.
+/// Initial stress of a body, tension positive.
 #[derive(Clone, Debug)]
 pub enum InitialStress {
-    /// The same everywhere: [xx, yy, xy], in antiplane motion [yz, zx], or [xx, yy, zz, xy, yz, zx] \[Pa\].
+    /// Uniform components: [xx, yy, xy], in antiplane motion [yz, zx], or [xx, yy, zz, xy, yz, zx] \[Pa\].
     Uniform(Vec<Pressure>),
     /// Varying along an axis.
     Varying(Box<VaryingStress>),
 }
 
 impl InitialStress {
-    /// True if it has components in the plane.
+    /// True if the stress has components in the plane.
     #[must_use]
     pub fn presses(&self) -> bool {
         !matches!(self, Self::Uniform(values) if values.len() <= 2)
@@ -30,29 +30,30 @@ impl InitialStress {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VaryingStress {
-    /// Its source.
+    /// Source.
     pub kind: Spanned<StressKind>,
     /// Linear: the axis.
     pub along: Option<Spanned<Axis>>,
-    /// Lithostatic: height of the upper end, along the axis of `gravity`. Linear: coordinate at which the stress is `stress` \[m\].
+    /// Lithostatic: coordinate of the upper end along the axis of `gravity`. Linear: coordinate at which the stress is `stress`
+    /// \[m\].
     pub level: Option<Spanned<Length>>,
-    /// Linear: components at the level, as those of a uniform stress \[Pa\].
+    /// Linear: components at the level, in the order of a uniform stress \[Pa\].
     pub stress: Option<Spanned<Vec<Pressure>>>,
-    /// Linear: change of the components per length along the axis \[Pa/m\].
+    /// Linear: gradient of the components along the axis \[Pa/m\].
     pub gradient: Option<Spanned<Vec<Gradient>>>,
     /// Ratio of the stress in all horizontal directions to the vertical stress \[-\].
     pub k0: Option<Spanned<f64>>,
-    /// Vertical pressure at the level, from layers above that are other bodies; default 0 \[Pa\].
+    /// Vertical pressure at the level from overlying layers that are other bodies; default 0 \[Pa\].
     pub overburden: Option<Spanned<Pressure>>,
 }
 
-/// Source of a stress that varies.
+/// Source of a varying stress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum StressKind {
-    /// Its value at a level and its gradient.
+    /// Value at a level and gradient.
     Linear,
-    /// The weight of what lies above.
+    /// Weight of the overlying material.
     Lithostatic,
 }
 
@@ -60,11 +61,11 @@ pub enum StressKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Axis {
-    /// The first.
+    /// First axis.
     X,
-    /// The second.
+    /// Second axis.
     Y,
-    /// The third.
+    /// Third axis.
     Z,
 }
 

@@ -1,4 +1,4 @@
-//! Format of the course of a quantity over time: a value, a table, or a sine.
+//! Reading of the course of a quantity over time: a constant, a table, or a sine.
 
 use crate::entry::Entry;
 use crate::model::Spanned;
@@ -16,9 +16,9 @@ use std::marker::PhantomData;
 pub enum Course<Q> {
     /// Constant.
     Constant(Q),
-    /// Piecewise linear, with steps where two entries have one time.
+    /// Piecewise linear; two entries at the same time make a jump.
     Table(Vec<Spanned<Entry<Q>>>),
-    /// Around a mean.
+    /// Sine around a mean.
     Sine {
         /// Mean.
         mean: Q,
@@ -26,12 +26,12 @@ pub enum Course<Q> {
         amplitude: Q,
         /// Period \[s\].
         period: Spanned<Time>,
-        /// Time of a rising crossing of the mean \[s\].
+        /// Time at which the sine crosses its mean upwards \[s\].
         start: Option<Time>,
     },
 }
 
-/// The keys of a course that is no constant.
+/// Keys of a course that is not constant.
 #[derive(serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct CourseTable<Q> {

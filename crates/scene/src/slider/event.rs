@@ -1,20 +1,20 @@
-//! Thresholds of events.
+//! Definition of events by thresholds of the slip rate.
 
 use crate::spanned::Spanned;
 use crate::units::Velocity;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Events.
+/// Definition of events.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EventSpec {
-    /// Slip rate above which an event begins; on faults, of the fastest point \[m/s\].
+    /// Slip rate above which an event begins; on faults, that of the fastest point \[m/s\].
     pub above: Spanned<Velocity>,
-    /// Slip rate below which it ends; default: a tenth of `above` \[m/s\].
+    /// Slip rate below which an event ends; default: a tenth of `above` \[m/s\].
     pub below: Option<Spanned<Velocity>>,
-    /// Events after which the run ends; of sliders, those of the first by name.
+    /// Number of events after which the run ends; with several sliders, events of the first by name.
     pub stop_after: Option<Spanned<usize>>,
-    /// Of sliders, true if the extremes of the slip rate are located; default `true`.
+    /// Sliders: `true` locates the extremes of the slip rate; default `true`.
     pub peaks: Option<bool>,
 }

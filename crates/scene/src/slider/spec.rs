@@ -1,4 +1,4 @@
-//! A scene of spring-sliders as a value: what its file says, in SI units, before any decision is taken.
+//! A scene of spring-sliders as a value: the contents of its file in SI units, before any decision is made.
 
 use super::course::Course;
 use super::event::EventSpec;
@@ -17,14 +17,14 @@ use std::fmt;
 pub struct SliderScene {
     /// Version of the scene format; 1.
     pub schema: Spanned<u32>,
-    /// Title, shown in reports: one line of characters that can be seen.
+    /// Title shown in reports: one line of printable characters.
     #[serde(deserialize_with = "crate::title::read")]
     pub title: String,
     /// "spring-slider".
     pub kinematics: Spanned<String>,
     /// Load point.
     pub load: Option<Load>,
-    /// Sliders by name, in the order of the names.
+    /// Sliders by name, in alphabetical order.
     #[serde(default)]
     pub sliders: BTreeMap<String, Spanned<SliderSpec>>,
     /// Springs between sliders.
@@ -34,7 +34,7 @@ pub struct SliderScene {
     pub time: SliderTime,
     /// Events.
     pub events: Option<EventSpec>,
-    /// Rows of histories.
+    /// Rows of the histories.
     pub output: Option<OutputSpec>,
 }
 
@@ -42,7 +42,7 @@ pub struct SliderScene {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// Its rate \[m/s\].
+    /// Rate of the load point \[m/s\].
     pub rate: Spanned<Course<Velocity>>,
 }
 
@@ -50,19 +50,19 @@ pub struct Load {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SliderSpec {
-    /// Friction.
+    /// Friction law.
     pub law: Spanned<LawSpec>,
     /// Normal traction f_n \[Pa\].
     pub normal: Spanned<Course<Pressure>>,
-    /// Stiffness k to the load point \[Pa/m\].
+    /// Stiffness k of the spring to the load point \[Pa/m\].
     pub stiffness: Option<Spanned<Spring>>,
     /// Radiation damping η \[Pa s/m\].
     pub damping: Option<Spanned<Damping>>,
     /// Mass per area M \[kg/m²\].
     pub mass: Option<Spanned<Mass>>,
-    /// Slip rate at time 0 \[m/s\]; without it that of the law's initial steady state.
+    /// Slip rate at time 0; absent: that of the law's initial steady state \[m/s\].
     pub start: Option<Spanned<Velocity>>,
-    /// Slip rate at all times \[m/s\], where it is imposed.
+    /// Imposed slip rate at all times \[m/s\].
     pub rate: Option<Spanned<Course<Velocity>>>,
 }
 
@@ -84,33 +84,34 @@ pub struct SliderTime {
     pub end: Spanned<Time>,
     /// Method: `"switching"` (default), `"dop853"`, `"radau5"`, `"tsit5"`, `"bdf"`, `"tr-bdf2"`, `"esdirk34"` or `"tsit45"`.
     pub method: Option<Spanned<String>>,
-    /// Error of ln V, and of the states to the same effect, allowed in a step, 1e-14 to 0.1; default 1e-8 \[-\].
+    /// Admissible error of ln V per step, and of the states to the same effect, 1e-14 to 0.1; default 1e-8 \[-\].
     pub tolerance: Option<Spanned<f64>>,
     /// First step; absent: chosen from the rates \[s\].
     pub first_step: Option<Spanned<Time>>,
     /// Largest step; absent: unlimited \[s\].
     pub max_step: Option<Spanned<Time>>,
-    /// Steps after which the run is given up; default 20 000 000.
+    /// Largest number of steps, after which the run is given up; default 20 000 000.
     pub most_steps: Option<Spanned<usize>>,
 }
 
-/// Rows of histories.
+/// Rows of the histories.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutputSpec {
-    /// Change of ln V after which a row is written, or a twentieth of it of friction; default 0.05 without `times` and `interval` \[-\].
+    /// Change of ln V after which a row is written, or of friction by a twentieth of it; default 0.05 without `times` and
+    /// `interval` \[-\].
     pub change: Option<Spanned<f64>>,
     /// Times of rows, ascending \[s\].
     pub times: Option<Spanned<Vec<Spanned<Time>>>>,
-    /// Interval of rows, from time 0 \[s\].
+    /// Interval between rows, from time 0 \[s\].
     pub interval: Option<Spanned<Time>>,
     /// Histories: `false` for none, or a list of sliders; default all.
     pub histories: Option<Which>,
-    /// True if the extremes of the slip rate are located and written without `[events]`; default `false`.
+    /// `true`: the extremes of the slip rate are located and written even without `[events]`; default `false`.
     pub extremes: Option<Spanned<bool>>,
 }
 
-/// All, none, or those named.
+/// All sliders, none, or those named.
 #[derive(Clone, Debug)]
 pub enum Which {
     /// All or none.
