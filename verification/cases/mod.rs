@@ -32,6 +32,7 @@
 
 use crate::Case;
 
+mod absence;
 mod antiplane;
 mod block_dragged;
 pub mod bodies;
@@ -127,6 +128,7 @@ mod wavy_sliding;
 
 /// Every case, in the order of the report.
 pub const ALL: &[Case] = &[
+    absence::CASE,
     antiplane::CASE,
     block_dragged::CASE,
     bodies_convergence::CASE,

@@ -5,13 +5,15 @@
     reason = "a program speaks through its standard streams"
 )]
 
+use asperity_driver::cli::{self, Arguments};
 use asperity_verification::case::Outcome;
 use asperity_verification::report::{self, provenance::Provenance};
 use asperity_verification::suite::{Selection, Summary};
 use asperity_verification::{Verdict, cases};
 use clap::Parser;
 use std::error::Error;
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -27,14 +29,34 @@ struct Options {
     /// Folder of the report.
     #[arg(long, value_name = "DIR", default_value = "target/verify")]
     out: PathBuf,
+    /// Run this scene as the `asperity` program does, without plots, instead of the suite. For tools that measure a process.
+    #[arg(long, hide = true, value_name = "FILE")]
+    scene: Option<PathBuf>,
 }
 
 fn main() -> ExitCode {
-    match suite(&Options::parse()) {
+    let options = Options::parse();
+    if let Some(scene) = &options.scene {
+        return run_scene(scene, &options.out);
+    }
+    match suite(&options) {
         Ok(summary) if summary.passes() => ExitCode::SUCCESS,
         Ok(_) => ExitCode::FAILURE,
         Err(error) => {
             eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run_scene(scene: &Path, out: &Path) -> ExitCode {
+    let words = ["asperity", "run", "--no-plots", "--force", "--out"].map(OsStr::new);
+    let arguments = Arguments::parse_from(words.into_iter().chain([out.as_os_str(), scene.as_os_str()]));
+    match cli::execute(&arguments) {
+        Ok(cli::End::Done) => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::from(2),
+        Err(error) => {
+            eprintln!("error: {error:?}");
             ExitCode::FAILURE
         }
     }

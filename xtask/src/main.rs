@@ -42,10 +42,13 @@ enum Chore {
         /// Only defects with this in their names.
         #[arg(value_name = "PART")]
         only: Option<String>,
-        /// Run only the cases that a defect names, instead of the quick suite.
+        /// Run only the cases that a defect names, and not the quick suite where these do not notice it.
         #[arg(long)]
         expected: bool,
-        /// Run defects again that have a result.
+        /// Run the tests of the workspace, too.
+        #[arg(long)]
+        tests: bool,
+        /// Run defects again that were noticed before.
         #[arg(long)]
         again: bool,
     },
@@ -64,8 +67,8 @@ fn main() -> ExitCode {
     let result = match Options::parse().chore {
         Chore::Verify { full, case } => verify(&root, full, case.as_deref()),
         Chore::Tidy => tidy(&root),
-        Chore::Defects { only, expected, again } => {
-            defects::run(&root, &defects::Choice { only, expected, again })
+        Chore::Defects { only, expected, tests, again } => {
+            defects::run(&root, &defects::Choice { only, expected, tests, again })
         }
         Chore::Bench => Stage::new("bench", "cargo").args(["bench", "-p", "asperity-benches"]).run(&root),
         Chore::Report => report::print(&root),

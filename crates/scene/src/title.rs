@@ -8,9 +8,9 @@ pub(super) fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String,
     // `is_control` does not cover the line and paragraph separators.
     let unseen = |c: &char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}' | '\u{fffe}' | '\u{ffff}');
     match title.chars().find(unseen) {
-        Some('\n' | '\r' | '\u{2028}' | '\u{2029}') => Err(de::Error::custom(
-            "the title has more than one line; it is one line of printable characters",
-        )),
+        Some('\n' | '\r' | '\u{2028}' | '\u{2029}') => {
+            Err(de::Error::custom("the title has more than one line; it is one line of printable characters"))
+        }
         Some(c) => Err(de::Error::custom(format!(
             "the title has the control character U+{:04X}; it is one line of printable characters",
             u32::from(c)

@@ -4,18 +4,21 @@ mod definition;
 mod outcome;
 
 pub use definition::{Defect, FOLDER};
+pub use outcome::{Outcome, RESULTS, Results};
 
 use crate::stage::{Failure, announce};
-use outcome::{Outcome, Status};
+use outcome::Status;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 use walkdir::WalkDir;
 
-/// Folder of the copy, its binaries and the results.
+/// Folder of the copy and its binaries.
 const PLACE: &str = "target/defects";
-/// Time after which a command in a copy with a defect is killed: the quick suite takes a quarter of it.
+/// Time after which a build or the quick suite is killed: the suite takes a quarter of it.
 const LONGEST: Duration = Duration::from_secs(1800);
+/// Time after which a quick case is killed: without a defect the longest takes a quarter of it.
+const LONGEST_CASE: Duration = Duration::from_secs(240);
 /// Interval of looks at a command.
 const LOOK: Duration = Duration::from_millis(200);
 
@@ -23,19 +26,20 @@ const LOOK: Duration = Duration::from_millis(200);
 pub struct Choice {
     /// Part of the names of the defects; all where absent.
     pub only: Option<String>,
-    /// Run only the cases that a defect names, instead of the quick suite.
+    /// Run only the cases that a defect names, and not the quick suite where these do not notice it.
     pub expected: bool,
-    /// Run defects again that have a result.
+    /// Run the tests of the workspace, too.
+    pub tests: bool,
+    /// Run defects again that were noticed before.
     pub again: bool,
 }
 
-/// Makes the defects one after the other, and prints which claims notice them. Results are kept, so that a run that was interrupted resumes.
+/// Makes the defects one after the other, and prints which claims notice them. Each result is kept in [`RESULTS`] at once, so
+/// that a run that was interrupted resumes.
 pub fn run(root: &Path, choice: &Choice) -> Result<(), Failure> {
     let place = root.join(PLACE);
-    let tree = place.join("tree");
-    let results = place.join("results");
-    create(&results)?;
-    copy(root, &tree)?;
+    let commit = commit(root)?;
+    copy(root, &place.join("tree"))?;
     announce("defects: the tree without defect");
     if !ends_well(&mut build(&place))? {
         return Err(Failure::Defect { name: "none".into(), reason: "the tree does not build".into() });
@@ -43,14 +47,13 @@ pub fn run(root: &Path, choice: &Choice) -> Result<(), Failure> {
     let chosen = |defect: &Defect| choice.only.as_ref().is_none_or(|part| defect.name.contains(part));
     let mut found = Vec::new();
     for defect in Defect::all(root)?.into_iter().filter(chosen) {
-        let file = results.join(format!("{}.json", defect.name));
-        let known = Outcome::read(&file).filter(|_| !choice.again);
+        let known = Results::read(root)?.take(&defect.name).filter(|o| o.is_noticed() && !choice.again);
         let outcome = match known {
             Some(outcome) => outcome,
             None => {
                 announce(&format!("defect: {}", defect.name));
-                let outcome = plant(root, &place, &defect, choice.expected)?;
-                outcome.write(&file)?;
+                let outcome = Outcome { commit: commit.clone(), ..plant(&place, &defect, choice)? };
+                Results::read(root)?.with(&defect.name, outcome.clone()).write(root)?;
                 outcome
             }
         };
@@ -66,8 +69,9 @@ pub fn run(root: &Path, choice: &Choice) -> Result<(), Failure> {
 }
 
 /// Makes a defect in the copy, builds and verifies it, and takes it back.
-fn plant(root: &Path, place: &Path, defect: &Defect, expected: bool) -> Result<Outcome, Failure> {
+fn plant(place: &Path, defect: &Defect, choice: &Choice) -> Result<Outcome, Failure> {
     let tree = place.join("tree");
+    let mut sound = Vec::new();
     for change in &defect.change {
         let path = tree.join(&change.file);
         let text = read(&path)?;
@@ -76,63 +80,110 @@ fn plant(root: &Path, place: &Path, defect: &Defect, expected: bool) -> Result<O
             reason: format!("its old text does not occur exactly once in {}", change.file),
         })?;
         write(&path, &changed)?;
+        sound.push((path, text));
     }
-    let outcome = verify(place, defect, expected);
-    for change in &defect.change {
-        write(&tree.join(&change.file), &read(&root.join(&change.file))?)?;
+    let outcome = verify(place, defect, choice);
+    // In reverse: of two changes of one file, the text before the first is the sound one.
+    for (path, text) in sound.iter().rev() {
+        write(path, text)?;
     }
     outcome
 }
 
-/// Builds the copy, and runs its quick suite or the cases the defect names.
-fn verify(place: &Path, defect: &Defect, expected: bool) -> Result<Outcome, Failure> {
+/// Builds the copy and runs the cases that the defect names; then, where these do not notice it, the quick suite.
+fn verify(place: &Path, defect: &Defect, choice: &Choice) -> Result<Outcome, Failure> {
+    let mut outcome = Outcome::default();
     if !ends_well(&mut build(place))? {
-        return Ok(Outcome { status: Status::DoesNotBuild, noticed: Vec::new() });
+        outcome.status = Status::DoesNotBuild;
+        return Ok(outcome);
     }
-    let mut outcome = Outcome { status: Status::Ran, noticed: Vec::new() };
-    let cases: Vec<Option<&str>> = match expected && !defect.expected.is_empty() {
-        true => defect.expected.iter().map(|case| Some(case.as_str())).collect(),
-        false => vec![None],
-    };
-    for case in cases {
-        let report = place.join("report");
-        let mut suite = Command::new(place.join("build/release/asperity-verification"));
-        suite.current_dir(place.join("tree")).arg("--out").arg(&report).stdout(Stdio::null());
-        if let Some(case) = case {
-            suite.args(["--case", case]);
-        }
-        if ends(&mut suite)?.is_none() {
-            outcome.status = Status::DoesNotEnd;
-            continue;
-        }
-        outcome.add(&report.join("report.json"))?;
+    for case in &defect.expected {
+        suite(place, Some(case), &mut outcome)?;
+        outcome.cases.push(case.clone());
+    }
+    if !outcome.is_noticed() && !choice.expected {
+        suite(place, None, &mut outcome)?;
+        outcome.cases.clear();
+    }
+    if choice.tests {
+        outcome.tests = Some(failing_tests(place)?);
     }
     Ok(outcome)
 }
 
+/// Runs a case, or all quick ones, in the copy.
+fn suite(place: &Path, case: Option<&str>, outcome: &mut Outcome) -> Result<(), Failure> {
+    let report = place.join("report");
+    let mut suite = Command::new(place.join("build/release/asperity-verification"));
+    suite.current_dir(place.join("tree")).arg("--out").arg(&report).stdout(Stdio::null());
+    if let Some(case) = case {
+        suite.args(["--case", case]);
+    }
+    if ends(&mut suite, if case.is_some() { LONGEST_CASE } else { LONGEST })?.is_none() {
+        outcome.status = Status::DoesNotEnd;
+        return Ok(());
+    }
+    outcome.add(&report.join("report.json"))
+}
+
+/// Names of the tests of the workspace that fail in the copy.
+fn failing_tests(place: &Path) -> Result<Vec<String>, Failure> {
+    let output = cargo(place, &["test", "--workspace", "--no-fail-fast"])
+        .output()
+        .map_err(|source| Failure::Start { program: "cargo".into(), source })?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    let failed = |line: &str| Some(line.strip_prefix("test ")?.strip_suffix(" ... FAILED")?.to_owned());
+    Ok(text.lines().filter_map(failed).collect())
+}
+
 fn build(place: &Path) -> Command {
-    let mut cargo = Command::new("cargo");
-    cargo.current_dir(place.join("tree"));
-    cargo.env("CARGO_TARGET_DIR", place.join("build")).env("CARGO_INCREMENTAL", "1");
-    cargo.args(["build", "--quiet", "--release", "-p", "asperity-verification"]);
-    cargo.args(["--config", "profile.release.incremental=true"]);
+    let mut cargo = cargo(place, &["build", "--quiet", "-p", "asperity-verification"]);
     cargo.stdout(Stdio::null()).stderr(Stdio::null());
     cargo
 }
 
+/// Cargo in the copy, in the profile that builds soonest after a change.
+fn cargo(place: &Path, arguments: &[&str]) -> Command {
+    let mut cargo = Command::new("cargo");
+    cargo.current_dir(place.join("tree"));
+    cargo.env("CARGO_TARGET_DIR", place.join("build")).env("CARGO_INCREMENTAL", "1");
+    cargo.args(arguments).arg("--release");
+    for setting in [
+        "profile.release.incremental=true",
+        "profile.release.package.asperity-driver.opt-level=1",
+        "profile.release.package.asperity-verification.opt-level=0",
+    ] {
+        cargo.args(["--config", setting]);
+    }
+    cargo
+}
+
+/// The commit of the sources, with `+` where they were changed.
+fn commit(root: &Path) -> Result<String, Failure> {
+    let git = |arguments: &[&str]| {
+        let output = Command::new("git").current_dir(root).args(arguments).output();
+        output.map_err(|source| Failure::Start { program: "git".into(), source })
+    };
+    let hash = git(&["rev-parse", "--short=12", "HEAD"])?;
+    let changed =
+        git(&["status", "--porcelain", "--untracked-files=no", "--", "crates", "verification/cases"])?;
+    let mark = if changed.stdout.is_empty() { "" } else { "+" };
+    Ok(format!("{}{mark}", String::from_utf8_lossy(&hash.stdout).trim()))
+}
+
 fn ends_well(command: &mut Command) -> Result<bool, Failure> {
-    Ok(ends(command)? == Some(true))
+    Ok(ends(command, LONGEST)? == Some(true))
 }
 
 /// True if the command succeeds; none if it was killed because it took too long.
-fn ends(command: &mut Command) -> Result<Option<bool>, Failure> {
+fn ends(command: &mut Command, longest: Duration) -> Result<Option<bool>, Failure> {
     let program = command.get_program().to_string_lossy().into_owned();
     let mut child = command.spawn().map_err(|source| Failure::Start { program, source })?;
     let begun = Instant::now();
     loop {
         match child.try_wait() {
             Ok(Some(status)) => return Ok(Some(status.success())),
-            Ok(None) if begun.elapsed() < LONGEST => std::thread::sleep(LOOK),
+            Ok(None) if begun.elapsed() < longest => std::thread::sleep(LOOK),
             Ok(None) | Err(_) => {
                 // A child that has just ended cannot be killed, which does no harm.
                 let _ = child.kill();

@@ -3,13 +3,18 @@
 use crate::stage::Failure;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::path::Path;
 
+/// File of the results, from the root of the workspace.
+pub const RESULTS: &str = "verification/defects/results.json";
+
 /// The end of building and running the suite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// It ran.
+    #[default]
     Ran,
     /// It does not build.
     DoesNotBuild,
@@ -29,27 +34,74 @@ pub struct Noticed {
 }
 
 /// The result of a defect.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
+    /// Commit of the sources.
+    pub commit: String,
     /// End of the run.
     pub status: Status,
+    /// Cases that ran; empty for all quick ones.
+    pub cases: Vec<String>,
     /// Claims that disagree.
     pub noticed: Vec<Noticed>,
+    /// Tests that fail; none where they were not run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tests: Option<Vec<String>>,
+}
+
+/// Results by the names of the defects.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Results(BTreeMap<String, Outcome>);
+
+impl Results {
+    /// Reads the results that the workspace keeps; none where there is no file.
+    pub fn read(root: &Path) -> Result<Self, Failure> {
+        let path = root.join(RESULTS);
+        match std::fs::read_to_string(&path) {
+            Ok(text) => Self::parse(&text).map_err(|source| Failure::Report { path, source }),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(Self::default()),
+            Err(source) => Err(Failure::Read { path, source }),
+        }
+    }
+
+    /// Reads results from their text.
+    pub fn parse(text: &str) -> Result<Self, serde_json::Error> {
+        serde_json::from_str(text)
+    }
+
+    /// The result of a defect.
+    pub fn get(&self, name: &str) -> Option<&Outcome> {
+        self.0.get(name)
+    }
+
+    /// The result of a defect, taken out.
+    pub fn take(mut self, name: &str) -> Option<Outcome> {
+        self.0.remove(name)
+    }
+
+    /// Names of the defects.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.keys().map(String::as_str)
+    }
+
+    /// These with the result of a defect.
+    #[must_use]
+    pub fn with(mut self, name: &str, outcome: Outcome) -> Self {
+        self.0.insert(name.to_owned(), outcome);
+        self
+    }
+
+    /// Keeps them in the workspace.
+    pub fn write(&self, root: &Path) -> Result<(), Failure> {
+        let path = root.join(RESULTS);
+        let text = serde_json::to_string_pretty(self)
+            .map_err(|source| Failure::Report { path: path.clone(), source })?;
+        std::fs::write(&path, text + "\n").map_err(|source| Failure::Read { path, source })
+    }
 }
 
 impl Outcome {
-    /// A result that was kept.
-    pub fn read(path: &Path) -> Option<Self> {
-        serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
-    }
-
-    /// Keeps the result.
-    pub fn write(&self, path: &Path) -> Result<(), Failure> {
-        let text = serde_json::to_string_pretty(self)
-            .map_err(|source| Failure::Report { path: path.to_owned(), source })?;
-        std::fs::write(path, text).map_err(|source| Failure::Read { path: path.to_owned(), source })
-    }
-
     /// True if a claim disagrees.
     pub fn is_noticed(&self) -> bool {
         !self.noticed.is_empty()
@@ -96,7 +148,7 @@ fn disagreeing(report: &Value) -> Vec<Noticed> {
             };
             found.push(Noticed {
                 case: case["name"].as_str().unwrap_or_default().to_owned(),
-                claim: claim["claim"]["quantity"].as_str().unwrap_or_default().to_owned(),
+                claim: claim["quantity"].as_str().unwrap_or_default().to_owned(),
                 margin,
             });
         }
@@ -106,23 +158,23 @@ fn disagreeing(report: &Value) -> Vec<Noticed> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Outcome, Status, disagreeing};
+    use super::{Outcome, disagreeing};
     use serde_json::json;
 
     #[test]
     fn claims_that_disagree_are_found_with_their_margin() {
         let measured = json!({ "error": 3.0, "bound": 0.5 });
-        let holds = json!({ "verdict": "holds", "measured": measured, "claim": { "quantity": "p" } });
-        let off = json!({ "verdict": "disagrees", "measured": measured, "claim": { "quantity": "q" } });
+        let holds = json!({ "verdict": "holds", "measured": measured, "quantity": "p" });
+        let off = json!({ "verdict": "disagrees", "measured": measured, "quantity": "q" });
         let found = disagreeing(&json!({ "cases": [{ "name": "hertz_line", "claims": [holds, off] }] }));
-        let outcome = Outcome { status: Status::Ran, noticed: found };
+        let outcome = Outcome { noticed: found, ..Outcome::default() };
         assert!(outcome.is_noticed());
         assert_eq!(outcome.words(), "hertz_line: 1 (6.0e0)");
     }
 
     #[test]
     fn a_defect_that_no_claim_notices_says_so() {
-        let outcome = Outcome { status: Status::Ran, noticed: Vec::new() };
+        let outcome = Outcome::default();
         assert_eq!(outcome.words(), "NOT NOTICED");
     }
 }

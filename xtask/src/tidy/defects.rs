@@ -1,16 +1,42 @@
-//! Planted defects still fit the source: each text that they change occurs once, and each case that they name exists.
+//! Planted defects still fit the source: each text that they change occurs once, and each case that they name exists. Each was
+//! noticed by a claim when it was last run.
 
 use super::problem::Problem;
 use super::tree::File;
-use crate::defects::{Defect, FOLDER};
+use crate::defects::{Defect, FOLDER, Outcome, RESULTS, Results};
 
 /// Checks the defects against the files of the workspace.
 pub fn check(files: &[File]) -> Vec<Problem> {
-    let mut found = Vec::new();
+    let mut found = outcomes(files);
     for file in files.iter().filter(|f| f.path.starts_with(FOLDER) && f.path.ends_with(".toml")) {
         match Defect::read(&file.path, &file.text) {
             Ok(defect) => found.extend(misfits(&defect, files)),
             Err(error) => found.push(Problem::new(&file.path, 0, format!("no defect: {}", error.message()))),
+        }
+    }
+    found
+}
+
+/// Checks that the kept results are those of the defects, and that each was noticed.
+fn outcomes(files: &[File]) -> Vec<Problem> {
+    let text = files.iter().find(|f| f.path == RESULTS).map_or("{}", |f| f.text.as_str());
+    let results = match Results::parse(text) {
+        Ok(results) => results,
+        Err(error) => return vec![Problem::new(RESULTS, error.line(), format!("no results: {error}"))],
+    };
+    let path = |name: &str| format!("{FOLDER}/{name}.toml");
+    let exists = |name: &str| files.iter().any(|f| f.path == path(name));
+    let mut found = Vec::new();
+    for name in results.names().filter(|name| !exists(name)) {
+        found.push(Problem::new(RESULTS, 0, format!("there is no defect `{name}`")));
+    }
+    for file in files {
+        let name = file.path.strip_prefix(FOLDER).and_then(|p| p.strip_prefix('/')?.strip_suffix(".toml"));
+        let noticed = |name| results.get(name).is_some_and(Outcome::is_noticed);
+        if name.is_some_and(|name| !noticed(name)) {
+            let message =
+                "no claim has noticed it: run `cargo xtask defects`, and add a claim where none does";
+            found.push(Problem { warning: true, ..Problem::new(&file.path, 0, message) });
         }
     }
     found
@@ -42,6 +68,12 @@ mod tests {
     use super::{File, check};
 
     fn problems(old: &str, case: &str) -> usize {
+        let outcome = r#"{ "commit": "", "status": "ran", "cases": [],
+            "noticed": [{ "case": "hertz_line", "claim": "p", "margin": 2.0 }] }"#;
+        with_results(old, case, &format!("{{ \"d\": {outcome} }}"))
+    }
+
+    fn with_results(old: &str, case: &str, results: &str) -> usize {
         let file = |path: &str, text: &str| File { path: path.into(), text: text.into() };
         let defect = format!(
             "wrong = \"w\"\nwhy = \"y\"\nexpected = [\"{case}\"]\n[[change]]\nfile = \"a.rs\"\nold = \"{old}\"\nnew = \"n\"\n"
@@ -50,6 +82,7 @@ mod tests {
             file("a.rs", "one two two\n"),
             file("verification/cases/hertz_line/README.md", "# Hertz\n"),
             file("verification/defects/d.toml", &defect),
+            file("verification/defects/results.json", results),
         ];
         check(&files).len()
     }
@@ -60,5 +93,14 @@ mod tests {
         assert_eq!(problems("three", "hertz_line"), 1);
         assert_eq!(problems("two", "hertz_line"), 1);
         assert_eq!(problems("one", "hertz"), 1);
+    }
+
+    #[test]
+    fn a_defect_that_was_not_noticed_and_a_result_of_none_are_found() {
+        let outcome = r#"{ "commit": "", "status": "ran", "cases": [], "noticed": [] }"#;
+        assert_eq!(with_results("one", "hertz_line", "{}"), 1);
+        assert_eq!(with_results("one", "hertz_line", &format!("{{ \"d\": {outcome} }}")), 1);
+        assert_eq!(with_results("one", "hertz_line", &format!("{{ \"e\": {outcome} }}")), 2);
+        assert_eq!(with_results("one", "hertz_line", "[]"), 1);
     }
 }

@@ -1,0 +1,70 @@
+//! Instructions of a run by source file, counted by callgrind.
+
+use crate::CaseError;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// Instructions executed in the source files of the workspace: paths from its root, such as `crates/contact/src/shear.rs`.
+pub type Instructions = BTreeMap<String, u64>;
+
+/// True if callgrind can be started.
+pub fn is_installed() -> bool {
+    let version =
+        Command::new("valgrind").arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+    version.is_ok_and(|status| status.success())
+}
+
+/// Runs a scene under callgrind, in a process of its own. The report of the run is left in `folder`.
+///
+/// # Errors
+/// If the run fails or its counts cannot be read.
+pub fn run(scene: &str, folder: &Path) -> Result<Instructions, CaseError> {
+    std::fs::create_dir_all(folder)?;
+    let (file, counts) = (folder.join("scene.toml"), folder.join("callgrind.out"));
+    std::fs::write(&file, scene)?;
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--compress-strings=no", "--compress-pos=no"])
+        .arg(format!("--callgrind-out-file={}", counts.display()))
+        .arg(std::env::current_exe()?)
+        .arg("--scene")
+        .arg(&file)
+        .arg("--out")
+        .arg(folder.join("out"))
+        .env("RAYON_NUM_THREADS", "1")
+        .output()?;
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());
+    }
+    Ok(read(&std::fs::read_to_string(&counts)?))
+}
+
+/// Sums the costs of an output of callgrind by file. Code that was inlined counts for the file it was written in.
+///
+/// Cost lines are `line cost`, after a line `fl=`, `fi=` or `fe=` that names their file. A line after `calls=` holds the cost
+/// of a call, which is counted where it arises. Instructions of line 0 belong to no line of the source.
+fn read(text: &str) -> Instructions {
+    let mut sums = Instructions::new();
+    let (mut file, mut is_call) = (None, false);
+    for line in text.lines() {
+        if let Some(path) = ["fl=", "fi=", "fe="].iter().find_map(|key| line.strip_prefix(key)) {
+            file = of_workspace(path);
+        } else if line.starts_with("calls=") {
+            is_call = true;
+        } else if line.starts_with(|c: char| c.is_ascii_digit()) {
+            let mut numbers = line.split(' ').map(|word| word.parse::<u64>().unwrap_or(0));
+            let (place, cost) = (numbers.next().unwrap_or(0), numbers.next().unwrap_or(0));
+            if let Some(name) = file.filter(|_| !is_call && place > 0) {
+                *sums.entry(name.to_owned()).or_default() += cost;
+            }
+            is_call = false;
+        }
+    }
+    sums
+}
+
+/// The path from the root of the workspace, of a file of its crates.
+fn of_workspace(path: &str) -> Option<&str> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent()?.to_str()?;
+    path.strip_prefix(root)?.strip_prefix('/').or(Some(path)).filter(|p| p.starts_with("crates/"))
+}

@@ -1,0 +1,117 @@
+//! A scene costs nothing for what it does not declare: instructions by source file, and bytes of state.
+
+mod callgrind;
+mod scenes;
+mod terms;
+
+use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use callgrind::Instructions;
+use rayon::prelude::*;
+use scenes::Declared;
+use std::path::{Path, PathBuf};
+use terms::Term;
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "absence",
+    readme: include_str!("README.md"),
+    covers: &[Capability::Scenes],
+    quick: true,
+    run,
+};
+
+const SOURCE: &str = "what is not declared is not computed";
+
+/// Measured run of a scene.
+struct Measured {
+    scene: Declared,
+    instructions: Instructions,
+    state: Option<u64>,
+    cost: Cost,
+}
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let scenes = scenes::all()?;
+    if !callgrind::is_installed() {
+        ledger.not_covered("instructions by source file", "callgrind (valgrind) is not installed");
+        return Ok(());
+    }
+    let folder = std::env::temp_dir().join(format!("asperity-absence-{}", std::process::id()));
+    let runs: Vec<Result<Measured, CaseError>> = scenes
+        .into_par_iter()
+        .enumerate()
+        .map(|(i, scene)| measure(scene, &folder.join(i.to_string())))
+        .collect();
+    let removed = std::fs::remove_dir_all(&folder);
+    // The scenes that ran are judged even if another did not.
+    for run in runs.iter().flatten() {
+        claims(ledger, run);
+    }
+    let measured = runs.into_iter().collect::<Result<Vec<Measured>, CaseError>>()?;
+    table(ledger, &measured);
+    Ok(removed?)
+}
+
+fn measure(scene: Declared, folder: &Path) -> Result<Measured, CaseError> {
+    let (instructions, cost) = Cost::of(|| callgrind::run(&scene.text, folder));
+    let instructions = instructions.map_err(|e| format!("{}: {e}", scene.name))?;
+    let state = state_bytes(folder.join("out/report.json"))?;
+    Ok(Measured { scene, instructions, state, cost })
+}
+
+/// Bytes of friction state that a report states; none where bodies do not touch.
+fn state_bytes(report: PathBuf) -> Result<Option<u64>, CaseError> {
+    let report: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(report)?)?;
+    Ok(report["plan"]["state_bytes"].as_u64())
+}
+
+fn claims(ledger: &mut Ledger, run: &Measured) {
+    let name = run.scene.name;
+    let (declared, absent): (Vec<Term>, Vec<Term>) =
+        Term::ALL.iter().partition(|t| run.scene.terms.contains(t));
+    let instructions = |term: &Term| term.instructions(&run.instructions);
+    let names: Vec<&str> = absent.iter().map(|t| t.name()).collect();
+    ledger
+        .claim(format!("{name}: instructions of terms that are not declared"))
+        .norm(format!("sum over {}", names.join(", ")))
+        .count(absent.iter().map(instructions).sum(), 0)
+        .evidence(Evidence::Exact, SOURCE)
+        .because("an absent term has no code to run")
+        .cost(&run.cost)
+        .record();
+    // Without this control, counts that were not read would pass as zeros.
+    let least = declared.iter().map(instructions).min().unwrap_or(0);
+    ledger
+        .claim(format!("{name}: instructions of terms that are declared"))
+        .norm("the least of them")
+        .value(least as f64)
+        .at_least(100.0)
+        .evidence(Evidence::Exact, "what is declared is computed")
+        .because("a term with points and steps takes hundreds of instructions, and more")
+        .why_not_tighter("it tells something from nothing")
+        .cost(&run.cost)
+        .record();
+    if let Some(expected) = run.scene.state {
+        ledger
+            .claim(format!("{name}: bytes of friction state"))
+            .unit("B")
+            .count(run.state.unwrap_or(0), expected)
+            .evidence(Evidence::Exact, "sixteen bytes for each state variable of each point")
+            .because("bytes are whole numbers")
+            .cost(&run.cost)
+            .record();
+    }
+}
+
+fn table(ledger: &mut Ledger, runs: &[Measured]) {
+    let head: Vec<&str> = ["scene"].into_iter().chain(Term::ALL.iter().map(|t| t.name())).collect();
+    let cell = |run: &Measured, term: &Term| match term.instructions(&run.instructions) {
+        0 => "0".to_owned(),
+        count => format!("{:.2e}", count as f64),
+    };
+    let row = |run: &Measured| {
+        let cells = Term::ALL.iter().map(|term| cell(run, term));
+        std::iter::once(run.scene.name.to_owned()).chain(cells).collect::<Vec<String>>()
+    };
+    ledger.table("Instructions by term", &head, runs.iter().map(row));
+}
