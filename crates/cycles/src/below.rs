@@ -1,4 +1,4 @@
-//! Use of floors of normal traction in a run.
+//! Use of the floors of normal traction during a run.
 
 use super::components::Components;
 use super::moment::Moment;
@@ -6,7 +6,7 @@ use super::problem::Problem;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Use of floors until now, point by point.
+/// Use of the floors so far, point by point.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Used {
     /// Time below the floor \[s\].
@@ -15,18 +15,18 @@ pub struct Used {
     slip: Vec<f64>,
     /// Lowest excess pressure of the bodies below it \[Pa\].
     below: Vec<f64>,
-    /// Events in which a point was below its floor.
+    /// Number of events during which a point was below its floor.
     events: usize,
-    /// True if one was in the event under way.
+    /// True if a point was below its floor in the current event.
     now: bool,
-    /// Whole slip \[m\].
+    /// Total slip \[m\].
     whole: Vec<f64>,
-    /// Whole time \[s\].
+    /// Total time \[s\].
     duration: f64,
 }
 
 impl Used {
-    /// Takes note of a step.
+    /// Adds an accepted step.
     pub(crate) fn step(&mut self, problem: &Problem, moment: &Moment<'_>, ended: bool) {
         let (Some(floor), Some(step)) = (&problem.fault.floor, &moment.step) else { return };
         let n = problem.areas.len();
@@ -43,7 +43,7 @@ impl Used {
             let missing = [step.start_pressed, moment.pressed].map(|pressed| least - pressed.bodies[p]);
             let slip = by.size(p);
             self.whole[p] += slip;
-            // Linear within the step.
+            // The excess pressure is taken as linear within the step.
             let share = match missing.map(|m| m > 0.0) {
                 [true, true] => 1.0,
                 [false, false] => continue,
@@ -62,7 +62,7 @@ impl Used {
         }
     }
 
-    /// Use of the floor of these points, which have the tributary areas `areas` among those of all.
+    /// Use of the floor at these points; `areas` holds the tributary areas of all points.
     #[must_use]
     pub fn of(&self, points: Range<usize>, areas: &[f64]) -> Below {
         let of = |list: &[f64], p: usize| list.get(p).copied().unwrap_or(0.0);
@@ -81,19 +81,19 @@ impl Used {
     }
 }
 
-/// Use of the floor of some points.
+/// Use of the floor at a set of points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Below {
-    /// Points that were below it at any time.
+    /// Number of points that were ever below it.
     pub points: usize,
-    /// The point that was below it for longest.
+    /// The point that was below it longest.
     pub longest: Option<usize>,
-    /// For what share of the time that was.
+    /// Share of the time which that point spent below it.
     pub time_share: f64,
-    /// Share of all slip, over the area, that came about below it.
+    /// Share of the total slip, integrated over the area, that took place below it.
     pub slip_share: f64,
     /// Lowest excess pressure of the bodies below it \[Pa\].
     pub deepest: f64,
-    /// Events, of all faults, in which any point was below.
+    /// Number of events, of all faults, during which any point was below it.
     pub events: usize,
 }

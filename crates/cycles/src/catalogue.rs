@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct Thresholds {
     /// Slip rate above which an event begins \[m/s\].
     pub on: f64,
-    /// Slip rate below which it ends, lower, so that an event is not counted twice \[m/s\].
+    /// Slip rate below which it ends \[m/s\]. It is lower than `on`, so that an event is not counted twice.
     pub off: f64,
 }
 
@@ -18,9 +18,9 @@ pub struct Thresholds {
 pub struct Event<D> {
     /// Time of onset.
     pub onset: Clock,
-    /// Time since the onset of the event before of the same source, which keeps digits that times far from zero have lost \[s\].
+    /// Time since the onset of the previous event of the same source \[s\]. It keeps digits that large absolute times lose.
     pub interval: Option<f64>,
-    /// Time of its end; none while it is under way.
+    /// Time of its end; none while it lasts.
     pub end: Option<Clock>,
     /// Largest slip rate \[m/s\].
     pub peak: f64,
@@ -29,21 +29,21 @@ pub struct Event<D> {
 }
 
 impl<D> Event<D> {
-    /// Time from onset to end; none while it is under way \[s\].
+    /// Time from onset to end \[s\]; none while it lasts.
     #[must_use]
     pub fn duration(&self) -> Option<f64> {
         self.end.map(|end| end.since(&self.onset))
     }
 }
 
-/// Events of several sources, each in the order of their onsets. A source has at most one event under way, its last.
+/// Events of several sources, each in the order of onset. Only the last event of a source may be unfinished.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Catalogue<D> {
     sources: Vec<Vec<Event<D>>>,
 }
 
 impl<D> Catalogue<D> {
-    /// No events yet, of this many sources.
+    /// Empty catalogue of this many sources.
     #[must_use]
     pub fn new(sources: usize) -> Self {
         Self { sources: (0..sources).map(|_| Vec::new()).collect() }
@@ -55,31 +55,31 @@ impl<D> Catalogue<D> {
         self.sources.len()
     }
 
-    /// Events of a source, that under way among them.
+    /// Events of a source, including an unfinished one.
     #[must_use]
     pub fn of(&self, source: usize) -> &[Event<D>] {
         &self.sources[source]
     }
 
-    /// Events of a source that have ended.
+    /// Finished events of a source.
     #[must_use]
     pub fn ended(&self, source: usize) -> &[Event<D>] {
         let events = self.of(source);
         &events[..events.len() - usize::from(self.under_way(source).is_some())]
     }
 
-    /// The event of a source that is under way.
+    /// The unfinished event of a source.
     #[must_use]
     pub fn under_way(&self, source: usize) -> Option<&Event<D>> {
         self.of(source).last().filter(|event| event.end.is_none())
     }
 
-    /// Events of all sources in the order of their onsets, each with its source.
+    /// Events of all sources in the order of onset, each with its source.
     #[must_use]
     pub fn in_order(&self) -> Vec<(usize, &Event<D>)> {
         let of = |(source, events)| std::iter::repeat(source).zip(events);
         let mut all: Vec<_> = self.sources.iter().enumerate().flat_map(of).collect();
-        // Stable: events of one instant stay in the order of their sources.
+        // A stable sort: simultaneous events stay in the order of their sources.
         all.sort_by(|a, b| a.1.onset.since(&b.1.onset).total_cmp(&0.0));
         all
     }
@@ -89,7 +89,7 @@ impl<D> Catalogue<D> {
         self.sources[source].last_mut().filter(|event| event.end.is_none())
     }
 
-    /// Begins an event of a source that has none under way.
+    /// Begins an event of a source that has no unfinished one.
     pub fn begin(&mut self, source: usize, onset: Clock, peak: f64, details: D) {
         let interval = self.of(source).last().map(|before| onset.since(&before.onset));
         self.sources[source].push(Event { onset, interval, end: None, peak, details });

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Values of one or several components at points, component by component: those of all points in the first component, then those of all
-/// points in the next.
+/// Values of one or several components at points, stored component by component: the first component at all points,
+/// then the second.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Components<V> {
     values: V,
@@ -47,7 +47,7 @@ impl<V: AsRef<[f64]>> Components<V> {
         self.all().iter().skip(point).step_by(self.points.max(1)).copied()
     }
 
-    /// Size of the vector at a point; of one component its absolute value.
+    /// Magnitude of the vector at a point; with one component, its absolute value.
     #[must_use]
     pub fn size(&self, point: usize) -> f64 {
         let mut components = self.at(point);
@@ -59,7 +59,7 @@ impl<V: AsRef<[f64]>> Components<V> {
     }
 }
 
-/// Values of several variables at points, point by point: all variables of the first point, then all variables of the next.
+/// Values of several variables at points, stored point by point: all variables of the first point, then all of the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PerPoint<'a> {
     values: &'a [f64],

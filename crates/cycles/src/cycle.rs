@@ -1,7 +1,7 @@
-//! Integration of a fault from change to change of its loading.
+//! Integration of a fault between changes of its loading.
 //!
-//! The integration restarts after each event and after every [`RESTART`] accepted steps, with or without a checkpoint. A run resumed
-//! there takes the same steps, bit for bit, as one that was never interrupted.
+//! The integration restarts after each event and after every [`RESTART`] accepted steps, with or without a checkpoint.
+//! A run resumed at a restart therefore takes the same steps, bit for bit, as an uninterrupted one.
 
 use super::catalogue::{Catalogue, Thresholds};
 use super::components::Components;
@@ -30,19 +30,19 @@ pub struct Settings {
     pub end: f64,
     /// Events.
     pub thresholds: Thresholds,
-    /// Events after which to end.
+    /// Number of events after which the run ends.
     pub most_events: Option<usize>,
-    /// Accepted steps after which to give up.
+    /// Number of accepted steps after which the run gives up.
     pub most_steps: usize,
 }
 
-/// Accepted steps after which the integration restarts: one evaluation of the rates more in about 1500.
+/// Number of accepted steps after which the integration restarts. It costs one more evaluation of the rates in about 1500.
 pub const RESTART: u64 = 256;
 
-/// Rounding of m, of states and of f_n over their size, beside the tolerance.
+/// Relative rounding of m, of the states and of f_n, added to the tolerance.
 const ROUNDING: f64 = 1e-15;
 
-/// Integrates `fault` from `unknowns` at time 0. An integration that fails is no error: the outcome says so.
+/// Integrates `fault` from `unknowns` at time 0. A failed integration is not an error; it is reported as the outcome.
 ///
 /// # Errors
 /// If the observer fails.
@@ -58,7 +58,7 @@ pub fn run(
     resume(fault, loading, run, settings, observer)
 }
 
-/// Resumes a run, see [`Observer::pause`]. One that had ended is returned as it is.
+/// Resumes a run, see [`Observer::pause`]. A run that had ended is returned unchanged.
 ///
 /// # Errors
 /// If the observer fails.
@@ -92,7 +92,7 @@ fn enough(run: &FaultRun, settings: &Settings) -> bool {
     settings.most_events.is_some_and(|most| run.events().len() >= most)
 }
 
-/// Times at which the rate of a load or of a pressure jumps, and the end \[s\].
+/// Times at which the rate of a load or of the pressure jumps, and the end of the run \[s\].
 fn breaks(fault: &Fault, loading: &Loading, end: f64) -> Vec<f64> {
     let mut times = loading.breaks(0.0, end);
     times.extend(fault.pressure.iter().flat_map(|p| p.breaks()).filter(|&t| t > 0.0 && t < end));
@@ -171,7 +171,7 @@ fn piece(
     let mut options = options.clone();
     if let Some(time) = equations.first_instants(run.at, &mut run.unknowns, &options.atol, duration) {
         run.at = run.at.later(time).rebased();
-        // Rates go as the root of the time since then: there is no longer scale in which they are smooth.
+        // Rates vary with the square root of the time since then, so no longer first step would be smooth.
         options.first_step = Some(time);
     }
     let duration = Clock::new(end, 0.0).since(&run.at);
@@ -185,7 +185,7 @@ fn piece(
     (run.outcome, run.at, run.unknowns) = (outcome, at, state);
     run.counts += counts;
     match &mut run.outcome {
-        // To the end exactly, so that no remainder needs another step.
+        // Exactly the end, so that no remainder needs another step.
         Outcome::Completed => (run.at, run.next_step) = (Clock::new(end, 0.0), None),
         Outcome::Failed { reason } => {
             if let Failure::TooManySteps { most } = reason {
@@ -198,11 +198,11 @@ fn piece(
     Ok(false)
 }
 
-/// Share of f_n at the start below which a point is about to open: the rate of friction there grows as 1/f_n and steps vanish before a
-/// stage has no pressure at all.
+/// Share of the initial f_n below which a point is about to open. The rate of friction grows as 1/f_n there, and steps
+/// become vanishingly short before f_n reaches zero.
 const NEARLY_OPEN: f64 = 1e-3;
 
-/// The point that is about to open, where one is.
+/// The point that is about to open, if any.
 fn nearly_open(fault: &Fault, run: &FaultRun) -> Option<usize> {
     let pressed = fault.pressed(run.at, &run.unknowns, &mut Crack::default());
     let share = |p: usize| pressed.normal[p] / fault.normal[p];
@@ -224,7 +224,7 @@ struct Follow<'a> {
     steps: u64,
     /// The step to try next.
     next_step: Option<NextStep>,
-    /// True if it was ended for a restart.
+    /// True if the integration ended for a restart.
     paused: bool,
     rate: Vec<f64>,
     shear: Vec<f64>,
@@ -238,7 +238,7 @@ struct Follow<'a> {
     pressed: Pressed,
 }
 
-/// Halvings of a step in search of the time a slip rate is passed: below the rounding of times.
+/// Number of halvings of a step in the search for the time at which a slip rate is passed; they reach the rounding of times.
 const MOST_HALVINGS: usize = 60;
 
 impl Follow<'_> {
@@ -252,7 +252,7 @@ impl Follow<'_> {
         0..self.equations.layout().points()
     }
 
-    /// The fastest of these points and its |V| \[m/s\].
+    /// The fastest of these points and its \|V\| \[m/s\].
     fn fastest(&self, rate: &[f64], among: Range<usize>) -> (usize, f64) {
         let rate = Components::new(rate, self.equations.layout().points());
         let mut best = (among.start, 0.0);
@@ -276,8 +276,9 @@ impl Follow<'_> {
         })
     }
 
-    /// Finds the time at which the fastest of these points passes a threshold within the step, and that point: by halving, since the fastest point
-    /// changes. Leaves the unknowns and the tractions of that time, and returns openings.
+    /// Finds the time within the step at which the fastest of these points passes a threshold, and that point. It
+    /// halves the interval, since the fastest point may change. The unknowns and tractions of that time are left in
+    /// place, and the openings are returned.
     fn locate(
         &mut self,
         step: &Step<'_>,
@@ -337,7 +338,7 @@ impl Follow<'_> {
 
 impl Sink for Follow<'_> {
     fn accepted(&mut self, step: &Step<'_>) -> Control {
-        // What was rejected before this step was a step too long.
+        // Earlier rejections were due to steps that were too long.
         self.equations.opened();
         let layout = self.equations.layout();
         let rates = step.rates.map(|dy| &dy[layout.slip()]);

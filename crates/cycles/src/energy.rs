@@ -1,19 +1,22 @@
-//! Works along a run: what becomes of the work that loads do on slip.
+//! Energy budget of a run: the work of the loads, and the forms of energy it turns into.
 //!
-//! Products of slip and tractions are those of vectors where slip turns. With areas A, slip s, friction f, the initial tractions and those of the loads together τ_l, and the stiffness S of the bodies at the
-//! jumps, `f + η V = τ_l - S s/A` times V, summed over points and integrated over time, is
+//! Products of slip and traction are dot products where slip has two directions. With areas A, slip s, friction f, the
+//! initial tractions and those of the loads together τ_l, and the stiffness S of the bodies at the jumps, `f + η V =
+//! τ_l - S s/A` times V, summed over points and integrated over time, is
 //!
 //! ```text
 //! ∫ Σ A τ_l V dt  =  s·S s/2  +  ∫ Σ A f V dt  +  ∫ Σ A η V² dt
 //!     loads           elastic         friction         radiated
 //! ```
 //!
-//! Openings o, where faults have them, add work: the loads, which take their normal tractions at the start and change them to N_l, and fluid of the pressure p do `∫ Σ A (p - N_l) do` as well, and the
-//! elastic energy is that of slip and of openings since the start.
+//! Openings o, where faults have them, add the work `∫ Σ A (p - N_l) do` of the fluid of pressure p and of the loads,
+//! which change the initial normal tractions to N_l. The elastic energy is then that of slip and of openings since the
+//! start.
 //!
-//! The integrals run over cubic polynomials with the values and rates of both ends of each step, for slip as for tractions; the elastic
-//! energy comes from slip through the operator. The integrator uses none of them, and the imbalance is an independent error
-//! kind: of slip, against the friction that was carried along.
+//! The integrals run over cubic polynomials with the values and rates of both ends of each step, for slip as for
+//! tractions; the elastic energy comes from slip through the operator. The integrator uses none of these integrals.
+//! Their imbalance is therefore an independent estimate of the error: that of slip against the friction that was
+//! integrated.
 
 use super::below::Used;
 use super::equations::{Fault, Layout, Pressed};
@@ -26,27 +29,28 @@ use asperity_ode::Clock;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Share of a step by which its end may lie beyond the end of an injection: rounding of times.
+/// Share of a step by which its end may lie beyond the end of an injection, owing to rounding of times.
 const ROUNDING: f64 = 1e-9;
 
 /// Energy budget \[J; J per metre of thickness in the plane; J/m² of spring-sliders\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Energy {
-    /// Work of the initial tractions and of the loads on slip.
+    /// Work done by the initial tractions and by the loads on slip.
     pub loads: f64,
     /// Energy that slip stores in the bodies or the springs.
     pub elastic: f64,
-    /// Work against friction.
+    /// Work done against friction.
     pub friction: f64,
-    /// Work against radiation damping.
+    /// Work done against radiation damping.
     pub radiated: f64,
-    /// Kinetic energy beyond that at the start.
+    /// Kinetic energy in excess of its initial value.
     #[serde(default, skip_serializing_if = "nothing")]
     pub kinetic: f64,
-    /// Work of fluid, of loads and of the normal tractions at the start on openings.
+    /// Work done on openings by the fluid, the loads and the initial normal tractions.
     #[serde(default, skip_serializing_if = "nothing")]
     pub opening: f64,
-    /// Sum of the absolute values of that work over steps: openings return the work they take.
+    /// Sum over steps of the absolute value of that work. Its net value is smaller, since closing returns the work of
+    /// opening.
     #[serde(default, skip_serializing_if = "nothing")]
     pub exchanged: f64,
 }
@@ -57,7 +61,7 @@ fn nothing(value: &f64) -> bool {
 }
 
 impl Energy {
-    /// Imbalance over the largest part \[-\].
+    /// Imbalance divided by the largest part \[-\].
     #[must_use]
     pub fn imbalance(&self) -> f64 {
         let moved = [self.kinetic, self.opening, self.exchanged];
@@ -70,7 +74,7 @@ impl Energy {
         lacks.abs() / largest
     }
 
-    /// Returns what was added after `before`.
+    /// Difference from an earlier budget.
     #[must_use]
     pub fn since(&self, before: &Self) -> Self {
         Self {
@@ -85,41 +89,43 @@ impl Energy {
     }
 }
 
-/// The run when an event had just ended.
+/// State of the run at the end of an event.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
     /// Time \[s\].
     pub time: f64,
-    /// Slip, where it may turn along the rake, over the area since the start \[m³; m²\].
+    /// Slip since the start integrated over the area \[m³; m²\]; where slip has two directions, its component along the
+    /// rake.
     pub potency: f64,
-    /// Works until then.
+    /// Energy budget up to then.
     pub energy: Energy,
 }
 
 /// Sums along a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sums {
-    /// Works until now; the elastic energy is not among them.
+    /// Energy budget so far, without the elastic energy.
     works: Energy,
-    /// One for each event.
+    /// State at the end of each event.
     marks: Vec<Mark>,
-    /// Changes of the loads passed.
+    /// Number of changes of the loads so far.
     leg: usize,
     /// Time of the last of them \[s\].
     since: f64,
-    /// Initial tractions and those of the loads then, component by component \[Pa\].
+    /// Sum of the initial tractions and those of the loads at that time, component by component \[Pa\].
     traction: Vec<f64>,
     /// Use of floors.
     floors: Used,
     /// Openings.
     #[serde(default)]
     opened: Opened,
-    /// Normal tractions at the start and those of the loads, at the last change of the loads, where points may open \[Pa\].
+    /// Sum of the initial normal tractions and those of the loads, at the last change of the loads, where points may
+    /// open \[Pa\].
     #[serde(default)]
     pressing: Vec<f64>,
 }
 
-/// Sums works along a run.
+/// Accumulates the energy budget of a run.
 #[derive(Debug)]
 pub struct Balance<'a> {
     problem: &'a Problem,
@@ -128,7 +134,7 @@ pub struct Balance<'a> {
     breaks: Vec<f64>,
     /// Rates of the loads' tractions now \[Pa/s\].
     rate: Vec<f64>,
-    /// The same of normal tractions.
+    /// Rates of the loads' normal tractions now \[Pa/s\].
     normal_rate: Vec<f64>,
     /// Openings at the start \[m\]; no values where no point may open.
     first: Vec<f64>,
@@ -139,7 +145,7 @@ pub struct Balance<'a> {
 }
 
 impl<'a> Balance<'a> {
-    /// From the start of a run.
+    /// Sums at the start of a run.
     #[must_use]
     pub fn new(problem: &'a Problem) -> Self {
         let fault = &problem.fault;
@@ -160,7 +166,7 @@ impl<'a> Balance<'a> {
         Self::resume(problem, Sums { traction, pressing, ..Sums::default() })
     }
 
-    /// Goes on with sums.
+    /// Sums of a resumed run.
     #[must_use]
     pub fn resume(problem: &'a Problem, sums: Sums) -> Self {
         let mut breaks = problem.loading.breaks(0.0, problem.settings.end);
@@ -182,31 +188,31 @@ impl<'a> Balance<'a> {
         balance
     }
 
-    /// The sums until now.
+    /// The sums so far.
     #[must_use]
     pub fn sums(&self) -> &Sums {
         &self.sums
     }
 
-    /// Use of floors until now.
+    /// Use of the floors so far.
     #[must_use]
     pub fn floors(&self) -> &Used {
         &self.sums.floors
     }
 
-    /// Openings until now.
+    /// Use of openings so far.
     #[must_use]
     pub fn opened(&self) -> &Opened {
         &self.sums.opened
     }
 
-    /// The run when each of its events had just ended.
+    /// State of the run at the end of each event.
     #[must_use]
     pub fn marks(&self) -> &[Mark] {
         &self.sums.marks
     }
 
-    /// Rates of the tractions of the present loads.
+    /// Sets the rates of the tractions of the current loads.
     fn load(&mut self) {
         let end = self.breaks.get(self.sums.leg).copied().unwrap_or(self.problem.settings.end);
         let within = 0.5 * (self.sums.since + end);
@@ -214,14 +220,14 @@ impl<'a> Balance<'a> {
         (self.rate, self.normal_rate) = self.problem.loading.rates(within, n, couples);
     }
 
-    /// Works at the end of a step, with the energy that `slip` and openings store.
+    /// Energy budget at the end of a step, with the elastic energy of `slip` and of the openings.
     pub fn energy(&mut self, slip: &[f64], opening: &[f64]) -> Energy {
         let apart: Vec<f64> = opening.iter().zip(&self.first).map(|(b, a)| b - a).collect();
         let elastic = elastic(self.problem, slip, &mut self.scratch) + parting(self.problem, slip, &apart);
         Energy { elastic, ..self.sums.works }
     }
 
-    /// Takes note of a step.
+    /// Adds an accepted step.
     pub fn step(&mut self, moment: &Moment<'_>) {
         if moment.step.is_some() {
             self.add(moment);
@@ -310,7 +316,7 @@ impl<'a> Balance<'a> {
         ends.map(|(time, y, dy)| fault.pressing(time, until, y, dy, &mut self.crack)).into()
     }
 
-    /// Work on openings over a step.
+    /// Work done on openings over a step.
     fn parted(&self, moment: &Moment<'_>, step: &Ends<'_>, pressing: &[[Vec<f64>; 2]]) -> f64 {
         let (Some(opening), [first, last]) = (&self.problem.fault.opening, pressing) else { return 0.0 };
         let (h, end) = (moment.dt, moment.at.seconds());
@@ -337,7 +343,7 @@ fn at_start(problem: &Problem) -> Pressed {
     problem.fault.pressed(Clock::new(0.0, 0.0), &problem.start, &mut Crack::default())
 }
 
-/// Energy that openings since the start store, beside that of slip: by themselves and by the tractions they cause on slip.
+/// Elastic energy of the openings since the start, including their interaction with slip.
 fn parting(problem: &Problem, slip: &[f64], apart: &[f64]) -> f64 {
     let Some(opening) = &problem.fault.opening else { return 0.0 };
     let (mut normal, mut shear) = (vec![0.0; problem.areas.len()], vec![0.0; slip.len()]);
@@ -349,7 +355,7 @@ fn parting(problem: &Problem, slip: &[f64], apart: &[f64]) -> f64 {
     own - on_slip
 }
 
-/// Energy that `slip` stores in the bodies.
+/// Elastic energy of `slip` in the bodies.
 fn elastic(problem: &Problem, slip: &[f64], traction: &mut [f64]) -> f64 {
     problem.fault.operator.shear(slip, traction);
     let areas = problem.areas.iter().cycle();
@@ -357,7 +363,7 @@ fn elastic(problem: &Problem, slip: &[f64], traction: &mut [f64]) -> f64 {
     work.sum()
 }
 
-/// Slip over a step of length 1: a cubic polynomial by its ends.
+/// Slip over a step of length 1, as the cubic polynomial given by its values and rates at the ends.
 #[derive(Clone, Copy, Debug)]
 struct Way {
     /// Slip over the step.
@@ -382,14 +388,14 @@ impl Way {
     }
 }
 
-/// Most iterations of [`steady`], in numbers of points.
+/// Largest number of iterations of [`steady`], per point.
 const MOST_ITERATIONS: usize = 10;
-/// Residual over that of the start at which [`steady`] ends: rounding of a few hundred sums.
+/// Ratio of the residual to its initial value at which [`steady`] ends: the rounding of a few hundred sums.
 const SMALL: f64 = 1e-12;
 
-/// Slip rates, component by component, under which the loads change no traction, where loads pull at constant rates and slip changes no normal
-/// traction: those of whole cycles in the mean \[m/s\]. By conjugate gradients, since the operator times areas is symmetric and negative
-/// definite.
+/// Slip rates at which the loads change no traction, component by component \[m/s\]: the mean rates over whole cycles.
+/// The loads must have constant rates, and slip must not change normal tractions. Solved by conjugate gradients, since
+/// the operator times areas is symmetric and negative definite.
 #[must_use]
 pub fn steady(problem: &Problem) -> Option<Vec<f64>> {
     let operator: &dyn Operator = problem.fault.operator.as_ref();

@@ -1,9 +1,11 @@
 //! The equations of a fault between two changes of its loading.
 //!
-//! With `τ̇ = A V + τ̇_load` and, where slip changes normal tractions, `ḟ_n = B V + ḟ_load`, each point is a slider without
-//! springs that feels the rate τ̇: [`asperity_friction::fault`], and [`asperity_friction::turning`] where slip has two directions. Unknowns:
-//! m = μ/a of all points, their states (point-major), their slip, and f_n where slip changes it. The tractions never stand as differences of large numbers, since m carries them. Pore pressure
-//! is a given function of time: it is taken off f_n, and its rate off df_n/dt, at the time of each stage. Openings are functions of f_n and add to both rates, see [`super::opening`].
+//! With `τ̇ = A V + τ̇_load` and, where slip changes normal tractions, `ḟ_n = B V + ḟ_load`, each point is a slider
+//! without springs that feels the rate τ̇: [`asperity_friction::fault`], and [`asperity_friction::turning`] where slip
+//! has two directions. Unknowns: m = μ/a of all points, their states (point-major), their slip, and f_n where slip
+//! changes it. Tractions are never differences of large numbers, since m carries them. Pore pressure is a given
+//! function of time: it is subtracted from f_n, and its rate from df_n/dt, at the time of each stage. Openings are
+//! functions of f_n and add to both rates, see [`super::opening`].
 
 use super::components::{Components, PerPoint};
 use super::floor::Floor;
@@ -15,7 +17,7 @@ use asperity_ode::{Clock, Problem};
 use std::cell::{Cell, RefCell};
 use std::ops::Range;
 
-/// A fault with its surroundings.
+/// A fault and the medium around it.
 #[derive(Debug)]
 pub struct Fault {
     /// Tractions that slip causes.
@@ -28,7 +30,7 @@ pub struct Fault {
     pub normal: Vec<f64>,
     /// Pressure of injected fluid, where there is any.
     pub pressure: Option<Pressure>,
-    /// Least normal traction that friction uses, where any point has one.
+    /// Smallest normal traction that friction uses, where any point has such a floor.
     pub floor: Option<Floor>,
     /// Tractions that openings cause, where points may open.
     pub opening: Option<Opening>,
@@ -39,15 +41,15 @@ pub struct Fault {
 pub struct Pressed {
     /// Normal traction of the bodies, less the pressure of fluid; 0 where a point is open \[Pa\].
     pub bodies: Vec<f64>,
-    /// f_n as friction uses it: the same, and not less than the floor \[Pa\].
+    /// f_n as friction uses it: the same, but at least the floor \[Pa\].
     pub normal: Vec<f64>,
     /// Opening \[m\]; no values where no point may open.
     pub opening: Vec<f64>,
 }
 
 impl Fault {
-    /// Computes the normal tractions of the points at a moment. Whatever `crack` was last, the result is the same; where it does not settle, which the integration refuses, it is the last that was
-    /// tried.
+    /// Computes the normal tractions of the points at a moment. The result does not depend on the previous `crack`.
+    /// Where the set of open points does not converge, which the integration refuses, it is that of the last attempt.
     #[must_use]
     pub fn pressed(&self, at: Clock, unknowns: &[f64], crack: &mut Crack) -> Pressed {
         let layout = Layout::of(self);
@@ -67,7 +69,8 @@ impl Fault {
         Pressed { bodies, normal, opening }
     }
 
-    /// Rates of what presses the points: of f_n as friction uses it \[Pa/s\] and of openings \[m/s\], given those of the unknowns, in an integration that ends at `until` \[s\].
+    /// Rates of f_n as friction uses it \[Pa/s\] and of the openings \[m/s\], given those of the unknowns, in an
+    /// integration that ends at `until` \[s\].
     #[must_use]
     pub fn pressing(
         &self,
@@ -107,7 +110,7 @@ impl Fault {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
     points: usize,
-    /// Of slip.
+    /// Number of components of slip.
     components: usize,
     states: usize,
     couples_normal: bool,
@@ -137,7 +140,7 @@ impl Layout {
         self.points
     }
 
-    /// Components of slip.
+    /// Number of components of slip.
     #[must_use]
     pub fn components(&self) -> usize {
         self.components
@@ -163,7 +166,7 @@ impl Layout {
         first..first + self.points * self.components
     }
 
-    /// f_n \[Pa\]; empty where it does not change.
+    /// f_n \[Pa\]; empty where slip does not change it.
     #[must_use]
     pub fn normal(&self) -> Range<usize> {
         let first = self.slip().end;
@@ -194,9 +197,9 @@ impl Layout {
 struct Scratch {
     rate: Vec<f64>,
     shear_rate: Vec<f64>,
-    /// df_n/dt, where it changes.
+    /// df_n/dt, where f_n changes.
     normal_rate: Vec<f64>,
-    /// f_n as friction uses it, where that is not what bodies press with.
+    /// f_n as friction uses it, where it differs from that of the bodies.
     normal: Vec<f64>,
     /// Points that are open.
     crack: Crack,
@@ -213,9 +216,10 @@ pub struct Equations<'a> {
     /// Time of the next change of loading or pressure \[s\].
     until: f64,
     scratch: RefCell<Scratch>,
-    /// The point whose normal traction was found not to be positive since the last call of [`Equations::opened`].
+    /// A point whose normal traction was not positive in a stage since the last call of [`Equations::opened`].
     opened: Cell<Option<usize>>,
-    /// A point whose opening did not settle. That does not depend on the step: nothing is evaluated any more, and the integration ends.
+    /// A point whose opening did not converge. A shorter step does not help, so nothing more is evaluated and the
+    /// integration ends.
     unsettled: Cell<Option<usize>>,
 }
 
@@ -247,7 +251,7 @@ impl<'a> Equations<'a> {
         }
     }
 
-    /// The same up to the next change of loading or pressure \[s\], which stages at that time do not feel.
+    /// These equations up to the next change of loading or pressure \[s\]. Stages at that time do not yet see the change.
     #[must_use]
     pub fn until(self, end: f64) -> Self {
         Self { until: end, ..self }
@@ -259,7 +263,8 @@ impl<'a> Equations<'a> {
         self.layout
     }
 
-    /// A point whose normal traction was not positive, or whose opening did not settle, in a stage since the last call, which made the step to be rejected.
+    /// A point that caused a step to be rejected since the last call: its normal traction was not positive, or its
+    /// opening did not converge.
     pub fn opened(&self) -> Option<usize> {
         let opened = self.opened.take();
         self.unsettled.get().or(opened)
@@ -270,8 +275,8 @@ impl<'a> Equations<'a> {
         self.fault.law.slip_rates(0, &y[self.layout.m()], &y[self.layout.states()], rate);
     }
 
-    /// Tolerances of the unknowns for an error `tolerance` of ln V: as much of m and of the states as moves ln V by it, this
-    /// share of L in slip, and of a f_n in normal traction.
+    /// Tolerances of the unknowns for an error `tolerance` of ln V: the changes of m and of the states that move ln V
+    /// by it, that share of L for slip, and that share of a f_n for normal traction.
     #[must_use]
     pub fn tolerances(&self, tolerance: f64) -> Vec<f64> {
         let (l, law) = (self.layout, &self.fault.law);
@@ -292,20 +297,21 @@ impl<'a> Equations<'a> {
 
 /// Share of its tolerance by which an unknown may drift in the first instants of an injection.
 const DRIFT: f64 = 0.01;
-/// Largest change of f_n over f_n in these instants: the square of it, which is left out, changes m ~ 100 by less than a hundredth of any
-/// tolerance of use.
+/// Largest relative change of f_n in these instants. Its square is neglected; it changes m ~ 100 by less than a
+/// hundredth of any practical tolerance.
 const GENTLE: f64 = 1e-5;
 /// Largest share of a leg that the first instants may take.
 const FIRST: f64 = 1e-3;
-/// Quarterings in search of instants in which f_n changes gently; it changes with the root of time.
+/// Number of quarterings in the search for a time in which f_n changes little; f_n varies with the square root of time.
 const QUARTERINGS: usize = 60;
 
 impl Equations<'_> {
-    /// The first instants of an injection or of its end at `at`, when the rate of pressure is infinite: writes what friction makes
-    /// of the pressure into `y` and returns for how long all else can be held, out of `most` seconds.
+    /// The first instants of an injection or of its end at `at`, when the rate of pressure is infinite. Writes the
+    /// response of friction to the pressure into `y`, and returns the time for which everything else can be held, at
+    /// most `most` seconds.
     ///
-    /// Over so short a time m and the states follow f_n alone, `dm = (∂ṁ/∂ḟ_n) Δf_n`: rates are linear in ḟ_n. All else drifts
-    /// by a hundredth of its tolerance at most.
+    /// Over so short a time m and the states follow f_n alone, `dm = (∂ṁ/∂ḟ_n) Δf_n`, since the rates are linear in
+    /// ḟ_n. Everything else drifts by at most a hundredth of its tolerance.
     pub fn first_instants(&self, at: Clock, y: &mut [f64], tolerances: &[f64], most: f64) -> Option<f64> {
         let pressure = self.fault.pressure.as_ref()?;
         if !pressure.breaks().any(|t| t == at.seconds()) {
@@ -395,7 +401,7 @@ impl Equations<'_> {
         }
         if let Some(point) = normal.iter().position(|&f| f <= 0.0) {
             self.opened.set(Some(point));
-            // An open point has no friction: the step was too long, or the fault opens.
+            // A point under no pressure has no friction: the step was too long, or the fault opens.
             dy.fill(f64::NAN);
             return;
         }
@@ -419,9 +425,9 @@ impl Problem for Equations<'_> {
         self.evaluate(at, y, dy, true);
     }
 
-    /// Slip of a point loads those around it by no more than [`Operator::stiffness`], and friction yields with the slope
-    /// f_n a/V + η along slip, and with more across it: in the norm of the columns weighted with that slope a bound of the relaxation by elasticity, beside which states
-    /// relax with V/L.
+    /// Bound of the rates of relaxation. Slip of a point loads those around it by no more than [`Operator::stiffness`],
+    /// and friction resists with the slope f_n a/V + η along slip, and with a larger one across it. The norm of the
+    /// columns weighted with that slope bounds the elastic relaxation; states relax with V/L.
     fn spectral_radius(&self, at: Clock, y: &[f64]) -> Option<f64> {
         let (l, fault) = (self.layout, self.fault);
         let Scratch { rate, crack, .. } = &mut *self.scratch.borrow_mut();
@@ -440,7 +446,7 @@ impl Problem for Equations<'_> {
         Some(fault.operator.stiffness().iter().enumerate().map(of).fold(0.0, f64::max))
     }
 
-    /// The methods a fault is integrated with do not ask for it.
+    /// Not used: faults are integrated with explicit methods.
     fn jacobian(&self, _at: Clock, _y: &[f64], jac: &mut [f64]) {
         jac.fill(f64::NAN);
     }

@@ -5,10 +5,10 @@ use asperity_ode::ObserveError;
 /// Reason why a run cannot begin or cannot be observed.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    /// Nothing holds a slider.
+    /// No spring leads from the sliders to the load point.
     #[error("no spring leads from the sliders to the load point, so that their slip is not determined")]
     Loose,
-    /// A law has no answer at a jump of the normal traction.
+    /// A law has no solution at a jump of the normal traction.
     #[error(transparent)]
     Law(#[from] asperity_friction::Failure),
     /// An observer failed.

@@ -9,9 +9,9 @@ use std::ops::Range;
 /// Progress of a run of faults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Progress {
-    /// Detection of the events of each source.
+    /// Event detector of each source.
     pub(crate) detectors: Vec<Detector>,
-    /// Place where the integration failed: the point whose normal traction falls to zero there.
+    /// The point whose normal traction falls to zero, where the integration failed for that reason.
     #[serde(skip)]
     pub opens: Option<usize>,
 }
@@ -19,11 +19,11 @@ pub struct Progress {
 /// A run of faults. Source [`ALL`] of its events is all faults together; where there are several, source 1 + k is fault k.
 pub type FaultRun = Run<Rupture, Progress>;
 
-/// Source of the events of all faults together, by the fastest point of all.
+/// Source of the events of all faults together, defined by the fastest point of all.
 pub const ALL: usize = 0;
 
 impl FaultRun {
-    /// A run that begins at time 0, of faults with these points.
+    /// A run at time 0 of faults with these points.
     #[must_use]
     pub fn new(unknowns: Vec<f64>, faults: &[Range<usize>], thresholds: Thresholds) -> Self {
         let all = 0..faults.iter().map(|points| points.end).max().unwrap_or(0);
@@ -33,13 +33,13 @@ impl FaultRun {
         Self::begin(unknowns, detectors.len(), Progress { detectors, opens: None })
     }
 
-    /// Events of all faults together that have ended.
+    /// Finished events of all faults together.
     #[must_use]
     pub fn events(&self) -> &[Event<Rupture>] {
         self.catalogue.ended(ALL)
     }
 
-    /// Event of all faults together that is under way.
+    /// The unfinished event of all faults together.
     #[must_use]
     pub fn under_way(&self) -> Option<&Event<Rupture>> {
         self.catalogue.under_way(ALL)

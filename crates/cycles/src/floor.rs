@@ -1,9 +1,10 @@
-//! The least normal traction that friction uses.
+//! Floor of normal traction: the smallest value that friction uses.
 //!
-//! Normal tractions that slip and loads change may fall to zero, near a free surface first, and friction has no slip rate there. With a floor,
-//! friction uses `max(f_n, floor)` and its rate, which is zero below: what bodies press, f_n, goes on below the floor as an unknown of its own and comes back the way it
-//! went. The product `f_n μ` stays continuous, so that no unknown jumps; its rate does, and steps that cross the floor are shortened by the control of errors.
-//! Memories of normal traction follow what friction uses.
+//! Normal tractions that slip and loads change may fall to zero, near a free surface first. Friction then has no slip
+//! rate. With a floor, friction uses `max(f_n, floor)` and its rate, which is zero below the floor. The f_n of the
+//! bodies remains an unknown below the floor, and returns along the same path. The product `f_n μ` is continuous, so no
+//! unknown jumps. Its rate jumps, and the error control shortens steps that cross the floor. The memory of normal
+//! traction follows the value that friction uses.
 
 /// The floors of the points \[Pa\]; minus infinity where there is none.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,7 +13,7 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// Of these points, where one of them has a floor.
+    /// Floors of these points; none if no point has one.
     pub fn new(floors: impl Iterator<Item = Option<f64>>) -> Option<Self> {
         let least: Vec<f64> = floors.map(|f| f.unwrap_or(f64::NEG_INFINITY)).collect();
         least.iter().any(|f| f.is_finite()).then_some(Self { least })
@@ -24,7 +25,7 @@ impl Floor {
         self.least[point]
     }
 
-    /// Puts the floor in the place of normal tractions below it, and zero in that of their rates.
+    /// Replaces normal tractions below the floor by the floor, and their rates by zero.
     pub fn hold(&self, normal: &mut [f64], rate: &mut [f64]) {
         for ((normal, rate), &least) in normal.iter_mut().zip(rate).zip(&self.least) {
             if *normal < least {

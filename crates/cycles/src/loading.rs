@@ -1,4 +1,4 @@
-//! Tractions that boundaries, creeping parts of the fault and other loads cause.
+//! Tractions caused by boundaries, creeping parts of the fault and other loads.
 
 use asperity_fem::table::Table;
 
@@ -6,29 +6,29 @@ use asperity_fem::table::Table;
 #[derive(Clone, Debug, PartialEq)]
 struct Part {
     amplitude: Table,
-    /// Component by component \[Pa\].
+    /// Shear tractions, component by component \[Pa\].
     shear: Vec<f64>,
-    /// Compression positive \[Pa\]; empty where normal tractions do not change.
+    /// Normal tractions, compression positive \[Pa\]; empty where they do not change.
     normal: Vec<f64>,
 }
 
 /// Loads of a fault; piecewise linear in time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loading {
-    /// Components of slip.
+    /// Number of components of slip.
     components: usize,
     parts: Vec<Part>,
 }
 
 impl Loading {
-    /// No loads yet, on slip of so many components.
+    /// No loads, for slip of this many components.
     #[must_use]
     pub fn new(components: usize) -> Self {
         Self { components, parts: Vec::new() }
     }
 
-    /// Adds a load: shear tractions, component by component, and normal tractions of all points at unit amplitude \[Pa\]; `normal` is empty where normal tractions do
-    /// not change.
+    /// Adds a load: shear tractions, component by component, and normal tractions of all points at unit amplitude
+    /// \[Pa\]; `normal` is empty where normal tractions do not change.
     pub fn add(&mut self, amplitude: Table, shear: Vec<f64>, normal: Vec<f64>) {
         self.parts.push(Part { amplitude, shear, normal });
     }
@@ -44,8 +44,8 @@ impl Loading {
         times
     }
 
-    /// Rates of shear and normal tractions between two breaks, `within` which lies a time \[s\]; the second is empty where normal
-    /// tractions do not change.
+    /// Rates of shear and normal tractions in the interval between two breaks that contains the time `within` \[s\].
+    /// The second is empty where normal tractions do not change.
     #[must_use]
     pub fn rates(&self, within: f64, points: usize, couples_normal: bool) -> (Vec<f64>, Vec<f64>) {
         let mut shear = vec![0.0; points * self.components];

@@ -1,4 +1,4 @@
-//! A fault at the end of a step, for those who observe its run.
+//! State of a fault at the end of a step, for observers of a run.
 
 use super::catalogue::{Catalogue, Event};
 use super::components::{Components, PerPoint};
@@ -7,7 +7,7 @@ use super::fault_run::{ALL, FaultRun};
 use super::rupture::Rupture;
 use asperity_ode::{Clock, Kind};
 
-/// A fault at the end of a step.
+/// State of a fault at the end of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment<'a> {
     /// Time.
@@ -24,9 +24,9 @@ pub struct Moment<'a> {
     pub largest: f64,
     /// Normal tractions and openings.
     pub pressed: &'a Pressed,
-    /// Events until now.
+    /// Events so far.
     pub catalogue: &'a Catalogue<Rupture>,
-    /// The step, where the method knows the rates at its ends; none at the start.
+    /// The step, if the method knows the rates at its ends; none at the start.
     pub step: Option<Ends<'a>>,
 }
 
@@ -35,16 +35,16 @@ pub struct Moment<'a> {
 pub struct Ends<'a> {
     /// Unknowns at its start.
     pub start: &'a [f64],
-    /// Normal tractions and openings then.
+    /// Normal tractions and openings at its start.
     pub start_pressed: &'a Pressed,
-    /// Their rates.
+    /// Rates of the unknowns at its start.
     pub start_rates: &'a [f64],
-    /// Rates at its end.
+    /// Rates of the unknowns at its end.
     pub end_rates: &'a [f64],
 }
 
 impl<'a> Moment<'a> {
-    /// The fault at the start of the step that led here.
+    /// State at the start of this step.
     #[must_use]
     pub fn start_of(&self, step: &Ends<'a>, at: Clock) -> Moment<'a> {
         let (unknowns, rate) = (step.start, self.layout.slip_of(step.start_rates));
@@ -55,19 +55,19 @@ impl<'a> Moment<'a> {
 }
 
 impl<'a> Moment<'a> {
-    /// Events of all faults together that have ended.
+    /// Finished events of all faults together.
     #[must_use]
     pub fn events(&self) -> &[Event<Rupture>] {
         self.catalogue.ended(ALL)
     }
 
-    /// Event of all faults together that is under way.
+    /// The unfinished event of all faults together.
     #[must_use]
     pub fn under_way(&self) -> Option<&Event<Rupture>> {
         self.catalogue.under_way(ALL)
     }
 
-    /// |V| of a point \[m/s\].
+    /// \|V\| of a point \[m/s\].
     #[must_use]
     pub fn speed(&self, point: usize) -> f64 {
         self.rate.size(point)

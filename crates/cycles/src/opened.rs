@@ -1,11 +1,11 @@
-//! Use of openings in the course of a run.
+//! Openings during a run.
 
 use super::moment::Moment;
 use super::problem::Problem;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Use of openings until now, point by point.
+/// Openings so far, point by point.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Opened {
     /// Time open \[s\].
@@ -14,12 +14,12 @@ pub struct Opened {
     largest: Vec<f64>,
     /// Time \[s\].
     when: Vec<f64>,
-    /// Whole time \[s\].
+    /// Total time \[s\].
     duration: f64,
 }
 
 impl Opened {
-    /// Takes note of a step, over which openings are taken to be linear.
+    /// Adds an accepted step, over which openings are taken as linear.
     pub(crate) fn step(&mut self, problem: &Problem, moment: &Moment<'_>) {
         let Some(opening) = &problem.fault.opening else { return };
         for list in [&mut self.time, &mut self.largest, &mut self.when] {
@@ -37,7 +37,7 @@ impl Opened {
         }
     }
 
-    /// Use of these points.
+    /// Openings of these points.
     #[must_use]
     pub fn of(&self, points: Range<usize>) -> Widest {
         let of = |list: &[f64], p: usize| list.get(p).copied().unwrap_or(0.0);
@@ -57,14 +57,14 @@ impl Opened {
 /// Opening of some points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Widest {
-    /// Points that were open at any time.
+    /// Number of points that were ever open.
     pub points: usize,
-    /// The point that opened farthest.
+    /// The point with the largest opening.
     pub point: Option<usize>,
     /// The opening \[m\].
     pub largest: f64,
     /// Time \[s\].
     pub when: f64,
-    /// Largest share of the time that a point was open.
+    /// Largest share of the time during which a point was open.
     pub time_share: f64,
 }

@@ -1,29 +1,37 @@
-//! Openings of faults as unknowns.
+//! Openings of faults.
 //!
-//! N is the pressure of the bodies where nothing opens, less that of fluid; openings o add `C o`, with the normal tractions C per opening of the condensed bodies. Where a
-//! fault may open
+//! N is the normal traction of the bodies without openings, less the pressure of fluid. Openings o add `C o`, with the
+//! normal tractions C per opening of the condensed bodies. Where a fault may open
 //!
 //! ```text
 //! o ≥ 0,   w = N + C o ≥ 0,   w o = 0
 //! ```
 //!
-//! at each point: sides that are apart press nothing. With areas A, `A C` is symmetric and positive definite, since the bodies are held, and o is one function of N, continuous and
-//! linear in pieces (R. W. Cottle, J.-S. Pang, R. E. Stone, "The Linear Complementarity Problem", 1992, theorems 3.1.6 and 3.1.7): no unknown of its own in time.
-//! Its rate follows from that of N, `C_OO do_O/dt = -dN_O/dt` at the points O that are open, and shear tractions everywhere change by `D do/dt`.
+//! at each point: separated sides do not press on each other. With areas A, `A C` is symmetric and positive definite,
+//! since the bodies are held. Therefore o is a unique function of N, continuous and piecewise linear (R. W. Cottle,
+//! J.-S. Pang, R. E. Stone, "The Linear Complementarity Problem", 1992, theorems 3.1.6 and 3.1.7): it is not an unknown
+//! in time. Its rate follows from that of N, `C_OO do_O/dt = -dN_O/dt` at the points O that are open, and shear
+//! tractions everywhere change by `D do/dt`.
 //!
-//! O is found by exchanging all points that violate a condition, and one at a time where that does not lead on, which ends after finitely many exchanges (J. J. Júdice, F. M. Pires, "A block principal pivoting
-//! algorithm for large-scale strictly monotone linear complementarity problems", Computers and Operations Research 21, 1994). It begins from the points that were open last. Results do not depend on that to the last
-//! bit: where a point is within rounding of both states the search is repeated from the points with N < 0.
+//! O is found by exchanging all points that violate a condition, or one at a time where that makes no progress; this
+//! ends after finitely many exchanges (J. J. Júdice, F. M. Pires, "A block principal pivoting algorithm for large-scale
+//! strictly monotone linear complementarity problems", Computers and Operations Research 21, 1994). The search begins
+//! from the points that were open last. Results do not depend on that, to the last bit: where a point is within
+//! rounding of both states, the search is repeated from the points with N < 0.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// Error of tractions over the largest |N| of the points that may open below which a condition holds: rounding of sums over some thousand points.
+/// Violation of a condition that is tolerated, relative to the largest \|N\| of the points that may open: the rounding
+/// of sums over some thousand points.
 const ROUNDING: f64 = 1e-13;
-/// Tractions over the largest |N|, and openings times their stiffness, from which on the state of a point is beyond doubt: far above rounding, times a condition number of thousands.
+/// Traction, or opening times its stiffness, relative to the largest \|N\|, above which the state of a point is
+/// certain: rounding times a condition number of thousands.
 const CLEAR: f64 = 1e-9;
-/// Exchanges of all violating points that may fail to lessen their number before single ones are exchanged: as many as Júdice and Pires recommend.
+/// Number of exchanges of all violating points that may fail to reduce their number before single points are exchanged,
+/// as recommended by Júdice and Pires.
 const PATIENCE: usize = 10;
-/// Exchanges after which the search is given up, beside ten for each point; problems of a positive definite matrix take some ten in all.
+/// Number of exchanges, plus ten for each point, after which the search gives up; a positive definite matrix takes
+/// about ten in all.
 const MOST_EXCHANGES: usize = 100;
 
 /// Effect of openings on the tractions of all points.
@@ -31,7 +39,7 @@ const MOST_EXCHANGES: usize = 100;
 pub struct Opening {
     /// Points that may open, ascending.
     points: Vec<usize>,
-    /// Of these points \[m²; m per metre of thickness\].
+    /// Areas of these points \[m²; m per metre of thickness\].
     areas: Vec<f64>,
     /// Normal tractions of all points per opening, compression positive \[Pa/m\], opening by opening.
     normal: Vec<Vec<f64>>,
@@ -39,21 +47,21 @@ pub struct Opening {
     shear: Option<Vec<Vec<f64>>>,
 }
 
-/// Which points are open, and how far.
+/// The open points and their openings.
 #[derive(Clone, Debug, Default)]
 pub struct Crack {
-    /// Open ones among the points that may open, ascending.
+    /// Indices of the open points among those that may open, ascending.
     open: Vec<usize>,
-    /// Of `A C` between these.
+    /// Factor of `A C` restricted to the open points.
     factor: Option<Cholesky<f64, Dyn>>,
     /// Their openings \[m\].
     by: DVector<f64>,
-    /// Rates of these \[m/s\].
+    /// Rates of their openings \[m/s\].
     rate: DVector<f64>,
 }
 
 impl Opening {
-    /// Of `points` with these areas; the tractions of all points that each opening causes.
+    /// Openings of `points` with these areas, from the tractions of all points that each opening causes.
     #[must_use]
     pub fn new(
         points: Vec<usize>,
@@ -70,7 +78,7 @@ impl Opening {
         &self.points
     }
 
-    /// Memory of so many openings among so many points that slide along so many tangents \[bytes\].
+    /// Memory of this many openings among this many points that slide along this many tangents \[bytes\].
     #[must_use]
     pub fn memory(openings: usize, points: usize, tangents: usize) -> usize {
         (1 + tangents) * openings * points * size_of::<f64>()
@@ -82,17 +90,18 @@ impl Opening {
         self.normal.iter().chain(self.shear.iter().flatten()).map(|c| c.len() * size_of::<f64>()).sum()
     }
 
-    /// In words, for the plan.
+    /// Description for the plan.
     #[must_use]
     pub fn words(&self) -> String {
         let shear = if self.shear.is_some() { "normal and shear" } else { "normal" };
         format!("{shear} tractions of {} openings, {:.1} kB", self.points.len(), self.bytes() as f64 / 1e3)
     }
 
-    /// Finds the openings under N, the normal tractions without opening, and adds their effect to N: it vanishes at open points.
+    /// Finds the openings under N, the normal tractions without opening, and adds their effect to N, which then
+    /// vanishes at open points.
     ///
     /// # Errors
-    /// A point whose state does not settle.
+    /// A point whose state does not converge.
     pub fn solve(&self, crack: &mut Crack, pressed: &mut [f64]) -> Result<(), usize> {
         if self.points.iter().all(|&p| pressed[p] >= 0.0) {
             *crack = Crack::default();
@@ -107,7 +116,8 @@ impl Opening {
         self.search(crack, first, &alone, pressed).map(|_| ())
     }
 
-    /// The search from these open points; whether the state of all points is beyond doubt. `alone` is N, `pressed` what it becomes.
+    /// Searches from these open points; true if the state of all points is certain. `alone` is N, and `pressed` is N
+    /// with the effect of openings.
     fn search(
         &self,
         crack: &mut Crack,
@@ -155,7 +165,7 @@ impl Opening {
         }
     }
 
-    /// The openings of the open points that take all traction off them, and what all points are pressed with then.
+    /// Openings of the open points that remove all traction from them, and the resulting normal tractions of all points.
     fn part(&self, crack: &mut Crack, alone: &[f64], pressed: &mut [f64]) {
         crack.by = self.answer(crack, alone);
         pressed.copy_from_slice(alone);
@@ -164,14 +174,14 @@ impl Opening {
         }
     }
 
-    /// Openings that take `traction` off the open points.
+    /// Openings that remove `traction` from the open points.
     fn answer(&self, crack: &Crack, traction: &[f64]) -> DVector<f64> {
         let force = |i: usize| -self.areas[crack.open[i]] * traction[self.points[crack.open[i]]];
         let forces = DVector::from_fn(crack.open.len(), |i, _| force(i));
         crack.factor.as_ref().map_or_else(|| DVector::zeros(0), |factor| factor.solve(&forces))
     }
 
-    /// Points that may open where a condition does not hold: open ones that would have to overlap, and closed ones that would pull.
+    /// Points that violate a condition: open points that would overlap, and closed points in tension.
     fn wrong(&self, crack: &Crack, pressed: &[f64], scale: f64) -> Vec<usize> {
         let apart = crack.apart(self.points.len());
         let violates = |k: &usize| match apart[*k] {
@@ -191,7 +201,8 @@ impl Opening {
         (0..self.points.len()).all(|k| traction(k) > CLEAR * scale)
     }
 
-    /// Adds what the rates of openings add to rates of normal tractions, of which nothing is left where a point is open, and to those of shear tractions.
+    /// Adds the effect of the rates of openings to the rates of normal tractions, which vanish at open points, and to
+    /// those of shear tractions.
     pub fn rates(&self, crack: &mut Crack, normal: &mut [f64], shear: &mut [f64]) {
         crack.rate = self.answer(crack, normal);
         for (&k, rate) in crack.open.iter().zip(crack.rate.iter()) {
@@ -201,7 +212,7 @@ impl Opening {
         self.shear(crack.open.iter().zip(crack.rate.iter()).map(|(&k, rate)| (k, *rate)), shear);
     }
 
-    /// Adds the shear tractions of openings of all points \[m\].
+    /// Adds the shear tractions caused by the openings of all points \[m\].
     pub fn sheared(&self, by: &[f64], shear: &mut [f64]) {
         self.shear(self.points.iter().enumerate().map(|(k, &p)| (k, by[p])), shear);
     }
@@ -211,14 +222,14 @@ impl Opening {
         openings.filter(|(_, by)| *by != 0.0).for_each(|(k, by)| add(shear, by, &columns[k]));
     }
 
-    /// Adds the normal tractions of openings of all points \[m\].
+    /// Adds the normal tractions caused by the openings of all points \[m\].
     pub fn pressing(&self, by: &[f64], normal: &mut [f64]) {
         for (&p, column) in self.points.iter().zip(&self.normal) {
             add(normal, by[p], column);
         }
     }
 
-    /// Openings of all points of a crack \[m\], and their rates as they were last found, unless `rate` is empty.
+    /// Openings of all points \[m\], and their last rates unless `rate` is empty.
     pub fn of(&self, crack: &Crack, by: &mut [f64], rate: &mut [f64]) {
         by.fill(0.0);
         rate.fill(0.0);
@@ -232,7 +243,7 @@ impl Opening {
 }
 
 impl Crack {
-    /// Openings of the open ones among so many points that may open.
+    /// Openings of the points that may open; none at closed ones.
     fn apart(&self, points: usize) -> Vec<Option<f64>> {
         let mut apart = vec![None; points];
         self.open.iter().zip(self.by.iter()).for_each(|(&k, by)| apart[k] = Some(*by));
@@ -244,7 +255,7 @@ fn add(sum: &mut [f64], factor: f64, part: &[f64]) {
     sum.iter_mut().zip(part).for_each(|(s, p)| *s += factor * p);
 }
 
-/// Open points of which these have changed; ascending.
+/// Open points after these have changed state; ascending.
 fn exchanged(open: &[usize], changed: &[usize]) -> Vec<usize> {
     let mut all: Vec<usize> = open.iter().copied().filter(|k| changed.binary_search(k).is_err()).collect();
     all.extend(changed.iter().filter(|k| open.binary_search(k).is_err()));
@@ -257,7 +268,8 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
-    /// Openings of some points of a row under the tractions of dislocations: 1/(k² - 1/4) on a neighbour k points away. Areas differ.
+    /// Openings of some points of a row under the tractions of dislocations: 1/(k² - 1/4) on a neighbour k points away.
+    /// Areas differ.
     fn row(points: usize, may: impl Fn(usize) -> bool) -> Opening {
         let area = |p: usize| 1.0 + 0.5 * ((p * p) as f64).sin();
         let force = |i: usize, j: usize| {
@@ -271,7 +283,7 @@ mod tests {
         Opening::new(open.clone(), open.iter().map(|&p| area(p)).collect(), normal, Some(shear))
     }
 
-    /// Tractions that pull in places, which move along the row with time.
+    /// Tractions that are tensile in places, which move along the row with time.
     fn tractions(points: usize, time: f64) -> Vec<f64> {
         (0..points)
             .map(|p| (0.37 * p as f64 + time).sin() + 0.8 * (1.7 * p as f64 - 0.3 * time).cos() + 0.4)
@@ -316,7 +328,7 @@ mod tests {
         }
     }
 
-    /// A point that is pressed with nothing at all is on the border of both states, and may be found in the one it was in.
+    /// A point without any traction is on the border between both states, and may be found in the state it was in.
     #[test]
     fn a_point_on_the_border_of_both_states_does_not_depend_on_the_past_either() {
         let opening = row(12, |_| true);

@@ -1,15 +1,15 @@
-//! Fluid that is injected into a fault and diffuses along it: pore pressure in closed form.
+//! Fluid injected into a fault that diffuses along it: pore pressure in closed form.
 //!
-//! With the flux q of fluid at one place, both ways, porosity φ, compressibility β and hydraulic diffusivity α, the pressure obeys
-//! `φ β (∂p/∂t - α ∂²p/∂z²) = q δ(z)`. From rest it is
+//! With the flux q of fluid at one position, in both directions together, porosity φ, compressibility β and hydraulic
+//! diffusivity α, the pressure obeys `φ β (∂p/∂t - α ∂²p/∂z²) = q δ(z)`. From rest it is
 //!
 //! ```text
 //! p = q/(β φ √α) G(z, t),   G = √t (exp(-x²)/√π - x erfc x),   x = |z|/√(4 α t),   ∂G/∂t = exp(-x²)/(2 √(π t)),
 //! ```
 //!
-//! H. S. Carslaw, J. C. Jaeger, "Conduction of Heat in Solids", 2nd ed. (1959), section 2.9. When the injection ends, the same is
-//! taken off with its own time. At z = 0 the rate of pressure is infinite in the instants when the injection begins and ends, as
-//! 1/√t, which is integrable.
+//! H. S. Carslaw, J. C. Jaeger, "Conduction of Heat in Solids", 2nd ed. (1959), section 2.9. After the end of the
+//! injection, the same function of the time since then is subtracted. At z = 0 the rate of pressure is infinite at the
+//! beginning and end of the injection, as 1/√t, which is integrable.
 
 use std::f64::consts::PI;
 
@@ -36,8 +36,8 @@ impl Injection {
         self.before(distance, time, f64::INFINITY)
     }
 
-    /// The same up to a time at which the injection begins or ends: at `until`, the rate is that before. Times beyond it by
-    /// rounding do not feel what happens then.
+    /// Pressure and its rate up to the time `until`, at which the injection begins or ends: at `until`, the rate is
+    /// that before. Times beyond it by rounding do not see the change.
     fn before(&self, distance: f64, time: f64, until: f64) -> (f64, f64) {
         let scale = self.flux / (self.compressibility * self.porosity * self.diffusivity.sqrt());
         let change = |at: f64| if at < until { self.response(distance, time - at) } else { (0.0, 0.0) };
@@ -59,13 +59,13 @@ impl Injection {
     }
 }
 
-/// An injection and the points that feel it.
+/// An injection and the points it affects.
 #[derive(Clone, Debug, PartialEq)]
 struct Well {
     injection: Injection,
-    /// Number of the first point of its fault.
+    /// Index of the first point of its fault.
     first: usize,
-    /// Of each point of the fault from the place of injection \[m\].
+    /// Distance of each point of the fault from the injection \[m\].
     distances: Vec<f64>,
 }
 
@@ -92,7 +92,8 @@ impl Pressure {
         self.felt(point, time, f64::INFINITY).0
     }
 
-    /// Pressure at a point \[Pa\] and its rate \[Pa/s\] up to `until` \[s\]: what begins or ends then is not felt.
+    /// Pressure at a point \[Pa\] and its rate \[Pa/s\] before `until` \[s\]. An injection that begins or ends at
+    /// `until` is not seen.
     #[must_use]
     pub fn felt(&self, point: usize, time: f64, until: f64) -> (f64, f64) {
         let of = |w: &Well| {
@@ -102,8 +103,8 @@ impl Pressure {
         self.wells.iter().filter_map(of).fold((0.0, 0.0), |(p, r), (value, rate)| (p + value, r + rate))
     }
 
-    /// Takes pressure off normal tractions \[Pa\] and its rate off theirs \[Pa/s\], in an integration that ends at `until` \[s\]:
-    /// what begins or ends then is not felt.
+    /// Subtracts the pressure from normal tractions \[Pa\], and its rate from theirs \[Pa/s\], in an integration that
+    /// ends at `until` \[s\]. An injection that begins or ends at `until` is not seen.
     pub fn take_off(&self, time: f64, until: f64, normal: &mut [f64], rate: &mut [f64]) {
         for well in &self.wells {
             let points = normal[well.first..].iter_mut().zip(&mut rate[well.first..]);

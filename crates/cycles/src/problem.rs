@@ -1,4 +1,4 @@
-//! The problem to integrate: faults in their surroundings, their loads, the start, and the settings.
+//! The problem to integrate: faults and their medium, loads, initial values, and settings.
 
 use super::cycle::{Settings, run};
 use super::equations::Fault;
@@ -11,27 +11,28 @@ use asperity_ode::Observer;
 /// See the module.
 #[derive(Debug)]
 pub struct Problem {
-    /// Friction and bodies.
+    /// Friction and the medium.
     pub fault: Fault,
     /// Tributary areas of the points \[m²; m per metre of thickness\].
     pub areas: Vec<f64>,
     /// Loads.
     pub loading: Loading,
-    /// Unknowns at the start.
+    /// Initial unknowns.
     pub start: Vec<f64>,
-    /// Integration.
+    /// Settings of the integration.
     pub settings: Settings,
 }
 
 impl Problem {
-    /// A run from its start, with one catalogue of all faults together.
+    /// A run at its start, with one catalogue of all faults together.
     #[must_use]
     pub fn begin(&self) -> FaultRun {
         let points = 0..self.fault.law.points();
         FaultRun::new(self.start.clone(), std::slice::from_ref(&points), self.settings.thresholds)
     }
 
-    /// Integrates it from its start, with its own settings or others. An integration that fails is no error: the outcome says so.
+    /// Integrates it from its start, with its own settings or others. A failed integration is not an error; it is
+    /// reported as the outcome.
     ///
     /// # Errors
     /// If the observer fails.

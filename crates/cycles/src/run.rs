@@ -4,8 +4,8 @@ use super::catalogue::Catalogue;
 use asperity_ode::{Clock, Counts, Outcome};
 use serde::{Deserialize, Serialize};
 
-/// Results of a run, or its results so far. At a restart they suffice to resume it. `D` are the details of its events, `P` is the
-/// progress specific to its kind.
+/// Results of a run, or its results so far. At a restart they suffice to resume it. `D` are the details of its events,
+/// `P` is the progress specific to its kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run<D, P> {
     /// Outcome.
@@ -13,15 +13,15 @@ pub struct Run<D, P> {
     pub outcome: Outcome,
     /// Time.
     pub at: Clock,
-    /// Unknowns then.
+    /// Unknowns at that time.
     pub unknowns: Vec<f64>,
     /// Events.
     pub catalogue: Catalogue<D>,
-    /// Work.
+    /// Operation counts.
     pub counts: Counts,
     /// The step to try next, where the run restarts between two breaks of its loading.
     pub next_step: Option<NextStep>,
-    /// Progress in terms of its kind.
+    /// Progress specific to its kind.
     pub progress: P,
 }
 
@@ -30,7 +30,7 @@ pub struct Run<D, P> {
 pub struct NextStep {
     /// Its length \[s\]; chosen from the rates where absent.
     pub length: Option<f64>,
-    /// True where a pair of methods takes it with the one for stiff equations.
+    /// True if a switching method takes it with its method for stiff equations.
     pub stiff: bool,
 }
 

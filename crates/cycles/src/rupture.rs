@@ -1,5 +1,5 @@
-//! Events of faults: from the time the fastest point passes a slip rate until all have fallen below a lower one. Beside that duration
-//! stands the time above the upper rate alone, which is what the community counts.
+//! Events of faults. An event begins when the fastest point exceeds a slip rate, and ends when all points are below a
+//! lower one. The time above the upper rate alone, which the community reports, is recorded as well.
 
 use super::catalogue::{Catalogue, Event, Thresholds};
 use super::components::Components;
@@ -10,15 +10,15 @@ use std::ops::Range;
 /// Details of an event of faults.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rupture {
-    /// Time in which the fastest point was faster than the rate that begins events \[s\].
+    /// Time during which the fastest point exceeded the rate that begins events \[s\].
     pub above: f64,
     /// Hypocentre: the fastest point at the onset.
     pub hypocentre: usize,
-    /// Slip of all points over the event; empty while it is under way \[m\].
+    /// Slip of all points over the event \[m\]; empty while it lasts.
     pub slip: Components<Vec<f64>>,
-    /// Fall of the shear traction of all points over the event; empty while it is under way \[Pa\].
+    /// Drop of the shear traction of all points over the event \[Pa\]; empty while it lasts.
     pub drop: Components<Vec<f64>>,
-    /// Growth of the opening of all points over the event, where points may open; empty while it is under way \[m\].
+    /// Change of the opening of all points over the event \[m\], where points may open; empty while it lasts.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub opening: Vec<f64>,
 }
@@ -34,10 +34,10 @@ pub(crate) struct Values<'a> {
     pub opening: &'a [f64],
 }
 
-/// Values at the onset of an event that is under way.
+/// Values at the onset of the unfinished event.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Onset {
-    /// Time since which the fastest point has been faster than `on`; none while it is slower.
+    /// Time at which the fastest point last exceeded `on`; none while it is slower.
     since: Option<Clock>,
     slip: Vec<f64>,
     shear: Vec<f64>,
@@ -55,7 +55,7 @@ pub(crate) struct Detector {
 }
 
 impl Detector {
-    /// Nothing found yet on these points.
+    /// A detector for these points.
     pub(crate) fn new(points: Range<usize>, thresholds: Thresholds) -> Self {
         Self { thresholds, points, under_way: None }
     }
@@ -65,7 +65,7 @@ impl Detector {
         self.points.clone()
     }
 
-    /// First threshold that was passed within a step, from the largest slip rate after it \[m/s\].
+    /// First threshold passed within a step, given the largest slip rate after it \[m/s\].
     pub(crate) fn crossing(&self, largest: f64) -> Option<Crossing> {
         let Thresholds { on, off } = self.thresholds;
         match self.under_way.as_ref().map(|o| o.since) {
@@ -86,7 +86,7 @@ impl Detector {
         }
     }
 
-    /// Enters a crossing at `at` into the events of this source, the point `fastest` being the fastest then.
+    /// Records a crossing at `at` in the events of this source; `fastest` is the fastest point at that time.
     pub(crate) fn pass(
         &mut self,
         (catalogue, source): (&mut Catalogue<Rupture>, usize),
@@ -127,7 +127,7 @@ fn end(event: &mut Event<Rupture>, at: Clock, onset: &Onset, values: Values<'_>)
     event.details.opening = change(values.opening, &onset.opening);
 }
 
-/// Passing of one of the slip rates.
+/// Crossing of one of the thresholds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Crossing {
     /// `on` upwards, with no event.

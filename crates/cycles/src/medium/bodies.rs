@@ -1,9 +1,9 @@
-//! Displacements of the bodies around faults: what slip and loads do there, by one solution with the factor of the condensation.
+//! Displacements of the bodies around faults under slip and loads, by one solve with the factor of the condensation.
 
 use asperity_fem::condense::Condensed;
 use asperity_fem::jump::Jumps;
 
-/// Displacements from unknowns of which some are jumps.
+/// Conversion of unknowns, some of which are jumps, to displacements.
 trait Jumping: Send + Sync + std::fmt::Debug {
     /// In place.
     fn displace(&self, unknowns: &mut [f64]);
@@ -15,11 +15,11 @@ impl<const C: usize> Jumping for Jumps<C> {
     }
 }
 
-/// The condensed bodies, kept.
+/// Condensed bodies with their factor.
 #[derive(Debug)]
 pub struct Bodies {
     condensed: Condensed,
-    /// Ties of sides that machines draw, then the faults: in the order in which they are undone.
+    /// Ties of the sides that machines draw, then the faults, in the order in which they are converted.
     jumps: [Box<dyn Jumping>; 2],
     /// Retained unknown of the first component of slip of each point.
     rows: Vec<usize>,
@@ -28,8 +28,8 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// Of bodies with the jumps of their faults and the ties of sides that machines draw; `rows` are the retained unknowns of the first
-    /// component of slip of each point.
+    /// Bodies with the jumps of their faults and the ties of the sides that machines draw; `rows` are the retained
+    /// unknowns of the first component of slip of each point.
     pub(super) fn new<const C: usize>(
         condensed: Condensed,
         jumps: Jumps<C>,
@@ -39,8 +39,8 @@ impl Bodies {
         Self { condensed, jumps: [Box::new(ties), Box::new(jumps)], rows, components: C }
     }
 
-    /// Displacements of all nodes \[m\], node by node, for slip of all points \[m\], component by component, openings after it where points may open, and the loads at
-    /// `time` \[s\].
+    /// Displacements of all nodes \[m\], node by node, under the loads at `time` \[s\]. The argument holds the slip of
+    /// all points \[m\], component by component, followed by their openings where points may open.
     #[must_use]
     pub fn displacement(&self, slip: &[f64], time: f64) -> Vec<f64> {
         let mut retained = vec![0.0; self.condensed.reduction().retained().len()];

@@ -1,4 +1,4 @@
-//! Bodies condensed onto the jumps of their faults: what slip and loads do to tractions.
+//! Bodies condensed onto the jumps of their faults: the tractions that slip and loads cause.
 
 use super::bodies::Bodies;
 use super::held;
@@ -21,17 +21,17 @@ use asperity_fem::table::Table;
 pub enum Tractions {
     /// Slip along one direction.
     One(Dense),
-    /// Slip along two: of each component along itself, and of the second along the first and of the first along the second,
-    /// where they load across.
+    /// Slip along two directions: the operators of each component on itself, and those between the components where
+    /// slip in one loads the other.
     Two {
-        /// With normal tractions.
+        /// Operators of each component on itself, with normal tractions.
         along: Box<[Dense; 2]>,
-        /// Without.
+        /// Operators of the second component on the first and of the first on the second, without normal tractions.
         across: Option<Box<[Dense; 2]>>,
     },
 }
 
-/// Tractions at the start that the weight of the bodies causes where no point has slipped yet.
+/// Initial tractions that the weight of the bodies causes, before any point slips.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weight {
     /// Component by component \[Pa\].
@@ -49,18 +49,18 @@ pub struct Surroundings {
     pub opening: Option<Opening>,
     /// Tractions that loads and creep cause.
     pub loading: Loading,
-    /// Of these, rates of shear tractions that creep causes by itself, component by component \[Pa/s\].
+    /// The part of them caused by creep: rates of shear tractions, component by component \[Pa/s\].
     pub creep: Option<Vec<f64>>,
-    /// Tractions of their weight, where they have any.
+    /// Tractions caused by their weight, if they have any.
     pub weight: Option<Weight>,
-    /// Memory of the condensation at its worst \[bytes\].
+    /// Peak memory of the condensation \[bytes\].
     pub bytes: usize,
-    /// The bodies, where they are kept.
+    /// The bodies, if they are kept.
     pub bodies: Option<Bodies>,
 }
 
-/// Change of normal traction, or of shear traction across slip, over that along slip below which there is none: rounding of the
-/// condensation, far above 1e-16 and far below any effect of geometry.
+/// Ratio of the change of normal traction, or of shear traction across slip, to that along slip, below which it is
+/// taken as zero. It is above the rounding of the condensation, and far below any effect of geometry.
 const UNCOUPLED: f64 = 1e-9;
 
 /// Loads and supports of the bodies.
@@ -83,13 +83,14 @@ pub struct Conditions {
     pub components: usize,
     /// Directions along which points slide freely.
     pub tangents: usize,
-    /// Memory it may take \[bytes\].
+    /// Memory that the condensation may use \[bytes\].
     pub memory: usize,
-    /// True if to keep the bodies, for their displacements.
+    /// True if the bodies are kept for their displacements.
     pub keep: bool,
 }
 
-/// Condenses bodies of this stiffness onto the points that slide freely. Tractions are nodal forces over tributary areas: the interface mass is lumped.
+/// Condenses bodies of this stiffness onto the points that slide freely. Tractions are nodal forces divided by
+/// tributary areas, so the interface mass matrix is lumped.
 ///
 /// # Errors
 /// A [`Refusal`] where the bodies need more than `memory` bytes, are not held, or a support does not agree with the fault.
@@ -117,12 +118,13 @@ fn in_space<const D: usize>(v: &[f64; D]) -> [f64; 3] {
     std::array::from_fn(|c| v.get(c).copied().unwrap_or(0.0))
 }
 
-/// Components of a jump that are retained, from the first of a point on: slip along the tangents, and the opening, which is the last.
+/// Components of a jump that are retained, relative to the first: slip along the tangents, and the opening, which is
+/// the last.
 fn kept<const C: usize>(tangents: usize) -> impl Iterator<Item = usize> {
     (0..C).filter(move |&c| c < tangents || c == C - 1)
 }
 
-/// Components that are held at zero: in space slip across the rake, where it may not turn.
+/// Components held at zero: in space, slip across the rake where its direction is fixed.
 fn held<const C: usize>(tangents: usize) -> impl Iterator<Item = usize> {
     tangents..C.saturating_sub(1).max(tangents)
 }
@@ -208,7 +210,8 @@ fn with_components<const D: usize, const C: usize>(
     Ok(Surroundings { bytes, bodies, ..found })
 }
 
-/// The weight of the bodies. What it does to them was there before the start, so that its amplitude is zero in the course of the run.
+/// Load of the weight of the bodies. Its effect is part of the initial state, so its amplitude does not change during
+/// the run.
 fn weight(loads: &Loads) -> Channel {
     Channel { prescribed: Vec::new(), forces: loads.weight.clone(), amplitude: Table::constant(0.0) }
 }
@@ -222,8 +225,8 @@ enum Left {
 }
 
 impl Left {
-    /// Of a body, onto `retained` degrees of freedom where others are `fixed`, and the memory it takes \[bytes\]. What is left stands
-    /// beside the operator made from it for a while.
+    /// Condenses a body onto the `retained` degrees of freedom, with others `fixed`; also the memory it takes
+    /// \[bytes\]. The condensed matrix and the operator made from it exist side by side for a while.
     fn of(
         body: Stiffness,
         (retained, fixed): (&[usize], &[usize]),
@@ -248,7 +251,7 @@ impl Left {
         Ok((Self::Kept(Box::new(condensed)), bytes))
     }
 
-    /// Forces on the retained degrees of freedom by displacement k, which are those on k: symmetric.
+    /// Forces on the retained degrees of freedom due to displacement k. By symmetry they are also the forces on k.
     fn row(&self, k: usize) -> &[f64] {
         match self {
             Self::Alone(remainder) => remainder.row(k),
@@ -268,7 +271,7 @@ impl Left {
         }
     }
 
-    /// The bodies, where they are kept.
+    /// The bodies, if they are kept.
     fn kept(self) -> Option<Condensed> {
         match self {
             Self::Alone(_) => None,
@@ -277,31 +280,32 @@ impl Left {
     }
 }
 
-/// Memory of the dense operator \[bytes\]: of each direction of slip the tractions along all of them, and its normal tractions.
+/// Memory of the dense operator \[bytes\]: for each direction of slip, its tractions along all directions and its
+/// normal tractions.
 fn operator_bytes<const C: usize>(tangents: usize, points: usize) -> usize {
     let normal = usize::from(C > 1);
     tangents * (tangents + normal) * points.pow(2) * size_of::<f64>()
 }
 
-/// Refuses what needs more than `allowed` bytes.
+/// Refuses a condensation that needs more than `allowed` bytes.
 fn admit(needed: usize, allowed: usize, equations: usize) -> Result<(), FemError> {
     if needed <= allowed { Ok(()) } else { Err(DirectError::Memory { needed, allowed, equations }.into()) }
 }
 
-/// Places that the forces of a point act on.
+/// Conversion of the forces on a point to tractions.
 #[derive(Clone, Copy, Debug)]
 struct Bearing {
     /// Tributary area \[m²; m per metre of thickness\].
     area: f64,
-    /// True if its normal traction stays: supports that hold both sides against the opening take what changes of its force, or the scene
-    /// says so.
+    /// True if its normal traction is constant, either because supports on both sides take its change or because the
+    /// scene says so.
     keeps: bool,
-    /// True if it opens where nothing presses it.
+    /// True if it opens where its sides are not pressed together.
     opens: bool,
 }
 
 impl Bearing {
-    /// Traction per force: of slip, which the bodies drive with the opposite of what holds it, and of the opening.
+    /// Traction per force, of slip or of the opening. The bodies drive slip with the opposite of the force that holds it.
     fn per_force(&self, opening: bool) -> f64 {
         match (opening, self.keeps) {
             (false, _) => -1.0 / self.area,
@@ -311,19 +315,19 @@ impl Bearing {
     }
 }
 
-/// Words of an error of the condensation about the bodies.
+/// Refusal for an error of the condensation.
 fn refused<const C: usize>(jumps: &Jumps<C>, error: &FemError) -> Refusal {
     if let FemError::Direct(DirectError::Memory { needed, allowed, .. }) = *error {
         return Refusal::Memory { needed, allowed, points: jumps.list().len() };
     }
     let Some(pivot) = error.pivot() else { return Refusal::Other(error.to_string()) };
-    // A jump stands at the degrees of freedom of one of its nodes.
+    // A jump occupies the degrees of freedom of one of its nodes.
     let (dof, node) = (pivot.equation, pivot.equation / C);
     Refusal::Loose { dof, jumps: jumps.list().iter().any(|j| j.plus / C == node) }
 }
 
-/// Memory that the condensation onto so many points of displacements with `components`, some of which may open, takes at least \[bytes\]: the condensed operators, and
-/// the operator that is made of it.
+/// Lower bound of the memory of a condensation onto this many points, some of which may open, with `components` of
+/// displacement \[bytes\]: the condensed matrix and the operator made from it.
 #[must_use]
 pub fn least_bytes(components: usize, tangents: usize, points: usize, opening: usize) -> usize {
     let rows = points * (tangents + usize::from(components > 1));
@@ -334,10 +338,10 @@ pub fn least_bytes(components: usize, tangents: usize, points: usize, opening: u
     rows.pow(2) * size_of::<f64>() + operator + Opening::memory(opening, points, tangents)
 }
 
-/// Tractions from the condensed forces; `rows` are those of the slip of each point, in motion of more than one component its opening stands next to it. A force
-/// is what must act on a jump to hold it there: the bodies drive slip with its opposite, and where it holds the sides apart they
-/// press on each other, in compression. `creep` is the number of the channel of
-/// creep; where the bodies weigh, their weight is the last one.
+/// Tractions from the condensed forces. `rows` are the rows of slip of each point; with more than one component of
+/// displacement, its opening follows. A force is what must act on a jump to hold it. The bodies therefore drive slip
+/// with the opposite force, and a force that holds the sides apart is a compression. `creep` is the number of the
+/// channel of creep; the weight of the bodies, if any, is the last channel.
 fn tractions<const C: usize>(
     left: &Left,
     tangents: usize,
@@ -346,7 +350,7 @@ fn tractions<const C: usize>(
     (creep, weighs): (Option<usize>, bool),
 ) -> Surroundings {
     let n = rows.len();
-    // Traction of a component, the opening after the tangents, that slip of a component causes.
+    // Traction of a component caused by slip of a component; the opening comes after the tangents.
     let part = |component: usize, slip: usize| -> Vec<f64> {
         let mut matrix = Vec::with_capacity(n * n);
         for (&row, bearing) in rows.iter().zip(bearings) {
@@ -404,7 +408,8 @@ fn tractions<const C: usize>(
     Surroundings { operator, opening, loading, creep, weight, bytes: 0, bodies: None }
 }
 
-/// Effect of openings of these points, where there are any, from the normal and the shear tractions of all points that each of them causes.
+/// Effect of the openings of these points, if any, from the normal and shear tractions of all points that each opening
+/// causes.
 fn opening(points: Vec<usize>, bearings: &[Bearing], [normal, shear]: [Vec<Vec<f64>>; 2]) -> Option<Opening> {
     if points.is_empty() {
         return None;

@@ -1,4 +1,5 @@
-//! Conditions on the sides of a fault: which node of a point is replaced by its jump, and which conditions are impossible.
+//! Conditions on the sides of a fault: the node of each point that is replaced by its jump, and the conditions that are
+//! impossible.
 
 use super::place::Place;
 use super::point::Point;
@@ -11,8 +12,8 @@ fn held<const C: usize>(node: usize, fixed: &[usize]) -> [bool; C] {
     std::array::from_fn(|c| fixed.binary_search(&(C * node + c)).is_ok())
 }
 
-/// The jump of a point. It replaces the node with fewer conditions: a condition on one side alone leaves the jump free. A node that a
-/// spring loads, as given by `drawn`, is not replaced.
+/// The jump of a point. It replaces the node with fewer conditions: a condition on one side alone leaves the jump free.
+/// A node drawn by a spring, as given by `drawn`, is not replaced.
 pub(super) fn jump<const D: usize, const C: usize>(
     point: &Point<D>,
     frame: [[f64; C]; C],
@@ -24,25 +25,26 @@ pub(super) fn jump<const D: usize, const C: usize>(
     let within = |a: &[bool; C], b: &[bool; C]| a.iter().zip(b).all(|(a, b)| !a || *b);
     let swap = drawn(plus) || (!drawn(minus) && !within(&on_plus, &on_minus) && within(&on_minus, &on_plus));
     if swap {
-        // What plus does relative to minus is the opposite of what minus does relative to plus.
+        // The motion of plus relative to minus is the opposite of that of minus relative to plus.
         return Jump { minus: C * plus, plus: C * minus, frame: frame.map(|axis| axis.map(|c| -c)) };
     }
     Jump { minus: C * minus, plus: C * plus, frame }
 }
 
-/// The component of displacement that an axis has most of.
+/// The largest component of an axis.
 pub(super) fn most<const C: usize>(axis: &[f64; C]) -> usize {
     let larger = |&a: &usize, &b: &usize| axis[a].abs().total_cmp(&axis[b].abs());
     (0..C).max_by(larger).unwrap_or(0)
 }
 
-/// Share of the motions up to which two of them are the same: rounding of rates and durations.
+/// Relative difference up to which two motions are equal: the rounding of rates and durations.
 const AGREES: f64 = 1e-9;
 
-/// Rates of creep \[m/s\] by degree of freedom until `end`, of jumps along so many tangents, where conditions, which fix the jumps of `fixed`, do not prescribe them already.
+/// Rates of creep \[m/s\] by degree of freedom until `end`, for jumps along this many tangents. Jumps that conditions
+/// already prescribe, given by `fixed`, are left out.
 ///
 /// # Errors
-/// A [`Refusal`] where conditions prescribe another motion of both sides of a point that creeps, or move its sides apart.
+/// A [`Refusal`] where conditions on both sides of a creeping point contradict its creep, or move its sides apart.
 pub(super) fn creep<const D: usize, const C: usize>(
     (points, first): (&[Point<D>], &[usize]),
     fixed: &[usize],
@@ -66,7 +68,7 @@ pub(super) fn creep<const D: usize, const C: usize>(
     let mut rates = Vec::new();
     for (k, (point, &dof)) in points.iter().zip(first).enumerate() {
         let Some(creep) = point.creep else { continue };
-        // What does not slide does not creep, and nothing opens.
+        // Components that are held have no creep, and creep opens nothing.
         let along = creep.into_iter().take(tangents).chain(std::iter::repeat(0.0));
         for (c, rate) in along.take(C).enumerate() {
             if fixed.binary_search(&(dof + c)).is_err() {

@@ -1,7 +1,8 @@
 //! The machine that loads a laboratory specimen: sides that move as one, drawn by springs of finite stiffness.
 //!
-//! The first degree of freedom of a side stands for the motion of all, `u_i = q + d_i` with `d_i` held at zero, which is a jump
-//! from one degree of freedom to another; the spring adds its stiffness k there and pulls with k times the way of its other end.
+//! The first degree of freedom of a side represents the motion of all: `u_i = q + d_i` with `d_i` held at zero, which
+//! is a jump from one degree of freedom to another. The spring adds its stiffness k there, and pulls with k times the
+//! displacement of its other end.
 
 use asperity_fem::condense::Stiffness;
 use asperity_fem::dof::Channel;
@@ -60,7 +61,7 @@ impl<'a> Machine<'a> {
         &self.ties
     }
 
-    /// Degrees of freedom that do not move beside the first of their side.
+    /// Degrees of freedom that move only with the first of their side.
     pub fn tied(&self) -> impl Iterator<Item = usize> {
         self.ties.list().iter().map(|tie| tie.plus)
     }

@@ -1,4 +1,4 @@
-//! Surroundings of sliding points: bodies condensed onto the points of faults, and springs between sliders.
+//! Media around sliding points: bodies condensed onto the points of faults, and springs between sliders.
 
 mod bodies;
 mod condensed;

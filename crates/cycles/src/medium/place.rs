@@ -1,4 +1,4 @@
-//! The places of points of a fault: pairs of nodes, one on each side.
+//! Geometry of the points of a fault, which are pairs of nodes, one on each side.
 
 use asperity_fem::surface;
 
@@ -23,11 +23,11 @@ pub struct Place<const D: usize> {
     pub along: f64,
 }
 
-/// Components of a direction below which they are rounding of coordinates: directions along an axis are exact then, as supports
-/// along it need them.
+/// Size below which a component of a direction is rounding of coordinates. It is set to zero, so that directions along
+/// an axis are exact, as supports along that axis need them.
 const ROUNDING: f64 = 1e-12;
 
-/// A vector divided by its length, without rounding in the components of one along an axis.
+/// A vector divided by its length. Along an axis, the other components are exactly zero.
 #[must_use]
 pub fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
     let length = surface::length(&v);

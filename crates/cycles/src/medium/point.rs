@@ -1,16 +1,16 @@
-//! A point of a fault with what happens there.
+//! A point of a fault and the physics declared there.
 
 use super::place::Place;
 
-/// A point of a fault with what happens there.
+/// A point of a fault and the physics declared there.
 #[derive(Clone, Debug)]
 pub struct Point<const D: usize> {
     /// Position.
     pub place: Place<D>,
-    /// Slip rate along both tangents, where it is prescribed \[m/s\].
+    /// Slip rate along both tangents \[m/s\], where it is prescribed.
     pub creep: Option<[f64; 2]>,
     /// True if slip and loads change its normal traction.
     pub normal_changes: bool,
-    /// True if it opens where nothing presses it.
+    /// True if it opens where its sides are not pressed together.
     pub opens: bool,
 }

@@ -2,7 +2,7 @@
 
 use asperity_fem::FemError;
 
-/// Reason why bodies cannot be condensed onto faults. Points are numbers among those that were given.
+/// Reason why bodies cannot be condensed onto faults. Points are given by their index.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// A spring draws both sides of a point as one.
@@ -22,21 +22,21 @@ pub enum Refusal {
     AlongSlip {
         /// The point.
         point: usize,
-        /// The component of displacement that is most along it.
+        /// The largest component of its direction.
         component: usize,
     },
-    /// Conditions move the sides of a point that creeps otherwise than its creep, or apart.
+    /// Conditions move the sides of a creeping point at another rate, or apart.
     #[error("conditions move the sides of point {point} by {way:e} m in {time:e} s, where it creeps")]
     Moved {
         /// The point.
         point: usize,
-        /// The component of displacement that is most along that axis.
+        /// The largest component of that axis.
         component: usize,
         /// Rate of creep along it \[m/s\]; none across the fault.
         rate: Option<f64>,
-        /// By how much \[m\].
+        /// Distance \[m\].
         way: f64,
-        /// In what time \[s\].
+        /// Duration \[s\].
         time: f64,
     },
     /// The condensation needs more memory than is allowed.
@@ -52,12 +52,12 @@ pub enum Refusal {
     /// A body moves without resistance.
     #[error("nothing holds degree of freedom {dof}")]
     Loose {
-        /// Place where that was found.
+        /// The degree of freedom at which it was found.
         dof: usize,
         /// True if it is a component of a jump.
         jumps: bool,
     },
-    /// Something else.
+    /// Any other reason.
     #[error("{0}")]
     Other(String),
 }

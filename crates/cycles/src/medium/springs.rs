@@ -14,26 +14,26 @@ use serde::{Deserialize, Serialize};
 pub(crate) struct Slips {
     /// Factors of the stiffness matrix of the sliders whose slip rate is not imposed; none where all are.
     stiffness: Option<Llt<usize, f64>>,
-    /// Of each slider: its equation; none where its slip rate is imposed.
+    /// Equation of each slider; none where its slip rate is imposed.
     equations: Vec<Option<usize>>,
     /// Tractions at time 0 \[Pa\].
     first: Vec<f64>,
     travelled: Travelled,
 }
 
-/// Progress of prescribed histories when the present piece of them began.
+/// State of the prescribed histories at the beginning of the current piece.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Travelled {
     /// Displacement of the load point \[m\].
     load: f64,
     /// Slip of the sliders whose rate is imposed \[m\].
     imposed: Vec<f64>,
-    /// Time of that.
+    /// Time at which the piece began.
     entered: Clock,
 }
 
 impl Travelled {
-    /// A number of sliders at time 0.
+    /// State of this many sliders at time 0.
     pub fn nowhere(sliders: usize) -> Self {
         Self { load: 0.0, imposed: vec![0.0; sliders], entered: Clock::new(0.0, 0.0) }
     }

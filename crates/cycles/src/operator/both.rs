@@ -1,24 +1,24 @@
-//! The operator of slip in two directions, of operators of one.
+//! The operator of slip in two directions, composed of operators of one direction.
 
 use super::Operator;
 use std::sync::{Mutex, PoisonError};
 
-/// Tractions that two components of slip cause. What a component does along itself, and to normal tractions, is an operator; so
-/// is what it does across, where it does anything.
+/// Tractions caused by two components of slip. One operator holds the effect of a component on itself and on normal
+/// tractions. Another holds its effect on the other component, if there is any.
 #[derive(Debug)]
 pub struct Both {
-    /// Of the first and of the second component.
+    /// Operators of the first and of the second component on themselves.
     along: [Box<dyn Operator>; 2],
-    /// Tractions along the first component by slip of the second, and the other way round.
+    /// Tractions along the first component caused by slip of the second, and the reverse.
     across: Option<[Box<dyn Operator>; 2]>,
     stiffness: Vec<f64>,
-    /// A part of tractions.
+    /// Working memory for one part of the tractions.
     part: Mutex<Vec<f64>>,
 }
 
 impl Both {
-    /// From the operators of each component along itself and, where slip loads across, of the second on the first and of the first
-    /// on the second; all of as many points.
+    /// Composed of the operators of each component on itself and, where slip loads the other component, of the second
+    /// on the first and the first on the second. All have the same number of points.
     #[must_use]
     pub fn new(along: [Box<dyn Operator>; 2], across: Option<[Box<dyn Operator>; 2]>) -> Self {
         let mut stiffness = [along[0].stiffness(), along[1].stiffness()].concat();

@@ -1,19 +1,19 @@
-//! A binary tree over the points of faults, by place.
+//! A binary tree over the points of faults, by position.
 
 use std::ops::Range;
 
-/// Most points of a leaf: below, a dense block is as small as two of low rank and faster.
+/// Largest number of points of a leaf. A dense block of this size is as small as its low-rank factors, and faster.
 const LEAF: usize = 32;
 
-/// Clusters have a multiple of so many points, but for the last ones: products take as many at once.
+/// Clusters except the last have a multiple of this many points, since products process as many at once.
 const EVEN: usize = 8;
 
 /// Points near each other.
 #[derive(Clone, Debug)]
 pub(super) struct Cluster {
-    /// Its points, as positions in [`Tree::order`].
+    /// Its points, as indices into [`Tree::order`].
     pub range: Range<usize>,
-    /// Its parts, as positions in [`Tree::clusters`].
+    /// Its parts, as indices into [`Tree::clusters`].
     pub parts: Option<[usize; 2]>,
     /// Smallest box around its points \[m\].
     low: [f64; 3],
@@ -26,7 +26,8 @@ impl Cluster {
         (0..3).map(|c| (self.high[c] - self.low[c]).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// True if the boxes lie at least as far apart as the smaller one is long: what slip in one does in the other is smooth.
+    /// True if the boxes lie at least as far apart as the smaller one is long, so that the effect of slip in one is
+    /// smooth in the other.
     pub fn far_from(&self, other: &Self) -> bool {
         let gap = |c: usize| (self.low[c] - other.high[c]).max(other.low[c] - self.high[c]).max(0.0);
         let distance = (0..3).map(|c| gap(c).powi(2)).sum::<f64>().sqrt();
@@ -39,20 +40,20 @@ impl Cluster {
 pub(super) struct Tree {
     /// The points in the order of the leaves.
     pub order: Vec<usize>,
-    /// The root first.
+    /// Clusters, the root first.
     pub clusters: Vec<Cluster>,
 }
 
 impl Tree {
-    /// Of points at these places \[m\]; `faults` are the points of each fault, which are parted first: what slip does may jump
-    /// from one fault to the next.
+    /// Tree of points at these positions \[m\]. `faults` are the points of each fault. Faults are separated first,
+    /// since the effect of slip may jump from one to the next.
     pub fn new(places: &[[f64; 3]], faults: &[Range<usize>]) -> Self {
         let mut tree = Self { order: (0..places.len()).collect(), clusters: Vec::new() };
         tree.grow(places, faults, 0..places.len());
         tree
     }
 
-    /// Adds the cluster of `range`, which holds whole faults or a part of one, and its parts; its position.
+    /// Adds the cluster of `range`, which holds whole faults or a part of one, and its parts. Returns its index.
     fn grow(&mut self, places: &[[f64; 3]], faults: &[Range<usize>], range: Range<usize>) -> usize {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for &p in &self.order[range.clone()] {

@@ -12,16 +12,17 @@ pub struct Dense {
     stiffness: Vec<f64>,
 }
 
-/// Partial sums of a row: independent, so that several are under way at once, and always as many, so that sums are the same on
-/// every machine.
+/// Number of partial sums of a row. They are independent, so that several are computed at once, and their number is
+/// fixed, so that sums are the same on every machine.
 const LANES: usize = 16;
-/// Rows of a task: fixed, so that results do not depend on the number of threads.
+/// Rows of a task. Their number is fixed, so that results do not depend on the number of threads.
 const ROWS: usize = 128;
-/// Points above which a product is worth the start of tasks (some microseconds, as long as 300 rows of 300 take).
+/// Number of points above which a product is worth starting tasks, which takes some microseconds, as a product of 300
+/// rows does.
 const WORTH_TASKS: usize = 768;
 
 impl Dense {
-    /// From matrices of `points` rows: shear and, where slip changes them, normal tractions per slip \[Pa/m\].
+    /// Operator from matrices of `points` rows: shear and, where slip changes them, normal tractions per slip \[Pa/m\].
     #[must_use]
     pub fn new(points: usize, shear: Vec<f64>, normal: Option<Vec<f64>>) -> Self {
         debug_assert_eq!(shear.len(), points * points);

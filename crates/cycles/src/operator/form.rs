@@ -1,4 +1,4 @@
-//! The form in which an operator is kept.
+//! Storage of an operator: dense or compressed.
 
 use super::{Both, Dense, Geometry, Hierarchical, Operator};
 use crate::medium::Tractions;
@@ -6,24 +6,25 @@ use crate::medium::Tractions;
 /// Storage of an operator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
-    /// As fits the number of points.
+    /// Chosen by the number of points.
     Fitting,
     /// All entries.
     Dense,
-    /// Blocks of low rank; error of forces over their largest entry.
+    /// Blocks of low rank, with a bound of the error of forces relative to their largest entry.
     Compressed {
         /// The error.
         tolerance: f64,
     },
 }
 
-/// Points from which the operator is compressed: below, a product with the dense one takes as long (2 us).
+/// Number of points from which the operator is compressed. Below, a product with the dense one takes as long (2 us).
 const COMPRESSED_FROM: usize = 128;
-/// Error of the compressed operator's forces over its largest entry: tractions of slip over 10 km then have errors of some 1e-9, far
-/// below those of the integration, and ten times more would save a tenth of the values.
+/// Error of the forces of the compressed operator, relative to its largest entry. Tractions of slip over 10 km then
+/// have errors of about 1e-9, far below those of the integration. A bound ten times larger would save a tenth of the
+/// values.
 const COMPRESSION: f64 = 1e-10;
 
-/// The operator of points of this geometry in its form.
+/// The operator of points of this geometry, stored in this form.
 #[must_use]
 pub fn in_form(tractions: Tractions, geometry: &Geometry<'_>, form: Form) -> Box<dyn Operator> {
     match tractions {
@@ -39,14 +40,14 @@ pub fn in_form(tractions: Tractions, geometry: &Geometry<'_>, form: Form) -> Box
     }
 }
 
-/// Largest force that slip of a point causes \[N/m; N/m²\].
+/// Largest force caused by slip of a point \[N/m; N/m²\].
 fn largest_force(dense: &Dense, geometry: &Geometry<'_>) -> f64 {
     let rows = dense.matrix().chunks_exact(geometry.areas.len()).zip(geometry.areas);
     let forces = rows.flat_map(|(row, area)| row.iter().map(move |v| (v * area).abs()));
     forces.fold(0.0, f64::max)
 }
 
-/// The operator of one component in its form; `scale` is the force that errors are measured by.
+/// The operator of one component, stored in this form; `scale` is the force to which errors are relative.
 fn one(dense: Dense, geometry: &Geometry<'_>, form: Form, scale: f64) -> Box<dyn Operator> {
     let tolerance = match form {
         Form::Dense => return Box::new(dense),

@@ -1,7 +1,8 @@
-//! Tractions that slip causes, compressed: blocks between points that lie apart have low rank.
+//! Compressed tractions of slip: blocks between distant points have low rank.
 //!
-//! Forces on jumps, whose matrix is symmetric in shear, are what is compressed; tractions are forces over tributary areas. The blocks
-//! stand one after the other in the order in which a product reads them, once; a symmetric matrix has those above the diagonal only.
+//! The matrix of forces on jumps, symmetric in shear, is compressed; tractions are forces divided by tributary areas.
+//! Blocks are stored in the order in which a product reads them, once. Of a symmetric matrix only the blocks on and
+//! above the diagonal are stored.
 
 use super::cluster::{Cluster, Tree};
 use super::low_rank::{GROUP, LowRank, low_rank};
@@ -17,14 +18,14 @@ use std::sync::{Mutex, PoisonError};
 struct Block {
     rows: Range<usize>,
     columns: Range<usize>,
-    /// Columns of its two factors; none where it is dense.
+    /// Number of columns of its two factors; none if it is dense.
     rank: Option<usize>,
     /// True if its transpose acts as well.
     mirrored: bool,
     values: Range<usize>,
 }
 
-/// Blocks for one task, with a place for its sums.
+/// Blocks of one task, with memory for its sums.
 #[derive(Debug)]
 struct Task {
     blocks: Range<usize>,
@@ -40,17 +41,20 @@ struct Compressed {
     tasks: Vec<Task>,
 }
 
-/// Values of a task: fixed, so that sums do not depend on the number of threads; above, a product is worth the start of tasks.
+/// Number of values of a task. It is fixed, so that sums do not depend on the number of threads. A product with more
+/// values is worth starting tasks.
 const TASK: usize = 100_000;
 
-/// Largest rank tried: blocks between points that lie apart need less than half of it, and the search goes with its square.
+/// Largest rank tried. Blocks between distant points need less than half of it, and the cost of the search grows with
+/// its square.
 const MOST_RANK: usize = 64;
-/// The same for points that touch: along a line that takes 20; on a surface it would be hundreds, and their parts do better.
+/// Largest rank tried for adjacent clusters. Along a line 20 suffice; on a surface they would need hundreds, and
+/// splitting them is better.
 const MOST_RANK_NEAR: usize = 24;
-/// Difference of two entries that symmetry makes the same over the largest: rounding of the condensation, far above 1e-16.
+/// Relative difference of two entries that are equal by symmetry. It is above the rounding of the condensation.
 const SYMMETRIC: f64 = 1e-9;
 
-/// A block before it stands in the order of products.
+/// A block before blocks are put in the order of products.
 struct Part {
     rows: Range<usize>,
     columns: Range<usize>,
@@ -81,7 +85,7 @@ struct Source<'a> {
     rows: &'a [f64],
     /// True if blocks below the diagonal follow from those above.
     symmetric: bool,
-    /// Error of an entry, in the mean of a block.
+    /// Root mean square error of the entries of a block.
     error: f64,
 }
 
@@ -90,7 +94,7 @@ impl Source<'_> {
         let (p, q) = (self.tree.order[i], self.tree.order[j]);
         let n = self.rows.len();
         if self.symmetric {
-            // Rounding makes the two differ.
+            // The two differ by rounding.
             0.5 * (self.matrix[p * n + q] * self.rows[p] + self.matrix[q * n + p] * self.rows[q])
         } else {
             self.matrix[p * n + q] * self.rows[p]
@@ -103,7 +107,7 @@ impl Source<'_> {
         Part { rows: rows.clone(), columns: columns.clone(), content }
     }
 
-    /// The blocks of two clusters, whichever take fewer values: one of low rank, or those of their parts.
+    /// The blocks of two clusters: one of low rank, or those of their parts, whichever takes fewer values.
     fn between(&self, a: &Cluster, b: &Cluster) -> Vec<Part> {
         let (rows, columns) = (&a.range, &b.range);
         let (m, n) = (rows.len(), columns.len());
@@ -189,7 +193,7 @@ impl Compressed {
         all
     }
 
-    /// Parts the blocks into tasks.
+    /// Divides the blocks into tasks.
     fn part(&mut self) {
         let mut first = 0;
         for k in 0..self.blocks.len() {
@@ -225,8 +229,8 @@ impl Compressed {
     }
 }
 
-/// Products of blocks with a vector: not a closure, which pulp calls through a function of its own that is compiled without the
-/// requested vector units.
+/// Products of blocks with a vector. It is not a closure, since pulp calls closures through a function that is compiled
+/// without the requested vector units.
 struct Product<'a> {
     blocks: &'a [Block],
     values: &'a [f64],
@@ -272,7 +276,7 @@ impl Block {
     }
 }
 
-/// Partial sums: always as many, so that results are the same on every machine.
+/// Number of partial sums. It is fixed, so that results are the same on every machine.
 const LANES: usize = 8;
 
 #[inline(always)]
@@ -292,8 +296,8 @@ fn dot(a: &[f64], x: &[f64]) -> f64 {
     ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
 
-/// Scalar products of the columns of a group with `x`: one after the other, since compilers mix the columns where they may, to no good, and
-/// leave `array::from_fn` without vector units.
+/// Scalar products of the columns of a group with `x`. They are written one after the other: compilers interleave the
+/// columns otherwise, which is slower, and compile `array::from_fn` without vector units.
 #[inline(always)]
 fn dots(group: &[f64], x: &[f64]) -> [f64; GROUP] {
     let n = x.len();
@@ -353,10 +357,10 @@ pub struct Sizes {
     pub rank: usize,
 }
 
-/// Positions of the points.
+/// Geometry of the points.
 #[derive(Clone, Copy, Debug)]
 pub struct Geometry<'a> {
-    /// Places \[m\].
+    /// Positions \[m\].
     pub places: &'a [[f64; 3]],
     /// Points of each fault, in order.
     pub faults: &'a [Range<usize>],
@@ -365,8 +369,8 @@ pub struct Geometry<'a> {
 }
 
 impl Hierarchical {
-    /// Compresses matrices of tractions per slip \[Pa/m\], row by row. The error of the forces, in Frobenius' norm, is at most
-    /// `tolerance` times the largest entry of the matrix of shear forces, which is below its spectral norm.
+    /// Compresses matrices of tractions per slip \[Pa/m\], row by row. The error of the forces, in Frobenius' norm, is
+    /// at most `tolerance` times the largest entry of the matrix of shear forces, which is below its spectral norm.
     #[must_use]
     pub fn new(shear: &[f64], normal: Option<&[f64]>, geometry: &Geometry<'_>, tolerance: f64) -> Self {
         let rows = shear.chunks_exact(geometry.places.len()).zip(geometry.areas);
@@ -374,7 +378,7 @@ impl Hierarchical {
         Self::of_scale(shear, normal, geometry, tolerance, forces.fold(0.0, f64::max))
     }
 
-    /// The same with an error of at most `tolerance` times the force `largest`.
+    /// Compresses them with an error of at most `tolerance` times the force `largest`.
     #[must_use]
     pub fn of_scale(
         shear: &[f64],
@@ -483,8 +487,7 @@ mod tests {
 
     const TOLERANCE: f64 = 1e-9;
 
-    /// Two faults of cells that grow, with forces of slip that fall with the square of the distance; normal ones are not
-    /// symmetric.
+    /// Two faults with growing cells. Forces of slip fall with the square of the distance; normal forces are not symmetric.
     struct Example {
         places: Vec<[f64; 3]>,
         areas: Vec<f64>,

@@ -2,10 +2,10 @@
 
 use nalgebra::DMatrix;
 
-/// Columns of a block of low rank come in groups of so many: a product treats them together.
+/// Number of columns that a product treats together. The columns of a block of low rank are a multiple of it.
 pub(super) const GROUP: usize = 4;
 
-/// Share of the error that the crosses may leave; the rest is for what is cut off after them.
+/// Share of the error left to the crosses; the rest is for the truncation that follows.
 const CROSSES: f64 = 0.1;
 
 /// `left right'` with a multiple of [`GROUP`] columns, which may be zero.
@@ -15,17 +15,17 @@ pub(super) struct LowRank {
     pub right: DMatrix<f64>,
 }
 
-/// `block` as a product of fewest columns with an error of at most `error` in Frobenius' norm; none where it would take more
-/// than `most` columns.
+/// Factors `block` into the fewest columns with an error of at most `error` in Frobenius' norm; none if more than
+/// `most` columns are needed.
 ///
-/// Crosses of the largest entry of what is left (M. Bebendorf, Numer. Math. 86 (2000) 565, with full pivoting, so that the error is known
-/// and not estimated), then the singular values of their sum.
+/// Crosses through the largest entry of the remainder are taken first (M. Bebendorf, Numer. Math. 86 (2000) 565, with
+/// full pivoting, so that the error is known and not estimated). A singular value decomposition of their sum follows.
 pub(super) fn low_rank(block: DMatrix<f64>, error: f64, most: usize) -> Option<LowRank> {
     let (m, n) = (block.nrows(), block.ncols());
     let mut rest = block;
     let (mut left, mut right): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
     let mut crosses = 0;
-    // Crosses are not yet the best columns.
+    // Crosses need more columns than singular vectors.
     let room = (most + GROUP).min(m).min(n);
     loop {
         let (mut sum, mut largest, mut at) = (0.0, 0.0, (0, 0));
@@ -64,11 +64,11 @@ pub(super) fn low_rank(block: DMatrix<f64>, error: f64, most: usize) -> Option<L
     (found.left.ncols() <= most).then_some(found)
 }
 
-/// Iterations after which the search for singular values fails: some hundred times the usual number.
+/// Number of iterations after which the search for singular values fails: about a hundred times the usual number.
 const MOST_ITERATIONS: usize = 10_000;
 
-/// The fewest columns for `left right'` to `error`; none where its singular values are not found. All of it runs on one thread, for
-/// results that do not depend on their number.
+/// Reduces `left right'` to the fewest columns within `error`; none if its singular values are not found. It runs on
+/// one thread, so that results do not depend on the number of threads.
 fn recompressed(left: DMatrix<f64>, right: DMatrix<f64>, error: f64) -> Option<LowRank> {
     if left.ncols() == 0 {
         return Some(LowRank { left, right });
@@ -82,7 +82,7 @@ fn recompressed(left: DMatrix<f64>, right: DMatrix<f64>, error: f64) -> Option<L
         rank -= 1;
         cut += sizes[rank] * sizes[rank];
     }
-    // Columns that fill the last group cost nothing.
+    // Additional columns that fill the last group cost nothing.
     let (columns, kept) = (rank.next_multiple_of(GROUP), rank.next_multiple_of(GROUP).min(sizes.len()));
     let (u, v) = (left.q() * u, right.q() * v.transpose());
     let fill = |all: &DMatrix<f64>, weight: &dyn Fn(usize) -> f64| {

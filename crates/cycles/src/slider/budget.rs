@@ -1,17 +1,18 @@
 //! Energy budget of spring-sliders, summed over sliders of one area.
 //!
-//! With the slip u_i of a slider, the displacement u_L of the load point, initial tractions T_i0, stiffnesses k_i of the springs to the load
-//! point and k_ij of those between sliders, springs add the traction `S_i = k_i (u_L - u_i) + Σ_j k_ij (u_j - u_i)` to T_i0. Its work, and
-//! the equation of motion of a slider times its slip rate, give
+//! With the slip u_i of a slider, the displacement u_L of the load point, initial tractions T_i0, stiffnesses k_i of
+//! the springs to the load point and k_ij of those between sliders, springs add the traction `S_i = k_i (u_L - u_i) +
+//! Σ_j k_ij (u_j - u_i)` to T_i0. Its work, and the equation of motion of a slider times its slip rate, give
 //!
 //! ```text
 //! Σ T_i0 u_i + ∫ Σ k_i (u_L - u_i) V_L dt - ∫ Σ' S_i V_i dt
 //!     = ½ Σ k_i (u_L - u_i)² + ½ Σ k_ij (u_j - u_i)²  +  ∫ Σ f_i V_i dt  +  ∫ Σ η_i V_i² dt  +  ½ Σ M_i (V_i² - V_i0²)
 //! ```
 //!
-//! The left-hand side is the work of the loads. Its last sum is over sliders of imposed slip rate, all others are over sliders that are free.
-//! The integrals are taken within each step by Gauss's rule from the dense output of the method, slip by solving for the springs. The
-//! integrator uses none of them, so that the imbalance of the budget is an independent measure of the error.
+//! The left-hand side is the work of the loads. Its last sum is over sliders of imposed slip rate; all others are over
+//! free sliders. The integrals are taken within each step by Gauss's rule from the dense output of the method, with
+//! slip solved from the springs. The integrator uses none of these integrals, so the imbalance of the budget is an
+//! independent measure of the error.
 
 use super::equations::Piece;
 use crate::energy::Energy;
@@ -28,7 +29,7 @@ const GAUSS: [(f64, f64); 4] = [
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
-/// Energy budget of a run until now.
+/// Energy budget of a run so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Budget {
     /// Work of the load point and of imposed slip rates \[J/m²\].
@@ -97,7 +98,7 @@ impl Budget {
         }
     }
 
-    /// Takes what depends on the present state alone.
+    /// Sets the parts that depend on the current state alone.
     fn store(&mut self, piece: &Piece<'_>, slips: &Slips, state: &State) {
         let problem = piece.problem;
         let system = &problem.system;

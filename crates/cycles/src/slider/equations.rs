@@ -1,4 +1,4 @@
-//! A segment of the equations as a problem of the integrator, with its event functions.
+//! The equations between two breaks as a problem for the integrator, with its event functions.
 
 use super::problem::Problem;
 use asperity_friction::evolution::Speed;
@@ -6,7 +6,7 @@ use asperity_friction::slider::Segment;
 use asperity_ode::{self as ode, Clock};
 use std::cell::RefCell;
 
-/// ln(|V|/threshold) of a slider that stands or slides the other way: below any threshold, and finite.
+/// Value of ln(\|V\|/threshold) for a slider at rest or sliding the other way: below any threshold, and finite.
 const AT_REST: f64 = -1e3;
 
 /// A direction of slip.
@@ -36,7 +36,7 @@ pub(crate) enum EventKind {
     Acceleration(usize),
 }
 
-/// Event functions of a problem, in the order of their numbers.
+/// Event functions of a problem, in the order of their indices.
 pub(super) fn kinds(problem: &Problem) -> Vec<EventKind> {
     let mut kinds = Vec::new();
     for i in 0..problem.names.len() {
@@ -45,7 +45,7 @@ pub(super) fn kinds(problem: &Problem) -> Vec<EventKind> {
                 kinds.extend([EventKind::On(i, way), EventKind::Off(i, way)]);
             }
         }
-        // Extremes of what is imposed are no findings.
+        // Extremes of an imposed rate are not results.
         if problem.peaks && problem.system.imposed(i).is_none() {
             kinds.push(EventKind::Acceleration(i));
         }
@@ -74,7 +74,7 @@ impl Piece<'_> {
         let (way, threshold) = match (kind, self.problem.events) {
             (EventKind::On(_, way), Some(t)) => (way, t.on),
             (EventKind::Off(_, way), Some(t)) => (way, t.off),
-            // `kinds` makes thresholds only where the plan has them.
+            // `kinds` creates thresholds only where the plan has them.
             _ => return AT_REST,
         };
         if way.is_of(speed.rate) { (speed.log - threshold.ln()).max(AT_REST) } else { AT_REST }
@@ -116,7 +116,7 @@ impl ode::Problem for Piece<'_> {
         if self.problem.peaks {
             self.segment.rates(at.seconds(), y, &mut rates);
         }
-        // The functions of a slider stand side by side.
+        // The functions of a slider are adjacent.
         let mut seen: Option<(usize, Speed)> = None;
         let mut speed = |i: usize| match seen {
             Some((slider, speed)) if slider == i => speed,

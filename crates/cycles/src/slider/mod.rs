@@ -1,4 +1,4 @@
-//! Spring-sliders: what is integrated, the run and its catalogue of events.
+//! Spring-sliders: the problem, the run and its catalogue of events.
 //!
 //! The equations are those of [`asperity_friction::slider`]; the integrator is [`asperity_ode`].
 

@@ -5,24 +5,24 @@ use crate::catalogue::Thresholds;
 use asperity_friction::slider::System;
 use asperity_ode::{Method, Options};
 
-/// Method of scenes that name none: in the cycles of the case `slider_work_precision` no other needs fewer right-hand sides by
-/// more than what the case can tell, and explicit methods alone need many times more where inertia or a soft spring makes the
-/// equations stiff.
+/// Default method. In the cycles of the case `slider_work_precision` no other method needs significantly fewer
+/// right-hand sides. Explicit methods alone need many times more where inertia or a soft spring makes the equations
+/// stiff.
 pub const DEFAULT_METHOD: Method = Method::Switching;
 
-/// Tolerance of scenes that give none: in the work-precision case it leaves event times with an error of some 1e-9 of the
-/// recurrence, below what any parameter is known to, for a few milliseconds a cycle.
+/// Default tolerance. In the work-precision case, event times have an error of about 1e-9 of the recurrence, smaller
+/// than the uncertainty of any parameter, at a cost of a few milliseconds a cycle.
 pub const DEFAULT_TOLERANCE: f64 = 1e-8;
 
-/// Share of the absolute tolerance the relative one is: the unknowns are logarithms and friction over a, of which absolute
-/// changes matter; a relative part of that size lets rounding of large unknowns pass.
+/// Ratio of the relative to the absolute tolerance. The unknowns are logarithms and friction divided by a, whose
+/// absolute changes matter; a relative part of this size admits the rounding of large unknowns.
 const RELATIVE: f64 = 1e-3;
 
-/// Steps after which a run is given up, where the scene says nothing: a thousand cycles of the hardest case.
+/// Default number of steps after which a run gives up: a thousand cycles of the hardest case.
 pub const MOST_STEPS: usize = 20_000_000;
 
-/// Accepted steps after which the integration restarts, which is where it can be interrupted. Methods with a memory lose some twenty steps
-/// by that.
+/// Number of accepted steps after which the integration restarts, and can be interrupted. Multistep methods lose about
+/// twenty steps at a restart.
 pub const RESTART: u64 = 4096;
 
 /// The problem to integrate.
@@ -38,25 +38,25 @@ pub struct Problem {
     pub start: Vec<f64>,
     /// Method.
     pub method: Method,
-    /// Error allowed in ln V, and in what is worth as much of each state, per step \[-\].
+    /// Error of ln V allowed in a step, and the equivalent error of each state \[-\].
     pub tolerance: f64,
     /// First step \[s\].
     pub first_step: Option<f64>,
     /// Largest step \[s\].
     pub largest_step: Option<f64>,
-    /// Steps after which to give up.
+    /// Number of steps after which the run gives up.
     pub most_steps: usize,
-    /// Accepted steps after which the integration restarts, which is where it can be interrupted.
+    /// Number of accepted steps after which the integration restarts, and can be interrupted.
     pub restart: u64,
     /// End \[s\].
     pub end: f64,
-    /// Events, where they are wanted.
+    /// Thresholds of events, if events are detected.
     pub events: Option<Thresholds>,
-    /// Events of the first slider after which to stop.
+    /// Number of events of the first slider after which the run stops.
     pub most_events: Option<usize>,
     /// True if extremes of the slip rate are found.
     pub peaks: bool,
-    /// Which rows are written.
+    /// Rows to be written.
     pub output: Rows,
 }
 
@@ -97,7 +97,7 @@ impl Problem {
         }
     }
 
-    /// Dynamics in words.
+    /// Description of the dynamics.
     #[must_use]
     pub fn dynamics(&self) -> &'static str {
         let sliders = self.system.sliders();

@@ -1,15 +1,14 @@
-//! Which rows a run writes.
+//! Rows that a run writes.
 
 use serde::{Deserialize, Serialize};
 
-/// Change of ln V of which outputs show what lies between, where a scene says nothing: a twentieth of an e-fold is less than a hair
-/// on a plot over sixteen decades.
+/// Default change of ln V between rows. A twentieth of an e-fold is invisible on a plot over sixteen decades.
 pub const DEFAULT_CHANGE: f64 = 0.05;
 
 /// Rows of histories: by change, at times, or both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rows {
-    /// A row of a slider is written when its ln V has changed by so much, and at its events; none: by times alone.
+    /// Change of ln V after which a row of a slider is written, besides those at its events; none: rows at given times only.
     pub change: Option<f64>,
     /// Times at which rows are written, ascending \[s\].
     pub times: Vec<f64>,
@@ -36,9 +35,9 @@ impl Rows {
 /// Requested times in sequence.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Due {
-    /// Of the list: the next.
+    /// Next of the list.
     listed: usize,
-    /// Of the intervals: the next.
+    /// Next of the intervals.
     interval: u64,
 }
 

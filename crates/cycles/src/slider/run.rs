@@ -1,7 +1,7 @@
-//! Integration from break to break of the prescribed histories.
+//! Integration between breaks of the prescribed histories.
 //!
-//! The integration also restarts after the number of accepted steps given by the problem, with or without a checkpoint. A run
-//! resumed there takes the same steps, bit for bit, as one that was never interrupted.
+//! The integration also restarts after the number of accepted steps given by the problem, with or without a checkpoint.
+//! A run resumed at a restart therefore takes the same steps, bit for bit, as an uninterrupted one.
 
 use super::budget::Budget;
 use super::equations::{EventKind, Piece, kinds};
@@ -17,7 +17,7 @@ use asperity_ode::{
 };
 use serde::{Deserialize, Serialize};
 
-/// The sliders at an instant.
+/// State of the sliders at an instant.
 #[derive(Clone, Debug)]
 pub struct Now<'a> {
     /// Problem that is integrated.
@@ -32,11 +32,11 @@ pub struct Now<'a> {
     pub unknowns: &'a [f64],
     /// Condition of each slider.
     pub conditions: &'a [Condition],
-    /// Of each slider: slip since time 0 \[m\].
+    /// Slip of each slider since time 0 \[m\].
     pub slip: &'a [f64],
     /// Displacement of the load point since time 0 \[m\].
     pub load: f64,
-    /// True if the plan asks for a row at this time.
+    /// True if the plan requests a row at this time.
     pub asked: bool,
 }
 
@@ -50,17 +50,17 @@ impl Kind for Sliders {
     type Stand = SliderRun;
 }
 
-/// Largest number of halvings of a step: at a slider that passes through rest, ln V changes without bound.
+/// Largest number of halvings of a step. It is needed where a slider passes through rest, since ln V is unbounded there.
 const MOST_HALVES: u32 = 8;
 
-/// A step below this share of the time is not resolved: where an undamped slider takes [`MOST_UNRESOLVED`] of them, its slip rate
-/// grows beyond bounds in finite time. Explicit methods end there by themselves; methods that solve equations may step over that
-/// time onto a branch that is no solution, and would go on.
+/// A step below this share of the time is unresolved. If an undamped slider takes [`MOST_UNRESOLVED`] of them, its slip
+/// rate becomes unbounded in finite time. Explicit methods fail there; implicit methods may step across that time onto
+/// a branch that is not a solution.
 const UNRESOLVED: f64 = 1e-26;
-/// Number of such steps in a row that is no accident: the step before an event may be as short.
+/// Number of such steps in a row that stops the run; a single one may precede an event.
 const MOST_UNRESOLVED: u32 = 10;
 
-/// Friction over a at which a slider has none left, and V is what it is at rest; the steps would go on to shrink towards zero.
+/// Friction divided by a below which a slider has no friction. Steps would otherwise shrink towards zero.
 const SPENT: f64 = 1e-3;
 
 /// Progress of a run of spring-sliders.
@@ -73,12 +73,12 @@ pub struct Progress {
     pub hint: Option<String>,
     /// Detection of events.
     detectors: Detectors,
-    /// Breaks of the prescribed histories it has passed.
+    /// Number of breaks of the prescribed histories passed.
     passed: usize,
     travelled: Travelled,
-    /// Times of rows still to come.
+    /// Times of the remaining rows.
     due: Due,
-    /// Steps in a row that time does not resolve.
+    /// Number of unresolved steps in a row.
     unresolved: u32,
 }
 
@@ -103,7 +103,7 @@ impl SliderRun {
     }
 }
 
-/// Runs a problem. An integration that fails is no error: the outcome says so, and all found until then stands.
+/// Runs a problem. A failed integration is not an error; it is reported as the outcome, and the results up to then are kept.
 ///
 /// # Errors
 /// [`RunError`].
@@ -159,7 +159,7 @@ pub fn resume(
 /// Reason why a run that failed may have failed, in terms of the scene.
 fn why(problem: &Problem, piece: &Piece<'_>, run: &SliderRun) -> Option<String> {
     match run.outcome {
-        // Other failures say themselves what is wrong.
+        // Other failures describe their cause.
         Outcome::Failed { reason: Failure::StepTooSmall { .. } | Failure::Ends } => {
             hint(problem, piece, run.at, &run.unknowns)
         }
@@ -168,7 +168,7 @@ fn why(problem: &Problem, piece: &Piece<'_>, run: &SliderRun) -> Option<String> 
     }
 }
 
-/// The first slider that nothing keeps from running away, and that is faster than the load point, with its slip rate.
+/// The first slider that is faster than the load point with neither damping nor mass, and its slip rate.
 fn running(piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<(usize, f64)> {
     let load = piece.segment.load().at(at.seconds()).0.abs();
     piece.problem.system.sliders().iter().enumerate().find_map(|(i, s)| {
@@ -184,7 +184,7 @@ fn spent(problem: &Problem, unknowns: &[f64]) -> Option<usize> {
     problem.system.sliders().iter().enumerate().find(stands).map(|(i, _)| i)
 }
 
-/// Explains that no step is short enough, where friction reaches zero or a quasi-static slider runs away.
+/// Explains why no step is short enough: friction reaches zero, or a quasi-static slider runs away.
 fn hint(problem: &Problem, piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<String> {
     if let Some(i) = spent(problem, unknowns) {
         return Some(format!(
@@ -200,7 +200,7 @@ fn hint(problem: &Problem, piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Op
     })
 }
 
-/// Explains why a method with a memory of several steps does not come to its end.
+/// Explains why a multistep method does not reach the end.
 fn restarts(problem: &Problem, most: usize) -> Option<String> {
     let rests = problem.system.sliders().iter().any(|s| s.mass.is_some());
     (problem.method == Method::Bdf && problem.peaks && rests).then(|| {
@@ -211,7 +211,7 @@ fn restarts(problem: &Problem, most: usize) -> Option<String> {
     })
 }
 
-/// A run that is followed.
+/// A run and its observer.
 struct Following<'a> {
     problem: &'a Problem,
     observer: &'a mut dyn Observer<Sliders>,
@@ -221,7 +221,7 @@ struct Following<'a> {
     ended: bool,
     /// Accepted steps since the last restart.
     steps: u64,
-    /// Reason to stop: a slider runs away, or its friction has fallen to zero.
+    /// Reason to stop: a slider runs away, or its friction is zero.
     senseless: Option<Failure>,
 }
 
@@ -230,7 +230,7 @@ impl<'a> Following<'a> {
         Self { problem, observer, run, failure: None, ended: false, steps: 0, senseless: None }
     }
 
-    /// Integrates a piece from restart to restart; whether it came to its end.
+    /// Integrates a piece from restart to restart. Returns true if it reached its end.
     fn through(&mut self, piece: &Piece<'_>, slips: &Slips, end: f64) -> bool {
         let (mut options, earlier) = (self.problem.options(), self.run.counts.steps);
         loop {
@@ -290,7 +290,7 @@ impl<'a> Following<'a> {
 
     /// True if the requested number of events has ended.
     fn enough(&self) -> bool {
-        // The last event counts when it is over, so that its peak and slip are known.
+        // The last event counts once it has ended, so that its peak and slip are known.
         self.problem.most_events.is_some_and(|n| self.run.catalogue.ended(0).len() >= n)
     }
 }
@@ -305,7 +305,7 @@ struct Running<'a, 'b> {
 }
 
 impl Running<'_, '_> {
-    /// Shows the first state, and that after a jump.
+    /// Observes the first state, or the state after a jump.
     fn begin(&mut self, at: Clock, unknowns: &[f64]) {
         let asked = self.state.run.progress.due.next(&self.state.problem.output, at.seconds()).is_some();
         self.show(at, 0.0, unknowns, asked);
@@ -314,7 +314,7 @@ impl Running<'_, '_> {
         let (load, conditions) = self.look(at, unknowns);
         let slip = self.slips.slip(self.piece, at, load, &conditions);
         for (i, c) in conditions.iter().enumerate() {
-            // A run that begins within an event, or a jump into one.
+            // The run begins within an event, or jumps into one.
             if c.rate.abs() > thresholds.on {
                 self.begins(i, at, c.rate, self.edge(i, unknowns, c, slip[i]));
             } else if c.rate.abs() < thresholds.off {
@@ -334,8 +334,8 @@ impl Running<'_, '_> {
         }
     }
 
-    /// Passes samples within a step to the observer, from the dense output: for smooth curves in long steps, and at requested times.
-    /// Returns true if the end of the step is one of these.
+    /// Passes samples within a step to the observer, from the dense output. They make curves smooth in long steps, and
+    /// include the requested times. Returns true if the end of the step is one of these.
     fn between(&mut self, step: &Step<'_>) -> bool {
         let problem = self.state.problem;
         let start = self.sample(step, 0.0);
@@ -350,7 +350,7 @@ impl Running<'_, '_> {
             samples.push(end);
         }
         let ends_asked = self.asked(step, &mut samples);
-        // Those between which ln V changes by less are left out.
+        // Samples between which ln V changes less are left out.
         let resolution = problem.output.change.unwrap_or(f64::INFINITY);
         let mut last = start;
         for (k, sample) in samples.iter().enumerate() {
@@ -366,7 +366,7 @@ impl Running<'_, '_> {
         ends_asked
     }
 
-    /// The sliders at a share of a step.
+    /// State of the sliders at a fraction of a step.
     fn sample(&self, step: &Step<'_>, fraction: f64) -> Sample {
         let mut unknowns = step.state.to_vec();
         if fraction < 1.0 {
@@ -396,7 +396,7 @@ impl Running<'_, '_> {
         ends_asked
     }
 
-    /// Samples between two, so that ln V changes little from each to the next.
+    /// Adds samples between two, so that ln V changes little from each to the next.
     fn halves(&self, step: &Step<'_>, ends: [&Sample; 2], depth: u32, samples: &mut Vec<Sample>) {
         let resolution = self.state.problem.output.change.unwrap_or(f64::INFINITY);
         if depth == MOST_HALVES || ends[1].change(ends[0]) < 0.5 * resolution {
@@ -433,7 +433,7 @@ impl Running<'_, '_> {
 }
 
 impl Running<'_, '_> {
-    /// True if a slider runs away in steps that time does not resolve.
+    /// True if a slider runs away in unresolved steps.
     fn runs_away(&mut self, step: &Step<'_>) -> bool {
         let length = step.length();
         let short = length < UNRESOLVED * step.end.seconds().abs();
@@ -469,10 +469,10 @@ impl Running<'_, '_> {
     }
 }
 
-/// The sliders within a step.
+/// State of the sliders within a step.
 #[derive(Clone, Debug)]
 struct Sample {
-    /// Share of the step that is over.
+    /// Fraction of the step.
     fraction: f64,
     /// The time, if it was requested.
     asked: Option<Clock>,
@@ -482,7 +482,7 @@ struct Sample {
 }
 
 impl Sample {
-    /// Largest change of ln |V| from another.
+    /// Largest difference of ln \|V\| from another sample.
     fn change(&self, other: &Self) -> f64 {
         self.logs.iter().zip(&other.logs).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     }

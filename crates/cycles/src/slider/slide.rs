@@ -1,11 +1,11 @@
-//! Events of sliders: when each began and ended, which way and how far it slipped, how fast, and what it released.
+//! Events of sliders: onset and end, direction and amount of slip, slip rates, and stress drop.
 
 use crate::catalogue::{Catalogue, Event};
 use asperity_ode::Clock;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A slider at the onset or at the end of an event.
+/// State of a slider at the onset or end of an event.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Edge {
     /// Slip since time 0 \[m\].
@@ -18,27 +18,28 @@ pub struct Edge {
     pub states: Vec<f64>,
 }
 
-/// Details of an event of a slider: |V| above the upper threshold in one direction, until it falls through the lower one.
+/// Details of an event of a slider. It begins when \|V\| exceeds the upper threshold, and ends when \|V\| falls below
+/// the lower one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Slide {
     /// 1 along positive slip rates, -1 against them.
     pub direction: i8,
-    /// Smallest |V| since the event before, zero where the slider turned round \[m/s\].
+    /// Smallest \|V\| since the previous event \[m/s\]; zero if the slider reversed.
     pub least_rate: f64,
-    /// The slider at the onset.
+    /// State at the onset.
     pub at_onset: Edge,
-    /// The slider at the end.
+    /// State at the end.
     pub at_end: Option<Edge>,
 }
 
 impl Slide {
-    /// Slip from onset to end, negative against the positive direction; none of an event under way \[m\].
+    /// Slip from onset to end, negative against the positive direction \[m\]; none for an unfinished event.
     #[must_use]
     pub fn slip(&self) -> Option<f64> {
         self.at_end.as_ref().map(|end| end.slip - self.at_onset.slip)
     }
 
-    /// Traction at the onset less that at the end, in the direction of slip; none of an event under way \[Pa\].
+    /// Traction at the onset minus that at the end, in the direction of slip \[Pa\]; none for an unfinished event.
     #[must_use]
     pub fn stress_drop(&self) -> Option<f64> {
         let fall = |end: &Edge| f64::from(self.direction) * (self.at_onset.traction - end.traction);
@@ -53,19 +54,19 @@ pub(super) struct Detectors(Vec<Detector>);
 /// Slip rates of a slider between its events.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Detector {
-    /// Smallest |V| since the last event; none where none was seen.
+    /// Smallest \|V\| since the last event; none if no rate was recorded.
     least: Option<f64>,
-    /// Slip rate seen last \[m/s\].
+    /// Last recorded slip rate \[m/s\].
     last: f64,
 }
 
 impl Detectors {
-    /// For this many sliders.
+    /// Detectors of this many sliders.
     pub(super) fn new(sliders: usize) -> Self {
         Self(vec![Detector::default(); sliders])
     }
 
-    /// |V| of a slider rose through the upper threshold. An event in this direction that is under way continues.
+    /// Records that \|V\| of a slider rose through the upper threshold. An unfinished event in this direction continues.
     pub(super) fn begin(
         &mut self,
         events: &mut Catalogue<Slide>,
@@ -85,7 +86,7 @@ impl Detectors {
         events.begin(slider, at, rate.abs(), Slide { direction, least_rate, at_onset: edge, at_end: None });
     }
 
-    /// A slip rate was seen.
+    /// Records a slip rate.
     pub(super) fn see(&mut self, events: &mut Catalogue<Slide>, slider: usize, rate: f64) {
         let detector = &mut self.0[slider];
         let turned = detector.last != 0.0 && rate != 0.0 && (detector.last < 0.0) != (rate < 0.0);
@@ -104,7 +105,7 @@ impl Detectors {
     }
 }
 
-/// |V| of a slider fell through the lower threshold.
+/// Records that \|V\| of a slider fell through the lower threshold.
 pub(super) fn end(event: &mut Event<Slide>, at: Clock, edge: Edge) {
     event.end = Some(at);
     event.details.at_end = Some(edge);

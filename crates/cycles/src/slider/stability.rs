@@ -1,36 +1,37 @@
-//! Critical stiffness: softer than that, a slider does not slide steadily.
+//! Critical stiffness: on a softer spring, steady sliding is unstable.
 //!
-//! Steady sliding at V beside springs whose other ends do not change their rate. With the response of friction `μ = a x + q Σ φ_i`,
-//! `dφ_i/dt = -r_i (φ_i + b_i x) - C_i dμ/dt` ([`Response`]), small changes that go as e^(s t) satisfy
+//! Steady sliding at V is perturbed, with springs whose other ends keep their rate. With the response of friction `μ =
+//! a x + q Σ φ_i`, `dφ_i/dt = -r_i (φ_i + b_i x) - C_i dμ/dt` ([`Response`]), small perturbations proportional to e^(s
+//! t) satisfy
 //!
 //! ```text
 //! f_n s N(s) + (k V + η V s + M V s²) D(s) = 0,   N = a - q Σ b_i r_i/(s + r_i),   D = 1 + q Σ C_i s/(s + r_i).
 //! ```
 //!
-//! A pair of roots stands on the imaginary axis, s = i ω, where `Re N/D = -η V/f_n`, for the stiffness
+//! A pair of roots lies on the imaginary axis, s = i ω, where `Re N/D = -η V/f_n`, for the stiffness
 //! `k = (f_n ω/V) Im N/D + M ω²`. For one state without memory that is `k_c = (f_n/L)(b - a')(1 + n/a')`.
 
 use super::problem::Problem;
 use asperity_friction::slider::{History, Response, Slider};
 use nalgebra::Complex;
 
-/// Frequencies at which roots are looked for begin at this share of the slowest relaxation, and end at one over this share of the
-/// fastest: the stiffness that belongs to slower ones is the square of this of that of the law.
+/// The search for roots begins at this share of the slowest relaxation rate, and ends at the fastest divided by this
+/// share. Slower roots belong to stiffnesses below the square of this share of that of the law.
 const LEAST: f64 = 1e-9;
-/// Steps of the search in an e-fold of frequency, in which no term of the equation changes by more than a third of itself.
+/// Number of steps of the search in an e-fold of frequency. No term of the equation changes by more than a third in a step.
 const STEPS: f64 = 8.0;
-/// Halvings of such a step: beyond rounding.
+/// Number of halvings of such a step; they reach rounding.
 const HALVINGS: usize = 60;
 
 /// Stiffnesses at which small perturbations of steady sliding neither grow nor decay.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stability {
-    /// The stiffness \[Pa/m\], and whether a softer spring has one growing oscillation more (or one less).
+    /// Stiffness \[Pa/m\], and true if a softer spring has one more growing oscillation (false: one less).
     marginal: Vec<(f64, bool)>,
 }
 
 impl Stability {
-    /// Of a slider that slides steadily at `rate` \[m/s\] under `normal` \[Pa\].
+    /// Stability of a slider that slides steadily at `rate` \[m/s\] under `normal` \[Pa\].
     #[must_use]
     pub fn new(slider: &Slider, rate: f64, normal: f64) -> Self {
         let speed = rate.abs();
@@ -49,8 +50,8 @@ impl Stability {
         self.marginal.iter().map(|m| m.0).fold(0.0, f64::max)
     }
 
-    /// True if steady sliding on a spring of this stiffness \[Pa/m\] is unstable. With several states it may be stable again on springs
-    /// far softer than critical.
+    /// True if steady sliding on a spring of this stiffness \[Pa/m\] is unstable. With several states it may be stable
+    /// again on springs far softer than critical.
     #[must_use]
     pub fn unstable(&self, stiffness: f64) -> bool {
         let passed = self.marginal.iter().filter(|m| m.0 > stiffness);
@@ -98,7 +99,7 @@ fn frequencies(response: &Response, damping: f64) -> Vec<(f64, bool)> {
     found
 }
 
-/// Finds where a function changes sign between two places, at the first of which its value is known.
+/// Finds the zero of a function between two arguments; its value at the first is given.
 fn zero(f: &impl Fn(f64) -> f64, (mut low, value): (f64, f64), mut high: f64) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
@@ -107,7 +108,7 @@ fn zero(f: &impl Fn(f64) -> f64, (mut low, value): (f64, f64), mut high: f64) ->
     0.5 * (low + high)
 }
 
-/// Of each slider: its stiffness K and its stability under the load and the normal traction of time 0; none where there is no steady
+/// Stiffness K and stability of each slider under the load and normal traction at time 0; none where there is no steady
 /// sliding.
 fn each(problem: &Problem) -> Vec<Option<(f64, Stability)>> {
     let rate = problem.system.load().piece(0.0).at(0.0).0;
@@ -119,7 +120,7 @@ fn each(problem: &Problem) -> Vec<Option<(f64, Stability)>> {
     .collect()
 }
 
-/// Of each slider: its stability in words.
+/// Description of the stability of each slider.
 #[must_use]
 pub fn words(problem: &Problem) -> Vec<Option<String>> {
     let coupled = !problem.system.springs().is_empty();
@@ -136,7 +137,7 @@ pub fn words(problem: &Problem) -> Vec<Option<String>> {
     each(problem).into_iter().map(|one| one.map(of_one)).collect()
 }
 
-/// Consequence for the whole.
+/// Description of the consequence for the run.
 #[must_use]
 pub fn remarks(problem: &Problem) -> Vec<String> {
     let steady = matches!(problem.system.load(), History::Constant(_))
@@ -152,7 +153,7 @@ pub fn remarks(problem: &Problem) -> Vec<String> {
     Vec::new()
 }
 
-/// The sliders that run away, each with k/k_c: softer than critical, with neither damping nor mass.
+/// Sliders on springs softer than critical with neither damping nor mass, which run away, each with k/k_c.
 #[must_use]
 pub fn runaways(problem: &Problem) -> Vec<(usize, f64)> {
     let found = each(problem).into_iter().enumerate();
