@@ -90,6 +90,8 @@ mod maxwell_relaxation;
 mod nafems_roller;
 mod okada;
 mod partial_slip;
+pub mod programs;
+mod restarts;
 pub mod sandwich;
 mod sandwich_3d;
 mod sandwich_pressed;
@@ -174,6 +176,7 @@ pub const ALL: &[Case] = &[
     lame_cylinder::CASE,
     nafems_roller::CASE,
     partial_slip::CASE,
+    restarts::CASE,
     sandwich_3d::CASE,
     sandwich_pressed::CASE,
     sandwich_sheared::CASE,

@@ -115,6 +115,8 @@ capabilities! {
     Balance => "force and moment balance",
     /// Bit-identical results for any number of threads.
     Determinism => "results independent of the number of threads",
+    /// Runs resumed from their checkpoints.
+    Restarts => "runs resumed from checkpoints",
     /// Scenes, their refusal, and the plan.
     Scenes => "scene reader and plan",
     /// Files written by a run.

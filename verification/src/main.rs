@@ -9,11 +9,10 @@ use asperity_driver::cli::{self, Arguments};
 use asperity_verification::case::Outcome;
 use asperity_verification::report::{self, provenance::Provenance};
 use asperity_verification::suite::{Selection, Summary};
-use asperity_verification::{Verdict, cases};
+use asperity_verification::{Verdict, cases, cases::programs};
 use clap::Parser;
 use std::error::Error;
-use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -29,17 +28,15 @@ struct Options {
     /// Folder of the report.
     #[arg(long, value_name = "DIR", default_value = "target/verify")]
     out: PathBuf,
-    /// Run this scene as the `asperity` program does, without plots, instead of the suite. For tools that measure a process.
-    #[arg(long, hide = true, value_name = "FILE")]
-    scene: Option<PathBuf>,
 }
 
 fn main() -> ExitCode {
-    let options = Options::parse();
-    if let Some(scene) = &options.scene {
-        return run_scene(scene, &options.out);
+    // Cases that measure or interrupt a process start this program as `asperity`, so that they run what was built with them.
+    let mut words = std::env::args_os().skip(1).peekable();
+    if words.peek().is_some_and(|word| word == programs::NAME) {
+        return asperity(&Arguments::parse_from(words));
     }
-    match suite(&options) {
+    match suite(&Options::parse()) {
         Ok(summary) if summary.passes() => ExitCode::SUCCESS,
         Ok(_) => ExitCode::FAILURE,
         Err(error) => {
@@ -49,12 +46,10 @@ fn main() -> ExitCode {
     }
 }
 
-fn run_scene(scene: &Path, out: &Path) -> ExitCode {
-    let words = ["asperity", "run", "--no-plots", "--force", "--out"].map(OsStr::new);
-    let arguments = Arguments::parse_from(words.into_iter().chain([out.as_os_str(), scene.as_os_str()]));
-    match cli::execute(&arguments) {
-        Ok(cli::End::Done) => ExitCode::SUCCESS,
-        Ok(_) => ExitCode::from(2),
+/// Executes a command of the `asperity` program.
+fn asperity(arguments: &Arguments) -> ExitCode {
+    match cli::execute(arguments) {
+        Ok(end) => ExitCode::from(end.code()),
         Err(error) => {
             eprintln!("error: {error:?}");
             ExitCode::FAILURE

@@ -9,14 +9,13 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     faer::set_global_parallelism(faer::Par::Seq);
     match cli::execute(&cli::Arguments::parse()) {
-        Ok(cli::End::Done) => ExitCode::SUCCESS,
-        Ok(cli::End::Stopped(why)) => {
-            printing::err(format_args!("stopped: {why}\n"));
-            ExitCode::from(2)
-        }
-        Ok(cli::End::Interrupted(why)) => {
-            printing::err(format_args!("{why}\n"));
-            ExitCode::from(3)
+        Ok(end) => {
+            match &end {
+                cli::End::Done => {}
+                cli::End::Stopped(why) => printing::err(format_args!("stopped: {why}\n")),
+                cli::End::Interrupted(why) => printing::err(format_args!("{why}\n")),
+            }
+            ExitCode::from(end.code())
         }
         Err(error) => {
             printing::err(format_args!("{}\n", rendered(&error)));

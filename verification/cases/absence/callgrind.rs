@@ -1,6 +1,7 @@
 //! Instructions of a run by source file, counted by callgrind.
 
 use crate::CaseError;
+use crate::cases::programs;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -23,19 +24,11 @@ pub fn run(scene: &str, folder: &Path) -> Result<Instructions, CaseError> {
     std::fs::create_dir_all(folder)?;
     let (file, counts) = (folder.join("scene.toml"), folder.join("callgrind.out"));
     std::fs::write(&file, scene)?;
-    let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--compress-strings=no", "--compress-pos=no"])
-        .arg(format!("--callgrind-out-file={}", counts.display()))
-        .arg(std::env::current_exe()?)
-        .arg("--scene")
-        .arg(&file)
-        .arg("--out")
-        .arg(folder.join("out"))
-        .env("RAYON_NUM_THREADS", "1")
-        .output()?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());
-    }
+    let out = format!("--callgrind-out-file={}", counts.display());
+    let tool = ["valgrind", "--tool=callgrind", "--compress-strings=no", "--compress-pos=no", &out];
+    let mut command = programs::asperity(&tool)?;
+    command.args(["run", "--no-plots"]).arg(file).arg("--out").arg(folder.join("out"));
+    programs::finished(command.env("RAYON_NUM_THREADS", "1"), &[0])?;
     Ok(read(&std::fs::read_to_string(&counts)?))
 }
 

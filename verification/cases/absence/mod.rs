@@ -4,6 +4,7 @@ mod callgrind;
 mod scenes;
 mod terms;
 
+use super::programs::Folder;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use callgrind::Instructions;
 use rayon::prelude::*;
@@ -36,20 +37,19 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         ledger.not_covered("instructions by source file", "callgrind (valgrind) is not installed");
         return Ok(());
     }
-    let folder = std::env::temp_dir().join(format!("asperity-absence-{}", std::process::id()));
+    let folder = Folder::new("absence")?;
     let runs: Vec<Result<Measured, CaseError>> = scenes
         .into_par_iter()
         .enumerate()
-        .map(|(i, scene)| measure(scene, &folder.join(i.to_string())))
+        .map(|(i, scene)| measure(scene, &folder.path().join(i.to_string())))
         .collect();
-    let removed = std::fs::remove_dir_all(&folder);
     // The scenes that ran are judged even if another did not.
     for run in runs.iter().flatten() {
         claims(ledger, run);
     }
     let measured = runs.into_iter().collect::<Result<Vec<Measured>, CaseError>>()?;
     table(ledger, &measured);
-    Ok(removed?)
+    Ok(())
 }
 
 fn measure(scene: Declared, folder: &Path) -> Result<Measured, CaseError> {

@@ -10,3 +10,15 @@ pub enum End {
     /// Interrupted by a signal or by the limit of wall time.
     Interrupted(String),
 }
+
+impl End {
+    /// Exit code of the program.
+    #[must_use]
+    pub fn code(&self) -> u8 {
+        match self {
+            Self::Done => 0,
+            Self::Stopped(_) => 2,
+            Self::Interrupted(_) => 3,
+        }
+    }
+}

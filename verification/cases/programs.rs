@@ -1,0 +1,102 @@
+//! The `asperity` program in a process of its own.
+
+use crate::CaseError;
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// First argument with which the program of the suite acts as `asperity`.
+pub const NAME: &str = "asperity";
+
+/// The command `asperity`, or `before` with it as arguments.
+///
+/// # Errors
+/// If the path of this program is not known.
+pub fn asperity(before: &[&str]) -> Result<Command, CaseError> {
+    let program = std::env::current_exe()?;
+    let words = before.iter().map(OsStr::new).chain([program.as_os_str(), OsStr::new(NAME)]);
+    let mut words = words.collect::<Vec<_>>().into_iter();
+    let mut command = Command::new(words.next().ok_or("no program")?);
+    command.args(words);
+    Ok(command)
+}
+
+/// Runs a command to its end. Its exit code and what it printed.
+///
+/// # Errors
+/// If it cannot be started or exits with a code that is not among `codes`.
+pub fn finished(command: &mut Command, codes: &[i32]) -> Result<Output, CaseError> {
+    let output = command.output()?;
+    match output.status.code() {
+        Some(code) if codes.contains(&code) => Ok(output),
+        _ => Err(format!("{}: {}", output.status, String::from_utf8_lossy(&output.stderr)).into()),
+    }
+}
+
+/// A folder for temporary files that is removed with its owner.
+pub struct Folder(PathBuf);
+
+impl Folder {
+    /// Creates an empty folder; `name` is part of its name.
+    ///
+    /// # Errors
+    /// If it cannot be created.
+    pub fn new(name: &str) -> Result<Self, CaseError> {
+        let path = std::env::temp_dir().join(format!("asperity-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path)?;
+        Ok(Self(path))
+    }
+
+    /// Its path.
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // A folder that cannot be removed stays among the temporary files.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The files below a folder by their paths in it. Of `report.json`, the part `run` is left out, which differs from run to run.
+///
+/// # Errors
+/// If a file cannot be read.
+pub fn files(folder: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>, CaseError> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(next) = folders.pop() {
+        for entry in std::fs::read_dir(next)? {
+            let path = entry?.path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let mut bytes = std::fs::read(&path)?;
+            if path.ends_with("report.json") {
+                bytes = without_run(&bytes)?;
+            }
+            found.insert(path.strip_prefix(folder)?.to_path_buf(), bytes);
+        }
+    }
+    Ok(found)
+}
+
+fn without_run(report: &[u8]) -> Result<Vec<u8>, CaseError> {
+    let mut report: serde_json::Value = serde_json::from_slice(report)?;
+    report.as_object_mut().and_then(|r| r.remove("run")).ok_or("the report has no part `run`")?;
+    Ok(report.to_string().into_bytes())
+}
+
+/// Paths of the files of two folders that differ or are missing in one of them.
+///
+/// # Errors
+/// If a file cannot be read.
+pub fn differing(one: &Path, other: &Path) -> Result<Vec<PathBuf>, CaseError> {
+    let (one, other) = (files(one)?, files(other)?);
+    let names = one.keys().chain(other.keys().filter(|name| !one.contains_key(*name)));
+    Ok(names.filter(|name| one.get(*name) != other.get(*name)).cloned().collect())
+}
