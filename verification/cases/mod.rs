@@ -88,6 +88,7 @@ mod lame_cylinder;
 mod large_rotation;
 mod maxwell_relaxation;
 mod nafems_roller;
+mod newton_convergence;
 mod okada;
 mod partial_slip;
 pub mod programs;
@@ -175,6 +176,7 @@ pub const ALL: &[Case] = &[
     interface_rate_state::CASE,
     lame_cylinder::CASE,
     nafems_roller::CASE,
+    newton_convergence::CASE,
     partial_slip::CASE,
     restarts::CASE,
     sandwich_3d::CASE,

@@ -308,6 +308,7 @@ impl<const D: usize> Running<'_, D> {
             augmentations: accepted.augmentations,
             rejected: here.rejected,
             residual_ratio: accepted.residual_ratio,
+            residuals: accepted.residuals.clone(),
             drift: accepted.drift,
             penetration: system.largest_penetration(),
             limited_by: accepted.limited_by.clone().unwrap_or_else(reason),

@@ -190,6 +190,8 @@ pub struct StepRecord {
     pub rejected: usize,
     /// Residual over the largest force in the system \[-\].
     pub residual_ratio: f64,
+    /// Residual ratio at each Newton iteration of an implicit step, from the first on \[-\].
+    pub residuals: Vec<f64>,
     /// Residual ratio of a static-explicit step before its correction \[-\]; 0 for implicit steps.
     pub drift: f64,
     /// Largest penetration \[m\].

@@ -65,6 +65,8 @@ pub struct Implicit {
     last: Option<(Vec<f64>, f64)>,
     /// Largest error of friction coefficients that a step may leave \[-\].
     bound: f64,
+    /// Residual over the largest force at each iteration of the current step \[-\].
+    residuals: Vec<f64>,
 }
 
 impl Implicit {
@@ -82,6 +84,7 @@ impl Implicit {
             farthest: FARTHEST * (extent + travel),
             last: None,
             bound: f64::INFINITY,
+            residuals: Vec::new(),
         }
     }
 
@@ -150,6 +153,7 @@ impl Implicit {
         let at = Instant { time: state.time + dt, dt };
         let mut u = self.predict(state, dt);
         constraints.impose(at.time, &mut u);
+        self.residuals.clear();
         let solved = self.augmented(terms, &mut u, at, counts);
         let stands = solved.and_then(|solved| {
             unopposed(terms)?;
@@ -164,7 +168,16 @@ impl Implicit {
                 self.last = Some((increment, dt));
                 state.u = u;
                 state.time = at.time;
-                Ok(Accepted { dt, iterations, augmentations, residual_ratio, error, ..Accepted::default() })
+                let residuals = std::mem::take(&mut self.residuals);
+                Ok(Accepted {
+                    dt,
+                    iterations,
+                    augmentations,
+                    residual_ratio,
+                    residuals,
+                    error,
+                    ..Accepted::default()
+                })
             }
             Err(why) => {
                 for term in terms.iter_mut() {
@@ -195,6 +208,7 @@ impl Implicit {
         drift: f64,
         counts: &mut Counts,
     ) -> Result<Corrected, Failure> {
+        self.residuals.clear();
         prepare(terms, u)?;
         self.evaluate(terms, u, at, counts)?;
         let left = self.ratio(self.norm()?, u);
@@ -239,6 +253,7 @@ impl Implicit {
         let mut progress = Progress::new(u);
         for iteration in 0..MOST_ITERATIONS {
             let norm = self.norm()?;
+            self.residuals.push(norm / self.scale());
             if self.has_converged(norm, u, &progress, iteration >= usize::from(pairing > 0)) {
                 return Ok((iteration, self.ratio(norm, u)));
             }

@@ -139,6 +139,8 @@ pub struct Accepted {
     pub augmentations: usize,
     /// Residual over the largest force \[-\].
     pub residual_ratio: f64,
+    /// The same at each Newton iteration of an implicit step, from the first on \[-\].
+    pub residuals: Vec<f64>,
     /// Estimated error of friction coefficients \[-\].
     pub error: f64,
     /// Residual over the largest force that a forward step left before its correction \[-\].
