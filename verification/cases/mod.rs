@@ -112,9 +112,11 @@ mod slider_balance;
 mod slider_cycles;
 mod slider_inertia;
 mod slider_inertia_all;
+mod slider_laws;
 mod slider_normal;
 mod slider_orbit;
 mod slider_outputs;
+mod slider_scene;
 mod slider_stability;
 mod slider_states;
 mod slider_work_precision;
@@ -192,6 +194,7 @@ pub const ALL: &[Case] = &[
     slider_cycles::CASE,
     slider_inertia::CASE,
     slider_inertia_all::CASE,
+    slider_laws::CASE,
     slider_normal::CASE,
     slider_orbit::CASE,
     slider_outputs::CASE,

@@ -1,13 +1,9 @@
 //! The numbers that leave a run of spring-sliders: rows of histories, the catalogue, the plan.
 
 use super::slider::{self, Independent, MU0, V_REF};
+use super::slider_scene::{FRICTION, RATE, SLIP, STATE, TIME, files, plan, planned, text};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
-use asperity_cycles::slider::{self as cycles, Problem};
-use asperity_driver::slider::{Entry, Histories, Plan, csv};
-use asperity_driver::slider_planner;
 use asperity_friction::evolution::definitions;
-use asperity_ode::Outcome;
-use std::path::PathBuf;
 
 /// See the README.
 pub const CASE: Case = Case {
@@ -22,12 +18,6 @@ pub const CASE: Case = Case {
 const A: f64 = 0.01;
 const L: f64 = 1e-5;
 const NORMAL: f64 = 5e6;
-/// Columns of a history.
-const TIME: usize = 0;
-const SLIP: usize = 2;
-const RATE: usize = 3;
-const FRICTION: usize = 4;
-const STATE: usize = 8;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let reference = Independent::read()?;
@@ -43,51 +33,6 @@ fn law(evolution: &str, b: &str, more: &str) -> String {
     format!(
         "{{ kind = \"rate-and-state\", evolution = \"{evolution}\", mu0 = 0.6, a = 0.01, b = {b}, v_ref = \"1 um/s\", v_initial = \"1 um/s\", {more} }}"
     )
-}
-
-/// A scene of one slider.
-fn text(load: &str, slider: &str, law: &str, rest: &str) -> String {
-    format!(
-        "schema = 1\ntitle = \"t\"\nkinematics = \"spring-slider\"\n{load}\n[sliders.block]\nnormal = \"5 MPa\"\n{slider}\nlaw = {law}\n{rest}\n"
-    )
-}
-
-fn planned(text: &str) -> Result<Plan, CaseError> {
-    slider_planner::read(text).map_err(|e| e.to_string().into())
-}
-
-fn plan(text: &str) -> Result<Problem, CaseError> {
-    Ok(planned(text)?.problem)
-}
-
-/// A folder that goes with its owner.
-struct Folder(PathBuf);
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // What cannot be removed stays in the folder of temporary files.
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
-/// Numbers of a file of comma-separated values below its head, from the column `first` on; what is no number is NaN.
-fn table(text: &str, first: usize) -> Vec<Vec<f64>> {
-    let numbers = |l: &str| l.split(',').skip(first).map(|v| v.parse().unwrap_or(f64::NAN)).collect();
-    text.lines().skip(1).map(numbers).collect()
-}
-
-/// The rows of the history and of the catalogue that a scene leaves.
-fn files(name: &str, plan: &Problem) -> Result<[Vec<Vec<f64>>; 2], CaseError> {
-    let folder = Folder(std::env::temp_dir().join(format!("asperity-outputs-{name}-{}", std::process::id())));
-    std::fs::create_dir_all(&folder.0)?;
-    let mut histories = Histories::create(&folder.0, plan)?;
-    let run = cycles::run(plan, &mut histories)?;
-    if let Outcome::Failed { reason } = run.outcome {
-        return Err(reason.to_string().into());
-    }
-    histories.finish()?;
-    let history = std::fs::read_to_string(folder.0.join("history/block.csv"))?;
-    Ok([table(&history, 0), table(&csv(&Entry::all(&run), &plan.names), 1)])
 }
 
 /// mu of the regularised form.
