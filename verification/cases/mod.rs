@@ -80,6 +80,7 @@ mod hertz_ball;
 mod hertz_line;
 mod hertz_sphere;
 mod interface_instability;
+mod interface_laws;
 mod interface_prestress;
 mod interface_rate_state;
 mod jaumann_shear;
@@ -169,6 +170,7 @@ pub const ALL: &[Case] = &[
     hertz_sphere::CASE,
     hertz_ball::CASE,
     interface_instability::CASE,
+    interface_laws::CASE,
     interface_prestress::CASE,
     interface_rate_state::CASE,
     lame_cylinder::CASE,
