@@ -388,7 +388,8 @@ fn cycles(
         .cost(&cost)
         .record();
     // The peak of the last event but one, and the least rate before the last.
-    let [peak, least] = [events[events.len() - 2][5], events[events.len() - 1][6]];
+    let [.., before, last] = &events[..] else { return Ok(()) };
+    let [peak, least] = [before[5], last[6]];
     let wanted = [
         reference.number(&case, "v_max_between_last_two")?.ln(),
         reference.number(&case, "v_min_between_last_two")?.ln(),
