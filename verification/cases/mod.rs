@@ -81,6 +81,7 @@ mod hertz_ball;
 mod hertz_line;
 mod hertz_sphere;
 mod interface_instability;
+mod interface_laws;
 mod interface_prestress;
 mod interface_rate_state;
 mod jaumann_shear;
@@ -116,9 +117,11 @@ mod slider_balance;
 mod slider_cycles;
 mod slider_inertia;
 mod slider_inertia_all;
+mod slider_laws;
 mod slider_normal;
 mod slider_orbit;
 mod slider_outputs;
+mod slider_scene;
 mod slider_stability;
 mod slider_states;
 mod slider_work_precision;
@@ -172,6 +175,7 @@ pub const ALL: &[Case] = &[
     hertz_sphere::CASE,
     hertz_ball::CASE,
     interface_instability::CASE,
+    interface_laws::CASE,
     interface_prestress::CASE,
     interface_rate_state::CASE,
     lame_cylinder::CASE,
@@ -199,6 +203,7 @@ pub const ALL: &[Case] = &[
     slider_cycles::CASE,
     slider_inertia::CASE,
     slider_inertia_all::CASE,
+    slider_laws::CASE,
     slider_normal::CASE,
     slider_orbit::CASE,
     slider_outputs::CASE,

@@ -249,6 +249,14 @@ impl Independent {
         Ok(Self(serde_json::from_str(include_str!("../independent/spring_slider.json"))?))
     }
 
+    /// Reads those of laws that `spring_slider.py` does not have.
+    ///
+    /// # Errors
+    /// If they are not JSON.
+    pub fn of_laws() -> Result<Self, CaseError> {
+        Ok(Self(serde_json::from_str(include_str!("../independent/slider_laws.json"))?))
+    }
+
     /// A list of numbers.
     ///
     /// # Errors

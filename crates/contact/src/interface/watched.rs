@@ -20,7 +20,7 @@ const AT_ONCE: f64 = 0.5;
 const NEAR: f64 = 1e-3;
 /// Pa in a MPa.
 const MEGA: f64 = 1e6;
-/// Rounding of the slope of a law's response, relative to 1.
+/// Rounding of the slope of a law's response, and of a share of the area, relative to 1.
 const ROUNDING: f64 = 1e-9;
 
 impl<const D: usize> Interface<D> {
@@ -159,7 +159,7 @@ impl<const D: usize> Interface<D> {
         let closed: f64 = (0..self.slave.len()).filter(held).map(area).sum();
         let gone: Vec<usize> = (0..self.slave.len()).filter(held).filter(|&p| lets_go(shear, p)).collect();
         let share = gone.iter().map(|&p| area(p)).sum::<f64>() / closed;
-        if share.is_nan() || share <= AT_ONCE {
+        if share.is_nan() || share <= AT_ONCE + ROUNDING {
             return None;
         }
         let slip = |p: usize| norm(&self.motion.trial.step[p]);

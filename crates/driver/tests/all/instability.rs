@@ -138,6 +138,21 @@ fn drops_that_the_rest_of_the_surface_holds_are_no_instability() {
     }
 }
 
+/// One of two equal points is half of the surface to rounding, and no more than half.
+#[test]
+fn half_of_a_surface_may_drop_at_once() {
+    let corners = include_str!("../../../../verification/cases/interface_laws/corners.toml");
+    for measure in ["node-to-point", "mortar"] {
+        let scene = SceneText::new(corners)
+            .add("interfaces.fault.law", DROPPING)
+            .add("interfaces.fault.measure", measure)
+            .add("time.stepper", "implicit");
+        let mut record = Recorder::new();
+        let report = run::run(&planned(&scene.text().unwrap()), &mut record).unwrap();
+        assert_eq!(report.outcome, Outcome::Completed);
+    }
+}
+
 #[test]
 fn unstable_scenes_stop_on_finer_cells_and_under_ten_times_the_pressure() {
     let law = state("\"ageing\"", 0.005, 0.02, "1 um");

@@ -1,0 +1,75 @@
+//! Scenes of one slider as texts, run as the program runs them, and the files they leave.
+
+use crate::CaseError;
+use asperity_cycles::slider::{self as cycles, Problem};
+use asperity_driver::slider::{Entry, Histories, Plan, csv};
+use asperity_driver::slider_planner;
+use asperity_ode::Outcome;
+use std::path::PathBuf;
+
+/// Columns of a history.
+pub const TIME: usize = 0;
+/// Slip.
+pub const SLIP: usize = 2;
+/// Slip rate.
+pub const RATE: usize = 3;
+/// Friction coefficient.
+pub const FRICTION: usize = 4;
+/// First state variable.
+pub const STATE: usize = 8;
+
+/// A scene of one slider under 5 MPa.
+pub fn text(load: &str, slider: &str, law: &str, rest: &str) -> String {
+    format!(
+        "schema = 1\ntitle = \"t\"\nkinematics = \"spring-slider\"\n{load}\n[sliders.block]\nnormal = \"5 MPa\"\n{slider}\nlaw = {law}\n{rest}\n"
+    )
+}
+
+/// Plan of a scene.
+///
+/// # Errors
+/// If it is refused.
+pub fn planned(text: &str) -> Result<Plan, CaseError> {
+    slider_planner::read(text).map_err(|e| format!("{e}\nin\n{text}").into())
+}
+
+/// Problem of a scene.
+///
+/// # Errors
+/// If it is refused.
+pub fn plan(text: &str) -> Result<Problem, CaseError> {
+    Ok(planned(text)?.problem)
+}
+
+/// A folder that goes with its owner.
+struct Folder(PathBuf);
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // What cannot be removed stays in the folder of temporary files.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Numbers of a file of comma-separated values below its head, from the column `first` on; what is no number is NaN.
+fn table(text: &str, first: usize) -> Vec<Vec<f64>> {
+    let numbers = |l: &str| l.split(',').skip(first).map(|v| v.parse().unwrap_or(f64::NAN)).collect();
+    text.lines().skip(1).map(numbers).collect()
+}
+
+/// Rows of the history of the slider and of the catalogue, without the name, that a scene leaves.
+///
+/// # Errors
+/// If it fails.
+pub fn files(name: &str, plan: &Problem) -> Result<[Vec<Vec<f64>>; 2], CaseError> {
+    let folder = Folder(std::env::temp_dir().join(format!("asperity-outputs-{name}-{}", std::process::id())));
+    std::fs::create_dir_all(&folder.0)?;
+    let mut histories = Histories::create(&folder.0, plan)?;
+    let run = cycles::run(plan, &mut histories)?;
+    if let Outcome::Failed { reason } = run.outcome {
+        return Err(reason.to_string().into());
+    }
+    histories.finish()?;
+    let history = std::fs::read_to_string(folder.0.join("history/block.csv"))?;
+    Ok([table(&history, 0), table(&csv(&Entry::all(&run), &plan.names), 1)])
+}
