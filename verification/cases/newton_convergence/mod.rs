@@ -53,7 +53,7 @@ fn constant(step: &StepRecord) -> Option<f64> {
     pairs
         .filter(|(before, after)| **before < NEAR && **after > ROUNDING)
         .map(|(before, after)| after / before.powi(2))
-        .last()
+        .next_back()
 }
 
 fn claims(ledger: &mut Ledger, case: &Nonlinear, median: f64, steps: usize, done: &Done) {
