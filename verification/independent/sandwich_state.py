@@ -17,6 +17,8 @@ A, B, MU0, V0 = 0.005, 0.020, 0.6, 1e-6
 PUSHED = 0.0966e-3
 SHEAR = YOUNG / (2 * (1 + POISSON))
 DAMPING = 0.5 * np.sqrt(SHEAR * DENSITY)
+# Shares of the second interval at which the mean shear traction is told.
+PHASES = [0.1 * k for k in range(1, 10)]
 
 
 def element(h):
@@ -112,19 +114,36 @@ def cycles(ny, length, spring, events):
     one = np.ones(n)
     tolerance = 1e-6 * np.concatenate([one, one * A / B, one * A * normal, one * length])
     t, y = 0.0, np.concatenate([one * m0, one * phi0, one * normal, 0 * one])
-    onsets, places, slips = [], [], []
+    onsets, places, slips, between = [], [], [], None
     while len(onsets) < events:
         for threshold, direction in ((1e-3, 1), (1e-4, -1)):
+            second = len(onsets) == 2 and direction == 1
             with np.errstate(over="ignore", invalid="ignore"):
                 run = solve_ivp(
-                    rhs, (t, t + 1e4), y, method="DOP853", rtol=1e-13, atol=tolerance, events=passes(threshold, direction)
+                    rhs,
+                    (t, t + 1e4),
+                    y,
+                    method="DOP853",
+                    rtol=1e-13,
+                    atol=tolerance,
+                    events=passes(threshold, direction),
+                    dense_output=second,
                 )
+            if second:
+                between = run.sol
             t, y = run.t[-1], run.y[:, -1]
             if direction == 1:
                 onsets.append(t)
                 v = rate(*y.reshape(4, n)[:2])
                 places.append(float(np.argmax(v)) * HEIGHT / ny)
                 slips.append(float(np.mean(y.reshape(4, n)[3])))
+    area = np.full(n, 1.0 / ny)
+    area[[0, -1]] /= 2
+
+    def mean_shear(time):
+        m, _, f, _ = between(time).reshape(4, n)
+        return float(area @ (A * m * f))
+
     found = {
         "elements along the face": ny,
         "L [m]": length,
@@ -133,13 +152,17 @@ def cycles(ny, length, spring, events):
         "intervals [s]": list(np.diff(onsets)),
         "fastest at the onset, y [m]": places,
         "slip between onsets, mean [m]": list(np.diff(slips)),
+        "shares of the interval from the second onset": PHASES,
+        "mean shear traction there [Pa]": [mean_shear(onsets[1] + p * (onsets[2] - onsets[1])) for p in PHASES],
     }
     print(json.dumps(found, indent=1), flush=True)
     return found
 
 
 if __name__ == "__main__":
-    results = [cycles(40, 0.5e-6, 1.4e10, 4), cycles(80, 0.5e-6, 1.4e10, 4), cycles(40, 10e-6, 2e9, 3)]
+    results = [cycles(40, 0.5e-6, 1.4e10, 4), cycles(80, 0.5e-6, 1.4e10, 4)]
+    results += [cycles(160, 0.5e-6, 1.4e10, 4)]
+    results += [cycles(n, 10e-6, 2e9, 3) for n in (20, 40, 80)]
     with open("sandwich_state.json", "w", encoding="utf-8") as file:
         json.dump(results, file, indent=1)
         file.write("\n")

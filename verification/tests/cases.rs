@@ -68,3 +68,37 @@ fn the_book_lists_every_case_once() {
         "the list is stale: run the test with UPDATE_TABLES=1"
     );
 }
+
+/// Literature of a page.
+fn literature(readme: &str) -> &str {
+    readme.split_once("## Literature\n").map_or("", |(_, rest)| rest).trim()
+}
+
+/// Numbers of four digits that are years: in parentheses, or at the end of a work without.
+fn years(text: &str) -> Vec<String> {
+    let digits = |part: &&str| part.len() == 4 && part.bytes().all(|b| b.is_ascii_digit());
+    text.split(['(', ')']).filter(digits).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_program_cites_the_literature_of_every_case() {
+    use asperity_driver::cite;
+    let names: BTreeSet<&str> = cite::names().collect();
+    assert_eq!(names, cases::ALL.iter().map(|case| case.name).collect());
+    for case in cases::ALL {
+        let text = literature(case.readme).split_whitespace().collect::<Vec<_>>().join(" ");
+        let keys = cite::keys(case.name).unwrap();
+        let references: Vec<_> = keys.iter().map(|key| cite::reference(key).unwrap()).collect();
+        let mut named: Vec<String> =
+            references.iter().filter_map(|r| r.field("year")).map(str::to_owned).collect();
+        for reference in references.iter().filter(|r| r.field("year").is_some()) {
+            let author = reference.field("author").unwrap();
+            let first = author.split(',').next().unwrap().trim_matches(['{', '}']);
+            assert!(text.contains(first), "{}: {first} is not in its literature", case.name);
+        }
+        let mut given = years(&text);
+        named.sort_unstable();
+        given.sort_unstable();
+        assert_eq!(named, given, "{}: years of the table and of its literature", case.name);
+    }
+}

@@ -4,6 +4,7 @@
 mod amounts;
 pub mod balance;
 pub mod checkpoint;
+pub mod cite;
 pub mod cli;
 pub mod cohesive;
 pub mod diagnostic;

@@ -21,6 +21,7 @@ const ROWS: [Row; 1] = [Row {
     folder: "crates/driver/src/",
     module: "scene",
     readers: &[
+        "cite/",
         "cli/",
         "diagnostic/",
         "fault/planner/",

@@ -1,6 +1,7 @@
-//! The commands of the binary: `run`, `check` and `schema`.
+//! The commands of the binary: `run`, `check`, `cite` and `schema`.
 
 mod begin;
+mod cite;
 mod contents;
 mod directory;
 mod end;
@@ -58,6 +59,12 @@ pub enum Command {
         /// Scene file (TOML).
         scene: PathBuf,
     },
+    /// Print what to cite, as BibTeX: the program, the problem, and the laws and methods that a scene declares.
+    Cite {
+        /// Scene file (TOML), or name of a verification case or benchmark; without it, the program alone.
+        #[arg(value_name = "SCENE|CASE")]
+        of: Option<String>,
+    },
     /// Print the JSON Schema of a file.
     Schema {
         /// The file.
@@ -84,6 +91,7 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
             print::plan(&Source::read(scene)?.plan()?.plan);
             Ok(End::Done)
         }
+        Command::Cite { of } => cite::print(of.as_deref()),
         Command::Schema { of } => {
             let schema = match of {
                 Schema::Scene => serde_json::to_string_pretty(&asperity_scene::schema::schema()),

@@ -2,6 +2,7 @@
 
 use super::begin::Begin;
 use crate::checkpoint;
+use crate::cite::{self, Citations};
 use crate::diagnostic::{Diagnostics, report};
 use crate::fault;
 use crate::plan::{self, AnyPlan, ScenePlan};
@@ -103,6 +104,15 @@ impl Source {
             Parsed::Bodies(scene) => (Kind::Faults, &scene.title),
         };
         Begin::now(kind, path, title, &sha256([&self.text]))
+    }
+
+    /// Citations of the scene.
+    pub fn citations(&self) -> miette::Result<Citations> {
+        let citations = match &self.parsed {
+            Parsed::Sliders(_) => scene::slider::read(&self.text).and_then(|scene| cite::of_sliders(&scene)),
+            Parsed::Bodies(scene) => cite::of_scene(scene),
+        };
+        citations.map_err(|errors| report(&self.name, &self.text, &errors))
     }
 
     /// Plans the scene.

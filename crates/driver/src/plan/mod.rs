@@ -24,4 +24,5 @@ mod watch;
 pub use asperity_mechanics::{Path, PlannedInterface, Stepping, interface_nodes};
 pub use planner::{ScenePlan, plan, plan_scene};
 pub use start_gap::{SHARE, StartGap};
+pub(crate) use stepping::rule;
 pub use values::{AnyPlan, Plan, Summary};

@@ -29,8 +29,7 @@ const RATE_DRIFT: f64 = 1e-5;
 /// [`Diagnostic`] for the stepper of faults, which bodies alone cannot use.
 pub fn choose(scene: &Scene) -> Result<Stepping, Diagnostic> {
     let time = &scene.time;
-    let usual = if evolves(scene) { Rule::Bdf2 } else { Rule::BackwardEuler };
-    let rule = match time.rule.as_ref().map_or(usual, |r| *r.get_ref()) {
+    let rule = match rule(scene) {
         Rule::BackwardEuler => TimeRule::BackwardEuler,
         Rule::Bdf2 => TimeRule::Bdf2,
     };
@@ -54,6 +53,13 @@ pub fn choose(scene: &Scene) -> Result<Stepping, Diagnostic> {
             return Err(Diagnostic::at(time.stepper.span(), message, help));
         }
     })
+}
+
+/// Rule for the slip rate.
+#[must_use]
+pub fn rule(scene: &Scene) -> Rule {
+    let usual = if evolves(scene) { Rule::Bdf2 } else { Rule::BackwardEuler };
+    scene.time.rule.as_ref().map_or(usual, |r| *r.get_ref())
 }
 
 /// True if an interface has a rate-and-state law.

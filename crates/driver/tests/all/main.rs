@@ -4,6 +4,7 @@
 mod antiplane;
 
 mod bodies;
+mod cite;
 mod column_tables;
 mod command;
 mod common;

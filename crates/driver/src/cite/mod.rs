@@ -1,0 +1,115 @@
+//! Citations of the program, of a benchmark, and of the laws and methods that a scene declares.
+
+mod cases;
+mod laws;
+mod references;
+mod scene;
+mod titles;
+
+pub use cases::{keys, names};
+pub use references::{Reference, reference, references};
+pub use scene::{of_scene, of_sliders};
+
+use std::fmt::Write as _;
+
+/// Key of the program itself.
+const PROGRAM: &str = "asperity";
+
+/// References in the order in which they were asked for, each with the reasons for it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Citations(Vec<Citation>);
+
+/// A reference and the reasons for it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Citation {
+    /// Key in the table of references.
+    pub key: &'static str,
+    /// Reasons for citing it.
+    pub reasons: Vec<String>,
+}
+
+impl Default for Citations {
+    /// The program alone.
+    fn default() -> Self {
+        Self(vec![Citation { key: PROGRAM, reasons: vec!["the program".into()] }])
+    }
+}
+
+impl Citations {
+    /// Citations of a verification case; `None` if there is no such case.
+    #[must_use]
+    pub fn of_case(name: &str) -> Option<Self> {
+        let mut citations = Self::default();
+        for key in keys(name)? {
+            citations.add(key, format!("literature of the case {name}"));
+        }
+        Some(citations)
+    }
+
+    /// Adds a reference, or a reason for one that is there.
+    fn add(&mut self, key: &'static str, reason: impl Into<String>) {
+        let reason = reason.into();
+        match self.0.iter_mut().find(|c| c.key == key) {
+            Some(known) if known.reasons.contains(&reason) => {}
+            Some(known) => known.reasons.push(reason),
+            None => self.0.push(Citation { key, reasons: vec![reason] }),
+        }
+    }
+
+    /// The citations in order.
+    #[must_use]
+    pub fn list(&self) -> &[Citation] {
+        &self.0
+    }
+
+    /// BibTeX, with the reasons as comments above each entry.
+    #[must_use]
+    pub fn bibtex(&self) -> String {
+        let mut text = String::new();
+        for citation in &self.0 {
+            for reason in &citation.reasons {
+                let _ = writeln!(text, "% {reason}");
+            }
+            if let Some(reference) = reference(citation.key) {
+                let _ = writeln!(text, "{}\n", reference.text);
+            }
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reference_stands_once_with_all_its_reasons() {
+        let mut citations = Citations::default();
+        for reason in ["fault `a`", "fault `b`", "fault `a`"] {
+            citations.add("dieterich1979", reason);
+        }
+        assert_eq!(citations.list().len(), 2);
+        assert_eq!(citations.list()[1].reasons, ["fault `a`", "fault `b`"]);
+        let text = citations.bibtex();
+        assert_eq!(text.matches("@article{dieterich1979,").count(), 1);
+        assert!(text.contains("% fault `a`\n% fault `b`\n@article{dieterich1979,"), "{text}");
+    }
+
+    #[test]
+    fn all_keys_in_the_sources_are_in_the_table_and_the_table_has_no_other() {
+        let cited: Vec<&str> = cases::names()
+            .flat_map(|name| keys(name).unwrap())
+            .copied()
+            .chain(laws::KEYS.iter().copied())
+            .chain(scene::KEYS.iter().copied())
+            .chain(titles::keys())
+            .chain([PROGRAM])
+            .collect();
+        for key in &cited {
+            assert!(reference(key).is_some(), "no reference `{key}`");
+        }
+        for reference in references() {
+            assert!(cited.contains(&reference.key), "`{}` is never cited", reference.key);
+        }
+    }
+}
