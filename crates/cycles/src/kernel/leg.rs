@@ -1,4 +1,4 @@
-//! Two functions of a corner that the free surface brings, for any dip.
+//! Two functions of a corner that the free surface contributes, for any dip.
 //!
 //! They are I3 and I4 of Y. Okada, Bull. Seism. Soc. Am. 82 (1992) 1018, table 6, with c = cos δ, s = sin δ,
 //!
@@ -7,14 +7,15 @@
 //! I4 = s ξ/(c (R + d~)) + 2/c² atan[(η (X + q c) + X (R + X) s)/(ξ (R + X) c)],   X² = ξ² + q².
 //! ```
 //!
-//! These lose all digits where c is small. With k = (η c/(1 + s) + q)/(R + η), one has R + d~ = (R + η)(1 - c k), and
+//! These forms lose all digits where c is small. With k = (η c/(1 + s) + q)/(R + η), one has R + d~ = (R + η)(1 - c k),
+//! and
 //!
 //! ```text
 //! I3 = (d~/(R + d~) - ln(R + d~))/(1 + s) + k² Q(c k),   Q(e) = 1/(e (1 - e)) + ln(1 - e)/e² = Σ (n + 1)/(n + 2) e^n.
 //! ```
 //!
-//! The inverse tangent in I4 is, up to numbers that do not depend on η and so cancel between the ends of a side,
-//! -atan(c M) with M = ξ/N and N = (R + η)(1 + s) - q c. The terms of order 1/c cancel by hand, and there remains
+//! Up to terms without η, which cancel between the ends of a side, the inverse tangent in I4 is -atan(c M). Here M is
+//! ξ/N, and N = (R + η)(1 + s) - q c. The terms of order 1/c cancel analytically, which leaves
 //!
 //! ```text
 //! I4 = M (q (2 - s) - c (R (2 + s) + η s)/(1 + s))/(R + d~) + 2 c M³ T(c M),   T(m) = (m - atan m)/m³.
@@ -58,7 +59,7 @@ impl Corner {
     }
 }
 
-/// R + η of R² = η² + ξ² + q²; where η is negative it is (ξ² + q²)/(R - η).
+/// R + η, where R² = η² + ξ² + q²; for negative η it is computed as (ξ² + q²)/(R - η).
 pub(super) fn beyond(r: Jet, eta: Jet, xi: Jet, q: Jet) -> Jet {
     if eta.value < 0.0 { (xi.squared() + q.squared()) / (r - eta) } else { r + eta }
 }

@@ -10,17 +10,17 @@
 //!
 //! * A [`Segment`] of the plane runs from its first end to its second along t. Its normal is n = (t_z, -t_x), so that t is n
 //!   turned by a right angle, as NOTATION.md says of faults in the plane.
-//! * The normal of a [`Rectangle`] is the direction of strike times the direction up dip.
+//! * The normal of a [`Rectangle`] is the cross product of the direction of strike and the direction up dip.
 //! * The vertices of a [`Triangle`] run anticlockwise as seen from its plus side.
 //!
-//! # Points of singularity
-//! Stress is infinite at the rim of a patch, and results there are infinite or not a number. Results are finite at all other
-//! points, also on the continuations of sides and in the plane of a patch. On the patch itself, the displacement is the mean
-//! of both sides. A half-space has no rock above its surface, where results are not a number.
+//! # Singular points
+//! Stress is infinite at the edge of a patch, and results there are infinite or not a number. Results are finite at all
+//! other points, also on the continuations of sides and in the plane of a patch. On the patch itself, the displacement
+//! is the mean of both sides. A half-space has no rock above its surface, where results are not a number.
 //!
-//! # Agreement
-//! The rectangle follows Okada (1992). The triangle is the artefact-free one of Nikkhoo and Walter (2015), as line integrals
-//! along its sides.
+//! # Sources
+//! The rectangle follows Okada (1992). The triangle is the artefact-free one of Nikkhoo and Walter (2015), written as
+//! line integrals along its sides.
 
 mod edge;
 mod error;

@@ -56,7 +56,7 @@ struct Local {
 }
 
 impl Rectangle {
-    /// Rectangle at this place.
+    /// Rectangle with this placement.
     ///
     /// # Errors
     /// [`KernelError`] if a number is not finite, the dip is not between 0 and π, the rectangle has no area, or it leaves a
@@ -84,7 +84,8 @@ impl Rectangle {
         self.axes * Matrix3::new(1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c)
     }
 
-    /// Corners in the order of their turn about the normal \[m\]: the first is where strike begins, down dip.
+    /// Corners, anticlockwise as seen from the plus side \[m\]. The first is down dip, where the side along strike
+    /// begins.
     #[must_use]
     pub fn corners(&self) -> [Vector3<f64>; 4] {
         let frame = self.frame();

@@ -6,8 +6,8 @@
 //! u = s/(2π) Im ln((ζ - a)/(ζ - b)),   ∂u/∂x + i ∂u/∂z = i conj F',   F' = s/(2π) (1/(ζ - a) - 1/(ζ - b)).
 //! ```
 //!
-//! In a half-space the mirrored strip with the same slip frees the surface of traction. P. Segall, "Earthquake and Volcano
-//! Deformation" (2010), chapter 2.
+//! In a half-space, the mirrored strip with the same slip makes the surface free of traction: P. Segall, "Earthquake and
+//! Volcano Deformation" (2010), chapter 2.
 
 use super::segment::Segment;
 use super::space::Space;

@@ -1,10 +1,10 @@
-//! A segment of the plane: the cross section of a patch without end along the third direction.
+//! A segment of the plane: the cross section of a patch that is infinitely long in the third direction.
 
 use super::error::KernelError;
 use super::space::{Space, rounding};
 use nalgebra::Complex;
 
-/// A segment of the plane, which slips by the same amount everywhere.
+/// A segment of the plane with uniform slip.
 ///
 /// Its normal is the direction from the first end to the second, turned to the right. The field of screw dislocations is
 /// [`Segment::screw`], that of edge dislocations [`Segment::edge`].

@@ -27,7 +27,7 @@ pub(super) struct Ray {
     pub bend: Matrix3<f64>,
 }
 
-/// The integral f of a side at a point, with what its derivatives need.
+/// The integral f of a side at a point, with the terms of its derivatives.
 #[derive(Clone, Copy)]
 pub(super) struct Line {
     pub rays: [Ray; 2],

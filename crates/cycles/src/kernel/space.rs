@@ -11,7 +11,7 @@ pub enum Space {
     Half,
 }
 
-/// Rounding of coordinates after a few operations, relative to the largest of them. A distance below it is zero.
+/// Rounding of coordinates after a few operations, relative to the largest of them. A distance below it counts as zero.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Rounding of distances between positions with these coordinates \[m\].
@@ -20,7 +20,8 @@ pub(super) fn rounding(coordinates: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 impl Space {
-    /// Refuses a patch of size `size` whose coordinates are `coordinates` and whose highest point is `top` \[m\].
+    /// Checks that a patch of this size, with these coordinates and this highest point `top`, has an extent and lies in
+    /// the rock \[m\].
     pub(super) fn admit(self, coordinates: &[f64], size: f64, top: f64) -> Result<(), KernelError> {
         if !coordinates.iter().chain([&size, &top]).all(|x| x.is_finite()) {
             return Err(KernelError::NotFinite);

@@ -1,10 +1,11 @@
-//! Terms of a half-space that the sides of a patch bring.
+//! Terms that the free surface adds for the sides of a patch.
 //!
-//! They follow from the point force in a half-space as Y. Okada, Bull. Seism. Soc. Am. 82 (1992) 1018, divides it. Its displacement is that of
-//! a whole-space at x, less that at the mirrored point x* = (x, y, -z), plus u_B(x*) + z u_C(x*). The terms of a dislocation are
-//! integrals of derivatives of these over the patch. As all functions involved are harmonic or biharmonic, Stokes' theorem
-//! leaves integrals along the sides and the solid angle Ω. Integrals over the area cancel. With R from a point of the side to
-//! x*, with ∇ with respect to x*, and with the symbols of `triangle`,
+//! They follow from the point force in a half-space as decomposed by Y. Okada, Bull. Seism. Soc. Am. 82 (1992) 1018. Its
+//! displacement is that of a whole-space at x, less that at the mirrored point x* = (x, y, -z), plus u_B(x*) + z
+//! u_C(x*). The terms of a dislocation are integrals of derivatives of these over the patch. As all functions involved
+//! are harmonic or biharmonic, Stokes' theorem leaves integrals along the sides and the solid angle Ω. Integrals over
+//! the area cancel. With R from a point of the side to x*, with ∇ with respect to x*, and with the symbols of
+//! `triangle`,
 //!
 //! ```text
 //! 4π (u_B - u_whole)(x*) = b Ω + Σ w f - (2 - α) ∇ Σ (w·R_A) f - 2 (1 - 2 ν) Σ t_z ∇(v·∇W)

@@ -1,15 +1,16 @@
 //! A triangle of constant slip without artefact singularities.
 //!
-//! The field is that of M. Nikkhoo and T. R. Walter, Geophys. J. Int. 201 (2015) 1119. Here it is a sum of line integrals along
-//! the sides, in the manner of Burgers, so that no angular dislocation with infinite legs occurs. With slip b, the solid
-//! angle Ω of the triangle, which is positive on the plus side, its sides with unit vectors t, w = b × t, the line integrals
-//! f of `side`, and α = 1/(2 (1 - ν)), a whole-space has
+//! The field is that of M. Nikkhoo and T. R. Walter, Geophys. J. Int. 201 (2015) 1119. Here it is a sum of line
+//! integrals along the sides, in the manner of Burgers, so that no angular dislocation with infinite legs occurs. Let b
+//! be the slip, Ω the solid angle of the triangle, positive on the plus side, and t the unit vectors along its sides.
+//! With w = b × t, the line integrals f of `side`, and α = 1/(2 (1 - ν)), the field in a whole-space is
 //!
 //! ```text
 //! 4π u = b Ω + Σ w f - α ∇ Σ (w·R_A) f,   ∇Ω = Σ t × ∇f.
 //! ```
 //!
-//! J. P. Hirth, J. Lothe, "Theory of Dislocations" (1982), chapter 4. The half-space has the terms of `surface` besides.
+//! J. P. Hirth, J. Lothe, "Theory of Dislocations" (1982), chapter 4. A half-space has the terms of `surface` in
+//! addition.
 //!
 //! Vertical, horizontal, steep and small triangles, and those with vertices or sides in the free surface, need no special
 //! case. The order of vertices sets the direction of the normal and nothing else.

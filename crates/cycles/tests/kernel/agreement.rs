@@ -49,7 +49,7 @@ fn a_rectangle_is_two_triangles() {
 fn a_patch_has_the_field_of_its_parts() {
     let mut random = Random(8);
     let mut worst = [0.0f64; 3];
-    // From steep to vertical, and from large to small against its distance.
+    // From steep to vertical, and from large to small relative to the distance.
     for lean in [0.0, 1e-12, 1e-6, 1e-3, 0.3] {
         for (k, size) in [1.0, 0.1, 0.01].into_iter().enumerate() {
             let v = [V::new(0.0, 0.0, 0.0), V::new(1.0, 0.4, -0.1), V::new(0.45 + lean, 0.2 - lean, -1.3)]
@@ -72,7 +72,7 @@ fn a_patch_has_the_field_of_its_parts() {
             }
         }
     }
-    // Terms of the sides cancel but for the square of size over distance, and rounding of each remains.
+    // Terms of the sides cancel up to the square of size over distance, whereas the rounding of each remains.
     for (k, size) in [1.0, 0.1, 0.01].into_iter().enumerate() {
         assert!(worst[k] < 1e-12 / (size * size), "{worst:?}");
     }
@@ -102,7 +102,7 @@ fn the_values_that_okada_printed_are_met() {
     }
 }
 
-/// A rectangle whose plane section, at y = 0, is the segment from down dip to up dip; strike is against y.
+/// A rectangle, and the segment that is its section at y = 0, from down dip to up dip; strike is along -y.
 fn long(space: Space, length: f64) -> (Rectangle, Segment) {
     let (dip, width) = (0.8, 2.0);
     let place = Placement { centre: [0.3, 0.0, -1.5], strike: -FRAC_PI_2, dip, length, width };
@@ -118,7 +118,8 @@ fn missing(space: Space, length: f64) -> [f64; 2] {
     let (at, section, frame) = (V::new(2.0, 0.0, -0.7), [2.0, -0.7], patch.frame());
     let rock = rock(0.3);
     let stress = |slip: &V| patch.field(&at, slip, 0.3).stress(&rock);
-    // The plus side of the segment is the minus side of the rectangle, and strike is against y: screw slip keeps its sign.
+    // The plus side of the segment is the minus side of the rectangle, and strike is along -y: screw slip keeps its
+    // sign.
     let s = stress(&frame.column(0).into_owned());
     let screw = difference(&[s[(0, 1)], s[(1, 2)]], &segment.screw(section, 1.0).stress(rock.shear()));
     let s = stress(&(frame.column(1) * 0.6 + frame.column(2) * 0.8));

@@ -11,7 +11,7 @@ pub fn rock(poisson: f64) -> Elastic {
     Elastic::new(2.0 * (1.0 + poisson), poisson).unwrap()
 }
 
-/// Rows of numbers of a file with comments and a line of names.
+/// Rows of numbers of a file, without its comments and its header.
 pub fn rows(text: &str) -> Vec<Vec<f64>> {
     let lines = text.lines().filter(|line| !line.starts_with('#')).skip(1);
     lines.map(|line| line.split(',').map(|v| v.parse().unwrap()).collect()).collect()
@@ -28,7 +28,7 @@ pub fn listed(field: &Field) -> [f64; 9] {
     [u[0], u[1], u[2], h[(0, 0)], h[(1, 1)], h[(2, 2)], shear(0, 1), shear(1, 2), shear(2, 0)]
 }
 
-/// Largest difference over the largest size, of some components.
+/// Largest difference of components, relative to the largest component of `b`.
 pub fn difference(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     let most = b.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
@@ -63,7 +63,7 @@ impl Random {
     }
 }
 
-/// A patch with its field, whichever its kind.
+/// A patch of either kind.
 pub enum Patch {
     Rectangle(Rectangle),
     Triangle(Triangle),
@@ -88,7 +88,7 @@ pub fn patches(space: Space) -> [Patch; 2] {
     ]
 }
 
-/// Gauss's rule on [0, 1]: positions and weights, by Newton's method for the roots of Legendre's polynomial.
+/// Gauss quadrature on [0, 1]: positions and weights, by Newton's method for the roots of the Legendre polynomial.
 pub fn gauss(n: u32) -> Vec<(f64, f64)> {
     let order = f64::from(n);
     let legendre = |x: f64| -> (f64, f64) {

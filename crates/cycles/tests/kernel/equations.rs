@@ -1,4 +1,4 @@
-//! Equations that each field solves: gradient of the displacement, equilibrium, free surface, jump, reciprocity.
+//! Equations that every field satisfies: gradient of the displacement, equilibrium, free surface, jump, reciprocity.
 
 use super::common::{Patch, Random, V, apart, difference, gauss, patches, rock};
 use asperity_cycles::kernel::{Field, Placement, Rectangle, Space, Triangle};
@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 const SPACES: [Space; 2] = [Space::Whole, Space::Half];
 const POISSON: f64 = 0.21;
 
-/// Derivative along an axis of a matrix function by differences of fourth order.
+/// Derivative of a matrix function along an axis, by differences of fourth order.
 fn slope(of: impl Fn(&V) -> Matrix3<f64>, at: &V, axis: usize) -> Matrix3<f64> {
     let step = |k: f64| {
         let mut moved = *at;
@@ -36,7 +36,7 @@ fn gradients_are_those_of_the_displacement() {
             }
         }
     }
-    // Differences of steps h = 1e-3 m at distances of at least 0.1 m: h⁴ and rounding over h.
+    // Errors of differences with steps h = 1e-3 m at distances of at least 0.1 m: h⁴, and rounding over h.
     assert!(worst < 1e-6, "{worst:e}");
 }
 
@@ -90,7 +90,8 @@ fn a_circuit_around_a_side_closes_but_for_the_slip() {
             let along = (to - from).normalize();
             let normal = patch.frame().column(2).into_owned();
             let out = along.cross(&normal);
-            // Where the circle crosses the patch, from plus to minus, the displacement falls by the slip. The rest regains it.
+            // The displacement drops by the slip where the circle crosses the patch, from plus to minus; it rises by as
+            // much along the rest.
             let count = 200;
             let sum: V = (0..count)
                 .map(|i| {
@@ -133,7 +134,7 @@ fn displacement_jumps_by_the_slip_across_a_patch_and_nowhere_else() {
     }
 }
 
-/// Points of quadrature of a patch with their weights, and its normal.
+/// Quadrature points of a patch with their weights, and its normal.
 fn points(patch: &Patch) -> (Vec<(V, f64)>, V) {
     let rule = gauss(16);
     let mut list = Vec::new();
@@ -187,7 +188,7 @@ fn the_work_of_one_slip_on_another_is_mutual() {
             worst = worst.max((one - two).abs() / one.abs());
         }
     }
-    // Rules of 16 points leave less than this at these distances.
+    // The error of quadrature with 16 points is below this at these distances.
     assert!(worst < 1e-8, "{worst:e}");
 }
 
@@ -201,6 +202,6 @@ fn a_deep_patch_of_a_half_space_has_the_field_of_a_whole_space() {
             .map(|space| Rectangle::new(space, &place).unwrap().field(&at, &slip, POISSON));
         apart(&half, &whole)
     });
-    // The image is 2 depths away: displacement falls with the square of the distance.
+    // The image is two depths away, and its displacement decreases with the square of the distance.
     assert!(found[0] < 2e-3 && (found[0] / found[1]).log10() > 1.9, "{found:?}");
 }

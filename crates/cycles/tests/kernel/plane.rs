@@ -1,4 +1,4 @@
-//! Equations that the kernels of the plane solve.
+//! Equations that the kernels of the plane satisfy.
 
 use super::common::{Random, difference, gauss, rock};
 use asperity_cycles::kernel::{Segment, Space};

@@ -1,4 +1,4 @@
-//! Values of other programs, which `data` holds with their names, versions and commands.
+//! Values of other programs, whose names, versions and commands are in the files of `data`.
 
 use super::common::{difference, listed, rock, rows, vector};
 use asperity_cycles::kernel::{Placement, Rectangle, Segment, Space, Triangle};
@@ -6,7 +6,7 @@ use asperity_cycles::kernel::{Placement, Rectangle, Segment, Space, Triangle};
 /// Other programs and these kernels lose two to four digits to cancellation in the configurations of the files.
 const BOUND: f64 = 1e-10;
 
-/// Checks displacement and strain apart, each relative to its largest component.
+/// Checks displacement and strain separately, each relative to its largest component.
 fn check(name: &str, row: usize, found: &[f64], wanted: &[f64], split: usize) {
     let u = difference(&found[..split], &wanted[..split]);
     let strain = difference(&found[split..], &wanted[split..]);
@@ -57,7 +57,7 @@ fn segments_agree_with_rectangles_of_great_length_of_dislocs() {
     for (i, row) in rows(include_str!("../data/segment_half.csv")).iter().enumerate() {
         let patch = Segment::new(Space::Half, [[row[0], row[1]], [row[2], row[3]]]).unwrap();
         let (at, [up, screw, opening]) = ([row[8], row[9]], [row[4], row[5], row[6]]);
-        // The normal of the segment is downwards: its plus side is the lower one.
+        // The normal of the segment points down: its plus side is the lower one.
         let edge = patch.edge(at, [-up, opening], &rock(row[7]));
         let found = [&edge.displacement[..], &edge.stress].concat();
         check("edge", i, &found, &row[10..15], 2);

@@ -37,7 +37,7 @@ fn fields_are_smooth_on_the_continuations_of_sides() {
             }
         }
     }
-    // The mean of points 1e-6 m aside differs by the square of that.
+    // The mean over points 1e-6 m to both sides differs by the square of that distance.
     assert!(worst < 1e-10, "{worst:e}");
 }
 

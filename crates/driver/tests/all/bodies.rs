@@ -55,7 +55,7 @@ fn a_sheet_under_tension_stretches_by_youngs_modulus_alone() {
     }
 }
 
-/// Two cylinders, one on the other, pressed by 3 MPa.
+/// Two cylinders, one on top of the other, under a pressure of 3 MPa.
 fn cylinders(path: &str, element: &str) -> String {
     format!(
         r#"
@@ -282,7 +282,7 @@ fn b_bar_bears_incompressible_bending_that_locks_the_standard_element() {
         let (_, record) = simulate(&text);
         displacements(&record, |x| x[0] == 10.0 && x[1] == 0.0)[0].1[1]
     };
-    // Bending of a long beam in plane strain, F L^3 (1 - nu^2)/(3 E I), shear left aside.
+    // Bending of a long beam in plane strain, F L^3 (1 - nu^2)/(3 E I), without shear deformation.
     let exact = 1e3 * 1000.0 * (1.0 - 0.4999_f64.powi(2)) / (3.0 * YOUNG / 12.0);
     assert!((tip("b-bar") / exact - 1.0).abs() < 0.05, "{} {exact}", tip("b-bar"));
     assert!(tip("standard") < 0.6 * exact, "{} {exact}", tip("standard"));
@@ -314,14 +314,15 @@ fn the_thick_walled_cylinder_yields_from_the_inside() {
         let u = &record.stage_ends()[stage].bodies.as_ref().unwrap().displacement;
         nodes.iter().zip(u).find(|(x, _)| x[0] > 0.2 - 1e-12).unwrap().1[0]
     };
-    // Below the yield pressure Lame's solution.
+    // Below the yield pressure: Lame's solution.
     let (_, elastic) = simulate(&varied(text, &[With("stages[0].conditions[2].pressure.to", "100 MPa")]));
     let lame = 2.0 * 100e6 * a * a * b * (1.0 - poisson * poisson) / (young * (b * b - a * a));
     close(outer(&elastic, 0), lame, 1e-6);
     assert!(outer(&elastic, 1).abs() < 1e-9 * lame);
     assert!(fields(&elastic).cell_plastic_strain.iter().all(|e| *e == 0.0));
-    // Above it the plastic radius c of p = k (1 - c^2/b^2 + 2 ln(c/a)), which takes the axial stress for the mean of the
-    // others (Hill): 2 % off, and c by less than a cell. What was plastic stays so when the pressure is gone.
+    // Above it: the plastic radius c from p = k (1 - c^2/b^2 + 2 ln(c/a)), which assumes that the axial stress is the
+    // mean of the others (Hill). This is 2 % off, and c by less than a cell. The plastic region stays plastic after the
+    // pressure is removed.
     let (_, plastic) = simulate(text);
     let pressure = |c: f64| limit * (1.0 - c * c / (b * b) + 2.0 * (c / a).ln());
     let (mut low, mut high) = (a, b);
@@ -347,7 +348,7 @@ fn cooks_membrane_rises_as_it_should() {
     close(tip[0].1[1], 23.96, 2e-3);
 }
 
-/// Two layers of a mixed mesh, both plastic, one pressed on the other.
+/// Two layers of a mixed mesh, both plastic, pressed together.
 const LAYERS: &str = r#"
 schema = 1
 title = "plastic layers in contact"

@@ -14,7 +14,8 @@ fn book() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src")
 }
 
-/// Names and units of a table's columns, each once: without positions, and with one name for those headed by a number.
+/// Names and units of a table's columns, each once: without positions, and with a single name for columns headed by a
+/// number.
 fn columns(table: &str) -> Vec<String> {
     let seas = table.lines().find(|line| line.starts_with("t slip"));
     let names: Vec<&str> = match seas {
@@ -55,7 +56,7 @@ fn tables(root: &Path, folder: &Path, found: &mut BTreeMap<String, Vec<String>>)
     }
 }
 
-/// Rows of the tables that the scene of a page of the reference leaves.
+/// Rows for the output tables of the scene on a page of the reference.
 fn rows(page: &str) -> String {
     let text = fs::read_to_string(book().join(format!("scene/{page}.md"))).unwrap();
     let folder = tempfile::tempdir().unwrap();

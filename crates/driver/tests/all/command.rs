@@ -1,4 +1,4 @@
-//! The command line: exit codes, messages, and what is left behind.
+//! The command line: exit codes, messages, and remaining files.
 #![allow(clippy::disallowed_methods)]
 
 use crate::common::{SANDWICH, coarse_sandwich as coarse, varied};
@@ -245,7 +245,7 @@ fn a_block_that_friction_cannot_hold_stops_at_its_limit_with_that_state_in_the_f
     let report = std::fs::read_to_string(folder.path().join("out/s/report.json")).unwrap();
     let report: serde_json::Value = serde_json::from_str(&report).unwrap();
     let time = report["outcome"]["stopped"]["time"].as_f64().unwrap();
-    // The load that friction bears is reached after 1/1.1 of the second stage.
+    // The load reaches the strength of friction after 1/1.1 of the second stage.
     assert!((time - (1.0 + 1.0 / 1.1)).abs() < 1e-9, "{time}");
     let fields = std::fs::read_to_string(folder.path().join("out/s/fields.pvd")).unwrap();
     assert!(fields.contains(&format!("timestep=\"{time}\"")), "{time} is not in\n{fields}");

@@ -1,4 +1,4 @@
-//! Output directories: one run to a directory, whose report says how it stands, and nothing lost that was not given up.
+//! Output directories: one run per directory, with its state in the report, and no loss of results unless requested.
 #![allow(clippy::disallowed_methods)]
 #![cfg(unix)]
 
@@ -137,7 +137,7 @@ fn a_run_that_was_killed_is_kept_as_the_one_before() {
     kill();
     succeeds(folder, &["s.toml"]);
     assert_eq!(report(&folder.join("out/s.previous"))["status"], "running");
-    // One that had computed nothing takes the place of nothing.
+    // A run without results replaces no earlier one.
     for file in fs::read_dir(folder.join("out/s")).unwrap().map(|e| e.unwrap().path()) {
         if file.is_dir() {
             fs::remove_dir_all(file).unwrap();
@@ -197,14 +197,14 @@ fn whatever_runs_leave_is_known_to_be_theirs() {
         format!("{FAULT}\n[output]\nbodies = true\nstations.main = [[0, \"0.5 km\", \"0.5 km\"]]\n");
     for text in [&coarse, SLIDER, include_str!("../../../../scenes/cook.toml"), &turning] {
         let folder = scene(text);
-        // The third run replaces the first one, and looks at each of its files before.
+        // The third run replaces the first one, after it has checked each of its files.
         for _ in 0..3 {
             succeeds(folder.path(), &["s.toml"]);
         }
     }
 }
 
-/// Waits until a file is there and longer than that.
+/// Waits until a file exists and has at least this size.
 fn grown(child: &mut Child, file: &Path, size: u64) {
     let begin = Instant::now();
     while fs::metadata(file).map_or(0, |m| m.len()) < size {
@@ -254,7 +254,7 @@ fn a_closed_or_full_stream_does_not_end_a_run() {
     let mut child = command(folder, &["check", "s.toml"]).spawn().unwrap();
     drop(child.stdout.take());
     assert!(child.wait().unwrap().success());
-    // The exit code is that of the run, whatever becomes of the streams.
+    // The exit code is that of the run, whatever happens to the streams.
     fs::write(folder.join("s.toml"), "schema = 1").unwrap();
     let bad = command(folder, &["run", "s.toml"]).stdout(full()).stderr(full()).status();
     assert_eq!(bad.unwrap().code(), Some(1));

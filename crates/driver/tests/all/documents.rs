@@ -1,12 +1,13 @@
-//! The documents are right: their scenes are accepted, and their commands print what stands below them.
+//! Documents are correct: their scenes are accepted, and their commands print what is shown below them.
 //!
-//! A block of the kind `console` has commands after `$ ` and below each what it prints. A line of three points stands for any number of
-//! lines. Lines of progress and times are left out, counts may differ by a twentieth and results by 1e-4, as on another processor.
+//! A `console` block has commands after `$ `, each followed by its output. A line of three points stands for any number
+//! of lines. Lines of progress and times are left out. Counts may differ by a twentieth and results by 1e-4, as on
+//! another processor.
 
 use asperity_driver::{plan, scene};
 use std::path::{Path, PathBuf};
 
-/// Pages with commands, in the order in which a reader meets them.
+/// Pages with commands, in the order of reading.
 const PAGES: [&str; 2] = ["docs/src/tutorial.md", "docs/src/spring-slider-howto.md"];
 /// Change of a count that depends on rounding.
 const COUNTS: f64 = 0.05;
@@ -49,7 +50,7 @@ pub fn blocks(page: &str, kind: &str) -> Vec<String> {
     found
 }
 
-/// Pages of a folder and of those in it.
+/// Pages of a folder and of its subfolders.
 fn pages(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
@@ -88,7 +89,7 @@ fn every_scene_of_the_book_is_accepted() {
     assert!(scenes >= 12, "only {scenes} scenes");
 }
 
-/// Commands of a block, each with what it is to print.
+/// Commands of a block, each with its expected output.
 fn commands(block: &str) -> Vec<(String, Vec<String>)> {
     let mut found: Vec<(String, Vec<String>)> = Vec::new();
     for line in block.lines() {
@@ -130,7 +131,7 @@ fn parted(line: &str) -> (String, Vec<String>) {
     (words, numbers)
 }
 
-/// True if two numbers are the same but for rounding in the course of a run.
+/// True if two numbers agree up to the effects of rounding during a run.
 fn near(a: &str, b: &str) -> bool {
     let bound = if a.contains(['.', 'e']) { RESULTS } else { COUNTS };
     let (Ok(a), Ok(b)) = (a.parse::<f64>(), b.parse::<f64>()) else { return a == b };
@@ -146,13 +147,13 @@ fn is_progress(line: &str) -> bool {
     line.trim_start().split_once(" %").is_some_and(|(share, _)| share.parse::<u8>().is_ok())
 }
 
-/// The first line of `expected` that is missing where it should be.
+/// The first line of `expected` that is not printed where it should be.
 fn missing<'a>(expected: &'a [String], printed: &[&str]) -> Option<&'a str> {
     let Some((first, rest)) = expected.split_first() else {
         return (!printed.is_empty()).then_some("the end");
     };
     if first == "..." {
-        // Several points in a row, with progress between them, are one.
+        // Consecutive lines of three points, with progress between them, count as one.
         let rest = &rest[rest.iter().take_while(|line| *line == "...").count()..];
         let next = rest.first()?;
         let Some(at) = printed.iter().position(|line| alike(next, line)) else { return Some(next) };

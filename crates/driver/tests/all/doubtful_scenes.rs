@@ -1,5 +1,6 @@
-//! Every file of `doubtful_scenes` is planned with one warning, where and as its first line says: `# warn: LINE:COLUMN part of the message`.
-//! Then what runs find that their models do not describe.
+//! Every file in `doubtful_scenes` gives one warning when it is planned, at the position and with the text in its first
+//! line: `# warn: LINE:COLUMN part of the message`. Further tests are of conditions in runs that their models do not
+//! describe.
 
 use crate::common::{SANDWICH, varied};
 use asperity_driver::plan::{self, ScenePlan};
@@ -61,7 +62,7 @@ fn every_doubtful_scene_is_warned_of_once_at_its_place() {
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), files.len(), wrong.join("\n"));
 }
 
-/// The sandwich with cells of 5 mm under some 10 MPa, and a law.
+/// The sandwich with this law, cells of 5 mm and a pressure of some 10 MPa.
 fn sandwich(law: &str, allowed: bool) -> RunReport {
     let sizes = ["bodies.A.mesh.block.size", "bodies.B.mesh.block.size"].map(|path| With(path, "5 mm"));
     let text = SceneText::new(SANDWICH).changed(&sizes).with("interfaces.fault.law", law);
@@ -77,11 +78,11 @@ fn ageing(l: &str) -> String {
     )
 }
 
-/// Loads do not say what presses this interface: its sides are moved.
+/// Loads do not determine the normal traction of this interface, since its sides are moved.
 #[test]
 fn an_interface_pressed_beyond_what_its_points_resolve_stops_before_it_slides() {
     let weakening = |d_c| format!("{{ kind = \"slip-weakening\", mu_s = 0.6, mu_k = 0.3, d_c = \"{d_c}\" }}");
-    // Under 10 MPa 1 mm to the zone of L = 10 nm, and 3 mm to that of d_c = 0.5 um; it slides after some 5 s.
+    // Under 10 MPa the cohesive zone is 1 mm for L = 10 nm, and 3 mm for d_c = 0.5 um; sliding begins after some 5 s.
     for (law, wide) in [(ageing("10 nm"), ageing("5 um")), (weakening("0.5 um"), weakening("50 um"))] {
         let report = sandwich(&law, false);
         let Outcome::Stopped { stage, time, reason, kind: Stop::UnderResolved { interface, position } } =
@@ -94,10 +95,10 @@ fn an_interface_pressed_beyond_what_its_points_resolve_stops_before_it_slides() 
             reason.contains("under_resolved = \"allow\"") && reason.contains("less than one point"),
             "{reason}"
         );
-        // The state before is kept: nothing has slid.
+        // The last state before the stop is kept: nothing has slid.
         assert_eq!(report.steps.last().unwrap().time, *time);
         assert!(report.results.last().unwrap().status[2] == 0, "{:?}", report.results.last());
-        // What presses it was told of when it was pressed.
+        // The warning about the normal traction came at the end of the stage that applies it.
         let few = |r: &RunReport| {
             r.warnings.iter().filter(|w| w.message.contains("at the end of stage `press`")).count()
         };
@@ -164,7 +165,7 @@ fn bar(strain: &str, to: &str) -> String {
 
 #[test]
 fn strain_beyond_a_few_per_cent_is_told_where_it_is_taken_as_small() {
-    // A bar of 4 m drawn by 0.4 m is strained by a tenth, by 0.1 m by a fortieth.
+    // A bar of 4 m that is extended by 0.4 m has a strain of a tenth; by 0.1 m, of a fortieth.
     let told = found(&bar("small", "400 mm"));
     assert!(told.len() == 1 && told[0].contains("body `A` is strained by 0.100 in stage `pull`"), "{told:?}");
     assert_eq!(found(&bar("small", "100 mm")), Vec::<String>::new());
@@ -235,7 +236,7 @@ fn half_a_side_without_partner_is_counted() {
     assert_eq!((start.facing, start.unpaired), (3, 2));
 }
 
-/// A pair of blocks pressed without friction, held with it, and sheared, under friction of this form.
+/// Two blocks that are pressed together without friction, held with it, and sheared under friction of this form.
 fn pressed_first(form: &str, held: &str) -> String {
     format!(
         r#"schema = 1

@@ -12,16 +12,16 @@ const PENALTY: &str = r#"kind = "penalty", normal = "10 E/h""#;
 const UZAWA: &str = r#"kind = "uzawa", normal = "10 E/h", penetration = "1e-10 h""#;
 const MIXED: &str = r#"kind = "augmented-lagrangian", normal = "1 E/h""#;
 
-/// Two unit squares one on the other; the upper is the slave.
+/// Two unit squares, one on top of the other; the upper is the slave.
 struct Blocks<'a> {
     poisson: f64,
-    /// Elements of upper and lower along each side.
+    /// Number of elements along each side, of the upper and of the lower block.
     divisions: (usize, usize),
     measure: &'a str,
     sliding: &'a str,
     enforcement: &'a str,
     law: &'a str,
-    /// Conditions of the upper block beside those of the lower, which stands on y = 0.
+    /// Conditions of the upper block, in addition to those of the lower, which rests on y = 0.
     conditions: &'a str,
     steps: usize,
     path: &'a str,
@@ -144,7 +144,8 @@ fn uzawa_ends_at_its_tolerance_with_a_fixed_factor_a_round() {
         let step = &report.steps[0];
         assert!(step.penetration <= 0.25e-10, "{}", step.penetration);
         assert!(step.augmentations > 2, "{}", step.augmentations);
-        // What each round leaves: the compliance of the penalty over that of penalty and bodies together.
+        // Share of the error that remains after each round: the compliance of the penalty over that of penalty and
+        // bodies together.
         let left = (factor * UNIT).recip() / ((factor * UNIT).recip() + 2.0 * 0.91 / 1000.0);
         let first = EXACT * (1.0 - left) / (factor * UNIT);
         let rounds = (0.25e-10 / first).ln() / left.ln();
@@ -169,8 +170,8 @@ fn a_tolerance_that_is_not_reached_is_an_outcome_with_the_last_good_state_kept()
 const SHEARED: &str =
     r#"{ set = "lower.bottom", x = 0 }, { set = "upper.top", y = { to = -0.01 }, x = { to = 0.02 } }"#;
 
-/// Sheared blocks: with nu = 0 and all sides free but for the strip's symmetry (none is needed where the shear is uniform
-/// only far from the sides), compared between enforcements instead.
+/// Sheared blocks, for which enforcements are compared with each other, since the shear is uniform only far from the
+/// sides.
 #[test]
 fn enforcements_agree_with_friction_on_both_paths() {
     for (measure, divisions) in [("node-to-point", (4, 4)), ("mortar", (4, 5))] {
@@ -209,7 +210,7 @@ fn enforcements_agree_with_friction_on_both_paths() {
     }
 }
 
-/// The relative motion along the interface is slip alone: the springs of the tangential penalty are gone.
+/// The relative motion along the interface is slip alone, without that of penalty springs.
 #[test]
 fn without_penalty_all_tangential_motion_is_slip() {
     let law = r#"kind = "coulomb", mu = 0.3"#;
@@ -289,8 +290,9 @@ fn a_bar_in_tension_passes_the_patch_test_through_tied_mortar_interfaces() {
                 let tolerance = if enforcement == UZAWA { 1e-8 } else { 1e-10 };
                 normal(&record).iter().for_each(|p| close(*p, -exact, tolerance));
                 fields(&record).cell_stress.iter().for_each(|s| close(s[1], exact, tolerance));
-                // Newton ends at 1e-11 of the largest force; where the slave side is finer its multipliers have weak modes that
-                // magnify what is left some fifty times, with dual functions four hundred.
+                // Newton's method ends at 1e-11 of the largest force. Where the slave side is finer, its multipliers
+                // have weak modes that amplify the remaining error some fifty times, and four hundred times with dual
+                // functions.
                 let weak = if enforcement == MIXED { 100.0 } else { 1.0 };
                 assert!(shear(&record).iter().all(|t| t.abs() < weak * tolerance * exact));
                 assert!(
@@ -357,7 +359,7 @@ stepper = "implicit"
 
 #[test]
 fn a_tied_interface_keeps_the_gap_it_was_tied_at() {
-    // The blocks stand 1e-3 apart.
+    // The blocks are 1e-3 apart.
     let text = |law| {
         let blocks =
             Blocks { enforcement: MIXED, law, measure: "mortar", conditions: PULL, ..Blocks::default() };
@@ -373,7 +375,7 @@ fn a_tied_interface_keeps_the_gap_it_was_tied_at() {
     assert!(normal(&open).iter().all(|p| *p == 0.0), "untied blocks part");
 }
 
-/// A cantilever of two halves tied across the middle against the same mesh in one piece.
+/// A cantilever of two halves tied across the middle, compared with the same mesh in one piece.
 #[test]
 fn a_cantilever_tied_across_its_middle_is_the_cantilever_in_one_piece() {
     let beam = |bodies: &str, clamp: &str, tip: &str, tables: &str| {

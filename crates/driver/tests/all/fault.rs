@@ -23,7 +23,7 @@ fn bp1(size: f64) -> Plan {
     }
 }
 
-/// The events \[onsets in yr\] of a run that ends after so many.
+/// Onsets \[yr\] and events of a run that ends after `most` of them.
 fn events(plan: &Plan, method: Method, tolerance: f64, most: usize) -> (Vec<f64>, Vec<Event<Rupture>>) {
     let mut settings = plan.problem.settings;
     (settings.method, settings.tolerance, settings.most_events) = (method, tolerance, Some(most));
@@ -36,10 +36,10 @@ fn events(plan: &Plan, method: Method, tolerance: f64, most: usize) -> (Vec<f64>
 #[test]
 fn the_first_event_of_bp1_comes_when_converged_codes_say() {
     let (onsets, events) = events(&bp1(156.25), Method::Tsit5, 1e-4, 1);
-    // Boundary elements of 19.5 to 25 m, two codes: 196.36 to 196.37 yr. Cells of 156 m are 2.2 to the process zone; the bound is
-    // the error that boundary elements of 78 m, with as many unknowns, have (QDYN: 196.509 yr).
+    // Two codes with boundary elements of 19.5 to 25 m give 196.36 to 196.37 yr. The process zone has 2.2 cells of 156
+    // m. The bound is the error of boundary elements of 78 m, with as many unknowns (QDYN: 196.509 yr).
     assert!((onsets[0] - 196.365).abs() < 0.15, "{onsets:?}");
-    // No place slips more than the plates have moved since the start, and the later events, with 78 yr between them, slip 2.45 m.
+    // No point slips more than the plates have moved since the start; the later events, 78 yr apart, slip 2.45 m.
     let slip = events[0].details.slip.component(0).iter().copied().fold(0.0, f64::max);
     assert!(slip > 2.45 && slip < 197.0 * YEAR * PLATE, "{slip}");
 }
@@ -50,15 +50,15 @@ fn onsets_converge_with_the_tolerance_and_agree_between_methods() {
     let fine = events(&plan, Method::Dop853, 1e-7, 1).0[0];
     let error = |method, tolerance| (events(&plan, method, tolerance, 1).0[0] - fine).abs();
     let (coarse, medium) = (error(Method::Tsit5, 1e-3), error(Method::Tsit5, 1e-5));
-    // A step's error in ln V is the tolerance; those of the hundreds of steps that lead up to an event add up to less than a
-    // hundred tolerances in years.
+    // The error of ln V per step is the tolerance. Those of the hundreds of steps that lead up to an event add up to
+    // less than a hundred tolerances in years.
     assert!(medium < 1e-3, "{medium}");
     assert!(coarse > medium, "{coarse} {medium}");
     assert!(error(Method::Dop853, 1e-5) < 1e-3);
 }
 
-/// The traction the bodies exert, from slip and loads through the operator, must be that of friction, which the equations carry:
-/// their difference is the error of the integration.
+/// The traction of the bodies, from slip and loads through the operator, must equal friction, which the equations
+/// integrate: their difference is the error of the integration.
 #[test]
 fn friction_balances_what_the_bodies_exert() {
     let plan = bp1(312.5);
@@ -83,11 +83,12 @@ fn friction_balances_what_the_bodies_exert() {
         Control::Go
     };
     plan.problem.run(&settings, &mut look).unwrap();
-    // An error of ln V of 1e-6 a step moves friction by a times that, and a hundred steps go by within an e-fold of ln V.
+    // An error of ln V of 1e-6 per step changes friction by a times that, and there are a hundred steps in an e-fold of
+    // ln V.
     assert!(worst < 1e-6, "{worst:e}");
 }
 
-/// BP6 by its lower half with cells of 1 km, and this flux of fluid \[m/s\].
+/// The lower half of BP6 with cells of 1 km and this flux of fluid \[m/s\].
 fn injected(flux: f64) -> Plan {
     let text = varied(
         include_str!("../../../../scenes/bp6-a.toml"),
@@ -106,7 +107,7 @@ fn injected(flux: f64) -> Plan {
     }
 }
 
-/// Largest imbalance of tractions over f_n, and the lowest f_n \[Pa\], with a tolerance.
+/// Largest imbalance of tractions over f_n, and the lowest f_n \[Pa\], of a run with this tolerance.
 fn under_fluid(tolerance: f64) -> (f64, f64) {
     let mut plan = injected(1.25e-6);
     plan.problem.settings.tolerance = tolerance;
@@ -131,8 +132,9 @@ fn under_fluid(tolerance: f64) -> (f64, f64) {
 
 #[test]
 fn friction_balances_under_the_pressure_of_fluid_that_comes_and_goes() {
-    // The norm is a mean over 180 unknowns, so that the one point where fluid enters may have 13 tolerances of ln V a step, a = 0.007 times that
-    // in friction, and errors of a hundred steps that follow the root of time add up like a random walk: 0.9 tolerances; rounding at 1e-8.
+    // The error norm is a mean over 180 unknowns. The one point where fluid enters may therefore have an error of 13
+    // tolerances of ln V per step, and of a = 0.007 times that in friction. Errors of a hundred steps that follow the
+    // square root of time add up like a random walk, to 0.9 tolerances. At 1e-8 rounding adds to them.
     for (tolerance, bound) in [(1e-6, 9e-7), (1e-8, 3e-8)] {
         let (worst, lowest) = under_fluid(tolerance);
         assert!(worst < bound, "{tolerance:e}: {worst:e}");
@@ -156,7 +158,7 @@ fn a_fault_that_fluid_opens_ends_at_its_last_good_state_and_names_the_point() {
     assert!(report.outcome.reason().is_some_and(|s| s.contains("falls to zero")));
 }
 
-/// An entry that no other has.
+/// Entry of a matrix whose entries all differ.
 fn entry(i: usize, j: usize) -> f64 {
     ((7 * i + 13 * j) % 11) as f64 - 4.5 + 0.1 * i as f64
 }

@@ -1,4 +1,4 @@
-//! Sides, segments, traces and supports of faults: what must not matter, what is refused and what is warned of.
+//! Sides, segments, traces and supports of faults: changes that must not matter, refusals, and warnings.
 
 use crate::common::varied;
 use asperity_driver::diagnostic;
@@ -128,7 +128,7 @@ fn plane() -> Grid {
     }
 }
 
-/// Edges of the middle line of the plane between two rows, upwards: minus is at its left.
+/// Edges of the middle line of the plane between two rows, upwards: minus is to the left.
 fn upright(grid: &Grid, rows: std::ops::Range<usize>) -> Vec<Vec<usize>> {
     rows.map(|j| vec![grid.node(&[6, j]), grid.node(&[6, j + 1])]).collect()
 }
@@ -139,7 +139,7 @@ fn borders(grid: &Grid) -> [(&'static str, Vec<Vec<usize>>); 2] {
     [("left", side(0)), ("right", side(12))]
 }
 
-/// A scene of the plane split along these lines, with a fault on each of the same properties.
+/// A scene of the plane split along these lines, with a fault of the same properties on each.
 fn of_lines(kinematics: &str, lines: &[(&str, Vec<Vec<usize>>)], more: &str) -> Result<Plan, Diagnostic> {
     let grid = plane();
     let mut faces: Vec<_> = borders(&grid).to_vec();
@@ -164,7 +164,7 @@ fn of_lines(kinematics: &str, lines: &[(&str, Vec<Vec<usize>>)], more: &str) -> 
     );
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("grid.msh"), grid.file(&faces)).unwrap();
-    // Younger states than those of steady sliding, which would leave that unstable balance by rounding alone.
+    // States younger than those of steady sliding, which is an unstable balance that only rounding would disturb.
     let younger = |scene: SceneText, (name, _): &(&str, _)| {
         scene.with(&format!("faults.{name}.law.v_initial"), "1e-8 m/s")
     };
@@ -206,7 +206,7 @@ fn same(a: &Plan, b: &Plan) {
     let strongest = of_a.0.iter().fold(0.0_f64, |l, v| l.max(v.abs()));
     for (&i, &j) in p.iter().zip(&q) {
         let (x, y) = (&a.points[i], &b.points[j]);
-        // Where minus and plus are exchanged, what moves is the other side.
+        // If minus and plus are exchanged, the other side moves.
         let along: f64 = x.slides.iter().zip(&y.slides).map(|(a, b)| a * b).sum();
         assert!(x.at == y.at && (along.abs() - 1.0).abs() < 1e-12, "{x:?} {y:?}");
         close(x.area, y.area, x.area);
@@ -242,7 +242,7 @@ fn segments_that_meet_end_to_end_are_one_fault() {
         );
         assert_eq!(parts.faults[0].points.len(), 21);
         let (x, y) = (onsets(&whole), onsets(&parts));
-        // The numbers of the points differ, and with them the order of sums, nothing else.
+        // Only the numbers of the points differ, and with them the order of sums.
         assert!(x.len() == 2 && x.iter().zip(&y).all(|(x, y)| (x / y - 1.0).abs() < 1e-7), "{x:?} {y:?}");
         // A segment whose sides are exchanged is the same segment.
         let turned = upright(&grid, 20..48).into_iter().map(|e| vec![e[1], e[0]]).collect();
@@ -325,14 +325,14 @@ fn faces_of_two_faults_and_branches_are_refused_with_words() {
     let both = [upright(&grid, 0..48), branch.clone()].concat();
     let error = of_lines("antiplane", &[("main", both)], "").map(|_| ()).unwrap_err();
     assert!(error.message.contains("branch"), "{error}");
-    // One cell away it is another fault.
+    // One cell away, it is a separate fault.
     let apart =
         of_lines("antiplane", &[("main", upright(&grid, 0..48)), ("splay", branch[1..].to_vec())], "")
             .unwrap();
     assert_eq!((apart.faults.len(), apart.notes.len()), (2, 0));
 }
 
-/// Two blocks beside each other with these divisions and depths \[km\] of the right one.
+/// Two adjacent blocks with these divisions; the right one has this depth \[km\].
 fn blocks(left: usize, right: usize, depth: usize, swapped: bool) -> String {
     let sides = ["A.right", "B.left"];
     let [minus, plus] = if swapped { [sides[1], sides[0]] } else { sides };
@@ -423,7 +423,7 @@ fn supports_across_an_oblique_fault_are_refused_with_set_and_place() {
     }
 }
 
-/// Warnings of a plan, each with the text it is about.
+/// Warnings of a plan, each with the text that it refers to.
 fn warnings(text: &str) -> Vec<(String, String)> {
     let at = |w: &asperity_driver::warning::Warning| (w.message.clone(), text[w.span.clone()].to_string());
     // Cells are coarse here on purpose.
@@ -489,8 +489,8 @@ fn stations_less_than_a_cell_off_are_taken() {
     assert_eq!(diagnostic::line_column(&text, error.span.start).0, text.lines().count());
 }
 
-/// A listric fault: the circle of radius 40 km about (40, 0) km, down from the surface over 45 degrees, of so many segments, until its
-/// third event.
+/// A listric fault until its third event: an arc of 45 degrees of the circle of radius 40 km about (40, 0) km, down from
+/// the surface, in this many segments.
 fn listric(segments: usize, more: &str) -> Plan {
     let vertex = |k: usize| {
         let (s, c) = (std::f64::consts::FRAC_PI_4 * k as f64 / segments as f64).sin_cos();
@@ -510,7 +510,8 @@ fn listric(segments: usize, more: &str) -> Plan {
 
 #[test]
 fn a_listric_fault_of_few_vertices_is_that_of_many() {
-    // Work of the tractions of a bump of slip along itself and against the opening, and the largest normal traction.
+    // Work of the shear tractions due to a bump of slip on that slip, work of its normal tractions on an opening of the
+    // same size, and the largest normal traction.
     let measure = |plan: &Plan| {
         let n = plan.points.len();
         let length = plan.points[n - 1].along;
@@ -526,11 +527,12 @@ fn a_listric_fault_of_few_vertices_is_that_of_many() {
     let curve = measure(&listric(3, ""));
     let corners = measure(&listric(3, ", interpolation = \"polyline\""));
     let far = |a: f64, b: f64| (a / b - 1.0).abs();
-    // Both have errors of second order in the cells, of which the bump is fifteen long: (1/15)^2 = 0.4 %, and the cells end elsewhere.
+    // Both have errors of second order in the size of cells, with fifteen along the bump: (1/15)^2 = 0.4 %, and the
+    // cells end at other positions.
     assert!(far(curve.0, dense.0) < 0.005 && far(curve.1, dense.1) < 0.02, "{curve:?} {dense:?}");
-    // Normal tractions alternate at the corners of cells, by a share that depends on where they end.
+    // Normal tractions alternate at the corners of cells, by an amount that depends on where cells end.
     assert!(far(curve.2, dense.2) < 0.1, "{curve:?} {dense:?}");
-    // Corners of 15 degrees press much more than a bend of 1.4 degrees per cell.
+    // Corners of 15 degrees cause much larger normal tractions than a bend of 1.4 degrees per cell.
     assert!(corners.2 > 2.0 * dense.2, "{corners:?} {dense:?}");
     assert!(
         listric(3, ", interpolation = \"polyline\"").notes[0]

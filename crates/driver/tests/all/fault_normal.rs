@@ -1,4 +1,5 @@
-//! Normal tractions of faults: floors, tractions that stay, initial stress, and how finely points stand beside lengths of friction.
+//! Normal tractions of faults: floors, constant tractions, initial stress, and the spacing of points relative to the
+//! lengths of friction.
 
 use crate::common::varied;
 use asperity_cycles::{Balance, FaultRun, Moment};
@@ -11,7 +12,8 @@ use asperity_vary::Change::{self, Add, With, Without};
 use asperity_vary::SceneText;
 use asperity_vary::bp1::{AT_CREEP, BP1, sized};
 
-/// A fault of this trace below a free surface, with these keys, that plates draw along the first leg of the trace in the sense of `sign`.
+/// A fault with this trace below a free surface, with these keys. Plates load it along the first leg of the trace, in
+/// the sense of `sign`.
 fn dipping(trace: &str, direction: [f64; 2], sign: f64, keys: &str) -> String {
     let [x, y] = direction.map(|c| 0.5e-9 * sign * c);
     format!(
@@ -55,13 +57,13 @@ const DIP_60: &str = r#"[["0 km", "0 km"], ["7.5 km", "-12.9903811 km"], ["9 km"
 /// Dips of 45, 30 and 20 degrees.
 const LISTRIC: &str = r#"[["0 km", "0 km"], ["4.2426407 km", "-4.2426407 km"], ["11.1708439 km", "-8.2426407 km"], ["153.3715 km", "-60 km"]]"#;
 
-/// A normal fault under 1 MPa and 7.45 MPa more by kilometre of depth.
+/// A normal fault under 1 MPa plus 7.45 MPa per kilometre of depth.
 fn normal_fault(keys: &str) -> String {
     let press = r#"profiles.normal = { along = "y", points = [["-20 km", 150e6], ["0 km", 1e6]] }"#;
     dipping(DIP_60, [0.5, -(0.75_f64.sqrt())], -1.0, &format!("{press}\n{keys}"))
 }
 
-/// A thrust that flattens downwards under 2 MPa and 4.8 MPa more by kilometre of depth.
+/// A thrust that flattens downwards under 2 MPa plus 4.8 MPa per kilometre of depth.
 fn thrust(keys: &str) -> String {
     let press = r#"profiles.normal = { along = "y", points = [["-20 km", 98e6], ["0 km", 2e6]] }"#;
     dipping(LISTRIC, [0.75_f64.sqrt(), -0.5], 1.0, &format!("{press}\n{keys}"))
@@ -75,8 +77,9 @@ fn planned(text: &str) -> Result<Plan, Diagnostic> {
     })
 }
 
-/// A run with its report, and the largest imbalance of tractions over the largest f_n at the start: what bodies exert and press comes from slip and loads
-/// through the operator, and friction uses the larger of what they press and `floor`.
+/// A run with its report, and the largest imbalance of tractions relative to the largest initial f_n. Tractions of the
+/// bodies follow from slip and loads through the operator, and friction uses the larger of their normal traction and
+/// `floor`.
 fn followed(plan: &Plan, floor: f64) -> (FaultRun, Report, f64) {
     let n = plan.points.len();
     let couples = plan.problem.fault.operator.couples_normal();
@@ -104,7 +107,7 @@ fn followed(plan: &Plan, floor: f64) -> (FaultRun, Report, f64) {
             let pressed = plan.problem.fault.normal[p] + press[p] + load;
             let resisting = friction(p, pressed, now.unknowns[p], now.rate.component(0)[p]);
             worst = worst.max((first[p] + shear[p] + shear_rate[p] * time - resisting).abs() / scale);
-            // What outputs show; an unknown itself, which a does not make smaller.
+            // Error of f_n in outputs, which is an unknown itself: a does not make it smaller.
             let shown = now.normal(p) - pressed.max(floor);
             worst = worst.max(0.025 * shown.abs() / scale);
         }
@@ -115,20 +118,22 @@ fn followed(plan: &Plan, floor: f64) -> (FaultRun, Report, f64) {
     (out, report, worst)
 }
 
-/// A bound of the imbalance of tractions over f_n: errors of ln V within the tolerance in the mean over all unknowns, four a point, move friction by a (0.025 at
-/// most) times as much, and add up over the steps like a random walk.
+/// Bound of the imbalance of tractions over f_n. Errors of ln V are within the tolerance in the mean over all unknowns,
+/// four per point. They change friction by a (0.025 at most) times as much, and add up over the steps like a random
+/// walk.
 fn drift(plan: &Plan, out: &FaultRun) -> f64 {
     let most = (4.0 * plan.points.len() as f64).sqrt() * plan.problem.settings.tolerance;
     0.025 * most * (out.counts.steps as f64).sqrt()
 }
 
-/// The report of a run through three events, in which friction balances what bodies exert and the budget of energy closes.
+/// The report of a run through three events. Friction must balance the tractions of the bodies, and the energy budget
+/// must close.
 fn through(text: &str, floor: f64) -> Report {
     let plan = planned(text).unwrap();
     let (out, report, worst) = followed(&plan, floor);
     assert_eq!((&out.outcome, report.events.len()), (&Outcome::Stopped, 3));
     assert!(worst < drift(&plan, &out), "{worst:e} {:e}", drift(&plan, &out));
-    // Ten times the tolerance, of the largest part.
+    // Ten times the tolerance, relative to the largest term.
     assert!(report.energy.imbalance < 1e-4, "{:?}", report.energy);
     report
 }
@@ -174,7 +179,8 @@ fn a_floor_that_is_never_reached_changes_nothing() {
     assert_eq!((report.floors[0].points, report.floors[0].time_share), (0, 0.0));
 }
 
-/// An upright fault in a symmetric box has no change of normal traction: leaving the change out changes nothing but the norm of errors.
+/// An upright fault in a symmetric box has no change of normal traction: omitting the change affects only the error
+/// norm.
 #[test]
 fn where_slip_presses_nothing_it_does_not_matter_whether_it_may() {
     let trace = r#"[["50 km", "0 km"], ["50 km", "-15 km"], ["50 km", "-18 km"], ["50 km", "-24 km"], ["50 km", "-60 km"]]"#;
@@ -231,7 +237,7 @@ fn points_are_counted_along_the_cohesive_zone_and_few_are_warned_of_or_refused()
     };
     let plan = bp1(156.25, &[]).unwrap();
     let zone = plan.resolution[0].cohesive_zone;
-    // G L/(b f_n), with two points to a cell of second order; cells are at most as large as asked for.
+    // G L/(b f_n), with two points to a cell of second order; cells are at most as large as requested.
     let length = 32.038_120_32e9 * 0.008 / (0.015 * 50e6);
     assert!(
         (zone.length / length - 1.0).abs() < 1e-9 && (zone.spacing / 78.125 - 1.0).abs() < 0.02,
@@ -245,7 +251,7 @@ fn points_are_counted_along_the_cohesive_zone_and_few_are_warned_of_or_refused()
     assert_eq!(bp1(781.25, &[Add("faults.main.under_resolved", "allow")]).unwrap().warnings.len(), 1);
 }
 
-/// Refusals of weight, each with the remedy that it names.
+/// Refusals of weight, each with the remedy in its message.
 #[test]
 fn scenes_that_weight_makes_impossible_are_accepted_with_the_remedy_of_their_refusal() {
     let presses_nothing = "fault-weight: weight presses nothing";
@@ -279,7 +285,7 @@ fn scenes_that_weight_makes_impossible_are_accepted_with_the_remedy_of_their_ref
     }
 }
 
-/// Conditions on the lower end of blocks that move as the creep has it say nothing new, and count once.
+/// Conditions on the lower end of blocks that agree with the creep are redundant, and count once.
 #[test]
 fn conditions_that_say_the_same_as_creep_count_once() {
     let refused = crate::messages::text("faults-in-space: creep and sides");

@@ -1,4 +1,4 @@
-//! Faults that open: tractions balance, energy closes, and what never opens is as it was.
+//! Faults that open: tractions balance, the energy budget closes, and faults that never open have unchanged results.
 
 use crate::common::varied;
 use asperity_cycles::{Balance, FaultRun, Layout, Moment};
@@ -24,15 +24,16 @@ fn planned(text: &str) -> Plan {
 struct Found {
     run: FaultRun,
     report: Report,
-    /// Largest imbalance of tractions along and across the fault over the largest f_n at the start.
+    /// Largest imbalance of tractions along and across the fault, relative to the largest initial f_n.
     along: f64,
     across: f64,
-    /// Most points that were open at once.
+    /// Largest number of points that were open at once.
     most: usize,
 }
 
-/// Follows a run whose loads have one rate. Tractions follow from slip and openings through the operators: along the fault they are friction's, across it what presses less fluid, nothing
-/// where it is open.
+/// Follows a run whose loads have constant rates. Tractions follow from slip and openings through the operators. Along
+/// the fault they must equal friction; across it, less the pore pressure, they must equal f_n, or vanish where the fault
+/// is open.
 fn followed(plan: &Plan) -> Found {
     let (n, fault) = (plan.points.len(), &plan.problem.fault);
     let (law, opening) = (&fault.law, fault.opening.as_ref().unwrap());
@@ -74,13 +75,14 @@ fn followed(plan: &Plan) -> Found {
 }
 
 impl Found {
-    /// Tractions and energies are in balance: errors within the tolerance in the mean over all unknowns, four a point, add up over the steps like a random walk. They are of ln V, and
-    /// move friction by a (`direct` at most) times as much, and f_n by as much of itself.
+    /// Asserts that tractions and energies balance. Errors of ln V are within the tolerance in the mean over all
+    /// unknowns, four per point, and add up over the steps like a random walk. They change friction by a (`direct` at
+    /// most) times as much, and f_n by as much of itself.
     fn balances(&self, plan: &Plan, direct: f64) {
         let most = (4.0 * plan.points.len() as f64).sqrt() * plan.problem.settings.tolerance;
         let drift = direct * most * (self.run.counts.steps as f64).sqrt();
         assert!(self.along < drift && self.across < drift, "{:e} {:e} {drift:e}", self.along, self.across);
-        // Ten times the tolerance, of the largest part.
+        // Ten times the tolerance, relative to the largest term.
         assert!(self.report.energy.imbalance < 1e-4, "{:?}", self.report.energy);
     }
 }
@@ -98,7 +100,7 @@ fn a_fault_that_fluid_opens_balances_and_closes_when_the_injection_ends() {
     assert_eq!(found.report.floors[0].least, 0.0);
 }
 
-/// Nothing slips under so high a floor: what the opening takes it gives back.
+/// Nothing slips under so high a floor: closing returns the work of opening.
 #[test]
 fn an_opening_without_slip_gives_back_what_it_takes() {
     let plan = planned(&varied(INJECTED, &[With("faults.main.normal_floor", "20 MPa")]));
@@ -171,7 +173,7 @@ fn the_plan_says_what_opens_and_counts_its_memory() {
     assert!(!closed.summary().contains("opens"));
 }
 
-/// The sides pull a fault apart and shear it by rounding only.
+/// Moving sides pull a fault apart, and shear it by rounding only.
 #[test]
 fn loads_that_only_pull_do_not_drive_a_fault_against_its_rate() {
     let pulled = varied(

@@ -1,4 +1,4 @@
-//! Output files of faults through cycles: what they must show, and how far they may grow.
+//! Output files of faults through cycles: their required content, and limits of their growth.
 #![allow(clippy::disallowed_methods)]
 
 use crate::common::cycles::SCENE;
@@ -37,7 +37,7 @@ impl Observer<Faults> for Seen<'_> {
     }
 
     fn pause(&mut self, _: &mut dyn FnMut() -> FaultRun) -> Result<Option<&'static str>, ObserveError> {
-        // What a checkpoint holds of the files is all that they hold in memory.
+        // The state of the files in a checkpoint is all that they keep in memory.
         self.sizes.push(serde_json::to_string::<Position>(&self.files.position()).unwrap().len());
         Ok(None)
     }
@@ -80,7 +80,7 @@ fn every_peak_stands_in_the_files_and_rows_come_by_change() {
     }
     for (rows, &largest) in all.iter().zip(&seen.largest) {
         let found = rows.iter().map(|r| r[1]).fold(0.0, f64::max);
-        // An extremum that lies within half a per cent of the row before makes no row.
+        // An extremum within half a per cent of the previous row gets no row.
         assert!(found <= largest * (1.0 + 1e-5) && found > 0.995 * largest, "{found} {largest}");
         assert!(rows.windows(2).all(|w| w[0][0] < w[1][0]));
         assert!(rows.len() > 300 && rows.len() < seen.steps, "{} of {}", rows.len(), seen.steps);
@@ -114,7 +114,7 @@ fn rows_do_not_follow_steps_where_events_begin_at_slow_rates() {
     };
     let (rows, _, _) = count("1e-3 m/s", "fast");
     let (slow, profiles, steps) = count("1.2e-9 m/s", "slow");
-    // What makes rows due does not depend on what counts as an event.
+    // The times of rows do not depend on the thresholds of events.
     assert!((slow / rows - 1.0).abs() < 0.1, "{slow} {rows}");
     assert!(profiles < 0.25 * steps, "{profiles} profiles of {steps} steps");
 }
@@ -132,7 +132,7 @@ fn files_stay_below_their_largest_size_and_the_run_says_so() {
         warning.message.contains("beyond half of `largest_file` (0.02") && warning.help.is_some(),
         "{warning}"
     );
-    // The last rows stand near the end of the run.
+    // The last rows are near the end of the run.
     let rows = rates(&folder.path().join("largest_rate.csv"), 1);
     assert!(rows[rows.len() - 1][0] > 0.5 * run.at.seconds());
     // Plots are drawn from files of any length.
@@ -166,7 +166,8 @@ fn time_above_the_rate_does_not_depend_on_the_rate_that_ends_events() {
     let (wide, narrow) = (of("1e-4 m/s", "wide"), of("0.9999e-3 m/s", "narrow"));
     for (w, n) in wide.iter().zip(&narrow) {
         let whole = |e: &Event<Rupture>| e.duration().unwrap();
-        // With one rate for both the duration is the time above it, but for the ten-thousandth between the two.
+        // With the same rate for both thresholds, the duration would be the time above it; here they differ by a
+        // ten-thousandth.
         assert!((n.details.above / whole(n) - 1.0).abs() < 1e-3, "{} {}", n.details.above, whole(n));
         assert!(
             (w.details.above / n.details.above - 1.0).abs() < 1e-3,
@@ -178,7 +179,7 @@ fn time_above_the_rate_does_not_depend_on_the_rate_that_ends_events() {
     }
 }
 
-/// Pairs of blocks that no elastic way joins: characteristic slip \[m\] and half width \[m\] decide when each slips.
+/// Pairs of blocks without elastic connection: characteristic slip \[m\] and half width \[m\] determine when each slips.
 fn pairs(which: &[(&str, f64, f64)]) -> String {
     let head = SCENE.split("[bodies.crust]").next().unwrap();
     let (mut bodies, mut faults, mut sides) = (String::new(), String::new(), String::new());
@@ -228,7 +229,8 @@ fn each_fault_of_several_has_the_catalogue_it_has_alone() {
         for (a, b) in fault.events.iter().zip(&alone.events) {
             let near =
                 |a: f64, b: f64, bound: f64| assert!((a / b - 1.0).abs() < bound, "{a} {b} of {}", pair.0);
-            // No elastic way leads from one pair to the other: what is left are errors of the tolerance over a cycle, and peaks that steps see.
+            // The pairs are not connected elastically. The remaining differences are errors of the tolerance over a
+            // cycle, and those of peaks, which are taken at the ends of steps.
             near(a.onset, b.onset, 1e-5);
             near(a.moment, b.moment, 1e-5);
             near(a.largest_slip, b.largest_slip, 1e-5);
@@ -238,6 +240,6 @@ fn each_fault_of_several_has_the_catalogue_it_has_alone() {
             near(a.interval.unwrap_or(1.0), b.interval.unwrap_or(1.0), 1e-5);
         }
     }
-    // Together they are more than either, and the interval between two of them is no fault's.
+    // All events together are more than those of either fault, and intervals between them belong to no single fault.
     assert!(report.events.len() > report.faults[0].events.len());
 }

@@ -1,4 +1,5 @@
-//! Interfaces that become unstable: a run stops there, says so, and keeps the last good state; stable neighbours run to their end.
+//! Interfaces that become unstable: a run stops there, reports the instability, and keeps the last good state; stable
+//! variants run to their end.
 
 use crate::common::{SANDWICH, plain_evolutions, planned};
 use asperity_driver::report::{Outcome, RunReport, Stop};
@@ -7,7 +8,8 @@ use asperity_output::Recorder;
 use asperity_vary::Change::{Add, With};
 use asperity_vary::{Change, SceneText};
 
-/// Largest a f_n/eta of the scenes \[m/s\]: 0.005, peaks of normal traction at corners under ten times 40 MPa, eta of granite with 2700 kg/m^3.
+/// Largest a f_n/eta of the scenes \[m/s\]: a of 0.005, normal tractions at corners below ten times 40 MPa, and eta of
+/// granite with 2700 kg/m^3.
 const BOUND: f64 = 0.005 * 400e6 / 3.6e6;
 
 /// A variant of the sandwich.
@@ -39,7 +41,8 @@ impl Sandwich {
     }
 
     fn text(&self) -> String {
-        // Where equilibrium ends is asked for, not how fronts of slip run, which some of these cells are too large for.
+        // The tests are about the end of equilibrium, not about the propagation of slip fronts, for which some of these
+        // cells are too large.
         let mut text = SceneText::new(SANDWICH)
             .add("interfaces.fault.under_resolved", "allow")
             .with_or_same("interfaces.fault.law", &self.law)
@@ -63,7 +66,7 @@ impl Sandwich {
         (report, record)
     }
 
-    /// Runs into the instability; its time since shearing began.
+    /// Runs into the instability. Returns its time since shearing began.
     fn onset(&self) -> f64 {
         let (report, record) = self.run();
         let Outcome::Stopped { stage, time, reason, kind: Stop::Instability { interface, slip_rate, .. } } =
@@ -129,7 +132,7 @@ fn weakening_with_slip_stops_in_every_stepper_and_measure() {
 
 #[test]
 fn drops_that_the_rest_of_the_surface_holds_are_no_instability() {
-    // Points of the sandwich let go one after the other, from its ends.
+    // Points of the sandwich begin to slip one after the other, from its ends.
     for (explicit, mortar) in [(false, false), (false, true), (true, false), (true, true)] {
         let (report, record) = Sandwich { explicit, mortar, ..Sandwich::new(DROPPING) }.run();
         assert_eq!(report.outcome, Outcome::Completed);
@@ -174,7 +177,7 @@ fn the_onset_does_not_depend_on_the_length_of_the_stage_or_the_settings_of_steps
         let mut onsets = vec![of("50 s", &[Add("time.max_step", "0.02 s")])];
         onsets.extend(["62 s", "100 s", "150 s", "200 s"].map(|duration| of(duration, &[])));
         onsets.push(of("62 s", &[Add("time.first_step", "5 s"), Add("time.max_step", "20 s")]));
-        // One in a hundred: the slip of a step is up to a tenth of L, which is a hundredth of the travel.
+        // Within one in a hundred: the slip of a step is up to a tenth of L, which is a hundredth of the travel.
         let worst = onsets.iter().map(|t| (t / onsets[0] - 1.0).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-2, "{onsets:?}");
     }
@@ -206,7 +209,7 @@ fn a_smallest_step_or_a_limit_of_the_scene_stops_the_run_earlier() {
     let law = state("\"ageing\"", 0.005, 0.02, "0.2 um");
     let of = |time: &'static [Change<'static>]| Sandwich { time, ..Sandwich::new(&law) }.run().0;
     for report in [of(&[Add("time.min_step", "1 ms")]), of(&[Add("time.slip_rate_limit", "10 um/s")])] {
-        // Steps may become too short before slip is much faster than the loads, while nothing tells yet that it will be.
+        // Steps may become too short before slip is much faster than the loads, when an instability is not yet evident.
         let Outcome::Stopped { kind: Stop::Instability { .. } | Stop::SmallestStep, reason, .. } =
             &report.outcome
         else {

@@ -98,7 +98,8 @@ fn in_space_sizes_stand_beside_vectors_along_the_push() {
                         (f.shear_traction[p] - size(&f.shear_vector[p])).abs()
                             <= 1e-9 * f.normal_traction[p].max(1.0)
                     );
-                    // The whole of it is seen, along whichever axis: 0.3 of what presses where it slides.
+                    // The full shear traction is seen along either axis: 0.3 of the normal traction where the interface
+                    // slides.
                     let slides = f.status[p] == 2;
                     assert!(
                         !slides

@@ -1,4 +1,4 @@
-//! The tables of laws in the book are those of the program: with `UPDATE_TABLES` in the environment they are written.
+//! The tables of laws in the book agree with the program; with `UPDATE_TABLES` in the environment they are rewritten.
 #![allow(clippy::disallowed_methods)]
 
 use crate::common::varied;
@@ -55,7 +55,7 @@ fn kind_row(k: &Kind) -> String {
     format!("| `\"{}\"` | {} | {parameters}{} | {cap} |\n", k.name, k.meaning, order.unwrap_or_default())
 }
 
-/// Holds a table of the book against the program, or writes it.
+/// Compares a table of the book with the program, or rewrites it.
 fn assert_table(name: &str, head: &str, rows: impl Iterator<Item = String>) {
     let columns = head.matches('|').count() - 1;
     let table = format!("{head}\n|{}\n{}", "---|".repeat(columns), rows.collect::<String>());
@@ -84,7 +84,7 @@ struct Holder {
     law: Spanned<LawSpec>,
 }
 
-/// A scene with an evolution as its row says.
+/// A scene with the evolution of a row.
 fn scene(row: &Definition) -> String {
     let own = row.parameters.iter().map(|p| format!(", {} = {}", p.key, p.example));
     format!(

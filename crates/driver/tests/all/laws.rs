@@ -1,4 +1,4 @@
-//! Every law a scene can express is built, and an interface and a slider get what the scene says.
+//! Every law a scene can express is built, and an interface and a slider get the law of the scene.
 
 use crate::common::plain_evolutions;
 use asperity_driver::laws;
@@ -31,7 +31,7 @@ const STRENGTH: &str = "mu0 = 0.6, a = 0.01, v_ref = \"1 um/s\"";
 const FORMS: [&str; 4] =
     ["", ", form = \"regularised\"", ", form = \"bare\"", ", form = \"cut-off\", v_cut = \"1 m/s\""];
 const HEATS: [&str; 2] = ["", ", activation = 150e3, t_ref = 293.15, temperature = 303.15"];
-/// Evolutions with the name of the law and whether they admit several state variables.
+/// Evolutions with the name of the law, and true if they admit several state variables.
 const EVOLUTIONS: [(&str, &str, bool); 5] = [
     ("\"ageing\"", "rate-and-state, ageing law", true),
     ("\"ageing\", v_cut_state = \"1 m/s\"", "rate-and-state, ageing law", true),
@@ -100,7 +100,7 @@ fn a_list_of_one_is_one_value() {
     );
 }
 
-/// Against the formulas: what a scene says reaches the law, and nothing in another's place.
+/// Comparison with the formulas: each parameter of a scene reaches the law in its own place.
 #[test]
 fn parameters_reach_the_law() {
     let close = |law: &str, rate: f64, mu: f64| {
@@ -110,7 +110,7 @@ fn parameters_reach_the_law() {
     let (bare, cut_off) = (FORMS[2], FORMS[3]);
     close(&format!("kind = \"rate\", {STRENGTH}{bare}"), 1e-4, 0.6 + 0.01 * 1e2_f64.ln());
     close(&format!("kind = \"rate\", {STRENGTH}{cut_off}"), 0.5, 0.6 - 0.01 * 3_f64.ln());
-    // A slip rate at T is worth one of exp[(Q/R)(1/T - 1/T_ref)] times its size.
+    // A slip rate at T is equivalent to one of exp[(Q/R)(1/T - 1/T_ref)] times its size.
     let heat = 0.01 * 150e3 / 8.314_462_618_153_24 * (1.0 / 303.15 - 1.0 / 293.15);
     close(&format!("kind = \"rate\", {STRENGTH}{bare}{}", HEATS[1]), 1e-6, 0.6 + heat);
     let begun =
@@ -124,11 +124,12 @@ fn parameters_reach_the_law() {
     }
     // Okubo's state effect: φ = b ln(1 + V2 θ/L) with θ = L/V.
     close(&format!("{law}, evolution = {}, {ONE}", EVOLUTIONS[1].0), 1e-6, 0.6 + 0.015 * 1e9_f64.ln_1p());
-    // At the rate of the start nothing is remembered; ten times as fast φ + c μ is what it was: dμ = a dln V/(1 + c).
+    // At the initial rate there is no memory of stress; at ten times that rate φ + c μ is unchanged: dμ = a dln V/(1 +
+    // c).
     let nagata = format!("{law}, evolution = {}, {ONE}", EVOLUTIONS[3].0);
     close(&nagata, 1e-9, 0.6 - 0.005 * ln);
     close(&nagata, 1e-8, 0.6 - 0.005 * ln + 0.01 * 10_f64.ln() / 3.0);
-    // Far above V_w what is left above μ_w falls as V_w/V.
+    // Far above V_w, friction in excess of μ_w decreases as V_w/V.
     close(
         &format!("{}, evolution = {}, {ONE}", begun("1 km/s"), EVOLUTIONS[4].0),
         1e3,
@@ -184,7 +185,7 @@ fn a_law_is_written_in_rust_as_in_a_file() {
     assert_eq!(laws::choose(&here(one)), Ok(choose(&law)));
 }
 
-/// Parameters that the scene lets pass are admitted by the law: at the ends of the range of numbers, and beyond.
+/// Parameters that the scene accepts are accepted by the law, at the ends of the range of numbers and beyond.
 #[test]
 fn a_law_that_is_chosen_can_be_built() {
     const POOL: [f64; 14] =
@@ -237,7 +238,7 @@ fn a_law_that_is_chosen_can_be_built() {
                 "v_cut" => cut_off,
                 _ => true,
             };
-            // Mostly numbers that can be, so that the rest meets them.
+            // Mostly possible numbers, so that the others are combined with them.
             let value = POOL[if draw(4) == 0 { draw(POOL.len()) } else { 5 + draw(5) }];
             if needed {
                 law += &format!(", {key} = {value:e}");

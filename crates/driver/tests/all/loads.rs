@@ -77,7 +77,7 @@ fn pressure_and_traction_press_a_column_by_its_uniaxial_modulus() {
 
 #[test]
 fn gravity_settles_a_column_by_half_its_weight() {
-    // u(H) = rho g H^2/(2 M); second-order elements hold the parabola, and nodes of first-order ones lie on it.
+    // u(H) = rho g H^2/(2 M); second-order elements represent the parabola, and nodes of first-order ones lie on it.
     let exact = -2500.0 * 9.81 * 4.0 / (2.0 * MODULUS);
     for element in ["quad4", "quad9"] {
         let (_, record) = simulate(&column(element, "gravity = [0, -9.81]", ""));

@@ -1,5 +1,5 @@
-//! Catalogues as seismologists exchange them, against files of real events: `catalogues/events.ndk` and `catalogues/CMTSOLUTION` are the
-//! examples that ObsPy's readers are tested with, solutions of the Global CMT project.
+//! Catalogues in the exchange formats of seismology, compared with files of real events: `catalogues/events.ndk` and
+//! `catalogues/CMTSOLUTION` are the examples with which ObsPy tests its readers, solutions of the Global CMT project.
 
 use crate::common::varied;
 use asperity_driver::fault::located::locate;
@@ -13,7 +13,7 @@ fn numbers(text: &str) -> Vec<f64> {
     text.split_whitespace().filter_map(|word| word.parse().ok()).collect()
 }
 
-/// Largest difference of two tensors over the moment of the second.
+/// Largest difference of two tensors, relative to the moment of the second.
 fn off(a: &Tensor, b: &Tensor) -> f64 {
     a.0.iter().zip(&b.0).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / b.moment()
 }
@@ -32,8 +32,8 @@ fn nodal_planes_are_those_of_the_global_cmt_catalogue() {
         assert!((tensor.moment() / moment - 1.0).abs() < 2e-3, "{}", event[0]);
         let plane = |k: usize| Plane { strike: axes[k], dip: axes[k + 1], rake: axes[k + 2] };
         for found in tensor.planes() {
-            // Angles of near planes may differ much, tensors may not: whole degrees are within 0.5 degrees, 0.009 rad, in each of
-            // three angles.
+            // Angles of similar planes may differ much, but tensors may not: rounding to whole degrees is within 0.5
+            // degrees, 0.009 rad, in each of three angles.
             let rebuilt = Tensor::of_plane(&found, 1.0);
             for given in [plane(10), plane(13)] {
                 let off = off(&rebuilt, &Tensor::of_plane(&given, 1.0));
@@ -72,7 +72,7 @@ fn iran() -> Located {
 fn a_cmtsolution_has_the_columns_of_the_example() {
     let written = cmtsolution("a b", &[iran()]).unwrap();
     let (found, expected): (Vec<&str>, Vec<&str>) = (written.lines().collect(), CMT.lines().collect());
-    // What is not the catalogue's name, the magnitudes and the region.
+    // All but the name of the catalogue, the magnitudes and the region.
     assert_eq!(found[0][4..50], expected[0][4..50]);
     assert_eq!(&found[0][..5], " SIM ");
     assert_eq!(found[1], "event name:            a_b-1");
@@ -108,7 +108,7 @@ fn quakeml_says_that_events_are_simulated_and_gives_no_magnitude_without_a_lengt
     assert!(text.contains("per metre of length out of the plane") && text.contains("<nodalPlane1>"));
 }
 
-/// The plan of a scene with an event in which all points slip by as much, with the sign of `slip`.
+/// An event of a scene in which all points slip by the same amount, with the sign of `slip`.
 fn uniform(text: &str, slip: f64) -> Located {
     slipped(text, &[slip])
 }
@@ -160,7 +160,7 @@ fn assert_plane(located: &Located, expected: Plane) {
 #[test]
 fn mechanisms_are_those_of_the_scene_seen_along_its_strike() {
     let strike_slip = include_str!("../../../../interop/strike_slip.toml");
-    // Plus, to the right, comes towards who looks along the strike.
+    // The plus side, on the right, moves towards an observer who looks along the strike.
     let located = uniform(strike_slip, 2.0);
     assert_plane(&located, Plane { strike: 317.0, dip: 90.0, rake: 180.0 });
     assert_eq!(located.time, "1987-03-06T06:07:08.625Z");
@@ -170,7 +170,7 @@ fn mechanisms_are_those_of_the_scene_seen_along_its_strike() {
     assert!(spot.depth > 20e3 && located.centroid.depth < spot.depth, "{located:?}");
     assert_plane(&uniform(strike_slip, -2.0), Plane { strike: 317.0, dip: 90.0, rake: 0.0 });
     let thrust = include_str!("../../../../interop/thrust.toml");
-    // The fault dips to the right, plus lies on it.
+    // The fault dips to the right, and the plus side lies above it.
     let located = uniform(thrust, 1.0);
     assert_plane(&located, Plane { strike: 20.0, dip: 30.0, rake: 90.0 });
     assert_plane(&uniform(thrust, -1.0), Plane { strike: 20.0, dip: 30.0, rake: -90.0 });
@@ -224,7 +224,8 @@ along = [0, 0, 1]
 
 #[test]
 fn mechanisms_in_space_follow_the_directions_the_scene_gives() {
-    // Who looks along z with y up has x to the left: plus, to the left, moves away, as in a right-lateral event.
+    // An observer who looks along z with y up has x to the left: the plus side, on the left, moves away, as in a
+    // right-lateral event.
     let located = uniform(UPRIGHT, 2.0);
     assert_plane(&located, Plane { strike: 317.0, dip: 90.0, rake: 180.0 });
     // The last point is the highest or lowest; all lie on the fault below the origin, 2 km along N43W at most.
@@ -238,7 +239,7 @@ fn mechanisms_in_space_follow_the_directions_the_scene_gives() {
         (north - along * 43f64.to_radians().cos()).abs() < 1e-3
             && (east + along * 43f64.to_radians().sin()).abs() < 1e-3
     );
-    // Plus, the left side, goes up.
+    // The plus side, on the left, moves up.
     let thrust = uniform(&varied(UPRIGHT, &[With("faults.main.rake", "[0, 1, 0]")]), 1.0);
     assert_plane(&thrust, Plane { strike: 317.0, dip: 90.0, rake: -90.0 });
     // Free slip: along z, and across it down, normal x rake.
@@ -248,7 +249,8 @@ fn mechanisms_in_space_follow_the_directions_the_scene_gives() {
         &slipped(&free, &[2.0 * cosine, 2.0 * sine]),
         Plane { strike: 317.0, dip: 90.0, rake: 150.0 },
     );
-    // Without its directions z is up and y along the strike: then slip along z is up the dip, and plus lies to the right.
+    // Without the directions of the place, z is up and y along the strike: slip along z is then up dip, and the plus
+    // side lies to the right.
     let usual = varied(UPRIGHT, &[Without("place.up"), Without("place.along")]);
     assert_plane(&uniform(&usual, 1.0), Plane { strike: 317.0, dip: 90.0, rake: 90.0 });
 }

@@ -1,4 +1,4 @@
-//! Tests of the driver, in one binary: each links all crates, which takes longer than to run most of them.
+//! Tests of the driver, in one binary: each binary would link all crates, which takes longer than to run most tests.
 #![allow(clippy::unwrap_used)]
 
 mod antiplane;

@@ -1,4 +1,4 @@
-//! Memory foreseen by a plan is that of the run; what no machine holds is refused before it is built.
+//! The memory that a plan foresees is that of the run; a model that no machine can hold is refused before it is built.
 #![allow(clippy::disallowed_methods, clippy::print_stdout)]
 
 use asperity_driver::plan::{self, AnyPlan};
@@ -26,7 +26,7 @@ fn before(text: &str, unit: &str) -> f64 {
     text[..end].split_whitespace().next_back().unwrap().parse().unwrap()
 }
 
-/// Foreseen and taken by a run \[MB\].
+/// Memory foreseen for a run, and memory used by it \[MB\].
 fn memory(scene: &Path, arguments: &[&str]) -> [f64; 2] {
     let folder = tempfile::tempdir().unwrap();
     let arguments = [&["run"], arguments].concat();
@@ -51,7 +51,7 @@ fn a_plan_foresees_the_memory_of_its_run_within_half_as_much_again() {
     }
 }
 
-/// Foreseen memory lies within half as much again of what is taken.
+/// Asserts that the foreseen memory is within a factor of 1.5 of that used.
 fn foreseen(name: &str, scene: &Path, arguments: &[&str]) {
     let [foreseen, taken] = memory(scene, arguments);
     let ratio = foreseen / taken;
@@ -84,7 +84,7 @@ fn a_plan_of_a_million_cells_neither_assembles_nor_analyses() {
     assert!(plan.summary.memory_bytes > 576 * 8 * 1_000_000);
 }
 
-/// A block of so many cells along each axis, pressed.
+/// A pressed block with this many cells along each axis.
 fn block(cells: usize, solver: &str) -> String {
     format!(
         r#"schema = 1
@@ -123,7 +123,7 @@ fn what_no_memory_holds_is_refused_from_its_counts_with_its_place() {
     assert!(machine.contains("27000000 cells") && machine.contains("scene.toml:9"), "{machine}");
     let direct = refused(&block(120, "[solver]\nmethod = \"direct\""));
     assert!(direct.contains("8.0 GiB") && direct.contains("[solver]"), "{direct}");
-    // A limit that no machine has does not help.
+    // A limit beyond the memory of any machine does not help.
     let large = refused(&block(120, "[solver]\nmethod = \"direct\"\nmemory = \"4000 GiB\""));
     assert!(large.contains("this machine has") && large.contains("scene.toml:6"), "{large}");
 }

@@ -47,7 +47,7 @@ fn every_good_plane_mesh_is_stretched_and_pressed() {
         "mixed_2d_tri3_quad4.msh",
         "good_2d_quad4_crack_plugin_ascii.msh",
     ];
-    // Two blocks of 2 x 1 m, one on the other.
+    // Two blocks of 2 x 1 m, one on top of the other.
     let pull = r#"{ set = "B.left", x = 0 }, { set = "B.bottom", y = 0 }, { set = "B.right", traction = ["4 MPa", 0] }"#;
     let press = r#"{ set = "B.bottom", x = 0, y = 0 }, { set = "B.top", pressure = "3 MPa" }"#;
     for file in files {

@@ -36,8 +36,8 @@ stepper = "implicit"
 const PRESSED: &str = r#"{ set = "B.left", symmetry = true }, { set = "B.right", symmetry = true },
     { set = "B.bottom", symmetry = true }, { set = "B.top", pressure = "3 MPa" }"#;
 
-/// Asserts that two layers carry 3 MPa across their interface, and that the end at 1 m moved by what both shorten and the
-/// interface closes.
+/// Asserts that two layers carry 3 MPa across their interface, and that the end at 1 m moved by the shortening of both
+/// and the closure of the interface.
 fn assert_pressed(record: &Recorder, axis: usize) {
     for traction in &record.stage_ends()[0].interfaces[0].normal_traction {
         close(*traction, 3e6, 1e-9);

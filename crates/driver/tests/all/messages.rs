@@ -1,5 +1,5 @@
-//! The book's reference of messages (`docs/src/messages`): a base scene per chapter and, per entry, a change by key path and all that the
-//! program says of it.
+//! The book's reference of messages (`docs/src/messages`): a base scene per chapter and, per entry, a change by key path
+//! and the full message of the program.
 //!
 //! ```text
 //! ### name
@@ -7,10 +7,10 @@
 //! > 6:11: Poisson's ratio .. help: ..
 //! ```
 //!
-//! The message begins with line and column of its place in the changed scene, and those of other places that take part in it; `-`
-//! stands for no place. A change is `path = value`, `list += value`, `path` with `without` before it, or `path` renamed `name`. An entry may
-//! show a whole text instead. With `UPDATE_MESSAGES` set in the environment, the test writes the messages as they are now; read the difference
-//! before you commit it.
+//! The message begins with line and column of its position in the changed scene, and with those of related positions;
+//! `-` stands for no position. A change is `path = value`, `list += value`, `path` with `without` before it, or `path`
+//! renamed `name`. An entry may show a whole text instead. With `UPDATE_MESSAGES` set in the environment, the test
+//! writes the current messages; read the difference before you commit it.
 
 use asperity_driver::diagnostic::{Diagnostic, Diagnostics, line_column};
 use asperity_driver::scene;
@@ -150,7 +150,7 @@ fn spaced(text: &str) -> String {
     words.join(" ").split(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/")).collect::<Vec<_>>().join("")
 }
 
-/// Paragraphs of what is said of one error.
+/// Paragraphs of the message of one error.
 fn said(text: &str, error: &Diagnostic) -> Vec<String> {
     let spans = std::iter::once(&error.span).chain(error.also.iter().map(|(span, _)| span));
     let places: Vec<String> = spans
@@ -171,7 +171,7 @@ fn all_said(entry: &Entry) -> Vec<String> {
     errors.iter().flat_map(|error| said(&entry.text, error)).collect()
 }
 
-/// The page with the messages as they are.
+/// The page with the current messages.
 fn updated(chapter: &str, page: &str) -> String {
     let lines: Vec<&str> = page.lines().collect();
     let entries = entries_of(chapter, page);

@@ -1,4 +1,4 @@
-//! `report.json` of every kind of run keeps to the schema that the book publishes.
+//! `report.json` of every kind of run conforms to the schema that the book publishes.
 #![allow(clippy::disallowed_methods, clippy::print_stdout)]
 
 use asperity_driver::report::schema::schema;
@@ -22,7 +22,7 @@ fn validator() -> Validator {
     jsonschema::draft202012::new(&published()).unwrap()
 }
 
-/// Parts of a report that do not keep to the schema of its kind.
+/// Parts of a report that do not conform to the schema of its kind.
 fn faults(report: &Value) -> Vec<String> {
     let kinds = published();
     let of_kind = kinds["oneOf"]

@@ -19,7 +19,7 @@ static SCENE: LazyLock<String> = LazyLock::new(|| {
     )
 });
 
-/// The scene through so many events.
+/// The scene through this many events.
 fn events(most: usize) -> String {
     varied(&SCENE, &[With("events.stop_after", &most.to_string())])
 }
@@ -45,7 +45,7 @@ pub fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// All files below `out` by their paths in it; of the report what does not depend on the machine.
+/// All files below `out` by their paths in it; of the report, only the parts that do not depend on the machine.
 pub fn files(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut folders = vec![out.to_path_buf()];
@@ -97,7 +97,7 @@ fn a_run_killed_again_and_again_leaves_the_files_of_one_left_alone() {
     let rows = fs::metadata(folder.join("whole/largest_rate.csv")).unwrap().len();
     let arguments = ["--resume", "--checkpoint-every", "0 s"];
     let mut kills = 0;
-    // From before the first checkpoint to shortly before the end, the same output directory through.
+    // From before the first checkpoint to shortly before the end, always in the same output directory.
     for percent in [0, 2, 11, 23, 37, 52, 68, 81, 93, 99] {
         let mut child = start(folder, "killed", &arguments);
         if grown(&mut child, &folder.join("killed/largest_rate.csv"), rows * percent / 100 + 1) {
@@ -110,12 +110,13 @@ fn a_run_killed_again_and_again_leaves_the_files_of_one_left_alone() {
     assert!(last.status.success(), "{}", text(&last.stderr));
     assert!(text(&last.stdout).contains("resumed at"), "{}", text(&last.stdout));
     assert_same(folder, "killed");
-    // A run that had ended is no other when it is resumed.
+    // Resuming a run that had ended changes nothing.
     assert!(run(folder, "killed", &arguments).status.success());
     assert_same(folder, "killed");
 }
 
-/// Runs a scene, and again broken off at every restart: the files must be the same. How often it was broken off.
+/// Runs a scene without interruption, and again interrupted at every restart: the files must be the same. Returns the
+/// number of interruptions.
 fn broken_off_at_every_restart(scene: &str) -> u32 {
     let folder = folder(scene);
     let folder = folder.path();
@@ -171,7 +172,7 @@ fn a_fault_that_opens_and_closes_is_gone_on_with_as_well() {
 fn a_signal_ends_a_run_with_a_checkpoint_and_its_own_exit_code() {
     let folder = folder(&SCENE);
     let folder = folder.path();
-    // What starts the tests may have them ignore the end of a terminal, which a run then ignores as well.
+    // The process that starts the tests may make them ignore the end of a terminal, which a run then ignores as well.
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|l| l.strip_prefix("SigIgn:")).unwrap_or("0").trim();
     let deaf = u64::from_str_radix(mask, 16).unwrap() & 1 == 1;
@@ -218,7 +219,7 @@ fn a_run_extended_to_more_events_leaves_the_files_of_one_that_had_them_from_the_
     assert!(text(&output.stdout).contains("resumed at"), "{}", text(&output.stdout));
     assert!(run(folder, "whole", &[]).status.success());
     assert_same(folder, "extended");
-    // Fewer than there are already is no extension.
+    // Fewer events than there are already is no extension.
     fs::write(folder.join("s.toml"), events(4)).unwrap();
     let output = run(folder, "extended", &["--resume"]);
     assert_eq!(output.status.code(), Some(1));
@@ -242,7 +243,7 @@ fn a_run_extended_in_time_goes_on_from_its_last_restart_before_the_end() {
     assert!(text(&output.stdout).contains("resumed at"), "{}", text(&output.stdout));
     assert!(run(folder, "whole", &[]).status.success());
     assert_same(folder, "extended");
-    // A shorter one is none, and a load that reaches its value at the end is another when the end is another.
+    // A shorter run is no extension, and a load that reaches its value at the end differs if the end does.
     for (scene, part) in [
         (lasting(1 << 34), "lies beyond"),
         (

@@ -1,5 +1,5 @@
-//! Runs of bodies that are interrupted between trials of steps and resumed: what they leave is what a run leaves that was left alone, bit
-//! for bit.
+//! Runs of bodies that are interrupted between trials of steps and resumed: their results are those of an uninterrupted
+//! run, bit for bit.
 #![allow(clippy::disallowed_methods)]
 
 use crate::common::planned;
@@ -23,7 +23,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// A die is pressed into a slab without friction, and then drawn over it by more than a cell.
+/// A die is pressed into a slab without friction, and then moved along it by more than a cell.
 const SCENE: &str = r#"
 schema = 1
 title = "die on a slab"
@@ -113,7 +113,7 @@ const BESIDE: Change<'_> = With(
 );
 /// Distance at which a part of the die leaves the slab.
 const OFF: Change<'_> = With("stages[1].conditions[0].x", r#"{ to = "0.76 m" }"#);
-/// Friction from the first touch on.
+/// Friction from the first contact on.
 const ROUGH: Change<'_> = Without("stages[0].frictionless");
 const AGEING: Change<'_> = With(
     "interfaces.contact.law",
@@ -167,12 +167,12 @@ impl Observer<Bodies> for Interrupted {
     }
 }
 
-/// Runs `trials` trials of a run in `out`, from where it stands; what it reports and has recorded.
+/// Runs `trials` trials of a run in `out` from its current state. Returns its report and records.
 fn part(plan: &AnyPlan, out: &Path, trials: usize) -> (RunReport, Recorder) {
     resumed(plan, out, trials).unwrap()
 }
 
-/// The same, or why it cannot be resumed.
+/// The same, or the reason why it cannot be resumed.
 fn resumed(plan: &AnyPlan, out: &Path, trials: usize) -> Result<(RunReport, Recorder), RunError> {
     let stop = Arc::new(AtomicBool::new(false));
     let every = Duration::from_secs(3600);
@@ -194,7 +194,7 @@ fn resumed(plan: &AnyPlan, out: &Path, trials: usize) -> Result<(RunReport, Reco
     Ok((report, keeper.kept.finish(completed).unwrap().unwrap()))
 }
 
-/// Report of a run without what depends on the machine.
+/// Report of a run without the parts that depend on the machine.
 fn figures(report: &RunReport) -> String {
     serde_json::to_string(report).unwrap()
 }
@@ -210,7 +210,7 @@ impl Random {
     }
 }
 
-/// Runs a plan in parts with so many trials each, and compares what it leaves with a whole run.
+/// Runs a plan in parts with these numbers of trials, and compares the results with those of a whole run.
 fn in_parts(
     name: &str,
     plan: &AnyPlan,
@@ -251,7 +251,7 @@ fn differing(a: &Path, b: &Path) -> Vec<String> {
     names.map(|name| name.display().to_string()).collect()
 }
 
-/// Trials up to which a run is interrupted before each of them.
+/// Number of trials up to which a run is interrupted before each of them.
 const EVERY: usize = 60;
 
 /// Interrupts scenes at random, and short ones before every trial.
@@ -373,7 +373,7 @@ fn runs_of_one_body_resume_bit_for_bit() {
     ]);
 }
 
-/// Numbers become zeros, and what is true becomes false.
+/// Sets numbers to zero, and true values to false.
 fn forgotten(value: &mut Value) {
     match value {
         Value::Bool(truth) => *truth = false,
@@ -388,7 +388,7 @@ fn zero() -> serde_json::Number {
     serde_json::Number::from_f64(0.0).unwrap()
 }
 
-/// Lets the checkpoint in `out` forget the value at a path; whether that changed it.
+/// Resets the value at a path of the checkpoint in `out`. Returns true if that changed it.
 fn forget(out: &Path, pointer: &str) -> bool {
     let file = out.join("checkpoint");
     let before = fs::read_to_string(&file).unwrap();
@@ -403,16 +403,16 @@ fn forget(out: &Path, pointer: &str) -> bool {
 
 /// Remains of a run: its report and files, or the reason why it could not be resumed.
 fn left(plan: &AnyPlan, out: &Path) -> Option<(String, BTreeMap<PathBuf, Vec<u8>>)> {
-    // What was forgotten may be refused.
+    // A checkpoint with a reset value may be refused.
     let (report, _) = resumed(plan, out, usize::MAX).ok()?;
     Some((figures(&report), files(out)))
 }
 
-/// A scene by its changes, eighths of its trials after which it is interrupted, and fields of the checkpoint then. Those of the interface
-/// begin with `contact/`.
+/// A scene by its changes, the eighths of its trials after which it is interrupted, and fields of the checkpoint at that
+/// time. Fields of the interface begin with `contact/`.
 type Case<'a> = (&'a str, Vec<&'a [Change<'a>]>, usize, &'a [&'a str]);
 
-/// Scenes in which each of these fields decides about what follows.
+/// Scenes in which each of these fields affects the rest of the run.
 fn decisive() -> [Case<'static>; 8] {
     const STATES: &[&str] = &[
         "contact/shear/states",

@@ -1,5 +1,5 @@
-//! Runs of spring-sliders that are interrupted at each restart and resumed: what they leave is what a run leaves that was left alone, bit
-//! for bit.
+//! Runs of spring-sliders that are interrupted at each restart and resumed: their results are those of an uninterrupted
+//! run, bit for bit.
 #![allow(clippy::disallowed_methods)]
 
 use crate::common::sliders::{CYCLE, plan};
@@ -27,7 +27,7 @@ const CHAIN: [Change<'_>; 2] = [
     ),
     Add("springs", r#"[{ between = ["block", "far"], stiffness = "0.3 GPa/m" }]"#),
 ];
-/// Jumps of the rate of the load point: the integration restarts at each of them, and the displacement goes on.
+/// Jumps of the rate of the load point: the integration restarts at each of them, and the displacement continues.
 const JUMPS: Change<'_> = With(
     "load.rate",
     r#"{ table = [["0 s", "1 um/s"], ["600 s", "1 um/s"], ["600 s", "3 um/s"], ["1200 s", "3 um/s"], ["1200 s", "0.5 um/s"]] }"#,
@@ -54,7 +54,8 @@ fn pauses(wall: Option<Duration>) -> Pauses {
     Pauses { every: Duration::MAX, wall, stop, begun: Instant::now() }
 }
 
-/// Runs a part of a run into `out`, until the next restart or without an end: the run, and whether it was interrupted.
+/// Runs a part of a run into `out`, until the next restart or to the end. Returns the run, and true if it was
+/// interrupted.
 fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<(SliderRun, bool), String> {
     let resumed = Keeper::resume(out, problem, "", pauses(wall)).map_err(|e| e.to_string())?;
     let (mut keeper, from) = match resumed {
@@ -67,14 +68,15 @@ fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<(Slider
     Ok((ended, interrupted))
 }
 
-/// Runs a scene in one part and in as many as it has restarts, and compares; the number of parts.
+/// Runs a scene as a whole and in as many parts as it has restarts, and compares the results. Returns the number of
+/// parts.
 fn interrupted_everywhere(name: &str, text: &str) -> usize {
     let problem = Problem { restart: 4096, ..plan(text) };
     let folder = tempfile::tempdir().unwrap();
     let [whole, parts] = ["whole", "parts"].map(|name| folder.path().join(name));
     let (expected, _) = part(&problem, &whole, None).unwrap();
     assert!(!matches!(expected.outcome, Outcome::Failed { .. }), "{name}: {:?}", expected.outcome);
-    // Errors of one tolerance in ln V in each step, by a/f of a sixtieth, if all have one sign.
+    // Errors of one tolerance of ln V per step, times a/f of a sixtieth, if all have the same sign.
     let imbalance = expected.progress.budget.unwrap().energy().imbalance();
     let most = problem.tolerance / 60.0 * expected.counts.steps as f64;
     assert!(imbalance < most, "{name}: energy closes to {imbalance:e} of {most:e}");
@@ -94,7 +96,7 @@ fn interrupted_everywhere(name: &str, text: &str) -> usize {
 #[test]
 fn every_method_resumes_bit_for_bit() {
     for method in Method::ALL {
-        // Pairs of low order take so many steps at any tolerance.
+        // Methods of low order take enough steps at a loose tolerance already.
         let tolerance = if matches!(method, Method::TrBdf2 | Method::Esdirk34) { "1e-6" } else { "1e-10" };
         let method = Add("time.method", &format!("\"{}\"", method.name()));
         let text = scene(&[&MANY, &[method, WithOrSame("time.tolerance", tolerance)]]);
@@ -117,7 +119,7 @@ fn chains_breaks_imposed_rates_and_rows_at_times_resume_bit_for_bit() {
     }
 }
 
-/// Lets the checkpoint in `out` forget the value at a path.
+/// Replaces the value at a path of the checkpoint in `out`.
 fn forget(out: &Path, pointer: &str, value: Value) {
     let file = out.join("checkpoint");
     let before = fs::read_to_string(&file).unwrap();

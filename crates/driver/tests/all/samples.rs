@@ -49,7 +49,7 @@ fn force(record: &Recorder, name: &str) -> [f64; 3] {
     last(record).forces[k]
 }
 
-/// Materials that stay elastic here, linear and not, with what their bodies say beside.
+/// Materials that stay elastic here, linear and nonlinear, with further lines of their bodies.
 const MATERIALS: [(&str, &str); 3] = [
     ("", ""),
     ("plasticity = { yield = \"1 GPa\", hardening = \"perfect\" }", ""),
@@ -96,7 +96,7 @@ fn a_stretched_block_has_the_exact_displacement_and_stress_at_any_place() {
 
 #[test]
 fn stresses_are_carried_linearly_to_the_boundary() {
-    // Weight and pressure: stress is linear in y, and so is what second-order elements give.
+    // Weight and pressure: stress is linear in y, and so is that of second-order elements.
     let conditions = r#"{ set = "B.left", symmetry = true }, { set = "B.right", symmetry = true },
         { set = "B.bottom", symmetry = true }, { set = "B.top", pressure = "1 MPa" }"#;
     let output =
@@ -115,7 +115,7 @@ fn stresses_are_carried_linearly_to_the_boundary() {
 
 #[test]
 fn forces_are_those_of_the_supports_and_of_the_loads_on_the_set() {
-    // A leaning block with weight, initial stress and a pressure: all forces are known from the balance.
+    // An inclined block with weight, initial stress and a pressure: all forces are known from the balance.
     let conditions = r#"{ set = "B.bottom", x = 0, y = 0 }, { set = "B.top", pressure = { to = "2 MPa" }, traction = ["1 MPa", 0] },
         { set = "B.right", pressure = "3 MPa" }"#;
     let weight = 2500.0 * 9.81 * 2.0;

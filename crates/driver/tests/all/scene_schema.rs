@@ -1,4 +1,4 @@
-//! Every scene keeps to the schema that the book publishes, and scenes that do not are noticed.
+//! Every scene conforms to the schema that the book publishes, and scenes that do not are detected.
 #![allow(clippy::disallowed_methods)]
 
 use crate::common::{SANDWICH, varied};

@@ -1,5 +1,5 @@
-//! Which scenes are accepted, what is said of those that are not, and how values are read. The messages themselves stand in the book's
-//! reference, see `messages`.
+//! Scenes that are accepted and refused, and the reading of values. The messages themselves are in the book's reference,
+//! see `messages`.
 
 use crate::messages::{self, refusal};
 use asperity_driver::diagnostic;
@@ -32,7 +32,7 @@ fn accepted(changes: &[Change<'_>]) {
     assert!(refused.is_none(), "{}\n{text}", refused.unwrap());
 }
 
-/// Place of the law.
+/// Key path of the law.
 const LAW: &str = "interfaces.fault.law";
 
 #[test]
@@ -57,9 +57,9 @@ fn sides_that_meet_may_say_the_same() {
     let (press, shear) = ("stages[0].conditions", "stages[1].conditions");
     accepted(&[Add("stages[0].conditions[1].x", "{ to = \"1 mm\" }")]);
     accepted(&[Push(press, "{ set = \"A.right\", y = \"hold\" }")]);
-    // What one side reached in the first stage, the other may prescribe in the second.
+    // The position that one side reached in the first stage may be prescribed for the other in the second.
     accepted(&[Push(shear, "{ set = \"A.top\", x = \"1 mm\" }")]);
-    // One course in other words: a rate, a table, and what is held on both.
+    // The same motion in different forms: a rate, a table, and positions held by both conditions.
     let x = "stages[0].conditions[1].x";
     accepted(&[Add(x, "{ rate = \"0.1 mm/s\" }"), Push(shear, "{ set = \"A.bottom\", x = \"hold\" }")]);
     accepted(&[Add(x, "{ table = [[0, 0], [\"4 s\", \"0.4 mm\"], [\"10 s\", \"1 mm\"]] }")]);

@@ -1,4 +1,5 @@
-//! The page "Signs in files" against the files of runs: a block that is pushed each way, as interface and as fault.
+//! Comparison of the page "Signs in files" with the files of runs: a block is pushed each way, with an interface and
+//! with a fault.
 //!
 //! Block A lies at x < 0 and block B at x > 0, pressed together along x. B is moved along the plane between them, or A the other way.
 
@@ -48,13 +49,13 @@ fn fits(path: &str, form: &str) -> bool {
     }
 }
 
-/// Motion of B relative to A, the slip it is, and the directions of the page.
+/// Motion of B relative to A, the resulting slip, and the directions of the page.
 #[derive(Clone, Copy)]
 struct Motion {
     push: [f64; 3],
-    /// Of the slave (plus) side relative to the other.
+    /// Slip of the slave (plus) side relative to the other.
     slip: [f64; 3],
-    /// Along which slip is positive; none where it is a size.
+    /// Direction of positive slip; none where slip is a magnitude.
     positive: Option<[f64; 3]>,
     /// Directions 2 and 3 of stations.
     components: [[f64; 3]; 2],
@@ -75,8 +76,8 @@ fn mean(column: &Column) -> Vec<f64> {
     (0..n).map(part).collect()
 }
 
-/// Meaning of a column: positive where it agrees with its word of the page, negative where it says the opposite, zero where it does not
-/// tell.
+/// Agreement of a column with its sign on the page: positive if it agrees, negative if it is opposite, zero if it shows
+/// neither.
 fn said(sign: &str, column: &Column, motion: &Motion) -> f64 {
     let (name, mean) = (column.name.as_str(), mean(column));
     let least = column.values.iter().copied().filter(|v| v.is_finite()).fold(f64::INFINITY, f64::min);
@@ -121,7 +122,7 @@ fn jump(columns: &[Column]) -> Option<Column> {
     Some(Column { name: "displacement".into(), components: 3, values: jump })
 }
 
-/// Meanings of the columns of all files, by file and column.
+/// Agreement of the columns of all files, by file and column.
 type Said = BTreeMap<(String, String), f64>;
 
 fn read(out: &Path, section: &str, motion: &Motion) -> Said {
@@ -160,7 +161,7 @@ fn read(out: &Path, section: &str, motion: &Motion) -> Said {
     all
 }
 
-/// Runs a scene with the program; its files.
+/// Runs a scene with the program. Returns the folder of its files.
 fn run(folder: &Path, text: &str) -> PathBuf {
     fs::write(folder.join("scene.toml"), text).unwrap();
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_asperity"));
@@ -169,7 +170,7 @@ fn run(folder: &Path, text: &str) -> PathBuf {
     folder.join("out/scene")
 }
 
-/// Minus nought, in whichever way it is written.
+/// Negative zeros, in any notation.
 fn signed_zeros(text: &str) -> Vec<&str> {
     let numbers = text.split(|c: char| !(c.is_ascii_digit() || matches!(c, '-' | '+' | '.' | 'e' | 'E')));
     numbers.filter(|n| n.starts_with('-') && n.parse::<f64>().is_ok_and(|v| v == 0.0)).collect()
@@ -201,7 +202,7 @@ fn interface(kinematics: &str, axis: usize, push: f64, b_is_slave: bool) -> Stri
     let moved = format!("{{ to = {push:e} }}");
     let mut values = ["-1e-4", "0", "0"];
     values[axis] = &moved;
-    // About an axis x is the radius.
+    // In axisymmetry, x is the radius.
     let from = if kinematics == "axisymmetric" { 4.0 } else { 0.0 };
     let position = format!("{:?}", &[from + 1.5, 1.0, 1.0][..axes]);
     format!(
@@ -313,7 +314,7 @@ fn unit(axis: usize, size: f64) -> [f64; 3] {
 /// The tangent (-n_y, n_x) for a normal along x.
 const TANGENT: [f64; 3] = [0.0, 1.0, 0.0];
 
-/// Columns that must have told the sense.
+/// Asserts that these columns showed the sense of motion.
 fn told(all: &Said, form: &str, columns: &[&str]) {
     for column in columns {
         let told = all.iter().any(|((file, name), said)| fits(file, form) && name == column && *said > 0.0);
@@ -331,7 +332,7 @@ fn interfaces_have_the_signs_of_the_page() {
         for (push, turned) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)] {
             let folder = tempfile::tempdir().unwrap();
             let out = run(folder.path(), &interface(kinematics, axis, 1e-3 * push, turned > 0.0));
-            // Where A is the slave, the normal of the master turns with the sides.
+            // If A is the slave, the normal of the master turns with the sides.
             let positive = (kinematics != "3d").then_some(TANGENT.map(|t| t * turned));
             let motion = Motion {
                 push: unit(axis, push),

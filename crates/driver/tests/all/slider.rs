@@ -32,12 +32,12 @@ end = "300 s"
     )
 }
 
-/// A stable scene that runs until what the start or a change did has gone, as e^(-t/40 s).
+/// A stable scene that runs until the effect of the start or of a change has decayed, as e^(-t/40 s).
 fn settled(text: &str) -> String {
     varied(text, &[With("time.end", "1000 s")])
 }
 
-/// Two sliders, one with a state and one without, between them a spring.
+/// Two sliders, one with a state and one without, connected by a spring.
 const COUPLED: &str = r#"
 schema = 1
 title = "two"
@@ -124,11 +124,11 @@ fn ten_events_of_the_scene_recur_and_slip_as_far_as_the_load_point() {
         assert!(relative(event.peak_rate, last.peak_rate) < 1e-6, "{event:?}");
         assert!(relative(event.slip.unwrap(), last.slip.unwrap()) < 1e-6, "{event:?}");
     }
-    // From onset to onset traction and slip rate are the same, so that the slider has gone as far as the load point.
+    // From onset to onset traction and slip rate are the same, so that the slider has moved as far as the load point.
     let slip = |onset: f64| at(&rows, onset).slip[0];
     let (from, to) = (events[8].onset, last.onset);
     assert!(relative(slip(to) - slip(from), 1e-6 * last.interval.unwrap()) < 1e-7);
-    // The run ends where the tenth event does.
+    // The run ends with the tenth event.
     assert!((run.at.seconds() - last.onset - last.duration.unwrap()).abs() < 1e-9);
     let now = rows.last().unwrap();
     assert!(relative(now.conditions[0].rate, 1e-4) < 1e-9, "{now:?}");
@@ -159,7 +159,7 @@ fn rows_of_histories_follow_the_slip_rate_closely() {
         assert!(rows.windows(2).all(|w| w[0][0] <= w[1][0]), "{}", method.name());
         assert_eq!(rows[0][0], 0.0);
         assert_eq!(rows.last().unwrap()[0], run.at.seconds(), "{}", method.name());
-        // A row stands where ln V has changed by 0.05, at a thousandth of the run, or on one side of a jump.
+        // A row is written where ln V has changed by 0.05, at a thousandth of the run, or on one side of a jump.
         let travelled: f64 = rows.windows(2).map(|w| (w[1][3] / w[0][3]).ln().abs()).sum();
         let most = 2.0 * (travelled / 0.05 + 1000.0);
         assert!((rows.len() as f64) < most, "{}: {} rows, {most}", method.name(), rows.len());
@@ -169,7 +169,7 @@ fn rows_of_histories_follow_the_slip_rate_closely() {
 #[test]
 fn histories_keep_the_balance_of_the_springs() {
     let mut plan = plan(COUPLED);
-    // By change each slider has rows of its own.
+    // With rows by change, each slider has its own rows.
     plan.output = Rows { change: None, interval: Some(0.5), ..Rows::default() };
     let (folder, _) = written(&plan);
     let (left, right) = (history(folder.path(), "left.csv"), history(folder.path(), "right.csv"));
@@ -220,7 +220,7 @@ fn slip_is_the_integral_of_the_slip_rate() {
                 gone += w[1].slip[i] - w[0].slip[i];
                 found += mean(w[0].conditions[i].rate, w[1].conditions[i].rate) * (w[1].time - w[0].time);
             }
-            // ln V is straight between rows to second order in steps of at most 0.1.
+            // Between rows ln V is linear up to second order, in steps of at most 0.1.
             assert!(gone > 1e-4 && relative(found, gone) < 2e-3, "slider {i}: {found:e} for {gone:e}");
         }
     }
@@ -238,7 +238,7 @@ fn an_undamped_slider_runs_away_with_every_method_and_is_told_what_it_needs() {
         assert!(matches!(run.outcome, Outcome::Failed { .. }), "{name}: {:?}", run.outcome);
         let hint = run.progress.hint.as_ref().unwrap();
         assert!(hint.contains("`block`") && hint.contains("`damping` or `mass`"), "{name}: {hint}");
-        // The last good state: on the branch that runs away, with all found until then.
+        // The last good state: on the branch that runs away, with all results until then.
         let last = rows.last().unwrap();
         assert!(run.unknowns.iter().all(|u| u.is_finite()), "{name}");
         assert!(last.conditions[0].rate > 1e6, "{name}: {last:?}");
@@ -259,10 +259,10 @@ fn an_undamped_slider_runs_away_with_every_method_and_is_told_what_it_needs() {
 #[test]
 fn a_slider_that_starts_steady_stays_steady() {
     let (_, rows) = completed(&stable("\"1 um/s\"", "\"5 MPa\"", ""));
-    // At rest relative to the load an explicit step grows until stability binds: rounding then grows to the tolerance of a step in
-    // ln V, and friction to a times that.
+    // At rest relative to the load, an explicit step grows up to the limit of stability. Rounding then grows to the
+    // tolerance of a step in ln V, and that of friction to a times as much.
     assert!(rows.iter().all(|r| relative(r.conditions[0].rate, 1e-6) < 1e-8));
-    // v_ref is the rate at which friction is mu0, but for the regularisation.
+    // v_ref is the rate at which friction is mu0, up to the regularisation.
     assert!(rows.iter().all(|r| (r.conditions[0].friction - 0.6).abs() < 1e-10));
 }
 
@@ -524,9 +524,9 @@ stop_after = 3
 #[test]
 fn inertial_sliders_come_to_rest_and_start_again() {
     for (law, stiffness, mass) in [
-        // Rest within 1e-22 s of an event that is 8e8 s away from the start.
+        // The slider comes to rest within 1e-22 s of an event that is 8e8 s after the start.
         ("form = \"regularised\", evolution = \"slip\", a = 0.006", "28.125 MPa/m", "71.24 kg/m^2"),
-        // A step at the end of the stability region every now and then, and some within it.
+        // Some steps are at the limit of the stability region, others within it.
         ("form = \"regularised\", evolution = \"slip\", a = 0.010", "6.25 MPa/m", "1.5e5 kg/m^2"),
         // V = 1e-66 m/s between events.
         ("form = \"bare\", evolution = \"ageing\", a = 0.0045", "3.28125 MPa/m", "2e6 kg/m^2"),
@@ -565,7 +565,7 @@ fn a_method_that_begins_anew_at_each_extreme_says_what_to_take_instead() {
         ],
     );
     let mut plan = plan(&text);
-    // Whether it stalls is a matter of rounding; so few steps are not enough in any case.
+    // Rounding decides if it stalls; this few steps are not enough in any case.
     (plan.tolerance, plan.most_steps) = (1e-7, 500);
     let hint = run(&plan, &mut ()).unwrap().progress.hint.unwrap();
     assert!(hint.contains("500 steps") && hint.contains("take `method = \"switching\"`"), "{hint}");

@@ -36,7 +36,7 @@ fn rows(text: &str) -> Vec<Vec<f64>> {
     history(folder.path(), "block.csv")
 }
 
-/// A load that goes to and fro, beginning one way or the other.
+/// A load that moves back and forth, beginning in the direction of `sign`.
 fn reversing(sign: &str) -> String {
     let load = format!("[load]\nrate = {{ mean = 0.0, amplitude = \"{sign}20 um/s\", period = \"1000 s\" }}");
     let slider = format!("stiffness = \"1.25 GPa/m\"\ndamping = \"5 MPa s/m\"\nstart = \"{sign}1 um/s\"");
@@ -81,7 +81,7 @@ fn every_rise_through_the_threshold_is_an_event_whichever_way() {
         let events = found.iter().filter(|e| f64::from(e.direction) == way).count();
         assert!(count >= 10 && events == count, "{way}: {events} events, {count} rises");
     }
-    // Between events of different directions the slider stood still at an instant.
+    // Between events of different directions the slider was at rest at one instant.
     for w in found.windows(2).filter(|w| w[0].direction != w[1].direction) {
         assert_eq!(w[1].least_rate, 0.0, "{:?}", w[1]);
     }
@@ -97,11 +97,11 @@ fn stress_drop_and_states_of_events_are_those_of_spring_and_law() {
     let events = Entry::all(&run(&plan(CYCLE), &mut ()).unwrap());
     assert_eq!(events.len(), 10);
     for e in &events {
-        // The spring loses k times what the slider gains on the load point.
+        // The traction of the spring drops by k times the slip of the slider relative to the load point.
         let exact = 1.25e9 * (e.slip.unwrap() - 1e-6 * e.duration.unwrap());
         assert!(relative(e.stress_drop.unwrap(), exact) < 1e-9, "{e:?}");
         for (edge, rate) in [(&e.at_onset, 1e-3), (e.at_end.as_ref().unwrap(), 1e-4)] {
-            // Thresholds are met to the rounding of ln V = m - (mu0 + phi)/a, of numbers of some sixty.
+            // Thresholds are located to the rounding of ln V = m - (mu0 + phi)/a, with terms of some sixty.
             assert!(relative(edge.friction, friction(rate, 0.015 * edge.states[0])) < 1e-12, "{edge:?}");
             assert!(relative(edge.traction, 5e6 * edge.friction + 5e6 * rate) < 1e-9, "{edge:?}");
         }
@@ -190,7 +190,7 @@ fn histories_are_thinned_or_left_out() {
     let names: Vec<_> =
         std::fs::read_dir(folder.path().join("history")).unwrap().map(|e| e.unwrap().file_name()).collect();
     assert_eq!(names, ["other.csv"]);
-    // A slider that slides steadily beside one that sticks and slips has the rows of its own changes.
+    // A slider that slides steadily next to one in stick-slip has rows by its own changes only.
     assert!(history(folder.path(), "other.csv").len() < 1100);
     let (folder, _) = written(&plan(&format!("{two}\n[output]\nhistories = false\n")));
     assert!(!folder.path().join("history").exists());
@@ -294,7 +294,8 @@ fn states(evolution: &str, b: &str, l: &str) -> String {
 
 #[test]
 fn stability_at_any_stiffness_is_that_of_the_jacobian() {
-    // A state that weakens soon and one that strengthens late: with a mass, soft springs are stable again.
+    // A state that weakens over a short slip and one that strengthens over a long slip: with a mass, soft springs are
+    // stable again.
     let late = states("slip", "[0.015, -0.010]", "[\"10 um\", \"1 mm\"]");
     let soon = states("slip", "[0.012, 0.003]", "[\"10 um\", \"100 um\"]");
     let laws = [late, soon, law_with("nagata", "0.015", "\"10 um\"", ", c = 0.5")];

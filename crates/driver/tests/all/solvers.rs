@@ -1,4 +1,5 @@
-//! The table `[solver]` end to end: which solver a scene gets, that all of them agree, and what is said when one cannot.
+//! The table `[solver]` end to end: the choice of the solver, the agreement of all solvers, and messages where one
+//! fails.
 
 use crate::common::{displacements, fields, planned, simulate};
 use asperity_driver::diagnostic::Diagnostic;
@@ -84,7 +85,7 @@ fn the_iterative_method_gives_the_answer_of_the_direct_one_in_space_and_in_the_p
             let (report, found) = simulate(&text(&solver));
             assert_eq!(report.counts.factorisations, 1, "one preconditioner a run");
             assert!(report.counts.linear_iterations > 3, "{:?}", report.counts);
-            // The residual is measured through the preconditioner, whose condition is some tens.
+            // The residual is measured through the preconditioner, whose condition number is some tens.
             agree(&all(&exact), &all(&found), 100.0 * tolerance);
             assert!(
                 report.plan.solver.starts_with("iterative: the scene asks for it"),
@@ -134,7 +135,7 @@ fn an_iteration_that_does_not_converge_ends_the_run_with_the_last_good_state() {
     let solver = "[solver]\nmethod = \"iterative\"\nmost_iterations = 3\n";
     let (report, record, reason) = stopped(&bar("3d", IN_SPACE, "", &stages, &format!("{IMPLICIT}{solver}")));
     assert!(reason.starts_with("conjugate gradients: not converged after 3 iterations"), "{reason}");
-    // A shorter step of a linear model is no easier: it is not tried.
+    // A shorter step of a linear model is no easier to solve, and is not tried.
     assert_eq!((report.counts.steps, report.counts.rejected), (1, 1));
     assert!(all(&record).iter().all(|u| *u == 0.0));
 }
@@ -153,7 +154,7 @@ fn a_plastic_bar_is_factored_symmetrically_and_each_time_anew() {
     agree(&all(&record), &all(&found), 1e-7);
 }
 
-/// Two blocks on each other, the lower one held; `conditions` of the upper one, `law` of the joint.
+/// Two blocks, one on top of the other, the lower one held; `conditions` of the upper one, `law` of the joint.
 fn two_blocks(path: &str, law: &str, conditions: &str) -> String {
     format!(
         r#"
@@ -239,7 +240,7 @@ fn a_body_that_is_not_held_is_refused_with_the_motion_that_is_free() {
         ("plane-strain", IN_PLANE, "", "nothing holds its translation in"),
         ("plane-strain", IN_PLANE, "{ set = \"B.left\", y = 0 }", "nothing holds its translation in x"),
         ("3d", IN_SPACE, "", "nothing holds its translation in"),
-        // Turning about the lower left corner moves the bottom along y and the left side along x only.
+        // Rotation about the lower left corner moves the bottom along y and the left side along x only.
         (
             "plane-strain",
             IN_PLANE,

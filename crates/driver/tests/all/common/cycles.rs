@@ -1,4 +1,4 @@
-//! A fault through cycles of earthquakes.
+//! A fault through earthquake cycles.
 
 /// A vertical strike-slip fault on coarse cells, with events every 100 yr or so: three of them.
 pub const SCENE: &str = r#"schema = 1

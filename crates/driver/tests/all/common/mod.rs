@@ -1,4 +1,4 @@
-//! Scenes run from a text, with what they leave.
+//! Runs of scenes given as text, with their results.
 
 pub mod cycles;
 pub mod sliders;
@@ -18,12 +18,12 @@ use std::process::Output;
 /// The scene of the README.
 pub const SANDWICH: &str = include_str!("../../../../../scenes/sandwich.toml");
 
-/// Names of the evolutions that the parameters of all define.
+/// Names of the evolutions that need no parameters of their own.
 pub fn plain_evolutions() -> impl Iterator<Item = &'static str> {
     definitions().into_iter().filter(|row| row.is_plain()).map(|row| row.name)
 }
 
-/// The text of a scene with these changes, each of which must be one.
+/// The text of a scene with these changes, each of which must have an effect.
 #[track_caller]
 pub fn varied(scene: &str, changes: &[Change<'_>]) -> String {
     SceneText::new(scene).changed(changes).text().unwrap_or_else(|e| panic!("{e}\n{scene}"))
@@ -35,7 +35,7 @@ pub fn coarse_sandwich() -> String {
     varied(SANDWICH, &[sizes[0], sizes[1], With("time.tolerance", "20 nm")])
 }
 
-/// Standard error of a command without the breaks of lines that the renderer makes.
+/// Standard error of a command without the line breaks of the renderer.
 pub fn told(output: &Output) -> String {
     let text = String::from_utf8_lossy(&output.stderr);
     text.split(['\n', '│', '×', ' ']).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")

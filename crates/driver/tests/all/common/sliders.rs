@@ -1,4 +1,4 @@
-//! Spring-sliders run from a text, with their files.
+//! Runs of spring-sliders given as text, with their files.
 
 use asperity_cycles::slider::{Problem, SliderRun, run};
 use asperity_driver::slider::{Histories, Plan};
@@ -21,7 +21,7 @@ pub fn relative(a: f64, b: f64) -> f64 {
     (a / b - 1.0).abs()
 }
 
-/// Runs a plan, with its histories in a folder.
+/// Runs a plan and writes its histories into a folder.
 pub fn written(plan: &Problem) -> (tempfile::TempDir, SliderRun) {
     let folder = tempfile::tempdir().unwrap();
     let mut files = Histories::create(folder.path(), plan).unwrap();

@@ -1,4 +1,4 @@
-//! Files of runs, read without the code that wrote them.
+//! Readers of output files, independent of the code that writes them.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 
 /// A column of a table, or an array of a field file.
 pub struct Column {
-    /// Without unit and place; `each point` where the table has a column for each point.
+    /// Name without unit and position; `each point` where the table has a column for each point.
     pub name: String,
-    /// Values at one time or point.
+    /// Number of values at one time or point.
     pub components: usize,
     /// Row by row or point by point.
     pub values: Vec<f64>,
