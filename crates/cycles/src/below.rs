@@ -13,7 +13,7 @@ pub struct Used {
     time: Vec<f64>,
     /// Slip below it \[m\].
     slip: Vec<f64>,
-    /// Lowest excess pressure of the bodies below it \[Pa\].
+    /// Largest amount by which the normal traction of the bodies fell below the floor \[Pa\].
     below: Vec<f64>,
     /// Number of events during which a point was below its floor.
     events: usize,
@@ -43,7 +43,7 @@ impl Used {
             let missing = [step.start_pressed, moment.pressed].map(|pressed| least - pressed.bodies[p]);
             let slip = by.size(p);
             self.whole[p] += slip;
-            // The excess pressure is taken as linear within the step.
+            // Normal tractions are taken as linear within the step.
             let share = match missing.map(|m| m > 0.0) {
                 [true, true] => 1.0,
                 [false, false] => continue,
@@ -92,7 +92,7 @@ pub struct Below {
     pub time_share: f64,
     /// Share of the total slip, integrated over the area, that took place below it.
     pub slip_share: f64,
-    /// Lowest excess pressure of the bodies below it \[Pa\].
+    /// Largest amount by which the normal traction of the bodies fell below the floor \[Pa\].
     pub deepest: f64,
     /// Number of events, of all faults, during which any point was below it.
     pub events: usize,

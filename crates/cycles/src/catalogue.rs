@@ -24,7 +24,7 @@ pub struct Event<D> {
     pub end: Option<Clock>,
     /// Largest slip rate \[m/s\].
     pub peak: f64,
-    /// Details.
+    /// Details specific to the kind of source.
     pub details: D,
 }
 
@@ -84,7 +84,7 @@ impl<D> Catalogue<D> {
         all
     }
 
-    /// The event of a source that is under way, for changes.
+    /// The unfinished event of a source, mutable.
     pub(crate) fn open(&mut self, source: usize) -> Option<&mut Event<D>> {
         self.sources[source].last_mut().filter(|event| event.end.is_none())
     }

@@ -24,11 +24,11 @@ use std::ops::Range;
 pub struct Settings {
     /// Explicit method.
     pub method: Method,
-    /// Error of ln V allowed in a step.
+    /// Error of ln V allowed per step.
     pub tolerance: f64,
-    /// End \[s\].
+    /// End of the run \[s\].
     pub end: f64,
-    /// Events.
+    /// Slip rates at which events begin and end.
     pub thresholds: Thresholds,
     /// Number of events after which the run ends.
     pub most_events: Option<usize>,
@@ -39,7 +39,7 @@ pub struct Settings {
 /// Number of accepted steps after which the integration restarts. It costs one more evaluation of the rates in about 1500.
 pub const RESTART: u64 = 256;
 
-/// Relative rounding of m, of the states and of f_n, added to the tolerance.
+/// Relative tolerance that covers the rounding of m, of the states and of f_n, besides the absolute tolerances.
 const ROUNDING: f64 = 1e-15;
 
 /// Integrates `fault` from `unknowns` at time 0. A failed integration is not an error; it is reported as the outcome.
@@ -171,7 +171,8 @@ fn piece(
     let mut options = options.clone();
     if let Some(time) = equations.first_instants(run.at, &mut run.unknowns, &options.atol, duration) {
         run.at = run.at.later(time).rebased();
-        // Rates vary with the square root of the time since then, so no longer first step would be smooth.
+        // Rates vary with the square root of the time since the break, so that they are smooth only over times
+        // comparable to it.
         options.first_step = Some(time);
     }
     let duration = Clock::new(end, 0.0).since(&run.at);
@@ -211,7 +212,7 @@ fn nearly_open(fault: &Fault, run: &FaultRun) -> Option<usize> {
     (share(least) < NEARLY_OPEN).then_some(least)
 }
 
-/// Follows the largest slip rate through the steps.
+/// Sink of the integrator: detects events by the largest slip rate, and reports each step to the observer.
 struct Follow<'a> {
     equations: &'a Equations<'a>,
     fault: &'a Fault,
@@ -276,9 +277,9 @@ impl Follow<'_> {
         })
     }
 
-    /// Finds the time within the step at which the fastest of these points passes a threshold, and that point. It
-    /// halves the interval, since the fastest point may change. The unknowns and tractions of that time are left in
-    /// place, and the openings are returned.
+    /// Finds the time within the step at which the fastest of these points passes a threshold, and that point. Uses
+    /// bisection, since the fastest point may change. Leaves the unknowns and tractions at that time in `self`, and
+    /// returns the openings as well.
     fn locate(
         &mut self,
         step: &Step<'_>,
@@ -311,7 +312,8 @@ impl Follow<'_> {
         (at, self.fastest(&self.rate, among).0, pressed.opening)
     }
 
-    /// Finds the events of a step; `largest` are the largest slip rates of each source after it \[m/s\].
+    /// Detects onsets and ends of events within a step; `largest` holds the largest slip rate of each source at its end
+    /// \[m/s\].
     fn detect(&mut self, step: &Step<'_>, largest: &[f64]) {
         for (source, &largest) in largest.iter().enumerate() {
             self.note_peak(source, largest);
@@ -338,7 +340,7 @@ impl Follow<'_> {
 
 impl Sink for Follow<'_> {
     fn accepted(&mut self, step: &Step<'_>) -> Control {
-        // Earlier rejections were due to steps that were too long.
+        // Clears the record of open points: a stage rejected before this step only shows that the step was too long.
         self.equations.opened();
         let layout = self.equations.layout();
         let rates = step.rates.map(|dy| &dy[layout.slip()]);

@@ -1,22 +1,22 @@
 //! Energy budget of a run: the work of the loads, and the forms of energy it turns into.
 //!
-//! Products of slip and traction are dot products where slip has two directions. With areas A, slip s, friction f, the
-//! initial tractions and those of the loads together τ_l, and the stiffness S of the bodies at the jumps, `f + η V =
-//! τ_l - S s/A` times V, summed over points and integrated over time, is
+//! Let A be the tributary areas, s slip, f friction, τ_l the sum of the initial tractions and those of the loads, and S
+//! the stiffness of the bodies at the jumps. Equilibrium, `f + η V = τ_l - S s/A`, multiplied by V, summed over points
+//! and integrated over time, gives the budget below. Products of slip and traction are dot products where slip has two
+//! directions.
 //!
 //! ```text
 //! ∫ Σ A τ_l V dt  =  s·S s/2  +  ∫ Σ A f V dt  +  ∫ Σ A η V² dt
 //!     loads           elastic         friction         radiated
 //! ```
 //!
-//! Openings o, where faults have them, add the work `∫ Σ A (p - N_l) do` of the fluid of pressure p and of the loads,
-//! which change the initial normal tractions to N_l. The elastic energy is then that of slip and of openings since the
-//! start.
+//! Openings o, where points may open, add work. Let p be the pore pressure, and N_l the sum of the initial normal
+//! tractions and those of the loads. Fluid and loads then do the work `∫ Σ A (p - N_l) do` as well, and the elastic
+//! energy is that of slip and of openings since the start.
 //!
-//! The integrals run over cubic polynomials with the values and rates of both ends of each step, for slip as for
-//! tractions; the elastic energy comes from slip through the operator. The integrator uses none of these integrals.
-//! Their imbalance is therefore an independent estimate of the error: that of slip against the friction that was
-//! integrated.
+//! The integrals are those of cubic polynomials through the values and rates at both ends of each step, for slip and for
+//! tractions. The elastic energy follows from slip through the operator. The integrator uses none of this, so that the
+//! imbalance is an independent measure of the error: it compares slip with the integrated friction.
 
 use super::below::Used;
 use super::equations::{Fault, Layout, Pressed};
@@ -101,14 +101,14 @@ pub struct Mark {
     pub energy: Energy,
 }
 
-/// Sums along a run.
+/// Sums of the energy budget along a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sums {
     /// Energy budget so far, without the elastic energy.
     works: Energy,
     /// State at the end of each event.
     marks: Vec<Mark>,
-    /// Number of changes of the loads so far.
+    /// Number of changes of the loads that were passed.
     leg: usize,
     /// Time of the last of them \[s\].
     since: f64,
@@ -132,9 +132,9 @@ pub struct Balance<'a> {
     sums: Sums,
     /// Times at which loads change, and the end \[s\].
     breaks: Vec<f64>,
-    /// Rates of the loads' tractions now \[Pa/s\].
+    /// Current rates of the shear tractions of the loads, component by component \[Pa/s\].
     rate: Vec<f64>,
-    /// Rates of the loads' normal tractions now \[Pa/s\].
+    /// Current rates of the normal tractions of the loads \[Pa/s\].
     normal_rate: Vec<f64>,
     /// Openings at the start \[m\]; no values where no point may open.
     first: Vec<f64>,
@@ -266,7 +266,7 @@ impl<'a> Balance<'a> {
         let points =
             layout.m().zip(self.problem.areas.iter().cycle()).map(|(i, area)| (i, i % layout.points(), area));
         for (i, p, area) in points {
-            // Friction a m f_n and its rate.
+            // Friction a m f_n, and its rate times the length of the step.
             let friction = |y: &[f64], dy: &[f64], time: f64, last: usize| {
                 if let Some(rates) = pressing.get(last) {
                     let (normal, change) = (pressed[last][p], rates[0][p]);
@@ -388,7 +388,7 @@ impl Way {
     }
 }
 
-/// Largest number of iterations of [`steady`], per point.
+/// Largest number of iterations of [`steady`] per unknown.
 const MOST_ITERATIONS: usize = 10;
 /// Ratio of the residual to its initial value at which [`steady`] ends: the rounding of a few hundred sums.
 const SMALL: f64 = 1e-12;

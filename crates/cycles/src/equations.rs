@@ -1,11 +1,12 @@
 //! The equations of a fault between two changes of its loading.
 //!
-//! With `τ̇ = A V + τ̇_load` and, where slip changes normal tractions, `ḟ_n = B V + ḟ_load`, each point is a slider
-//! without springs that feels the rate τ̇: [`asperity_friction::fault`], and [`asperity_friction::turning`] where slip
-//! has two directions. Unknowns: m = μ/a of all points, their states (point-major), their slip, and f_n where slip
-//! changes it. Tractions are never differences of large numbers, since m carries them. Pore pressure is a given
-//! function of time: it is subtracted from f_n, and its rate from df_n/dt, at the time of each stage. Openings are
-//! functions of f_n and add to both rates, see [`super::opening`].
+//! Shear tractions change at the rate `τ̇ = A V + τ̇_load` and, where slip changes normal tractions, these change at
+//! `ḟ_n = B V + ḟ_load`. Each point is then a slider without springs, driven at the rate τ̇: see
+//! [`asperity_friction::fault`], and [`asperity_friction::turning`] where slip has two directions. The unknowns are m =
+//! μ/a of all points, their states (point-major), their slip, and f_n where slip changes it. Shear tractions follow from
+//! m, so that no traction is a small difference of large numbers. Pore pressure is a given function of time: it is
+//! subtracted from f_n, and its rate from df_n/dt, at the time of each stage. Openings are functions of f_n and add to
+//! both rates, see [`super::opening`].
 
 use super::components::{Components, PerPoint};
 use super::floor::Floor;
@@ -49,7 +50,8 @@ pub struct Pressed {
 
 impl Fault {
     /// Computes the normal tractions of the points at a moment. The result does not depend on the previous `crack`.
-    /// Where the set of open points does not converge, which the integration refuses, it is that of the last attempt.
+    /// Where the set of open points does not converge, which makes the integration fail, the result is that of the last
+    /// iterate.
     #[must_use]
     pub fn pressed(&self, at: Clock, unknowns: &[f64], crack: &mut Crack) -> Pressed {
         let layout = Layout::of(self);
@@ -218,8 +220,8 @@ pub struct Equations<'a> {
     scratch: RefCell<Scratch>,
     /// A point whose normal traction was not positive in a stage since the last call of [`Equations::opened`].
     opened: Cell<Option<usize>>,
-    /// A point whose opening did not converge. A shorter step does not help, so nothing more is evaluated and the
-    /// integration ends.
+    /// A point whose opening did not converge. A shorter step would not help: all further rates are NaN, and the
+    /// integration fails.
     unsettled: Cell<Option<usize>>,
 }
 
@@ -306,9 +308,10 @@ const FIRST: f64 = 1e-3;
 const QUARTERINGS: usize = 60;
 
 impl Equations<'_> {
-    /// The first instants of an injection or of its end at `at`, when the rate of pressure is infinite. Writes the
-    /// response of friction to the pressure into `y`, and returns the time for which everything else can be held, at
-    /// most `most` seconds.
+    /// Advances over the first instants after an injection begins or ends at `at`, when the rate of pressure is
+    /// infinite. Writes the response of friction to the pressure into `y`, and returns the time over which everything
+    /// else can be held constant \[s\]. `most` is the length of the leg \[s\]. None if no injection begins or ends at
+    /// `at`.
     ///
     /// Over so short a time m and the states follow f_n alone, `dm = (∂ṁ/∂ḟ_n) Δf_n`, since the rates are linear in
     /// ḟ_n. Everything else drifts by at most a hundredth of its tolerance.
@@ -358,7 +361,7 @@ impl Equations<'_> {
         Some(time)
     }
 
-    /// The rates, with or without those of pressure.
+    /// Evaluates the rates of the unknowns, with or without pore pressure.
     fn evaluate(&self, at: Clock, y: &[f64], dy: &mut [f64], pressurised: bool) {
         if self.unsettled.get().is_some() {
             dy.fill(f64::NAN);

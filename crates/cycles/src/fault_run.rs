@@ -11,7 +11,7 @@ use std::ops::Range;
 pub struct Progress {
     /// Event detector of each source.
     pub(crate) detectors: Vec<Detector>,
-    /// The point whose normal traction falls to zero, where the integration failed for that reason.
+    /// The point at which the integration failed, if its normal traction fell to zero or its opening did not converge.
     #[serde(skip)]
     pub opens: Option<usize>,
 }

@@ -1,10 +1,10 @@
 //! Floor of normal traction: the smallest value that friction uses.
 //!
-//! Normal tractions that slip and loads change may fall to zero, near a free surface first. Friction then has no slip
-//! rate. With a floor, friction uses `max(f_n, floor)` and its rate, which is zero below the floor. The f_n of the
-//! bodies remains an unknown below the floor, and returns along the same path. The product `f_n μ` is continuous, so no
-//! unknown jumps. Its rate jumps, and the error control shortens steps that cross the floor. The memory of normal
-//! traction follows the value that friction uses.
+//! Slip and loads may reduce normal tractions to zero, first near a free surface, and friction then determines no slip
+//! rate. With a floor, friction uses `max(f_n, floor)` and its rate, which is zero below the floor. The unknown f_n, the
+//! normal traction of the bodies, still evolves below the floor and returns along the same path. The product `f_n μ` is
+//! continuous, so no unknown jumps. Its rate jumps, and the error control shortens steps that cross the floor. States
+//! with a memory of normal traction respond to the value that friction uses.
 
 /// The floors of the points \[Pa\]; minus infinity where there is none.
 #[derive(Clone, Debug, PartialEq)]

@@ -44,7 +44,7 @@ pub struct Ends<'a> {
 }
 
 impl<'a> Moment<'a> {
-    /// State at the start of this step.
+    /// State of the fault at the start of the step that ends here.
     #[must_use]
     pub fn start_of(&self, step: &Ends<'a>, at: Clock) -> Moment<'a> {
         let (unknowns, rate) = (step.start, self.layout.slip_of(step.start_rates));
@@ -73,7 +73,7 @@ impl<'a> Moment<'a> {
         self.rate.size(point)
     }
 
-    /// m.
+    /// m = μ/a.
     #[must_use]
     pub fn m(&self) -> Components<&'a [f64]> {
         self.layout.m_of(self.unknowns)
@@ -104,7 +104,7 @@ impl<'a> Moment<'a> {
     }
 }
 
-/// Runs of faults.
+/// Runs of faults, as a kind of run for observers.
 #[derive(Clone, Copy, Debug)]
 pub struct Faults;
 

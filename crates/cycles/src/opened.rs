@@ -12,14 +12,14 @@ pub struct Opened {
     time: Vec<f64>,
     /// Largest opening \[m\].
     largest: Vec<f64>,
-    /// Time \[s\].
+    /// Time of the largest opening \[s\].
     when: Vec<f64>,
     /// Total time \[s\].
     duration: f64,
 }
 
 impl Opened {
-    /// Adds an accepted step, over which openings are taken as linear.
+    /// Adds an accepted step. A point that is open at one end of it counts as open for half of it.
     pub(crate) fn step(&mut self, problem: &Problem, moment: &Moment<'_>) {
         let Some(opening) = &problem.fault.opening else { return };
         for list in [&mut self.time, &mut self.largest, &mut self.when] {
@@ -37,7 +37,7 @@ impl Opened {
         }
     }
 
-    /// Openings of these points.
+    /// Summary for these points.
     #[must_use]
     pub fn of(&self, points: Range<usize>) -> Widest {
         let of = |list: &[f64], p: usize| list.get(p).copied().unwrap_or(0.0);
@@ -54,16 +54,16 @@ impl Opened {
     }
 }
 
-/// Opening of some points.
+/// Summary of the openings of some points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Widest {
     /// Number of points that were ever open.
     pub points: usize,
     /// The point with the largest opening.
     pub point: Option<usize>,
-    /// The opening \[m\].
+    /// Its largest opening \[m\].
     pub largest: f64,
-    /// Time \[s\].
+    /// Time of the largest opening \[s\].
     pub when: f64,
     /// Largest share of the time during which a point was open.
     pub time_share: f64,

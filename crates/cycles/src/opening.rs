@@ -1,4 +1,4 @@
-//! Openings of faults.
+//! Openings of faults, as the solution of a linear complementarity problem.
 //!
 //! N is the normal traction of the bodies without openings, less the pressure of fluid. Openings o add `C o`, with the
 //! normal tractions C per opening of the condensed bodies. Where a fault may open
@@ -11,7 +11,7 @@
 //! since the bodies are held. Therefore o is a unique function of N, continuous and piecewise linear (R. W. Cottle,
 //! J.-S. Pang, R. E. Stone, "The Linear Complementarity Problem", 1992, theorems 3.1.6 and 3.1.7): it is not an unknown
 //! in time. Its rate follows from that of N, `C_OO do_O/dt = -dN_O/dt` at the points O that are open, and shear
-//! tractions everywhere change by `D do/dt`.
+//! tractions of all points change at the rate `D do/dt`, with the shear tractions D per opening.
 //!
 //! O is found by exchanging all points that violate a condition, or one at a time where that makes no progress; this
 //! ends after finitely many exchanges (J. J. Júdice, F. M. Pires, "A block principal pivoting algorithm for large-scale
@@ -370,7 +370,7 @@ mod tests {
         opening.of(&now.3, &mut by, &mut rate);
         for p in 0..50 {
             let slope = |a: &[f64], b: &[f64]| (b[p] - a[p]) / (2.0 * step);
-            // Differences of numbers of the size of one over a step of 1e-6.
+            // Finite differences of numbers of order one over a step of 1e-6.
             assert!((slope(&before.0, &after.0) - normal[p]).abs() < 1e-8, "{p}");
             assert!((slope(&before.1, &after.1) - rate[p]).abs() < 1e-8, "{p}");
             assert!((slope(&before.2, &after.2) - shear[p]).abs() < 1e-8, "{p}");

@@ -1,7 +1,7 @@
 //! Fluid injected into a fault that diffuses along it: pore pressure in closed form.
 //!
 //! With the flux q of fluid at one position, in both directions together, porosity φ, compressibility β and hydraulic
-//! diffusivity α, the pressure obeys `φ β (∂p/∂t - α ∂²p/∂z²) = q δ(z)`. From rest it is
+//! diffusivity α, the pressure obeys `φ β (∂p/∂t - α ∂²p/∂z²) = q δ(z)`. With no pressure at the start, the solution is
 //!
 //! ```text
 //! p = q/(β φ √α) G(z, t),   G = √t (exp(-x²)/√π - x erfc x),   x = |z|/√(4 α t),   ∂G/∂t = exp(-x²)/(2 √(π t)),
@@ -9,14 +9,14 @@
 //!
 //! H. S. Carslaw, J. C. Jaeger, "Conduction of Heat in Solids", 2nd ed. (1959), section 2.9. After the end of the
 //! injection, the same function of the time since then is subtracted. At z = 0 the rate of pressure is infinite at the
-//! beginning and end of the injection, as 1/√t, which is integrable.
+//! beginning and at the end of the injection: it varies as 1/√t, which is integrable.
 
 use std::f64::consts::PI;
 
-/// Steady injection of fluid over a time.
+/// Steady injection of fluid during an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Injection {
-    /// Volume of fluid per area of the fault's cross section and time q \[m/s\].
+    /// Volume of fluid q per cross-sectional area of the fault and time \[m/s\].
     pub flux: f64,
     /// Hydraulic diffusivity α \[m²/s\].
     pub diffusivity: f64,
@@ -24,7 +24,7 @@ pub struct Injection {
     pub porosity: f64,
     /// Compressibility β of fluid and pores \[1/Pa\].
     pub compressibility: f64,
-    /// Times of its beginning and end \[s\].
+    /// Times at which it begins and ends \[s\].
     pub during: [f64; 2],
 }
 
@@ -132,7 +132,7 @@ mod tests {
     #[test]
     fn rate_is_the_derivative_of_pressure() {
         for (z, t) in [(0.0, 1e5), (500.0, 1e6), (100.0, 9e6), (3000.0, 3e7)] {
-            // Of the time since the injection began or ended, with the square of which the difference errs.
+            // A share of the time since the injection began or ended; the error of the difference grows with its square.
             let step = 1e-4 * if t > BP6.during[1] { t - BP6.during[1] } else { t };
             let difference = (BP6.pressure(z, t + step).0 - BP6.pressure(z, t - step).0) / (2.0 * step);
             let rate = BP6.pressure(z, t).1;
@@ -153,7 +153,8 @@ mod tests {
     #[test]
     fn pressure_obeys_the_equation_of_diffusion() {
         for t in [2e6, 9.5e6] {
-            // Lengths are 586 m and more, and what begin and end give differs by a tenth: errors of 1e-5.
+            // Diffusion lengths are 586 m and more, and the contributions of beginning and end differ by a tenth: errors
+            // are 1e-5.
             let (z, h) = (700.0, 1.0);
             let p = |z: f64| BP6.pressure(z, t).0;
             let laplacian = (p(z + h) - 2.0 * p(z) + p(z - h)) / (h * h);

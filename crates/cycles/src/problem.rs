@@ -8,7 +8,7 @@ use super::loading::Loading;
 use super::moment::Faults;
 use asperity_ode::Observer;
 
-/// See the module.
+/// Faults in their medium, with all that a run needs.
 #[derive(Debug)]
 pub struct Problem {
     /// Friction and the medium.
@@ -31,8 +31,8 @@ impl Problem {
         FaultRun::new(self.start.clone(), std::slice::from_ref(&points), self.settings.thresholds)
     }
 
-    /// Integrates it from its start, with its own settings or others. A failed integration is not an error; it is
-    /// reported as the outcome.
+    /// Integrates the problem from its start, with its own settings or others. A failed integration is not an error; it
+    /// is reported as the outcome.
     ///
     /// # Errors
     /// If the observer fails.

@@ -11,7 +11,7 @@ pub struct Run<D, P> {
     /// Outcome.
     #[serde(skip, default = "completed")]
     pub outcome: Outcome,
-    /// Time.
+    /// Time reached.
     pub at: Clock,
     /// Unknowns at that time.
     pub unknowns: Vec<f64>,

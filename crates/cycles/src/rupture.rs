@@ -37,7 +37,7 @@ pub(crate) struct Values<'a> {
 /// Values at the onset of the unfinished event.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Onset {
-    /// Time at which the fastest point last exceeded `on`; none while it is slower.
+    /// Time since which the fastest point has been faster than `on`; none while it is slower.
     since: Option<Clock>,
     slip: Vec<f64>,
     shear: Vec<f64>,
@@ -65,7 +65,7 @@ impl Detector {
         self.points.clone()
     }
 
-    /// First threshold passed within a step, given the largest slip rate after it \[m/s\].
+    /// Next threshold passed within a step, given the largest slip rate at its end \[m/s\].
     pub(crate) fn crossing(&self, largest: f64) -> Option<Crossing> {
         let Thresholds { on, off } = self.thresholds;
         match self.under_way.as_ref().map(|o| o.since) {
@@ -130,7 +130,7 @@ fn end(event: &mut Event<Rupture>, at: Clock, onset: &Onset, values: Values<'_>)
 /// Crossing of one of the thresholds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Crossing {
-    /// `on` upwards, with no event.
+    /// `on` upwards, with no event under way.
     Begins,
     /// `on` downwards.
     Falls,

@@ -5,7 +5,7 @@ use asperity_fem::jump::Jumps;
 
 /// Conversion of unknowns, some of which are jumps, to displacements.
 trait Jumping: Send + Sync + std::fmt::Debug {
-    /// In place.
+    /// Converts in place.
     fn displace(&self, unknowns: &mut [f64]);
 }
 
@@ -19,7 +19,7 @@ impl<const C: usize> Jumping for Jumps<C> {
 #[derive(Debug)]
 pub struct Bodies {
     condensed: Condensed,
-    /// Ties of the sides that machines draw, then the faults, in the order in which they are converted.
+    /// Ties of spring-loaded boundaries, then the faults, in the order in which they are converted.
     jumps: [Box<dyn Jumping>; 2],
     /// Retained unknown of the first component of slip of each point.
     rows: Vec<usize>,
@@ -28,8 +28,8 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// Bodies with the jumps of their faults and the ties of the sides that machines draw; `rows` are the retained
-    /// unknowns of the first component of slip of each point.
+    /// Bodies with the jumps of their faults and the ties of spring-loaded boundaries; `rows` are the retained unknowns
+    /// of the first component of slip of each point.
     pub(super) fn new<const C: usize>(
         condensed: Condensed,
         jumps: Jumps<C>,
@@ -53,7 +53,7 @@ impl Bodies {
         all
     }
 
-    /// The same in space.
+    /// The same as vectors in space.
     #[must_use]
     pub fn vectors(&self, slip: &[f64], time: f64) -> Vec<[f64; 3]> {
         let all = self.displacement(slip, time);

@@ -34,13 +34,13 @@ pub enum Tractions {
 /// Initial tractions that the weight of the bodies causes, before any point slips.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weight {
-    /// Component by component \[Pa\].
+    /// Shear tractions, component by component \[Pa\].
     pub shear: Vec<f64>,
-    /// Compression positive \[Pa\].
+    /// Normal tractions, compression positive \[Pa\].
     pub normal: Vec<f64>,
 }
 
-/// Bodies, condensed.
+/// Condensed bodies.
 #[derive(Debug)]
 pub struct Surroundings {
     /// Tractions that slip causes.
@@ -66,11 +66,11 @@ const UNCOUPLED: f64 = 1e-9;
 /// Loads and supports of the bodies.
 #[derive(Clone, Debug)]
 pub struct Loads {
-    /// Motions and loads.
+    /// Prescribed motions and loads.
     pub constraints: Constraints,
-    /// Sets that a spring moves as one.
+    /// Boundaries that a spring moves as one.
     pub springs: Vec<Spring>,
-    /// Nodal forces of the weight of the bodies, which is there before the start.
+    /// Nodal forces of the weight of the bodies, which acts before the start.
     pub weight: Vec<(usize, f64)>,
     /// End of the run \[s\].
     pub end: f64,
@@ -81,7 +81,7 @@ pub struct Loads {
 pub struct Conditions {
     /// Components of displacement.
     pub components: usize,
-    /// Directions along which points slide freely.
+    /// Number of directions along which points slide freely.
     pub tangents: usize,
     /// Memory that the condensation may use \[bytes\].
     pub memory: usize,
@@ -93,7 +93,8 @@ pub struct Conditions {
 /// tributary areas, so the interface mass matrix is lumped.
 ///
 /// # Errors
-/// A [`Refusal`] where the bodies need more than `memory` bytes, are not held, or a support does not agree with the fault.
+/// A [`Refusal`] if the bodies need more than `memory` bytes, if nothing holds them, or if a support is not compatible
+/// with the fault.
 pub fn condense<const D: usize>(
     bodies: Stiffness,
     loads: &Loads,
@@ -210,8 +211,7 @@ fn with_components<const D: usize, const C: usize>(
     Ok(Surroundings { bytes, bodies, ..found })
 }
 
-/// Load of the weight of the bodies. Its effect is part of the initial state, so its amplitude does not change during
-/// the run.
+/// Load of the weight of the bodies. Its effect is part of the initial state, so its amplitude is zero during the run.
 fn weight(loads: &Loads) -> Channel {
     Channel { prescribed: Vec::new(), forces: loads.weight.clone(), amplitude: Table::constant(0.0) }
 }
@@ -300,7 +300,7 @@ struct Bearing {
     /// True if its normal traction is constant, either because supports on both sides take its change or because the
     /// scene says so.
     keeps: bool,
-    /// True if it opens where its sides are not pressed together.
+    /// True if it may open where its normal traction falls to zero.
     opens: bool,
 }
 

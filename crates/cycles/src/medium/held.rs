@@ -7,13 +7,13 @@ use super::refusal::Refusal;
 use asperity_fem::dof::Channel;
 use asperity_fem::jump::Jump;
 
-/// Components of a node that are prescribed; `fixed` is sorted.
+/// True for the components of a node that are prescribed; `fixed` is sorted.
 fn held<const C: usize>(node: usize, fixed: &[usize]) -> [bool; C] {
     std::array::from_fn(|c| fixed.binary_search(&(C * node + c)).is_ok())
 }
 
 /// The jump of a point. It replaces the node with fewer conditions: a condition on one side alone leaves the jump free.
-/// A node drawn by a spring, as given by `drawn`, is not replaced.
+/// A node that a spring loads, according to `drawn`, is not replaced.
 pub(super) fn jump<const D: usize, const C: usize>(
     point: &Point<D>,
     frame: [[f64; C]; C],
@@ -25,7 +25,7 @@ pub(super) fn jump<const D: usize, const C: usize>(
     let within = |a: &[bool; C], b: &[bool; C]| a.iter().zip(b).all(|(a, b)| !a || *b);
     let swap = drawn(plus) || (!drawn(minus) && !within(&on_plus, &on_minus) && within(&on_minus, &on_plus));
     if swap {
-        // The motion of plus relative to minus is the opposite of that of minus relative to plus.
+        // Exchanging the sides changes the sign of the jump.
         return Jump { minus: C * plus, plus: C * minus, frame: frame.map(|axis| axis.map(|c| -c)) };
     }
     Jump { minus: C * minus, plus: C * plus, frame }

@@ -1,8 +1,9 @@
-//! The machine that loads a laboratory specimen: sides that move as one, drawn by springs of finite stiffness.
+//! Testing machine that loads a laboratory specimen: boundaries that each move as one, loaded by springs of finite
+//! stiffness.
 //!
-//! The first degree of freedom of a side represents the motion of all: `u_i = q + d_i` with `d_i` held at zero, which
-//! is a jump from one degree of freedom to another. The spring adds its stiffness k there, and pulls with k times the
-//! displacement of its other end.
+//! The first degree of freedom of such a boundary represents the motion q of all: `u_i = q + d_i` with `d_i` held at
+//! zero, which is a jump from one degree of freedom to another. The spring adds its stiffness k there, and pulls with k
+//! times the displacement of its far end.
 
 use asperity_fem::condense::Stiffness;
 use asperity_fem::dof::Channel;
@@ -10,18 +11,18 @@ use asperity_fem::jump::{Jump, Jumps};
 use asperity_fem::table::Table;
 use asperity_fem::term::Blocks;
 
-/// Degrees of freedom that move as one, drawn by a spring.
+/// Degrees of freedom that move as one, loaded by a spring.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spring {
     /// The degrees of freedom.
     pub dofs: Vec<usize>,
     /// Stiffness \[N/m; N/m per metre of thickness in the plane\].
     pub stiffness: f64,
-    /// Rate of its other end \[m/s\].
+    /// Velocity of its far end \[m/s\].
     pub rate: f64,
 }
 
-/// See the module.
+/// Springs, and the ties that make boundaries move as one.
 #[derive(Debug)]
 pub(super) struct Machine<'a> {
     springs: &'a [Spring],
@@ -42,7 +43,7 @@ impl<'a> Machine<'a> {
         self.springs.iter().any(|s| s.dofs.contains(&dof))
     }
 
-    /// Stiffness with the sides moving as one, and that of the springs.
+    /// Stiffness with spring-loaded boundaries moving as one, and with that of the springs.
     pub fn stiffness(&self, body: Stiffness) -> Stiffness {
         let mut all = if self.ties.list().is_empty() { body } else { self.ties.stiffness(&body) };
         let mut cells = Blocks::default();
@@ -56,25 +57,25 @@ impl<'a> Machine<'a> {
         Stiffness { pattern: cells.into(), ..all }
     }
 
-    /// The sides that move as one.
+    /// Ties that make boundaries move as one.
     pub fn ties(&self) -> &Jumps<1> {
         &self.ties
     }
 
-    /// Degrees of freedom that move only with the first of their side.
+    /// Degrees of freedom tied to the first of their boundary.
     pub fn tied(&self) -> impl Iterator<Item = usize> {
         self.ties.list().iter().map(|tie| tie.plus)
     }
 
-    /// A channel of forces and displacements with the sides moving as one.
+    /// A channel of forces and displacements with spring-loaded boundaries moving as one.
     ///
     /// # Errors
-    /// A message where a displacement on a side that is drawn is prescribed.
+    /// A message if a displacement of a spring-loaded boundary is prescribed.
     pub fn channel(&self, channel: &Channel) -> Result<Channel, String> {
         self.ties.channel(channel, &[]).map_err(|e| e.to_string())
     }
 
-    /// Mean rates of the pull of the springs until `end` \[s\].
+    /// Loads by the far ends of the springs, which move at constant rates until `end` \[s\].
     pub fn pulls(&self, end: f64) -> impl Iterator<Item = Channel> {
         self.springs.iter().filter_map(move |spring| {
             let amplitude = Table::new(vec![0.0, end], vec![0.0, spring.rate * end]);

@@ -1,8 +1,8 @@
-//! A point of a fault and the physics declared there.
+//! A point of a fault and its conditions.
 
 use super::place::Place;
 
-/// A point of a fault and the physics declared there.
+/// A point of a fault and its conditions.
 #[derive(Clone, Debug)]
 pub struct Point<const D: usize> {
     /// Position.
@@ -11,6 +11,6 @@ pub struct Point<const D: usize> {
     pub creep: Option<[f64; 2]>,
     /// True if slip and loads change its normal traction.
     pub normal_changes: bool,
-    /// True if it opens where its sides are not pressed together.
+    /// True if it may open where its normal traction falls to zero.
     pub opens: bool,
 }

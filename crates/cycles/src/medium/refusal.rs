@@ -5,7 +5,7 @@ use asperity_fem::FemError;
 /// Reason why bodies cannot be condensed onto faults. Points are given by their index.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Refusal {
-    /// A spring draws both sides of a point as one.
+    /// A spring moves both sides of a point as one.
     #[error("a spring draws both sides of point {point} as one")]
     Drawn {
         /// The point.
@@ -22,7 +22,7 @@ pub enum Refusal {
     AlongSlip {
         /// The point.
         point: usize,
-        /// The largest component of its direction.
+        /// The component of displacement closest to the direction of slip.
         component: usize,
     },
     /// Conditions move the sides of a creeping point at another rate, or apart.
@@ -30,13 +30,13 @@ pub enum Refusal {
     Moved {
         /// The point.
         point: usize,
-        /// The largest component of that axis.
+        /// The component of displacement closest to the direction of that motion.
         component: usize,
-        /// Rate of creep along it \[m/s\]; none across the fault.
+        /// Rate of creep along that direction \[m/s\]; none across the fault.
         rate: Option<f64>,
-        /// Distance \[m\].
+        /// Prescribed displacement of one side relative to the other \[m\].
         way: f64,
-        /// Duration \[s\].
+        /// Time at which it is reached \[s\].
         time: f64,
     },
     /// The condensation needs more memory than is allowed.

@@ -1,4 +1,5 @@
-//! Slip of the sliders from the tractions of their springs: `K u = k u_load - (T - T_0)`, sparse like the springs.
+//! Slip of the sliders from the tractions of their springs: `K u = k u_load - (T - T_0)`, with a matrix as sparse as the
+//! springs.
 
 use crate::error::RunError;
 use crate::slider::{Piece, Problem};
@@ -10,7 +11,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Side};
 use serde::{Deserialize, Serialize};
 
-/// See the module.
+/// Solver for the slip of the sliders.
 pub(crate) struct Slips {
     /// Factors of the stiffness matrix of the sliders whose slip rate is not imposed; none where all are.
     stiffness: Option<Llt<usize, f64>>,

@@ -17,8 +17,8 @@ pub struct Dense {
 const LANES: usize = 16;
 /// Rows of a task. Their number is fixed, so that results do not depend on the number of threads.
 const ROWS: usize = 128;
-/// Number of points above which a product is worth starting tasks, which takes some microseconds, as a product of 300
-/// rows does.
+/// Number of points above which a product is divided into tasks: starting them takes some microseconds, as long as a
+/// product with 300 rows of 300.
 const WORTH_TASKS: usize = 768;
 
 impl Dense {

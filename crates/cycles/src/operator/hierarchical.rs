@@ -13,14 +13,14 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Columns of a block.
+/// A block of a compressed matrix.
 #[derive(Clone, Debug)]
 struct Block {
     rows: Range<usize>,
     columns: Range<usize>,
     /// Number of columns of its two factors; none if it is dense.
     rank: Option<usize>,
-    /// True if its transpose acts as well.
+    /// True if its transpose stands for a block below the diagonal.
     mirrored: bool,
     values: Range<usize>,
 }
@@ -41,8 +41,8 @@ struct Compressed {
     tasks: Vec<Task>,
 }
 
-/// Number of values of a task. It is fixed, so that sums do not depend on the number of threads. A product with more
-/// values is worth starting tasks.
+/// Number of values of a task. It is fixed, so that sums do not depend on the number of threads. With more values than
+/// this, starting tasks pays off.
 const TASK: usize = 100_000;
 
 /// Largest rank tried. Blocks between distant points need less than half of it, and the cost of the search grows with
@@ -76,7 +76,7 @@ impl Part {
     }
 }
 
-/// Matrix that is compressed.
+/// Matrix to be compressed.
 struct Source<'a> {
     tree: &'a Tree,
     /// Row by row, in the order of the points.
@@ -85,7 +85,7 @@ struct Source<'a> {
     rows: &'a [f64],
     /// True if blocks below the diagonal follow from those above.
     symmetric: bool,
-    /// Root mean square error of the entries of a block.
+    /// Allowed root mean square error of the entries of a block.
     error: f64,
 }
 
@@ -176,7 +176,7 @@ impl Compressed {
                     None
                 }
                 Content::Low(low) => {
-                    // Group by group, the columns on the left and then those on the right.
+                    // Group by group: the columns of the left factor, then those of the right one.
                     for k in (0..low.left.ncols()).step_by(GROUP) {
                         for side in [&low.left, &low.right] {
                             let columns = (k..k + GROUP).flat_map(|c| (0..side.nrows()).map(move |i| (i, c)));
@@ -332,11 +332,11 @@ struct Ordered {
     force: Vec<f64>,
 }
 
-/// Compressed matrices.
+/// Operator of compressed matrices.
 #[derive(Debug)]
 pub struct Hierarchical {
     order: Vec<usize>,
-    /// Inverse tributary areas, with the sign of tractions.
+    /// Inverse tributary areas, in the order of the tree.
     per_area: Vec<f64>,
     shear: Compressed,
     normal: Option<Compressed>,
@@ -346,12 +346,12 @@ pub struct Hierarchical {
     arch: Arch,
 }
 
-/// Content of a compressed matrix.
+/// Sizes of a compressed matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sizes {
     /// Values kept.
     pub values: usize,
-    /// Blocks of low rank and dense ones.
+    /// Numbers of blocks of low rank and of dense ones.
     pub blocks: [usize; 2],
     /// Largest rank.
     pub rank: usize,
@@ -408,7 +408,7 @@ impl Hierarchical {
         }
     }
 
-    /// Matrices of shear and of normal tractions.
+    /// Sizes of the matrices of shear and of normal forces.
     #[must_use]
     pub fn sizes(&self) -> Vec<Sizes> {
         let sizes = |c: &Compressed| {

@@ -8,7 +8,7 @@ pub(super) const GROUP: usize = 4;
 /// Share of the error left to the crosses; the rest is for the truncation that follows.
 const CROSSES: f64 = 0.1;
 
-/// `left right'` with a multiple of [`GROUP`] columns, which may be zero.
+/// `left right'` with a multiple of [`GROUP`] columns, some of which may be zero.
 #[derive(Clone, Debug)]
 pub(super) struct LowRank {
     pub left: DMatrix<f64>,

@@ -1,18 +1,19 @@
-//! Energy budget of spring-sliders, summed over sliders of one area.
+//! Energy budget of spring-sliders per unit area, summed over sliders of equal area.
 //!
-//! With the slip u_i of a slider, the displacement u_L of the load point, initial tractions T_i0, stiffnesses k_i of
-//! the springs to the load point and k_ij of those between sliders, springs add the traction `S_i = k_i (u_L - u_i) +
-//! Σ_j k_ij (u_j - u_i)` to T_i0. Its work, and the equation of motion of a slider times its slip rate, give
+//! Let u_i be the slip of a slider, u_L the displacement of the load point, T_i0 the initial tractions, k_i the
+//! stiffnesses of the springs to the load point and k_ij of those between sliders. Springs add the traction
+//! `S_i = k_i (u_L - u_i) + Σ_j k_ij (u_j - u_i)` to T_i0. The work of S_i, and the equation of motion of each slider
+//! times its slip rate, give
 //!
 //! ```text
 //! Σ T_i0 u_i + ∫ Σ k_i (u_L - u_i) V_L dt - ∫ Σ' S_i V_i dt
 //!     = ½ Σ k_i (u_L - u_i)² + ½ Σ k_ij (u_j - u_i)²  +  ∫ Σ f_i V_i dt  +  ∫ Σ η_i V_i² dt  +  ½ Σ M_i (V_i² - V_i0²)
 //! ```
 //!
-//! The left-hand side is the work of the loads. Its last sum is over sliders of imposed slip rate; all others are over
-//! free sliders. The integrals are taken within each step by Gauss's rule from the dense output of the method, with
-//! slip solved from the springs. The integrator uses none of these integrals, so the imbalance of the budget is an
-//! independent measure of the error.
+//! The left-hand side is the work of the loads. Its last sum is over sliders of imposed slip rate. The sums with the
+//! stiffnesses of springs are over all sliders, all others over free sliders. The integrals are evaluated within each
+//! step by Gauss quadrature from the dense output of the method; slip follows from the tractions of the springs. The
+//! integrator uses none of these integrals, so the imbalance of the budget is an independent measure of the error.
 
 use super::equations::Piece;
 use crate::energy::Energy;
@@ -21,7 +22,8 @@ use asperity_friction::slider::Condition;
 use asperity_ode::{Clock, Step};
 use serde::{Deserialize, Serialize};
 
-/// Points of Gauss's rule on (0, 1), exact to degree 7 as the polynomial of the highest order is, with their weights.
+/// Points and weights of Gauss quadrature on (0, 1), exact to degree 7, which is that of the dense output of highest
+/// order.
 const GAUSS: [(f64, f64); 4] = [
     (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
     (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
@@ -37,7 +39,7 @@ pub struct Budget {
     energy: Energy,
 }
 
-/// Sliders at an instant.
+/// State of the sliders at an instant.
 struct State {
     load: f64,
     slip: Vec<f64>,
@@ -56,7 +58,7 @@ impl State {
 }
 
 impl Budget {
-    /// Returns the energy budget \[J/m²\].
+    /// Energy budget \[J/m²\].
     #[must_use]
     pub fn energy(&self) -> Energy {
         self.energy

@@ -28,9 +28,9 @@ impl Way {
 /// Kind of an event function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum EventKind {
-    /// |V| of a slider in a direction against the rate above which an event begins.
+    /// |V| of a slider in a direction relative to the rate above which an event begins.
     On(usize, Way),
-    /// |V| of a slider in a direction against the rate below which it ends.
+    /// |V| of a slider in a direction relative to the rate below which it ends.
     Off(usize, Way),
     /// dV/dt of a slider.
     Acceleration(usize),
@@ -69,12 +69,12 @@ impl<'a> Piece<'a> {
 }
 
 impl Piece<'_> {
-    /// A slip rate against a threshold.
+    /// ln(\|V\|/threshold) of a slip rate.
     fn against(&self, kind: EventKind, speed: Speed) -> f64 {
         let (way, threshold) = match (kind, self.problem.events) {
             (EventKind::On(_, way), Some(t)) => (way, t.on),
             (EventKind::Off(_, way), Some(t)) => (way, t.off),
-            // `kinds` creates thresholds only where the plan has them.
+            // Not reached: `kinds` includes thresholds only where the problem has them.
             _ => return AT_REST,
         };
         if way.is_of(speed.rate) { (speed.log - threshold.ln()).max(AT_REST) } else { AT_REST }
@@ -116,7 +116,7 @@ impl ode::Problem for Piece<'_> {
         if self.problem.peaks {
             self.segment.rates(at.seconds(), y, &mut rates);
         }
-        // The functions of a slider are adjacent.
+        // The event functions of a slider are adjacent and share its slip rate.
         let mut seen: Option<(usize, Speed)> = None;
         let mut speed = |i: usize| match seen {
             Some((slider, speed)) if slider == i => speed,

@@ -40,7 +40,7 @@ pub struct Now<'a> {
     pub asked: bool,
 }
 
-/// Runs of spring-sliders.
+/// Runs of spring-sliders, as a kind of run for observers.
 #[derive(Clone, Copy, Debug)]
 pub struct Sliders;
 
@@ -68,7 +68,7 @@ const SPENT: f64 = 1e-3;
 pub struct Progress {
     /// Energy budget; none without an observer.
     pub budget: Option<Budget>,
-    /// Reason why a run that failed may have failed, in terms of the scene.
+    /// Possible reason for the failure of a run, in terms of the scene.
     #[serde(skip)]
     pub hint: Option<String>,
     /// Detection of events.
@@ -156,7 +156,7 @@ pub fn resume(
     }
 }
 
-/// Reason why a run that failed may have failed, in terms of the scene.
+/// Possible reason for the failure of a run, in terms of the scene.
 fn why(problem: &Problem, piece: &Piece<'_>, run: &SliderRun) -> Option<String> {
     match run.outcome {
         // Other failures describe their cause.
@@ -178,7 +178,7 @@ fn running(piece: &Piece<'_>, at: Clock, unknowns: &[f64]) -> Option<(usize, f64
     })
 }
 
-/// The first slider without friction whose form has no value at rest.
+/// The first slider whose friction has fallen to zero, by a form that has no value at rest.
 fn spent(problem: &Problem, unknowns: &[f64]) -> Option<usize> {
     let stands = |(i, s): &(usize, &Slider)| !s.law.reverses() && problem.system.of(*i, unknowns)[0] < SPENT;
     problem.system.sliders().iter().enumerate().find(stands).map(|(i, _)| i)
@@ -295,12 +295,12 @@ impl<'a> Following<'a> {
     }
 }
 
-/// The sink of one piece.
+/// Sink of the integrator for one piece.
 struct Running<'a, 'b> {
     piece: &'a Piece<'a>,
     slips: &'a Slips,
     state: &'a mut Following<'b>,
-    /// Restart of the integration: the length to try after the last step.
+    /// Step to try next, if the integration stopped for a restart.
     paused: Option<NextStep>,
 }
 
@@ -335,7 +335,7 @@ impl Running<'_, '_> {
     }
 
     /// Passes samples within a step to the observer, from the dense output. They make curves smooth in long steps, and
-    /// include the requested times. Returns true if the end of the step is one of these.
+    /// include the requested times. Returns true if the end of the step is a requested time.
     fn between(&mut self, step: &Step<'_>) -> bool {
         let problem = self.state.problem;
         let start = self.sample(step, 0.0);

@@ -18,11 +18,11 @@ pub struct Edge {
     pub states: Vec<f64>,
 }
 
-/// Details of an event of a slider. It begins when \|V\| exceeds the upper threshold, and ends when \|V\| falls below
-/// the lower one.
+/// Details of an event of a slider. It begins when \|V\| in one direction exceeds the upper threshold, and ends when
+/// \|V\| falls below the lower one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Slide {
-    /// 1 along positive slip rates, -1 against them.
+    /// 1 for positive slip rates, -1 for negative ones.
     pub direction: i8,
     /// Smallest \|V\| since the previous event \[m/s\]; zero if the slider reversed.
     pub least_rate: f64,
@@ -66,7 +66,8 @@ impl Detectors {
         Self(vec![Detector::default(); sliders])
     }
 
-    /// Records that \|V\| of a slider rose through the upper threshold. An unfinished event in this direction continues.
+    /// Records that \|V\| of a slider rose through the upper threshold. An unfinished event in this direction continues;
+    /// one in the other direction ends.
     pub(super) fn begin(
         &mut self,
         events: &mut Catalogue<Slide>,

@@ -1,8 +1,8 @@
 //! Critical stiffness: on a softer spring, steady sliding is unstable.
 //!
-//! Steady sliding at V is perturbed, with springs whose other ends keep their rate. With the response of friction `μ =
-//! a x + q Σ φ_i`, `dφ_i/dt = -r_i (φ_i + b_i x) - C_i dμ/dt` ([`Response`]), small perturbations proportional to e^(s
-//! t) satisfy
+//! Consider steady sliding at V, with springs whose far ends move at constant rates. With the response of friction
+//! `μ = a x + q Σ φ_i`, `dφ_i/dt = -r_i (φ_i + b_i x) - C_i dμ/dt` ([`Response`]), small perturbations proportional to
+//! `e^(s t)` satisfy
 //!
 //! ```text
 //! f_n s N(s) + (k V + η V s + M V s²) D(s) = 0,   N = a - q Σ b_i r_i/(s + r_i),   D = 1 + q Σ C_i s/(s + r_i).
@@ -44,7 +44,8 @@ impl Stability {
         Self { marginal: marginal.filter(|m| m.0 > 0.0).collect() }
     }
 
-    /// The critical stiffness k_c \[Pa/m\]: on any stiffer spring steady sliding is stable. 0: on any spring.
+    /// Critical stiffness k_c \[Pa/m\]: steady sliding is stable on any stiffer spring. Zero if it is stable on any
+    /// spring.
     #[must_use]
     pub fn critical(&self) -> f64 {
         self.marginal.iter().map(|m| m.0).fold(0.0, f64::max)
@@ -76,7 +77,7 @@ fn ratio(response: &Response, omega: f64) -> Complex<f64> {
     n / d
 }
 
-/// Frequencies of marginal oscillations \[1/s\], ascending, each with whether Re N/D + η V/f_n rises there.
+/// Frequencies of marginal oscillations \[1/s\], ascending, each with true if Re N/D + η V/f_n rises there.
 fn frequencies(response: &Response, damping: f64) -> Vec<(f64, bool)> {
     let rates = response.states.iter().map(|s| s.rate);
     let (slowest, fastest) = (rates.clone().fold(f64::INFINITY, f64::min), rates.fold(0.0, f64::max));
@@ -137,7 +138,7 @@ pub fn words(problem: &Problem) -> Vec<Option<String>> {
     each(problem).into_iter().map(|one| one.map(of_one)).collect()
 }
 
-/// Description of the consequence for the run.
+/// Remarks about the stability of the whole system.
 #[must_use]
 pub fn remarks(problem: &Problem) -> Vec<String> {
     let steady = matches!(problem.system.load(), History::Constant(_))
