@@ -55,6 +55,8 @@ mod cook_membrane;
 mod coulomb_strip;
 mod dislocation;
 mod elastic_plastic_cylinder;
+mod event_files;
+mod event_numbers;
 mod fault_balance;
 mod fault_bend;
 mod fault_bodies;
@@ -88,6 +90,7 @@ mod large_rotation;
 mod maxwell_relaxation;
 mod nafems_roller;
 mod okada;
+mod output_files;
 mod partial_slip;
 pub mod sandwich;
 mod sandwich_3d;
@@ -124,6 +127,7 @@ mod two_rings;
 mod uniaxial_hardening;
 mod volumetric_path;
 mod wavy_sliding;
+pub mod written;
 
 /// Every case, in the order of the report.
 pub const ALL: &[Case] = &[
@@ -145,6 +149,8 @@ pub const ALL: &[Case] = &[
     contact_sliding::CASE,
     cook_membrane::CASE,
     coulomb_strip::CASE,
+    event_files::CASE,
+    event_numbers::CASE,
     fault_balance::CASE,
     fault_bodies::CASE,
     fault_compression::CASE,
@@ -171,6 +177,7 @@ pub const ALL: &[Case] = &[
     interface_rate_state::CASE,
     lame_cylinder::CASE,
     nafems_roller::CASE,
+    output_files::CASE,
     partial_slip::CASE,
     sandwich_3d::CASE,
     sandwich_pressed::CASE,
