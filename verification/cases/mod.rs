@@ -56,6 +56,8 @@ mod cook_membrane;
 mod coulomb_strip;
 mod dislocation;
 mod elastic_plastic_cylinder;
+mod event_files;
+mod event_numbers;
 mod fault_balance;
 mod fault_bend;
 mod fault_bodies;
@@ -91,6 +93,7 @@ mod maxwell_relaxation;
 mod nafems_roller;
 mod newton_convergence;
 mod okada;
+mod output_files;
 mod partial_slip;
 pub mod programs;
 mod restarts;
@@ -131,6 +134,7 @@ mod two_rings;
 mod uniaxial_hardening;
 mod volumetric_path;
 mod wavy_sliding;
+pub mod written;
 
 /// Every case, in the order of the report.
 pub const ALL: &[Case] = &[
@@ -153,6 +157,8 @@ pub const ALL: &[Case] = &[
     contact_sliding::CASE,
     cook_membrane::CASE,
     coulomb_strip::CASE,
+    event_files::CASE,
+    event_numbers::CASE,
     fault_balance::CASE,
     fault_bodies::CASE,
     fault_compression::CASE,
@@ -181,6 +187,7 @@ pub const ALL: &[Case] = &[
     lame_cylinder::CASE,
     nafems_roller::CASE,
     newton_convergence::CASE,
+    output_files::CASE,
     partial_slip::CASE,
     restarts::CASE,
     sandwich_3d::CASE,

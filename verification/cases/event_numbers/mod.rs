@@ -1,0 +1,230 @@
+//! Numbers derived from events of faults, in the files of runs: moment, area, slip, stress drop, hypocentre, magnitude.
+
+mod history;
+
+use crate::cases::written::Written;
+use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use history::Histories;
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "event_numbers",
+    readme: include_str!("README.md"),
+    covers: &[Capability::FaultCycles, Capability::Antiplane, Capability::Events, Capability::Outputs],
+    quick: true,
+    run,
+};
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    pairs(ledger)?;
+    stable(ledger)?;
+    rupture(ledger)
+}
+
+/// Shear moduli of the soft and the stiff rock \[Pa\], and their densities \[kg/m³\].
+const MODULI: [f64; 2] = [10e9, 40e9];
+const DENSITIES: [f64; 2] = [2500.0, 3000.0];
+/// Slip rates at which events begin and end \[m/s\].
+const ON: f64 = 1e-3;
+const OFF: f64 = 1e-4;
+
+/// Modulus of the uniform medium in which slip loads its plane as it does between both rocks \[Pa\].
+fn modulus() -> f64 {
+    2.0 * MODULI[0] * MODULI[1] / (MODULI[0] + MODULI[1])
+}
+
+/// Traction per slip rate that shear waves take to both sides \[Pa s/m\].
+fn damping() -> f64 {
+    let [soft, stiff] = [0, 1].map(|k: usize| (MODULI[k] * DENSITIES[k]).sqrt());
+    1.0 / (1.0 / soft + 1.0 / stiff)
+}
+
+/// Stiffness of two blocks in series, each 1 km wide \[Pa/m\].
+fn spring() -> f64 {
+    1.0 / (1e3 / MODULI[0] + 1e3 / MODULI[1])
+}
+
+/// Why the modulus of moments is what it is.
+const SERIES: &str =
+    "2 G1 G2/(G1 + G2): the uniform medium in which slip on its plane causes the same tractions";
+
+/// A pair of blocks that slips uniformly, beside one that does not.
+fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let done = Written::of(include_str!("pairs.toml"))?;
+    let events = done.files.table("events.csv")?;
+    let of = |name: &str| events.only(name);
+    let [slip, duration, moment] = [of("mean_slip")?, of("duration")?, of("moment")?];
+    let area = 1e3;
+    ledger
+        .claim("area of an event of one pair of blocks beside another that is three times as high and creeps")
+        .unit("m")
+        .value(of("area")?)
+        .equals(area)
+        .relative(1e-12)
+        .evidence(Evidence::Exact, "height of the blocks that slip: the others slip by 1e-8 m")
+        .because("rounding of the sum of two nodal areas")
+        .cost(&done.cost)
+        .record();
+    ledger
+        .claim("moment of a uniform event between rocks of 10 and 40 GPa over area and mean slip")
+        .unit("Pa")
+        .value(moment / (area * slip))
+        .equals(modulus())
+        .relative(1e-12)
+        .evidence(Evidence::Exact, SERIES)
+        .because("rounding: all numbers of the file are written to the last digit")
+        .cost(&done.cost)
+        .record();
+    let lost = spring() * (slip - 1e-9 * duration) - damping() * (ON - OFF);
+    ledger
+        .claim("stress drop of a uniform event between rocks of 10 and 40 GPa")
+        .unit("Pa")
+        .value(of("stress_drop")?)
+        .equals(lost)
+        .relative(1e-9)
+        .evidence(
+            Evidence::Exact,
+            "1/(H/G1 + H/G2) (slip - load), less radiation Z1 Z2/(Z1 + Z2) at the rates that begin and end it",
+        )
+        .because("tractions and slip are integrated side by side, with a tolerance of 1e-9 of ln V a step")
+        .cost(&done.cost)
+        .record();
+    // In the catalogue of its own fault, without the creep of the other.
+    let own = done.report.faults.iter().find(|f| f.fault == "rupture").and_then(|f| f.events.first());
+    let magnitude = own.and_then(|e| e.located.as_ref()?.magnitude).ok_or("no magnitude")?;
+    ledger
+        .claim("moment magnitude of the same event on 60 km of fault")
+        .value(magnitude)
+        .equals((modulus() * area * slip * 60e3).log10() / 1.5 - 9.1 / 1.5)
+        .absolute(1e-12)
+        .evidence(Evidence::Exact, "Mw = (log10 M0 - 9.1)/1.5 with M0 in N m, standard of IASPEI (2013)")
+        .because("rounding")
+        .cost(&done.cost)
+        .record();
+    nucleates(ledger, &done)
+}
+
+/// Place and slip of the uniform event.
+fn nucleates(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
+    let events = done.files.table("events.csv")?;
+    let on_its_fault = events.words("fault")? == ["rupture"] && events.only("y")? >= -3e3 - 1e-6;
+    ledger
+        .claim("events of the pair that weakens whose hypocentre lies on the other pair")
+        .count(u64::from(!on_its_fault), 0)
+        .evidence(Evidence::Exact, "the other pair never slips faster than it is drawn")
+        .because("a count")
+        .cost(&done.cost)
+        .record();
+    let histories = Histories::read(&done.files, &["rupture_dp000"])?;
+    let (from, to) = (events.only("onset")?, events.only("onset")? + events.only("duration")?);
+    ledger
+        .claim("mean slip of the same event against slip in the file of its station between onset and end")
+        .unit("m")
+        .value(events.only("mean_slip")?)
+        .equals(histories.slipped(0, from, to))
+        .relative(3e-8)
+        .evidence(Evidence::Exact, "cubic between rows, from their slip and slip rates")
+        .because("the catalogue has 15 digits of the onset: half of 1e-5 s at 1 mm/s is 5e-9 m of 0.4 m; the slip of rows has ten digits")
+        .cost(&done.cost)
+        .record();
+    Ok(())
+}
+
+/// Blocks that slide steadily at 1 m/s, after 1 mm/s.
+fn stable(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let done = Written::of(include_str!("stable.toml"))?;
+    let rows = done.files.table("stations/main_dp000")?;
+    let (times, slips) = (rows.column("t")?, rows.column("slip")?);
+    let (time, slip) = times.iter().zip(&slips).next_back().ok_or("no row")?;
+    let (before, after): (f64, f64) = (1e-3, 1.0);
+    let friction = 50e6 * 0.005 * (after / before).ln();
+    ledger
+        .claim(
+            "slip of blocks between rocks of 10 and 40 GPa behind their load, steadily at 1 m/s after 1 mm/s",
+        )
+        .unit("m")
+        .value(after * time - slip)
+        .equals((friction + damping() * (after - before)) / spring())
+        .relative(1e-8)
+        .evidence(
+            Evidence::Exact,
+            "[f_n (a - b) ln(V/V0) + Z1 Z2/(Z1 + Z2) (V - V0)]/k, k that of two blocks in series",
+        )
+        .because("rows have ten digits of 20 m: 5e-9 m of 0.6 m")
+        .cost(&done.cost)
+        .record();
+    Ok(())
+}
+
+/// Distance of the points of the fault \[m\], and their number.
+const APART: f64 = 250.0;
+const POINTS: usize = 25;
+/// Share of the largest slip above which a point counts as slipped, as NOTATION has it.
+const SLIPPED: f64 = 0.01;
+
+/// Sums over the points of an event, from the files of its stations.
+struct Sums {
+    area: f64,
+    potency: f64,
+    work: f64,
+    largest: f64,
+    fastest: usize,
+}
+
+impl Sums {
+    fn of(histories: &Histories, from: f64, to: f64) -> Self {
+        let slips: Vec<f64> = (0..POINTS).map(|k| histories.slipped(k, from, to)).collect();
+        let largest = slips.iter().copied().fold(0.0, f64::max);
+        let (mut area, mut potency, mut work) = (0.0, 0.0, 0.0);
+        for (k, &slip) in slips.iter().enumerate().filter(|(_, s)| **s > SLIPPED * largest) {
+            let share = if k == 0 || k + 1 == POINTS { 0.5 * APART } else { APART };
+            area += share;
+            potency += share * slip;
+            work += share * slip * histories.fell(k, from, to);
+        }
+        let rates: Vec<f64> = (0..POINTS).map(|k| histories.rate(k, from)).collect();
+        let fastest = (0..POINTS).max_by(|&a, &b| rates[a].total_cmp(&rates[b])).unwrap_or(POINTS);
+        Self { area, potency, work, largest, fastest }
+    }
+}
+
+/// An event whose slip differs from point to point.
+fn rupture(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let done = Written::of(include_str!("rupture.toml"))?;
+    let events = done.files.table("events.csv")?;
+    let of = |name: &str| events.only(name);
+    let (from, to) = (of("onset")?, of("onset")? + of("duration")?);
+    let sums = Sums::of(&Histories::read(&done.files, &done.files.names("stations")?)?, from, to);
+    let cubics = "files of stations at all points, with cubics between rows; nodal areas of cells of 250 m";
+    let digits = "the catalogue has 15 digits of the onset: half of 1e-5 s at 1 mm/s is 5e-9 m of 2 m; the slip of rows has ten digits";
+    let between = "polynomials through four and through six rows differ by 3e-7 at the onset, where tractions fall fast";
+    for (name, unit, expected, (bound, because)) in [
+        ("area", "m", sums.area, (1e-12, "rounding of nodal areas")),
+        ("largest_slip", "m", sums.largest, (1e-8, digits)),
+        ("mean_slip", "m", sums.potency / sums.area, (1e-8, digits)),
+        ("moment", "N", modulus() * sums.potency, (1e-8, digits)),
+        ("stress_drop", "Pa", sums.work / sums.potency, (1e-6, between)),
+    ] {
+        ledger
+            .claim(format!("event on a fault between rocks of 10 and 40 GPa: {name} of the catalogue"))
+            .unit(unit)
+            .value(of(name)?)
+            .equals(expected)
+            .relative(bound)
+            .evidence(Evidence::Exact, cubics)
+            .because(because)
+            .cost(&done.cost)
+            .record();
+    }
+    ledger
+        .claim("event on a fault between rocks of 10 and 40 GPa: place of the hypocentre along the fault")
+        .unit("m")
+        .value(of("hypocentre_along")?)
+        .equals(APART * sums.fastest as f64)
+        .absolute(1e-6)
+        .evidence(Evidence::Exact, "the station that is the fastest at the onset, by its file")
+        .because("rounding of a place")
+        .cost(&done.cost)
+        .record();
+    Ok(())
+}

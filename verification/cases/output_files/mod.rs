@@ -1,0 +1,88 @@
+//! Files of runs in formats of others: stations of the SEAS community, fields for VTK.
+
+mod fields;
+mod vtu;
+
+use crate::cases::written::Written;
+use crate::{Capability, Case, CaseError, Evidence, Ledger};
+
+/// See the README.
+pub const CASE: Case = Case {
+    name: "output_files",
+    readme: include_str!("README.md"),
+    covers: &[Capability::FaultCycles, Capability::Antiplane, Capability::Outputs],
+    quick: true,
+    run,
+};
+
+fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
+    stations(ledger)?;
+    fields::claims(ledger)
+}
+
+/// Files of the stations, and distance along the fault of the points nearest to what the scene asks for \[km\].
+const STATIONS: [(&str, f64); 4] =
+    [("main_dp000", 0.0), ("main_dp019", 2.0), ("main_dp045", 4.5), ("main_dp067", 6.5)];
+/// Direct effect and evolution effect, coefficient and slip rate of reference \[m/s\], characteristic slip \[m\].
+const LAW: [f64; 5] = [0.015, 0.02, 0.6, 1e-6, 0.04];
+/// Slip rate at the start \[m/s\].
+const RATE: f64 = 1e-9;
+
+/// Traction along z on the fault \[Pa\]: its normal from left to right is (4/5, 3/5), and the stress yz = 10 MPa, zx = 25 MPa.
+const RESOLVED: f64 = 25e6 * 0.8 + 10e6 * 0.6;
+
+/// log10 of the state \[s\] with which friction resists the resolved traction under this normal traction \[Pa\] at the slip rate.
+fn state(normal: f64) -> f64 {
+    let [a, b, mu0, v_ref, l] = LAW;
+    // f = a asinh(V/(2 V0) exp((mu0 + b ln(V0 theta/L))/a)).
+    let potential = a * (2.0 * v_ref / RATE * (RESOLVED / (normal * a)).sinh()).ln();
+    ((potential - mu0) / b).exp().log10() + (l / v_ref).log10()
+}
+
+/// First rows of stations.
+fn stations(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let done = Written::of(include_str!("station.toml"))?;
+    let normal = |along: f64| 40e6 + 2e6 * along;
+    for (name, unit, expected, source, because) in [
+        (
+            "normal_stress",
+            "MPa",
+            STATIONS.map(|(_, along)| normal(along) / 1e6),
+            "linear along the fault; points are 0.5 km apart, and the nearest counts",
+            "the file has ten digits",
+        ),
+        (
+            "shear_stress",
+            "MPa",
+            [RESOLVED / 1e6; 4],
+            "zx n_x + yz n_y of the uniform stress, n = (4/5, 3/5)",
+            "the file has ten digits",
+        ),
+        ("slip_rate", "log10 m/s", [RATE.log10(); 4], "the rate of the scene", "the file has nine decimals"),
+        (
+            "state",
+            "log10 s",
+            STATIONS.map(|(_, along)| state(normal(along))),
+            "theta of the regularised law under the resolved traction, by the inverse of asinh",
+            "the file has nine decimals",
+        ),
+        ("slip", "m", [0.0; 4], "nothing has slipped", "exact"),
+    ] {
+        let mut found = Vec::new();
+        for (file, _) in STATIONS {
+            let column = done.files.table(&format!("stations/{file}"))?.column(name)?;
+            found.push(*column.first().ok_or("no row")?);
+        }
+        ledger
+            .claim(format!("four stations on an inclined fault under initial stress, first rows: {name}"))
+            .unit(unit)
+            .values(&found)
+            .equals_each(&expected)
+            .absolute(1e-8)
+            .evidence(Evidence::Exact, source)
+            .because(because)
+            .cost(&done.cost)
+            .record();
+    }
+    Ok(())
+}

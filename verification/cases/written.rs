@@ -1,0 +1,219 @@
+//! Runs with the files they leave, read back as a user would.
+
+use crate::cases::seas;
+use crate::{CaseError, Cost};
+use asperity_cycles::{Balance, FaultRun, Faults, Moment};
+use asperity_driver::fault::{self, Files, Plan, Report};
+use asperity_driver::report::Outcome as Ended;
+use asperity_driver::{plan, run, scene};
+use asperity_ode::{Control, ObserveError, Observer, Outcome};
+use asperity_output::FieldSchedule;
+use asperity_output::located::{cmtsolution, quakeml};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A folder for the files of a run, which goes with its owner.
+pub struct Folder(PathBuf);
+
+/// Number of folders made so far: cases run side by side.
+static FOLDERS: AtomicUsize = AtomicUsize::new(0);
+
+impl Folder {
+    /// Makes a new one among the temporary files.
+    ///
+    /// # Errors
+    /// If it cannot be made.
+    pub fn new() -> Result<Self, CaseError> {
+        let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
+        let path = std::env::temp_dir().join(format!("asperity-written-{}-{number}", std::process::id()));
+        std::fs::create_dir_all(&path)?;
+        Ok(Self(path))
+    }
+
+    /// Place of the folder.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// Text of a file in it.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn text(&self, name: &str) -> Result<String, CaseError> {
+        std::fs::read_to_string(self.0.join(name)).map_err(|e| format!("{name}: {e}").into())
+    }
+
+    /// Names of the files of a folder in it, in their order.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn names(&self, folder: &str) -> Result<Vec<String>, CaseError> {
+        let mut names = Vec::new();
+        for entry in std::fs::read_dir(self.0.join(folder))? {
+            names.push(entry?.file_name().to_string_lossy().into_owned());
+        }
+        names.sort();
+        Ok(names)
+    }
+
+    /// Table of a file in it.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub fn table(&self, name: &str) -> Result<Table, CaseError> {
+        Table::of(&self.text(name)?).ok_or_else(|| format!("{name} has no head").into())
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // What cannot be removed stays in the folder of temporary files.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// A table of CSV, or of a station, whose lines of comment are left out.
+pub struct Table {
+    head: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn of(text: &str) -> Option<Self> {
+        let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+        let head = lines.next()?;
+        let by = if head.contains(',') { ',' } else { ' ' };
+        let cells = |line: &str| line.split(by).map(str::to_owned).collect();
+        Some(Self { head: cells(head), rows: lines.map(cells).collect() })
+    }
+
+    /// Words of a column, whose head is this name with or without a unit.
+    ///
+    /// # Errors
+    /// If there is no such column, or a row ends before it.
+    pub fn words<'a>(&'a self, name: &str) -> Result<Vec<&'a str>, CaseError> {
+        let named = |head: &String| head == name || head.split(" [").next() == Some(name);
+        let k = self.head.iter().position(named).ok_or_else(|| format!("no column {name}"))?;
+        let cell = |row: &'a Vec<String>| Ok(row.get(k).ok_or("a row is short")?.as_str());
+        self.rows.iter().map(cell).collect()
+    }
+
+    /// Numbers of a column.
+    ///
+    /// # Errors
+    /// As [`Table::words`], or if a cell is no number.
+    pub fn column(&self, name: &str) -> Result<Vec<f64>, CaseError> {
+        self.words(name)?.into_iter().map(|word| Ok(word.parse()?)).collect()
+    }
+
+    /// Number in the only row of a table.
+    ///
+    /// # Errors
+    /// As [`Table::column`], or if there are more rows or none.
+    pub fn only(&self, name: &str) -> Result<f64, CaseError> {
+        match self.column(name)?[..] {
+            [value] => Ok(value),
+            _ => Err(format!("{} rows, and not one", self.rows.len()).into()),
+        }
+    }
+
+    /// Heads of all columns.
+    #[must_use]
+    pub fn head(&self) -> &[String] {
+        &self.head
+    }
+
+    /// Rows with all their numbers; what is no number is NaN.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<Vec<f64>> {
+        let row = |row: &Vec<String>| row.iter().map(|w| w.parse().unwrap_or(f64::NAN)).collect();
+        self.rows.iter().map(row).collect()
+    }
+}
+
+/// A run of faults with its files.
+pub struct Written {
+    /// Its plan.
+    pub plan: Plan,
+    /// Its report.
+    pub report: Report,
+    /// Its files.
+    pub files: Folder,
+    /// Time and steps.
+    pub cost: Cost,
+}
+
+/// Writes the files of a run as it goes, and sums works.
+struct Both<'a>(Files<'a>, Balance<'a>);
+
+impl Observer<Faults> for Both<'_> {
+    fn step(&mut self, moment: &Moment<'_>) -> Result<Control, ObserveError> {
+        self.1.step(moment);
+        self.0.step(moment)
+    }
+}
+
+impl Written {
+    /// Runs a scene with faults to its end, and writes what the command `run` writes.
+    ///
+    /// # Errors
+    /// If the scene is refused, the run fails, or a file cannot be written.
+    pub fn of(text: &str) -> Result<Self, CaseError> {
+        let (plan, files) = (seas::plan(text)?, Folder::new()?);
+        let (found, cost) = Cost::of(|| followed(&plan, files.path()));
+        let (run, report) = found?;
+        catalogues(files.path(), &plan, &report)?;
+        fault::write_fields(files.path(), &plan, &run)?;
+        let cost = cost.count("steps", run.counts.steps as f64).count("points", plan.points.len() as f64);
+        Ok(Self { plan, report, files, cost })
+    }
+}
+
+/// Runs a plan and writes the files that grow.
+fn followed(plan: &Plan, out: &Path) -> Result<(FaultRun, Report), CaseError> {
+    let problem = &plan.problem;
+    let mut both = Both(Files::create(out, plan)?, Balance::new(problem));
+    // As the command does: a catalogue of all faults, and one of each.
+    let each: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
+    let start = FaultRun::new(problem.start.clone(), &each, problem.settings.thresholds);
+    let run = asperity_cycles::resume(&problem.fault, &problem.loading, start, &problem.settings, &mut both)?;
+    if let Outcome::Failed { reason } = &run.outcome {
+        return Err(reason.to_string().into());
+    }
+    let report = Report::new(plan, &run, &mut both.1);
+    Ok((run, report))
+}
+
+/// Writes the catalogue as a table, and for seismologists where the scene has a place on Earth.
+fn catalogues(out: &Path, plan: &Plan, report: &Report) -> Result<(), CaseError> {
+    std::fs::write(out.join("events.csv"), Report::csv(&report.events))?;
+    for fault in &report.faults {
+        std::fs::write(out.join(format!("events_{}.csv", fault.fault)), Report::csv(&fault.events))?;
+    }
+    std::fs::write(out.join("events.json"), serde_json::to_string(&report.events)?)?;
+    if plan.frame.is_some() {
+        let events = report.located();
+        std::fs::write(out.join("events.quakeml"), quakeml(&plan.title, "run", &events)?)?;
+        if let Some(text) = cmtsolution(&plan.title, &events) {
+            std::fs::write(out.join("CMTSOLUTION"), text)?;
+        }
+    }
+    Ok(())
+}
+
+/// Runs a scene of bodies to its end, with the files it leaves.
+///
+/// # Errors
+/// If the scene is refused, the run stops, or a file cannot be written.
+pub fn bodies(text: &str) -> Result<(Folder, Cost), CaseError> {
+    let scene = scene::read(text).map_err(|e| format!("{e}\nin\n{text}"))?;
+    let plan = plan::plan(&scene).map_err(|e| e.to_string())?;
+    let (folder, (fields, profiles)) = (Folder::new()?, plan.outputs());
+    let mut files = asperity_output::Files::create(folder.path(), FieldSchedule { fields, profiles })?;
+    let (report, cost) = Cost::of(|| run::run(&plan, &mut files));
+    match report?.outcome {
+        Ended::Completed => Ok((folder, cost)),
+        other => Err(format!("the run did not come to its end: {other:?}").into()),
+    }
+}
