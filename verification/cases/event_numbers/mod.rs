@@ -44,7 +44,7 @@ fn spring() -> f64 {
     1.0 / (1e3 / MODULI[0] + 1e3 / MODULI[1])
 }
 
-/// Why the modulus of moments is what it is.
+/// Reason for the modulus of moments.
 const SERIES: &str =
     "2 G1 G2/(G1 + G2): the uniform medium in which slip on its plane causes the same tractions";
 

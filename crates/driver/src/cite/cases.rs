@@ -1,7 +1,8 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 82] = [
+const CASES: [(&str, &[&str]); 90] = [
+    ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
     ("bodies_convergence", &["arnold2002", "boffi2013", "hughes1980"]),
@@ -22,6 +23,8 @@ const CASES: [(&str, &[&str]); 82] = [
     ("cook_membrane", &["cook1974", "williams1952"]),
     ("coulomb_strip", &["curnier1984"]),
     ("elastic_plastic_cylinder", &["hill1950", "desouzaneto2008"]),
+    ("event_files", &["aki2002", "iaspei2013", "moritz2000", "snyder1987"]),
+    ("event_numbers", &["iaspei2013", "aki2002", "starr1928", "rice1993"]),
     ("fault_balance", &["rice1993"]),
     ("fault_bend", &["segall2010", "hirth1982", "xing2006"]),
     ("fault_bodies", &["starr1928", "segall2010", "muskhelishvili1953"]),
@@ -45,6 +48,7 @@ const CASES: [(&str, &[&str]); 82] = [
     ("hertz_line", &["hertz1882", "johnson1985"]),
     ("hertz_sphere", &["hertz1882", "johnson1985"]),
     ("interface_instability", &["riceruina1983", "ranjith1999"]),
+    ("interface_laws", &["ida1972", "andrews1976", "perrin1995"]),
     ("interface_prestress", &["jaeger2007"]),
     ("interface_rate_state", &["dieterich1979", "ruina1983", "hairer1993"]),
     ("jaumann_shear", &["dienes1979", "hugheswinget1980", "nagtegaal1982", "simo1998"]),
@@ -52,7 +56,10 @@ const CASES: [(&str, &[&str]); 82] = [
     ("large_rotation", &["hugheswinget1980", "rubinstein1983"]),
     ("maxwell_relaxation", &["simo1998", "lee1955"]),
     ("nafems_roller", &["konter2006", "johnson1985"]),
+    ("newton_convergence", &["deuflhard2011"]),
+    ("output_files", &["erickson2020"]),
     ("partial_slip", &["cattaneo1938", "mindlin1949", "mindlin1953"]),
+    ("restarts", &[]),
     ("sandwich_3d", &["timoshenko1970"]),
     ("sandwich_pressed", &["xing2002b"]),
     ("sandwich_sheared", &["xing2002b"]),
@@ -73,6 +80,19 @@ const CASES: [(&str, &[&str]); 82] = [
     ("slider_cycles", &["luo2017", "rice1986"]),
     ("slider_inertia", &["hairer1996", "rice1986"]),
     ("slider_inertia_all", &["hairer1996", "rice1986"]),
+    (
+        "slider_laws",
+        &[
+            "dieterich1979",
+            "ruina1983",
+            "okubo1989",
+            "chester1994",
+            "perrin1995",
+            "rice2006",
+            "dunham2011",
+            "nagata2012",
+        ],
+    ),
     ("slider_normal", &["linker1992"]),
     ("slider_orbit", &["gu1984"]),
     ("slider_outputs", &["ruina1983", "gu1984", "nagata2012"]),
