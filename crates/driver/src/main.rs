@@ -10,6 +10,11 @@ fn main() -> ExitCode {
     faer::set_global_parallelism(faer::Par::Seq);
     match cli::execute(&cli::Arguments::parse()) {
         Ok(cli::End::Done) => ExitCode::SUCCESS,
+        Ok(cli::End::Differs) => ExitCode::FAILURE,
+        Ok(cli::End::Unreadable(why)) => {
+            printing::err(format_args!("error: {why}\n"));
+            ExitCode::from(2)
+        }
         Ok(cli::End::Stopped(why)) => {
             printing::err(format_args!("stopped: {why}\n"));
             ExitCode::from(2)

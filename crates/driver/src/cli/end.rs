@@ -7,6 +7,10 @@ pub enum End {
     Done,
     /// The stepper stopped early; everything up to then was written.
     Stopped(String),
+    /// The result does not agree with its benchmark.
+    Differs,
+    /// Input that cannot be read.
+    Unreadable(String),
     /// Interrupted by a signal or by the limit of wall time.
     Interrupted(String),
 }

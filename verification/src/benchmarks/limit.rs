@@ -1,0 +1,101 @@
+//! Limits of values on meshes that are halved each time, with their uncertainty.
+
+use super::digits;
+use asperity_driver::benchmark::Place;
+
+/// Largest ratio of successive differences that is extrapolated: order 0.4. Slower sequences amplify what is not of the leading order.
+const SLOWEST: f64 = 0.75;
+
+/// Share of the tolerance below which an uncertainty does not matter.
+const FINE: f64 = 1e-4;
+/// Uncertainties that a tolerance has at least.
+const SAFE: f64 = 3.0;
+
+/// A limit and its uncertainty.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit {
+    /// Estimate for cells of no size.
+    pub value: f64,
+    /// Uncertainty.
+    pub uncertainty: f64,
+}
+
+/// Extrapolation (Richardson, with the order of the values themselves) of three values; `None` if they do not shrink towards a limit.
+fn extrapolated(values: &[f64]) -> Option<f64> {
+    let [a, b, c] = values else { return None };
+    let ratio = (c - b) / (b - a);
+    (ratio > 0.0 && ratio < SLOWEST).then(|| c + (c - b) * ratio / (1.0 - ratio))
+}
+
+impl Limit {
+    /// Limit of at least three values, the finest last.
+    ///
+    /// The uncertainty of an extrapolation is the size of its correction, or its change from the extrapolation one mesh coarser, if
+    /// that is more. Without extrapolation it is the larger of the last two differences.
+    pub fn of(values: &[f64]) -> Self {
+        let n = values.len();
+        let last = values[n - 1];
+        let Some(value) = extrapolated(&values[n - 3..]) else {
+            let uncertainty = (last - values[n - 2]).abs().max((values[n - 2] - values[n - 3]).abs());
+            return Self { value: last, uncertainty };
+        };
+        let before = (n > 3).then(|| extrapolated(&values[n - 4..n - 1])).flatten();
+        let change = before.map_or(0.0, |before| (value - before).abs());
+        Self { value, uncertainty: change.max((value - last).abs()) }
+    }
+
+    /// The same in another unit.
+    pub fn times(self, factor: f64) -> Self {
+        Self { value: self.value * factor, uncertainty: self.uncertainty * factor.abs() }
+    }
+
+    /// As a reference value: the uncertainty rounded up to two digits, the value to its hundredth.
+    ///
+    /// An uncertainty below [`FINE`] of the tolerance is raised to it, since it cannot matter. A tolerance below [`SAFE`] uncertainties
+    /// is raised to them, since the reference cannot judge more closely.
+    pub fn place(self, at: Option<f64>, tolerance: f64) -> Place {
+        let floor = self.uncertainty.max(FINE * tolerance);
+        let unit = 10f64.powf(floor.log10().floor() - 1.0);
+        let uncertainty = digits((floor / unit).ceil() * unit, 2);
+        let fine = unit / 10.0;
+        // Adding zero turns -0 into 0.
+        let value = digits((self.value / fine).round() * fine, 12) + 0.0;
+        Place { at, value, uncertainty, tolerance: tolerance.max(digits(SAFE * uncertainty, 2)) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sequence_of_one_order_is_extrapolated_to_its_limit() {
+        let values: Vec<f64> = (0..4).map(|k| 3.0 + 0.1 * 0.25f64.powi(k)).collect();
+        let limit = Limit::of(&values);
+        assert!((limit.value - 3.0).abs() < 1e-12, "{limit:?}");
+        assert!((limit.uncertainty - 0.1 * 0.25f64.powi(3)).abs() < 1e-12, "{limit:?}");
+    }
+
+    #[test]
+    fn a_sequence_that_turns_or_hardly_shrinks_is_not() {
+        for values in [[1.0, 2.0, 1.5], [1.0, 2.0, 2.9]] {
+            let limit = Limit::of(&values);
+            assert_eq!(limit.value, values[2]);
+            assert_eq!(limit.uncertainty, 1.0);
+        }
+    }
+
+    #[test]
+    fn a_reference_value_has_the_digits_that_its_uncertainty_leaves() {
+        let place = Limit { value: 9.325_612_34, uncertainty: 0.001_231 }.place(None, 0.03);
+        assert_eq!((place.value, place.uncertainty, place.tolerance), (9.325_61, 0.0013, 0.03));
+    }
+
+    #[test]
+    fn tolerance_and_uncertainty_keep_their_distance() {
+        let coarse = Limit { value: 1.0, uncertainty: 0.02 }.place(None, 0.03);
+        assert_eq!((coarse.uncertainty, coarse.tolerance), (0.02, 0.06));
+        let fine = Limit { value: -1e-12, uncertainty: 1e-15 }.place(None, 0.02);
+        assert_eq!((fine.value, fine.uncertainty), (0.0, 2e-6));
+    }
+}
