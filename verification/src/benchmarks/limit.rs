@@ -11,6 +11,19 @@ const FINE: f64 = 1e-4;
 /// Uncertainties that a tolerance has at least.
 const SAFE: f64 = 3.0;
 
+/// Share of the largest uncertainty along a curve that its other places have at least: where errors change their sign, a small
+/// correction says nothing.
+const ALONG: f64 = 0.1;
+
+/// Reference values along a curve, from coordinates and limits.
+pub fn places(limits: &[(f64, Limit)], tolerance: f64) -> Vec<Place> {
+    let floor = ALONG * limits.iter().map(|(_, limit)| limit.uncertainty).fold(0.0, f64::max);
+    let place = |(at, limit): &(f64, Limit)| {
+        Limit { uncertainty: limit.uncertainty.max(floor), ..*limit }.place(Some(*at), tolerance)
+    };
+    limits.iter().map(place).collect()
+}
+
 /// A limit and its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
@@ -31,12 +44,15 @@ impl Limit {
     /// Limit of at least three values, the finest last.
     ///
     /// The uncertainty of an extrapolation is the size of its correction, or its change from the extrapolation one mesh coarser, if
-    /// that is more. Without extrapolation it is the larger of the last two differences.
+    /// that is more. Values that swing around their limit, and ever less, have it between the last two: the uncertainty is twice
+    /// their difference. Of others it is the larger of the last two differences.
     pub fn of(values: &[f64]) -> Self {
         let n = values.len();
         let last = values[n - 1];
         let Some(value) = extrapolated(&values[n - 3..]) else {
-            let uncertainty = (last - values[n - 2]).abs().max((values[n - 2] - values[n - 3]).abs());
+            let (late, early) = (last - values[n - 2], values[n - 2] - values[n - 3]);
+            let swings = late * early < 0.0 && late.abs() < 0.5 * early.abs();
+            let uncertainty = if swings { 2.0 * late.abs() } else { late.abs().max(early.abs()) };
             return Self { value: last, uncertainty };
         };
         let before = (n > 3).then(|| extrapolated(&values[n - 4..n - 1])).flatten();
@@ -44,9 +60,9 @@ impl Limit {
         Self { value, uncertainty: change.max((value - last).abs()) }
     }
 
-    /// The same in another unit.
-    pub fn times(self, factor: f64) -> Self {
-        Self { value: self.value * factor, uncertainty: self.uncertainty * factor.abs() }
+    /// The limit, no better known than the limit of another method is near.
+    pub fn beside(self, other: Self) -> Self {
+        Self { uncertainty: self.uncertainty.max((self.value - other.value).abs()), ..self }
     }
 
     /// As a reference value: the uncertainty rounded up to two digits, the value to its hundredth.
@@ -78,10 +94,12 @@ mod tests {
 
     #[test]
     fn a_sequence_that_turns_or_hardly_shrinks_is_not() {
-        for values in [[1.0, 2.0, 1.5], [1.0, 2.0, 2.9]] {
+        for (values, uncertainty) in
+            [([1.0, 2.0, 1.25], 1.0), ([1.0, 2.0, 2.875], 1.0), ([1.0, 2.0, 1.875], 0.25)]
+        {
             let limit = Limit::of(&values);
             assert_eq!(limit.value, values[2]);
-            assert_eq!(limit.uncertainty, 1.0);
+            assert_eq!(limit.uncertainty, uncertainty);
         }
     }
 
@@ -97,5 +115,12 @@ mod tests {
         assert_eq!((coarse.uncertainty, coarse.tolerance), (0.02, 0.06));
         let fine = Limit { value: -1e-12, uncertainty: 1e-15 }.place(None, 0.02);
         assert_eq!((fine.value, fine.uncertainty), (0.0, 2e-6));
+    }
+
+    #[test]
+    fn no_place_of_a_curve_is_far_better_known_than_another() {
+        let limit = |uncertainty| Limit { value: 1.0, uncertainty };
+        let found = places(&[(0.0, limit(0.02)), (1.0, limit(1e-7))], 1.0);
+        assert_eq!((found[0].uncertainty, found[1].uncertainty), (0.02, 0.002));
     }
 }

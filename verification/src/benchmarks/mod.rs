@@ -4,6 +4,9 @@
 //! The program `asperity-benchmarks` writes them to `docs/src/benchmarks`. Reference values are closed forms, or limits of the
 //! independent programs of `verification/independent`; no value of this program is a reference.
 
+mod bend;
+mod block;
+mod bp1;
 mod contact;
 mod entry;
 mod independent;
@@ -38,8 +41,11 @@ pub struct Maker {
 /// All benchmarks.
 pub const ALL: &[Maker] = &[
     Maker { name: "sandwich/v1", make: sandwich::make },
+    Maker { name: "sandwich-state/v1", make: block::make },
+    Maker { name: "fault-bend/v1", make: bend::make },
     Maker { name: "hertz/v1", make: contact::hertz },
     Maker { name: "partial-slip/v1", make: contact::partial_slip },
+    Maker { name: "seas-bp1-quick/v1", make: bp1::make },
 ];
 
 fn reference(benchmark: &str, title: &str, quantities: Vec<Quantity>) -> Reference {

@@ -1,7 +1,7 @@
 //! `sandwich/v1`: a block pressed against another and sheared.
 
 use super::independent::Results;
-use super::limit::Limit;
+use super::limit::{self, Limit};
 use super::{Entry, Made, Words, exact, interpolated, optional, reference};
 use crate::CaseError;
 use crate::cases::sandwich::{self, PRESSED, Run, V_LOAD};
@@ -56,8 +56,9 @@ fn shears(histories: &Results) -> Result<Vec<Vec<f64>>, CaseError> {
 fn quantities(results: &Results, histories: &Results) -> Result<Vec<Quantity>, CaseError> {
     let ways = moved(histories)?;
     let along = |words: Words, values: &dyn Fn(usize) -> Vec<f64>, tolerance: f64| {
-        let place = |(k, way): (usize, &f64)| Limit::of(&values(k)).place(Some(*way), tolerance);
-        words.along("Way of the upper edge", "um", ways.iter().enumerate().map(place).collect())
+        let limits = ways.iter().enumerate().map(|(k, way)| (*way, Limit::of(&values(k))));
+        let places = limit::places(&limits.collect::<Vec<_>>(), tolerance);
+        words.along("Way of the upper edge", "um", places)
     };
     let mut all = vec![
         Words {

@@ -19,6 +19,9 @@ struct Options {
     /// Folder of the benchmarks.
     #[arg(long, value_name = "DIR", default_value = "docs/src/benchmarks")]
     folder: PathBuf,
+    /// Run nothing: write the tables of values, templates and pages from the reference values and results that are there.
+    #[arg(long)]
+    pages: bool,
     /// Only benchmarks with this in their names.
     #[arg(value_name = "PART")]
     only: Option<String>,
@@ -28,7 +31,7 @@ fn main() -> ExitCode {
     let options = Options::parse();
     let chosen = |maker: &&Maker| options.only.as_ref().is_none_or(|part| maker.name.contains(part.as_str()));
     for maker in benchmarks::ALL.iter().filter(chosen) {
-        if let Err(error) = write(&options.folder, maker) {
+        if let Err(error) = write(&options, maker) {
             eprintln!("error: {}: {error}", maker.name);
             return ExitCode::FAILURE;
         }
@@ -37,16 +40,24 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-fn write(folder: &Path, maker: &Maker) -> Result<(), CaseError> {
-    let folder = folder.join(maker.name);
+fn write(options: &Options, maker: &Maker) -> Result<(), CaseError> {
+    let folder = options.folder.join(maker.name);
+    if !options.pages {
+        run(&folder, maker)?;
+    }
+    for file in pages::derived(&folder)? {
+        fs::write(&file.path, &file.text)?;
+    }
+    Ok(())
+}
+
+/// Writes reference values and entries.
+fn run(folder: &Path, maker: &Maker) -> Result<(), CaseError> {
     let made = (maker.make)()?;
     fs::create_dir_all(folder.join("results"))?;
     fs::write(folder.join("reference.json"), serde_json::to_string_pretty(&made.reference)? + "\n")?;
     for entry in &made.entries {
         fs::write(folder.join("results").join(format!("{}.csv", entry.file)), entry.text(&made.reference))?;
-    }
-    for file in pages::derived(&folder)? {
-        fs::write(&file.path, &file.text)?;
     }
     Ok(())
 }

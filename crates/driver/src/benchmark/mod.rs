@@ -16,10 +16,13 @@ pub use submission::{Defect, Row, Submission};
 use std::sync::LazyLock;
 
 /// Text of the reference values of every benchmark.
-const TEXTS: [&str; 3] = [
+const TEXTS: [&str; 6] = [
     include_str!("../../../../docs/src/benchmarks/sandwich/v1/reference.json"),
+    include_str!("../../../../docs/src/benchmarks/sandwich-state/v1/reference.json"),
+    include_str!("../../../../docs/src/benchmarks/fault-bend/v1/reference.json"),
     include_str!("../../../../docs/src/benchmarks/hertz/v1/reference.json"),
     include_str!("../../../../docs/src/benchmarks/partial-slip/v1/reference.json"),
+    include_str!("../../../../docs/src/benchmarks/seas-bp1-quick/v1/reference.json"),
 ];
 
 /// All benchmarks. A test reads each of them.
