@@ -1,7 +1,9 @@
 //! `fault-bend/v1`: tractions of given slip across a bend of a fault.
 
+use super::entry::Entry;
 use super::independent::Results;
-use super::{Entry, Made, Words, digits, interpolated, reference};
+use super::parts::{Made, PER_PASCAL, Words, interpolated, reference};
+use super::rounded::digits;
 use crate::CaseError;
 use crate::cases::fault_bend;
 use asperity_driver::benchmark::{Place, Quantity};
@@ -15,7 +17,7 @@ pub fn make() -> Result<Made, CaseError> {
     let rows = Results::read(include_str!("../../independent/bend.json"))?
         .at("distance above the bend [m], shear [Pa], normal [Pa]")?
         .rows()?;
-    let column = |j: usize| -> Vec<f64> { rows.iter().map(|row| row[j] * 1e-6).collect() };
+    let column = |j: usize| -> Vec<f64> { rows.iter().map(|row| row[j] * PER_PASCAL).collect() };
     let places: Vec<f64> = rows.iter().map(|row| row[0] * 1e-3).collect();
     let quantity = |name, meaning, values: Vec<f64>, tolerance: f64| -> Quantity {
         let place = |(at, value): (&f64, f64)| Place {
@@ -55,7 +57,7 @@ fn here(places: &[f64]) -> Result<Entry, CaseError> {
     let found = fault_bend::statics_of(SIZE)?;
     let above: Vec<f64> = found.along.iter().rev().map(|s| (fault_bend::BEND - s) * 1e-3).collect();
     let at = |values: &[f64]| -> Vec<f64> {
-        let values: Vec<f64> = values.iter().rev().map(|v| v * 1e-6).collect();
+        let values: Vec<f64> = values.iter().rev().map(|v| v * PER_PASCAL).collect();
         places.iter().map(|&s| interpolated(&above, &values, s)).collect()
     };
     Ok(Entry::new(

@@ -1,8 +1,10 @@
 //! `sandwich-state/v1`: stick-slip of a laboratory block.
 
+use super::entry::Entry;
 use super::independent::Results;
 use super::limit::{self, Limit};
-use super::{Entry, Made, Words, digits, interpolated, optional, reference};
+use super::parts::{Made, PER_PASCAL, Words, interpolated, optional, reference};
+use super::rounded::digits;
 use crate::CaseError;
 use crate::cases::sandwich_state::{block, small_block};
 use crate::cases::seas;
@@ -12,6 +14,8 @@ use asperity_driver::fault::Plan;
 
 /// Elements of this program's entry \[mm\].
 const SIZE: f64 = 0.3125;
+/// Length L of the stiff and the soft machine \[m\].
+const LENGTHS: [f64; 2] = [0.5e-6, 10e-6];
 /// Shares of the second interval.
 const SHARES: [f64; 9] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
 
@@ -41,12 +45,12 @@ impl Runs {
     }
 
     fn shear(&self, k: usize) -> Result<Vec<f64>, CaseError> {
-        self.each("mean shear traction there [Pa]", k, 1e-6)
+        self.each("mean shear traction there [Pa]", k, PER_PASCAL)
     }
 }
 
 pub fn make() -> Result<Made, CaseError> {
-    let (stiff, soft) = (Runs::of(0.5e-6)?, Runs::of(1e-5)?);
+    let (stiff, soft) = (Runs::of(LENGTHS[0])?, Runs::of(LENGTHS[1])?);
     let one =
         |words: Words, values: Vec<f64>, tolerance: f64| words.one(Limit::of(&values).place(None, tolerance));
     let quantities = vec![
@@ -131,7 +135,7 @@ fn friction(plan: &Plan, now: &Moment<'_>) -> f64 {
         point.area * now.normal(p) * law.scale(p) * now.unknowns[p].abs()
     };
     let area: f64 = plan.points.iter().map(|p| p.area).sum();
-    plan.points.iter().enumerate().map(of).sum::<f64>() / area * 1e-6
+    plan.points.iter().enumerate().map(of).sum::<f64>() / area * PER_PASCAL
 }
 
 fn cycle(plan: &Plan) -> Result<Cycle, CaseError> {

@@ -1,8 +1,9 @@
 //! `seas-bp1-quick/v1`: the first three events of the community's benchmark BP1-QD.
 
+use super::entry::Entry;
 use super::independent::Results;
 use super::limit::{self, Limit};
-use super::{Entry, Made, Words, interpolated, reference};
+use super::parts::{Made, Words, interpolated, reference};
 use crate::CaseError;
 use crate::cases::seas;
 use asperity_driver::benchmark::Quantity;
@@ -34,7 +35,7 @@ pub fn make() -> Result<Made, CaseError> {
     Ok(Made { reference, entries })
 }
 
-/// What a run found: onsets, intervals, largest rates of the last two events, time of the last above 1 mm/s.
+/// Summary of a run: onsets, intervals, largest rates of the last two events, time of the last above 1 mm/s.
 fn summary(onsets: &[f64], peaks: &[f64], above: f64) -> [(&'static str, f64); 6] {
     [
         ("first_onset", onsets[0]),

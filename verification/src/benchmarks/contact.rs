@@ -1,7 +1,8 @@
 //! `hertz/v1` and `partial-slip/v1`: a line contact under load, and under shear.
 
+use super::entry::Entry;
 use super::independent::Results;
-use super::{Entry, Made, Words, exact, interpolated, reference};
+use super::parts::{Made, Words, exact, interpolated, reference};
 use crate::CaseError;
 use crate::cases::hertz::{self, Hertz, Tractions, compliance};
 use asperity_driver::benchmark::Quantity;
@@ -169,6 +170,10 @@ fn along_x(mut at: Tractions) -> Tractions {
     at
 }
 
+/// Ways at which the search for Q = mu P/2 begins \[m\]: that of the scene, and one near it.
+const FORTH: [f64; 2] = [4e-6, 4.2e-6];
+/// The same for Q = 0, after slip has left some way.
+const BACK: [f64; 2] = [0.0, 0.5e-6];
 /// Share of mu P within which a load is met.
 const MET: f64 = 1e-6;
 
@@ -196,8 +201,8 @@ fn loaded(
 }
 
 fn sheared() -> Result<Entry, CaseError> {
-    let (forth, at) = loaded(0.5, [4e-6, 4.2e-6], "shear", |way| drawn(way, None))?;
-    let (_, back) = loaded(0.0, [0.0, 0.5e-6], "back", |way| drawn(forth, Some(way)))?;
+    let (forth, at) = loaded(0.5, FORTH, "shear", |way| drawn(way, None))?;
+    let (_, back) = loaded(0.0, BACK, "back", |way| drawn(forth, Some(way)))?;
     let shares = |at: &Tractions, places: &[f64]| -> Vec<f64> {
         profile(at, &at.q, &exact_of(at), places).iter().map(|q| q / MU).collect()
     };

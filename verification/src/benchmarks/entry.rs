@@ -1,6 +1,6 @@
 //! A result of a benchmark, as a table that `asperity compare` reads.
 
-use super::digits;
+use super::rounded::digits;
 use asperity_driver::benchmark::Reference;
 use std::fmt::Write as _;
 

@@ -1,6 +1,6 @@
 //! Limits of values on meshes that are halved each time, with their uncertainty.
 
-use super::digits;
+use super::rounded::digits;
 use asperity_driver::benchmark::Place;
 
 /// Largest ratio of successive differences that is extrapolated: order 0.4. Slower sequences amplify what is not of the leading order.
@@ -8,6 +8,8 @@ const SLOWEST: f64 = 0.75;
 
 /// Share of the tolerance below which an uncertainty does not matter.
 const FINE: f64 = 1e-4;
+/// Units of the last digit by which a number may exceed a round one because of rounding.
+const ROUNDING: f64 = 1e-6;
 /// Uncertainties that a tolerance has at least.
 const SAFE: f64 = 3.0;
 
@@ -72,7 +74,7 @@ impl Limit {
     pub fn place(self, at: Option<f64>, tolerance: f64) -> Place {
         let floor = self.uncertainty.max(FINE * tolerance);
         let unit = 10f64.powf(floor.log10().floor() - 1.0);
-        let uncertainty = digits((floor / unit).ceil() * unit, 2);
+        let uncertainty = digits((floor / unit - ROUNDING).ceil() * unit, 2);
         let fine = unit / 10.0;
         // Adding zero turns -0 into 0.
         let value = digits((self.value / fine).round() * fine, 12) + 0.0;

@@ -1,8 +1,9 @@
 //! `sandwich/v1`: a block pressed against another and sheared.
 
+use super::entry::Entry;
 use super::independent::Results;
 use super::limit::{self, Limit};
-use super::{Entry, Made, Words, exact, interpolated, optional, reference};
+use super::parts::{MICROMETRE, Made, PER_PASCAL, Words, exact, interpolated, optional, reference};
 use crate::CaseError;
 use crate::cases::sandwich::{self, PRESSED, Run, V_LOAD};
 use asperity_driver::benchmark::Quantity;
@@ -14,6 +15,10 @@ const HEIGHTS: [(f64, &str, &str); 3] = [
     (25e-3, "slip_y25", "Slip at y = 25 mm"),
     (37.5e-3, "slip_y37", "Slip at y = 37.5 mm"),
 ];
+/// Tolerance of the friction coefficient: 1 % of the slip rate, a dV/V.
+const FRICTION: f64 = 1e-4;
+/// Error of slip that a step of this program's entry may have \[m\]: a hundredth of the tolerances.
+const STEP: f64 = 2e-10;
 /// Cells of this program's entry \[mm\].
 const SIZE: f64 = 0.3125;
 
@@ -92,7 +97,7 @@ fn quantities(results: &Results, histories: &Results) -> Result<Vec<Quantity>, C
             source: "closed form: mu0 + a ln(V_load/Vref)",
             because: "1 % of the slip rate, a dV/V",
         }
-        .one(exact(None, 0.6, 1e-4)),
+        .one(exact(None, 0.6, FRICTION)),
     );
     all.push(optional(
         Words {
@@ -123,12 +128,12 @@ fn no_overhang() -> Quantity {
 
 /// Values at the positions of the upper edge, from the steps of a run.
 fn history(run: &Run, ways: &[f64], values: &[f64]) -> Vec<f64> {
-    let time = |way: &f64| PRESSED + way * 1e-6 / V_LOAD;
+    let time = |way: &f64| PRESSED + way * MICROMETRE / V_LOAD;
     ways.iter().map(|way| interpolated(run.record.times(), values, time(way))).collect()
 }
 
 fn here(ways: &[f64]) -> Result<Entry, CaseError> {
-    let run = sandwich::simulate(&sandwich::tolerance(sandwich::size(sandwich::base()?, SIZE), 2e-10))?;
+    let run = sandwich::simulate(&sandwich::tolerance(sandwich::size(sandwich::base()?, SIZE), STEP))?;
     let wide =
         sandwich::simulate(&sandwich::press_only(sandwich::wide(sandwich::size(sandwich::base()?, SIZE))))?;
     let level = sandwich::simulate(&sandwich::press_only(sandwich::no_overhang(sandwich::size(
@@ -146,13 +151,13 @@ fn here(ways: &[f64]) -> Result<Entry, CaseError> {
     .with("mean_normal_traction_wide", [wide.mean_normal("press")?])
     .with("mean_normal_traction_no_overhang", [level.mean_normal("press")?]);
     for (y, name, _) in HEIGHTS {
-        let slip: Vec<f64> = points[run.node_at(y)?].slip.iter().map(|s| s.abs() * 1e6).collect();
+        let slip: Vec<f64> = points[run.node_at(y)?].slip.iter().map(|s| s.abs() / MICROMETRE).collect();
         entry = entry.with(name, history(&run, ways, &slip));
     }
     let areas = run.record.areas(0);
     let shear: Vec<f64> = (0..run.record.times().len())
         .map(|step| {
-            let at: Vec<f64> = points.iter().map(|p| p.shear_traction[step].abs() * 1e-6).collect();
+            let at: Vec<f64> = points.iter().map(|p| p.shear_traction[step].abs() * PER_PASCAL).collect();
             mean(&at, areas)
         })
         .collect();
