@@ -6,7 +6,9 @@
 //! * [`suite`]: which cases run, and the outcome of the whole.
 //! * [`report`]: `report.json` and the HTML pages.
 //! * [`cases`]: the one list of cases.
+//! * [`benchmarks`]: reference values and entries of the benchmarks that others can enter.
 
+pub mod benchmarks;
 pub mod capability;
 pub mod case;
 pub mod claim;

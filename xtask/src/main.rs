@@ -5,6 +5,7 @@
     reason = "a program speaks through its standard streams"
 )]
 
+mod benchmarks;
 mod defects;
 mod interop;
 mod report;
@@ -52,6 +53,18 @@ enum Chore {
         #[arg(long)]
         again: bool,
     },
+    /// Writes the benchmarks that others can enter: reference values, entries and pages, or an archive of them.
+    Benchmarks {
+        /// Only benchmarks with this in their names.
+        #[arg(value_name = "PART")]
+        only: Option<String>,
+        /// Run nothing: only the files that follow from reference values and results.
+        #[arg(long)]
+        pages: bool,
+        /// Write an archive of all files there instead, the same bytes for the same files.
+        #[arg(long, value_name = "FILE.tar", conflicts_with_all = ["only", "pages"])]
+        archive: Option<PathBuf>,
+    },
     /// Runs the benches.
     Bench,
     /// Says where the last verification report is, and what it says.
@@ -69,6 +82,9 @@ fn main() -> ExitCode {
         Chore::Tidy => tidy(&root),
         Chore::Defects { only, expected, tests, again } => {
             defects::run(&root, &defects::Choice { only, expected, tests, again })
+        }
+        Chore::Benchmarks { only, pages, archive } => {
+            benchmarks::run(&root, &benchmarks::Choice { only, pages, archive })
         }
         Chore::Bench => Stage::new("bench", "cargo").args(["bench", "-p", "asperity-benches"]).run(&root),
         Chore::Report => report::print(&root),

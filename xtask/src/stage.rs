@@ -44,6 +44,14 @@ pub enum Failure {
         /// Reason.
         source: std::io::Error,
     },
+    /// A file cannot be written.
+    #[error("cannot write {}: {source}", .path.display())]
+    Write {
+        /// Which.
+        path: PathBuf,
+        /// Reason.
+        source: std::io::Error,
+    },
     /// A result that must exist first.
     #[error("{} does not exist; make it with: {how}", .path.display())]
     Absent {

@@ -3,6 +3,7 @@
 
 mod amounts;
 pub mod balance;
+pub mod benchmark;
 pub mod checkpoint;
 pub mod cite;
 pub mod cli;

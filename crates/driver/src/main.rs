@@ -11,7 +11,8 @@ fn main() -> ExitCode {
     match cli::execute(&cli::Arguments::parse()) {
         Ok(end) => {
             match &end {
-                cli::End::Done => {}
+                cli::End::Done | cli::End::Differs => {}
+                cli::End::Unreadable(why) => printing::err(format_args!("error: {why}\n")),
                 cli::End::Stopped(why) => printing::err(format_args!("stopped: {why}\n")),
                 cli::End::Interrupted(why) => printing::err(format_args!("{why}\n")),
             }

@@ -19,7 +19,7 @@ pub const CASE: Case = Case {
 
 const SCENE: &str = include_str!("../../../scenes/fault-bend.toml");
 /// Distance of the bend along the fault, and length of the fault \[m\].
-const BEND: f64 = 15e3;
+pub(crate) const BEND: f64 = 15e3;
 const LENGTH: f64 = 30e3;
 /// Turn of the lower half \[rad\].
 const TURN: f64 = std::f64::consts::FRAC_PI_6;
@@ -100,10 +100,18 @@ fn tractions(at: f64) -> (f64, f64) {
 const NEAR: f64 = 2000.0;
 
 /// Tractions of [`slip`] over the distance along the fault.
-struct Tractions {
-    along: Vec<f64>,
-    shear: Vec<f64>,
-    normal: Vec<f64>,
+pub(crate) struct Tractions {
+    /// Distances along the fault \[m\].
+    pub along: Vec<f64>,
+    /// Shear tractions \[Pa\].
+    pub shear: Vec<f64>,
+    /// Normal tractions, compression positive \[Pa\].
+    pub normal: Vec<f64>,
+}
+
+/// Tractions of [`slip`] on cells of this size \[m\], in a box so large that it hardly matters.
+pub(crate) fn statics_of(size: f64) -> Result<Tractions, CaseError> {
+    far(size).map(|plan| found(&plan))
 }
 
 fn found(plan: &Plan) -> Tractions {
@@ -134,7 +142,7 @@ fn statics(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut levels = [Vec::new(), Vec::new()];
     let mut last = None;
     for size in [1000.0, 500.0, 250.0] {
-        let (result, cost) = Cost::of(|| far(size).map(|plan| found(&plan)));
+        let (result, cost) = Cost::of(|| statics_of(size));
         let tractions = result?;
         for (levels, error) in levels.iter_mut().zip(errors(&tractions)) {
             levels.push((size, error));

@@ -27,7 +27,7 @@ const FACE: f64 = 50e-3;
 const LOAD: f64 = 1e-6;
 
 /// The scene with elements of this size \[mm\].
-fn block(size: f64, events: usize) -> Result<Plan, CaseError> {
+pub(crate) fn block(size: f64, events: usize) -> Result<Plan, CaseError> {
     let scene = SceneText::new(SCENE)
         .with_or_same("bodies.A.mesh.block.size", format!("{size} mm"))
         .with_or_same("bodies.B.mesh.block.size", format!("{size} mm"));
@@ -35,7 +35,7 @@ fn block(size: f64, events: usize) -> Result<Plan, CaseError> {
 }
 
 /// The same with L = 10 um and a soft machine: all of the face slides together.
-fn small_block(events: usize) -> Result<Plan, CaseError> {
+pub(crate) fn small_block(events: usize) -> Result<Plan, CaseError> {
     let scene = SceneText::new(SCENE)
         .with("faults.face.law.l", "10 um")
         .with("stages[0].conditions[3].y.spring", "2e9")

@@ -21,6 +21,7 @@ const ROWS: [Row; 1] = [Row {
     folder: "crates/driver/src/",
     module: "scene",
     readers: &[
+        "benchmark/submission.rs",
         "cite/",
         "cli/",
         "diagnostic/",

@@ -1,5 +1,6 @@
 //! Citations of the program, of a benchmark, and of the laws and methods that a scene declares.
 
+mod benchmarks;
 mod cases;
 mod laws;
 mod references;
@@ -42,6 +43,16 @@ impl Citations {
         let mut citations = Self::default();
         for key in keys(name)? {
             citations.add(key, format!("literature of the case {name}"));
+        }
+        Some(citations)
+    }
+
+    /// Citations of a benchmark; `None` if there is no such benchmark.
+    #[must_use]
+    pub fn of_benchmark(name: &str) -> Option<Self> {
+        let mut citations = Self::default();
+        for key in benchmarks::keys(name)? {
+            citations.add(key, format!("the benchmark {name}"));
         }
         Some(citations)
     }
@@ -103,6 +114,7 @@ mod tests {
             .chain(laws::KEYS.iter().copied())
             .chain(scene::KEYS.iter().copied())
             .chain(titles::keys())
+            .chain(benchmarks::names().flat_map(|name| benchmarks::keys(name).unwrap()).copied())
             .chain([PROGRAM])
             .collect();
         for key in &cited {

@@ -2,25 +2,29 @@
 
 use super::end::End;
 use super::read::Source;
+use crate::benchmark;
 use crate::cite::{self, Citations};
 use crate::scene::near::nearest;
 use asperity_output::printing;
 use miette::miette;
 use std::path::Path;
 
-/// Prints what to cite for a scene file or a case.
+/// Prints what to cite for a scene file, a case or a benchmark.
 pub(super) fn print(of: Option<&str>) -> miette::Result<End> {
     let citations = match of {
         None => Citations::default(),
         Some(name) if Path::new(name).is_file() => Source::read(Path::new(name))?.citations()?,
-        Some(name) => Citations::of_case(name).ok_or_else(|| unknown(name))?,
+        Some(name) => {
+            let known = Citations::of_case(name).or_else(|| Citations::of_benchmark(name));
+            known.ok_or_else(|| unknown(name))?
+        }
     };
     printing::out(format_args!("{}", citations.bibtex()));
     Ok(End::Done)
 }
 
 fn unknown(name: &str) -> miette::Report {
-    let meant =
-        nearest(name, cite::names()).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
-    miette!("there is no scene file and no verification case `{name}`{meant}")
+    let names = cite::names().chain(benchmark::all().iter().map(|r| r.benchmark.as_str()));
+    let meant = nearest(name, names).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+    miette!("there is no scene file, verification case or benchmark `{name}`{meant}")
 }

@@ -7,6 +7,10 @@ pub enum End {
     Done,
     /// The stepper stopped early; everything up to then was written.
     Stopped(String),
+    /// The result does not agree with its benchmark.
+    Differs,
+    /// Input that cannot be read.
+    Unreadable(String),
     /// Interrupted by a signal or by the limit of wall time.
     Interrupted(String),
 }
@@ -17,7 +21,8 @@ impl End {
     pub fn code(&self) -> u8 {
         match self {
             Self::Done => 0,
-            Self::Stopped(_) => 2,
+            Self::Differs => 1,
+            Self::Stopped(_) | Self::Unreadable(_) => 2,
             Self::Interrupted(_) => 3,
         }
     }

@@ -1,7 +1,8 @@
-//! The commands of the binary: `run`, `check`, `cite` and `schema`.
+//! The commands of the binary: `run`, `check`, `compare`, `cite` and `schema`.
 
 mod begin;
 mod cite;
+mod compare;
 mod contents;
 mod directory;
 mod end;
@@ -16,6 +17,7 @@ use crate::report;
 use asperity_output::{Pulse, printing};
 use begin::Begin;
 use clap::{Parser, Subcommand, ValueEnum};
+pub use compare::Comparison;
 use contents::Contents;
 use directory::Directory;
 pub use end::End;
@@ -59,6 +61,8 @@ pub enum Command {
         /// Scene file (TOML).
         scene: PathBuf,
     },
+    /// Compare a result with a benchmark: exit code 0 if it agrees, 1 if not, 2 if it cannot be read.
+    Compare(Comparison),
     /// Print what to cite, as BibTeX: the program, the problem, and the laws and methods that a scene declares.
     Cite {
         /// Scene file (TOML), or name of a verification case or benchmark; without it, the program alone.
@@ -91,6 +95,7 @@ pub fn execute(arguments: &Arguments) -> miette::Result<End> {
             print::plan(&Source::read(scene)?.plan()?.plan);
             Ok(End::Done)
         }
+        Command::Compare(asked) => compare::execute(asked),
         Command::Cite { of } => cite::print(of.as_deref()),
         Command::Schema { of } => {
             let schema = match of {

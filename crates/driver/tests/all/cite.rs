@@ -136,6 +136,10 @@ fn the_command_knows_cases_and_the_program_itself() {
     for key in ["asperity", "cattaneo1938", "mindlin1949", "mindlin1953"] {
         assert!(case.get(key).is_some(), "{key}");
     }
+    let benchmark = Bibliography::parse(&text(&["cite", "hertz/v1"])).unwrap();
+    for key in ["asperity", "asperity-hertz-v1", "hertz1882"] {
+        assert!(benchmark.get(key).is_some(), "{key}");
+    }
 }
 
 #[test]
@@ -143,7 +147,7 @@ fn what_is_neither_scene_nor_case_is_refused_with_the_nearest_name() {
     let output = asperity(&["cite", "partial_slips"]);
     assert_eq!(output.status.code(), Some(1));
     let message = told(&output);
-    assert!(message.contains("no scene file and no verification case `partial_slips`"), "{message}");
+    assert!(message.contains("no scene file, verification case or benchmark `partial_slips`"), "{message}");
     assert!(message.contains("did you mean `partial_slip`?"), "{message}");
 }
 

@@ -8,6 +8,7 @@ mod cite;
 mod column_tables;
 mod command;
 mod common;
+mod compare;
 mod directories;
 mod documents;
 mod doubtful_scenes;

@@ -1,0 +1,128 @@
+//! Limits of values on meshes that are halved each time, with their uncertainty.
+
+use super::rounded::digits;
+use asperity_driver::benchmark::Place;
+
+/// Largest ratio of successive differences that is extrapolated: order 0.4. Slower sequences amplify what is not of the leading order.
+const SLOWEST: f64 = 0.75;
+
+/// Share of the tolerance below which an uncertainty does not matter.
+const FINE: f64 = 1e-4;
+/// Units of the last digit by which a number may exceed a round one because of rounding.
+const ROUNDING: f64 = 1e-6;
+/// Uncertainties that a tolerance has at least.
+const SAFE: f64 = 3.0;
+
+/// Share of the largest uncertainty along a curve that its other places have at least: where errors change their sign, a small
+/// correction says nothing.
+const ALONG: f64 = 0.1;
+
+/// Reference values along a curve, from coordinates and limits.
+pub fn places(limits: &[(f64, Limit)], tolerance: f64) -> Vec<Place> {
+    let floor = ALONG * limits.iter().map(|(_, limit)| limit.uncertainty).fold(0.0, f64::max);
+    let place = |(at, limit): &(f64, Limit)| {
+        Limit { uncertainty: limit.uncertainty.max(floor), ..*limit }.place(Some(*at), tolerance)
+    };
+    limits.iter().map(place).collect()
+}
+
+/// A limit and its uncertainty.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit {
+    /// Estimate for cells of no size.
+    pub value: f64,
+    /// Uncertainty.
+    pub uncertainty: f64,
+}
+
+/// Extrapolation (Richardson, with the order of the values themselves) of three values; `None` if they do not shrink towards a limit.
+fn extrapolated(values: &[f64]) -> Option<f64> {
+    let [a, b, c] = values else { return None };
+    let ratio = (c - b) / (b - a);
+    (ratio > 0.0 && ratio < SLOWEST).then(|| c + (c - b) * ratio / (1.0 - ratio))
+}
+
+impl Limit {
+    /// Limit of at least three values, the finest last.
+    ///
+    /// The uncertainty of an extrapolation is the size of its correction, or its change from the extrapolation one mesh coarser, if
+    /// that is more. Values that swing around their limit, and ever less, have it between the last two: the uncertainty is twice
+    /// their difference. Of others it is the larger of the last two differences.
+    pub fn of(values: &[f64]) -> Self {
+        let n = values.len();
+        let last = values[n - 1];
+        let Some(value) = extrapolated(&values[n - 3..]) else {
+            let (late, early) = (last - values[n - 2], values[n - 2] - values[n - 3]);
+            let swings = late * early < 0.0 && late.abs() < 0.5 * early.abs();
+            let uncertainty = if swings { 2.0 * late.abs() } else { late.abs().max(early.abs()) };
+            return Self { value: last, uncertainty };
+        };
+        let before = (n > 3).then(|| extrapolated(&values[n - 4..n - 1])).flatten();
+        let change = before.map_or(0.0, |before| (value - before).abs());
+        Self { value, uncertainty: change.max((value - last).abs()) }
+    }
+
+    /// The limit, no better known than the limit of another method is near.
+    pub fn beside(self, other: Self) -> Self {
+        Self { uncertainty: self.uncertainty.max((self.value - other.value).abs()), ..self }
+    }
+
+    /// As a reference value: the uncertainty rounded up to two digits, the value to its hundredth.
+    ///
+    /// An uncertainty below [`FINE`] of the tolerance is raised to it, since it cannot matter. A tolerance below [`SAFE`] uncertainties
+    /// is raised to them, since the reference cannot judge more closely.
+    pub fn place(self, at: Option<f64>, tolerance: f64) -> Place {
+        let floor = self.uncertainty.max(FINE * tolerance);
+        let unit = 10f64.powf(floor.log10().floor() - 1.0);
+        let uncertainty = digits((floor / unit - ROUNDING).ceil() * unit, 2);
+        let fine = unit / 10.0;
+        // Adding zero turns -0 into 0.
+        let value = digits((self.value / fine).round() * fine, 12) + 0.0;
+        Place { at, value, uncertainty, tolerance: tolerance.max(digits(SAFE * uncertainty, 2)) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sequence_of_one_order_is_extrapolated_to_its_limit() {
+        let values: Vec<f64> = (0..4).map(|k| 3.0 + 0.1 * 0.25f64.powi(k)).collect();
+        let limit = Limit::of(&values);
+        assert!((limit.value - 3.0).abs() < 1e-12, "{limit:?}");
+        assert!((limit.uncertainty - 0.1 * 0.25f64.powi(3)).abs() < 1e-12, "{limit:?}");
+    }
+
+    #[test]
+    fn a_sequence_that_turns_or_hardly_shrinks_is_not() {
+        for (values, uncertainty) in
+            [([1.0, 2.0, 1.25], 1.0), ([1.0, 2.0, 2.875], 1.0), ([1.0, 2.0, 1.875], 0.25)]
+        {
+            let limit = Limit::of(&values);
+            assert_eq!(limit.value, values[2]);
+            assert_eq!(limit.uncertainty, uncertainty);
+        }
+    }
+
+    #[test]
+    fn a_reference_value_has_the_digits_that_its_uncertainty_leaves() {
+        let place = Limit { value: 9.325_612_34, uncertainty: 0.001_231 }.place(None, 0.03);
+        assert_eq!((place.value, place.uncertainty, place.tolerance), (9.325_61, 0.0013, 0.03));
+    }
+
+    #[test]
+    fn tolerance_and_uncertainty_keep_their_distance() {
+        let coarse = Limit { value: 1.0, uncertainty: 0.02 }.place(None, 0.03);
+        assert_eq!((coarse.uncertainty, coarse.tolerance), (0.02, 0.06));
+        let fine = Limit { value: -1e-12, uncertainty: 1e-15 }.place(None, 0.02);
+        assert_eq!((fine.value, fine.uncertainty), (0.0, 2e-6));
+    }
+
+    #[test]
+    fn no_place_of_a_curve_is_far_better_known_than_another() {
+        let limit = |uncertainty| Limit { value: 1.0, uncertainty };
+        let found = places(&[(0.0, limit(0.02)), (1.0, limit(1e-7))], 1.0);
+        assert_eq!((found[0].uncertainty, found[1].uncertainty), (0.02, 0.002));
+    }
+}
