@@ -177,8 +177,7 @@ fn followed(plan: &Plan, out: &Path) -> Result<(FaultRun, Report), CaseError> {
     // As the command does: a catalogue of all faults, and one of each.
     let each: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
     let start = FaultRun::new(problem.start.clone(), &each, problem.settings.thresholds);
-    let run =
-        asperity_cycles::resume(&problem.fault, &problem.loading, start, &problem.settings, &mut both)?;
+    let run = asperity_cycles::resume(&problem.fault, &problem.loading, start, &problem.settings, &mut both)?;
     if let Outcome::Failed { reason } = &run.outcome {
         return Err(reason.to_string().into());
     }

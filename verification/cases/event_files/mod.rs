@@ -136,7 +136,8 @@ impl Worst {
 
     fn place(&mut self, offset: [f64; 3], xml: &str) -> Result<(), CaseError> {
         let expected = travelled(offset);
-        let [north, east] = [number(xml, "<latitude>")? - expected[0], number(xml, "<longitude>")? - expected[1]];
+        let [north, east] =
+            [number(xml, "<latitude>")? - expected[0], number(xml, "<longitude>")? - expected[1]];
         let (tangent, cosine) = (ORIGIN[0].to_radians().tan(), ORIGIN[0].to_radians().cos());
         let arc = offset[0].hypot(offset[1]) / EARTH;
         let apart = north.hypot(east * cosine).to_radians() / (arc * arc * tangent);

@@ -139,7 +139,9 @@ fn stable(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (before, after): (f64, f64) = (1e-3, 1.0);
     let friction = 50e6 * 0.005 * (after / before).ln();
     ledger
-        .claim("slip of blocks between rocks of 10 and 40 GPa behind their load, steadily at 1 m/s after 1 mm/s")
+        .claim(
+            "slip of blocks between rocks of 10 and 40 GPa behind their load, steadily at 1 m/s after 1 mm/s",
+        )
         .unit("m")
         .value(after * time - slip)
         .equals((friction + damping() * (after - before)) / spring())

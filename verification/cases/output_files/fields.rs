@@ -29,7 +29,8 @@ const STRESS: [(&str, f64); 6] =
 /// Order and parametric coordinates of nodes, asked of VTK.
 const VTK: &str = include_str!("../../independent/vtk_cells.json");
 /// The program that asked.
-const SOURCE: &str = "vtk_cells.py: parametric coordinates of nodes and principal values of tensors, of VTK 9.7.2";
+const SOURCE: &str =
+    "vtk_cells.py: parametric coordinates of nodes and principal values of tensors, of VTK 9.7.2";
 
 /// A block that is held at all its sides, under a uniform initial stress.
 fn scene(element: &str, space: usize) -> String {
