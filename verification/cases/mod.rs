@@ -103,6 +103,7 @@ mod sandwich_pressed;
 mod sandwich_sheared;
 pub(crate) mod sandwich_state;
 mod sandwich_steppers;
+mod scene_units;
 pub mod seas;
 mod seas_bp1;
 mod seas_bp1_16mm;
@@ -195,6 +196,7 @@ pub const ALL: &[Case] = &[
     sandwich_sheared::CASE,
     sandwich_state::CASE,
     sandwich_steppers::CASE,
+    scene_units::CASE,
     seas_bp1::CASE,
     seas_bp1_full::CASE,
     seas_bp1_methods::CASE,

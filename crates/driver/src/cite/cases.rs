@@ -1,7 +1,7 @@
 //! Literature of the cases of the verification suite. A test of the suite compares it with their pages.
 
 /// Cases and the keys of their literature.
-const CASES: [(&str, &[&str]); 90] = [
+const CASES: [(&str, &[&str]); 91] = [
     ("absence", &["weidendorfer2004"]),
     ("antiplane", &["nehari1952", "strang1973", "timoshenko1970"]),
     ("block_dragged", &["codeaster"]),
@@ -65,6 +65,7 @@ const CASES: [(&str, &[&str]); 90] = [
     ("sandwich_sheared", &["xing2002b"]),
     ("sandwich_state", &["dieterich1978"]),
     ("sandwich_steppers", &["xing2002b"]),
+    ("scene_units", &["bipm2019", "wilkins1989"]),
     ("seas_bp1", &["erickson2020", "luo2017"]),
     ("seas_bp1_16mm", &["erickson2020"]),
     ("seas_bp1_16mm_limit", &["erickson2020"]),
