@@ -15,6 +15,7 @@ pub const CASE: Case = Case {
 
 const SCENE: &str = include_str!("scene.toml");
 const CORNERS: &str = include_str!("corners.toml");
+const SPACE: &str = include_str!("../interface_rate_state/scene-3d.toml");
 /// E_n times the penetration \[Pa\].
 const NORMAL: f64 = 10e6;
 /// Compliance of the column, whose shear modulus is a fifth of 2 E with ν = 1/4, and of the tangential penalty \[m/Pa\].
@@ -36,7 +37,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     slip_weakening(ledger)?;
     static_kinetic(ledger)?;
     capped_rate(ledger)?;
-    capped_states(ledger)
+    capped_states(ledger)?;
+    turning(ledger)
 }
 
 /// An instant of a course, between which load, tractions and slip change in proportion to time.
@@ -553,6 +555,64 @@ fn capped_states(ledger: &mut Ledger) -> Result<(), CaseError> {
             ends,
             "f_n mu(V, state) = F_limit, the state at a constant V in closed form",
         );
+    }
+    Ok(())
+}
+
+/// A column in space dragged along x until it slides and then along z: its traction turns from x to z.
+fn turning(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let (mu, drag) = (0.6, 600e-6_f64);
+    let length = mu * NORMAL * COMPLIANCE;
+    // A block on a spring of constant length follows a tractrix.
+    let angle = 2.0 * (-drag / length).exp().atan();
+    for stepper in ["implicit", "static-explicit"] {
+        let (mut levels, mut iterations, mut cost) = (Vec::new(), Vec::new(), None);
+        for steps in [10_u16, 20, 40, 80] {
+            let scene = SceneText::new(SPACE)
+                .with("interfaces.fault.law", format!("{{ kind = \"coulomb\", mu = {mu} }}"))
+                .add("interfaces.fault.measure", "node-to-point")
+                .add("interfaces.fault.sliding", "small")
+                .with_or_same("time.stepper", stepper)
+                .with("stages[1].duration", "400 s")
+                .with("stages[1].conditions[0].x.rate", "1 um/s")
+                .with("stages[1].conditions[0].z", "hold")
+                .with("stages[2].duration", format!("{drag:e} s"))
+                .with("stages[2].conditions[0].x", "hold")
+                .with("stages[2].conditions[0].z.rate", "1 m/s")
+                .add("stages[2].steps", steps)
+                .without("stages[5]")
+                .without("stages[4]")
+                .without("stages[3]");
+            let done = texts::simulate(&scene.text()?)?;
+            let vectors = &done.contact("up")?.shear_vector;
+            let off = |v: &[f64; 3]| (v[0].abs().atan2(v[2].abs()) - angle).abs();
+            levels.push((1.0 / f64::from(steps), vectors.iter().map(off).fold(0.0, f64::max)));
+            let turns = done.record.records().iter().filter(|r| r.stage == 2);
+            iterations.push(turns.map(|r| r.iterations).max().unwrap_or_default() as f64);
+            cost.get_or_insert(done.cost);
+        }
+        let cost = cost.ok_or("nothing was run")?;
+        ledger
+            .order(format!("Coulomb friction in space, {stepper}: direction of traction after a right angle in the path, all points [rad]"))
+            .levels(&levels)
+            .expected(1.0)
+            .within(0.1)
+            .finest(5e-3, "to first order it lags by h/2 sin(angle) ln cosh(s), s the drag over mu f_n/k and h that of a step: 4.4e-3")
+            .evidence(Evidence::Exact, "the tractrix: tan(angle/2) falls as e^(-k s/(mu f_n))")
+            .because("slip of a step is along the traction at its end")
+            .covers(&[Capability::Coulomb, Capability::PenaltyContact3d, Capability::Stages])
+            .cost(&cost)
+            .record();
+        ledger
+            .claim(format!("Coulomb friction in space, {stepper}: most Newton iterations of a step that turns, in 10, 20, 40 and 80 steps"))
+            .value(iterations.iter().fold(0.0, |a: f64, b| a.max(*b)))
+            .at_most(6.0)
+            .evidence(Evidence::Exact, "convergence of second order")
+            .because("steps turn by up to 0.2, and Newton's method squares what is left: 4e-2, 2e-3, 3e-6, 1e-11, rounding, and one to spare")
+            .why_not_tighter("a whole number")
+            .covers(&[Capability::Tangents, Capability::PenaltyContact3d])
+            .cost(&cost)
+            .record();
     }
     Ok(())
 }
