@@ -19,6 +19,7 @@ pub const CASE: Case = Case {
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     slab(ledger)?;
+    both_directions(ledger)?;
     gaussian(ledger)?;
     penny(ledger)?;
     blocks(ledger)
@@ -154,6 +155,57 @@ fn against_plane(ledger: &mut Ledger, motion: &str, (plane, solid): (&Plan, &Pla
             .cost(cost)
             .record();
     }
+}
+
+/// Normal tractions of slip that may turn, between two media below a free surface, against those of slip held along either direction.
+fn both_directions(ledger: &mut Ledger) -> Result<(), CaseError> {
+    let creep = r#"creep = { outside = { y = { from = "-3 km" }, z = { from = "-3 km", to = "3 km" } }, rate = 0.0 }"#;
+    let with = |more: &str| {
+        Blocks {
+            kinematics: "3d",
+            moduli: [10e9, 40e9],
+            wide: 6e3,
+            ends: &[[-6e3, 0.0], [-6e3, 6e3]],
+            cells: ["divisions = [6, 6, 12]"; 2],
+            fault: &format!("{creep}\ndamping = 5e6\n{more}"),
+            conditions: "{ set = \"L.left\", x = 0, y = 0, z = 0 }, { set = \"R.right\", x = 0, y = 0, z = 0 }",
+            rest: "",
+            duration: "1 yr",
+        }
+        .plan()
+    };
+    // Normal along x: the second direction, normal x rake, is -y.
+    let (plans, cost) = Cost::of(|| -> Result<_, CaseError> {
+        Ok([
+            with("rake = [0, 0, 1]\nslip = \"free\"")?,
+            with("rake = [0, 0, 1]")?,
+            with("rake = [0, -1, 0]")?,
+        ])
+    });
+    let [free, first, second] = plans?;
+    let n = free.points.len();
+    let wave = |k: usize, p: usize| {
+        let [_, y, z] = free.points[p].at;
+        (1.0 + (z / 1e3 + k as f64).sin()) * (y / 2e3 + k as f64).cos()
+    };
+    let slip: Vec<f64> = (0..2 * n).map(|i| wave(i / n, i % n)).collect();
+    let (mut found, mut along, mut across) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+    free.problem.fault.operator.normal(&slip, &mut found);
+    first.problem.fault.operator.normal(&slip[..n], &mut along);
+    second.problem.fault.operator.normal(&slip[n..], &mut across);
+    let size = |values: &[f64]| values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let off: Vec<f64> = (0..n).map(|p| found[p] - along[p] - across[p]).collect();
+    ledger
+        .claim("normal tractions of slip in two directions between two media, against the sum of those of slip held along each, over the lesser of the two")
+        .value(size(&off) / size(&along).min(size(&across)))
+        .at_most(1e-11)
+        .between(&first.points, &second.points)
+        .evidence(Evidence::Exact, "superposition; tractions of slip along a line are those of the plane above, and of Okada in fault_free_surface")
+        .because("rounding")
+        .covers(&[Capability::FaultCycles, Capability::Solid3d])
+        .cost(&cost)
+        .record();
+    Ok(())
 }
 
 /// A quarter of an infinite body around a patch of this size \[m\] that may slip along z, with cells of `size`; the planes y = 0 and

@@ -22,7 +22,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
 
 /// Files of the stations, and distance along the fault of the points nearest to what the scene asks for \[km\].
 const STATIONS: [(&str, f64); 4] =
-    [("main_dp000", 0.0), ("main_dp019", 2.0), ("main_dp045", 4.5), ("main_dp067", 6.5)];
+    [("main_dp002", 0.0), ("main_dp021", 2.0), ("main_dp047", 4.5), ("main_dp066", 6.5)];
 /// Direct effect and evolution effect, coefficient and slip rate of reference \[m/s\], characteristic slip \[m\].
 const LAW: [f64; 5] = [0.015, 0.02, 0.6, 1e-6, 0.04];
 /// Slip rate at the start \[m/s\].
