@@ -8,18 +8,23 @@ mod chart;
 mod colour;
 mod curves;
 mod cycles;
+mod diagram;
+mod drawn;
 mod faces;
 mod field;
 mod figure;
 pub(crate) mod labels;
 mod png;
 mod profile;
+mod style;
 mod svg;
 mod title;
 mod units;
 
 pub use chart::{Chart, Measure};
 pub use cycles::{Cycles, Line, Rows, Table};
+pub use diagram::{Diagram, Failed, Scale, Series, Slope};
+pub use style::STYLES;
 
 use super::{OutputError, Recorder, atomic};
 use crate::names::stems;
