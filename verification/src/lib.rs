@@ -22,10 +22,10 @@ pub mod suite;
 #[path = "../cases/mod.rs"]
 pub mod cases;
 
+pub use asperity_output::plots::{Diagram as Plot, Scale as Axis, Series, Slope};
 pub use capability::Capability;
 pub use case::{Case, CaseError};
 pub use claim::{Evidence, Verdict};
 pub use cost::Cost;
 pub use ledger::Ledger;
 pub use order::{Floor, Level};
-pub use asperity_output::plots::{Diagram as Plot, Scale as Axis, Series, Slope};

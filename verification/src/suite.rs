@@ -115,9 +115,7 @@ impl Summary {
         let loose = match self.slack_unexplained {
             0 => None,
             1 => Some("1 tolerance more than ten times looser than needed, without a reason yet".to_owned()),
-            n => {
-                Some(format!("{n} tolerances more than ten times looser than needed, without a reason yet"))
-            }
+            n => Some(format!("{n} tolerances more than ten times looser than needed, without a reason yet")),
         };
         near.into_iter().chain(loose).collect::<Vec<_>>().join("; ")
     }

@@ -37,7 +37,11 @@ pub fn whole(outcome: &Outcome, context: Context<'_>) -> String {
     let sketch = sketch.map(|svg| figures::figure("sketch", "The problem", &svg, "")).unwrap_or_default();
     body += &figures::side_by_side(&(sketch + &figures::of_case(record)));
     let _ = writeln!(body, "<article>\n{}</article>", mathml::html_of(text));
-    let _ = writeln!(body, "<h2 id=\"all-claims\">Claims</h2>\n{}", claims::all(&record.claims, &ids, &before(outcome, context.releases)));
+    let _ = writeln!(
+        body,
+        "<h2 id=\"all-claims\">Claims</h2>\n{}",
+        claims::all(&record.claims, &ids, &before(outcome, context.releases))
+    );
     body += &figures::of_orders(&record.claims, &ids);
     body += &costs(outcome);
     record.tables.iter().for_each(|table| body += &free_table(table));
@@ -90,9 +94,8 @@ fn links(outcome: &Outcome, context: Context<'_>) -> String {
 fn contents(outcome: &Outcome, context: Context<'_>) -> String {
     let name = outcome.case.name;
     let before = context.releases.last().and_then(|r| Some((&r.tag, r.cases.get(name)?)));
-    let before = before
-        .map(|(tag, kept)| format!(" (at {}: {})", escape(tag), time(kept.wall)))
-        .unwrap_or_default();
+    let before =
+        before.map(|(tag, kept)| format!(" (at {}: {})", escape(tag), time(kept.wall))).unwrap_or_default();
     let orders = outcome.record.claims.iter().any(|j| matches!(j.claim.test, Test::Order(_)));
     let convergence = if orders { ", <a href=\"#convergence\">convergence</a>" } else { "" };
     format!(

@@ -12,15 +12,11 @@ const SHOWN: usize = 4;
 pub fn summary(summary: &Summary, depth: Depth) -> String {
     let class = if summary.passes() { "good" } else { "bad" };
     let mut text = format!("<p class=\"summary {class}\">{}</p>\n", escape(&summary.to_string()));
-    let remarks = summary.remarks();
-    if !remarks.is_empty() {
-        let _ = writeln!(
-            text,
-            "<p class=\"warn\">{} ({}, {})</p>",
-            escape(&remarks),
-            word("near", "near its tolerance", depth),
-            word("loose", "loose", depth)
-        );
+    let words = [("near", "near its tolerance", summary.thin), ("loose", "loose", summary.slack_unexplained)];
+    let words = words.iter().filter(|(_, _, count)| *count > 0);
+    let words: Vec<String> = words.map(|(anchor, text, _)| word(anchor, text, depth)).collect();
+    if !words.is_empty() {
+        let _ = writeln!(text, "<p class=\"warn\">{} ({})</p>", escape(&summary.remarks()), words.join(", "));
     }
     text
 }

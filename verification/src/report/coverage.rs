@@ -72,7 +72,11 @@ fn entry(capability: Capability, cells: &[Cell], groups: &[Group]) -> String {
     });
     let all = claimed + &tested;
     let all = if all.is_empty() { "<div class=\"none\">no evidence</div>\n".to_owned() } else { all };
-    format!("<section class=\"covered\" id=\"{}\"><h4>{}</h4><dl>{all}</dl></section>\n", slug(title), escape(title))
+    format!(
+        "<section class=\"covered\" id=\"{}\"><h4>{}</h4><dl>{all}</dl></section>\n",
+        slug(title),
+        escape(title)
+    )
 }
 
 fn kind_of(kind: Evidence, cell: &Cell) -> String {

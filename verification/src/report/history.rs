@@ -211,8 +211,7 @@ pub fn changes(release: &Release, outcomes: &[Outcome]) -> Changes {
 
 impl Changes {
     fn add(&mut self, case: &str, before: &KeptCase, now: &KeptCase) {
-        let change =
-            |id: &str, before, now| Change { case: case.to_owned(), id: id.to_owned(), before, now };
+        let change = |id: &str, before, now| Change { case: case.to_owned(), id: id.to_owned(), before, now };
         if before.wall.max(now.wall) > SHORTEST && apart(before.wall, now.wall) {
             self.costs.push(change("", before.wall, now.wall));
         }
@@ -295,7 +294,10 @@ fn gone(gone: &[(String, String)]) -> String {
         return String::new();
     }
     let list: String = gone.iter().map(|(case, id)| format!("<li>{case}: {id}</li>\n")).collect();
-    format!("<h2 id=\"gone\">Claims that are gone</h2>\n<details><summary>{}</summary><ul>{list}</ul></details>\n", gone.len())
+    format!(
+        "<h2 id=\"gone\">Claims that are gone</h2>\n<details><summary>{}</summary><ul>{list}</ul></details>\n",
+        gone.len()
+    )
 }
 
 /// Releases with their sizes.

@@ -43,7 +43,9 @@ fn one(case: &str, judged: &Judged) -> String {
         Verdict::Holds => format!("{head}/>\n"),
         Verdict::Disagrees => {
             let problem = escape(judged.problem.as_deref().unwrap_or(""));
-            let size = judged.measured.map_or(String::new(), |m| format!("error {:e}, bound {:e}", m.error, m.bound));
+            let size = judged
+                .measured
+                .map_or(String::new(), |m| format!("error {:e}, bound {:e}", m.error, m.bound));
             format!("{head}>\n      <failure message=\"{problem}\">{size}</failure>\n    </testcase>\n")
         }
         Verdict::NotCovered(reason) => {

@@ -238,14 +238,15 @@ fn shade(margin: f64) -> u8 {
 
 #[cfg(test)]
 mod unit {
-    use super::{Definition, Defects, collect, whole};
+    use super::{Defects, Definition, collect, whole};
     use crate::report::provenance::Provenance;
     use serde_json::json;
     use std::collections::BTreeMap;
 
     #[test]
     fn results_are_read_from_objects_and_from_lists() {
-        let outcome = json!({ "status": "ran", "noticed": [{ "case": "hertz_line", "claim": "p", "margin": 6.0 }] });
+        let outcome =
+            json!({ "status": "ran", "noticed": [{ "case": "hertz_line", "claim": "p", "margin": 6.0 }] });
         let mut listed = outcome.clone();
         listed["name"] = json!("b");
         let mut found = BTreeMap::new();

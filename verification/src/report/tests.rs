@@ -140,7 +140,8 @@ pub fn whole(groups: &[Group], run: &Provenance) -> String {
             group.count()
         );
         for file in &group.files {
-            let tests: String = file.tests.iter().map(|test| format!("<li>{}</li>\n", escape(test))).collect();
+            let tests: String =
+                file.tests.iter().map(|test| format!("<li>{}</li>\n", escape(test))).collect();
             body += &format!(
                 "<details><summary><code>{}</code>: {}</summary><ul>{tests}</ul></details>\n",
                 escape(&file.path),

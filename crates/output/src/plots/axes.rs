@@ -99,7 +99,7 @@ fn logarithmic_ticks((lo, hi): (f64, f64), about: usize) -> Vec<(f64, String)> {
         let stride = ((f64::from(last - first) / about as f64).ceil() as usize).max(1);
         return (first..=last).step_by(stride).map(|k| (place(f64::from(k)), power_of_ten(k))).collect();
     }
-    let sets: [&[u8]; 3] = [&[1, 3], &[1, 2, 5], &[1, 2, 3, 4, 5, 6, 7, 8, 9]];
+    let sets: [&[u8]; 4] = [&[1, 3], &[1, 2, 5], &[1, 2, 3, 4, 6, 8], &[1, 2, 3, 4, 5, 6, 7, 8, 9]];
     let of = |set: &[u8]| -> Vec<(f64, String)> {
         let all = (first - 1..=last).flat_map(|k| set.iter().map(move |&m| (f64::from(m), k)));
         let ticks = all.map(|(m, k)| (m.log10() + f64::from(k), multiple_of_power(m, k)));
@@ -258,8 +258,8 @@ mod tests {
     #[test]
     fn a_short_logarithmic_axis_has_ticks_between_the_powers_of_ten() {
         let around = |lo: f64, hi: f64| texts(&Axis::around([lo, hi].into_iter(), 0.0, String::new()));
-        assert_eq!(around(0.02, 0.3), ["0.03", "0.10", "0.30"]);
-        assert_eq!(around(0.11, 0.6), ["0.20", "0.30", "0.40", "0.50", "0.60"]);
+        assert_eq!(around(0.02, 0.3), ["0.03", "0.1", "0.3"]);
+        assert_eq!(around(0.11, 0.6), ["0.2", "0.3", "0.4", "0.6"]);
         assert_eq!(around(2.0e-6, 3.1e-5), ["3·10⁻⁶", "10⁻⁵", "3·10⁻⁵"]);
         assert_eq!(around(1.0, 1e4), ["10⁰", "10¹", "10²", "10³", "10⁴"]);
         assert!(around(1.01, 1.04).len() >= 3);

@@ -108,11 +108,7 @@ impl Chart {
         };
         let mut entries: Vec<Entry> = self.curves.iter().enumerate().take(NAMED).map(entry).collect();
         if n > NAMED {
-            entries.push(Entry {
-                name: format!("and {} more", n - NAMED),
-                colour: MARK,
-                dash: &[1.0, 4.0],
-            });
+            entries.push(Entry { name: format!("and {} more", n - NAMED), colour: MARK, dash: &[1.0, 4.0] });
         }
         entries
     }

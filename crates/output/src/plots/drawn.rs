@@ -10,14 +10,14 @@ use super::title::{CHARACTER, title, within};
 
 /// Size of the frame.
 const SIZE: Point = (400.0, 290.0);
-/// Room above the frame for the title.
-const TOP: f64 = 42.0;
+/// Room above the frame for a title, and without one.
+const TOP: (f64, f64) = (42.0, 16.0);
 /// Room right of the frame, for half of the last tick's label.
 const RIGHT: f64 = 24.0;
 /// Room below the frame for tick labels and the axis label.
 const BELOW: f64 = 58.0;
 /// Share of the range left free at the ends of an axis.
-const MARGIN: f64 = 0.05;
+const MARGIN: f64 = 0.07;
 /// Width of curves.
 const WIDTH: f64 = 1.9;
 /// Radius of markers.
@@ -70,7 +70,8 @@ impl Place {
         let x = Scaled::of(diagram.x_axis, &places, &diagram.x_label);
         let y = Scaled::of(diagram.y_axis, &heights, &diagram.y_label);
         let left = y.axis.widest_tick(SIZE.1) + 32.0;
-        let frame = Frame { at: (left, TOP), size: SIZE, x: x.axis, y: y.axis };
+        let top = if diagram.title.is_empty() { TOP.1 } else { TOP.0 };
+        let frame = Frame { at: (left, top), size: SIZE, x: x.axis, y: y.axis };
         Self { frame, factor: (x.factor, y.factor) }
     }
 
@@ -92,7 +93,7 @@ pub(super) fn figure(diagram: &Diagram) -> Figure {
     let frame = &place.frame;
     let width = frame.at.0 + SIZE.0 + RIGHT;
     let legend = Legend::of(&diagram.series, width);
-    let mut figure = Figure::new(width, TOP + SIZE.1 + BELOW + legend.height());
+    let mut figure = Figure::new(width, frame.at.1 + SIZE.1 + BELOW + legend.height());
     if !diagram.title.is_empty() {
         title(&mut figure, frame, &diagram.title, "");
     }
@@ -102,7 +103,7 @@ pub(super) fn figure(diagram: &Diagram) -> Figure {
         curve(&mut figure, diagram, &place, series, Style::of(i));
     }
     frame.draw(&mut figure);
-    legend.draw(&mut figure, TOP + SIZE.1 + BELOW);
+    legend.draw(&mut figure, frame.at.1 + SIZE.1 + BELOW);
     figure
 }
 
@@ -123,7 +124,7 @@ fn curve(figure: &mut Figure, diagram: &Diagram, place: &Place, series: &Series,
     for failed in &series.failed {
         let x = place.frame.point(failed.x / place.factor.0, 1.0).0;
         if x.is_finite() {
-            cross(figure, (x, TOP + 2.0 * CROSS), style);
+            cross(figure, (x, place.frame.at.1 + 2.0 * CROSS), style);
         }
     }
 }

@@ -34,9 +34,8 @@ fn shortened(scene: &str, part: &str, room: f64) -> (Vec<String>, f64) {
         return (whole.0, whole.1);
     }
     let characters: Vec<char> = scene.chars().collect();
-    let cut = |kept: usize| {
-        fit(&format!("{}\u{2026}{tail}", characters[..kept].iter().collect::<String>()), room)
-    };
+    let cut =
+        |kept: usize| fit(&format!("{}\u{2026}{tail}", characters[..kept].iter().collect::<String>()), room);
     let fitting = (0..characters.len()).rev().map(cut).find(|found| found.2);
     let (lines, size, _) = fitting.unwrap_or(whole);
     (lines, size)
