@@ -105,7 +105,8 @@ AA = [[], [1 / 5], [3 / 40, 9 / 40], [44 / 45, -56 / 15, 32 / 9], [19372 / 6561,
 E = np.array([71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
 
 
-def run(problem, n, years, tolerance, stop=10**9):
+def run(problem, n, years, tolerance, stop=10**9, look=None):
+    """Onsets of events; `look` is shown time [s] and unknowns (ln V, ln theta, f_n) after each step."""
     start = time.process_time()
     if problem == "bp1":
         k = antiplane(n)
@@ -179,6 +180,8 @@ def run(problem, n, years, tolerance, stop=10**9):
         later = t + add
         compensation = add - (later - t)
         t, y, first = later, new, ks[6]
+        if look:
+            look(t, y)
         dt *= min(5.0, 0.9 * max(error, 1e-10) ** -0.2)
     return {"problem": problem, "cell [m]": h, "tolerance": tolerance, "onsets [yr]": onsets, "peaks [m/s]": peaks, "steps": steps, "rates": count}
 

@@ -4,7 +4,7 @@ use super::history::Release;
 use super::page::{Depth, escape, number, page, time};
 use super::provenance::Provenance;
 use super::sources::Files;
-use super::{claims, figures, ids, mathml, precision, subjects, title};
+use super::{claims, fields, figures, ids, mathml, precision, subjects, title};
 use crate::case::Outcome;
 use crate::claim::Test;
 use crate::ledger::Table;
@@ -35,7 +35,7 @@ pub fn whole(outcome: &Outcome, context: Context<'_>) -> String {
     body += &contents(outcome, context);
     let sketch = crate::sketches::of(outcome.case.name);
     let sketch = sketch.map(|svg| figures::figure("sketch", "The problem", &svg, "")).unwrap_or_default();
-    body += &figures::side_by_side(&(sketch + &figures::of_case(record)));
+    body += &figures::side_by_side(&(sketch + &fields::of(outcome.case.name) + &figures::of_case(record)));
     let _ = writeln!(body, "<article>\n{}</article>", mathml::html_of(text));
     let _ = writeln!(
         body,

@@ -93,7 +93,7 @@ fn row(outcome: &Outcome) -> String {
     };
     format!(
         "<li data-states=\"{}\" data-text=\"{}\"><span><a href=\"cases/{name}.html\"><b>{name}</b></a><br>{}</span>\
-         <span>{state}</span><span>{}</span><span>{}</span></li>\n",
+         <span>{state}</span><span title=\"largest error / bound\">{}</span><span>{}</span></li>\n",
         states(outcome, &summary),
         escape(&format!("{} {}", outcome.case.name, title(outcome)).to_lowercase()),
         escape(title(outcome)),

@@ -4,6 +4,7 @@ mod case_page;
 mod claims;
 mod convergence;
 pub mod coverage;
+mod fields;
 mod figures;
 pub mod history;
 pub mod ids;

@@ -65,7 +65,7 @@ fn cell(reached: Reached) -> String {
     let text = match reached {
         Reached::At(cost) => number(cost),
         Reached::Below(cost) => format!("≤ {}", number(cost)),
-        Reached::Never => "not reached".to_owned(),
+        Reached::Never => "–".to_owned(),
     };
     format!("<td class=\"number\">{text}</td>")
 }
@@ -74,8 +74,8 @@ fn cell(reached: Reached) -> String {
 pub fn whole(outcomes: &[Outcome], run: &Provenance) -> String {
     let mut body = format!(
         "<h1>Work and precision</h1>\n<p>Methods are compared at equal error. The tables interpolate on \
-         logarithms between runs; ≤ marks a method whose cheapest run is already more precise, and <i>not \
-         reached</i> one without a run as precise. {} depends on the machine; other work does not.</p>\n",
+         logarithms between runs; ≤ marks a method whose cheapest run is already more precise, – one without a \
+         run as precise. {} depends on the machine; other work does not.</p>\n",
         word("wall", "Wall time", Depth::Top)
     );
     for outcome in outcomes {
