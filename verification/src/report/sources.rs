@@ -9,7 +9,7 @@ use std::path::{Component, Path, PathBuf};
 /// Files of one case, by their path in the repository.
 pub type Files = BTreeMap<String, String>;
 
-/// Reads the files of a case: all of its folder but its README, and scenes that its program includes. None where the sources
+/// Reads the files of a case: all of its folder but its README, files it shares with others, and scenes that they include. None where the sources
 /// are not at hand.
 pub fn files(case: &Case) -> Files {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -23,6 +23,14 @@ pub fn files(case: &Case) -> Files {
         }
     }
     let programs: Vec<String> = found.values().cloned().collect();
+    for helper in programs.iter().flat_map(|text| helpers(text)) {
+        add(&mut found, root, &package.join("cases").join(format!("{helper}.rs")));
+    }
+    let shared = package.join("cases");
+    let helping: Vec<String> = found.values().filter(|text| !programs.contains(text)).cloned().collect();
+    for include in helping.iter().flat_map(|text| includes(text)) {
+        add(&mut found, root, &plain(&shared.join(include)));
+    }
     for include in programs.iter().flat_map(|text| includes(text)) {
         add(&mut found, root, &plain(&folder.join(include)));
     }
@@ -42,6 +50,13 @@ fn includes(program: &str) -> Vec<String> {
     let parts = program.split("include_str!(\"").skip(1);
     let paths = parts.filter_map(|part| part.split_once('"')).map(|(path, _)| path.to_owned());
     paths.filter(|path| path.ends_with(".toml")).collect()
+}
+
+/// Names of files beside the folders of the cases that a program uses.
+fn helpers(program: &str) -> Vec<String> {
+    let parts = ["super::", "cases::"].into_iter().flat_map(|path| program.split(path).skip(1));
+    let name = |part: &str| part.chars().take_while(|c| c.is_ascii_lowercase() || *c == '_').collect();
+    parts.map(name).filter(|name: &String| name.len() > 1).collect()
 }
 
 /// A path without steps up.
