@@ -1,6 +1,6 @@
 //! Hertz contacts as the cases use them: scenes with one thing changed at a time, tractions of a run, closed forms.
 
-use crate::{CaseError, Cost};
+use crate::{CaseError, Cost, Ledger, Plot, Series};
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::scene::model::{
     BlockMesh, LawSpec, Measure, MeshSource, Motion, Scene, Sliding, SpacingSpec, here,
@@ -265,4 +265,22 @@ impl Tractions {
         let top = (t - slope * s) / n;
         Hertz { a: a * (-top / slope).sqrt(), p0: top.sqrt() }
     }
+}
+
+/// Averaged pressures of runs over the ellipse of Hertz at their own loads.
+pub fn ellipse(ledger: &mut Ledger, runs: &[(&str, &Tractions, &Hertz)]) {
+    const SHOWN: f64 = 1.4;
+    let mut plot = Plot::xy("Pressure over the ellipse of Hertz", "x/a [-]", "p/p0 [-]");
+    for (name, at, exact) in runs {
+        let points = at.x.iter().zip(&at.p).map(|(x, p)| (x / exact.a, p / exact.p0));
+        let points: Vec<(f64, f64)> = points.filter(|(x, _)| x.abs() <= SHOWN).collect();
+        plot = plot.series(Series::points(*name, &points));
+    }
+    let first = runs.iter().flat_map(|(_, at, exact)| at.x.iter().map(|x| x / exact.a));
+    let start = if first.fold(0.0, f64::min) < -0.5 { -1.0 } else { 0.0 };
+    let curve: Vec<(f64, f64)> = (0..=400)
+        .map(|k| start + (1.0 - start) * f64::from(k) / 400.0)
+        .map(|x| (x, (1.0 - x * x).max(0.0).sqrt()))
+        .collect();
+    ledger.plot(plot.series(Series::line("Hertz", &curve)).caption("At the load of each run."));
 }

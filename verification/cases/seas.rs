@@ -32,6 +32,22 @@ pub fn independent(problem: &str, size: f64) -> Result<Vec<f64>, CaseError> {
     Ok(onsets.iter().filter_map(serde_json::Value::as_f64).collect())
 }
 
+/// Times \[yr\] with the largest slip rates \[m/s\], and onsets of events \[yr\].
+pub type LargestRates = (Vec<(f64, f64)>, Vec<f64>);
+
+/// Largest slip rates of BP1 by the second implementation, and the onsets of its events.
+///
+/// # Errors
+/// If its file cannot be read.
+pub fn largest_rates() -> Result<LargestRates, CaseError> {
+    let found: serde_json::Value =
+        serde_json::from_str(include_str!("../independent/bp1_largest_rate.json"))?;
+    let rows = found["rows"].as_array().ok_or("bp1_largest_rate.json has no rows")?;
+    let pair = |row: &serde_json::Value| Some((row[0].as_f64()?, 10.0_f64.powf(row[1].as_f64()?)));
+    let onsets = found["onsets [yr]"].as_array().into_iter().flatten();
+    Ok((rows.iter().filter_map(pair).collect(), onsets.filter_map(serde_json::Value::as_f64).collect()))
+}
+
 /// The plan of a scene with faults.
 ///
 /// # Errors

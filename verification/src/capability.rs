@@ -1,11 +1,12 @@
 //! Capabilities of the product, as the rows of the coverage matrix.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 macro_rules! capabilities {
     ($($(#[$doc:meta])* $variant:ident => $text:literal,)*) => {
         /// A capability that evidence may cover: a row of the coverage matrix.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
         pub enum Capability { $($(#[$doc])* #[serde(rename = $text)] $variant,)* }
 
         impl Capability {
@@ -121,4 +122,6 @@ capabilities! {
     Scenes => "scene reader and plan",
     /// Files written by a run.
     Outputs => "output files",
+    /// Files that other programs read, and files of other programs that are read.
+    Interop => "interop with other programs",
 }

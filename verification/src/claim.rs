@@ -7,6 +7,7 @@
 use crate::capability::Capability;
 use crate::cost::Cost;
 use crate::order::OrderTest;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Below this ratio of error to bound a claim is slack: it must say why its bound is not tighter.
@@ -19,7 +20,7 @@ pub const THIN_ABOVE: f64 = 0.8;
 pub const CONTROL_BOUNDS: f64 = 3.0;
 
 /// The kind of evidence a reference rests on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Evidence {
     /// A closed-form solution or an identity.
@@ -61,7 +62,7 @@ impl Evidence {
 }
 
 /// Norm that makes the differences of several values one error.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Norm {
     /// Largest absolute difference; for one value, its absolute difference.
@@ -85,7 +86,7 @@ impl Norm {
 }
 
 /// Test of the claim.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Test {
     /// ‖values − references‖ ≤ bound, in the unit of the values.
@@ -146,7 +147,7 @@ pub enum Test {
 }
 
 /// The size of an error against its bound.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Measured {
     /// The error.
     pub error: f64,
@@ -268,7 +269,7 @@ fn judged(error: f64, bound: f64) -> Result<Measured, String> {
 }
 
 /// The outcome of a claim.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// The error is within the bound, and the negative control fails as it must.
@@ -280,7 +281,7 @@ pub enum Verdict {
 }
 
 /// A remark on the distance between error and bound.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Mark {
     /// The bound is more than ten times the error, and the claim says why.
@@ -292,7 +293,7 @@ pub enum Mark {
 }
 
 /// Statement of a case.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Claim {
     /// The quantity, with its conditions.
     pub quantity: String,
@@ -319,7 +320,7 @@ pub struct Claim {
 }
 
 /// A judged claim.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Judged {
     /// The claim.
     #[serde(flatten)]

@@ -1,11 +1,12 @@
 //! Cost of a result: wall time, which differs from machine to machine, and work counts, which do not.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
 /// The cost of the run behind a claim.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Cost {
     /// Wall time \[s\], if it was measured. Reported under `run` only.
     #[serde(skip)]

@@ -20,12 +20,13 @@ use crate::capability::Capability;
 use crate::claim::{Claim, Evidence, Judged, Norm, Test};
 use crate::cost::Cost;
 use crate::order::{Floor, Level, OrderTest, Plateau};
-use crate::plot::Plot;
+use asperity_output::plots::Diagram;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt::Debug;
 
 /// A table of the case's page.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Table {
     /// Caption.
     pub title: String,
@@ -35,13 +36,26 @@ pub struct Table {
     pub rows: Vec<Vec<String>>,
 }
 
+/// A drawing of the case's page: a field, a mesh, a sketch.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Title.
+    pub title: String,
+    /// Drawing as SVG.
+    pub svg: String,
+    /// Text below it.
+    pub caption: String,
+}
+
 /// Everything a case recorded.
 #[derive(Debug, Default)]
 pub struct Record {
     /// Judged claims, in order.
     pub claims: Vec<Judged>,
+    /// Drawings.
+    pub pictures: Vec<Picture>,
     /// Plots.
-    pub plots: Vec<Plot>,
+    pub plots: Vec<Diagram>,
     /// Tables.
     pub tables: Vec<Table>,
     /// Notes.
@@ -87,8 +101,13 @@ impl Ledger {
     }
 
     /// Adds a plot to the case's page.
-    pub fn plot(&mut self, plot: Plot) {
+    pub fn plot(&mut self, plot: Diagram) {
         self.record.plots.push(plot);
+    }
+
+    /// Adds a drawing to the case's page.
+    pub fn picture(&mut self, title: impl Into<String>, svg: String, caption: impl Into<String>) {
+        self.record.pictures.push(Picture { title: title.into(), svg, caption: caption.into() });
     }
 
     /// Adds a paragraph to the case's page.

@@ -16,18 +16,18 @@ pub mod cost;
 pub mod glob;
 pub mod ledger;
 pub mod order;
-pub mod plot;
 pub mod readme;
 pub mod report;
+pub mod sketches;
 pub mod suite;
 
 #[path = "../cases/mod.rs"]
 pub mod cases;
 
+pub use asperity_output::plots::{Diagram as Plot, Scale as Axis, Series, Slope};
 pub use capability::Capability;
 pub use case::{Case, CaseError};
 pub use claim::{Evidence, Verdict};
 pub use cost::Cost;
 pub use ledger::Ledger;
 pub use order::{Floor, Level};
-pub use plot::{Axis, Plot, Series};

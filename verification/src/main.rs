@@ -7,7 +7,7 @@
 
 use asperity_driver::cli::{self, Arguments};
 use asperity_verification::case::Outcome;
-use asperity_verification::report::{self, provenance::Provenance};
+use asperity_verification::report::{self, history, junit, provenance::Provenance};
 use asperity_verification::suite::{Selection, Summary};
 use asperity_verification::{Verdict, cases, cases::programs};
 use clap::Parser;
@@ -28,6 +28,15 @@ struct Options {
     /// Folder of the report.
     #[arg(long, value_name = "DIR", default_value = "target/verify")]
     out: PathBuf,
+    /// Also write the claims as JUnit's XML.
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    /// Keep error, bound and cost of the cases as those of a release, in verification/history/TAG.json.
+    #[arg(long, value_name = "TAG")]
+    keep: Option<String>,
+    /// The tests of the workspace passed just before: the pages say so.
+    #[arg(long)]
+    tested: bool,
 }
 
 fn main() -> ExitCode {
@@ -60,19 +69,32 @@ fn asperity(arguments: &Arguments) -> ExitCode {
 fn suite(options: &Options) -> Result<Summary, Box<dyn Error>> {
     let start = Instant::now();
     let chosen = Selection { full: options.full, glob: options.case.clone() }.of(cases::ALL)?;
+    if options.full {
+        let forecast = history::forecast(&history::releases(&history::folder()), &chosen);
+        println!("{} cases: {forecast}", chosen.len());
+    }
     let width = chosen.iter().map(|case| case.name.len()).max().unwrap_or(0);
-    println!("{:width$}   hold  disagree  not covered   slack  thin     time", "case");
+    println!("{:width$}   hold  disagree  not covered   loose  near     time", "case");
     let mut outcomes: Vec<Outcome> = Vec::new();
     for case in chosen {
         let outcome = case.execute();
         print_row(&outcome, width);
         outcomes.push(outcome);
     }
-    let run = Provenance::gather(options.full, start.elapsed().as_secs_f64());
+    let run = Provenance::gather(options.full, options.tested, start.elapsed().as_secs_f64());
     report::write(&options.out, &outcomes, &run)?;
+    if let Some(path) = &options.junit {
+        report::put(path, &junit::document(&outcomes))?;
+    }
+    if let Some(tag) = &options.keep {
+        report::keep(&history::folder().join(format!("{tag}.json")), tag, &outcomes, &run)?;
+    }
     let summary = Summary::of_all(&outcomes);
     println!();
     println!("report: {}", options.out.join("index.html").display());
+    if !summary.remarks().is_empty() {
+        println!("{}", summary.remarks());
+    }
     println!("{summary}");
     Ok(summary)
 }

@@ -1,9 +1,10 @@
 //! Orders of convergence: from errors on several levels to an observed order.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// One level of a convergence study.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Level {
     /// Mesh size, time step, 1/penalty ...: what is refined.
     pub size: f64,
@@ -18,7 +19,7 @@ impl From<(f64, f64)> for Level {
 }
 
 /// Floor of an error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Floor {
     /// The mesh, while time is refined.
@@ -47,7 +48,7 @@ impl Floor {
 }
 
 /// The plateau a study may reach.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Plateau {
     /// Which floor it is.
     pub floor: Floor,
@@ -60,7 +61,7 @@ pub struct Plateau {
 pub const FITTED_LEVELS: usize = 3;
 
 /// A claim on an order.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct OrderTest {
     /// The levels, from coarse to fine.
     pub levels: Vec<Level>,
@@ -101,7 +102,7 @@ impl OrderTest {
         {
             return Err(format!("the level {} has the error {}", bad.size, bad.error));
         }
-        let above: Vec<&Level> = self.levels.iter().filter(|l| !self.on_plateau(l)).collect();
+        let above = self.above();
         if let Some(bad) = above.iter().find(|l| l.error <= 0.0) {
             return Err(format!(
                 "the error {} on level {} has no logarithm and no floor",
@@ -111,7 +112,18 @@ impl OrderTest {
         if above.len() < 2 {
             return Err("fewer than two levels stand above the plateau".into());
         }
-        Ok(slope(&above[above.len().saturating_sub(FITTED_LEVELS)..]))
+        Ok(slope(&self.fitted()))
+    }
+
+    /// Levels above the plateau.
+    fn above(&self) -> Vec<&Level> {
+        self.levels.iter().filter(|l| !self.on_plateau(l)).collect()
+    }
+
+    /// Levels that the order is fitted to.
+    pub fn fitted(&self) -> Vec<&Level> {
+        let above = self.above();
+        above[above.len().saturating_sub(FITTED_LEVELS)..].to_vec()
     }
 
     /// Distance of an observed order from what is claimed \[-\].

@@ -3,6 +3,7 @@
 use crate::case::{Case, Outcome};
 use crate::claim::{Judged, Mark, Verdict};
 use crate::glob;
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
@@ -66,7 +67,7 @@ fn names(cases: &[&Case]) -> Vec<String> {
 }
 
 /// The counts of the last line.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Summary {
     /// Claims that hold.
     pub hold: usize,
@@ -102,6 +103,21 @@ impl Summary {
     /// Counts the claims of all outcomes.
     pub fn of_all(outcomes: &[Outcome]) -> Summary {
         Summary::of(outcomes.iter().flat_map(|outcome| &outcome.record.claims))
+    }
+
+    /// What is remarkable about the bounds, in a sentence; empty where nothing is.
+    pub fn remarks(&self) -> String {
+        let near = match self.thin {
+            0 => None,
+            1 => Some("1 check within 20 % of its tolerance".to_owned()),
+            n => Some(format!("{n} checks within 20 % of their tolerance")),
+        };
+        let loose = match self.slack_unexplained {
+            0 => None,
+            1 => Some("1 tolerance more than ten times looser than needed, without a reason yet".to_owned()),
+            n => Some(format!("{n} tolerances more than ten times looser than needed, without a reason yet")),
+        };
+        near.into_iter().chain(loose).collect::<Vec<_>>().join("; ")
     }
 
     /// True if the suite passes: something was claimed, and nothing disagrees.

@@ -4,11 +4,12 @@
 use asperity_verification::case::Outcome;
 use asperity_verification::claim::{CONTROL_BOUNDS, Judged, Mark};
 use asperity_verification::ledger::{Draft, OrderDraft};
-use asperity_verification::report::{self, html, json, provenance::Provenance, svg};
+use asperity_verification::report::{self, coverage, json, junit, page, provenance::Provenance};
 use asperity_verification::suite::{Selection, SelectionError, Summary};
 use asperity_verification::{
-    Axis, Capability, Case, CaseError, Cost, Evidence, Floor, Ledger, Plot, Series, Verdict,
+    Capability, Case, CaseError, Cost, Evidence, Floor, Ledger, Plot, Series, Verdict,
 };
+use std::path::Path;
 
 fn judge(write: impl FnOnce(Draft<'_>) -> Draft<'_>) -> Judged {
     let mut ledger = Ledger::new(&[Capability::PlaneStrain]);
@@ -267,7 +268,8 @@ fn an_empty_selection_is_an_error() {
 fn the_report_keeps_machine_dependent_values_under_run() {
     let report = |machine: &str, wall| {
         let outcome = Outcome { wall, ..case(good).execute() };
-        json::report(&[outcome], &Provenance { machine: machine.to_owned(), ..Provenance::default() })
+        let run = Provenance { machine: machine.to_owned(), ..Provenance::default() };
+        serde_json::to_value(json::report(&[outcome], &run)).unwrap()
     };
     let (mut a, mut b) = (report("one", 1.0), report("other", 2.0));
     assert_ne!(a["run"], b["run"]);
@@ -286,7 +288,8 @@ fn the_report_keeps_machine_dependent_values_under_run() {
 
 #[test]
 fn the_format_of_the_report_changes_only_on_purpose() {
-    let mut report = json::report(&[case(good).execute()], &Provenance::default());
+    let report = serde_json::to_value(json::report(&[case(good).execute()], &Provenance::default()));
+    let mut report = report.unwrap();
     report.as_object_mut().unwrap().remove("run");
     round(&mut report);
     insta::assert_json_snapshot!(report);
@@ -304,16 +307,47 @@ fn round(value: &mut serde_json::Value) {
     }
 }
 
+/// A folder of the report of a synthetic case; it is removed at the end.
+struct Written(std::path::PathBuf);
+
+impl Written {
+    fn new(name: &str) -> Written {
+        let folder = std::env::temp_dir().join(format!("asperity-harness-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(folder.join("cases")).unwrap();
+        std::fs::write(folder.join("cases/old.html"), "old").unwrap();
+        report::write(&folder, &[case(good).execute()], &Provenance::gather(false, false, 1.0)).unwrap();
+        Written(folder)
+    }
+
+    fn text(&self, file: &str) -> String {
+        std::fs::read_to_string(self.0.join(file)).unwrap()
+    }
+}
+
+impl Drop for Written {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+const PAGES: [&str; 9] = [
+    "index.html",
+    "coverage.html",
+    "precision.html",
+    "defects.html",
+    "history.html",
+    "tests.html",
+    "words.html",
+    "cases/synthetic.html",
+    "sources/synthetic.html",
+];
+
 #[test]
-fn pages_show_claims_escape_text_and_print_empty_cells() {
-    let outcomes = [case(good).execute()];
-    let index = html::index(&outcomes, &Provenance::default());
-    assert!(index.contains("claims: 4 hold, 0 disagree, 1 not covered"));
-    assert_eq!(index.matches("no evidence").count(), Capability::ALL.len() * Evidence::ALL.len() - 3);
-    assert!(index.contains("A &lt;case&gt;"));
-    let drawings: Vec<String> =
-        outcomes[0].record.plots.iter().map(|plot| svg::draw(plot).unwrap()).collect();
-    let page = html::case_page(&outcomes[0], &drawings);
+fn pages_show_claims_and_escape_text() {
+    let written = Written::new("texts");
+    let index = written.text("index.html");
+    assert!(index.contains("claims: 4 hold, 0 disagree, 1 not covered") && index.contains("A &lt;case&gt;"));
+    let page = written.text("cases/synthetic.html");
     for text in [
         "first &lt;quantity&gt;",
         "<h2>Problem</h2>",
@@ -321,12 +355,157 @@ fn pages_show_claims_escape_text_and_print_empty_cells() {
         "&lt;2&gt;",
         "1 points cannot",
         "</svg>",
+        "id=\"first-quantity\"",
+        "href=\"#first-quantity\"",
+        "Observed 2 over the finest 3 levels",
+        "Cost to reach an error of 1, 0.1, 0.01 %",
     ] {
         assert!(page.contains(text), "{text}");
     }
-    for outside in ["http://", "https://", "<script", "src="] {
-        let page = page.replace("http://www.w3.org/2000/svg", "");
-        assert!(!page.contains(outside) && !index.contains(outside), "{outside}");
+}
+
+#[test]
+fn pages_need_no_network() {
+    let written = Written::new("network");
+    for file in PAGES {
+        let page = written.text(file);
+        for name in ["http://www.w3.org/2000/svg", "http://www.w3.org/1998/Math/MathML"] {
+            // Names of formats, which nobody fetches.
+            assert!(!page.contains(&format!("href=\"{name}")) && !page.contains(&format!("src=\"{name}")));
+        }
+        for outside in ["src=\"http", "href=\"http", "@import", "url(", "fetch("] {
+            assert!(!page.contains(outside), "{file}: {outside}");
+        }
+    }
+}
+
+#[test]
+fn every_page_is_stamped() {
+    let written = Written::new("stamp");
+    for file in PAGES {
+        let page = written.text(file);
+        for fact in ["command", "machine", "compiler", "threads", "date"] {
+            assert!(page.contains(&format!("<dt>{fact}</dt>")), "{file}: {fact}");
+        }
+    }
+}
+
+#[test]
+fn links_between_pages_lead_to_files_and_anchors() {
+    let written = Written::new("links");
+    for file in PAGES {
+        let page = written.text(file);
+        let folder = Path::new(file).parent().unwrap();
+        for target in page.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
+            let (path, anchor) = target.split_once('#').unwrap_or((target, ""));
+            let to = if path.is_empty() { Path::new(file).to_owned() } else { folder.join(path) };
+            // Cases that did not run in this test have no page, though defects and the history name them.
+            if target.starts_with("data:") || (path.contains("cases/") && !path.contains("synthetic")) {
+                continue;
+            }
+            let text =
+                std::fs::read_to_string(written.0.join(&to)).unwrap_or_else(|_| panic!("{file}: {target}"));
+            assert!(anchor.is_empty() || text.contains(&format!("id=\"{anchor}\"")), "{file}: {target}");
+        }
+    }
+}
+
+#[test]
+fn capabilities_without_a_claim_or_a_test_have_no_evidence() {
+    let outcomes = [case(good).execute()];
+    let page = coverage::whole(&outcomes, &[], &Provenance::default());
+    assert_eq!(
+        page.matches("no evidence").count(),
+        Capability::ALL.len() - 2,
+        "scenes and outputs have some"
+    );
+}
+
+#[test]
+fn junit_counts_claims_and_tells_why_they_fail() {
+    let bad = case(|ledger| {
+        ledger.claim("x < y").value(2.0).at_most(1.0).record();
+        Ok(())
+    });
+    let text = junit::document(&[case(good).execute(), bad.execute()]);
+    assert!(text.contains("<testsuites name=\"asperity verification\" tests=\"6\" failures=\"1\""), "{text}");
+    assert!(text.contains("name=\"x &lt; y\""));
+    assert!(text.contains("<failure message=\"the error exceeds the bound\">"), "{text}");
+    assert!(text.contains("<skipped message=\"nobody asks for it\"/>"));
+}
+
+#[test]
+fn the_schema_of_the_report_is_published_and_the_report_has_its_keys() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/src/verification.schema.json");
+    let schema = json::schema();
+    let text = serde_json::to_string_pretty(&schema).unwrap() + "\n";
+    if std::env::var_os("UPDATE_SCHEMA").is_some() {
+        std::fs::write(&path, &text).unwrap();
+    }
+    assert!(
+        std::fs::read_to_string(&path).is_ok_and(|kept| kept == text),
+        "the schema is stale: run the test with UPDATE_SCHEMA=1"
+    );
+    let outcomes = [case(good).execute()];
+    let run = Provenance::default();
+    let report = serde_json::to_value(json::report(&outcomes, &run)).unwrap();
+    let missing = unknown(&report, &schema, &schema);
+    assert_eq!(missing, Vec::<String>::new());
+}
+
+/// Keys of a value that a schema does not name.
+fn unknown(value: &serde_json::Value, schema: &serde_json::Value, root: &serde_json::Value) -> Vec<String> {
+    let mut named = std::collections::BTreeMap::new();
+    let mut open = Vec::new();
+    properties(schema, root, &mut named, &mut open);
+    let items = |value: &serde_json::Value| value.as_array().cloned().unwrap_or_default();
+    let mut found = Vec::new();
+    match value {
+        serde_json::Value::Object(fields) => {
+            for (key, value) in fields {
+                match named.get(key).or(open.first()) {
+                    Some(schema) => found.extend(unknown(value, schema, root)),
+                    None => found.push(key.clone()),
+                }
+            }
+        }
+        serde_json::Value::Array(_) => {
+            for item in items(value) {
+                found.extend(unknown(
+                    &item,
+                    resolved(schema, root).get("items").unwrap_or(&serde_json::json!({})),
+                    root,
+                ));
+            }
+        }
+        _ => {}
+    }
+    found
+}
+
+fn resolved<'a>(schema: &'a serde_json::Value, root: &'a serde_json::Value) -> &'a serde_json::Value {
+    match schema.get("$ref").and_then(|path| path.as_str()) {
+        Some(path) => root.pointer(path.trim_start_matches('#')).unwrap(),
+        None => schema,
+    }
+}
+
+/// Keys that a schema names, in all of its alternatives, and the schemas of keys of any name.
+fn properties<'a>(
+    schema: &'a serde_json::Value,
+    root: &'a serde_json::Value,
+    named: &mut std::collections::BTreeMap<String, &'a serde_json::Value>,
+    open: &mut Vec<&'a serde_json::Value>,
+) {
+    let schema = resolved(schema, root);
+    for (key, value) in schema.get("properties").and_then(|p| p.as_object()).into_iter().flatten() {
+        named.insert(key.clone(), value);
+    }
+    open.extend(schema.get("additionalProperties").filter(|value| value.is_object()));
+    for list in ["allOf", "anyOf", "oneOf"] {
+        for part in schema.get(list).and_then(|l| l.as_array()).into_iter().flatten() {
+            properties(part, root, named, open);
+        }
     }
 }
 
@@ -340,31 +519,15 @@ fn numbers_are_printed_with_four_digits() {
         (100.0, "100"),
         (1.5e-7, "1.500e-7"),
     ] {
-        assert_eq!(html::number(value), text);
+        assert_eq!(page::number(value), text);
     }
 }
 
 #[test]
-fn plots_of_nothing_and_of_every_pair_of_axes_can_be_drawn() {
-    for x in [Axis::Linear, Axis::Log] {
-        for y in [Axis::Linear, Axis::Log] {
-            let plot = Plot::xy("t", "x", "y").axes(x, y);
-            assert!(svg::draw(&plot).is_ok());
-            let points = [(0.0, 0.0), (f64::NAN, 1.0), (1.0, 2.0), (1e6, 3e-7)];
-            assert!(svg::draw(&plot.series(Series::marked("a", &points))).unwrap().contains("</svg>"));
-        }
+fn a_report_replaces_the_pages_of_an_earlier_one() {
+    let written = Written::new("replaces");
+    assert!(!written.0.join("cases/old.html").exists());
+    for file in PAGES.into_iter().chain(["report.json", "cases/synthetic.json"]) {
+        assert!(written.text(file).len() > 100, "{file}");
     }
-}
-
-#[test]
-fn a_report_is_written_and_replaces_the_pages_of_an_earlier_one() {
-    let folder = std::env::temp_dir().join(format!("asperity-harness-{}", std::process::id()));
-    std::fs::create_dir_all(folder.join("cases")).unwrap();
-    std::fs::write(folder.join("cases/old.html"), "old").unwrap();
-    report::write(&folder, &[case(good).execute()], &Provenance::gather(false, 1.0)).unwrap();
-    assert!(!folder.join("cases/old.html").exists());
-    for file in ["report.json", "index.html", "cases/synthetic.html"] {
-        assert!(std::fs::metadata(folder.join(file)).unwrap().len() > 100, "{file}");
-    }
-    std::fs::remove_dir_all(folder).unwrap();
 }

@@ -26,7 +26,7 @@ const CLAIMED: f64 = 0.08;
 const MU: f64 = 0.3;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let mut rows = Vec::new();
+    let (mut rows, mut shown) = (Vec::new(), Vec::new());
     let (mut pressures, mut shears) = (Vec::new(), Vec::new());
     for (name, measure, capability, sizes) in [
         ("mortar", Measure::Mortar, Capability::Mortar, [SIZE, CLAIMED, 0.06].as_slice()),
@@ -41,9 +41,12 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             }
             if size == CLAIMED {
                 claims(ledger, name, capability, &ball);
+                shown.push((name, ball));
             }
         }
     }
+    let shown: Vec<_> = shown.iter().map(|(name, ball)| (*name, &ball.pressed, &ball.hertz)).collect();
+    hertz::ellipse(ledger, &shown);
     for (what, levels, finest) in [("pressure", &pressures, 0.06), ("shear traction", &shears, 0.12)] {
         ledger
             .order(format!("{what} in L2 over the cell size, mortar"))

@@ -124,6 +124,7 @@ fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         ("node-to-point, n = 20", points("quad4")?),
         ("node-to-point, n = 20, quad9", points("quad9")?),
     ];
+    let mut pressed = Vec::new();
     for (what, scene) in runs {
         let r = Pressed::of(&scene)?;
         let capability =
@@ -132,7 +133,10 @@ fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
         if what == "mortar, n = 20" {
             load(ledger, &r);
         }
+        pressed.push((what, r));
     }
+    let shown: Vec<_> = pressed.iter().map(|(what, r)| (*what, &r.at, &r.exact)).collect();
+    hertz::ellipse(ledger, &shown);
     Ok(())
 }
 

@@ -19,7 +19,7 @@ const SIZE: f64 = 0.02;
 const FINEST: f64 = 0.01;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let mut rows = Vec::new();
+    let (mut rows, mut shown) = (Vec::new(), Vec::new());
     for (name, measure, capability) in [
         ("mortar", Measure::Mortar, Capability::Mortar),
         ("node-to-point", Measure::NodeToPoint, Capability::PenaltyContact2d),
@@ -49,6 +49,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             ]);
             if size == FINEST {
                 claims(ledger, name, capability, &at, exact, &done.cost);
+                shown.push((name, at, exact));
             }
         }
         ledger
@@ -64,6 +65,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             .covers(&[Capability::Hertz, Capability::Axisymmetric])
             .record();
     }
+    let shown: Vec<_> = shown.iter().map(|(name, at, exact)| (*name, at, exact)).collect();
+    hertz::ellipse(ledger, &shown);
     let head =
         ["measure", "cells [mm]", "P [N]", "a %", "p0 %", "largest p %", "L2 %", "iterations", "wall [s]"];
     ledger.table("errors against Hertz at the run's own load", &head, rows);

@@ -14,7 +14,7 @@ pub const CASE: Case = Case {
 };
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let (mut peaks, mut settings) = (Vec::new(), Vec::new());
+    let (mut peaks, mut settings, mut shown) = (Vec::new(), Vec::new(), Vec::new());
     let mut rows = Vec::new();
     for (what, measure, sliding, capability) in [
         ("mortar, small sliding", Measure::Mortar, Sliding::Small, Capability::Mortar),
@@ -69,7 +69,10 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
                 .cost(&done.cost)
                 .record();
         }
+        shown.push((what, at, exact));
     }
+    let shown: Vec<_> = shown.iter().map(|(what, at, exact)| (*what, at, exact)).collect();
+    hertz::ellipse(ledger, &shown);
     let head = ["run", "P [kN/mm]", "a %", "p0 %", "largest p %", "L2 %", "iterations", "wall [s]"];
     ledger.table("deviation from Hertz at the run's own load, 15 to 20 cells per half-width", &head, rows);
     ledger

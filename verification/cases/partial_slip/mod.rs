@@ -1,7 +1,7 @@
 //! Cattaneo and Mindlin: a pressed line contact under shear, sticking in the middle and slipping at its edges.
 
 use super::hertz::{self, Done, Hertz, Tractions, compliance};
-use crate::{Capability, Case, CaseError, Evidence, Ledger};
+use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
 use asperity_driver::scene::model::{Measure, Motion, Scene, Sliding, here};
 
 /// See the README.
@@ -19,7 +19,7 @@ const N: f64 = 20.0;
 const MEASURES: [(&str, Measure); 2] = [("mortar", Measure::Mortar), ("node-to-point", Measure::NodeToPoint)];
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
-    let mut rows = Vec::new();
+    let (mut rows, mut shown) = (Vec::new(), Vec::new());
     for (name, measure) in MEASURES {
         let mut levels = Vec::new();
         for n in [5.0, 10.0, 20.0, 40.0] {
@@ -28,6 +28,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
             rows.push(r.row(name, n));
             if n == N {
                 claims(ledger, name, &r);
+                shown.push((name, r));
             }
         }
         ledger
@@ -56,6 +57,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         "wall [s]",
     ];
     ledger.table("partial slip against Cattaneo and Mindlin at the run's own loads, and cost", &head, rows);
+    overlay(ledger, &shown);
     steps(ledger)?;
     reversal(ledger)
 }
@@ -161,6 +163,28 @@ fn claims(ledger: &mut Ledger, name: &str, r: &Sheared) {
         .why_not_tighter("the asymmetry of p under shear is itself of second order")
         .covers(&[Capability::Balance])
         .record();
+}
+
+/// Shear tractions over those of Cattaneo and Mindlin, with the limit of friction.
+fn overlay(ledger: &mut Ledger, runs: &[(&str, Sheared)]) {
+    let mut plot = Plot::xy("Shear traction over Cattaneo and Mindlin", "x/a [-]", "q/(mu p0) [-]");
+    for (name, r) in runs {
+        let scale = MU * r.exact.p0;
+        let points = r.at.x.iter().zip(&r.at.q).map(|(x, q)| (x / r.exact.a, q / scale));
+        let points: Vec<(f64, f64)> = points.filter(|(x, _)| x.abs() <= 1.4).collect();
+        plot = plot.series(Series::points(*name, &points));
+    }
+    if let Some((_, r)) = runs.first() {
+        let curve = |of: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
+            let along = (0..=400).map(|k| f64::from(k) / 200.0 - 1.0);
+            along.map(|x| (x, of(x * r.exact.a) / (MU * r.exact.p0))).collect()
+        };
+        let shear = curve(&|x| r.exact.shear(x, MU, r.c));
+        let limit = curve(&|x| MU * r.exact.pressure(x));
+        plot = plot.series(Series::line("Cattaneo and Mindlin", &shear));
+        plot = plot.series(Series::line("limit of friction, mu p", &limit));
+    }
+    ledger.plot(plot.caption("At the loads of the run; between the horns the contact sticks."));
 }
 
 /// One step, four, forty: while the load grows, slip goes one way and the answer does not depend on the steps.

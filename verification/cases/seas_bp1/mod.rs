@@ -1,7 +1,7 @@
 //! The community's benchmark BP1-QD: its first three events.
 
 use crate::cases::seas::{self, CONVERGED, Found};
-use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
+use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_cycles::Moment;
 use asperity_driver::fault::Plan;
 use asperity_ode::Method;
@@ -92,7 +92,11 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         "the error of boundary elements with as many unknowns (QDYN, 78 m)",
     );
     let fine = plan(78.125)?;
-    let at_fine = found(&fine, fine.problem.settings.method, tolerance, |_| {})?;
+    let mut rates = Vec::new();
+    let at_fine = found(&fine, fine.problem.settings.method, tolerance, |now| {
+        rates.push((now.at.seconds() / seas::YEAR, now.largest));
+    })?;
+    overlay(ledger, &at_fine.onsets, &rates)?;
     first_event(ledger, &at_fine, "78 m", 0.098, "0.05 %, four cells to the process zone of 340 m");
     later_events(ledger, &at_fine);
     ledger
@@ -153,6 +157,32 @@ fn half_space(ledger: &mut Ledger, plan: &Plan) {
         .covers(&[Capability::FaultCycles, Capability::Antiplane])
         .cost(&cost)
         .record();
+}
+
+/// Largest slip rates over those of the second implementation: of all years, and of each event around its onset.
+fn overlay(ledger: &mut Ledger, onsets: &[f64], rates: &[(f64, f64)]) -> Result<(), CaseError> {
+    let (reference, starts) = seas::largest_rates()?;
+    let all = Plot::xy("Largest slip rate", "time [yr]", "V_max [m/s]").axes(Axis::Linear, Axis::Log);
+    ledger.plot(
+        all.series(Series::line("the program, cells of 78 m", rates))
+            .series(Series::line("boundary elements of 78 m", &reference))
+            .caption("Three events; the reference is bp1_largest_rate.py in verification/independent."),
+    );
+    // From before the rise to 1 mm/s until the fastest slip has passed [s].
+    let shown = -60.0..240.0;
+    let around = |curve: &[(f64, f64)], onset: f64| -> Vec<(f64, f64)> {
+        let since = curve.iter().map(|(t, v)| ((t - onset) * seas::YEAR, *v));
+        since.filter(|(t, _)| shown.contains(t)).collect()
+    };
+    let mut events = Plot::xy("Largest slip rate in the events", "time since the onset [s]", "V_max [m/s]")
+        .axes(Axis::Linear, Axis::Log);
+    for (k, (own, other)) in onsets.iter().zip(&starts).enumerate() {
+        events = events.series(Series::line(format!("event {}", k + 1), &around(rates, *own)));
+        events =
+            events.series(Series::points(format!("event {}, reference", k + 1), &around(&reference, *other)));
+    }
+    ledger.plot(events.caption("Each curve from its own onset, V_max = 1 mm/s."));
+    Ok(())
 }
 
 fn first_event(ledger: &mut Ledger, found: &Found, size: &str, bound: f64, because: &str) {

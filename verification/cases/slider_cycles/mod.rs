@@ -33,7 +33,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         against_references(ledger, &reference, name, &set, kind)?;
     }
     methods_agree(ledger)?;
-    picture(ledger)
+    picture(ledger, &reference)
 }
 
 /// Events of a run, with its cost.
@@ -169,13 +169,16 @@ fn methods_agree(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-fn picture(ledger: &mut Ledger) -> Result<(), CaseError> {
+/// Slip rates over time, with the onsets and the largest rate of the reference.
+fn picture(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> {
+    /// Rate at which an event begins \[m/s\].
+    const ONSET: f64 = 1e-3;
     let mut plot = Plot::xy("Slip rate over the cycles", "time over the recurrence [-]", "V [m/s]")
         .axes(Axis::Linear, Axis::Log);
-    for (name, set, kind) in [
-        ("mild, ageing", slider::MILD, Kind::Ageing),
-        ("mild, slip", slider::MILD, Kind::Slip),
-        ("hard, ageing", slider::HARD, Kind::Ageing),
+    for (name, stored, set, kind) in [
+        ("mild, ageing", "mild_ageing", slider::MILD, Kind::Ageing),
+        ("mild, slip", "mild_slip", slider::MILD, Kind::Slip),
+        ("hard, ageing", "hard_ageing", slider::HARD, Kind::Ageing),
     ] {
         let mut plan = set.plan(kind, 1.5, 1e12)?;
         slider::events(&mut plan, 3);
@@ -185,8 +188,11 @@ fn picture(ledger: &mut Ledger) -> Result<(), CaseError> {
         let run = cycles::run(&plan, &mut look)?;
         let recurrence = Entry::all(&run).last().and_then(|e| e.interval).ok_or("no recurrence")?;
         let scaled: Vec<(f64, f64)> = curve.iter().map(|(t, v)| (t / recurrence, *v)).collect();
+        let crossings = reference.numbers(stored, "crossings_s")?;
+        let onsets: Vec<(f64, f64)> = crossings.iter().take(3).map(|t| (t / recurrence, ONSET)).collect();
         plot = plot.series(Series::line(name, &scaled));
+        plot = plot.series(Series::points(format!("{name}: onsets by heyoka"), &onsets));
     }
-    ledger.plot(plot.caption("Three events of each set."));
+    ledger.plot(plot.caption("Three events of each set, on the onsets of the reference at 1 mm/s."));
     Ok(())
 }

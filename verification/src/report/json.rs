@@ -1,41 +1,118 @@
-//! `report.json`: everything reproducible at the top, everything that depends on the machine under `run`.
+//! `report.json`: everything reproducible at the top, everything that depends on the machine under `run`. Its schema is
+//! `docs/src/verification.schema.json`.
 
+use super::ids;
 use super::provenance::Provenance;
 use crate::case::Outcome;
+use crate::claim::Judged;
+use crate::ledger::Table;
 use crate::suite::Summary;
-use serde_json::{Map, Value, json};
+use asperity_output::plots::Diagram;
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// Version of the format of `report.json`.
-pub const SCHEMA: u32 = 1;
+pub const SCHEMA: u32 = 2;
 
-/// The report as a value.
-pub fn report(outcomes: &[Outcome], run: &Provenance) -> Value {
-    let cases: Vec<Value> = outcomes.iter().map(case).collect();
-    let walls: Map<String, Value> = outcomes.iter().map(|o| (o.case.name.to_owned(), walls(o))).collect();
-    let mut run = json!(run);
-    run["walls"] = Value::Object(walls);
-    json!({ "schema": SCHEMA, "summary": Summary::of_all(outcomes), "cases": cases, "run": run })
+/// Report of a run of the suite.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(title = "Report of the verification suite")]
+pub struct Report<'a> {
+    /// Version of the format.
+    pub schema: u32,
+    /// Counts of all claims.
+    pub summary: Summary,
+    /// Cases, in the order they ran.
+    pub cases: Vec<CaseReport<'a>>,
+    /// What depends on the machine.
+    pub run: Run<'a>,
 }
 
-fn case(outcome: &Outcome) -> Value {
-    let record = &outcome.record;
-    json!({
-        "name": outcome.case.name,
-        "quick": outcome.case.quick,
-        "summary": Summary::of(&record.claims),
-        "claims": record.claims,
-    })
+/// A case.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct CaseReport<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// True if it belongs to the quick suite.
+    pub quick: bool,
+    /// Counts of its claims.
+    pub summary: Summary,
+    /// Claims.
+    pub claims: Vec<ClaimReport<'a>>,
 }
 
-/// Wall times, and what may contain them: plots, tables and notes.
-fn walls(outcome: &Outcome) -> Value {
+/// A claim with its name.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ClaimReport<'a> {
+    /// Name: its permalink on the page of the case and its key in the history.
+    pub id: String,
+    /// The judged claim.
+    #[serde(flatten)]
+    pub judged: &'a Judged,
+}
+
+/// What depends on the machine.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct Run<'a> {
+    /// Provenance.
+    #[serde(flatten)]
+    pub provenance: &'a Provenance,
+    /// Wall times by case, and what may contain them.
+    pub walls: BTreeMap<&'a str, Walls<'a>>,
+}
+
+/// Wall times of a case, and what may contain them: diagrams, tables and notes.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct Walls<'a> {
+    /// Of the case \[s\].
+    pub case: f64,
+    /// Of the runs behind its claims, in the order of the claims \[s\].
+    pub claims: Vec<Option<f64>>,
+    /// Diagrams.
+    pub plots: &'a [Diagram],
+    /// Tables.
+    pub tables: &'a [Table],
+    /// Notes.
+    pub notes: &'a [String],
+}
+
+/// The report of a run.
+pub fn report<'a>(outcomes: &'a [Outcome], run: &'a Provenance) -> Report<'a> {
+    let walls = outcomes.iter().map(|outcome| (outcome.case.name, walls(outcome))).collect();
+    Report {
+        schema: SCHEMA,
+        summary: Summary::of_all(outcomes),
+        cases: outcomes.iter().map(case).collect(),
+        run: Run { provenance: run, walls },
+    }
+}
+
+/// A case of the report.
+pub fn case(outcome: &Outcome) -> CaseReport<'_> {
+    let claims = &outcome.record.claims;
+    let named = ids::of(claims).into_iter().zip(claims);
+    CaseReport {
+        name: outcome.case.name,
+        quick: outcome.case.quick,
+        summary: Summary::of(claims),
+        claims: named.map(|(id, judged)| ClaimReport { id, judged }).collect(),
+    }
+}
+
+fn walls(outcome: &Outcome) -> Walls<'_> {
     let record = &outcome.record;
-    let claims: Vec<Option<f64>> = record.claims.iter().map(|judged| judged.claim.cost.wall).collect();
-    json!({
-        "case": outcome.wall,
-        "claims": claims,
-        "plots": record.plots,
-        "tables": record.tables,
-        "notes": record.notes,
-    })
+    Walls {
+        case: outcome.wall,
+        claims: record.claims.iter().map(|judged| judged.claim.cost.wall).collect(),
+        plots: &record.plots,
+        tables: &record.tables,
+        notes: &record.notes,
+    }
+}
+
+/// The published schema of the report.
+pub fn schema() -> Value {
+    json!(schemars::schema_for!(Report<'static>))
 }

@@ -1,13 +1,31 @@
 //! The report: `report.json` and the HTML pages, in one folder.
 
+mod case_page;
+mod claims;
+mod convergence;
 pub mod coverage;
-pub mod html;
+mod fields;
+mod figures;
+pub mod history;
+pub mod ids;
+pub mod index;
 pub mod json;
+pub mod junit;
+mod mathml;
+pub mod page;
+pub mod planted;
+pub mod precision;
 pub mod provenance;
-pub mod svg;
+mod sources;
+mod subjects;
+mod tests;
+mod words;
 
 use crate::case::Outcome;
+use crate::readme;
+use case_page::Context;
 use provenance::Provenance;
+use serde::Serialize;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -22,51 +40,78 @@ pub enum ReportError {
         /// Reason.
         source: std::io::Error,
     },
-    /// A plot.
-    #[error("cannot draw the plot `{title}` of {case}: {source}")]
-    Plot {
-        /// Case.
-        case: &'static str,
-        /// Title of the plot.
-        title: String,
-        /// Reason.
-        source: svg::SvgError,
-    },
     /// Encoding.
-    #[error("cannot encode report.json: {0}")]
+    #[error("cannot encode a result: {0}")]
     Encode(#[from] serde_json::Error),
 }
 
 /// Writes the whole report into `folder`, replacing the pages of an earlier one.
 ///
 /// # Errors
-/// If a file cannot be written or a plot not drawn.
+/// If a file cannot be written.
 pub fn write(folder: &Path, outcomes: &[Outcome], run: &Provenance) -> Result<(), ReportError> {
-    let pages = folder.join("cases");
-    if pages.exists() {
-        fs::remove_dir_all(&pages).map_err(|source| ReportError::Write { path: pages.clone(), source })?;
-    }
-    fs::create_dir_all(&pages).map_err(|source| ReportError::Write { path: pages.clone(), source })?;
-    put(&folder.join("report.json"), &serde_json::to_string_pretty(&json::report(outcomes, run))?)?;
-    put(&folder.join("index.html"), &html::index(outcomes, run))?;
-    for outcome in outcomes {
-        let plots = drawings(outcome)?;
-        put(&pages.join(format!("{}.html", outcome.case.name)), &html::case_page(outcome, &plots))?;
+    let (pages, sources) = (emptied(folder, "cases")?, emptied(folder, "sources")?);
+    let releases = history::releases(&history::folder());
+    let groups = tests::groups();
+    put(&folder.join("report.json"), &text(&json::report(outcomes, run))?)?;
+    put(&folder.join("index.html"), &index::whole(outcomes, &releases, run))?;
+    put(&folder.join("coverage.html"), &coverage::whole(outcomes, &groups, run))?;
+    put(&folder.join("precision.html"), &precision::whole(outcomes, run))?;
+    put(&folder.join("defects.html"), &planted::whole(&planted::Defects::read(), run))?;
+    put(&folder.join("history.html"), &history::whole(&releases, outcomes, run))?;
+    put(&folder.join("tests.html"), &tests::whole(&groups, run))?;
+    put(&folder.join("words.html"), &words::whole(run))?;
+    for (k, outcome) in outcomes.iter().enumerate() {
+        let name = outcome.case.name;
+        let at = |k: usize| outcomes.get(k).map(|outcome| outcome.case.name);
+        let neighbours = [k.checked_sub(1).and_then(at), at(k + 1)];
+        let files = sources::files(&outcome.case);
+        let context = Context { neighbours, files: &files, releases: &releases, run };
+        put(&pages.join(format!("{name}.html")), &case_page::whole(outcome, context))?;
+        put(&pages.join(format!("{name}.json")), &text(&json::case(outcome))?)?;
+        put(&sources.join(format!("{name}.html")), &sources::whole(&outcome.case, &files, run))?;
     }
     Ok(())
 }
 
-fn drawings(outcome: &Outcome) -> Result<Vec<String>, ReportError> {
-    let draw = |plot| {
-        svg::draw(plot).map_err(|source| ReportError::Plot {
-            case: outcome.case.name,
-            title: plot.title.clone(),
-            source,
-        })
-    };
-    outcome.record.plots.iter().map(draw).collect()
+/// Writes a file of the history.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn keep(path: &Path, tag: &str, outcomes: &[Outcome], run: &Provenance) -> Result<(), ReportError> {
+    let earlier = fs::read_to_string(path).ok().and_then(|text| serde_json::from_str(&text).ok());
+    put(path, &history::Release::of(tag, outcomes, run, earlier).text()?)
 }
 
-fn put(path: &Path, text: &str) -> Result<(), ReportError> {
-    fs::write(path, text).map_err(|source| ReportError::Write { path: path.to_owned(), source })
+/// The title of a case: its README's, or its name.
+fn title(outcome: &Outcome) -> &str {
+    let title = readme::title(outcome.case.readme);
+    if title.is_empty() { outcome.case.name } else { title }
+}
+
+fn text(value: &impl Serialize) -> Result<String, ReportError> {
+    Ok(serde_json::to_string_pretty(value)?)
+}
+
+/// An empty folder inside a folder.
+fn emptied(folder: &Path, name: &str) -> Result<PathBuf, ReportError> {
+    let path = folder.join(name);
+    let fault = |source| ReportError::Write { path: path.clone(), source };
+    if path.exists() {
+        fs::remove_dir_all(&path).map_err(fault)?;
+    }
+    fs::create_dir_all(&path).map_err(fault)?;
+    Ok(path)
+}
+
+/// Writes a file and the folders it stands in.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn put(path: &Path, text: &str) -> Result<(), ReportError> {
+    let fault = |source| ReportError::Write { path: path.to_owned(), source };
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(fault)?;
+    }
+    fs::write(path, text).map_err(fault)
 }

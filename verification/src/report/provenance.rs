@@ -1,16 +1,21 @@
 //! Provenance of a report: the machine-dependent facts, kept under one key.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Facts of a run that may differ from machine to machine.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Provenance {
     /// Version of the suite.
     pub version: String,
     /// Commit of the sources, with `+` when they were changed; empty outside a repository.
     pub commit: String,
+    /// The command that ran it.
+    pub command: String,
+    /// Compiler and profile it was built with.
+    pub compiler: String,
     /// Time of its end, UTC.
     pub date: String,
     /// System and processor.
@@ -19,24 +24,37 @@ pub struct Provenance {
     pub threads: usize,
     /// True if the long cases ran, too.
     pub full: bool,
+    /// True if the tests of the workspace passed just before.
+    pub tested: bool,
     /// Wall time of the whole \[s\].
     pub wall: f64,
 }
 
 impl Provenance {
     /// Gathers them now.
-    pub fn gather(full: bool, wall: f64) -> Provenance {
+    pub fn gather(full: bool, tested: bool, wall: f64) -> Provenance {
         let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
         Provenance {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             commit: commit().unwrap_or_default(),
+            command: command(),
+            compiler: format!("{}, {}", env!("ASPERITY_COMPILER"), env!("ASPERITY_PROFILE")),
             date: utc(seconds),
             machine: machine(),
             threads: std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
             full,
+            tested,
             wall,
         }
     }
+}
+
+/// The command line, without the folder of the program.
+fn command() -> String {
+    let mut arguments = std::env::args();
+    let program = arguments.next().unwrap_or_default();
+    let name = std::path::Path::new(&program).file_name().map(|name| name.to_string_lossy().into_owned());
+    name.into_iter().chain(arguments).collect::<Vec<_>>().join(" ")
 }
 
 fn commit() -> Option<String> {

@@ -2,6 +2,7 @@
 
 use super::colour::{GRID, INK};
 use super::figure::{Anchor, Figure, Point};
+use super::title::within;
 
 /// Em size of tick labels.
 const TICK_TEXT: f64 = 13.0;
@@ -48,6 +49,15 @@ impl Axis {
         Self { range: (lo, hi), log: true, label }
     }
 
+    /// A logarithmic axis around the positive values, with a margin that is a fraction of their range.
+    pub(super) fn around(values: impl Iterator<Item = f64>, margin: f64, label: String) -> Self {
+        let (lo, hi) = bounds(values.filter(|v| *v > 0.0)).unwrap_or((1.0, 10.0));
+        let (lo, hi) = (lo.log10(), hi.log10());
+        // A single value still needs a range: a factor of two to either side.
+        let room = if hi - lo > FLAT { margin * (hi - lo) } else { 2.0_f64.log10() };
+        Self { range: (lo - room, hi + room), log: true, label }
+    }
+
     /// Relative position of a value along the axis, 0..=1 inside. On a logarithmic axis smaller values are placed at its start.
     pub(super) fn place(&self, value: f64) -> f64 {
         let (lo, hi) = self.range;
@@ -65,12 +75,7 @@ impl Axis {
         }
         let span = hi - lo;
         if self.log {
-            let stride = ((span / about as f64).ceil() as usize).max(1);
-            let last = span.round() as usize;
-            return (0..=last)
-                .step_by(stride)
-                .map(|k| (k as f64 / span, power_of_ten((lo + k as f64).round() as i32)))
-                .collect();
+            return logarithmic_ticks((lo, hi), about);
         }
         let step = nice_step(span / about as f64);
         let decimals = (-step.log10().floor()).max(0.0) as usize + usize::from(is_quarter(step));
@@ -83,6 +88,42 @@ impl Axis {
                 ((value - lo) / span, format!("{value:.decimals$}").replace('-', "−"))
             })
             .collect()
+    }
+}
+
+/// Whole powers of ten, at most about this many; on an axis with less than two decades multiples of them, too.
+fn logarithmic_ticks((lo, hi): (f64, f64), about: usize) -> Vec<(f64, String)> {
+    let place = |exponent: f64| (exponent - lo) / (hi - lo);
+    let (first, last) = ((lo - FLAT).ceil() as i32, (hi + FLAT).floor() as i32);
+    if last - first >= 2 {
+        let stride = ((f64::from(last - first) / about as f64).ceil() as usize).max(1);
+        return (first..=last).step_by(stride).map(|k| (place(f64::from(k)), power_of_ten(k))).collect();
+    }
+    let sets: [&[u8]; 4] = [&[1, 3], &[1, 2, 5], &[1, 2, 3, 4, 6, 8], &[1, 2, 3, 4, 5, 6, 7, 8, 9]];
+    let of = |set: &[u8]| -> Vec<(f64, String)> {
+        let all = (first - 1..=last).flat_map(|k| set.iter().map(move |&m| (f64::from(m), k)));
+        let ticks = all.map(|(m, k)| (m.log10() + f64::from(k), multiple_of_power(m, k)));
+        ticks.filter(|(at, _)| (lo - FLAT..=hi + FLAT).contains(at)).map(|(at, t)| (place(at), t)).collect()
+    };
+    // Three ticks let a reader see that the axis is logarithmic.
+    if let Some(ticks) = sets.into_iter().map(of).find(|ticks| ticks.len() >= 3) {
+        return ticks;
+    }
+    let linear = Axis { range: (10.0_f64.powf(lo), 10.0_f64.powf(hi)), log: false, label: String::new() };
+    let (start, end) = linear.range;
+    let ticks = linear.ticks(about.min(4)).into_iter();
+    ticks.map(|(part, text)| (place((start + part * (end - start)).log10()), text)).collect()
+}
+
+/// A digit times a power of ten: a plain number where that is short.
+fn multiple_of_power(digit: f64, exponent: i32) -> String {
+    match exponent {
+        -3..=3 => {
+            let decimals = (-exponent).max(0) as usize;
+            format!("{:.decimals$}", digit * 10.0_f64.powi(exponent))
+        }
+        _ if digit == 1.0 => power_of_ten(exponent),
+        _ => format!("{digit:.0}·{}", power_of_ten(exponent)),
     }
 }
 
@@ -110,7 +151,7 @@ fn is_quarter(step: f64) -> bool {
     (mantissa - 2.5).abs() < 0.1 && step < 10.0
 }
 
-fn power_of_ten(exponent: i32) -> String {
+pub(super) fn power_of_ten(exponent: i32) -> String {
     let digits = exponent.unsigned_abs().to_string();
     let raised =
         digits.bytes().map(|d| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][usize::from(d - b'0')]);
@@ -137,11 +178,11 @@ impl Frame {
     /// Draws light lines at the ticks. Called before the data are drawn.
     pub(super) fn grid(&self, figure: &mut Figure) {
         let ((left, top), (width, height)) = (self.at, self.size);
-        for (place, _) in self.x.ticks(X_TICKS) {
+        for (place, _) in self.x.ticks(fitting(width, X_ROOM, X_TICKS)) {
             let x = left + place * width;
             figure.line(vec![(x, top), (x, top + height)], 0.8, GRID);
         }
-        for (place, _) in self.y.ticks(Y_TICKS) {
+        for (place, _) in self.y.ticks(fitting(height, Y_ROOM, Y_TICKS)) {
             let y = top + (1.0 - place) * height;
             figure.line(vec![(left, y), (left + width, y)], 0.8, GRID);
         }
@@ -157,17 +198,26 @@ impl Frame {
             figure.line(vec![(x, bottom), (x, bottom + 5.0)], 1.0, INK);
             figure.text((x, bottom + 16.0), text, TICK_TEXT, Anchor::Middle, INK);
         }
-        let mut widest = 0;
         for (place, text) in self.y.ticks(fitting(height, Y_ROOM, Y_TICKS)) {
             let y = top + (1.0 - place) * height;
-            widest = widest.max(text.chars().count());
             figure.line(vec![(left - 5.0, y), (left, y)], 1.0, INK);
             figure.text((left - 9.0, y), text, TICK_TEXT, Anchor::End, INK);
         }
-        figure.text((left + width / 2.0, bottom + 40.0), &self.x.label, LABEL_TEXT, Anchor::Middle, INK);
+        let size = within(&self.x.label, width + 80.0, LABEL_TEXT);
+        figure.text((left + width / 2.0, bottom + 40.0), &self.x.label, size, Anchor::Middle, INK);
+        let room = self.y.widest_tick(height);
+        let size = within(&self.y.label, height + 80.0, LABEL_TEXT);
+        figure.vertical_text((left - room - 16.0, top + height / 2.0), &self.y.label, size, INK);
+    }
+}
+
+impl Axis {
+    /// Room that the tick labels of an upright axis of this length take beside it.
+    pub(super) fn widest_tick(&self, length: f64) -> f64 {
+        let ticks = self.ticks(fitting(length, Y_ROOM, Y_TICKS));
+        let widest = ticks.iter().map(|(_, text)| text.chars().count()).max().unwrap_or(0);
         // Digits are .64 em wide.
-        let room = 9.0 + 0.64 * TICK_TEXT * widest as f64;
-        figure.vertical_text((left - room - 16.0, top + height / 2.0), &self.y.label, LABEL_TEXT, INK);
+        9.0 + 0.64 * TICK_TEXT * widest as f64
     }
 }
 
@@ -206,6 +256,16 @@ mod tests {
     }
 
     #[test]
+    fn a_short_logarithmic_axis_has_ticks_between_the_powers_of_ten() {
+        let around = |lo: f64, hi: f64| texts(&Axis::around([lo, hi].into_iter(), 0.0, String::new()));
+        assert_eq!(around(0.02, 0.3), ["0.03", "0.1", "0.3"]);
+        assert_eq!(around(0.11, 0.6), ["0.2", "0.3", "0.4", "0.6"]);
+        assert_eq!(around(2.0e-6, 3.1e-5), ["3·10⁻⁶", "10⁻⁵", "3·10⁻⁵"]);
+        assert_eq!(around(1.0, 1e4), ["10⁰", "10¹", "10²", "10³", "10⁴"]);
+        assert!(around(1.01, 1.04).len() >= 3);
+    }
+
+    #[test]
     fn ranges_survive_constant_empty_and_non_finite_values() {
         let cases: [&[f64]; 6] =
             [&[], &[0.0], &[0.6, 0.6], &[f64::NAN], &[f64::INFINITY, -3.0], &[-1e-300, 1e-300]];
@@ -213,6 +273,7 @@ mod tests {
             for axis in [
                 Axis::linear(values.iter().copied(), 0.05, String::new()),
                 Axis::logarithmic(values.iter().copied(), 14.0, String::new()),
+                Axis::around(values.iter().copied(), 0.05, String::new()),
             ] {
                 assert!(axis.range.0 < axis.range.1, "{values:?}");
                 assert!(!axis.ticks(6).is_empty(), "{values:?}");

@@ -1,9 +1,10 @@
 //! Curves of any two quantities against each other.
 
 use super::axes::{Axis, Frame};
-use super::colour::of_curve;
+use super::colour::MARK;
 use super::curves::{DECADES, Entry, is_spiky, legend, thin};
 use super::figure::{Figure, Point};
+use super::style::Style;
 use super::title::title;
 use super::units::{self, Units};
 
@@ -88,7 +89,8 @@ impl Chart {
                     piece.iter().map(|p| frame.point(p.0 / x_unit.factor, up(p.1))).collect();
                 // Thinning by columns is valid only for curves with monotonic x.
                 let line = if self.x.1 == Measure::Time { thin(line) } else { line };
-                figure.line(line, 1.8, of_curve(i, self.curves.len()));
+                let style = Style::of(i);
+                figure.dashed(line, style.dash, 1.8, style.colour);
             }
         }
         frame.draw(&mut figure);
@@ -101,16 +103,12 @@ impl Chart {
         let n = self.curves.len();
         let entry = |(i, curve): (usize, &(String, Vec<Point>))| Entry {
             name: curve.0.clone(),
-            colour: of_curve(i, n),
-            dashed: false,
+            colour: Style::of(i).colour,
+            dash: Style::of(i).dash,
         };
         let mut entries: Vec<Entry> = self.curves.iter().enumerate().take(NAMED).map(entry).collect();
         if n > NAMED {
-            entries.push(Entry {
-                name: format!("and {} more", n - NAMED),
-                colour: of_curve(n - 1, n),
-                dashed: true,
-            });
+            entries.push(Entry { name: format!("and {} more", n - NAMED), colour: MARK, dash: &[1.0, 4.0] });
         }
         entries
     }

@@ -4,7 +4,7 @@ use super::super::Recorder;
 use super::super::record::PointHistory;
 use super::axes::{Axis, Frame};
 use super::colour::{INK, MARK, Rgb, of_curve};
-use super::figure::{Anchor, Figure, Point};
+use super::figure::{Anchor, Dash, Figure, Point};
 use super::labels::position_labels;
 use super::title::{title, within};
 use super::units::TIME;
@@ -100,7 +100,7 @@ pub(super) fn history(recorder: &Recorder, interface: usize, quantity: &Quantity
         points.iter().map(|p| names[p.node].clone()).collect()
     };
     let entries = labels.into_iter().enumerate();
-    let entries = entries.map(|(i, name)| Entry { name, colour: of_curve(i, series.len()), dashed: false });
+    let entries = entries.map(|(i, name)| Entry { name, colour: of_curve(i, series.len()), dash: &[] });
     legend(&mut figure, &frame, entries);
     Some(figure)
 }
@@ -110,7 +110,7 @@ pub(super) fn history(recorder: &Recorder, interface: usize, quantity: &Quantity
 pub(super) struct Entry {
     pub name: String,
     pub colour: Rgb,
-    pub dashed: bool,
+    pub dash: Dash,
 }
 
 /// Draws the names of the curves with their colours, right of the frame.
@@ -119,14 +119,9 @@ pub(super) fn legend(figure: &mut Figure, frame: &Frame, entries: impl Iterator<
     let entries: Vec<Entry> = entries.collect();
     let room = figure.width - left - 40.0;
     let size = entries.iter().map(|e| within(&e.name, room, 12.5)).fold(12.5, f64::min);
-    for (i, Entry { name, colour, dashed }) in entries.into_iter().enumerate() {
+    for (i, Entry { name, colour, dash }) in entries.into_iter().enumerate() {
         let y = frame.at.1 + 12.0 + 22.0 * i as f64;
-        let line = [(left, y), (left + 26.0, y)];
-        if dashed {
-            figure.dashed(&line, (6.0, 4.0), 2.2, colour);
-        } else {
-            figure.line(line.to_vec(), 2.2, colour);
-        }
+        figure.dashed(vec![(left, y), (left + 26.0, y)], dash, 2.2, colour);
         figure.text((left + 34.0, y), name, size, Anchor::Start, INK);
     }
 }
@@ -146,7 +141,7 @@ fn stage_marks(figure: &mut Figure, frame: &Frame, recorder: &Recorder, time: Un
             break;
         }
         let x = left + frame.x.place(to) * frame.size.0;
-        figure.dashed(&[(x, top), (x, top + frame.size.1)], (5.0, 4.0), 1.0, MARK);
+        figure.dashed(vec![(x, top), (x, top + frame.size.1)], &[5.0, 4.0], 1.0, MARK);
         from = to;
     }
 }

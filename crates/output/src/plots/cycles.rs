@@ -243,7 +243,7 @@ impl Cycles<'_> {
         let entries = [("between events, every", ASEISMIC, 0), ("in events, every", SEISMIC, 1)];
         let entries = entries.into_iter().map(|(words, colour, k)| {
             let name = format!("{words} {}", self.intervals[k]);
-            Entry { name, colour, dashed: false }
+            Entry { name, colour, dash: &[] }
         });
         legend(&mut figure, &frame, entries);
         Ok(Some(figure))

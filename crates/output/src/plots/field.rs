@@ -9,8 +9,10 @@ use super::faces::{Corner, Visible, visible};
 use super::figure::{Anchor, Figure, Image, Point};
 use super::units::{LENGTH, STRESS, Unit};
 
-/// Largest width and height of the map.
-const ROOM: Point = (560.0, 460.0);
+/// Largest width and height of the map in a plot of a run.
+pub(super) const LARGE: Point = (560.0, 460.0);
+/// Largest width and height of the map beside other figures.
+pub(super) const SMALL: Point = (300.0, 270.0);
 
 /// Smallest height of the colour bar. Its label and ticks need this room even beside a flat body.
 const BAR: f64 = 170.0;
@@ -25,12 +27,18 @@ const COVERED: f64 = 0.99;
 const FAR_ABOVE: f64 = 1.15;
 
 /// Draws the field; `None` if there is no face to draw or no finite position.
-pub(super) fn mises(scene: &str, mesh: &MeshView, end: &StageEnd, fields: &BodyFields) -> Option<Figure> {
+pub(super) fn mises(
+    scene: &str,
+    mesh: &MeshView,
+    end: &StageEnd,
+    fields: &BodyFields,
+    room: Point,
+) -> Option<Figure> {
     let seen = visible(mesh);
     let places = places(mesh, fields);
     let (lo, hi) = extent(&places, &seen)?;
     let (width, height) = (hi.0 - lo.0, hi.1 - lo.1);
-    let scale = (ROOM.0 / width).min(ROOM.1 / height);
+    let scale = (room.0 / width).min(room.1 / height);
     let length = LENGTH.of([lo.0, lo.1, hi.0, hi.1].iter().fold(0.0, |most, v| most.max(v.abs())));
     let frame = Frame {
         at: (96.0, 40.0),
@@ -41,7 +49,9 @@ pub(super) fn mises(scene: &str, mesh: &MeshView, end: &StageEnd, fields: &BodyF
     let colours = Colours::of(&seen, &fields.node_mises);
     let below = (frame.size.1 + 62.0).max(BAR + 20.0);
     let mut figure = Figure::new(frame.at.0 + frame.size.0.max(180.0) + 150.0, frame.at.1 + below);
-    super::title::title(&mut figure, &frame, scene, &format!("end of stage “{}”", end.name));
+    if !scene.is_empty() {
+        super::title::title(&mut figure, &frame, scene, &format!("end of stage “{}”", end.name));
+    }
     figure.image(map(&places, &seen, &fields.node_mises, &colours, &frame, (lo, hi)));
     for line in &seen.outline {
         let at = |&node: &usize| {

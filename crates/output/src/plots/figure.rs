@@ -13,6 +13,9 @@ pub(super) enum Anchor {
     End,
 }
 
+/// Lengths of dashes and gaps in turn; empty where a line is solid.
+pub(super) type Dash = &'static [f64];
+
 /// A text.
 #[derive(Clone, Debug)]
 pub(super) struct Text {
@@ -38,7 +41,7 @@ pub(super) struct Image {
 /// Parts of a figure.
 #[derive(Clone, Debug)]
 pub(super) enum Shape {
-    Line { points: Vec<Point>, width: f64, colour: Rgb },
+    Line { points: Vec<Point>, width: f64, colour: Rgb, dash: Dash },
     Area { points: Vec<Point>, colour: Rgb },
     Text(Text),
     Image(Image),
@@ -58,14 +61,12 @@ impl Figure {
     }
 
     pub(super) fn line(&mut self, points: Vec<Point>, width: f64, colour: Rgb) {
-        self.shapes.push(Shape::Line { points, width, colour });
+        self.dashed(points, &[], width, colour);
     }
 
-    /// A dashed polyline: dashes of `on`, gaps of `off`.
-    pub(super) fn dashed(&mut self, points: &[Point], (on, off): Point, width: f64, colour: Rgb) {
-        for dash in dashes(points, on, off) {
-            self.line(dash, width, colour);
-        }
+    /// A dashed polyline.
+    pub(super) fn dashed(&mut self, points: Vec<Point>, dash: Dash, width: f64, colour: Rgb) {
+        self.shapes.push(Shape::Line { points, width, colour, dash });
     }
 
     pub(super) fn area(&mut self, points: Vec<Point>, colour: Rgb) {
@@ -94,8 +95,10 @@ impl Figure {
 }
 
 /// The drawn parts of a dashed polyline.
-fn dashes(points: &[Point], on: f64, off: f64) -> Vec<Vec<Point>> {
-    let (mut drawn, mut current, mut left, mut pen) = (Vec::new(), Vec::new(), on, true);
+pub(super) fn dashes(points: &[Point], dash: Dash) -> Vec<Vec<Point>> {
+    let mut lengths = dash.iter().copied().cycle();
+    let Some(first) = lengths.next() else { return vec![points.to_vec()] };
+    let (mut drawn, mut current, mut left, mut pen) = (Vec::new(), Vec::new(), first, true);
     for pair in points.windows(2) {
         let (a, b) = (pair[0], pair[1]);
         let length = (b.0 - a.0).hypot(b.1 - a.1);
@@ -113,7 +116,7 @@ fn dashes(points: &[Point], on: f64, off: f64) -> Vec<Vec<Point>> {
                 current = vec![at(done)];
             }
             pen = !pen;
-            left = if pen { on } else { off };
+            left = lengths.next().unwrap_or(first);
         }
         left -= length - done;
         if pen {
@@ -132,7 +135,7 @@ mod tests {
 
     #[test]
     fn dashes_run_on_around_corners() {
-        let found = dashes(&[(0.0, 0.0), (5.0, 0.0), (5.0, 5.0)], 4.0, 2.0);
+        let found = dashes(&[(0.0, 0.0), (5.0, 0.0), (5.0, 5.0)], &[4.0, 2.0]);
         assert_eq!(found, [vec![(0.0, 0.0), (4.0, 0.0)], vec![(5.0, 1.0), (5.0, 5.0)]]);
     }
 }

@@ -8,18 +8,25 @@ mod chart;
 mod colour;
 mod curves;
 mod cycles;
+mod diagram;
+mod drawn;
 mod faces;
 mod field;
 mod figure;
 pub(crate) mod labels;
 mod png;
 mod profile;
+mod sketch;
+mod style;
 mod svg;
 mod title;
 mod units;
 
 pub use chart::{Chart, Measure};
 pub use cycles::{Cycles, Line, Rows, Table};
+pub use diagram::{Diagram, Failed, Scale, Series, Slope};
+pub use sketch::Sketch;
+pub use style::STYLES;
 
 use super::{OutputError, Recorder, atomic};
 use crate::names::stems;
@@ -51,6 +58,16 @@ pub fn draw_charts(folder: &Path, charts: &[Chart]) -> Result<Vec<PathBuf>, Outp
     write_all(folder, charts.iter().filter_map(|c| Some((c.file.clone(), c.figure()?))).collect())
 }
 
+/// The Mises field at the end of a stage as SVG, smaller than the plots of a run: for a page beside other figures. None where
+/// the recorder kept no bodies of this stage.
+#[must_use]
+pub fn field(recorder: &Recorder, stage: &str) -> Option<String> {
+    let setup = recorder.setup();
+    let end = recorder.stage_ends().iter().find(|end| end.name == stage)?;
+    let figure = field::mises("", &setup.mesh, end, end.bodies.as_ref()?, field::SMALL)?;
+    Some(svg::paint(&figure))
+}
+
 fn write_all(folder: &Path, figures: Vec<(String, Figure)>) -> Result<Vec<PathBuf>, OutputError> {
     atomic::create_dir(folder)?;
     let mut written = Vec::new();
@@ -70,8 +87,10 @@ fn figures(recorder: &Recorder) -> Vec<(String, Figure)> {
     let mut figures = Vec::new();
     let stage_names = stems(setup.stages.iter().map(|(name, _)| name.as_str()));
     for end in recorder.stage_ends() {
-        let figure =
-            end.bodies.as_ref().and_then(|fields| field::mises(&setup.title, &setup.mesh, end, fields));
+        let figure = end
+            .bodies
+            .as_ref()
+            .and_then(|fields| field::mises(&setup.title, &setup.mesh, end, fields, field::LARGE));
         if let (Some(figure), Some(stage)) = (figure, stage_names.get(end.stage)) {
             figures.push((format!("mises_{}_{stage}", end.stage + 1), figure));
         }

@@ -3,7 +3,7 @@
 
 use super::super::vtu::deflate;
 use super::colour::{PAPER, Rgb};
-use super::figure::{Anchor, Figure, Image, Point, Shape, Text};
+use super::figure::{Anchor, Figure, Image, Point, Shape, Text, dashes};
 use plotters::backend::{BitMapBackend, DrawingBackend};
 use plotters::prelude::{FontTransform, IntoDrawingArea, Polygon, RGBColor, TextStyle};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -33,7 +33,11 @@ pub(super) fn paint(figure: &Figure) -> Result<Vec<u8>, String> {
     let mut pen = Pen::new(columns, columns * rows);
     for shape in &figure.shapes {
         match shape {
-            Shape::Line { points, width, colour } => pen.stroke(&mut pixels, points, *width, *colour),
+            Shape::Line { points, width, colour, dash } => {
+                for piece in dashes(points, dash) {
+                    pen.stroke(&mut pixels, &piece, *width, *colour);
+                }
+            }
             Shape::Image(image) => blit(&mut pixels, columns, image),
             Shape::Area { .. } | Shape::Text(_) => {
                 let bytes = pixels.as_flattened_mut();

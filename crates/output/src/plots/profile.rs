@@ -5,7 +5,7 @@ use super::super::view::InterfaceMesh;
 use super::axes::{Axis, Frame};
 use super::colour::viridis;
 use super::curves::{Entry, legend};
-use super::figure::{Figure, Point};
+use super::figure::{Dash, Figure, Point};
 use super::title::title;
 use super::units::{LENGTH, STRESS};
 
@@ -55,11 +55,7 @@ pub(super) fn tractions(
         let finite = points.iter().filter(|(_, v)| v.is_finite());
         let line: Vec<Point> =
             finite.map(|(x, v)| frame.point(x / length.factor, v / stress.factor)).collect();
-        if entry.dashed {
-            figure.dashed(&line, (6.0, 4.0), 1.8, entry.colour);
-        } else {
-            figure.line(line, 1.8, entry.colour);
-        }
+        figure.dashed(line, entry.dash, 1.8, entry.colour);
     }
     frame.draw(&mut figure);
     legend(&mut figure, &frame, curves.into_iter().map(|curve| curve.entry));
@@ -75,7 +71,8 @@ fn curves(mesh: &InterfaceMesh, places: &[f64], interface: usize, ends: &[StageE
         for (name, values, dashed) in
             [("normal", &fields.mean_normal_traction, false), ("shear", &fields.mean_shear_traction, true)]
         {
-            let entry = Entry { name: format!("{name}, end of “{}”", end.name), colour, dashed };
+            let dash: Dash = if dashed { &[6.0, 4.0] } else { &[] };
+            let entry = Entry { name: format!("{name}, end of “{}”", end.name), colour, dash };
             curves.push(Curve { entry, points: averaged(places, &mesh.areas, values) });
         }
     }

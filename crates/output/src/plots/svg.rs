@@ -3,7 +3,7 @@
 
 use super::super::vtu::escape;
 use super::colour::{PAPER, Rgb};
-use super::figure::{Anchor, Figure, Image, Point, Shape, Text};
+use super::figure::{Anchor, Dash, Figure, Image, Point, Shape, Text};
 use super::png;
 use crate::decimals::fixed;
 use base64::Engine;
@@ -22,10 +22,11 @@ pub(super) fn paint(figure: &Figure) -> String {
     for shape in &figure.shapes {
         // Writing to a String cannot fail.
         let _ = match shape {
-            Shape::Line { points, width, colour } => writeln!(
+            Shape::Line { points, width, colour, dash } => writeln!(
                 out,
-                "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{width}\" points=\"{}\"/>",
+                "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{width}\"{} points=\"{}\"/>",
                 hex(*colour),
+                dashed(dash),
                 list(points)
             ),
             Shape::Area { points, colour } => {
@@ -37,6 +38,15 @@ pub(super) fn paint(figure: &Figure) -> String {
     }
     out.push_str("</svg>\n");
     out
+}
+
+/// Attributes of a dashed line, whose dashes end where they are said to.
+fn dashed(dash: Dash) -> String {
+    if dash.is_empty() {
+        return String::new();
+    }
+    let lengths: Vec<String> = dash.iter().map(f64::to_string).collect();
+    format!(" stroke-dasharray=\"{}\" stroke-linecap=\"butt\"", lengths.join(" "))
 }
 
 fn hex([r, g, b]: Rgb) -> String {

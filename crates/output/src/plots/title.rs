@@ -5,7 +5,7 @@ use super::colour::INK;
 use super::figure::{Anchor, Figure};
 
 /// Mean width of a character of DejaVu Sans over its em, for text with capitals and digits: slightly more than for plain text.
-const CHARACTER: f64 = 0.62;
+pub(super) const CHARACTER: f64 = 0.62;
 /// Margin at the right end.
 const MARGIN: f64 = 12.0;
 /// Smallest em size that is still easy to read.
@@ -29,14 +29,14 @@ pub(super) fn title(figure: &mut Figure, frame: &Frame, scene: &str, part: &str)
 
 /// Lines and em size of a title, with as much of the scene as fits in addition to the part.
 fn shortened(scene: &str, part: &str, room: f64) -> (Vec<String>, f64) {
-    let whole = fit(&format!("{scene}: {part}"), room);
+    let tail = if part.is_empty() { String::new() } else { format!(": {part}") };
+    let whole = fit(&format!("{scene}{tail}"), room);
     if whole.2 {
         return (whole.0, whole.1);
     }
     let characters: Vec<char> = scene.chars().collect();
-    let cut = |kept: usize| {
-        fit(&format!("{}\u{2026}: {part}", characters[..kept].iter().collect::<String>()), room)
-    };
+    let cut =
+        |kept: usize| fit(&format!("{}\u{2026}{tail}", characters[..kept].iter().collect::<String>()), room);
     let fitting = (0..characters.len()).rev().map(cut).find(|found| found.2);
     let (lines, size, _) = fitting.unwrap_or(whole);
     (lines, size)

@@ -1,19 +1,20 @@
-//! Plots of a case's page: what to draw. [`crate::report::svg`] draws it.
+//! Diagrams of curves, points and slopes: for convergence, work against precision, and overlays on references.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Division of an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Axis {
+pub enum Scale {
     /// Linear.
     Linear,
-    /// Logarithmic; points that are not positive are left out, and the caption says how many.
+    /// Logarithmic; points that are not positive are left out.
     Log,
 }
 
-/// A setting that failed: drawn at the top of its plot with the reason in the caption.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// A setting that failed: drawn as a cross at the top of its diagram.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Failed {
     /// Position on the horizontal axis.
     pub x: f64,
@@ -21,8 +22,8 @@ pub struct Failed {
     pub reason: String,
 }
 
-/// One curve.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// A curve.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Series {
     /// Name in the legend.
     pub name: String,
@@ -60,9 +61,29 @@ impl Series {
     }
 }
 
-/// A plot.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Plot {
+/// Slope of a power law, drawn as a triangle on two logarithmic axes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Slope {
+    /// Power.
+    pub order: f64,
+    /// Horizontal extent of the triangle.
+    pub x: (f64, f64),
+    /// Height of its horizontal side.
+    pub y: f64,
+}
+
+impl Slope {
+    /// Its corners: both ends of the horizontal side, and the end of the vertical one.
+    #[must_use]
+    pub fn corners(&self) -> [(f64, f64); 3] {
+        let (from, to) = self.x;
+        [(from, self.y), (to, self.y), (to, self.y * (to / from).powf(self.order))]
+    }
+}
+
+/// A diagram.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Diagram {
     /// Title.
     pub title: String,
     /// Text of the horizontal axis, with the unit.
@@ -70,25 +91,31 @@ pub struct Plot {
     /// Text of the vertical axis, with the unit.
     pub y_label: String,
     /// Division of the horizontal axis.
-    pub x_axis: Axis,
+    pub x_axis: Scale,
     /// Division of the vertical axis.
-    pub y_axis: Axis,
+    pub y_axis: Scale,
     /// Curves.
     pub series: Vec<Series>,
-    /// Text below the plot.
+    /// Slopes.
+    pub slopes: Vec<Slope>,
+    /// True if it sets errors against work.
+    pub precision: bool,
+    /// Text below the diagram; it is not part of the drawing.
     pub caption: String,
 }
 
-impl Plot {
-    /// A plot with linear axes.
-    pub fn xy(title: impl Into<String>, x_label: impl Into<String>, y_label: impl Into<String>) -> Plot {
-        Plot {
+impl Diagram {
+    /// A diagram with linear axes.
+    pub fn xy(title: impl Into<String>, x_label: impl Into<String>, y_label: impl Into<String>) -> Diagram {
+        Diagram {
             title: title.into(),
             x_label: x_label.into(),
             y_label: y_label.into(),
-            x_axis: Axis::Linear,
-            y_axis: Axis::Linear,
+            x_axis: Scale::Linear,
+            y_axis: Scale::Linear,
             series: Vec::new(),
+            slopes: Vec::new(),
+            precision: false,
             caption: String::new(),
         }
     }
@@ -99,38 +126,52 @@ impl Plot {
         title: impl Into<String>,
         error: impl Into<String>,
         work: impl Into<String>,
-    ) -> Plot {
-        Plot::xy(title, error, work).log_log()
+    ) -> Diagram {
+        Diagram { precision: true, ..Diagram::xy(title, error, work).log_log() }
     }
 
     /// Makes both axes logarithmic.
     #[must_use]
-    pub fn log_log(self) -> Plot {
-        Plot { x_axis: Axis::Log, y_axis: Axis::Log, ..self }
+    pub fn log_log(self) -> Diagram {
+        self.axes(Scale::Log, Scale::Log)
     }
 
     /// Chooses the axes.
     #[must_use]
-    pub fn axes(self, x_axis: Axis, y_axis: Axis) -> Plot {
-        Plot { x_axis, y_axis, ..self }
+    pub fn axes(self, x_axis: Scale, y_axis: Scale) -> Diagram {
+        Diagram { x_axis, y_axis, ..self }
     }
 
     /// Adds a curve.
     #[must_use]
-    pub fn series(mut self, series: Series) -> Plot {
+    pub fn series(mut self, series: Series) -> Diagram {
         self.series.push(series);
         self
     }
 
-    /// Sets the text below the plot.
+    /// Adds the triangle of a slope.
     #[must_use]
-    pub fn caption(self, text: impl Into<String>) -> Plot {
-        Plot { caption: text.into(), ..self }
+    pub fn slope(mut self, slope: Slope) -> Diagram {
+        self.slopes.push(slope);
+        self
+    }
+
+    /// Sets the text below the diagram.
+    #[must_use]
+    pub fn caption(self, text: impl Into<String>) -> Diagram {
+        Diagram { caption: text.into(), ..self }
     }
 
     /// True if a point can be drawn on these axes.
+    #[must_use]
     pub fn drawable(&self, (x, y): (f64, f64)) -> bool {
-        let fits = |axis: Axis, v: f64| v.is_finite() && (axis == Axis::Linear || v > 0.0);
+        let fits = |scale: Scale, v: f64| v.is_finite() && (scale == Scale::Linear || v > 0.0);
         fits(self.x_axis, x) && fits(self.y_axis, y)
+    }
+
+    /// The drawing as SVG.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        super::svg::paint(&super::drawn::figure(self))
     }
 }

@@ -1,0 +1,53 @@
+//! Names of claims that stay the same from run to run: their permalinks, and their keys in the history.
+
+use crate::claim::Judged;
+use std::collections::BTreeMap;
+
+/// Characters of a name at most, but for the number of a repeated one.
+const LONGEST: usize = 72;
+
+/// Names of the claims of a case, each once.
+pub fn of(claims: &[Judged]) -> Vec<String> {
+    let mut seen: BTreeMap<String, usize> = BTreeMap::new();
+    let name = |judged: &Judged| {
+        let slug = slug(&judged.claim.quantity);
+        let times = seen.entry(slug.clone()).or_insert(0);
+        *times += 1;
+        if *times == 1 { slug } else { format!("{slug}-{times}") }
+    };
+    claims.iter().map(name).collect()
+}
+
+/// Lower-case letters and digits of a text, joined by hyphens; of a long text the beginning and a number made of the rest.
+pub fn slug(text: &str) -> String {
+    let mut slug = String::new();
+    for c in text.chars() {
+        match c {
+            c if c.is_ascii_alphanumeric() => slug.push(c.to_ascii_lowercase()),
+            _ if slug.ends_with('-') || slug.is_empty() => {}
+            _ => slug.push('-'),
+        }
+    }
+    let slug = slug.trim_end_matches('-');
+    if slug.len() <= LONGEST {
+        return if slug.is_empty() { "claim".to_owned() } else { slug.to_owned() };
+    }
+    // Fowler, Noll and Vo's hash, 32 bits of it.
+    let hash = slug.bytes().fold(0x811c_9dc5_u32, |h, b| (h ^ u32::from(b)).wrapping_mul(0x0100_0193));
+    format!("{}-{hash:08x}", &slug[..LONGEST - 9])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LONGEST, slug};
+
+    #[test]
+    fn slugs_are_short_and_tell_long_texts_apart() {
+        assert_eq!(slug("mean normal stress, h = 1.25 mm"), "mean-normal-stress-h-1-25-mm");
+        let long = "x ".repeat(90);
+        let (a, b) = (slug(&format!("{long}a")), slug(&format!("{long}b")));
+        assert!(a != b && a.len() == LONGEST && b.len() == LONGEST);
+        assert_eq!(slug("‖u‖"), "u");
+        assert_eq!(slug("—"), "claim");
+    }
+}

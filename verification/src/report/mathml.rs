@@ -1,0 +1,58 @@
+//! Markdown with formulas between dollars, typeset as MathML, which browsers draw without a script.
+
+use super::page::escape;
+use pulldown_cmark::{CowStr, Event, Options, Parser, html};
+use pulldown_latex::config::DisplayMode;
+use pulldown_latex::{Parser as Formula, RenderConfig, Storage, push_mathml};
+
+/// HTML of a Markdown text.
+pub fn html_of(markdown: &str) -> String {
+    let options = Options::ENABLE_TABLES | Options::ENABLE_MATH;
+    let mut out = String::new();
+    html::push_html(&mut out, Parser::new_ext(markdown, options).map(typeset));
+    out
+}
+
+fn typeset(event: Event<'_>) -> Event<'_> {
+    match event {
+        Event::InlineMath(text) => Event::InlineHtml(CowStr::from(formula(&text, DisplayMode::Inline))),
+        Event::DisplayMath(text) => Event::InlineHtml(CowStr::from(formula(&text, DisplayMode::Block))),
+        other => other,
+    }
+}
+
+/// MathML of a formula; its text where it cannot be read.
+fn formula(text: &str, display_mode: DisplayMode) -> String {
+    let storage = Storage::new();
+    let events: Vec<_> = Formula::new(text, &storage).collect();
+    let mut out = String::new();
+    let config = RenderConfig { display_mode, annotation: None, ..RenderConfig::default() };
+    let readable = events.iter().all(Result::is_ok);
+    if readable && push_mathml(&mut out, events.into_iter(), config).is_ok() {
+        out
+    } else {
+        format!("<code>{}</code>", escape(text))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::html_of;
+
+    #[test]
+    fn formulas_become_mathml_and_what_is_no_formula_stays_as_text() {
+        let html = html_of("The pressure is $p = p_0 \\sqrt{1 - x^2/a^2}$.");
+        assert!(html.contains("<math") && html.contains("<msqrt>") && !html.contains('$'), "{html}");
+        let broken = html_of("$\\nosuchmacro x$");
+        assert!(broken.contains("<code>"), "{broken}");
+        assert!(!html_of("no formula").contains("<math"));
+    }
+
+    #[test]
+    fn formulas_of_all_cases_can_be_read() {
+        for case in crate::cases::ALL {
+            let html = html_of(case.readme);
+            assert!(!html.contains("<code>\\") && !html.contains("<merror"), "{}", case.name);
+        }
+    }
+}
