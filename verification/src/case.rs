@@ -2,6 +2,7 @@
 
 use crate::capability::Capability;
 use crate::ledger::{Ledger, Record};
+use crate::readme;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
@@ -35,6 +36,12 @@ pub struct Outcome {
 }
 
 impl Case {
+    /// Title of the README, or the name of the case.
+    pub fn title(&self) -> &'static str {
+        let title = readme::title(self.readme);
+        if title.is_empty() { self.name } else { title }
+    }
+
     /// Runs the case. An error, a panic and silence each become one claim that disagrees; what was recorded before stays.
     pub fn execute(&self) -> Outcome {
         let start = Instant::now();

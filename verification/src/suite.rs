@@ -105,7 +105,7 @@ impl Summary {
         Summary::of(outcomes.iter().flat_map(|outcome| &outcome.record.claims))
     }
 
-    /// What is remarkable about the bounds, in a sentence; empty where nothing is.
+    /// Sentence on unusual bounds; empty if there are none.
     pub fn remarks(&self) -> String {
         let near = match self.thin {
             0 => None,

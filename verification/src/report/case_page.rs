@@ -4,14 +4,14 @@ use super::history::Release;
 use super::page::{Depth, escape, number, page, time};
 use super::provenance::Provenance;
 use super::sources::Files;
-use super::{claims, fields, figures, ids, mathml, precision, subjects, title};
+use super::{claims, fields, figures, ids, mathml, precision, subjects};
 use crate::case::Outcome;
 use crate::claim::Test;
 use crate::ledger::Table;
 use crate::suite::Summary;
 use std::fmt::Write as _;
 
-/// What a page is written from.
+/// Surroundings of the page of a case.
 #[derive(Clone, Copy, Debug)]
 pub struct Context<'a> {
     /// The case before and the case after it.
@@ -51,7 +51,7 @@ pub fn whole(outcome: &Outcome, context: Context<'_>) -> String {
     for note in &record.notes {
         let _ = writeln!(body, "<p>{}</p>", escape(note));
     }
-    page(title(outcome), Depth::Below, context.run, &body)
+    page(outcome.case.title(), Depth::Below, context.run, &body)
 }
 
 /// The title of a README and its text.
@@ -90,7 +90,7 @@ fn links(outcome: &Outcome, context: Context<'_>) -> String {
     )
 }
 
-/// What stands on the page, and the cost of the case.
+/// Contents of the page, and the cost of the case.
 fn contents(outcome: &Outcome, context: Context<'_>) -> String {
     let name = outcome.case.name;
     let before = context.releases.last().and_then(|r| Some((&r.tag, r.cases.get(name)?)));

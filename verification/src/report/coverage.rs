@@ -3,7 +3,7 @@
 use super::ids::slug;
 use super::page::{Depth, escape, page, word};
 use super::provenance::Provenance;
-use super::tests::Group;
+use super::tested::Group;
 use crate::capability::Capability;
 use crate::case::Outcome;
 use crate::claim::{Evidence, Verdict};

@@ -57,7 +57,7 @@ fn short(value: f64) -> f64 {
 }
 
 impl Release {
-    /// What a run leaves to the history. Cases that did not run keep what an earlier file of the same release says.
+    /// Results of a run for the history. Cases that did not run keep those of an earlier file of the same release.
     pub fn of(tag: &str, outcomes: &[Outcome], run: &Provenance, earlier: Option<Release>) -> Release {
         let mut cases = earlier.map(|release| release.cases).unwrap_or_default();
         cases.extend(outcomes.iter().map(|outcome| (outcome.case.name.to_owned(), kept(outcome))));
@@ -180,7 +180,7 @@ pub struct Change {
     pub now: f64,
 }
 
-/// What has changed since a release.
+/// Changes since a release.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
     /// Bounds that are not the same.

@@ -2,10 +2,10 @@
 
 use super::claims;
 use super::history::Release;
+use super::ids;
 use super::page::{Depth, escape, number, page, time, word};
 use super::provenance::Provenance;
 use super::subjects::{self, Subject};
-use super::{ids, title};
 use crate::case::Outcome;
 use crate::claim::{Judged, Mark, Verdict};
 use crate::suite::Summary;
@@ -34,7 +34,7 @@ pub fn whole(outcomes: &[Outcome], releases: &[Release], run: &Provenance) -> St
     page("asperity: verification", Depth::Top, run, &body)
 }
 
-/// What has changed since the last release, in a sentence.
+/// Sentence on the changes since the last release.
 fn since(outcomes: &[Outcome], releases: &[Release]) -> String {
     let Some(last) = releases.last() else { return String::new() };
     let changes = super::history::changes(last, outcomes);
@@ -95,8 +95,8 @@ fn row(outcome: &Outcome) -> String {
         "<li data-states=\"{}\" data-text=\"{}\"><span><a href=\"cases/{name}.html\"><b>{name}</b></a><br>{}</span>\
          <span>{state}</span><span title=\"largest error / bound\">{}</span><span>{}</span></li>\n",
         states(outcome, &summary),
-        escape(&format!("{} {}", outcome.case.name, title(outcome)).to_lowercase()),
-        escape(title(outcome)),
+        escape(&format!("{} {}", outcome.case.name, outcome.case.title()).to_lowercase()),
+        escape(outcome.case.title()),
         worst(claims).map_or("–".to_owned(), number),
         time(outcome.wall),
         name = outcome.case.name,

@@ -26,7 +26,7 @@ pub struct Report<'a> {
     pub summary: Summary,
     /// Cases, in the order they ran.
     pub cases: Vec<CaseReport<'a>>,
-    /// What depends on the machine.
+    /// Values that depend on the machine.
     pub run: Run<'a>,
 }
 
@@ -53,7 +53,7 @@ pub struct ClaimReport<'a> {
     pub judged: &'a Judged,
 }
 
-/// What depends on the machine.
+/// Values that depend on the machine.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Run<'a> {
     /// Provenance.

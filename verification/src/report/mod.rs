@@ -18,11 +18,10 @@ pub mod precision;
 pub mod provenance;
 mod sources;
 mod subjects;
-mod tests;
+mod tested;
 mod words;
 
 use crate::case::Outcome;
-use crate::readme;
 use case_page::Context;
 use provenance::Provenance;
 use serde::Serialize;
@@ -52,14 +51,14 @@ pub enum ReportError {
 pub fn write(folder: &Path, outcomes: &[Outcome], run: &Provenance) -> Result<(), ReportError> {
     let (pages, sources) = (emptied(folder, "cases")?, emptied(folder, "sources")?);
     let releases = history::releases(&history::folder());
-    let groups = tests::groups();
+    let groups = tested::groups();
     put(&folder.join("report.json"), &text(&json::report(outcomes, run))?)?;
     put(&folder.join("index.html"), &index::whole(outcomes, &releases, run))?;
     put(&folder.join("coverage.html"), &coverage::whole(outcomes, &groups, run))?;
     put(&folder.join("precision.html"), &precision::whole(outcomes, run))?;
     put(&folder.join("defects.html"), &planted::whole(&planted::Defects::read(), run))?;
     put(&folder.join("history.html"), &history::whole(&releases, outcomes, run))?;
-    put(&folder.join("tests.html"), &tests::whole(&groups, run))?;
+    put(&folder.join("tests.html"), &tested::whole(&groups, run))?;
     put(&folder.join("words.html"), &words::whole(run))?;
     for (k, outcome) in outcomes.iter().enumerate() {
         let name = outcome.case.name;
@@ -81,12 +80,6 @@ pub fn write(folder: &Path, outcomes: &[Outcome], run: &Provenance) -> Result<()
 pub fn keep(path: &Path, tag: &str, outcomes: &[Outcome], run: &Provenance) -> Result<(), ReportError> {
     let earlier = fs::read_to_string(path).ok().and_then(|text| serde_json::from_str(&text).ok());
     put(path, &history::Release::of(tag, outcomes, run, earlier).text()?)
-}
-
-/// The title of a case: its README's, or its name.
-fn title(outcome: &Outcome) -> &str {
-    let title = readme::title(outcome.case.readme);
-    if title.is_empty() { outcome.case.name } else { title }
 }
 
 fn text(value: &impl Serialize) -> Result<String, ReportError> {

@@ -32,9 +32,9 @@ pub struct Result {
 /// Words on a defect.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 pub struct Definition {
-    /// What is wrong.
+    /// The mistake.
     pub wrong: String,
-    /// Why somebody would write it.
+    /// Reason for which somebody would make it.
     #[serde(default)]
     pub why: String,
     /// Cases that should notice it.

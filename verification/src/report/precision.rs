@@ -86,7 +86,7 @@ pub fn whole(outcomes: &[Outcome], run: &Provenance) -> String {
         let name = outcome.case.name;
         body += &format!(
             "<h2 id=\"{name}\"><a href=\"cases/{name}.html\">{}</a></h2>\n<div class=\"figures\">\n",
-            escape(super::title(outcome))
+            escape(outcome.case.title())
         );
         for diagram in diagrams {
             body += &format!("<div>{}{}</div>\n", figures::diagram(diagram), table(diagram));

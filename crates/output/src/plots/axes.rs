@@ -2,7 +2,7 @@
 
 use super::colour::{GRID, INK};
 use super::figure::{Anchor, Figure, Point};
-use super::title::within;
+use super::width::within;
 
 /// Em size of tick labels.
 const TICK_TEXT: f64 = 13.0;

@@ -6,9 +6,10 @@ use super::axes::{Axis, Frame};
 use super::colour::{INK, MARK, Rgb, of_curve};
 use super::figure::{Anchor, Dash, Figure, Point};
 use super::labels::position_labels;
-use super::title::{title, within};
+use super::title::title;
 use super::units::TIME;
 use super::units::{self, Unit, Units};
+use super::width::within;
 
 /// A quantity plotted over time.
 #[derive(Clone, Copy)]

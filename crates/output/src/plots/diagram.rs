@@ -168,10 +168,4 @@ impl Diagram {
         let fits = |scale: Scale, v: f64| v.is_finite() && (scale == Scale::Linear || v > 0.0);
         fits(self.x_axis, x) && fits(self.y_axis, y)
     }
-
-    /// The drawing as SVG.
-    #[must_use]
-    pub fn svg(&self) -> String {
-        super::svg::paint(&super::drawn::figure(self))
-    }
 }

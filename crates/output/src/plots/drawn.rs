@@ -6,7 +6,8 @@ use super::curves::thin;
 use super::diagram::{Diagram, Scale, Series, Slope};
 use super::figure::{Anchor, Figure, Point};
 use super::style::Style;
-use super::title::{CHARACTER, title, within};
+use super::title::title;
+use super::width::{CHARACTER, fitting};
 
 /// Size of the frame.
 const SIZE: Point = (400.0, 290.0);
@@ -87,8 +88,16 @@ fn shown(diagram: &Diagram) -> Vec<Point> {
     points.chain(corners).filter(|&p| diagram.drawable(p)).collect()
 }
 
-/// The figure of a diagram.
-pub(super) fn figure(diagram: &Diagram) -> Figure {
+impl Diagram {
+    /// The drawing as SVG.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        super::svg::paint(&figure(self))
+    }
+}
+
+/// Lays out a diagram.
+fn figure(diagram: &Diagram) -> Figure {
     let place = Place::of(diagram);
     let frame = &place.frame;
     let width = frame.at.0 + SIZE.0 + RIGHT;
@@ -170,20 +179,13 @@ impl Legend {
         const LEFT: f64 = 16.0;
         let (mut lines, mut left): (Vec<Vec<Named>>, f64) = (vec![Vec::new()], LEFT);
         for (i, one) in series.iter().enumerate().filter(|(_, s)| !s.name.is_empty()) {
-            let size = within(&one.name, width - LEFT - LEGEND_MARK - 8.0, LEGEND_TEXT);
-            let long = LEGEND_MARK + CHARACTER * size * one.name.chars().count() as f64 + 14.0;
+            let (name, size) = fitting(&one.name, width - LEFT - LEGEND_MARK - 8.0, LEGEND_TEXT);
+            let long = LEGEND_MARK + CHARACTER * size * name.chars().count() as f64 + 14.0;
             if left > LEFT && left + long > width {
                 lines.push(Vec::new());
                 left = LEFT;
             }
-            let named = Named {
-                left,
-                name: one.name.clone(),
-                size,
-                style: Style::of(i),
-                line: one.line,
-                markers: one.markers,
-            };
+            let named = Named { left, name, size, style: Style::of(i), line: one.line, markers: one.markers };
             if let Some(line) = lines.last_mut() {
                 line.push(named);
             }
@@ -267,7 +269,7 @@ mod tests {
         }
         let figure = figure(&diagram);
         let names: Vec<_> = texts(&figure).into_iter().filter(|t| t.1.contains(": ")).collect();
-        assert_eq!(names.len(), 26, "the names and the title");
+        assert_eq!(names.len(), 25);
         for (at, text, size) in &names {
             assert!(at.0 + CHARACTER * size * text.chars().count() as f64 <= figure.width + 1e-9, "{text}");
             assert!(at.1 < figure.height, "{text}");

@@ -21,6 +21,7 @@ mod style;
 mod svg;
 mod title;
 mod units;
+mod width;
 
 pub use chart::{Chart, Measure};
 pub use cycles::{Cycles, Line, Rows, Table};

@@ -3,7 +3,7 @@
 use super::colour::{INK, MARK, PAPER, Rgb};
 use super::figure::{Anchor, Figure, Point};
 use super::svg;
-use super::title::CHARACTER;
+use super::width::CHARACTER;
 
 /// Units of the figure for a unit of the sketch.
 const SCALE: f64 = 4.8;

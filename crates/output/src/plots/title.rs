@@ -3,15 +3,12 @@
 use super::axes::{Frame, LABEL_TEXT};
 use super::colour::INK;
 use super::figure::{Anchor, Figure};
+use super::width::CHARACTER;
 
-/// Mean width of a character of DejaVu Sans over its em, for text with capitals and digits: slightly more than for plain text.
-pub(super) const CHARACTER: f64 = 0.62;
 /// Margin at the right end.
 const MARGIN: f64 = 12.0;
 /// Smallest em size that is still easy to read.
 const SMALLEST: f64 = 10.5;
-/// Smallest em size in a legend.
-const LEAST: f64 = 6.0;
 /// Distance from the last line of a title to the frame.
 const ABOVE: f64 = 14.0;
 
@@ -40,11 +37,6 @@ fn shortened(scene: &str, part: &str, room: f64) -> (Vec<String>, f64) {
     let fitting = (0..characters.len()).rev().map(cut).find(|found| found.2);
     let (lines, size, _) = fitting.unwrap_or(whole);
     (lines, size)
-}
-
-/// Em size, at most `size`, at which a line fits a width of `room`; it is never smaller than [`LEAST`].
-pub(super) fn within(text: &str, room: f64, size: f64) -> f64 {
-    size.min(room / (CHARACTER * text.chars().count().max(1) as f64)).max(LEAST)
 }
 
 /// Lines and em size of a text for a width of `room`; true if the text is complete.
