@@ -3,7 +3,7 @@
 use crate::CaseError;
 use crate::cases::programs;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// Instructions executed in the source files of the workspace: paths from its root, such as `crates/contact/src/shear.rs`.
@@ -30,6 +30,25 @@ pub fn run(scene: &str, folder: &Path) -> Result<Instructions, CaseError> {
     command.args(["run", "--no-plots"]).arg(file).arg("--out").arg(folder.join("out"));
     programs::finished(command.env("RAYON_NUM_THREADS", "1"), &[0])?;
     Ok(read(&std::fs::read_to_string(&counts)?))
+}
+
+/// Runs the scene of `folder` on this processor with three threads. Returns the files that differ from those under callgrind.
+///
+/// # Errors
+/// If the run fails.
+pub fn differing_from_native(folder: &Path) -> Result<Vec<PathBuf>, CaseError> {
+    let mut command = programs::asperity(&[])?;
+    command.args(["run", "--no-plots"]).arg(folder.join("scene.toml")).arg("--out").arg(folder.join("native"));
+    programs::finished(command.env("RAYON_NUM_THREADS", "3"), &[0])?;
+    programs::differing(&folder.join("out"), &folder.join("native"))
+}
+
+/// True if this processor has vectors of 512 bits, of which callgrind knows nothing: programs under it use 256.
+pub fn narrows_vectors() -> bool {
+    #[cfg(target_arch = "x86_64")]
+    return std::arch::is_x86_feature_detected!("avx512f");
+    #[cfg(not(target_arch = "x86_64"))]
+    return false;
 }
 
 /// Sums the costs of an output of callgrind by file. Code that was inlined counts for the file it was written in.

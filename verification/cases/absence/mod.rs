@@ -16,7 +16,7 @@ use terms::Term;
 pub const CASE: Case = Case {
     name: "absence",
     readme: include_str!("README.md"),
-    covers: &[Capability::Scenes],
+    covers: &[Capability::Scenes, Capability::Determinism],
     quick: true,
     run,
 };
@@ -28,6 +28,7 @@ struct Measured {
     scene: Declared,
     instructions: Instructions,
     state: Option<u64>,
+    differing: Vec<PathBuf>,
     cost: Cost,
 }
 
@@ -46,6 +47,12 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     // The scenes that ran are judged even if another did not.
     for run in runs.iter().flatten() {
         claims(ledger, run);
+        if callgrind::narrows_vectors() {
+            widths(ledger, run);
+        }
+    }
+    if !callgrind::narrows_vectors() {
+        ledger.not_covered("results under another vector width", "this processor has no vectors of 512 bits");
     }
     let measured = runs.into_iter().collect::<Result<Vec<Measured>, CaseError>>()?;
     table(ledger, &measured);
@@ -56,7 +63,8 @@ fn measure(scene: Declared, folder: &Path) -> Result<Measured, CaseError> {
     let (instructions, cost) = Cost::of(|| callgrind::run(&scene.text, folder));
     let instructions = instructions.map_err(|e| format!("{}: {e}", scene.name))?;
     let state = state_bytes(folder.join("out/report.json"))?;
-    Ok(Measured { scene, instructions, state, cost })
+    let differing = callgrind::differing_from_native(folder)?;
+    Ok(Measured { scene, instructions, state, differing, cost })
 }
 
 /// Bytes of friction state that a report states; none where bodies do not touch.
@@ -101,6 +109,22 @@ fn claims(ledger: &mut Ledger, run: &Measured) {
             .cost(&run.cost)
             .record();
     }
+}
+
+/// Results do not depend on the width of vectors, nor on threads.
+fn widths(ledger: &mut Ledger, run: &Measured) {
+    for path in &run.differing {
+        ledger.note(format!("{}: {} differs between processors", run.scene.name, path.display()));
+    }
+    ledger
+        .claim(format!("{}: files that differ between processors", run.scene.name))
+        .norm("vectors of 512 bits and three threads, against 256 bits and one thread")
+        .count(run.differing.len() as u64, 0)
+        .evidence(Evidence::Exact, "sums have one order, whatever the processor")
+        .because("files are equal byte by byte, times aside")
+        .covers(&[Capability::Determinism])
+        .cost(&run.cost)
+        .record();
 }
 
 fn table(ledger: &mut Ledger, runs: &[Measured]) {
