@@ -76,8 +76,12 @@ fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<bool, C
         Some(resumed) => resumed,
         None => Keeper::begin(out, problem, "", true, pauses())?,
     };
-    resume(problem, from, &mut keeper)?;
+    let run = resume(problem, from, &mut keeper)?;
     let interrupted = keeper.interrupted().is_some();
     keeper.finish(!interrupted)?;
+    if !interrupted {
+        // All of the run: events, energies and counts, in every digit and whether a checkpoint holds them or not.
+        std::fs::write(out.join("run.txt"), format!("{run:#?}"))?;
+    }
     Ok(interrupted)
 }
