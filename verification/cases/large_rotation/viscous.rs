@@ -130,10 +130,10 @@ fn sheet(ledger: &mut Ledger) -> Result<(), CaseError> {
     ledger
         .claim("thickness strain of the same sheet less that of the sheet that is not turned")
         .value((turned.1 - still.1).abs())
-        .at_most(1e-13)
+        .at_most(1e-14)
         .evidence(Evidence::Exact, "the sheet is where it was, and a turn strains nothing")
         .between("without turn", "360 degrees")
-        .because("rounding of 12 steps in strains of 1e-16")
+        .because("rounding of 12 steps in strains, some units of 1e-16 each")
         .why_not_tighter(ROUNDING)
         .covers(&[Capability::FiniteStrain, Capability::Viscoelasticity])
         .record();
