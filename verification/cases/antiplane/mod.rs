@@ -1,4 +1,6 @@
-//! Bodies in antiplane motion as scenes: a crack and a prism.
+//! Bodies in antiplane motion as scenes: a crack and a prism; initial stress.
+
+mod prestress;
 
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::report::Outcome;
@@ -25,7 +27,8 @@ const ROOM: f64 = 1.5;
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     crack(ledger, "quad4")?;
     crack(ledger, "quad9")?;
-    prism(ledger)
+    prism(ledger)?;
+    prestress::claims(ledger)
 }
 
 /// Runs a scene and takes its last samples.

@@ -1,4 +1,6 @@
-//! Thick-walled elastic cylinder and sphere under an inner pressure.
+//! Thick-walled elastic cylinder and sphere under an inner pressure; a ring that starts with a stress.
+
+mod prestress;
 
 use super::bodies::{self, Body, Field, Level, Orders};
 use super::bodies_patch::capability;
@@ -129,7 +131,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         plot = enter(ledger, plot, ("sphere in space", Capability::Solid3d), kind, &levels);
     }
     ledger.plot(plot);
-    Ok(())
+    prestress::claims(ledger)
 }
 
 fn study<const D: usize>(

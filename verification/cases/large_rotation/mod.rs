@@ -1,4 +1,6 @@
-//! Rotations: objectivity of stresses and forces; forward steps of a turning strip.
+//! Rotations: objectivity of stresses and forces; viscous bodies; forward steps of a turning strip.
+
+mod viscous;
 
 use super::body::{self, Body};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -24,6 +26,7 @@ const POISSON: f64 = 0.3;
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     circle(ledger)?;
     forces(ledger)?;
+    viscous::claims(ledger)?;
     for carry in [false, true] {
         turning(ledger, carry)?;
     }

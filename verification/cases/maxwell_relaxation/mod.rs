@@ -1,5 +1,7 @@
 //! Linear viscoelasticity: exact at constant strain rate, of order 2 otherwise.
 
+mod sheet;
+
 use super::body::{self, Body, Entry, Work};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Floor, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
@@ -31,6 +33,7 @@ const SOLID_TIME: f64 = 0.9 / (SHARE * SHEAR);
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     strains(ledger)?;
     creep(ledger)?;
+    sheet::claims(ledger)?;
     cylinder(ledger)
 }
 

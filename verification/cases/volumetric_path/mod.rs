@@ -1,5 +1,7 @@
 //! Paths that change the volume: the rate is that of the Kirchhoff stress.
 
+mod disc;
+
 use super::body::{self, Body, Work};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
 use asperity_fem::element::ElementKind;
@@ -27,6 +29,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     cube(ledger)?;
     bar(ledger)?;
     sheet(ledger)?;
+    disc::claims(ledger)?;
     cycle(ledger)?;
     symmetry(ledger)
 }
