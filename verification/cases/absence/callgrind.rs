@@ -38,7 +38,11 @@ pub fn run(scene: &str, folder: &Path) -> Result<Instructions, CaseError> {
 /// If the run fails.
 pub fn differing_from_native(folder: &Path) -> Result<Vec<PathBuf>, CaseError> {
     let mut command = programs::asperity(&[])?;
-    command.args(["run", "--no-plots"]).arg(folder.join("scene.toml")).arg("--out").arg(folder.join("native"));
+    command
+        .args(["run", "--no-plots"])
+        .arg(folder.join("scene.toml"))
+        .arg("--out")
+        .arg(folder.join("native"));
     programs::finished(command.env("RAYON_NUM_THREADS", "3"), &[0])?;
     programs::differing(&folder.join("out"), &folder.join("native"))
 }

@@ -22,6 +22,7 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "fault_space" => layers("slip along a declared direction, in space", "", ""),
         "fault_turning" => layers("slip turns in the plane of the fault, k = G/W", "W", ""),
         "fault_bodies" => bodies(),
+        "event_numbers" => unlike(),
         "seas_bp6" => injection(),
         _ => return None,
     };
@@ -127,6 +128,23 @@ fn layers(text: &str, thickness: &str, length: &str) -> Sketch {
     let sketch =
         if thickness.is_empty() { sketch } else { sketch.dimension((90.0, 12.0), (90.0, 40.0), thickness) };
     if length.is_empty() { sketch } else { sketch.dimension((12.0, 50.0), (84.0, 50.0), length) }
+}
+
+/// Faults between unlike rocks, as blocks and as slabs.
+fn unlike() -> Sketch {
+    Sketch::new(70.0)
+        .block((8.0, 24.0), (20.0, 48.0), "10")
+        .block((20.0, 24.0), (32.0, 48.0), "40 GPa")
+        .fault(&[(20.0, 24.0), (20.0, 48.0)])
+        .arrow((14.0, 51.0), (14.0, 58.0), "")
+        .arrow((26.0, 58.0), (26.0, 51.0), "")
+        .dimension((8.0, 18.0), (32.0, 18.0), "2 km")
+        .text((20.0, 8.0), "all points slip alike")
+        .block((48.0, 14.0), (70.0, 60.0), "10 GPa")
+        .block((70.0, 14.0), (92.0, 60.0), "40 GPa")
+        .fault(&[(70.0, 14.0), (70.0, 60.0)])
+        .dimension((44.0, 14.0), (44.0, 60.0), "6 km")
+        .text((70.0, 8.0), "an event in the upper 4 km")
 }
 
 fn bodies() -> Sketch {

@@ -8,7 +8,8 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "sandwich_sheared" | "sandwich_steppers" => sandwich("0.00966 mm", "1 µm/s, to 0.05 mm", "μ(V)"),
         "sandwich_3d" => sandwich("0.00966 mm", "1 µm/s", "a layer of hex8, held in z"),
         "sandwich_state" => sandwich("0.0966 mm", "spring, 1 µm/s", "ageing law"),
-        "interface_rate_state" => column(),
+        "interface_rate_state" => column("1, 10, 1, 0, 1 µm/s", "a = 0.010, b = 0.015, L = 10 µm"),
+        "interface_laws" => column("u(t)", "Coulomb, slip weakening, μ(V), μ(V, θ), static-kinetic"),
         "interface_instability" => bonded(),
         "interface_prestress" => prestress(),
         _ => return None,
@@ -37,17 +38,18 @@ fn sandwich(push: &str, drawn: &str, law: &str) -> Sketch {
     }
 }
 
-fn column() -> Sketch {
+/// A column on a rigid base, pressed and sheared.
+fn column(motion: &str, text: &str) -> Sketch {
     Sketch::new(66.0)
         .block((40.0, 18.0), (54.0, 50.0), "")
         .held((26.0, 18.0), (80.0, 18.0))
         .fault(&[(40.0, 18.0), (54.0, 18.0)])
         .load((40.0, 50.0), (54.0, 50.0), (0.0, -5.0), "10 MPa")
         .arrow((55.0, 48.0), (70.0, 48.0), "")
-        .note((71.0, 48.0), "1, 10, 1, 0, 1 µm/s")
+        .note((71.0, 48.0), motion)
         .dimension((32.0, 18.0), (32.0, 50.0), "0.2 m")
         .note((57.0, 30.0), "k = 1/(h/G + 1/E_t)")
-        .text((50.0, 8.0), "a = 0.010, b = 0.015, L = 10 µm")
+        .text((50.0, 8.0), text)
 }
 
 fn bonded() -> Sketch {

@@ -12,6 +12,9 @@ pub(super) fn of(name: &str) -> Option<Sketch> {
         "slider_inertia" | "slider_inertia_all" => {
             slider("k", "M", "V_load", "384 sets: laws, a/b, k/k_c, M, V_load")
         }
+        "slider_laws" => {
+            slider("k, or rigid", "η", "V_load(t)", "each evolution of the state, two temperatures")
+        }
         "slider_normal" => slider("2 k_c", "η", "V_load", "f_n steps, oscillates, or falls to nothing"),
         "slider_orbit" => slider("k = k_c", "", "V_load", "slip law, kicked out of steady sliding"),
         "slider_outputs" => slider("k, or rigid", "η", "V_load(t)", "scenes run as by the program"),
