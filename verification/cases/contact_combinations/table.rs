@@ -241,6 +241,7 @@ fn strengths(ledger: &mut Ledger, table: &Table) {
             .at_most(bound)
             .evidence(Evidence::Exact, own)
             .because(because)
+            .why_not_tighter("the whole table has 3840 runs, of which unknown tractions reach 4.3e-11")
             .record();
     }
     ledger

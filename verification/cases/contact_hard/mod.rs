@@ -126,6 +126,7 @@ fn limit_load(ledger: &mut Ledger) -> Result<(), CaseError> {
             .absolute(f64::EPSILON)
             .evidence(Evidence::Exact, "the last good state is kept")
             .because("the same number; the bound is the rounding of one second")
+            .why_not_tighter("no smaller bound than that of one rounding is above zero")
             .covers(&[Capability::HardContact])
             .record();
     }
@@ -263,6 +264,7 @@ fn corners(ledger: &mut Ledger) -> Result<(), CaseError> {
                 .at_most(1e-13)
                 .evidence(Evidence::Exact, "action and reaction")
                 .because("rounding of sums over a few nodes")
+                .why_not_tighter("rounding depends on the order of the sum; a force that is left out is of the order of one")
                 .covers(&[Capability::HardContact])
                 .record();
             iterations(ledger, &what, &done, 30.0);

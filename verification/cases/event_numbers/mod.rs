@@ -63,6 +63,7 @@ fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
         .relative(1e-12)
         .evidence(Evidence::Exact, "height of the blocks that slip: the others slip by 1e-8 m")
         .because("rounding of the sum of two nodal areas")
+        .why_not_tighter("rounding depends on the mesh; a node more or less is of the order of one")
         .cost(&done.cost)
         .record();
     ledger
@@ -73,6 +74,9 @@ fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
         .relative(1e-12)
         .evidence(Evidence::Exact, SERIES)
         .because("rounding: all numbers of the file are written to the last digit")
+        .why_not_tighter(
+            "rounding depends on the machine; a digit that the file lacked would show at 1e-10 or above",
+        )
         .cost(&done.cost)
         .record();
     let lost = spring() * (slip - 1e-9 * duration) - damping() * (ON - OFF);
@@ -87,6 +91,7 @@ fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
             "1/(H/G1 + H/G2) (slip - load), less radiation Z1 Z2/(Z1 + Z2) at the rates that begin and end it",
         )
         .because("tractions and slip are integrated side by side, with a tolerance of 1e-9 of ln V a step")
+        .why_not_tighter("the tolerance is of one step; how many of them add up depends on the path")
         .cost(&done.cost)
         .record();
     // In the catalogue of its own fault, without the creep of the other.
@@ -99,6 +104,7 @@ fn pairs(ledger: &mut Ledger) -> Result<(), CaseError> {
         .absolute(1e-12)
         .evidence(Evidence::Exact, "Mw = (log10 M0 - 9.1)/1.5 with M0 in N m, standard of IASPEI (2013)")
         .because("rounding")
+        .why_not_tighter("rounding depends on the machine; the constants that are in use differ by 1e-3")
         .cost(&done.cost)
         .record();
     nucleates(ledger, &done)
@@ -125,6 +131,7 @@ fn nucleates(ledger: &mut Ledger, done: &Written) -> Result<(), CaseError> {
         .relative(3e-8)
         .evidence(Evidence::Exact, "cubic between rows, from their slip and slip rates")
         .because("the catalogue has 15 digits of the onset: half of 1e-5 s at 1 mm/s is 5e-9 m of 0.4 m; the slip of rows has ten digits")
+        .why_not_tighter("the last digit of the onset may be off by any part of a half")
         .cost(&done.cost)
         .record();
     Ok(())
@@ -224,6 +231,7 @@ fn rupture(ledger: &mut Ledger) -> Result<(), CaseError> {
         .absolute(1e-6)
         .evidence(Evidence::Exact, "the station that is the fastest at the onset, by its file")
         .because("rounding of a place")
+        .why_not_tighter("a neighbouring point is hundreds of metres away")
         .cost(&done.cost)
         .record();
     Ok(())

@@ -52,6 +52,7 @@ fn slip(ledger: &mut Ledger, found: &Followed) -> Result<(), CaseError> {
         .absolute(1e-3)
         .evidence(Evidence::Exact, "tractions return in a cycle that repeats itself")
         .because("cycles repeat to some 1e-3 after nine events")
+        .why_not_tighter("the residual of repetition depends on the phase at which the run ends")
         .covers(&[Capability::FaultCycles, Capability::Events])
         .cost(&found.cost)
         .record();

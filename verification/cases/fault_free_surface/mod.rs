@@ -70,6 +70,7 @@ fn table(ledger: &mut Ledger) {
         .at_most(1e-6)
         .evidence(Evidence::Exact, "the jump of a dislocation is its slip")
         .because("displacements 1e-9 beside the fault, whose slope is of order one")
+        .why_not_tighter("the slope is bounded, not known: at this place it happens to be small")
         .record();
 }
 
@@ -217,6 +218,9 @@ fn contact(ledger: &mut Ledger) -> Result<(), CaseError> {
                 .at_most(1e-12)
                 .evidence(Evidence::Exact, "the jump is a degree of freedom, the opening is held")
                 .because("rounding of sums of displacements")
+                .why_not_tighter(
+                    "rounding depends on the mesh; a jump on a wrong side is of the order of one",
+                )
                 .covers(&[Capability::FaultCycles])
                 .cost(&cost)
                 .record();

@@ -191,6 +191,7 @@ fn crack(ledger: &mut Ledger) -> Result<(), CaseError> {
         .at_most(0.002)
         .evidence(Evidence::Exact, exact)
         .because("0.1 h/a with h at the tips leaves 0.01 %; the larger cells with their lumped interface mass leave 0.1 %")
+        .why_not_tighter("both estimates have factors that are not known, and may cancel as here")
         .covers(&[Capability::FaultCycles, Capability::PlaneStrain])
         .cost(&graded.cost)
         .record();
@@ -254,6 +255,7 @@ fn plates(ledger: &mut Ledger) -> Result<(), CaseError> {
             .at_most(1e-7)
             .evidence(Evidence::Exact, "a rigid motion of both sides")
             .because("rounding of a condensed stiffness of 1e5 unknowns whose cells differ 400 times in size")
+            .why_not_tighter("rounding depends on the order of elimination; a border that holds the fault adds 1e-3")
             .covers(&[Capability::FaultCycles, Capability::PlaneStrain])
             .cost(&cost)
             .record();
@@ -341,6 +343,7 @@ fn surface(ledger: &mut Ledger) -> Result<(), CaseError> {
                     .because(
                         "(500 m/12 km)^2 = 0.2 % for the lumped interface mass over slip of that scale, twice for the second derivative;                          at 30 degrees cells are sheared by 60 degrees and have errors several times larger",
                     )
+                    .why_not_tighter("an estimate for slip of that scale, of whose factor the shape of slip decides")
                     .covers(&[Capability::FaultCycles, Capability::PlaneStrain])
                     .cost(&cost)
                     .record();

@@ -151,6 +151,7 @@ fn against_plane(ledger: &mut Ledger, motion: &str, (plane, solid): (&Plan, &Pla
             .at_most(1e-11)
             .evidence(Evidence::Exact, "displacements of the plane, uniform across the slab, lie in its finite-element space")
             .because("rounding")
+            .why_not_tighter("rounding grows with the condition of the condensed stiffness, some 1e4; a wrong area is of the order of one")
             .covers(&[Capability::FaultCycles])
             .cost(cost)
             .record();
@@ -202,6 +203,7 @@ fn both_directions(ledger: &mut Ledger) -> Result<(), CaseError> {
         .between(&first.points, &second.points)
         .evidence(Evidence::Exact, "superposition; tractions of slip along a line are those of the plane above, and of Okada in fault_free_surface")
         .because("rounding")
+        .why_not_tighter("rounding grows with the condition of the condensed stiffness, some 1e4; a wrong area is of the order of one")
         .covers(&[Capability::FaultCycles, Capability::Solid3d])
         .cost(&cost)
         .record();
@@ -282,6 +284,7 @@ fn gaussian(ledger: &mut Ledger) -> Result<(), CaseError> {
         .at_most(1e-12)
         .evidence(Evidence::Exact, "-G/(4 s) (1 + 1/(1 - nu)) sqrt(pi/2)")
         .because("equal steps on a smooth even function that has ended: rounding")
+        .why_not_tighter("rounding depends on the number of steps")
         .covers(&[Capability::FaultCycles])
         .cost(&cost)
         .record();
@@ -388,6 +391,7 @@ fn blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
             .at_most(bound)
             .evidence(Evidence::Exact, "simple shear, the same in both")
             .because("the tolerance 1e-7 of ln V gathered over a cycle; slip between the thresholds follows within a step")
+            .why_not_tighter("tolerances of steps add up by chance; here most cancel")
             .covers(&[Capability::FaultCycles, Capability::Events])
             .cost(&b.cost)
             .record();

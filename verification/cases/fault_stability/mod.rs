@@ -309,6 +309,7 @@ fn critical(ledger: &mut Ledger) -> Result<(), CaseError> {
         .absolute(5e-5)
         .evidence(Evidence::Exact, "K L = sigma (b - a): s^2 = -(b - a)/a (V/L)^2, between half-spaces")
         .because("layers of one wavelength are stiffer than half-spaces by 2 exp(-4 pi) = 7e-6, the mesh of 62.5 m by 1e-5")
+        .why_not_tighter("it is the sum of three errors, which may have either sign")
         .cost(&cost)
         .record();
     let growing = roots.iter().filter(|r| r[0].re.max(r[1].re) > 1e-3).count();

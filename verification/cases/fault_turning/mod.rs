@@ -72,6 +72,7 @@ fn lines(ledger: &mut Ledger) -> Result<(), CaseError> {
             .between(&turning, &along)
             .evidence(Evidence::Exact, "nothing drives slip across; rock is isotropic")
             .because("ten tolerances of ln V over a cycle of ln V ~ 10 e-folds; the error norm is a mean over more unknowns, so that steps differ")
+            .why_not_tighter("tolerances of steps add up by chance; here most cancel")
             .covers(&[Capability::FaultCycles, Capability::Events])
             .cost(&free.cost)
             .record();
@@ -81,6 +82,7 @@ fn lines(ledger: &mut Ledger) -> Result<(), CaseError> {
             .at_most(1e-10)
             .evidence(Evidence::Exact, "nothing drives slip across")
             .because("rounding of the condensed operator and of the direction of the load, over some thousand steps")
+            .why_not_tighter("rounding gathers over steps, whose number depends on the machine")
             .covers(&[Capability::FaultCycles])
             .cost(&free.cost)
             .record();
@@ -103,6 +105,7 @@ fn turning(ledger: &mut Ledger) -> Result<(), CaseError> {
         .at_most(10.0 * TOLERANCE)
         .evidence(Evidence::SemiAnalytic, INDEPENDENT)
         .because("ten tolerances of ln V, of some 10 e-folds a cycle")
+        .why_not_tighter("tolerances of steps add up by chance; here most cancel")
         .covers(&[Capability::FaultCycles, Capability::Events])
         .cost(&found.cost)
         .record();
@@ -177,6 +180,7 @@ fn vectors(ledger: &mut Ledger, plan: &Plan, found: &Followed, expected: &[Slid]
             .at_most(bound)
             .evidence(Evidence::SemiAnalytic, INDEPENDENT)
             .because(because)
+            .why_not_tighter("tolerances of steps add up by chance, and the times of events fall anywhere within a step")
             .covers(&[Capability::FaultCycles, Capability::Events])
             .cost(&found.cost)
             .record();
@@ -196,6 +200,7 @@ fn balances(ledger: &mut Ledger, plan: &Plan, found: &Followed) -> Result<(), Ca
         .absolute(1e-6)
         .evidence(Evidence::Exact, "all points slip by the same vector")
         .because("rounding makes points differ by some 1e-4 of slip where V grows by nine decades, which counts squared where vectors are added")
+        .why_not_tighter("how far points part grows with the peak of V, by many orders")
         .covers(&[Capability::Events])
         .cost(&found.cost)
         .record();
@@ -236,6 +241,7 @@ fn varied(ledger: &mut Ledger) -> Result<(), CaseError> {
         .at_least(1.0)
         .evidence(Evidence::Exact, "friction turns slip where it is weaker first")
         .because("a case in which all points slip along one line would show nothing")
+        .why_not_tighter("it tells slip that turns from slip that does not")
         .covers(&[Capability::FaultCycles])
         .cost(&found.cost)
         .record();
@@ -259,6 +265,7 @@ fn varied(ledger: &mut Ledger) -> Result<(), CaseError> {
             .at_most(bound)
             .evidence(Evidence::SemiAnalytic, INDEPENDENT)
             .because(because)
+            .why_not_tighter("tolerances of steps add up by chance, and the times of events fall anywhere within a step")
             .covers(&[Capability::FaultCycles, Capability::Events])
             .cost(&found.cost)
             .record();
@@ -275,6 +282,7 @@ fn energy(ledger: &mut Ledger, name: &str, found: &Followed) {
         .at_most(TOLERANCE)
         .evidence(Evidence::Exact, "work of loads on slip = elastic energy + work of friction + radiated energy, as products of vectors")
         .because("one tolerance of ln V: it moves friction by a/f of it in a step, and steps add up like a random walk")
+        .why_not_tighter("imbalances of steps have both signs")
         .covers(&[Capability::FaultCycles])
         .cost(&found.cost)
         .record();

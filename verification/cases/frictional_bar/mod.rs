@@ -220,6 +220,7 @@ fn cycles(ledger: &mut Ledger) -> Result<(), CaseError> {
             "nodes that turn within a step count with the mean of their tractions before and after: of 40 steps, half the last part \
              of a step for each, (1/40)^1.5 of a half-cycle; and the front jumps from node to node",
         )
+        .why_not_tighter("an estimate of one step in forty; the errors of both turns have opposite signs")
         .covers(&covers)
         .cost(&done.cost)
         .record();

@@ -258,6 +258,7 @@ fn dropping(ledger: &mut Ledger, system: &System) -> Result<(), CaseError> {
         .because(
             "normal tractions are uniform to a few parts in ten thousand, and the message has four digits",
         )
+        .why_not_tighter("the last of four digits may be off by a half")
         .covers(&[Capability::InterfaceInstability])
         .cost(&done.cost)
         .record();

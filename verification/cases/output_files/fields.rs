@@ -173,6 +173,7 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
             .at_most(bound)
             .evidence(kind, source)
             .because(because)
+            .why_not_tighter("rounding depends on the element; nodes or components that are exchanged differ by parts of a cell and by MPa")
             .covers(&[
                 Capability::Outputs,
                 Capability::Triangles,

@@ -81,6 +81,7 @@ fn stations(ledger: &mut Ledger) -> Result<(), CaseError> {
             .absolute(1e-8)
             .evidence(Evidence::Exact, source)
             .because(because)
+            .why_not_tighter("the last digit may be off by a half; a neighbouring point differs by percents")
             .cost(&done.cost)
             .record();
     }

@@ -64,6 +64,7 @@ fn refine_in_time(ledger: &mut Ledger) -> Result<Run, CaseError> {
         .finest(2e-2, "half the change of V over onset, V_load, times the step of 0.03 s, times the few steps onset takes")
         .evidence(Evidence::ConvergedSelf, "Richardson extrapolation of 1600 and 3200 steps")
         .because("V = slip increment over step is backward Euler")
+        .why_not_tighter("the estimate of the finest level is from above: steps of onset partly cancel")
         .cost(&cost)
         .record();
     ledger
@@ -255,6 +256,7 @@ fn variants(ledger: &mut Ledger) -> Result<(), CaseError> {
             .relative(2e-6)
             .evidence(Evidence::OtherCode, "verification/independent, h = 1.25 mm")
             .because("seven printed digits; final slip has no error in time")
+            .why_not_tighter("the printed digits are the reference: half of the last one is 5e-8, and the tables round twice")
             .record();
     }
     for (name, run) in
@@ -304,6 +306,7 @@ fn penalties(ledger: &mut Ledger) -> Result<(), CaseError> {
             .within(0.1)
             .floor(Floor::Rounding, 1e-9)
             .finest(finest, "the compliance of the penalty, h/1000 in 50 mm, times the value")
+            .why_not_tighter("an estimate from above: most of the compliance is common to both levels")
             .evidence(Evidence::ConvergedSelf, "the same run with 10^4 times the penalty")
             .because("the penalty acts as a layer of compliance 1/E_n in series with the blocks; from 0.1x its square shows")
             .record();

@@ -77,6 +77,7 @@ fn onsets(ledger: &mut Ledger, what: &str, found: &Found, reference: &[f64]) {
         .relative(3e-5)
         .evidence(Evidence::OtherCode, SOURCE)
         .because("the same elements; the error of ln V allowed in a step is 1e-4, that of the reference 1e-6")
+        .why_not_tighter("errors of steps add up by chance; here most cancel")
         .covers(&[Capability::FaultCycles, Capability::PlaneStrain, Capability::Events])
         .cost(&found.cost)
         .record();
@@ -108,6 +109,7 @@ fn stick_slip(ledger: &mut Ledger, size: f64, elements: u64) -> Result<(), CaseE
         .at_most(1e-4)
         .evidence(Evidence::ConvergedSelf, "a limit cycle: the same block under the same load")
         .because("the error of ln V allowed in a step; events are alike")
+        .why_not_tighter("errors of steps add up by chance; here most cancel")
         .covers(&[Capability::FaultCycles])
         .cost(&found.cost)
         .record();
@@ -127,6 +129,7 @@ fn budget(ledger: &mut Ledger, what: &str, found: &Found, at_onset: &[f64]) {
         .relative(1e-3)
         .evidence(Evidence::Exact, "slip budget of a cycle: the block is as it was")
         .because("slip is taken at the step after the onset, in which the block slides by up to a thousandth of an event")
+        .why_not_tighter("the step after the onset falls anywhere within an event")
         .covers(&[Capability::FaultCycles])
         .cost(&found.cost)
         .record();

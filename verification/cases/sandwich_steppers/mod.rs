@@ -197,6 +197,7 @@ fn static_explicit(ledger: &mut Ledger, reference: &Reference) -> Result<Vec<Set
         .finest(2e-2, "backward Euler on the same steps")
         .evidence(Evidence::OtherCode, SOURCE)
         .because("V = slip increment over step is backward Euler")
+        .why_not_tighter("the bound is that of the implicit steps with which they are compared")
         .cost(&cost)
         .covers(&[Capability::StaticExplicit])
         .record();

@@ -175,6 +175,7 @@ fn levels(ledger: &mut Ledger, law: &str, scene: &str) -> Result<Level, CaseErro
         .evidence(Evidence::ConvergedSelf, "cells of 50 m")
         .because("lumped interface mass; the reference is but twice as fine, which raises the order of the last pair")
         .finest(bound, because)
+        .why_not_tighter("an estimate of second order, whose factor is not known")
         .cost(&level.seen.cost)
         .record();
     against_python(ledger, law, &level)?;
@@ -203,6 +204,7 @@ fn against_python(ledger: &mut Ledger, law: &str, level: &Level) -> Result<(), C
             .uncertainty(2.5e-4)
             .evidence(Evidence::OtherCode, SOURCE)
             .because("0.2 % of the largest slip from cells of 100 m here, and 0.1 % from constant slip on 25 m there (half of its change from 50 m)")
+            .why_not_tighter("errors of both codes, which have the same sign here")
             .cost(&level.seen.cost)
             .record();
     }
@@ -223,6 +225,7 @@ fn largest_rate(ledger: &mut Ledger, level: &Level, reference: f64) {
         .uncertainty(0.003 * reference)
         .evidence(Evidence::OtherCode, SOURCE)
         .because("a peak in time, of a point a cell wide; both take it from accepted steps")
+        .why_not_tighter("the highest step of a peak falls anywhere within it")
         .cost(&level.seen.cost)
         .record();
 }
@@ -255,6 +258,7 @@ fn exact(ledger: &mut Ledger, law: &str, level: &Level) {
         .at_most(1e-7)
         .evidence(Evidence::Exact, "phi beta times the integral of p is the volume injected")
         .because("nodal areas integrate p, which is as smooth as exp(-x^2) on either side of the injection, to better than any power of the cells; 1e-8 has passed the end of the fault after 2 yr")
+        .why_not_tighter("rounding and the tolerance of the integral of injection; the rate is a factor")
         .cost(&seen.cost)
         .record();
 }
@@ -283,6 +287,7 @@ fn whole(ledger: &mut Ledger, scene: &str, half: &Level) -> Result<(), CaseError
         .absolute(2e-4)
         .evidence(Evidence::Exact, "the plane of symmetry is free in antiplane motion")
         .because("the same cells; steps of the integration differ, which leaves the tolerance of ln V, 1e-4")
+        .why_not_tighter("tolerances of steps add up by chance; here most cancel")
         .cost(&found.cost)
         .record();
     Ok(())

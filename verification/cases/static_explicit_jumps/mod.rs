@@ -130,6 +130,7 @@ fn blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
         .absolute(1e-9)
         .evidence(Evidence::Exact, "nothing opposes the block")
         .because("Newton's method ends at 1e-11 of the largest force, that of a node")
+        .why_not_tighter("where the last iteration of Newton's method ends below its tolerance is chance")
         .cost(&done.cost)
         .record();
     Ok(())
