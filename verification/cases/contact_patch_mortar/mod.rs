@@ -1,5 +1,7 @@
 //! Contact patch test on meshes that do not match: mortar passes, node-to-point does not.
 
+mod overhang;
+
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
 use asperity_driver::report::{Outcome, RunReport};
 use asperity_driver::scene::model::{
@@ -39,7 +41,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     );
     second_order(ledger)?;
     axisymmetric(ledger)?;
-    solids(ledger)
+    solids(ledger)?;
+    overhang::claims(ledger)
 }
 
 /// A finished run with its scene's exact pressure.
