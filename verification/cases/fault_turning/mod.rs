@@ -180,7 +180,9 @@ fn vectors(ledger: &mut Ledger, plan: &Plan, found: &Followed, expected: &[Slid]
             .at_most(bound)
             .evidence(Evidence::SemiAnalytic, INDEPENDENT)
             .because(because)
-            .why_not_tighter("tolerances of steps add up by chance, and the times of events fall anywhere within a step")
+            .why_not_tighter(
+                "tolerances of steps add up by chance, and the times of events fall anywhere within a step",
+            )
             .covers(&[Capability::FaultCycles, Capability::Events])
             .cost(&found.cost)
             .record();
@@ -265,7 +267,9 @@ fn varied(ledger: &mut Ledger) -> Result<(), CaseError> {
             .at_most(bound)
             .evidence(Evidence::SemiAnalytic, INDEPENDENT)
             .because(because)
-            .why_not_tighter("tolerances of steps add up by chance, and the times of events fall anywhere within a step")
+            .why_not_tighter(
+                "tolerances of steps add up by chance, and the times of events fall anywhere within a step",
+            )
             .covers(&[Capability::FaultCycles, Capability::Events])
             .cost(&found.cost)
             .record();

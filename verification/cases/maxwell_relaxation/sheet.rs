@@ -17,7 +17,7 @@ const STEPS: [usize; 4] = [4, 8, 16, 32];
 const FINEST: f64 = (END / TIME / 32.0) * (END / TIME / 32.0) / 12.0;
 const OF_FINEST: &str = "the square of the step over the relaxation time, over twelve: the error of a rate held over the step in an exponential";
 
-/// How the strain across the sheet is determined.
+/// Condition that determines the strain across the sheet.
 #[derive(Clone, Copy, PartialEq)]
 enum Sides {
     /// No strain along y.

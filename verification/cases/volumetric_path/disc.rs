@@ -116,7 +116,7 @@ fn stretch(steps: usize, forward: bool) -> Result<(f64, Work), CaseError> {
     Ok((1.0 + body.u[2 * rim], body.work))
 }
 
-/// What steps even in the load miss of the logarithmic strain, over what steps even in the stretch miss: both the integral of
+/// Error of the logarithmic strain with steps even in the load over that with steps even in the stretch: both the integral of
 /// dl^2/(12 l^3), with dl/dp = l^2/(1 - ln l) of the load p. The stretch misses l/(1 - ln l) times as much as the logarithm.
 fn uneven(end: f64) -> f64 {
     let parts = 1000;
