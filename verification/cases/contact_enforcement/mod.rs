@@ -74,6 +74,8 @@ struct Found {
     /// Iterations and augmentations of the pressing step, and of all.
     press: (usize, usize),
     all: (usize, usize),
+    /// Augmentations of the last step, in which the block slides under constant tractions.
+    sliding: usize,
 }
 
 fn scene(
@@ -138,13 +140,14 @@ fn run_one(kind: EnforcementKind, factor: f64, measure: Measure, lower: usize) -
             worst(&fields.slip, exact.slip, ALONG),
         ]
     };
-    let press = report.steps.first().ok_or("no step")?;
+    let (press, last) = report.steps.first().zip(report.steps.last()).ok_or("no step")?;
     Ok(Found {
         errors: against(&rigid),
         springs: against(&springs),
         penetration: report.steps.iter().map(|s| s.penetration).fold(0.0, f64::max),
         press: (press.iterations, press.augmentations),
         all: (report.counts.iterations, report.counts.augmentations),
+        sliding: last.augmentations,
         cost,
         report,
     })
@@ -318,6 +321,17 @@ fn uzawa(ledger: &mut Ledger, name: &str, found: &[(f64, Found)]) {
                 "a count; the gap before the last round differs from the tolerance by far more than rounding",
             )
             .why_not_tighter("the next smaller bound of a count is none")
+            .cost(&one.cost)
+            .record();
+        ledger
+            .claim(format!("augmentations of the last step, at {factor:e} E/h, {name}"))
+            .count(one.sliding as u64, 0)
+            .evidence(
+                Evidence::Exact,
+                "the block slides under constant tractions, which are those of the step before",
+            )
+            .because("multipliers that are kept from step to step leave no gap to close")
+            .covers(&[Capability::Multipliers])
             .cost(&one.cost)
             .record();
     }

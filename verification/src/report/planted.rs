@@ -88,9 +88,13 @@ impl Result {
         for noticed in &self.noticed {
             let entry = cases.entry(noticed.case.as_str()).or_insert((0, 0.0_f64));
             entry.0 += 1;
-            // A claim that could not be measured has failed altogether.
-            entry.1 = entry.1.max(noticed.margin.unwrap_or(f64::INFINITY));
+            entry.1 = entry.1.max(noticed.margin.unwrap_or(0.0));
         }
+        // Claims that could not be measured have failed altogether.
+        cases
+            .values_mut()
+            .filter(|(_, margin)| *margin == 0.0)
+            .for_each(|(_, margin)| *margin = f64::INFINITY);
         cases
     }
 
@@ -98,6 +102,7 @@ impl Result {
     fn words(&self) -> String {
         match self.status.as_str() {
             "does-not-build" => "does not build".to_owned(),
+            _ if self.noticed.len() == 1 => "noticed by one claim".to_owned(),
             _ if !self.noticed.is_empty() => format!("noticed by {} claims", self.noticed.len()),
             "does-not-end" => "a run did not end".to_owned(),
             _ => "not noticed".to_owned(),
@@ -110,8 +115,8 @@ pub fn whole(defects: &Defects, run: &Provenance) -> String {
     let noticed = defects.results.values().filter(|result| !result.noticed.is_empty()).count();
     let mut body = format!(
         "<h1>Planted defects</h1>\n<p>{} are described in <code>verification/defects</code>. {} of them have a \
-         result; {noticed} were noticed by a claim. The {} is the error over the bound: 1 is the limit. ∞ marks a \
-         claim that could not be measured.</p>\n",
+         result; {noticed} were noticed by a claim. The {} is the error over the bound: 1 is the limit. ∞ marks \
+         cases whose claims could not be measured.</p>\n",
         defects.definitions.len(),
         defects.results.len(),
         word("margin", "margin", Depth::Top),
