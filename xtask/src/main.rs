@@ -109,8 +109,14 @@ fn root() -> PathBuf {
 fn verify(root: &Path, full: bool, case: Option<&str>) -> Result<(), Failure> {
     tidy(root)?;
     Stage::new("tests", "cargo").args(["test", "--workspace", "--release"]).run(root)?;
-    let mut suite =
-        Stage::new("verification", "cargo").args(["run", "--release", "-p", "asperity-verification", "--"]);
+    let mut suite = Stage::new("verification", "cargo").args([
+        "run",
+        "--release",
+        "-p",
+        "asperity-verification",
+        "--",
+        "--tested",
+    ]);
     if full {
         suite = suite.args(["--full"]);
     }
