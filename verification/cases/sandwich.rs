@@ -115,7 +115,7 @@ pub fn wide(mut scene: Scene) -> Scene {
     scene
 }
 
-/// Multiplies the penalties by `factor`.
+/// Sets the penalties to `factor` times 100 E/h.
 pub fn penalty(mut scene: Scene, factor: f64) -> Scene {
     for interface in scene.interfaces.values_mut() {
         interface.enforcement.normal = here(Penalty::YoungPerSize(100.0 * factor));
@@ -124,7 +124,7 @@ pub fn penalty(mut scene: Scene, factor: f64) -> Scene {
     scene
 }
 
-/// Multiplies Young's modulus by `factor`.
+/// Sets Young's modulus to `factor` times [`YOUNG`].
 pub fn young(mut scene: Scene, factor: f64) -> Scene {
     for material in scene.materials.values_mut() {
         material.young = here(Pressure(YOUNG * factor));

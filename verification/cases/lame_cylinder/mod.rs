@@ -34,7 +34,7 @@ struct Radial {
 }
 
 impl Radial {
-    /// Lamé's cylinder around the remaining axis: ρ is the norm of the first `along` coordinates.
+    /// Lamé's cylinder, with its radius in the first `along` coordinates.
     fn cylinder(along: usize) -> Self {
         let c = (1.0 + POISSON) * PRESSURE * A * A / (YOUNG * (B * B - A * A));
         Self { a: c * (1.0 - 2.0 * POISSON), b: c * B * B, m: 2, along }
