@@ -1,10 +1,10 @@
-"""Reads the catalogues of a run with ObsPy, and exits non-zero when something is off.
+"""Reads the catalogues of a run with ObsPy, and exits non-zero if a check fails.
 
     python interop/check_catalogue.py out/catalogue
 
-`events.quakeml` is validated against the schema of QuakeML 1.2. Times, places, moments, tensors and nodal planes of both files are
-compared with `events.json`; planes by the tensors rebuilt from their angles, which differ little where angles differ much. Copies that
-are broken on purpose must fail.
+`events.quakeml` is validated against the schema of QuakeML 1.2. Times, positions, moments, tensors and nodal planes of both files are
+compared with `events.json`. Planes are compared by tensors rebuilt from their angles, since nearly equal planes may have very different
+angles. Copies that are corrupted on purpose must fail.
 """
 
 import json
@@ -28,7 +28,7 @@ def matrix(values):
 
 
 def of_plane(plane):
-    """The tensor of moment 1 of a plane, in up, south, east."""
+    """Tensor of unit moment of a nodal plane, in up, south, east."""
     angles = [float(plane[name]) for name in ("strike", "dip", "rake")]
     return np.array(MomentTensor(angles).get_M(system="USE"))
 
@@ -69,7 +69,7 @@ def check_quakeml(path, truth, problems):
             problems.near(getattr(origin, name), expected["hypocentre"][name], 1e-9, f"{where}: {name}")
         scale = 1.0 / np.sqrt(0.5 * (matrix(expected["tensor"]) ** 2).sum())
         double = matrix(expected["tensor"]) * scale
-        # A flat fault slips as one double couple; faults of a curved trace would not.
+        # Slip on a planar fault is one double couple; slip on a curved fault would not be.
         planes = [focal.nodal_planes.nodal_plane_1, focal.nodal_planes.nodal_plane_2]
         for plane in planes:
             problems.tensors(of_obspy(plane), double, 1e-6, f"{where}: tensor of a plane")
@@ -108,13 +108,13 @@ def check(out):
         check_quakeml(out / "events.quakeml", truth, problems)
         if truth and truth[0]["moment"] is not None:
             check_cmtsolution(out / "CMTSOLUTION", truth, problems)
-    except Exception as error:  # Whatever a reader throws at a damaged file is one more problem to list.
+    except Exception as error:  # Any exception of a reader on a damaged file is another problem to list.
         problems.append(f"{type(error).__name__}: {error}")
     return problems, len(truth)
 
 
 def changed(text, name, by):
-    """The first quantity of this name with another value."""
+    """The text with another value of the first quantity of this name."""
     start = text.index(f"<{name}>")
     end = text.index(f"</{name}>")
     value = float(text[start:end].split("<value>")[1].split("</value>")[0])
@@ -122,12 +122,12 @@ def changed(text, name, by):
 
 
 def flip(found):
-    """The other sign before a number of a fixed width."""
+    """The opposite sign before a number of fixed width."""
     return found[1] if found[2] else found[1][:-1] + "-"
 
 
 def breaks(truth):
-    """Ways to break a file: its name, what to do."""
+    """Ways to corrupt a file: its name and the change."""
     largest = max(range(6), key=lambda k: abs(truth["tensor"][k]))
     name = ["Mrr", "Mtt", "Mpp", "Mrt", "Mrp", "Mtp"][largest]
     yield "events.quakeml", "another strike", lambda t: changed(t, "strike", lambda v: v + 20)

@@ -1,11 +1,11 @@
-"""Compares what asperity reads of mesh files with what Gmsh and meshio read, and exits non-zero where they differ.
+"""Compares mesh files as read by asperity, Gmsh and meshio, and exits non-zero if they differ.
 
     cargo run --release -p asperity-driver --example mesh_summary -- target/meshes.json crates/fem/tests/meshes/[gmu]*.*[hp]
     python interop/check_meshes.py target/meshes.json crates/fem/tests/meshes
 
 Gmsh is the reference for its own format: number of nodes, cells by element, and groups with their numbers of cells, faces
-and nodes. meshio gives the order of nodes in VTK's terms, so that whole cells can be compared, node by node, for Abaqus files
-too. Files that one of them does not read are listed below, so that a change is noticed.
+and nodes. meshio gives nodes in VTK's order, so that whole cells can be compared node by node, for Abaqus files too. Files that
+one of them does not read are listed below, so that a change is noticed.
 """
 
 import contextlib
@@ -36,21 +36,21 @@ NOT_MESHIO = {
     "unit_hex20.inp", "unit_hex27.inp", "unit_tet10.inp", "unit_wedge15.inp",
 }  # fmt: skip
 
-# Decimals of positions in which readers agree: the samples are some units wide.
+# Decimals to which positions must agree; the samples are a few units wide.
 DIGITS = 9
 
 problems: list[str] = []
 
 
 def expect(condition, message):
-    """Notes a problem, and goes on: one run shows all of them."""
+    """Records a problem and continues, so that one run shows all of them."""
     if not condition:
         problems.append(message)
     return bool(condition)
 
 
 def distinct(rows):
-    """Different sets of nodes among the rows: an element in several groups stands in an old file once for each."""
+    """Number of distinct node sets among the rows: old files repeat an element for each of its groups."""
     return len({tuple(sorted(row)) for row in rows})
 
 
@@ -93,7 +93,7 @@ def check_gmsh(name, path, ours):
 
 
 def by_meshio(path):
-    """The mesh, or None where meshio gives up."""
+    """The mesh, or None if meshio cannot read it."""
     try:
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             return meshio.read(path)
@@ -102,7 +102,7 @@ def by_meshio(path):
 
 
 def ordered(cells):
-    """Cells as rows of all their coordinates, in an order of their own, each once."""
+    """Cells as rows of all their coordinates, sorted and without duplicates."""
     rows = np.asarray(cells, dtype=float).reshape(len(cells), -1)
     return np.unique(np.round(rows, DIGITS), axis=0)
 
@@ -120,7 +120,7 @@ def check_meshio(name, path, ours):
             continue
         theirs = np.concatenate(theirs)
         if name == "unit_clockwise.msh":
-            theirs = theirs[:, [0, 3, 2, 1]]  # Turned over when read: asperity wants cells counterclockwise.
+            theirs = theirs[:, [0, 3, 2, 1]]  # Reversed by asperity, which needs counterclockwise cells.
         a, b = ordered(cells), ordered(theirs)
         same = np.array_equal(a, b)
         expect(same, f"{name}: {kind} cells differ from meshio's, or the order of their nodes does")

@@ -1,9 +1,9 @@
-"""Reads an output directory of asperity with the readers its users have, and exits non-zero when something is off.
+"""Reads an output directory of asperity with common readers, and exits non-zero if a check fails.
 
     python interop/check_vtu.py out/sandwich
 
 Fields are read with VTK (through pyvista) and with meshio; both accept damaged files silently, so names, sizes and
-values are asserted. Tables are read with the standard library, plots with Pillow and an XML parser. Nothing is rendered.
+values are checked. Tables are read with the standard library, plots with Pillow and an XML parser. Nothing is rendered.
 """
 
 import csv
@@ -39,14 +39,14 @@ problems: list[str] = []
 
 
 def expect(condition, message):
-    """Notes a problem, and goes on: one run shows all of them."""
+    """Records a problem and continues, so that one run shows all of them."""
     if not condition:
         problems.append(message)
     return bool(condition)
 
 
 def check_arrays(where, found, expected, count):
-    # States are there where a law has them.
+    # States are present if a law has them.
     expected = expected | {name: 1 for name in found if name.startswith("state_")}
     expect(set(found) == set(expected), f"{where}: arrays {sorted(found)}, expected {sorted(expected)}")
     for name in set(found) & set(expected):
@@ -55,14 +55,14 @@ def check_arrays(where, found, expected, count):
             expect(values.shape[1] == expected[name], f"{where}: {name} has {values.shape[1]} components")
             finite = np.isfinite(values).all(axis=1)
             meant = np.asarray(found["paired"]) == 1 if name == "gap" and "paired" in found else np.full(count, True)
-            # In stages without friction there are no states.
+            # Frictionless stages have no states.
             absent = name.startswith("state_") and not finite.any()
             expect(absent or (finite | ~meant).all(), f"{where}: {name} is not finite everywhere")
             expect(name != "gap" or (finite == meant).all(), f"{where}: gap has a value without a partner")
 
 
 def check_field(path, time, is_body):
-    """One `.vtu`, by both readers; returns the VTK one."""
+    """Checks one `.vtu` with both readers; returns VTK's grid."""
     points, cells = (BODY_POINTS, BODY_CELLS) if is_body else (INTERFACE_POINTS, {})
     grid = pyvista.read(path)
     expect(grid.n_points > 0 and grid.n_cells > 0, f"{path}: empty in VTK")
@@ -87,7 +87,7 @@ def check_field(path, time, is_body):
 
 
 def check_mises(path, grid):
-    """Mises stress is convex: that of a cell's mean stress is at most the mean of its points' Mises stresses."""
+    """Checks Mises stress by its convexity: that of a cell's mean stress is at most the mean over its points."""
     xx, yy, zz, xy, yz, zx = np.asarray(grid.cell_data["stress"]).T
     mises = np.sqrt(((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) / 2 + 3 * (xy**2 + yz**2 + zx**2))
     given = np.asarray(grid.cell_data["mises"])
@@ -96,7 +96,7 @@ def check_mises(path, grid):
 
 
 def check_collection(out):
-    """The `.pvd`: returns {(interface, time): grid}."""
+    """Checks the `.pvd`; returns {(interface, time): grid}."""
     root = xml.parse(out / "fields.pvd").getroot()
     sets = root.findall("./Collection/DataSet")
     expect(sets, "fields.pvd is empty")
@@ -113,7 +113,7 @@ def check_collection(out):
         if expect(path.is_file(), f"{path} is missing"):
             try:
                 grids[entry.get("name"), time] = check_field(path, time, is_body=entry.get("part") == "0")
-            except Exception as error:  # Whatever a reader throws at a damaged file is one more problem to list.
+            except Exception as error:  # Any exception of a reader on a damaged file is another problem to list.
                 expect(False, f"{path}: {type(error).__name__}: {error}")
     on_disk = {path.relative_to(out).as_posix() for path in (out / "fields").glob("*")}
     expect(on_disk == {entry.get("file") for entry in sets}, "fields/ holds other files than the collection names")

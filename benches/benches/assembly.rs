@@ -1,5 +1,5 @@
-//! Assembly of cell matrices into a fixed pattern, beside the time the same bytes take in a triad on the same machine in the
-//! same run. Repetitions of all quantities take turns and the least of each is shown: other load only adds.
+//! Assembly of cell matrices into a fixed pattern, compared with the time of a triad over the same bytes in the same
+//! run. Repetitions of all quantities alternate, and the minimum of each is printed, since other load only adds time.
 #![allow(missing_docs, clippy::print_stdout, reason = "a table of ratios: criterion does not fit")]
 
 use asperity_fem::block::LinearBlock;
@@ -20,7 +20,7 @@ use std::time::Instant;
 const TURNS: usize = 15;
 /// Numbers in each vector of the triad: 192 MB in all, six times the largest cache.
 const TRIAD: usize = 8 << 20;
-/// Numbers one task of the triad treats.
+/// Numbers per task of the triad.
 const PIECE: usize = 1 << 16;
 
 fn seconds(pool: &rayon::ThreadPool, f: impl FnOnce() + Send) -> f64 {
@@ -47,11 +47,11 @@ impl Triad {
         black_box(&self.a);
     }
 
-    /// Bytes moved: two read, one written, and its lines read before.
+    /// Bytes moved: two vectors read and one written, whose cache lines are read first.
     const BYTES: f64 = (4 * 8 * TRIAD) as f64;
 }
 
-/// Least times with one and with two threads.
+/// Minimum times with one and with two threads.
 type Least = [f64; 2];
 
 fn measure<const D: usize>(kind: ElementKind, n: usize, pools: &[rayon::ThreadPool; 2], triad: &mut Triad) {
@@ -98,7 +98,7 @@ fn measure<const D: usize>(kind: ElementKind, n: usize, pools: &[rayon::ThreadPo
     let bandwidth = least[0].map(|t| Triad::BYTES / t);
     println!("  triad {:.1} / {:.1} GB/s", bandwidth[0] / 1e9, bandwidth[1] / 1e9);
     for (row, map) in maps.iter().enumerate() {
-        // Values and lists read once; stored entries set to zero, read and written.
+        // Values and index lists are read once; stored entries are zeroed, read and written.
         let bytes = values + map.bytes() as f64 + (3 * 8 * map.stored()) as f64;
         let name = ["lower triangle", "whole"][row];
         show(name, least[1 + row], cells, bytes, bandwidth);
@@ -127,7 +127,7 @@ fn main() {
     faer::set_global_parallelism(faer::Par::Seq);
     let pools = [1, 2].map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("threads"));
     let mut triad = Triad { a: vec![0.0; TRIAD], b: vec![1.0; TRIAD], c: vec![2.0; TRIAD] };
-    // Bodies of about 200 000 unknowns in the plane and 100 000 in space.
+    // Bodies of about 200 000 unknowns in two dimensions and 100 000 in three.
     measure::<2>(ElementKind::Quad4, 316, &pools, &mut triad);
     measure::<2>(ElementKind::Quad9, 158, &pools, &mut triad);
     measure::<3>(ElementKind::Hex8, 32, &pools, &mut triad);

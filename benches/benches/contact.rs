@@ -16,7 +16,7 @@ fn coulomb() -> Option<Arc<dyn Law>> {
     Some(Arc::new(Coulomb::new(0.3, None).expect("an admissible coefficient")))
 }
 
-/// Force and tangent of one interface.
+/// Times force and tangent of one interface.
 fn assembly<T: Linearized>(c: &mut Criterion, name: &str, slaves: usize, term: &mut T, u: &[f64]) {
     let mut group = c.benchmark_group(name);
     group.sample_size(10).throughput(Throughput::Elements(slaves as u64));

@@ -1,5 +1,5 @@
-//! Analysis, numeric factorisation in existing storage and solves of the direct solver on small blocks of quad4 and hex8, one
-//! thread. Large ones and other solvers: `examples/direct_solver.rs`.
+//! Analysis, numeric factorisation in existing storage and solves of the direct solver on small blocks of quad4 and
+//! hex8, one thread. Large ones and other solvers: `examples/direct_solver.rs`.
 #![allow(missing_docs, reason = "criterion writes its entry point")]
 
 use asperity_benches::direct::stiffness;
@@ -35,7 +35,7 @@ fn measure(criterion: &mut Criterion, case: &str) {
     for columns in [1, 64] {
         let mut x = Mat::<f64>::from_fn(matrix.order(), columns, |i, j| ((i + j) as f64 * 0.7).sin());
         group.bench_function(format!("solve {columns}"), |b| {
-            // Entries shrink from solve to solve, so each starts from the same.
+            // Entries shrink from solve to solve, so each solve starts from the same vector.
             let start = x.clone();
             b.iter(|| {
                 x.copy_from(&start);

@@ -1,4 +1,5 @@
-//! Tractions due to slip, dense and compressed, and a right-hand side of a fault; with the bytes an operator holds.
+//! Tractions due to slip by dense and compressed operators, and the right-hand side of a fault. Prints the memory of
+//! each operator.
 #![allow(missing_docs)]
 
 use asperity_cycles::Equations;
@@ -9,7 +10,7 @@ use asperity_ode::{Clock, Problem};
 use asperity_vary::bp1::bp1;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
-/// BP1 with cells of this size \[m\] where the fault is locked.
+/// Plan of BP1 with cells of this size \[m\] where the fault is locked.
 fn plan(size: f64, form: Form) -> Plan {
     let text = bp1(size).text().expect("the scene has these keys");
     let scene = scene::read(&text).expect("the scene is complete");

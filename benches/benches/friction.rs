@@ -1,5 +1,5 @@
-//! Friction laws on slices of points, in time per point: values, point solve under radiation damping, implicit return. Beside
-//! them one exponential and one logarithm per point, and the mean number of evaluations a point takes.
+//! Friction laws on slices of points, in time per point: values, point solve under radiation damping, implicit return.
+//! For comparison: one exponential and one logarithm per point, and the mean number of evaluations per point.
 #![allow(missing_docs, clippy::print_stdout)]
 
 use asperity_benches::Draws;
@@ -34,11 +34,11 @@ const DAMPING: f64 = 4.62444e6;
 const STIFFNESS: f64 = 1e12;
 const DT: f64 = 1e-5;
 
-/// A law with a rate, and its name.
+/// A rate-dependent law and its name.
 struct Case<F, E: Evolution> {
     name: &'static str,
     law: RateLaw<F, E>,
-    /// Amount that a law with a memory of shear traction keeps beside its state.
+    /// Factor of the shear traction that a law with memory of it stores with its state.
     kept: f64,
 }
 
@@ -54,7 +54,7 @@ fn several<E: Evolution>(name: &'static str, parts: Vec<(E, f64)>) -> Case<Regul
     Case { name, law: RateLaw::with_parts(form, parts, V_REF, 1e7, None).expect("admissible"), kept }
 }
 
-/// Does something with each law that has a rate.
+/// Applies a function to each rate-dependent law.
 macro_rules! each_rated {
     ($do:ident, $group:expr, $n:expr) => {{
         let (group, n) = ($group, $n);
@@ -70,7 +70,7 @@ macro_rules! each_rated {
     }};
 }
 
-/// Points that differ: V from 1e-12 to 1 m/s, states steady up to three e-folds away from it, f_n from 2 to 20 MPa.
+/// Varied points: V from 1e-12 to 1 m/s, states steady up to three e-folds away from it, f_n from 2 to 20 MPa.
 struct Points {
     rate: Vec<f64>,
     normal: Vec<f64>,
@@ -86,7 +86,7 @@ impl Points {
         let mut draws = Draws::new(1);
         let (mut rate, mut normal, mut states, mut near) = (vec![], vec![], vec![], vec![]);
         let (law, mut steady) = (&case.law, vec![0.0; case.law.states()]);
-        // What Nagata's law keeps is the state and c μ/b.
+        // Nagata's law stores the state plus c μ/b.
         let kept = case.kept;
         for _ in 0..n {
             let log = draws.between(-12.0, 0.0) * std::f64::consts::LN_10;
@@ -105,7 +105,7 @@ impl Points {
         Self { rate, normal, states, strength, near }
     }
 
-    /// Tractions that go with the slip rates behind a dashpot.
+    /// Driving tractions that give the slip rates behind a dashpot.
     fn drive(&self, dashpot: f64) -> Vec<f64> {
         self.strength.iter().zip(&self.rate).map(|(s, v)| s + dashpot * v).collect()
     }
@@ -121,7 +121,7 @@ fn group<'a>(c: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a, WallTime> {
     group
 }
 
-/// The unit: one exponential and one logarithm per point.
+/// Times one exponential and one logarithm per point, the unit of comparison.
 fn unit(c: &mut Criterion) {
     let mut group = group(c, "exp and log");
     for n in SIZES {
@@ -142,7 +142,7 @@ fn unit(c: &mut Criterion) {
     group.finish();
 }
 
-/// Friction coefficient, and slip and state rates where nothing damps, which needs no iteration.
+/// Times the friction coefficient, and slip and state rates without damping, which need no iteration.
 fn values(c: &mut Criterion) {
     fn coefficient<F: Form, E: Evolution>(
         group: &mut BenchmarkGroup<'_, WallTime>,
@@ -189,7 +189,7 @@ fn rates<F: Form, E: Evolution>(
     });
 }
 
-/// Mean number of evaluations a point takes: iterations, the last one, and those in search of a bracket.
+/// Mean number of evaluations per point: iterations, the final one, and those that bracket the root.
 fn evaluations<F: Form, E: Evolution>(
     case: &Case<F, E>,
     points: &Points,
@@ -209,7 +209,7 @@ fn evaluations<F: Form, E: Evolution>(
     sum as f64 / n as f64
 }
 
-/// Slip rates from tractions behind a dashpot.
+/// Times slip rates from tractions behind a dashpot.
 fn solve(c: &mut Criterion) {
     fn both<F: Form, E: Evolution>(
         group: &mut BenchmarkGroup<'_, WallTime>,
@@ -236,7 +236,7 @@ fn solve(c: &mut Criterion) {
     group.finish();
 }
 
-/// The implicit return of a law over a slice.
+/// Times the implicit return of a law over a slice.
 fn respond(
     group: &mut BenchmarkGroup<'_, WallTime>,
     name: &str,
@@ -289,7 +289,7 @@ fn point_return(c: &mut Criterion) {
     group.finish();
 }
 
-/// The laws with a yield surface: trials on both sides of it.
+/// Times laws with a yield surface, with trials on both sides of it.
 fn surfaces(group: &mut BenchmarkGroup<'_, WallTime>, n: usize) {
     let laws: [(&str, Box<dyn Law>); 3] = [
         ("coulomb", Box::new(Coulomb::new(MU0, None).expect("admissible"))),

@@ -1,5 +1,5 @@
 //! Conjugate gradients with smoothed aggregation and with block-Jacobi on hex8 bodies clamped on one face, beside the direct
-//! solver. Prints one line for each; arguments choose (`cube graded amg direct n=25 threads=1`).
+//! solver. Prints one line for each; arguments select bodies, methods and sizes (`cube graded amg direct n=25 threads=1`).
 #![allow(
     missing_docs,
     clippy::print_stdout,
@@ -20,14 +20,14 @@ use asperity_fem::term::{Linearized, Pattern};
 use faer::MatMut;
 use std::time::Instant;
 
-/// A body: elements along an edge for the sizes of the table, and what makes it hard.
+/// A body and the properties that make it hard to solve.
 struct Case {
     name: &'static str,
-    /// Length along x over the elements' width: 10 makes elements 1:10.
+    /// Stretch of elements along x: 10 gives an aspect ratio of 1:10.
     stretch: f64,
     grading: Grading,
     poisson: f64,
-    /// Young's modulus of every second of eight layers over that of the first.
+    /// Ratio of Young's modulus between alternating layers, of which there are eight.
     contrast: f64,
 }
 
@@ -44,7 +44,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// Cells, their values, the free equations and a load.
+/// Cells, their matrices, the free equations and a load.
 struct Body {
     mesh: Mesh<3>,
     pattern: Pattern,
@@ -153,7 +153,7 @@ fn main() {
     for n in number("n=").map_or(SIZES.to_vec(), |n| vec![n]) {
         for case in cases.iter().filter(|c| chosen(c.name, &names)) {
             for method in ["amg", "jacobi", "direct"] {
-                // The direct solver takes minutes: only when asked for.
+                // The direct solver takes minutes and runs only if selected.
                 if chosen(method, METHODS) && (method != "direct" || words.iter().any(|w| w == method)) {
                     report(case, n, method, number("threads=").unwrap_or(2), amg);
                 }

@@ -1,4 +1,4 @@
-//! The main job without its output: plan and run of the sandwich.
+//! Plan and run of the sandwich, without output.
 #![allow(missing_docs)]
 
 use asperity_driver::{plan, run, scene};

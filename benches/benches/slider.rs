@@ -47,11 +47,11 @@ const HARD: Set = Set {
 };
 /// A plate-boundary cycle of ten years.
 const REFERENCE: Set = Set { a: 0.01, stiffness: 0.01 * 50e6 * 0.005 / 1e-4, ..HARD };
-/// An oscillator of 0.01 s.
+/// The mild set with inertia instead of damping: an oscillator with a period of 0.01 s.
 const INERTIAL: Set = Set { damping: 0.0, mass: Some(OSCILLATOR * OSCILLATOR * 1.25e9), ..MILD };
 const OSCILLATOR: f64 = 0.01 / std::f64::consts::TAU;
 
-/// The error the runs of the reference cycle are to have, over the recurrence.
+/// Target error of runs of the reference cycle, over the recurrence.
 const AIM: f64 = 1e-8;
 /// Events of the reference cycle.
 const EVENTS: usize = 10;
@@ -71,14 +71,14 @@ fn plan(set: &Set, events: usize) -> Problem {
     };
     let system = System::new(vec![slider], vec![], History::Constant(set.load)).expect("admissible");
     let start = system.start(&[1.1 * set.load], &[steady]).expect("a start");
-    // Longer than any of the cycles takes.
+    // The end is later than that of any of the cycles.
     let mut plan = Problem::new(system, start, 1e12);
     plan.events = Some(Thresholds { on: 1e-3, off: 1e-4 });
     plan.most_events = Some(events);
     plan
 }
 
-/// Onset of the last event and the time since the one before \[s\].
+/// Onset of the last event and its recurrence interval \[s\].
 fn last(plan: &Problem) -> (f64, f64) {
     let run = slider::run(plan, &mut ()).expect("a run");
     let event = Entry::all(&run).pop().expect("an event");
@@ -86,7 +86,7 @@ fn last(plan: &Problem) -> (f64, f64) {
     (event.onset, event.interval.expect("two events"))
 }
 
-/// Five events with the method and the tolerance of scenes that name none.
+/// Times five events with the default method and tolerance of scenes.
 fn cycles(c: &mut Criterion) {
     let mut group = c.benchmark_group("five events");
     group.sample_size(10);
@@ -99,8 +99,8 @@ fn cycles(c: &mut Criterion) {
     group.finish();
 }
 
-/// Ten events of the reference cycle, with the loosest tolerance (of four a decade) that leaves the last onset within 1e-8 of
-/// the recurrence.
+/// Times ten events of the reference cycle at the loosest tolerance (of four a decade) at which the error of the last
+/// onset is below 1e-8 of the recurrence.
 fn reference(c: &mut Criterion) {
     let mut group = c.benchmark_group("ten events of the reference cycle");
     group.sample_size(20);
@@ -120,7 +120,7 @@ fn reference(c: &mut Criterion) {
     group.finish();
 }
 
-/// Sliders in a chain, or each on a spring to each other one, through two events of the first.
+/// Sliders coupled in a chain or all to each other, through two events of the first.
 fn coupled(count: usize, chain: bool) -> Problem {
     let set = Set { length: 8e-3, stiffness: 1e6, ..REFERENCE };
     let one = plan(&set, 2);
@@ -140,7 +140,7 @@ fn coupled(count: usize, chain: bool) -> Problem {
     plan
 }
 
-/// Times sliders coupled in chains, and each to each.
+/// Times sliders coupled in chains and all to each other.
 fn chains(c: &mut Criterion) {
     let mut group = c.benchmark_group("two events of coupled sliders");
     group.sample_size(10);

@@ -1,6 +1,7 @@
-//! Times the assembly of contact: search, projection, force, tangent, scatter, in ns per slave node, beside the time the
-//! memory needs for the bytes that have to move. `contact_assembly [THREADS [LARGEST [NAMES]]]`; sizes that do not fit into
-//! [`MEMORY`] are left out; NAMES, parts of names with commas between, limit the interfaces ("2D finite,3D finite").
+//! Times the assembly of contact: search, projection, force, tangent, scatter, in ns per slave node, compared with the
+//! time to move the necessary bytes through memory. `contact_assembly [THREADS [LARGEST [NAMES]]]`; sizes that do not
+//! fit into [`MEMORY`] are skipped; NAMES, parts of names separated by commas, select interfaces ("2D finite,3D
+//! finite").
 // A program for the terminal.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
@@ -18,10 +19,11 @@ use std::time::Instant;
 
 const AT: At = At { time: 1.0, dt: 1.0 };
 
-/// Bytes of a tangent's values beyond which only search and force are measured: the scatter into the matrix takes as much again.
+/// Bytes of tangent values beyond which only search and force are measured: the scatter into the matrix takes as much again.
 const MEMORY: usize = 3 << 30;
 
-/// Most slave nodes of mortar in space: their pattern alone takes a kilobyte a node, their blocks of 75 unknowns 45.
+/// Largest number of slave nodes of three-dimensional mortar: the pattern alone takes 1 kB a node, the blocks of 75
+/// unknowns 45 kB.
 const FACES: usize = 100_000;
 
 fn main() -> ExitCode {
@@ -91,7 +93,7 @@ fn all(n: usize, wanted: &dyn Fn(&str) -> bool) {
     }
 }
 
-/// Least time of several runs \[ns per node\].
+/// Minimum time of several runs \[ns per node\].
 fn least(slaves: usize, mut work: impl FnMut()) -> f64 {
     let runs = (1_000_000 / slaves).clamp(3, 100);
     let mut best = f64::INFINITY;
@@ -107,7 +109,7 @@ fn kernels<const D: usize>(name: &str, slaves: usize, u: &[f64], make: impl Fn()
     let start = Instant::now();
     let mut interface = make();
     let build = start.elapsed().as_secs_f64() * 1e9 / slaves as f64;
-    // Two displacements far apart, so that a search is never left out.
+    // Two displacements far apart, so that the search is never skipped.
     let far: Vec<f64> = u.iter().map(|u| 2e4 * u).collect();
     let mut flip = false;
     let search = least(slaves, || {
@@ -142,14 +144,14 @@ fn kernels<const D: usize>(name: &str, slaves: usize, u: &[f64], make: impl Fn()
     );
 }
 
-/// Bytes that force and tangent have to move: u and r, the geometry and history of each point (some 50 numbers, written once
+/// Bytes that force and tangent must move: u and r, the geometry and history of each point (some 50 numbers, written once
 /// and read once), and the values of the tangent, written once.
 fn traffic<const D: usize>(interface: &Interface<D>, slaves: usize, dofs: usize, values: usize) -> usize {
     let block = interface.pattern().dofs().len();
     8 * (3 * dofs + slaves * 2 * 50 + values + block)
 }
 
-/// Bytes per second of writing an array of this size (at least 1 MB) on the threads of the pool.
+/// Bandwidth of writing an array of this size (at least 1 MB) on the threads of the pool \[B/s\].
 fn bandwidth(bytes: usize) -> f64 {
     use rayon::prelude::*;
     let n = (bytes / 8).max(1 << 17);
@@ -164,7 +166,7 @@ fn bandwidth(bytes: usize) -> f64 {
     8.0 * n as f64 / best
 }
 
-/// Summing the blocks into compressed columns \[ns per node\].
+/// Time to sum the blocks into compressed columns \[ns per node\].
 fn scatter<const D: usize>(slaves: usize, dofs: usize, interface: &Interface<D>, values: &[f64]) -> f64 {
     let equations = Constraints { fixed: Vec::new(), channels: Vec::new() }.equations(dofs);
     let mut map = ScatterMap::new(&[interface.pattern()], &equations, Part::Whole);

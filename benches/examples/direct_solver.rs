@@ -1,9 +1,9 @@
-//! Times the direct solver on stiffnesses of meshes of chosen size, and faer's beside it; writes the matrices for other
+//! Times the direct solver and faer's on stiffness matrices of meshes of chosen size, and writes the matrices for other
 //! programs (`benches/compare/cholmod`).
 //!
-//! `direct_solver time CASE THREADS RUNS [faer|faer-alone]` prints one line per solver; `direct_solver dump CASE FILE` writes the lower
-//! triangle: n and the number of entries (u64), column starts and rows (i64), values (f64), little endian.
-//! A case is `2d:N` (quad4) or `3d:N` (hex8) with about N equations.
+//! `direct_solver time CASE THREADS RUNS [faer|faer-alone]` prints one line per solver; `direct_solver dump CASE FILE`
+//! writes the lower triangle: n and the number of entries (u64), column starts and rows (i64), values (f64), little
+//! endian. A case is `2d:N` (quad4) or `3d:N` (hex8) with about N equations.
 // A program for the terminal.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
@@ -65,7 +65,7 @@ fn time(case: &str, threads: &str, runs: &str, solvers: &[&str]) -> Result<(), S
     })
 }
 
-/// Least seconds of a call so far: on the wall, and of all processors (which other people's load disturbs less).
+/// Minimum time of a call so far \[s\]: wall time, and processor time, which other load disturbs less.
 #[derive(Clone, Copy)]
 struct Least {
     wall: f64,
@@ -80,7 +80,7 @@ fn clock<T>(least: &mut Least, call: impl FnOnce() -> T) -> T {
     result
 }
 
-/// Processor time of all threads of this process \[s\], as Linux counts it; zero elsewhere.
+/// Processor time of all threads of this process \[s\] on Linux; zero elsewhere.
 fn processors() -> f64 {
     let Ok(tasks) = std::fs::read_dir("/proc/self/task") else { return 0.0 };
     let of_task = |task: std::fs::DirEntry| {
@@ -90,7 +90,7 @@ fn processors() -> f64 {
     tasks.filter_map(|t| of_task(t.ok()?)).sum::<f64>() * NANO
 }
 
-/// Seconds of a nanosecond.
+/// One nanosecond \[s\].
 const NANO: f64 = 1e-9;
 
 fn print(solver: &str, case: &str, threads: usize, n: usize, nnz: usize, times: [Least; 5], residual: f64) {
@@ -129,7 +129,7 @@ fn own(case: &str, matrix: &ScatterMap, threads: usize, runs: usize) -> Result<(
 fn library(case: &str, matrix: &ScatterMap, threads: usize, runs: usize) -> Result<(), String> {
     let n = matrix.order();
     let par = if threads > 1 { Par::rayon(threads) } else { Par::Seq };
-    // The same order for both: what is compared is the numeric part.
+    // The same ordering for both, since the numeric part is compared.
     let order: Vec<usize> =
         Symbolic::new(matrix.symbolic(), Ordering::Automatic).map_err(|e| e.to_string())?.order().collect();
     let mut inverse = vec![0; n];
@@ -187,7 +187,7 @@ fn library(case: &str, matrix: &ScatterMap, threads: usize, runs: usize) -> Resu
     Ok(())
 }
 
-/// A right-hand side without structure.
+/// Entry of a right-hand side without structure.
 fn load(i: usize) -> f64 {
     (i as f64 * 0.7).sin()
 }

@@ -11,7 +11,7 @@ use asperity_fem::sparse::{Part, ScatterMap};
 /// Stiffness of the case `2d:N` or `3d:N`, a square or cube with about N equations.
 ///
 /// # Errors
-/// If the case has another form.
+/// If `case` has another form.
 pub fn stiffness(case: &str) -> Result<ScatterMap, String> {
     let wrong = || format!("`{case}` is no case: 2d:N or 3d:N");
     let (dimension, size) = case.split_once(':').ok_or_else(wrong)?;
@@ -23,7 +23,8 @@ pub fn stiffness(case: &str) -> Result<ScatterMap, String> {
     }
 }
 
-/// `divisions` elements (rounded) along each axis, so that as many layers of nodes are free along the first one.
+/// Stiffness of a block with `divisions` elements (rounded) along each axis, so that as many node layers are free along
+/// the first.
 fn of_block<const D: usize>(kind: ElementKind, divisions: f64) -> ScatterMap {
     let divisions = divisions.round() as usize;
     let block = Block {

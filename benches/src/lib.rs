@@ -1,4 +1,4 @@
-//! Problems the benches share.
+//! Problems shared by the benches.
 
 pub mod direct;
 
@@ -9,7 +9,7 @@ use asperity_contact::{
 use asperity_friction::law::{Law, RateBounds};
 use std::sync::Arc;
 
-/// A flat interface in the plane: `n` slave nodes over `n` master segments of length 1 m, half a segment out of step.
+/// A flat interface in two dimensions: `n` slave nodes over `n` master segments of length 1 m, offset by half a segment.
 ///
 /// # Panics
 /// Never: the specification is admissible.
@@ -34,7 +34,7 @@ fn line(
         nodes.push(SurfaceNode { position: [k as f64 + 0.5, 0.0], dof: 2 * k, label: k });
     }
     for k in 0..=n {
-        // The master lies below: its outward normal is (0, 1), so its edges run towards -x.
+        // The master surface lies below: its outward normal is (0, 1), so its edges run towards -x.
         nodes.push(SurfaceNode { position: [k as f64, 0.0], dof: 2 * (n + k), label: n + k });
     }
     let master = (0..n).map(|k| Segment { kind: SegmentKind::Seg2, nodes: vec![n + k + 1, n + k] }).collect();
@@ -42,7 +42,7 @@ fn line(
     spec(nodes, slave, master, (sliding, smoothing), law)
 }
 
-/// As [`flat_2d`], by mortar: facets between the slave nodes.
+/// As [`flat_2d`] with mortar: facets between the slave nodes.
 ///
 /// # Panics
 /// Never: the specification is admissible.
@@ -54,7 +54,7 @@ pub fn mortar_2d(n: usize, sliding: Sliding, law: Option<Arc<dyn Law>>) -> Inter
     Interface::new(spec).expect("an admissible interface")
 }
 
-/// A flat interface in space: `m * m` slave nodes over `m * m` square master facets of 1 m.
+/// A flat interface in three dimensions: `m * m` slave nodes over `m * m` square master facets of 1 m.
 ///
 /// # Panics
 /// Never: the specification is admissible.
@@ -68,7 +68,7 @@ pub fn flat_3d(
     Interface::new(square(m, sliding, smoothing, law)).expect("an admissible interface")
 }
 
-/// As [`flat_3d`], by mortar: facets between the slave nodes, each over four of the master's.
+/// As [`flat_3d`] with mortar: facets between the slave nodes, each over four master facets.
 ///
 /// # Panics
 /// Never: the specification is admissible.
@@ -145,12 +145,12 @@ fn spec<const D: usize>(
     }
 }
 
-/// Displacement along the interface \[m\]: beyond the cone of the friction coefficient the benches use, 0.3.
+/// Displacement along the interface \[m\], enough to slip with the friction coefficient of the benches, 0.3.
 const ALONG: f64 = 8e-6;
 /// Penetration \[m\].
 const INTO: f64 = 1e-5;
 
-/// Displacements that press the slave side in and move it along x so far that every point slips.
+/// Displacements that press the slave side in and move it along x far enough for every point to slip.
 #[must_use]
 pub fn pressed<const D: usize>(slaves: usize, nodes: usize) -> Vec<f64> {
     let mut u = vec![0.0; nodes * D];
@@ -161,19 +161,18 @@ pub fn pressed<const D: usize>(slaves: usize, nodes: usize) -> Vec<f64> {
     u
 }
 
-/// Numbers that look random and are the same in every run (splitmix64), so that branches are as hard to foresee as they are
-/// on a fault.
+/// Reproducible pseudo-random numbers (splitmix64), so that branches are as hard to predict as on a fault.
 #[derive(Clone, Copy, Debug)]
 pub struct Draws(u64);
 
 impl Draws {
-    /// A sequence of its own for each seed.
+    /// Sequence of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// A number between two bounds, all equally likely.
+    /// Uniformly distributed number between two bounds.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;

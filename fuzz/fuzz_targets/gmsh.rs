@@ -1,4 +1,5 @@
-//! Any bytes, read as a mesh, made into meshes of both dimensions and split: an error or a mesh, never a panic.
+//! Fuzz target: arbitrary bytes, read as a Gmsh file, made into meshes of both dimensions and split, give an error or a
+//! mesh, never a panic.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| asperity_fuzz::read(bytes, asperity_fem::mesh::gmsh::parse));

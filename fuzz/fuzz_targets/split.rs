@@ -1,4 +1,4 @@
-//! Blocks of every element, split along any faces: an error or a mesh that is whole, never a panic.
+//! Fuzz target: blocks of every element, split along arbitrary faces, give an error or a consistent mesh, never a panic.
 #![no_main]
 
 use asperity_fem::element::ElementKind;
@@ -19,8 +19,8 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     }
 });
 
-/// Three bytes name a face: cell, face of the cell, and in the last the surface (two bits), whether the nodes are run through
-/// backwards (a bit) and whether a direction towards plus is given (the rest).
+/// Splits a block along faces of three bytes each: cell, face of the cell, and flags. The flags hold the surface (two
+/// bits), reversed node order (one bit) and the presence of a direction towards plus (the rest).
 fn run<const D: usize>(kind: ElementKind, divisions: [usize; D], picks: &[u8]) {
     let block = Block { min: [0.0; D], max: [1.0; D], divisions, grading: [Grading::Uniform; D], kind };
     let Ok(mesh) = block.mesh() else {

@@ -1,4 +1,4 @@
-//! Parts common to the targets: memory in use, and the treatment of a mesh that could be read.
+//! Parts shared by the targets: limits on memory, and checks of meshes that could be read.
 
 #[path = "../../crates/fem/tests/counting/mod.rs"]
 mod counting;
@@ -9,16 +9,16 @@ use asperity_fem::mesh::{Mesh, MeshError, Options, RawMesh};
 #[global_allocator]
 static ALLOCATOR: counting::Counting = counting::Counting;
 
-/// Bytes in use for each byte of a file, and for a file of no length: as in `crates/fem/tests/memory.rs`, which gives the
-/// reasons, with the mesh beside.
+/// Limit on memory in bytes per byte of a file, and for an empty file. `crates/fem/tests/memory.rs` gives the reasons;
+/// here the meshes come on top.
 const PER_BYTE: usize = 512;
 const BASE: usize = 64 << 10;
 
-/// Nodes and sides of the meshes that are split.
+/// Largest number of nodes and of sides of meshes that are split.
 const MOST: usize = 2000;
 
-/// Reads bytes, makes meshes of both dimensions of them and splits those along each named face: an error or a mesh, within
-/// bounded memory.
+/// Reads bytes, makes meshes of both dimensions and splits them along each side set. The result is an error or a mesh,
+/// within bounded memory.
 pub fn read(bytes: &[u8], parse: fn(&[u8]) -> Result<RawMesh, MeshError>) {
     let (meshes, peak) = counting::peak_of(|| {
         let raw = parse(bytes).ok()?;
@@ -36,7 +36,7 @@ pub fn read(bytes: &[u8], parse: fn(&[u8]) -> Result<RawMesh, MeshError>) {
     }
 }
 
-/// Splits along every side set by itself, and along all at once.
+/// Splits along every side set alone, and along all at once.
 fn split_everywhere<const D: usize>(mesh: &Mesh<D>) {
     if mesh.nodes.len() > MOST || mesh.side_sets.values().map(Vec::len).sum::<usize>() > MOST {
         return;
@@ -47,8 +47,8 @@ fn split_everywhere<const D: usize>(mesh: &Mesh<D>) {
     check_split(mesh, &surfaces);
 }
 
-/// Splits, and checks what must hold after it: cells lie where they were, every node is used, tips are whole, and an error
-/// leaves the mesh as it was.
+/// Splits a mesh and checks invariants: cells keep their positions, every node is used, tips are not split, and an
+/// error leaves the mesh unchanged.
 pub fn check_split<const D: usize>(mesh: &Mesh<D>, surfaces: &[Surface<D>]) {
     let mut after = mesh.clone();
     let Ok(faults) = split(&mut after, surfaces) else {
@@ -66,6 +66,6 @@ pub fn check_split<const D: usize>(mesh: &Mesh<D>, surfaces: &[Surface<D>]) {
     for pair in faults.iter().flat_map(|f| &f.pairs) {
         assert!(after.nodes[pair.minus] == after.nodes[pair.plus], "a pair apart");
     }
-    // What is split cannot be split again.
+    // A second split along the same faces must not panic.
     let _ = split(&mut after, surfaces);
 }

@@ -1,4 +1,4 @@
-//! The one list of cases.
+//! List of all cases.
 //!
 //! To add a case, make a folder `verification/cases/<name>/` with
 //! * `README.md`, the page of the case in the report, with exactly the headings of [`crate::readme::HEADINGS`];

@@ -1,7 +1,8 @@
 //! Displacements of the free surface by a rectangular dislocation in a half-space.
 //!
-//! Y. Okada, "Surface deformation due to shear and tensile faults in a half-space", Bulletin of the Seismological Society of America 75
-//! (1985), 1135-1154, equations (24) to (30): x along the strike, z up, the lower edge from the origin's foot at depth d along x, up the dip towards y.
+//! Y. Okada, "Surface deformation due to shear and tensile faults in a half-space", Bulletin of the Seismological
+//! Society of America 75 (1985), 1135-1154, equations (24) to (30): x along the strike, z up. The lower edge starts at
+//! depth d below the origin and runs along x; up dip is towards y.
 
 use std::f64::consts::TAU;
 
@@ -20,7 +21,8 @@ pub struct Rectangle {
     pub ratio: f64,
 }
 
-/// Cosine of the dip below which the fault is vertical: the formulas divide by it, and their limit has an error of its square.
+/// Cosine of the dip below which the fault counts as vertical: the formulas divide by it, and their limit has an error
+/// of the order of its square.
 const VERTICAL: f64 = 1e-8;
 
 impl Rectangle {
@@ -44,7 +46,7 @@ impl Rectangle {
         if c.abs() < VERTICAL { (s.signum(), 0.0) } else { (s, c) }
     }
 
-    /// Value between Chinnery's bars, times 2π.
+    /// Term of Chinnery's notation at one corner, times 2π.
     fn corner(&self, xi: f64, eta: f64, q: f64) -> [f64; 3] {
         let (s, c) = self.sine_cosine();
         let (y, d) = (eta * c + q * s, eta * s - q * c);

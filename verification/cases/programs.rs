@@ -1,4 +1,4 @@
-//! The `asperity` program in a process of its own.
+//! The `asperity` program as a separate process.
 
 use crate::CaseError;
 use std::collections::BTreeMap;
@@ -6,10 +6,10 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// First argument with which the program of the suite acts as `asperity`.
+/// First argument that makes the suite's program act as `asperity`.
 pub const NAME: &str = "asperity";
 
-/// The command `asperity`, or `before` with it as arguments.
+/// The command `asperity`, or the command `before` with `asperity` appended to its arguments.
 ///
 /// # Errors
 /// If the path of this program is not known.
@@ -22,7 +22,7 @@ pub fn asperity(before: &[&str]) -> Result<Command, CaseError> {
     Ok(command)
 }
 
-/// Runs a command to its end. Its exit code and what it printed.
+/// Runs a command to its end. Returns its exit code and output.
 ///
 /// # Errors
 /// If it cannot be started or exits with a code that is not among `codes`.
@@ -34,7 +34,7 @@ pub fn finished(command: &mut Command, codes: &[i32]) -> Result<Output, CaseErro
     }
 }
 
-/// A folder for temporary files that is removed with its owner.
+/// A temporary folder that is removed when dropped.
 pub struct Folder(PathBuf);
 
 impl Folder {
@@ -48,7 +48,7 @@ impl Folder {
         Ok(Self(path))
     }
 
-    /// Its path.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         &self.0
     }
@@ -56,12 +56,13 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // A folder that cannot be removed stays among the temporary files.
+        // A folder that cannot be removed is left among the temporary files.
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 
-/// The files below a folder by their paths in it. Of `report.json`, the part `run` is left out, which differs from run to run.
+/// Contents of the files below a folder by relative path. The part `run` of `report.json`, which differs from run to
+/// run, is left out.
 ///
 /// # Errors
 /// If a file cannot be read.

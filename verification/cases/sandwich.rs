@@ -1,4 +1,4 @@
-//! The sandwich benchmark as the cases use it: the scene file of the product, with one thing changed at a time.
+//! The sandwich benchmark as the cases use it: the product's scene file, with one setting changed at a time.
 
 use crate::CaseError;
 use asperity_driver::plan;
@@ -80,20 +80,20 @@ impl Run {
     }
 }
 
-/// The scene file of the product, through the public reader.
+/// The product's scene file, read by the public reader.
 pub fn base() -> Result<Scene, CaseError> {
     scene::read(include_str!("../../scenes/sandwich.toml"))
         .map_err(|e| format!("scenes/sandwich.toml: {e}").into())
 }
 
-/// Changes the generator of a body.
+/// Mesh generator of a body, for changes.
 fn mesh_of<'a>(scene: &'a mut Scene, body: &str) -> &'a mut scene::model::BlockMesh {
     let body = scene.bodies.get_mut(body).expect("the sandwich has bodies A and B");
     let MeshSource::Block(mesh) = &mut body.mesh else { unreachable!("both are rectangular blocks") };
     mesh
 }
 
-/// Element size h \[mm\] in both bodies.
+/// Sets the element size h \[mm\] in both bodies.
 pub fn size(mut scene: Scene, h: f64) -> Scene {
     for body in ["A", "B"] {
         mesh_of(&mut scene, body).size = Some(here(Length(h * 1e-3)));
@@ -101,7 +101,7 @@ pub fn size(mut scene: Scene, h: f64) -> Scene {
     scene
 }
 
-/// No overhang: B as high as A.
+/// The scene without overhang: B as high as A.
 pub fn no_overhang(mut scene: Scene) -> Scene {
     let mesh = mesh_of(&mut scene, "B");
     mesh.min = here(vec![Length(25e-3), Length(0.0)]);
@@ -109,13 +109,13 @@ pub fn no_overhang(mut scene: Scene) -> Scene {
     scene
 }
 
-/// Block A 50 mm wide.
+/// The scene with block A 50 mm wide.
 pub fn wide(mut scene: Scene) -> Scene {
     mesh_of(&mut scene, "A").min = here(vec![Length(-25e-3), Length(0.0)]);
     scene
 }
 
-/// Penalties times `factor`.
+/// Sets the penalties to `factor` times 100 E/h.
 pub fn penalty(mut scene: Scene, factor: f64) -> Scene {
     for interface in scene.interfaces.values_mut() {
         interface.enforcement.normal = here(Penalty::YoungPerSize(100.0 * factor));
@@ -124,7 +124,7 @@ pub fn penalty(mut scene: Scene, factor: f64) -> Scene {
     scene
 }
 
-/// Young's modulus times `factor`.
+/// Sets Young's modulus to `factor` times [`YOUNG`].
 pub fn young(mut scene: Scene, factor: f64) -> Scene {
     for material in scene.materials.values_mut() {
         material.young = here(Pressure(YOUNG * factor));
@@ -132,7 +132,7 @@ pub fn young(mut scene: Scene, factor: f64) -> Scene {
     scene
 }
 
-/// Poisson's ratio.
+/// Sets Poisson's ratio.
 pub fn poisson(mut scene: Scene, nu: f64) -> Scene {
     for material in scene.materials.values_mut() {
         material.poisson = here(nu);
@@ -140,7 +140,7 @@ pub fn poisson(mut scene: Scene, nu: f64) -> Scene {
     scene
 }
 
-/// Reference slip rate over the loading rate.
+/// Sets the reference slip rate, given over the loading rate.
 pub fn reference_rate(mut scene: Scene, over_load: f64) -> Scene {
     for interface in scene.interfaces.values_mut() {
         if let Some(law) = &mut interface.law {
@@ -150,7 +150,7 @@ pub fn reference_rate(mut scene: Scene, over_load: f64) -> Scene {
     scene
 }
 
-/// Friction in stage 1 as well.
+/// The scene with friction in stage 1 as well.
 pub fn frictional(mut scene: Scene) -> Scene {
     scene.stages[0].frictionless.clear();
     scene
@@ -178,7 +178,7 @@ pub fn static_explicit(mut scene: Scene) -> Scene {
     scene
 }
 
-/// Local error of slip per step \[m\] of the implicit stepper.
+/// Sets the tolerance of the implicit stepper: local error of slip per step \[m\].
 pub fn tolerance(mut scene: Scene, metres: f64) -> Scene {
     scene.time.tolerance = Some(here(Length(metres)));
     scene
@@ -196,7 +196,7 @@ pub fn simulate(scene: &Scene) -> Result<Run, CaseError> {
     }
 }
 
-/// Refuses a run with a value that is not a number, so that no maximum taken of it later can hide one.
+/// Rejects a run that contains NaN, which a later maximum could hide.
 fn finite(record: &Recorder) -> Result<(), CaseError> {
     for point in record.histories().iter().flat_map(|h| &h.points) {
         for field in [
@@ -218,7 +218,7 @@ fn finite(record: &Recorder) -> Result<(), CaseError> {
     }
 }
 
-/// Limit of a sequence on meshes halved each time, and its observed order, from the last three values (Richardson).
+/// Limit of a sequence on meshes of halved size, and its observed order, from the last three values (Richardson).
 pub fn limit(values: &[f64]) -> (f64, f64) {
     let n = values.len();
     let (a, b, c) = (values[n - 3], values[n - 2], values[n - 1]);
@@ -226,7 +226,7 @@ pub fn limit(values: &[f64]) -> (f64, f64) {
     (c + (c - b) / (ratio - 1.0), ratio.log2())
 }
 
-/// Another element in both bodies.
+/// Sets the element of both bodies.
 pub fn element(mut scene: Scene, name: &str) -> Scene {
     for body in ["A", "B"] {
         mesh_of(&mut scene, body).element = here(name.to_string());
@@ -234,7 +234,7 @@ pub fn element(mut scene: Scene, name: &str) -> Scene {
     scene
 }
 
-/// The scene as a layer of `thickness` \[mm\] in z, held in z on both faces: plane strain in three dimensions.
+/// The scene as a three-dimensional layer of `thickness` \[mm\] in z, held in z on both faces: plane strain.
 pub fn layer(mut scene: Scene, thickness: f64, name: &str) -> Scene {
     use asperity_driver::scene::model::{Condition, Kinematics, Motion};
     scene.kinematics = here(Kinematics::ThreeD);
@@ -254,7 +254,7 @@ pub fn layer(mut scene: Scene, thickness: f64, name: &str) -> Scene {
     scene
 }
 
-/// The sequence of step ends of a finished run, imposed on another.
+/// Imposes the step ends of another run.
 pub fn imposed(mut scene: Scene, ends: &[f64]) -> Scene {
     for stage in &mut scene.stages {
         stage.steps = None;

@@ -1,4 +1,4 @@
-//! Parts common to the cases of earthquake cycles: a scene's plan, and its events with their cost.
+//! Parts shared by the cases of earthquake cycles: plans of scenes, and events of runs with their cost.
 
 use crate::{CaseError, Cost};
 use asperity_cycles::{Event, Moment, Rupture, Settings};
@@ -10,16 +10,16 @@ use asperity_ode::{Control, Outcome};
 /// A year \[s\], as the benchmarks count it.
 pub const YEAR: f64 = 365.25 * 86400.0;
 
-/// Boundary elements in the half-space that the first events of BP1 are compared with.
+/// Reference of the first events of BP1, in a half-space.
 pub const CONVERGED: &str = "boundary elements of 19.5 to 25 m, two codes that agree";
 
-/// The second implementation of BP1 and BP3 in `verification/independent`.
+/// Source of results of the second implementation of BP1 and BP3, in `verification/independent`.
 pub const INDEPENDENT: &str = "cycles.py: boundary elements of constant slip, ln V and ln theta integrated";
 
 /// Onsets \[yr\] that the second implementation found for a problem with cells of `size` \[m\].
 ///
 /// # Errors
-/// If it has no such run.
+/// If there is no such run.
 pub fn independent(problem: &str, size: f64) -> Result<Vec<f64>, CaseError> {
     let all: serde_json::Value = serde_json::from_str(include_str!("../independent/cycles.json"))?;
     let same = |run: &&serde_json::Value| {
@@ -60,24 +60,24 @@ pub fn plan(text: &str) -> Result<Plan, CaseError> {
     }
 }
 
-/// Findings of a run.
+/// Results of a run.
 pub struct Found {
-    /// \[yr\].
+    /// Onsets of events \[yr\].
     pub onsets: Vec<f64>,
     /// The events.
     pub events: Vec<Event<Rupture>>,
-    /// Time and counts.
+    /// Wall time and counts.
     pub cost: Cost,
-    /// Right-hand sides.
+    /// Evaluations of the right-hand side.
     pub rates: u64,
     /// Accepted steps.
     pub steps: u64,
 }
 
-/// Integrates until the events `settings` asks for have ended; `look` sees each step.
+/// Integrates until the number of events in `settings` have ended. `look` sees each step.
 ///
 /// # Errors
-/// If fewer events come.
+/// If the integration fails or fewer events occur.
 pub fn found(
     plan: &Plan,
     settings: &Settings,
@@ -107,7 +107,7 @@ pub fn found(
     })
 }
 
-/// Imbalance that errors of slip leave after so many steps, over f_n.
+/// Imbalance of tractions accumulated from errors of slip over `steps` steps, over f_n.
 #[must_use]
 pub fn drift(plan: &Plan, steps: u64) -> f64 {
     let smallest = plan.points.iter().map(|p| p.area).fold(f64::INFINITY, f64::min);

@@ -1,4 +1,4 @@
-//! Parts common to the cases of spring-sliders: parameter sets, laws, runs, and the references of the second implementation.
+//! Parts shared by the cases of spring-sliders: parameter sets, laws, runs, and references of the second implementation.
 
 use crate::CaseError;
 use asperity_cycles::Thresholds;
@@ -14,15 +14,15 @@ use std::sync::Arc;
 pub const MU0: f64 = 0.6;
 /// Reference slip rate of all sets \[m/s\].
 pub const V_REF: f64 = 1e-6;
-/// Tolerance of runs that stand against references: what a few hundred steps a cycle leave is below their uncertainty.
+/// Tolerance of runs compared with references: the error of a few hundred steps a cycle is below their uncertainty.
 pub const TIGHT: f64 = 1e-13;
-/// The same with inertia: Newton's method on equations with rates of 1e10 per second leaves rounding of 1e-13.
+/// The same with inertia: in equations with rates of 1e10 per second Newton's method has rounding errors of 1e-13.
 pub const TIGHT_INERTIAL: f64 = 1e-12;
 /// Source of the references.
 pub const SOURCE: &str =
     "verification/independent/spring_slider.py: Taylor series of order 20 (heyoka) and scipy's DOP853 agree";
 
-/// Evolutions of the sets.
+/// Evolution laws of the sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Ageing law.
@@ -52,7 +52,7 @@ pub struct Set {
     pub mass: Option<f64>,
 }
 
-/// The set of QDYN's cross-check: k is half of k_c.
+/// The set of QDYN's cross-check, with k = k_c/2.
 pub const MILD: Set = Set {
     normal: 5e6,
     a: 0.01,
@@ -88,7 +88,7 @@ pub const REFERENCE: Set = Set {
     mass: None,
 };
 
-/// The mild set with inertia instead of damping: an oscillator of 0.01 s.
+/// The mild set with inertia instead of damping: an oscillator with a period of 0.01 s.
 pub const INERTIAL: Set = Set { damping: 0.0, mass: Some(OSCILLATOR * OSCILLATOR * 1.25e9), ..MILD };
 
 /// 0.01 s over 2π.
@@ -100,12 +100,12 @@ impl Set {
         self.normal * (self.b - self.a) / self.length
     }
 
-    /// The set at another stiffness, in units of the critical one.
+    /// The set at `ratio` times the critical stiffness.
     pub fn at(self, ratio: f64) -> Self {
         Self { stiffness: ratio * self.critical(), ..self }
     }
 
-    /// The law.
+    /// Friction law of the set.
     ///
     /// # Errors
     /// Parameters out of range.
@@ -132,7 +132,7 @@ impl Set {
         }
     }
 
-    /// A plan that starts at `factor` times the rate of the load point, the states steady at that rate.
+    /// A plan that starts at `factor` times the rate of the load point, with states steady at the rate of the load point.
     ///
     /// # Errors
     /// Parameters out of range.
@@ -156,15 +156,16 @@ pub fn plan(slider: Slider, load: History, steady: f64, factor: f64, end: f64) -
     Ok(plan)
 }
 
-/// Wants this many events above 1 mm/s, with their peaks.
+/// Stops the plan after `number` events above 1 mm/s, and records their peaks.
 pub fn events(plan: &mut Problem, number: usize) {
     plan.events = Some(Thresholds { on: 1e-3, off: 1e-4 });
     plan.most_events = Some(number);
     plan.peaks = true;
 }
 
-/// Work in right-hand sides. A column of a Jacobian is one, in dual numbers. A factorisation is a half and a solution a quarter, mean of a
-/// real and a complex one: their multiplications for two or three unknowns against those of an exponential, a logarithm and the rest.
+/// Work in units of a right-hand side. A Jacobian column, in dual numbers, counts as one; a factorisation as a half and
+/// a solve as a quarter, the mean of a real and a complex one. These weigh multiplications for two or three unknowns
+/// against an exponential, a logarithm and the rest of a right-hand side.
 pub fn work(counts: &Counts, unknowns: usize) -> f64 {
     let linear = 0.5 * counts.factorisations as f64 + 0.25 * counts.solves as f64;
     counts.rates as f64 + unknowns as f64 * counts.jacobians as f64 + linear
@@ -187,7 +188,7 @@ pub fn finish(plan: &Problem) -> Result<SliderRun, CaseError> {
     }
 }
 
-/// Slip rate and friction of the first slider at the given times, each the end of a run of its own pieces.
+/// Slip rate and friction of the first slider at the given times, each from a separate run that ends there.
 ///
 /// # Errors
 /// If a run fails.
@@ -203,8 +204,8 @@ pub fn at_times(plan: &Problem, times: &[f64]) -> Result<Vec<(f64, f64)>, CaseEr
         .collect()
 }
 
-/// Largest friction coefficient of the first slider after a time: bracketed by outputs, then found by golden sections of runs
-/// that end there.
+/// Largest friction coefficient of the first slider after a time: bracketed by outputs, then found by golden-section
+/// search, each value from a run that ends there.
 ///
 /// # Errors
 /// If a run fails.
@@ -224,7 +225,7 @@ pub fn largest_friction(plan: &Problem, after: f64) -> Result<f64, CaseError> {
     let (mut low, mut high) = (if highest == 0 { after } else { time(highest - 1) }, time(highest + 1));
     let friction = |t: f64| -> Result<f64, CaseError> { Ok(at_times(plan, &[t])?[0].1) };
     let mut largest = seen[highest].1;
-    // To a millionth of the bracket: friction is flat there, and its error the square of that.
+    // A millionth of the bracket suffices: friction is flat there, so that its error is the square of that.
     while high - low > 1e-6 * (time(highest + 1) - time(highest)) {
         let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
         let (fa, fb) = (friction(a)?, friction(b)?);
@@ -234,14 +235,14 @@ pub fn largest_friction(plan: &Problem, after: f64) -> Result<f64, CaseError> {
     Ok(largest)
 }
 
-/// Golden section.
+/// Golden ratio minus one.
 const GOLDEN: f64 = 0.618_033_988_749_894_8;
 
 /// Results of the second implementation.
 pub struct Independent(serde_json::Value);
 
 impl Independent {
-    /// Reads them.
+    /// Reads the results.
     ///
     /// # Errors
     /// If they are not JSON.
@@ -249,7 +250,7 @@ impl Independent {
         Ok(Self(serde_json::from_str(include_str!("../independent/spring_slider.json"))?))
     }
 
-    /// Reads those of laws that `spring_slider.py` does not have.
+    /// Reads the results for laws that `spring_slider.py` does not have.
     ///
     /// # Errors
     /// If they are not JSON.

@@ -1,4 +1,4 @@
-//! Scenes of one slider as texts, run as the program runs them, and the files they leave.
+//! Scenes of one slider as texts, run as the program runs them, and their output files.
 
 use crate::CaseError;
 use asperity_cycles::slider::{self as cycles, Problem};
@@ -28,7 +28,7 @@ pub fn text(load: &str, slider: &str, law: &str, rest: &str) -> String {
 /// Plan of a scene.
 ///
 /// # Errors
-/// If it is refused.
+/// If the scene is rejected.
 pub fn planned(text: &str) -> Result<Plan, CaseError> {
     slider_planner::read(text).map_err(|e| format!("{e}\nin\n{text}").into())
 }
@@ -36,31 +36,31 @@ pub fn planned(text: &str) -> Result<Plan, CaseError> {
 /// Problem of a scene.
 ///
 /// # Errors
-/// If it is refused.
+/// If the scene is rejected.
 pub fn plan(text: &str) -> Result<Problem, CaseError> {
     Ok(planned(text)?.problem)
 }
 
-/// A folder that goes with its owner.
+/// A folder that is removed when dropped.
 struct Folder(PathBuf);
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // What cannot be removed stays in the folder of temporary files.
+        // A folder that cannot be removed is left among the temporary files.
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 
-/// Numbers of a file of comma-separated values below its head, from the column `first` on; what is no number is NaN.
+/// Numbers of a CSV file below its header, from column `first` on; other text is NaN.
 fn table(text: &str, first: usize) -> Vec<Vec<f64>> {
     let numbers = |l: &str| l.split(',').skip(first).map(|v| v.parse().unwrap_or(f64::NAN)).collect();
     text.lines().skip(1).map(numbers).collect()
 }
 
-/// Rows of the history of the slider and of the catalogue, without the name, that a scene leaves.
+/// Rows of the slider's history and of the catalogue (without the name) from a run.
 ///
 /// # Errors
-/// If it fails.
+/// If the run fails or a file cannot be written or read.
 pub fn files(name: &str, plan: &Problem) -> Result<[Vec<Vec<f64>>; 2], CaseError> {
     let folder = Folder(std::env::temp_dir().join(format!("asperity-outputs-{name}-{}", std::process::id())));
     std::fs::create_dir_all(&folder.0)?;

@@ -1,4 +1,4 @@
-//! Scenes of cases as texts: one file a user could run, read by the public reader.
+//! Scenes of cases as texts that a user could run, read by the public reader.
 
 use crate::{CaseError, Cost};
 use asperity_driver::report::{Outcome, RunReport};
@@ -19,18 +19,18 @@ pub struct Done {
     pub cost: Cost,
 }
 
-/// Runs a scene to wherever it ends.
+/// Runs a scene as far as it gets.
 ///
 /// # Errors
-/// If it is refused or cannot be set up.
+/// If the scene is rejected or cannot be set up.
 pub fn attempt(text: &str) -> Result<Done, CaseError> {
     attempt_in(text, "")
 }
 
-/// Runs a scene whose mesh files lie in this folder of `cases` to wherever it ends.
+/// Runs a scene with mesh files in this folder of `cases` as far as it gets.
 ///
 /// # Errors
-/// If it is refused or cannot be set up.
+/// If the scene is rejected or cannot be set up.
 pub fn attempt_in(text: &str, folder: &str) -> Result<Done, CaseError> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(folder);
     let scene = scene::read_in(text, &folder).map_err(|e| format!("{e}\nin\n{text}"))?;
@@ -45,15 +45,15 @@ pub fn attempt_in(text: &str, folder: &str) -> Result<Done, CaseError> {
 /// Runs a scene to its end.
 ///
 /// # Errors
-/// If it is refused or stops.
+/// If the scene is rejected or the run stops.
 pub fn simulate(text: &str) -> Result<Done, CaseError> {
     simulate_in(text, "")
 }
 
-/// Runs a scene whose mesh files lie in this folder of `cases` to its end.
+/// Runs a scene with mesh files in this folder of `cases` to its end.
 ///
 /// # Errors
-/// If it is refused or stops.
+/// If the scene is rejected or the run stops.
 pub fn simulate_in(text: &str, folder: &str) -> Result<Done, CaseError> {
     let done = attempt_in(text, folder)?;
     match &done.report.outcome {
@@ -82,14 +82,14 @@ impl Done {
         Ok(last.points[k].displacement)
     }
 
-    /// Friction on the slave side after each step, along the tangent of the interface, of a plane scene \[N, N/m\].
+    /// Friction force on the slave side after each step of a plane scene, along the tangent of the interface \[N/m\].
     pub fn friction(&self) -> Vec<f64> {
         let points = &self.record.histories()[0].points;
         let at = |k: usize| points.iter().map(|p| p.area[k] * p.shear_traction[k]).sum();
         (0..self.record.times().len()).map(at).collect()
     }
 
-    /// Number of steps until the end of stages up to `name`: the index of its last step, plus one.
+    /// Number of steps up to the end of stage `name`: the index of its last step plus one.
     pub fn steps_until(&self, name: &str) -> Result<usize, CaseError> {
         let end = self.record.stage_end(name).ok_or_else(|| format!("stage {name} was not reached"))?.time;
         Ok(self.record.times().iter().take_while(|&&t| t <= end).count())
@@ -101,8 +101,9 @@ impl Done {
         Ok(&end.interfaces[0])
     }
 
-    /// Work dissipated in each step on the first interface of a plane scene: mean of the friction forces at both ends times slip \[J, J/m\].
-    /// In space slip and traction are recorded by their sizes, from which it cannot be told.
+    /// Energy dissipated in each step on the first interface of a plane scene: mean of the friction forces at both ends
+    /// times the slip increment \[J/m\]. In three dimensions only magnitudes of slip and traction are recorded, from
+    /// which it cannot be computed.
     pub fn dissipated(&self) -> Vec<f64> {
         let points = &self.record.histories()[0].points;
         let steps = self.record.times().len();

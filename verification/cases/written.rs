@@ -1,4 +1,4 @@
-//! Runs with the files they leave, read back as a user would.
+//! Runs and their output files, read back as a user would.
 
 use crate::cases::seas;
 use crate::{CaseError, Cost};
@@ -12,17 +12,17 @@ use asperity_output::located::{cmtsolution, quakeml};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A folder for the files of a run, which goes with its owner.
+/// A folder for the files of a run that is removed when dropped.
 pub struct Folder(PathBuf);
 
-/// Number of folders made so far: cases run side by side.
+/// Number of folders created so far; it keeps names distinct, since cases run in parallel.
 static FOLDERS: AtomicUsize = AtomicUsize::new(0);
 
 impl Folder {
-    /// Makes a new one among the temporary files.
+    /// Creates a folder among the temporary files.
     ///
     /// # Errors
-    /// If it cannot be made.
+    /// If it cannot be created.
     pub fn new() -> Result<Self, CaseError> {
         let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
         let path = std::env::temp_dir().join(format!("asperity-written-{}-{number}", std::process::id()));
@@ -30,24 +30,24 @@ impl Folder {
         Ok(Self(path))
     }
 
-    /// Place of the folder.
+    /// Path of the folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.0
     }
 
-    /// Text of a file in it.
+    /// Text of a file in the folder.
     ///
     /// # Errors
-    /// If it cannot be read.
+    /// If the file cannot be read.
     pub fn text(&self, name: &str) -> Result<String, CaseError> {
         std::fs::read_to_string(self.0.join(name)).map_err(|e| format!("{name}: {e}").into())
     }
 
-    /// Names of the files of a folder in it, in their order.
+    /// Names of the files in a subfolder, sorted.
     ///
     /// # Errors
-    /// If it cannot be read.
+    /// If the folder cannot be read.
     pub fn names(&self, folder: &str) -> Result<Vec<String>, CaseError> {
         let mut names = Vec::new();
         for entry in std::fs::read_dir(self.0.join(folder))? {
@@ -57,10 +57,10 @@ impl Folder {
         Ok(names)
     }
 
-    /// Table of a file in it.
+    /// Table of a file in the folder.
     ///
     /// # Errors
-    /// If it cannot be read.
+    /// If the file cannot be read.
     pub fn table(&self, name: &str) -> Result<Table, CaseError> {
         Table::of(&self.text(name)?).ok_or_else(|| format!("{name} has no head").into())
     }
@@ -68,12 +68,12 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // What cannot be removed stays in the folder of temporary files.
+        // A folder that cannot be removed is left among the temporary files.
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 
-/// A table of CSV, or of a station, whose lines of comment are left out.
+/// A table of a CSV or station file, without its comment lines.
 pub struct Table {
     head: Vec<String>,
     rows: Vec<Vec<String>>,
@@ -88,7 +88,7 @@ impl Table {
         Some(Self { head: cells(head), rows: lines.map(cells).collect() })
     }
 
-    /// Words of a column, whose head is this name with or without a unit.
+    /// Words of a column whose header is this name, with or without a unit.
     ///
     /// # Errors
     /// If there is no such column, or a row ends before it.
@@ -102,7 +102,7 @@ impl Table {
     /// Numbers of a column.
     ///
     /// # Errors
-    /// As [`Table::words`], or if a cell is no number.
+    /// As [`Table::words`], or if a cell is not a number.
     pub fn column(&self, name: &str) -> Result<Vec<f64>, CaseError> {
         self.words(name)?.into_iter().map(|word| Ok(word.parse()?)).collect()
     }
@@ -118,13 +118,13 @@ impl Table {
         }
     }
 
-    /// Heads of all columns.
+    /// Headers of all columns.
     #[must_use]
     pub fn head(&self) -> &[String] {
         &self.head
     }
 
-    /// Rows with all their numbers; what is no number is NaN.
+    /// Rows as numbers; other text is NaN.
     #[must_use]
     pub fn numbers(&self) -> Vec<Vec<f64>> {
         let row = |row: &Vec<String>| row.iter().map(|w| w.parse().unwrap_or(f64::NAN)).collect();
@@ -132,19 +132,19 @@ impl Table {
     }
 }
 
-/// A run of faults with its files.
+/// A run of faults and its files.
 pub struct Written {
-    /// Its plan.
+    /// Plan of the scene.
     pub plan: Plan,
-    /// Its report.
+    /// Report of the run.
     pub report: Report,
-    /// Its files.
+    /// Folder of the output files.
     pub files: Folder,
-    /// Time and steps.
+    /// Wall time and counts.
     pub cost: Cost,
 }
 
-/// Writes the files of a run as it goes, and sums works.
+/// Observer that writes the files of a run and sums its energy budget.
 struct Both<'a>(Files<'a>, Balance<'a>);
 
 impl Observer<Faults> for Both<'_> {
@@ -155,7 +155,7 @@ impl Observer<Faults> for Both<'_> {
 }
 
 impl Written {
-    /// Runs a scene with faults to its end, and writes what the command `run` writes.
+    /// Runs a scene with faults to its end and writes the files that the command `run` writes.
     ///
     /// # Errors
     /// If the scene is refused, the run fails, or a file cannot be written.
@@ -170,11 +170,11 @@ impl Written {
     }
 }
 
-/// Runs a plan and writes the files that grow.
+/// Runs a plan and writes the files that grow with it.
 fn followed(plan: &Plan, out: &Path) -> Result<(FaultRun, Report), CaseError> {
     let problem = &plan.problem;
     let mut both = Both(Files::create(out, plan)?, Balance::new(problem));
-    // As the command does: a catalogue of all faults, and one of each.
+    // As the command does, keeps a catalogue of all faults and one for each.
     let each: Vec<_> = plan.faults.iter().map(|f| f.points.clone()).collect();
     let start = FaultRun::new(problem.start.clone(), &each, problem.settings.thresholds);
     let run = asperity_cycles::resume(&problem.fault, &problem.loading, start, &problem.settings, &mut both)?;
@@ -185,7 +185,7 @@ fn followed(plan: &Plan, out: &Path) -> Result<(FaultRun, Report), CaseError> {
     Ok((run, report))
 }
 
-/// Writes the catalogue as a table, and for seismologists where the scene has a place on Earth.
+/// Writes the catalogue as a table, and as QuakeML and CMTSOLUTION if the scene has a position on Earth.
 fn catalogues(out: &Path, plan: &Plan, report: &Report) -> Result<(), CaseError> {
     std::fs::write(out.join("events.csv"), Report::csv(&report.events))?;
     for fault in &report.faults {
@@ -202,7 +202,7 @@ fn catalogues(out: &Path, plan: &Plan, report: &Report) -> Result<(), CaseError>
     Ok(())
 }
 
-/// Runs a scene of bodies to its end, with the files it leaves.
+/// Runs a scene of bodies to its end. Returns the folder of its output files and the cost.
 ///
 /// # Errors
 /// If the scene is refused, the run stops, or a file cannot be written.

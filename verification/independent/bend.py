@@ -1,8 +1,8 @@
-"""Tractions of slip across a bend of a fault in the whole plane, plane strain: benchmark fault-bend/v1.
+"""Tractions of slip across a bend of a fault in an infinite plane, plane strain: benchmark fault-bend/v1.
 
-Slip changes along both halves as a density of edge dislocations, and at the bend its direction turns, which is one dislocation.
-Stresses are those of Hirth and Lothe; the integrals are scipy's, of principal value on the half that is looked at.  Nothing is
-cut into pieces.  Writes bend.json.  Seconds.
+The gradient of slip along both halves is a density of edge dislocations; the turn of its direction at the bend is one discrete
+dislocation.  Stresses are those of Hirth and Lothe.  Integrals are computed by scipy, as principal values on the half where the
+traction is evaluated; slip is not discretised.  Writes bend.json.  Takes seconds.
 """
 
 import json
@@ -13,7 +13,7 @@ from scipy.integrate import quad
 
 G, NU = 80.0953008e9 / 2.5, 0.25
 TURN = np.pi / 6
-HALF = 10e3  # m, slip ends at this distance from the bend
+HALF = 10e3  # m, distance from the bend at which slip ends
 DISTANCES = [-12e3, -10e3, -8e3, -6e3, -5e3, -4e3, -3e3, -2.5e3, -2e3, 2e3, 2.5e3, 3e3, 4e3, 5e3, 6e3, 8e3, 10e3, 12e3]
 UP = {1: np.array([0.0, 1.0]), -1: np.array([np.sin(TURN), np.cos(TURN)])}
 
@@ -28,7 +28,7 @@ def slope(s):
 
 
 def along(b):
-    """Stress at `at` of an edge dislocation at 0 with this Burgers vector, in its own axes turned back."""
+    """Stress field of an edge dislocation at 0 with Burgers vector `b`, computed in axes along `b` and rotated back."""
     size = np.hypot(*b)
     c, s = b / size if size > 0 else (1.0, 0.0)
 
@@ -57,10 +57,10 @@ def tractions(s):
     for half in (1, -1):
         tangent, (low, high) = UP[half], ((0.0, HALF) if half > 0 else (-HALF, 0.0))
         if half == own and low < s < high:
-            # A half shears itself: G/(2 pi (1 - nu)) times the principal value of int slope/(x - s) dx.
+            # Shear traction of a half on itself: G/(2 pi (1 - nu)) times the principal value of int slope/(x - s) dx.
             total[0] += G / (2 * np.pi * (1 - NU)) * quad(slope, low, high, weight="cauchy", wvar=s, epsrel=1e-13)[0]
             continue
-        # Seen along the fault, the normal of `of` lies to the right, the y axis of `along` to the left.
+        # Looking along the fault, the normal of `of` points to the right and the y axis of `along` to the left.
         unit = along(tangent)
         for component in (0, 1):
             density = lambda x: slope(x) * of(unit(at - x * tangent))[component]
@@ -70,7 +70,7 @@ def tractions(s):
 
 
 def check():
-    """Without a turn the halves are one fault, and both ways to integrate agree."""
+    """Without a turn both halves form one straight fault, and both ways of integration agree."""
     global UP
     bent, UP = UP, {1: UP[1], -1: UP[1]}
     for s in (-12e3, -4e3, 2e3):

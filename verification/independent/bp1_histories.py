@@ -1,7 +1,7 @@
-"""Histories of the first three events of BP1-QD on four sizes of cells, by the program of cycles.py: benchmark seas-bp1-quick/v1.
+"""Histories of the first three events of BP1-QD for four cell sizes, computed by cycles.py: benchmark seas-bp1-quick/v1.
 
 Writes bp1_histories.json: onsets, largest slip rates, time above 1 mm/s, and log10 of the slip rate [m/s] at three depths and some
-times between the events. Some minutes.
+times between events. Takes some minutes.
 """
 
 import json
@@ -26,7 +26,7 @@ def histories(n):
             if last is not None and was < year * YEAR <= t:
                 share = (year * YEAR - was) / (t - was)
                 samples[year] = np.interp(DEPTHS, middles, last + share * (log_rate - last)).tolist()
-        # Time above 1 mm/s, linear in ln V within a step.
+        # Time above 1 mm/s, with ln V linear within a step.
         if last is not None:
             low, high = last.max() + 3, log_rate.max() + 3
             if low < 0 <= high:
@@ -35,7 +35,7 @@ def histories(n):
                 above[-1][1] = was + (t - was) * low / (low - high)
         before[0], before[1] = t, log_rate
 
-    # A year after the last onset its event is over.
+    # The last event is over a year after its onset.
     found = run("bp1", n, 351.0, 1e-6, EVENTS + 1, look)
     return {
         "cell [m]": WF / n,

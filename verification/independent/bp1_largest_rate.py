@@ -1,9 +1,9 @@
-"""Largest slip rate of BP1-QD over time through its first three events, by the program of cycles.py: what the page of seas_bp1 draws.
+"""Largest slip rate of BP1-QD over time through its first three events, computed by cycles.py and plotted on the page of seas_bp1.
 
     python bp1_largest_rate.py CELLS
 
-CELLS lie on 40 km. Writes bp1_largest_rate.json: times [yr] and log10 of the largest slip rate [m/s], at the steps where the latter
-changed by a tenth or a turn came. Less than a minute with 512 cells.
+CELLS is the number of cells on 40 km. Writes bp1_largest_rate.json: times [yr] and log10 of the largest slip rate [m/s], at steps where
+the latter changed by 0.1 or turned. Takes less than a minute with 512 cells.
 """
 
 import json
@@ -27,7 +27,7 @@ def history(n):
             kept.append([t / YEAR, rate])
         last[:] = [t / YEAR, rate]
 
-    # A year after the last onset its event is over.
+    # The last event is over a year after its onset.
     found = run("bp1", n, 351.0, 1e-6, EVENTS + 1, look)
     return {
         "cell [m]": WF / n,

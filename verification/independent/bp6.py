@@ -1,7 +1,7 @@
-"""SEAS BP6-QD-A and -S, written apart from the Rust code: boundary elements of constant slip in a whole space, scipy's DOP853 for slip
-and the logarithm of the state, slip rates from the balance of tractions by Newton's method, pressure from its formula.
+"""SEAS BP6-QD-A and -S, independent of the Rust code: boundary elements of constant slip in a whole space, scipy's DOP853 for slip
+and the logarithm of the state, slip rates from the balance of tractions by Newton's method, pressure in closed form.
 
-Writes bp6.json: slip at 0, 1 and 2 km from the place of injection after 100 d and 2 yr, and the largest slip rate of all times.
+Writes bp6.json: slip at 0, 1 and 2 km from the injection after 100 d and 2 yr, and the largest slip rate of all times.
 """
 
 import json
@@ -35,12 +35,12 @@ def pressure(z, t):
 
 def solve(law, h):
     n = round(2 * HALF / h)
-    # Middles of cells; an odd number, so that one lies at the place of injection.
+    # Midpoints of cells, an odd number, so that one lies at the injection.
     n += 1 - n % 2
     h = 2 * HALF / n
     z = (np.arange(n) - (n - 1) / 2) * h
     d = z[:, None] - z[None, :]
-    # Slip s between z' - h/2 and z' + h/2 lowers the traction there by 2 MU s/(pi h).
+    # Slip s between z' - h/2 and z' + h/2 lowers the traction at z' by 2 MU s/(pi h).
     kernel = MU / (2 * np.pi) * (1 / (d - h / 2) - 1 / (d + h / 2))
     assert np.isclose(kernel[0, 0], -2 * MU / (np.pi * h)) and kernel[0, 1] > 0
     theta = L / V0 * np.exp(A / B * np.log(2 * V0 / V_INIT * np.sinh((TAU - ETA * V_INIT) / (A * SIGMA))) - F0 / B)

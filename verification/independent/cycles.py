@@ -1,10 +1,10 @@
-"""SEAS BP1-QD and BP3-QD, written apart from the Rust code: boundary elements of constant slip in a half-plane, ln V and ln theta (and normal
-traction, where slip changes it) integrated by an explicit pair of order 5, as codes of boundary elements do it. Slip itself is not needed.
+"""SEAS BP1-QD and BP3-QD, independent of the Rust code: boundary elements of constant slip in a half-plane. As in other boundary-element
+codes, ln V and ln theta (and normal traction, if slip changes it) are integrated by an explicit pair of order 5. Slip is not needed.
 
     python cycles.py PROBLEM CELLS YEARS [TOLERANCE [EVENTS]]
 
-PROBLEM is bp1, or bp3:DIP:thrust or bp3:DIP:normal; CELLS lie on 40 km; TOLERANCE is the error of a step in ln V and ln theta, 1e-6 where not
-given. Onsets of events (V rises above 1 mm/s after it was below 0.1 mm/s) until YEARS or EVENTS stand in cycles.json afterwards.
+PROBLEM is bp1, or bp3:DIP:thrust or bp3:DIP:normal; CELLS is the number of cells on 40 km; TOLERANCE is the error per step in ln V
+and ln theta, 1e-6 by default. Writes onsets of events (V rises above 1 mm/s after it was below 0.1 mm/s) until YEARS or EVENTS to cycles.json.
 """
 
 import json
@@ -22,10 +22,10 @@ YEAR = 365.25 * 86400.0
 
 
 def half_plane(z, s, b):
-    """sxx, syy, sxy at z of an edge dislocation at s in y < 0 (free surface y = 0), displacement b = bx + i by gained in an anticlockwise circuit.
+    """sxx, syy, sxy at z of an edge dislocation at s in y < 0 (free surface y = 0), displacement jump b = bx + i by of an anticlockwise circuit.
 
     Potentials Phi = phi' and Psi = psi' of Muskhelishvili: sxx + syy = 4 Re Phi, syy - sxx + 2i sxy = 2 (conj(z) Phi' + Psi).
-    The surface is freed by continuing Phi across it: Phi = Phi0 + Phi1 with Phi1(z) = -Phi0bar(z) - z Phi0bar'(z) - Psi0bar(z),
+    The surface is made traction-free by continuing Phi across it: Phi = Phi0 + Phi1 with Phi1(z) = -Phi0bar(z) - z Phi0bar'(z) - Psi0bar(z),
     and Psi = -Phi - Phibar - z Phi' on it, where bars conjugate the coefficients."""
     kappa = 3 - 4 * NU
     a = MU * b / (1j * np.pi * (kappa + 1))
@@ -45,7 +45,7 @@ def half_plane(z, s, b):
 
 
 def check():
-    """Free surface, and equilibrium by differences, at places and slips drawn at random."""
+    """Checks the free surface, and equilibrium by finite differences, at random positions and slips."""
     rng = np.random.default_rng(1)
     for _ in range(5):
         s, b = complex(*(-rng.random(2) * 1e4)), complex(*rng.random(2))
@@ -60,7 +60,7 @@ def check():
 
 
 def antiplane(n):
-    """Shear traction at middles of cells per slip of cells of a vertical fault; screw dislocations and their images above the free surface."""
+    """Shear traction at midpoints of cells per unit slip of cells, vertical fault: screw dislocations and their images above the surface."""
     h = WF / n
     z = ((np.arange(n) + 0.5) * h)[:, None]
     top, bottom = (np.arange(n) * h)[None, :], (np.arange(1, n + 1) * h)[None, :]
@@ -71,14 +71,14 @@ def antiplane(n):
 
 
 def kernels(dip, n):
-    """Shear traction along the fault and compression at middles of cells per slip of cells; slip of the hanging side up is positive."""
+    """Shear traction along the fault and compression at midpoints of cells per unit slip of cells; upward slip of the hanging wall is positive."""
     h = WF / n
     angle = np.radians(dip)
     along = np.exp(-1j * angle)  # down the dip, towards +x
     middles = (np.arange(n) + 0.5) * h * along
     ends = np.arange(n + 1) * h * along
-    normal = along * 1j  # from the foot wall to the hanging wall, which lies above
-    slip = -along  # of the hanging wall against the foot wall: up
+    normal = along * 1j  # from the footwall to the hanging wall above it
+    slip = -along  # of the hanging wall relative to the footwall: up
     t, m = (slip.real, slip.imag), (normal.real, normal.imag)
 
     def on(s, b):
@@ -86,7 +86,7 @@ def kernels(dip, n):
         tx, ty = sxx * m[0] + sxy * m[1], sxy * m[0] + syy * m[1]
         return tx * t[0] + ty * t[1], -(tx * m[0] + ty * m[1])
 
-    # Slip of the stretch from the surface down to an end: one dislocation there. Its sign is fixed below: slip lowers the traction of its own cell.
+    # Slip from the surface down to an end of a cell is one dislocation there. Its sign follows below: slip lowers the traction of its own cell.
     shear, press = np.zeros((n, n + 1)), np.zeros((n, n + 1))
     for j in range(1, n + 1):
         shear[:, j], press[:, j] = on(ends[j], slip)
@@ -106,7 +106,7 @@ E = np.array([71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, 
 
 
 def run(problem, n, years, tolerance, stop=10**9, look=None):
-    """Onsets of events; `look` is shown time [s] and unknowns (ln V, ln theta, f_n) after each step."""
+    """Onsets of events; `look` is called with time [s] and unknowns (ln V, ln theta, f_n) after each step."""
     start = time.process_time()
     if problem == "bp1":
         k = antiplane(n)
@@ -121,7 +121,7 @@ def run(problem, n, years, tolerance, stop=10**9, look=None):
     tau0 = SIGMA * A_MAX * np.arcsinh(VP / (2 * V0) * np.exp((F0 + B * np.log(V0 / VP)) / A_MAX)) + ETA * VP
     theta = L / V0 * np.exp(a / B * np.log(2 * V0 / VP * np.sinh((tau0 - ETA * VP) / (a * SIGMA))) - F0 / B)
     vertical = np.max(np.abs(p)) < 1e-9 * np.max(np.abs(k))
-    # Shear and compression at once, so that one product gives both.
+    # Stack shear and compression, so that one product gives both.
     both = k if vertical else np.vstack([k, p])
     y = np.concatenate([np.full(n, np.log(VP)), np.log(theta), np.full(n, SIGMA)])
     if vertical:
@@ -175,7 +175,7 @@ def run(problem, n, years, tolerance, stop=10**9, look=None):
             if now < np.log(1e-4):
                 seismic = False
                 peaks.append(float(np.exp(peak)))
-        # Time by compensated summation: steps fall to milliseconds at 1e10 s.
+        # Compensated summation of time: steps fall to milliseconds at 1e10 s.
         add = dt + compensation
         later = t + add
         compensation = add - (later - t)
@@ -187,7 +187,7 @@ def run(problem, n, years, tolerance, stop=10**9, look=None):
 
 
 def keep(found, name="cycles.json"):
-    """Puts a run in the place of an earlier one of the same problem and cells."""
+    """Stores a run in place of an earlier one with the same problem and cells."""
     try:
         with open(name) as file:
             runs = json.load(file)

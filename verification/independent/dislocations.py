@@ -1,6 +1,6 @@
-"""Values of other programs for the kernels of dislocations: python dislocations.py FOLDER writes one table per kernel there.
+"""Reference values of dislocation kernels from other programs: python dislocations.py FOLDER writes one table per kernel to FOLDER.
 
-Needs numpy 2.4.6, cutde 26.3.6 and dislocs 0.1.3 of the Python registry.
+Needs numpy 2.4.6, cutde 26.3.6 and dislocs 0.1.3 from PyPI.
 """
 import sys
 import numpy as np
@@ -76,9 +76,9 @@ for name, module in (("half", half), ("whole", full)):
     for i in range(36):
         v = U(-3, 3, (3, 3))
         v[:, 2] = -U(0.1, 6, 3)
-        if i % 6 == 1:  # A vertex in the surface.
+        if i % 6 == 1:  # A vertex on the surface.
             v[0, 2] = 0.0
-        if i % 6 == 2:  # A side in the surface.
+        if i % 6 == 2:  # A side on the surface.
             v[0, 2] = v[1, 2] = 0.0
         if i % 6 == 3:  # Vertical.
             v[2, :2] = 0.3 * v[0, :2] + 0.7 * v[1, :2]
@@ -112,8 +112,8 @@ write("rectangle_whole", "cutde 26.3.6 (PyPI), fullspace.disp and strain of two 
 rows = []
 LONG = 1e4
 for i in range(36):
-    # A segment of the plane is a rectangle of great length. Its two halves cause the same in the plane y = 0 where they meet, so
-    # that one half suffices, of which rde loses no digits. Strike is along y, and the plane has the coordinates (-x, z).
+    # A segment in plane strain is a very long rectangle. Its two halves have equal effects in the plane y = 0 where they meet, so
+    # that one half suffices, for which rde loses no digits. Strike is along y, and the plane has the coordinates (-x, z).
     a = np.array([U(-3, 3), 0.0 if i % 5 == 1 else -U(0.1, 3)])
     dip, width = U(4, 86) if i % 6 else 90.0, U(1, 4)
     e = a - width * np.array([np.cos(np.radians(dip)), np.sin(np.radians(dip))])  # Down dip.
@@ -125,7 +125,7 @@ for i in range(36):
         return 2 * np.array(row)
 
     def part(kinds):
-        # Limit of great lengths l, which displacement misses by terms in 1/l to 1/l^3, strain by terms in 1/l^2 to 1/l^4.
+        # Extrapolation to infinite length l: errors have terms in 1/l to 1/l^3 for displacement, 1/l^2 to 1/l^4 for strain.
         rows = np.array([half_of(slip * np.array(kinds), 2**k * LONG) for k in range(4)])
         limit = lambda powers: np.linalg.solve([[0.5 ** (k * p) for k in range(4)] for p in powers], [1, 0, 0, 0]) @ rows
         return np.concatenate([limit([0, 1, 2, 3])[:3], limit([0, 2, 3, 4])[3:]])

@@ -1,14 +1,14 @@
-"""Spring sliders with a mass, with scipy's integrators only, written apart from the Rust code.
+"""Spring sliders with mass, by scipy's integrators only, independent of the Rust code.
 
     python inertial_sliders.py
 
-A cycle is put together from three parts, none of which is stiff without need.
-* Below V_SWITCH inertia is left out: DOP853 in w = ln(V/Vref) and the state. What it leaves out is M V'/(sigma a) < 1e-7 of ln V for the last
+A cycle is composed of three parts, chosen to avoid unnecessary stiffness.
+* Below V_SWITCH inertia is neglected: DOP853 in w = ln(V/Vref) and the state. The error is M V'/(sigma a) < 1e-7 in ln V for the last
   100 to 8000 s before an event, some 1e-12 of a recurrence.
-* Above, and until V has fallen to V_ARREST: Radau IIA in w, the state and the traction T of the spring, M V' = T - sigma mu.
-* The block then loses what is left of V within M V_ARREST/(sigma a) or less. T and the state stay as they are, and V is the one at which
+* Above it, and until V has fallen to V_ARREST: Radau IIA in w, the state and the traction T of the spring, M V' = T - sigma mu.
+* The block then loses its remaining V within M V_ARREST/(sigma a) or less. T and the state are unchanged, and V is the one at which
   sigma mu = T: the root of a linear equation in ln V.
-mu = mu0 + a w + phi, which the regularised form is to exp(-2 mu/a) < 1e-20 here.  Units: SI.  Results stand in inertial_sliders.json.
+mu = mu0 + a w + phi, which agrees with the regularised form to exp(-2 mu/a) < 1e-20 here.  Units: SI.  Writes inertial_sliders.json.
 """
 
 import json
@@ -33,7 +33,7 @@ def phi(p, s):
 
 
 def rate(p, w, s):
-    """Of psi = ln(Vref theta/L), or of phi itself."""
+    """Rate of the state: psi = ln(Vref theta/L), or phi itself for the slip law."""
     if p["law"] == "ageing":
         return (VREF / p["L"]) * (np.exp(-s) - np.exp(w))
     return -(VREF / p["L"]) * np.exp(w) * (s + B * w)
@@ -44,7 +44,7 @@ def dphi(p, w, s):
 
 
 def slow(p, y):
-    """Without inertia from y = (w, s) until V rises to V_SWITCH: time taken, and the state then."""
+    """Integrates without inertia from y = (w, s) until V rises to V_SWITCH: duration, and unknowns then."""
 
     def rhs(_, y):
         w, s = y
@@ -61,7 +61,7 @@ def slow(p, y):
 
 
 def fast(p, y):
-    """With inertia from y = (w, s) until V falls to V_ARREST: onset, end, largest V, time taken, state and traction then."""
+    """Integrates with inertia from y = (w, s) until V falls to V_ARREST: onset, end, largest V, duration, state and traction then."""
 
     def rhs(_, y):
         w, s, tau = y
@@ -94,7 +94,7 @@ def fast(p, y):
     peak.direction, peak.terminal = -1, True
     y = np.array([y[0], y[1], MU0 + p["a"] * y[0] + phi(p, y[1])])
     times, largest = [], None
-    # Each part with a time of its own: the last ones take 1e-9 s.
+    # Time restarts at 0 in each part: the last ones take 1e-9 s.
     for stop in (through(ON, 1), peak, through(OFF, -1), through(V_ARREST, -1)):
         r = solve_ivp(rhs, (0, 1e9), y, method="Radau", jac=jac, rtol=1e-10, atol=1e-10, events=stop)
         assert r.status == 1, r.message

@@ -1,9 +1,9 @@
-"""Line contact of Hertz, and partial slip of Cattaneo and Mindlin, by boundary elements of two half-planes.
+"""Hertzian line contact, and partial slip of Cattaneo and Mindlin, by boundary elements of two half-planes.
 
 Tractions are constant on equal elements.  Relative displacements of the surfaces, up to a constant, are
--2/(pi E*) int p(s) ln|x - s| ds, for normal and for shear tractions of like materials; they are prescribed at the middles
-of elements.  Sets of elements in contact, and that stick, are found by trial.  Lengths over a, pressures over p0: with a = p0 = 1
-E*/R = 2 and P = pi/2.  Writes line_contact.json.  Seconds.
+-2/(pi E*) int p(s) ln|x - s| ds, for normal tractions, and for shear tractions if the materials are equal; they are prescribed
+at the midpoints of elements.  The sets of elements in contact and in stick are found iteratively.  Lengths are over a, pressures
+over p0: with a = p0 = 1, E*/R = 2 and P = pi/2.  Writes line_contact.json.  Takes seconds.
 """
 
 import json
@@ -11,13 +11,13 @@ import pathlib
 
 import numpy as np
 
-# Half of the length that elements cover, over a: no multiple of an element ends at a.
+# Half of the meshed length, over a: chosen so that no element ends at a.
 REACH = 1.1
 PLACES = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95]
 
 
 def kernel(n):
-    """Relative displacement at the middles per traction of elements, E*/R = 2 and R = 1."""
+    """Relative displacement at the midpoints per unit traction of elements, E*/R = 2 and R = 1."""
     h = 2 * REACH / n
     x = (np.arange(n) + 0.5) * h - REACH
 
@@ -29,7 +29,7 @@ def kernel(n):
 
 
 def solve(k, h, free, total, wanted):
-    """Tractions of the elements `free` with this total, whose displacement is `wanted` plus a constant."""
+    """Tractions of the elements `free` with resultant `total`, whose displacement is `wanted` plus a constant."""
     n = free.sum()
     matrix = np.zeros((n + 1, n + 1))
     matrix[:n, :n], matrix[:n, n], matrix[n, :n] = k[np.ix_(free, free)], -1, h
@@ -49,13 +49,13 @@ def press(x, h, k, load):
 
 
 def shear(h, k, p, q0, total, sense):
-    """Shear tractions over mu after a change to this total from q0, slip of one sense where the strength is reached."""
+    """Shear tractions over mu after a change from q0 to this total, with slip of one sense where the strength is reached."""
     stick = p > 0
     while True:
         change = np.where(p > 0, sense * p - q0, 0.0)
         change[stick] = 0
         rest = total - h * (q0.sum() + change.sum())
-        # What slips displaces what sticks; the sum must be uniform.
+        # Slipping elements displace sticking ones; the total displacement of the stick zone must be uniform.
         change[stick] = solve(k, h, stick, rest, -k @ change)
         over = stick & (sense * (q0 + change) > p)
         if not over.any():

@@ -1,15 +1,15 @@
-"""A second implementation of the benchmark sandwich/v1, with other people's tools only.
+"""A second implementation of the benchmark sandwich/v1, with third-party tools only.
 
 Space: scikit-fem, ElementQuad1, 2x2 Gauss, plane strain, small strain.  Time: the interface law is written as an
 ordinary differential equation and handed to scipy's Radau IIA (order 5); no return mapping, no backward Euler.
 Units: mm, N, s, MPa.  Signs: f_n > 0 in compression; slip and t > 0 when A moves up (+y) relative to B.
 
-Derivation.  Both bodies stand on supports of their own, so each has a face flexibility C (the inverse of the Schur
-complement of its stiffness on the face).  With pair forces F = (F_n, F_t), pressing A by -F and B by +F, the jump is
+Derivation.  Each body has its own supports, and so a face flexibility C (the inverse of the Schur complement of its
+stiffness on the face).  With pair forces F = (F_n, F_t), acting on A as -F and on B as +F, the jump is
 
     w = u_A - u_B = w_x u_x + w_y u_y - C F,   C = C_A + C_B,     u_x, u_y the two prescribed displacements,
 
-and the penalty springs, of stiffness k_n = E_n area and k_t = E_t area, say  F_n = k_n w_n,  F_t = k_t (w_t - w_0 - s).
+and the penalty springs, of stiffness k_n = E_n area and k_t = E_t area, give  F_n = k_n w_n,  F_t = k_t (w_t - w_0 - s).
 Eliminating the normal springs and then the jump leaves everything linear in (F_t, load):
 
     F_n = P (w_n - C_nt F_t),              P = (C_nn + 1/k_n)^-1
@@ -19,7 +19,7 @@ With V = ds/dt from the inverted strength law, V = 2 Vref exp(-mu0/a) sinh(F_t/(
 
     Q dF_t/dt = dq/dt - V(F_t, F_n).
 
-The integrated unknown is the shear traction F_t/area and not s itself (they differ by the affine map above): an error
+The integrated unknown is the shear traction F_t/area, not s (they are related by the affine map above): an error
 ds changes ln V by E_t ds/(a f_n), with E_t/(a f_n) = 4e4 per um at h = 1.25 mm, so that a relative tolerance of 1e-9
 on a slip of 40 um would still leave V uncertain by 2e-3; the same tolerance on the traction leaves it 1e-7.
 """
@@ -43,7 +43,7 @@ U_X = 0.138 * 0.07  # mm, pressing displacement
 T_PRESS = 9.66  # s
 V_LOAD = 1e-3  # mm/s
 MU0, A_FRICTION = 0.6, 0.01
-CHECKPOINTS = np.arange(1, 11) / 200  # mm of u_y; each ends an integration: no slip is interpolated
+CHECKPOINTS = np.arange(1, 11) / 200  # mm of u_y; an integration ends at each: no slip is interpolated
 
 
 @dataclass(frozen=True)
@@ -59,15 +59,15 @@ class Case:
 
 
 def face_flexibility(case, x, y, face_x, face_y, supports):
-    """One rectangular body.  supports: (coordinate, value, component, prescribed unit value).
+    """Face flexibility of one rectangular body.  supports: (coordinate, value, component, prescribed unit value).
 
-    Returns C (2N, 2N), face displacement per face force, and w (2N,), face displacement for the prescribed values;
-    both ordered as all normal (x) components, then all tangential (y) ones, by increasing y."""
+    Returns C (2N, 2N), face displacement per face force, and w (2N,), face displacement for the prescribed values.
+    Both have all normal (x) components first, then all tangential (y) ones, by increasing y."""
     grid = [np.linspace(lo, hi, round((hi - lo) / case.h) + 1) for lo, hi in (x, y)]
     mesh = skfem.MeshQuad.init_tensor(*grid)
     basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementQuad1()), intorder=3)
     assert basis.X.shape[1] == 4, "2x2 Gauss points"
-    # The three-dimensional Lame pair in a two-dimensional form is plane strain.
+    # The three-dimensional Lame parameters in a two-dimensional form give plane strain.
     stiffness = linear_elasticity(*lame_parameters(case.young, case.nu)).assemble(basis).tocsc()
 
     def dofs(selected, component):
@@ -91,7 +91,7 @@ def face_flexibility(case, x, y, face_x, face_y, supports):
     position = np.full(basis.N, -1)
     position[free] = np.arange(free.size)
     for j, dof in enumerate(face):
-        if position[dof] < 0:  # a supported face dof (A's corner at y = 0) takes any force without moving
+        if position[dof] < 0:  # a supported dof of the face (A's corner at y = 0) does not move under any force
             continue
         force = np.zeros(free.size)
         force[position[dof]] = 1.0
@@ -101,7 +101,7 @@ def face_flexibility(case, x, y, face_x, face_y, supports):
 
 
 class Interface:
-    """The two bodies seen from their common face x = 25 mm."""
+    """The two bodies condensed to their common face x = 25 mm."""
 
     def __init__(self, case):
         y_b = (-case.overhang, 50 + case.overhang)
@@ -131,8 +131,8 @@ class Interface:
         return force.sum() / self.area.sum()
 
     def rate(self, ft, fn):
-        """V and its derivative to F_t (N, N), F_n depending on F_t through the bodies."""
-        with np.errstate(over="ignore", invalid="ignore"):  # a wild trial of the integrator gives inf; it then halves
+        """V and its derivative with respect to F_t (N, N), where F_n depends on F_t through the bodies."""
+        with np.errstate(over="ignore", invalid="ignore"):  # a bad trial of the integrator gives inf; it then halves the step
             x = ft / (A_FRICTION * fn)
             scale = self.case.v_ref * np.exp(-MU0 / A_FRICTION)
             v, dv_dx = 2 * scale * np.sinh(x), 2 * scale * np.cosh(x)
@@ -159,10 +159,10 @@ class Interface:
     def press(self, method="Radau", rtol=1e-10):
         """Stage 1: (F_t, F_n) at its end.
 
-        With friction the loading is proportional, u_x = U t/T, and the law sees only V and the ratio F_t/F_n: the
-        solution is F = t z, s = t V exactly, at every t.  In the time sigma = ln t, z = F_t/t obeys
-        Q dz/dsigma = dq/dt - V(z) - Q z, which has no 0/0 at t = 0 and whose rest state is that solution.  It is
-        reached from zero traction at exp(-40) of the end: all other modes decay at least like exp(-sigma)."""
+        With friction the loading is proportional, u_x = U t/T, and the law depends only on V and the ratio F_t/F_n: the
+        solution is exactly F = t z, s = t V at every t.  In the time sigma = ln t, z = F_t/t obeys
+        Q dz/dsigma = dq/dt - V(z) - Q z, which has no 0/0 at t = 0 and whose steady state is that solution.  It is
+        reached from zero traction at exp(-40) of the end, since all other modes decay at least like exp(-sigma)."""
         ft = np.zeros(self.y.size)
         if self.case.friction_in_stage_1:
             rate = U_X / T_PRESS
@@ -244,9 +244,9 @@ def run(case, shear=True, probes=False, method="Radau", rtol=1e-10):
 
 
 def aitken(values):
-    """Limit of a sequence over halved h from its last three members, with the order it implies.
+    """Limit of a sequence with h halved each time, from its last three members, and the order it implies.
 
-    The penalty compliance is of order h; the corners add a lower-order term with a small factor."""
+    The penalty compliance is first order in h; the corners add a lower-order term with a small factor."""
     d1, d2 = values[-2] - values[-3], values[-1] - values[-2]
     return {"limit": values[-1] + d2 * d2 / (d1 - d2), "order": float(np.log2(abs(d1 / d2)))}
 
@@ -269,8 +269,8 @@ def main():
         "v_ref_over_100_h_1.25": run(replace(base, v_ref=V_LOAD / 100)),
         "young_x_2_h_1.25": run(replace(base, young=2 * base.young)),
     }
-    # Once every point slides at V_load the slip is fixed by algebra (t = mu f_n), whatever the time integration did
-    # before; so its error is read off the whole histories at the probes, which include the onset.
+    # Once every point slides at V_load the slip follows from t = mu f_n, whatever the time integration did before.
+    # Its error is therefore taken from the whole histories at the probes, which include the onset.
     reference = results["base"][1.25]
     results["time_integration_h_1.25"] = {}
     for method, rtol in (("Radau", 1e-8), ("Radau", 1e-12), ("BDF", 1e-10)):

@@ -1,7 +1,7 @@
-"""Histories of the benchmark sandwich/v1 on four meshes, by the program of sandwich.py.
+"""Histories of the benchmark sandwich/v1 on four meshes, computed by sandwich.py.
 
 Writes sandwich_histories.json: slip at y = 12.5, 25, 37.5 mm since the end of stage 1, mean normal and mean shear
-traction of the face, at positions u_y of the upper edge.  Half a minute.
+traction of the face, at displacements u_y of the upper edge.  Takes half a minute.
 """
 
 import datetime
@@ -17,7 +17,7 @@ import sandwich
 from sandwich import U_X, Case, Interface
 
 HEIGHTS = (12.5, 25.0, 37.5)
-# mm of u_y: closer where slip runs over the face.
+# u_y in mm: closer where slip propagates over the face.
 CHECKPOINTS = np.array([0.005, 0.01, 0.012, 0.014, 0.016, 0.018, 0.02, 0.025, 0.03, 0.04, 0.05])
 sandwich.CHECKPOINTS = CHECKPOINTS
 
@@ -28,7 +28,7 @@ def histories(h):
     _, slips = face.shear(start)
     shear, normal = [], []
     for u_y, slip in zip(CHECKPOINTS, slips):
-        # The slip of the integration, solved for the tractions again: s = q(load) - Q (F_t - F_t0).
+        # Tractions from the slip of the integration: s = q(load) - Q (F_t - F_t0).
         ft = start + np.linalg.solve(face.q_matrix, -face.q_y * u_y - slip)
         shear.append(face.mean(ft))
         normal.append(face.mean(face.normal(ft, U_X, -u_y)))

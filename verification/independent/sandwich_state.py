@@ -1,7 +1,7 @@
-"""Stick-slip of the sandwich-state/v1 block, written apart from the Rust code: finite elements (bilinear squares, 2 x 2 Gauss
-points), jumps held by Lagrange multipliers, the fault as a system of ordinary differential equations for scipy's DOP853.
+"""Stick-slip of the sandwich-state/v1 block, independent of the Rust code: finite elements (bilinear squares, 2 x 2 Gauss
+points), jumps imposed by Lagrange multipliers, the fault as a system of ordinary differential equations for scipy's DOP853.
 
-Prints onset times (V > 1 mm/s), intervals, the place that is fastest then and the slip between onsets; writes sandwich_state.json.
+Prints onset times (V > 1 mm/s), intervals, the position of the largest rate then and slip between onsets; writes sandwich_state.json.
 """
 
 import json
@@ -17,7 +17,7 @@ A, B, MU0, V0 = 0.005, 0.020, 0.6, 1e-6
 PUSHED = 0.0966e-3
 SHEAR = YOUNG / (2 * (1 + POISSON))
 DAMPING = 0.5 * np.sqrt(SHEAR * DENSITY)
-# Shares of the second interval at which the mean shear traction is told.
+# Fractions of the second interval at which the mean shear traction is output.
 PHASES = [0.1 * k for k in range(1, 10)]
 
 
@@ -36,7 +36,7 @@ def element(h):
 
 
 def condensed(ny, spring):
-    """Tractions over slip of B relative to A along y, and over the way of the spring's far end: shear S, s; normal N, m."""
+    """Tractions per slip of B relative to A along y, and per displacement of the spring's far end: shear S, s; normal N, m."""
     nx, h = ny // 2, HEIGHT / ny
     per_block = (nx + 1) * (ny + 1)
     node = lambda block, i, j: block * per_block + j * (nx + 1) + i
@@ -70,7 +70,7 @@ def condensed(ny, spring):
     g = sp.vstack([jump.tocsr() @ t, gap.tocsr() @ t])
     m = kf.shape[0]
     rhs = np.zeros((m + 2 * n, n + 1))
-    # Multipliers in units that make both parts of the matrix of one size, without which pivoting loses digits.
+    # Multipliers are scaled so that both parts of the matrix have similar magnitude; otherwise pivoting loses digits.
     scale = YOUNG
     rhs[m : m + n, :n] = scale * np.eye(n)
     rhs[m - 1, n] = spring

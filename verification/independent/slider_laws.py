@@ -1,11 +1,11 @@
-"""Reference solutions of spring sliders with the laws of Perrin, Rice and Zheng, of Nagata et al., and of flash heating.
+"""Reference solutions of spring sliders with the laws of Perrin, Rice and Zheng, Nagata et al., and flash heating.
 
 Primary: heyoka (adaptive Taylor series, events to rounding) in w = ln(V/Vref) and phi, in 80-bit numbers.
-Checks: the same in 64-bit numbers; scipy's DOP853 at rtol 1e-13 in other variables, with V from Newton's rule: the traction T,
-and ln theta (PRZ), phi + c mu (Nagata), phi (flash).  See README.md for the conventions and what the uncertainties mean.
+Checks: the same in 64-bit numbers; scipy's DOP853 at rtol 1e-13 in other variables, with V by Newton's method: the traction T,
+and ln theta (PRZ), phi + c mu (Nagata), phi (flash).  See README.md for the conventions and the meaning of the uncertainties.
 
-Model: T' = k (V_load - V), T = sigma mu + eta V, mu = a asinh(V/(2 Vref) exp((mu0 + phi)/a)).  With g the derivative of mu by
-phi (a g: by w) the laws are phi' = A - c mu', so that mu' = g (a w' + A)/(1 + c g) and
+Model: T' = k (V_load - V), T = sigma mu + eta V, mu = a asinh(V/(2 Vref) exp((mu0 + phi)/a)).  With g the derivative of mu with
+respect to phi (a g: to w) the laws are phi' = A - c mu', so that mu' = g (a w' + A)/(1 + c g) and
 
     w' = (k (V_load - V) - sigma g A/(1 + c g)) / (sigma a g/(1 + c g) + eta V)
 
@@ -42,7 +42,7 @@ TIMES = [0.01, 1.0, 10.0, 100.0, 100.1, 100.5, 101.0, 102.0, 105.0, 120.0, 200.0
 
 
 class Taylor:
-    """A slider by heyoka.  Every stretch between events starts at time 0."""
+    """A slider by heyoka.  Time restarts at 0 after every event."""
 
     def __init__(self, law, k, fp):
         self.fp = fp
@@ -61,7 +61,7 @@ class Taylor:
             A, c = b * Vr / L * hy.exp(-f / b) - b * V / L, hy.par[index["c"]]
         else:
             mu_w, V_w = hy.par[index["mu_w"]], hy.par[index["V_w"]]
-            # (V/V_w)^8 through the exponential of eight logarithms.
+            # (V/V_w)^8 as the exponential of eight times the logarithm.
             steady = mu_w + (mu0 + (a - b) * w - mu_w) / (1.0 + hy.exp(8.0 * (w + hy.log(Vr / V_w)))) ** 0.125
             A = -(V / L) * (f + mu0 + a * w - steady)
         ln2 = float(np.log(2.0)) if fp is np.float64 else np.log(fp(2))
@@ -95,7 +95,7 @@ class Taylor:
         return self.cache[kind]
 
     def run(self, kind, y, t, load=None):
-        """To the event (or for the time t): state and time taken."""
+        """Integrates to the event (or for the time t): state and duration."""
         ta = self.integrator(kind)
         ta.pars[:] = self.values
         if load is not None:
@@ -109,7 +109,7 @@ class Taylor:
         return ta.state.copy(), ta.time
 
     def hop(self, y):
-        """Away from an event just located, by a thousandth of the present time scale."""
+        """Moves away from an event just located, by a thousandth of the current time scale."""
         rate = self.fp(SET["Vref"]) * np.exp(y[0]) / self.fp(SET["L"])
         return self.run("plain", y, self.fp(1e-3) / (rate + self.scale))
 
@@ -121,7 +121,7 @@ class Taylor:
 
 
 def start(law, factor, fp):
-    """ln(V/Vref) for V = factor V_load; the state steady at V_load."""
+    """Initial unknowns: ln(V/Vref) for V = factor V_load, and the state steady at V_load."""
     v = np.log(fp(SET["V_load"]) / fp(SET["Vref"]))
     phi = -fp(SET["b"]) * v
     if law == "flash":
@@ -168,7 +168,7 @@ def hold(law, fp):
 
 
 class Traction:
-    """The second way: q = (T - sigma mu0)/(sigma a), and ln(Vref theta/2L), (phi + c mu)/b or phi."""
+    """The second formulation: q = (T - sigma mu0)/(sigma a), and ln(Vref theta/2L), (phi + c mu)/b or phi."""
 
     def __init__(self, law, k):
         self.p, self.law, self.guess, self.V_load = SET | LAWS[law] | dict(k=k), law, 0.0, SET["V_load"]
@@ -185,12 +185,12 @@ class Traction:
 
     def mu(self, w, phi):
         a = self.p["a"]
-        X = max(w - math.log(2) + (MU0 + phi) / a, -300.0)  # only in trial steps that are rejected
+        X = max(w - math.log(2) + (MU0 + phi) / a, -300.0)  # the limit acts only in trial steps that are rejected
         root = math.sqrt(1 + math.exp(-2 * X))
         return a * (X + math.log1p(root)), 1 / root
 
     def at(self, y):
-        """w, phi and mu of T and the state: sigma mu + eta V = T."""
+        """w, phi and mu from T and the state: sigma mu + eta V = T."""
         p, w = self.p, self.guess
         T = p["sigma"] * (MU0 + p["a"] * y[0])
         for _ in range(100):
@@ -200,7 +200,7 @@ class Traction:
             slope = p["sigma"] * p["a"] * g + (1 + self.c * g) * p["eta"] * V
             d = (p["sigma"] * m + p["eta"] * V - T) / slope
             w -= max(min(d, 2.0), -2.0)
-            if abs(d) < 1e-12 * max(1.0, abs(w)):  # quadratic: the next would be rounding
+            if abs(d) < 1e-12 * max(1.0, abs(w)):  # quadratic convergence: the next update would be rounding
                 break
         self.guess = w
         V = p["Vref"] * math.exp(min(w, 600.0))
@@ -233,8 +233,8 @@ class Traction:
 
 
 def check_cycles(law, n):
-    """Crossings by DOP853, brought to rounding by restarts; extremes of ln V between the last two from a parabola in
-    short steps about the interpolated one."""
+    """Crossings by DOP853, refined to rounding by restarts; extremes of ln V between the last two from a parabola through
+    short steps around the interpolated extreme."""
     s = Traction(law, SOFT[law])
     w0, phi0 = (float(x) for x in start(law, 1.5, np.float64))
     level = math.log(V_EVENT / SET["Vref"])
@@ -247,7 +247,7 @@ def check_cycles(law, n):
     while len(times) < n:
         r = solve_ivp(s.rhs, (0.0, 1e9), y, "DOP853", rtol=1e-13, atol=1e-15, events=cross)
         t0, y0, te = r.t[-2], r.y[:, -2], r.t[-1]
-        for _ in range(4):  # the interpolant only brackets the root; w' from a difference of T and the state
+        for _ in range(4):  # the interpolant only brackets the root; w' from finite differences of T and the state
             y = s.plain(y0, t0, te)
             h = 1e-6 * max(te - t0, 1e-9)
             speed = (s.at(s.plain(y, 0.0, h))[0] - s.at(y)[0]) / h

@@ -1,11 +1,11 @@
-"""Reference solutions of spring sliders with rate-and-state friction, with other people's integrators only.
+"""Reference solutions of spring sliders with rate-and-state friction, with third-party integrators only.
 
 Primary: heyoka (adaptive Taylor series, events to rounding) in w = ln(V/Vref) and the states, in 80-bit numbers.
-Checks: the same in 64-bit numbers; scipy's DOP853 in (spring traction, ln theta or phi) with V from Newton's rule, at rtol 1e-13;
-with mass, scipy's Radau IIA with an analytic Jacobian.  See README.md for the model, the conventions and what the uncertainties mean.
+Checks: the same in 64-bit numbers; scipy's DOP853 in (spring traction, ln theta or phi) with V by Newton's method, at rtol 1e-13;
+with mass, scipy's Radau IIA with an analytic Jacobian.  See README.md for the model, the conventions and the meaning of the uncertainties.
 
 Model: T' = k (V_load - V), M V' = T - sigma mu - eta V, mu = a asinh(V/(2 Vref) exp((mu0 + phi)/a)).  With g the
-derivative of mu by phi (a g: by w), X the logarithm of the argument of asinh, M = 0:
+derivative of mu with respect to phi (a g: to w), X the logarithm of the argument of asinh, M = 0:
 
     w' = (k (V_load - V) - sigma g phi' - mu sigma') / (sigma a g + eta V),   g = (1 + exp(-2 X))^(-1/2)
     ageing, phi = b ln(Vref theta/L):  phi' = (b Vref/L) exp(-phi/b) - b V/L - (alpha/sigma) sigma'
@@ -42,7 +42,7 @@ V_EVENT = 1e-3  # m/s, rising
 
 
 class Taylor:
-    """Sliders without inertia, by heyoka.  Every stretch between events starts at local time 0."""
+    """Sliders without inertia, by heyoka.  Local time restarts at 0 after every event."""
 
     def __init__(self, p, law, fp, bare=False, oscillation=None, sliders=1, k_c=0.0, alpha=0.0):
         self.p, self.fp, values, index = p, fp, [], {}
@@ -117,7 +117,7 @@ class Taylor:
         return self.cache[kind]
 
     def run(self, kind, y, t, start=0.0, **pars):
-        """To the event (or for the time t): state, time taken, index of the event or None."""
+        """Integrates to the event (or for the time t): state, duration, index of the event or None."""
         ta = self.integrator(kind)
         ta.pars[:] = self.values
         for name, value in pars.items():
@@ -133,7 +133,7 @@ class Taylor:
         return ta.state.copy(), ta.time - self.fp(start), -1 - outcome
 
     def hop(self, y, length=1e-3):
-        """Away from an event just located, by a fraction of the present time scale."""
+        """Moves away from an event just located, by a fraction of the current time scale."""
         L = self.p.get("L", self.p.get("L1"))
         p = self.p
         rate = self.fp(p["Vref"]) * np.exp(y[: len(self.ws)].max()) / self.fp(L)
@@ -150,7 +150,7 @@ class Taylor:
 
 
 def start(p, factor, fp, law="ageing", state_speed=None):
-    """ln(V/Vref) for V = factor V_load; the states steady at V_load."""
+    """Initial unknowns: ln(V/Vref) for V = factor V_load, and the states steady at V_load."""
     v = np.log(fp(state_speed or p["V_load"]) / fp(p["Vref"]))
     bs = [p["b"]] if law != "two" else [p["b1"], p["b2"]]
     return np.array([v + np.log(fp(factor))] + [-fp(b) * v for b in bs], dtype=fp)
@@ -265,7 +265,7 @@ def neutral(fp):
 
 
 def orbit(fp):
-    """Slip law, k = k_c, bare logarithm, no damping, Vref = V_load."""
+    """Orbit under the slip law: k = k_c, bare logarithm, no damping, Vref = V_load."""
     p = MILD | dict(k=K_C, eta=0.0)
     s = Taylor(p, "slip", fp, bare=True)
     y0 = kick(p, 0.5, fp)
@@ -286,9 +286,9 @@ def orbit(fp):
 
 
 def orbit_closed_form(fp):
-    """(e^-x - 1 + x + F - 1/beta) e^(beta F) is constant; x = ln(V/V_load), F = (phi + a x)/(b - a), beta = (b - a)/a.
+    """Orbit from its invariant (e^-x - 1 + x + F - 1/beta) e^(beta F), x = ln(V/V_load), F = (phi + a x)/(b - a), beta = (b - a)/a.
 
-    The period, which has no closed form, by DOP853."""
+    The period has no closed form and is computed by DOP853."""
     a, b = MILD["a"], MILD["b"]
     beta, x = (b - a) / a, 0.5
     F = a * x / (b - a)
@@ -315,10 +315,10 @@ def orbit_closed_form(fp):
 
 
 def threshold(ratio, fp):
-    """Least ln(V/V_load) from which the undamped slip-law slider (bare logarithm) with k = ratio k_c runs away.
+    """Smallest ln(V/V_load) from which the undamped slip-law slider (bare logarithm) with k = ratio k_c runs away.
 
-    In slip S = s/L:  a w' = (b - a) (K (e^-w - 1) + w) + f,  f' = (b - a) K (e^-w - 1),  f = phi + a w.  The boundary is
-    the one orbit with w' -> K; it attracts as S decreases, so it is followed back from w = 60 until phi = 0."""
+    In slip S = s/L:  a w' = (b - a) (K (e^-w - 1) + w) + f,  f' = (b - a) K (e^-w - 1),  f = phi + a w.  The separatrix is
+    the only orbit with w' -> K; it attracts as S decreases, so it is followed backwards from w = 60 until phi = 0."""
     w, f = hy.make_vars("w", "f")
     a, b, K = (hy.par[i] for i in range(3))
     pars = np.array([fp(MILD["a"]), fp(MILD["b"]), fp(ratio)], dtype=fp)
@@ -332,7 +332,7 @@ def threshold(ratio, fp):
 
 
 def threshold_by_bisection(ratio):
-    """The same by scipy's DOP853, forward from the kicked state."""
+    """The same threshold by bisection: scipy's DOP853, forward from the perturbed state."""
     a, b, K = MILD["a"], MILD["b"], ratio
 
     def rhs(_, y):
@@ -359,7 +359,7 @@ def thresholds(fp):
 
 
 class Traction:
-    """The second variable set: q = (T - sigma_0 mu0)/(sigma_0 a) and ln(Vref theta/L) or phi, by scipy's DOP853."""
+    """The second set of variables: q = (T - sigma_0 mu0)/(sigma_0 a) and ln(Vref theta/L) or phi, by scipy's DOP853."""
 
     def __init__(self, p, law, sliders=1, k_c=0.0, oscillation=None, alpha=0.0, rtol=1e-13):
         self.p, self.law, self.n, self.k_c, self.osc, self.alpha, self.rtol = p, law, sliders, k_c, oscillation, alpha, rtol
@@ -382,7 +382,7 @@ class Traction:
         a = self.p["a"]
         if self.law == "two":
             return MU0 + phi + a * w, 1.0
-        X = max(w - math.log(2) + (MU0 + phi) / a, -300.0)  # only in trial steps that are rejected
+        X = max(w - math.log(2) + (MU0 + phi) / a, -300.0)  # the limit acts only in trial steps that are rejected
         root = math.sqrt(1 + math.exp(-2 * X))
         return a * (X + math.log1p(root)), 1 / root
 
@@ -394,7 +394,7 @@ class Traction:
             V = p["Vref"] * math.exp(min(w, 600.0))
             d = (sig * m + p["eta"] * V - T) / (sig * p["a"] * g + p["eta"] * V)
             w -= max(min(d, 2.0), -2.0)
-            if abs(d) < 1e-12 * max(1.0, abs(w)):  # quadratic: the next would be rounding
+            if abs(d) < 1e-12 * max(1.0, abs(w)):  # quadratic convergence: the next update would be rounding
                 break
         self.guess[i] = w
         return w
@@ -447,7 +447,7 @@ class Traction:
         return r.y[:, -1]
 
     def run(self, kind, y, t_max):
-        """To the event.  The interpolant only brackets it: the last step is integrated again to the root (secants)."""
+        """Integrates to the event.  The interpolant only brackets it: the last step is repeated up to the root (secant method)."""
         es = self.event(kind)
         r = solve_ivp(self.rhs, (0, t_max), y, "DOP853", events=es, rtol=self.rtol, atol=self.rtol)
         self.nfev += r.nfev
@@ -515,11 +515,11 @@ def check_times(s, y, times):
 
 
 class Inertial:
-    """Mass: (w, phi, A = w'), A' = (k (V_load - V) - sigma g phi' - (sigma a g + eta V) A)/(M V) - A^2; net force M V A.
+    """Slider with mass: (w, phi, A = w'), A' = (k (V_load - V) - sigma g phi' - (sigma a g + eta V) A)/(M V) - A^2; net force M V A.
 
     Below the speed `switch`, where A relaxes within 1e-6 s or less, heyoka integrates (w, phi) on the slow manifold: A from the
-    equation above, iterated twice from the slider without mass (relative error about e^3, e = 1 - A1/A2).  Back to the full
-    equation at w = switch, rising; to the manifold only when A has relaxed to it (see `cycles`)."""
+    equation above, iterated twice from the slider without mass (relative error about e^3, e = 1 - A1/A2).  The full equation
+    takes over when V rises to `switch`, and the manifold only once A has relaxed to it (see `cycles`)."""
 
     def __init__(self, p, law, fp, switch=2e-5):
         self.p, self.fp, self.switch, self.tol = p, fp, switch, 3e-15 if fp == np.float64 else 1e-17
@@ -577,9 +577,9 @@ class Inertial:
 
         lowest = highest = None
         while True:
-            # relax on the full equation, then to the manifold; here also at the start, with A = 0 (net force zero)
+            # relax with the full equation, then switch to the manifold; also at the start, with A = 0 (net force zero)
             relaxed = False
-            while not relaxed and speed() < 1.000001 * self.switch:  # rounding: it may be entered at the switch
+            while not relaxed and speed() < 1.000001 * self.switch:  # for rounding: V may start at the switch
                 m = manifold()
                 relaxed = abs(y[2] / m[2] - 1) < self.tol and abs(m[1] / m[2] - 1) < 1e-10
                 if not relaxed:
@@ -672,7 +672,7 @@ def check_inertial(p, law, n, rtol):
 
 
 def scipy_cost(reference):
-    """reference_ageing in (ln(V/Vref), ln(Vref theta/L)): one call to the 10th crossing, atol = rtol, first_step left to scipy."""
+    """Cost of reference_ageing in (ln(V/Vref), ln(Vref theta/L)): one call up to the 10th crossing, atol = rtol, scipy's first_step."""
     p = REFERENCE
     sig, a, b, L, Vr, Vl, eta, k = (p[n] for n in ("sigma", "a", "b", "L", "Vref", "V_load", "eta", "k"))
     ln2 = math.log(2)
@@ -721,7 +721,7 @@ def scipy_cost(reference):
 
 
 def check(name, found):
-    """The same case by Traction; None where the case has its own check."""
+    """The same case by Traction; None if the case has its own check."""
     law = "two" if name.startswith("two") else "slip" if name.endswith("slip") else "ageing"
     if name.startswith(("mild", "hard", "reference", "two")):
         p = {"mild": MILD, "hard": HARD, "refe": REFERENCE, "two_": TWO}[name[:4]]

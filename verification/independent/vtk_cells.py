@@ -1,10 +1,10 @@
-"""The order of nodes and of tensor components in VTK, asked of VTK itself.
+"""The order of nodes and of tensor components in VTK, obtained from VTK itself.
 
     python3.11 -m venv venv && venv/bin/pip install vtk==9.7.2
     venv/bin/python vtk_cells.py        # rewrites vtk_cells.json
 
-`nodes` has, for each number of a cell type, the parametric coordinates of its nodes. `symmetric_tensor` has the components
-of an array of six: those with which numpy finds the principal values that VTK finds.
+`nodes` holds the parametric coordinates of the nodes of each cell type, by its number. `symmetric_tensor` names the components
+of an array of six, in the order for which numpy and VTK find the same principal values.
 """
 
 import itertools
@@ -40,7 +40,7 @@ def nodes():
 
 
 def principal(values):
-    """Principal values of six components, by VTK, from the largest."""
+    """Principal values of six components by VTK, largest first."""
     points = vtk.vtkPoints()
     points.InsertNextPoint(0, 0, 0)
     data = vtk.vtkPolyData()
@@ -57,7 +57,7 @@ def principal(values):
 
 
 def components():
-    """Names of the six components: the only order in which a full tensor has VTK's principal values."""
+    """Names of the six components, in the only order for which a full tensor has VTK's principal values."""
     values = [1.0, 2.5, -4.0, 0.7, 1.9, -3.1]
     names = ["XX", "YY", "ZZ", "XY", "YZ", "XZ"]
     found = []
@@ -71,7 +71,7 @@ def components():
 
 def main():
     orders = components()
-    # Principal values do not know the names of axes: what is left are the six ways of numbering them.
+    # Principal values do not depend on the names of axes, so the six permutations of axes remain.
     first = [order for order in orders if order[:3] == ("XX", "YY", "ZZ")]
     assert len(orders) == 6 and len(first) == 1, orders
     cells = ",\n".join(f'  "{kind}": {json.dumps(at)}' for kind, at in nodes().items())

@@ -1,4 +1,4 @@
-//! Benchmarks that others can enter: their files agree with each other, and no reference value changes.
+//! Checks of the community benchmarks: their files agree with each other, and no reference value changes.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use asperity_driver::benchmark;
@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// SHA-256 of the reference values of each version. A version that is tagged never changes: another value is another version.
+/// SHA-256 of the reference values of each version. A tagged version never changes: changed values need a new version.
 const CHECKSUMS: [(&str, &str); 6] = [
     ("fault-bend/v1", "852adb823b205af22be11a2e3a4ec0751c2f56b6889390ad1ab427b0d696b1e3"),
     ("hertz/v1", "2846bfe3450c5ecb52e2645066b14b5e6f8ef229783f3f4bab2e0e38403dd0a0"),

@@ -1,4 +1,4 @@
-//! Every case of the list has the fixed shape.
+//! Checks that every listed case has the fixed shape.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use asperity_verification::{cases, readme};
@@ -27,7 +27,7 @@ fn every_case_has_the_fixed_headings_and_covers_something() {
     }
 }
 
-/// Rows of the table of these cases.
+/// Table rows of these cases.
 fn rows(names: &str) -> String {
     let row = |name: &str| {
         let case =
@@ -69,12 +69,12 @@ fn the_book_lists_every_case_once() {
     );
 }
 
-/// Literature of a page.
+/// Section "Literature" of a page.
 fn literature(readme: &str) -> &str {
     readme.split_once("## Literature\n").map_or("", |(_, rest)| rest).trim()
 }
 
-/// Numbers of four digits that are years: in parentheses, or at the end of a work without.
+/// Four-digit years: in parentheses, or else at the end of an entry.
 fn years(text: &str) -> Vec<String> {
     let digits = |part: &&str| part.len() == 4 && part.bytes().all(|b| b.is_ascii_digit());
     text.split(['(', ')']).filter(digits).map(str::to_owned).collect()

@@ -1,4 +1,4 @@
-//! The harness judges as it says: every kind of claim has a control that must fail.
+//! Checks that the harness judges as documented: every kind of claim has a control that must fail.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use asperity_verification::case::Outcome;
@@ -33,7 +33,7 @@ fn second_order(draft: OrderDraft<'_>) -> OrderDraft<'_> {
         .finest(0.02, "twice the estimate")
 }
 
-/// One holding claim of each kind.
+/// One claim of each kind that holds.
 fn holding() -> Vec<(&'static str, Judged)> {
     vec![
         ("absolute", judge(|d| d.value(1.05).equals(1.0).absolute(0.1))),
@@ -307,7 +307,7 @@ fn round(value: &mut serde_json::Value) {
     }
 }
 
-/// A folder of the report of a synthetic case; it is removed at the end.
+/// Folder of the report of a synthetic case, removed when dropped.
 struct Written(std::path::PathBuf);
 
 impl Written {
@@ -370,7 +370,7 @@ fn pages_need_no_network() {
     for file in PAGES {
         let page = written.text(file);
         for name in ["http://www.w3.org/2000/svg", "http://www.w3.org/1998/Math/MathML"] {
-            // Names of formats, which nobody fetches.
+            // These are names of formats, which are never fetched.
             assert!(!page.contains(&format!("href=\"{name}")) && !page.contains(&format!("src=\"{name}")));
         }
         for outside in ["src=\"http", "href=\"http", "@import", "url(", "fetch("] {
@@ -399,7 +399,7 @@ fn links_between_pages_lead_to_files_and_anchors() {
         for target in page.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
             let (path, anchor) = target.split_once('#').unwrap_or((target, ""));
             let to = if path.is_empty() { Path::new(file).to_owned() } else { folder.join(path) };
-            // Cases that did not run in this test have no page, though defects and the history name them.
+            // Cases that did not run in this test have no page, although the pages of defects and history link to them.
             if target.starts_with("data:") || (path.contains("cases/") && !path.contains("synthetic")) {
                 continue;
             }
@@ -453,7 +453,7 @@ fn the_schema_of_the_report_is_published_and_the_report_has_its_keys() {
     assert_eq!(missing, Vec::<String>::new());
 }
 
-/// Keys of a value that a schema does not name.
+/// Keys of a value that are not in its schema.
 fn unknown(value: &serde_json::Value, schema: &serde_json::Value, root: &serde_json::Value) -> Vec<String> {
     let mut named = std::collections::BTreeMap::new();
     let mut open = Vec::new();
@@ -490,7 +490,7 @@ fn resolved<'a>(schema: &'a serde_json::Value, root: &'a serde_json::Value) -> &
     }
 }
 
-/// Keys that a schema names, in all of its alternatives, and the schemas of keys of any name.
+/// Keys that a schema names in any of its alternatives, and the schemas of additional keys.
 fn properties<'a>(
     schema: &'a serde_json::Value,
     root: &'a serde_json::Value,

@@ -1,4 +1,4 @@
-//! The benchmarks that others can enter: their files, and one archive of all of them.
+//! Files of the community benchmarks, and one archive of all of them.
 
 use crate::stage::{Failure, Stage};
 use std::fs;
@@ -7,24 +7,24 @@ use std::path::{Path, PathBuf};
 use tar::{Builder, EntryType, Header};
 use walkdir::WalkDir;
 
-/// Folder of the benchmarks, with those of speed beside them.
+/// Folder of the benchmarks; the pages on speed lie beside them.
 const FOLDER: &str = "docs/src/benchmarks";
 /// Name of the licence of the values.
 const LICENCE: &str = "LICENSE-CC0";
-/// Rights of files in the archive.
+/// Permissions of files in the archive.
 const MODE: u32 = 0o644;
 
-/// Work on the benchmarks.
+/// Choice of benchmarks and of the work on them.
 pub struct Choice {
-    /// Only benchmarks with this in their names.
+    /// Benchmarks with this in their names; all if absent.
     pub only: Option<String>,
-    /// Run nothing: only the files that follow from others.
+    /// True to run nothing and write only the files derived from others.
     pub pages: bool,
-    /// Archive to write instead.
+    /// Archive to write instead of the files.
     pub archive: Option<PathBuf>,
 }
 
-/// Writes the files of the benchmarks, or the archive of them.
+/// Writes the files of the benchmarks, or their archive.
 pub fn run(root: &Path, choice: &Choice) -> Result<(), Failure> {
     if let Some(path) = &choice.archive {
         let failed = |source| Failure::Write { path: path.clone(), source };
@@ -42,15 +42,15 @@ pub fn run(root: &Path, choice: &Choice) -> Result<(), Failure> {
     stage.run(root)
 }
 
-/// An archive of the licence and of all files of the benchmarks, the same bytes for the same files: sorted by name, without times and
-/// owners.
+/// Archive of the licence and all files of the benchmarks. It is reproducible: files are sorted by name, without times
+/// and owners.
 fn archive(folder: &Path) -> io::Result<Vec<u8>> {
     let mut builder = Builder::new(Vec::new());
     let walk = WalkDir::new(folder).min_depth(1).sort_by_file_name();
     for entry in walk {
         let entry = entry?;
         let Ok(name) = entry.path().strip_prefix(folder) else { continue };
-        // Pages in the folder itself are those of speed.
+        // Pages in the folder itself are about speed.
         let kept = entry.depth() > 1 || name == Path::new(LICENCE);
         if entry.file_type().is_file() && kept {
             let place: Vec<&str> = name.iter().filter_map(|part| part.to_str()).collect();
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn an_archive_is_the_same_twice_and_knows_no_time_or_owner() {
         let bytes = archive(&folder()).unwrap();
-        // A copy has other times and other places on the disk.
+        // A copy has other modification times and another order on disk.
         let copy = std::env::temp_dir().join(format!("asperity-benchmarks-{}", std::process::id()));
         for entry in WalkDir::new(folder()).into_iter().map(Result::unwrap) {
             let to = copy.join(entry.path().strip_prefix(folder()).unwrap());

@@ -1,10 +1,10 @@
-//! Checks of our outputs by their real readers, and of our reading of meshes by that of others, in a Python environment of its
-//! own.
+//! Interoperability checks in a separate Python environment: outputs are read by common readers, and meshes as read
+//! here are compared with those of other readers.
 
 use crate::stage::{self, Failure, Stage};
 use std::path::{Path, PathBuf};
 
-/// The meshes whose reading is compared.
+/// Folder of the sample meshes.
 const MESHES: &str = "crates/fem/tests/meshes";
 
 /// Makes the environment, installs the pinned requirements and runs the checks on the sandwich's output, on catalogues of
@@ -49,7 +49,7 @@ pub fn run(root: &Path) -> Result<(), Failure> {
     Stage::new("interop of meshes", &inside).args(["interop/check_meshes.py", summary, MESHES]).run(root)
 }
 
-/// Sample meshes that are no errors, by name.
+/// Valid sample meshes, sorted by name.
 fn meshes(root: &Path) -> Result<Vec<String>, Failure> {
     let mut names = Vec::new();
     for entry in walkdir::WalkDir::new(root.join(MESHES)).sort_by_file_name() {

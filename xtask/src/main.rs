@@ -1,4 +1,4 @@
-//! Starts commands and reads result files; knows no physics.
+//! Chores of the workspace: they start commands and read result files, and contain no physics.
 #![allow(
     clippy::print_stdout,
     clippy::print_stderr,
@@ -27,51 +27,51 @@ struct Options {
 
 #[derive(Subcommand)]
 enum Chore {
-    /// tidy, the workspace's tests, then the verification suite.
+    /// Runs tidy, the tests of the workspace, and the verification suite.
     Verify {
-        /// Run the long cases, too.
+        /// Run the long cases as well.
         #[arg(long)]
         full: bool,
         /// Run only cases whose name matches.
         #[arg(long, value_name = "GLOB")]
         case: Option<String>,
     },
-    /// Checks what the compiler and clippy do not.
+    /// Runs checks that the compiler and clippy do not make.
     Tidy,
-    /// Makes each planted defect in a copy of the tree, and shows which claims notice it.
+    /// Applies each planted defect to a copy of the tree and prints the claims that detect it.
     Defects {
         /// Only defects with this in their names.
         #[arg(value_name = "PART")]
         only: Option<String>,
-        /// Run only the cases that a defect names, and not the quick suite where these do not notice it.
+        /// Run only the cases that a defect names, even if these do not detect it.
         #[arg(long)]
         expected: bool,
-        /// Run the tests of the workspace, too.
+        /// Run the tests of the workspace as well.
         #[arg(long)]
         tests: bool,
-        /// Run defects again that were noticed before.
+        /// Rerun defects that were detected before.
         #[arg(long)]
         again: bool,
     },
-    /// Writes the benchmarks that others can enter: reference values, entries and pages, or an archive of them.
+    /// Writes the community benchmarks: reference values, entries and pages, or an archive of them.
     Benchmarks {
         /// Only benchmarks with this in their names.
         #[arg(value_name = "PART")]
         only: Option<String>,
-        /// Run nothing: only the files that follow from reference values and results.
+        /// Run nothing: write only files derived from reference values and results.
         #[arg(long)]
         pages: bool,
-        /// Write an archive of all files there instead, the same bytes for the same files.
+        /// Write a reproducible archive of all files instead.
         #[arg(long, value_name = "FILE.tar", conflicts_with_all = ["only", "pages"])]
         archive: Option<PathBuf>,
     },
     /// Runs the benches.
     Bench,
-    /// Says where the last verification report is, and what it says.
+    /// Prints the path and summary of the last verification report.
     Report,
     /// Builds the book.
     Docs,
-    /// Checks the outputs of a run with their real readers, in a Python environment of its own.
+    /// Checks the outputs of a run with common readers, in a separate Python environment.
     Interop,
 }
 
@@ -100,7 +100,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// The workspace: the parent of this package.
+/// Root of the workspace: the parent folder of this package.
 fn root() -> PathBuf {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     package.parent().unwrap_or(package).to_owned()

@@ -38,7 +38,7 @@ struct Walls {
     case: f64,
 }
 
-/// Prints where the report is and what it says.
+/// Prints the path of the report and its summary.
 pub fn print(root: &Path) -> Result<(), Failure> {
     let path = root.join("target/verify/report.json");
     if !path.exists() {

@@ -1,4 +1,4 @@
-//! Running commands, one announced stage after another.
+//! Stages: commands that run one after another, each announced.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -6,40 +6,40 @@ use std::process::{Command, Stdio};
 /// Reason why a chore failed.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
-    /// A command ended with an error; its own words stand above.
+    /// A command ended with an error; its own messages precede this one.
     #[error("stage `{stage}` failed{}", .code.map_or(String::new(), |code| format!(" with exit code {code}")))]
     Stage {
-        /// Which stage.
+        /// Name of the stage.
         stage: String,
-        /// The exit code, when it was not a signal.
+        /// Exit code; `None` if a signal ended it.
         code: Option<i32>,
     },
     /// A command could not be started.
     #[error("cannot start `{program}`: {source}")]
     Start {
-        /// Which program.
+        /// Program.
         program: String,
         /// Reason.
         source: std::io::Error,
     },
-    /// tidy found something.
+    /// Tidy found errors.
     #[error("tidy found {errors} errors")]
     Tidy {
-        /// Number.
+        /// Number of errors.
         errors: usize,
     },
-    /// A program this chore needs is not there.
+    /// A program that the chore needs was not found.
     #[error("`{program}` is needed and was not found; get it with: {how}")]
     Missing {
-        /// Which.
+        /// Program.
         program: &'static str,
-        /// Way to get it.
+        /// Command that installs it.
         how: &'static str,
     },
-    /// A file this chore needs is not there or cannot be read.
+    /// A file that the chore needs is missing or cannot be read.
     #[error("cannot read {}: {source}", .path.display())]
     Read {
-        /// Which.
+        /// File.
         path: PathBuf,
         /// Reason.
         source: std::io::Error,
@@ -47,45 +47,45 @@ pub enum Failure {
     /// A file cannot be written.
     #[error("cannot write {}: {source}", .path.display())]
     Write {
-        /// Which.
+        /// File.
         path: PathBuf,
         /// Reason.
         source: std::io::Error,
     },
-    /// A result that must exist first.
+    /// A result that must exist first is missing.
     #[error("{} does not exist; make it with: {how}", .path.display())]
     Absent {
-        /// Which.
+        /// File.
         path: PathBuf,
-        /// Way to make it.
+        /// Command that makes it.
         how: &'static str,
     },
-    /// A result file that is not what it should be.
+    /// A result file is not a report.
     #[error("{} is not a report: {source}", .path.display())]
     Report {
-        /// Which.
+        /// File.
         path: PathBuf,
         /// Reason.
         source: serde_json::Error,
     },
-    /// A planted defect that is none.
+    /// A planted defect is invalid.
     #[error("defect `{name}`: {reason}")]
     Defect {
-        /// Its name.
+        /// Name of the defect.
         name: String,
         /// Reason.
         reason: String,
     },
-    /// Cargo's description of the workspace.
+    /// Cargo could not describe the workspace.
     #[error("cargo metadata: {0}")]
     Metadata(#[from] cargo_metadata::Error),
-    /// Walking the tree.
+    /// The tree could not be walked.
     #[error("cannot walk the workspace: {0}")]
     Walk(#[from] walkdir::Error),
 }
 
 impl Failure {
-    /// The exit code to pass on: the command's own where there is one.
+    /// Exit code to pass on: that of the command if there is one.
     pub fn code(&self) -> u8 {
         match self {
             Failure::Stage { code: Some(code), .. } => {
@@ -96,7 +96,7 @@ impl Failure {
     }
 }
 
-/// One command with a name.
+/// A named command.
 pub struct Stage {
     name: String,
     program: PathBuf,
@@ -104,7 +104,7 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// A stage that starts `program`. `cargo` means the one that started us.
+    /// A stage that starts `program`. `cargo` means the cargo that started this process.
     pub fn new(name: &str, program: impl Into<PathBuf>) -> Stage {
         let program = program.into();
         let own = std::env::var_os("CARGO").filter(|_| program == Path::new("cargo"));
@@ -117,7 +117,7 @@ impl Stage {
         self
     }
 
-    /// Runs it in `folder`, its output going where ours goes.
+    /// Runs the command in `folder`; it inherits standard output and error.
     pub fn run(self, folder: &Path) -> Result<(), Failure> {
         announce(&self.name);
         let program = self.program.display().to_string();
@@ -130,7 +130,7 @@ impl Stage {
     }
 }
 
-/// Prints the head of a stage.
+/// Prints the heading of a stage.
 pub fn announce(name: &str) {
     println!("\n== {name} ==");
 }

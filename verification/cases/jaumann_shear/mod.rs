@@ -34,7 +34,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     plot(ledger)
 }
 
-/// The stress after simple shear to `gamma` in equal steps, and what remains of s_xx + s_yy.
+/// Stress after simple shear to `gamma` in equal steps, the error of s_xx + s_yy = 0, and the work.
 fn sheared(material: Material, gamma: f64, steps: usize) -> Result<(Pair, f64, Work), CaseError> {
     let mesh = body::grid::<2>(ElementKind::Quad4, [0.0; 2], [1.0; 2], [2; 2])?;
     let mesh = body::distorted(mesh, [1.0; 2], 0.5, 0.2);
@@ -118,7 +118,7 @@ fn elastic(ledger: &mut Ledger) -> Result<(), CaseError> {
 fn exact_perfect(gamma: f64) -> Pair {
     let first = 2.0 * (0.5 * RHO).asin();
     let (s, q) = ((1.0 - RHO * RHO).sqrt(), ((1.0 + RHO) / (1.0 - RHO)).sqrt());
-    // Arg of 1 - exp(-i gamma) is pi/2 - gamma/2.
+    // The argument of 1 - exp(-i gamma) is pi/2 - gamma/2.
     let start = q * (0.5 * (0.5 * std::f64::consts::PI - 0.5 * first)).tan();
     let line = (1.0 / start).atanh() + 0.5 * s * (gamma - first) / RHO;
     let phi = 2.0 * (1.0 / (q * line.tanh())).atan();
@@ -205,7 +205,7 @@ impl Problem for Flow {
     }
 }
 
-/// Keeps nothing.
+/// A sink that records nothing.
 struct Silent;
 
 impl Sink for Silent {
@@ -218,7 +218,7 @@ impl Sink for Silent {
     }
 }
 
-/// Tolerance of the reference: three digits below the bounds that use it.
+/// Tolerance of the reference, three orders of magnitude below the bounds that use it.
 const TIGHT: f64 = 1e-13;
 
 fn integrated(modulus: f64, gamma: f64) -> Result<Pair, CaseError> {

@@ -36,7 +36,7 @@ struct Radial {
 }
 
 impl Radial {
-    /// Lamé's cylinder, of which the mesh spans `along` coordinates.
+    /// Lamé's cylinder, with its radius in the first `along` coordinates.
     fn cylinder(along: usize) -> Self {
         let c = (1.0 + POISSON) * PRESSURE * A * A / (YOUNG * (B * B - A * A));
         Self { a: c * (1.0 - 2.0 * POISSON), b: c * B * B, m: 2, along }
@@ -66,21 +66,21 @@ impl<const D: usize> Field<D> for Radial {
     }
 }
 
-/// From the unit square to a quarter ring. Positions on the axes are exact.
+/// Maps the unit square to a quarter ring. Positions on the axes are exact.
 fn polar(x: &[f64; 2]) -> [f64; 2] {
     let r = A + (B - A) * x[0];
     let (sine, cosine) = (FRAC_PI_2 * x[1]).sin_cos();
     [if x[1] == 1.0 { 0.0 } else { r * cosine }, r * sine]
 }
 
-/// From the unit cube to a sector of a shell: directions (1, tan α, tan β), 0 < α, β < π/4.
+/// Maps the unit cube to a sector of a shell, with directions (1, tan α, tan β), 0 < α, β < π/4.
 fn shell(x: &[f64; 3]) -> [f64; 3] {
     let direction = [1.0, (FRAC_PI_4 * x[1]).tan(), (FRAC_PI_4 * x[2]).tan()];
     let length = direction.iter().map(|d| d * d).sum::<f64>().sqrt();
     direction.map(|d| (A + (B - A) * x[0]) * d / length)
 }
 
-/// Presses on the inner surface.
+/// Applies the pressure on the inner surface.
 fn pressed<const D: usize>(body: Body<D>) -> Body<D> {
     // The normal points out of the body, into the hole.
     body.load(&["left"], |point, t| t.iter_mut().zip(&point.normal).for_each(|(t, n)| *t = -PRESSURE * n))

@@ -67,7 +67,8 @@ fn circle(ledger: &mut Ledger) -> Result<(), CaseError> {
             .cost(&cost.counts(&body.work))
             .record();
     }
-    // What the plainest rule, s + (w s - s w), would leave: the deviator grows by sqrt(1 + 4 d^2) a step, d the angle.
+    // Drift of the simplest update, s + (w s - s w): the deviator grows by sqrt(1 + 4 d^2) a step, where d is the angle
+    // of the step.
     let plain: Vec<(f64, f64)> = drifts
         .iter()
         .map(|(degrees, _)| {
@@ -125,8 +126,8 @@ fn forces(ledger: &mut Ledger) -> Result<(), CaseError> {
 /// Stretch of the strip.
 const STRETCH: f64 = 0.02;
 
-/// A strip stretched between its grips, then turned by 90 degrees in `steps` forward steps; the largest error of the stress over
-/// the largest stress.
+/// Stretches a strip between its grips and turns it by 90 degrees in `steps` forward steps. Returns the largest error
+/// of the stress over the largest stress.
 fn strip(steps: usize, carry: bool) -> Result<(f64, Cost), CaseError> {
     let mesh = body::grid::<2>(ElementKind::Quad4, [0.0; 2], [2.0, 1.0], [4, 2])?;
     let mesh = body::distorted(mesh, [2.0, 1.0], 0.5, 0.2);
@@ -172,7 +173,8 @@ fn turning(ledger: &mut Ledger, carry: bool) -> Result<(), CaseError> {
         levels.push((90.0 / steps as f64, error));
         last = cost;
     }
-    // Each step asks the free nodes to follow chords with tangents: a misfit strain of half the square of the angle.
+    // In each step the grips follow chords of their circles and the free nodes tangents: a misfit strain of half the
+    // square of the angle.
     let angle = FRAC_PI_2 / 720.0;
     let misfit = 0.5 * angle * angle / STRETCH;
     let (order, bound, because) = if carry {

@@ -1,4 +1,4 @@
-//! Linear viscoelasticity: exact at constant strain rate, of order 2 otherwise.
+//! Linear viscoelasticity: exact at constant strain rate, second order otherwise.
 
 mod sheet;
 
@@ -26,7 +26,7 @@ const BULK: f64 = YOUNG / (3.0 * (1.0 - 2.0 * POISSON));
 const SHEAR: f64 = YOUNG / (2.0 * (1.0 + POISSON));
 const VISCOSITY: f64 = 1.7;
 const TIME: f64 = VISCOSITY / SHEAR;
-/// Share of the branch of the standard linear solid, and its relaxation time.
+/// Share of the Maxwell branch in the stiffness of the standard linear solid, and its relaxation time.
 const SHARE: f64 = 0.6;
 const SOLID_TIME: f64 = 0.9 / (SHARE * SHEAR);
 
@@ -71,7 +71,7 @@ fn driven(
     Ok(([s[3], (s[0] + s[1] + s[2]) / 3.0], body.work))
 }
 
-/// Makes a material.
+/// A constructor of a material.
 type Make<'a> = &'a dyn Fn() -> Result<Material, CaseError>;
 
 fn strains(ledger: &mut Ledger) -> Result<(), CaseError> {

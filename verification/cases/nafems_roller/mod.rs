@@ -1,4 +1,4 @@
-//! A roller whose contact is an eighth of its radius.
+//! A roller with a contact half-width of an eighth of its radius.
 
 use super::hertz::{self, Hertz, compliance};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -33,7 +33,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
         let done = hertz::simulate(&scene)?;
         settings.push(format!("{:?}", scene.interfaces));
         let at = done.tractions("press")?;
-        // Half of the roller.
+        // The model is half of the roller.
         let load = 2.0 * at.load[1];
         let exact = Hertz::line(load, 0.05, compliance([(210e9, 0.3), (70e9, 0.3)]));
         let fit = at.ellipse(exact.a);

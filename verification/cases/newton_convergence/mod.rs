@@ -1,4 +1,4 @@
-//! Newton's method converges quadratically, as it does only with the exact tangent.
+//! Quadratic convergence of Newton's method, which needs the exact tangent.
 
 use super::texts::{Done, simulate};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -16,10 +16,10 @@ pub const CASE: Case = Case {
 
 /// Residual below which an iteration is near the solution.
 const NEAR: f64 = 0.1;
-/// Residual below which rounding may have a part in it.
+/// Residual below which rounding may affect it.
 const ROUNDING: f64 = 1e-12;
 
-/// A scene and the constant below which its iterations are quadratic.
+/// A scene and the bound on the constant of its quadratic convergence.
 struct Nonlinear {
     name: &'static str,
     scene: SceneText,
@@ -47,7 +47,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Residual over the square of that before, of the last iteration of a step that is near the solution and above rounding.
+/// Residual over the square of the previous one, for the last iteration of a step that is near the solution and above
+/// rounding.
 fn constant(step: &StepRecord) -> Option<f64> {
     let pairs = step.residuals.iter().zip(step.residuals.iter().skip(1));
     pairs
@@ -78,9 +79,9 @@ fn claims(ledger: &mut Ledger, case: &Nonlinear, median: f64, steps: usize, done
         .record();
 }
 
-/// Reason for the bound where strains and gaps are nonlinear by geometry.
+/// Reason for the bound where strains and gaps are geometrically nonlinear.
 const GEOMETRY: &str = "the second derivative of the forces, times a displacement of the size of a cell, is of the size of the forces";
-/// Reason for the bound under friction of rate.
+/// Reason for the bound under rate-dependent friction.
 const RATE: &str = "friction changes e-fold over a/F of its size, here 1/60, so that its second derivative over its first is 60 times larger";
 
 fn scenes() -> Vec<Nonlinear> {
@@ -107,7 +108,7 @@ fn scenes() -> Vec<Nonlinear> {
     ]
 }
 
-/// A die drawn over a slab in steps longer than a cell.
+/// A die dragged over a slab in steps longer than a cell.
 fn ironing() -> SceneText {
     SceneText::new(include_str!("../../../scenes/ironing.toml"))
         .with("bodies.slab.mesh.block.divisions", "[36, 5]")
@@ -116,7 +117,7 @@ fn ironing() -> SceneText {
         .with("stages[1].steps", 12)
 }
 
-/// Penalties so low that gaps are large.
+/// The scene with penalties so low that gaps are large.
 fn soft(scene: SceneText) -> SceneText {
     scene.with(
         "interfaces.contact.enforcement",

@@ -1,4 +1,4 @@
-//! Nodes and stresses of bodies in field files, in the order that VTK gives them.
+//! Nodes and stresses of bodies in field files, in VTK's order.
 
 use super::vtu::Fields;
 use crate::cases::written::{self, Folder};
@@ -6,7 +6,7 @@ use crate::{Capability, CaseError, Cost, Evidence, Ledger};
 use nalgebra::Vector3;
 use serde_json::Value;
 
-/// Elements, with the number of components that a stress has in their space.
+/// Elements with their number of space dimensions.
 const ELEMENTS: [(&str, usize); 12] = [
     ("tri3", 2),
     ("quad4", 2),
@@ -23,16 +23,16 @@ const ELEMENTS: [(&str, usize); 12] = [
 ];
 /// Sizes of the block \[m\].
 const SIZES: [f64; 3] = [2.0, 3.0, 5.0];
-/// Stress of the block, by VTK's names \[MPa\].
+/// Stress of the block, by VTK's component names \[MPa\].
 const STRESS: [(&str, f64); 6] =
     [("XX", -11.0), ("YY", -17.0), ("ZZ", -23.0), ("XY", 3.0), ("YZ", 5.0), ("XZ", 7.0)];
-/// Order and parametric coordinates of nodes, asked of VTK.
+/// Order and parametric coordinates of nodes, as VTK reports them.
 const VTK: &str = include_str!("../../independent/vtk_cells.json");
-/// The program that asked.
+/// Source of [`VTK`].
 const SOURCE: &str =
     "vtk_cells.py: parametric coordinates of nodes and principal values of tensors, of VTK 9.7.2";
 
-/// A block that is held at all its sides, under a uniform initial stress.
+/// A block held on all sides under a uniform initial stress.
 fn scene(element: &str, space: usize) -> String {
     let list = |values: &[f64]| values.iter().map(|v| format!("{v:?}")).collect::<Vec<_>>().join(", ");
     let stress: Vec<String> = if space == 2 {
@@ -63,7 +63,7 @@ fn scene(element: &str, space: usize) -> String {
     )
 }
 
-/// Largest distance of a node from the place that its parametric coordinates give it between the corners \[m\].
+/// Largest distance of a node from the position that its parametric coordinates give between the corners \[m\].
 fn strays(fields: &Fields, vtk: &Value) -> Result<f64, CaseError> {
     let points: Vec<Vector3<f64>> =
         fields.array("Points")?.values.chunks_exact(3).map(Vector3::from_column_slice).collect();
@@ -89,7 +89,7 @@ fn strays(fields: &Fields, vtk: &Value) -> Result<f64, CaseError> {
     Ok(worst)
 }
 
-/// Largest error of a component of stress in the cells \[Pa\], by the name that VTK gives its place, and by the name in the file.
+/// Largest error of a stress component in the cells \[Pa\], taking components by VTK's order and by their names in the file.
 fn stresses(fields: &Fields, vtk: &Value, space: usize) -> Result<f64, CaseError> {
     let order: Vec<String> = serde_json::from_value(vtk["symmetric_tensor"].clone())?;
     let array = fields.array("stress")?;
@@ -100,7 +100,7 @@ fn stresses(fields: &Fields, vtk: &Value, space: usize) -> Result<f64, CaseError
     let mut worst = 0.0_f64;
     for tuple in array.values.chunks_exact(order.len()) {
         for ((value, by_place), by_name) in tuple.iter().zip(&order).zip(&array.components) {
-            // In the plane only three components are given; the others have no reference here.
+            // The plane scene sets only three components; the others have no reference here.
             if space == 3 || matches!(by_place.as_str(), "XX" | "YY" | "XY") {
                 worst = worst.max((value - of(by_place)).abs()).max((value - of(by_name)).abs());
             }

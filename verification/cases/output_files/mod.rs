@@ -1,4 +1,4 @@
-//! Files of runs in formats of others: stations of the SEAS community, fields for VTK.
+//! Output files in formats of other communities: SEAS stations and VTK fields.
 
 mod fields;
 mod vtu;
@@ -20,18 +20,20 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     fields::claims(ledger)
 }
 
-/// Files of the stations, and distance along the fault of the points nearest to what the scene asks for \[km\].
+/// Station files, and distance along the fault of the points nearest to the requested stations \[km\].
 const STATIONS: [(&str, f64); 4] =
     [("main_dp002", 0.0), ("main_dp021", 2.0), ("main_dp047", 4.5), ("main_dp066", 6.5)];
-/// Direct effect and evolution effect, coefficient and slip rate of reference \[m/s\], characteristic slip \[m\].
+/// a, b, reference friction, reference slip rate \[m/s\], characteristic slip distance \[m\].
 const LAW: [f64; 5] = [0.015, 0.02, 0.6, 1e-6, 0.04];
 /// Slip rate at the start \[m/s\].
 const RATE: f64 = 1e-9;
 
-/// Traction along z on the fault \[Pa\]: its normal from left to right is (4/5, 3/5), and the stress yz = 10 MPa, zx = 25 MPa.
+/// Traction along z on the fault \[Pa\]: its normal from left to right is (4/5, 3/5), and the stress yz = 10 MPa, zx =
+/// 25 MPa.
 const RESOLVED: f64 = 25e6 * 0.8 + 10e6 * 0.6;
 
-/// log10 of the state \[s\] with which friction resists the resolved traction under this normal traction \[Pa\] at the slip rate.
+/// log10 of the state \[s\] at which friction balances the resolved traction, under this normal traction \[Pa\] and at
+/// slip rate [`RATE`].
 fn state(normal: f64) -> f64 {
     let [a, b, mu0, v_ref, l] = LAW;
     // f = a asinh(V/(2 V0) exp((mu0 + b ln(V0 theta/L))/a)).
@@ -39,7 +41,7 @@ fn state(normal: f64) -> f64 {
     ((potential - mu0) / b).exp().log10() + (l / v_ref).log10()
 }
 
-/// First rows of stations.
+/// Claims about the first rows of stations.
 fn stations(ledger: &mut Ledger) -> Result<(), CaseError> {
     let done = Written::of(include_str!("station.toml"))?;
     let normal = |along: f64| 40e6 + 2e6 * along;

@@ -1,7 +1,8 @@
-//! Field files, read without the code that writes them.
+//! Reader of field files that shares no code with the writer.
 //!
-//! An array of the appended section has a head of words of eight bytes: the number of blocks, two sizes, and the compressed
-//! size of each block. The blocks follow as zlib streams. Head and blocks are each in base64.
+//! An array of the appended section starts with a header of eight-byte words: the number of blocks, two sizes, and the
+//! compressed size of each block. The blocks follow as zlib streams. Header and blocks are encoded in base64
+//! separately.
 
 use crate::CaseError;
 use base64::Engine;
@@ -9,13 +10,13 @@ use base64::engine::general_purpose::STANDARD;
 use flate2::read::ZlibDecoder;
 use std::io::Read as _;
 
-/// Bytes of a word.
+/// Bytes in a word.
 const WORD: usize = 8;
 
 /// An array of a file.
 pub struct Array {
     name: String,
-    /// Names of components, where the file has them.
+    /// Names of components, if the file gives them.
     pub components: Vec<String>,
     /// Values, tuple by tuple.
     pub values: Vec<f64>,
@@ -24,7 +25,7 @@ pub struct Array {
 /// The arrays of a field file.
 pub struct Fields(Vec<Array>);
 
-/// Characters of base64 that hold so many bytes.
+/// Number of base64 characters that encode `bytes` bytes.
 fn characters(bytes: usize) -> usize {
     bytes.div_ceil(3) * 4
 }
@@ -35,14 +36,14 @@ fn attribute<'a>(line: &'a str, key: &str) -> Option<&'a str> {
     Some(rest.split_once('"')?.0)
 }
 
-/// Words from their text.
+/// Decodes words from base64.
 fn words(text: &str) -> Result<Vec<usize>, CaseError> {
     let bytes = STANDARD.decode(text)?;
     let word = |w: &[u8]| Ok(usize::try_from(u64::from_le_bytes(w.try_into()?))?);
     bytes.chunks_exact(WORD).map(word).collect()
 }
 
-/// Bytes of an array.
+/// Decoded and decompressed bytes of an array.
 fn decode(text: &str) -> Result<Vec<u8>, CaseError> {
     let cut = |from: usize, length: usize| text.get(from..from + length).ok_or("the file ends early");
     let blocks = *words(cut(0, characters(3 * WORD))?)?.first().ok_or("no head")?;
@@ -58,7 +59,7 @@ fn decode(text: &str) -> Result<Vec<u8>, CaseError> {
     Ok(out)
 }
 
-/// Numbers of an array of this type.
+/// Numbers of an array of this VTK type.
 fn numbers(kind: &str, bytes: &[u8]) -> Result<Vec<f64>, CaseError> {
     match kind {
         "Float64" => bytes.chunks_exact(WORD).map(|b| Ok(f64::from_le_bytes(b.try_into()?))).collect(),
@@ -72,7 +73,7 @@ impl Fields {
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// If it is none of a grid with appended arrays.
+    /// If it is not a grid with appended arrays.
     pub fn read(text: &str) -> Result<Self, CaseError> {
         let (head, appended) =
             text.split_once("<AppendedData encoding=\"base64\">\n_").ok_or("no appended data")?;
@@ -91,7 +92,7 @@ impl Fields {
         Ok(Self(lines.map(array).collect::<Result<_, _>>()?))
     }
 
-    /// Array of this name.
+    /// Array with this name.
     ///
     /// # Errors
     /// If there is none.
@@ -99,7 +100,7 @@ impl Fields {
         self.0.iter().find(|a| a.name == name).ok_or_else(|| format!("no array {name}").into())
     }
 
-    /// Numbers of an array that counts or points.
+    /// Values of an array of integers.
     ///
     /// # Errors
     /// If there is none.

@@ -1,4 +1,4 @@
-//! Cattaneo and Mindlin: a pressed line contact under shear, sticking in the middle and slipping at its edges.
+//! Cattaneo-Mindlin problem: a pressed line contact under shear, which sticks in the middle and slips at its edges.
 
 use super::hertz::{self, Done, Hertz, Tractions, compliance};
 use crate::{Capability, Case, CaseError, Evidence, Ledger, Plot, Series};
@@ -66,7 +66,7 @@ fn scene(n: f64, measure: Measure) -> Result<Scene, CaseError> {
     Ok(hertz::measured(hertz::refined(hertz::sheared()?, n / N), measure, Sliding::Small))
 }
 
-/// Shear tractions along x, in which the cylinder is drawn: the tangent of the flat below it points along -x.
+/// Shear tractions along x, the direction in which the cylinder is pulled: the tangent of the flat below it points along -x.
 fn along_x(mut at: Tractions) -> Tractions {
     at.q.iter_mut().for_each(|q| *q = -*q);
     at
@@ -93,7 +93,7 @@ impl Sheared {
         self.at.l2(&self.at.q, self.exact.a, |x| self.exact.shear(x, MU, self.c))
     }
 
-    /// Ends of the interval in which the edge of the stick zone lies: the last node that sticks and the next.
+    /// Interval that contains the edge of the stick zone: positions of the last sticking node and the next one.
     fn edge(&self) -> [f64; 2] {
         let k = self.at.status.iter().rposition(|s| *s == 1).unwrap_or(0);
         [self.at.x[k], self.at.x.get(k + 1).copied().unwrap_or(f64::NAN)]
@@ -157,7 +157,7 @@ fn claims(ledger: &mut Ledger, name: &str, r: &Sheared) {
         .unit("N/mm")
         .value(carried * 1e-3)
         .equals(r.at.load[0] * 1e-3)
-        // The flank of the parabola inclines the tractions of the end of contact by 0.01 rad against the load.
+        // The flank of the parabola inclines the tractions at the edge of contact by 0.01 rad to the load.
         .relative(1e-3)
         .evidence(Evidence::Exact, "balance of the upper body")
         .because("tractions lie along the curved side, inclined by up to a/R = 0.01: 1 - cos of it, and its sine times the asymmetry of p")
@@ -166,7 +166,7 @@ fn claims(ledger: &mut Ledger, name: &str, r: &Sheared) {
         .record();
 }
 
-/// Shear tractions over those of Cattaneo and Mindlin, with the limit of friction.
+/// Plots shear tractions with those of Cattaneo and Mindlin and the friction limit.
 fn overlay(ledger: &mut Ledger, runs: &[(&str, Sheared)]) {
     let mut plot = Plot::xy("Shear traction over Cattaneo and Mindlin", "x/a [-]", "q/(mu p0) [-]");
     for (name, r) in runs {
@@ -188,7 +188,7 @@ fn overlay(ledger: &mut Ledger, runs: &[(&str, Sheared)]) {
     ledger.plot(plot.caption("At the loads of the run; between the horns the contact sticks."));
 }
 
-/// One step, four, forty: while the load grows, slip goes one way and the answer does not depend on the steps.
+/// Runs of one, four and forty steps: while the load grows, slip is monotonic and the solution does not depend on the steps.
 fn steps(ledger: &mut Ledger) -> Result<(), CaseError> {
     let run = |steps: usize| -> Result<Sheared, CaseError> {
         let mut scene = scene(10.0, Measure::Mortar)?;
@@ -212,7 +212,7 @@ fn steps(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Sheared back to 1 micrometre: slip of the other sense at the edges inside the former slip zone.
+/// Reversal of shear to 1 micrometre: reverse slip at the edges within the former slip zone.
 fn reversal(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (name, measure) in MEASURES {
         let mut scene = scene(N, measure)?;
@@ -228,7 +228,7 @@ fn reversal(ledger: &mut Ledger) -> Result<(), CaseError> {
         let part = |q: f64| exact.a * (1.0 - q / (MU * at.load[1])).max(0.0).sqrt();
         let (c, back) = (part(loaded.load[0]), part(0.5 * (loaded.load[0] - at.load[0])));
         let shear = |x: f64| exact.shear(x, MU, c) - 2.0 * exact.shear(x, MU, back);
-        // Over the norm of the traction under full load: what is left of it after the reversal is small.
+        // Errors are taken over the norm of the traction under full load, since little traction remains after the reversal.
         let norm = |f: &dyn Fn(f64) -> f64| -> f64 {
             at.x.iter().zip(&at.area).map(|(x, a)| a * f(*x).powi(2)).sum::<f64>().sqrt()
         };

@@ -1,4 +1,4 @@
-//! Runs that are interrupted as often as possible and resumed leave the files of runs that were not interrupted.
+//! Runs interrupted as often as possible and resumed: they write the same files as uninterrupted runs.
 
 mod scenes;
 mod sliders;
@@ -23,12 +23,12 @@ pub const CASE: Case = Case {
 const COMPLETED: i32 = 0;
 /// Exit code of a run that was interrupted.
 const INTERRUPTED: i32 = 3;
-/// Interruptions after which a run makes no progress.
+/// Number of interruptions after which a run is taken to make no progress.
 const MOST: usize = 1000;
 
-/// A run in parts, beside the whole one.
+/// Comparison of an interrupted run with the uninterrupted one.
 pub struct Parts {
-    /// Name on the page.
+    /// Name on the report page.
     name: &'static str,
     /// Number of interruptions.
     interruptions: usize,
@@ -36,7 +36,7 @@ pub struct Parts {
     differing: Vec<PathBuf>,
     /// Number of files.
     files: usize,
-    /// Cost of the whole run.
+    /// Cost of the uninterrupted run.
     cost: Cost,
 }
 
@@ -57,7 +57,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Runs a scene whole, and then a step at a time.
+/// Runs a scene without interruption, and then one step at a time.
 fn in_parts(scene: &Interrupted, folder: &Path) -> Result<Parts, CaseError> {
     std::fs::create_dir_all(folder)?;
     let (file, whole, parts) = (folder.join("scene.toml"), folder.join("whole"), folder.join("parts"));

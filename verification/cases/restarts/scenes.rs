@@ -1,4 +1,4 @@
-//! Scenes of every kind of run that keeps something from step to step.
+//! Scenes of every kind of run that carries state from step to step.
 
 use crate::CaseError;
 use asperity_vary::Change::{self, Add, With, Without};
@@ -6,13 +6,13 @@ use asperity_vary::SceneText;
 
 /// A scene that is run with interruptions.
 pub struct Interrupted {
-    /// Name on the page.
+    /// Name on the report page.
     pub name: &'static str,
     /// Text.
     pub text: String,
 }
 
-/// Points that slide by less than a cell.
+/// Small sliding: points slide by less than a cell.
 const SMALL: [Change<'_>; 2] =
     [With("interfaces.contact.sliding", "small"), With("stages[1].conditions[0].x", r#"{ to = "0.002 m" }"#)];
 const AGEING: Change<'_> = With(

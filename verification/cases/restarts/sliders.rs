@@ -1,4 +1,4 @@
-//! Spring-sliders, whose restarts are too far apart for the small runs of a case: they are run with restarts close together.
+//! Spring-sliders with frequent restarts: the program's own are too far apart for the small runs of a case.
 
 use super::Parts;
 use crate::cases::programs::{self, Folder};
@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 
 /// Accepted steps between restarts.
 const STEPS: u64 = 50;
-/// A second block on a spring to the first one.
+/// A second block, coupled to the first by a spring.
 const CHAIN: [Change<'_>; 2] = [
     Add(
         "sliders.far",
@@ -31,7 +31,7 @@ const JUMPS: Change<'_> = With(
 );
 const MASS: Change<'_> = Add("sliders.block.mass", "3000 kg/m^2");
 
-/// Runs sliders whole and in parts.
+/// Runs sliders with and without interruption.
 ///
 /// # Errors
 /// If a run fails.
@@ -63,8 +63,8 @@ fn in_parts(name: &'static str, problem: &Problem) -> Result<Parts, CaseError> {
     Ok(Parts { name, interruptions, differing, files: programs::files(&whole)?.len(), cost })
 }
 
-/// Runs the next part of a run into `out`: until the next restart, or to its end without a limit of wall time. Returns true if it
-/// was interrupted.
+/// Runs the next part of a run into `out`: up to the next restart, or to its end if there is no limit of wall time.
+/// Returns true if it was interrupted.
 fn part(problem: &Problem, out: &Path, wall: Option<Duration>) -> Result<bool, CaseError> {
     let pauses = || Pauses {
         every: Duration::MAX,

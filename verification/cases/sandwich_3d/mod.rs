@@ -1,4 +1,4 @@
-//! A layer of the sandwich held in z is plane strain; and results do not depend on the number of threads.
+//! A layer of the sandwich held in z reproduces plane strain, and results do not depend on the number of threads.
 
 use super::sandwich::{self, Run, Scene};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -32,7 +32,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     threads(ledger)
 }
 
-/// Largest difference of a field between the layer and the plane, node by node in y, over the largest value.
+/// Largest difference of a field between the layer and the plane model at nodes of equal y, over the largest value.
 fn difference(
     two: &Run,
     three: &Run,
@@ -68,7 +68,7 @@ fn layer(ledger: &mut Ledger, two: &Run, three: &Run, cost: &Cost) -> Result<(),
     Ok(())
 }
 
-/// The same scene on one and on two threads.
+/// Runs the same scene on one thread and on two.
 fn threads(ledger: &mut Ledger) -> Result<(), CaseError> {
     let scene: Scene = sandwich::equal_steps(sandwich::size(sandwich::base()?, 1.25), 60);
     let with = |n: usize| -> Result<(Run, usize), CaseError> {

@@ -146,7 +146,7 @@ fn converging(ledger: &mut Ledger, variant: &Variant) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Friction acts in stage 1 as well.
+/// The variant with friction in stage 1 as well.
 fn frictional(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (h, reference) in [(1.25, 9.50709), (0.625, 9.499566)] {
         let mut scene = sandwich::frictional(sandwich::size(sandwich::base()?, h));

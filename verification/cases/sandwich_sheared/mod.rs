@@ -33,8 +33,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     penalties(ledger)
 }
 
-/// Slip at three heights, and its histories while the time step is refined until it no longer matters. Final slip itself
-/// does not depend on the history, since all points end in block sliding; its time error is rounding.
+/// Slip at three heights, and slip histories as the time step is refined to convergence. Final slip does not depend on
+/// the history, since all points end in block sliding; its time error is rounding.
 fn refine_in_time(ledger: &mut Ledger) -> Result<Run, CaseError> {
     let times: Vec<f64> = (1..=10).map(|k| PRESSED + 5.0 * f64::from(k)).collect();
     let nodes = |run: &Run| HEIGHTS.iter().map(|&y| run.node_at(y)).collect::<Result<Vec<_>, _>>();
@@ -91,7 +91,7 @@ fn refine_in_time(ledger: &mut Ledger) -> Result<Run, CaseError> {
     Ok(fine)
 }
 
-/// Limit of every point.
+/// Limit that every point approaches at late time.
 fn late_time(ledger: &mut Ledger, fine: &Run) -> Result<(), CaseError> {
     let end = fine.end("shear")?;
     let steady = MU0 + A * (V_LOAD / 1e-6_f64).ln();
@@ -153,7 +153,7 @@ fn late_time(ledger: &mut Ledger, fine: &Run) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Quantities the corner makes mesh-dependent, against the same discretisation of the independent solver.
+/// Quantities that the corner makes mesh-dependent, against the independent solver on the same mesh.
 fn meshes(ledger: &mut Ledger, base: &Run) -> Result<(), CaseError> {
     let mut spreads = Vec::new();
     let mut onsets = Vec::new();
@@ -202,7 +202,7 @@ fn onset(run: &Run) -> f64 {
     (times[k - 1] + s * (times[k] - times[k - 1]) - PRESSED) * V_LOAD
 }
 
-/// Young's modulus cancels when the penalties scale with it.
+/// Claim that Young's modulus cancels when the penalties scale with it.
 fn young_cancels(ledger: &mut Ledger) -> Result<(), CaseError> {
     let steps = 200;
     let one = sandwich::simulate(&sandwich::equal_steps(sandwich::base()?, steps))?;

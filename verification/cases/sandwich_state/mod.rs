@@ -1,4 +1,4 @@
-//! A laboratory block that sticks and slips, drawn by a machine of finite stiffness.
+//! Stick-slip of a laboratory block pulled by a machine of finite stiffness.
 
 use crate::cases::seas::{self, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -34,7 +34,7 @@ pub(crate) fn block(size: f64, events: usize) -> Result<Plan, CaseError> {
     read(&scene.text()?, events)
 }
 
-/// The same with L = 10 um and a soft machine: all of the face slides together.
+/// The same with L = 10 um and a soft machine: the whole face slides together.
 pub(crate) fn small_block(events: usize) -> Result<Plan, CaseError> {
     let scene = SceneText::new(SCENE)
         .with("faults.face.law.l", "10 um")
@@ -49,7 +49,7 @@ fn read(text: &str, events: usize) -> Result<Plan, CaseError> {
     Ok(plan)
 }
 
-/// Onsets \[s\] of the independent implementation, for so many elements along the face and this L \[m\].
+/// Onsets \[s\] found by the independent implementation with this number of elements along the face and this L \[m\].
 fn independent(elements: u64, length: f64) -> Result<Vec<f64>, CaseError> {
     let all: serde_json::Value = serde_json::from_str(include_str!("../../independent/sandwich_state.json"))?;
     let of = |v: &&serde_json::Value| {
@@ -118,7 +118,7 @@ fn stick_slip(ledger: &mut Ledger, size: f64, elements: u64) -> Result<(), CaseE
     Ok(())
 }
 
-/// Slip from onset to onset is what the machine has moved.
+/// Claim that slip from onset to onset equals the displacement of the machine.
 fn budget(ledger: &mut Ledger, what: &str, found: &Found, at_onset: &[f64]) {
     let (first, last) = (1, at_onset.len() - 1);
     let time = found.events[last].onset.since(&found.events[first].onset);
@@ -135,7 +135,7 @@ fn budget(ledger: &mut Ledger, what: &str, found: &Found, at_onset: &[f64]) {
         .record();
 }
 
-/// Each event begins at an end, crosses the face, and lets the force fall.
+/// Claims that each event nucleates at an end, crosses the face and lowers the force.
 fn rupture(ledger: &mut Ledger, what: &str, plan: &Plan, found: &Found) {
     let from_end = |e: &Event<Rupture>| {
         let y = plan.points[e.details.hypocentre].at[1];
@@ -201,13 +201,14 @@ fn rupture(ledger: &mut Ledger, what: &str, plan: &Plan, found: &Found) {
         .record();
 }
 
-/// With L = 10 um the block is a slider with the stiffness of block and machine, whose normal traction changes with slip.
+/// With L = 10 um the block behaves as one slider with the stiffness of block and machine, whose normal traction
+/// changes with slip.
 fn one_slider(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut plan = small_block(3)?;
     let mut uniform = f64::INFINITY;
     let mut last = 0.0;
     let found = seas::found(&plan, &plan.problem.settings, |now| {
-        // The first step after the passing of 1 mm/s.
+        // The first step after the slip rate passes 1 mm/s.
         if now.largest >= 1e-3 && last < 1e-3 {
             let slowest = now.rate.all().iter().fold(f64::INFINITY, |m, v| m.min(v.abs()));
             uniform = uniform.min(slowest / now.largest);
@@ -244,7 +245,8 @@ fn one_slider(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Onsets \[s\] where every point feels the mean over the face of what uniform slip and the machine do: sliders that are all alike.
+/// Onsets \[s\] of identical sliders: every point gets the mean over the face of the response to uniform slip and to
+/// the machine.
 fn slider(plan: &mut Plan) -> Result<Vec<f64>, CaseError> {
     let n = plan.points.len();
     let (mut shear, mut normal) = (vec![0.0; n], vec![0.0; n]);

@@ -1,4 +1,4 @@
-//! The steppers of the sandwich against each other and against a reference converged in time.
+//! Steppers on the sandwich, compared with each other and with a reference converged in time.
 
 use super::sandwich::{self, PRESSED, Run, Scene};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Floor, Ledger, Plot, Series};
@@ -22,7 +22,7 @@ pub const CASE: Case = Case {
 const SIZE: f64 = 2.5;
 const SOURCE: &str = "verification/independent, Radau at 1e-10, same mesh: converged to 1e-8 um in time";
 
-/// Slip histories of the independent solver at eight nodes and ten loadings.
+/// Slip histories of the independent solver at eight nodes and ten load levels.
 struct Reference {
     heights: Vec<f64>,
     times: Vec<f64>,
@@ -90,7 +90,7 @@ fn levels(settings: &[Setting]) -> Vec<(f64, f64)> {
     settings.iter().map(|s| (s.step, s.error)).collect()
 }
 
-/// Equal steps: backward Euler is of first order, BDF2 of second.
+/// Equal steps: backward Euler is first order, BDF2 second order.
 fn implicit(ledger: &mut Ledger, reference: &Reference) -> Result<[Vec<Setting>; 2], CaseError> {
     let mut all = [Vec::new(), Vec::new()];
     for (rule, list) in [Rule::BackwardEuler, Rule::Bdf2].into_iter().zip(&mut all) {
@@ -123,7 +123,7 @@ fn implicit(ledger: &mut Ledger, reference: &Reference) -> Result<[Vec<Setting>;
     Ok(all)
 }
 
-/// A sequence of step ends of the second stage that a forward run of the stepper itself chose, with fixed loadings added.
+/// Step ends of the second stage that a static-explicit run chose, with the load levels of the reference added.
 fn sequence(reference: &Reference) -> Result<Vec<f64>, CaseError> {
     let mut scene = sandwich::static_explicit(base()?);
     scene.time.rate_change = Some(here(0.25));
@@ -137,7 +137,7 @@ fn sequence(reference: &Reference) -> Result<Vec<f64>, CaseError> {
     Ok(ends)
 }
 
-/// Every step of a sequence cut into `factor` equal ones.
+/// The sequence with every step cut into `factor` equal ones.
 fn refined(ends: &[f64], factor: usize) -> Vec<f64> {
     let mut start = PRESSED;
     let mut result = vec![PRESSED];
@@ -158,7 +158,8 @@ fn drift(run: &Run) -> Result<f64, CaseError> {
     Ok(record.ok_or("no step ends at u_y = 0.015 mm")?.drift)
 }
 
-/// One sequence refined by a common factor, what each step leaves taken up by the next and nothing corrected.
+/// One sequence of steps refined by a common factor. Each step takes up the residual of the one before; there are no
+/// corrections.
 fn static_explicit(ledger: &mut Ledger, reference: &Reference) -> Result<Vec<Setting>, CaseError> {
     let ends = sequence(reference)?;
     let (mut list, mut drifts) = (Vec::new(), Vec::new());
@@ -173,8 +174,8 @@ fn static_explicit(ledger: &mut Ledger, reference: &Reference) -> Result<Vec<Set
         cost = Some(spent);
     }
     let cost = cost.ok_or("no level was run")?;
-    // A point grows from the floor rate, 1e-12 V_load, in steps of a quarter e-fold, refined to 1/32: half the square of that is what the
-    // last step leaves of ln V, 5e-4, and a/mu0 of it of the traction.
+    // The slip rate of a point grows from the floor, 1e-12 V_load, in steps of a quarter e-fold, refined to 1/32. The
+    // last step leaves an error of half the square of that in ln V, 5e-4, and a/mu0 times that in the traction.
     ledger
         .order("drift at u_y = 0.015 mm in the refinement")
         .levels(&drifts)
@@ -204,7 +205,7 @@ fn static_explicit(ledger: &mut Ledger, reference: &Reference) -> Result<Vec<Set
     Ok(list)
 }
 
-/// Error against wall time and solves.
+/// Plots error against wall time and number of solves.
 fn work_precision(
     ledger: &mut Ledger,
     reference: &Reference,
@@ -255,7 +256,7 @@ fn work_precision(
     Ok(())
 }
 
-/// The condensed and the full system are the same problem.
+/// Agreement of the condensed and the full system.
 fn paths(ledger: &mut Ledger) -> Result<(), CaseError> {
     let slips = |path: Path| -> Result<_, CaseError> {
         let mut scene = sandwich::equal_steps(base()?, 50);

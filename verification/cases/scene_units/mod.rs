@@ -1,4 +1,4 @@
-//! Units of scenes: what a number with a unit does in a run.
+//! Units of scenes: the effect in a run of a number with a unit.
 
 use crate::cases::written::{self, Folder, Written};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -26,15 +26,15 @@ const DAY: f64 = 24.0 * 60.0 * 60.0;
 const YEAR: f64 = 365.25 * DAY;
 /// Number before each unit.
 const AMOUNT: f64 = 7.0;
-/// Rounding of a decimal number and a few operations.
+/// Bound on the rounding of a decimal number and a few operations.
 const ROUNDING: f64 = 1e-14;
 /// Source of prefixes and of units of time.
 const BIPM: &str = "SI brochure, 9th edition, tables 7 and 8; Julian year of 365.25 days, IAU style manual";
 
-/// Head of a scene of squares with sides of 1 m.
+/// First lines of a scene of squares with sides of 1 m.
 const HEAD: &str = "schema = 1\ntitle = \"squares\"\nkinematics = \"plane-strain\"\n[time]\nstepper = \"implicit\"\n[materials.rock]\nyoung = 50e9\npoisson = 0.25\n";
 
-/// A square of 1 m, so many metres to the right.
+/// A square with sides of 1 m, at x = 2 `number` m.
 fn square(number: usize) -> String {
     let left = 2 * number;
     format!(
@@ -43,7 +43,7 @@ fn square(number: usize) -> String {
     )
 }
 
-/// Stages whose durations have all units of time, in which a square moves at a constant rate.
+/// Stages with durations in every unit of time, in which a square moves at a constant rate.
 fn times(ledger: &mut Ledger) -> Result<(), CaseError> {
     let units =
         [("us", 1e-6), ("ms", 1e-3), ("s", 1.0), ("min", 60.0), ("h", 3600.0), ("d", DAY), ("yr", YEAR)];
@@ -91,7 +91,7 @@ fn times(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Quantity of a square that is compared.
+/// Quantity of a square to compare.
 enum Asked {
     /// Displacement of its left side \[m\].
     Moves,
@@ -212,7 +212,7 @@ const IN_SI: &[(&str, &str)] = &[
     ("output.stations.main", "[0]"),
 ];
 
-/// Lines of the files of a run that are not comments.
+/// Lines of the output files of a run, without comments.
 fn lines(files: &Folder) -> Result<Vec<String>, CaseError> {
     let mut all = Vec::new();
     for file in ["events.csv", "largest_rate.csv", "slip_profiles.csv", "stations/main_dp000"] {
@@ -221,7 +221,7 @@ fn lines(files: &Folder) -> Result<Vec<String>, CaseError> {
     Ok(all)
 }
 
-/// A scene of a fault in units against the same in SI.
+/// Compares a fault scene written with units with the same scene in SI.
 fn notations(ledger: &mut Ledger) -> Result<(), CaseError> {
     let in_si =
         IN_SI.iter().fold(SceneText::new(IN_UNITS), |scene, (path, value)| scene.with_or_same(path, value));

@@ -1,4 +1,4 @@
-//! The community's benchmark BP1-QD: its first three events.
+//! The SEAS benchmark BP1-QD: its first three events.
 
 use crate::cases::seas::{self, CONVERGED, Found};
 use crate::{Axis, Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -17,10 +17,10 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Events looked at.
+/// Number of events compared.
 const EVENTS: usize = 3;
 
-/// Error of ln V in a step where runs are compared that differ by less than the default's error.
+/// Tolerance on ln V per step, for comparing runs that differ by less than the error of the default tolerance.
 const FAR_TOLERANCE: f64 = 1e-6;
 
 fn plan(size: f64) -> Result<Plan, CaseError> {
@@ -40,7 +40,7 @@ fn found(
     seas::found(plan, &settings, look)
 }
 
-/// Follows the difference between the traction the bodies exert and the one friction resists with.
+/// Observer of the difference between the traction that the bodies exert and the resistance of the fault.
 struct Balance {
     first: Vec<f64>,
     load: Vec<f64>,
@@ -116,20 +116,20 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     far_field(ledger)
 }
 
-/// Depth to which the slip reaches that is compared with a half-space \[m\].
+/// Depth extent of the slip that is compared with a half-space \[m\].
 const DEEP: f64 = 39e3;
 /// Shear modulus of the benchmark \[Pa\]: 2670 kg/m^3 and 3464 m/s.
 const ROCK: f64 = 2670.0 * 3464.0 * 3464.0;
 
-/// Slip \[m\] at a depth \[m\], smooth at the surface with its image.
+/// Slip \[m\] at a depth \[m\]; together with its image it is smooth at the surface.
 fn long_slip(depth: f64) -> f64 {
     (1.0 - (depth / DEEP).powi(2)).max(0.0).powi(3)
 }
 
-/// Traction of that slip at a depth in a half-space, of screw dislocations and their images above the surface \[Pa\].
+/// Traction of that slip at a depth in a half-space, from screw dislocations and their images above the surface \[Pa\].
 fn screws(depth: f64) -> f64 {
     const PIECE: f64 = 20.0;
-    // One piece has the depth in its middle, so that no end falls on it; the first may begin above the surface.
+    // The depth is the middle of a piece, so that no end falls on it; the first piece may start above the surface.
     let first = (depth / PIECE).fract() * PIECE - 1.5 * PIECE;
     let end = |k: usize| (first + k as f64 * PIECE).max(0.0);
     // At the surface an end is its own image.
@@ -140,7 +140,7 @@ fn screws(depth: f64) -> f64 {
     ROCK * sum / std::f64::consts::TAU
 }
 
-/// Stiffness against slip as long as the fault, which feels the borders most.
+/// Stiffness against slip over the whole fault, which is most sensitive to the borders.
 fn half_space(ledger: &mut Ledger, plan: &Plan) {
     let slip: Vec<f64> = plan.points.iter().map(|p| long_slip(-p.at[1])).collect();
     let mut found = vec![0.0; slip.len()];
@@ -159,7 +159,7 @@ fn half_space(ledger: &mut Ledger, plan: &Plan) {
         .record();
 }
 
-/// Largest slip rates over those of the second implementation: of all years, and of each event around its onset.
+/// Plots largest slip rates with those of the second implementation: over all years, and around the onset of each event.
 fn overlay(ledger: &mut Ledger, onsets: &[f64], rates: &[(f64, f64)]) -> Result<(), CaseError> {
     let (reference, starts) = seas::largest_rates()?;
     let all = Plot::xy("Largest slip rate", "time [yr]", "V_max [m/s]").axes(Axis::Linear, Axis::Log);
@@ -244,7 +244,7 @@ fn later_events(ledger: &mut Ledger, found: &Found) {
         .record();
 }
 
-/// Errors of the default, beside other methods at the same tolerance; the case `seas_bp1_methods` has all.
+/// Errors of the default beside other methods at the same tolerance; the case `seas_bp1_methods` has all methods.
 fn methods(ledger: &mut Ledger, plan: &Plan, default: &Found) -> Result<(), CaseError> {
     let reference = found(plan, Method::Dop853, 1e-8, |_| {})?;
     let exact = reference.onsets[EVENTS - 1];
@@ -263,7 +263,7 @@ fn methods(ledger: &mut Ledger, plan: &Plan, default: &Found) -> Result<(), Case
     Ok(())
 }
 
-/// The scene with its far borders, and the cells there, at half the distance.
+/// The scene with its far borders, and the cells next to them, at half the distance.
 fn nearer(scene: SceneText) -> SceneText {
     let mesh = |key: &str| format!("bodies.crust.mesh.fault.{key}");
     scene
@@ -273,8 +273,8 @@ fn nearer(scene: SceneText) -> SceneText {
         .with(&mesh("max[0]"), "4000 km")
 }
 
-/// Distance of the far borders: half as far, first event and first interval change as they would three times over from twice as far on,
-/// since the influence falls with the square of the distance.
+/// Influence of the far borders. At half the distance it changes the first event and the first interval by three times
+/// the remaining error, since it falls with the square of the distance.
 fn far_field(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut runs = Vec::new();
     for scene in [bp1(SIZE), nearer(bp1(SIZE))] {
@@ -292,7 +292,7 @@ fn far_field(ledger: &mut Ledger) -> Result<(), CaseError> {
             .claim(format!("share by which {name} changes where the borders lie at 4000 instead of 8000 km"))
             .value(((a - b) / a).abs())
             .at_most(1e-4)
-            // The same plan would give the same bits.
+            // The same plan twice would give identical bits.
             .between(&runs[0].onsets, &runs[1].onsets)
             .evidence(
                 Evidence::ConvergedSelf,

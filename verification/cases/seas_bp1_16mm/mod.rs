@@ -1,4 +1,4 @@
-//! BP1 with a characteristic slip of 16 mm: two events of either law against their limit in cells and tolerance.
+//! BP1 with a characteristic slip distance of 16 mm: two events of each law against their limit in cell size and tolerance.
 
 use crate::cases::seas::{self, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -14,20 +14,20 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// A law and the limit of its events in cells and tolerance, which the case `seas_bp1_16mm_limit` finds.
+/// A law and the limit of its events in cell size and tolerance, which the case `seas_bp1_16mm_limit` computes.
 pub struct Law {
-    /// Name of the evolution.
+    /// Name of the evolution law.
     pub name: &'static str,
     scene: &'static str,
     /// Onsets \[yr\].
     pub onsets: [f64; 2],
     /// Largest slip rates \[m/s\].
     peaks: [f64; 2],
-    /// Error left by that \[yr\].
+    /// Uncertainty of these onsets \[yr\].
     pub uncertainty: f64,
 }
 
-/// Way of finding the limit.
+/// Source of the limit.
 const LIMIT: &str =
     "cells of 156, 78 and 39 m by dop853 with a tolerance of 1e-6, extrapolated (case `seas_bp1_16mm_limit`)";
 
@@ -52,7 +52,7 @@ pub const LAWS: [Law; 2] = [
 /// The scene of a law with this L and cells of `size` \[m\].
 ///
 /// # Errors
-/// If the scene has no key that is varied.
+/// If the scene lacks a key that is varied.
 pub fn text(law: &Law, size: f64) -> Result<String, CaseError> {
     let scene = SceneText::new(law.scene).with("faults.main.law.l", "16 mm");
     Ok(sized(scene, size, AT_CREEP / SIZE * size).text()?)
@@ -105,7 +105,7 @@ fn events(ledger: &mut Ledger, law: &Law, found: &Found) {
         .record();
 }
 
-/// Errors fall with the size of cells.
+/// Claim that errors decrease with cell size.
 fn falls(ledger: &mut Ledger, law: &Law, fine: &Found) -> Result<(), CaseError> {
     let coarse = found(law, 312.5)?;
     let off = |f: &Found| (f.onsets[0] - law.onsets[0]).abs();

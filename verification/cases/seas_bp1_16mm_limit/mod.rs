@@ -1,4 +1,4 @@
-//! The limit in cells and tolerance of the two events that the case `seas_bp1_16mm` looks at.
+//! The limit in cell size and tolerance of the two events of the case `seas_bp1_16mm`.
 
 use crate::cases::seas;
 use crate::cases::seas_bp1_16mm::{LAWS, Law, text};
@@ -16,7 +16,7 @@ pub const CASE: Case = Case {
 
 /// Sizes of cells \[m\].
 const SIZES: [f64; 3] = [156.25, 78.125, 39.0625];
-/// Tolerance whose error in onsets lies far below that of cells.
+/// Tolerance at which the time error of onsets is far below the error of the cells.
 const TIGHT: f64 = 1e-6;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -51,7 +51,7 @@ fn limit(ledger: &mut Ledger, law: &Law) -> Result<(), CaseError> {
     );
     let [a, b, c] = onsets.as_slice() else { return Err("three sizes".into()) };
     let name = law.name;
-    // Of one sign and by Aitken's rule: the order need not be known.
+    // Aitken's rule, for differences of one sign: the order need not be known.
     let extrapolated: Vec<f64> =
         (0..2).map(|k| c[k] + (c[k] - b[k]).powi(2) / ((b[k] - a[k]) - (c[k] - b[k]))).collect();
     let left = (0..2).map(|k| (extrapolated[k] - c[k]).abs()).fold(0.0, f64::max);

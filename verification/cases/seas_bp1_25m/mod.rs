@@ -1,4 +1,4 @@
-//! The community's benchmark BP1-QD at full length with the cells it suggests.
+//! The SEAS benchmark BP1-QD over its full duration with the suggested cell size.
 
 use crate::cases::{seas, seas_bp1_full};
 use crate::{Capability, Case, CaseError, Ledger};
@@ -14,7 +14,7 @@ pub const CASE: Case = Case {
 
 /// Size of cells \[m\].
 const SIZE: f64 = 25.0;
-/// Share of the first onset within which it is to be.
+/// Relative error allowed for the first onset.
 const SHARE: f64 = 1e-4;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {

@@ -1,4 +1,4 @@
-//! The community's benchmark BP1-QD at full length.
+//! The SEAS benchmark BP1-QD over its full duration.
 
 use crate::cases::seas::{self, CONVERGED, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -16,13 +16,13 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// First event of the reference \[yr\] and what two codes leave open.
+/// First event of the reference and its uncertainty, the difference of two codes \[yr\].
 const FIRST: f64 = 196.365;
 const OPEN: f64 = 0.005;
-/// Tolerance of onsets whose order is looked at: they change by less than 1e-6 yr with ten times less.
+/// Tolerance of runs that measure the order of onsets. A tenth of it changes onsets by less than 1e-6 yr.
 const TIGHT: f64 = 1e-8;
 
-/// Cells of this size \[m\], of twice that at 40 km.
+/// Plan with cells of this size \[m\] and twice that at 40 km.
 ///
 /// # Errors
 /// Refusals of the reader or the plan.
@@ -35,7 +35,8 @@ pub fn plan(size: f64) -> Result<Plan, CaseError> {
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (mut rows, mut onsets) = (Vec::new(), Vec::new());
-    // Shares of the first event: what boundary elements of half the size leave (QDYN: .07 % at 78 m, .02 % at 39 m).
+    // Relative errors of the first event, from those of boundary elements of half the size (QDYN: 0.07 % at 78 m, 0.02
+    // % at 39 m).
     for (size, share) in [(156.25, 8e-4), (78.125, 2e-4), (39.0625, 1.5e-4)] {
         let plan = plan(size)?;
         let all = seas::found(&plan, &plan.problem.settings, |_| {})?;
@@ -89,11 +90,11 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Size of cells that resolve how an event ends \[m\]: four to the process zone of 340 m.
+/// Cell size that resolves the end of an event \[m\]: four cells in the process zone of 340 m.
 const FINE: f64 = 80.0;
-/// Size of cells whose first event another case has \[m\].
+/// Cell size from which the first event belongs to another case \[m\].
 const COARSE: f64 = 150.0;
-/// Events from which on intervals are steady.
+/// Index of the event from which on intervals are steady.
 const STEADY: usize = 5;
 
 fn mean_interval(found: &Found) -> f64 {
@@ -119,7 +120,7 @@ pub const HEAD: [&str; 10] = [
     "wall [s]",
 ];
 
-/// A run in a table.
+/// Table row of a run.
 pub fn row(size: f64, plan: &Plan, found: &Found) -> [String; 10] {
     [
         format!("{size:.1}"),
@@ -135,7 +136,8 @@ pub fn row(size: f64, plan: &Plan, found: &Found) -> [String; 10] {
     ]
 }
 
-/// Claims of a run with cells of `size` \[m\], the first event within this share of the reference. At 156 m the case `seas_bp1` has that.
+/// Claims of a run with cells of `size` \[m\]; `share` is the relative error allowed for the first event. At 156 m the
+/// case `seas_bp1` has that claim.
 pub fn cycle(ledger: &mut Ledger, size: f64, share: f64, found: &Found) {
     if size < COARSE {
         first(ledger, size, share, found);

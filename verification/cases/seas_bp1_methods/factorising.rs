@@ -1,4 +1,4 @@
-//! Methods that solve equations with the Jacobian: as far as they come in a limited time, beside the default.
+//! Methods that factorise the Jacobian, run for a limited time and compared with the default.
 
 use super::{ABOVE, EVENTS};
 use crate::cases::seas::YEAR;
@@ -8,15 +8,15 @@ use asperity_driver::fault::Plan;
 use asperity_ode::{Clock, Control, Method, Occurrence, Options, Problem, Sink, Step};
 use std::time::Instant;
 
-/// Wall time after which such a method is broken off \[s\]: some thirty times what the default needs to the third event.
+/// Wall time after which such a method is stopped \[s\]: some thirty times what the default needs to reach the third event.
 const LIMIT: f64 = 60.0;
-/// Least factor by which they take longer than the default.
+/// Least ratio of their wall time to that of the default.
 const SLOWER: f64 = 5.0;
 
-/// The equations with a Jacobian by differences.
+/// The equations with a Jacobian by finite differences.
 struct Differenced<'a>(Equations<'a>);
 
-/// Step of a difference: half of the digits of unknowns of the order of a hundred.
+/// Step of a finite difference: half of the digits of unknowns of the order of a hundred.
 const DIFFERENCE: f64 = 1e-6;
 
 impl Problem for Differenced<'_> {
@@ -43,17 +43,17 @@ impl Problem for Differenced<'_> {
     }
 }
 
-/// Ends at the onset of the third event, or when the time is over.
+/// An observer that stops the run at the onset of the third event, or at the limit of wall time.
 struct Follow<'a> {
     equations: &'a Equations<'a>,
     rate: Vec<f64>,
-    /// Onsets so far \[yr\], to the end of the step.
+    /// Onsets so far \[yr\], taken at the end of the step.
     onsets: Vec<f64>,
     /// True while an event is under way.
     within: bool,
     clock: Instant,
     limit: f64,
-    /// Simulated \[yr\] and wall time \[s\] after each step.
+    /// Simulated time \[yr\] and wall time \[s\] after each step.
     trace: Vec<(f64, f64)>,
 }
 
@@ -97,7 +97,7 @@ fn reach(plan: &Plan, method: Method, limit: f64) -> Reached {
     };
     let options = Options {
         method,
-        // Rounding of the unknowns beside the tolerance.
+        // Allows for rounding of the unknowns beside the absolute tolerance.
         rtol: 1e-15,
         atol: watched.tolerances(plan.problem.settings.tolerance),
         first_step: None,
@@ -122,7 +122,7 @@ fn reach(plan: &Plan, method: Method, limit: f64) -> Reached {
     Reached { row, trace: sink.trace, rates: out.counts.rates }
 }
 
-/// The default and the methods that factorise at the default's tolerance on the same cells.
+/// Compares the default and the methods that factorise, at the default's tolerance and on the same cells.
 pub(super) fn compare(ledger: &mut Ledger, plan: &Plan) -> Result<(), CaseError> {
     let default = reach(plan, plan.problem.settings.method, f64::INFINITY);
     let mut least = f64::INFINITY;

@@ -1,4 +1,4 @@
-//! Methods of integration on BP1 through three events: error over cost.
+//! Time integrators on BP1 through three events: error against cost.
 
 use crate::cases::seas::{self, YEAR};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -20,19 +20,19 @@ pub const CASE: Case = Case {
 };
 
 const EVENTS: usize = 3;
-/// Slip rate that begins an event \[m/s\].
+/// Slip rate at which an event begins \[m/s\].
 const ABOVE: f64 = 1e-3;
 /// Tolerances, two to a decade.
 const TOLERANCES: [f64; 10] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7];
-/// Those of the splitting, of order two: steps beyond are too many.
+/// Number of tolerances for the splitting: of second order, it takes too many steps at smaller ones.
 const OF_SPLITTING: usize = 7;
-/// Errors of the third onset \[yr\] at which costs are compared: half of what cells of 78 m leave, what the default's tolerance leaves, and a
-/// fifth of that.
+/// Errors of the third onset \[yr\] at which costs are compared: half the error of cells of 78 m, the error of the
+/// default's tolerance, and a fifth of that.
 const MARKS: [f64; 3] = [0.05, 0.012, 0.0024];
-/// Cost of the default method over that of the best one at a mark, at most.
+/// Largest cost of the default method over that of the best one at a mark.
 const FACTOR: f64 = 1.25;
 
-/// Result of a setting.
+/// Result of a run at one tolerance.
 struct Setting {
     tolerance: f64,
     onsets: Vec<f64>,
@@ -51,7 +51,7 @@ impl Setting {
     }
 }
 
-/// A method with what its settings gave, or why they failed.
+/// A method with the results of its settings, and the reasons of those that failed.
 struct Curve {
     name: &'static str,
     settings: Vec<Setting>,
@@ -97,7 +97,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     factorising::compare(ledger, &plan)
 }
 
-/// Runs a setting, or tells why it failed.
+/// Runs a setting. The inner error is the reason for which it failed.
 fn setting(plan: &Plan, method: Method, tolerance: f64) -> Result<Result<Setting, String>, CaseError> {
     let mut settings = plan.problem.settings;
     (settings.method, settings.tolerance) = (method, tolerance);
@@ -122,7 +122,7 @@ fn setting(plan: &Plan, method: Method, tolerance: f64) -> Result<Result<Setting
     })
 }
 
-/// A cost of a setting.
+/// A function that reads a cost of a setting.
 type Read = fn(&Setting) -> f64;
 
 fn draw(ledger: &mut Ledger, curves: &[Curve], exact: &Setting) {
@@ -182,9 +182,10 @@ fn draw(ledger: &mut Ledger, curves: &[Curve], exact: &Setting) {
     );
 }
 
-/// The cheapest setting of a method for an error of the third onset of at most `error` \[yr\], over settings that all keep it.
+/// The cheapest setting of a method with an error of the third onset of at most `error` \[yr\] that all tighter
+/// settings keep as well.
 fn needed<'a>(curve: &'a Curve, exact: &Setting, error: f64) -> Option<&'a Setting> {
-    // An error may be small by chance: from the loosest setting on from which all errors are small.
+    // An error may be small by chance: only settings count from which on all errors are small.
     let kept = curve.settings.iter().rposition(|s| s.errors(exact)[1] > error).map_or(0, |k| k + 1);
     curve.settings[kept..].iter().min_by_key(|s| s.rates)
 }
@@ -223,7 +224,7 @@ fn judge(ledger: &mut Ledger, plan: &Plan, curves: &[Curve], exact: &Setting) ->
     Ok(())
 }
 
-/// A row of the table of marks, and the setting it is about.
+/// A row of the table of marks, and its setting.
 fn of_mark<'a>(
     mark: f64,
     name: &str,

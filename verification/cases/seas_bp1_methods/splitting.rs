@@ -1,7 +1,7 @@
-//! A splitting for comparison: states advanced exactly at a mean slip rate, m and slip by Heun's rule around them.
+//! A splitting for comparison: states advance exactly at a mean slip rate, m and slip by Heun's method.
 //!
-//! First with the slip rate at the start of the step, then with the mean of those at both ends, as codes for spectral and boundary
-//! elements do; the difference of the two is the error.
+//! A step first uses the slip rate at its start, then the mean of those at both ends, as codes for spectral and
+//! boundary elements do. The difference of the two is the error estimate.
 
 use super::{ABOVE, EVENTS, Setting};
 use crate::cases::seas::YEAR;
@@ -13,21 +13,21 @@ use std::time::Instant;
 /// Vref and L of BP1 \[m/s\], \[m\].
 const V_REF: f64 = 1e-6;
 const LENGTH: f64 = 8e-3;
-/// Share of the optimal length that is tried, and the most by which lengths change.
+/// Safety factor on the optimal step, and the strongest reduction of a step.
 const SAFETY: f64 = 0.9;
 const SHRINK: f64 = 0.2;
 const GROWTH: f64 = 3.0;
 /// Steps after which a setting has failed.
 const MOST_STEPS: u64 = 400_000;
 
-/// s after `dt` at a constant slip rate, from s: `θ exp(-x) + L/V (1 - exp(-x))` with `x = V dt/L`, θ = L/Vref exp(s).
+/// State s after `dt` at a constant slip rate: `θ exp(-x) + L/V (1 - exp(-x))` with `x = V dt/L`, θ = L/Vref exp(s).
 fn aged(state: f64, rate: f64, dt: f64) -> f64 {
     let (rate, x) = (rate.abs(), rate.abs() * dt / LENGTH);
     let gained = if x > 0.0 { V_REF / rate * -(-x).exp_m1() } else { V_REF * dt / LENGTH };
     (state.exp() * (-x).exp() + gained).ln()
 }
 
-/// BP1 by this splitting, to the end of the last event; or why not.
+/// Runs BP1 by this splitting to the end of the last event.
 pub(super) fn setting(plan: &Plan, tolerance: f64) -> Result<Setting, String> {
     let clock = Instant::now();
     let n = plan.points.len();
@@ -43,7 +43,7 @@ pub(super) fn setting(plan: &Plan, tolerance: f64) -> Result<Setting, String> {
     let mut found =
         Setting { tolerance, onsets: Vec::new(), peak: 0.0, wall: 0.0, steps: 0, rejected: 0, rates: 1 };
     equations.rates(at, &y, &mut f);
-    // Seconds: far below any time of the solution.
+    // The first step of 1 s is far below any time scale of the solution.
     let (mut t, mut dt, mut before, mut during) = (0.0, 1.0, 0.0_f64, false);
     let mut ends = 0;
     while ends < EVENTS {

@@ -1,4 +1,4 @@
-//! The community's benchmark BP2-QD at full length: large and small events alternate.
+//! The SEAS benchmark BP2-QD over its full duration: large and small events alternate.
 
 use crate::cases::seas::{self, Found, YEAR};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -15,7 +15,7 @@ pub const CASE: Case = Case {
 };
 
 const CODES: &str = "codes of the benchmark: large events to the surface alternate with smaller ones";
-/// Slip at the surface that makes an event a large one \[m\]; plates move as much in ten years.
+/// Slip at the surface above which an event counts as large \[m\]: ten years of plate motion.
 const LARGE: f64 = 0.3;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -55,7 +55,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Small events have at most half the slip of large ones.
+/// Claim that small events have at most half the slip of large ones.
 fn smaller(ledger: &mut Ledger, plan: &Plan, found: &Found, large: &[bool]) {
     let potency = |e: &Event<Rupture>| {
         plan.points.iter().zip(e.details.slip.component(0)).map(|(p, s)| p.area * s.abs()).sum::<f64>()

@@ -1,4 +1,4 @@
-//! The community's benchmark BP3-QD: dipping faults in plane strain.
+//! The SEAS benchmark BP3-QD: dipping faults in plane strain.
 
 use crate::cases::seas::{self, Found};
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -15,17 +15,17 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Which way the fault slips.
+/// Sense of fault slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sense {
-    /// The upper side moves up.
+    /// The hanging wall moves up.
     Thrust,
-    /// It moves down.
+    /// The hanging wall moves down.
     Normal,
 }
 
 impl Sense {
-    /// In words.
+    /// Name of the sense.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -34,7 +34,7 @@ impl Sense {
         }
     }
 
-    /// Of slip, of tractions and of the motion of the plates, where those of a thrust are positive.
+    /// Sign of slip, tractions and plate motion, which are positive for a thrust.
     fn sign(self) -> f64 {
         match self {
             Self::Thrust => 1.0,
@@ -46,7 +46,7 @@ impl Sense {
 /// A dip in degrees and a sense of slip.
 pub type Faulting = (f64, Sense);
 
-/// Name in the second implementation.
+/// Name of the problem in the second implementation.
 #[must_use]
 pub fn problem((dip, sense): Faulting) -> String {
     format!("bp3:{dip}:{}", sense.name())
@@ -55,11 +55,12 @@ pub fn problem((dip, sense): Faulting) -> String {
 /// Depth of the bottom and distance of the sides \[km\].
 pub const FAR: f64 = 4000.0;
 
-/// Growth of cells of the body away from the fault: cells beside a fault that is not upright are sheared, and growth by 1.25 moves
-/// the first onset at a dip of 30 degrees by 0.10 yr, by 1.12 by 0.01 yr (against 1.06); at 90 degrees neither does.
+/// Growth factor of cells away from the fault. Cells beside a dipping fault are sheared: at a dip of 30 degrees growth
+/// by 1.25 shifts the first onset by 0.10 yr and growth by 1.12 by 0.01 yr (against 1.06). At 90 degrees neither does.
 const GROWTH: f64 = 1.12;
 
-/// The scene of a thrust of dip 60 degrees, with another dip and sense; `size` of cells \[m\], borders at `far` \[km\].
+/// The scene of a thrust of dip 60 degrees, changed to this dip and sense, cells of `size` \[m\] and borders at `far`
+/// \[km\].
 fn text((dip, sense): Faulting, size: f64, far: f64) -> Result<String, CaseError> {
     let (s, c) = dip.to_radians().sin_cos();
     let point = |along: f64| format!("[\"{:.9} km\", \"{:.9} km\"]", along * c, -along * s);
@@ -105,14 +106,14 @@ fn found(plan: &Plan, events: usize, look: impl FnMut(&Moment<'_>)) -> Result<Fo
     seas::found(plan, &settings, look)
 }
 
-/// Reference of the dips.
+/// Reference of the onsets by dip.
 pub const CODES: &str = "boundary-element codes of the benchmark, cells of 25 m";
-/// Size of cells of the second implementation \[m\].
+/// Cell size of the second implementation \[m\].
 pub const THEIRS: f64 = 39.0625;
-/// Error of a first onset with cells of 156 m here, and of 39 m there \[yr\].
+/// Error of a first onset with cells of 156 m here, and of 39 m in the second implementation \[yr\].
 const FIRST: f64 = 0.1;
 const UNSURE: f64 = 0.05;
-/// Share of the period that its cells leave: it grows by 0.045 % from 78 to 39 m.
+/// Relative error of the period by its cells: the period grows by 0.045 % from 78 to 39 m.
 pub const PERIOD: f64 = 4.5e-4;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -123,7 +124,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Dip 90: one period after a few events, and normal tractions that do not change.
+/// Dip 90: a constant period after a few events, and constant normal tractions.
 fn vertical(ledger: &mut Ledger) -> Result<(), CaseError> {
     let plan = plan((90.0, Sense::Thrust), 156.25, FAR)?;
     let mut change = 0.0_f64;
@@ -155,7 +156,7 @@ fn vertical(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Largest relative change of normal traction.
+/// Largest relative change of normal traction from the start.
 pub fn normal_change(plan: &Plan, now: &Moment<'_>) -> f64 {
     let of = |p: usize| (now.normal(p) / plan.problem.fault.normal[p] - 1.0).abs();
     (0..plan.points.len()).map(of).fold(0.0, f64::max)
@@ -179,10 +180,10 @@ fn dipping(ledger: &mut Ledger, dip: f64, onset: f64, spread: f64) -> Result<(),
     first(ledger, (dip, Sense::Thrust), 156.25, &run)
 }
 
-/// The first onset against the second implementation.
+/// Compares the first onset with the second implementation.
 ///
 /// # Errors
-/// If that has no such run.
+/// If the second implementation has no such run.
 pub fn first(ledger: &mut Ledger, faulting: Faulting, size: f64, found: &Found) -> Result<(), CaseError> {
     let (dip, sense) = faulting;
     ledger

@@ -1,4 +1,4 @@
-//! The community's benchmark BP3-QD at dip 90 with the cells it suggests.
+//! The SEAS benchmark BP3-QD at dip 90 with the suggested cell size.
 
 use crate::cases::seas_bp3::{self, Faulting, Sense};
 use crate::cases::seas_bp3_full::{HEAD, integrate, row, vertical};
@@ -14,7 +14,7 @@ pub const CASE: Case = Case {
 };
 
 const FAULT: Faulting = (90.0, Sense::Thrust);
-/// Size of cells \[m\].
+/// Cell size \[m\].
 const SIZE: f64 = 25.0;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {

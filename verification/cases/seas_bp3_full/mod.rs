@@ -1,4 +1,4 @@
-//! The community's benchmark BP3-QD at full length: three dips, thrusts and normal faults.
+//! The SEAS benchmark BP3-QD over its full duration: three dips, thrusts and normal faults.
 
 use crate::cases::seas::{self, Found};
 use crate::cases::seas_bp3::{self, CODES, FAR, Faulting, PERIOD, Sense, THEIRS, normal_change, plan};
@@ -13,9 +13,9 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Sizes of cells \[m\].
+/// Cell sizes \[m\].
 const SIZES: [f64; 2] = [156.25, 78.125];
-/// The problem to integrate.
+/// Dips and senses of slip to run.
 const FAULTS: [Faulting; 5] = [
     (90.0, Sense::Thrust),
     (60.0, Sense::Thrust),
@@ -23,12 +23,12 @@ const FAULTS: [Faulting; 5] = [
     (60.0, Sense::Normal),
     (30.0, Sense::Normal),
 ];
-/// Events that count as early: what comes later is as sensitive to cells as codes are to each other.
+/// Number of events that count as early: later ones depend on cells as much as codes differ.
 const EARLY: usize = 2;
-/// Events from which on intervals are steady.
+/// Index of the event from which on intervals are steady.
 const STEADY: usize = 5;
 
-/// A run with the largest relative change of normal traction.
+/// A run and its largest relative change of normal traction.
 pub struct Cycles {
     /// Events, steps and cost.
     pub found: Found,
@@ -72,7 +72,7 @@ pub const HEAD: [&str; 9] = [
     "wall [s]",
 ];
 
-/// A fault through 1500 years with cells of `size` \[m\].
+/// Runs a fault through 1500 years with cells of `size` \[m\].
 ///
 /// # Errors
 /// If the integration fails.
@@ -93,7 +93,7 @@ fn intervals(found: &Found) -> Vec<f64> {
     found.onsets.windows(2).map(|w| w[1] - w[0]).collect()
 }
 
-/// A run in a table.
+/// Table row of a run.
 pub fn row(fault: Faulting, size: f64, cycles: &Cycles) -> [String; 9] {
     let found = &cycles.found;
     let list = |values: &[f64]| values.iter().map(|v| format!("{v:.2}")).collect::<Vec<_>>().join(", ");
@@ -111,7 +111,7 @@ pub fn row(fault: Faulting, size: f64, cycles: &Cycles) -> [String; 9] {
     ]
 }
 
-/// The first events on cells of half the size.
+/// Compares the early events with those on cells of half the size.
 fn early(ledger: &mut Ledger, fault: Faulting, coarse: &Cycles, fine: &Cycles) {
     ledger
         .claim(format!("first two onsets, cells of 156 m against 78 m, {}", name(fault)))
@@ -127,7 +127,7 @@ fn early(ledger: &mut Ledger, fault: Faulting, coarse: &Cycles, fine: &Cycles) {
         .record();
 }
 
-/// The first three events of the second implementation.
+/// Compares the first three events with the second implementation.
 fn against_second(ledger: &mut Ledger, fault: Faulting, fine: &Cycles) -> Result<(), CaseError> {
     let there = seas::independent(&seas_bp3::problem(fault), THEIRS)?;
     ledger
@@ -145,7 +145,7 @@ fn against_second(ledger: &mut Ledger, fault: Faulting, fine: &Cycles) -> Result
     Ok(())
 }
 
-/// Agreement of codes of the benchmark: the first event.
+/// Compares the first event with codes of the benchmark.
 fn against_codes(ledger: &mut Ledger, fault: Faulting, fine: &Cycles) {
     let found = &fine.found;
     let first = match fault {
@@ -170,7 +170,7 @@ fn against_codes(ledger: &mut Ledger, fault: Faulting, fine: &Cycles) {
     }
 }
 
-/// Dip 90: one period, and normal tractions that stay.
+/// Dip 90: a constant period and constant normal tractions.
 ///
 /// # Errors
 /// If the second implementation has no such run.
@@ -206,7 +206,7 @@ pub fn vertical(ledger: &mut Ledger, size: f64, cycles: &Cycles) -> Result<(), C
     Ok(())
 }
 
-/// A vertical fault that slips the other way is its own mirror image.
+/// Claim that a vertical fault with the opposite sense of slip is its mirror image.
 fn mirrored(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut onsets = Vec::new();
     for sense in [Sense::Thrust, Sense::Normal] {

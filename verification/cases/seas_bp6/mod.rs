@@ -1,4 +1,4 @@
-//! The community's benchmark BP6-QD: fluid injected into a fault, and the slip that follows.
+//! The SEAS benchmark BP6-QD: fluid injection into a fault, and the slip it induces.
 
 use crate::cases::seas;
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -19,16 +19,16 @@ pub const CASE: Case = Case {
 const SOURCE: &str = "verification/independent/bp6.py: boundary elements of 25 m, slip rates from the balance of tractions, scipy's DOP853";
 /// End of the injection \[s\].
 const OFF: f64 = 100.0 * 86400.0;
-/// After this time the width √(4αt) of a change, 590 m, is several cells \[s\].
+/// Time after a change of the flux at which its diffusion width √(4αt), 590 m, spans several cells \[s\].
 const SPREAD: f64 = 10.0 * 86400.0;
-/// q \[m/s\], φ, β \[1/Pa\].
+/// Flux q \[m/s\], porosity φ, compressibility β \[1/Pa\].
 const FLUX: f64 = 1.25e-6;
 const POROSITY: f64 = 0.1;
 const COMPRESSIBILITY: f64 = 1e-8;
 /// Initial shear and normal traction \[Pa\].
 const SHEAR: f64 = 29.2e6;
 const NORMAL: f64 = 50e6;
-/// Places from that of the injection where slip is compared \[m\].
+/// Distances from the injection at which slip is compared \[m\].
 const PLACES: [f64; 3] = [0.0, 1000.0, 2000.0];
 
 const SCENES: [(&str, &str); 2] = [
@@ -36,7 +36,8 @@ const SCENES: [(&str, &str); 2] = [
     ("slip", include_str!("../../../scenes/bp6-s.toml")),
 ];
 
-/// The upper half cut off: a half-space below the plane of symmetry, which is free in antiplane motion; `size` \[m\] of the cells.
+/// Plan of the lower half, with cells of `size` \[m\]: a half-space below the plane of symmetry, which is traction-free
+/// in antiplane motion.
 fn half(scene: &str, size: f64) -> Result<Plan, CaseError> {
     let mesh = format!(
         "{{ trace = [[\"0 km\", \"0 km\"], [\"0 km\", \"-20 km\"]], spacing = [[\"0 km\", \"{size} m\"], [\"7 km\", \"{size} m\"], [\"20 km\", \"{} m\"]], thickness = \"{size} m\", min = [\"-500 km\", \"-500 km\"], max = [\"500 km\", \"0 km\"], growth = 1.25, element = \"quad9\" }}",
@@ -45,7 +46,7 @@ fn half(scene: &str, size: f64) -> Result<Plan, CaseError> {
     let scene = SceneText::new(scene)
         .with("bodies.rock.mesh.fault", mesh)
         .with("faults.main.injection.at", "0 km")
-        // Stations are those of the whole fault.
+        // The stations belong to the whole fault.
         .without("output.stations");
     seas::plan(&scene.text()?)
 }
@@ -53,13 +54,13 @@ fn half(scene: &str, size: f64) -> Result<Plan, CaseError> {
 /// Results of a run.
 #[derive(Default)]
 struct Seen {
-    /// Slip of all points when the injection ends, and at the end \[m\].
+    /// Slip of all points when the injection ends and at the end of the run \[m\].
     slip: [Vec<f64>; 2],
     /// Largest slip rate \[m/s\].
     peak: f64,
-    /// Largest imbalance of tractions over the normal traction at the start.
+    /// Largest imbalance of tractions over the initial normal traction.
     imbalance: f64,
-    /// Largest error of the fluid in the fault, over that injected.
+    /// Largest error of the fluid volume in the fault, over the injected volume.
     fluid: f64,
     /// Least normal traction \[Pa\].
     least: f64,
@@ -69,7 +70,7 @@ struct Seen {
 }
 
 impl Seen {
-    /// Slip at this distance along the fault when the injection ends (0) and at the end (1) \[m\].
+    /// Slip at distance `along` the fault, when the injection ends (0) or at the end of the run (1) \[m\].
     fn at(&self, plan: &Plan, moment: usize, along: f64) -> f64 {
         let slip = &self.slip[moment];
         let k = plan.points.partition_point(|p| p.along <= along).clamp(1, slip.len() - 1);
@@ -78,13 +79,13 @@ impl Seen {
         (1.0 - s) * slip[k - 1] + s * slip[k]
     }
 
-    /// ∫ slip dz when the injection ends and at the end \[m²\].
+    /// ∫ slip dz when the injection ends and at the end of the run \[m²\].
     fn potency(&self, plan: &Plan) -> [f64; 2] {
         [0, 1].map(|k| plan.points.iter().zip(&self.slip[k]).map(|(p, s)| p.area * s).sum())
     }
 }
 
-/// Runs a plan whose points see `share` of the fluid.
+/// Runs a plan whose fault takes `share` of the injected fluid.
 fn seen(plan: &Plan, share: f64) -> Result<Seen, CaseError> {
     let mut out = Seen { least: f64::INFINITY, ..Seen::default() };
     let pressure = plan.problem.fault.pressure.as_ref().ok_or("the scene injects nothing")?;
@@ -111,7 +112,8 @@ fn seen(plan: &Plan, share: f64) -> Result<Seen, CaseError> {
     Ok(out)
 }
 
-/// Largest difference of what the bodies exert and what friction and damping resist, over the normal traction at the start.
+/// Largest difference between the traction that the bodies exert and the resistance of friction and damping, over the
+/// initial normal traction.
 fn imbalance(plan: &Plan, now: &Moment<'_>, exerted: &mut [f64]) -> f64 {
     plan.problem.fault.operator.shear(now.slip().all(), exerted);
     let of = |p: usize| {
@@ -132,13 +134,13 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A half with cells of 100 m.
+/// A plan of the lower half and its results.
 struct Level {
     plan: Plan,
     seen: Seen,
 }
 
-/// Cells of 400, 200, 100 m against 50 m, and the claims on those of 100 m.
+/// Compares cells of 400, 200 and 100 m with 50 m, and claims results of those of 100 m.
 fn levels(ledger: &mut Ledger, law: &str, scene: &str) -> Result<Level, CaseError> {
     let run = |size: f64| -> Result<Level, CaseError> {
         let plan = half(scene, size)?;
@@ -208,7 +210,7 @@ fn against_python(ledger: &mut Ledger, law: &str, level: &Level) -> Result<(), C
             .cost(&level.seen.cost)
             .record();
     }
-    // With the slip law the peak belongs to a front that no cells here or there resolve.
+    // With the slip law the peak rate belongs to a front that neither these cells nor those of the reference resolve.
     if law == "ageing" {
         largest_rate(ledger, level, reference["peak rate [m/s]"].as_f64().ok_or("no rate")?);
     }
@@ -263,7 +265,7 @@ fn exact(ledger: &mut Ledger, law: &str, level: &Level) {
         .record();
 }
 
-/// The scene itself: both halves.
+/// The scene itself, with both halves.
 fn whole(ledger: &mut Ledger, scene: &str, half: &Level) -> Result<(), CaseError> {
     let plan = seas::plan(scene)?;
     let found = seen(&plan, 1.0)?;

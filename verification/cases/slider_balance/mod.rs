@@ -18,7 +18,7 @@ pub const CASE: Case = Case {
 
 /// Tolerances of the runs; the default is the second.
 const TOLERANCES: [f64; 3] = [1e-6, 1e-8, 1e-10];
-/// Events of each run.
+/// Number of events in each run.
 const EVENTS: usize = 5;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -34,7 +34,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     steady(ledger)
 }
 
-/// Runs a problem under observation.
+/// Runs a problem under an observer, which makes it keep an energy budget.
 fn observed(problem: &Problem) -> Result<(SliderRun, Energy, Cost), CaseError> {
     let (run, cost) = Cost::of(|| integrate(problem, &mut |_: &Now<'_>| ()));
     let run = run?;
@@ -54,7 +54,7 @@ fn closes(ledger: &mut Ledger, name: &str, set: &Set, kind: Kind) -> Result<(), 
         let (run, energy, cost) = observed(&problem)?;
         claim(ledger, &format!("{name}, {EVENTS} events"), set, tolerance, (&run, energy, &cost));
         if set.mass.is_some() {
-            // The kinetic energy is gone at the end of an event, and largest in its middle.
+            // The kinetic energy vanishes by the end of an event and is largest in the middle.
             let first = Entry::all(&run).into_iter().next().ok_or("no event")?;
             let until = first.onset + 0.5 * first.duration.ok_or("the event has no end")?;
             let (run, energy, cost) = observed(&Problem { end: until, most_events: None, ..problem })?;
@@ -91,7 +91,7 @@ fn claim(
         .record();
 }
 
-/// A slider that slides steadily from the start: all work of the load point goes into friction.
+/// A slider that slides steadily from the start: all work of the load point goes into friction and damping.
 fn steady(ledger: &mut Ledger) -> Result<(), CaseError> {
     const END: f64 = 1e4;
     let set = slider::MILD.at(2.0);

@@ -15,7 +15,7 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Relative error allowed against references of ten digits.
+/// Relative error allowed against references accurate to ten digits.
 const DIGITS: f64 = 1e-10;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -36,7 +36,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     picture(ledger, &reference)
 }
 
-/// Events of a run, with its cost.
+/// Events of a run, and its cost.
 fn cycle(
     set: &Set,
     kind: Kind,
@@ -90,7 +90,7 @@ fn against_references(
         .why_not_tighter("as the times")
         .cost(&cost)
         .record();
-    // The reference looks at the cycle between its last two onsets: the peak of the last event but one.
+    // The reference refers to the cycle between its last two onsets, which has the peak of the last event but one.
     let peak = events[events.len() - 2].peak_rate;
     ledger
         .claim(format!("{title}: largest and smallest slip rate of a cycle, as logarithms"))
@@ -108,7 +108,7 @@ fn against_references(
     Ok(())
 }
 
-/// QDYN's figures are printed to four or five digits.
+/// Comparison with QDYN's printed values, of four or five digits.
 fn against_qdyn(ledger: &mut Ledger) -> Result<(), CaseError> {
     let printed = [
         ("ageing law", Kind::Ageing, [343.11, 4.497e-2, 2.226e-9]),
@@ -148,7 +148,7 @@ fn against_qdyn(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Two methods that share nothing but the equations: explicit of order 8 and implicit of order 5.
+/// Agreement of two methods that share only the equations: explicit of order 8 and implicit of order 5.
 fn methods_agree(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (name, set, kind) in
         [("mild, ageing law", slider::MILD, Kind::Ageing), ("hard, slip law", slider::HARD, Kind::Slip)]
@@ -169,7 +169,7 @@ fn methods_agree(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Slip rates over time, with the onsets and the largest rate of the reference.
+/// Plots slip rates over time with the onsets and the largest rate of the reference.
 fn picture(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> {
     /// Rate at which an event begins \[m/s\].
     const ONSET: f64 = 1e-3;

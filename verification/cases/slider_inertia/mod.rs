@@ -1,4 +1,4 @@
-//! Sliders with a mass: all come to their events, with the right intervals, at a price near the least.
+//! Sliders with mass: all runs reach their events with the right intervals, at nearly the least cost.
 
 use super::slider::{MU0, V_REF, plan, work};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -25,20 +25,21 @@ pub const CASE: Case = Case {
 const NORMAL: f64 = 50e6;
 /// b of all sets.
 const B: f64 = 0.015;
-/// Friction over a, one state, net traction.
+/// Number of unknowns: friction over a, one state, net traction.
 const UNKNOWNS: usize = 3;
-/// Events of a run.
+/// Number of events in a run.
 const EVENTS: usize = 3;
-/// Steps after which a method has failed: twice what the default needs at 1e-12.
+/// Number of steps after which a method has failed: twice what the default needs at 1e-12.
 const MOST_STEPS: usize = 200_000;
-/// Each how many-th set is of the quick suite: no multiple of the number of rates, masses or ratios, so that it meets all of them.
+/// Stride of the quick suite through the sets. It is no multiple of the number of rates, masses or ratios, so that all
+/// of them occur.
 const EACH: usize = 17;
-/// Error of the interval at which work is compared: what the default leaves.
+/// Relative error of the interval at which work is compared: that of the default.
 const TARGET: f64 = 1e-8;
-/// Cost of the default at most, in units of the best method of each set.
+/// Largest cost of the default, in units of the best method of each set.
 const ALWAYS: f64 = 1.5;
 
-/// A slider with a mass.
+/// A slider with mass.
 #[derive(Clone, Debug)]
 pub struct Set {
     slip_law: bool,
@@ -76,7 +77,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     compare(ledger, &each_third(sets))
 }
 
-/// The sets of the quick suite on which methods are compared, which takes thirty runs each.
+/// Every third set: methods are compared on these in the quick suite, since that takes thirty runs a set.
 fn each_third(sets: Vec<Set>) -> Vec<Set> {
     sets.into_iter().step_by(3).collect()
 }
@@ -108,12 +109,12 @@ impl Set {
     }
 }
 
-/// Events of a run that came to its end, and what it took.
+/// Events of a completed run and its counts; None if it failed.
 fn events(set: &Set, method: Method, tolerance: f64) -> Result<Option<(Vec<Entry>, Counts)>, CaseError> {
     events_within(set, method, tolerance, MOST_STEPS)
 }
 
-/// The same, where it takes no more than so many steps.
+/// The same with at most `most_steps` steps.
 fn events_within(
     set: &Set,
     method: Method,
@@ -130,7 +131,7 @@ fn last_interval(events: &[Entry]) -> f64 {
     events.last().and_then(|e| e.interval).unwrap_or(f64::NAN)
 }
 
-/// Against the second implementation.
+/// Comparison with the second implementation.
 fn independent(ledger: &mut Ledger) -> Result<(), CaseError> {
     const SOURCE: &str =
         "verification/independent/inertial_sliders.py: scipy's DOP853 and Radau in other unknowns";
@@ -176,14 +177,14 @@ fn independent(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Results of the default for a set.
+/// Errors of the default method for a set.
 #[derive(Debug, Default)]
 struct Errors {
-    /// Tolerances at which it does not come to its end.
+    /// Tolerances at which the run does not complete.
     unfinished: Vec<f64>,
-    /// Of the interval between the last two events, over the interval, at the default tolerance.
+    /// Relative error of the interval between the last two events, at the default tolerance.
     interval: f64,
-    /// Of ln V at the peaks.
+    /// Error of ln V at the peaks.
     peak: f64,
 }
 
@@ -205,7 +206,7 @@ fn errors(set: &Set) -> Result<Errors, CaseError> {
     Ok(errors)
 }
 
-/// All sets come to their end, and the default agrees with a method of another kind.
+/// Claims that all sets complete, and that the default agrees with a method of another kind.
 pub fn agree(ledger: &mut Ledger, sets: &[Set]) -> Result<(), CaseError> {
     let (errors, cost) = Cost::of(|| -> Vec<Result<Errors, String>> {
         sets.par_iter().map(|set| errors(set).map_err(|e| e.to_string())).collect()
@@ -250,9 +251,9 @@ pub fn agree(ledger: &mut Ledger, sets: &[Set]) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Work at an error of `TARGET`: between two settings on a line in logarithms, or that of the loosest where it is already better. A run
-/// of more than `most_steps` is cut short: the method then needs at least what it needed at the setting before, and this is what is
-/// counted, or infinitely much if it never came to an end.
+/// Work at an error of `TARGET`, interpolated in logarithms between two settings, or that of the loosest setting if it
+/// is already more accurate. A run of more than `most_steps` is cut short: it counts as the work of the setting before,
+/// which is a lower bound, or as infinite if no run completed.
 fn needed(set: &Set, method: Method, reference: f64, most_steps: usize) -> Result<f64, CaseError> {
     let mut before: Option<(f64, f64)> = None;
     for power in 4..=10 {
@@ -274,11 +275,11 @@ fn needed(set: &Set, method: Method, reference: f64, most_steps: usize) -> Resul
     Ok(f64::INFINITY)
 }
 
-/// Methods that get to the end at all: explicit ones alone do not.
+/// Other methods that complete; explicit ones alone do not.
 const RIVALS: [Method; 3] = [Method::Radau5, Method::Esdirk34, Method::Bdf];
 
-/// Work of the default on a set, and of its rivals, at equal errors. A step takes a right-hand side at least, so that rivals of more steps than
-/// the default has work need more, and are cut short there.
+/// Work of the default and of its rivals on a set, at equal errors. A step takes at least one right-hand side: a rival
+/// with more steps than the default has work needs more work, and is cut short.
 fn works(set: &Set) -> Result<[f64; 4], CaseError> {
     let Some((reference, _)) = events(set, Method::Radau5, 1e-11)? else { return Ok([f64::INFINITY; 4]) };
     let reference = last_interval(&reference);
@@ -291,14 +292,14 @@ fn works(set: &Set) -> Result<[f64; 4], CaseError> {
     Ok(all)
 }
 
-/// Work of the default over the least of any method, at equal errors.
+/// Claims on the work of the default over the least of any method, at equal errors.
 pub fn compare(ledger: &mut Ledger, sets: &[Set]) -> Result<(), CaseError> {
     let all: Vec<_> = sets.par_iter().map(|set| works(set).map_err(|e| e.to_string())).collect();
     let (mut worst, mut rows) = (0.0_f64, Vec::new());
     for (set, works) in sets.iter().zip(all) {
         let works = works?;
         let (own, least) = (works[0], works.iter().copied().fold(f64::INFINITY, f64::min));
-        // A method that does not come to that error anywhere needs infinitely much; so would a default that does not.
+        // A method that never reaches that error counts as infinite work, and so does the default.
         worst = worst.max(if own.is_finite() { own / least } else { f64::INFINITY });
         let mut row = vec![
             format!(

@@ -1,4 +1,4 @@
-//! All sliders with a mass of `slider_inertia`.
+//! All sliders with mass of `slider_inertia`.
 
 use super::slider_inertia::{agree, all, compare};
 use crate::{Capability, Case, CaseError, Ledger};

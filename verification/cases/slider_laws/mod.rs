@@ -1,4 +1,4 @@
-//! Every law of rate and state as a scene of a slider names it: velocity steps in closed form, cycles and holds on a spring.
+//! Every rate-and-state law that slider scenes can name: velocity steps in closed form, cycles and holds on a spring.
 
 use super::slider::{Independent, MU0, V_REF};
 use super::slider_scene::{FRICTION, RATE, TIME, files, plan, text};
@@ -22,10 +22,10 @@ const C: f64 = 2.0;
 /// Weakened coefficient, and rate \[m/s\] at which flash heating sets in.
 const MU_W: f64 = 0.2;
 const V_W: f64 = 0.05;
-/// Cut-off rates of the direct effect and of the state \[m/s\].
+/// Cut-off rates of the direct effect and of the evolution effect \[m/s\].
 const V_CUT: f64 = 0.02;
 const V_CUT_STATE: f64 = 1e-6;
-/// Activation energy \[J/mol\], temperature at which the parameters hold, and temperature \[K\].
+/// Activation energy \[J/mol\], reference temperature of the parameters \[K\], and temperature \[K\].
 const ACTIVATION: f64 = 90e3;
 const T_REF: f64 = 300.0;
 const TEMPERATURE: f64 = 350.0;
@@ -49,7 +49,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     steady_plot(ledger)
 }
 
-/// Evolutions of the state, as scenes name them.
+/// Evolution laws, as scenes name them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
     Ageing,
@@ -74,7 +74,7 @@ enum Form {
 const FORMS: [Form; 3] = [Form::Bare, Form::Regularised, Form::CutOff];
 
 impl Form {
-    /// Keys of a scene.
+    /// Keys in a scene.
     fn keys(self) -> String {
         match self {
             Self::Bare => "form = \"bare\"".into(),
@@ -83,7 +83,7 @@ impl Form {
         }
     }
 
-    /// μ at a slip rate \[m/s\] times the factor of temperature, and a contribution of the state.
+    /// μ at a slip rate \[m/s\], already times the factor of temperature, with the contribution φ of the state.
     fn friction(self, rate: f64, phi: f64) -> f64 {
         match self {
             Self::Bare => MU0 + phi + A * (rate / V_REF).ln(),
@@ -94,7 +94,7 @@ impl Form {
 }
 
 impl State {
-    /// Name of the claims.
+    /// Name in claims.
     fn title(self) -> &'static str {
         match self {
             Self::Ageing => "ageing law",
@@ -122,7 +122,7 @@ impl State {
         }
     }
 
-    /// Keys of a scene.
+    /// Keys in a scene.
     fn keys(self) -> String {
         match self {
             Self::Ageing => "evolution = \"ageing\"".into(),
@@ -147,7 +147,7 @@ impl State {
         }
     }
 
-    /// φ of a state.
+    /// Contribution φ of a state to friction.
     fn phi(self, state: f64) -> f64 {
         match self {
             Self::Ageing | Self::Nagata => B * (V_REF * state / LENGTH).ln(),
@@ -157,8 +157,8 @@ impl State {
         }
     }
 
-    /// State after a jump of the rest of the strength by `jump`: `φ + c μ` keeps its value. The regularised form differs from one
-    /// in which μ is a sum with φ by e^(-2 μ/a), below 1e-30 here.
+    /// State after a jump of the rest of the friction coefficient by `jump`: `φ + c μ` is continuous. This takes μ as a
+    /// sum with φ, from which the regularised form differs by e^(-2 μ/a), below 1e-30 here.
     fn after_jump(self, state: f64, jump: f64) -> f64 {
         if self == Self::Nagata { state * (-C / (1.0 + C) * jump / B).exp() } else { state }
     }
@@ -173,7 +173,7 @@ impl State {
             Self::Nagata => steady + (state - steady) * (-x / (1.0 + C)).exp(),
             Self::Prz => {
                 let u = state / steady;
-                // A steady state stays.
+                // A steady state does not evolve.
                 if u == 1.0 {
                     steady
                 } else if u < 1.0 {
@@ -186,18 +186,19 @@ impl State {
     }
 }
 
-/// Durations \[s\] and slip rates \[m/s\]: steps by ten and by a hundred, and steps to V_w, far above it and below it again.
+/// Durations \[s\] and slip rates \[m/s\]: steps by factors of ten and a hundred, and steps to V_w, far above it and
+/// below it again.
 const SLOW: [(f64, f64); 3] = [(20.0, 1e-6), (10.0, 1e-5), (170.0, 1e-7)];
 const FAST: [(f64, f64); 4] = [(1e-4, 1e-6), (2e-4, V_W), (2e-5, 1.0), (5e-3, 0.01)];
-/// Shares of a stage at which friction is read. The first is at the jump: V t/L is below 1e-4 there.
+/// Fractions of a stage at which friction is read. The first is just after the jump, where V t/L is below 1e-4.
 const SHARES: [f64; 8] = [1e-6, 0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0];
 
-/// Factor of temperature by which slip rates count.
+/// Factor that multiplies slip rates for temperature.
 fn factor(hot: bool) -> f64 {
     if hot { (ACTIVATION / GAS * (1.0 / TEMPERATURE - 1.0 / T_REF)).exp() } else { 1.0 }
 }
 
-/// Keys of temperature.
+/// Keys of temperature in a scene.
 fn heat_keys(hot: bool) -> String {
     if hot {
         format!(", activation = {ACTIVATION}, t_ref = {T_REF}, temperature = {TEMPERATURE}")
@@ -206,7 +207,7 @@ fn heat_keys(hot: bool) -> String {
     }
 }
 
-/// A law of rate and state, steady at 1 um/s.
+/// A rate-and-state law in a scene, steady at 1 um/s.
 fn law(state: State, form: Form, hot: bool) -> String {
     format!(
         "{{ kind = \"rate-and-state\", mu0 = {MU0}, a = {A}, b = {B}, l = {LENGTH:e}, v_ref = {V_REF:e}, v_initial = \"1 um/s\", {}, {}{} }}",
@@ -216,7 +217,7 @@ fn law(state: State, form: Form, hot: bool) -> String {
     )
 }
 
-/// Times at which friction is read, with the stage and the time since its begin.
+/// Times at which friction is read, each with its stage and the time since the stage began.
 fn instants(course: &[(f64, f64)]) -> Vec<(f64, usize, f64)> {
     let (mut begin, mut all) = (0.0, Vec::new());
     for (stage, (duration, _)) in course.iter().enumerate() {
@@ -226,7 +227,7 @@ fn instants(course: &[(f64, f64)]) -> Vec<(f64, usize, f64)> {
     all
 }
 
-/// Friction at the instants of an imposed course, as the history of a scene shows it.
+/// Friction at the instants of an imposed course, from the history of a scene.
 fn imposed(course: &[(f64, f64)], law: &str) -> Result<Vec<f64>, CaseError> {
     let (mut begin, mut table) = (0.0, Vec::new());
     for (duration, rate) in course {
@@ -242,7 +243,7 @@ fn imposed(course: &[(f64, f64)], law: &str) -> Result<Vec<f64>, CaseError> {
     Ok(times.iter().map(at).collect())
 }
 
-/// The same in closed form.
+/// Friction at the same instants in closed form.
 fn closed(course: &[(f64, f64)], state: State, form: Form, hot: bool) -> Vec<f64> {
     let rest = |rate: f64| form.friction(rate * factor(hot), 0.0);
     let mut begins = vec![state.steady(course[0].1)];
@@ -258,7 +259,7 @@ fn closed(course: &[(f64, f64)], state: State, form: Form, hot: bool) -> Vec<f64
     instants(course).iter().map(at).collect()
 }
 
-/// Friction through velocity steps, with each form of the strength, at two temperatures.
+/// Claims on friction through velocity steps, with each form of the strength, at two temperatures.
 fn velocity_steps(ledger: &mut Ledger, state: State) -> Result<(), CaseError> {
     let (mut found, mut expected) = (Vec::new(), Vec::new());
     let (done, cost) = Cost::of(|| -> Result<(), CaseError> {
@@ -318,7 +319,7 @@ fn rate_alone(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Loss of friction with temperature in steady sliding.
+/// Decrease of steady friction with temperature.
 fn heat(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut lost = Vec::new();
     for state in STATES {
@@ -341,13 +342,13 @@ fn heat(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Names, keys, and stiffnesses \[Pa/m\] of half the critical one, for runs on a spring.
+/// Laws for runs on a spring: names, keys, and half the critical stiffness \[Pa/m\].
 const SPRINGS: [(&str, &str, f64); 3] = [
     ("prz", "", 0.5 * CRITICAL),
     ("nagata", ", c = 2.0", 0.5 * CRITICAL / (1.0 + C)),
     ("flash", ", mu_w = 0.2, v_w = \"0.05 m/s\"", 0.5 * CRITICAL),
 ];
-/// f_n (b - a)/L \[Pa/m\].
+/// Critical stiffness f_n (b - a)/L \[Pa/m\].
 const CRITICAL: f64 = 5e6 * (B - A) / LENGTH;
 
 /// A slider on a spring of the given stiffness \[Pa/m\].
@@ -358,7 +359,7 @@ fn on_spring(load: &str, (name, own): (&str, &str), (stiffness, more): (f64, &st
     text(load, &format!("stiffness = {stiffness:e}\ndamping = \"5 MPa s/m\"\n{more}"), &law, rest)
 }
 
-/// Stick-slip at half the critical stiffness: onsets, and extremes of the slip rate.
+/// Claims on stick-slip at half the critical stiffness: onsets, and extremes of the slip rate.
 fn cycles(
     ledger: &mut Ledger,
     reference: &Independent,
@@ -387,7 +388,7 @@ fn cycles(
         .covers(&[Capability::LawFamily, Capability::Slider, Capability::Events])
         .cost(&cost)
         .record();
-    // The peak of the last event but one, and the least rate before the last.
+    // The peak rate of the last event but one, and the least rate before the last event.
     let [.., before, last] = &events[..] else { return Ok(()) };
     let [peak, least] = [before[5], last[6]];
     let wanted = [
@@ -444,7 +445,7 @@ fn hold(ledger: &mut Ledger, reference: &Independent, law: (&str, &str)) -> Resu
     Ok(())
 }
 
-/// Friction through the slow course, for the eye.
+/// Plots friction through the slow course.
 fn steady_plot(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mut plot =
         Plot::xy("Steps of the slip rate: 1, 10, 0.1 um/s", "time [s]", "friction coefficient [-]")

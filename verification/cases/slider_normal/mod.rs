@@ -72,8 +72,8 @@ fn compare(ledger: &mut Ledger, title: &str, found: &[(f64, f64)], (v, mu): (&[f
 }
 
 fn step(ledger: &mut Ledger, reference: &Independent, alpha: f64, name: &str) -> Result<(), CaseError> {
-    // Steady sliding is a solution until the step, to rounding, at which the reference begins. The instant after the step
-    // is seen a nanosecond later, when ln V has moved by 1e-10.
+    // Steady sliding is a solution until the step, where the reference begins. Values just after the step are read a
+    // nanosecond later, when ln V has moved by 1e-10.
     let normal = History::table(vec![(STEP, 5e6), (STEP, 5.5e6)])?;
     let times = reference.numbers(name, "t_s")?;
     let late: Vec<f64> = times.iter().filter(|t| **t > 0.0).map(|t| STEP + t).collect();
@@ -84,7 +84,7 @@ fn step(ledger: &mut Ledger, reference: &Independent, alpha: f64, name: &str) ->
     Ok(())
 }
 
-/// Without damping the jump of ln V is known: a Δln V = T (1/f_2 - 1/f_1) + α ln(f_2/f_1).
+/// Jump of ln V without damping, in closed form: a Δln V = T (1/f_2 - 1/f_1) + α ln(f_2/f_1).
 fn jump(ledger: &mut Ledger) -> Result<(), CaseError> {
     let (f1, f2, alpha) = (5e6, 5.5e6, 0.3);
     let form = Bare(Parameters::new(MU0, 0.01, V_REF)?);
@@ -120,12 +120,13 @@ fn oscillation(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseE
     Ok(())
 }
 
-/// A ramp of the normal traction to a millionth of a pascal: the damping takes over, and V = T/η.
+/// Unloading of the normal traction to a millionth of a pascal: damping carries the traction, and V = T/η.
 fn unloading(ledger: &mut Ledger) -> Result<(), CaseError> {
     let least = 1e-6;
     for alpha in [0.0, 0.3] {
         let normal = History::table(vec![(1.0, 5e6), (11.0, least)])?;
-        // The memory drives ln theta to 600 and mu/a to 1000: a tolerance below 1e-12 would be rounding.
+        // The memory of normal traction drives ln theta to 600 and mu/a to 1000: a tolerance below 1e-12 would be below
+        // rounding.
         let plan = Problem { end: 12.0, tolerance: 1e-9, ..plan(alpha, normal)? };
         let (run, cost) = Cost::of(|| slider::finish(&plan));
         let run = run?;
@@ -141,7 +142,7 @@ fn unloading(ledger: &mut Ledger) -> Result<(), CaseError> {
             .why_not_tighter("friction is not nothing")
             .cost(&cost)
             .record();
-        // The slider follows the load point: V - V_load is what is left of the unloading, exp(-k t/η), gone at once.
+        // The slider follows the load point: V - V_load decays as exp(-k t/η) and vanishes at once.
         ledger
             .claim(format!(
                 "normal traction ramped to 1e-6 Pa, alpha = {alpha}: V over the rate of the load point"

@@ -1,4 +1,4 @@
-//! Large perturbations of the slip law: the conserved quantity at k = k_c, closed orbits, the threshold of run-away.
+//! Large perturbations under the slip law: the conserved quantity at k = k_c, closed orbits, the threshold of run-away.
 
 use super::slider::{self, Independent, Set, V_REF};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger};
@@ -21,14 +21,14 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Kick of ln V that starts the orbit.
+/// Initial perturbation of ln V that starts the orbit.
 const KICK: f64 = 0.5;
 
 fn base() -> Set {
     Set { damping: 0.0, ..slider::MILD }
 }
 
-/// A plan with the bare logarithm, the law of the theory.
+/// A plan with the bare logarithm, for which the theory holds.
 fn plan(set: &Set, mu0: f64, kick: f64, end: f64) -> Result<Problem, CaseError> {
     let form = Bare(Parameters::new(mu0, set.a, V_REF)?);
     let law = RateLaw::new(form, Slip::new(set.b, set.length, V_REF)?, set.load, None)?;
@@ -46,7 +46,7 @@ fn bowl(x: f64) -> f64 {
     (-x).exp_m1() + x
 }
 
-/// H = [(b - a) G(x) + f - a] e^(f/a), f = μ - μ_ss: what k = k_c conserves.
+/// H = [(b - a) G(x) + f - a] e^(f/a), f = μ - μ_ss: conserved at k = k_c.
 fn conserved(set: &Set, x: f64, f: f64) -> f64 {
     ((set.b - set.a) * bowl(x) + f - set.a) * (f / set.a).exp()
 }
@@ -64,7 +64,7 @@ fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
 fn orbit(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> {
     let set = base().at(1.0);
     let mut plan = plan(&set, slider::MU0, KICK, 2000.0)?;
-    // Crossings of the start rate give the period; extremes of V the size of the orbit.
+    // Crossings of the initial rate give the period, and extremes of V the size of the orbit.
     let threshold = set.load * KICK.exp();
     plan.events = Some(Thresholds { on: threshold * (1.0 + 1e-9), off: set.load });
     plan.peaks = true;
@@ -131,22 +131,22 @@ fn orbit(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> 
     Ok(())
 }
 
-/// e-folds of V above the load point at which a slider that still speeds up counts as run away: orbits on the two sides of
-/// the separatrix part as e^(c x/(a k/k_c)), some 1e5 at this x for the stiffest spring here; squares of rates twice as large
-/// would leave the range of numbers.
+/// e-folds of V above the rate of the load point at which a slider that still accelerates counts as a run-away. Orbits
+/// on the two sides of the separatrix diverge as e^(c x/(a k/k_c)), some 1e5 at this x for the stiffest spring here.
+/// With twice as many e-folds, squares of rates would overflow.
 const AWAY: usize = 280;
-/// e-folds after which time begins anew: the orbits blow up in finite time, to which steps vanish.
+/// e-folds after which time restarts from zero: run-away takes finite time, and steps vanish towards it.
 const PIECE: usize = 20;
 
-/// Coefficient of friction at the reference rate of sliders that run away: it falls by (b - a) [`AWAY`] = 1.4 and must not reach zero, where the
-/// bare form ends. The motion depends on differences of friction only.
+/// Coefficient of friction at the reference rate of sliders that run away: it falls by (b - a) [`AWAY`] = 1.4 and must
+/// stay above zero, where the bare form ends. The motion depends on differences of friction only.
 const HIGH: f64 = 4.0;
 
-/// True if the slider runs away from a kick: before it turns, it is out of sight.
+/// True if the slider runs away after a kick: it passes [`AWAY`] before it turns.
 fn runs_away(set: &Set, kick: f64) -> Result<bool, CaseError> {
     let mut plan = plan(set, HIGH, kick, 200.0 * set.length / set.load)?;
     (plan.tolerance, plan.peaks, plan.most_events) = (1e-12, true, Some(1));
-    // Below its start it has turned: what follows does not matter.
+    // Below its initial rate the slider has turned, and what follows does not matter.
     let turning = kick + set.load.ln() - 0.5;
     for level in (2 * PIECE..=AWAY).step_by(PIECE) {
         let on = set.load * (level as f64).exp();
@@ -171,7 +171,7 @@ fn runs_away(set: &Set, kick: f64) -> Result<bool, CaseError> {
     Ok(true)
 }
 
-/// The kick at which run-away begins.
+/// Smallest kick that leads to run-away, by bisection.
 fn threshold(set: &Set, guess: f64, width: f64) -> Result<f64, CaseError> {
     let (mut low, mut high) = (guess - width, guess + width);
     if runs_away(set, low)? || !runs_away(set, high)? {
@@ -213,7 +213,7 @@ fn thresholds(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseEr
             .cost(&cost)
             .record();
     }
-    // For large kicks the load point stands still beside the slider, and the threshold is k/k_c.
+    // For large kicks the motion of the load point is negligible, and the threshold is k/k_c.
     for ratio in [6.0, 9.0, 12.0] {
         let (found, cost) = Cost::of(|| threshold(&set.at(ratio), ratio, 0.1));
         ledger

@@ -1,4 +1,4 @@
-//! The numbers that leave a run of spring-sliders: rows of histories, the catalogue, the plan.
+//! Outputs of spring-slider runs: rows of histories, the catalogue, the plan.
 
 use super::slider::{self, Independent, MU0, V_REF};
 use super::slider_scene::{FRICTION, RATE, SLIP, STATE, TIME, files, plan, planned, text};
@@ -54,7 +54,7 @@ fn relaxed(evolution: &str, b: f64, phi: f64, rate: f64, time: f64) -> f64 {
     }
 }
 
-/// Slip rate, slip and phi of the imposed course: 1 um/s for 20 s, 10 um/s for 10 s, then 0.1 um/s.
+/// Slip rate, slip and phi in the imposed course: 1 um/s for 20 s, 10 um/s for 10 s, then 0.1 um/s.
 fn imposed(evolution: &str, b: f64, time: f64) -> [f64; 3] {
     let phi = |from: f64, rate: f64, time: f64| relaxed(evolution, b, from, rate, time);
     if time <= 20.0 {
@@ -66,7 +66,7 @@ fn imposed(evolution: &str, b: f64, time: f64) -> [f64; 3] {
     }
 }
 
-/// Rows at times, of an imposed slip rate, whose slip, friction and states have closed forms.
+/// Claims on rows at given times under an imposed slip rate, where slip, friction and states have closed forms.
 fn velocity_steps(ledger: &mut Ledger) -> Result<(), CaseError> {
     let course = "rate = { table = [[\"0 s\", \"1 um/s\"], [\"20 s\", \"1 um/s\"], [\"20 s\", \"10 um/s\"], [\"30 s\", \"10 um/s\"], [\"30 s\", \"0.1 um/s\"]] }";
     let (mut missed, mut slips, mut frictions, mut states) = (0, 0.0_f64, 0.0_f64, 0.0_f64);
@@ -127,7 +127,7 @@ fn velocity_steps(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Columns of the catalogue, after the name.
+/// Columns of the catalogue after the name.
 const DIRECTION: usize = 0;
 const ONSET: usize = 1;
 const INTERVAL: usize = 2;
@@ -136,7 +136,7 @@ const EVENT_SLIP: usize = 4;
 const PEAK: usize = 5;
 const LEAST: usize = 6;
 const DROP: usize = 7;
-/// Traction, friction and state at the onset; those at the end follow.
+/// Traction, friction and state at the onset, then at the end.
 const AT_ONSET: usize = 8;
 const AT_END: usize = 11;
 
@@ -144,7 +144,7 @@ const SHIPPED: &str = include_str!("../../../scenes/spring-slider.toml");
 /// Stiffness \[Pa/m\], damping \[Pa s/m\] and load \[m/s\] of the shipped scene.
 const SPRING: [f64; 3] = [1.25e9, 5e6, 1e-6];
 
-/// Ten cycles: the catalogue and the peaks in the history.
+/// Claims on ten cycles: the catalogue and the peaks in the history.
 fn cycles(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> {
     let mut plan = plan(SHIPPED)?;
     plan.tolerance = 1e-10;
@@ -169,7 +169,7 @@ fn cycles(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError>
     let [most, least] = ["v_max_between_last_two", "v_min_between_last_two"]
         .map(|key| reference.number("mild_ageing", key).map(f64::ln));
     let (most, least, last) = (most?, least?, events.last().ok_or("no event")?);
-    // The last cycle but one, from after its onset to after the next.
+    // The last cycle, from just before the onset of the last event but one to the onset of the last.
     let before = events[events.len() - 2][ONSET];
     let cycle = || rows.iter().filter(|r| r[TIME] > before - 100.0 && r[TIME] < last[ONSET]);
     let seen = |pick: fn(f64, f64) -> f64| cycle().map(|r| r[RATE].ln()).reduce(pick).unwrap_or(f64::NAN);
@@ -187,7 +187,7 @@ fn cycles(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError>
     Ok(())
 }
 
-/// Slip, stress drop, tractions and states of the events against spring and law.
+/// Claims that slip, stress drop, tractions and states of events agree with spring and law.
 fn balance(ledger: &mut Ledger, events: &[Vec<f64>], cost: &Cost) {
     let [stiffness, damping, load] = SPRING;
     let (mut drops, mut edges) = (0.0_f64, 0.0_f64);
@@ -221,7 +221,7 @@ fn balance(ledger: &mut Ledger, events: &[Vec<f64>], cost: &Cost) {
         .record();
 }
 
-/// The same cycles with the load point moving backwards: what has a direction is turned round, all else stays.
+/// The same cycles with the load point moving backwards: quantities with a direction change sign, all else is unchanged.
 fn backwards(ledger: &mut Ledger) -> Result<(), CaseError> {
     let scene = SceneText::new(SHIPPED).add("time.tolerance", "1e-10");
     let back = scene.clone().with("load.rate", "-1 um/s").with("sliders.block.start", "-1.5 um/s");
@@ -262,10 +262,10 @@ fn backwards(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Columns that change their sign with the direction: direction, slip, traction and friction at both ends.
+/// Columns that change sign with the direction: direction, slip, traction and friction at both ends.
 const TURNED: [usize; 6] = [DIRECTION, EVENT_SLIP, AT_ONSET, AT_ONSET + 1, AT_END, AT_END + 1];
 
-/// Peaks of friction after holds, as the rows of a history show them.
+/// Peaks of friction after holds, from the rows of a history.
 fn holds(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError> {
     for evolution in ["ageing", "slip"] {
         let name = format!("slide_hold_slide_{evolution}");
@@ -328,7 +328,7 @@ fn strengthening(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// k/k_c and k_c of a plan, as it prints them.
+/// k/k_c and k_c as a plan prints them.
 fn printed(summary: &str) -> Result<[f64; 2], CaseError> {
     let number = |key: &str| -> Result<f64, CaseError> {
         let after = summary.split_once(key).ok_or("the plan has no k_c")?.1;
@@ -344,7 +344,7 @@ fn two_states(b: [f64; 2], rho: f64) -> f64 {
     (first + second + 2.0 * rho * both + root) / (2.0 * (1.0 + rho))
 }
 
-/// The critical stiffness that plans print.
+/// Claims on the critical stiffness that plans print.
 fn stiffness(ledger: &mut Ledger) -> Result<(), CaseError> {
     let stiff = 1e9;
     let (mut ratios, mut expected) = (Vec::new(), Vec::new());
@@ -358,7 +358,7 @@ fn stiffness(ledger: &mut Ledger) -> Result<(), CaseError> {
     };
     let one = law("ageing", "0.015", "l = \"10 um\"");
     look(&one, "", NORMAL / L * 0.005)?;
-    // eta V/f_n = 0.002; n = M V^2/(f_n L) = 0.002.
+    // Here eta V/f_n = 0.002 and n = M V^2/(f_n L) = 0.002.
     look(&one, "damping = \"1e10 Pa s/m\"", NORMAL / L * 0.003)?;
     look(&one, "mass = 1e11", NORMAL / L * 0.005 * (1.0 + 0.002 / A))?;
     for (b, rho) in

@@ -23,8 +23,8 @@ pub const CASE: Case = Case {
 /// Stiffness in units of the critical one.
 const RATIOS: [f64; 7] = [0.5, 0.9, 1.0 - 1e-4, 1.0, 1.0 + 1e-4, 1.1, 2.0];
 
-/// Perturbation of ln V and of the states: the square of it, over the size of the nonlinear terms, is what central
-/// differences leave.
+/// Perturbation of ln V and of the states. The error of central differences is its square over the size of the
+/// nonlinear terms.
 const KICK: f64 = 1e-4;
 
 fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
@@ -35,8 +35,8 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     critical(ledger)
 }
 
-/// `m λ³ + ... = 0` in units of V/L: `(m λ² + a' λ - (b - κ))(λ + 1) + b = 0`, with m = M V²/(f_n L), a' = a + η V/f_n and
-/// κ = k L/f_n; without inertia `a' λ² + (a' - b + κ) λ + κ = 0`.
+/// Roots of the characteristic equation in units of V/L: `(m λ² + a' λ - (b - κ))(λ + 1) + b = 0`, with
+/// m = M V²/(f_n L), a' = a + η V/f_n and κ = k L/f_n; without inertia `a' λ² + (a' - b + κ) λ + κ = 0`.
 fn theory(set: &Set, a: f64, b: f64) -> Vec<Complex<f64>> {
     let kappa = set.stiffness * set.length / set.normal;
     let a = a + set.damping * set.load / set.normal;
@@ -58,8 +58,8 @@ fn theory(set: &Set, a: f64, b: f64) -> Vec<Complex<f64>> {
     }
 }
 
-/// Eigenvalues from the time integration, in units of V/L: those of the flow over `time`, found from perturbed starts of both
-/// signs.
+/// Eigenvalues from time integration, in units of V/L: those of the flow over `time`, by central differences of
+/// perturbed starts.
 fn measured(plan: &Problem, set: &Set, time: f64) -> Result<Vec<Complex<f64>>, CaseError> {
     let n = plan.start.len();
     let scales = plan.system.scales();
@@ -85,7 +85,7 @@ fn distance(found: &[Complex<f64>], expected: &[Complex<f64>]) -> f64 {
     expected.iter().map(nearest).fold(0.0, f64::max)
 }
 
-/// One stiffness after the other.
+/// Compares eigenvalues at each of the stiffnesses.
 fn sweep(
     ledger: &mut Ledger,
     name: &str,
@@ -100,7 +100,7 @@ fn sweep(
             let set = sets(ratio);
             let plan = set.plan(kind, 1.0, 1.0)?;
             let expected = theory(&set, set.a, set.b);
-            // A fraction of a period, so that the logarithm has one branch.
+            // The time is a fraction of a period, so that the logarithm has one branch.
             let found = measured(&plan, &set, 0.5 * set.length / set.load)?;
             largest = largest.max(distance(&found, &expected));
             growth.push((
@@ -138,14 +138,14 @@ fn quasi_static(ledger: &mut Ledger) -> Result<(), CaseError> {
     sweep(ledger, "quasi-static, slip law", sets, Kind::Slip, (1e-7, DIFFERENCES))
 }
 
-/// Damping of the size of the direct effect, a f_n/V.
+/// Eigenvalues with damping of the size of the direct effect, a f_n/V.
 fn damped(ledger: &mut Ledger) -> Result<(), CaseError> {
     let sets = |ratio| Set { damping: 2e10, ..slider::MILD }.at(ratio);
     sweep(ledger, "damped, ageing law", sets, Kind::Ageing, (1e-7, DIFFERENCES))?;
     sweep(ledger, "damped, slip law", sets, Kind::Slip, (1e-7, DIFFERENCES))
 }
 
-/// Mass for which the oscillator is as slow as the state: m of the size of a.
+/// Eigenvalues with a mass for which the oscillator is as slow as the state: m of the size of a.
 fn inertial(ledger: &mut Ledger) -> Result<(), CaseError> {
     let mass = 0.02 * 5e6 * 1e-5 / 1e-12;
     let sets = |ratio| Set { damping: 0.0, mass: Some(mass), ..slider::MILD }.at(ratio);
@@ -186,7 +186,7 @@ fn cut_off(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A law of these states under the normal traction of the set.
+/// A law with these states and the a of the set.
 fn law<E: Evolution + 'static>(set: &Set, states: Vec<E>) -> Result<Arc<dyn Sliding>, CaseError> {
     let form = Regularised(Parameters::new(slider::MU0, set.a, V_REF)?);
     let parts = states.into_iter().map(|e| Component::new(e, 0.0)).collect::<Result<Vec<_>, _>>()?;
@@ -196,7 +196,7 @@ fn law<E: Evolution + 'static>(set: &Set, states: Vec<E>) -> Result<Arc<dyn Slid
 /// A law with its name.
 type Named = (&'static str, Arc<dyn Sliding>);
 
-/// Laws with several states, whose b and L these are \[-, m\], and one with a memory of shear traction.
+/// Laws with several states, given by their b and L \[-, m\], and Nagata's law, which remembers shear traction.
 fn laws(set: &Set) -> Result<Vec<Named>, CaseError> {
     let slips = |list: &[(f64, f64)]| {
         list.iter().map(|&(b, l)| Slip::new(b, l, V_REF)).collect::<Result<Vec<_>, _>>()
@@ -217,7 +217,7 @@ fn laws(set: &Set) -> Result<Vec<Named>, CaseError> {
     ])
 }
 
-/// Growth on both sides of the critical stiffness that plans print, from integrations of perturbed starts.
+/// Growth of perturbations on both sides of the critical stiffness that plans print, by time integration.
 fn critical(ledger: &mut Ledger) -> Result<(), CaseError> {
     let base = Set { damping: 0.0, ..slider::MILD };
     let mass = 0.005 * base.normal * base.length / (base.load * base.load);

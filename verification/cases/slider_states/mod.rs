@@ -28,7 +28,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     twins(ledger)
 }
 
-/// Times of events against a list of references, over the last interval.
+/// Claims on times of events against references, over the last interval.
 fn times(
     ledger: &mut Ledger,
     title: &str,
@@ -106,7 +106,7 @@ fn neutral(ledger: &mut Ledger, reference: &Independent) -> Result<(), CaseError
     Ok(())
 }
 
-/// Two sliders of the mild set with softer springs to the load point and one between them.
+/// Two sliders of the mild set with softer springs to the load point and a spring between them.
 fn pair(factors: [f64; 2], law: Kind) -> Result<Problem, CaseError> {
     let set = Set { stiffness: 0.8e9, ..slider::MILD };
     let law = set.law(law)?;

@@ -1,4 +1,4 @@
-//! Error against work of all integrators over four cycles.
+//! Error against work of all integrators over stick-slip cycles.
 
 use super::slider::{self, Kind, Set};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -16,14 +16,14 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Steps after which a setting has failed.
+/// Number of steps after which a setting has failed.
 const MOST_STEPS: usize = 60_000;
-/// Errors at which methods are compared, over the recurrence.
+/// Errors over the recurrence at which methods are compared.
 const TARGETS: [f64; 2] = [1e-8, 1e-10];
-/// Cost of the default at most, in units of the best method: no more is lost by not knowing which that is.
+/// Largest cost of the default in units of the best method: the loss from not knowing which method is best.
 const ALWAYS: f64 = 1.5;
 
-/// A setting: error in the time of the last event, in its peak, wall time, work in right-hand sides.
+/// A setting: errors of the time of the last event and of its peak, wall time, and work in right-hand sides.
 struct Point {
     tolerance: f64,
     time: f64,
@@ -32,7 +32,7 @@ struct Point {
     work: f64,
 }
 
-/// Result of a method.
+/// Results of a method.
 struct Curve {
     method: Method,
     points: Vec<Point>,
@@ -60,7 +60,7 @@ fn plan(set: &Set, kind: Kind, events: usize, method: Method, tolerance: f64) ->
     Ok(plan)
 }
 
-/// Runs a setting: its last event and the recurrence, or why it failed.
+/// Runs a setting: its last event and the recurrence, or the reason for which it failed.
 fn setting(plan: &Problem, events: usize) -> Result<Result<(Entry, f64, f64), String>, CaseError> {
     let clock = Instant::now();
     let run = cycles::run(plan, &mut ())?;
@@ -152,14 +152,14 @@ fn draw(ledger: &mut Ledger, name: &str, curves: &[Curve]) {
     );
 }
 
-/// Work a method needs to reach an error: between the settings on its two sides, on a line in logarithms.
+/// Work that a method needs to reach an error, interpolated in logarithms between the settings on either side.
 fn needed(curve: &Curve, error: f64) -> Option<f64> {
     let pair = curve.points.windows(2).find(|w| w[0].time > error && w[1].time <= error)?;
     let share = (pair[0].time / error).ln() / (pair[0].time / pair[1].time).ln();
     Some((pair[0].work.ln() + share * (pair[1].work / pair[0].work).ln()).exp())
 }
 
-/// By how many times a method exceeds the least work of any, at worst over all cycles and errors; infinite where it misses one.
+/// Largest ratio, over all cycles and errors, of a method's work to the least of any; infinite if it misses an error.
 fn worst(cycles: &[Vec<Curve>], method: Method) -> f64 {
     let work = |curves: &[Curve], m: Method, error: f64| {
         curves.iter().find(|c| c.method == m).and_then(|c| needed(c, error)).unwrap_or(f64::INFINITY)
@@ -203,7 +203,7 @@ fn judge(ledger: &mut Ledger, cycles: &[Vec<Curve>]) {
     }
 }
 
-/// Results of the defaults of scenes.
+/// Claims on the results of the defaults of scenes.
 fn defaults(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (name, set) in [
         ("mild", slider::MILD),

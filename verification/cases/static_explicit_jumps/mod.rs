@@ -1,4 +1,4 @@
-//! Forces that jump under static-explicit steps.
+//! Jumps of forces under static-explicit steps.
 
 use super::texts;
 use crate::{Capability, Case, CaseError, Evidence, Ledger};
@@ -17,14 +17,14 @@ pub const CASE: Case = Case {
 const COLUMN: &str = include_str!("scene.toml");
 const BLOCKS: &str = include_str!("blocks.toml");
 const PLATE: &str = include_str!("plate.toml");
-/// Laws of the plate.
+/// Friction laws of the plate.
 const LAWS: [&str; 2] = [
     "{ kind = \"coulomb\", mu = 0.6 }",
     "{ kind = \"rate-and-state\", evolution = \"ageing\", mu0 = 0.6, a = 0.015, b = 0.010, l = \"10 um\", v_ref = \"1 um/s\", v_initial = \"1 um/s\" }",
 ];
 /// Height \[m\].
 const HEIGHT: f64 = 10.0;
-/// Modulus of uniaxial strain, E (1 - ν)/((1 + ν)(1 - 2 ν)) \[Pa\].
+/// P-wave modulus (uniaxial strain), E (1 - ν)/((1 + ν)(1 - 2 ν)) \[Pa\].
 const MODULUS: f64 = 10e9 * 0.75 / (1.25 * 0.5);
 /// ρ g \[N/m3\].
 const WEIGHT: f64 = 2700.0 * 9.81;
@@ -136,7 +136,8 @@ fn blocks(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// A plate that its weight presses: both measures, small and finite sliding, start gap and overlap of a tenth of a millimetre.
+/// A plate pressed by its own weight: both measures, small and finite sliding, an initial gap and an overlap of a tenth
+/// of a millimetre.
 fn plate(ledger: &mut Ledger) -> Result<(), CaseError> {
     for (law, friction) in LAWS.iter().zip(["Coulomb's law", "rate and state"]) {
         let (mut normal, mut against, mut cost) = (Vec::new(), Vec::new(), None);

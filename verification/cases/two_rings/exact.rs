@@ -1,7 +1,7 @@
 //! The Michell series of the two rings.
 //!
-//! Each ring has `σ_rr = a + b/r²` (n = 0) and the Airy function `(A r² + B r⁴ + C r⁻² + D) cos 2θ` (n = 2), whose stresses add
-//! to the uniform stress S that is there from the start and displaces nothing.
+//! Each ring has `σ_rr = a + b/r²` (n = 0) and the Airy function `(A r² + B r⁴ + C r⁻² + D) cos 2θ` (n = 2), whose
+//! stresses add to the initial uniform stress S, which causes no displacement.
 
 /// Radii of bore, interface and rim \[m\].
 pub const RADII: [f64; 3] = [0.2, 0.6, 1.0];
@@ -9,12 +9,12 @@ pub const YOUNG: f64 = 1e9;
 pub const POISSON: f64 = 0.2;
 /// Pressure on the rim \[Pa\].
 pub const PRESSURE: f64 = 1e7;
-/// S: xx, and minus yy \[Pa\].
+/// S: σ_xx = S and σ_yy = -S \[Pa\].
 pub const SHEAR: f64 = 1e6;
 /// Penalty \[Pa/m\].
 pub const PENALTY: f64 = 1e12;
 
-/// `[inner, outer]` rings with their coefficients a, b and A, B, C, D.
+/// Coefficients a, b and A, B, C, D of the rings `[inner, outer]`.
 #[derive(Clone, Debug)]
 pub struct Rings {
     even: [[f64; 2]; 2],
@@ -24,33 +24,33 @@ pub struct Rings {
 /// (1 + ν)/E \[1/Pa\].
 const COMPLIANCE: f64 = (1.0 + POISSON) / YOUNG;
 
-/// σ_rr of n = 0 per coefficient.
+/// σ_rr of n = 0 per unit of a, b.
 fn even_stress(r: f64) -> [f64; 2] {
     [1.0, r.powi(-2)]
 }
 
-/// u_r of n = 0.
+/// u_r of n = 0 per unit of a, b.
 fn even_motion(r: f64) -> [f64; 2] {
     [COMPLIANCE * (1.0 - 2.0 * POISSON) * r, -COMPLIANCE / r]
 }
 
-/// σ_rr/cos 2θ of A, B, C, D.
+/// σ_rr/cos 2θ per unit of A, B, C, D.
 fn radial(r: f64) -> [f64; 4] {
     [-2.0, 0.0, -6.0 * r.powi(-4), -4.0 * r.powi(-2)]
 }
 
-/// σ_rθ/sin 2θ.
+/// σ_rθ/sin 2θ per unit of A, B, C, D.
 fn tangential(r: f64) -> [f64; 4] {
     [2.0, 6.0 * r * r, -6.0 * r.powi(-4), -2.0 * r.powi(-2)]
 }
 
-/// u_r/cos 2θ.
+/// u_r/cos 2θ per unit of A, B, C, D.
 fn outwards(r: f64) -> [f64; 4] {
     let nu = POISSON;
     [-2.0 * r, -4.0 * nu * r.powi(3), 2.0 * r.powi(-3), 4.0 * (1.0 - nu) / r].map(|v| COMPLIANCE * v)
 }
 
-/// u_θ/sin 2θ.
+/// u_θ/sin 2θ per unit of A, B, C, D.
 fn around(r: f64) -> [f64; 4] {
     let nu = POISSON;
     let terms = [2.0 * r, (6.0 - 4.0 * nu) * r.powi(3), 2.0 * r.powi(-3), -2.0 * (1.0 - 2.0 * nu) / r];
@@ -61,7 +61,7 @@ fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// Writes a row: coefficients of the inner and of the outer ring, and the right-hand side.
+/// Assembles a row of the system: coefficients of the inner and outer ring, and the right-hand side.
 fn row<const N: usize, const M: usize>(
     inner: Option<[f64; N]>,
     outer: Option<[f64; N]>,
@@ -82,7 +82,7 @@ impl Rings {
     pub fn new() -> Self {
         let [a, c, b] = RADII;
         let minus = |v: [f64; 4]| v.map(|x| -x);
-        // Penetration: u_r of the outer less that of the inner ring is σ_rr/penalty.
+        // Penalty contact: u_r of the outer ring minus that of the inner ring is σ_rr/penalty.
         let even = solve([
             row::<2, 5>(Some(even_stress(a)), None, 0.0),
             row(Some(even_stress(c)), Some(even_stress(c).map(|v| -v)), 0.0),
@@ -130,9 +130,9 @@ impl Rings {
     }
 }
 
-/// Gauss elimination with row pivots on rows scaled to their largest entry; the last column is the right-hand side.
+/// Gaussian elimination with row pivoting on rows scaled by their largest entry; the last column is the right-hand side.
 fn solve<const N: usize, const M: usize>(mut m: [[f64; M]; N]) -> [f64; N] {
-    // Columns are of very different size (displacements against stresses): rows are scaled first.
+    // Rows are scaled first, since displacements and stresses have very different magnitudes.
     for row in &mut m {
         let scale = row[..N].iter().fold(0.0_f64, |s, v| s.max(v.abs()));
         row.iter_mut().for_each(|v| *v /= scale);

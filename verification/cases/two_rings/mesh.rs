@@ -4,7 +4,7 @@ use super::exact::RADII;
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 
-/// Both rings with these cells around (inner, outer) and across, of order 1 (quad4) or 2 (quad9).
+/// Mesh of both rings with these numbers of cells around (inner, outer) and across, of order 1 (quad4) or 2 (quad9).
 pub fn rings(around: [usize; 2], across: usize, order: usize) -> String {
     let (mut nodes, mut cells, mut count) = (String::new(), String::new(), (0, 0));
     for ring in 0..2 {
@@ -23,7 +23,7 @@ pub fn rings(around: [usize; 2], across: usize, order: usize) -> String {
             let _ = writeln!(cells, "{} {kind} 2 {group} {group} {}", count.1, list.join(" "));
         };
         grid.cells(order, |nodes| element([3, 10][order - 1], 1 + ring, nodes));
-        // Groups of lines: the sides of small and large radius, then those on the axes.
+        // Line groups: the sides of small and large radius, then those on the axes.
         let sides = [[3, 4], [5, 6]][ring];
         for (side, group) in [(0, sides[0]), (1, sides[1]), (2, 7), (3, 8)] {
             grid.side(side, order, |nodes| element([1, 8][order - 1], group, nodes));
@@ -39,7 +39,7 @@ pub fn rings(around: [usize; 2], across: usize, order: usize) -> String {
     text
 }
 
-/// Nodes of a ring: `around + 1` a circle, `across + 1` circles.
+/// Nodes of a ring: `across + 1` circles of `around + 1` nodes.
 struct Grid {
     first: usize,
     around: usize,
@@ -55,7 +55,7 @@ impl Grid {
         for j in (0..self.across).step_by(order) {
             for i in (0..self.around).step_by(order) {
                 let at = |s: usize, t: usize| self.at(i + t, j + s);
-                // Radius first, then angle: anticlockwise.
+                // Radius first, then angle: this order is anticlockwise.
                 let corners = [at(0, 0), at(order, 0), at(order, order), at(0, order)];
                 match order {
                     1 => each(&corners),

@@ -25,11 +25,11 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Cells around the inner and the outer ring, and across either, of the coarsest mesh.
+/// Cells of the coarsest mesh around the inner and the outer ring, and across each.
 const COARSEST: ([usize; 2], usize) = ([5, 4], 3);
 /// Angle from the planes of symmetry within which the first and last nodes of all but the coarsest meshes lie.
 const END: f64 = 0.15;
-/// Room of the bound over the error that the last two levels let expect.
+/// Factor of the bound over the error expected on the finest level.
 const ROOM: f64 = 1.5;
 
 /// Relative errors in L2.
@@ -106,7 +106,7 @@ fn pressure(record: &Recorder, traction: &[f64], exact: &Rings, end: f64) -> f64
 
 const SERIES: &str = "Michell series of two terms a ring, the penalty included";
 
-/// An order and why it is expected.
+/// An expected order and its reason.
 type Claimed = Option<(f64, &'static str)>;
 
 /// A study: measure, order of the elements, finenesses, expected orders of displacement and pressure with their reasons.
@@ -116,7 +116,7 @@ struct Study {
     order: usize,
     fine: &'static [usize],
     displacement: Claimed,
-    /// None where it does not converge.
+    /// None if the pressure does not converge.
     pressure: Claimed,
 }
 
@@ -198,7 +198,7 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Node-to-point over mortar, quad4 both, on the finest mesh.
+/// Claim on the error of node-to-point over that of mortar, both with quad4 on the finest mesh.
 fn beside(ledger: &mut Ledger, finest: &[Errors]) {
     let [mortar, _, point] = finest else { return };
     ledger
@@ -221,7 +221,7 @@ fn claim(ledger: &mut Ledger, study: &Study, errors: &[(f64, Errors)]) {
     for (what, pick, claimed) in quantities {
         let Some((expected, because)) = claimed else { continue };
         let levels: Vec<(f64, f64)> = errors.iter().map(|(h, e)| (*h, pick(e))).collect();
-        // What an error of this order leaves after one more halving.
+        // Error expected on the finest level from the level before and this order.
         let finest = levels[levels.len() - 2].1 * 0.5_f64.powf(expected);
         ledger
             .order(format!("{what}, {}, relative in L2", study.name))

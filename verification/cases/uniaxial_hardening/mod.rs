@@ -1,4 +1,4 @@
-//! Uniaxial stress: hardening, unloading, reversal; the same at large strain.
+//! Uniaxial stress: hardening, unloading and reversal; hardening at large strain.
 
 use super::body::{self, Body, Work};
 use crate::{Capability, Case, CaseError, Cost, Evidence, Ledger, Plot, Series};
@@ -51,10 +51,10 @@ fn run(ledger: &mut Ledger) -> Result<(), CaseError> {
     large(ledger)
 }
 
-/// The bar in one dimension.
+/// Exact solution of the bar in one dimension.
 struct Bar<'a> {
     hardening: &'a Hardening,
-    /// Plastic strain with its sign, and its total length.
+    /// Plastic strain with its sign, and accumulated plastic strain.
     plastic: f64,
     total: f64,
 }
@@ -64,7 +64,7 @@ impl<'a> Bar<'a> {
         Self { hardening, plastic: 0.0, total: 0.0 }
     }
 
-    /// Stress at a strain.
+    /// Takes the bar to a strain and returns its stress.
     fn to(&mut self, strain: f64) -> f64 {
         let trial = YOUNG * (strain - self.plastic);
         let beyond = trial.abs() - self.hardening.at(self.total).stress;
@@ -83,11 +83,11 @@ impl<'a> Bar<'a> {
 /// Result of [`stretched`].
 type Stretched = (Vec<Vec<[f64; 2]>>, f64, Work);
 
-/// A run of one idealisation.
+/// A function that runs one idealisation.
 type Run<'a> = Box<dyn Fn() -> Result<Stretched, CaseError> + 'a>;
 
-/// Takes a box through axial strains; returns axial stress and plastic strain at every point after each, and the largest of the
-/// other components.
+/// Takes a box through axial strains. Returns axial stress and plastic strain at every point after each strain, and the
+/// largest of the other stress components.
 fn stretched<const D: usize>(mesh: Mesh<D>, options: Model, axis: usize) -> Result<Stretched, CaseError> {
     let planes = &["left", "bottom", "back"][..D];
     let end = body::side(&mesh, ["right", "top"][axis])?;
@@ -168,7 +168,7 @@ fn small(ledger: &mut Ledger, name: &str, hardening: &Hardening) -> Result<(), C
     Ok(())
 }
 
-/// The larger magnitude; a NaN stays.
+/// The larger magnitude; NaN is kept.
 fn worst(so_far: f64, difference: f64) -> f64 {
     if difference.is_nan() || difference.abs() > so_far { difference.abs() } else { so_far }
 }
@@ -191,7 +191,7 @@ fn slope(ledger: &mut Ledger, hardening: &Hardening) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Force of a unit cube stretched to lambda in equal steps.
+/// Force on a unit cube stretched to lambda in equal steps.
 fn pulled(lambda: f64, steps: usize) -> Result<(f64, Work), CaseError> {
     let mesh = body::grid::<3>(ElementKind::Hex8, [0.0; 3], [1.0; 3], [2; 3])?;
     let mesh = body::distorted(mesh, [1.0; 3], 0.5, 0.1);
@@ -224,7 +224,7 @@ fn large(ledger: &mut Ledger) -> Result<(), CaseError> {
         levels.push((1.0 / steps as f64, (force / exact - 1.0).abs()));
         last = cost.counts(&work);
     }
-    // Each step replaces ln(1 + x) by x/(1 + x/2), x^3/12 less, x up to 0.5/80.
+    // Each step replaces ln(1 + x) by x/(1 + x/2), which is x^3/12 smaller, with x up to 0.5/80.
     let bound = tangent * 80.0 * (0.5_f64 / 80.0).powi(3) / 12.0 / (exact * lambda);
     ledger
         .order("force at lambda = 1.5, relative, linear hardening, hex8 at large strain, in the step")

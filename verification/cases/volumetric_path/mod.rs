@@ -1,4 +1,4 @@
-//! Paths that change the volume: the rate is that of the Kirchhoff stress.
+//! Paths that change the volume, where the stress rate is that of the Kirchhoff stress.
 
 mod disc;
 
@@ -54,14 +54,14 @@ fn stretched(axes: [f64; 3], steps: usize) -> Result<([f64; 6], f64, Work), Case
     Ok((stresses[0], spread, body.work))
 }
 
-/// Error of n steps to `STRETCH` in the logarithmic strain, relative: each dl^3/(12 l^3).
+/// Relative error of the logarithmic strain from `steps` steps to `STRETCH`: each step misses dl^3/(12 l^3).
 fn missed(steps: usize) -> f64 {
     let d = (STRETCH - 1.0) / steps as f64;
     // Sum of d^3/(12 l^3), as an integral: d^2/24 (1 - 1/l^2).
     d * d / 24.0 * (1.0 - STRETCH.powi(-2)) / STRETCH.ln()
 }
 
-/// Slack of the estimate for terms of higher order.
+/// Factor on the estimate for terms of higher order.
 const HIGHER: f64 = 1.05;
 
 fn study(
@@ -164,7 +164,7 @@ fn sheet(ledger: &mut Ledger) -> Result<(), CaseError> {
         "stress of a sheet in plane stress at l = 1.3",
         "E/(1 - nu) ln l over l^2 exp(-2 nu/(1 - nu) ln l)",
         exact,
-        // The thickness misses its share of the strain, too, and the stress is the force over it.
+        // The thickness strain has the same relative error, and the stress is the force over the area.
         1.0 - log,
         |n| run(n).map(|(s, _, work)| (s, work)),
     )?;

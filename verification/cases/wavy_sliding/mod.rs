@@ -1,4 +1,4 @@
-//! A block slides by three wavelengths of a wavy fault, in implicit and static-explicit steps.
+//! A block slides by three wavelengths along a wavy fault, in implicit and static-explicit steps.
 
 use super::contact_invariance::bodies::{Change, Grid, Side};
 use super::texts::{Done, simulate_in};
@@ -16,15 +16,15 @@ pub const CASE: Case = Case {
     run,
 };
 
-/// Amplitude and length of the waves \[m\].
+/// Amplitude and wavelength of the fault \[m\].
 const WAVE: Side = Side::Wavy(0.02, 1.0);
 const MU: f64 = 0.3;
-/// Bound on the difference of the force at the end, over its size: what a step may leave out of balance.
+/// Bound on the difference of the final force, over its magnitude: the imbalance that a step may leave.
 const APART: f64 = 1e-4;
-/// Bound on tractions against Coulomb's strength, over the largest: rounding of answers of the law.
+/// Bound on tractions minus Coulomb's strength, over the largest: rounding in the law.
 const MISSED: f64 = 1e-14;
-/// Bound on what steps leave out of balance, over the largest force: the default `drift` of Coulomb friction, which the larger one of
-/// rate-and-state friction does not exceed.
+/// Bound on the imbalance of steps over the largest force: the default `drift` for Coulomb friction. Rate-and-state
+/// friction, whose default is larger, keeps it as well.
 const DRIFT: f64 = 1e-4;
 
 const MORTAR: Vary<'_> = With("interfaces.fault.measure", "mortar");
@@ -110,7 +110,7 @@ fn law(ledger: &mut Ledger, name: &str, done: &Done) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Both mesh files.
+/// Writes both mesh files.
 fn write(folder: &Path) -> Result<(), CaseError> {
     let [same, ..] = Change::all(false);
     let lower =

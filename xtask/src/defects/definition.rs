@@ -1,4 +1,4 @@
-//! A planted defect: a plausible mistake as changes of the source.
+//! Definition of a planted defect: a plausible mistake as changes of the source.
 
 use crate::stage::Failure;
 use serde::Deserialize;
@@ -11,20 +11,20 @@ pub const FOLDER: &str = "verification/defects";
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Defect {
-    /// Name: that of its file.
+    /// Name of the defect, taken from its file.
     #[serde(skip)]
     pub name: String,
     /// Mistake, in one sentence.
     pub wrong: String,
-    /// Reason why somebody would write it.
+    /// Reason for which somebody would make the mistake.
     pub why: String,
-    /// Cases of which a claim should notice it.
+    /// Cases with a claim that should detect it.
     pub expected: Vec<String>,
     /// Changes of the source.
     pub change: Vec<Change>,
 }
 
-/// A change of one place of a file.
+/// A change at one position in a file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Change {
@@ -32,7 +32,7 @@ pub struct Change {
     pub file: String,
     /// Lines that occur once in it.
     pub old: String,
-    /// Lines in their place.
+    /// Lines that replace them.
     pub new: String,
 }
 
@@ -65,7 +65,7 @@ impl Defect {
 }
 
 impl Change {
-    /// The text with the change; none unless `old` occurs exactly once in it.
+    /// The changed text; `None` unless `old` occurs exactly once.
     pub fn applied(&self, text: &str) -> Option<String> {
         let (before, after) = text.split_once(&self.old)?;
         (!after.contains(&self.old)).then(|| format!("{before}{}{after}", self.new))

@@ -1,4 +1,4 @@
-//! Planted defects: each is made in a copy of the tree, which is then built and verified. A claim should notice it.
+//! Planted defects: each is applied to a copy of the tree, which is then built and verified. A claim should detect it.
 
 mod definition;
 mod outcome;
@@ -15,27 +15,27 @@ use walkdir::WalkDir;
 
 /// Folder of the copy and its binaries.
 const PLACE: &str = "target/defects";
-/// Time after which a build or the quick suite is killed: the suite takes a quarter of it.
+/// Time after which a build or the quick suite is killed: four times what the suite takes.
 const LONGEST: Duration = Duration::from_secs(1800);
-/// Time after which a quick case is killed: without a defect the longest takes a quarter of it.
+/// Time after which a quick case is killed: four times what the longest takes without a defect.
 const LONGEST_CASE: Duration = Duration::from_secs(240);
-/// Interval of looks at a command.
+/// Polling interval of a running command.
 const LOOK: Duration = Duration::from_millis(200);
 
-/// Choice of defects and of what is run.
+/// Choice of defects and of the runs.
 pub struct Choice {
-    /// Part of the names of the defects; all where absent.
+    /// Part of the names of the defects; all if absent.
     pub only: Option<String>,
-    /// Run only the cases that a defect names, and not the quick suite where these do not notice it.
+    /// True to run only the cases that a defect names, even if these do not detect it.
     pub expected: bool,
-    /// Run the tests of the workspace, too.
+    /// True to run the tests of the workspace as well.
     pub tests: bool,
-    /// Run defects again that were noticed before.
+    /// True to rerun defects that were detected before.
     pub again: bool,
 }
 
-/// Makes the defects one after the other, and prints which claims notice them. Each result is kept in [`RESULTS`] at once, so
-/// that a run that was interrupted resumes.
+/// Applies the defects one after the other and prints the claims that detect them. Each result is stored in [`RESULTS`]
+/// at once, so that an interrupted run can resume.
 pub fn run(root: &Path, choice: &Choice) -> Result<(), Failure> {
     let place = root.join(PLACE);
     let commit = commit(root)?;
@@ -68,7 +68,7 @@ pub fn run(root: &Path, choice: &Choice) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Makes a defect in the copy, builds and verifies it, and takes it back.
+/// Applies a defect to the copy, builds and verifies it, and reverts it.
 fn plant(place: &Path, defect: &Defect, choice: &Choice) -> Result<Outcome, Failure> {
     let tree = place.join("tree");
     let mut sound = Vec::new();
@@ -83,14 +83,14 @@ fn plant(place: &Path, defect: &Defect, choice: &Choice) -> Result<Outcome, Fail
         sound.push((path, text));
     }
     let outcome = verify(place, defect, choice);
-    // In reverse: of two changes of one file, the text before the first is the sound one.
+    // In reverse order: if a file has two changes, the text saved before the first is the original.
     for (path, text) in sound.iter().rev() {
         write(path, text)?;
     }
     outcome
 }
 
-/// Builds the copy and runs the cases that the defect names; then, where these do not notice it, the quick suite.
+/// Builds the copy and runs the cases that the defect names. If these do not detect it, the quick suite follows.
 fn verify(place: &Path, defect: &Defect, choice: &Choice) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::default();
     if !ends_well(&mut build(place))? {
@@ -142,7 +142,7 @@ fn build(place: &Path) -> Command {
     cargo
 }
 
-/// Cargo in the copy, in the profile that builds soonest after a change.
+/// Cargo in the copy, with the profile that rebuilds fastest after a change.
 fn cargo(place: &Path, arguments: &[&str]) -> Command {
     let mut cargo = Command::new("cargo");
     cargo.current_dir(place.join("tree"));
@@ -158,7 +158,7 @@ fn cargo(place: &Path, arguments: &[&str]) -> Command {
     cargo
 }
 
-/// The commit of the sources, with `+` where they were changed.
+/// Commit of the sources, with `+` if they have uncommitted changes.
 fn commit(root: &Path) -> Result<String, Failure> {
     let git = |arguments: &[&str]| {
         let output = Command::new("git").current_dir(root).args(arguments).output();
@@ -175,7 +175,7 @@ fn ends_well(command: &mut Command) -> Result<bool, Failure> {
     Ok(ends(command, LONGEST)? == Some(true))
 }
 
-/// True if the command succeeds; none if it was killed because it took too long.
+/// True if the command succeeds; `None` if it was killed at the time limit.
 fn ends(command: &mut Command, longest: Duration) -> Result<Option<bool>, Failure> {
     let program = command.get_program().to_string_lossy().into_owned();
     let mut child = command.spawn().map_err(|source| Failure::Start { program, source })?;
@@ -185,7 +185,7 @@ fn ends(command: &mut Command, longest: Duration) -> Result<Option<bool>, Failur
             Ok(Some(status)) => return Ok(Some(status.success())),
             Ok(None) if begun.elapsed() < longest => std::thread::sleep(LOOK),
             Ok(None) | Err(_) => {
-                // A child that has just ended cannot be killed, which does no harm.
+                // Killing a child that has just ended fails, which does no harm.
                 let _ = child.kill();
                 let _ = child.wait();
                 return Ok(None);
@@ -194,7 +194,7 @@ fn ends(command: &mut Command, longest: Duration) -> Result<Option<bool>, Failur
     }
 }
 
-/// Copies the sources; files that have not changed keep their times, so that little is built again.
+/// Copies the sources. Unchanged files keep their times, so that little is rebuilt.
 fn copy(from: &Path, to: &Path) -> Result<(), Failure> {
     let skipped = |name: &str, depth| name == ".git" || depth == 1 && (name == "target" || name == "out");
     let walk = WalkDir::new(from).sort_by_file_name().into_iter();

@@ -1,4 +1,4 @@
-//! Result of the suite for a defect.
+//! Results of the suite for planted defects.
 
 use crate::stage::Failure;
 use serde::{Deserialize, Serialize};
@@ -9,27 +9,27 @@ use std::path::Path;
 /// File of the results, from the root of the workspace.
 pub const RESULTS: &str = "verification/defects/results.json";
 
-/// The end of building and running the suite.
+/// Status of building and running the suite.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
-    /// It ran.
+    /// The suite ran.
     #[default]
     Ran,
-    /// It does not build.
+    /// The changed source does not build.
     DoesNotBuild,
     /// A run was killed because it took too long.
     DoesNotEnd,
 }
 
-/// A claim that disagrees.
+/// A claim that failed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Noticed {
-    /// Case.
+    /// Name of the case.
     pub case: String,
-    /// Quantity.
+    /// Quantity of the claim.
     pub claim: String,
-    /// Error over bound; none where no error was computed.
+    /// Error over bound; `None` if no error was computed.
     pub margin: Option<f64>,
 }
 
@@ -38,13 +38,13 @@ pub struct Noticed {
 pub struct Outcome {
     /// Commit of the sources.
     pub commit: String,
-    /// End of the run.
+    /// Status of the run.
     pub status: Status,
-    /// Cases that ran; empty for all quick ones.
+    /// Cases that ran; empty for all quick cases.
     pub cases: Vec<String>,
-    /// Claims that disagree.
+    /// Claims that failed.
     pub noticed: Vec<Noticed>,
-    /// Tests that fail; none where they were not run.
+    /// Tests that failed; `None` if they were not run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tests: Option<Vec<String>>,
 }
@@ -55,7 +55,7 @@ pub struct Outcome {
 pub struct Results(BTreeMap<String, Outcome>);
 
 impl Results {
-    /// Reads the results that the workspace keeps; none where there is no file.
+    /// Reads the results stored in the workspace; empty if there is no file.
     pub fn read(root: &Path) -> Result<Self, Failure> {
         let path = root.join(RESULTS);
         match std::fs::read_to_string(&path) {
@@ -75,7 +75,7 @@ impl Results {
         self.0.get(name)
     }
 
-    /// The result of a defect, taken out.
+    /// Takes the result of a defect.
     pub fn take(mut self, name: &str) -> Option<Outcome> {
         self.0.remove(name)
     }
@@ -85,14 +85,14 @@ impl Results {
         self.0.keys().map(String::as_str)
     }
 
-    /// These with the result of a defect.
+    /// The results with that of a defect added or replaced.
     #[must_use]
     pub fn with(mut self, name: &str, outcome: Outcome) -> Self {
         self.0.insert(name.to_owned(), outcome);
         self
     }
 
-    /// Keeps them in the workspace.
+    /// Stores the results in the workspace.
     pub fn write(&self, root: &Path) -> Result<(), Failure> {
         let path = root.join(RESULTS);
         let text = serde_json::to_string_pretty(self)
@@ -102,12 +102,12 @@ impl Results {
 }
 
 impl Outcome {
-    /// True if a claim disagrees.
+    /// True if a claim failed.
     pub fn is_noticed(&self) -> bool {
         !self.noticed.is_empty()
     }
 
-    /// Adds the claims of a report that disagree.
+    /// Adds the failed claims of a report.
     pub fn add(&mut self, report: &Path) -> Result<(), Failure> {
         let text = std::fs::read_to_string(report)
             .map_err(|source| Failure::Read { path: report.to_owned(), source })?;
@@ -117,7 +117,7 @@ impl Outcome {
         Ok(())
     }
 
-    /// The result in words: by case the number of claims and the largest margin.
+    /// Summary of the result: for each case the number of failed claims and the largest margin.
     pub fn words(&self) -> String {
         let mut parts: Vec<String> = Vec::new();
         match self.status {
@@ -136,7 +136,7 @@ impl Outcome {
     }
 }
 
-/// The claims of a report that disagree.
+/// Failed claims of a report.
 fn disagreeing(report: &Value) -> Vec<Noticed> {
     let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
     let mut found = Vec::new();

@@ -1,9 +1,9 @@
-//! Rules about the documents: width of lines, links that lead somewhere, cases that are listed, pages in the table of contents.
+//! Rules about the documents: line width, targets of links, the list of cases, pages in the table of contents.
 
 use super::problem::Problem;
 use super::tree::File;
 
-/// Columns of a line of prose: what a diff or a terminal shows beside another window.
+/// Columns of a line of prose, which fit side by side in a diff or terminal.
 const COLUMNS: usize = 100;
 /// Sources of the book.
 const BOOK: &str = "docs/src/";
@@ -12,7 +12,7 @@ const CASES: &str = "docs/src/verification.md";
 /// The table of contents.
 const SUMMARY: &str = "docs/src/SUMMARY.md";
 
-/// Checks the documents; `exists` answers for paths that are no text, such as pictures.
+/// Checks the documents; `exists` tells whether a path exists that is not a text file, such as a picture.
 pub fn check(files: &[File], exists: &dyn Fn(&str) -> bool) -> Vec<Problem> {
     let mut found = Vec::new();
     for file in files.iter().filter(|file| file.path.ends_with(".md")) {
@@ -42,7 +42,7 @@ fn wide(file: &File) -> Vec<Problem> {
     let mut found = Vec::new();
     for (number, line) in prose(&file.text) {
         let columns = line.chars().count();
-        // Tables and markers of generated text cannot be broken, nor can the address of a link.
+        // Tables, markers of generated text and addresses of links cannot be wrapped.
         let breakable =
             !line.trim_start().starts_with(['|', '<']) && !line.contains("](") && !line.contains("://");
         if breakable && columns > COLUMNS {

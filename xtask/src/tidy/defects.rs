@@ -1,5 +1,5 @@
-//! Planted defects still fit the source: each text that they change occurs once, and each case that they name exists. Each was
-//! noticed by a claim when it was last run.
+//! Rules about planted defects: each text that they change occurs once in the source, each case that they name exists,
+//! and a claim detected each when it was last run.
 
 use super::problem::Problem;
 use super::tree::File;
@@ -17,7 +17,7 @@ pub fn check(files: &[File]) -> Vec<Problem> {
     found
 }
 
-/// Checks that the kept results are those of the defects, and that each was noticed.
+/// Checks that the stored results belong to the defects, and that each was detected.
 fn outcomes(files: &[File]) -> Vec<Problem> {
     let text = files.iter().find(|f| f.path == RESULTS).map_or("{}", |f| f.text.as_str());
     let results = match Results::parse(text) {

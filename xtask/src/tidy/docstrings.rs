@@ -1,4 +1,4 @@
-//! Documentation comments must begin with a noun or a verb.
+//! Rule that documentation comments begin with a noun or a verb.
 
 use super::problem::Problem;
 

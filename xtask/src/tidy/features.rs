@@ -1,4 +1,5 @@
-//! Libraries that `cargo run` and `cargo test` would build twice, since tests, benches or chores turn on features that the program does not.
+//! Libraries that `cargo run` and `cargo test` would build twice, since tests, benches or chores enable features that
+//! the program does not.
 
 use super::problem::Problem;
 use crate::stage::Failure;
@@ -6,7 +7,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
 
-/// Packages that are run beside the tests of the workspace.
+/// Packages with programs that are run beside the tests of the workspace.
 const PROGRAMS: [&str; 3] = ["asperity-driver", "asperity-verification", "xtask"];
 
 /// Compares the features of each program's libraries with those in the tests of the whole workspace.
@@ -41,7 +42,7 @@ fn tree(root: &Path, selection: &[&str]) -> Result<BTreeSet<String>, Failure> {
     if !output.status.success() {
         return Err(Failure::Stage { stage: "cargo tree".into(), code: output.status.code() });
     }
-    // "(*)" and "(proc-macro)" are notes, and packages of the workspace stand with their place.
+    // "(*)" and "(proc-macro)" are notes, and workspace packages are followed by their path.
     let text = String::from_utf8_lossy(&output.stdout);
     let plain =
         |line: &str| line.split_whitespace().filter(|w| !w.starts_with('(')).collect::<Vec<_>>().join(" ");

@@ -1,4 +1,4 @@
-//! Allowed dependencies, and which libraries exist once.
+//! Rules about dependencies, and about libraries that may exist in one version only.
 
 use super::problem::Problem;
 use crate::stage::Failure;
@@ -6,7 +6,7 @@ use cargo_metadata::{Metadata, MetadataCommand};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Packages of the workspace that each may depend on, tests and build scripts included.
+/// Workspace packages on which each package may depend, including tests and build scripts.
 const ALLOWED: [(&str, &[&str]); 13] = [
     ("asperity-friction", &[]),
     ("asperity-fem", &[]),
@@ -50,7 +50,7 @@ const PROGRAMS: &[&str] = &[
     "asperity-vary",
 ];
 
-/// Libraries that work on values only.
+/// Libraries that work only on values.
 pub const LIBRARIES: [&str; 8] = [
     "asperity-friction",
     "asperity-fem",
@@ -62,7 +62,7 @@ pub const LIBRARIES: [&str; 8] = [
     "asperity-vary",
 ];
 
-/// Packages that a library of values has no use for: terminals, pictures, scene files.
+/// Packages that a library of values does not need: terminals, pictures, scene files.
 const NOT_IN_LIBRARIES: [&str; 5] = ["clap", "miette", "plotters", "indicatif", "toml"];
 
 /// The library that reads scene files.
@@ -71,10 +71,10 @@ const READER: (&str, &str) = ("asperity-scene", "toml");
 /// Libraries that one package hides from the others.
 const BEHIND: [(&str, &str); 1] = [("diffsol", "asperity-ode")];
 
-/// Libraries of which two versions would mean two kinds of matrices.
+/// Libraries of which two versions would mean two matrix types.
 const SINGLE: [&str; 2] = ["faer", "nalgebra"];
 
-/// A dependency: who, on whom, and whether it is for tests only.
+/// A dependency of one package on another, possibly for tests only.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Edge {
     from: String,

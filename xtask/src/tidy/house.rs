@@ -3,7 +3,7 @@
 use super::problem::Problem;
 use super::tree::File;
 
-/// The two commands a stranger needs.
+/// The two commands that a new user needs.
 const COMMANDS: [&str; 2] = ["cargo run --release -- run scenes/sandwich.toml", "cargo xtask verify"];
 
 /// Headings of a case's README, in this order. The harness renders them; this copy keeps xtask free of physics.

@@ -1,4 +1,4 @@
-//! Every key and every value that a scene may have stands on a page of the scene reference.
+//! Rule that every key and every named value of scenes is documented in the scene reference.
 
 use super::Problem;
 use super::tree::File;
@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 /// Pages of the reference.
 const PAGES: &str = "docs/src/scene/";
 
-/// Fields, and variants in kebab case, of the types that are read from scenes must stand in a code span of some page.
+/// Checks that fields and variants (in kebab case) of the types read from scenes occur in a code span of some page.
 pub fn check(files: &[File]) -> Vec<Problem> {
     let mut known = BTreeSet::new();
     for page in files.iter().filter(|file| file.path.starts_with(PAGES)) {
@@ -30,7 +30,7 @@ fn reads_scenes(path: &str) -> bool {
     path.starts_with("crates/scene/src/") && path.ends_with(".rs")
 }
 
-/// Words in code spans, outside blocks of code.
+/// Words in code spans, outside code blocks.
 fn spans(text: &str) -> BTreeSet<String> {
     let mut fenced = false;
     let mut found = BTreeSet::new();
@@ -48,7 +48,7 @@ fn is_word(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_' || c == '-'
 }
 
-/// Names that the deserialised types of a file take from a scene, with their lines from 1.
+/// Names in scenes of the deserialised types of a file, with their lines from 1.
 fn names(text: &str) -> Vec<(usize, String)> {
     let mut found = Vec::new();
     let mut lines = text.lines().enumerate();

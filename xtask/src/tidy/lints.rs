@@ -1,13 +1,13 @@
-//! Libraries of values share one clippy configuration, which refuses files, clocks and printing.
+//! Rule that libraries of values share one clippy configuration, which forbids files, clocks and printing.
 
 use super::graph::LIBRARIES;
 use super::problem::Problem;
 use super::tree::File;
 
-/// The configuration that the others repeat: clippy reads one file per package and has no includes.
+/// The configuration that the others copy: clippy reads one file per package and has no includes.
 const FIRST: &str = "crates/fem/clippy.toml";
 
-/// Checks that every library of values has the configuration of the first.
+/// Checks that every library of values has the same configuration as the first.
 pub fn check(files: &[File]) -> Vec<Problem> {
     let text = |path: &str| files.iter().find(|file| file.path == path).map(|file| file.text.as_str());
     let first = text(FIRST);

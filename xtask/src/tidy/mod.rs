@@ -21,7 +21,7 @@ use crate::stage::Failure;
 use problem::Problem;
 use std::path::Path;
 
-/// All problems of the workspace, sorted by place.
+/// All problems of the workspace, sorted by position.
 pub fn check(root: &Path) -> Result<Vec<Problem>, Failure> {
     let mut found = graph::check(root)?;
     found.extend(features::check(root)?);

@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-/// Something a rule found.
+/// A violation of a rule.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Problem {
     /// File, relative to the workspace.
     pub path: String,
     /// Line, from 1; 0 for the file as a whole.
     pub line: usize,
-    /// The fault.
+    /// Message.
     pub message: String,
     /// True if it only warns.
     pub warning: bool,

@@ -1,17 +1,17 @@
-//! Modules of a crate that others may name: those above it. The files below work on values.
+//! Layers within crates: which files may name a module. The files below it work on values.
 
 use super::circles::{paths, without_tests};
 use super::problem::Problem;
 use super::source::is_test_file;
 use super::tree::File;
 
-/// A rule on the sources of a crate.
+/// A rule about the sources of a crate.
 struct Row {
     /// Folder of the crate's sources, with a slash at the end.
     folder: &'static str,
-    /// The module of the crate, or the crate `asperity_` of this name, that the rule is about.
+    /// Subject of the rule: the module of this name, or the crate `asperity_` with this name.
     module: &'static str,
-    /// Files, and folders with a slash at the end, that may name it, from `folder`.
+    /// Files, and folders with a slash at the end, that may name it, relative to `folder`.
     readers: &'static [&'static str],
     /// Message for a file that breaks the rule.
     reason: &'static str,

@@ -1,9 +1,9 @@
-//! Warns of sentences in documents that are too long to be read once.
+//! Warnings about long sentences in documents.
 
 use super::Problem;
 use super::tree::File;
 
-/// Words of a sentence; what stands in a code span counts as one.
+/// Largest number of words of a sentence; a code span counts as one.
 const WORDS: usize = 35;
 /// Documents that are lists of facts or results rather than prose.
 const LEFT_OUT: [&str; 4] = ["CHANGELOG.md", "docs/results/", "verification/independent/", "benches/"];
@@ -27,14 +27,14 @@ pub fn check(file: &File) -> Vec<Problem> {
     found
 }
 
-/// Paragraphs, entries of lists and quotes, each with its first line from 1, without code.
+/// Paragraphs, list entries and quotes without code, each with the number of its first line, from 1.
 fn paragraphs(text: &str) -> Vec<(usize, String)> {
     let (mut found, mut fenced, mut open) = (Vec::<(usize, String)>::new(), false, false);
     let mut quoted = false;
     for (number, line) in text.lines().enumerate() {
         let quote = line.strip_prefix("> ");
         let words = quote.unwrap_or(line).trim_start();
-        // A quoted message and what it advises are read one after the other.
+        // A quoted message and its help are separate paragraphs.
         open &= quoted == quote.is_some() && !(quoted && words.starts_with("help: "));
         quoted = quote.is_some();
         let fence = words.starts_with("```");

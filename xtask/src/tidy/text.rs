@@ -2,7 +2,7 @@
 
 use super::problem::Problem;
 
-/// Kinds of files people write; others (snapshots, tables, pictures) are made by programs and keep their form.
+/// Kinds of files that people write; others (snapshots, tables, pictures) come from programs and are not checked.
 const WRITTEN: [&str; 12] =
     [".rs", ".toml", ".md", ".py", ".sh", ".yml", ".yaml", ".cff", ".css", "/run", ".gitignore", ".geo"];
 
@@ -16,8 +16,7 @@ pub fn check(path: &str, text: &str) -> Vec<Problem> {
     found
 }
 
-/// The folder beside the workspace is not part of the product. The words are put together here, so that this file does not
-/// contain them.
+/// Refuses paths that lead outside the product. The words are assembled here, so that this file does not contain them.
 fn leads_outside(path: &str, text: &str) -> Vec<Problem> {
     let names =
         [["..", "shared"].join("/"), ["", "work", "shared"].join("/"), ["", "work", "main"].join("/")];
@@ -30,7 +29,7 @@ fn leads_outside(path: &str, text: &str) -> Vec<Problem> {
     found
 }
 
-/// Marks that a merge left; put together here for the same reason.
+/// Refuses conflict markers of a merge; assembled here for the same reason.
 fn unmerged(path: &str, text: &str) -> Vec<Problem> {
     let marks = ["<", ">"].map(|mark| mark.repeat(7) + " ");
     let lines = text.lines().enumerate();

@@ -15,7 +15,7 @@ pub struct File {
 /// Folders of results, at the top only: anywhere else such a name would hide sources.
 const RESULTS: [&str; 2] = ["target", "out"];
 
-/// Entries that hold nothing of ours, at any depth; in a linked worktree `.git` is a file.
+/// Entries to skip at any depth; in a linked worktree `.git` is a file.
 const FOREIGN: [&str; 4] = [".git", "__pycache__", ".venv", "book"];
 
 /// All UTF-8 files outside the skipped folders, sorted by path.
@@ -29,7 +29,7 @@ pub fn files(root: &Path) -> Result<Vec<File>, Failure> {
         }
         let path = entry.path();
         let bytes = std::fs::read(path).map_err(|source| Failure::Read { path: path.to_owned(), source })?;
-        // Fonts and pictures are not text, and no rule speaks about them.
+        // Fonts and pictures are not text, and no rule applies to them.
         if let Ok(text) = String::from_utf8(bytes) {
             files.push(File { path: relative(root, path), text });
         }

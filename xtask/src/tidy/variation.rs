@@ -1,15 +1,15 @@
-//! Scenes of the suite, the benches and the tests are varied by key path, not by replacing text.
+//! Rule that scenes in the suite, benches and tests are varied by key path, not by replacing text.
 
 use super::problem::Problem;
 use super::source::{mask, regions};
 use super::tree::File;
 
-/// Functions that replace text without noticing that there is nothing to replace.
+/// Functions that replace text and do not report a missing match.
 const CALLS: [&str; 2] = [".replace(", ".replacen("];
 
 const WHY: &str = "text replaced where it may be absent: vary scenes by key path (asperity_vary::SceneText)";
 
-/// Files in which the replaced texts are not scenes, with their subject.
+/// Files in which the replaced texts are not scenes, with a description of these texts.
 const NO_SCENES: [(&str, &str); 7] = [
     ("verification/src/readme.rs", "pages of the book, in its tests"),
     ("verification/src/report/html.rs", "names of counts, as words"),

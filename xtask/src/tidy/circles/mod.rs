@@ -1,4 +1,4 @@
-//! Circles of modules: files of one crate that use each other, straight or through others. They can only be read together.
+//! Cycles of modules: files of one crate that use each other, directly or through others, and so can only be read together.
 
 mod modules;
 pub(super) mod paths;
@@ -9,12 +9,12 @@ use super::tree::File;
 use modules::{Crate, Module};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Finds circles.
+/// Finds cycles.
 pub fn check(files: &[File]) -> Vec<Problem> {
     circles(files).iter().map(problem).collect()
 }
 
-/// A circle: the folder of the crate's sources and the files in it, sorted, and one way around.
+/// A cycle: the folder of the crate's sources, the files of the cycle, sorted, and one path around it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Circle {
     folder: String,
@@ -37,7 +37,7 @@ fn circles(files: &[File]) -> Vec<Circle> {
     for file in files.iter().filter(|file| file.path.ends_with(".rs") && !is_test_file(&file.path)) {
         let Some(root) = roots.iter().find(|root| inside(&file.path, root).is_some()) else { continue };
         let name = inside(&file.path, root).unwrap_or("");
-        // The program beside a library is a crate of one file.
+        // A program beside a library is a crate of one file.
         if name == "main.rs" && files.iter().any(|other| other.path == format!("{root}/lib.rs")) {
             continue;
         }
@@ -51,7 +51,7 @@ fn inside<'a>(path: &'a str, root: &str) -> Option<&'a str> {
     path.strip_prefix(root)?.strip_prefix('/')
 }
 
-/// The masked code with the items of tests blanked.
+/// Masked code with test items blanked.
 pub(super) fn without_tests(source: &str) -> Vec<char> {
     let mut code = mask::code(source);
     for region in regions::tests(&code) {
@@ -87,7 +87,7 @@ fn of_crate(folder: &str, modules: Vec<(&str, Module)>) -> Vec<Circle> {
     found
 }
 
-/// Modules that can be reached from a module; itself only where it lies on a circle.
+/// Modules reachable from a module; it includes itself only if it lies on a cycle.
 fn reached(edges: &[BTreeSet<usize>], from: usize) -> BTreeSet<usize> {
     let mut found = BTreeSet::new();
     let mut left: Vec<usize> = edges[from].iter().copied().collect();
@@ -99,7 +99,7 @@ fn reached(edges: &[BTreeSet<usize>], from: usize) -> BTreeSet<usize> {
     found
 }
 
-/// The shortest way from a module back to it.
+/// Shortest path from a module back to itself.
 fn round(edges: &[BTreeSet<usize>], from: usize) -> Vec<usize> {
     let mut ways = vec![vec![from]];
     let mut seen = BTreeSet::new();
@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn names_passed_on_count_for_the_file_that_defines_them() {
-        // The folder passes `A` on, and `b` takes it from there: no circle, though the folder names both.
+        // The folder re-exports `A`, and `b` imports it from there: no cycle, although the folder names both.
         let passed = [
             ("lib.rs", "mod m;\n"),
             ("m/mod.rs", "mod a;\nmod b;\npub use a::*;\npub use b::B;\n"),
@@ -164,14 +164,14 @@ mod tests {
             ("m/b.rs", "use super::A;\npub struct B(A);\n"),
         ];
         assert_eq!(rounds(&passed), [""; 0]);
-        // To pass a name on is no use of it.
+        // A re-export is not a use.
         let facade = [
             ("lib.rs", "mod m;\n"),
             ("m/b.rs", "use super::M;\npub struct B(M);\n"),
             ("m/mod.rs", "mod b;\npub use b::B;\npub struct M;\n"),
         ];
         assert_eq!(rounds(&facade), [""; 0]);
-        // A folder that uses what its file defines, and a file that uses what its folder defines.
+        // The folder uses an item of its file, and the file uses an item of its folder.
         let mutual = [
             ("lib.rs", "mod m;\n"),
             ("m/a.rs", "use super::M;\npub fn g() {}\n"),

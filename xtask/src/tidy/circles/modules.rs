@@ -1,13 +1,13 @@
-//! The modules of a crate and who names whom.
+//! The modules of a crate and the references between them.
 
 use super::paths::{Binding, Names};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A module: its path from the root of its crate, what it names, and its file.
+/// A module: its path from the root of its crate, and the names in its source.
 pub struct Module {
     /// Path; empty for the root.
     pub path: Vec<String>,
-    /// Names.
+    /// Names in its source.
     pub names: Names,
 }
 
@@ -17,7 +17,7 @@ pub struct Crate {
     at: BTreeMap<Vec<String>, usize>,
 }
 
-/// Names passed on through more modules than this pass each other on.
+/// Number of re-exports after which names are taken to re-export each other in a loop.
 const MOST_PASSES: usize = 16;
 
 impl Crate {
@@ -27,8 +27,8 @@ impl Crate {
         Crate { modules, at }
     }
 
-    /// For each module those whose items it names. A name passed on by another module counts for the one that defines it, and
-    /// passing a name on counts for nothing.
+    /// For each module, the modules whose items it names. A re-exported name counts for the module that defines it, and
+    /// a re-export itself is not counted.
     pub fn edges(&self) -> Vec<BTreeSet<usize>> {
         (0..self.modules.len()).map(|from| self.named_by(from)).collect()
     }
@@ -38,7 +38,8 @@ impl Crate {
         let mut found = BTreeSet::new();
         for binding in names.bindings.iter().filter(|binding| !binding.public) {
             match self.resolve(from, &binding.path, MOST_PASSES) {
-                // A module brought in whole: what is taken from it shows where it is named.
+                // A glob import counts as a use of the module; items of modules imported by name count where the code
+                // names them.
                 Some(Target::Module(to)) if binding.name.is_none() => _ = found.insert(to),
                 Some(Target::Item(to)) => _ = found.insert(to),
                 _ => {}
@@ -53,7 +54,7 @@ impl Crate {
         found
     }
 
-    /// Target of a path written in a module, or nothing where it leads out of the crate.
+    /// Target of a path in a module, or `None` if it leads out of the crate.
     fn resolve(&self, from: usize, path: &[String], passes: usize) -> Option<Target> {
         let (first, rest) = path.split_first()?;
         let start = match first.as_str() {
@@ -72,7 +73,7 @@ impl Crate {
             here = match segment.as_str() {
                 "super" => Target::Module(self.parent(module)?),
                 name => match self.member(module, name, passes) {
-                    // What is not found comes from a macro.
+                    // A name that is not found comes from a macro.
                     Some(Target::Own) | None => Target::Item(module),
                     Some(target) => target,
                 },
@@ -122,6 +123,6 @@ enum Target {
     Item(usize),
     /// An item of the module in which it was looked up.
     Own,
-    /// Something of another crate, passed on here.
+    /// An item of another crate, re-exported here.
     Outside,
 }

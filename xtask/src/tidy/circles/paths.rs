@@ -1,30 +1,30 @@
-//! Names in a source: what its `use` declarations bring in, and the paths in its code.
+//! Names in a source: those its `use` declarations import, and the paths in its code.
 
 use crate::tidy::source::mask::is_name;
 
-/// A name that a `use` declaration brings into its module.
+/// A name that a `use` declaration imports into its module.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Binding {
-    /// The name, or `None` where everything is brought in.
+    /// The name, or `None` for a glob import.
     pub name: Option<String>,
     /// The path it stands for.
     pub path: Vec<String>,
-    /// True if others may use it from here: such a declaration passes a name on and is no use of it.
+    /// True for a re-export, which is not itself a use of the name.
     pub public: bool,
 }
 
 /// Names in a source.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
-    /// By `use`.
+    /// Names imported by `use`.
     pub bindings: Vec<Binding>,
-    /// By paths of two segments and more in the code.
+    /// Paths of two or more segments in the code.
     pub paths: Vec<Vec<String>>,
     /// Items the source defines.
     pub items: Vec<String>,
 }
 
-/// Words before the name of an item.
+/// Keywords before the name of an item.
 const ITEMS: [&str; 9] = ["fn", "struct", "enum", "trait", "const", "static", "type", "union", "macro_rules"];
 
 /// Reads masked code.
@@ -55,7 +55,7 @@ fn is_word(token: &str) -> bool {
     token.starts_with(is_name)
 }
 
-/// Words, double colons and single characters; `!` of a macro's definition is dropped.
+/// Tokens: words, double colons and single characters. The `!` of a macro definition is dropped.
 fn tokens(code: &[char]) -> Vec<String> {
     let mut found = Vec::new();
     let mut at = 0;
@@ -84,7 +84,7 @@ fn path(tokens: &[String], from: usize) -> (Vec<String>, usize) {
     (path, at)
 }
 
-/// One tree of a `use` declaration from its first token; gives the token after it.
+/// Reads one tree of a `use` declaration from its first token. Returns the index of the token after it.
 fn tree(tokens: &[String], from: usize, before: &[String], public: bool, found: &mut Vec<Binding>) -> usize {
     let mut path = before.to_vec();
     let mut at = from;
@@ -108,7 +108,7 @@ fn tree(tokens: &[String], from: usize, before: &[String], public: bool, found: 
         name = tokens.get(at + 1).cloned();
         at += 2;
     }
-    // `use a::{self}` brings in `a`.
+    // `use a::{self}` imports `a`.
     if path.len() > 1 && path.last().is_some_and(|last| last == "self") {
         path.pop();
         name = name.filter(|name| name != "self").or_else(|| path.last().cloned());
@@ -127,7 +127,7 @@ fn group(tokens: &[String], from: usize, path: &[String], public: bool, found: &
             "," => at += 1,
             _ => {
                 let end = tree(tokens, at, path, public, found);
-                // A token no tree can begin with would hold the reader here.
+                // Advance past a token with which no tree can begin, to avoid an endless loop.
                 at = end.max(at + 1);
             }
         }

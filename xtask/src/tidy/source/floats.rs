@@ -2,7 +2,7 @@
 
 use super::mask::is_name;
 
-/// A literal: where it begins and its value.
+/// A literal: its position and value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Float {
     /// Position in the code.
@@ -11,7 +11,7 @@ pub struct Float {
     pub value: f64,
 }
 
-/// All float literals. Integers, tuple fields (`x.0`), and digits inside names are none.
+/// All float literals. Integers, tuple fields (`x.0`) and digits inside names do not count.
 pub fn floats(code: &[char]) -> Vec<Float> {
     let mut found = Vec::new();
     let mut at = 0;

@@ -1,4 +1,4 @@
-//! A Rust source with comments and the insides of literals blanked, so that rules see code only.
+//! Masking of a Rust source: comments and the contents of literals are blanked, so that rules see only code.
 
 /// The source with every character of comments, strings and character literals replaced by a space. Line ends stay, so that
 /// positions and line numbers are those of the source.
@@ -37,7 +37,7 @@ fn literal_end(text: &[char], at: usize) -> Option<usize> {
     }
 }
 
-/// True if the character continues a name begun before, so that it is no prefix of a literal. `br"..."` counts as one.
+/// True if the character continues a name, so that it is no prefix of a literal. In `br"..."`, `r` does not.
 fn continues_name(text: &[char], at: usize) -> bool {
     let before = at.checked_sub(1).map(|i| text[i]);
     let byte_prefix = before == Some('b') && (at < 2 || !is_name(text[at - 2]));
@@ -91,7 +91,7 @@ fn raw_string_end(text: &[char], from: usize) -> Option<usize> {
     Some((find(text, from + hashes + 1, closes) + 1 + hashes).min(text.len()))
 }
 
-/// A character literal; a lifetime or label is none.
+/// End of a character literal; `None` for a lifetime or label.
 fn character_end(text: &[char], at: usize) -> Option<usize> {
     match text.get(at + 1)? {
         '\\' => Some((find(text, at + 3, |t, i| t[i] == '\'') + 1).min(text.len())),

@@ -8,14 +8,14 @@ use super::graph::LIBRARIES;
 use super::problem::Problem;
 use std::ops::Range;
 
-/// Magnitude below which a float literal must be a constant with its reason: it is a tolerance or a unit, and both need one.
+/// Magnitude below which a float literal must be a documented constant: it is a tolerance or a unit, and both need a reason.
 const SMALL: f64 = 1e-3;
 
-/// Lines from which a file should be divided, and more than which it may not have.
+/// Number of lines from which a file should be split, and the largest number allowed.
 const LONG: usize = 700;
 const TOO_LONG: usize = 1000;
 
-/// Code that is never finished, and tests that are never run.
+/// Marks of unfinished code and of tests that are not run.
 const NOWHERE: [(&str, &str); 3] = [
     ("todo!", "unfinished code: a path that can be reached must work or be refused by the plan"),
     ("unimplemented!", "unfinished code: a path that can be reached must work or be refused by the plan"),
@@ -65,7 +65,7 @@ pub fn check(path: &str, source: &str) -> Vec<Problem> {
     found
 }
 
-/// Integration tests, benches, and modules that are only ever declared under `cfg(test)`.
+/// True for integration tests, benches, and modules declared only under `cfg(test)`.
 pub fn is_test_file(path: &str) -> bool {
     let mut parts = path.split('/').rev();
     let file = parts.next().unwrap_or("");
@@ -85,7 +85,7 @@ fn length(path: &str, source: &str) -> Option<Problem> {
     (lines >= LONG).then_some(Problem { warning: lines <= TOO_LONG, ..problem })
 }
 
-/// Every place outside `allowed` where the code names `word`.
+/// Problems at every position outside `allowed` where the code names `word`.
 fn words(path: &str, code: &[char], word: &str, allowed: &[Range<usize>], why: &str) -> Vec<Problem> {
     let places = regions::occurrences(code, word).into_iter();
     // `print!` must not be found in `eprint!`.

@@ -37,7 +37,7 @@ pub fn documented_constants(source: &str, code: &[char]) -> Vec<Range<usize>> {
     regions
 }
 
-/// Place where a text begins in the code.
+/// Positions at which a text occurs in the code.
 pub fn occurrences(code: &[char], wanted: &str) -> Vec<usize> {
     let wanted: Vec<char> = wanted.chars().collect();
     (0..code.len()).filter(|&at| code[at..].starts_with(&wanted)).collect()
@@ -48,7 +48,7 @@ pub fn line_of(code: &[char], at: usize) -> usize {
     code[..at].iter().filter(|&&c| c == '\n').count() + 1
 }
 
-/// True if a line begins a constant or static item. `const fn` and `const` parameters are none.
+/// True if a line begins a constant or static item. `const fn` and `const` parameters do not count.
 fn is_constant(line: &str) -> bool {
     let mut words = line.split_whitespace().skip_while(|word| *word == "pub" || word.starts_with("pub("));
     // `pub(in a::b)` splits at its space; no such visibility occurs without its closing word.
