@@ -104,6 +104,22 @@ pub(super) fn claims(ledger: &mut Ledger) -> Result<(), CaseError> {
             .covers(&[Capability::Mortar, Capability::FiniteSliding])
             .cost(&done.cost)
             .record();
+        let tractions: Vec<f64> = steps
+            .clone()
+            .flat_map(|k| points.iter().filter(move |p| p.area[k] > 0.0).map(move |p| p.normal_traction[k]))
+            .map(|f| f / (PENALTY * DOWN))
+            .collect();
+        ledger
+            .claim(format!("normal traction of each slave node that faces the block below, over penalty times depth, {where_}, {how}"))
+            .values(&tractions)
+            .equals_each(&vec![1.0; tractions.len()])
+            .absolute(1e-12)
+            .evidence(Evidence::Exact, "the gap is the depth wherever there is overlap")
+            .because("positions of 1 round to 2e-16, in gaps of 0.01, of nodes with a fiftieth of their area left")
+            .why_not_tighter("rounding grows as the overlap of a node vanishes")
+            .covers(&[Capability::Mortar, Capability::FiniteSliding])
+            .cost(&done.cost)
+            .record();
         if rough {
             let along: Vec<f64> =
                 steps.map(|k| force(k, |p| &p.shear_traction).abs() / (MU * PENALTY * DOWN)).collect();
