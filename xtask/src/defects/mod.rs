@@ -41,7 +41,8 @@ pub fn run(root: &Path, choice: &Choice) -> Result<(), Failure> {
     let commit = commit(root)?;
     copy(root, &place.join("tree"))?;
     announce("defects: the tree without defect");
-    if !ends_well(&mut build(&place))? {
+    // If the tree does not build without a defect, the compiler's messages say why.
+    if !ends_well(build(&place).stderr(Stdio::inherit()))? {
         return Err(Failure::Defect { name: "none".into(), reason: "the tree does not build".into() });
     }
     let chosen = |defect: &Defect| choice.only.as_ref().is_none_or(|part| defect.name.contains(part));
