@@ -76,7 +76,7 @@ impl Followed {
         self.run.events()
     }
 
-    /// \[s\].
+    /// Onsets of the events \[s\].
     #[must_use]
     pub fn onsets(&self) -> Vec<f64> {
         self.events().iter().map(|e| e.onset.seconds()).collect()

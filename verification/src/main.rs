@@ -40,7 +40,7 @@ struct Options {
 }
 
 fn main() -> ExitCode {
-    // Cases that measure or interrupt a process start this program as `asperity`, so that they run what was built with them.
+    // Cases that measure or interrupt a process start this program as `asperity`, so that they run the code built with them.
     let mut words = std::env::args_os().skip(1).peekable();
     if words.peek().is_some_and(|word| word == programs::NAME) {
         return asperity(&Arguments::parse_from(words));

@@ -1,5 +1,5 @@
-//! Writes the benchmarks that other programs can enter: reference values, the entries of this program and of the independent ones,
-//! and the tables of their pages.
+//! Writes the benchmarks for other programs: reference values, the entries of this program and of the independent ones, and the
+//! tables of their pages.
 #![allow(
     clippy::print_stdout,
     clippy::print_stderr,

@@ -32,20 +32,20 @@ use std::path::{Path, PathBuf};
 /// Reason why a report could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// A file or folder.
+    /// A file or folder could not be written.
     #[error("cannot write {}: {source}", .path.display())]
     Write {
-        /// Which.
+        /// Path of the file or folder.
         path: PathBuf,
-        /// Reason.
+        /// Cause.
         source: std::io::Error,
     },
-    /// Encoding.
+    /// A result could not be encoded.
     #[error("cannot encode a result: {0}")]
     Encode(#[from] serde_json::Error),
 }
 
-/// Writes the whole report into `folder`, replacing the pages of an earlier one.
+/// Writes the whole report into `folder`, replacing the pages of an earlier report.
 ///
 /// # Errors
 /// If a file cannot be written.
@@ -83,7 +83,7 @@ pub fn keep(path: &Path, tag: &str, outcomes: &[Outcome], run: &Provenance) -> R
     put(path, &history::Release::of(tag, outcomes, run, earlier).text()?)
 }
 
-/// The title of a case: its README's, or its name.
+/// Title of a case: that of its README, or else its name.
 fn title(outcome: &Outcome) -> &str {
     let title = readme::title(outcome.case.readme);
     if title.is_empty() { outcome.case.name } else { title }
@@ -93,7 +93,7 @@ fn text(value: &impl Serialize) -> Result<String, ReportError> {
     Ok(serde_json::to_string_pretty(value)?)
 }
 
-/// An empty folder inside a folder.
+/// Creates or empties a folder inside a folder.
 fn emptied(folder: &Path, name: &str) -> Result<PathBuf, ReportError> {
     let path = folder.join(name);
     let fault = |source| ReportError::Write { path: path.clone(), source };
@@ -104,7 +104,7 @@ fn emptied(folder: &Path, name: &str) -> Result<PathBuf, ReportError> {
     Ok(path)
 }
 
-/// Writes a file and the folders it stands in.
+/// Writes a file and creates its parent folders.
 ///
 /// # Errors
 /// If it cannot be written.

@@ -31,7 +31,7 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Gathers them now.
+    /// Collects the provenance of the current run.
     pub fn gather(full: bool, tested: bool, wall: f64) -> Provenance {
         let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
         Provenance {

@@ -1,4 +1,4 @@
-//! Sketches of the problems of the cases, with dimensions and conditions. A case that is not here has none on its page.
+//! Sketches of the problems of the cases, with dimensions and boundary conditions. Not every case has one.
 
 mod bodies;
 mod contact;
