@@ -124,7 +124,7 @@ fn parting(ledger: &mut Ledger) -> Result<(), CaseError> {
         .why_not_tighter("the bound is that of the largest logarithm")
         .cost(&cost)
         .record();
-    // Where the two differ by one percent of a: e^(-2m) = 0.01.
+    // Slip rate at which the two differ by one percent of a: e^(-2m) = 0.01.
     let parted =
         rates.iter().zip(found.iter().zip(&bare)).rev().find(|(_, (r, b))| (*r - *b) > 0.01 * a * NORMAL);
     let m = 0.5 * 100f64.ln();
