@@ -19,7 +19,7 @@ pub const THIN_ABOVE: f64 = 0.8;
 /// Number of bounds by which the negative control shifts a value.
 pub const CONTROL_BOUNDS: f64 = 3.0;
 
-/// The kind of evidence a reference rests on.
+/// Kind of evidence behind a reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Evidence {
@@ -61,7 +61,7 @@ impl Evidence {
     }
 }
 
-/// Norm that makes the differences of several values one error.
+/// Norm that combines the differences of several values into one error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Norm {
@@ -115,14 +115,14 @@ pub enum Test {
     AtMost {
         /// Value of the code.
         value: f64,
-        /// The limit from above.
+        /// Upper limit.
         bound: f64,
     },
     /// value ≥ bound, with a positive bound.
     AtLeast {
         /// Value of the code.
         value: f64,
-        /// The limit from below.
+        /// Lower limit.
         bound: f64,
     },
     /// A convergence order.
@@ -134,12 +134,12 @@ pub enum Test {
         /// Reference value.
         expected: u64,
     },
-    /// A case that could not be run, with what went wrong.
+    /// A case that could not be run, with the error.
     NotRun {
         /// The error or the message of the panic.
         error: String,
     },
-    /// A quantity that no issue names, with the reason why it is not covered.
+    /// A quantity that is not covered and that no issue names, with the reason.
     NotCovered {
         /// The reason.
         reason: String,
@@ -151,9 +151,9 @@ pub enum Test {
 pub struct Measured {
     /// The error.
     pub error: f64,
-    /// The bound it is held against.
+    /// The bound.
     pub bound: f64,
-    /// error/bound; the claim holds when this is at most 1.
+    /// Ratio error/bound; the claim holds if it is at most 1.
     pub ratio: f64,
 }
 
@@ -274,11 +274,11 @@ fn judged(error: f64, bound: f64) -> Result<Measured, String> {
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// The error is within the bound, and the negative control fails as it must.
+    /// The error is within the bound, and the negative control fails as required.
     Holds,
-    /// It is not, or it could not be judged.
+    /// The claim does not hold, or it could not be assessed.
     Disagrees,
-    /// Nothing is claimed, for this reason.
+    /// The quantity is not covered, for this reason.
     NotCovered(String),
 }
 
@@ -286,22 +286,22 @@ pub enum Verdict {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Mark {
-    /// The bound is more than ten times the error, and the claim says why.
+    /// The bound is more than ten times the error, and the claim gives the reason.
     Slack,
     /// The bound is more than ten times the error, without a reason.
     SlackUnexplained,
-    /// The error is within a fifth of the bound.
+    /// The error is more than 0.8 of the bound.
     Thin,
 }
 
-/// Statement of a case.
+/// A claim of a case.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Claim {
     /// The quantity, with its conditions.
     pub quantity: String,
     /// Unit of values, references, errors and bounds.
     pub unit: String,
-    /// The norm in words, where it is not the plain one.
+    /// Norm in words, if it is not the default.
     pub norm: String,
     /// Test of the claim.
     pub test: Test,
@@ -313,9 +313,9 @@ pub struct Claim {
     pub uncertainty: f64,
     /// Reason for the bound; a claim without a reason disagrees.
     pub because: String,
-    /// Reason why the bound may not be tighter, when the error is far below it.
+    /// Reason why the bound is not tighter although the error is far below it.
     pub why_not_tighter: String,
-    /// Capabilities this claim is evidence for.
+    /// Capabilities for which this claim is evidence.
     pub covers: Vec<Capability>,
     /// Cost of the run behind it.
     pub cost: Cost,
@@ -327,13 +327,13 @@ pub struct Judged {
     /// The claim.
     #[serde(flatten)]
     pub claim: Claim,
-    /// Error and bound, where they could be measured.
+    /// Error and bound, if they could be measured.
     pub measured: Option<Measured>,
     /// The outcome.
     pub verdict: Verdict,
     /// The remark on the bound.
     pub mark: Option<Mark>,
-    /// Reason why it disagrees, in a sentence.
+    /// Reason why the claim disagrees, in a sentence.
     pub problem: Option<String>,
 }
 

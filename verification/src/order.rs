@@ -6,9 +6,9 @@ use serde::Serialize;
 /// One level of a convergence study.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Level {
-    /// Mesh size, time step, 1/penalty ...: what is refined.
+    /// Refined quantity: mesh size, time step, 1/penalty ...
     pub size: f64,
-    /// The error there.
+    /// Error at this size.
     pub error: f64,
 }
 
@@ -18,17 +18,17 @@ impl From<(f64, f64)> for Level {
     }
 }
 
-/// Floor of an error.
+/// Cause of an error floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Floor {
-    /// The mesh, while time is refined.
+    /// Mesh size, while the time step is refined.
     Space,
-    /// The time step, while the mesh is refined.
+    /// Time step, while the mesh is refined.
     Time,
-    /// The tolerance of an iteration.
+    /// Tolerance of an iteration.
     Iteration,
-    /// The penalty stiffness.
+    /// Penalty stiffness.
     Penalty,
     /// Floating-point rounding.
     Rounding,
@@ -47,12 +47,12 @@ impl Floor {
     }
 }
 
-/// The plateau a study may reach.
+/// Plateau that the errors of a study may reach.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Plateau {
-    /// Which floor it is.
+    /// Cause of the plateau.
     pub floor: Floor,
-    /// Levels with an error at or below this one are on the floor and say nothing about the order.
+    /// Levels with an error at or below this value are on the floor and are ignored in the order.
     pub level: f64,
 }
 
@@ -65,13 +65,13 @@ pub const FITTED_LEVELS: usize = 3;
 pub struct OrderTest {
     /// The levels, from coarse to fine.
     pub levels: Vec<Level>,
-    /// The order theory gives.
+    /// Theoretical order.
     pub expected: f64,
     /// Largest deviation of the observed order.
     pub tolerance: f64,
-    /// True if a higher order than expected is fine.
+    /// True if a higher order than expected is accepted.
     pub or_better: bool,
-    /// The plateau allowed.
+    /// Plateau allowed.
     pub plateau: Option<Plateau>,
 }
 

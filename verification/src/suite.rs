@@ -66,7 +66,7 @@ fn names(cases: &[&Case]) -> Vec<String> {
     cases.iter().map(|case| case.name.to_owned()).collect()
 }
 
-/// The counts of the last line.
+/// Counts of claims by outcome.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Summary {
     /// Claims that hold.
@@ -77,7 +77,7 @@ pub struct Summary {
     pub not_covered: usize,
     /// Claims whose bound is slack without a reason.
     pub slack_unexplained: usize,
-    /// Claims whose error is near the bound.
+    /// Claims with an error close to the bound.
     pub thin: usize,
 }
 
